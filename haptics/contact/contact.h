@@ -1,0 +1,44 @@
+#pragma once
+
+#include "haptics/contact/pose.h"
+#include "haptics/contact/surface.h"
+#include "haptics/force/tip.h"
+
+#include <Eigen/Core>
+
+namespace palp
+{
+
+/// How the depth is measured.
+enum class ContactRule
+{
+  Exact, ///< to the triangles: contact starts at depth > 0 whatever the mesh
+  Paper, ///< Sec. 4.1: mesh points inside the tool, depth from their centre
+};
+
+/// Contact of a tool with the undeformed surface.
+struct Contact
+{
+  double depth = 0.0;                                   ///< delta [m]; 0 when apart
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< outward unit normal; zero when apart
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();     ///< on the undeformed surface [m]
+  double tilt = 0.0;                                    ///< tool axis to -normal [rad]
+  int triangle = -1;                                    ///< below the centre; -1 when apart
+
+  [[nodiscard]] bool touching() const noexcept { return depth > 0.0; }
+};
+
+/// Where and how deep the tool is in the undeformed surface.
+///
+/// depth is how far the tool's deepest point along the contact normal lies below the surface
+/// (sphere: R minus the distance from its centre to the surface; cone: its apex).
+///
+/// @param surface  undeformed
+/// @param tip      checked
+/// @param pose     axis of unit length; a value that is not finite gives no contact
+/// @source         Sec. 4.1
+/// @realtime       pure; no allocation, no lock, no exception
+[[nodiscard]] Contact findContact(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept;
+
+} // namespace palp

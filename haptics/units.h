@@ -1,0 +1,82 @@
+#pragma once
+
+// Every double in this code base is SI: m, N, Pa, s, rad.
+// Millimetres, kilopascals and degrees live at the edges, and reach the inside through here.
+
+#include <numbers>
+
+namespace palp::units
+{
+
+constexpr double toMillimetres(double metres) noexcept
+{
+  return metres * 1e3;
+}
+
+constexpr double fromMillimetres(double millimetres) noexcept
+{
+  return millimetres / 1e3;
+}
+
+constexpr double toKilopascals(double pascals) noexcept
+{
+  return pascals / 1e3;
+}
+
+constexpr double fromKilopascals(double kilopascals) noexcept
+{
+  return kilopascals * 1e3;
+}
+
+constexpr double toDegrees(double radians) noexcept
+{
+  return radians * 180.0 / std::numbers::pi;
+}
+
+constexpr double fromDegrees(double degrees) noexcept
+{
+  return degrees * std::numbers::pi / 180.0;
+}
+
+/// [N/m] to [N/mm]
+constexpr double toNewtonsPerMillimetre(double newtonsPerMetre) noexcept
+{
+  return newtonsPerMetre / 1e3;
+}
+
+inline namespace literals
+{
+
+// The product is taken in long double so that 10.0_mm is exactly the double 0.01.
+constexpr double operator""_mm(long double value) noexcept
+{
+  return static_cast<double>(value * 1e-3L);
+}
+
+constexpr double operator""_um(long double value) noexcept
+{
+  return static_cast<double>(value * 1e-6L);
+}
+
+constexpr double operator""_ms(long double value) noexcept
+{
+  return static_cast<double>(value * 1e-3L);
+}
+
+constexpr double operator""_kPa(long double value) noexcept
+{
+  return static_cast<double>(value * 1e3L);
+}
+
+constexpr double operator""_MPa(long double value) noexcept
+{
+  return static_cast<double>(value * 1e6L);
+}
+
+constexpr double operator""_deg(long double value) noexcept
+{
+  return static_cast<double>(value * std::numbers::pi_v<long double> / 180.0L);
+}
+
+} // namespace literals
+} // namespace palp::units
