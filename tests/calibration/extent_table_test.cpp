@@ -1,0 +1,119 @@
+#include "calibration/extent_table.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using Row = ExtentTable::Row;
+
+std::filesystem::path written(const std::string& text)
+{
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto file =
+    std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".csv");
+  std::ofstream(file) << text;
+  return file;
+}
+
+// the message of the error that reading the text gives; empty when it can be read
+std::string refusal(const std::string& text)
+{
+  try
+  {
+    (void)ExtentTable::read(written(text));
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadFile);
+    return error.what();
+  }
+  return {};
+}
+
+constexpr auto kHeader = "# how it was made\ndepth_mm,extent_radius_mm,force_N,contact_radius_mm\n";
+
+TEST(ExtentTable, ReadsMillimetresAsMetres)
+{
+  const auto table = ExtentTable::read(written(kHeader + std::string("1,3,0.25,2\n2,7,0.5,4\n")));
+  ASSERT_EQ(table.rows().size(), 2U);
+  EXPECT_DOUBLE_EQ(table.rows()[1].depth, 2.0_mm);
+  EXPECT_DOUBLE_EQ(table.rows()[1].extentRadius, 7.0_mm);
+  EXPECT_DOUBLE_EQ(table.rows()[1].force, 0.5);
+  EXPECT_DOUBLE_EQ(table.rows()[1].contactRadius, 4.0_mm);
+}
+
+TEST(ExtentTable, IsLinearBetweenRowsAndConstantBeyond)
+{
+  const ExtentTable table({ Row{ 1.0_mm, 3.0_mm, 0, 0 }, Row{ 2.0_mm, 7.0_mm, 0, 0 } });
+  EXPECT_DOUBLE_EQ(table.extentRadius(0.5_mm), 1.5_mm); // on the line to (0, 0)
+  EXPECT_DOUBLE_EQ(table.extentRadius(1.25_mm), 4.0_mm);
+  EXPECT_DOUBLE_EQ(table.extentRadius(2.0_mm), 7.0_mm);
+  EXPECT_DOUBLE_EQ(table.extentRadius(1.0), 7.0_mm);
+}
+
+TEST(ExtentTable, IsZeroOutOfContact)
+{
+  const ExtentTable table({ Row{ 1.0_mm, 3.0_mm, 0, 0 }, Row{ 2.0_mm, 7.0_mm, 0, 0 } });
+  EXPECT_EQ(table.extentRadius(0.0), 0.0);
+  EXPECT_EQ(table.extentRadius(-1.0_mm), 0.0);
+  EXPECT_EQ(table.extentRadius(std::numeric_limits<double>::quiet_NaN()), 0.0);
+}
+
+TEST(ExtentTable, RefusesBadFilesAndNamesTheLine)
+{
+  EXPECT_NE(
+    refusal(kHeader + std::string("1,3,0.25,2\n2,seven,0.5,4\n")).find(":4:"), std::string::npos);
+  EXPECT_NE(
+    refusal(kHeader + std::string("1,3,0.25,2\n1,7,0.5,4\n")).find(":4:"), std::string::npos);
+  EXPECT_NE(refusal(kHeader + std::string("1,3,0.25\n")).find(":3:"), std::string::npos);
+  EXPECT_NE(refusal(kHeader + std::string("1,3,0.25,2\n")).find("two rows"), std::string::npos);
+  EXPECT_NE(refusal("").find("two rows"), std::string::npos);
+}
+
+TEST(ExtentTable, RefusesWhatItCannotOpen)
+{
+  EXPECT_THROW((void)ExtentTable::read("no/such/table.csv"), Error);
+}
+
+TEST(ExtentTable, RefusesValuesThatAreNoTable)
+{
+  EXPECT_THROW(ExtentTable({ Row{ 1.0_mm, 3.0_mm, 0, 0 } }), Error);
+  EXPECT_THROW(ExtentTable({ Row{ 2.0_mm, 3.0_mm, 0, 0 }, Row{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
+  EXPECT_THROW(ExtentTable({ Row{ 0.0, 3.0_mm, 0, 0 }, Row{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
+}
+
+class ShippedTable : public testing::TestWithParam<const char*>
+{
+};
+INSTANTIATE_TEST_SUITE_P(ExtentTable, ShippedTable,
+  testing::Values(
+    "sphere_r10_h50.csv", "sphere_r6_h30.csv", "cone45_r10_h50.csv", "cone45_r6_h30.csv"));
+
+// deeper is wider; nothing sinks by 0.5 mm before the tool does; the contact lies inside
+TEST_P(ShippedTable, GrowsWithTheDepth)
+{
+  const auto table =
+    ExtentTable::read(std::filesystem::path(PALP_SOURCE_DIR) / "data/tables" / GetParam());
+  EXPECT_EQ(table.rows().front().depth, 0.5_mm);
+  EXPECT_EQ(table.rows().front().extentRadius, 0.0);
+  for (std::size_t i = 1; i < table.rows().size(); ++i)
+  {
+    EXPECT_NEAR(table.rows()[i].depth - table.rows()[i - 1].depth, 0.5_mm, 1e-12);
+    EXPECT_GT(table.rows()[i].extentRadius, table.rows()[i - 1].extentRadius);
+    EXPECT_GT(table.rows()[i].force, table.rows()[i - 1].force);
+  }
+  EXPECT_GT(table.rows().back().extentRadius, 1.2 * table.rows().back().contactRadius);
+}
+
+} // namespace
+} // namespace palp
