@@ -1,0 +1,21 @@
+#pragma once
+
+namespace CLI
+{
+class App;
+}
+
+namespace palp
+{
+
+struct Pictures;
+struct ViewOptions;
+
+// Each adds one subcommand with its options and help; the command runs when the line is parsed.
+// A null part means that this program does not carry it and becomes the sibling that does.
+
+void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
+void addRunCommand(CLI::App& app, const Pictures* pictures);
+void addForceCommand(CLI::App& app);
+
+} // namespace palp

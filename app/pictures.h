@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/body.h"
+#include "app/recording.h"
+#include "calibration/extent_table.h"
+
+#include <filesystem>
+
+namespace palp
+{
+
+struct ImageSize
+{
+  int width = 1280;
+  int height = 960;
+};
+
+/// What the program that carries rendering can draw. Commands ask through this, so that they
+/// are the same code in every program.
+struct Pictures
+{
+  virtual ~Pictures() = default;
+
+  /// Draws press.png (the deepest moment), force_time.png and force_depth.png.
+  ///
+  /// @throws Error  NoPicture: no context, or a picture that came out empty
+  virtual void drawPress(const Body& body, const Recording& recording, const ExtentTable& extents,
+    const std::filesystem::path& directory, ImageSize size) const = 0;
+};
+
+} // namespace palp

@@ -1,0 +1,60 @@
+#include "app/press_options.h"
+
+#include "app/quantity.h"
+#include "app/tip_spec.h"
+#include "haptics/error.h"
+
+#include <CLI/CLI.hpp>
+
+namespace palp
+{
+
+void TissueOptions::addTo(CLI::App& command)
+{
+  command.add_option("--tip", tip, "Tool: sphere:R or cone:ALPHA:BASE (ALPHA from axis to flank)")
+    ->capture_default_str();
+  command.add_option("--young", young, "Young's modulus E, 1Pa to 10GPa")->capture_default_str();
+  command.add_option("--poisson", poisson, "Poisson's ratio nu, 0 to 0.5, no unit")
+    ->capture_default_str();
+}
+
+ForceLaw TissueOptions::law() const
+{
+  return ForceLaw(parseTip(tip),
+    makeMaterial(
+      parseQuantity(young, Quantity::Pressure, "--young"), parseNumber(poisson, "--poisson")));
+}
+
+void PressOptions::addTo(CLI::App& command)
+{
+  command.add_option("FILE", file, "Surface: STL, OBJ, PLY, OFF, VTK or VTP; the bundled liver if none");
+  command.add_option("--unit", unit, "Unit of the coordinates in FILE: mm, cm, m or auto")
+    ->check(CLI::IsMember({ "mm", "cm", "m", "auto" }))
+    ->capture_default_str();
+  tissue.addTo(command);
+  command
+    .add_option("--contact", contact,
+      "exact: depth to the triangles; paper: Sec. 4.1, from the mesh points inside the tool")
+    ->check(CLI::IsMember({ "exact", "paper" }))
+    ->capture_default_str();
+  command.add_option("--damping", damping, "Damping along the surface normal")
+    ->capture_default_str();
+  command.add_option("--table", table, "Calibration table depth -> R_d; the bundled one if none");
+}
+
+ContactRule PressOptions::rule() const
+{
+  return contact == "paper" ? ContactRule::Paper : ContactRule::Exact;
+}
+
+double PressOptions::dampingSi() const
+{
+  const double value = parseQuantity(damping, Quantity::Damping, "--damping");
+  if (value < 0.0)
+  {
+    throw Error(ErrorCode::BadValue, "--damping: '" + damping + "' is negative; give 0 or more");
+  }
+  return value;
+}
+
+} // namespace palp

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "haptics/contact/contact.h"
+#include "haptics/force/force_law.h"
+
+#include <filesystem>
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+
+namespace palp
+{
+
+/// What tissue is pressed with what: the options that every command shares, as text with units.
+struct TissueOptions
+{
+  std::string tip = "sphere:10mm";
+  std::string young = "50kPa";
+  std::string poisson = "0.33";
+
+  void addTo(CLI::App& command);
+
+  /// @throws Error  BadValue: names the option, what is wrong and how to write it
+  [[nodiscard]] ForceLaw law() const;
+};
+
+/// A body, the tissue, and how contact is measured.
+struct PressOptions
+{
+  std::filesystem::path file; ///< empty: the bundled liver
+  std::string unit = "auto";
+  TissueOptions tissue;
+  std::string contact = "exact";
+  std::string damping = "0N*s/m";
+  std::filesystem::path table; ///< R_d(depth); empty: the bundled one for the tool
+
+  void addTo(CLI::App& command);
+
+  /// @throws Error  BadValue
+  [[nodiscard]] ContactRule rule() const;
+  [[nodiscard]] double dampingSi() const; ///< b [N s/m]
+};
+
+} // namespace palp

@@ -1,0 +1,111 @@
+#include "app/program.h"
+
+#include "app/commands.h"
+#include "haptics/error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <unistd.h>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+char** gArguments = nullptr; // of main, for becomeSibling
+
+int exitCode(ErrorCode code)
+{
+  switch (code)
+  {
+    case ErrorCode::BadFile:
+    case ErrorCode::BadMesh:
+    case ErrorCode::BadValue:
+      return 2;
+    case ErrorCode::NoDevice:
+      return 3;
+    case ErrorCode::NoPicture:
+      return 4;
+    case ErrorCode::NoSolution:
+      return 5;
+  }
+  return 1;
+}
+
+// `palp liver.stl` is `palp view liver.stl`
+std::vector<std::string> withCommand(const CLI::App& app, int argc, char** argv)
+{
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool own = !words.empty() &&
+    (words[0] == "-h" || words[0] == "--help" || words[0] == "--version" ||
+      app.get_subcommand_no_throw(words[0]) != nullptr);
+  if (!own)
+  {
+    words.insert(words.begin(), "view");
+  }
+  return { words.rbegin(), words.rend() }; // the order in which CLI11 consumes them
+}
+
+} // namespace
+
+void becomeSibling(const char* name)
+{
+  const std::filesystem::path program =
+    std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  execv(program.c_str(), gArguments);
+  throw Error(ErrorCode::NoPicture,
+    program.string() + ": cannot be started; build it, or pass --no-picture where a command has it");
+}
+
+int runProgram(int argc, char** argv, const Parts& parts)
+{
+  gArguments = argv;
+  CLI::App app("Press soft tissue: see the dent, feel the force, keep the data.", "palp");
+  app.set_version_flag("--version", "palp " PALP_VERSION);
+  app.require_subcommand(1);
+  app.footer("Examples:\n"
+             "  palp                                         press the bundled liver with the mouse\n"
+             "  palp liver.stl --tip cone:45deg:10mm         your own surface, a conical tool\n"
+             "  palp run liver.stl --path press.csv --out out --young 20kPa\n"
+             "  palp force --tip sphere:10mm --depth 0:10:0.5mm > law.csv");
+  addViewCommand(app, parts.view);
+  addRunCommand(app, parts.pictures);
+  addForceCommand(app);
+
+  // for the start script: is this word a command of ours?
+  if (argc == 3 && std::string_view(argv[1]) == "--is-command")
+  {
+    const std::string word = argv[2];
+    return word == "-h" || word == "--help" || word == "--version" ||
+        app.get_subcommand_no_throw(word) != nullptr
+      ? 0
+      : 1;
+  }
+
+  try
+  {
+    app.parse(withCommand(app, argc, argv));
+    std::cout.flush();
+    return 0;
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  catch (const Error& error)
+  {
+    std::cerr << "palp: " << error.what() << '\n';
+    return exitCode(error.code());
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "palp: " << error.what() << '\n';
+    return 1;
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "app/press_options.h"
+
+namespace palp
+{
+
+struct Pictures;
+
+/// The whole of `palp view`.
+struct ViewOptions
+{
+  PressOptions press;
+  std::string device = "mouse";
+};
+
+/// What one of the sibling programs carries beyond the common commands.
+///
+/// palp itself carries neither. A command that needs one becomes, by exec, the sibling that has
+/// it: same arguments, same process, same exit code. So the plain program never maps a graphics
+/// or window library, and nothing has to be loaded or unloaded at run time.
+struct Parts
+{
+  const Pictures* pictures = nullptr;         ///< palp-draw
+  int (*view)(const ViewOptions&) = nullptr;  ///< palp-view
+};
+
+/// The main function of palp and its siblings.
+/// @return  exit code: 0, or by kind of error 2 (input), 3 (device), 4 (picture), 5 (no solution)
+[[nodiscard]] int runProgram(int argc, char** argv, const Parts& parts);
+
+/// Turns this process into a sibling program with the arguments it was started with.
+/// @throws Error  NoPicture: the sibling is not installed beside this program
+[[noreturn]] void becomeSibling(const char* name);
+
+} // namespace palp

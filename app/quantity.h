@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace palp
+{
+
+/// Kinds of physical quantity that the command line and the files of settings know.
+enum class Quantity
+{
+  Length,    ///< um mm cm m
+  Pressure,  ///< Pa kPa MPa GPa
+  Angle,     ///< deg rad
+  Force,     ///< N mN
+  Time,      ///< s ms
+  Damping,   ///< N*s/m
+  Stiffness, ///< N/m N/mm
+};
+
+/// Reads a number with its unit, as in `10mm`, `1.5e+06Pa`, `45deg`; C locale whatever the user's.
+///
+/// @param what   the option's name, for the message
+/// @return       SI
+/// @throws Error BadValue: no number, no unit (the message gives the fix), or another quantity's unit
+[[nodiscard]] double parseQuantity(std::string_view text, Quantity kind, std::string_view what);
+
+/// Reads a bare number.
+/// @throws Error BadValue
+[[nodiscard]] double parseNumber(std::string_view text, std::string_view what);
+
+/// A sequence of values that remembers them in the unit they were given in.
+struct Range
+{
+  std::vector<double> si;    ///< SI values
+  std::vector<double> given; ///< the same values in the given unit, free of conversion rounding
+  double unit = 1.0;         ///< size of the given unit in SI
+};
+
+/// Reads `A:B:STEP`, both ends included; a unit on the last number counts for all.
+///
+/// `0:10:0.5mm` gives 21 values, `2:2:1mm` one. B is added when the steps do not meet it.
+///
+/// @throws Error BadValue: B below A, STEP not positive, more than a million values
+[[nodiscard]] Range parseRange(std::string_view text, Quantity kind, std::string_view what);
+
+} // namespace palp

@@ -1,0 +1,60 @@
+#include "app/recording.h"
+
+#include "app/csv.h"
+#include "app/tip_spec.h"
+#include "haptics/units.h"
+
+#include <array>
+#include <ostream>
+
+namespace palp
+{
+
+const Sample* Recording::deepest() const noexcept
+{
+  const Sample* deepest = nullptr;
+  for (const Sample& sample : samples)
+  {
+    if (sample.contact.depth > (deepest ? deepest->contact.depth : 0.0))
+    {
+      deepest = &sample;
+    }
+  }
+  return deepest;
+}
+
+void writeSamples(std::ostream& out, const Recording& recording, const ExtentTable& extents)
+{
+  using units::toMillimetres;
+  const ForceLaw& law = recording.scene.law;
+  out << "# palp " << PALP_VERSION << '\n'
+      << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
+      << "# device: " << recording.device << '\n'
+      << "# tool: " << describeTip(law.tip()) << '\n'
+      << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
+      << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
+      << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
+      << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
+      << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
+         "and limits; force_x/y/z_N: sent to the device\n"
+      << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
+         "contact_radius_mm,extent_radius_mm,stiffness_N_per_mm,axis_x,axis_y,axis_z,"
+         "normal_x,normal_y,normal_z,tilt_deg,flags\n";
+  for (const Sample& sample : recording.samples)
+  {
+    const Eigen::Vector3d& apex = sample.pose.apex;
+    const Eigen::Vector3d& axis = sample.pose.axis;
+    const Contact& contact = sample.contact;
+    writeCsvRow(out,
+      std::array{ sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()),
+        toMillimetres(apex.z()), toMillimetres(contact.depth), sample.response.force,
+        sample.force.x(), sample.force.y(), sample.force.z(),
+        toMillimetres(sample.response.contactRadius),
+        toMillimetres(extents.extentRadius(contact.depth)),
+        units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
+        contact.normal.x(), contact.normal.y(), contact.normal.z(),
+        units::toDegrees(contact.tilt), static_cast<double>(sample.flags) });
+  }
+}
+
+} // namespace palp
