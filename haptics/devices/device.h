@@ -3,6 +3,7 @@
 #include "haptics/contact/pose.h"
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,9 +15,20 @@ struct DeviceLimits
 {
   std::string model;            ///< for people
   bool rendersForce = false;    ///< a hand can feel it
+  bool needsHoming = false;     ///< its positions mean nothing until status().homed
   double maxForce = 0.0;        ///< [N]
-  double maxStiffness = 0.0;    ///< stable closed-loop stiffness at 1 kHz [N/m]
-  double workspaceRadius = 0.0; ///< [m]
+  double damping = 0.0;         ///< b of the mechanism [N s/m], what makes a sampled wall stable
+  double quantum = 0.0;         ///< smallest step of its position [m]
+  double delay = 0.0;           ///< from the pose to the force that answers it, beyond the tick [s]
+  double workspaceRadius = 0.0; ///< about the origin of its frame [m]; 0: no bound
+};
+
+/// What a device says beside its pose.
+struct DeviceStatus
+{
+  bool homed = true;
+  std::uint32_t buttons = 0; ///< a bit each, the first in bit 0
+  double age = 0.0;          ///< of the pose, since the hardware sent it [s]
 };
 
 /// One thing that holds the tool: a hand, an arm, a recorded path.
@@ -37,6 +49,13 @@ public:
   /// @realtime     no allocation, no lock, no exception; must not block
   [[nodiscard]] virtual std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double dt) noexcept = 0;
+
+  /// As of the last exchange.
+  /// @realtime  no allocation, no lock, no exception
+  [[nodiscard]] virtual DeviceStatus status() const noexcept
+  {
+    return {};
+  }
 };
 
 } // namespace palp

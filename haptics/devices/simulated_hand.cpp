@@ -1,0 +1,69 @@
+#include "haptics/devices/simulated_hand.h"
+
+#include "haptics/error.h"
+
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+// what an arm of a known desktop device bears, so that the chain limits a simulated hand alike
+// @source  Phantom Desktop: 7.9 N, the device of the paper's Sec. 5
+constexpr double kMaxForce = 7.9; // [N]
+
+} // namespace
+
+SimulatedHand::SimulatedHand(const HandTarget& start, const HandMechanics& mechanics)
+  : mechanics_(mechanics)
+  , target_(start)
+  , pose_{ .apex = start.apex, .axis = start.axis }
+{
+  const auto isZeroOrMore = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  if (!isZeroOrMore(mechanics.mass) || mechanics.mass == 0.0 || !isZeroOrMore(mechanics.damping) ||
+    !isZeroOrMore(mechanics.stiffness))
+  {
+    throw Error(ErrorCode::BadValue,
+      "simulated hand: mass, damping or stiffness out of range; give a mass above 0 kg, a damping "
+      "and a stiffness of 0 or more");
+  }
+  if (!start.apex.allFinite() || !start.axis.allFinite())
+  {
+    throw Error(ErrorCode::BadValue, "simulated hand: start is not finite; give a place in metres");
+  }
+}
+
+void SimulatedHand::moveTo(const HandTarget& target)
+{
+  if (target.apex.allFinite() && target.axis.allFinite())
+  {
+    target_.publish(target);
+  }
+}
+
+DeviceLimits SimulatedHand::limits() const
+{
+  return { .model = "simulated hand",
+    .rendersForce = true,
+    .maxForce = kMaxForce,
+    .damping = mechanics_.damping };
+}
+
+std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, double dt) noexcept
+{
+  const HandTarget& target = target_.read();
+  pose_.axis = target.axis;
+  if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
+  {
+    // (m + c dt + k dt^2) v' = m v + dt (F + k (target - x)), then x' = x + dt v'
+    const HandMechanics& hand = mechanics_;
+    const Eigen::Vector3d push = force + hand.stiffness * (target.apex - pose_.apex);
+    const double inertia = hand.mass + dt * (hand.damping + dt * hand.stiffness);
+    pose_.velocity = (hand.mass * pose_.velocity + dt * push) / inertia;
+    pose_.apex += dt * pose_.velocity;
+  }
+  return pose_;
+}
+
+} // namespace palp
