@@ -1,0 +1,18 @@
+#pragma once
+
+#include "app/body.h"
+#include "app/recording.h"
+
+#include <filesystem>
+
+namespace palp
+{
+
+/// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
+/// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.
+///
+/// @throws Error  BadFile: cannot be written
+void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
+  const ExtentTable& extents);
+
+} // namespace palp

@@ -1,0 +1,8 @@
+// palp: the commands alone; pictures and the window are its siblings'.
+
+#include "app/program.h"
+
+int main(int argc, char** argv)
+{
+  return palp::runProgram(argc, argv, {});
+}

@@ -1,0 +1,120 @@
+#include "app/session.h"
+
+#include "haptics/devices/pointer.h"
+#include "haptics/devices/scripted_device.h"
+#include "haptics/error.h"
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::size_t kKept = 600'000; // samples, ten minutes
+
+} // namespace
+
+Session::Session(const ViewOptions& options)
+  : options_(options.press)
+  , body_(loadBody(options.press))
+  , extents_(loadExtents(options.press))
+{
+  recording_.mesh = body_.name;
+  recording_.unit = body_.unit;
+  recording_.scene.surface = body_.haptic;
+  recording_.scene.law = options.press.tissue.law();
+  recording_.scene.rule = options.press.rule();
+  recording_.scene.damping = options.press.dampingSi();
+  useDevice(options.device);
+}
+
+void Session::open(const std::filesystem::path& file, const std::string& unit)
+{
+  PressOptions next = options_;
+  next.file = file;
+  next.unit = unit;
+  body_ = loadBody(next);
+  options_ = next;
+  recording_.mesh = body_.name;
+  recording_.unit = body_.unit;
+  recording_.scene.surface = body_.haptic;
+  useDevice(recording_.device);
+}
+
+void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
+{
+  recording_.scene.law = law;
+  recording_.scene.rule = rule;
+  recording_.scene.damping = damping;
+  extents_ = loadExtents(options_, law.tip());
+  servo_->setScene(recording_.scene);
+}
+
+HandTarget Session::restingPlace() const
+{
+  // above the highest point of the body, pointing down
+  const auto points = body_.haptic->points();
+  const auto highest = std::max_element(points.begin(), points.end(),
+    [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); });
+  return { .apex = *highest + kClearance * Eigen::Vector3d::UnitZ(),
+    .axis = -Eigen::Vector3d::UnitZ() };
+}
+
+std::unique_ptr<Device> Session::makeDevice(const std::string& name)
+{
+  if (name == "mouse")
+  {
+    auto pointer = std::make_unique<Pointer>(restingPlace());
+    moveTool_ = [&device = *pointer](const HandTarget& target) { device.moveTo(target); };
+    return pointer;
+  }
+  if (name == "hand")
+  {
+    auto hand = std::make_unique<SimulatedHand>(restingPlace());
+    moveTool_ = [&device = *hand](const HandTarget& target) { device.moveTo(target); };
+    return hand;
+  }
+  if (name.starts_with("path:"))
+  {
+    auto script = std::make_unique<ScriptedDevice>(readPath(name.substr(5)));
+    moveTool_ = [](const HandTarget&) {};
+    return script;
+  }
+  throw Error(ErrorCode::BadValue,
+    "--device: '" + name + "' is no device; give mouse, hand or path:FILE.csv");
+}
+
+void Session::useDevice(const std::string& name)
+{
+  std::unique_ptr<Device> next = makeDevice(name);
+  servo_.reset(); // stops before its device goes
+  device_ = std::move(next);
+  recording_.device = name;
+  recording_.samples.clear();
+  servo_ = std::make_unique<Servo>(*device_, recording_.scene);
+}
+
+void Session::aim(const HandTarget& target)
+{
+  moveTool_(target);
+}
+
+void Session::update(const std::function<void(const Sample&)>& each)
+{
+  std::vector<Sample>& kept = recording_.samples;
+  servo_->history().drain(
+    [&](const Sample& sample)
+    {
+      kept.push_back(sample);
+      each(sample);
+    });
+  // a minute at a time, so that moving the rest is rare
+  constexpr std::size_t kMinute = kKept / 10;
+  if (kept.size() > kKept + kMinute)
+  {
+    kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(kKept));
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "app/press_options.h"
+
+#include <QWidget>
+
+class QComboBox;
+class QDoubleSpinBox;
+
+namespace palp
+{
+
+/// Tool, tissue and device with their units; says when any of them changed.
+class TissuePanel : public QWidget
+{
+  Q_OBJECT
+
+public:
+  /// @param devices  names for the device list; the first is selected
+  explicit TissuePanel(const ForceLaw& law, const PressOptions& press, const QStringList& devices,
+    QWidget* parent = nullptr);
+
+  [[nodiscard]] ForceLaw law() const;
+  [[nodiscard]] ContactRule rule() const;
+  [[nodiscard]] double damping() const; ///< b [N s/m]
+
+Q_SIGNALS:
+  void tissueChanged();
+  void deviceChanged(const QString& name);
+
+private:
+  void showAngleForConesOnly();
+
+  Tip other_; // a tool from the command line that the panel has no fields for
+  QComboBox* kind_;
+  QDoubleSpinBox* radiusMm_;
+  QDoubleSpinBox* halfAngleDeg_;
+  QDoubleSpinBox* modulusKpa_;
+  QDoubleSpinBox* poisson_;
+  QDoubleSpinBox* damping_;
+  QComboBox* rule_;
+  QComboBox* device_;
+};
+
+} // namespace palp

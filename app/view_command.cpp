@@ -1,0 +1,33 @@
+#include "app/commands.h"
+#include "app/program.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace palp
+{
+
+void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
+{
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* command = app.add_subcommand("view", "Open the window and press; the default command");
+  options->press.addTo(*command);
+  command->add_option("--device", options->device,
+      "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE")
+    ->capture_default_str();
+  command->footer("Examples:\n"
+                  "  palp                                       the bundled liver\n"
+                  "  palp liver.obj --unit cm --tip sphere:6mm  your own surface");
+  command->callback(
+    [options, view]
+    {
+      if (!view)
+      {
+        becomeSibling("palp-view");
+      }
+      throw CLI::RuntimeError(view(*options));
+    });
+}
+
+} // namespace palp

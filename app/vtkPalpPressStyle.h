@@ -1,0 +1,49 @@
+#ifndef vtkPalpPressStyle_h
+#define vtkPalpPressStyle_h
+
+#include <functional>
+#include <vtkInteractorStyleTrackballCamera.h>
+
+/**
+ * @class   vtkPalpPressStyle
+ * @brief   the pointer is the tool: left button presses, right button turns the view
+ *
+ * Moving hovers; the left button presses where it went down and dragging down goes deeper; the
+ * wheel changes a depth that stays while the pointer slides over the surface. Right drag turns,
+ * middle drag shifts, right drag with Ctrl or wheel with Ctrl brings nearer.
+ */
+class vtkPalpPressStyle : public vtkInteractorStyleTrackballCamera
+{
+public:
+  static vtkPalpPressStyle* New();
+  vtkTypeMacro(vtkPalpPressStyle, vtkInteractorStyleTrackballCamera);
+
+  /// What the owner does with the pointer; positions and drags in pixels, y upwards.
+  std::function<void(int x, int y)> Hover;
+  std::function<void(int x, int y)> Press;
+  std::function<void(int pixelsDown)> Drag;
+  std::function<void()> Release;
+  std::function<void(int notches)> Wheel;
+
+  void OnMouseMove() override;
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void OnRightButtonDown() override;
+  void OnRightButtonUp() override;
+  void OnMouseWheelForward() override;
+  void OnMouseWheelBackward() override;
+  void OnChar() override {} // the letters of the toolkit's default would surprise
+
+protected:
+  vtkPalpPressStyle() = default;
+  ~vtkPalpPressStyle() override = default;
+
+private:
+  vtkPalpPressStyle(const vtkPalpPressStyle&) = delete;
+  void operator=(const vtkPalpPressStyle&) = delete;
+
+  bool Pressing = false;
+  int PressedAt = 0; // y of the pointer when the button went down
+};
+
+#endif
