@@ -13,11 +13,32 @@ namespace palp
 enum class Flag : std::uint32_t
 {
   None = 0,
-  NotFinite = 1,  ///< a value was not finite; the force is zero
-  Limited = 2,    ///< shortened to the force limit
-  Disarmed = 4,   ///< force off until the user arms the device
-  EmergencyStop = 8,
+  NotFinite = 1,     ///< a value was not finite; the force is zero
+  Limited = 2,       ///< shortened to the force limit
+  Disarmed = 4,      ///< force off until the user arms the device
+  EmergencyStop = 8, ///< force off until the user takes the stop back and arms again
   DeviceLost = 16,
+  Jump = 32,              ///< the pose moved faster than a hand can
+  Stale = 64,             ///< the device has been silent too long
+  NotHomed = 128,         ///< its positions mean nothing yet
+  Late = 256,             ///< a tick came so late that the force starts again from zero
+  StiffnessLimited = 512, ///< the law is stiffer here than the device can render
+  Passivity = 1024,       ///< damped, because the loop had given out energy
+  SlewLimited = 2048,     ///< the force rises or falls more slowly than asked
+  Workspace = 4096,       ///< pushed back from the end of the device's reach
+  Reseated = 8192,        ///< contact is felt from a depth below the surface, until the tool lifts
+};
+
+/// Where a device stands between closed and felt.
+enum class DeviceState : std::uint8_t
+{
+  Closed,      ///< gone, or not yet opened
+  Opening,     ///< its first pose has come
+  NeedsHoming, ///< only zero force until the user has homed it
+  Ready,       ///< force off, may be armed
+  SoftStart,   ///< force grows from zero
+  Active,
+  Decay, ///< force falls to zero
 };
 
 /// One turn of the servo loop: what was read, what was found, what was sent.
@@ -26,9 +47,11 @@ struct Sample
   double time = 0.0; ///< since the start of the loop [s]
   ToolPose pose;
   Contact contact;
-  Response response;                               ///< of the law, before damping and limits
+  Response response;       ///< of the law, before damping and limits
+  double proxyDepth = 0.0; ///< depth at which the law gives the rendered force [m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< sent to the device [N]
   std::uint32_t flags = 0;                         ///< of Flag
+  DeviceState state = DeviceState::Active;
 };
 
 } // namespace palp

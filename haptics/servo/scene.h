@@ -3,6 +3,7 @@
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
 
+#include <cstdint>
 #include <memory>
 
 namespace palp
@@ -12,10 +13,13 @@ namespace palp
 struct Scene
 {
   std::shared_ptr<const Surface> surface; ///< null: nothing to touch
-  ForceLaw law{ SphereTip{ .radius = 0.01 }, Material{ .youngModulus = 50e3, .poissonRatio = 0.33 } };
+  ForceLaw law{ SphereTip{ .radius = 0.01 },
+    Material{ .youngModulus = 50e3, .poissonRatio = 0.33 } };
   ContactRule rule = ContactRule::Exact;
-  double damping = 0.0;    ///< b [N s/m], 0 or more
-  double forceLimit = 4.0; ///< [N], at most what the device can bear
+  double damping = 0.0;      ///< b [N s/m], 0 or more
+  double forceLimit = 4.0;   ///< [N], at most what the device can bear
+  std::uint64_t version = 0; ///< another number with another surface or law
+  bool armed = false;        ///< the user wants to feel force; after a fault: off, then on again
 };
 
 } // namespace palp
