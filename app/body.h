@@ -28,8 +28,8 @@ struct Body
 /// @throws Error  BadFile, BadMesh, BadValue
 [[nodiscard]] Body loadBody(const PressOptions& options);
 
-/// The calibration table that the options name, or the bundled one nearest to their tool.
+/// The calibration table that the options name, or the bundled one nearest to the tool.
 /// @throws Error  BadFile
-[[nodiscard]] ExtentTable loadExtents(const PressOptions& options);
+[[nodiscard]] ExtentTable loadExtents(const PressOptions& options, const Tip& tip);
 
 } // namespace palp

@@ -2,11 +2,15 @@
 
 #include "app/body.h"
 #include "app/recording.h"
+#include "pipeline/dent.h"
 
 #include <filesystem>
 
 namespace palp
 {
+
+/// What the deformation filter needs of a sample.
+[[nodiscard]] Press pressOf(const Sample& sample, const Tip& tip, const ExtentTable& extents);
 
 /// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
 /// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.

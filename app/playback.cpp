@@ -1,5 +1,6 @@
 #include "app/playback.h"
 
+#include "app/surface_point.h"
 #include "haptics/contact/nearest.h"
 #include "haptics/servo/servo_step.h"
 
@@ -30,24 +31,6 @@ std::vector<double> sampleTimes(const ScriptedPath& path)
   return times;
 }
 
-// outward normal of a point of the surface, from the normals of its triangle's corners
-Eigen::Vector3d normalAt(const Surface& surface, const Nearest& nearest)
-{
-  const Triangle& corners = surface.triangles()[static_cast<std::size_t>(nearest.triangle)];
-  const auto at = [&](int k) { return static_cast<std::size_t>(corners[static_cast<std::size_t>(k)]); };
-  const Eigen::Vector3d& a = surface.points()[at(0)];
-  const Eigen::Vector3d u = surface.points()[at(1)] - a;
-  const Eigen::Vector3d v = surface.points()[at(2)] - a;
-  const Eigen::Vector3d cross = u.cross(v);
-  const Eigen::Vector3d w = nearest.point - a;
-  const double area = cross.squaredNorm();
-  const double second = w.cross(v).dot(cross) / area;
-  const double third = u.cross(w).dot(cross) / area;
-  const Eigen::Vector3d blend = (1.0 - second - third) * surface.normals()[at(0)] +
-    second * surface.normals()[at(1)] + third * surface.normals()[at(2)];
-  return blend.norm() > 0.0 ? blend.normalized() : cross.normalized();
-}
-
 // inward normal where the apex first touches, or comes closest
 Eigen::Vector3d pressingAxis(
   const Surface& surface, const ScriptedPath& path, const std::vector<double>& times)
@@ -68,8 +51,9 @@ Eigen::Vector3d pressingAxis(
       break;
     }
   }
-  return best.triangle >= 0 ? Eigen::Vector3d(-normalAt(surface, best))
-                            : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
+  return best.triangle >= 0
+    ? Eigen::Vector3d(-surfacePoint(surface, best.triangle, best.point).normal)
+    : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
 }
 
 } // namespace

@@ -96,7 +96,7 @@ void run(const RunOptions& options, const Pictures* pictures)
   const std::filesystem::path path =
     options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
   const ScriptedPath script = readPath(path);
-  const ExtentTable extents = loadExtents(options.press);
+  const ExtentTable extents = loadExtents(options.press, recording.scene.law.tip());
 
   const Body body = loadBody(options.press);
   for (const std::string& note : body.notes)

@@ -18,7 +18,7 @@ constexpr std::size_t kKept = 600'000; // samples, ten minutes
 Session::Session(const ViewOptions& options)
   : options_(options.press)
   , body_(loadBody(options.press))
-  , extents_(loadExtents(options.press))
+  , extents_(loadExtents(options.press, options.press.tissue.law().tip()))
 {
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
