@@ -5,6 +5,7 @@
 #include "haptics/force/tip.h"
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace palp
 {
@@ -19,19 +20,32 @@ enum class ContactRule
 /// Contact of a tool with the undeformed surface.
 struct Contact
 {
-  double depth = 0.0;                                   ///< delta [m]; 0 when apart
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< outward unit normal; zero when apart
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();     ///< on the undeformed surface [m]
-  double tilt = 0.0;                                    ///< tool axis to -normal [rad]
-  int triangle = -1;                                    ///< below the centre; -1 when apart
+  double depth = 0.0;                               ///< delta [m]; 0 when apart
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< outward unit normal; zero when apart
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< on the undeformed surface [m]
+  double tilt = 0.0;                                ///< tool axis to -normal [rad]
+  int triangle = -1;                                ///< below the centre; -1 when apart
+  double surfaceCurvature = 0.0;                    ///< mean, 1/R0 [1/m], convex positive
+  double thickness = std::numeric_limits<double>::infinity();    ///< of the body below [m]
+  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open edge [m]
 
-  [[nodiscard]] bool touching() const noexcept { return depth > 0.0; }
+  [[nodiscard]] bool touching() const noexcept
+  {
+    return depth > 0.0;
+  }
 };
 
 /// Where and how deep the tool is in the undeformed surface.
 ///
 /// depth is how far the tool's deepest point along the contact normal lies below the surface
-/// (sphere: R minus the distance from its centre to the surface; cone: its apex).
+/// (sphere: R minus the distance from its centre to the surface; cone: its apex). Exact: the
+/// distance to the triangles, from which the facets are smoothed out over two edge lengths, but
+/// never beyond the contact itself. So it is a continuous function of the pose, starts where the
+/// tool touches a triangle, and is that of the true plane or sphere under a mesh of one.
+///
+/// Two lobes at once share the normal and, where they press against each other, fade the depth.
+/// A tool whose reference point is inside a body is pushed out the nearest way. An open sheet is
+/// pressed from its front only, by tools whose axis points against its normal.
 ///
 /// @param surface  undeformed
 /// @param tip      checked

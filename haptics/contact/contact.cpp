@@ -1,0 +1,139 @@
+#include "haptics/contact/contact.h"
+
+#include "haptics/contact/nearest.h"
+#include "haptics/contact/paper_contact.h"
+#include "haptics/contact/patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kSmoothing = 2.0; // [-] edge lengths; below 1.8 a coarse mesh is felt
+constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
+constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
+
+// the ball that meets a smooth body first; a sharp or flat tip has one of radius zero
+double noseRadius(const Tip& tip) noexcept
+{
+  if (const auto* sphere = std::get_if<SphereTip>(&tip))
+  {
+    return sphere->radius;
+  }
+  if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
+  {
+    return blunt->tipRadius;
+  }
+  if (const auto* paraboloid = std::get_if<ParaboloidTip>(&tip))
+  {
+    return paraboloid->radius;
+  }
+  return 0.0;
+}
+
+double flatRadius(const Tip& tip) noexcept
+{
+  if (const auto* punch = std::get_if<PunchTip>(&tip))
+  {
+    return punch->radius;
+  }
+  if (const auto* truncated = std::get_if<TruncatedConeTip>(&tip))
+  {
+    return truncated->flatRadius;
+  }
+  return 0.0;
+}
+
+// radius over which facets may be smoothed out: the mesh's scale, within the contact
+double smoothingRadius(const Tip& tip, double nose, double distance, double edgeLength) noexcept
+{
+  double contact = flatRadius(tip);
+  if (nose > 0.0)
+  {
+    const double outside = std::max(0.0, distance);
+    contact = std::sqrt(std::max(0.0, nose * nose - outside * outside));
+  }
+  else if (contact == 0.0)
+  {
+    contact = std::min(2.0 * std::abs(distance), baseRadius(tip));
+  }
+  return std::min(kSmoothing * edgeLength, contact);
+}
+
+// Distance to the surface that the facets stand for.
+//
+// On a plane, and on a sphere of any radius, the area within a distance sqrt(q) grows evenly with
+// q - h^2, so that its mean q lies midway between h^2 and the ball's Q, whatever the curvature:
+// h^2 = Q - 2 weight / area.
+double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
+{
+  const double excess =
+    squaredBall - 2.0 * patch.weight / patch.area - distance * distance; // h^2 - distance^2
+  // close to the surface the square says little: the correction fades there
+  const double scale = std::max(distance * distance, radius * radius / 16.0);
+  return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));
+}
+
+Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
+{
+  const double nose = noseRadius(tip);
+  const Eigen::Vector3d place = pose.apex - nose * pose.axis;
+  const double reach = nose + flatRadius(tip);
+  if (squaredDistance(surface.tree().nodes()[0], place) > reach * reach)
+  {
+    return {};
+  }
+  const Nearest nearest = findNearest(surface, place, std::numeric_limits<double>::infinity());
+  if (nearest.triangle < 0 || nearest.distance >= reach)
+  {
+    return {};
+  }
+
+  const double radius = smoothingRadius(tip, nose, nearest.distance, surface.edgeLength());
+  const double squaredBall = nearest.distance * nearest.distance + radius * radius;
+  const double side = radius > 0.0 ? std::clamp(nearest.distance / radius, -1.0, 1.0) : 0.0;
+  const Patch patch =
+    patchWithin(surface, place, std::sqrt(squaredBall), side, std::max(radius, 1e-9));
+  const double length = patch.normal.norm();
+  if (!(patch.weight > 0.0 && length > 0.0))
+  {
+    return {}; // touches by less than rounding
+  }
+  Contact contact;
+  contact.normal = patch.normal / length;
+  const double facing = -pose.axis.dot(contact.normal);
+  contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
+  const double height = smoothed(nearest.distance, radius, squaredBall, patch);
+  const double rim = flatRadius(tip) * std::sin(contact.tilt); // the lowest point of a flat end
+  contact.depth = (nose + rim - height) * std::min(1.0, length / (kCoherent * patch.weight));
+  if (!surface.closed())
+  {
+    contact.depth *= std::clamp(facing / kFront, 0.0, 1.0);
+  }
+  contact.center = place - height * contact.normal;
+  contact.triangle = nearest.triangle;
+  contact.surfaceCurvature = 4.0 * (height - patch.height / patch.area) / (radius * radius);
+  contact.edgeDistance = surface.edgeDistance(contact.center, contact.triangle);
+  return contact;
+}
+
+} // namespace
+
+Contact findContact(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept
+{
+  if (!(pose.apex.allFinite() && pose.axis.allFinite()))
+  {
+    return {};
+  }
+  const Contact contact = rule == ContactRule::Paper ? paperContact(surface, tip, pose)
+                                                     : exactContact(surface, tip, pose);
+  const bool usable = contact.depth > 0.0 && std::isfinite(contact.depth) &&
+    contact.normal.allFinite() && contact.center.allFinite();
+  return usable ? contact : Contact{};
+}
+
+} // namespace palp

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "haptics/contact/surface.h"
+
+#include <Eigen/Core>
+
+namespace palp
+{
+
+/// The part of a surface within a ball, summed up by integrals over its triangles.
+///
+/// Each changes continuously with the ball, for a triangle comes in with no area at all.
+struct Patch
+{
+  double area = 0.0;                                ///< [m^2]
+  double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
+  double height = 0.0;                              ///< of the height of the centre over each
+                                                    ///< triangle's plane, over the area [m^3]
+};
+
+/// Area and weight of one triangle within a ball, in closed form.
+///
+/// With q the squared distance to the centre and Q the squared radius, the weight is the integral
+/// of Q - q. In the plane of the triangle the ball is a disc, and Green's theorem leaves straight
+/// pieces and arcs.
+///
+/// @param facet          with its unit normal
+/// @param center         of the ball [m]
+/// @param squaredRadius  Q [m^2], above 0
+/// @realtime             pure; no allocation, no lock, no exception
+struct DiscIntegral
+{
+  double area = 0.0;   ///< [m^2]
+  double weight = 0.0; ///< [m^4]
+};
+[[nodiscard]] DiscIntegral integrate(
+  const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept;
+
+/// Sums the triangles within a ball, those that face its centre in full.
+///
+/// Triangles that turn their back fade out with the distance of the centre behind their plane, so
+/// that the far side of a thin lobe does not count.
+///
+/// @param radius  of the ball [m], above 0
+/// @param side    1: the centre is well outside the body, -1: well inside; between, both sides
+/// count
+/// @param fade    height behind a plane at which a triangle no longer counts [m], above 0
+/// @realtime      pure; no allocation, no lock, no exception
+[[nodiscard]] Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center,
+  double radius, double side, double fade) noexcept;
+
+} // namespace palp

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "haptics/devices/device.h"
+#include "haptics/servo/latest.h"
+#include "haptics/servo/ring.h"
+#include "haptics/servo/sample.h"
+#include "haptics/servo/scene.h"
+#include "haptics/servo/timing.h"
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace palp
+{
+
+/// How the servo thread is to run.
+struct ServoOptions
+{
+  std::chrono::nanoseconds period = std::chrono::milliseconds(1);
+  std::chrono::nanoseconds spin{ 0 }; ///< before each deadline, awake: costs CPU, saves lateness
+  bool realtime = true;               ///< ask for SCHED_FIFO and locked memory
+};
+
+/// The loop that a hand feels: device, contact, law, limits, device, at a fixed rate.
+///
+/// One thread of its own, three exchanges with the main thread: the scene in, the newest sample
+/// and all samples out. A deadline that is missed is counted and skipped, never made up for. The
+/// last force sent is zero.
+class Servo
+{
+public:
+  /// Starts the thread.
+  /// @param device  outlives this object, and is used by its thread alone
+  Servo(Device& device, Scene scene, const ServoOptions& options = {});
+
+  /// Stops the thread, with zero force.
+  ~Servo();
+
+  Servo(const Servo&) = delete;
+  Servo& operator=(const Servo&) = delete;
+
+  /// Main thread only.
+  void setScene(Scene scene)
+  {
+    scene_.publish(std::move(scene));
+  }
+
+  /// For the picture. Main thread only; the reference stays valid until the next call.
+  [[nodiscard]] const Sample& newest() noexcept
+  {
+    return newest_.read();
+  }
+
+  /// For plots and export, which want every sample; main thread only. Holds eight seconds.
+  [[nodiscard]] Ring<Sample>& history() noexcept
+  {
+    return history_;
+  }
+
+  /// Zero force from the next tick on, until released. Any thread, signal handlers included.
+  void setEmergencyStop(bool stop) noexcept
+  {
+    stopped_.store(stop);
+  }
+
+  [[nodiscard]] const Timing& timing() const noexcept
+  {
+    return timing_;
+  }
+
+  /// In plain words, whether the system grants real-time priority, and what to change if not.
+  [[nodiscard]] const std::string& schedule() const noexcept
+  {
+    return schedule_;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void run(std::stop_token stop) noexcept;
+  void waitUntil(Clock::time_point due) noexcept;
+
+  Device& device_;
+  ServoOptions options_;
+  Latest<Scene> scene_;
+  Latest<Sample> newest_;
+  Ring<Sample> history_{ 8192 };
+  std::atomic<bool> stopped_ = false;
+  Timing timing_;
+  std::string schedule_;
+  std::jthread thread_; // last: it uses all the others
+};
+
+} // namespace palp

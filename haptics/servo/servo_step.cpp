@@ -1,0 +1,57 @@
+#include "haptics/servo/servo_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+void raise(Sample& sample, Flag flag) noexcept
+{
+  sample.flags |= static_cast<std::uint32_t>(flag);
+}
+
+} // namespace
+
+Sample step(const Scene& scene, const ToolPose& pose) noexcept
+{
+  Sample sample;
+  sample.pose = pose;
+  if (!(pose.apex.allFinite() && pose.axis.allFinite() && pose.velocity.allFinite()))
+  {
+    raise(sample, Flag::NotFinite);
+    return sample;
+  }
+  if (scene.surface == nullptr)
+  {
+    return sample;
+  }
+  sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
+  if (!sample.contact.touching())
+  {
+    return sample;
+  }
+
+  sample.response = scene.law(Indentation{ .depth = sample.contact.depth,
+    .tilt = sample.contact.tilt,
+    .thickness = sample.contact.thickness,
+    .surfaceCurvature = sample.contact.surfaceCurvature });
+  const double viscous = -scene.damping * pose.velocity.dot(sample.contact.normal);
+  const double wanted = std::max(0.0, sample.response.force + viscous);
+  const double push = std::min(wanted, scene.forceLimit);
+  if (!std::isfinite(wanted) || !(push >= 0.0))
+  {
+    raise(sample, Flag::NotFinite);
+    return sample;
+  }
+  if (push < wanted)
+  {
+    raise(sample, Flag::Limited);
+  }
+  sample.force = push * sample.contact.normal;
+  return sample;
+}
+
+} // namespace palp

@@ -1,0 +1,156 @@
+#include "haptics/contact/contact.h"
+
+#include "haptics/contact/nearest.h"
+#include "haptics/units.h"
+#include "tests/support/surfaces.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const Tip kSphere = SphereTip{ .radius = 10.0_mm };
+const Tip kCone = ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm };
+
+ToolPose at(const Eigen::Vector3d& apex, const Eigen::Vector3d& axis = -Eigen::Vector3d::UnitZ())
+{
+  return { .apex = apex, .axis = axis, .velocity = Eigen::Vector3d::Zero() };
+}
+
+// each tip, straight down on a flat face: the depth is that of the apex, the normal the face's
+class OnABlock : public ::testing::TestWithParam<std::tuple<Tip, double>>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Tips, OnABlock,
+  ::testing::Combine(
+    ::testing::Values(kSphere, kCone, Tip{ PunchTip{ .radius = 5.0_mm } },
+      Tip{ TruncatedConeTip{ .halfAngle = 45.0_deg, .flatRadius = 2.0_mm, .baseRadius = 8.0_mm } },
+      Tip{ BluntConeTip{ .halfAngle = 45.0_deg, .tipRadius = 2.0_mm, .baseRadius = 8.0_mm } },
+      Tip{ ParaboloidTip{ .radius = 5.0_mm } }),
+    ::testing::Values(1e-9, 0.1_mm, 1.0_mm, 5.0_mm, 9.0_mm, 12.0_mm)));
+
+TEST_P(OnABlock, DepthIsThatOfTheApex)
+{
+  const auto& [tip, depth] = GetParam();
+  const Surface block = test::makeSurface(test::block({ 100.0_mm, 100.0_mm, 50.0_mm }, 8));
+  const Contact contact =
+    findContact(block, tip, at({ 3.0_mm, 1.3_mm, -depth }), ContactRule::Exact);
+  EXPECT_NEAR(contact.depth, depth, 1e-12);
+  EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_NEAR(contact.center.z(), 0.0, 1e-12);
+  EXPECT_NEAR(contact.surfaceCurvature, 0.0, 1e-3);
+  EXPECT_NEAR(contact.tilt, 0.0, 1e-6);
+}
+
+TEST(Contact, ApartIsNoContact)
+{
+  const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 4));
+  for (const ContactRule rule : { ContactRule::Exact, ContactRule::Paper })
+  {
+    const Contact contact = findContact(block, kSphere, at({ 0.0, 0.0, 1e-6 }), rule);
+    EXPECT_FALSE(contact.touching());
+    EXPECT_EQ(contact.triangle, -1);
+    EXPECT_EQ(contact.normal, Eigen::Vector3d::Zero());
+  }
+}
+
+// Sphere on a sphere: R minus the distance of the centres beyond R0, whatever the side it comes
+// from. An inscribed mesh lies below by at most its sagitta.
+TEST(Contact, OnASphereTheDepthIsThatOfTheSphere)
+{
+  const double bodyRadius = 50.0_mm;
+  const Surface ball = test::makeSurface(test::ball(bodyRadius, 60));
+  const double sagitta = ball.edgeLength() * ball.edgeLength() / (3.0 * bodyRadius);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 200; ++i)
+  {
+    const Eigen::Vector3d out =
+      Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    for (const double depth : { 0.5_mm, 2.0_mm, 5.0_mm, 9.9_mm, 11.0_mm })
+    {
+      const Contact contact =
+        findContact(ball, kSphere, at((bodyRadius - depth) * out, -out), ContactRule::Exact);
+      EXPECT_NEAR(contact.depth, depth, sagitta);
+      EXPECT_LT((contact.normal - out).norm(), 2e-3);
+      EXPECT_NEAR(contact.surfaceCurvature, 1.0 / bodyRadius, 0.25 / bodyRadius);
+      EXPECT_NEAR(
+        findContact(ball, kCone, at((bodyRadius - depth) * out, -out), ContactRule::Exact).depth,
+        depth, sagitta);
+    }
+  }
+}
+
+TEST(Contact, ASphereDoesNotCareForItsAxis)
+{
+  const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 10));
+  const Eigen::Vector3d center(0.0, 0.0, 7.0_mm);
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.3, 0.4, -1.0).normalized();
+  const Contact contact =
+    findContact(block, kSphere, at(center + 10.0_mm * axis, axis), ContactRule::Exact);
+  EXPECT_NEAR(contact.depth, 3.0_mm, 1e-12);
+  EXPECT_NEAR(contact.tilt, std::acos(-axis.z()), 1e-9);
+}
+
+// first touch where the nearest point of the mesh is: at a corner, an edge or a face
+TEST(Contact, BeginsWhereTheMeshIsTouched)
+{
+  const Surface ball = test::makeSurface(test::ball(50.0_mm, 10));
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 300; ++i)
+  {
+    const Eigen::Vector3d out =
+      Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    // bring the sphere in along `out` until its centre is R from the mesh
+    double far = 70.0_mm;
+    double near = 50.0_mm;
+    while (far - near > 1e-12)
+    {
+      const double middle = 0.5 * (far + near);
+      (findNearest(ball, middle * out, 1.0).distance < 10.0_mm ? near : far) = middle;
+    }
+    const auto depthAt = [&](double inward)
+    {
+      return findContact(
+        ball, kSphere, at((far - inward - 10.0_mm) * out, -out), ContactRule::Exact)
+        .depth;
+    };
+    EXPECT_EQ(depthAt(-1.0_um), 0.0);
+    EXPECT_GT(depthAt(1.0_um), 0.0);
+    EXPECT_NEAR(depthAt(1.0_um), 1.0_um, 1.0_um);
+  }
+}
+
+TEST(Contact, OnALobeTheFarSideDoesNotCount)
+{
+  const Surface plate = test::makeSurface(test::block({ 0.1, 0.1, 4.0_mm }, 40));
+  for (const double depth : { 0.5_mm, 3.0_mm, 6.0_mm })
+  {
+    const Contact contact =
+      findContact(plate, kSphere, at({ 0.0, 0.0, -depth }), ContactRule::Exact);
+    EXPECT_NEAR(contact.depth, depth, 1e-9);
+    EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  }
+}
+
+TEST(Contact, PaperRuleSeesOnlyMeshPoints)
+{
+  const Surface coarse = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 5)); // 20 mm cells
+  const Eigen::Vector3d betweenPoints(0.0, 0.0, -1.0_mm);
+  EXPECT_FALSE(findContact(coarse, kSphere, at(betweenPoints), ContactRule::Paper).touching());
+  const Surface fine = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 100));
+  const Contact contact = findContact(fine, kSphere, at(betweenPoints), ContactRule::Paper);
+  EXPECT_NEAR(contact.depth, 1.0_mm, 1e-12);
+  EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,109 @@
+#include "haptics/servo/servo_step.h"
+
+#include "haptics/units.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/surfaces.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+Scene scene()
+{
+  Scene world;
+  world.surface =
+    std::make_shared<const Surface>(test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 20)));
+  world.law = ForceLaw(SphereTip{ .radius = 10.0_mm }, makeMaterial(50.0_kPa, 0.33));
+  world.forceLimit = 4.0;
+  return world;
+}
+
+ToolPose at(double z, double speed = 0.0)
+{
+  return {
+    .apex = { 0.0, 0.0, z }, .axis = -Eigen::Vector3d::UnitZ(), .velocity = { 0.0, 0.0, speed }
+  };
+}
+
+// Hertz, in terms of E* = E / (1 - nu^2)
+TEST(ServoStep, PressesBackWithTheForceOfHertz)
+{
+  const Sample sample = step(scene(), at(-2.0_mm));
+  const double hertz =
+    4.0 / 3.0 * 50.0_kPa / (1.0 - 0.33 * 0.33) * std::sqrt(10.0_mm) * std::pow(2.0_mm, 1.5);
+  EXPECT_NEAR(sample.force.z(), hertz, 1e-9 * hertz);
+  EXPECT_NEAR(sample.force.head<2>().norm(), 0.0, 1e-12);
+  EXPECT_EQ(sample.flags, 0U);
+}
+
+TEST(ServoStep, NeverPulls)
+{
+  Scene world = scene();
+  world.damping = 5.0;
+  const Sample slow = step(world, at(-2.0_mm, 0.01));
+  EXPECT_NEAR(slow.response.force - slow.force.z(), 0.05, 1e-12);
+  EXPECT_EQ(step(world, at(-2.0_mm, 10.0)).force, Eigen::Vector3d::Zero());
+}
+
+TEST(ServoStep, IsNeverStrongerThanTheLimit)
+{
+  Scene world = scene();
+  world.damping = 100.0;
+  const Sample sample = step(world, at(-9.0_mm, -5.0));
+  EXPECT_NEAR(sample.force.norm(), world.forceLimit, 1e-12);
+  EXPECT_TRUE(sample.flags & static_cast<std::uint32_t>(Flag::Limited));
+}
+
+TEST(ServoStep, WhatIsNotFiniteGivesNoForce)
+{
+  for (const double bad : { std::numeric_limits<double>::quiet_NaN(),
+         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
+  {
+    for (int where = 0; where < 9; ++where)
+    {
+      ToolPose pose = at(-2.0_mm);
+      Eigen::Vector3d* parts[] = { &pose.apex, &pose.axis, &pose.velocity };
+      (*parts[where / 3])[where % 3] = bad;
+      const Sample sample = step(scene(), pose);
+      EXPECT_EQ(sample.force, Eigen::Vector3d::Zero());
+      EXPECT_TRUE(sample.flags & static_cast<std::uint32_t>(Flag::NotFinite));
+    }
+    Scene world = scene();
+    world.damping = bad;
+    EXPECT_TRUE(step(world, at(-2.0_mm, -0.1)).force.allFinite());
+    world = scene();
+    world.forceLimit = bad;
+    EXPECT_TRUE(step(world, at(-2.0_mm)).force.allFinite());
+  }
+}
+
+TEST(ServoStep, AnEmptySceneCannotBeTouched)
+{
+  const Sample sample = step(Scene{}, at(-2.0_mm));
+  EXPECT_EQ(sample.force, Eigen::Vector3d::Zero());
+  EXPECT_FALSE(sample.contact.touching());
+}
+
+TEST(ServoStep, DoesNotAllocate)
+{
+  Scene world = scene();
+  for (const ContactRule rule : { ContactRule::Exact, ContactRule::Paper })
+  {
+    world.rule = rule;
+    const test::AllocationGuard guard;
+    EXPECT_TRUE(step(world, at(-2.0_mm)).contact.touching());
+    EXPECT_EQ(guard.count(), 0U);
+  }
+  const test::AllocationGuard guard;
+  const std::vector<int> memory(1);
+  EXPECT_EQ(guard.count(), memory.size()); // the guard does count
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,154 @@
+#include "haptics/servo/servo.h"
+
+#include "haptics/units.h"
+#include "tests/support/surfaces.h"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using namespace std::chrono_literals;
+
+// holds its depth, keeps the forces it is sent, goes away when told to
+class Probe final : public Device
+{
+public:
+  [[nodiscard]] DeviceLimits limits() const override
+  {
+    return {};
+  }
+
+  [[nodiscard]] std::optional<ToolPose> exchange(
+    const Eigen::Vector3d& force, double dt) noexcept override
+  {
+    last = force;
+    elapsed += dt;
+    ++calls;
+    if (stall > 0ms && calls == 5)
+    {
+      std::this_thread::sleep_for(stall);
+    }
+    if (gone.load())
+    {
+      return std::nullopt;
+    }
+    return ToolPose{ .apex = { 0.0, 0.0, -2.0_mm },
+      .axis = -Eigen::Vector3d::UnitZ(),
+      .velocity = Eigen::Vector3d::Zero() };
+  }
+
+  std::atomic<bool> gone = false;
+  std::chrono::milliseconds stall = 0ms;
+  Eigen::Vector3d last = Eigen::Vector3d::Zero(); // read after the servo has ended
+  double elapsed = 0.0;
+  int calls = 0;
+};
+
+Scene scene()
+{
+  Scene world;
+  world.surface =
+    std::make_shared<const Surface>(test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 4)));
+  return world;
+}
+
+constexpr ServoOptions kPlain{ .realtime = false };
+
+// waits until a sample says so, as long as the test program may run
+template <typename Condition>
+Sample waitFor(Servo& servo, Condition condition)
+{
+  while (!condition(servo.newest()))
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  return servo.newest();
+}
+
+bool has(const Sample& sample, Flag flag)
+{
+  return (sample.flags & static_cast<std::uint32_t>(flag)) != 0;
+}
+
+TEST(Servo, PressesAndEndsWithZeroForce)
+{
+  Probe probe;
+  {
+    Servo servo(probe, scene(), kPlain);
+    waitFor(servo, [](const Sample& sample) { return sample.force.z() > 0.1; });
+  }
+  EXPECT_EQ(probe.last, Eigen::Vector3d::Zero());
+}
+
+TEST(Servo, TakesANewScene)
+{
+  Probe probe;
+  Servo servo(probe, Scene{}, kPlain);
+  waitFor(servo, [](const Sample& sample) { return sample.time > 0.0; });
+  EXPECT_EQ(servo.newest().force, Eigen::Vector3d::Zero());
+  servo.setScene(scene());
+  waitFor(servo, [](const Sample& sample) { return sample.contact.touching(); });
+  servo.setScene(Scene{});
+  waitFor(servo, [](const Sample& sample) { return !sample.contact.touching(); });
+}
+
+TEST(Servo, EmergencyStopHoldsUntilReleased)
+{
+  Probe probe;
+  Servo servo(probe, scene(), kPlain);
+  waitFor(servo, [](const Sample& sample) { return sample.force.z() > 0.1; });
+  servo.setEmergencyStop(true);
+  const Sample stopped =
+    waitFor(servo, [](const Sample& sample) { return has(sample, Flag::EmergencyStop); });
+  EXPECT_EQ(stopped.force, Eigen::Vector3d::Zero());
+  servo.setEmergencyStop(false);
+  waitFor(servo, [](const Sample& sample) { return sample.force.z() > 0.1; });
+}
+
+TEST(Servo, ALostDeviceGetsNoForce)
+{
+  Probe probe;
+  Servo servo(probe, scene(), kPlain);
+  probe.gone = true;
+  const Sample lost =
+    waitFor(servo, [](const Sample& sample) { return has(sample, Flag::DeviceLost); });
+  EXPECT_EQ(lost.force, Eigen::Vector3d::Zero());
+}
+
+// every period since the start is either a tick or counted as skipped
+TEST(Servo, SkipsAndCountsWhatItMissed)
+{
+  Probe probe;
+  probe.stall = 30ms;
+  std::uint64_t periods = 0;
+  double time = 0.0;
+  {
+    Servo servo(probe, scene(), kPlain);
+    const Sample last = waitFor(servo, [](const Sample& sample) { return sample.time > 0.1; });
+    time = last.time;
+    periods = servo.timing().ticks + servo.timing().skipped;
+    EXPECT_GE(servo.timing().skipped, 29U);
+    EXPECT_GE(servo.timing().lateness.count(), servo.timing().ticks);
+    servo.history().drain(
+      [&, previous = -1.0](const Sample& sample) mutable
+      {
+        EXPECT_GT(sample.time, previous);
+        previous = sample.time;
+      });
+  }
+  EXPECT_GE(static_cast<double>(periods), time / 1.0_ms - 1.0);
+}
+
+TEST(Servo, SaysHowItIsScheduled)
+{
+  Probe probe;
+  EXPECT_NE(Servo(probe, Scene{}).schedule().find("priority"), std::string::npos);
+}
+
+} // namespace
+} // namespace palp
