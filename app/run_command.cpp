@@ -1,6 +1,7 @@
 #include "app/body.h"
 #include "app/commands.h"
 #include "app/data_files.h"
+#include "app/export.h"
 #include "app/pictures.h"
 #include "app/playback.h"
 #include "app/program.h"
@@ -12,7 +13,6 @@
 #include <CLI/CLI.hpp>
 
 #include <charconv>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -47,17 +47,6 @@ ImageSize parseSize(const std::string& text)
       "--size: '" + text + "' is no size; write WIDTHxHEIGHT, each 64 to 8192, like 1280x960");
   }
   return size;
-}
-
-void makeDirectory(const std::filesystem::path& directory)
-{
-  std::error_code failure;
-  std::filesystem::create_directories(directory, failure);
-  if (failure)
-  {
-    throw Error(ErrorCode::BadFile,
-      directory.string() + ": cannot be made (" + failure.message() + "); name another with --out");
-  }
 }
 
 void report(const Recording& recording, const ExtentTable& extents)
@@ -110,16 +99,7 @@ void run(const RunOptions& options, const Pictures* pictures)
   recording.samples = play(script, recording.scene);
   report(recording, extents);
 
-  makeDirectory(options.out);
-  std::ofstream samples(options.out / "samples.csv");
-  writeSamples(samples, recording, extents);
-  samples.close();
-  if (!samples)
-  {
-    throw Error(ErrorCode::BadFile,
-      (options.out / "samples.csv").string() + ": cannot be written; check space and permissions");
-  }
-  writeDeformed(options.out / "deformed.vtp", body, recording, extents);
+  exportRecording(options.out, body, recording, extents);
   if (!options.noPicture)
   {
     pictures->drawPress(body, recording, extents, options.out, size);

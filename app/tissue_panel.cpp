@@ -44,11 +44,11 @@ QFormLayout* addGroup(QVBoxLayout* column, const QString& title)
 
 } // namespace
 
-TissuePanel::TissuePanel(
-  const ForceLaw& law, const PressOptions& press, const QStringList& devices, QWidget* parent)
+TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget* parent)
   : QWidget(parent)
-  , other_(law.tip())
+  , other_(scene.law.tip())
 {
+  const ForceLaw& law = scene.law;
   const auto* cone = std::get_if<ConeTip>(&law.tip());
   const bool sphere = std::holds_alternative<SphereTip>(law.tip());
 
@@ -75,11 +75,11 @@ TissuePanel::TissuePanel(
   modulusKpa_ = makeBox(
     "young", 0.001, 1e7, units::toKilopascals(law.material().youngModulus), 3, tr("kPa"));
   poisson_ = makeBox("poisson", 0.0, 0.5, law.material().poissonRatio, 3, {});
-  damping_ = makeBox("damping", 0.0, 50.0, press.dampingSi(), 2, tr("N·s/m"));
+  damping_ = makeBox("damping", 0.0, 50.0, scene.damping, 2, tr("N·s/m"));
   rule_ = new QComboBox;
   rule_->setObjectName("rule");
   rule_->addItems({ tr("Exact, on triangles"), tr("Paper, on mesh points") });
-  rule_->setCurrentIndex(press.rule() == ContactRule::Paper ? 1 : 0);
+  rule_->setCurrentIndex(scene.rule == ContactRule::Paper ? 1 : 0);
   tissue->addRow(tr("Young's modulus E"), modulusKpa_);
   tissue->addRow(tr("Poisson's ratio ν"), poisson_);
   tissue->addRow(tr("Damping"), damping_);

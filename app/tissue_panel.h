@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/press_options.h"
+#include "haptics/servo/scene.h"
 
 #include <QWidget>
 
@@ -17,8 +17,7 @@ class TissuePanel : public QWidget
 
 public:
   /// @param devices  names for the device list; the first is selected
-  explicit TissuePanel(const ForceLaw& law, const PressOptions& press, const QStringList& devices,
-    QWidget* parent = nullptr);
+  TissuePanel(const Scene& scene, const QStringList& devices, QWidget* parent = nullptr);
 
   [[nodiscard]] ForceLaw law() const;
   [[nodiscard]] ContactRule rule() const;

@@ -1,17 +1,17 @@
 #pragma once
 
 #include "app/session.h"
+#include "app/surface_point.h"
 #include "pipeline/force_charts.h"
 #include "pipeline/press_view.h"
 
 #include <QMainWindow>
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 
-#include <memory>
+#include <functional>
+#include <optional>
 
 class QLabel;
-class QTimer;
 class QVTKOpenGLNativeWidget;
 class vtkGenericOpenGLRenderWindow;
 class vtkPalpPressStyle;
@@ -24,49 +24,57 @@ class TissuePanel;
 
 /// The window: the body in 3-D, tool and tissue at the left, live curves at the right.
 ///
-/// Draws at 60 Hz what the servo thread publishes and never holds that thread up.
+/// Draws what the servo thread publishes and never holds that thread up.
 class Window : public QMainWindow
 {
   Q_OBJECT
 
 public:
+  /// @param session  outlives the window
   explicit Window(Session& session);
   ~Window() override;
 
-  /// Writes the 3-D view as it is now. Returns false, and tells the user, when it cannot.
-  bool saveScreenshot(const QString& file);
-  /// Writes samples.csv and deformed.vtp into a directory; as saveScreenshot.
-  bool exportData(const QString& directory);
-  /// Shows another surface; as saveScreenshot.
-  bool openSurface(const QString& file);
+  // What the menus do, once a file is chosen; a failure becomes a message, and false.
 
-protected:
-  void keyPressEvent(QKeyEvent* event) override;
+  bool openSurface(const QString& file, const QString& unit);
+  bool saveScreenshot(const QString& file);
+  bool exportData(const QString& directory);
 
 private:
   void makeView();
   void makeDocks();
   void makeMenus();
-  void refresh();     // every frame
-  void refreshCharts(); // ten times a second
+  void showBody();
+
+  // the pointer as a tool, in display pixels
+  void point(int x, int y);
+  void setDepth(double depth);
+  void aim();
+
+  void refresh();
+  void refreshCharts();
   void applyTissue();
-  void showStatus(const Sample& sample);
-  bool attempt(const std::function<void()>& work); // an Error becomes a message box
+  void applyDevice(const QString& name);
+  bool attempt(const std::function<void()>& work);
 
   Session& session_;
-  std::unique_ptr<PressView> view_;
-  std::unique_ptr<ForceCharts> charts_;
   vtkNew<vtkGenericOpenGLRenderWindow> renderWindow_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkPalpPressStyle> style_;
+  PressView view_;
+  ForceCharts charts_;
+
+  std::optional<SurfacePoint> target_; // below the pointer
+  double depth_ = 0.0;                 // asked for by drag [m]
+  double heldDepth_ = 0.0;             // asked for by wheel, stays between presses [m]
+  bool pressing_ = false;
+
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
-  QVTKOpenGLNativeWidget* timeChart_ = nullptr;
-  QVTKOpenGLNativeWidget* depthChart_ = nullptr;
+  QVTKOpenGLNativeWidget* timeCanvas_ = nullptr;
+  QVTKOpenGLNativeWidget* depthCanvas_ = nullptr;
   TissuePanel* panel_ = nullptr;
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;
-  QTimer* frames_ = nullptr;
-  QTimer* plots_ = nullptr;
 };
 
 } // namespace palp

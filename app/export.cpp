@@ -1,5 +1,6 @@
-#include "app/deformed.h"
+#include "app/export.h"
 
+#include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io.h"
 #include "pipeline/vtkPalpDeformFilter.h"
@@ -8,6 +9,9 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+
+#include <fstream>
+#include <system_error>
 
 namespace palp
 {
@@ -45,6 +49,23 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   displacement->SetName("Displacement");
   mesh->GetPointData()->AddArray(displacement);
   writeSurface(file, *mesh);
+}
+
+void exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const ExtentTable& extents)
+{
+  std::error_code failure;
+  std::filesystem::create_directories(directory, failure);
+  const std::filesystem::path file = directory / "samples.csv";
+  std::ofstream samples(file);
+  writeSamples(samples, recording, extents);
+  samples.close();
+  if (!samples)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": cannot be written; choose a folder with room where you may write");
+  }
+  writeDeformed(directory / "deformed.vtp", body, recording, extents);
 }
 
 } // namespace palp

@@ -19,4 +19,10 @@ namespace palp
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
   const ExtentTable& extents);
 
+/// Writes samples.csv and deformed.vtp into a directory, which is made when it is missing.
+///
+/// @throws Error  BadFile: cannot be made or written
+void exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const ExtentTable& extents);
+
 } // namespace palp

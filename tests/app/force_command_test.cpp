@@ -1,0 +1,85 @@
+#include "tests/support/csv_table.h"
+#include "tests/support/process.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+using test::Finished;
+
+Finished palp(const std::string& arguments)
+{
+  return test::runCommand(PALP_PROGRAM " " + arguments);
+}
+
+test::CsvTable table(const Finished& finished)
+{
+  std::istringstream in(finished.out);
+  return test::parseCsv(in);
+}
+
+TEST(ForceCommand, PrintsHertzForTheSphere)
+{
+  const Finished finished =
+    palp("force --tip sphere:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const test::CsvTable law = table(finished);
+  ASSERT_EQ(law["depth_mm"].size(), 21u);
+  for (std::size_t i = 0; i < 21; ++i)
+  {
+    EXPECT_EQ(law["depth_mm"][i], 0.5 * static_cast<double>(i));
+    const double depth = 0.0005 * static_cast<double>(i);
+    const double modulus = 50e3 / (1.0 - 0.33 * 0.33);
+    const double radius = std::sqrt(0.01 * depth);
+    EXPECT_NEAR(law["force_N"][i], 4.0 / 3.0 * modulus * radius * depth, 1e-12);
+    EXPECT_NEAR(law["contact_radius_mm"][i], 1e3 * radius, 1e-12);
+    EXPECT_NEAR(law["stiffness_N_per_mm"][i], 2e-3 * modulus * radius, 1e-12);
+  }
+}
+
+TEST(ForceCommand, PrintsSneddonForTheConeByTheAngleFromTheAxis)
+{
+  // at 45 degrees both readings of the angle agree; at 30 they differ threefold
+  const test::CsvTable law =
+    table(palp("force --tip cone:30deg:10mm --young 50kPa --poisson 0.33 --depth 5:5:1mm"));
+  const double modulus = 50e3 / (1.0 - 0.33 * 0.33);
+  ASSERT_EQ(law["force_N"].size(), 1u);
+  EXPECT_NEAR(law["force_N"][0],
+    2.0 / std::numbers::pi * modulus * std::tan(std::numbers::pi / 6.0) * 25e-6, 1e-12);
+}
+
+TEST(ForceCommand, RefusesABareModulusInOneLine)
+{
+  const Finished finished = palp("force --young 50");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_EQ(finished.err, "palp: --young: '50' has no unit; write 50kPa (kPa, Pa, MPa, GPa)\n");
+}
+
+TEST(ForceCommand, RefusesWhatIsOutOfRange)
+{
+  for (const char* arguments : { "--young 0.5Pa", "--young 11GPa", "--poisson 0.51", "--poisson -0.1",
+         "--tip sphere:0.05mm", "--tip sphere:1.1m", "--tip cone:0.5deg:10mm", "--tip cone:90deg:10mm",
+         "--tip egg:3mm", "--tip sphere", "--depth 3:1:1mm" })
+  {
+    const Finished finished = palp(std::string("force ") + arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_EQ(finished.out, "") << arguments;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+}
+
+TEST(ForceCommand, HelpTeachesByExample)
+{
+  const Finished finished = palp("force --help");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_NE(finished.out.find("palp force --tip"), std::string::npos);
+}
+
+} // namespace
+} // namespace palp

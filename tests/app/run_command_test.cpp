@@ -1,0 +1,180 @@
+#include "tests/support/csv_table.h"
+#include "tests/support/process.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace palp
+{
+namespace
+{
+
+using test::Finished;
+
+Finished palp(const std::string& arguments)
+{
+  return test::runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " PALP_PROGRAM " " + arguments);
+}
+
+// down onto the middle of the block's upper face, 5 mm deep, and up again
+std::filesystem::path writePath(const std::filesystem::path& folder, const char* rows)
+{
+  const std::filesystem::path file = folder / "press.csv";
+  std::ofstream(file) << "time_s,x_mm,y_mm,z_mm\n" << rows;
+  return file;
+}
+
+class RunCommand : public ::testing::Test
+{
+protected:
+  // the upper face of the shipped block, whose frame the path is in
+  [[nodiscard]] double topMm() const
+  {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(block().c_str());
+    reader->Update();
+    return reader->GetOutput()->GetBounds()[5];
+  }
+  [[nodiscard]] std::string block() const { return PALP_SHARE "/meshes/block_50.vtp"; }
+
+  [[nodiscard]] Finished press(const std::string& extra, const std::string& out)
+  {
+    std::ostringstream rows;
+    rows << "0,0,0," << topMm() + 2 << "\n0.1,0,0," << topMm() - 5 << "\n0.1505,0,0," << topMm() + 1
+         << "\n";
+    const auto path = writePath(folder_.path(), rows.str().c_str());
+    return palp("run " + block() + " --path " + path.string() + " --out " +
+      (folder_.path() / out).string() + " " + extra);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+std::size_t colorsOf(const std::filesystem::path& png, int width, int height)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(png.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  EXPECT_EQ(image->GetDimensions()[0], width) << png;
+  EXPECT_EQ(image->GetDimensions()[1], height) << png;
+  std::set<std::array<int, 3>> colors;
+  vtkDataArray* pixels = image->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; pixels && i < pixels->GetNumberOfTuples(); ++i)
+  {
+    const double* rgb = pixels->GetTuple(i);
+    colors.insert({ int(rgb[0]), int(rgb[1]), int(rgb[2]) });
+  }
+  return colors.size();
+}
+
+TEST_F(RunCommand, MeasuresHertzOnTheBlock)
+{
+  const Finished finished = press("--no-picture", "out");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const test::CsvTable samples = test::readCsv(folder_.path() / "out/samples.csv");
+
+  // 0 to 150 ms, and the end that the grid misses
+  ASSERT_EQ(samples["time_s"].size(), 152u);
+  EXPECT_EQ(samples["time_s"][1], 0.001);
+  EXPECT_EQ(samples["time_s"].back(), 0.1505);
+
+  const std::size_t deepest = 100;
+  EXPECT_NEAR(samples["depth_mm"][deepest], 5.0, 1e-4); // block coordinates are floats
+  const double hertz = 4.0 / 3.0 * 50e3 / (1 - 0.33 * 0.33) * 0.1 * std::pow(0.005, 1.5);
+  EXPECT_NEAR(samples["force_N"][deepest], hertz, 1e-4 * hertz);
+  EXPECT_NEAR(samples["force_z_N"][deepest], hertz, 1e-4 * hertz);
+  EXPECT_NEAR(samples["force_x_N"][deepest], 0.0, 1e-6);
+  EXPECT_NEAR(samples["contact_radius_mm"][deepest], std::sqrt(50.0), 1e-3);
+  EXPECT_GT(samples["extent_radius_mm"][deepest], samples["contact_radius_mm"][deepest]);
+  EXPECT_EQ(samples["force_N"].front(), 0.0);
+  EXPECT_EQ(samples["depth_mm"].back(), 0.0);
+}
+
+TEST_F(RunCommand, GivesTheSameBytesTwice)
+{
+  ASSERT_EQ(press("--no-picture", "a").code, 0);
+  ASSERT_EQ(press("--no-picture", "b").code, 0);
+  const std::string first = test::readAll(folder_.path() / "a/samples.csv");
+  EXPECT_GT(first.size(), 1000u);
+  EXPECT_EQ(first, test::readAll(folder_.path() / "b/samples.csv"));
+}
+
+TEST_F(RunCommand, WritesTheDeepestMomentInMillimetres)
+{
+  ASSERT_EQ(press("--no-picture", "out").code, 0);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_.path() / "out/deformed.vtp").c_str());
+  reader->Update();
+  vtkPolyData* mesh = reader->GetOutput();
+  double bounds[6];
+  mesh->GetBounds(bounds);
+  EXPECT_NEAR(bounds[1] - bounds[0], 100.0, 0.01);
+  vtkDataArray* displacement = mesh->GetPointData()->GetArray("Displacement");
+  ASSERT_NE(displacement, nullptr);
+  ASSERT_NE(mesh->GetPointData()->GetArray("Zone"), nullptr);
+  double lowest = 0.0;
+  for (vtkIdType i = 0; i < displacement->GetNumberOfTuples(); ++i)
+  {
+    lowest = std::min(lowest, displacement->GetComponent(i, 2));
+  }
+  EXPECT_NEAR(lowest, -5.0, 0.3); // a mesh point need not lie right below the apex
+}
+
+TEST_F(RunCommand, DrawsPicturesWithoutADisplay)
+{
+  const Finished finished = press("--size 800x600", "out");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_GT(colorsOf(folder_.path() / "out/press.png", 800, 600), 500u);
+  for (const char* chart : { "out/force_time.png", "out/force_depth.png" })
+  {
+    EXPECT_TRUE(std::filesystem::file_size(folder_.path() / chart) > 5000) << chart;
+  }
+}
+
+TEST_F(RunCommand, SaysSoWhereNothingCanBeDrawn)
+{
+  const std::string none = "env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent ";
+  const auto path = writePath(folder_.path(), "0,0,0,100\n0.01,0,0,99\n");
+  const Finished finished = test::runCommand(none + PALP_PROGRAM " run " + block() + " --path " +
+    path.string() + " --out " + (folder_.path() / "out").string());
+  EXPECT_EQ(finished.code, 4) << finished.err;
+  EXPECT_NE(finished.err.find("--no-picture"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/press.png"));
+}
+
+TEST_F(RunCommand, RefusesWhatItCannotRead)
+{
+  const std::string out = " --no-picture --out " + (folder_.path() / "out").string();
+  for (const std::string& arguments : { "run /nonexistent.stl --path x.csv" + out,
+         "run " + block() + " --path /nonexistent.csv" + out, "run " + block() + out,
+         "run " + block() + " --size 10 --path x.csv" + out })
+  {
+    const Finished finished = palp(arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+}
+
+TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)
+{
+  const Finished finished = test::runCommand("ldd " PALP_PROGRAM);
+  ASSERT_EQ(finished.code, 0);
+  for (const char* library : { "Qt5", "libGL", "libEGL", "libX11", "hidapi", "libusb", "RenderingOpenGL" })
+  {
+    EXPECT_EQ(finished.out.find(library), std::string::npos) << library;
+  }
+}
+
+} // namespace
+} // namespace palp
