@@ -34,19 +34,6 @@ double noseRadius(const Tip& tip) noexcept
   return 0.0;
 }
 
-double flatRadius(const Tip& tip) noexcept
-{
-  if (const auto* punch = std::get_if<PunchTip>(&tip))
-  {
-    return punch->radius;
-  }
-  if (const auto* truncated = std::get_if<TruncatedConeTip>(&tip))
-  {
-    return truncated->flatRadius;
-  }
-  return 0.0;
-}
-
 // radius over which facets may be smoothed out: the mesh's scale, within the contact
 double smoothingRadius(const Tip& tip, double nose, double distance, double edgeLength) noexcept
 {
