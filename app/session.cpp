@@ -39,6 +39,7 @@ void Session::open(const std::filesystem::path& file, const std::string& unit)
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.scene.surface = body_.haptic;
+  ++recording_.scene.version;
   useDevice(recording_.device);
 }
 
@@ -47,6 +48,7 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
   recording_.scene.law = law;
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
+  ++recording_.scene.version;
   extents_ = loadExtents(options_, law.tip());
   servo_->setScene(recording_.scene);
 }

@@ -7,6 +7,8 @@
 #include "haptics/units.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkContextScene.h>
+#include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
@@ -47,11 +49,15 @@ QDockWidget* addDock(
   return dock;
 }
 
-QVTKOpenGLNativeWidget* makeChartCanvas(vtkRenderWindow* window)
+QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
 {
   auto* canvas = new QVTKOpenGLNativeWidget;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  window->SetMultiSamples(0);
   canvas->setRenderWindow(window);
   canvas->setMinimumSize(360, 200);
+  view.SetRenderWindow(window);
+  view.GetRenderer()->SetBackground(1.0, 1.0, 1.0);
   return canvas;
 }
 
@@ -129,10 +135,10 @@ void Window::makeDocks()
   connect(panel_, &TissuePanel::deviceChanged, this, &Window::applyDevice);
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
 
-  timeCanvas_ = makeChartCanvas(charts_.timeWindow());
-  depthCanvas_ = makeChartCanvas(charts_.depthWindow());
-  addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), timeCanvas_);
-  addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), depthCanvas_);
+  addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
+  addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
+  charts_.addForceOverTime(*timeView_->GetScene());
+  charts_.addForceOverDepth(*depthView_->GetScene());
 
   forceLabel_ = new QLabel(tr("Point at the surface, press with the left button, drag down to go "
                               "deeper; the wheel holds a depth; right button turns the view"));
@@ -250,8 +256,8 @@ void Window::refresh()
 void Window::refreshCharts()
 {
   charts_.refresh();
-  timeCanvas_->renderWindow()->Render();
-  depthCanvas_->renderWindow()->Render();
+  timeView_->GetRenderWindow()->Render();
+  depthView_->GetRenderWindow()->Render();
 
   const Timing& timing = session_.timing();
   const auto ticks = timing.ticks.load();

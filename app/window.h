@@ -13,6 +13,7 @@
 
 class QLabel;
 class QVTKOpenGLNativeWidget;
+class vtkContextView;
 class vtkGenericOpenGLRenderWindow;
 class vtkPalpPressStyle;
 class vtkRenderer;
@@ -70,8 +71,8 @@ private:
   bool pressing_ = false;
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
-  QVTKOpenGLNativeWidget* timeCanvas_ = nullptr;
-  QVTKOpenGLNativeWidget* depthCanvas_ = nullptr;
+  vtkNew<vtkContextView> timeView_;
+  vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;

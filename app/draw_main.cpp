@@ -1,0 +1,10 @@
+// palp-draw: palp with pictures, off screen.
+
+#include "app/draw_pictures.h"
+#include "app/program.h"
+
+int main(int argc, char** argv)
+{
+  const palp::DrawPictures pictures;
+  return palp::runProgram(argc, argv, { .pictures = &pictures });
+}
