@@ -20,7 +20,9 @@ struct DeviceLimits
   double damping = 0.0;         ///< b of the mechanism [N s/m], what makes a sampled wall stable
   double quantum = 0.0;         ///< smallest step of its position [m]
   double delay = 0.0;           ///< from the pose to the force that answers it, beyond the tick [s]
-  double workspaceRadius = 0.0; ///< about the origin of its frame [m]; 0: no bound
+  double velocityDelay = 0.0;   ///< of the velocity in its poses [s]
+  double workspaceRadius = 0.0; ///< how far it reaches [m]; 0: no bound
+  Eigen::Vector3d workspaceCenter = Eigen::Vector3d::Zero(); ///< in the frame of its poses [m]
 };
 
 /// What a device says beside its pose.

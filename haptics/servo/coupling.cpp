@@ -1,0 +1,87 @@
+#include "haptics/servo/coupling.h"
+
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kHalvings = 32; // relative 2e-10; the force depends on its square
+
+// end of the first part of [0, upTo] on which a condition holds; it fails at upTo
+template <typename Holds>
+double lastWhere(const Holds& holds, double from, double upTo) noexcept
+{
+  double low = from;
+  double high = upTo;
+  for (int i = 0; i < kHalvings; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+struct Knee
+{
+  double depth;
+  double force;
+};
+
+// where the law becomes stiffer than the limit; infinite values count as stiffer
+Knee kneeOf(const DepthLaw& law, double upTo, double limit) noexcept
+{
+  const auto isSoft = [&](double depth)
+  {
+    const Response at = law(depth);
+    return at.stiffness <= limit && at.force <= limit * depth;
+  };
+  const double depth = isSoft(upTo) ? upTo : lastWhere(isSoft, 0.0, upTo);
+  return { depth, depth > 0.0 ? law(depth).force : 0.0 };
+}
+
+double inverse(const DepthLaw& law, double force, double from, double upTo) noexcept
+{
+  return lastWhere([&](double depth) { return law(depth).force <= force; }, from, upTo);
+}
+
+} // namespace
+
+Rendered couple(const DepthLaw& law, double depth, double limit) noexcept
+{
+  if (!(depth > 0.0) || !(limit > 0.0) || !std::isfinite(depth))
+  {
+    return {};
+  }
+  const Response at = law(depth);
+  if (std::isnan(at.force))
+  {
+    return {};
+  }
+  const Knee knee = kneeOf(law, depth, limit);
+  if (knee.depth == depth)
+  {
+    return { at.force, at.stiffness, depth, false };
+  }
+  const double force = knee.force + limit * (depth - knee.depth);
+  if (at.force <= force) // falls below the spring again
+  {
+    return { at.force, std::fmin(at.stiffness, limit), depth, false };
+  }
+  return { force, limit, inverse(law, force, knee.depth, depth), true };
+}
+
+double depthOf(const DepthLaw& law, double force, double limit, double upTo) noexcept
+{
+  if (!(force > 0.0) || !(upTo > 0.0))
+  {
+    return 0.0;
+  }
+  const Knee knee = kneeOf(law, upTo, limit);
+  const double depth = force > knee.force ? knee.depth + (force - knee.force) / limit
+                                          : inverse(law, force, 0.0, knee.depth);
+  return std::fmin(depth, upTo);
+}
+
+} // namespace palp

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+
+namespace palp
+{
+
+/// A force law at one place, as a function of depth alone; borrows what it is made from.
+class DepthLaw
+{
+public:
+  /// @param ask  callable as Response(double depth) noexcept; must outlive this
+  template <typename Ask>
+  DepthLaw(const Ask& ask) noexcept // NOLINT(google-explicit-constructor): a view, as string_view
+    : ask_(&ask)
+    , call_([](const void* self, double depth) noexcept
+        { return (*static_cast<const Ask*>(self))(depth); })
+  {
+  }
+
+  [[nodiscard]] Response operator()(double depth) const noexcept
+  {
+    return call_(ask_, depth);
+  }
+
+private:
+  const void* ask_;
+  Response (*call_)(const void*, double) noexcept;
+};
+
+/// What the user feels of a law.
+struct Rendered
+{
+  double force = 0.0;      ///< [N], at most the law's
+  double stiffness = 0.0;  ///< dforce/ddepth [N/m], at most the limit
+  double proxyDepth = 0.0; ///< depth at which the law gives this force [m]
+  bool limited = false;    ///< the law is stiffer than the limit
+};
+
+/// Virtual coupling between a device and the proxy that touches the tissue.
+///
+/// The proxy goes with the device as long as the law is no stiffer than the limit: soft tissue is
+/// felt exactly. From the depth at which the law becomes stiffer, the knee, a spring of the
+/// limiting stiffness joins both, and the proxy lies where law and spring agree. The result is the
+/// largest force that is nowhere stiffer than the limit and nowhere above a law whose stiffness
+/// grows with depth, as that of every axisymmetric tip does; another law is followed where it falls
+/// below it.
+///
+/// A rigid wall is a law whose force is infinite at any depth; a force that is NaN gives none.
+///
+/// @param law    force 0 at depth 0, never decreasing
+/// @param depth  delta [m]; 0 or less, or NaN, gives no force
+/// @param limit  [N/m], may be infinite; 0 or less, or NaN, gives no force
+/// @source       virtual coupling: Colgate, Stanley, Brown 1995
+/// @realtime     pure; at most 100 questions to the law; no allocation, no lock, no exception
+[[nodiscard]] Rendered couple(const DepthLaw& law, double depth, double limit) noexcept;
+
+/// Depth at which the coupling renders a force; the inverse of couple.
+///
+/// @param force  [N]
+/// @param upTo   [m], where the search ends
+/// @return       [m], in [0, upTo]
+/// @realtime     as couple
+[[nodiscard]] double depthOf(const DepthLaw& law, double force, double limit, double upTo) noexcept;
+
+/// What the stability of a sampled loop depends on.
+struct LoopDynamics
+{
+  double deviceDamping = 0.0;  ///< b of the mechanism [N s/m]
+  double virtualDamping = 0.0; ///< B of the law [N s/m]
+  double period = 0.001;       ///< T [s]
+  double delay = 0.0;          ///< t_d, from pose to force beyond the tick [s]
+};
+
+/// Largest stiffness at which a sampled, delayed spring and damper is stable.
+///
+/// @return    (b + B) / (T / 2 + t_d) [N/m]
+/// @source    Gil et al. 2004; Hulin, Albu-Schaeffer, Hirzinger, IEEE TCST 2014
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] constexpr double stableStiffness(const LoopDynamics& loop) noexcept
+{
+  return (loop.deviceDamping + loop.virtualDamping) / (loop.period / 2.0 + loop.delay);
+}
+
+} // namespace palp

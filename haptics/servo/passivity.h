@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace palp
+{
+
+/// Time-domain passivity control: books the energy that the loop has given to the hand, and damps
+/// the hand while it has given more than it took.
+///
+/// The ledger counts the force that really went to the device, held over the tick, times the way
+/// the device then went: this is the exact energy at the port, also between the samples.
+///
+/// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 2002
+class PassivityController
+{
+public:
+  /// @param maxDamping  alpha_max [N s/m]
+  explicit PassivityController(double maxDamping) noexcept
+    : maxDamping_(maxDamping)
+  {
+  }
+
+  /// Books the last tick, and gives the damping force of this one.
+  ///
+  /// @param position  of the device now [m]
+  /// @param velocity  [m/s]
+  /// @param dt        [s], above 0
+  /// @return          [N], against the velocity, or zero
+  /// @realtime        no allocation, no lock, no exception
+  [[nodiscard]] Eigen::Vector3d damp(
+    const Eigen::Vector3d& position, const Eigen::Vector3d& velocity, double dt) noexcept;
+
+  /// The force that went to the device, after every limit [N].
+  void sent(const Eigen::Vector3d& force) noexcept
+  {
+    sent_ = force;
+  }
+
+  /// Credit of this contact cannot pay for activity in the next; a debt stays.
+  void leaveContact() noexcept
+  {
+    energy_ = std::min(energy_, 0.0);
+  }
+
+  /// Forgets all, at the start of a device or after a gap in its poses.
+  void restart(const Eigen::Vector3d& position) noexcept;
+
+  /// Energy taken from the hand [J]; negative: given to it.
+  [[nodiscard]] double energy() const noexcept
+  {
+    return energy_;
+  }
+
+private:
+  double maxDamping_;
+  double energy_ = 0.0;
+  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+};
+
+} // namespace palp

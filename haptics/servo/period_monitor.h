@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace palp
+{
+
+/// The period a servo loop really keeps: the 99th percentile of its last thousand ticks.
+class PeriodMonitor
+{
+public:
+  /// @param nominal  [s], above 0
+  explicit PeriodMonitor(double nominal) noexcept
+    : nominal_(nominal)
+  {
+  }
+
+  /// @param dt        since the last tick [s], 0 or more
+  /// @realtime        no allocation, no lock, no exception
+  void record(double dt) noexcept
+  {
+    const double share = dt / nominal_ * kBinsPerPeriod;
+    const auto bin = static_cast<std::uint16_t>(share < kBins - 1 ? share : kBins - 1);
+    if (count_ < ticks_.size())
+    {
+      ++count_;
+    }
+    else
+    {
+      --histogram_[ticks_[next_]];
+    }
+    ++histogram_[bin];
+    ticks_[next_] = bin;
+    next_ = (next_ + 1) % ticks_.size();
+  }
+
+  /// @return    [s], at least the nominal period, to a tenth of it
+  /// @realtime  no allocation, no lock, no exception
+  [[nodiscard]] double period() const noexcept
+  {
+    // the slowest hundredth is left out
+    std::size_t slower = 0;
+    for (std::size_t bin = kBins; bin-- > kBinsPerPeriod + 1;)
+    {
+      slower += histogram_[bin];
+      if (slower * 100 > count_)
+      {
+        return nominal_ * static_cast<double>(bin + 1) / kBinsPerPeriod;
+      }
+    }
+    return nominal_;
+  }
+
+private:
+  static constexpr int kBinsPerPeriod = 10;
+  static constexpr int kBins = 40 * kBinsPerPeriod;
+
+  double nominal_;
+  std::array<std::uint16_t, 1000> ticks_{};
+  std::array<std::uint16_t, kBins> histogram_{};
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
+};
+
+} // namespace palp

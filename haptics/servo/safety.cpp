@@ -1,0 +1,332 @@
+#include "haptics/servo/safety.h"
+
+#include "haptics/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
+constexpr int kMostDropped = 3;         // poses in a row that may be implausible
+constexpr double kSilenceBorne = 0.003; // [s]
+constexpr double kSilenceEnds = 0.020;  // [s]
+constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
+constexpr double kLatestTicks = 5.0;
+constexpr double kFreeSpace = 0.050;     // [s] without contact end a soft start
+constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
+constexpr double kWallDamping = 2.0;     // [N s/m]
+constexpr double kWallForce = 2.0;       // [N]
+
+} // namespace
+
+SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& settings)
+  : device_(device)
+  , settings_(settings)
+  , passivity_(settings.passivityDamping)
+  , period_(settings.period)
+{
+  for (const double value : { settings.period, settings.stiffnessShare, settings.slewRate,
+         settings.softSlewRate, settings.softStart, settings.decay, settings.fastest })
+  {
+    if (!(value > 0.0) || !std::isfinite(value))
+    {
+      throw Error(ErrorCode::BadValue, "safety chain: a setting is not above 0; give one that is");
+    }
+  }
+  for (const double value : { settings.passivityDamping, device.maxForce, device.damping,
+         device.delay, device.velocityDelay, device.workspaceRadius })
+  {
+    if (!(value >= 0.0) || !std::isfinite(value))
+    {
+      throw Error(
+        ErrorCode::BadValue, device.model + ": a limit of the device is negative; give 0 or more");
+    }
+  }
+}
+
+double SafetyChain::stiffnessLimit(double damping) const noexcept
+{
+  // a damping that comes late helps little: count it with its delay, or not at all
+  LoopDynamics loop{
+    .deviceDamping = device_.damping, .period = period_.period(), .delay = device_.delay
+  };
+  const double without = stableStiffness(loop);
+  loop.virtualDamping = damping;
+  loop.delay += device_.velocityDelay;
+  return settings_.stiffnessShare * std::max(without, stableStiffness(loop));
+}
+
+std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
+  const DeviceStatus& status, const SafetyOrders& orders, double dt) noexcept
+{
+  flags_ = 0;
+  const double elapsed = dt >= 0.0 && std::isfinite(dt) ? dt : settings_.period;
+  dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
+  sinceLast_ += std::max(elapsed, dt_);
+  period_.record(elapsed);
+  if (!orders.armed && !orders.stop)
+  {
+    latched_ = 0;
+  }
+  if (orders.stop)
+  {
+    fault(Flag::EmergencyStop);
+  }
+
+  if (!pose)
+  {
+    fault(Flag::DeviceLost);
+    forceOff(DeviceState::Closed);
+    return std::nullopt;
+  }
+  if (!pose->apex.allFinite() || !pose->velocity.allFinite() ||
+    !(std::abs(pose->axis.norm() - 1.0) < kAxisTolerance))
+  {
+    fault(Flag::NotFinite);
+    return state_ == DeviceState::Closed ? std::nullopt : std::optional(last_);
+  }
+  const bool first = state_ == DeviceState::Closed;
+  if (first)
+  {
+    state_ = DeviceState::Opening;
+    passivity_.restart(pose->apex);
+  }
+  if (first || plausible(*pose))
+  {
+    last_ = *pose;
+    sinceLast_ = 0.0;
+    dropped_ = 0;
+  }
+  if (elapsed > std::max(kLatest, kLatestTicks * settings_.period) && forceOn())
+  {
+    raise(Flag::Late);
+    forceOff(DeviceState::SoftStart);
+  }
+  advance(status, orders);
+  return last_;
+}
+
+// keeps the last pose for a few ticks; after them the new place is true, but without force
+bool SafetyChain::plausible(const ToolPose& pose) noexcept
+{
+  if ((pose.apex - last_.apex).norm() <= settings_.fastest * sinceLast_)
+  {
+    return true;
+  }
+  raise(Flag::Jump);
+  last_.velocity.setZero();
+  if (++dropped_ <= kMostDropped)
+  {
+    return false;
+  }
+  fault(Flag::Jump);
+  passivity_.restart(pose.apex);
+  reseat_ = true;
+  return true;
+}
+
+void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept
+{
+  trust_ = std::clamp((kSilenceEnds - status.age) / (kSilenceEnds - kSilenceBorne), 0.0, 1.0);
+  if (!(status.age < kSilenceEnds))
+  {
+    fault(Flag::Stale);
+  }
+  if (device_.needsHoming && !status.homed)
+  {
+    raise(Flag::NotHomed);
+    forceOff(DeviceState::NeedsHoming);
+    return;
+  }
+  if (state_ == DeviceState::Opening || state_ == DeviceState::NeedsHoming)
+  {
+    state_ = DeviceState::Ready;
+  }
+
+  const bool held = !settings_.deadMan || (status.buttons & 1U) != 0;
+  const bool wanted = orders.armed && held && latched_ == 0;
+  if (wanted && state_ == DeviceState::Ready)
+  {
+    forceOff(DeviceState::SoftStart);
+  }
+  else if (wanted && state_ == DeviceState::Decay)
+  {
+    state_ = DeviceState::SoftStart;
+  }
+  else if (!wanted && forceOn())
+  {
+    state_ = DeviceState::Decay;
+  }
+}
+
+// a fault is latched; most end the force at once, a jump lets it fade
+void SafetyChain::fault(Flag flag) noexcept
+{
+  raise(flag);
+  latched_ |= static_cast<std::uint32_t>(flag);
+  if (flag != Flag::Jump && forceOn())
+  {
+    forceOff(DeviceState::Ready);
+  }
+}
+
+void SafetyChain::forceOff(DeviceState state) noexcept
+{
+  state_ = state;
+  gain_ = 0.0;
+  apart_ = 0.0;
+  shaped_.setZero();
+  reseat_ = true;
+}
+
+void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene) noexcept
+{
+  const Eigen::Vector3d wanted = rendered(sample, law, scene);
+  const Eigen::Vector3d damping = passivity_.damp(last_.apex, last_.velocity, dt_);
+  sample.force.setZero();
+  if (forceOn())
+  {
+    Eigen::Vector3d force = wanted + damping;
+    if (!damping.isZero(0.0))
+    {
+      raise(Flag::Passivity);
+    }
+    if (sample.contact.touching()) // never pulls, whoever brakes
+    {
+      force += std::max(0.0, -force.dot(sample.contact.normal)) * sample.contact.normal;
+    }
+    else
+    {
+      force.setZero();
+      passivity_.leaveContact();
+    }
+    force += workspaceForce(last_);
+    shaped_ = bounded(force, std::min(device_.maxForce, scene.forceLimit));
+    sample.force = gain_ * trust_ * shaped_;
+    ramp(sample.contact.touching());
+  }
+  else
+  {
+    raise(Flag::Disarmed);
+  }
+  passivity_.sent(sample.force);
+  sample.flags |= flags_ | latched_;
+  sample.state = state_;
+}
+
+// the law through the coupling, with damping along the normal
+Eigen::Vector3d SafetyChain::rendered(
+  Sample& sample, const DepthLaw& law, const Scene& scene) noexcept
+{
+  const double depth = sample.contact.depth;
+  const double stiffest = stiffnessLimit(scene.damping);
+  const bool changed = std::exchange(version_, scene.version) != scene.version;
+  if (std::exchange(reseat_, false))
+  {
+    seat_ = depth;
+  }
+  else if (changed && depth > 0.0)
+  {
+    seat_ = depth - depthOf(law, normalForce_, stiffest, depth);
+  }
+  seat_ = std::clamp(seat_, 0.0, depth > 0.0 ? depth : 0.0);
+
+  // what rises faster than may be slips, because a force that only lags gives energy to the hand
+  sample.response = depth > 0.0 ? law(depth) : Response{};
+  Rendered felt = couple(law, depth - seat_, stiffest);
+  const double highest = normalForce_ + settings_.slewRate * dt_;
+  if (felt.force > highest)
+  {
+    raise(Flag::SlewLimited);
+    seat_ = depth - depthOf(law, highest, stiffest, depth);
+    felt = couple(law, depth - seat_, stiffest);
+  }
+  normalForce_ = felt.force;
+  sample.proxyDepth = felt.proxyDepth;
+  if (std::isnan(sample.response.force) || !(scene.damping >= 0.0) || !(scene.forceLimit >= 0.0))
+  {
+    fault(Flag::NotFinite);
+    return Eigen::Vector3d::Zero();
+  }
+  if (!(felt.force > 0.0))
+  {
+    return Eigen::Vector3d::Zero();
+  }
+  if (felt.limited)
+  {
+    raise(Flag::StiffnessLimited);
+  }
+  if (seat_ > 0.0)
+  {
+    raise(Flag::Reseated);
+  }
+  const double push = felt.force - scene.damping * last_.velocity.dot(sample.contact.normal);
+  return std::max(0.0, push) * sample.contact.normal;
+}
+
+Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept
+{
+  const Eigen::Vector3d reach = pose.apex - device_.workspaceCenter;
+  const double distance = reach.norm();
+  if (!(device_.workspaceRadius > 0.0) || distance <= device_.workspaceRadius)
+  {
+    return Eigen::Vector3d::Zero();
+  }
+  raise(Flag::Workspace);
+  const Eigen::Vector3d outward = reach / distance;
+  const double push = kWallStiffness * (distance - device_.workspaceRadius) +
+    kWallDamping * std::max(0.0, pose.velocity.dot(outward));
+  return -std::min(push, kWallForce) * outward;
+}
+
+// shortened to the largest force, then to the largest change
+Eigen::Vector3d SafetyChain::bounded(Eigen::Vector3d force, double largest) noexcept
+{
+  if (!force.allFinite())
+  {
+    fault(Flag::NotFinite);
+    return Eigen::Vector3d::Zero();
+  }
+  if (const double size = force.norm(); size > largest)
+  {
+    raise(Flag::Limited);
+    force *= largest / size;
+  }
+
+  // the growing gain adds its own share to the rate of a soft start
+  const double rate = state_ == DeviceState::SoftStart
+    ? std::max(0.0, settings_.softSlewRate - largest / settings_.softStart)
+    : settings_.slewRate;
+  const Eigen::Vector3d change = force - shaped_;
+  if (const double size = change.norm(); size > rate * dt_)
+  {
+    raise(Flag::SlewLimited);
+    force = shaped_ + change * (rate * dt_ / size);
+  }
+  return force;
+}
+
+void SafetyChain::ramp(bool touching) noexcept
+{
+  apart_ = touching ? 0.0 : apart_ + dt_;
+  if (state_ == DeviceState::SoftStart)
+  {
+    gain_ = apart_ >= kFreeSpace ? 1.0 : std::min(1.0, gain_ + dt_ / settings_.softStart);
+    state_ = gain_ < 1.0 ? DeviceState::SoftStart : DeviceState::Active;
+  }
+  else if (state_ == DeviceState::Decay)
+  {
+    gain_ = std::max(0.0, gain_ - dt_ / settings_.decay);
+    if (gain_ == 0.0)
+    {
+      forceOff(DeviceState::Ready);
+    }
+  }
+}
+
+} // namespace palp

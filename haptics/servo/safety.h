@@ -1,0 +1,128 @@
+#pragma once
+
+#include "haptics/devices/device.h"
+#include "haptics/servo/coupling.h"
+#include "haptics/servo/passivity.h"
+#include "haptics/servo/period_monitor.h"
+#include "haptics/servo/sample.h"
+#include "haptics/servo/scene.h"
+
+#include <optional>
+
+namespace palp
+{
+
+/// How a safety chain behaves; the defaults are those of every device.
+struct SafetySettings
+{
+  double period = 0.001;         ///< T of the loop [s]
+  double stiffnessShare = 0.7;   ///< of the stable stiffness that is used [-]
+  double passivityDamping = 2.0; ///< alpha_max [N s/m]
+  double slewRate = 500.0;       ///< [N/s]
+  double softSlewRate = 50.0;    ///< while a force starts [N/s]
+  double softStart = 0.5;        ///< from zero to full force [s]
+  double decay = 0.1;            ///< from full force to zero [s]
+  double fastest = 2.0;          ///< a hand [m/s]; what is faster is a fault
+  bool deadMan = false;          ///< force only while the first button is held
+};
+
+/// What the user and the program say in a tick.
+struct SafetyOrders
+{
+  bool armed = false; ///< a fault is forgiven when this has been false
+  bool stop = false;  ///< emergency stop
+};
+
+/// Everything between a force law and a hand, in a fixed order, unconditional.
+///
+/// Finite and plausible pose; the law through a coupling of bounded stiffness; damping; passivity;
+/// the end of the workspace; the largest force; its largest rate; soft start and decay. Each tick
+/// is admit, then contact and law by the caller, then limit. Belongs to the servo thread.
+///
+/// Whenever the law or the surface changes under the tool, or the force has to start in contact,
+/// the contact is reseated: felt from a depth at which no force jumps, until the tool has lifted.
+/// So a change cannot give energy to the hand.
+class SafetyChain
+{
+public:
+  /// @throws Error  BadValue: a setting or a limit of the device that is not positive where it must
+  /// be
+  explicit SafetyChain(const DeviceLimits& device, const SafetySettings& settings = {});
+
+  /// First half of a tick: may this pose be used, and is force allowed?
+  ///
+  /// @param pose    of Device::exchange
+  /// @param dt      since the last tick [s]
+  /// @return        a finite pose that a hand can have reached; nothing: there is no pose
+  /// @realtime      no allocation, no lock, no exception
+  [[nodiscard]] std::optional<ToolPose> admit(const std::optional<ToolPose>& pose,
+    const DeviceStatus& status, const SafetyOrders& orders, double dt) noexcept;
+
+  /// Second half of a tick: sets force, proxyDepth, flags and state of a sample.
+  ///
+  /// @param sample  pose and contact of this tick
+  /// @param law     at this contact
+  /// @param scene   for damping, largest force and version
+  /// @realtime      no allocation, no lock, no exception
+  void limit(Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
+
+  [[nodiscard]] DeviceState state() const noexcept
+  {
+    return state_;
+  }
+
+  /// Stiffness that may be rendered now [N/m], for a damping of the law [N s/m].
+  [[nodiscard]] double stiffnessLimit(double damping) const noexcept;
+
+  /// Energy that the loop has taken from the hand, by the force really sent [J].
+  [[nodiscard]] double energy() const noexcept
+  {
+    return passivity_.energy();
+  }
+
+private:
+  [[nodiscard]] bool plausible(const ToolPose& pose) noexcept;
+  void advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept;
+  void fault(Flag flag) noexcept;
+  void forceOff(DeviceState state) noexcept;
+  [[nodiscard]] Eigen::Vector3d rendered(
+    Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
+  [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
+  [[nodiscard]] Eigen::Vector3d bounded(Eigen::Vector3d force, double largest) noexcept;
+  void ramp(bool touching) noexcept;
+  void raise(Flag flag) noexcept
+  {
+    flags_ |= static_cast<std::uint32_t>(flag);
+  }
+  [[nodiscard]] bool forceOn() const noexcept
+  {
+    return state_ == DeviceState::SoftStart || state_ == DeviceState::Active ||
+      state_ == DeviceState::Decay;
+  }
+
+  DeviceLimits device_;
+  SafetySettings settings_;
+  PassivityController passivity_;
+  PeriodMonitor period_;
+
+  DeviceState state_ = DeviceState::Closed;
+  std::uint32_t flags_ = 0;   // of this tick
+  std::uint32_t latched_ = 0; // faults that wait to be forgiven
+  double dt_ = 0.0;           // of this tick, bounded [s]
+  double gain_ = 0.0;         // of soft start and decay
+  double trust_ = 0.0;        // less than 1 while the device is silent
+  double apart_ = 0.0;        // time without contact [s]
+
+  ToolPose last_;          // admitted
+  double sinceLast_ = 0.0; // [s]
+  int dropped_ = 0;        // poses in a row
+
+  double seat_ = 0.0;         // depth at which contact is felt to begin [m]
+  double normalForce_ = 0.0;  // of the law, last tick [N]
+  bool reseat_ = false;       // the force has to start in contact
+  std::uint64_t version_ = 0; // of the scene, last tick
+
+  Eigen::Vector3d shaped_ = Eigen::Vector3d::Zero(); // before gain, last tick [N]
+};
+
+} // namespace palp

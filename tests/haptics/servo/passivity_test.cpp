@@ -1,0 +1,144 @@
+#include "haptics/servo/passivity.h"
+
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using Eigen::Vector3d;
+
+Vector3d along(double value)
+{
+  return { value, 0.0, 0.0 };
+}
+
+// a sampled spring driven by A sin(w t) loses (K T / 2) pi A^2 w in each cycle
+TEST(PassivityController, BooksTheLeakOfASampledSpring)
+{
+  for (const double stiffness : { 500.0, 1000.0, 3000.0 })
+  {
+    for (const double frequency : { 1.0, 2.0, 5.0 })
+    {
+      PassivityController controller(0.0);
+      const double amplitude = 2.0_mm;
+      const double omega = 2.0 * std::numbers::pi * frequency;
+      const int ticks = static_cast<int>(std::lround(1000.0 / frequency));
+      controller.restart(along(0.0));
+      for (int tick = 0; tick <= ticks; ++tick)
+      {
+        const double x = amplitude * std::sin(omega * tick * 1.0_ms);
+        (void)controller.damp(along(x), along(0.0), 1.0_ms);
+        controller.sent(along(-stiffness * x));
+      }
+      const double leak =
+        stiffness * 1.0_ms / 2.0 * std::numbers::pi * amplitude * amplitude * omega;
+      EXPECT_NEAR(controller.energy(), -leak, 0.01 * leak) << stiffness << " " << frequency;
+    }
+  }
+}
+
+// a device at a wall that is too stiff for it, pushed by 1 N; integrated fifty times finer
+struct Tap
+{
+  double energy = 0.0; // least at the port, in the plant [J]
+  double end = 0.0;    // the same at the end [J]
+  double ledger = 0.0; // [J]
+  double tail = 0.0;   // root mean square speed in the last quarter [m/s]
+};
+
+Tap tap(double damping, double stiffness, double maxDamping, double duration = 8.0)
+{
+  constexpr double kMass = 0.1;
+  constexpr int kFine = 50;
+  PassivityController controller(maxDamping);
+  Tap result;
+  double x = -5.0_mm;
+  double v = 0.2;
+  double port = 0.0;
+  double before = x;
+  controller.restart(along(x));
+  const int ticks = static_cast<int>(duration * 1000.0);
+  for (int tick = 0; tick < ticks; ++tick)
+  {
+    const double seenSpeed = (x - before) / 1.0_ms;
+    before = x;
+    const double wall = x > 0.0 ? -stiffness * x : 0.0;
+    const double brake = controller.damp(along(x), along(seenSpeed), 1.0_ms).x();
+    const double force = std::clamp(wall + brake, -8.0, 8.0);
+    controller.sent(along(force));
+    for (int i = 0; i < kFine; ++i)
+    {
+      const double h = 1.0_ms / kFine;
+      const double faster = v + (force + 1.0 - damping * v) / kMass * h;
+      const double way = 0.5 * (v + faster) * h;
+      port -= force * way;
+      x += way;
+      v = faster;
+    }
+    result.energy = std::min(result.energy, port);
+    result.tail += tick >= ticks * 3 / 4 ? v * v / (ticks / 4.0) : 0.0;
+  }
+  (void)controller.damp(along(x), along(0.0), 1.0_ms);
+  result.tail = std::sqrt(result.tail);
+  result.end = port;
+  result.ledger = controller.energy();
+  return result;
+}
+
+TEST(PassivityController, LedgerIsTheEnergyAtThePortOfThePlant)
+{
+  const Tap stable = tap(0.5, 500.0, 30.0, 1.0);
+  EXPECT_GT(stable.end, 0.0);
+  EXPECT_NEAR(stable.ledger, stable.end, 1e-9);
+}
+
+class TooStiff : public ::testing::TestWithParam<double> // times the stable stiffness
+{
+};
+INSTANTIATE_TEST_SUITE_P(PassivityController, TooStiff, ::testing::Values(1.5, 2.5, 5.0, 10.0));
+
+TEST_P(TooStiff, IsTamedTenfoldInSpeedAndFiftyfoldInEnergy)
+{
+  for (const double damping : { 0.2, 0.5 })
+  {
+    const double stiffness = GetParam() * 2.0 * damping / 1.0_ms;
+    const Tap off = tap(damping, stiffness, 0.0);
+    const Tap on = tap(damping, stiffness, 30.0);
+    EXPECT_GE(off.tail, 10.0 * on.tail) << damping;
+    EXPECT_GE(-off.energy, -50.0 * on.energy) << damping;
+    RecordProperty("speed_ratio", std::to_string(off.tail / on.tail));
+    RecordProperty("energy_ratio", std::to_string(off.energy / on.energy));
+  }
+}
+
+TEST(PassivityController, NeverPushesAlongTheMotion)
+{
+  PassivityController controller(30.0);
+  controller.restart(along(0.0));
+  controller.sent(along(5.0));
+  const Vector3d force = controller.damp(along(1.0_mm), Vector3d(0.1, 0.2, -0.1), 1.0_ms);
+  EXPECT_LT(force.dot(Vector3d(0.1, 0.2, -0.1)), 0.0);
+  EXPECT_LE(force.norm(), 30.0 * Vector3d(0.1, 0.2, -0.1).norm() * (1.0 + 1e-12));
+}
+
+TEST(PassivityController, LeavesAHandAloneThatWasGivenNothing)
+{
+  PassivityController controller(30.0);
+  controller.restart(along(0.0));
+  controller.sent(along(-5.0));
+  EXPECT_TRUE(controller.damp(along(1.0_mm), along(0.1), 1.0_ms).isZero(0.0));
+  EXPECT_GT(controller.energy(), 0.0);
+  controller.leaveContact();
+  EXPECT_EQ(controller.energy(), 0.0);
+}
+
+} // namespace
+} // namespace palp
