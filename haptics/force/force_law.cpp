@@ -32,28 +32,37 @@ Response respond(const ConeTip& tip, const Material& m, double depth) noexcept
 
 } // namespace
 
-ForceLaw::ForceLaw(const Tip& tip, const Material& material)
+ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings settings)
   : tip_(checkedTip(tip))
   , material_(makeMaterial(material.youngModulus, material.poissonRatio))
+  , settings_(std::move(settings))
+  , halfSpace_(tip_)
 {
 }
 
 Response ForceLaw::operator()(const Indentation& local) const noexcept
 {
   // written so that NaN, too, means no contact
-  if (!(local.depth > 0.0))
+  if (!(local.depth > 0.0 && std::isfinite(local.depth)))
   {
     return {};
   }
-  if (const auto* sphere = std::get_if<SphereTip>(&tip_))
+  if (settings_.mode == LawMode::Paper)
   {
-    return respond(*sphere, material_, local.depth);
+    if (const auto* sphere = std::get_if<SphereTip>(&tip_))
+    {
+      return respond(*sphere, material_, local.depth);
+    }
+    if (const auto* cone = std::get_if<ConeTip>(&tip_))
+    {
+      return respond(*cone, material_, local.depth);
+    }
   }
-  if (const auto* cone = std::get_if<ConeTip>(&tip_))
-  {
-    return respond(*cone, material_, local.depth);
-  }
-  return {};
+  const double modulus = material_.contactModulus();
+  const HalfSpaceContact contact = halfSpace_(local.depth);
+  return { .force = modulus * contact.force,
+    .contactRadius = contact.radius,
+    .stiffness = 2.0 * modulus * contact.radius };
 }
 
 } // namespace palp

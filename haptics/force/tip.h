@@ -18,7 +18,7 @@ struct SphereTip
 struct ConeTip
 {
   double halfAngle;  ///< alpha [rad] between axis and flank, 1 to 89 degrees
-  double baseRadius; ///< [m]
+  double baseRadius; ///< [m], 0.1 mm to 1 m, as in every tip
 };
 
 /// Flat-ended cylinder.
@@ -31,7 +31,7 @@ struct PunchTip
 struct TruncatedConeTip
 {
   double halfAngle;  ///< alpha [rad] between axis and flank
-  double flatRadius; ///< [m], smaller than the base
+  double flatRadius; ///< [m], 1 um or more, smaller than the base
   double baseRadius; ///< [m]
 };
 
@@ -39,7 +39,8 @@ struct TruncatedConeTip
 struct BluntConeTip
 {
   double halfAngle;  ///< alpha [rad] between axis and flank
-  double tipRadius;  ///< rho [m] of the cap; the cap meets the flank at radius rho cos(alpha)
+  double tipRadius;  ///< rho [m], 1 um or more, of the cap; the cap meets the flank at radius rho
+                     ///< cos(alpha)
   double baseRadius; ///< [m], larger than rho cos(alpha)
 };
 
@@ -75,6 +76,9 @@ using Tip = std::variant<SphereTip, ConeTip, PunchTip, TruncatedConeTip, BluntCo
 /// @return        [-], finite: at a sphere's equator limited to 1e6
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] double tipSlope(const Tip& tip, double radius) noexcept;
+
+/// Radius of the flat that touches first [m]; 0 where the apex is a point.
+[[nodiscard]] double flatRadius(const Tip& tip) noexcept;
 
 /// Checks every dimension of a tip.
 /// @throws Error  BadValue: names the dimension, its range and what to give

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+namespace palp
+{
+
+/// Ratio of the neo-Hookean to the linear force on a regular grid, read by interpolation:
+/// monotone cubic along the first axis and so smooth in depth, linear along the others.
+class LargeStrainGrid
+{
+public:
+  struct Ratio
+  {
+    double value = 1.0;  ///< F_neo-Hookean / F_linear [-]
+    double slope = 0.0;  ///< d value / d first [-]
+    bool inside = false; ///< the grid covers the place; outside, the value at its border
+  };
+
+  /// @param first    increasing; its last value is where the ratio levels off
+  /// @param second   increasing; a single value stands for all
+  /// @param poisson  nu, increasing; a single value stands for all
+  /// @param ratios   [poisson][second][first], the last running fastest; each 0.1 to 10
+  /// @throws Error  BadValue: an axis out of order, or another number of ratios
+  LargeStrainGrid(std::vector<double> first, std::vector<double> second,
+    std::vector<double> poisson, std::vector<double> ratios);
+
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] Ratio operator()(double first, double second, double poisson) const noexcept;
+
+private:
+  [[nodiscard]] Ratio along(std::size_t row, double first) const noexcept;
+
+  std::vector<double> first_;
+  std::vector<double> second_;
+  std::vector<double> poisson_;
+  std::vector<double> ratios_;
+  std::vector<double> slopes_; // d ratio / d first, as ratios_
+};
+
+/// Large strain of a neo-Hookean layer bonded to its base, by finite elements:
+/// W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2, frictionless tip.
+///
+/// Each ratio compares with the linear layer at the same depth, thickness and nu, so that it
+/// multiplies the force after the factor for the thickness.
+struct LargeStrain
+{
+  LargeStrainGrid sphere; ///< first: depth / R; second: R / thickness, 0 for a half-space
+  LargeStrainGrid cone;   ///< first: depth / thickness; second: half angle [rad]
+};
+
+using LargeStrainTable = std::shared_ptr<const LargeStrain>; ///< null: none, the ratio is 1
+
+} // namespace palp

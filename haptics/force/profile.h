@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace palp
+{
+
+/// Convex profile of revolution through given points.
+///
+/// Smooth where the points are: a cubic per segment. A point that turns the profile abruptly
+/// stays a corner, so that three points make two straight pieces and not a curve.
+class Profile
+{
+public:
+  struct Point
+  {
+    double radius; ///< r [m], the first 0
+    double height; ///< f(r) [m] above the apex, the first 0
+  };
+
+  /// Reads `radius_mm,height_mm`; lines that begin with # are comments.
+  /// @throws Error  BadFile: missing, no such header, or what the constructor refuses, with the
+  /// line
+  [[nodiscard]] static Profile read(const std::filesystem::path& file);
+
+  /// @param points   3 to 10,000; radii increasing, heights and slopes never decreasing
+  /// @throws Error  BadValue: names the point
+  explicit Profile(std::vector<Point> points);
+
+  /// @param radius  [m], 0 to baseRadius(); beyond, the base's value
+  /// @return        f(r) [m]
+  /// @realtime      pure; no allocation, no lock, no exception
+  [[nodiscard]] double height(double radius) const noexcept;
+
+  /// @return    f'(r) [-]
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double slope(double radius) const noexcept;
+
+  [[nodiscard]] double baseRadius() const noexcept
+  {
+    return pieces_.back().end;
+  } ///< [m]
+
+  /// Radius of the flat at the apex [m]; 0 where there is none.
+  [[nodiscard]] double flatRadius() const noexcept;
+
+  /// Depth at which the circle of contact on a half-space has this radius.
+  ///
+  /// @param radius  a [m], 0 to baseRadius()
+  /// @return        g(a) = a int_0^a f'(r) / sqrt(a^2 - r^2) dr [m], exact for the cubic pieces
+  /// @source        Sneddon 1965; method of dimensionality reduction, Popov and Hess 2015
+  [[nodiscard]] double contactDepth(double radius) const noexcept;
+
+private:
+  /// f' = c0 + c1 r + c2 r^2 from begin to end.
+  struct Piece
+  {
+    double begin;  // [m]
+    double end;    // [m]
+    double height; // at begin [m]
+    double c0;     // [-]
+    double c1;     // [1/m]
+    double c2;     // [1/m^2]
+
+    [[nodiscard]] double slope(double r) const noexcept
+    {
+      return c0 + r * (c1 + r * c2);
+    }
+  };
+
+  [[nodiscard]] const Piece& pieceAt(double radius) const noexcept;
+
+  std::vector<Piece> pieces_;
+};
+
+} // namespace palp
