@@ -28,7 +28,7 @@ public:
   explicit ContactTable(const Tip& tip);
 
   /// @param depth  [m], more than 0; at most baseDepth() is read
-  /// @return       smooth and monotone in depth, relative error about 1e-7
+  /// @return       smooth and monotone in depth, relative error of the force below 1e-6
   /// @realtime     pure; no allocation, no lock, no exception
   [[nodiscard]] Entry operator()(double depth) const noexcept;
 

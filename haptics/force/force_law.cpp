@@ -1,13 +1,25 @@
 #include "haptics/force/force_law.h"
 
+#include "haptics/force/ellipse.h"
+#include "haptics/force/inclination.h"
+#include "haptics/force/layer_contact.h"
+#include "haptics/units.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace palp
 {
 namespace
 {
+
+using namespace units::literals;
+
+constexpr double kDeepest = 1000.0_mm; // deeper is answered as this, so that nothing overflows
+constexpr double kThinnest = 0.1_mm;   // thinner bodies are answered as this
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Eqs. (2)-(4): F = 8 G sqrt(R) delta^(3/2) / (3 (1 - nu)), r = sqrt(R delta)
 Response respond(const SphereTip& tip, const Material& m, double depth) noexcept
@@ -30,7 +42,48 @@ Response respond(const ConeTip& tip, const Material& m, double depth) noexcept
     .stiffness = stiffness };
 }
 
+// a place without values that are not finite, and without what is switched off
+Indentation sanitized(const Indentation& local, const LawSettings& settings) noexcept
+{
+  Indentation clean;
+  clean.depth = std::min(local.depth, kDeepest);
+  if (settings.mode != LawMode::Corrected)
+  {
+    return clean;
+  }
+  if (settings.inclination && std::isfinite(local.tilt))
+  {
+    clean.tilt = local.tilt;
+  }
+  if (settings.thickness && local.thickness > 0.0)
+  {
+    clean.thickness = std::max(local.thickness, kThinnest);
+  }
+  if (settings.curvature && std::isfinite(local.surfaceCurvature))
+  {
+    clean.surfaceCurvature = local.surfaceCurvature;
+  }
+  if (settings.curvature && std::isfinite(local.curvatureSpread))
+  {
+    clean.curvatureSpread = std::abs(local.curvatureSpread);
+  }
+  return clean;
+}
+
+// a share, 1 where there is too little to divide by
+double share(double part, double whole) noexcept
+{
+  const double value = part / whole;
+  return std::isfinite(value) ? value : 1.0;
+}
+
 } // namespace
+
+struct ForceLaw::Corrections
+{
+  LayerContact layer;
+  EllipseFactor ellipse;
+};
 
 ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings settings)
   : tip_(checkedTip(tip))
@@ -38,6 +91,11 @@ ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings setting
   , settings_(std::move(settings))
   , halfSpace_(tip_)
 {
+  if (settings_.mode == LawMode::Corrected)
+  {
+    corrections_ = std::make_shared<const Corrections>(
+      Corrections{ LayerContact(tip_, material_.poissonRatio, settings_.base), EllipseFactor() });
+  }
 }
 
 Response ForceLaw::operator()(const Indentation& local) const noexcept
@@ -47,22 +105,114 @@ Response ForceLaw::operator()(const Indentation& local) const noexcept
   {
     return {};
   }
+  const Indentation place = sanitized(local, settings_);
   if (settings_.mode == LawMode::Paper)
   {
-    if (const auto* sphere = std::get_if<SphereTip>(&tip_))
-    {
-      return respond(*sphere, material_, local.depth);
-    }
+    return paper(place.depth);
+  }
+  const LinearContact contact = linear(place);
+  const LargeStrainGrid::Ratio ratio = largeStrain(place);
+  const double modulus = material_.contactModulus() * ellipse(place) * tiltFactor(tip_, place.tilt);
+  return { .force = modulus * contact.force * ratio.value,
+    .contactRadius = contact.radius,
+    .stiffness = modulus * (contact.stiffness * ratio.value + contact.force * ratio.slope) };
+}
+
+Response ForceLaw::paper(double depth) const noexcept
+{
+  if (const auto* sphere = std::get_if<SphereTip>(&tip_))
+  {
+    return respond(*sphere, material_, depth);
+  }
+  if (const auto* cone = std::get_if<ConeTip>(&tip_))
+  {
+    return respond(*cone, material_, depth);
+  }
+  const LinearContact contact = halfSpace_(depth);
+  return { .force = material_.contactModulus() * contact.force,
+    .contactRadius = contact.radius,
+    .stiffness = material_.contactModulus() * contact.stiffness };
+}
+
+LinearContact ForceLaw::linear(const Indentation& local) const noexcept
+{
+  const bool plain = local.thickness == kInfinite && local.surfaceCurvature == 0.0;
+  return plain || corrections_ == nullptr
+    ? halfSpace_(local.depth)
+    : corrections_->layer(local.depth, local.thickness, local.surfaceCurvature);
+}
+
+double ForceLaw::ellipse(const Indentation& local) const noexcept
+{
+  const bool round =
+    std::holds_alternative<SphereTip>(tip_) || std::holds_alternative<ParaboloidTip>(tip_);
+  if (!round || local.curvatureSpread == 0.0 || corrections_ == nullptr)
+  {
+    return 1.0;
+  }
+  // curvature of the gap, mean over the directions
+  const double mean =
+    1.0 / baseRadius(tip_) + corrections_->layer.allowedCurvature(local.surfaceCurvature);
+  return corrections_->ellipse(local.curvatureSpread / mean);
+}
+
+LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noexcept
+{
+  if (settings_.mode != LawMode::Corrected || settings_.constitution == Constitution::Linear ||
+    settings_.largeStrain == nullptr)
+  {
+    return {};
+  }
+  const LargeStrain& table = *settings_.largeStrain;
+  double halfAngle = 0.0;
+  double unit = local.thickness; // of the depth on the table's first axis
+  LargeStrainGrid::Ratio ratio;
+  if (const auto* sphere = std::get_if<SphereTip>(&tip_))
+  {
+    unit = sphere->radius;
+    ratio = table.sphere(local.depth / unit, unit / local.thickness, material_.poissonRatio);
+  }
+  else
+  {
     if (const auto* cone = std::get_if<ConeTip>(&tip_))
     {
-      return respond(*cone, material_, local.depth);
+      halfAngle = cone->halfAngle;
     }
+    else if (const auto* blunt = std::get_if<BluntConeTip>(&tip_))
+    {
+      halfAngle = blunt->halfAngle;
+    }
+    else
+    {
+      return {};
+    }
+    ratio = table.cone(local.depth / unit, halfAngle, material_.poissonRatio);
   }
-  const double modulus = material_.contactModulus();
-  const HalfSpaceContact contact = halfSpace_(local.depth);
-  return { .force = modulus * contact.force,
-    .contactRadius = contact.radius,
-    .stiffness = 2.0 * modulus * contact.radius };
+  ratio.slope /= unit;
+  return ratio;
+}
+
+Factors ForceLaw::factors(const Indentation& local) const noexcept
+{
+  Factors result{ { { "shape", 1.0 }, { "curvature", 1.0 }, { "ellipse", 1.0 },
+    { "thickness", 1.0 }, { "large_strain", 1.0 }, { "inclination", 1.0 } } };
+  if (settings_.mode == LawMode::Paper || !(local.depth > 0.0 && std::isfinite(local.depth)))
+  {
+    return result;
+  }
+  const Indentation place = sanitized(local, settings_);
+  Indentation flat = place; // without what acts later
+  flat.thickness = kInfinite;
+  const double curved = linear(flat).force;
+  flat.surfaceCurvature = 0.0;
+  const double plain = linear(flat).force;
+  result[0].value = share(material_.contactModulus() * plain, paper(place.depth).force);
+  result[1].value = share(curved, plain);
+  result[2].value = ellipse(place);
+  result[3].value = share(linear(place).force, curved);
+  result[4].value = largeStrain(place).value;
+  result[5].value = tiltFactor(tip_, place.tilt);
+  return result;
 }
 
 } // namespace palp

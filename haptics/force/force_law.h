@@ -1,9 +1,14 @@
 #pragma once
 
 #include "haptics/force/half_space.h"
+#include "haptics/force/large_strain.h"
+#include "haptics/force/layer.h"
+#include "haptics/force/tip.h"
 #include "haptics/material.h"
 
+#include <array>
 #include <limits>
+#include <memory>
 
 namespace palp
 {
@@ -16,6 +21,7 @@ struct Indentation
   double tilt = 0.0;                                          ///< tool axis to inward normal [rad]
   double thickness = std::numeric_limits<double>::infinity(); ///< of the body under the tool [m]
   double surfaceCurvature = 0.0;                              ///< mean, 1/R0 [1/m], convex positive
+  double curvatureSpread = 0.0; ///< half the difference of the principal curvatures [1/m]
 };
 
 /// What the tissue answers.
@@ -29,14 +35,40 @@ struct Response
 /// Which law answers.
 enum class LawMode
 {
-  Paper, ///< Eqs. (2)-(5) for sphere and cone, exact for other tips; nothing else
-  Exact, ///< the exact linear half-space for every tip; nothing else
+  Paper,     ///< Eqs. (2)-(5) for sphere and cone, exact for other tips; nothing else
+  Exact,     ///< the exact linear half-space for every tip; nothing else
+  Corrected, ///< the exact law with every factor that is switched on
 };
 
+/// What the tissue is made of, under large strain.
+enum class Constitution
+{
+  Linear,
+  NeoHookean, ///< by the ratio of LawSettings::largeStrain; as linear where there is none
+};
+
+/// What the corrected law takes into account.
 struct LawSettings
 {
   LawMode mode = LawMode::Paper;
+  Base base = Base::Bonded;
+  Constitution constitution = Constitution::NeoHookean;
+  LargeStrainTable largeStrain{}; ///< null: the ratio is 1
+  bool curvature = true;
+  bool thickness = true;
+  bool inclination = true;
 };
+
+/// One named correction: the force with it over the force without it.
+struct Factor
+{
+  const char* name;
+  double value; ///< [-]
+};
+
+/// The corrections in the order in which they act; the paper's force times all of them is the
+/// law's. A tip without a paper's law begins with its exact one.
+using Factors = std::array<Factor, 6>;
 
 /// Reaction of soft tissue to a rigid tip: Eq. (1), F = Phi(tip, depth, E, nu).
 ///
@@ -52,6 +84,16 @@ public:
   /// @realtime     pure; no allocation, no lock, no exception
   [[nodiscard]] Response operator()(const Indentation& local) const noexcept;
 
+  /// The law at one place, taken apart: shape, curvature, ellipse, thickness, large_strain,
+  /// inclination; 1 where nothing acts.
+  ///
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] Factors factors(const Indentation& local) const noexcept;
+
+  /// The ratio of large strain at one place, with whether the table covers it.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] LargeStrainGrid::Ratio largeStrain(const Indentation& local) const noexcept;
+
   [[nodiscard]] const Tip& tip() const noexcept
   {
     return tip_;
@@ -66,10 +108,17 @@ public:
   }
 
 private:
+  struct Corrections;
+
+  [[nodiscard]] Response paper(double depth) const noexcept;
+  [[nodiscard]] LinearContact linear(const Indentation& local) const noexcept;
+  [[nodiscard]] double ellipse(const Indentation& local) const noexcept;
+
   Tip tip_;
   Material material_;
   LawSettings settings_;
   HalfSpace halfSpace_;
+  std::shared_ptr<const Corrections> corrections_; // only of the corrected law
 };
 
 } // namespace palp

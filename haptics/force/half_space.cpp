@@ -22,7 +22,8 @@ double newton(double x, Function stepAt) noexcept
   {
     const double step = stepAt(x);
     x -= step;
-    if (!(std::abs(step) > 1e-15 * std::abs(x)))
+    // the error of the next step is about the square of this one
+    if (!(std::abs(step) > 1e-9 * std::abs(x)))
     {
       break;
     }
@@ -86,7 +87,7 @@ double contactDepth(const ProfileTip& tip, double a) noexcept
 
 // the answer before the base is in contact
 
-HalfSpaceContact respond(const SphereTip& tip, double depth) noexcept
+LinearContact respond(const SphereTip& tip, double depth) noexcept
 {
   // a = R tanh(p), depth = R p tanh(p); small p by the series, where the difference loses digits
   const double ratio = depth / tip.radius;
@@ -104,18 +105,18 @@ HalfSpaceContact respond(const SphereTip& tip, double depth) noexcept
   return { tip.radius * tip.radius * area, tip.radius * t };
 }
 
-HalfSpaceContact respond(const ConeTip& tip, double depth) noexcept
+LinearContact respond(const ConeTip& tip, double depth) noexcept
 {
   const double a = 2.0 / std::numbers::pi * depth * std::tan(tip.halfAngle);
   return { a * depth, a };
 }
 
-HalfSpaceContact respond(const PunchTip& tip, double depth) noexcept
+LinearContact respond(const PunchTip& tip, double depth) noexcept
 {
   return { 2.0 * tip.radius * depth, tip.radius };
 }
 
-HalfSpaceContact respond(const TruncatedConeTip& tip, double depth) noexcept
+LinearContact respond(const TruncatedConeTip& tip, double depth) noexcept
 {
   // a = b / sin(q), where q + k sin(q) = pi / 2; concave, so it converges from below
   const double k = depth / (tip.flatRadius * cot(tip.halfAngle));
@@ -126,7 +127,7 @@ HalfSpaceContact respond(const TruncatedConeTip& tip, double depth) noexcept
   return { cot(tip.halfAngle) * (a * a * (right - q) + tip.flatRadius * a * std::cos(q)), a };
 }
 
-HalfSpaceContact respond(const BluntConeTip& tip, double depth) noexcept
+LinearContact respond(const BluntConeTip& tip, double depth) noexcept
 {
   const double b = tangentRadius(tip);
   if (depth <= contactDepth(tip, b))
@@ -154,18 +155,18 @@ HalfSpaceContact respond(const BluntConeTip& tip, double depth) noexcept
 }
 
 // Hertz
-HalfSpaceContact respond(const ParaboloidTip& tip, double depth) noexcept
+LinearContact respond(const ParaboloidTip& tip, double depth) noexcept
 {
   const double a = std::sqrt(tip.radius * depth);
   return { 4.0 / 3.0 * a * depth, a };
 }
 
-HalfSpaceContact respond(const ProfileTip&, double) noexcept
+LinearContact respond(const ProfileTip&, double) noexcept
 {
   return {}; // from its table
 }
 
-HalfSpaceContact respond(const ContactTable& table, double depth) noexcept
+LinearContact respond(const ContactTable& table, double depth) noexcept
 {
   const ContactTable::Entry entry = table(depth);
   return { entry.force, entry.radius };
@@ -189,10 +190,10 @@ HalfSpace::HalfSpace(const Tip& tip)
   }
 }
 
-HalfSpaceContact HalfSpace::operator()(double depth) const noexcept
+LinearContact HalfSpace::operator()(double depth) const noexcept
 {
   const double before = std::min(depth, baseDepth_);
-  HalfSpaceContact contact = table_ != nullptr
+  LinearContact contact = table_ != nullptr
     ? respond(*table_, before)
     : onTip(tip_, [before](const auto& shape) { return respond(shape, before); });
   if (depth >= baseDepth_)
@@ -200,6 +201,7 @@ HalfSpaceContact HalfSpace::operator()(double depth) const noexcept
     contact.radius = baseRadius_;
     contact.force += 2.0 * baseRadius_ * (depth - baseDepth_);
   }
+  contact.stiffness = 2.0 * contact.radius;
   return contact;
 }
 

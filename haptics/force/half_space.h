@@ -16,11 +16,12 @@ namespace palp
 /// @source        Sneddon 1965; blunt cone: Ciavarella 1999
 [[nodiscard]] double contactDepth(const Tip& tip, double radius) noexcept;
 
-/// What a linear half-space with a contact modulus of 1 answers.
-struct HalfSpaceContact
+/// What a linear body with a contact modulus of 1 answers.
+struct LinearContact
 {
-  double force = 0.0;  ///< F / E* [m^2]
-  double radius = 0.0; ///< a [m]; dF/ddepth = 2 E* a
+  double force = 0.0;     ///< F / E* [m^2]
+  double radius = 0.0;    ///< a [m]
+  double stiffness = 0.0; ///< dF/ddepth / E* [m], 2 a on a half-space
 };
 
 /// Exact linear solution for a rigid frictionless tip on a half-space.
@@ -37,7 +38,7 @@ public:
 
   /// @param depth  delta [m], more than 0
   /// @realtime     pure; no allocation, no lock, no exception
-  [[nodiscard]] HalfSpaceContact operator()(double depth) const noexcept;
+  [[nodiscard]] LinearContact operator()(double depth) const noexcept;
 
 private:
   Tip tip_;

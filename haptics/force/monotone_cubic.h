@@ -26,13 +26,15 @@ struct Cubic
     slope0 + place * (2.0 * turn + 3.0 * place * bend) };
 }
 
-/// Slopes with which the cubics through the points run as monotonically as the points do.
-///
-/// Fourth order where five points run smoothly, second order near the ends.
+/// Slopes at points of a smooth curve, of the polynomial through the nearest five points.
 ///
 /// @param x  at least 2, increasing
 /// @param y  as many
-/// @source   Fritsch and Carlson 1980 (limit), Fritsch and Butland 1984
+[[nodiscard]] std::vector<double> polynomialSlopes(
+  std::span<const double> x, std::span<const double> y);
+
+/// The same, limited so that the cubics through the points run as monotonically as the points do.
+/// @source Fritsch and Carlson 1980
 [[nodiscard]] std::vector<double> monotoneSlopes(
   std::span<const double> x, std::span<const double> y);
 

@@ -1,0 +1,43 @@
+#include "haptics/force/ellipse.h"
+
+#include "haptics/force/monotone_cubic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp
+{
+
+EllipseFactor::EllipseFactor()
+  : spreads_{ 0.0 }
+  , factors_{ 1.0 }
+{
+  // b / a falls from 1; e is the eccentricity, K and E are the complete elliptic integrals of e
+  for (int i = 1; spreads_.back() < kSlimmest; ++i)
+  {
+    const double aspect = std::pow(0.95, i); // b / a
+    const double e2 = 1.0 - aspect * aspect;
+    const double k = std::comp_ellint_1(std::sqrt(e2));
+    const double e = std::comp_ellint_2(std::sqrt(e2));
+    const double ratio = (k - e) / (e / (aspect * aspect) - k); // A / B
+    const double share = ratio / (1.0 + ratio);                 // A / (A + B)
+    spreads_.push_back(1.0 - 2.0 * share);
+    factors_.push_back(0.5 * std::numbers::pi / k * std::sqrt((k - e) / (share * e2 * k)));
+  }
+  slopes_ = monotoneSlopes(spreads_, factors_);
+}
+
+double EllipseFactor::operator()(double spread) const noexcept
+{
+  const double x = std::clamp(spread, 0.0, kSlimmest);
+  const auto above = std::upper_bound(spreads_.begin() + 1, spreads_.end() - 1, x);
+  const auto high = static_cast<std::size_t>(above - spreads_.begin());
+  const std::size_t low = high - 1;
+  const double width = spreads_[high] - spreads_[low];
+  return hermite(
+    (x - spreads_[low]) / width, width, factors_[low], factors_[high], slopes_[low], slopes_[high])
+    .value;
+}
+
+} // namespace palp

@@ -1,0 +1,78 @@
+#include "haptics/force/inclination.h"
+
+#include "haptics/force/monotone_cubic.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+// F / F upright of a cone of 45 degrees; slopes [1/rad] from the parabola through neighbours
+constexpr std::array kTilts{ 0.0, 3.0_deg, 6.0_deg, 9.0_deg, 12.0_deg, 15.0_deg, 20.0_deg, 25.0_deg,
+  30.0_deg };
+constexpr std::array kForces{ 1.0, 1.00465, 1.01936, 1.04452, 1.08136, 1.13222, 1.25745, 1.44984,
+  1.71525 };
+
+// tilt at which the force is 7 % higher, at half angles of 30, 45 and 60 degrees
+constexpr double kNarrow = 12.8_deg;
+constexpr double kMiddle = 11.1_deg;
+constexpr double kWide = 7.9_deg;
+
+constexpr double slopeAt(std::size_t i) noexcept
+{
+  if (i == 0)
+  {
+    return 0.0; // tilting either way is the same
+  }
+  if (i + 1 == kTilts.size())
+  {
+    return (kForces[i] - kForces[i - 1]) / (kTilts[i] - kTilts[i - 1]);
+  }
+  const double before = kTilts[i] - kTilts[i - 1];
+  const double after = kTilts[i + 1] - kTilts[i];
+  return ((kForces[i] - kForces[i - 1]) / before * after +
+           (kForces[i + 1] - kForces[i]) / after * before) /
+    (before + after);
+}
+
+} // namespace
+
+InclinedForce inclinedForce(double force, double tilt) noexcept
+{
+  return { force * std::cos(tilt), force * std::sin(std::abs(tilt)) };
+}
+
+double tiltOfShare(double share) noexcept
+{
+  return std::acos(1.0 - share);
+}
+
+double tiltFactor(const Tip& tip, double tilt) noexcept
+{
+  const auto* cone = std::get_if<ConeTip>(&tip);
+  if (cone == nullptr || !std::isfinite(tilt))
+  {
+    return 1.0;
+  }
+  // parabola through the three angles
+  const double x = (std::clamp(cone->halfAngle, 30.0_deg, 60.0_deg) - 45.0_deg) / 15.0_deg;
+  const double reach =
+    kMiddle + 0.5 * x * (kWide - kNarrow) + 0.5 * x * x * (kWide + kNarrow - 2.0 * kMiddle);
+  const double place = std::min(std::abs(tilt) * kMiddle / reach, kTilts.back());
+  const auto above = std::upper_bound(kTilts.begin() + 1, kTilts.end() - 1, place);
+  const auto high = static_cast<std::size_t>(above - kTilts.begin());
+  const std::size_t low = high - 1;
+  const double width = kTilts[high] - kTilts[low];
+  return hermite(
+    (place - kTilts[low]) / width, width, kForces[low], kForces[high], slopeAt(low), slopeAt(high))
+    .value;
+}
+
+} // namespace palp

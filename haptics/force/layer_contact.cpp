@@ -1,0 +1,94 @@
+#include "haptics/force/layer_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kMostSteps = 30;       // of the secant method; three or four are usual
+constexpr double kClose = 1e-8;      // of the depth; the force errs by its square
+constexpr double kLongestStep = 4.0; // factor by which a step may change the depth
+
+} // namespace
+
+LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)
+  : table_(tip)
+  , layer_(poissonRatio, base)
+  , mostHollow_(0.0)
+{
+  // the least of depth / a^2 over the tip
+  if (flatRadius(tip) > 0.0)
+  {
+    return;
+  }
+  constexpr int samples = 200;
+  for (int i = 1; i <= samples; ++i)
+  {
+    const double depth = table_.baseDepth() * i / samples;
+    const double radius = table_(depth).radius;
+    const double hollow = 0.5 * depth / (radius * radius);
+    mostHollow_ = i == 1 ? hollow : std::min(mostHollow_, hollow);
+  }
+}
+
+double LayerContact::allowedCurvature(double curvature) const noexcept
+{
+  return mostHollow_ > 0.0 ? std::max(curvature, -mostHollow_) : 0.0;
+}
+
+LayerContact::Trial LayerContact::trial(
+  double halfSpaceDepth, double thickness, double curvature) const noexcept
+{
+  const ContactTable::Entry entry = table_(halfSpaceDepth);
+  const double a = entry.radius;
+  const double width = a / thickness;
+  const Layer::Terms phi = layer_(width);
+
+  // A, B and their derivatives by a; F is stationary in a where depth = B' / A'
+  const double gap = std::min(halfSpaceDepth, table_.baseDepth()) + curvature * a * a;
+  Trial result{ 0.0, a, 0.0, 0.0 };
+  double uniformSlope = 0.0;
+  double shapeSlope = 0.0;
+  for (std::size_t k = 0; k < Layer::kTerms; ++k)
+  {
+    const auto order = static_cast<double>(2 * k);
+    const double moment = entry.moments[k] + curvature * a * a * a / (order + 3.0);
+    result.uniform += a * phi.value[k] / (order + 1.0);
+    result.shape += phi.value[k] * moment;
+    uniformSlope += (phi.value[k] + width * phi.slope[k]) / (order + 1.0);
+    shapeSlope += phi.slope[k] * moment / thickness + phi.value[k] * (gap - order * moment / a);
+  }
+  result.depth = shapeSlope / uniformSlope;
+  return result;
+}
+
+LinearContact LayerContact::operator()(
+  double depth, double thickness, double curvature) const noexcept
+{
+  const double base = table_.baseDepth();
+  const double kappa = allowedCurvature(curvature);
+  double place = std::min(depth, base);
+  Trial now = trial(place, thickness, kappa);
+  double nextPlace = place * depth / now.depth;
+  for (int i = 0; i < kMostSteps && std::abs(now.depth - depth) > kClose * depth; ++i)
+  {
+    nextPlace = std::min(base, std::clamp(nextPlace, place / kLongestStep, place * kLongestStep));
+    if (!(nextPlace != place))
+    {
+      break; // the whole base is in contact
+    }
+    const Trial next = trial(nextPlace, thickness, kappa);
+    const double chord = (next.depth - now.depth) / (nextPlace - place);
+    place = nextPlace;
+    now = next;
+    nextPlace = place + (depth - now.depth) / chord;
+  }
+  return { .force = std::max(0.0, 2.0 * (depth * now.uniform - now.shape)),
+    .radius = now.radius,
+    .stiffness = 2.0 * now.uniform };
+}
+
+} // namespace palp

@@ -1,0 +1,185 @@
+#include "haptics/force/force_law.h"
+
+#include "haptics/force/profile.h"
+#include "haptics/units.h"
+#include "reference_table.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+const Material kLiver{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
+
+const std::vector<Tip> kTips{ SphereTip{ 10.0_mm }, ConeTip{ 30.0_deg, 10.0_mm },
+  PunchTip{ 5.0_mm }, TruncatedConeTip{ 45.0_deg, 2.0_mm, 10.0_mm },
+  BluntConeTip{ 60.0_deg, 3.0_mm, 10.0_mm }, ParaboloidTip{ 10.0_mm } };
+
+// made up, to see that the law applies it: 1 + 0.1 depth/R, and 1.05 for every cone
+LargeStrainTable madeUpRatios()
+{
+  return std::make_shared<const LargeStrain>(
+    LargeStrain{ { { 0.0, 1.0, 2.0 }, { 0.0 }, { 0.33 }, { 1.0, 1.1, 1.2 } },
+      { { 0.0, 1.0 }, { 0.5 }, { 0.33 }, { 1.05, 1.05 } } });
+}
+
+struct Case
+{
+  const char* table;
+  Tip tip;
+  double thickness;
+};
+
+class BondedLayer : public ::testing::TestWithParam<Case>
+{
+};
+INSTANTIATE_TEST_SUITE_P(CorrectedLaw, BondedLayer,
+  ::testing::Values(Case{ "analytic_sphere_R6_H30", SphereTip{ 6.0_mm }, 30.0_mm },
+    Case{ "analytic_sphere_R10_H50", SphereTip{ 10.0_mm }, 50.0_mm },
+    Case{ "analytic_cone45_H30", ConeTip{ 45.0_deg, 50.0_mm }, 30.0_mm },
+    Case{ "analytic_cone45_H50", ConeTip{ 45.0_deg, 50.0_mm }, 50.0_mm },
+    Case{ "analytic_cone45_rho0.3_H30", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 30.0_mm },
+    Case{ "analytic_cone45_rho0.3_H50", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm }));
+
+// the tables carry eight digits
+TEST_P(BondedLayer, AgreesWithTheIntegralEquation)
+{
+  const auto rows = test::referenceTable(GetParam().table);
+  ASSERT_GE(rows.size(), 16U);
+  const ForceLaw law(GetParam().tip, kLiver, { .mode = LawMode::Corrected });
+  double worst = 0.0;
+  for (const auto& row : rows)
+  {
+    const double force =
+      law({ .depth = row.number("delta_m"), .thickness = GetParam().thickness }).force;
+    const double error = std::abs(force / row.number("F_layer_N") - 1.0);
+    EXPECT_LE(error, 1e-5) << row.number("delta_m");
+    worst = std::max(worst, error);
+  }
+  RecordProperty("worst", std::to_string(worst * 1e6) + "e-6");
+}
+
+class AnyTip : public ::testing::TestWithParam<Tip>
+{
+};
+INSTANTIATE_TEST_SUITE_P(CorrectedLaw, AnyTip, ::testing::ValuesIn(kTips));
+
+TEST_P(AnyTip, IsExactWhereNothingActs)
+{
+  const ForceLaw corrected(GetParam(), kLiver, { .mode = LawMode::Corrected });
+  const ForceLaw exact(GetParam(), kLiver, { .mode = LawMode::Exact });
+  EXPECT_EQ(corrected({ .depth = 3.0_mm }).force, exact({ .depth = 3.0_mm }).force);
+}
+
+TEST_P(AnyTip, FactorsMultiplyThePapersForce)
+{
+  const Indentation place{ .depth = 3.0_mm,
+    .tilt = 9.0_deg,
+    .thickness = 20.0_mm,
+    .surfaceCurvature = 1.0 / 50.0_mm,
+    .curvatureSpread = 1.0 / 100.0_mm };
+  const ForceLaw law(
+    GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
+  double force = ForceLaw(GetParam(), kLiver)(place).force;
+  for (const Factor& factor : law.factors(place))
+  {
+    EXPECT_GT(factor.value, 0.0) << factor.name;
+    force *= factor.value;
+  }
+  EXPECT_NEAR(law(place).force, force, 1e-12 * force);
+}
+
+TEST_P(AnyTip, EachFactorCanBeSwitchedOff)
+{
+  const Indentation place{
+    .depth = 3.0_mm, .tilt = 9.0_deg, .thickness = 20.0_mm, .surfaceCurvature = 1.0 / 50.0_mm
+  };
+  const ForceLaw law(GetParam(), kLiver,
+    { .mode = LawMode::Corrected,
+      .constitution = Constitution::Linear,
+      .largeStrain = madeUpRatios(),
+      .curvature = false,
+      .thickness = false,
+      .inclination = false });
+  const ForceLaw exact(GetParam(), kLiver, { .mode = LawMode::Exact });
+  EXPECT_EQ(law(place).force, exact(place).force);
+}
+
+TEST_P(AnyTip, StiffnessIsTheDerivativeWithEveryFactor)
+{
+  const ForceLaw law(
+    GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
+  const auto at = [&law](double depth)
+  {
+    return law({ .depth = depth,
+      .tilt = 9.0_deg,
+      .thickness = 30.0_mm,
+      .surfaceCurvature = 1.0 / 50.0_mm,
+      .curvatureSpread = 1.0 / 100.0_mm });
+  };
+  double force = 0.0;
+  for (double depth = 1e-6; depth < 30.0_mm; depth *= 1.1)
+  {
+    const double h = 1e-4 * depth;
+    const double numeric = (at(depth + h).force - at(depth - h).force) / (2.0 * h);
+    EXPECT_NEAR(at(depth).stiffness, numeric, 2e-4 * numeric) << depth;
+    EXPECT_GT(at(depth).force, force);
+    force = at(depth).force;
+  }
+}
+
+TEST_P(AnyTip, ReturnsNoNaN)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const ForceLaw law(
+    GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
+  for (const double odd : { nan, infinite, -infinite, 0.0, -1.0, 1e-300, 1e300 })
+  {
+    for (const Indentation& place : { Indentation{ .depth = odd, .thickness = 10.0_mm },
+           Indentation{ .depth = 1.0_mm, .tilt = odd },
+           Indentation{ .depth = 1.0_mm, .thickness = odd },
+           Indentation{ .depth = 1.0_mm, .surfaceCurvature = odd },
+           Indentation{ .depth = 1.0_mm, .curvatureSpread = odd } })
+    {
+      const Response response = law(place);
+      EXPECT_TRUE(std::isfinite(response.force) && response.force >= 0.0) << odd;
+      EXPECT_TRUE(std::isfinite(response.stiffness) && response.stiffness >= 0.0) << odd;
+      EXPECT_TRUE(std::isfinite(response.contactRadius)) << odd;
+      for (const Factor& factor : law.factors(place))
+      {
+        EXPECT_TRUE(std::isfinite(factor.value)) << factor.name << " " << odd;
+      }
+    }
+  }
+}
+
+TEST(CorrectedLaw, AppliesTheRatioOfLargeStrain)
+{
+  const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = madeUpRatios() };
+  const ForceLaw sphere(SphereTip{ 10.0_mm }, kLiver, settings);
+  EXPECT_NEAR(sphere.largeStrain({ .depth = 5.0_mm }).value, 1.05, 1e-12);
+  EXPECT_TRUE(sphere.largeStrain({ .depth = 5.0_mm }).inside);
+  EXPECT_FALSE(sphere.largeStrain({ .depth = 25.0_mm }).inside);
+  const ForceLaw cone(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, settings);
+  EXPECT_NEAR(cone.largeStrain({ .depth = 5.0_mm, .thickness = 30.0_mm }).value, 1.05, 1e-12);
+  const ForceLaw punch(PunchTip{ 10.0_mm }, kLiver, settings);
+  EXPECT_EQ(punch.largeStrain({ .depth = 5.0_mm }).value, 1.0);
+  EXPECT_FALSE(punch.largeStrain({ .depth = 5.0_mm }).inside);
+}
+
+TEST(CorrectedLaw, WithoutATableLargeStrainIsLinear)
+{
+  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  EXPECT_EQ(law.largeStrain({ .depth = 5.0_mm }).value, 1.0);
+  EXPECT_FALSE(law.largeStrain({ .depth = 5.0_mm }).inside);
+}
+
+} // namespace
+} // namespace palp
