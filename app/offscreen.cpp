@@ -115,6 +115,7 @@ vtkSmartPointer<vtkGenericOpenGLRenderWindow> OffscreenContext::makeWindow(
   current->SetCallback(alwaysCurrent);
   window->AddObserver(vtkCommand::WindowIsCurrentEvent, current);
   window->OpenGLInitContext();
+  window->OpenGLInit();
   return window;
 }
 

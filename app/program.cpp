@@ -36,14 +36,19 @@ int exitCode(ErrorCode code)
   return 1;
 }
 
+// help, version, or one of the subcommands
+bool isCommand(const CLI::App& app, const std::string& word)
+{
+  const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
+  return word == "-h" || word == "--help" || word == "--version" ||
+    !app.get_subcommands(named).empty();
+}
+
 // `palp liver.stl` is `palp view liver.stl`
 std::vector<std::string> withCommand(const CLI::App& app, int argc, char** argv)
 {
   std::vector<std::string> words(argv + 1, argv + argc);
-  const bool own = !words.empty() &&
-    (words[0] == "-h" || words[0] == "--help" || words[0] == "--version" ||
-      app.get_subcommand_no_throw(words[0]) != nullptr);
-  if (!own)
+  if (words.empty() || !isCommand(app, words[0]))
   {
     words.insert(words.begin(), "view");
   }
@@ -79,11 +84,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   // for the start script: is this word a command of ours?
   if (argc == 3 && std::string_view(argv[1]) == "--is-command")
   {
-    const std::string word = argv[2];
-    return word == "-h" || word == "--help" || word == "--version" ||
-        app.get_subcommand_no_throw(word) != nullptr
-      ? 0
-      : 1;
+    return isCommand(app, argv[2]) ? 0 : 1;
   }
 
   try

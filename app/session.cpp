@@ -5,6 +5,7 @@
 #include "haptics/error.h"
 
 #include <algorithm>
+#include <vtkPolyData.h>
 
 namespace palp
 {

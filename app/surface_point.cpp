@@ -1,5 +1,6 @@
 #include "app/surface_point.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 

@@ -99,12 +99,12 @@ Tip parseShape(std::string_view text)
 
 std::string mm(double metres)
 {
-  return ":" + shortest(units::toMillimetres(metres)) + "mm";
+  return std::string(":").append(shortest(units::toMillimetres(metres))).append("mm");
 }
 
 std::string deg(double radians)
 {
-  return ":" + shortest(units::toDegrees(radians)) + "deg";
+  return std::string(":").append(shortest(units::toDegrees(radians))).append("deg");
 }
 
 struct Describe
