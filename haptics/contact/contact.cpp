@@ -12,7 +12,7 @@ namespace palp
 namespace
 {
 
-constexpr double kSmoothing = 2.0; // [-] edge lengths; below 1.8 a coarse mesh is felt
+constexpr double kSmoothing = 1.5; // [-] edge lengths; below 1.2 the facets come through
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 
