@@ -103,6 +103,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.center = place - height * contact.normal;
   contact.triangle = nearest.triangle;
   contact.surfaceCurvature = 4.0 * (height - patch.height / patch.area) / (radius * radius);
+  contact.thickness = distanceToFarSide(surface, contact.center, -contact.normal);
   contact.edgeDistance = surface.edgeDistance(contact.center, contact.triangle);
   return contact;
 }
