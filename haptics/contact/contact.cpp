@@ -12,8 +12,9 @@ namespace palp
 namespace
 {
 
-constexpr double kSmoothing = 2.0; // [-] edge lengths; below 1.8 a coarse mesh is felt
+constexpr double kSmoothing = 1.5; // [-] edge lengths; below 1.2 the facets come through
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
+constexpr double kRounding = 1e-9; // [-]
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 
 // the ball that meets a smooth body first; a sharp or flat tip has one of radius zero
@@ -69,9 +70,9 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   const double nose = noseRadius(tip);
   const Eigen::Vector3d place = pose.apex - nose * pose.axis;
   const double reach = nose + flatRadius(tip);
-  if (squaredDistance(surface.tree().nodes()[0], place) > reach * reach)
+  if (surface.closed() && squaredDistance(surface.tree().nodes()[0], place) > reach * reach)
   {
-    return {};
+    return {}; // quickly; behind an open sheet, contact may reach beyond its box
   }
   const Nearest nearest = findNearest(surface, place, std::numeric_limits<double>::infinity());
   if (nearest.triangle < 0 || nearest.distance >= reach)
@@ -85,9 +86,9 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   const Patch patch =
     patchWithin(surface, place, std::sqrt(squaredBall), side, std::max(radius, 1e-9));
   const double length = patch.normal.norm();
-  if (!(patch.weight > 0.0 && length > 0.0))
+  if (!(length > kRounding * patch.weight))
   {
-    return {}; // touches by less than rounding
+    return {}; // by less than rounding, or between lobes that face each other
   }
   Contact contact;
   contact.normal = patch.normal / length;
@@ -103,6 +104,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.center = place - height * contact.normal;
   contact.triangle = nearest.triangle;
   contact.surfaceCurvature = 4.0 * (height - patch.height / patch.area) / (radius * radius);
+  contact.thickness = distanceToFarSide(surface, contact.center, -contact.normal);
   contact.edgeDistance = surface.edgeDistance(contact.center, contact.triangle);
   return contact;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 namespace palp
@@ -12,55 +11,69 @@ namespace palp
 namespace
 {
 
+// One side of a triangle, seen from the middle of the disc that the ball cuts from its plane.
+struct Side
+{
+  double fromSquared; // squared distance of its first point to the middle
+  double toSquared;   // of its second
+  double squared;     // squared length
+  double cross;       // of the two points, along the normal
+
+  [[nodiscard]] double dot() const noexcept
+  {
+    return 0.5 * (fromSquared + toSquared - squared);
+  }
+};
+
 // what the boundary of triangle and disc adds up to: straight pieces, and the turn of the arcs
 class Boundary
 {
 public:
-  Boundary(const Eigen::Vector3d& normal, double squaredRadius) noexcept
-    : normal_(normal)
-    , squaredRadius_(squaredRadius)
+  explicit Boundary(double squaredRadius) noexcept
+    : squaredRadius_(squaredRadius)
+    , scale_(1.0 / squaredRadius)
   {
   }
 
-  // from u to v, both in the plane and seen from the middle of the disc
-  void side(const Eigen::Vector3d& u, const Eigen::Vector3d& v) noexcept
+  void add(const Side& side) noexcept
   {
-    const Eigen::Vector3d along = v - u;
-    const double a = along.squaredNorm();
-    const double b = u.dot(along);
-    const double root = b * b - a * (u.squaredNorm() - squaredRadius_);
-    if (!(root > 0.0))
+    const bool fromInside = side.fromSquared <= squaredRadius_;
+    const bool toInside = side.toSquared <= squaredRadius_;
+    if (fromInside && toInside)
     {
-      arc(u, v);
+      line(side, 1.0, side.fromSquared, side.toSquared);
       return;
     }
-    const double enter = (-b - std::sqrt(root)) / a;
-    const double leave = (-b + std::sqrt(root)) / a;
-    if (enter >= 1.0 || leave <= 0.0)
+    const double along = side.dot() - side.fromSquared;
+    const double root = along * along - side.squared * (side.fromSquared - squaredRadius_);
+    const bool passes = along < 0.0 && along > -side.squared && root > 0.0;
+    if (!fromInside && !toInside && !passes)
     {
-      arc(u, v);
+      arc(side.dot(), side.cross);
       return;
     }
-    crossed_ = true;
-    Eigen::Vector3d from = u;
-    Eigen::Vector3d to = v;
-    if (enter > 0.0)
+    const double half = std::sqrt(std::max(0.0, root));
+    double length = 1.0;
+    if (!fromInside)
     {
-      from = u + enter * along;
-      arc(u, from);
+      const double enter = (-along - half) / side.squared;
+      arc(side.fromSquared + enter * along, enter * side.cross);
+      length -= enter;
     }
-    if (leave < 1.0)
+    if (!toInside)
     {
-      to = u + leave * along;
-      arc(to, v);
+      const double rest = (side.squared + along - half) / side.squared;
+      arc(side.toSquared - rest * (along + side.squared), rest * side.cross);
+      length -= rest;
     }
-    line(from, to);
+    line(side, length, fromInside ? side.fromSquared : squaredRadius_,
+      toInside ? side.toSquared : squaredRadius_);
   }
 
   [[nodiscard]] DiscIntegral close(bool middleInside) const noexcept
   {
     // the turns were multiplied as complex numbers: one arctangent, known up to a full turn
-    double turn = std::atan2(turn_.imag(), turn_.real());
+    double turn = std::atan2(sine_, cosine_);
     if (!middleInside)
     {
       turn = std::max(0.0, turn);
@@ -80,26 +93,30 @@ public:
 private:
   static constexpr double kRounding = 1e-9; // [rad]
 
-  void line(const Eigen::Vector3d& u, const Eigen::Vector3d& v) noexcept
+  // a part of a side within the disc, given the squared distances of its ends
+  void line(const Side& side, double part, double begin, double end) noexcept
   {
-    const double area = 0.5 * normal_.dot(u.cross(v));
+    const double area = 0.5 * side.cross * part;
+    const double meanSquare = 0.25 * (begin + end) - part * part * side.squared / 12.0;
     area_ += area;
-    weight_ += area * (squaredRadius_ - (u.squaredNorm() + v.squaredNorm() + u.dot(v)) / 6.0);
+    weight_ += area * (squaredRadius_ - meanSquare);
+    crossed_ = true;
   }
 
-  void arc(const Eigen::Vector3d& u, const Eigen::Vector3d& v) noexcept
+  // from one point to another, given their dot and cross products
+  void arc(double dot, double cross) noexcept
   {
-    const double x = u.dot(v);
-    const double y = normal_.dot(u.cross(v));
-    turn_ = { turn_.real() * x - turn_.imag() * y, turn_.real() * y + turn_.imag() * x };
-    turn_ /= squaredRadius_;
+    const double cosine = (cosine_ * dot - sine_ * cross) * scale_;
+    sine_ = (cosine_ * cross + sine_ * dot) * scale_;
+    cosine_ = cosine;
   }
 
-  Eigen::Vector3d normal_;
   double squaredRadius_;
+  double scale_;
   double area_ = 0.0;
   double weight_ = 0.0;
-  std::complex<double> turn_ = 1.0;
+  double cosine_ = 1.0;
+  double sine_ = 0.0;
   bool crossed_ = false;
 };
 
@@ -124,15 +141,17 @@ DiscIntegral integrate(
     return { .area = area, .weight = area * (squaredRadius - meanSquare) };
   }
 
-  const Eigen::Vector3d middle = height * facet.normal;
-  const std::array<Eigen::Vector3d, 3> u = { p[0] - middle, p[1] - middle, p[2] - middle };
-  Boundary boundary(facet.normal, disc);
+  Boundary boundary(disc);
   bool middleInside = true;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const Eigen::Vector3d& v = u[(k + 1) % 3];
-    boundary.side(u[k], v);
-    middleInside = middleInside && facet.normal.dot(u[k].cross(v)) > 0.0;
+    const std::size_t next = (k + 1) % 3;
+    const Side side{ .fromSquared = q[k] - height * height,
+      .toSquared = q[next] - height * height,
+      .squared = (p[next] - p[k]).squaredNorm(),
+      .cross = facet.normal.dot(p[k].cross(p[next])) };
+    boundary.add(side);
+    middleInside = middleInside && side.cross > 0.0;
   }
   return boundary.close(middleInside);
 }
