@@ -1,6 +1,7 @@
 #include "haptics/servo/servo.h"
 
 #include "haptics/servo/realtime.h"
+#include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
 
 #include <Eigen/Core>
@@ -16,12 +17,23 @@ double seconds(std::chrono::nanoseconds duration) noexcept
   return std::chrono::duration<double>(duration).count();
 }
 
+// only what a hand can feel is limited: mouse and path have no motors
+std::optional<SafetyChain> makeChain(const Device& device, const ServoOptions& options)
+{
+  if (!device.limits().rendersForce)
+  {
+    return std::nullopt;
+  }
+  return SafetyChain(device.limits(), { .period = seconds(options.period) });
+}
+
 } // namespace
 
 Servo::Servo(Device& device, Scene scene, const ServoOptions& options)
   : device_(device)
   , options_(options)
   , scene_(scene)
+  , chain_(makeChain(device, options))
   , thread_([this](const std::stop_token& stop) { run(stop); })
 {
   schedule_ =
@@ -38,6 +50,29 @@ void Servo::waitUntil(Clock::time_point due) noexcept
   }
 }
 
+Sample Servo::answer(
+  const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept
+{
+  const bool stopped = stopped_.load(std::memory_order_relaxed);
+  if (chain_)
+  {
+    const auto admitted =
+      chain_->admit(pose, device_.status(), { .armed = scene.armed, .stop = stopped }, elapsed);
+    Sample sample = admitted ? touch(scene, *admitted) : Sample{};
+    const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
+    chain_->limit(sample, law, scene);
+    return sample;
+  }
+  Sample sample = pose ? step(scene, *pose) : Sample{};
+  sample.flags |= pose ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
+  if (stopped)
+  {
+    sample.force.setZero();
+    sample.flags |= static_cast<std::uint32_t>(Flag::EmergencyStop);
+  }
+  return sample;
+}
+
 void Servo::run(std::stop_token stop) noexcept
 {
   const Clock::time_point start = Clock::now();
@@ -50,17 +85,12 @@ void Servo::run(std::stop_token stop) noexcept
     const Clock::time_point awake = Clock::now();
     timing_.lateness.record(awake - due);
 
-    const std::optional<ToolPose> pose = device_.exchange(force, seconds(awake - last));
+    const double elapsed = seconds(awake - last);
+    const std::optional<ToolPose> pose = device_.exchange(force, elapsed);
     last = awake;
     const Clock::time_point begin = Clock::now();
-    Sample sample = pose ? step(scene_.read(), *pose) : Sample{};
+    Sample sample = answer(scene_.read(), pose, elapsed);
     sample.time = seconds(awake - start);
-    sample.flags |= pose ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
-    if (stopped_.load(std::memory_order_relaxed))
-    {
-      sample.force.setZero();
-      sample.flags |= static_cast<std::uint32_t>(Flag::EmergencyStop);
-    }
     force = sample.force;
     timing_.step.record(Clock::now() - begin);
 

@@ -3,12 +3,14 @@
 #include "haptics/devices/device.h"
 #include "haptics/servo/latest.h"
 #include "haptics/servo/ring.h"
+#include "haptics/servo/safety.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 #include "haptics/servo/timing.h"
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -24,6 +26,8 @@ struct ServoOptions
 };
 
 /// The loop that a hand feels: device, contact, law, limits, device, at a fixed rate.
+///
+/// A device that renders force does so through the safety chain, and only while the scene is armed.
 ///
 /// One thread of its own, three exchanges with the main thread: the scene in, the newest sample
 /// and all samples out. A deadline that is missed is counted and skipped, never made up for. The
@@ -80,11 +84,14 @@ private:
   using Clock = std::chrono::steady_clock;
 
   void run(std::stop_token stop) noexcept;
+  [[nodiscard]] Sample answer(
+    const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept;
   void waitUntil(Clock::time_point due) noexcept;
 
   Device& device_;
   ServoOptions options_;
   Latest<Scene> scene_;
+  std::optional<SafetyChain> chain_; // where a hand can feel the force
   Latest<Sample> newest_;
   Ring<Sample> history_{ 8192 };
   std::atomic<bool> stopped_ = false;

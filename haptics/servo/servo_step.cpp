@@ -15,7 +15,15 @@ void raise(Sample& sample, Flag flag) noexcept
 
 } // namespace
 
-Sample step(const Scene& scene, const ToolPose& pose) noexcept
+Response respond(const Scene& scene, const Contact& contact, double depth) noexcept
+{
+  return scene.law(Indentation{ .depth = depth,
+    .tilt = contact.tilt,
+    .thickness = contact.thickness,
+    .surfaceCurvature = contact.surfaceCurvature });
+}
+
+Sample touch(const Scene& scene, const ToolPose& pose) noexcept
 {
   Sample sample;
   sample.pose = pose;
@@ -29,15 +37,21 @@ Sample step(const Scene& scene, const ToolPose& pose) noexcept
     return sample;
   }
   sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
+  if (sample.contact.touching())
+  {
+    sample.response = respond(scene, sample.contact, sample.contact.depth);
+    sample.proxyDepth = sample.contact.depth;
+  }
+  return sample;
+}
+
+Sample step(const Scene& scene, const ToolPose& pose) noexcept
+{
+  Sample sample = touch(scene, pose);
   if (!sample.contact.touching())
   {
     return sample;
   }
-
-  sample.response = scene.law(Indentation{ .depth = sample.contact.depth,
-    .tilt = sample.contact.tilt,
-    .thickness = sample.contact.thickness,
-    .surfaceCurvature = sample.contact.surfaceCurvature });
   const double viscous = -scene.damping * pose.velocity.dot(sample.contact.normal);
   const double wanted = std::max(0.0, sample.response.force + viscous);
   const double push = std::min(wanted, scene.forceLimit);

@@ -6,6 +6,16 @@
 namespace palp
 {
 
+/// Contact and law at a pose, without a force: what a safety chain starts from.
+///
+/// @return    flagged, and without contact, where the pose is not finite
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Sample touch(const Scene& scene, const ToolPose& pose) noexcept;
+
+/// The law of a scene at a contact, as if it were another depth there.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Response respond(const Scene& scene, const Contact& contact, double depth) noexcept;
+
 /// Tool pose in, force out: contact, analytical law, damping, limit.
 ///
 /// The tissue pushes and never pulls, however fast the tool withdraws. The caller sets the time.

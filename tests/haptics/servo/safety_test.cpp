@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/support/allocation_guard.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -461,6 +462,17 @@ TEST(SafetyChain, WorkspaceEndsInASoftSpringInward)
     before = sample.force;
   }
   EXPECT_NEAR(before.x(), -2.0, 1e-12);
+}
+
+TEST(SafetyChain, DoesNotAllocate)
+{
+  Bench bench;
+  bench.stiffness = 1e9;
+  bench.activate();
+  const test::AllocationGuard guard;
+  (void)bench.press(3.0_mm);
+  (void)bench.tick(std::nullopt);
+  EXPECT_EQ(guard.count(), 0U);
 }
 
 TEST(SafetyChain, RefusesLimitsThatMakeNoSense)

@@ -20,7 +20,7 @@ class Probe final : public Device
 public:
   [[nodiscard]] DeviceLimits limits() const override
   {
-    return {};
+    return { .model = "probe", .rendersForce = rendersForce, .maxForce = 7.9, .damping = 1.0 };
   }
 
   [[nodiscard]] std::optional<ToolPose> exchange(
@@ -42,6 +42,7 @@ public:
       .velocity = Eigen::Vector3d::Zero() };
   }
 
+  bool rendersForce = false;
   std::atomic<bool> gone = false;
   std::chrono::milliseconds stall = 0ms;
   Eigen::Vector3d last = Eigen::Vector3d::Zero(); // read after the servo has ended
@@ -83,6 +84,21 @@ TEST(Servo, PressesAndEndsWithZeroForce)
     waitFor(servo, [](const Sample& sample) { return sample.force.z() > 0.1; });
   }
   EXPECT_EQ(probe.last, Eigen::Vector3d::Zero());
+}
+
+TEST(Servo, AHandFeelsNothingUntilTheSceneIsArmed)
+{
+  Probe probe;
+  probe.rendersForce = true;
+  Scene world = scene();
+  Servo servo(probe, world, kPlain);
+  const Sample off = waitFor(servo, [](const Sample& sample) { return sample.time > 0.05; });
+  EXPECT_EQ(off.force, Eigen::Vector3d::Zero());
+  EXPECT_EQ(off.state, DeviceState::Ready);
+  EXPECT_GT(off.response.force, 0.1);
+  world.armed = true;
+  servo.setScene(world);
+  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::SoftStart; });
 }
 
 TEST(Servo, TakesANewScene)
