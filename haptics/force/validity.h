@@ -16,9 +16,16 @@ struct Rule
   double value;     ///< 0 or more
   double limit;     ///< infinite where none is known
   const char* why;  ///< what the limit is, in words
+
   [[nodiscard]] bool holds() const noexcept
   {
     return value <= limit;
+  }
+
+  /// How much of the limit is used; above 1 the rule is broken.
+  [[nodiscard]] double share() const noexcept
+  {
+    return value == 0.0 || limit == std::numeric_limits<double>::infinity() ? 0.0 : value / limit;
   }
 };
 
