@@ -1,7 +1,10 @@
 #include "app/commands.h"
 #include "app/csv.h"
+#include "app/law_options.h"
 #include "app/press_options.h"
 #include "app/quantity.h"
+#include "haptics/force/inclination.h"
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
@@ -16,21 +19,93 @@ namespace
 struct ForceOptions
 {
   TissueOptions tissue;
+  PlaceOptions place;
   std::string depth = "0:10:0.5mm";
+  bool validity = false;
 };
+
+// which factors act, for people, on standard error
+void tellFactors(const ForceLaw& law, const Indentation& deepest)
+{
+  std::string acting;
+  for (const Factor& factor : law.factors(deepest))
+  {
+    if (factor.value != 1.0)
+    {
+      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" +
+        shortest(std::round(factor.value * 1e4) / 1e4);
+    }
+  }
+  std::cerr << "palp: factors at the largest depth: " << (acting.empty() ? "none acts" : acting)
+            << '\n';
+  const bool bare = law.settings().mode == LawMode::Corrected &&
+    law.settings().constitution == Constitution::NeoHookean && !law.largeStrain(deepest).inside;
+  if (bare)
+  {
+    std::cerr << "palp: no table of large strain covers this tool and place; linear there\n";
+  }
+}
 
 void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
   const Range depths = parseRange(options.depth, Quantity::Length, "--depth");
-  std::cout << "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm\n";
+  const bool paper = law.settings().mode == LawMode::Paper;
+  Indentation place = options.place.place();
+  const Validity validity(law, { .deepest = depths.si.back() });
+
+  std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
+  if (!paper)
+  {
+    for (const Factor& factor : law.factors(place))
+    {
+      header += ",factor_" + std::string(factor.name);
+    }
+    header += ",axial_force_N,lateral_force_N";
+  }
+  if (options.validity)
+  {
+    for (const Rule& rule : validity(place))
+    {
+      std::cout << "# " << rule.name << "_of_limit: " << rule.why << '\n';
+      header += "," + std::string(rule.name) + "_of_limit";
+    }
+  }
+  std::cout << header << '\n';
+
+  std::vector<double> row;
   for (std::size_t i = 0; i < depths.si.size(); ++i)
   {
-    const Response response = law({ .depth = depths.si[i] });
-    writeCsvRow(std::cout,
-      std::array{ depths.given[i] * units::toMillimetres(depths.unit), response.force,
-        units::toMillimetres(response.contactRadius),
-        units::toNewtonsPerMillimetre(response.stiffness) });
+    place.depth = depths.si[i];
+    const Response response = law(place);
+    row = { depths.given[i] * units::toMillimetres(depths.unit), response.force,
+      units::toMillimetres(response.contactRadius),
+      units::toNewtonsPerMillimetre(response.stiffness) };
+    if (!paper)
+    {
+      for (const Factor& factor : law.factors(place))
+      {
+        row.push_back(factor.value);
+      }
+      const InclinedForce felt = inclinedForce(response.force, place.tilt);
+      row.insert(row.end(), { felt.axial, felt.lateral });
+    }
+    if (options.validity)
+    {
+      for (const Rule& rule : validity(place))
+      {
+        row.push_back(rule.share());
+      }
+    }
+    writeCsvRow(std::cout, row);
+  }
+  if (!paper)
+  {
+    tellFactors(law, place);
+  }
+  if (options.place.given() && law.settings().mode != LawMode::Corrected)
+  {
+    std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
   }
 }
 
@@ -41,10 +116,16 @@ void addForceCommand(CLI::App& app)
   auto options = std::make_shared<ForceOptions>();
   CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
   options->tissue.addTo(*command);
+  options->place.addTo(*command);
   command->add_option("--depth", options->depth, "Indentation depths A:B:STEP, both ends included")
     ->capture_default_str();
-  command->footer("Example:\n"
-                  "  palp force --tip cone:45deg:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm");
+  command->add_flag("--validity", options->validity,
+    "Append for each condition of the law how much of its limit is used; above 1 it is broken");
+  command->footer(
+    "Examples:\n"
+    "  palp force --tip cone:45deg:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm\n"
+    "  palp force --tip sphere:6mm --law corrected --thickness 30mm --surface-radius 50mm\n"
+    "  palp force --tip profile:tip.csv --law exact --validity");
   command->callback([options] { printForces(*options); });
 }
 

@@ -11,18 +11,23 @@ namespace palp
 
 void TissueOptions::addTo(CLI::App& command)
 {
-  command.add_option("--tip", tip, "Tool: sphere:R or cone:ALPHA:BASE (ALPHA from axis to flank)")
+  command
+    .add_option("--tip", tip,
+      "Tool: sphere:R, cone:ALPHA:BASE, punch:R, truncated-cone:ALPHA:FLAT:BASE, "
+      "blunt-cone:ALPHA:TIP:BASE, paraboloid:R or profile:FILE.csv (ALPHA from axis to flank)")
     ->capture_default_str();
   command.add_option("--young", young, "Young's modulus E, 1Pa to 10GPa")->capture_default_str();
   command.add_option("--poisson", poisson, "Poisson's ratio nu, 0 to 0.5, no unit")
     ->capture_default_str();
+  options.addTo(command);
 }
 
 ForceLaw TissueOptions::law() const
 {
   return ForceLaw(parseTip(tip),
     makeMaterial(
-      parseQuantity(young, Quantity::Pressure, "--young"), parseNumber(poisson, "--poisson")));
+      parseQuantity(young, Quantity::Pressure, "--young"), parseNumber(poisson, "--poisson")),
+    options.settings());
 }
 
 void PressOptions::addTo(CLI::App& command)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/law_options.h"
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
 
@@ -20,6 +21,7 @@ struct TissueOptions
   std::string tip = "sphere:10mm";
   std::string young = "50kPa";
   std::string poisson = "0.33";
+  LawOptions options;
 
   void addTo(CLI::App& command);
 

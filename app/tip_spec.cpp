@@ -3,6 +3,7 @@
 #include "app/csv.h"
 #include "app/quantity.h"
 #include "haptics/error.h"
+#include "haptics/force/profile.h"
 #include "haptics/units.h"
 
 #include <vector>
@@ -91,10 +92,15 @@ Tip parseShape(std::string_view text)
     Reader in(text, 1, "paraboloid:10mm");
     return ParaboloidTip{ .radius = in.length() };
   }
+  if (kind == "profile" && text.size() > kind.size() + 1)
+  {
+    return ProfileTip{ std::make_shared<const Profile>(
+      Profile::read(std::string(text.substr(kind.size() + 1)))) };
+  }
   throw Error(ErrorCode::BadValue,
     "--tip: '" + std::string(text) +
       "' is no tool; give sphere:10mm, cone:45deg:10mm, punch:5mm, truncated-cone:45deg:2mm:10mm, "
-      "blunt-cone:45deg:0.3mm:10mm or paraboloid:10mm");
+      "blunt-cone:45deg:0.3mm:10mm, paraboloid:10mm or profile:FILE.csv");
 }
 
 std::string mm(double metres)
@@ -124,7 +130,7 @@ struct Describe
     return "blunt-cone" + deg(tip.halfAngle) + mm(tip.tipRadius) + mm(tip.baseRadius);
   }
   std::string operator()(const ParaboloidTip& tip) const { return "paraboloid" + mm(tip.radius); }
-  std::string operator()(const ProfileTip&) const { return "profile"; }
+  std::string operator()(const ProfileTip& tip) const { return "profile:" + tip.profile->name(); }
 };
 
 } // namespace

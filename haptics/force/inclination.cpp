@@ -42,6 +42,13 @@ constexpr double slopeAt(std::size_t i) noexcept
     (before + after);
 }
 
+// tilt at which the force of a cone is 7 % higher: the parabola through the three half angles
+double noticeableTilt(const ConeTip& cone) noexcept
+{
+  const double x = (std::clamp(cone.halfAngle, 30.0_deg, 60.0_deg) - 45.0_deg) / 15.0_deg;
+  return kMiddle + 0.5 * x * (kWide - kNarrow) + 0.5 * x * x * (kWide + kNarrow - 2.0 * kMiddle);
+}
+
 } // namespace
 
 InclinedForce inclinedForce(double force, double tilt) noexcept
@@ -61,11 +68,7 @@ double tiltFactor(const Tip& tip, double tilt) noexcept
   {
     return 1.0;
   }
-  // parabola through the three angles
-  const double x = (std::clamp(cone->halfAngle, 30.0_deg, 60.0_deg) - 45.0_deg) / 15.0_deg;
-  const double reach =
-    kMiddle + 0.5 * x * (kWide - kNarrow) + 0.5 * x * x * (kWide + kNarrow - 2.0 * kMiddle);
-  const double place = std::min(std::abs(tilt) * kMiddle / reach, kTilts.back());
+  const double place = std::min(std::abs(tilt) * kMiddle / noticeableTilt(*cone), kTilts.back());
   const auto above = std::upper_bound(kTilts.begin() + 1, kTilts.end() - 1, place);
   const auto high = static_cast<std::size_t>(above - kTilts.begin());
   const std::size_t low = high - 1;
@@ -73,6 +76,12 @@ double tiltFactor(const Tip& tip, double tilt) noexcept
   return hermite(
     (place - kTilts[low]) / width, width, kForces[low], kForces[high], slopeAt(low), slopeAt(high))
     .value;
+}
+
+double tiltReach(const Tip& tip) noexcept
+{
+  const auto* cone = std::get_if<ConeTip>(&tip);
+  return cone == nullptr ? 0.0 : kTilts.back() * noticeableTilt(*cone) / kMiddle;
 }
 
 } // namespace palp

@@ -34,4 +34,8 @@ struct InclinedForce
 /// @realtime    pure; no allocation, no lock, no exception
 [[nodiscard]] double tiltFactor(const Tip& tip, double tilt) noexcept;
 
+/// Largest tilt that tiltFactor knows for a cone; 0 for any other tip.
+/// @return [rad]
+[[nodiscard]] double tiltReach(const Tip& tip) noexcept;
+
 } // namespace palp

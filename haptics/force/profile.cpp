@@ -143,7 +143,7 @@ Profile Profile::read(const std::filesystem::path& file)
   }
   try
   {
-    return Profile(std::move(points));
+    return Profile(std::move(points), file.string());
   }
   catch (const Error& error)
   {
@@ -153,7 +153,8 @@ Profile Profile::read(const std::filesystem::path& file)
   }
 }
 
-Profile::Profile(std::vector<Point> points)
+Profile::Profile(std::vector<Point> points, std::string name)
+  : name_(std::move(name))
 {
   if (points.size() < 3 || points.size() > kMostPoints)
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace palp
@@ -25,8 +26,9 @@ public:
   [[nodiscard]] static Profile read(const std::filesystem::path& file);
 
   /// @param points   3 to 10,000; radii increasing, heights and slopes never decreasing
+  /// @param name     for people: the file
   /// @throws Error  BadValue: names the point
-  explicit Profile(std::vector<Point> points);
+  explicit Profile(std::vector<Point> points, std::string name = {});
 
   /// @param radius  [m], 0 to baseRadius(); beyond, the base's value
   /// @return        f(r) [m]
@@ -41,6 +43,11 @@ public:
   {
     return pieces_.back().end;
   } ///< [m]
+
+  [[nodiscard]] const std::string& name() const noexcept
+  {
+    return name_;
+  }
 
   /// Radius of the flat at the apex [m]; 0 where there is none.
   [[nodiscard]] double flatRadius() const noexcept;
@@ -72,6 +79,7 @@ private:
   [[nodiscard]] const Piece& pieceAt(double radius) const noexcept;
 
   std::vector<Piece> pieces_;
+  std::string name_;
 };
 
 } // namespace palp

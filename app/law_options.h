@@ -1,0 +1,46 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+
+namespace palp
+{
+
+/// Which law answers, and what it takes into account: options that every command shares.
+struct LawOptions
+{
+  std::string mode = "paper";
+  std::string base = "bonded";
+  std::string constitution = "neo-hookean";
+
+  void addTo(CLI::App& command);
+
+  [[nodiscard]] LawSettings settings() const;
+};
+
+/// The place that is pressed, where no surface tells it; as text with units.
+struct PlaceOptions
+{
+  std::string thickness;     ///< empty: half-space
+  std::string surfaceRadius; ///< R0, or two principal ones R1:R2; empty: flat
+  std::string tilt;          ///< empty: upright
+
+  void addTo(CLI::App& command);
+
+  /// @return         the place at a depth of 0
+  /// @throws Error  BadValue: names the option, what is wrong and how to write it
+  [[nodiscard]] Indentation place() const;
+
+  [[nodiscard]] bool given() const noexcept
+  {
+    return !thickness.empty() || !surfaceRadius.empty() || !tilt.empty();
+  }
+};
+
+} // namespace palp

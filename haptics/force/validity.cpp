@@ -1,0 +1,127 @@
+#include "haptics/force/validity.h"
+
+#include "haptics/force/inclination.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kPaperDepth = 3.3 / 6.0;     // depth / R, Sec. 4.3
+constexpr double kPaperCurvature = 1.0 / 3.0; // R / R0, Sec. 3.2
+constexpr double kHollow = 0.5;               // R / R0 to which a hollow surface is corrected
+constexpr double kVerifiedWidth = 0.6;        // a / thickness to which the layer is verified
+constexpr double kEdge = 1.0 / 3.0;           // a / distance, a rule of thumb
+constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
+constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
+
+LawSettings best(LawSettings settings)
+{
+  settings.mode = LawMode::Corrected;
+  settings.curvature = settings.thickness = settings.inclination = true;
+  return settings;
+}
+
+bool isRound(const Tip& tip) noexcept
+{
+  return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
+}
+
+// tilt at which the force on this tip is wrong by a just noticeable difference
+double tiltLimit(const ForceLaw& law)
+{
+  if (isRound(law.tip()))
+  {
+    return tiltOfShare(Validity::kJustNoticeable);
+  }
+  const bool corrected = law.settings().mode == LawMode::Corrected && law.settings().inclination &&
+    std::holds_alternative<ConeTip>(law.tip());
+  return corrected ? tiltReach(law.tip()) : kConeTilt;
+}
+
+double share(double part, double whole) noexcept
+{
+  return whole > 0.0 ? std::abs(part) / whole : 0.0;
+}
+
+// a value to show: what is not a number is as bad as can be
+double shown(double value) noexcept
+{
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
+}
+
+} // namespace
+
+Validity::Validity(const ForceLaw& law)
+  : Validity(law, Limits{})
+{
+}
+
+Validity::Validity(const ForceLaw& law, const Limits& limits)
+  : law_(law)
+  , best_(law.tip(), law.material(), best(law.settings()))
+  , limits_(limits)
+  , maxForce_(
+      best_({ .depth = limits.deepest > 0.0 ? limits.deepest : baseRadius(law.tip()) }).force)
+  , thickness_(kVerifiedWidth)
+  , tilt_(tiltLimit(law))
+{
+  if (law.settings().mode != LawMode::Corrected || !law.settings().thickness)
+  {
+    // where the layer's first order is just noticeable
+    const Layer layer(law.material().poissonRatio, law.settings().base);
+    thickness_ = kJustNoticeable / layer(0.0).slope[0];
+  }
+}
+
+Rules Validity::operator()(const Indentation& local, double edgeDistance) const noexcept
+{
+  const Tip& tip = law_.tip();
+  const LawSettings& settings = law_.settings();
+  const bool corrected = settings.mode == LawMode::Corrected;
+  const Response response = law_(local);
+  const double truth = best_(local).force;
+  const double base = baseRadius(tip);
+  const double depth = std::max(0.0, local.depth);
+  const LargeStrainGrid::Ratio ratio = best_.largeStrain(local);
+  const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
+  const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
+
+  return { {
+    { "force_of_maximum", "-", shown(share(response.force - truth, std::max(maxForce_, truth))),
+      kJustNoticeable,
+      "the force may differ from the best law known by 7 % of the maximum, which a hand just "
+      "notices (Eq. 9)" },
+    { "force_of_itself", "-", shown(share(response.force - truth, truth)), kJustNoticeable,
+      "the force may differ from the best law known by 7 % of itself, which a hand just notices" },
+    { "inclination", "rad", shown(local.tilt), tilt_,
+      isRound(tip) ? "beyond 21.6 degrees the axial share of the force is 7 % short (Eq. 7)"
+                   : "a tilted tip no longer meets the surface as an upright one" },
+    { "direction", "rad", shown(local.tilt), kDirection,
+      "beyond 32 degrees a hand notices the direction of the force" },
+    { "depth", "-", shown(depth / base), !corrected && isRound(tip) ? kPaperDepth : 1.0,
+      corrected ? "deeper than the tip's radius nothing was compared with finite elements"
+                : "deeper, the law departs from neo-Hookean finite elements by 7 % (Sec. 4.3)" },
+    { "large_strain", "-", ratio.inside ? 0.0 : shown(depth / base),
+      settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity() : 0.3,
+      "at large strain and outside the table of finite elements the tissue counts as linear" },
+    { "thickness", "-", shown(response.contactRadius / local.thickness), thickness_,
+      corrected ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
+                : "a wider contact feels the base by 7 %" },
+    { "edge", "-", shown(response.contactRadius / edgeDistance), kEdge,
+      "nearer than three contact radii an edge yields" },
+    { "curvature", "-", shown(local.surfaceCurvature * base), flattest,
+      curved ? "a surface curved as much as the tip is no small correction"
+             : "a surface curved more than a third of the tip is not flat (Sec. 3.2)" },
+    { "stiffness", "N/m", shown(response.stiffness), limits_.stableStiffness,
+      "stiffer than the device renders without vibrating" },
+  } };
+}
+
+} // namespace palp

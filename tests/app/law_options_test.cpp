@@ -1,0 +1,131 @@
+#include "tests/support/csv_table.h"
+#include "tests/support/process.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+using test::Finished;
+
+Finished force(const std::string& arguments)
+{
+  return test::runCommand(PALP_PROGRAM " force --young 50kPa --poisson 0.33 " + arguments);
+}
+
+test::CsvTable table(const Finished& finished)
+{
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  std::istringstream in(finished.out);
+  return test::parseCsv(in);
+}
+
+// eight digits of the integral equation for a bonded layer of 30 mm, data/reference
+TEST(LawOptions, CorrectedSphereOnALayer)
+{
+  const auto law =
+    table(force("--tip sphere:6mm --law corrected --thickness 30mm --depth 1:6:5mm"));
+  EXPECT_NEAR(law["force_N"][0], 0.19416921, 1e-6);
+  EXPECT_NEAR(law["force_N"][1], 2.851754, 1e-5);
+  EXPECT_NEAR(law["factor_shape"][1], 2.4233212 / 2.6933004, 1e-6);
+  EXPECT_NEAR(law["factor_thickness"][1], 2.851754 / 2.4233212, 1e-5);
+  EXPECT_EQ(law["factor_curvature"][1], 1.0);
+}
+
+TEST(LawOptions, ExactSphereIsSneddons)
+{
+  const auto law = table(force("--tip sphere:6mm --law exact --depth 6:6:1mm"));
+  EXPECT_NEAR(law["force_N"][0], 2.4233212, 1e-6);
+}
+
+TEST(LawOptions, SlippingBaseIsSofter)
+{
+  const std::string place = "--tip sphere:6mm --law corrected --thickness 20mm --depth 5:5:1mm ";
+  EXPECT_LT(table(force(place + "--base slip"))["force_N"][0], table(force(place))["force_N"][0]);
+}
+
+// Hertz: R R0 / (R + R0) for the paraboloid
+TEST(LawOptions, CurvedSurfaceIsHertz)
+{
+  const auto law =
+    table(force("--tip paraboloid:10mm --law corrected --surface-radius 40mm --depth 1:1:1mm"));
+  EXPECT_NEAR(law["factor_curvature"][0], std::sqrt(0.8), 1e-6);
+  const auto saddle = table(
+    force("--tip paraboloid:10mm --law corrected --surface-radius 40mm:-40mm --depth 1:1:1mm"));
+  EXPECT_EQ(saddle["factor_curvature"][0], 1.0);
+  EXPECT_GT(saddle["factor_ellipse"][0], 1.0);
+}
+
+// boundary elements: 1.04452 at 9 degrees
+TEST(LawOptions, TiltedConeIsThatOfTheBoundaryElements)
+{
+  const auto law =
+    table(force("--tip cone:45deg:10mm --law corrected --tilt 9deg --depth 2:2:1mm"));
+  EXPECT_NEAR(law["factor_inclination"][0], 1.04452, 1e-5);
+  EXPECT_NEAR(law["lateral_force_N"][0] / law["axial_force_N"][0],
+    std::tan(9.0 * std::numbers::pi / 180.0), 1e-9);
+}
+
+TEST(LawOptions, EveryToolIsUnderstood)
+{
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "palp_tool.csv";
+  std::ofstream(file) << "radius_mm,height_mm\n0,0\n2,0\n10,8\n";
+  for (const std::string tip : { "sphere:10mm", "cone:45deg:10mm", "punch:5mm",
+         "truncated-cone:45deg:2mm:10mm", "blunt-cone:45deg:0.3mm:10mm", "paraboloid:10mm" })
+  {
+    EXPECT_GT(table(force("--depth 3:3:1mm --tip " + tip))["force_N"][0], 0.1) << tip;
+  }
+  // a profile in the shape of the truncated cone
+  EXPECT_NEAR(table(force("--depth 3:3:1mm --tip profile:" + file.string()))["force_N"][0],
+    table(force("--depth 3:3:1mm --tip truncated-cone:45deg:2mm:10mm"))["force_N"][0], 1e-6);
+  std::filesystem::remove(file);
+}
+
+TEST(LawOptions, PaperStaysThePapersWhateverThePlace)
+{
+  const Finished bare = force("--tip sphere:6mm --depth 0:6:1mm");
+  const Finished place = force("--tip sphere:6mm --depth 0:6:1mm --thickness 10mm --tilt 9deg");
+  EXPECT_EQ(bare.out, place.out);
+  EXPECT_NE(place.err.find("--law corrected"), std::string::npos);
+}
+
+TEST(LawOptions, TellsWhichFactorsAct)
+{
+  const Finished finished =
+    force("--tip sphere:6mm --law corrected --thickness 30mm --depth 6:6:1mm");
+  EXPECT_NE(finished.err.find("shape x0.8998, thickness x1.1768"), std::string::npos)
+    << finished.err;
+}
+
+TEST(LawOptions, ValidityIsAColumnForEachRule)
+{
+  const auto law = table(force("--tip sphere:10mm --depth 2:10:8mm --validity"));
+  EXPECT_LT(law["force_of_itself_of_limit"][0], 1.0);
+  EXPECT_GT(law["force_of_itself_of_limit"][1], 1.0);
+  EXPECT_EQ(law.comments.size(), 10U);
+}
+
+TEST(LawOptions, RefusesWhatMakesNoSense)
+{
+  for (const char* arguments : { "--law hertz", "--base wet", "--material jelly" })
+  {
+    EXPECT_EQ(force(arguments).code, 2) << arguments;
+    EXPECT_EQ(force(arguments).out, "") << arguments;
+  }
+  for (const char* arguments : { "--thickness 0mm", "--thickness 30", "--surface-radius 0mm",
+         "--surface-radius 50mm:", "--tilt 95deg", "--tip profile:/no/such/file.csv",
+         "--tip profile:" })
+  {
+    const Finished finished = force(arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_EQ(finished.out, "") << arguments;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,133 @@
+#include "haptics/force/validity.h"
+
+#include "haptics/units.h"
+
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+const Material kLiver{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
+
+const Rule& rule(const Rules& rules, const char* name)
+{
+  for (const Rule& one : rules)
+  {
+    if (std::strcmp(one.name, name) == 0)
+    {
+      return one;
+    }
+  }
+  throw std::runtime_error(name);
+}
+
+// Eq. (7): 21.6 degrees for a sphere; Sec. 3.2: 9 degrees for a cone, 32 for the direction
+TEST(Validity, LimitsTheTiltAsThePaperDoes)
+{
+  const Validity sphere(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
+  const Validity cone(ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kLiver));
+  const auto at = [](double tilt) { return Indentation{ .depth = 1.0_mm, .tilt = tilt }; };
+  EXPECT_TRUE(rule(sphere(at(21.5_deg)), "inclination").holds());
+  EXPECT_FALSE(rule(sphere(at(21.6_deg)), "inclination").holds());
+  EXPECT_TRUE(rule(cone(at(8.9_deg)), "inclination").holds());
+  EXPECT_FALSE(rule(cone(at(-9.1_deg)), "inclination").holds());
+  EXPECT_TRUE(rule(cone(at(31.0_deg)), "direction").holds());
+  EXPECT_FALSE(rule(cone(at(33.0_deg)), "direction").holds());
+}
+
+TEST(Validity, CorrectedConeMayTiltAsFarAsTheBoundaryElements)
+{
+  const Validity cone(
+    ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, { .mode = LawMode::Corrected }));
+  EXPECT_TRUE(rule(cone({ .depth = 1.0_mm, .tilt = 29.0_deg }), "inclination").holds());
+  EXPECT_FALSE(rule(cone({ .depth = 1.0_mm, .tilt = 31.0_deg }), "inclination").holds());
+}
+
+// Eq. (4) is above the exact sphere by 11 % at depth = R and by 5.3 % at R / 2
+TEST(Validity, TellsWhenTheForceIsNoticeablyOff)
+{
+  const Validity paper(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
+  EXPECT_NEAR(rule(paper({ .depth = 10.0_mm }), "force_of_itself").value, 0.11, 0.005);
+  EXPECT_FALSE(rule(paper({ .depth = 10.0_mm }), "force_of_itself").holds());
+  EXPECT_TRUE(rule(paper({ .depth = 5.0_mm }), "force_of_itself").holds());
+  // of the maximum, at the radius, it is less than of itself
+  const Rules half = paper({ .depth = 5.0_mm });
+  EXPECT_LT(rule(half, "force_of_maximum").value, rule(half, "force_of_itself").value);
+}
+
+TEST(Validity, ChangesWithTheMaximumOfTheExperiment)
+{
+  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver);
+  const Validity shallow(law, { .deepest = 4.0_mm });
+  const Validity deep(law, { .deepest = 8.0_mm });
+  const Indentation place{ .depth = 4.0_mm };
+  EXPECT_NEAR(rule(shallow(place), "force_of_maximum").value,
+    rule(shallow(place), "force_of_itself").value, 1e-12);
+  EXPECT_LT(
+    rule(deep(place), "force_of_maximum").value, rule(shallow(place), "force_of_maximum").value);
+}
+
+// the first order of the layer, (2/pi) m0 a/h, is 7 % at a/h = 0.07 pi / (2 * 1.41177)
+TEST(Validity, LimitsTheContactOnAThinBody)
+{
+  const Validity paper(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
+  EXPECT_NEAR(rule(paper({ .depth = 1.0_mm }), "thickness").limit, 0.07789, 2e-5);
+  EXPECT_FALSE(rule(paper({ .depth = 1.0_mm, .thickness = 30.0_mm }), "thickness").holds());
+  const Validity corrected(ForceLaw(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected }));
+  EXPECT_TRUE(rule(corrected({ .depth = 1.0_mm, .thickness = 30.0_mm }), "thickness").holds());
+  EXPECT_FALSE(rule(corrected({ .depth = 5.0_mm, .thickness = 10.0_mm }), "thickness").holds());
+}
+
+TEST(Validity, LimitsDepthCurvatureEdgeAndStiffness)
+{
+  const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kLiver), { .stableStiffness = 500.0 });
+  EXPECT_TRUE(rule(paper({ .depth = 3.2_mm }), "depth").holds());
+  EXPECT_FALSE(rule(paper({ .depth = 3.4_mm }), "depth").holds());
+  const Indentation flat{ .depth = 0.1_mm, .surfaceCurvature = 1.0 / 19.0_mm };
+  EXPECT_TRUE(rule(paper(flat), "curvature").holds());
+  const Indentation bent{ .depth = 0.1_mm, .surfaceCurvature = -1.0 / 17.0_mm };
+  EXPECT_FALSE(rule(paper(bent), "curvature").holds());
+  EXPECT_TRUE(rule(paper({ .depth = 1.5_mm }, 9.1_mm), "edge").holds());
+  EXPECT_FALSE(rule(paper({ .depth = 1.5_mm }, 8.9_mm), "edge").holds());
+  // dF/ddepth = 2 E* sqrt(R depth): 500 N/m at 3.3 mm
+  EXPECT_TRUE(rule(paper({ .depth = 3.2_mm }), "stiffness").holds());
+  EXPECT_FALSE(rule(paper({ .depth = 3.4_mm }), "stiffness").holds());
+}
+
+TEST(Validity, TellsThatLargeStrainIsNotCovered)
+{
+  const ForceLaw bare(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  EXPECT_FALSE(rule(Validity(bare)({ .depth = 5.0_mm }), "large_strain").holds());
+  const auto table = std::make_shared<const LargeStrain>(
+    LargeStrain{ { { 0.0, 1.0 }, { 0.0 }, { 0.33 }, { 1.0, 1.1 } },
+      { { 0.0, 1.0 }, { 0.5 }, { 0.33 }, { 1.0, 1.0 } } });
+  const ForceLaw full(
+    SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected, .largeStrain = table });
+  EXPECT_TRUE(rule(Validity(full)({ .depth = 5.0_mm }), "large_strain").holds());
+}
+
+TEST(Validity, EveryRuleHasWordsAndNoNaN)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Validity validity(ForceLaw(PunchTip{ 5.0_mm }, kLiver));
+  for (const Indentation& place : { Indentation{}, Indentation{ .depth = nan, .tilt = nan },
+         Indentation{ .depth = 1.0_mm, .thickness = nan, .surfaceCurvature = nan } })
+  {
+    for (const Rule& one : validity(place, nan))
+    {
+      EXPECT_FALSE(std::isnan(one.value)) << one.name;
+      EXPECT_FALSE(std::isnan(one.limit)) << one.name;
+      EXPECT_GE(one.value, 0.0) << one.name;
+      EXPECT_GT(std::strlen(one.why), 10U) << one.name;
+    }
+  }
+}
+
+} // namespace
+} // namespace palp
