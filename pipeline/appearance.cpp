@@ -1,0 +1,101 @@
+#include "pipeline/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <locale>
+#include <sstream>
+#include <vtkColorTransferFunction.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkTextProperty.h>
+
+namespace palp::appearance
+{
+namespace
+{
+
+// the map at 0, 0.1 ... 1
+constexpr std::array<Color, 11> kViridis{ {
+  { 0.267004, 0.004874, 0.329415 },
+  { 0.282623, 0.140926, 0.457517 },
+  { 0.253935, 0.265254, 0.529983 },
+  { 0.206756, 0.371758, 0.553117 },
+  { 0.163625, 0.471133, 0.558148 },
+  { 0.127568, 0.566949, 0.550556 },
+  { 0.134692, 0.658636, 0.517649 },
+  { 0.266941, 0.748751, 0.440573 },
+  { 0.477504, 0.821444, 0.318195 },
+  { 0.741388, 0.873449, 0.149561 },
+  { 0.993248, 0.906157, 0.143936 },
+} };
+
+constexpr const char* kRegular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
+
+} // namespace
+
+void setFont(vtkTextProperty& text, int size, const Color& color, bool bold)
+{
+  const char* file = bold ? kBold : kRegular;
+  if (std::filesystem::exists(file))
+  {
+    text.SetFontFamily(VTK_FONT_FILE);
+    text.SetFontFile(file);
+  }
+  text.SetBold(false); // the file is bold already
+  text.SetItalic(false);
+  text.SetShadow(false);
+  text.SetFontSize(size);
+  text.SetColor(color[0], color[1], color[2]);
+}
+
+vtkSmartPointer<vtkLookupTable> viridis()
+{
+  vtkNew<vtkColorTransferFunction> function;
+  for (std::size_t i = 0; i < kViridis.size(); ++i)
+  {
+    const double at = static_cast<double>(i) / (kViridis.size() - 1);
+    function->AddRGBPoint(at, kViridis[i][0], kViridis[i][1], kViridis[i][2]);
+  }
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  constexpr int kColors = 256;
+  constexpr double kFadeIn = 0.06; // [-] of the range
+  table->SetNumberOfTableValues(kColors);
+  for (int i = 0; i < kColors; ++i)
+  {
+    Color color{};
+    function->GetColor(static_cast<double>(i) / (kColors - 1), color.data());
+    const double opacity = std::min(1.0, i / (kFadeIn * (kColors - 1)));
+    table->SetTableValue(i, color[0], color[1], color[2], opacity);
+  }
+  return table;
+}
+
+std::string fixedText(double value, int decimals)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(decimals);
+  out << std::fixed << value;
+  return out.str();
+}
+
+double roundUp(double value) noexcept
+{
+  if (!(value > 1e-12))
+  {
+    return 1.0;
+  }
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : { 1.0, 2.0, 5.0 })
+  {
+    if (value <= step * power * (1.0 + 1e-9))
+    {
+      return step * power;
+    }
+  }
+  return 10.0 * power;
+}
+
+} // namespace palp::appearance

@@ -1,0 +1,176 @@
+#include "pipeline/force_charts.h"
+
+#include "haptics/units.h"
+#include "pipeline/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkFloatArray.h>
+#include <vtkPen.h>
+#include <vtkPlot.h>
+#include <vtkPlotPoints.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kFirstForce = 1.0; // [N], of the empty chart
+constexpr double kFirstDepth = 5.0_mm;
+constexpr double kFirstTime = 2.0; // [s]
+constexpr int kLawPoints = 201;
+
+void setPen(vtkPen& pen, const appearance::Color& color, float width)
+{
+  pen.SetColorF(color[0], color[1], color[2]);
+  pen.SetWidth(width);
+}
+
+void setUp(vtkChartXY& chart, const char* title, const char* bottom)
+{
+  chart.SetTitle(title);
+  appearance::setFont(*chart.GetTitleProperties(), 15, appearance::kInk, true);
+  chart.GetAxis(vtkAxis::BOTTOM)->SetTitle(bottom);
+  chart.GetAxis(vtkAxis::LEFT)->SetTitle("force [N]");
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    vtkAxis* axis = chart.GetAxis(side);
+    appearance::setFont(*axis->GetTitleProperties(), 13);
+    appearance::setFont(*axis->GetLabelProperties(), 12);
+    axis->SetBehavior(vtkAxis::FIXED);
+    axis->GetGridPen()->SetColor(225, 228, 232);
+  }
+  chart.GetBackgroundBrush()->SetColor(255, 255, 255);
+  chart.SetAutoAxes(true);
+}
+
+void setRange(vtkChartXY& chart, int side, double from, double to)
+{
+  vtkAxis* axis = chart.GetAxis(side);
+  if (axis->GetMinimum() != from || axis->GetMaximum() != to)
+  {
+    axis->SetRange(from, to);
+    axis->SetNumberOfTicks(-1);
+    axis->AutoScale();
+    axis->SetRange(from, to);
+  }
+}
+
+// room above the largest value, in steps that do not change from frame to frame
+double roomFor(double value, double least)
+{
+  const double step = appearance::roundUp(value / 4.0);
+  return std::max(least, step * std::ceil(1.05 * value / step));
+}
+
+} // namespace
+
+ForceCharts::ForceCharts()
+  : law_(SphereTip{ .radius = 10.0_mm }, Material{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 })
+{
+  setUp(*overTime_, "force over the last minute", "time [s]");
+  timePlot_ = overTime_->AddPlot(vtkChart::LINE);
+  setPen(*timePlot_->GetPen(), appearance::kMeasured, 1.0F);
+
+  for (const char* name : { "depth [mm]", "force [N]" })
+  {
+    vtkNew<vtkFloatArray> column;
+    column->SetName(name);
+    column->SetNumberOfValues(kLawPoints);
+    lawTable_->AddColumn(column);
+  }
+  setUp(*overDepth_, "force over depth", "depth \u03b4 [mm]");
+  vtkPlot* law = overDepth_->AddPlot(vtkChart::LINE);
+  law->SetInputData(lawTable_, 0, 1);
+  law->SetLabel("law");
+  setPen(*law->GetPen(), appearance::kLaw, 5.0F);
+  auto* points = vtkPlotPoints::SafeDownCast(overDepth_->AddPlot(vtkChart::POINTS));
+  points->SetLabel("measured");
+  points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  points->SetMarkerSize(3.0F);
+  setPen(*points->GetPen(), appearance::kMeasured, 1.0F);
+  depthPlot_ = points;
+  overDepth_->SetShowLegend(true);
+  overDepth_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  overDepth_->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+  appearance::setFont(*overDepth_->GetLegend()->GetLabelProperties(), 12);
+  setLaw(law_);
+}
+
+void ForceCharts::addForceOverTime(vtkContextScene& scene)
+{
+  scene.AddItem(overTime_);
+}
+
+void ForceCharts::addForceOverDepth(vtkContextScene& scene)
+{
+  scene.AddItem(overDepth_);
+}
+
+void ForceCharts::add(const Sample& sample)
+{
+  samples_->AddSample(sample);
+  if (std::isfinite(sample.response.force) && std::isfinite(sample.contact.depth))
+  {
+    largestForce_ = std::max(largestForce_, sample.response.force);
+    largestDepth_ = std::max(largestDepth_, sample.contact.depth);
+  }
+}
+
+void ForceCharts::refresh()
+{
+  // a plot knows tables, not connections
+  samples_->Update();
+  timePlot_->SetInputData(samples_->GetOutput(0), 0, 1);
+  depthPlot_->SetInputData(samples_->GetOutput(1), 0, 1);
+  const double depthLimit = units::fromMillimetres(
+    roomFor(units::toMillimetres(largestDepth_), units::toMillimetres(kFirstDepth)));
+  if (depthLimit != lawLimit_)
+  {
+    drawLaw(depthLimit);
+  }
+  const double law = law_({ .depth = depthLimit }).force;
+  const double last = samples_->GetLastTime();
+  const double span = vtkPalpSampleSource::Span;
+  const double end = last < span ? std::min(span, roomFor(last, kFirstTime)) : last;
+  setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
+  setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(largestForce_, kFirstForce));
+  setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimetres(depthLimit));
+  setRange(*overDepth_, vtkAxis::LEFT, 0.0, roomFor(std::max(largestForce_, law), law));
+}
+
+void ForceCharts::clear()
+{
+  samples_->Clear();
+  largestForce_ = 0.0;
+  largestDepth_ = 0.0;
+}
+
+void ForceCharts::setLaw(const ForceLaw& law)
+{
+  law_ = law;
+  lawLimit_ = 0.0;
+  refresh();
+}
+
+void ForceCharts::drawLaw(double depthLimit)
+{
+  lawLimit_ = depthLimit;
+  for (vtkIdType i = 0; i < kLawPoints; ++i)
+  {
+    const double depth = depthLimit * static_cast<double>(i) / (kLawPoints - 1);
+    lawTable_->SetValue(i, 0, units::toMillimetres(depth));
+    lawTable_->SetValue(i, 1, law_({ .depth = depth }).force);
+  }
+  lawTable_->GetColumn(0)->Modified();
+  lawTable_->GetColumn(1)->Modified();
+  lawTable_->Modified();
+}
+
+} // namespace palp

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+#include "haptics/servo/sample.h"
+#include "pipeline/vtkPalpSampleSource.h"
+
+#include <vtkChartXY.h>
+#include <vtkContextScene.h>
+#include <vtkNew.h>
+#include <vtkTable.h>
+
+class vtkPlot;
+
+namespace palp
+{
+
+/// The live curves: force over the last minute, and force over depth with the law under it.
+///
+/// Each chart is put into a scene of the caller, so that both may share a window or not.
+/// Main thread only.
+class ForceCharts
+{
+public:
+  ForceCharts();
+  ForceCharts(const ForceCharts&) = delete;
+  ForceCharts& operator=(const ForceCharts&) = delete;
+
+  void addForceOverTime(vtkContextScene& scene);
+  void addForceOverDepth(vtkContextScene& scene);
+
+  /// Takes a sample; the charts follow at the next refresh().
+  void add(const Sample& sample);
+
+  /// Brings plots and axes up to the samples; the cost does not depend on their number.
+  void refresh();
+
+  /// Forgets the samples.
+  void clear();
+
+  /// The law drawn under the measured points.
+  void setLaw(const ForceLaw& law);
+
+private:
+  void drawLaw(double depthLimit);
+
+  vtkNew<vtkPalpSampleSource> samples_;
+  vtkNew<vtkTable> lawTable_;
+  vtkNew<vtkChartXY> overTime_;
+  vtkNew<vtkChartXY> overDepth_;
+  vtkPlot* timePlot_ = nullptr;  // owned by its chart
+  vtkPlot* depthPlot_ = nullptr; // owned by its chart
+  ForceLaw law_;
+  double largestForce_ = 0.0; // measured [N]
+  double largestDepth_ = 0.0; // measured [m]
+  double lawLimit_ = 0.0;     // depth to which the law is drawn [m]
+};
+
+} // namespace palp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "haptics/contact/pose.h"
+#include "haptics/force/tip.h"
+
+#include <Eigen/Core>
+
+namespace palp
+{
+
+/// The tool as a convex body in space: its tip, and above the base a shaft without end.
+class ToolBody
+{
+public:
+  /// @param tip   checked
+  /// @param pose  axis of unit length
+  ToolBody(const Tip& tip, const ToolPose& pose);
+
+  /// How deep a point is: positive inside, zero on the surface, negative outside.
+  ///
+  /// A concave function of the position; near the surface within a factor of the distance.
+  /// @return [m]
+  [[nodiscard]] double inside(const Eigen::Vector3d& point) const noexcept;
+
+  /// Where a line enters the tool, coming from below.
+  ///
+  /// @param origin  of the line [m]
+  /// @param up      unit vector, less than 90 degrees from apex to handle
+  /// @return        t [m] of origin + t up, never inside the tool; infinite when the line misses
+  [[nodiscard]] double lowest(
+    const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept;
+
+private:
+  [[nodiscard]] double march(double start, double height, double climb,
+    const Eigen::Vector3d& radial, const Eigen::Vector3d& drift) const noexcept;
+
+  Tip tip_;
+  Eigen::Vector3d apex_;
+  Eigen::Vector3d handle_; // unit vector from apex to handle
+  double base_;            // [m]
+  double sphere_;          // radius of a spherical tip [m], 0 for other tips
+};
+
+} // namespace palp

@@ -1,0 +1,103 @@
+/**
+ * @class   vtkPalpDeformFilter
+ * @brief   presses a tool into a triangle surface
+ *
+ * Output 0 is the input with the dent: same topology, points in float [m], and the point arrays
+ *   "Normals"       float x 3, unit, outward
+ *   "Displacement"  float x 3 [m], from rest
+ *   "Zone"          unsigned char, 0 rest, 1 ring, 2 on the tool
+ * and the field array "TouchedPoints" (int), the points whose position or normal is not at rest.
+ *
+ * Output 1 is the dent alone, for overlays: the triangles with a displaced corner and the point
+ * arrays "Normals", "Zone" and
+ *   "Displacement [mm]"  float, length of the displacement
+ *   "Distance"           float [m], from the contact's centre along the undeformed surface
+ * It costs nothing until GeneratePatch is on.
+ *
+ * The arrays of output 0 are made once for an input and then changed in place, at a cost that
+ * follows the dent. They are marked modified, as any filter's; a mapper that would send all of
+ * them again can send the touched ones alone (vtkPalpPatchMapper).
+ */
+
+#pragma once
+
+#include "pipeline/dent.h"
+
+#include <memory>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataAlgorithm.h>
+#include <vtkUnsignedCharArray.h>
+
+class vtkCellArray;
+
+class vtkPalpDeformFilter : public vtkPolyDataAlgorithm
+{
+public:
+  vtkTypeMacro(vtkPalpDeformFilter, vtkPolyDataAlgorithm);
+  static vtkPalpDeformFilter* New();
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The press, in the frame of the input [m]. Default: none, which gives the surface at rest.
+   */
+  void SetPress(const palp::Press& press);
+  const palp::Press& GetPress() const
+  {
+    return this->Press;
+  }
+  ///@}
+
+  ///@{
+  /**
+   * Whether output 1 is made. Default: off.
+   */
+  vtkSetMacro(GeneratePatch, bool);
+  vtkGetMacro(GeneratePatch, bool);
+  vtkBooleanMacro(GeneratePatch, bool);
+  ///@}
+
+  /**
+   * The dent after the last update.
+   */
+  const palp::Dent& GetDent() const
+  {
+    return this->Dent;
+  }
+
+protected:
+  vtkPalpDeformFilter();
+  ~vtkPalpDeformFilter() override = default;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkPalpDeformFilter(const vtkPalpDeformFilter&) = delete;
+  void operator=(const vtkPalpDeformFilter&) = delete;
+
+  bool TakeInput(vtkPolyData* input);
+  void FillPatch(vtkPolyData* patch);
+  palp::DentArrays Arrays();
+
+  palp::Press Press;
+  palp::Dent Dent;
+  bool GeneratePatch = false;
+
+  // what the dent was built from
+  vtkSmartPointer<vtkPoints> RestPoints;
+  vtkSmartPointer<vtkCellArray> RestPolys;
+  vtkMTimeType RestTime = 0;
+  vtkSmartPointer<vtkFloatArray> RestPositions; // of RestPoints, or a copy in float
+
+  // output 0, kept from update to update
+  vtkSmartPointer<vtkPoints> Points;
+  vtkSmartPointer<vtkFloatArray> Normals;
+  vtkSmartPointer<vtkFloatArray> Displacement;
+  vtkSmartPointer<vtkUnsignedCharArray> Zone;
+  vtkNew<vtkIntArray> Touched;
+};
