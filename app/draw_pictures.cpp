@@ -52,7 +52,8 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
   if (uniform(*grab->GetOutput()))
   {
     throw Error(ErrorCode::NoPicture,
-      file.string() + ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
+      file.string() +
+        ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
   }
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(file.c_str());
@@ -60,7 +61,8 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
   writer->Write();
   if (writer->GetErrorCode() != 0)
   {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
+    throw Error(
+      ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
   }
 }
 

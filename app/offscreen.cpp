@@ -66,9 +66,9 @@ OffscreenContext::OffscreenContext()
 {
   const auto getDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
     eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  egl_->display =
-    getDisplay ? getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)
-               : EGL_NO_DISPLAY;
+  egl_->display = getDisplay
+    ? getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)
+    : EGL_NO_DISPLAY;
   if (egl_->display == EGL_NO_DISPLAY || !eglInitialize(egl_->display, nullptr, nullptr))
   {
     refuse("no off-screen EGL display");

@@ -21,7 +21,8 @@ public:
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
   /// A render window that draws in this context and must not outlive it.
-  [[nodiscard]] vtkSmartPointer<vtkGenericOpenGLRenderWindow> makeWindow(int width, int height) const;
+  [[nodiscard]] vtkSmartPointer<vtkGenericOpenGLRenderWindow> makeWindow(
+    int width, int height) const;
 
 private:
   struct Egl;

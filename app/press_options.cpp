@@ -32,7 +32,8 @@ ForceLaw TissueOptions::law() const
 
 void PressOptions::addTo(CLI::App& command)
 {
-  command.add_option("FILE", file, "Surface: STL, OBJ, PLY, OFF, VTK or VTP; the bundled liver if none");
+  command.add_option(
+    "FILE", file, "Surface: STL, OBJ, PLY, OFF, VTK or VTP; the bundled liver if none");
   command.add_option("--unit", unit, "Unit of the coordinates in FILE: mm, cm, m or auto")
     ->check(CLI::IsMember({ "mm", "cm", "m", "auto" }))
     ->capture_default_str();

@@ -63,7 +63,8 @@ void becomeSibling(const char* name)
     std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
   execv(program.c_str(), gArguments);
   throw Error(ErrorCode::NoPicture,
-    program.string() + ": cannot be started; build it, or pass --no-picture where a command has it");
+    program.string() +
+      ": cannot be started; build it, or pass --no-picture where a command has it");
 }
 
 int runProgram(int argc, char** argv, const Parts& parts)
@@ -72,11 +73,12 @@ int runProgram(int argc, char** argv, const Parts& parts)
   CLI::App app("Press soft tissue: see the dent, feel the force, keep the data.", "palp");
   app.set_version_flag("--version", "palp " PALP_VERSION);
   app.require_subcommand(1);
-  app.footer("Examples:\n"
-             "  palp                                         press the bundled liver with the mouse\n"
-             "  palp liver.stl --tip cone:45deg:10mm         your own surface, a conical tool\n"
-             "  palp run liver.stl --path press.csv --out out --young 20kPa\n"
-             "  palp force --tip sphere:10mm --depth 0:10:0.5mm > law.csv");
+  app.footer(
+    "Examples:\n"
+    "  palp                                         press the bundled liver with the mouse\n"
+    "  palp liver.stl --tip cone:45deg:10mm         your own surface, a conical tool\n"
+    "  palp run liver.stl --path press.csv --out out --young 20kPa\n"
+    "  palp force --tip sphere:10mm --depth 0:10:0.5mm > law.csv");
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
   addForceCommand(app);

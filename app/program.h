@@ -21,8 +21,8 @@ struct ViewOptions
 /// or window library, and nothing has to be loaded or unloaded at run time.
 struct Parts
 {
-  const Pictures* pictures = nullptr;         ///< palp-draw
-  int (*view)(const ViewOptions&) = nullptr;  ///< palp-view
+  const Pictures* pictures = nullptr;        ///< palp-draw
+  int (*view)(const ViewOptions&) = nullptr; ///< palp-view
 };
 
 /// The main function of palp and its siblings.

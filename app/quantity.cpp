@@ -143,8 +143,7 @@ Range parseRange(std::string_view text, Quantity kind, std::string_view what)
   const std::array<Split, 3> parts{ splitNumber(text.substr(0, first), what),
     splitNumber(text.substr(first + 1, second - first - 1), what),
     splitNumber(text.substr(second + 1), what) };
-  const Unit& unit =
-    unitNamed(parts[2].rest, kind, what, text, text);
+  const Unit& unit = unitNamed(parts[2].rest, kind, what, text, text);
   for (int i = 0; i < 2; ++i)
   {
     const std::string_view own = parts[static_cast<std::size_t>(i)].rest;

@@ -22,7 +22,8 @@ enum class Quantity
 ///
 /// @param what   the option's name, for the message
 /// @return       SI
-/// @throws Error BadValue: no number, no unit (the message gives the fix), or another quantity's unit
+/// @throws Error BadValue: no number, no unit (the message gives the fix), or another quantity's
+/// unit
 [[nodiscard]] double parseQuantity(std::string_view text, Quantity kind, std::string_view what);
 
 /// Reads a bare number.

@@ -52,8 +52,8 @@ void writeSamples(std::ostream& out, const Recording& recording, const ExtentTab
         toMillimetres(sample.response.contactRadius),
         toMillimetres(extents.extentRadius(contact.depth)),
         units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
-        contact.normal.x(), contact.normal.y(), contact.normal.z(),
-        units::toDegrees(contact.tilt), static_cast<double>(sample.flags) });
+        contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
+        static_cast<double>(sample.flags) });
   }
 }
 

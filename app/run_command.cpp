@@ -40,8 +40,8 @@ ImageSize parseSize(const std::string& text)
     apart ? std::from_chars(cross + 1, end, size.height) : std::from_chars_result{};
   constexpr int kSmallest = 64;
   constexpr int kLargest = 8192;
-  if (!apart || second != std::errc{} || rest != end || std::min(size.width, size.height) < kSmallest ||
-    std::max(size.width, size.height) > kLargest)
+  if (!apart || second != std::errc{} || rest != end ||
+    std::min(size.width, size.height) < kSmallest || std::max(size.width, size.height) > kLargest)
   {
     throw Error(ErrorCode::BadValue,
       "--size: '" + text + "' is no size; write WIDTHxHEIGHT, each 64 to 8192, like 1280x960");
@@ -54,7 +54,8 @@ void report(const Recording& recording, const ExtentTable& extents)
   const Sample* deepest = recording.deepest();
   if (!deepest)
   {
-    std::cerr << "palp: the tool never touched the surface; the path may be in another frame or unit\n";
+    std::cerr
+      << "palp: the tool never touched the surface; the path may be in another frame or unit\n";
     return;
   }
   std::cerr << "palp: deepest " << units::toMillimetres(deepest->contact.depth) << " mm, force "

@@ -42,14 +42,32 @@ public:
   /// @param each  called for each new sample, in order
   void update(const std::function<void(const Sample&)>& each);
 
-  [[nodiscard]] const Sample& newest() noexcept { return servo_->newest(); }
-  [[nodiscard]] const Timing& timing() const noexcept { return servo_->timing(); }
-  [[nodiscard]] const std::string& schedule() const noexcept { return servo_->schedule(); }
-  [[nodiscard]] const Body& body() const noexcept { return body_; }
-  [[nodiscard]] const ExtentTable& extents() const noexcept { return extents_; }
+  [[nodiscard]] const Sample& newest() noexcept
+  {
+    return servo_->newest();
+  }
+  [[nodiscard]] const Timing& timing() const noexcept
+  {
+    return servo_->timing();
+  }
+  [[nodiscard]] const std::string& schedule() const noexcept
+  {
+    return servo_->schedule();
+  }
+  [[nodiscard]] const Body& body() const noexcept
+  {
+    return body_;
+  }
+  [[nodiscard]] const ExtentTable& extents() const noexcept
+  {
+    return extents_;
+  }
 
   /// The last ten minutes.
-  [[nodiscard]] const Recording& recording() const noexcept { return recording_; }
+  [[nodiscard]] const Recording& recording() const noexcept
+  {
+    return recording_;
+  }
 
 private:
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);

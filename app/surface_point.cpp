@@ -73,8 +73,8 @@ std::optional<SurfacePoint> pick(
 {
   double nearest = std::numeric_limits<double>::infinity();
   int triangle = -1;
-  surface.tree().search(
-    [&](const BoxTree::Node& box) { return meets(box, origin, direction, nearest); },
+  surface.tree().search([&](const BoxTree::Node& box)
+    { return meets(box, origin, direction, nearest); },
     [&](int facet)
     {
       const double distance =

@@ -43,12 +43,24 @@ public:
     }
   }
 
-  double length() { return parseQuantity(next(), Quantity::Length, where()); }
-  double angle() { return parseQuantity(next(), Quantity::Angle, where()); }
+  double length()
+  {
+    return parseQuantity(next(), Quantity::Length, where());
+  }
+  double angle()
+  {
+    return parseQuantity(next(), Quantity::Angle, where());
+  }
 
 private:
-  std::string_view next() { return parts_[++index_]; }
-  [[nodiscard]] std::string where() const { return "--tip " + std::string(text_); }
+  std::string_view next()
+  {
+    return parts_[++index_];
+  }
+  [[nodiscard]] std::string where() const
+  {
+    return "--tip " + std::string(text_);
+  }
 
   std::string_view text_;
   std::vector<std::string_view> parts_;
@@ -115,12 +127,18 @@ std::string deg(double radians)
 
 struct Describe
 {
-  std::string operator()(const SphereTip& tip) const { return "sphere" + mm(tip.radius); }
+  std::string operator()(const SphereTip& tip) const
+  {
+    return "sphere" + mm(tip.radius);
+  }
   std::string operator()(const ConeTip& tip) const
   {
     return "cone" + deg(tip.halfAngle) + mm(tip.baseRadius);
   }
-  std::string operator()(const PunchTip& tip) const { return "punch" + mm(tip.radius); }
+  std::string operator()(const PunchTip& tip) const
+  {
+    return "punch" + mm(tip.radius);
+  }
   std::string operator()(const TruncatedConeTip& tip) const
   {
     return "truncated-cone" + deg(tip.halfAngle) + mm(tip.flatRadius) + mm(tip.baseRadius);
@@ -129,8 +147,14 @@ struct Describe
   {
     return "blunt-cone" + deg(tip.halfAngle) + mm(tip.tipRadius) + mm(tip.baseRadius);
   }
-  std::string operator()(const ParaboloidTip& tip) const { return "paraboloid" + mm(tip.radius); }
-  std::string operator()(const ProfileTip& tip) const { return "profile:" + tip.profile->name(); }
+  std::string operator()(const ParaboloidTip& tip) const
+  {
+    return "paraboloid" + mm(tip.radius);
+  }
+  std::string operator()(const ProfileTip& tip) const
+  {
+    return "profile:" + tip.profile->name();
+  }
 };
 
 } // namespace

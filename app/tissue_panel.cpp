@@ -72,8 +72,8 @@ TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget
   tool->addRow(tr("Half-angle α"), halfAngleDeg_);
 
   QFormLayout* tissue = addGroup(column, tr("Tissue"));
-  modulusKpa_ = makeBox(
-    "young", 0.001, 1e7, units::toKilopascals(law.material().youngModulus), 3, tr("kPa"));
+  modulusKpa_ =
+    makeBox("young", 0.001, 1e7, units::toKilopascals(law.material().youngModulus), 3, tr("kPa"));
   poisson_ = makeBox("poisson", 0.0, 0.5, law.material().poissonRatio, 3, {});
   damping_ = makeBox("damping", 0.0, 50.0, scene.damping, 2, tr("N·s/m"));
   rule_ = new QComboBox;
@@ -94,11 +94,13 @@ TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget
 
   for (QDoubleSpinBox* box : { radiusMm_, halfAngleDeg_, modulusKpa_, poisson_, damping_ })
   {
-    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &TissuePanel::tissueChanged);
+    connect(
+      box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &TissuePanel::tissueChanged);
   }
   for (QComboBox* list : { kind_, rule_ })
   {
-    connect(list, qOverload<int>(&QComboBox::currentIndexChanged), this, &TissuePanel::tissueChanged);
+    connect(
+      list, qOverload<int>(&QComboBox::currentIndexChanged), this, &TissuePanel::tissueChanged);
   }
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
     &TissuePanel::showAngleForConesOnly);

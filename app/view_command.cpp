@@ -13,7 +13,8 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand("view", "Open the window and press; the default command");
   options->press.addTo(*command);
-  command->add_option("--device", options->device,
+  command
+    ->add_option("--device", options->device,
       "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE")
     ->capture_default_str();
   command->footer("Examples:\n"

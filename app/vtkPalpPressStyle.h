@@ -32,7 +32,9 @@ public:
   void OnRightButtonUp() override;
   void OnMouseWheelForward() override;
   void OnMouseWheelBackward() override;
-  void OnChar() override {} // the letters of the toolkit's default would surprise
+  void OnChar() override
+  {
+  } // the letters of the toolkit's default would surprise
 
 protected:
   vtkPalpPressStyle() = default;

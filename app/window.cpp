@@ -231,9 +231,11 @@ void Window::aim()
 {
   if (target_)
   {
-    const double below = pressing_ || depth_ > 0.0 ? depth_ : -kHover;
-    session_.aim(
-      { .apex = target_->position - below * target_->normal, .axis = -target_->normal });
+    const bool lifted = !pressing_ && depth_ == 0.0;
+    const double below = lifted ? -kHover : depth_;
+    session_.aim({ .apex = target_->position - below * target_->normal,
+      .axis = -target_->normal,
+      .lifted = lifted && !session_.newest().contact.touching() });
   }
 }
 
@@ -246,10 +248,11 @@ void Window::refresh()
 
   if (sample.contact.touching())
   {
-    forceLabel_->setText(tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
-                           .arg(sample.response.force, 0, 'f', 2)
-                           .arg(units::toMillimetres(sample.contact.depth), 0, 'f', 1)
-                           .arg(units::toNewtonsPerMillimetre(sample.response.stiffness), 0, 'f', 2));
+    forceLabel_->setText(
+      tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
+        .arg(sample.response.force, 0, 'f', 2)
+        .arg(units::toMillimetres(sample.contact.depth), 0, 'f', 1)
+        .arg(units::toNewtonsPerMillimetre(sample.response.stiffness), 0, 'f', 2));
   }
 }
 
@@ -263,9 +266,10 @@ void Window::refreshCharts()
   const auto ticks = timing.ticks.load();
   const auto late = timing.skipped.load();
   const double elapsed = static_cast<double>(ticks + late);
-  servoLabel_->setText(tr("servo %1 Hz    late ticks %2")
-                         .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
-                         .arg(late));
+  servoLabel_->setText(
+    tr("servo %1 Hz    late ticks %2")
+      .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
+      .arg(late));
 }
 
 void Window::applyTissue()
@@ -319,7 +323,8 @@ bool Window::exportData(const QString& directory)
     [&]
     {
       session_.update([this](const Sample& sample) { charts_.add(sample); });
-      exportRecording(directory.toStdString(), session_.body(), session_.recording(), session_.extents());
+      exportRecording(
+        directory.toStdString(), session_.body(), session_.recording(), session_.extents());
       statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);
     });
 }

@@ -1,5 +1,6 @@
 #include "haptics/devices/pointer.h"
 
+#include "haptics/devices/turn.h"
 #include "haptics/error.h"
 
 #include <algorithm>
@@ -34,15 +35,20 @@ DeviceLimits Pointer::limits() const
 std::optional<ToolPose> Pointer::exchange(const Eigen::Vector3d&, double dt) noexcept
 {
   const HandTarget& target = target_.read();
-  pose_.axis = target.axis;
   pose_.velocity.setZero();
-  if (dt > 0.0 && std::isfinite(dt))
+  if (target.lifted)
   {
-    // a first-order lag whose speed is bounded
+    pose_.apex = target.apex;
+    pose_.axis = target.axis;
+  }
+  else if (dt > 0.0 && std::isfinite(dt))
+  {
+    // a first-order lag whose speed is bounded; the axis turns at the same pace
     const Eigen::Vector3d gap = target.apex - pose_.apex;
     const double wanted = gap.norm() / (kLagTime + dt);
     pose_.velocity = gap * (std::min(wanted, kSpeed) / std::max(gap.norm(), kSpeed * dt * 1e-9));
     pose_.apex += dt * pose_.velocity;
+    pose_.axis = turned(pose_.axis, target.axis, dt / (kLagTime + dt));
   }
   return pose_;
 }

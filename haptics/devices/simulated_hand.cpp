@@ -1,5 +1,6 @@
 #include "haptics/devices/simulated_hand.h"
 
+#include "haptics/devices/turn.h"
 #include "haptics/error.h"
 
 #include <cmath>
@@ -11,7 +12,8 @@ namespace
 
 // what an arm of a known desktop device bears, so that the chain limits a simulated hand alike
 // @source  Phantom Desktop: 7.9 N, the device of the paper's Sec. 5
-constexpr double kMaxForce = 7.9; // [N]
+constexpr double kMaxForce = 7.9;   // [N]
+constexpr double kTurnTime = 0.020; // for most of a turn of the wrist toward the target [s]
 
 } // namespace
 
@@ -53,8 +55,11 @@ DeviceLimits SimulatedHand::limits() const
 std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, double dt) noexcept
 {
   const HandTarget& target = target_.read();
-  pose_.axis = target.axis;
-  if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
+  if (target.lifted)
+  {
+    pose_ = { .apex = target.apex, .axis = target.axis };
+  }
+  else if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
   {
     // (m + c dt + k dt^2) v' = m v + dt (F + k (target - x)), then x' = x + dt v'
     const HandMechanics& hand = mechanics_;
@@ -62,6 +67,7 @@ std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, do
     const double inertia = hand.mass + dt * (hand.damping + dt * hand.stiffness);
     pose_.velocity = (hand.mass * pose_.velocity + dt * push) / inertia;
     pose_.apex += dt * pose_.velocity;
+    pose_.axis = turned(pose_.axis, target.axis, dt / (kTurnTime + dt));
   }
   return pose_;
 }

@@ -63,9 +63,9 @@ TEST(ForceCommand, RefusesABareModulusInOneLine)
 
 TEST(ForceCommand, RefusesWhatIsOutOfRange)
 {
-  for (const char* arguments : { "--young 0.5Pa", "--young 11GPa", "--poisson 0.51", "--poisson -0.1",
-         "--tip sphere:0.05mm", "--tip sphere:1.1m", "--tip cone:0.5deg:10mm", "--tip cone:90deg:10mm",
-         "--tip egg:3mm", "--tip sphere", "--depth 3:1:1mm" })
+  for (const char* arguments : { "--young 0.5Pa", "--young 11GPa", "--poisson 0.51",
+         "--poisson -0.1", "--tip sphere:0.05mm", "--tip sphere:1.1m", "--tip cone:0.5deg:10mm",
+         "--tip cone:90deg:10mm", "--tip egg:3mm", "--tip sphere", "--depth 3:1:1mm" })
   {
     const Finished finished = palp(std::string("force ") + arguments);
     EXPECT_EQ(finished.code, 2) << arguments;

@@ -54,7 +54,8 @@ TEST(Quantity, RefusesAnotherQuantitysUnit)
 
 TEST(Quantity, RefusesWhatIsNoFiniteNumber)
 {
-  for (const char* text : { "", "kPa", "nankPa", "infkPa", "1e999kPa", "--5kPa", "0x10kPa", "5,0kPa" })
+  for (const char* text :
+    { "", "kPa", "nankPa", "infkPa", "1e999kPa", "--5kPa", "0x10kPa", "5,0kPa" })
   {
     EXPECT_NE(messageOf(text, Quantity::Pressure), "accepted") << text;
   }
@@ -96,7 +97,8 @@ TEST(Range, EqualEndsGiveOneValue)
 
 TEST(Range, RefusesWhatDoesNotGoUp)
 {
-  for (const char* text : { "1:0:0.5mm", "0:1:0mm", "0:1:-1mm", "0:1", "0:1:1", "0m:1mm:1mm", "0:1:1e-9mm" })
+  for (const char* text :
+    { "1:0:0.5mm", "0:1:0mm", "0:1:-1mm", "0:1", "0:1:1", "0m:1mm:1mm", "0:1:1e-9mm" })
   {
     EXPECT_THROW((void)parseRange(text, Quantity::Length, "d"), Error) << text;
   }

@@ -45,7 +45,10 @@ protected:
     reader->Update();
     return reader->GetOutput()->GetBounds()[5];
   }
-  [[nodiscard]] std::string block() const { return PALP_SHARE "/meshes/block_50.vtp"; }
+  [[nodiscard]] std::string block() const
+  {
+    return PALP_SHARE "/meshes/block_50.vtp";
+  }
 
   [[nodiscard]] Finished press(const std::string& extra, const std::string& out)
   {
@@ -144,7 +147,8 @@ TEST_F(RunCommand, DrawsPicturesWithoutADisplay)
 
 TEST_F(RunCommand, SaysSoWhereNothingCanBeDrawn)
 {
-  const std::string none = "env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent ";
+  const std::string none =
+    "env __EGL_VENDOR_LIBRARY_DIRS=/nonexistent LIBGL_DRIVERS_PATH=/nonexistent ";
   const auto path = writePath(folder_.path(), "0,0,0,100\n0.01,0,0,99\n");
   const Finished finished = test::runCommand(none + PALP_PROGRAM " run " + block() + " --path " +
     path.string() + " --out " + (folder_.path() / "out").string());
@@ -170,7 +174,8 @@ TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)
 {
   const Finished finished = test::runCommand("ldd " PALP_PROGRAM);
   ASSERT_EQ(finished.code, 0);
-  for (const char* library : { "Qt5", "libGL", "libEGL", "libX11", "hidapi", "libusb", "RenderingOpenGL" })
+  for (const char* library :
+    { "Qt5", "libGL", "libEGL", "libX11", "hidapi", "libusb", "RenderingOpenGL" })
   {
     EXPECT_EQ(finished.out.find(library), std::string::npos) << library;
   }

@@ -31,6 +31,32 @@ TEST(Pointer, TurnsAJumpIntoAMotionOfBoundedSpeed)
   EXPECT_NEAR(last, 0.1, 1e-6);
 }
 
+TEST(Pointer, TurnsGraduallyToTheNewAxis)
+{
+  Pointer pointer{ HandTarget{} };
+  pointer.moveTo({ .axis = Vector3d::UnitX() });
+  double last = 0.0;
+  for (int i = 0; i < 500; ++i)
+  {
+    const Vector3d axis = pointer.exchange(Vector3d::Zero(), 1.0_ms)->axis;
+    ASSERT_NEAR(axis.norm(), 1.0, 1e-12);
+    ASSERT_GE(axis.x(), last);
+    ASSERT_LE(axis.x() - last, 0.1); // from a right angle, in more than ten ticks
+    last = axis.x();
+  }
+  EXPECT_NEAR(last, 1.0, 1e-6);
+}
+
+TEST(Pointer, AppearsAtOnceWhereItIsLifted)
+{
+  Pointer pointer{ HandTarget{} };
+  pointer.moveTo({ .apex = Vector3d(0.1, 0, 0), .axis = Vector3d::UnitX(), .lifted = true });
+  const ToolPose pose = *pointer.exchange(Vector3d::Zero(), 1.0_ms);
+  EXPECT_EQ(pose.apex, Vector3d(0.1, 0, 0));
+  EXPECT_EQ(pose.axis, Vector3d::UnitX());
+  EXPECT_EQ(pose.velocity, Vector3d::Zero());
+}
+
 TEST(Pointer, RestsAtItsTarget)
 {
   Pointer pointer{ HandTarget{} };
