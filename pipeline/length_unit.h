@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace palp
+{
+
+/// In what the coordinates of a file are written.
+enum class LengthUnit
+{
+  Millimetre,
+  Centimetre,
+  Metre,
+};
+
+/// A unit that somebody named; nothing: to be found from the size.
+using UnitChoice = std::optional<LengthUnit>;
+
+/// @return  "mm", "cm" or "m"
+[[nodiscard]] const char* unitName(LengthUnit unit) noexcept;
+
+/// @return  length of the unit [m]
+[[nodiscard]] double unitLength(LengthUnit unit) noexcept;
+
+/// @return  the unit of that name; nothing for any other text
+[[nodiscard]] std::optional<LengthUnit> unitNamed(std::string_view name) noexcept;
+
+/// @param text    "mm", "cm", "m" or "auto"
+/// @throws Error  BadValue: anything else
+[[nodiscard]] UnitChoice parseUnit(std::string_view text);
+
+/// The one unit that makes a body the size of an organ, 30 to 600 mm.
+///
+/// @param longestSide  of the bounding box, in the unit that is sought
+/// @param file         stands before the message
+/// @throws Error       BadMesh: no unit fits, or two do; says what each would give
+[[nodiscard]] LengthUnit guessUnit(double longestSide, const std::string& file);
+
+} // namespace palp

@@ -1,0 +1,153 @@
+#include "pipeline/surface_io.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+#include "pipeline/surface_formats.h"
+#include "pipeline/surface_repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkOBJWriter.h>
+#include <vtkPLYWriter.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSTLWriter.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
+namespace palp
+{
+namespace
+{
+
+// factor: from the unit of the points to that of the result
+vtkSmartPointer<vtkPolyData> scaled(vtkPolyData& mesh, double factor)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(mesh.GetPoints()->GetDataType());
+  points->SetNumberOfPoints(mesh.GetNumberOfPoints());
+  for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i)
+  {
+    const double* p = mesh.GetPoint(i);
+    points->SetPoint(i, factor * p[0], factor * p[1], factor * p[2]);
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(&mesh);
+  result->SetPoints(points);
+  return result;
+}
+
+std::string summary(const std::string& name, const LoadedSurface& surface, const std::string& why)
+{
+  double box[6];
+  surface.mesh->GetBounds(box);
+  std::ostringstream text;
+  text << name << ": " << surface.mesh->GetNumberOfPoints() << " points, "
+       << surface.mesh->GetNumberOfPolys() << " triangles, " << (surface.closed ? "closed, " : "");
+  text.precision(3);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = units::toMillimetres(box[2 * axis + 1] - box[2 * axis]);
+    text << (axis > 0 ? " x " : "") << (side < 100.0 ? side : std::round(side));
+  }
+  text << " mm; coordinates taken in " << unitName(surface.unit) << ", " << why;
+  return text.str();
+}
+
+template <typename Writer>
+bool writeWith(const std::filesystem::path& file, vtkPolyData& data)
+{
+  vtkNew<Writer> writer;
+  if constexpr (std::is_same_v<Writer, vtkSTLWriter>)
+  {
+    writer->SetFileTypeToBinary(); // the others are binary where they can be
+  }
+  writer->SetFileName(file.c_str());
+  writer->SetInputData(&data);
+  return writer->Write() == 1 && writer->GetErrorCode() == 0;
+}
+
+} // namespace
+
+LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit)
+{
+  const std::string name = file.filename().string();
+  const FileSurface read = readFile(file);
+  const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
+
+  std::string why = "as asked";
+  if (!unit)
+  {
+    unit = unitNamed(read.unit);
+    why = "as the file says";
+  }
+  if (!unit)
+  {
+    double box[6];
+    repaired.mesh->GetBounds(box);
+    unit =
+      guessUnit(std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string());
+    why = "the only unit that gives the size of an organ";
+  }
+  LoadedSurface surface{ .mesh = scaled(*repaired.mesh, unitLength(*unit)),
+    .unit = *unit,
+    .closed = repaired.closed,
+    .notes = {} };
+  surface.notes.push_back(summary(name, surface, why));
+  for (const std::string& note : repaired.notes)
+  {
+    surface.notes.push_back(name + ": " + note);
+  }
+  for (const std::string& warning : repaired.warnings)
+  {
+    surface.notes.push_back("warning: " + name + ": " + warning);
+  }
+  return surface;
+}
+
+void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
+{
+  if (!std::ofstream(file, std::ios::app))
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; check the folder");
+  }
+  const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimetre));
+  const std::string ending = file.extension().string();
+  bool written = false;
+  if (ending == ".vtp")
+  {
+    vtkNew<vtkStringArray> unit;
+    unit->SetName(kUnitArray);
+    unit->InsertNextValue(unitName(LengthUnit::Millimetre));
+    data->SetFieldData(vtkNew<vtkFieldData>());
+    data->GetFieldData()->AddArray(unit);
+    written = writeWith<vtkXMLPolyDataWriter>(file, *data);
+  }
+  else if (ending == ".stl")
+  {
+    written = writeWith<vtkSTLWriter>(file, *data);
+  }
+  else if (ending == ".ply")
+  {
+    written = writeWith<vtkPLYWriter>(file, *data);
+  }
+  else if (ending == ".obj")
+  {
+    written = writeWith<vtkOBJWriter>(file, *data);
+  }
+  else
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
+  }
+  if (!written)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written in full; check the space");
+  }
+}
+
+} // namespace palp
