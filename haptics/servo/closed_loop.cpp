@@ -62,7 +62,7 @@ public:
         DeviceLimits{ .model = "simulation",
           .rendersForce = true,
           .maxForce = loop.plant.maxForce,
-          .damping = loop.plant.damping,
+          .damping = loop.plant.statedDamping.value_or(loop.plant.damping),
           .quantum = loop.plant.quantum,
           .delay = loop.plant.delay * loop.period,
           .velocityDelay = loop.plant.quantum > 0.0 ? VelocityEstimator::kLongestDelay : 0.0 },
@@ -77,16 +77,18 @@ public:
     const double seen = step > 0.0 ? std::floor(depth / step) * step : depth;
     const ToolPose pose = poseAt(seen, velocity_(Vector3d(0.0, 0.0, -seen), dt));
     const auto& law = swapped ? loop_.swapped : loop_.law;
+    const double rise = swapped ? loop_.swapRise : 0.0;
     scene_.version = swapped ? 1 : 0;
     if (!chain_)
     {
-      const double push = seen > 0.0 ? law(seen).force - loop_.damping * pose.velocity.z() : 0.0;
+      const double push =
+        seen + rise > 0.0 ? law(seen + rise).force - loop_.damping * pose.velocity.z() : 0.0;
       return std::clamp(push, 0.0, loop_.plant.maxForce);
     }
     const auto admitted = chain_->admit(pose, {}, { .armed = true }, dt);
     Sample sample;
     sample.pose = *admitted;
-    sample.contact = contactAt(-admitted->apex.z());
+    sample.contact = contactAt(rise - admitted->apex.z());
     const auto ask = [&](double at) noexcept { return law(at); };
     chain_->limit(sample, ask, scene_);
     flags_ |= sample.flags;

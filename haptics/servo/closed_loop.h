@@ -13,14 +13,15 @@ namespace palp
 /// A device held by a hand, seen along one line.
 struct Plant
 {
-  double mass = 0.1;          ///< [kg]
-  double damping = 1.0;       ///< b [N s/m], above 0
-  double quantum = 0.0;       ///< of its encoder [m]
-  int delay = 0;              ///< ticks from a force computed to the force that acts
-  double maxForce = 7.9;      ///< of its motors [N]
-  double handForce = 1.0;     ///< constant push toward the tissue [N]
-  double startDepth = -0.005; ///< [m]
-  double startSpeed = 0.2;    ///< toward the tissue [m/s]
+  double mass = 0.1;                   ///< [kg]
+  double damping = 1.0;                ///< b [N s/m], above 0
+  std::optional<double> statedDamping; ///< what the chain believes b to be [N s/m]; none: b
+  double quantum = 0.0;                ///< of its encoder [m]
+  int delay = 0;                       ///< ticks from a force computed to the force that acts
+  double maxForce = 7.9;               ///< of its motors [N]
+  double handForce = 1.0;              ///< constant push toward the tissue [N]
+  double startDepth = -0.005;          ///< [m]
+  double startSpeed = 0.2;             ///< toward the tissue [m/s]
 };
 
 /// A loop of plant and law in virtual time.
@@ -30,6 +31,7 @@ struct LoopCase
   std::function<Response(double depth)> law;     ///< force 0 at depth 0; infinite for a rigid wall
   std::function<Response(double depth)> swapped; ///< takes its place in contact; empty: never
   double swapAt = 1.0;                           ///< [s]
+  double swapRise = 0.0;                         ///< of the surface at the swap [m]
   double damping = 0.0;                          ///< B of the law [N s/m]
   double forceLimit = 4.0;                       ///< [N], chain only
   double period = 0.001;                         ///< T [s]

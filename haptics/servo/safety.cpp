@@ -102,7 +102,8 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
     sinceLast_ = 0.0;
     dropped_ = 0;
   }
-  if (elapsed > std::max(kLatest, kLatestTicks * settings_.period) && forceOn())
+  const double late = elapsed - settings_.period;
+  if (late > std::max(kLatest, kLatestTicks * settings_.period) * (1.0 + 1e-9) && forceOn())
   {
     raise(Flag::Late);
     forceOff(DeviceState::SoftStart);
