@@ -1,5 +1,6 @@
 #include "app/law_options.h"
 
+#include "app/data_files.h"
 #include "app/quantity.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -55,11 +56,17 @@ void LawOptions::addTo(CLI::App& command)
 
 LawSettings LawOptions::settings() const
 {
-  return { .mode = mode == "paper" ? LawMode::Paper
-      : mode == "exact"            ? LawMode::Exact
-                                   : LawMode::Corrected,
+  LawSettings settings{ .mode = mode == "paper" ? LawMode::Paper
+      : mode == "exact"                         ? LawMode::Exact
+                                                : LawMode::Corrected,
     .base = base == "slip" ? Base::Slip : Base::Bonded,
     .constitution = constitution == "linear" ? Constitution::Linear : Constitution::NeoHookean };
+  if (settings.mode == LawMode::Corrected && settings.constitution == Constitution::NeoHookean)
+  {
+    settings.largeStrain = readLargeStrain(
+      dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv"));
+  }
+  return settings;
 }
 
 void PlaceOptions::addTo(CLI::App& command)

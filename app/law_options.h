@@ -21,6 +21,7 @@ struct LawOptions
 
   void addTo(CLI::App& command);
 
+  /// @throws Error  BadFile: the shipped table of large strain, where it is needed
   [[nodiscard]] LawSettings settings() const;
 };
 

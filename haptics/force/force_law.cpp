@@ -186,6 +186,10 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noe
     {
       return {};
     }
+    if (!table.cone.coversShape(halfAngle))
+    {
+      return {};
+    }
     ratio = table.cone(local.depth / unit, halfAngle, material_.poissonRatio);
   }
   ratio.slope /= unit;

@@ -2,8 +2,12 @@
 
 #include "haptics/error.h"
 #include "haptics/force/monotone_cubic.h"
+#include "haptics/force/number_table.h"
+#include "haptics/units.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 #include <string>
 
@@ -11,6 +15,8 @@ namespace palp
 {
 namespace
 {
+
+constexpr double kNear = 0.05; // [-] or [rad], how far beyond a table of shapes or nu may be used
 
 void checkAxis(const std::vector<double>& axis, const std::string& name, std::size_t fewest)
 {
@@ -30,8 +36,12 @@ struct Bracket
   std::size_t low = 0;
   std::size_t high = 0;
   double weight = 0.0;
-  bool inside = true;
 };
+
+bool near(const std::vector<double>& axis, double value) noexcept
+{
+  return value >= axis.front() - kNear && value <= axis.back() + kNear;
+}
 
 Bracket bracket(const std::vector<double>& axis, double value) noexcept
 {
@@ -39,12 +49,55 @@ Bracket bracket(const std::vector<double>& axis, double value) noexcept
   {
     return {};
   }
-  const bool inside = value >= axis.front() && value <= axis.back();
   const double x = std::clamp(value, axis.front(), axis.back());
   const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
   const auto high = static_cast<std::size_t>(above - axis.begin());
   const std::size_t low = high - 1;
-  return { low, high, (x - axis[low]) / (axis[high] - axis[low]), inside };
+  return { low, high, (x - axis[low]) / (axis[high] - axis[low]) };
+}
+
+// the grid in a file; scale brings the second column to SI
+LargeStrainGrid readGrid(
+  const std::filesystem::path& file, const std::string& header, double (*scale)(double))
+{
+  const NumberTable table = NumberTable::read(file, header);
+  std::array<std::vector<double>, 3> axes;
+  for (const NumberTable::Row& row : table.rows)
+  {
+    for (std::size_t k = 0; k < axes.size(); ++k)
+    {
+      axes[k].push_back(row.values[k]);
+    }
+  }
+  for (std::vector<double>& axis : axes)
+  {
+    std::sort(axis.begin(), axis.end());
+    axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
+  }
+  std::vector<double> ratios(axes[0].size() * axes[1].size() * axes[2].size(), 0.0);
+  for (const NumberTable::Row& row : table.rows)
+  {
+    std::size_t index = 0;
+    for (const std::size_t k : { 2U, 1U, 0U })
+    {
+      const auto place = std::lower_bound(axes[k].begin(), axes[k].end(), row.values[k]);
+      index = index * axes[k].size() + static_cast<std::size_t>(place - axes[k].begin());
+    }
+    if (ratios[index] != 0.0)
+    {
+      throw Error(ErrorCode::BadFile, where(file, row.line) + "given twice; give each place once");
+    }
+    ratios[index] = row.values[3];
+  }
+  std::transform(axes[1].begin(), axes[1].end(), axes[1].begin(), scale);
+  try
+  {
+    return { std::move(axes[0]), std::move(axes[1]), std::move(axes[2]), std::move(ratios) };
+  }
+  catch (const Error& error)
+  {
+    throw Error(ErrorCode::BadFile, where(file, table.lastLine) + error.what());
+  }
 }
 
 } // namespace
@@ -83,16 +136,20 @@ LargeStrainGrid::Ratio LargeStrainGrid::along(std::size_t row, double first) con
   const double width = first_[b.high] - first_[b.low];
   const Cubic cubic =
     hermite(b.weight, width, ratios_[low], ratios_[low + 1], slopes_[low], slopes_[low + 1]);
-  return { cubic.value, first > first_.front() && first < first_.back() ? cubic.slope : 0.0,
-    b.inside };
+  const bool inside = first >= first_.front() && first <= first_.back();
+  return { cubic.value, inside ? cubic.slope : 0.0, inside };
 }
 
 LargeStrainGrid::Ratio LargeStrainGrid::operator()(
   double first, double second, double poisson) const noexcept
 {
+  if (!near(poisson_, poisson))
+  {
+    return {};
+  }
   const Bracket s = bracket(second_, second);
   const Bracket n = bracket(poisson_, poisson);
-  Ratio result{ 0.0, 0.0, s.inside && n.inside };
+  Ratio result{ 0.0, 0.0, near(second_, second) };
   const auto add = [&](std::size_t nu, std::size_t shape, double weight)
   {
     const Ratio one = along(nu * second_.size() + shape, first);
@@ -105,6 +162,21 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
   add(n.high, s.low, n.weight * (1.0 - s.weight));
   add(n.high, s.high, n.weight * s.weight);
   return result;
+}
+
+bool LargeStrainGrid::coversShape(double second) const noexcept
+{
+  return near(second_, second);
+}
+
+LargeStrainTable readLargeStrain(
+  const std::filesystem::path& sphere, const std::filesystem::path& cone)
+{
+  return std::make_shared<const LargeStrain>(LargeStrain{
+    readGrid(sphere, "depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio",
+      [](double ratio) { return ratio; }),
+    readGrid(
+      cone, "depth_over_thickness,half_angle_deg,poisson_ratio,force_ratio", units::fromDegrees) });
 }
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -19,8 +20,8 @@ public:
   };
 
   /// @param first    increasing; its last value is where the ratio levels off
-  /// @param second   increasing; a single value stands for all
-  /// @param poisson  nu, increasing; a single value stands for all
+  /// @param second   increasing; beyond, the border counts
+  /// @param poisson  nu, increasing; more than 0.05 beyond the ratio is 1, for it changes sides
   /// @param ratios   [poisson][second][first], the last running fastest; each 0.1 to 10
   /// @throws Error  BadValue: an axis out of order, or another number of ratios
   LargeStrainGrid(std::vector<double> first, std::vector<double> second,
@@ -28,6 +29,10 @@ public:
 
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] Ratio operator()(double first, double second, double poisson) const noexcept;
+
+  /// The second axis reaches this value but for 0.05.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] bool coversShape(double second) const noexcept;
 
 private:
   [[nodiscard]] Ratio along(std::size_t row, double first) const noexcept;
@@ -51,5 +56,14 @@ struct LargeStrain
 };
 
 using LargeStrainTable = std::shared_ptr<const LargeStrain>; ///< null: none, the ratio is 1
+
+/// Reads one table for each kind of tip: every combination of the first three columns, in any
+/// order.
+///
+/// @param sphere  `depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio`
+/// @param cone    `depth_over_thickness,half_angle_deg,poisson_ratio,force_ratio`
+/// @throws Error  BadFile: missing, not such numbers, a combination missing or twice
+[[nodiscard]] LargeStrainTable readLargeStrain(
+  const std::filesystem::path& sphere, const std::filesystem::path& cone);
 
 } // namespace palp

@@ -1,12 +1,11 @@
 #include "haptics/force/profile.h"
 
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
 #include "haptics/units.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -86,59 +85,19 @@ double smoothSlope(const std::vector<Point>& p, const std::vector<char>& corner,
   return std::max(std::min(before, after), std::min(std::max(before, after), around));
 }
 
-double parse(std::string_view text, const std::string& where)
-{
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size())
-  {
-    throw Error(ErrorCode::BadFile,
-      where + "'" + std::string(text) + "' is not a number; give radius_mm,height_mm");
-  }
-  return value;
-}
-
 } // namespace
 
 Profile Profile::read(const std::filesystem::path& file)
 {
-  std::ifstream stream(file);
-  if (!stream)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the path");
-  }
+  const NumberTable table = NumberTable::read(file, "radius_mm,height_mm");
   std::vector<Point> points;
-  bool header = false;
-  std::string line;
-  int number = 0;
-  std::string where;
-  while (std::getline(stream, line))
+  for (const NumberTable::Row& row : table.rows)
   {
-    where = file.string() + ":" + std::to_string(++number) + ": ";
-    if (!line.empty() && line.back() == '\r')
-    {
-      line.pop_back();
-    }
-    if (line.empty() || line.front() == '#')
-    {
-      continue;
-    }
-    if (!header)
-    {
-      if (line != "radius_mm,height_mm")
-      {
-        throw Error(ErrorCode::BadFile, where + "no header; begin with radius_mm,height_mm");
-      }
-      header = true;
-      continue;
-    }
-    const auto comma = std::min(line.find(','), line.size());
-    const std::string_view text = line;
-    points.push_back({ units::fromMillimetres(parse(text.substr(0, comma), where)),
-      units::fromMillimetres(parse(text.substr(std::min(comma + 1, text.size())), where)) });
+    points.push_back(
+      { units::fromMillimetres(row.values[0]), units::fromMillimetres(row.values[1]) });
     if (const auto wrong = fault(points, points.size() - 1))
     {
-      throw Error(ErrorCode::BadFile, where + *wrong);
+      throw Error(ErrorCode::BadFile, where(file, row.line) + *wrong);
     }
   }
   try
@@ -148,8 +107,7 @@ Profile Profile::read(const std::filesystem::path& file)
   catch (const Error& error)
   {
     // what only the whole file shows is told with its last line
-    throw Error(
-      ErrorCode::BadFile, (where.empty() ? file.string() + ":1: " : where) + error.what());
+    throw Error(ErrorCode::BadFile, where(file, table.lastLine) + error.what());
   }
 }
 

@@ -27,8 +27,8 @@ test::CsvTable table(const Finished& finished)
 // eight digits of the integral equation for a bonded layer of 30 mm, data/reference
 TEST(LawOptions, CorrectedSphereOnALayer)
 {
-  const auto law =
-    table(force("--tip sphere:6mm --law corrected --thickness 30mm --depth 1:6:5mm"));
+  const auto law = table(
+    force("--tip sphere:6mm --law corrected --material linear --thickness 30mm --depth 1:6:5mm"));
   EXPECT_NEAR(law["force_N"][0], 0.19416921, 1e-6);
   EXPECT_NEAR(law["force_N"][1], 2.851754, 1e-5);
   EXPECT_NEAR(law["factor_shape"][1], 2.4233212 / 2.6933004, 1e-6);
@@ -46,6 +46,16 @@ TEST(LawOptions, SlippingBaseIsSofter)
 {
   const std::string place = "--tip sphere:6mm --law corrected --thickness 20mm --depth 5:5:1mm ";
   EXPECT_LT(table(force(place + "--base slip"))["force_N"][0], table(force(place))["force_N"][0]);
+}
+
+// finite elements, data/reference: 0.199 N and 2.957 N, within 3 %
+TEST(LawOptions, NeoHookeanSphereIsThatOfFiniteElements)
+{
+  const auto law =
+    table(force("--tip sphere:6mm --law corrected --thickness 30mm --depth 1:6:5mm"));
+  EXPECT_NEAR(law["force_N"][0], 0.1990, 0.03 * 0.1990);
+  EXPECT_NEAR(law["force_N"][1], 2.957, 0.03 * 2.957);
+  EXPECT_NEAR(law["factor_large_strain"][1], 1.038, 0.002);
 }
 
 // Hertz: R R0 / (R + R0) for the paraboloid
@@ -96,7 +106,7 @@ TEST(LawOptions, PaperStaysThePapersWhateverThePlace)
 TEST(LawOptions, TellsWhichFactorsAct)
 {
   const Finished finished =
-    force("--tip sphere:6mm --law corrected --thickness 30mm --depth 6:6:1mm");
+    force("--tip sphere:6mm --law corrected --material linear --thickness 30mm --depth 6:6:1mm");
   EXPECT_NE(finished.err.find("shape x0.8998, thickness x1.1768"), std::string::npos)
     << finished.err;
 }

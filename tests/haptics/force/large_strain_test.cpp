@@ -3,6 +3,8 @@
 #include "haptics/error.h"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -31,10 +33,17 @@ TEST(LargeStrainGrid, IsLinearAcrossShapesAndPoissonsRatios)
 
 TEST(LargeStrainGrid, HoldsItsBorderOutsideAndSaysSo)
 {
-  EXPECT_DOUBLE_EQ(grid()(2.0, 0.3, 0.6).value, 0.9);
+  EXPECT_DOUBLE_EQ(grid()(2.0, 0.3, 0.5).value, 0.9);
   EXPECT_FALSE(grid()(2.0, 0.1, 0.4).inside);
   EXPECT_FALSE(grid()(0.5, 0.3, 0.4).inside);
-  EXPECT_FALSE(grid()(0.5, 0.1, 0.2).inside);
+}
+
+// the ratio is above 1 for compressible and below for incompressible tissue
+TEST(LargeStrainGrid, IsOneFarFromItsPoissonsRatios)
+{
+  EXPECT_EQ(grid()(1.0, 0.1, 0.2).value, 1.0);
+  EXPECT_FALSE(grid()(1.0, 0.1, 0.2).inside);
+  EXPECT_EQ(grid()(1.0, 0.2, 0.26).value, 1.08);
 }
 
 TEST(LargeStrainGrid, IsSmoothAndMonotoneInDepth)
@@ -59,6 +68,61 @@ TEST(LargeStrainGrid, RefusesAxesOutOfOrderAndMissingRatios)
   EXPECT_THROW(LargeStrainGrid({ 0.0, 1.0 }, {}, { 0.3 }, {}), Error);
   EXPECT_THROW(LargeStrainGrid({ 0.0, 1.0 }, { 0.0 }, { 0.3 }, { 1.0 }), Error);
   EXPECT_THROW(LargeStrainGrid({ 0.0, 1.0 }, { 0.0 }, { 0.3 }, { 1.0, NAN }), Error);
+}
+
+class LargeStrainFile : public ::testing::Test
+{
+protected:
+  ~LargeStrainFile() override
+  {
+    std::filesystem::remove(sphere_);
+    std::filesystem::remove(cone_);
+  }
+
+  void write(const std::string& sphere) const
+  {
+    std::ofstream(sphere_) << "depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio\n"
+                           << sphere;
+    std::ofstream(cone_) << "depth_over_thickness,half_angle_deg,poisson_ratio,force_ratio\n"
+                            "0,45,0.33,1.04\n0.2,45,0.33,1.05\n";
+  }
+
+  [[nodiscard]] std::string refusal(const std::string& sphere) const
+  {
+    write(sphere);
+    try
+    {
+      (void)readLargeStrain(sphere_, cone_);
+    }
+    catch (const Error& error)
+    {
+      return std::string(error.what()).substr(sphere_.string().size());
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path sphere_ = std::filesystem::temp_directory_path() /
+    (::testing::UnitTest::GetInstance()->current_test_info()->name() + std::string("_sphere.csv"));
+  std::filesystem::path cone_ = std::filesystem::temp_directory_path() /
+    (::testing::UnitTest::GetInstance()->current_test_info()->name() + std::string("_cone.csv"));
+};
+
+TEST_F(LargeStrainFile, IsReadInAnyOrder)
+{
+  write("1,0.2,0.33,1.08\n0,0.2,0.33,1\n1,0,0.33,1.04\n0,0,0.33,1\n");
+  const LargeStrainTable table = readLargeStrain(sphere_, cone_);
+  EXPECT_DOUBLE_EQ(table->sphere(1.0, 0.1, 0.33).value, 1.06);
+  EXPECT_DOUBLE_EQ(table->cone(0.2, std::acos(-1.0) / 4.0, 0.33).value, 1.05);
+  EXPECT_TRUE(table->cone.coversShape(std::acos(-1.0) / 4.0));
+  EXPECT_FALSE(table->cone.coversShape(0.5));
+}
+
+TEST_F(LargeStrainFile, IsRefusedWithTheLine)
+{
+  EXPECT_EQ(refusal("0,0,0.33,1\n0,0,0.33,1\n"), ":3: given twice; give each place once");
+  EXPECT_EQ(refusal("0,0,0.33\n"),
+    ":2: 3 columns; give depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio");
+  EXPECT_EQ(refusal("0,0,0.33,1\n1,0.2,0.33,1\n").substr(0, 4), ":3: ");
 }
 
 } // namespace

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// Numbers of a comma-separated file with a known header; lines that begin with # are comments.
+struct NumberTable
+{
+  struct Row
+  {
+    std::vector<double> values; ///< as many as the header has columns
+    int line;                   ///< in the file, from 1
+  };
+
+  std::vector<Row> rows;
+  int lastLine = 1;
+
+  /// @throws Error  BadFile: missing, another header, not a number, too few columns; with the line
+  [[nodiscard]] static NumberTable read(
+    const std::filesystem::path& file, const std::string& header);
+};
+
+/// "FILE:LINE: ", as messages begin.
+[[nodiscard]] std::string where(const std::filesystem::path& file, int line);
+
+} // namespace palp
