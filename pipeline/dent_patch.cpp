@@ -11,6 +11,7 @@ namespace
 
 constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's centre to its circle
 constexpr int kMaxLevel = 4;
+constexpr int kWhole = -1;                   // stands for the middle of an edge that is not halved
 constexpr std::size_t kMaxTriangles = 24000; // as many as a picture is quick with
 
 Eigen::Vector3f restNormal(const PressRegion& region, std::int32_t point)
@@ -73,23 +74,50 @@ void DentPatch::takeCorners(const Dent& dent)
   triangles = region.triangles();
 }
 
+// an edge between two points at rest stays whole: the surface beside the patch has it whole
 void DentPatch::halveEdges(const Dent& dent)
 {
   coarse_.swap(triangles);
   triangles.clear();
   middles_.clear();
-  for (const auto& [a, b, c] : coarse_)
+  for (const Triangle& corners : coarse_)
   {
-    const int ab = middleOf(a, b, dent);
-    const int bc = middleOf(b, c, dent);
-    const int ca = middleOf(c, a, dent);
-    triangles.insert(
-      triangles.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+    std::array<int, 3> middle{}; // of the edge after each corner
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      middle[k] = middleOf(corners[k], corners[(k + 1) % 3], dent);
+    }
+    const auto whole = std::find(middle.begin(), middle.end(), kWhole) - middle.begin();
+    if (whole == 3)
+    {
+      const auto& [a, b, c] = corners;
+      const auto& [ab, bc, ca] = middle;
+      triangles.insert(
+        triangles.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+      continue;
+    }
+    // two corners at rest share the one whole edge; with three at rest all edges are whole
+    const auto first = static_cast<std::size_t>(whole);
+    const int a = corners[first];
+    const int b = corners[(first + 1) % 3];
+    const int c = corners[(first + 2) % 3];
+    const int bc = middle[(first + 1) % 3];
+    const int ca = middle[(first + 2) % 3];
+    if (bc == kWhole || ca == kWhole)
+    {
+      triangles.push_back(corners);
+      continue;
+    }
+    triangles.insert(triangles.end(), { { a, b, bc }, { a, bc, ca }, { ca, bc, c } });
   }
 }
 
 int DentPatch::middleOf(int a, int b, const Dent& dent)
 {
+  if (rests(a, dent) && rests(b, dent))
+  {
+    return kWhole;
+  }
   const auto [low, high] = std::minmax(a, b);
   const std::uint64_t key =
     static_cast<std::uint64_t>(low) << 32U | static_cast<std::uint64_t>(high);
@@ -112,21 +140,25 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
   return entry->second;
 }
 
+bool DentPatch::rests(int corner, const Dent& dent) const noexcept
+{
+  const Place& place = corners_[static_cast<std::size_t>(corner)].place;
+  return !place.within && !(place.distance < dent.region().outer());
+}
+
 void DentPatch::displace(const Dent& dent)
 {
   const Eigen::Vector3d normal = dent.region().normal();
-  const double outer = dent.region().outer();
   points.clear();
   sink.clear();
   distance.clear();
   zone.clear();
-  for (const Corner& corner : corners_)
+  for (std::size_t i = 0; i < corners_.size(); ++i)
   {
-    // a neighbour of the dent stays; between two of them nothing is nearer than the circle but by
-    // the height of an arc, where the ring has come to rest
-    const bool rests = !corner.place.within && !(corner.place.distance < outer);
-    const PressField::Sink down =
-      rests ? PressField::Sink{ 0.0, Zone::Rest } : dent.sinkAt(corner.place, corner.rest);
+    const Corner& corner = corners_[i];
+    const PressField::Sink down = rests(static_cast<int>(i), dent)
+      ? PressField::Sink{ 0.0, Zone::Rest }
+      : dent.sinkAt(corner.place, corner.rest);
     points.emplace_back((corner.rest - down.depth * normal).cast<float>());
     sink.push_back(static_cast<float>(down.depth));
     distance.push_back(static_cast<float>(corner.place.distance));

@@ -43,6 +43,7 @@ private:
   void takeCorners(const Dent& dent);
   void halveEdges(const Dent& dent);
   [[nodiscard]] int middleOf(int a, int b, const Dent& dent);
+  [[nodiscard]] bool rests(int corner, const Dent& dent) const noexcept;
   void displace(const Dent& dent);
   void turnNormals();
 

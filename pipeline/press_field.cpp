@@ -83,6 +83,7 @@ void PressField::fitSurface(const PressRegion& region)
 {
   const double reach = kFitReach * std::max(region.inner(), 2.0 * region.edgeLength());
   const double scale = 1.0 / reach;
+  fitted_ = reach;
   Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
   Quadric heights = Quadric::Zero();
   for (const Place& place : region.places())
@@ -167,8 +168,10 @@ double PressField::ringSink(const Place& place, const RingCurve& curve) const no
   {
     return sink;
   }
-  // what the fit leaves of the surface goes with it at the contact circle and is left behind at R_d
-  const double t = (place.distance - curve.inner) / (curve.outer - curve.inner);
+  // what the fit leaves of the surface goes with it at the contact circle, and less and less so to
+  // where the fit ends
+  const double t =
+    std::min(1.0, (place.distance - curve.inner) / (std::min(fitted_, curve.outer) - curve.inner));
   const double fade = (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
   const double left = place.local.z() - surfaceHeight(place.local.x(), place.local.y());
   return sink + std::clamp(fade * left, -sink, sink);

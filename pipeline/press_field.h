@@ -64,6 +64,7 @@ private:
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
   double deepest_ = 0.0; // delta [m]
+  double fitted_ = 0.0;  // radius within which the surface was fitted [m]
 };
 
 } // namespace palp
