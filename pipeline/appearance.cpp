@@ -50,7 +50,7 @@ void setFont(vtkTextProperty& text, int size, const Color& color, bool bold)
   text.SetColor(color[0], color[1], color[2]);
 }
 
-vtkSmartPointer<vtkLookupTable> viridis()
+vtkSmartPointer<vtkLookupTable> viridisOn(const Color& base)
 {
   vtkNew<vtkColorTransferFunction> function;
   for (std::size_t i = 0; i < kViridis.size(); ++i)
@@ -66,8 +66,12 @@ vtkSmartPointer<vtkLookupTable> viridis()
   {
     Color color{};
     function->GetColor(static_cast<double>(i) / (kColors - 1), color.data());
-    const double opacity = std::min(1.0, i / (kFadeIn * (kColors - 1)));
-    table->SetTableValue(i, color[0], color[1], color[2], opacity);
+    const double share = std::min(1.0, i / (kFadeIn * (kColors - 1)));
+    for (std::size_t k = 0; k < color.size(); ++k)
+    {
+      color[k] = base[k] + share * (color[k] - base[k]);
+    }
+    table->SetTableValue(i, color[0], color[1], color[2]);
   }
   return table;
 }

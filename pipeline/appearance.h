@@ -32,9 +32,9 @@ void setFont(vtkTextProperty& text, int size, const Color& color = kInk, bool bo
 
 /// The map "viridis": perceptually uniform, and readable without colour vision.
 ///
-/// Fades in above zero, so that a colouring ends without an edge on what it lies on.
+/// Begins with the colour of what it is drawn on, so that a colouring ends there without an edge.
 /// @source Smith, van der Walt and Firing 2015, matplotlib's default map
-[[nodiscard]] vtkSmartPointer<vtkLookupTable> viridis();
+[[nodiscard]] vtkSmartPointer<vtkLookupTable> viridisOn(const Color& base);
 
 /// A number for people, with a point whatever the user's locale.
 [[nodiscard]] std::string fixedText(double value, int decimals);

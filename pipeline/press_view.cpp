@@ -57,7 +57,7 @@ void setColor(vtkActor& actor, const appearance::Color& color)
 
 PressView::PressView(vtkRenderer& renderer)
   : renderer_(renderer)
-  , colors_(appearance::viridis())
+  , colors_(appearance::viridisOn(appearance::kLiver))
 {
   const auto& ground = appearance::kGround;
   const auto& sky = appearance::kSky;
@@ -66,6 +66,8 @@ PressView::PressView(vtkRenderer& renderer)
   renderer_.GradientBackgroundOn();
   vtkNew<vtkLightKit> lights;
   lights->SetKeyLightIntensity(0.85);
+  lights->SetKeyToFillRatio(2.0);
+  lights->SetKeyToHeadRatio(2.5);
   lights->AddLightsToRenderer(&renderer_);
   renderer_.GetActiveCamera()->SetViewAngle(kViewAngle);
 
@@ -85,16 +87,15 @@ void PressView::addSurface()
   surface_->GetProperty()->SetSpecular(0.25);
   surface_->GetProperty()->SetSpecularPower(25.0);
 
-  colorMapper_->SetInputConnection(deform_->GetOutputPort(1));
-  colorMapper_->SetScalarModeToUsePointFieldData();
-  colorMapper_->SelectColorArray("Displacement [mm]");
-  colorMapper_->SetLookupTable(colors_);
-  colorMapper_->UseLookupTableScalarRangeOn();
-  colorMapper_->InterpolateScalarsBeforeMappingOn();
-  colorMapper_->SetResolveCoincidentTopologyToPolygonOffset();
-  colorMapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-3.0, -100.0);
-  colored_->SetMapper(colorMapper_);
-  colored_->VisibilityOff();
+  dentMapper_->SetInputConnection(deform_->GetOutputPort(1));
+  dentMapper_->SetScalarModeToUsePointFieldData();
+  dentMapper_->SelectColorArray("Displacement [mm]");
+  dentMapper_->SetLookupTable(colors_);
+  dentMapper_->UseLookupTableScalarRangeOn();
+  dentMapper_->InterpolateScalarsBeforeMappingOn();
+  dent_->SetMapper(dentMapper_);
+  dent_->SetProperty(surface_->GetProperty());
+  dent_->VisibilityOff();
 }
 
 void PressView::addTool()
@@ -141,7 +142,7 @@ void PressView::addLine(Line& line, const appearance::Color& color)
 
 void PressView::addTexts()
 {
-  for (vtkActor* actor : { surface_.Get(), colored_.Get(), tool_.Get(), arrow_.Get() })
+  for (vtkActor* actor : { surface_.Get(), dent_.Get(), tool_.Get(), arrow_.Get() })
   {
     renderer_.AddActor(actor);
   }
@@ -157,6 +158,11 @@ void PressView::addTexts()
   legend_->SetVerticalTitleSeparation(10);
   appearance::setFont(*legend_->GetTitleTextProperty(), 15, appearance::kInk, true);
   appearance::setFont(*legend_->GetLabelTextProperty(), 14);
+  for (vtkTextProperty* text : { legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty() })
+  {
+    text->SetBackgroundColor(1.0, 1.0, 1.0);
+    text->SetBackgroundOpacity(0.6);
+  }
   legend_->VisibilityOff();
   renderer_.AddActor2D(legend_);
 
@@ -231,13 +237,10 @@ void PressView::show(const Sample& sample)
     .tip = tip_,
     .contactRadius = sample.response.contactRadius,
     .extentRadius = extent });
-  const bool patch = isVisible(Overlay::ContactCircle) || isVisible(Overlay::ExtentCircle) ||
-    isVisible(Overlay::DisplacementColors);
-  deform_->SetGeneratePatch(patch && sample.contact.touching());
   placeTool(sample.pose);
   placeArrow(sample);
   placeCircles(sample, extent);
-  placeColors(sample);
+  placeDent(sample);
   placeReadings(sample, extent);
 }
 
@@ -261,9 +264,9 @@ void PressView::placeArrow(const Sample& sample)
     return;
   }
   // as long as the force is large, within what the view can hold; as thick as the tool allows
-  constexpr double kMetresPerNewton = 0.02;
+  constexpr double kMetresPerNewton = 0.025;
   const double length = std::clamp(
-    sample.response.force * kMetresPerNewton, 4.0_mm, std::max(60.0_mm, 6.0 * baseRadius(tip_)));
+    sample.response.force * kMetresPerNewton, 15.0_mm, std::max(70.0_mm, 6.0 * baseRadius(tip_)));
   const double thickness = std::min(0.15 * baseRadius(tip_), 0.12 * length);
   arrowSource_->SetShaftRadius(thickness / length);
   arrowSource_->SetTipRadius(2.6 * thickness / length);
@@ -286,15 +289,21 @@ void PressView::placeCircles(const Sample& sample, double extent)
   extentCircle_.contour->SetValue(0, extent);
 }
 
-void PressView::placeColors(const Sample& sample)
+// the dent is drawn by itself where it is finer than the mesh or has colours
+void PressView::placeDent(const Sample& sample)
 {
-  const bool shown = isVisible(Overlay::DisplacementColors) && sample.contact.touching();
-  colored_->SetVisibility(shown);
-  legend_->SetVisibility(shown);
-  if (shown)
+  const bool touching = sample.contact.touching();
+  const bool colored = touching && isVisible(Overlay::DisplacementColors);
+  deform_->SetGeneratePatch(touching);
+  deform_->Update();
+  const bool apart = colored || (touching && deform_->GetUsedPatchLevel() > 0);
+  dent_->SetVisibility(apart);
+  surfaceMapper_->SetHideDent(apart);
+  dentMapper_->SetScalarVisibility(colored);
+  legend_->SetVisibility(colored);
+  if (colored)
   {
-    const double depth = units::toMillimetres(sample.contact.depth);
-    colors_->SetTableRange(0.0, appearance::roundUp(depth));
+    colors_->SetTableRange(0.0, appearance::roundUp(units::toMillimetres(sample.contact.depth)));
   }
 }
 

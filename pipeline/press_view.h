@@ -88,7 +88,7 @@ private:
   void placeTool(const ToolPose& pose);
   void placeArrow(const Sample& sample);
   void placeCircles(const Sample& sample, double extent);
-  void placeColors(const Sample& sample);
+  void placeDent(const Sample& sample);
   void placeReadings(const Sample& sample, double extent);
 
   vtkRenderer& renderer_;
@@ -100,6 +100,8 @@ private:
   vtkNew<vtkPalpDeformFilter> deform_;
   vtkNew<vtkPalpPatchMapper> surfaceMapper_;
   vtkNew<vtkActor> surface_;
+  vtkNew<vtkPolyDataMapper> dentMapper_;
+  vtkNew<vtkActor> dent_; // the same finer or coloured
   vtkNew<vtkPolyDataMapper> toolMapper_;
   vtkNew<vtkActor> tool_;
   vtkNew<vtkArrowSource> arrowSource_;
@@ -109,8 +111,6 @@ private:
   Line contactCircle_;
   Line extentCircle_;
   vtkSmartPointer<vtkLookupTable> colors_;
-  vtkNew<vtkPolyDataMapper> colorMapper_;
-  vtkNew<vtkActor> colored_;
   vtkNew<vtkScalarBarActor> legend_;
   std::array<vtkNew<vtkTextActor>, 3> readings_;
 };

@@ -3,7 +3,6 @@
 #include "haptics/units.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkInformation.h>
@@ -60,8 +59,9 @@ void vtkPalpDeformFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Depth: " << this->Press.contact.depth << " m\n"
      << indent << "ContactRadius: " << this->Press.contactRadius << " m\n"
      << indent << "ExtentRadius: " << this->Press.extentRadius << " m\n"
-     << indent << "RingRadius: " << this->Dent.ringRadius() << " m\n"
-     << indent << "GeneratePatch: " << this->GeneratePatch << "\n";
+     << indent << "RingRadius: " << this->Dent.region().outer() << " m\n"
+     << indent << "GeneratePatch: " << this->GeneratePatch << "\n"
+     << indent << "PatchLevel: " << this->PatchLevel << "\n";
 }
 
 void vtkPalpDeformFilter::SetPress(const palp::Press& press)
@@ -93,7 +93,7 @@ int vtkPalpDeformFilter::RequestData(
   }
   this->Dent.update(this->Press, this->Arrays());
 
-  const auto touched = this->Dent.touched();
+  const auto touched = this->Dent.region().points();
   this->Touched->SetNumberOfValues(static_cast<vtkIdType>(touched.size()));
   std::copy(touched.begin(), touched.end(), this->Touched->GetPointer(0));
 
@@ -166,8 +166,10 @@ palp::DentArrays vtkPalpDeformFilter::Arrays()
 
 void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
 {
-  const auto touched = this->Dent.touched();
-  const auto count = static_cast<vtkIdType>(touched.size());
+  this->UsedPatchLevel =
+    this->PatchLevel < 0 ? palp::DentPatch::levelFor(this->Dent) : this->PatchLevel;
+  this->Patch.build(this->Dent, this->UsedPatchLevel);
+  const auto count = static_cast<vtkIdType>(this->Patch.points.size());
   const auto positions = floats("Points", 3, count);
   const auto normals = floats("Normals", 3, count);
   const auto length = floats("Displacement [mm]", 1, count);
@@ -177,17 +179,18 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
   zone->SetNumberOfTuples(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const vtkIdType point = touched[static_cast<std::size_t>(i)];
-    positions->SetTuple(i, point, this->Points->GetData());
-    normals->SetTuple(i, point, this->Normals);
-    zone->SetValue(i, this->Zone->GetValue(point));
-    const float* moved = this->Displacement->GetPointer(3 * point);
-    const double metres = std::hypot(moved[0], moved[1], moved[2]);
-    length->SetValue(i, static_cast<float>(palp::units::toMillimetres(metres)));
-    distance->SetValue(i, static_cast<float>(this->Dent.distance(static_cast<std::size_t>(i))));
+    const auto at = static_cast<std::size_t>(i);
+    positions->SetTypedTuple(i, this->Patch.points[at].data());
+    normals->SetTypedTuple(i, this->Patch.normals[at].data());
+    const double millimetres = palp::units::toMillimetres(this->Patch.sink[at]);
+    length->SetValue(i, static_cast<float>(millimetres));
+    distance->SetValue(i, this->Patch.distance[at]);
+    zone->SetValue(i, static_cast<unsigned char>(this->Patch.zone[at]));
   }
   vtkNew<vtkCellArray> triangles;
-  for (const palp::Triangle& triangle : this->Dent.triangles())
+  triangles->AllocateExact(static_cast<vtkIdType>(this->Patch.triangles.size()),
+    3 * static_cast<vtkIdType>(this->Patch.triangles.size()));
+  for (const palp::Triangle& triangle : this->Patch.triangles)
   {
     triangles->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
   }

@@ -8,10 +8,11 @@
  *   "Zone"          unsigned char, 0 rest, 1 ring, 2 on the tool
  * and the field array "TouchedPoints" (int), the points whose position or normal is not at rest.
  *
- * Output 1 is the dent alone, for overlays: the triangles with a displaced corner and the point
- * arrays "Normals", "Zone" and
+ * Output 1 is the dent alone, for overlays and for a view closer than the mesh is fine: the
+ * triangles with a displaced corner, divided PatchLevel times, and the point arrays "Normals", and
  *   "Displacement [mm]"  float, length of the displacement
  *   "Distance"           float [m], from the contact's centre along the undeformed surface
+ *   "Zone"               as above
  * It costs nothing until GeneratePatch is on.
  *
  * The arrays of output 0 are made once for an input and then changed in place, at a cost that
@@ -22,6 +23,7 @@
 #pragma once
 
 #include "pipeline/dent.h"
+#include "pipeline/dent_patch.h"
 
 #include <memory>
 #include <vtkFloatArray.h>
@@ -60,6 +62,20 @@ public:
   vtkBooleanMacro(GeneratePatch, bool);
   ///@}
 
+  ///@{
+  /**
+   * How often the edges of output 1 are halved, 0 to 4; -1 takes what makes the contact look
+   * round. Default: -1.
+   */
+  vtkSetClampMacro(PatchLevel, int, -1, 4);
+  vtkGetMacro(PatchLevel, int);
+  ///@}
+
+  /**
+   * How often they were halved by the last update.
+   */
+  vtkGetMacro(UsedPatchLevel, int);
+
   /**
    * The dent after the last update.
    */
@@ -86,7 +102,10 @@ private:
 
   palp::Press Press;
   palp::Dent Dent;
+  palp::DentPatch Patch;
   bool GeneratePatch = false;
+  int PatchLevel = -1;
+  int UsedPatchLevel = 0;
 
   // what the dent was built from
   vtkSmartPointer<vtkPoints> RestPoints;

@@ -12,6 +12,8 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
+#include <vtkShaderProgram.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
 vtkStandardNewMacro(vtkPalpPatchMapper);
@@ -19,7 +21,8 @@ vtkStandardNewMacro(vtkPalpPatchMapper);
 namespace
 {
 
-constexpr vtkIdType kBlock = 64; // points; one call sends a run of blocks
+constexpr float kTooLong = 100.0F; // [-] length of the normals of a hidden dent
+constexpr vtkIdType kBlock = 64;   // points; one call sends a run of blocks
 
 } // namespace
 
@@ -33,6 +36,7 @@ void vtkPalpPatchMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Padding: " << this->Padding << " m\n"
+     << indent << "HideDent: " << this->HideDent << "\n"
      << indent << "SentBytes: " << this->SentBytes << "\n";
 }
 
@@ -101,25 +105,51 @@ void vtkPalpPatchMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* ac
 {
   const vtkMTimeType before = this->VBOBuildTime.GetMTime();
   this->Superclass::UpdateBufferObjects(renderer, actor);
-  vtkIntArray* touched = this->TouchedPoints();
   const bool sentAll = this->VBOBuildTime.GetMTime() != before;
   const vtkIdType count = this->CurrentInput->GetNumberOfPoints();
   this->SentBytes = sentAll ? count * 6 * static_cast<vtkIdType>(sizeof(float)) : 0;
+  vtkIntArray* touched = this->TouchedPoints();
   if (!touched)
   {
     return;
   }
+  vtkDataArray* points = this->CurrentInput->GetPoints()->GetData();
+  const vtkMTimeType time = points->GetMTime();
   if (sentAll)
   {
     this->IsMarked.assign(static_cast<std::size_t>(count / kBlock + 1), 0);
     this->Sent.clear();
   }
+  else if (time == this->SentTime && this->HideDent == this->SentHidden)
+  {
+    return;
+  }
   this->MarkBlocks(touched);
   if (!sentAll)
   {
-    this->SendBlocks("vertexMC", this->CurrentInput->GetPoints()->GetData());
-    this->SendBlocks("normalMC", this->CurrentInput->GetPointData()->GetNormals());
+    this->SendBlocks("vertexMC", points, false);
   }
+  if (!sentAll || this->HideDent)
+  {
+    this->SendBlocks("normalMC", this->CurrentInput->GetPointData()->GetNormals(), this->HideDent);
+  }
+  this->SentTime = time;
+  this->SentHidden = this->HideDent;
+}
+
+void vtkPalpPatchMapper::ReplaceShaderNormal(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  if (this->VBOs->GetNumberOfComponents("normalMC") == 3)
+  {
+    std::string source = shaders[vtkShader::Fragment]->GetSource();
+    vtkShaderProgram::Substitute(source, "//VTK::Normal::Impl",
+      "if (dot(normalVCVSOutput, normalVCVSOutput) > 1.5) { discard; }\n"
+      "//VTK::Normal::Impl\n",
+      false);
+    shaders[vtkShader::Fragment]->SetSource(source);
+  }
+  this->Superclass::ReplaceShaderNormal(shaders, renderer, actor);
 }
 
 // blocks that are dented now go to Sent, these and the ones dented before to Marked
@@ -152,15 +182,15 @@ void vtkPalpPatchMapper::MarkBlocks(vtkIntArray* touched)
   std::sort(this->Marked.begin(), this->Marked.end());
 }
 
-void vtkPalpPatchMapper::SendBlocks(const char* buffer, vtkDataArray* data)
+void vtkPalpPatchMapper::SendBlocks(const char* buffer, vtkDataArray* data, bool hide)
 {
   vtkOpenGLVertexBufferObject* vbo = this->VBOs->GetVBO(buffer);
   if (!vbo || this->Marked.empty())
   {
     return;
   }
+  const auto* values = static_cast<const float*>(data->GetVoidPointer(0));
   const vtkIdType tuple = 3 * static_cast<vtkIdType>(sizeof(float));
-  const auto* first = static_cast<const unsigned char*>(data->GetVoidPointer(0));
   glBindBuffer(GL_ARRAY_BUFFER, vbo->GetHandle());
   for (std::size_t i = 0; i < this->Marked.size();)
   {
@@ -169,12 +199,29 @@ void vtkPalpPatchMapper::SendBlocks(const char* buffer, vtkDataArray* data)
     {
       ++end;
     }
-    const vtkIdType from = this->Marked[i] * kBlock * tuple;
-    const vtkIdType to =
-      std::min((this->Marked[end - 1] + 1) * kBlock, data->GetNumberOfTuples()) * tuple;
-    glBufferSubData(GL_ARRAY_BUFFER, from, to - from, first + from);
-    this->SentBytes += to - from;
+    const vtkIdType from = this->Marked[i] * kBlock;
+    const vtkIdType to = std::min((this->Marked[end - 1] + 1) * kBlock, data->GetNumberOfTuples());
+    const float* first = hide ? this->Hidden(values, from, to) : values + 3 * from;
+    glBufferSubData(GL_ARRAY_BUFFER, from * tuple, (to - from) * tuple, first);
+    this->SentBytes += (to - from) * tuple;
     i = end;
   }
   glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+// the normals of a range of points, too long where the point is displaced
+const float* vtkPalpPatchMapper::Hidden(const float* normals, vtkIdType from, vtkIdType to)
+{
+  auto* zone =
+    vtkUnsignedCharArray::SafeDownCast(this->CurrentInput->GetPointData()->GetArray("Zone"));
+  this->Lengthened.assign(normals + 3 * from, normals + 3 * to);
+  for (vtkIdType point = from; zone && point < to; ++point)
+  {
+    if (zone->GetValue(point) != 0)
+    {
+      float* normal = this->Lengthened.data() + 3 * (point - from);
+      std::transform(normal, normal + 3, normal, [](float x) { return kTooLong * x; });
+    }
+  }
+  return this->Lengthened.data();
 }

@@ -7,6 +7,10 @@
  * it sends the blocks of points that are in the field array "TouchedPoints" now or were in it
  * when it last sent. An input without that array, or drawn with scalars, is drawn as usual.
  *
+ * Where the dent is drawn by somebody else, finer (output 1 of the filter), HideDent leaves its
+ * triangles out: their displaced corners are sent with normals too long to be true, and the
+ * fragment shader discards what has such a normal, whatever the order of the triangles.
+ *
  * Units are kept (no shift and scale), and the bounds are those of the first update padded by
  * Padding, so that neither follows the dent.
  */
@@ -38,6 +42,17 @@ public:
 
   ///@{
   /**
+   * Whether the triangles with a displaced corner are left out. Default: off.
+   */
+  void SetHideDent(bool hide)
+  {
+    this->HideDent = hide;
+  }
+  vtkGetMacro(HideDent, bool);
+  ///@}
+
+  ///@{
+  /**
    * Bytes sent to the graphics memory by the last render, for tests and benchmarks; the size of
    * everything when all was sent.
    */
@@ -58,6 +73,8 @@ protected:
   void ComputeBounds() override;
   bool GetNeedToRebuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
   void UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderNormal(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
   vtkPalpPatchMapper(const vtkPalpPatchMapper&) = delete;
@@ -75,9 +92,14 @@ private:
 
   vtkIntArray* TouchedPoints();
   void MarkBlocks(vtkIntArray* touched);
-  void SendBlocks(const char* buffer, vtkDataArray* data);
+  void SendBlocks(const char* buffer, vtkDataArray* data, bool hide);
+  const float* Hidden(const float* normals, vtkIdType from, vtkIdType to);
 
   double Padding = 0.02;
+  bool HideDent = false;
+  bool SentHidden = false;
+  vtkMTimeType SentTime = 0;
+  std::vector<float> Lengthened; // normals on their way
   vtkIdType SentBytes = 0;
   Built Current;
   std::array<double, 6> RestBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };

@@ -155,6 +155,7 @@ TEST(DeformFilter, GivesTheDentAloneOnRequest)
   filter->Update();
   EXPECT_EQ(filter->GetOutput(1)->GetNumberOfPoints(), 0);
   filter->GeneratePatchOn();
+  filter->SetPatchLevel(0);
   filter->Update();
   vtkPolyData* patch = filter->GetOutput(1);
   ASSERT_TRUE(patch->GetPointData()->GetArray("Displacement [mm]"));

@@ -110,7 +110,7 @@ TEST(Dent, IsTheExactRestStateAgainOnRelease)
   EXPECT_EQ(surface.normals, normals);
   EXPECT_EQ(surface.displacement, std::vector<float>(points.size(), 0.0F));
   EXPECT_EQ(surface.zone, std::vector<unsigned char>(surface.count(), 0));
-  EXPECT_TRUE(surface.dent.touched().empty());
+  EXPECT_TRUE(surface.dent.region().points().empty());
 }
 
 TEST(Dent, DoesNotDependOnThePressBefore)
@@ -230,7 +230,7 @@ TEST_P(RandomPress, KeepsEveryPointOutOfTheToolAndBeyondRdAtRest)
     }
     surface.press(press);
     EXPECT_LE(deepestInside(surface, press), kInside) << "press " << i;
-    const double ring = surface.dent.ringRadius();
+    const double ring = surface.dent.region().outer();
     for (std::size_t k = 0; k < surface.count(); ++k)
     {
       const Eigen::Vector3d rest = DentedSurface::at(surface.rest, k);

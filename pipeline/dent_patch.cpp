@@ -1,0 +1,197 @@
+#include "pipeline/dent_patch.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's centre to its circle
+constexpr int kMaxLevel = 4;
+constexpr int kWhole = -1;                   // stands for the middle of an edge that is not halved
+constexpr std::size_t kMaxTriangles = 24000; // as many as a picture is quick with
+
+Eigen::Vector3f restNormal(const PressRegion& region, std::int32_t point)
+{
+  const Eigen::Vector3d p = region.rest(point);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::int32_t before = Umbrella::kEnd;
+  for (const std::int32_t next : region.umbrella().around(point))
+  {
+    if (before != Umbrella::kEnd && next != Umbrella::kEnd)
+    {
+      sum += (region.rest(before) - p).cross(region.rest(next) - p);
+    }
+    before = next;
+  }
+  return sum.normalized().cast<float>();
+}
+
+} // namespace
+
+int DentPatch::levelFor(const Dent& dent)
+{
+  const PressRegion& region = dent.region();
+  if (region.points().empty())
+  {
+    return 0;
+  }
+  int level = 0;
+  double edge = region.edgeLength();
+  std::size_t count = 2 * region.points().size();
+  while (level < kMaxLevel && edge * kEdgesOnRadius > region.inner() && 4 * count <= kMaxTriangles)
+  {
+    ++level;
+    edge *= 0.5;
+    count *= 4;
+  }
+  return level;
+}
+
+void DentPatch::build(const Dent& dent, int level)
+{
+  takeCorners(dent);
+  for (int i = 0; i < level; ++i)
+  {
+    halveEdges(dent);
+  }
+  displace(dent);
+  turnNormals();
+}
+
+void DentPatch::takeCorners(const Dent& dent)
+{
+  const PressRegion& region = dent.region();
+  corners_.clear();
+  for (std::size_t i = 0; i < region.points().size(); ++i)
+  {
+    const std::int32_t point = region.points()[i];
+    corners_.push_back({ region.rest(point), restNormal(region, point), region.places()[i] });
+  }
+  triangles = region.triangles();
+}
+
+// an edge between two points at rest stays whole: the surface beside the patch has it whole
+void DentPatch::halveEdges(const Dent& dent)
+{
+  coarse_.swap(triangles);
+  triangles.clear();
+  middles_.clear();
+  for (const Triangle& corners : coarse_)
+  {
+    std::array<int, 3> middle{}; // of the edge after each corner
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      middle[k] = middleOf(corners[k], corners[(k + 1) % 3], dent);
+    }
+    const auto whole = std::find(middle.begin(), middle.end(), kWhole) - middle.begin();
+    if (whole == 3)
+    {
+      const auto& [a, b, c] = corners;
+      const auto& [ab, bc, ca] = middle;
+      triangles.insert(
+        triangles.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+      continue;
+    }
+    // two corners at rest share the one whole edge; with three at rest all edges are whole
+    const auto first = static_cast<std::size_t>(whole);
+    const int a = corners[first];
+    const int b = corners[(first + 1) % 3];
+    const int c = corners[(first + 2) % 3];
+    const int bc = middle[(first + 1) % 3];
+    const int ca = middle[(first + 2) % 3];
+    if (bc == kWhole || ca == kWhole)
+    {
+      triangles.push_back(corners);
+      continue;
+    }
+    triangles.insert(triangles.end(), { { a, b, bc }, { a, bc, ca }, { ca, bc, c } });
+  }
+}
+
+int DentPatch::middleOf(int a, int b, const Dent& dent)
+{
+  if (rests(a, dent) && rests(b, dent))
+  {
+    return kWhole;
+  }
+  const auto [low, high] = std::minmax(a, b);
+  const std::uint64_t key =
+    static_cast<std::uint64_t>(low) << 32U | static_cast<std::uint64_t>(high);
+  const auto [entry, isNew] = middles_.try_emplace(key, static_cast<int>(corners_.size()));
+  if (isNew)
+  {
+    const Corner& first = corners_[static_cast<std::size_t>(a)];
+    const Corner& second = corners_[static_cast<std::size_t>(b)];
+    const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
+    Place place = dent.region().placeInFront(rest);
+    place.front = first.place.front && second.place.front;
+    if (!place.front)
+    {
+      place.way = 0.5 * (first.place.way + second.place.way);
+      place.distance = 0.5 * (first.place.distance + second.place.distance);
+    }
+    const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
+    corners_.push_back({ rest, normal, place });
+  }
+  return entry->second;
+}
+
+bool DentPatch::rests(int corner, const Dent& dent) const noexcept
+{
+  const Place& place = corners_[static_cast<std::size_t>(corner)].place;
+  return !place.within && !(place.distance < dent.region().outer());
+}
+
+void DentPatch::displace(const Dent& dent)
+{
+  const Eigen::Vector3d normal = dent.region().normal();
+  points.clear();
+  sink.clear();
+  distance.clear();
+  zone.clear();
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+  {
+    const Corner& corner = corners_[i];
+    const PressField::Sink down = rests(static_cast<int>(i), dent)
+      ? PressField::Sink{ 0.0, Zone::Rest }
+      : dent.sinkAt(corner.place, corner.rest);
+    points.emplace_back((corner.rest - down.depth * normal).cast<float>());
+    sink.push_back(static_cast<float>(down.depth));
+    distance.push_back(static_cast<float>(corner.place.distance));
+    zone.push_back(down.zone);
+  }
+}
+
+// the change of the triangles' mean normal, on top of the smooth normal at rest
+void DentPatch::turnNormals()
+{
+  std::vector<Eigen::Vector3f>& turned = normals;
+  turned.assign(corners_.size(), Eigen::Vector3f::Zero());
+  std::vector<Eigen::Vector3f> atRest(corners_.size(), Eigen::Vector3f::Zero());
+  for (const Triangle& triangle : triangles)
+  {
+    const auto a = static_cast<std::size_t>(triangle[0]);
+    const auto b = static_cast<std::size_t>(triangle[1]);
+    const auto c = static_cast<std::size_t>(triangle[2]);
+    const Eigen::Vector3f now = (points[b] - points[a]).cross(points[c] - points[a]);
+    const Eigen::Vector3f before = (corners_[b].rest - corners_[a].rest)
+                                     .cross(corners_[c].rest - corners_[a].rest)
+                                     .cast<float>();
+    for (const std::size_t corner : { a, b, c })
+    {
+      turned[corner] += now;
+      atRest[corner] += before;
+    }
+  }
+  for (std::size_t i = 0; i < turned.size(); ++i)
+  {
+    const Eigen::Vector3f change = turned[i].normalized() - atRest[i].normalized();
+    turned[i] = (corners_[i].normal + change).normalized();
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,199 @@
+#include "pipeline/press_field.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool leaves the surface
+constexpr double kWithinBase = 1.0 - 1e-9; // [-]
+constexpr double kVertical = 1e6;          // [-] slope of a shaft
+constexpr double kFitReach = 1.5;          // [-] of the contact radius
+
+// position of a direction among evenly spaced ones, 0 to 4 without trigonometry
+double quarterTurns(double x, double y) noexcept
+{
+  const double sum = std::abs(x) + std::abs(y);
+  if (!(sum > 0.0))
+  {
+    return 0.0;
+  }
+  const double t = y / sum;
+  return x < 0.0 ? 2.0 - t : (y < 0.0 ? 4.0 + t : t);
+}
+
+Eigen::Vector2d directionAt(double turns) noexcept
+{
+  const int quarter = static_cast<int>(turns);
+  const double f = turns - quarter;
+  const Eigen::Vector2d first = Eigen::Vector2d(1.0 - f, f).normalized();
+  const Eigen::Vector2d turned(-first.y(), first.x());
+  return ((quarter & 2) != 0 ? -1.0 : 1.0) * ((quarter & 1) != 0 ? turned : first);
+}
+
+// root of a function that is negative at 0 and positive at the end, by the Illinois rule
+template <typename Function>
+double rootBefore(double end, double atZero, double atEnd, Function function) noexcept
+{
+  double low = 0.0;
+  double high = end;
+  double atLow = atZero;
+  double atHigh = std::min(atEnd, end);
+  for (int i = 0; i < 12 && high - low > 1e-6 * end; ++i)
+  {
+    const double middle = low + (high - low) * atLow / (atLow - atHigh);
+    const double value = std::min(function(middle), end);
+    if (value < 0.0)
+    {
+      low = middle;
+      atLow = value;
+      atHigh *= 0.5;
+    }
+    else
+    {
+      high = middle;
+      atHigh = value;
+      atLow *= 0.5;
+    }
+  }
+  return low;
+}
+
+} // namespace
+
+void PressField::lay(const PressRegion& region, const ToolBody& body, double depth)
+{
+  normal_ = region.normal();
+  deepest_ = depth;
+  fitSurface(region);
+  for (int k = 0; k < kDirections; ++k)
+  {
+    curves_[static_cast<std::size_t>(k)] =
+      curveAlong(directionAt(4.0 * k / kDirections), region, body);
+  }
+  curves_.back() = curves_.front();
+}
+
+// least squares over the points around the contact, weighted so that none enters with a jump
+void PressField::fitSurface(const PressRegion& region)
+{
+  const double reach = kFitReach * std::max(region.inner(), 2.0 * region.edgeLength());
+  const double scale = 1.0 / reach;
+  fitted_ = reach;
+  Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
+  Quadric heights = Quadric::Zero();
+  for (const Place& place : region.places())
+  {
+    const double x = scale * place.local.x();
+    const double y = scale * place.local.y();
+    const double left = 1.0 - x * x - y * y;
+    if (left > 0.0 && place.front)
+    {
+      Quadric terms;
+      terms << 1.0, x, y, x * x, x * y, y * y;
+      sums.triangularView<Eigen::Lower>() += (left * left * terms) * terms.transpose();
+      heights += left * left * place.local.z() * terms;
+    }
+  }
+  // a trace of stiffness keeps at zero what few points leave open
+  sums.diagonal().array() += 1e-6 * sums(0, 0) + 1e-12;
+  Quadric units;
+  units << 1.0, scale, scale, scale * scale, scale * scale, scale * scale;
+  surface_ = sums.selfadjointView<Eigen::Lower>().ldlt().solve(heights).cwiseProduct(units);
+}
+
+double PressField::surfaceHeight(double x, double y) const noexcept
+{
+  return surface_[0] + x * (surface_[1] + x * surface_[3] + y * surface_[4]) +
+    y * (surface_[2] + y * surface_[5]);
+}
+
+// P0, P1 and P2 of Fig. 5(b) from the tool and the fitted surface
+RingCurve PressField::curveAlong(
+  const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) const noexcept
+{
+  const Eigen::Vector3d outwards =
+    region.toSurface({ towards.x(), towards.y(), 0.0 }) - region.toSurface(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d center = region.toSurface(Eigen::Vector3d::Zero());
+  // how far the tool is above the undeformed surface, less than zero where it is pressed in
+  const auto gap = [&](double radius)
+  {
+    return body.lowest(center + radius * outwards, normal_) -
+      surfaceHeight(radius * towards.x(), radius * towards.y());
+  };
+  const double atCenter = gap(0.0);
+  if (!(atCenter < 0.0))
+  {
+    return makeRingCurve(0.0, 0.0, kVertical, region.outer());
+  }
+  double end = region.inner() / kStillOnTool;
+  double atEnd = gap(end);
+  if (!std::isfinite(atEnd))
+  {
+    end = kWithinBase * region.inner(); // the tool ends in its shaft there, not above the surface
+    atEnd = gap(end);
+  }
+  const double contact = atEnd > 0.0 ? kStillOnTool * rootBefore(end, atCenter, atEnd, gap)
+                                     : std::min(region.inner(), end);
+  const double step = 1e-3 * contact;
+  const double height = gap(contact);
+  const double before = height - gap(contact - step);
+  const double after = gap(contact + step) - height;
+  // at the rim of the base the flank goes on; a flat base ends in its shaft
+  const double slope = std::isfinite(after) ? 0.5 * (before + after) / step
+    : before > 1e-3 * step                  ? before / step
+                                            : kVertical;
+  return makeRingCurve(contact, -height, slope, region.outer());
+}
+
+RingCurve PressField::curveTowards(double x, double y) const noexcept
+{
+  const double turns = quarterTurns(x, y) * (kDirections / 4);
+  const auto below = std::min(static_cast<std::size_t>(turns), std::size_t{ kDirections - 1 });
+  const double v = turns - static_cast<double>(below);
+  const RingCurve& a = curves_[below];
+  const RingCurve& b = curves_[below + 1];
+  const auto between = [v](double first, double second) { return first + v * (second - first); };
+  return { between(a.inner, b.inner), between(a.sink, b.sink), between(a.meet, b.meet), a.outer };
+}
+
+double PressField::ringSink(const Place& place, const RingCurve& curve) const noexcept
+{
+  const double sink = std::min(curve.sinkAt(place.distance), deepest_);
+  if (!place.front || !(place.distance < curve.outer))
+  {
+    return sink;
+  }
+  // what the fit leaves of the surface goes with it at the contact circle, and less and less so to
+  // where the fit ends
+  const double t =
+    std::min(1.0, (place.distance - curve.inner) / (std::min(fitted_, curve.outer) - curve.inner));
+  const double fade = (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
+  const double left = place.local.z() - surfaceHeight(place.local.x(), place.local.y());
+  return sink + std::clamp(fade * left, -sink, sink);
+}
+
+PressField::Sink PressField::sinkAt(
+  const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
+{
+  const RingCurve curve = curveTowards(place.way.x(), place.way.y());
+  if (place.front && place.distance <= curve.inner)
+  {
+    const double toTool = body.lowest(rest, normal_);
+    const double sink = std::isfinite(toTool) ? std::max(0.0, -toTool) : curve.sink;
+    return { sink, sink > 0.0 ? Zone::Contact : Zone::Ring };
+  }
+  const double sink = ringSink(place, curve);
+  const Eigen::Vector3d sunk = rest - sink * normal_;
+  if (body.inside(sunk) > 0.0)
+  {
+    return { sink - body.lowest(sunk, normal_), Zone::Contact };
+  }
+  return { sink, Zone::Ring };
+}
+
+} // namespace palp

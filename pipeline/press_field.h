@@ -1,0 +1,70 @@
+#pragma once
+
+#include "pipeline/bezier_patch.h"
+#include "pipeline/press_region.h"
+#include "pipeline/tool_body.h"
+
+#include <Eigen/Core>
+#include <array>
+
+namespace palp
+{
+
+/// What a point of a pressed surface is part of; the values of the array "Zone".
+enum class Zone : unsigned char
+{
+  Rest = 0,
+  Ring = 1,   ///< between contact and R_d
+  Contact = 2 ///< on the tool
+};
+
+/// How far the surface gives way at every place of a press.
+///
+/// Inside the contact circle the surface lies on the tool. Around it the Bezier patches of Eq. (8),
+/// one between each two of kDirections, are laid over the undeformed surface: lengths along it and
+/// sinks below it. On a plane this is Fig. 5 to the letter, on a curved surface it leaves neither a
+/// step at R_d nor one at the contact circle.
+///
+/// @source Sec. 3.3.1
+class PressField
+{
+public:
+  static constexpr int kDirections = 32;
+
+  struct Sink
+  {
+    double depth; ///< below the undeformed surface, along the contact normal [m]
+    Zone zone;
+  };
+
+  /// Fits the undeformed surface around the contact and finds the control points.
+  void lay(const PressRegion& region, const ToolBody& body, double depth);
+
+  /// @param place  of a point within the dent
+  /// @param rest   the point [m]
+  [[nodiscard]] Sink sinkAt(
+    const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
+
+  /// The ring's curve in a direction of the tangent plane, between those of its patch.
+  [[nodiscard]] RingCurve curveTowards(double x, double y) const noexcept;
+
+  /// Height of the fitted surface over the tangent plane [m].
+  [[nodiscard]] double surfaceHeight(double x, double y) const noexcept;
+
+private:
+  // z = c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2
+  using Quadric = Eigen::Matrix<double, 6, 1>;
+
+  void fitSurface(const PressRegion& region);
+  [[nodiscard]] RingCurve curveAlong(
+    const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) const noexcept;
+  [[nodiscard]] double ringSink(const Place& place, const RingCurve& curve) const noexcept;
+
+  Quadric surface_ = Quadric::Zero();
+  std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
+  Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
+  double deepest_ = 0.0; // delta [m]
+  double fitted_ = 0.0;  // radius within which the surface was fitted [m]
+};
+
+} // namespace palp

@@ -1,0 +1,145 @@
+#pragma once
+
+#include "haptics/contact/contact.h"
+#include "pipeline/tool_body.h"
+#include "pipeline/umbrella.h"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace palp
+{
+
+/// A place of a pressed surface, seen from the contact.
+struct Place
+{
+  Eigen::Vector3d local; ///< rest position from the contact's centre [m], z along its normal
+  Eigen::Vector2d way; ///< from the contact along the surface, unrolled into its tangent plane [m]
+  double distance;     ///< length of the way [m]
+  bool front;          ///< the surface faces the tool all along the way
+  bool within;         ///< within the dent; else next to it
+};
+
+/// The part of a surface around a contact, grown over mesh neighbours.
+///
+/// Where the surface faces the tool, a way is the straight line to the point: as seen along the
+/// normal at the contact circle, as r is, and as long as the distance in space at the outer circle.
+/// Where it turns away, ways go on along the triangles, laid flat one by one; the far side of a
+/// thin lobe is therefore as far as the way around its edge.
+class PressRegion
+{
+public:
+  PressRegion() = default;
+
+  /// @param rest       three floats a point [m], borrowed
+  /// @param triangles  outward oriented
+  PressRegion(std::span<const float> rest, std::span<const Triangle> triangles);
+
+  /// Finds the points nearer than the outer radius, those inside the tool, and their neighbours.
+  ///
+  /// Its cost follows their number as long as the contact moves by small steps; where it jumps to
+  /// another part of the surface, all points are looked at once.
+  ///
+  /// @param inner  contact radius r [m]
+  /// @param outer  outer radius [m], more than inner
+  void grow(const Contact& contact, const ToolBody& body, double inner, double outer);
+
+  /// Empty again.
+  void clear() noexcept;
+
+  /// The points found.
+  [[nodiscard]] std::span<const std::int32_t> points() const noexcept
+  {
+    return points_;
+  }
+
+  /// Their places, in the same order.
+  [[nodiscard]] std::span<const Place> places() const noexcept
+  {
+    return places_;
+  }
+
+  /// Index of a point in points(), negative when it is not there.
+  [[nodiscard]] std::int32_t find(std::int32_t point) const noexcept
+  {
+    return slot_[static_cast<std::size_t>(point)];
+  }
+
+  /// Triangles with a corner within the dent; indices into points().
+  [[nodiscard]] std::vector<Triangle> triangles() const;
+
+  /// The place of a point that faces the tool.
+  [[nodiscard]] Place placeInFront(const Eigen::Vector3d& point) const noexcept;
+
+  [[nodiscard]] Eigen::Vector3d rest(std::int32_t point) const noexcept
+  {
+    const float* p = rest_.data() + 3 * static_cast<std::size_t>(point);
+    return { p[0], p[1], p[2] };
+  }
+
+  /// A position of the contact's frame in that of the surface [m].
+  [[nodiscard]] Eigen::Vector3d toSurface(const Eigen::Vector3d& local) const noexcept
+  {
+    return center_ + axes_.transpose() * local;
+  }
+
+  [[nodiscard]] Eigen::Vector3d normal() const noexcept
+  {
+    return axes_.row(2);
+  }
+  [[nodiscard]] double inner() const noexcept
+  {
+    return inner_;
+  }
+  [[nodiscard]] double outer() const noexcept
+  {
+    return outer_;
+  }
+
+  /// Mean length of the edges at the point nearest to the contact [m].
+  [[nodiscard]] double edgeLength() const noexcept;
+
+  [[nodiscard]] std::size_t pointCount() const noexcept
+  {
+    return slot_.size();
+  }
+  [[nodiscard]] const Umbrella& umbrella() const noexcept
+  {
+    return umbrella_;
+  }
+  [[nodiscard]] std::size_t bytes() const noexcept;
+
+private:
+  static constexpr std::int32_t kNowhere = -1;
+
+  [[nodiscard]] std::int32_t findSeed(const Contact& contact) const noexcept;
+  [[nodiscard]] std::int32_t findNearest(const Contact& contact) const noexcept;
+  [[nodiscard]] bool faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept;
+  [[nodiscard]] bool isSettled(std::int32_t point) const noexcept
+  {
+    const std::int32_t slot = find(point);
+    return slot != kNowhere && places_[static_cast<std::size_t>(slot)].front;
+  }
+  void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
+  void meet(std::int32_t point, Place place, const ToolBody& body);
+  [[nodiscard]] Eigen::Vector2d unrolled(
+    std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;
+
+  std::span<const float> rest_;
+  Umbrella umbrella_;
+  std::vector<std::int32_t> slot_; // of every point, place in points_
+
+  // of one press; capacity is kept from frame to frame
+  std::vector<std::int32_t> points_;
+  std::vector<Place> places_;
+  std::vector<std::int32_t> queue_;                    // slots to grow from
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity(); // rows: two tangents and the normal
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double inner_ = 0.0;
+  double outer_ = 0.0;
+  std::int32_t seed_ = 0;
+};
+
+} // namespace palp
