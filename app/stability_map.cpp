@@ -17,7 +17,7 @@ namespace
 
 constexpr int kCell = 44;    // [px]
 constexpr int kRow = 22;     // [px]
-constexpr int kLabels = 190; // width of the names of the rows [px]
+constexpr int kLabels = 215; // width of the names of the rows [px]
 constexpr int kHead = 92;    // above the cells [px]
 constexpr int kFoot = 76;    // below them [px]
 
