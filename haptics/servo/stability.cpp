@@ -64,8 +64,17 @@ void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double mod
   }
   for (const int dropped : { 1, 3, 5, 20 })
   {
-    vary(
-      std::to_string(dropped) + " ticks dropped", [&](LoopCase& loop) { loop.dropped = dropped; });
+    vary(std::to_string(dropped) + (dropped == 1 ? " tick" : " ticks") + " lost 4 times a second",
+      [&](LoopCase& loop) { loop.dropped = dropped; });
+  }
+  for (const int dropped : { 20, 100 })
+  {
+    vary(std::to_string(dropped) + " ticks lost every 4 s",
+      [&](LoopCase& loop)
+      {
+        loop.dropped = dropped;
+        loop.dropEvery = 4.0;
+      });
   }
   for (const int delay : { 1, 2 })
   {
