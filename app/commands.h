@@ -17,5 +17,6 @@ struct ViewOptions;
 void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
 void addRunCommand(CLI::App& app, const Pictures* pictures);
 void addForceCommand(CLI::App& app);
+void addStabilityCommand(CLI::App& app);
 
 } // namespace palp

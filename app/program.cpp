@@ -82,6 +82,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
   addForceCommand(app);
+  addStabilityCommand(app);
 
   // for the start script: is this word a command of ours?
   if (argc == 3 && std::string_view(argv[1]) == "--is-command")

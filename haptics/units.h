@@ -44,6 +44,16 @@ constexpr double toNewtonsPerMillimetre(double newtonsPerMetre) noexcept
   return newtonsPerMetre / 1e3;
 }
 
+constexpr double toMilliseconds(double seconds) noexcept
+{
+  return seconds * 1e3;
+}
+
+constexpr double toMicrojoules(double joules) noexcept
+{
+  return joules * 1e6;
+}
+
 inline namespace literals
 {
 

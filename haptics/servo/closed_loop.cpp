@@ -14,8 +14,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kSettling = 0.2;   // before the hand moves, so that a force may start [s]
-constexpr double kDropEvery = 0.25; // [s]
+constexpr double kSettling = 0.2; // before the hand moves, so that a force may start [s]
 
 // exact motion of m x'' + b x' = u over a time, u constant
 struct Motion
@@ -119,6 +118,7 @@ class Clock
 public:
   explicit Clock(const LoopCase& loop)
     : loop_(loop)
+    , drop_(loop.dropEvery)
   {
   }
 
@@ -131,7 +131,7 @@ public:
     }
     if (loop_.dropped > 0 && now >= drop_)
     {
-      drop_ += kDropEvery;
+      drop_ += loop_.dropEvery;
       dt += loop_.dropped * loop_.period;
     }
     return dt;
@@ -141,7 +141,7 @@ private:
   const LoopCase& loop_;
   std::minstd_rand random_;
   std::uniform_real_distribution<double> spread_{ -1.0, 1.0 };
-  double drop_ = kDropEvery;
+  double drop_;
 };
 
 } // namespace
@@ -196,7 +196,7 @@ LoopResult simulate(const LoopCase& loop)
       tail += speed * speed * dt;
       tailTime += dt;
     }
-    if (share > 0.875)
+    if (share > 0.875 && force > 0.0)
     {
       result.hum = std::max(result.hum, speed);
     }

@@ -36,7 +36,8 @@ struct LoopCase
   double forceLimit = 4.0;                       ///< [N], chain only
   double period = 0.001;                         ///< T [s]
   double jitter = 0.0;                           ///< of the period, both ways, as a share of it
-  int dropped = 0;                               ///< ticks lost in a row, every 0.25 s
+  int dropped = 0;                               ///< ticks lost in a row
+  double dropEvery = 0.25;                       ///< [s]
   double duration = 20.0;                        ///< [s]
   std::optional<SafetySettings> chain;           ///< none: the law goes to the motors as it is
 };
@@ -51,7 +52,7 @@ struct LoopResult
   double peakForce = 0.0;  ///< [N]
   double peakStep = 0.0;   ///< largest change of force between two ticks [N]
   double earlySpeed = 0.0; ///< largest between 1/8 and 1/4 of the duration [m/s]
-  double hum = 0.0;        ///< largest in the last eighth [m/s]
+  double hum = 0.0;        ///< largest under a force in the last eighth [m/s]
   double tailSpeed = 0.0;  ///< root mean square in the last quarter [m/s]
   double endDepth = 0.0;   ///< [m]
   double endForce = 0.0;   ///< [N]

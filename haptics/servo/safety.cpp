@@ -107,6 +107,7 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   {
     raise(Flag::Late);
     forceOff(DeviceState::SoftStart);
+    fading_ = sent_;
   }
   advance(status, orders);
   return last_;
@@ -182,6 +183,7 @@ void SafetyChain::forceOff(DeviceState state) noexcept
   gain_ = 0.0;
   apart_ = 0.0;
   shaped_.setZero();
+  fading_.setZero();
   reseat_ = true;
 }
 
@@ -208,14 +210,16 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene)
     }
     force += workspaceForce(last_);
     shaped_ = bounded(force, std::min(device_.maxForce, scene.forceLimit));
-    sample.force = gain_ * trust_ * shaped_;
+    fade();
+    sample.force = trust_ * (gain_ * shaped_ + fading_);
     ramp(sample.contact.touching());
   }
   else
   {
     raise(Flag::Disarmed);
   }
-  passivity_.sent(sample.force);
+  sent_ = sample.force;
+  passivity_.sent(sent_);
   sample.flags |= flags_ | latched_;
   sample.state = state_;
 }
@@ -310,6 +314,14 @@ Eigen::Vector3d SafetyChain::bounded(Eigen::Vector3d force, double largest) noex
     force = shaped_ + change * (rate * dt_ / size);
   }
   return force;
+}
+
+// together with a force that starts, no faster than any force
+void SafetyChain::fade() noexcept
+{
+  const double step = std::max(0.0, settings_.slewRate - settings_.softSlewRate) * dt_;
+  const double size = fading_.norm();
+  fading_ *= size > step ? 1.0 - step / size : 0.0;
 }
 
 void SafetyChain::ramp(bool touching) noexcept

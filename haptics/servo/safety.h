@@ -90,6 +90,7 @@ private:
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
   [[nodiscard]] Eigen::Vector3d bounded(Eigen::Vector3d force, double largest) noexcept;
   void ramp(bool touching) noexcept;
+  void fade() noexcept;
   void raise(Flag flag) noexcept
   {
     flags_ |= static_cast<std::uint32_t>(flag);
@@ -123,6 +124,8 @@ private:
   std::uint64_t version_ = 0; // of the scene, last tick
 
   Eigen::Vector3d shaped_ = Eigen::Vector3d::Zero(); // before gain, last tick [N]
+  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();   // last tick [N]
+  Eigen::Vector3d fading_ = Eigen::Vector3d::Zero(); // rest of a force that was let go [N]
 };
 
 } // namespace palp

@@ -52,22 +52,34 @@ StabilityCase make(std::string name, const Tip& tip, double modulus, double rati
 // tissue against everything that a loop, a device or a hand may do
 void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double modulus)
 {
-  const auto vary = [&](const char* name, const auto& change)
+  const auto vary = [&](const std::string& name, const auto& change)
   {
     cases.push_back(make(name, tip, modulus));
     change(cases.back().loop);
   };
   for (const double jitter : { 0.2, 0.5 })
   {
-    vary("jitter", [&](LoopCase& loop) { loop.jitter = jitter; });
+    vary(
+      jitter < 0.3 ? "jitter 20 %" : "jitter 50 %", [&](LoopCase& loop) { loop.jitter = jitter; });
   }
   for (const int dropped : { 1, 3, 5, 20 })
   {
-    vary("dropped ticks", [&](LoopCase& loop) { loop.dropped = dropped; });
+    vary(std::to_string(dropped) + (dropped == 1 ? " tick" : " ticks") + " lost 4 times a second",
+      [&](LoopCase& loop) { loop.dropped = dropped; });
+  }
+  for (const int dropped : { 20, 100 })
+  {
+    vary(std::to_string(dropped) + " ticks lost every 4 s",
+      [&](LoopCase& loop)
+      {
+        loop.dropped = dropped;
+        loop.dropEvery = 4.0;
+      });
   }
   for (const int delay : { 1, 2 })
   {
-    vary("delay", [&](LoopCase& loop) { loop.plant.delay = delay; });
+    vary("delay of " + std::to_string(delay) + (delay == 1 ? " tick" : " ticks"),
+      [&](LoopCase& loop) { loop.plant.delay = delay; });
   }
   vary("virtual damping", [](LoopCase& loop) { loop.damping = 2.0; });
   vary("light device",
@@ -92,7 +104,7 @@ void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double mod
   vary("tissue stiffens", [&](LoopCase& loop) { loop.swapped = lawOf(tip, 10.0_MPa, 0.33); });
   for (const double rise : { -2.0_mm, 2.0_mm })
   {
-    vary("surface swapped",
+    vary(rise < 0.0 ? "surface sinks 2 mm" : "surface rises 2 mm",
       [&](LoopCase& loop)
       {
         loop.swapped = loop.law;
@@ -178,8 +190,8 @@ StabilityRow judge(const StabilityCase& which, bool chain)
   {
     row.outcome = StabilityOutcome::Refused;
   }
-  else if (row.energy < StabilityLimits::kEnergy || exact.hum > StabilityLimits::kEnvelope * early ||
-    row.hum > StabilityLimits::kHum)
+  else if (row.energy < StabilityLimits::kEnergy ||
+    exact.hum > StabilityLimits::kEnvelope * early || row.hum > StabilityLimits::kHum)
   {
     row.outcome = StabilityOutcome::Unstable;
   }
