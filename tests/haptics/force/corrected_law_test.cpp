@@ -1,8 +1,9 @@
 #include "haptics/force/force_law.h"
 
-#include "haptics/force/profile.h"
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 #include "reference_table.h"
+#include "tests/support/allocation_guard.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -219,6 +220,51 @@ TEST_P(NeoHookeanBlock, IsMetWithin3PercentWherePapersLawIsOffBy10)
   EXPECT_GE(worstPaper, 0.09);
   RecordProperty("worst_percent", std::to_string(100.0 * worst));
   RecordProperty("worst_of_paper_percent", std::to_string(100.0 * worstPaper));
+}
+
+// linear finite elements on a ball of 100 mm that is glued below, far from the tool
+TEST(CorrectedLaw, CurvedSurfaceIsThatOfFiniteElements)
+{
+  struct Ball
+  {
+    const char* table;
+    Tip tip;
+  };
+  for (const Ball& ball :
+    { Ball{ "fig3_sphere_R10_on_elastic_sphere_R0_100_cap45__LINS_h1", SphereTip{ 10.0_mm } },
+      Ball{ "fig3_cone45_on_elastic_sphere_R0_100_cap45__LINS_h0.5",
+        BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm } } })
+  {
+    const auto rows = test::referenceTable(ball.table);
+    ASSERT_GE(rows.size(), 10U);
+    const ForceLaw law(ball.tip, kLiver, { .mode = LawMode::Corrected });
+    for (const auto& row : rows)
+    {
+      const double depth = row.number("delta_m");
+      const double force = row.number("F_N");
+      EXPECT_NEAR(
+        law({ .depth = depth, .surfaceCurvature = 1.0 / 100.0_mm }).force, force, 0.015 * force)
+        << ball.table << " " << depth;
+    }
+  }
+}
+
+TEST(CorrectedLaw, DoesNotAllocate)
+{
+  const ForceLaw law(
+    SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
+  const Validity validity(law);
+  const Indentation place{ .depth = 3.0_mm,
+    .tilt = 9.0_deg,
+    .thickness = 20.0_mm,
+    .surfaceCurvature = 1.0 / 50.0_mm,
+    .curvatureSpread = 1.0 / 100.0_mm };
+  const test::AllocationGuard guard;
+  const double force = law(place).force;
+  const double factor = law.factors(place)[3].value;
+  const double value = validity(place)[0].value;
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_GT(force + factor + value, 0.0);
 }
 
 TEST(CorrectedLaw, WithoutATableLargeStrainIsLinear)
