@@ -69,6 +69,16 @@ LawSettings LawOptions::settings() const
   return settings;
 }
 
+std::string describeLaw(const LawSettings& settings)
+{
+  if (settings.mode != LawMode::Corrected)
+  {
+    return settings.mode == LawMode::Paper ? "paper" : "exact";
+  }
+  return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") + " base, " +
+    (settings.constitution == Constitution::Linear ? "linear" : "neo-hookean");
+}
+
 void PlaceOptions::addTo(CLI::App& command)
 {
   command.add_option("--thickness", thickness, "Of the body under the tool, as in 30mm");

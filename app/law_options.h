@@ -25,6 +25,9 @@ struct LawOptions
   [[nodiscard]] LawSettings settings() const;
 };
 
+/// The same in words, as in `corrected, bonded base, neo-hookean`.
+[[nodiscard]] std::string describeLaw(const LawSettings& settings);
+
 /// The place that is pressed, where no surface tells it; as text with units.
 struct PlaceOptions
 {

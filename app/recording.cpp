@@ -1,6 +1,7 @@
 #include "app/recording.h"
 
 #include "app/csv.h"
+#include "app/law_options.h"
 #include "app/tip_spec.h"
 #include "haptics/units.h"
 
@@ -33,6 +34,7 @@ void writeSamples(std::ostream& out, const Recording& recording, const ExtentTab
       << "# tool: " << describeTip(law.tip()) << '\n'
       << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
       << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
+      << "# law: " << describeLaw(law.settings()) << '\n'
       << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
       << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
       << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "

@@ -46,6 +46,7 @@ QFormLayout* addGroup(QVBoxLayout* column, const QString& title)
 
 TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget* parent)
   : QWidget(parent)
+  , settings_(scene.law.settings())
   , other_(scene.law.tip())
 {
   const ForceLaw& law = scene.law;
@@ -127,7 +128,7 @@ ForceLaw TissuePanel::law() const
     tip = ConeTip{ .halfAngle = units::fromDegrees(halfAngleDeg_->value()), .baseRadius = radius };
   }
   return ForceLaw(
-    tip, makeMaterial(units::fromKilopascals(modulusKpa_->value()), poisson_->value()));
+    tip, makeMaterial(units::fromKilopascals(modulusKpa_->value()), poisson_->value()), settings_);
 }
 
 ContactRule TissuePanel::rule() const

@@ -30,6 +30,7 @@ Q_SIGNALS:
 private:
   void showAngleForConesOnly();
 
+  LawSettings settings_; // from the command line, too
   Tip other_; // a tool from the command line that the panel has no fields for
   QComboBox* kind_;
   QDoubleSpinBox* radiusMm_;
