@@ -75,8 +75,8 @@ std::string describeLaw(const LawSettings& settings)
   {
     return settings.mode == LawMode::Paper ? "paper" : "exact";
   }
-  return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") + " base, " +
-    (settings.constitution == Constitution::Linear ? "linear" : "neo-hookean");
+  return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") +
+    " base, " + (settings.constitution == Constitution::Linear ? "linear" : "neo-hookean");
 }
 
 void PlaceOptions::addTo(CLI::App& command)

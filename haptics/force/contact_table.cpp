@@ -13,8 +13,7 @@ namespace
 
 constexpr int kRows = 512;
 constexpr double kShallowest = 1e-9; // of the base depth; below, the power law of the first row
-constexpr double kEquator =
-  1e-9; // of R, what is left out of a sphere, whose base depth is infinite
+constexpr double kEquator = 1e-9;    // of R, left out of a sphere, whose base depth is infinite
 
 // radius at which g reaches a depth, known to lie between low and high: Illinois' false position
 double contactRadius(const Tip& tip, double depth, double low, double high)

@@ -70,6 +70,17 @@ Indentation sanitized(const Indentation& local, const LawSettings& settings) noe
   return clean;
 }
 
+// 0 for a tip that is no cone
+double coneAngle(const Tip& tip) noexcept
+{
+  if (const auto* cone = std::get_if<ConeTip>(&tip))
+  {
+    return cone->halfAngle;
+  }
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
+  return blunt != nullptr ? blunt->halfAngle : 0.0;
+}
+
 // a share, 1 where there is too little to divide by
 double share(double part, double whole) noexcept
 {
@@ -159,40 +170,24 @@ double ForceLaw::ellipse(const Indentation& local) const noexcept
 LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noexcept
 {
   if (settings_.mode != LawMode::Corrected || settings_.constitution == Constitution::Linear ||
-    settings_.largeStrain == nullptr)
+    settings_.largeStrain == nullptr || !(local.depth > 0.0))
   {
     return {};
   }
+  const Indentation place = sanitized(local, settings_);
   const LargeStrain& table = *settings_.largeStrain;
-  double halfAngle = 0.0;
-  double unit = local.thickness; // of the depth on the table's first axis
+  const double nu = material_.poissonRatio;
   LargeStrainGrid::Ratio ratio;
   if (const auto* sphere = std::get_if<SphereTip>(&tip_))
   {
-    unit = sphere->radius;
-    ratio = table.sphere(local.depth / unit, unit / local.thickness, material_.poissonRatio);
+    ratio = table.sphere(place.depth / sphere->radius, sphere->radius / place.thickness, nu);
+    ratio.slope /= sphere->radius;
   }
-  else
+  else if (const double halfAngle = coneAngle(tip_); table.cone.coversShape(halfAngle))
   {
-    if (const auto* cone = std::get_if<ConeTip>(&tip_))
-    {
-      halfAngle = cone->halfAngle;
-    }
-    else if (const auto* blunt = std::get_if<BluntConeTip>(&tip_))
-    {
-      halfAngle = blunt->halfAngle;
-    }
-    else
-    {
-      return {};
-    }
-    if (!table.cone.coversShape(halfAngle))
-    {
-      return {};
-    }
-    ratio = table.cone(local.depth / unit, halfAngle, material_.poissonRatio);
+    ratio = table.cone(place.depth / place.thickness, halfAngle, nu);
+    ratio.slope /= place.thickness;
   }
-  ratio.slope /= unit;
   return ratio;
 }
 

@@ -137,8 +137,7 @@ LinearContact respond(const BluntConeTip& tip, double depth) noexcept
   // g is concave beyond the cap and below its asymptote, so it converges from the left
   const double rho = tip.tipRadius;
   const double n = rho * std::sin(tip.halfAngle);
-  const double lift =
-    rho * (1.0 / std::sin(tip.halfAngle) - 1.0); // of the tip over the cone's apex
+  const double lift = rho * rho / n - rho; // of the tip over the apex of the sharp cone
   const double start =
     std::max(b, 2.0 / std::numbers::pi * (depth + lift) * std::tan(tip.halfAngle));
   const double a = newton(start,
