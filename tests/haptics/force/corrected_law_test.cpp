@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 #include "reference_table.h"
 #include "tests/support/allocation_guard.h"
+#include "tips.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,10 +18,6 @@ namespace
 using namespace units::literals;
 
 const Material kLiver{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
-
-const std::vector<Tip> kTips{ SphereTip{ 10.0_mm }, ConeTip{ 30.0_deg, 10.0_mm },
-  PunchTip{ 5.0_mm }, TruncatedConeTip{ 45.0_deg, 2.0_mm, 10.0_mm },
-  BluntConeTip{ 60.0_deg, 3.0_mm, 10.0_mm }, ParaboloidTip{ 10.0_mm } };
 
 // made up, to see that the law applies it: 1 + 0.1 depth/R, and 1.05 for every cone
 LargeStrainTable madeUpRatios()
@@ -69,7 +66,7 @@ TEST_P(BondedLayer, AgreesWithTheIntegralEquation)
 class AnyTip : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(CorrectedLaw, AnyTip, ::testing::ValuesIn(kTips));
+INSTANTIATE_TEST_SUITE_P(CorrectedLaw, AnyTip, ::testing::ValuesIn(test::allTips()));
 
 TEST_P(AnyTip, IsExactWhereNothingActs)
 {
@@ -114,6 +111,8 @@ TEST_P(AnyTip, EachFactorCanBeSwitchedOff)
 
 TEST_P(AnyTip, StiffnessIsTheDerivativeWithEveryFactor)
 {
+  // the table of a profile rounds its corners
+  const double tolerance = std::holds_alternative<ProfileTip>(GetParam()) ? 1e-2 : 2e-4;
   const ForceLaw law(
     GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
   const auto at = [&law](double depth)
@@ -129,7 +128,7 @@ TEST_P(AnyTip, StiffnessIsTheDerivativeWithEveryFactor)
   {
     const double h = 1e-4 * depth;
     const double numeric = (at(depth + h).force - at(depth - h).force) / (2.0 * h);
-    EXPECT_NEAR(at(depth).stiffness, numeric, 2e-4 * numeric) << depth;
+    EXPECT_NEAR(at(depth).stiffness, numeric, tolerance * numeric) << depth;
     EXPECT_GT(at(depth).force, force);
     force = at(depth).force;
   }

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tips.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -16,10 +17,6 @@ namespace
 using namespace units::literals;
 
 const Material kLiver{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
-
-const std::vector<Tip> kTips{ SphereTip{ 10.0_mm }, ConeTip{ 30.0_deg, 10.0_mm },
-  PunchTip{ 5.0_mm }, TruncatedConeTip{ 45.0_deg, 2.0_mm, 10.0_mm },
-  BluntConeTip{ 60.0_deg, 3.0_mm, 10.0_mm }, ParaboloidTip{ 10.0_mm } };
 
 // Hertz in terms of E* = E / (1 - nu^2), another road to Eq. (4)
 TEST(PaperLaw, SphereIsHertz)
@@ -73,10 +70,11 @@ TEST(PaperLaw, ContactRadiusIsThatOfEquation2UpToTheBase)
 
 TEST(PaperLaw, IsExactForOtherTips)
 {
-  for (std::size_t i = 2; i < kTips.size(); ++i)
+  const std::vector<Tip> tips = test::allTips();
+  for (std::size_t i = 2; i < tips.size(); ++i)
   {
-    const ForceLaw paper(kTips[i], kLiver);
-    const ForceLaw exact(kTips[i], kLiver, { .mode = LawMode::Exact });
+    const ForceLaw paper(tips[i], kLiver);
+    const ForceLaw exact(tips[i], kLiver, { .mode = LawMode::Exact });
     EXPECT_EQ(paper({ .depth = 3.0_mm }).force, exact({ .depth = 3.0_mm }).force);
     EXPECT_GT(paper({ .depth = 3.0_mm }).force, 0.0);
   }
@@ -89,7 +87,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(ForceLaw, AnyLaw,
   ::testing::Combine(
-    ::testing::ValuesIn(kTips), ::testing::Values(LawMode::Paper, LawMode::Exact)));
+    ::testing::ValuesIn(test::allTips()), ::testing::Values(LawMode::Paper, LawMode::Exact)));
 
 TEST_P(AnyLaw, PushesBackOnlyInContact)
 {
@@ -122,12 +120,14 @@ TEST_P(AnyLaw, BeginsAtZeroAndIsMonotone)
 // C1: the stated stiffness is the derivative everywhere and has no jumps
 TEST_P(AnyLaw, StiffnessIsTheDerivativeOfTheForce)
 {
+  // the table of a profile rounds its corners
+  const double tolerance = std::holds_alternative<ProfileTip>(law_.tip()) ? 2e-3 : 1e-6;
   for (double depth = 0.02_mm; depth < 30.0_mm; depth *= 1.07)
   {
     const double h = 1e-5 * depth;
     const double numeric =
       (law_({ .depth = depth + h }).force - law_({ .depth = depth - h }).force) / (2.0 * h);
-    EXPECT_NEAR(law_({ .depth = depth }).stiffness, numeric, 1e-6 * numeric) << depth;
+    EXPECT_NEAR(law_({ .depth = depth }).stiffness, numeric, tolerance * numeric) << depth;
   }
 }
 

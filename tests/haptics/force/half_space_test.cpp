@@ -2,6 +2,7 @@
 
 #include "haptics/units.h"
 #include "reference_table.h"
+#include "tips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,14 +86,10 @@ TEST_P(ClosedForm, AgreesWithTheReference)
   }
 }
 
-const std::vector<Tip> kTips{ SphereTip{ 10.0_mm }, ConeTip{ 30.0_deg, 10.0_mm },
-  PunchTip{ 5.0_mm }, TruncatedConeTip{ 45.0_deg, 2.0_mm, 10.0_mm },
-  BluntConeTip{ 60.0_deg, 3.0_mm, 10.0_mm }, ParaboloidTip{ 10.0_mm } };
-
 class AnyTip : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(HalfSpace, AnyTip, ::testing::ValuesIn(kTips));
+INSTANTIATE_TEST_SUITE_P(HalfSpace, AnyTip, ::testing::ValuesIn(test::closedFormTips()));
 
 // dF/ddepth = 2 E* a, beyond the base as before it
 TEST_P(AnyTip, StiffnessIsTwiceTheContactRadius)

@@ -1,9 +1,9 @@
 #include "haptics/force/layer.h"
 
 #include "haptics/force/layer_contact.h"
-#include "haptics/force/profile.h"
 #include "haptics/units.h"
 #include "reference_table.h"
+#include "tips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,16 +124,10 @@ TEST(LayerContact, AgreesWithThePublishedSeriesForACone)
   }
 }
 
-const std::vector<Tip> kTips{ SphereTip{ 10.0_mm }, ConeTip{ 30.0_deg, 10.0_mm },
-  PunchTip{ 5.0_mm }, TruncatedConeTip{ 45.0_deg, 2.0_mm, 10.0_mm },
-  BluntConeTip{ 60.0_deg, 3.0_mm, 10.0_mm }, ParaboloidTip{ 10.0_mm },
-  ProfileTip{ std::make_shared<const Profile>(
-    std::vector<Profile::Point>{ { 0.0, 0.0 }, { 2.0_mm, 1.0_mm }, { 6.0_mm, 5.0_mm } }) } };
-
 class AnyTip : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(LayerContact, AnyTip, ::testing::ValuesIn(kTips));
+INSTANTIATE_TEST_SUITE_P(LayerContact, AnyTip, ::testing::ValuesIn(test::allTips()));
 
 TEST_P(AnyTip, ThickLayerIsTheHalfSpace)
 {

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/force/profile.h"
 #include "haptics/units.h"
+#include "tips.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,16 +16,10 @@ namespace
 
 using namespace units::literals;
 
-const std::vector<Tip> kTips{ SphereTip{ 10.0_mm }, ConeTip{ 30.0_deg, 10.0_mm },
-  PunchTip{ 5.0_mm }, TruncatedConeTip{ 45.0_deg, 2.0_mm, 10.0_mm },
-  BluntConeTip{ 60.0_deg, 3.0_mm, 10.0_mm }, ParaboloidTip{ 10.0_mm },
-  ProfileTip{ std::make_shared<const Profile>(
-    std::vector<Profile::Point>{ { 0.0, 0.0 }, { 2.0_mm, 1.0_mm }, { 6.0_mm, 5.0_mm } }) } };
-
 class AnyTip : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(Tip, AnyTip, ::testing::ValuesIn(kTips));
+INSTANTIATE_TEST_SUITE_P(Tip, AnyTip, ::testing::ValuesIn(test::allTips()));
 
 TEST_P(AnyTip, RisesFromItsApexAndStaysAtItsBase)
 {
