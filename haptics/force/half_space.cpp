@@ -36,10 +36,32 @@ double cot(double angle) noexcept
   return 1.0 / std::tan(angle);
 }
 
-double tangentRadius(const BluntConeTip& tip) noexcept
+// a cone whose tip is a cap: the lengths that its formulas share
+struct CappedCone
 {
-  return tip.tipRadius * std::cos(tip.halfAngle);
-}
+  explicit CappedCone(const BluntConeTip& tip) noexcept
+    : rho(tip.tipRadius)
+    , b(rho * std::cos(tip.halfAngle))
+    , n(rho * std::sin(tip.halfAngle))
+  {
+  }
+
+  // sqrt(a^2 - b^2)
+  [[nodiscard]] double m(double a) const noexcept
+  {
+    return std::sqrt(std::max(0.0, (a - b) * (a + b)));
+  }
+
+  // depth / a beyond the cap
+  [[nodiscard]] double steepness(double a) const noexcept
+  {
+    return std::log((a + rho) / (m(a) + n)) + b / n * std::acos(std::min(1.0, b / a));
+  }
+
+  double rho; // of the cap [m]
+  double b;   // radius where cap and flank meet [m]
+  double n;   // height of the cap's centre over that circle [m]; b / n = cot(alpha)
+};
 
 // g(a): depth at which the radius of contact is a
 
@@ -65,14 +87,8 @@ double contactDepth(const TruncatedConeTip& tip, double a) noexcept
 
 double contactDepth(const BluntConeTip& tip, double a) noexcept
 {
-  const double b = tangentRadius(tip);
-  if (a <= b)
-  {
-    return contactDepth(SphereTip{ tip.tipRadius }, a);
-  }
-  const double m = std::sqrt((a - b) * (a + b));
-  const double n = tip.tipRadius * std::sin(tip.halfAngle);
-  return a * (std::log((a + tip.tipRadius) / (m + n)) + cot(tip.halfAngle) * std::acos(b / a));
+  const CappedCone cone(tip);
+  return a > cone.b ? a * cone.steepness(a) : contactDepth(SphereTip{ cone.rho }, a);
 }
 
 double contactDepth(const ParaboloidTip& tip, double a) noexcept
@@ -129,28 +145,26 @@ LinearContact respond(const TruncatedConeTip& tip, double depth) noexcept
 
 LinearContact respond(const BluntConeTip& tip, double depth) noexcept
 {
-  const double b = tangentRadius(tip);
-  if (depth <= contactDepth(tip, b))
+  const CappedCone cone(tip);
+  const auto& [rho, b, n] = cone;
+  if (depth <= contactDepth(SphereTip{ rho }, b))
   {
-    return respond(SphereTip{ tip.tipRadius }, depth);
+    return respond(SphereTip{ rho }, depth);
   }
   // g is concave beyond the cap and below its asymptote, so it converges from the left
-  const double rho = tip.tipRadius;
-  const double n = rho * std::sin(tip.halfAngle);
   const double lift = rho * rho / n - rho; // of the tip over the apex of the sharp cone
-  const double start =
-    std::max(b, 2.0 / std::numbers::pi * (depth + lift) * std::tan(tip.halfAngle));
+  const double start = std::max(b, 2.0 / std::numbers::pi * (depth + lift) * n / b);
   const double a = newton(start,
     [&](double x)
     {
-      const double m = std::sqrt(std::max(0.0, (x - b) * (x + b)));
-      const double g = contactDepth(tip, x);
-      return (g - depth) / (g / x + x / (x + rho) + (b * b - n * m) / (n * (m + n)));
+      const double g = cone.steepness(x);
+      const double m = cone.m(x);
+      return (x * g - depth) / (g + x / (x + rho) + (b * b - n * m) / (n * (m + n)));
     });
-  const double m = std::sqrt(std::max(0.0, (a - b) * (a + b)));
-  return { (a * a + rho * rho) * std::log((a + rho) / (m + n)) - a * rho + m * n +
-      cot(tip.halfAngle) * (a * a * std::acos(std::min(1.0, b / a)) + b * m),
-    a };
+  // F / E* with the logarithm and the angle of the steepness, whose sum is depth / a
+  const double m = cone.m(a);
+  const double log = std::log((a + rho) / (m + n));
+  return { a * depth + rho * rho * log - a * rho + m * n + b * b * m / n, a };
 }
 
 // Hertz
