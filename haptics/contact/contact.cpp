@@ -14,6 +14,7 @@ namespace
 
 constexpr double kSmoothing = 1.5; // [-] edge lengths; below 1.2 the facets come through
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
+constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear vote
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 
@@ -65,6 +66,32 @@ double smoothed(double distance, double radius, double squaredBall, const Patch&
   return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));
 }
 
+// the surface about the nearest point, smoothed as far as the contact and the mesh allow
+struct Neighbourhood
+{
+  double distance;    // of the nearest point [m], negative inside the body
+  double radius;      // of smoothing [m]
+  double squaredBall; // Q [m^2]
+  Patch patch;
+};
+
+Neighbourhood look(
+  const Surface& surface, const Tip& tip, const Eigen::Vector3d& place, double distance) noexcept
+{
+  const double radius = smoothingRadius(tip, noseRadius(tip), distance, surface.edgeLength());
+  const double squaredBall = distance * distance + radius * radius;
+  const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
+  return { distance, radius, squaredBall,
+    patchWithin(surface, place, std::sqrt(squaredBall), side, std::max(radius, 1e-9)) };
+}
+
+// whether the one nearest triangle, a fold perhaps, says inside while those about it say outside
+bool outvoted(const Neighbourhood& here, const Eigen::Vector3d& outward) noexcept
+{
+  return here.distance < 0.0 && here.patch.vote.dot(outward) > 0.0 &&
+    here.patch.vote.norm() > kMajority * here.patch.voters;
+}
+
 Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
 {
   const double nose = noseRadius(tip);
@@ -79,12 +106,16 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   {
     return {};
   }
-
-  const double radius = smoothingRadius(tip, nose, nearest.distance, surface.edgeLength());
-  const double squaredBall = nearest.distance * nearest.distance + radius * radius;
-  const double side = radius > 0.0 ? std::clamp(nearest.distance / radius, -1.0, 1.0) : 0.0;
-  const Patch patch =
-    patchWithin(surface, place, std::sqrt(squaredBall), side, std::max(radius, 1e-9));
+  Neighbourhood here = look(surface, tip, place, nearest.distance);
+  if (outvoted(here, place - nearest.point))
+  {
+    here = look(surface, tip, place, -nearest.distance);
+    if (here.distance >= reach)
+    {
+      return {};
+    }
+  }
+  const auto& [distance, radius, squaredBall, patch] = here;
   const double length = patch.normal.norm();
   if (!(length > kRounding * patch.weight))
   {
@@ -94,7 +125,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.normal = patch.normal / length;
   const double facing = -pose.axis.dot(contact.normal);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
-  const double height = smoothed(nearest.distance, radius, squaredBall, patch);
+  const double height = smoothed(distance, radius, squaredBall, patch);
   const double rim = flatRadius(tip) * std::sin(contact.tilt); // the lowest point of a flat end
   contact.depth = (nose + rim - height) * std::min(1.0, length / (kCoherent * patch.weight));
   if (!surface.closed())

@@ -168,15 +168,14 @@ Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center, double 
   {
     const Facet& facet = tree.facets()[static_cast<std::size_t>(i)];
     const double height = facet.normal.dot(center - facet.corners[0]);
-    const double part = 1.0 + std::min(0.0, side * height) / fade;
-    if (!(part > 0.0))
-    {
-      return;
-    }
+    const double part = std::max(0.0, 1.0 + std::min(0.0, side * height) / fade);
     const DiscIntegral inside = integrate(facet, center, squaredRadius);
+    const Eigen::Vector3d normal = inside.weight * facet.normal;
     patch.area += part * inside.area;
     patch.weight += part * inside.weight;
-    patch.normal += part * inside.weight * facet.normal;
+    patch.normal += part * normal;
+    patch.vote += normal;
+    patch.voters += inside.weight;
     patch.height += part * inside.area * height;
   };
   tree.search(near, add);

@@ -15,8 +15,16 @@ struct Patch
   double area = 0.0;                                ///< [m^2]
   double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
-  double height = 0.0;                              ///< of the height of the centre over each
-                                                    ///< triangle's plane, over the area [m^3]
+  double height = 0.0; ///< of the height of the centre over each triangle's plane [m^3]
+  Eigen::Vector3d vote = Eigen::Vector3d::Zero(); ///< as normal, with all triangles in full
+  double voters = 0.0;                            ///< as weight, with all triangles in full
+};
+
+/// The part of a triangle within a ball.
+struct DiscIntegral
+{
+  double area = 0.0;   ///< [m^2]
+  double weight = 0.0; ///< [m^4]
 };
 
 /// Area and weight of one triangle within a ball, in closed form.
@@ -29,11 +37,6 @@ struct Patch
 /// @param center         of the ball [m]
 /// @param squaredRadius  Q [m^2], above 0
 /// @realtime             pure; no allocation, no lock, no exception
-struct DiscIntegral
-{
-  double area = 0.0;   ///< [m^2]
-  double weight = 0.0; ///< [m^4]
-};
 [[nodiscard]] DiscIntegral integrate(
   const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept;
 

@@ -2,9 +2,11 @@
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 #include <random>
 
 namespace palp
@@ -153,6 +155,37 @@ TEST(ContactBadInput, TwoLobesAtOnce)
     press(groove, kSphere, { 0.0, 0.0, std::numbers::sqrt2 * (10.0_mm - inside) - 10.0_mm });
   EXPECT_NEAR(contact.depth, inside, 1e-6);
   EXPECT_GT(contact.normal.z(), 0.999);
+}
+
+// points thrown about by a quarter of an edge turn some triangles over: those about them decide
+// what is inside, or a depth of 3 mm would now and then be one of 17 mm
+TEST(ContactBadInput, AFoldIsOutvoted)
+{
+  const double radius = 50.0_mm;
+  test::Mesh mesh = test::ball(radius, 20);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const auto somewhere = [&]
+  { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  for (Eigen::Vector3d& point : mesh.first)
+  {
+    point = radius * (point + 0.9_mm * somewhere()).normalized();
+  }
+  const Surface surface = test::makeSurface(mesh);
+  const auto facets = surface.tree().facets();
+  ASSERT_GT(std::count_if(facets.begin(), facets.end(),
+              [](const Facet& facet) { return facet.normal.dot(facet.corners[0]) < 0.0; }),
+    0);
+  for (int i = 0; i < 20'000; ++i)
+  {
+    const Eigen::Vector3d out = somewhere().normalized();
+    for (const Tip& tip : { kSphere, kCone })
+    {
+      const Contact contact = press(surface, tip, (radius - 3.0_mm) * out, -out);
+      ASSERT_NEAR(contact.depth, 3.0_mm, 0.6_mm); // twice the sagitta of the longest edges
+      ASSERT_GT(contact.normal.dot(out), 0.95);
+    }
+  }
 }
 
 TEST(ContactBadInput, AnOpenSheetIsPressedFromItsFrontOnly)
