@@ -4,6 +4,7 @@
 #include "pipeline/child_process.h"
 #include "pipeline/off_format.h"
 #include "pipeline/poly_data.h"
+#include "pipeline/vtk_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -19,16 +20,9 @@
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
-#include <vtkPLYReader.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
 #include <vtkStringArray.h>
 #include <vtkTriangleFilter.h>
-#include <vtkXMLPolyDataReader.h>
 
 namespace palp
 {
@@ -40,48 +34,6 @@ namespace
   throw Error(ErrorCode::BadFile, file.string() + ": " + message);
 }
 
-// keeps the first sign of failure that any object of VTK would print
-class ErrorLog : public vtkOutputWindow
-{
-public:
-  static ErrorLog* New();
-  vtkTypeMacro(ErrorLog, vtkOutputWindow);
-
-  void DisplayErrorText(const char* text) override
-  {
-    if (this->First.empty())
-    {
-      // "ERROR: In file, line n\nvtkClass (0x..): what happened"; a warning names no class
-      std::string_view what(text);
-      what.remove_prefix(what.find('\n') + 1);
-      what = what.substr(0, what.find_first_of("\r\n"));
-      const std::size_t name = what.find("): ");
-      this->First = what.substr(name == what.npos ? 0 : name + 3);
-    }
-  }
-
-  // data that end too early are but a warning to VTK
-  void DisplayGenericWarningText(const char* text) override
-  {
-    if (std::strstr(text, "Error reading"))
-    {
-      this->DisplayErrorText(text);
-    }
-  }
-
-  std::string First;
-};
-vtkStandardNewMacro(ErrorLog);
-
-template <typename Reader>
-vtkSmartPointer<vtkPolyData> readWith(const std::filesystem::path& file)
-{
-  vtkNew<Reader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
 struct Format
 {
   const char* ending;
@@ -90,11 +42,10 @@ struct Format
   vtkSmartPointer<vtkPolyData> (*read)(const std::filesystem::path&);
 };
 
-constexpr std::array kFormats{ Format{ ".stl", "STL", "", readWith<vtkSTLReader> },
-  Format{ ".obj", "OBJ", "", readWith<vtkOBJReader> },
-  Format{ ".ply", "PLY", "ply", readWith<vtkPLYReader> }, Format{ ".off", "OFF", "", readOff },
-  Format{ ".vtk", "legacy VTK", "# vtk DataFile", readWith<vtkPolyDataReader> },
-  Format{ ".vtp", "VTP", "<", readWith<vtkXMLPolyDataReader> } };
+constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
+  Format{ ".obj", "OBJ", "", readObj }, Format{ ".ply", "PLY", "ply", readPly },
+  Format{ ".off", "OFF", "", readOff }, Format{ ".vtk", "legacy VTK", "# vtk DataFile", readVtk },
+  Format{ ".vtp", "VTP", "<", readVtp } };
 
 const Format& formatOf(const std::filesystem::path& file)
 {
@@ -109,35 +60,6 @@ const Format& formatOf(const std::filesystem::path& file)
     }
   }
   refuse(file, "not a kind of surface file known here; give .stl, .obj, .ply, .off, .vtk or .vtp");
-}
-
-// VTK stops at the end of a binary STL file without a word
-void checkBinaryStl(const std::filesystem::path& file, std::ifstream& in, std::uintmax_t size)
-{
-  constexpr std::uintmax_t header = 84; // [bytes], the last four are the number of triangles
-  constexpr std::uintmax_t facet = 50;  // [bytes]
-  std::string text(std::min<std::uintmax_t>(size, 512), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  const bool isText = text.starts_with("solid") && text.find('\0') == std::string::npos;
-  if (isText)
-  {
-    return;
-  }
-  std::uint32_t count = 0;
-  if (size >= header)
-  {
-    std::memcpy(&count, text.data() + header - sizeof count, sizeof count);
-  }
-  if (size < header + facet)
-  {
-    refuse(file, "too short for a binary STL file; export the surface again");
-  }
-  if ((size - header) / facet < count)
-  {
-    refuse(file,
-      "cut off: it holds " + std::to_string((size - header) / facet) + " of " +
-        std::to_string(count) + " triangles; export or copy it again");
-  }
 }
 
 void checkFile(const std::filesystem::path& file, const Format& format)
@@ -168,11 +90,6 @@ void checkFile(const std::filesystem::path& file, const Format& format)
   {
     refuse(
       file, std::string("not a ") + format.name + " file, whatever its name; rename or convert it");
-  }
-  if (std::string_view(format.ending) == ".stl")
-  {
-    in.seekg(0);
-    checkBinaryStl(file, in, size);
   }
 }
 
@@ -227,13 +144,13 @@ void checkContent(const std::filesystem::path& file, vtkPolyData& data)
 FileSurface readHere(const std::filesystem::path& file, const Format& format)
 {
   std::setlocale(LC_ALL, "C"); // NOLINT(concurrency-mt-unsafe): alone in its process
-  const vtkNew<ErrorLog> log;
-  vtkOutputWindow::SetInstance(log);
+  const VtkErrors errors;
   const vtkSmartPointer<vtkPolyData> data = format.read(file);
-  if (!log->First.empty())
+  if (!errors.first().empty())
   {
     refuse(file,
-      std::string("cannot be read as ") + format.name + " (" + log->First + "); export it again");
+      std::string("cannot be read as ") + format.name + " (" + errors.first() +
+        "); export it again");
   }
   checkContent(file, *data);
 
