@@ -2,6 +2,8 @@
 
 #include "app/surface_point.h"
 #include "haptics/contact/nearest.h"
+#include "haptics/devices/paper_arm.h"
+#include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
 
 #include <cmath>
@@ -56,9 +58,18 @@ Eigen::Vector3d pressingAxis(
     : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
 }
 
+Sample chainedStep(SafetyChain& chain, const Scene& scene, const ToolPose& pose, double elapsed)
+{
+  const auto admitted = chain.admit(pose, {}, { .armed = true }, elapsed);
+  Sample sample = touch(scene, *admitted); // the pose of a path is finite
+  const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
+  chain.limit(sample, law, scene);
+  return sample;
+}
+
 } // namespace
 
-std::vector<Sample> play(const ScriptedPath& path, const Scene& scene)
+std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chained)
 {
   const std::vector<double> times = sampleTimes(path);
   const Eigen::Vector3d axis = path.hasAxes() || !scene.surface
@@ -66,10 +77,14 @@ std::vector<Sample> play(const ScriptedPath& path, const Scene& scene)
     : pressingAxis(*scene.surface, path, times);
   std::vector<Sample> samples;
   samples.reserve(times.size());
+  SafetyChain chain(paperArm());
+  double last = times.front() - 1.0 / kTicksPerSecond;
   for (const double time : times)
   {
-    samples.push_back(step(scene, path.poseAt(time, axis)));
+    const ToolPose pose = path.poseAt(time, axis);
+    samples.push_back(chained ? chainedStep(chain, scene, pose, time - last) : step(scene, pose));
     samples.back().time = time;
+    last = time;
   }
   return samples;
 }

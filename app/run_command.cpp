@@ -28,6 +28,7 @@ struct RunOptions
   std::filesystem::path out;
   std::string size = "1280x960";
   bool noPicture = false;
+  bool chain = false;
 };
 
 ImageSize parseSize(const std::string& text)
@@ -76,7 +77,8 @@ void run(const RunOptions& options, const Pictures* pictures)
   recording.scene.law = options.press.tissue.law();
   recording.scene.rule = options.press.rule();
   recording.scene.damping = options.press.dampingSi();
-  recording.scene.forceLimit = std::numeric_limits<double>::infinity();
+  recording.scene.forceLimit =
+    options.chain ? Scene{}.forceLimit : std::numeric_limits<double>::infinity();
   const bool bundled = options.press.file.empty();
   if (options.path.empty() && !bundled)
   {
@@ -97,7 +99,7 @@ void run(const RunOptions& options, const Pictures* pictures)
   recording.unit = body.unit;
   recording.device = "path:" + path.filename().string();
   recording.scene.surface = body.haptic;
-  recording.samples = play(script, recording.scene);
+  recording.samples = play(script, recording.scene, options.chain);
   report(recording, extents);
 
   exportRecording(options.out, body, recording, extents);
@@ -121,6 +123,8 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
   command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
     ->required();
   command->add_option("--size", options->size, "Size of press.png")->capture_default_str();
+  command->add_flag("--chain", options->chain,
+    "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
                   "Examples:\n"

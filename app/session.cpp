@@ -95,6 +95,7 @@ void Session::useDevice(const std::string& name)
   device_ = std::move(next);
   recording_.device = name;
   recording_.samples.clear();
+  recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
   servo_ = std::make_unique<Servo>(*device_, recording_.scene);
 }
 

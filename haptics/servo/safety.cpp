@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace palp
@@ -156,10 +157,6 @@ void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders
   {
     forceOff(DeviceState::SoftStart);
   }
-  else if (wanted && state_ == DeviceState::Decay)
-  {
-    state_ = DeviceState::SoftStart;
-  }
   else if (!wanted && forceOn())
   {
     state_ = DeviceState::Decay;
@@ -209,9 +206,9 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene)
       passivity_.leaveContact();
     }
     force += workspaceForce(last_);
-    shaped_ = bounded(force, std::min(device_.maxForce, scene.forceLimit));
+    shaped_ = bounded(force, largestForce(scene));
     fade();
-    sample.force = trust_ * (gain_ * shaped_ + fading_);
+    sample.force = share_ * shaped_ + trust_ * fading_;
     ramp(sample.contact.touching());
   }
   else
@@ -222,6 +219,11 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene)
   passivity_.sent(sent_);
   sample.flags |= flags_ | latched_;
   sample.state = state_;
+}
+
+double SafetyChain::largestForce(const Scene& scene) const noexcept
+{
+  return std::min(device_.maxForce, scene.forceLimit);
 }
 
 // the law through the coupling, with damping along the normal
@@ -241,10 +243,20 @@ Eigen::Vector3d SafetyChain::rendered(
   }
   seat_ = std::clamp(seat_, 0.0, depth > 0.0 ? depth : 0.0);
 
-  // what rises faster than may be slips, because a force that only lags gives energy to the hand
+  // what rises faster than may be slips: a force that lags, or grows while the tool rests, would
+  // give energy to the hand
   sample.response = depth > 0.0 ? law(depth) : Response{};
   Rendered felt = couple(law, depth - seat_, stiffest);
-  const double highest = normalForce_ + settings_.slewRate * dt_;
+  const bool starts = state_ == DeviceState::SoftStart;
+  const double share = trust_ * (state_ == DeviceState::Decay ? gain_ : 1.0);
+  if (share > share_) // goes on from the force that was sent
+  {
+    normalForce_ *= share_ / share;
+    shaped_ *= share_ / share;
+  }
+  const double highest =
+    std::min(normalForce_ + (starts ? settings_.softSlewRate : settings_.slewRate) * dt_,
+      starts ? gain_ * largestForce(scene) : std::numeric_limits<double>::infinity());
   if (felt.force > highest)
   {
     raise(Flag::SlewLimited);
@@ -252,6 +264,7 @@ Eigen::Vector3d SafetyChain::rendered(
     felt = couple(law, depth - seat_, stiffest);
   }
   normalForce_ = felt.force;
+  share_ = share;
   sample.proxyDepth = felt.proxyDepth;
   if (std::isnan(sample.response.force) || !(scene.damping >= 0.0) || !(scene.forceLimit >= 0.0))
   {
@@ -297,16 +310,18 @@ Eigen::Vector3d SafetyChain::bounded(Eigen::Vector3d force, double largest) noex
     fault(Flag::NotFinite);
     return Eigen::Vector3d::Zero();
   }
+  if (state_ == DeviceState::SoftStart)
+  {
+    largest *= gain_;
+  }
   if (const double size = force.norm(); size > largest)
   {
     raise(Flag::Limited);
     force *= largest / size;
   }
 
-  // the growing gain adds its own share to the rate of a soft start
-  const double rate = state_ == DeviceState::SoftStart
-    ? std::max(0.0, settings_.softSlewRate - largest / settings_.softStart)
-    : settings_.slewRate;
+  const double rate =
+    state_ == DeviceState::SoftStart ? settings_.softSlewRate : settings_.slewRate;
   const Eigen::Vector3d change = force - shaped_;
   if (const double size = change.norm(); size > rate * dt_)
   {

@@ -89,6 +89,7 @@ private:
     Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
   [[nodiscard]] Eigen::Vector3d bounded(Eigen::Vector3d force, double largest) noexcept;
+  [[nodiscard]] double largestForce(const Scene& scene) const noexcept;
   void ramp(bool touching) noexcept;
   void fade() noexcept;
   void raise(Flag flag) noexcept
@@ -110,7 +111,8 @@ private:
   std::uint32_t flags_ = 0;   // of this tick
   std::uint32_t latched_ = 0; // faults that wait to be forgiven
   double dt_ = 0.0;           // of this tick, bounded [s]
-  double gain_ = 0.0;         // of soft start and decay
+  double gain_ = 0.0;         // share of the largest force that may be, of the force in decay
+  double share_ = 0.0;        // of the force that is sent while it decays or the device is silent
   double trust_ = 0.0;        // less than 1 while the device is silent
   double apart_ = 0.0;        // time without contact [s]
 
@@ -119,7 +121,7 @@ private:
   int dropped_ = 0;        // poses in a row
 
   double seat_ = 0.0;         // depth at which contact is felt to begin [m]
-  double normalForce_ = 0.0;  // of the law, last tick [N]
+  double normalForce_ = 0.0;  // of the law through the coupling, last tick [N]
   bool reseat_ = false;       // the force has to start in contact
   std::uint64_t version_ = 0; // of the scene, last tick
 

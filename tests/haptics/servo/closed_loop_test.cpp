@@ -178,5 +178,18 @@ TEST(ClosedLoop, LostTicksGiveAtMostAMillijoule)
   }
 }
 
+TEST(ClosedLoop, StallsGiveNoEnergyHoweverDeepTheToolSank)
+{
+  for (const double stiffness : { 600.0, 1122.0, kInf })
+  {
+    LoopCase loop;
+    loop.law = wall(stiffness);
+    loop.dropped = 20;
+    loop.dropEvery = 4.0;
+    loop.chain = SafetySettings{};
+    EXPECT_GE(simulate(loop).energy, -1e-6) << stiffness;
+  }
+}
+
 } // namespace
 } // namespace palp

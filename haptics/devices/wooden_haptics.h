@@ -1,0 +1,78 @@
+#pragma once
+
+#include "haptics/devices/bytes.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace palp
+{
+
+/// Geometry and motors of an arm of the WoodenHaptics family.
+///
+/// The defaults are WoodenHaptics of 2015; a text of `key = value` lines changes them.
+/// @source  WoodenHaptics/woody-experimental CWoodenDevice.h; forsslund/haptikfabrikenapi
+struct WoodenArm
+{
+  std::array<double, 3> capstan{ 0.010, 0.010, 0.010 };   ///< diameters [m]
+  std::array<double, 3> length{ 0.080, 0.205, 0.245 };    ///< of bodies a b c [m]
+  std::array<double, 3> body{ 0.160, 0.120, 0.120 };      ///< diameters [m]
+  std::array<double, 3> origin{ 0.220, 0.0, 0.080 };      ///< of the workspace [m]
+  std::array<double, 3> torque{ 0.0259, 0.0259, 0.0259 }; ///< constants [N m/A]
+  std::array<double, 3> counts{ 2000.0, 2000.0, 2000.0 }; ///< in a turn of the motor
+  std::array<double, 3> sign{ -1.0, -1.0, -1.0 };         ///< of body against motor
+  double radius = 0.100;                                  ///< of the workspace [m]
+  double maxForce = 5.0;                                  ///< [N]
+  double maxCurrent = 2.0;                                ///< in a motor [A]
+  double damping = 0.5; ///< b of the mechanism [N s/m]; measure it
+};
+
+/// Arm from a text: `length = 0.080 0.205 0.245`, one key in a line, # for remarks, SI.
+/// @throws Error  BadFile: name, line, what is wrong
+[[nodiscard]] WoodenArm parseWoodenArm(std::string_view text, const std::string& name);
+
+/// What the board says in a report of 14 bytes or more.
+struct WoodenReport
+{
+  std::array<std::int16_t, 6> encoders{}; ///< [counts]
+  bool calibrate = false;                 ///< the user has pressed the button of the board
+};
+
+/// @return    nothing: too short
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] std::optional<WoodenReport> decodeWooden(Bytes report) noexcept;
+
+/// Currents to the motors [A], in steps of 1 mA.
+/// @param report  of 14 bytes or more, as the board takes them, without report id
+/// @realtime      pure; no allocation, no lock, no exception
+void encodeWooden(const std::array<double, 3>& currents, MutableBytes report) noexcept;
+
+/// Tells the board what its encoders read now.
+/// @param report  of 14 bytes or more, as the board takes them, without report id
+void encodeWoodenCalibration(
+  const std::array<std::int16_t, 6>& encoders, MutableBytes report) noexcept;
+
+/// Angles of the three bodies [rad].
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Eigen::Vector3d bodyAngles(
+  const WoodenArm& arm, const std::array<std::int16_t, 6>& encoders) noexcept;
+
+/// Place of the handle in the frame of its workspace [m].
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Eigen::Vector3d placeOf(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
+
+/// Derivative of the place by the angles of the bodies [m/rad].
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Eigen::Matrix3d placeJacobian(
+  const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
+
+/// Currents that push the hand with a force, all shortened alike where one exceeds its largest.
+/// @return    [A], finite
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] std::array<double, 3> currentsFor(
+  const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept;
+
+} // namespace palp
