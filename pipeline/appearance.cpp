@@ -1,5 +1,6 @@
 #include "pipeline/appearance.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -7,7 +8,10 @@
 #include <sstream>
 #include <vtkColorTransferFunction.h>
 #include <vtkLookupTable.h>
+#include <vtkMapper.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkProperty.h>
 #include <vtkTextProperty.h>
 
 namespace palp::appearance
@@ -92,7 +96,7 @@ double roundUp(double value) noexcept
     return 1.0;
   }
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : { 1.0, 2.0, 5.0 })
+  for (const double step : { 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0 })
   {
     if (value <= step * power * (1.0 + 1e-9))
     {
@@ -100,6 +104,43 @@ double roundUp(double value) noexcept
     }
   }
   return 10.0 * power;
+}
+
+void setColor(vtkProperty& property, const Color& color)
+{
+  property.SetColor(color[0], color[1], color[2]);
+}
+
+void drawInFront(vtkMapper& mapper)
+{
+  mapper.SetResolveCoincidentTopologyToPolygonOffset();
+  mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-2.0, -20.0);
+  mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-4.0, -200.0);
+  mapper.SetRelativeCoincidentTopologyPointOffsetParameter(-200.0);
+}
+
+vtkSmartPointer<vtkMatrix4x4> placement(const Eigen::Vector3d& origin, const Eigen::Matrix3d& axes)
+{
+  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      matrix->SetElement(row, column, axes(row, column));
+    }
+    matrix->SetElement(row, 3, origin[row]);
+  }
+  return matrix;
+}
+
+Eigen::Matrix3d axesAlong(const Eigen::Vector3d& direction, int axis)
+{
+  const Eigen::Vector3d next = direction.unitOrthogonal();
+  Eigen::Matrix3d axes;
+  axes.col(axis) = direction;
+  axes.col((axis + 1) % 3) = next;
+  axes.col((axis + 2) % 3) = direction.cross(next);
+  return axes;
 }
 
 } // namespace palp::appearance

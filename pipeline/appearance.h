@@ -1,10 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vtkSmartPointer.h>
 
 class vtkLookupTable;
+class vtkMapper;
+class vtkMatrix4x4;
+class vtkProperty;
 class vtkTextProperty;
 
 namespace palp::appearance
@@ -17,6 +21,14 @@ inline constexpr Color kTool{ 0.80, 0.83, 0.86 };
 inline constexpr Color kForce{ 0.98, 0.75, 0.10 };
 inline constexpr Color kContact{ 1.0, 1.0, 1.0 };
 inline constexpr Color kExtent{ 0.35, 0.85, 1.0 };
+inline constexpr Color kNet{ 1.0, 0.85, 0.2 };
+inline constexpr Color kGhost{ 0.75, 0.85, 0.95 };
+
+// apart for every kind of colour vision (Okabe and Ito 2008)
+inline constexpr Color kGood{ 0.00, 0.62, 0.45 };
+inline constexpr Color kDoubtful{ 0.90, 0.62, 0.00 };
+inline constexpr Color kBad{ 0.84, 0.37, 0.00 };
+
 inline constexpr Color kInk{ 0.10, 0.11, 0.13 };
 inline constexpr Color kPaper{ 1.0, 1.0, 1.0 };
 inline constexpr Color kSky{ 0.95, 0.96, 0.97 };
@@ -42,5 +54,19 @@ void setFont(vtkTextProperty& text, int size, const Color& color = kInk, bool bo
 /// The smallest of 1, 2, 5 times a power of ten that is not below a value; 1 for values below
 /// 1e-12.
 [[nodiscard]] double roundUp(double value) noexcept;
+
+void setColor(vtkProperty& property, const Color& color);
+
+/// What lies on a surface is drawn in front of it.
+void drawInFront(vtkMapper& mapper);
+
+/// A matrix for vtkProp3D::SetUserMatrix.
+/// @param origin  [m]
+/// @param axes    columns
+[[nodiscard]] vtkSmartPointer<vtkMatrix4x4> placement(
+  const Eigen::Vector3d& origin, const Eigen::Matrix3d& axes);
+
+/// Right-handed axes, unit columns, of which one is given.
+[[nodiscard]] Eigen::Matrix3d axesAlong(const Eigen::Vector3d& direction, int axis);
 
 } // namespace palp::appearance

@@ -65,7 +65,9 @@ void setRange(vtkChartXY& chart, int side, double from, double to)
 // room above the largest value, in steps that do not change from frame to frame
 double roomFor(double value, double least)
 {
-  const double step = appearance::roundUp(value / 4.0);
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9) / 4.0)));
+  const double mantissa = value / 4.0 / power;
+  const double step = power * (mantissa <= 2.0 ? 2.0 : mantissa <= 5.0 ? 5.0 : 10.0);
   return std::max(least, step * std::ceil(1.05 * value / step));
 }
 

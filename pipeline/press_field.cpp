@@ -161,6 +161,19 @@ RingCurve PressField::curveTowards(double x, double y) const noexcept
   return { between(a.inner, b.inner), between(a.sink, b.sink), between(a.meet, b.meet), a.outer };
 }
 
+std::array<Eigen::Vector3d, 3> PressField::controlPoints(
+  int direction, const PressRegion& region) const noexcept
+{
+  const RingCurve& curve = curves_[static_cast<std::size_t>(direction)];
+  const Eigen::Vector2d towards = directionAt(4.0 * direction / kDirections);
+  const auto point = [&](double radius, double sink)
+  {
+    const Eigen::Vector2d at = radius * towards;
+    return region.toSurface({ at.x(), at.y(), surfaceHeight(at.x(), at.y()) - sink });
+  };
+  return { point(curve.inner, curve.sink), point(curve.meet, 0.0), point(curve.outer, 0.0) };
+}
+
 double PressField::ringSink(const Place& place, const RingCurve& curve) const noexcept
 {
   const double sink = std::min(curve.sinkAt(place.distance), deepest_);

@@ -48,6 +48,10 @@ public:
   /// The ring's curve in a direction of the tangent plane, between those of its patch.
   [[nodiscard]] RingCurve curveTowards(double x, double y) const noexcept;
 
+  /// P0, P1 and P2 in one of kDirections, in the frame of the surface [m].
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> controlPoints(
+    int direction, const PressRegion& region) const noexcept;
+
   /// Height of the fitted surface over the tangent plane [m].
   [[nodiscard]] double surfaceHeight(double x, double y) const noexcept;
 

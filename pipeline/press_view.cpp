@@ -2,15 +2,19 @@
 
 #include "haptics/units.h"
 #include "pipeline/appearance.h"
+#include "pipeline/control_net.h"
+#include "pipeline/force_arrow.h"
+#include "pipeline/ghost.h"
+#include "pipeline/surface_circle.h"
 #include "pipeline/tool_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <vtkCamera.h>
 #include <vtkLightKit.h>
 #include <vtkMatrix4x4.h>
 #include <vtkProperty.h>
-#include <vtkTextProperty.h>
 
 namespace palp
 {
@@ -18,46 +22,18 @@ namespace
 {
 
 using namespace units::literals;
-using appearance::fixedText;
 
-constexpr double kViewAngle = 30.0; // [deg]
-constexpr double kDegree = 1.0_deg;
+constexpr double kViewAngle = 30.0_deg;
 
-vtkNew<vtkMatrix4x4> placement(const Eigen::Vector3d& origin, const Eigen::Matrix3d& axes)
+constexpr std::size_t indexOf(Overlay overlay)
 {
-  vtkNew<vtkMatrix4x4> matrix;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      matrix->SetElement(row, column, axes(row, column));
-    }
-    matrix->SetElement(row, 3, origin[row]);
-  }
-  return matrix;
-}
-
-// right-handed axes of which one is given
-Eigen::Matrix3d axesAlong(const Eigen::Vector3d& direction, int axis)
-{
-  const Eigen::Vector3d next = direction.unitOrthogonal();
-  Eigen::Matrix3d axes;
-  axes.col(axis) = direction;
-  axes.col((axis + 1) % 3) = next;
-  axes.col((axis + 2) % 3) = direction.cross(next);
-  return axes;
-}
-
-void setColor(vtkActor& actor, const appearance::Color& color)
-{
-  actor.GetProperty()->SetColor(color[0], color[1], color[2]);
+  return static_cast<std::size_t>(overlay);
 }
 
 } // namespace
 
 PressView::PressView(vtkRenderer& renderer)
   : renderer_(renderer)
-  , colors_(appearance::viridisOn(appearance::kLiver))
 {
   const auto& ground = appearance::kGround;
   const auto& sky = appearance::kSky;
@@ -69,13 +45,17 @@ PressView::PressView(vtkRenderer& renderer)
   lights->SetKeyToFillRatio(2.0);
   lights->SetKeyToHeadRatio(2.5);
   lights->AddLightsToRenderer(&renderer_);
-  renderer_.GetActiveCamera()->SetViewAngle(kViewAngle);
+  renderer_.GetActiveCamera()->SetViewAngle(units::toDegrees(kViewAngle));
 
+  // what is translucent comes last
   addSurface();
+  addOverlays();
   addTool();
-  addLine(contactCircle_, appearance::kContact);
-  addLine(extentCircle_, appearance::kExtent);
-  addTexts();
+  for (const Overlay overlay : { Overlay::ForceArrow, Overlay::ContactCircle, Overlay::ExtentCircle,
+         Overlay::DisplacementColors, Overlay::Readings })
+  {
+    setVisible(overlay, true);
+  }
 }
 
 PressView::~PressView() = default;
@@ -83,19 +63,11 @@ PressView::~PressView() = default;
 void PressView::addSurface()
 {
   surface_->SetMapper(surfaceMapper_);
-  setColor(*surface_, appearance::kLiver);
+  appearance::setColor(*surface_->GetProperty(), appearance::kLiver);
   surface_->GetProperty()->SetSpecular(0.25);
   surface_->GetProperty()->SetSpecularPower(25.0);
-
-  dentMapper_->SetInputConnection(deform_->GetOutputPort(1));
-  dentMapper_->SetScalarModeToUsePointFieldData();
-  dentMapper_->SelectColorArray("Displacement [mm]");
-  dentMapper_->SetLookupTable(colors_);
-  dentMapper_->UseLookupTableScalarRangeOn();
-  dentMapper_->InterpolateScalarsBeforeMappingOn();
-  dent_->SetMapper(dentMapper_);
-  dent_->SetProperty(surface_->GetProperty());
-  dent_->VisibilityOff();
+  renderer_.AddActor(surface_);
+  dent_.emplace(renderer_, *deform_, surface_->GetProperty());
 }
 
 void PressView::addTool()
@@ -104,89 +76,30 @@ void PressView::addTool()
   toolMapper_->SetResolveCoincidentTopologyToPolygonOffset();
   toolMapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 8.0);
   tool_->SetMapper(toolMapper_);
-  setColor(*tool_, appearance::kTool);
+  appearance::setColor(*tool_->GetProperty(), appearance::kTool);
   tool_->GetProperty()->SetOpacity(0.4);
   tool_->GetProperty()->BackfaceCullingOn();
   tool_->GetProperty()->SetSpecular(0.6);
   tool_->GetProperty()->SetSpecularPower(40.0);
   tool_->VisibilityOff();
+  renderer_.AddActor(tool_);
   setTip(tip_);
-
-  arrowSource_->SetTipResolution(32);
-  arrowSource_->SetShaftResolution(32);
-  arrowMapper_->SetInputConnection(arrowSource_->GetOutputPort());
-  arrow_->SetMapper(arrowMapper_);
-  setColor(*arrow_, appearance::kForce);
-  arrow_->GetProperty()->SetAmbient(0.35);
-  arrow_->VisibilityOff();
 }
 
-void PressView::addLine(Line& line, const appearance::Color& color)
+void PressView::addOverlays()
 {
-  line.contour->SetInputConnection(deform_->GetOutputPort(1));
-  line.contour->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Distance");
-  line.contour->ComputeScalarsOff();
-  line.contour->ComputeNormalsOff();
-  line.mapper->SetInputConnection(line.contour->GetOutputPort());
-  line.mapper->ScalarVisibilityOff();
-  line.mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  line.mapper->SetRelativeCoincidentTopologyLineOffsetParameters(-4.0, -200.0);
-  line.actor->SetMapper(line.mapper);
-  line.actor->GetProperty()->SetLineWidth(3.0F);
-  line.actor->GetProperty()->LightingOff();
-  line.actor->VisibilityOff();
-  setColor(*line.actor, color);
-  renderer_.AddActor(line.actor);
-}
-
-void PressView::addTexts()
-{
-  for (vtkActor* actor : { surface_.Get(), dent_.Get(), tool_.Get(), arrow_.Get() })
-  {
-    renderer_.AddActor(actor);
-  }
-  legend_->SetLookupTable(colors_);
-  legend_->SetTitle("displacement [mm]");
-  legend_->SetNumberOfLabels(6);
-  legend_->SetLabelFormat("%.3g");
-  legend_->SetUnconstrainedFontSize(true);
-  legend_->SetBarRatio(0.25);
-  legend_->SetWidth(0.10);
-  legend_->SetHeight(0.45);
-  legend_->SetPosition(0.87, 0.28);
-  legend_->SetVerticalTitleSeparation(10);
-  appearance::setFont(*legend_->GetTitleTextProperty(), 15, appearance::kInk, true);
-  appearance::setFont(*legend_->GetLabelTextProperty(), 14);
-  for (vtkTextProperty* text : { legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty() })
-  {
-    text->SetBackgroundColor(1.0, 1.0, 1.0);
-    text->SetBackgroundOpacity(0.6);
-  }
-  legend_->VisibilityOff();
-  renderer_.AddActor2D(legend_);
-
-  vtkTextProperty& label = *forceLabel_->GetTextProperty();
-  appearance::setFont(label, 20, appearance::kInk, true);
-  label.SetBackgroundColor(1.0, 1.0, 1.0);
-  label.SetBackgroundOpacity(0.75);
-  label.SetVerticalJustificationToCentered();
-  forceLabel_->GetPositionCoordinate()->SetCoordinateSystemToWorld();
-  forceLabel_->VisibilityOff();
-  renderer_.AddActor2D(forceLabel_);
-
-  const std::array<appearance::Color, 3> inks{ appearance::kPaper, appearance::kContact,
-    appearance::kExtent };
-  for (std::size_t i = 0; i < readings_.size(); ++i)
-  {
-    vtkTextProperty& text = *readings_[i]->GetTextProperty();
-    appearance::setFont(text, 16, inks[i], i == 0);
-    text.SetBackgroundColor(0.13, 0.15, 0.18);
-    text.SetBackgroundOpacity(0.8);
-    readings_[i]->SetPosition(16.0, 72.0 - 28.0 * static_cast<double>(i));
-    readings_[i]->VisibilityOff();
-    renderer_.AddActor2D(readings_[i]);
-  }
+  const auto put = [this](Overlay overlay, std::unique_ptr<OverlayProps> props)
+  { overlays_[indexOf(overlay)] = std::move(props); };
+  put(Overlay::ForceArrow, std::make_unique<ForceArrow>(renderer_));
+  put(Overlay::ContactCircle,
+    std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Contact));
+  put(Overlay::ExtentCircle,
+    std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Extent));
+  put(Overlay::ControlNet, std::make_unique<ControlNet>(renderer_));
+  put(Overlay::Ghost, std::make_unique<Ghost>(renderer_, *deform_));
+  auto readings = std::make_unique<Readings>(renderer_);
+  readings_ = readings.get();
+  put(Overlay::Readings, std::move(readings));
 }
 
 void PressView::setSurface(vtkPolyData* surface)
@@ -194,18 +107,28 @@ void PressView::setSurface(vtkPolyData* surface)
   deform_->SetInputDataObject(surface);
   surfaceMapper_->SetInputConnection(deform_->GetOutputPort());
   diagonal_ = surface->GetLength();
-  deform_->SetPress(Press{});
+  show(Sample{});
 }
 
 void PressView::setTip(const Tip& tip)
 {
   tip_ = tip;
-  toolMapper_->SetInputData(toolSurface(tip, std::max(4.0 * baseRadius(tip), 40.0_mm)));
+  toolMapper_->SetInputData(toolSurface(tip, std::max(2.2 * baseRadius(tip), 20.0_mm)));
 }
 
 void PressView::setExtents(const ExtentTable& extents)
 {
   extents_ = extents;
+}
+
+void PressView::setLaw(const ForceLaw& law)
+{
+  dent_->setLaw(law);
+}
+
+void PressView::setColorRange(double top)
+{
+  dent_->setRange(top);
 }
 
 double PressView::extentRadius(double depth) const noexcept
@@ -221,12 +144,12 @@ vtkPolyData* PressView::deformed()
 
 void PressView::setVisible(Overlay overlay, bool visible)
 {
-  visible_[static_cast<std::size_t>(overlay)] = visible;
+  visible_[indexOf(overlay)] = visible;
 }
 
 bool PressView::isVisible(Overlay overlay) const
 {
-  return visible_[static_cast<std::size_t>(overlay)];
+  return visible_[indexOf(overlay)];
 }
 
 void PressView::show(const Sample& sample)
@@ -237,11 +160,20 @@ void PressView::show(const Sample& sample)
     .tip = tip_,
     .contactRadius = sample.response.contactRadius,
     .extentRadius = extent });
+  deform_->SetGeneratePatch(sample.contact.touching());
+  deform_->Update();
+  const Moment moment{ sample, tip_, extent, *deform_ };
   placeTool(sample.pose);
-  placeArrow(sample);
-  placeCircles(sample, extent);
-  placeDent(sample);
-  placeReadings(sample, extent);
+  placeDent(moment);
+  readings_->setKeys(isVisible(Overlay::ContactCircle), isVisible(Overlay::ExtentCircle),
+    isVisible(Overlay::ValidityColors) ? dent_->rule(moment) : std::string{});
+  for (std::size_t i = 0; i < kOverlayCount; ++i)
+  {
+    if (overlays_[i])
+    {
+      visible_[i] && sample.contact.touching() ? overlays_[i]->show(moment) : overlays_[i]->hide();
+    }
+  }
 }
 
 void PressView::placeTool(const ToolPose& pose)
@@ -250,77 +182,33 @@ void PressView::placeTool(const ToolPose& pose)
   tool_->SetVisibility(known);
   if (known)
   {
-    tool_->SetUserMatrix(placement(pose.apex, axesAlong(-pose.axis, 2)));
+    tool_->SetUserMatrix(appearance::placement(pose.apex, appearance::axesAlong(-pose.axis, 2)));
   }
 }
 
-void PressView::placeArrow(const Sample& sample)
+DentColors::By PressView::colors() const
 {
-  const bool shown = isVisible(Overlay::ForceArrow) && sample.contact.touching();
-  arrow_->SetVisibility(shown);
-  forceLabel_->SetVisibility(shown);
-  if (!shown)
-  {
-    return;
-  }
-  // as long as the force is large, within what the view can hold; as thick as the tool allows
-  constexpr double kMetresPerNewton = 0.025;
-  const double length = std::clamp(
-    sample.response.force * kMetresPerNewton, 15.0_mm, std::max(70.0_mm, 6.0 * baseRadius(tip_)));
-  const double thickness = std::min(0.15 * baseRadius(tip_), 0.12 * length);
-  arrowSource_->SetShaftRadius(thickness / length);
-  arrowSource_->SetTipRadius(2.6 * thickness / length);
-  arrowSource_->SetTipLength(std::min(0.5, 7.0 * thickness / length));
-  const Eigen::Vector3d normal = sample.contact.normal;
-  const Eigen::Vector3d start = sample.contact.center - sample.contact.depth * normal;
-  arrow_->SetUserMatrix(placement(start, length * axesAlong(normal, 0)));
-
-  const Eigen::Vector3d end = start + (length + thickness) * normal;
-  forceLabel_->GetPositionCoordinate()->SetValue(end.x(), end.y(), end.z());
-  forceLabel_->SetInput(fixedText(sample.response.force, 2).append(" N").c_str());
-}
-
-void PressView::placeCircles(const Sample& sample, double extent)
-{
-  const bool touching = sample.contact.touching();
-  contactCircle_.actor->SetVisibility(touching && isVisible(Overlay::ContactCircle));
-  contactCircle_.contour->SetValue(0, sample.response.contactRadius);
-  extentCircle_.actor->SetVisibility(touching && isVisible(Overlay::ExtentCircle) && extent > 0.0);
-  extentCircle_.contour->SetValue(0, extent);
+  return isVisible(Overlay::ValidityColors)  ? DentColors::By::Validity
+    : isVisible(Overlay::PressureColors)     ? DentColors::By::Pressure
+    : isVisible(Overlay::DisplacementColors) ? DentColors::By::Displacement
+                                             : DentColors::By::Nothing;
 }
 
 // the dent is drawn by itself where it is finer than the mesh or has colours
-void PressView::placeDent(const Sample& sample)
+void PressView::placeDent(const Moment& moment)
 {
-  const bool touching = sample.contact.touching();
-  const bool colored = touching && isVisible(Overlay::DisplacementColors);
-  deform_->SetGeneratePatch(touching);
-  deform_->Update();
-  const bool apart = colored || (touching && deform_->GetUsedPatchLevel() > 0);
-  dent_->SetVisibility(apart);
+  const DentColors::By by = colors();
+  const bool apart = moment.sample.contact.touching() &&
+    (by != DentColors::By::Nothing || deform_->GetUsedPatchLevel() > 0);
   surfaceMapper_->SetHideDent(apart);
-  dentMapper_->SetScalarVisibility(colored);
-  legend_->SetVisibility(colored);
-  if (colored)
+  if (apart)
   {
-    colors_->SetTableRange(0.0, appearance::roundUp(units::toMillimetres(sample.contact.depth)));
+    dent_->show(moment, by);
   }
-}
-
-void PressView::placeReadings(const Sample& sample, double extent)
-{
-  const bool shown = isVisible(Overlay::Readings) && sample.contact.touching();
-  const auto millimetres = [](double metres)
-  { return fixedText(units::toMillimetres(metres), 1) + " mm "; };
-  const std::string force = fixedText(sample.response.force, 2);
-  readings_[0]->SetInput(
-    (" force " + force + " N   depth " + millimetres(sample.contact.depth)).c_str());
-  readings_[1]->SetInput(
-    (" \u25cb contact circle r = " + millimetres(sample.response.contactRadius)).c_str());
-  readings_[2]->SetInput((" \u25cb extent circle R_d = " + millimetres(extent)).c_str());
-  readings_[0]->SetVisibility(shown);
-  readings_[1]->SetVisibility(shown && isVisible(Overlay::ContactCircle));
-  readings_[2]->SetVisibility(shown && isVisible(Overlay::ExtentCircle) && extent > 0.0);
+  else
+  {
+    dent_->hide();
+  }
 }
 
 void PressView::lookAtSurface()
@@ -337,14 +225,15 @@ void PressView::lookAtSurface()
 void PressView::lookAt(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
 {
   // 50 degrees from the normal shows into the dent and along the arrow
-  constexpr double kObliquity = 50.0;
-  const double height = std::max(9.0 * baseRadius(tip_), 0.45 * diagonal_);
-  const double distance = 0.5 * height / std::tan(0.5 * kViewAngle * kDegree);
+  constexpr double kObliquity = 50.0_deg;
+  const double base = baseRadius(tip_);
+  const double height =
+    std::max(9.0 * base, std::clamp(14.0 * base, 0.2 * diagonal_, 0.45 * diagonal_));
+  const double distance = 0.5 * height / std::tan(0.5 * kViewAngle);
   // from the front where that is possible, so that the view does not roll with the normal
   Eigen::Vector3d side = -Eigen::Vector3d::UnitY() + normal.y() * normal;
   side = side.norm() > 0.3 ? side.normalized() : normal.unitOrthogonal();
-  const Eigen::Vector3d towards =
-    std::cos(kObliquity * kDegree) * normal + std::sin(kObliquity * kDegree) * side;
+  const Eigen::Vector3d towards = std::cos(kObliquity) * normal + std::sin(kObliquity) * side;
   const Eigen::Vector3d focus = place + 0.12 * height * normal;
   const Eigen::Vector3d eye = focus + distance * towards;
   vtkCamera& camera = *renderer_.GetActiveCamera();

@@ -2,33 +2,23 @@
 
 #include "calibration/extent_table.h"
 #include "haptics/servo/sample.h"
+#include "pipeline/dent_colors.h"
+#include "pipeline/overlay.h"
+#include "pipeline/readings.h"
 #include "pipeline/vtkPalpDeformFilter.h"
 #include "pipeline/vtkPalpPatchMapper.h"
 
 #include <Eigen/Core>
+#include <array>
+#include <memory>
 #include <optional>
 #include <vtkActor.h>
-#include <vtkArrowSource.h>
-#include <vtkContourFilter.h>
-#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
-#include <vtkTextActor.h>
 
 namespace palp
 {
-
-/// What is drawn over the surface; each can be hidden, and then costs nothing.
-enum class Overlay
-{
-  ForceArrow,
-  ContactCircle,
-  ExtentCircle,
-  DisplacementColors,
-  Readings,
-};
 
 /// The pressed surface, the tool and the overlays in one renderer.
 ///
@@ -51,11 +41,18 @@ public:
   /// R_d for every depth; without a table the ring ends close to the contact.
   void setExtents(const ExtentTable& extents);
 
+  /// The law whose rules the validity colours and readings name.
+  void setLaw(const ForceLaw& law);
+
   /// Moves the tool, presses the surface, and sets the overlays. Does not render.
   void show(const Sample& sample);
 
+  /// At first: arrow, circles, colours of the displacement and readings. Takes effect in show().
   void setVisible(Overlay overlay, bool visible);
   [[nodiscard]] bool isVisible(Overlay overlay) const;
+
+  /// Upper end of the colours [mm or kPa]; 0, the default, lets it follow the press.
+  void setColorRange(double top);
 
   /// The whole surface, from the front and above.
   void lookAtSurface();
@@ -72,27 +69,21 @@ public:
   /// The surface as last shown [m], with the arrays of vtkPalpDeformFilter.
   [[nodiscard]] vtkPolyData* deformed();
 
-private:
-  struct Line
+  /// The filter that presses the surface, for what else is made of it.
+  [[nodiscard]] vtkPalpDeformFilter& press()
   {
-    vtkNew<vtkContourFilter> contour;
-    vtkNew<vtkPolyDataMapper> mapper;
-    vtkNew<vtkActor> actor;
-  };
-  static constexpr std::size_t kOverlays = 5;
+    return *deform_;
+  }
 
+private:
   void addSurface();
   void addTool();
-  void addLine(Line& line, const std::array<double, 3>& color);
-  void addTexts();
+  void addOverlays();
   void placeTool(const ToolPose& pose);
-  void placeArrow(const Sample& sample);
-  void placeCircles(const Sample& sample, double extent);
-  void placeDent(const Sample& sample);
-  void placeReadings(const Sample& sample, double extent);
+  void placeDent(const Moment& moment);
+  [[nodiscard]] DentColors::By colors() const;
 
   vtkRenderer& renderer_;
-  std::array<bool, kOverlays> visible_{ true, true, true, true, true };
   Tip tip_{ SphereTip{ .radius = 0.01 } };
   std::optional<ExtentTable> extents_;
   double diagonal_ = 0.0; // of the surface's box [m]
@@ -100,19 +91,12 @@ private:
   vtkNew<vtkPalpDeformFilter> deform_;
   vtkNew<vtkPalpPatchMapper> surfaceMapper_;
   vtkNew<vtkActor> surface_;
-  vtkNew<vtkPolyDataMapper> dentMapper_;
-  vtkNew<vtkActor> dent_; // the same finer or coloured
   vtkNew<vtkPolyDataMapper> toolMapper_;
   vtkNew<vtkActor> tool_;
-  vtkNew<vtkArrowSource> arrowSource_;
-  vtkNew<vtkPolyDataMapper> arrowMapper_;
-  vtkNew<vtkActor> arrow_;
-  vtkNew<vtkTextActor> forceLabel_;
-  Line contactCircle_;
-  Line extentCircle_;
-  vtkSmartPointer<vtkLookupTable> colors_;
-  vtkNew<vtkScalarBarActor> legend_;
-  std::array<vtkNew<vtkTextActor>, 3> readings_;
+  std::optional<DentColors> dent_;
+  std::array<bool, kOverlayCount> visible_{};
+  std::array<std::unique_ptr<OverlayProps>, kOverlayCount> overlays_; // null: part of dent_
+  Readings* readings_ = nullptr;                                      // one of overlays_
 };
 
 } // namespace palp

@@ -172,16 +172,20 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
   const auto count = static_cast<vtkIdType>(this->Patch.points.size());
   const auto positions = floats("Points", 3, count);
   const auto normals = floats("Normals", 3, count);
+  const auto moved = floats("Displacement", 3, count);
   const auto length = floats("Displacement [mm]", 1, count);
   const auto distance = floats("Distance", 1, count);
   vtkNew<vtkUnsignedCharArray> zone;
   zone->SetName("Zone");
   zone->SetNumberOfTuples(count);
+  const Eigen::Vector3f normal = this->Dent.region().normal().cast<float>();
   for (vtkIdType i = 0; i < count; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
     positions->SetTypedTuple(i, this->Patch.points[at].data());
     normals->SetTypedTuple(i, this->Patch.normals[at].data());
+    const Eigen::Vector3f displacement = -this->Patch.sink[at] * normal;
+    moved->SetTypedTuple(i, displacement.data());
     const double millimetres = palp::units::toMillimetres(this->Patch.sink[at]);
     length->SetValue(i, static_cast<float>(millimetres));
     distance->SetValue(i, this->Patch.distance[at]);
@@ -199,6 +203,7 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
   patch->SetPoints(points);
   patch->SetPolys(triangles);
   patch->GetPointData()->SetNormals(normals);
+  patch->GetPointData()->AddArray(moved);
   patch->GetPointData()->AddArray(length);
   patch->GetPointData()->AddArray(distance);
   patch->GetPointData()->AddArray(zone);

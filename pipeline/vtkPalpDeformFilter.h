@@ -10,6 +10,7 @@
  *
  * Output 1 is the dent alone, for overlays and for a view closer than the mesh is fine: the
  * triangles with a displaced corner, divided PatchLevel times, and the point arrays "Normals", and
+ *   "Displacement"       float x 3 [m], from rest
  *   "Displacement [mm]"  float, length of the displacement
  *   "Distance"           float [m], from the contact's centre along the undeformed surface
  *   "Zone"               as above

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "pipeline/overlay.h"
+
+#include <vtkActor.h>
+#include <vtkArrowSource.h>
+#include <vtkNew.h>
+#include <vtkTextActor.h>
+
+namespace palp
+{
+
+/// The force on the hand as an arrow, as long as it is large, with its value in newtons.
+class ForceArrow : public OverlayProps
+{
+public:
+  explicit ForceArrow(vtkRenderer& renderer);
+  void show(const Moment& moment) override;
+  void hide() override;
+
+private:
+  vtkNew<vtkArrowSource> source_;
+  vtkNew<vtkActor> arrow_;
+  vtkNew<vtkTextActor> label_;
+};
+
+} // namespace palp

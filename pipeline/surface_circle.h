@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pipeline/overlay.h"
+
+#include <array>
+#include <vtkActor.h>
+#include <vtkContourFilter.h>
+#include <vtkNew.h>
+
+namespace palp
+{
+
+/// A circle around the contact, drawn on the surface where it is pressed: the contact or R_d.
+class SurfaceCircle : public OverlayProps
+{
+public:
+  enum class Of
+  {
+    Contact,
+    Extent
+  };
+
+  SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, Of of);
+  void show(const Moment& moment) override;
+  void hide() override;
+
+private:
+  Of of_;
+  vtkNew<vtkContourFilter> contour_;
+  vtkNew<vtkActor> actor_;
+};
+
+} // namespace palp
