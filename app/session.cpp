@@ -99,6 +99,21 @@ void Session::useDevice(const std::string& name)
   servo_ = std::make_unique<Servo>(*device_, recording_.scene);
 }
 
+void Session::arm(bool armed)
+{
+  recording_.scene.armed = armed;
+  servo_->setScene(recording_.scene);
+}
+
+void Session::stop(bool stopped)
+{
+  servo_->setEmergencyStop(stopped);
+  if (stopped)
+  {
+    arm(false);
+  }
+}
+
 void Session::aim(const HandTarget& target)
 {
   moveTool_(target);

@@ -35,6 +35,16 @@ public:
   /// @throws Error  BadValue, BadFile; the old device then stays
   void useDevice(const std::string& name);
 
+  /// Whether the user wants to feel force; off for every device but a simulated hand until asked.
+  void arm(bool armed);
+
+  /// Zero force at once and until taken back; then the device must be armed again.
+  void stop(bool stopped);
+
+  /// False for devices that no hand can feel.
+  [[nodiscard]] bool rendersForce() const { return device_->limits().rendersForce; }
+  [[nodiscard]] bool armed() const noexcept { return recording_.scene.armed; }
+
   /// Moves the tool of mouse and hand; other devices move themselves.
   void aim(const HandTarget& target);
 

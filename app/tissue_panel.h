@@ -1,11 +1,14 @@
 #pragma once
 
+#include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
 #include <QWidget>
 
 class QComboBox;
 class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
 
 namespace palp
 {
@@ -23,8 +26,12 @@ public:
   [[nodiscard]] ContactRule rule() const;
   [[nodiscard]] double damping() const; ///< b [N s/m]
 
+  /// What the device does now; the button follows what the session says.
+  void showDevice(const Sample& sample, bool rendersForce, bool armed);
+
 Q_SIGNALS:
   void tissueChanged();
+  void armAsked(bool armed);
   void deviceChanged(const QString& name);
 
 private:
@@ -40,6 +47,8 @@ private:
   QDoubleSpinBox* damping_;
   QComboBox* rule_;
   QComboBox* device_;
+  QPushButton* arm_;
+  QLabel* state_;
 };
 
 } // namespace palp

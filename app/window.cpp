@@ -133,6 +133,12 @@ void Window::makeDocks()
   panel_ = new TissuePanel(recording.scene, devices);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
   connect(panel_, &TissuePanel::deviceChanged, this, &Window::applyDevice);
+  connect(panel_, &TissuePanel::armAsked, this,
+    [this](bool armed)
+    {
+      session_.stop(false);
+      session_.arm(armed);
+    });
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
 
   addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
@@ -187,6 +193,10 @@ void Window::makeMenus()
     });
   file->addSeparator();
   file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
+
+  QMenu* device = menuBar()->addMenu(tr("&Device"));
+  device->addAction(
+    tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   view->addAction(
@@ -258,6 +268,7 @@ void Window::refresh()
 
 void Window::refreshCharts()
 {
+  panel_->showDevice(session_.newest(), session_.rendersForce(), session_.armed());
   charts_.refresh();
   timeView_->GetRenderWindow()->Render();
   depthView_->GetRenderWindow()->Render();

@@ -119,13 +119,20 @@ TEST_F(WindowTest, TakesAnotherTool)
   EXPECT_TRUE(std::holds_alternative<ConeTip>(session_->recording().scene.law.tip()));
 }
 
-TEST_F(WindowTest, TheSimulatedHandYieldsToTheForce)
+TEST_F(WindowTest, TheSimulatedHandYieldsToTheForceUntilItIsStopped)
 {
   window_->findChild<QComboBox*>("device")->setCurrentText("hand");
   press(300);
-  const double depth = session_->newest().contact.depth;
-  EXPECT_GT(depth, 0.5e-3);
-  EXPECT_LT(depth, 10e-3); // asked for 15 mm
+  QTest::qWait(1000);
+  const Sample felt = session_->newest();
+  EXPECT_GT(felt.contact.depth, 0.5e-3);
+  EXPECT_LT(felt.contact.depth, 13e-3); // asked for 15 mm
+  EXPECT_GT(felt.force.norm(), 0.1);
+
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  QTest::qWait(200);
+  EXPECT_EQ(session_->newest().force.norm(), 0.0);
+  EXPECT_FALSE(session_->armed());
   release();
 }
 

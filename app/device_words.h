@@ -1,0 +1,16 @@
+#pragma once
+
+#include "haptics/servo/sample.h"
+
+#include <string>
+
+namespace palp
+{
+
+/// What a device is doing, for people: "force on", "needs homing", ...
+[[nodiscard]] const char* describe(DeviceState state) noexcept;
+
+/// What acts on the force of a sample, for people; empty when nothing does.
+[[nodiscard]] std::string describeFlags(std::uint32_t flags);
+
+} // namespace palp
