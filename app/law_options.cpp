@@ -35,6 +35,24 @@ double curvature(const std::string& text)
       "1mm or more, less than -1mm for a hollow surface");
 }
 
+// the other laws need the table only to tell how far they are off, and do without
+LargeStrainTable shippedTable(LawMode mode)
+{
+  try
+  {
+    return readLargeStrain(
+      dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv"));
+  }
+  catch (const Error&)
+  {
+    if (mode == LawMode::Corrected)
+    {
+      throw;
+    }
+    return nullptr;
+  }
+}
+
 } // namespace
 
 void LawOptions::addTo(CLI::App& command)
@@ -56,17 +74,15 @@ void LawOptions::addTo(CLI::App& command)
 
 LawSettings LawOptions::settings() const
 {
-  LawSettings settings{ .mode = mode == "paper" ? LawMode::Paper
-      : mode == "exact"                         ? LawMode::Exact
-                                                : LawMode::Corrected,
+  const Constitution material =
+    constitution == "linear" ? Constitution::Linear : Constitution::NeoHookean;
+  const LawMode law = mode == "paper" ? LawMode::Paper
+    : mode == "exact"                 ? LawMode::Exact
+                                      : LawMode::Corrected;
+  return { .mode = law,
     .base = base == "slip" ? Base::Slip : Base::Bonded,
-    .constitution = constitution == "linear" ? Constitution::Linear : Constitution::NeoHookean };
-  if (settings.mode == LawMode::Corrected && settings.constitution == Constitution::NeoHookean)
-  {
-    settings.largeStrain = readLargeStrain(
-      dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv"));
-  }
-  return settings;
+    .constitution = material,
+    .largeStrain = material == Constitution::Linear ? nullptr : shippedTable(law) };
 }
 
 std::string describeLaw(const LawSettings& settings)

@@ -3,6 +3,7 @@
 #include "app/csv.h"
 #include "app/law_options.h"
 #include "app/tip_spec.h"
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 
 #include <array>
@@ -10,6 +11,19 @@
 
 namespace palp
 {
+
+namespace
+{
+
+Indentation placeOf(const Contact& contact)
+{
+  return { .depth = contact.depth,
+    .tilt = contact.tilt,
+    .thickness = contact.thickness,
+    .surfaceCurvature = contact.surfaceCurvature };
+}
+
+} // namespace
 
 const Sample* Recording::deepest() const noexcept
 {
@@ -39,9 +53,17 @@ void writeSamples(std::ostream& out, const Recording& recording, const ExtentTab
       << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
       << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
          "and limits; force_x/y/z_N: sent to the device\n"
-      << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
+      << "# broken_rules: a sum of the conditions that the place does not meet\n";
+  const Validity validity(law);
+  std::uint32_t bit = 1;
+  for (const Rule& rule : validity(Indentation{}))
+  {
+    out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
+    bit *= 2;
+  }
+  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
          "contact_radius_mm,extent_radius_mm,stiffness_N_per_mm,axis_x,axis_y,axis_z,"
-         "normal_x,normal_y,normal_z,tilt_deg,flags\n";
+         "normal_x,normal_y,normal_z,tilt_deg,flags,broken_rules\n";
   for (const Sample& sample : recording.samples)
   {
     const Eigen::Vector3d& apex = sample.pose.apex;
@@ -55,7 +77,8 @@ void writeSamples(std::ostream& out, const Recording& recording, const ExtentTab
         toMillimetres(extents.extentRadius(contact.depth)),
         units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
         contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
-        static_cast<double>(sample.flags) });
+        static_cast<double>(sample.flags),
+        static_cast<double>(brokenRules(validity(placeOf(contact), contact.edgeDistance))) });
   }
 }
 

@@ -58,6 +58,16 @@ double shown(double value) noexcept
 
 } // namespace
 
+std::uint32_t brokenRules(const Rules& rules) noexcept
+{
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < rules.size(); ++i)
+  {
+    bits |= rules[i].holds() ? 0U : 1U << i;
+  }
+  return bits;
+}
+
 Validity::Validity(const ForceLaw& law)
   : Validity(law, Limits{})
 {
@@ -67,8 +77,6 @@ Validity::Validity(const ForceLaw& law, const Limits& limits)
   : law_(law)
   , best_(law.tip(), law.material(), best(law.settings()))
   , limits_(limits)
-  , maxForce_(
-      best_({ .depth = limits.deepest > 0.0 ? limits.deepest : baseRadius(law.tip()) }).force)
   , thickness_(kVerifiedWidth)
   , tilt_(tiltLimit(law))
 {
@@ -88,14 +96,16 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
   const Response response = law_(local);
   const double truth = best_(local).force;
   const double base = baseRadius(tip);
+  Indentation deepest = local; // the experiment of Eq. (9), at this place
+  deepest.depth = limits_.deepest > 0.0 ? limits_.deepest : base;
+  const double maximum = std::max(best_(deepest).force, truth);
   const double depth = std::max(0.0, local.depth);
   const LargeStrainGrid::Ratio ratio = best_.largeStrain(local);
   const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
   const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
 
   return { {
-    { "force_of_maximum", "-", shown(share(response.force - truth, std::max(maxForce_, truth))),
-      kJustNoticeable,
+    { "force_of_maximum", "-", shown(share(response.force - truth, maximum)), kJustNoticeable,
       "the force may differ from the best law known by 7 % of the maximum, which a hand just "
       "notices (Eq. 9)" },
     { "force_of_itself", "-", shown(share(response.force - truth, truth)), kJustNoticeable,

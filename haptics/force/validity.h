@@ -3,6 +3,7 @@
 #include "haptics/force/force_law.h"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 namespace palp
@@ -30,6 +31,10 @@ struct Rule
 };
 
 using Rules = std::array<Rule, 10>;
+
+/// A bit for each rule that does not hold, the first rule the lowest.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] std::uint32_t brokenRules(const Rules& rules) noexcept;
 
 /// Tells for each sample how far the law in use may be believed.
 ///
@@ -59,7 +64,6 @@ private:
   ForceLaw law_;
   ForceLaw best_;
   Limits limits_;
-  double maxForce_;  // of the best law [N]
   double thickness_; // limit of a / thickness
   double tilt_;      // limit for the force's magnitude [rad]
 };

@@ -55,7 +55,7 @@ TEST(LawOptions, NeoHookeanSphereIsThatOfFiniteElements)
     table(force("--tip sphere:6mm --law corrected --thickness 30mm --depth 1:6:5mm"));
   EXPECT_NEAR(law["force_N"][0], 0.1990, 0.03 * 0.1990);
   EXPECT_NEAR(law["force_N"][1], 2.957, 0.03 * 2.957);
-  EXPECT_NEAR(law["factor_large_strain"][1], 1.038, 0.002);
+  EXPECT_NEAR(law["factor_large_strain"][1], 1.038, 0.01);
 }
 
 // Hertz: R R0 / (R + R0) for the paraboloid

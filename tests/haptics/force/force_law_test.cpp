@@ -117,6 +117,13 @@ TEST_P(AnyLaw, BeginsAtZeroAndIsMonotone)
   }
 }
 
+// a flat punch of the tip's flat at first touch; nothing under a point
+TEST_P(AnyLaw, BeginsWithTheSlopeOfItsFlat)
+{
+  const double flat = 2.0 * kLiver.contactModulus() * flatRadius(law_.tip());
+  EXPECT_NEAR(law_({ .depth = 1e-12 }).stiffness, flat, 1e-6 * flat + 0.02);
+}
+
 // C1: the stated stiffness is the derivative everywhere and has no jumps
 TEST_P(AnyLaw, StiffnessIsTheDerivativeOfTheForce)
 {

@@ -100,6 +100,14 @@ TEST(Validity, LimitsDepthCurvatureEdgeAndStiffness)
   EXPECT_FALSE(rule(paper({ .depth = 3.4_mm }), "stiffness").holds());
 }
 
+TEST(Validity, CountsBrokenRulesAsBits)
+{
+  const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kLiver));
+  EXPECT_EQ(brokenRules(paper({ .depth = 0.1_mm })), 0U);
+  EXPECT_EQ(brokenRules(paper({ .depth = 0.1_mm, .tilt = 25.0_deg })), 4U);
+  EXPECT_EQ(brokenRules(paper({ .depth = 0.1_mm, .tilt = 33.0_deg })), 4U + 8U);
+}
+
 TEST(Validity, TellsThatLargeStrainIsNotCovered)
 {
   const ForceLaw bare(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
