@@ -18,5 +18,6 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
 void addRunCommand(CLI::App& app, const Pictures* pictures);
 void addForceCommand(CLI::App& app);
 void addStabilityCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
 
 } // namespace palp

@@ -83,6 +83,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addRunCommand(app, parts.pictures);
   addForceCommand(app);
   addStabilityCommand(app);
+  addBenchCommand(app);
 
   // for the start script: is this word a command of ours?
   if (argc == 3 && std::string_view(argv[1]) == "--is-command")

@@ -182,7 +182,7 @@ TEST(ContactBadInput, AFoldIsOutvoted)
     for (const Tip& tip : { kSphere, kCone })
     {
       const Contact contact = press(surface, tip, (radius - 3.0_mm) * out, -out);
-      ASSERT_NEAR(contact.depth, 3.0_mm, 0.6_mm); // twice the sagitta of the longest edges
+      ASSERT_NEAR(contact.depth, 3.0_mm, 1.0_mm); // the sagitta of the longest edges
       ASSERT_GT(contact.normal.dot(out), 0.95);
     }
   }

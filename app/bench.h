@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// One figure of the benchmark, over many repetitions.
+struct BenchRow
+{
+  std::string work;         ///< servo_step, law, update, query_brute or tree_build
+  std::size_t vertices = 0; ///< of the mesh; 0 where there is none
+  std::string mode;         ///< moving, jump, cold or paced
+  double median = 0.0;      ///< [us], as are those below
+  double mean = 0.0;
+  double deviation = 0.0;
+  double p99 = 0.0;
+};
+
+/// @param microseconds  at least one, in any order
+[[nodiscard]] BenchRow benchRow(
+  std::string work, std::size_t vertices, std::string mode, std::vector<double> microseconds);
+
+/// Time of one call [us], after `before`, which is not counted.
+template <typename Before, typename Work>
+[[nodiscard]] std::vector<double> timed(int count, Before before, Work work)
+{
+  std::vector<double> microseconds;
+  microseconds.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+  {
+    before(i);
+    const auto begin = std::chrono::steady_clock::now();
+    work(i);
+    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
+    microseconds.push_back(time.count());
+  }
+  return microseconds;
+}
+
+/// S, by which figures of different machines compare: a scalar sweep over 10,000 points [us].
+[[nodiscard]] double benchSweep();
+
+/// Contact, law and safety chain on the paper's surfaces and on larger ones, and what they are
+/// made of.
+/// @param most  vertices of the largest surface
+[[nodiscard]] std::vector<BenchRow> benchServo(std::size_t most);
+
+/// Contact, law, deformed points and their normals: what one picture costs the processor.
+/// @param most  vertices of the largest surface
+[[nodiscard]] std::vector<BenchRow> benchUpdate(std::size_t most);
+
+/// Writes how far the force on coarse meshes is from that on a fine one, for each rule of contact,
+/// and how smooth it is on a slide over facets.
+void reportAccuracy(std::ostream& out);
+
+/// Writes how well a servo thread keeps 1 kHz.
+void reportServo(std::ostream& out, std::chrono::duration<double> duration);
+
+} // namespace palp

@@ -1,0 +1,214 @@
+#include "app/bench.h"
+#include "data/shapes.h"
+#include "haptics/contact/patch.h"
+#include "haptics/servo/safety.h"
+#include "haptics/servo/servo.h"
+#include "haptics/servo/servo_step.h"
+#include "haptics/units.h"
+
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <thread>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kSide = 100.0_mm;
+constexpr double kDepth = 5.0_mm;
+constexpr double kPath = 30.0_mm; // radius of the circle that a moving tool follows
+constexpr double kSpeed = 0.1;    // [m/s]
+constexpr int kTicks = 4000;
+
+// round and round at constant depth
+ToolPose poseOnPath(int tick)
+{
+  const double angle = kSpeed * 1.0_ms * tick / kPath;
+  const Eigen::Vector3d outward(std::cos(angle), std::sin(angle), 0.0);
+  return { .apex = kPath * outward - kDepth * Eigen::Vector3d::UnitZ(),
+    .axis = -Eigen::Vector3d::UnitZ(),
+    .velocity = kSpeed * Eigen::Vector3d(-outward.y(), outward.x(), 0.0) };
+}
+
+DeviceLimits someDevice()
+{
+  return {
+    .model = "bench", .rendersForce = true, .maxForce = 8.0, .damping = 1.0, .workspaceRadius = 0.0
+  };
+}
+
+// all that a servo thread does between two exchanges with a device
+class Tick
+{
+public:
+  explicit Tick(std::shared_ptr<const Surface> surface)
+    : chain_(someDevice(), { .fastest = 1e6 })
+  {
+    scene_.surface = std::move(surface);
+    scene_.damping = 1.0;
+    scene_.armed = true;
+  }
+
+  Sample operator()(const ToolPose& pose)
+  {
+    const auto admitted = chain_.admit(pose, {}, { .armed = true }, 1.0_ms);
+    Sample sample = admitted ? touch(scene_, *admitted) : Sample{};
+    const auto law = [&](double depth) noexcept { return respond(scene_, sample.contact, depth); };
+    chain_.limit(sample, law, scene_);
+    return sample;
+  }
+
+private:
+  SafetyChain chain_;
+  Scene scene_;
+};
+
+// walks over more memory than the caches hold
+class CacheFlush
+{
+public:
+  void operator()(int)
+  {
+    for (std::size_t i = 0; i < bytes_.size(); i += 64)
+    {
+      bytes_[i] = static_cast<char>(bytes_[i] + 1);
+    }
+  }
+
+private:
+  std::vector<char> bytes_ = std::vector<char>(64UL << 20U);
+};
+
+void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
+{
+  const Mesh mesh = makeGrid(n, kSide);
+  const std::size_t vertices = mesh.points.size();
+  rows.push_back(benchRow("tree_build", vertices, "cold",
+    timed(
+      3, [](int) {}, [&](int) { const BoxTree tree(mesh.points, mesh.triangles); })));
+
+  const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
+  Tick tick(surface);
+  const auto nothing = [](int) {};
+  const auto move = [&](int i) { (void)tick(poseOnPath(i)); };
+  for (int i = 0; i < kTicks; ++i)
+  {
+    move(i); // soft start
+  }
+  rows.push_back(benchRow("servo_step", vertices, "moving", timed(kTicks, nothing, move)));
+
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-35.0_mm, 35.0_mm);
+  ToolPose pose = poseOnPath(0);
+  const auto jump = [&](int) { pose.apex = { place(random), place(random), -kDepth }; };
+  rows.push_back(
+    benchRow("servo_step", vertices, "jump", timed(kTicks, jump, [&](int) { (void)tick(pose); })));
+  rows.push_back(benchRow("servo_step", vertices, "cold", timed(100, flush, move)));
+
+  auto due = std::chrono::steady_clock::now();
+  const auto wait = [&](int)
+  { std::this_thread::sleep_until(due += std::chrono::milliseconds(1)); };
+  rows.push_back(benchRow("servo_step", vertices, "paced", timed(1000, wait, move)));
+
+  // the same integrals over all triangles
+  double area = 0.0;
+  const auto all = [&](int i)
+  {
+    const Eigen::Vector3d center = poseOnPath(i).apex + 10.0_mm * Eigen::Vector3d::UnitZ();
+    for (const Facet& facet : surface->tree().facets())
+    {
+      area += integrate(facet, center, 1e-4).area;
+    }
+  };
+  const int repetitions = vertices > 20'000 ? 20 : 200;
+  rows.push_back(benchRow("query_brute", vertices, "moving", timed(repetitions, nothing, all)));
+}
+
+BenchRow benchLaw()
+{
+  const ForceLaw law = Scene{}.law;
+  constexpr int kCalls = 1000;
+  double sum = 0.0;
+  std::vector<double> times = timed(
+    1000, [](int) {},
+    [&](int i)
+    {
+      for (int k = 0; k < kCalls; ++k)
+      {
+        sum += law({ .depth = kDepth + 1e-9 * (i + k) }).force;
+      }
+    });
+  for (double& time : times)
+  {
+    time /= kCalls;
+  }
+  return benchRow("law", 0, sum > 0.0 ? "moving" : "", std::move(times));
+}
+
+class CircleDevice final : public Device
+{
+public:
+  [[nodiscard]] DeviceLimits limits() const override
+  {
+    return someDevice();
+  }
+
+  [[nodiscard]] std::optional<ToolPose> exchange(const Eigen::Vector3d&, double) noexcept override
+  {
+    return poseOnPath(tick_++);
+  }
+
+private:
+  int tick_ = 0;
+};
+
+} // namespace
+
+std::vector<BenchRow> benchServo(std::size_t most)
+{
+  std::vector<BenchRow> rows{ benchLaw() };
+  CacheFlush flush;
+  for (const int n : { 40, 50, 60, 70, 80, 90, 100, 316, 1000 })
+  {
+    if (static_cast<std::size_t>(n) * static_cast<std::size_t>(n) <= most)
+    {
+      benchSurface(n, flush, rows);
+    }
+  }
+  return rows;
+}
+
+void reportServo(std::ostream& out, std::chrono::duration<double> duration)
+{
+  const Mesh mesh = makeGrid(100, kSide);
+  Scene scene;
+  scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
+  scene.armed = true;
+  CircleDevice device;
+  Servo servo(device, scene);
+  out << "servo thread: " << servo.schedule() << std::endl;
+  std::this_thread::sleep_for(duration);
+  const double elapsed = servo.newest().time;
+
+  const Timing& timing = servo.timing();
+  const auto line = [&](const char* name, const Histogram& histogram)
+  {
+    const auto us = [](Histogram::Duration time)
+    { return std::chrono::duration<double, std::micro>(time).count(); };
+    out << name << " [us]: p50 " << us(histogram.quantile(0.5)) << ", p99 "
+        << us(histogram.quantile(0.99)) << ", p99.9 " << us(histogram.quantile(0.999)) << ", max "
+        << us(histogram.longest()) << '\n';
+  };
+  line("lateness", timing.lateness);
+  line("step", timing.step);
+  const std::uint64_t ticks = timing.ticks;
+  const std::uint64_t skipped = timing.skipped;
+  out << "ticks " << ticks << " + skipped " << skipped << " in " << elapsed << " s\n";
+}
+
+} // namespace palp

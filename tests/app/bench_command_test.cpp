@@ -1,0 +1,70 @@
+#include "tests/support/process.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+namespace palp
+{
+namespace
+{
+
+test::Finished bench(const std::string& arguments)
+{
+  return test::runCommand(PALP_PROGRAM " bench " + arguments);
+}
+
+// what it says, not how fast it is
+TEST(BenchCommand, PrintsOnlyJsonAndComparesWithIt)
+{
+  const test::Finished first = bench("--json --most 1600");
+  ASSERT_EQ(first.code, 0) << first.err;
+  nlohmann::json report = nlohmann::json::parse(first.out);
+  const double sweep = report.at("S_us");
+  EXPECT_GT(sweep, 0.0);
+  EXPECT_FALSE(report.at("machine").get<std::string>().empty());
+  std::set<std::string> works;
+  std::set<std::string> cases;
+  for (const nlohmann::json& row : report.at("rows"))
+  {
+    works.insert(row.at("work"));
+    cases.insert(row.at("case"));
+    const double median = row.at("median_us");
+    EXPECT_GT(median, 0.0);
+    EXPECT_LE(median, row.at("p99_us"));
+    EXPECT_GT(row.at("mean_us"), 0.0);
+    EXPECT_GE(row.at("sd_us"), 0.0);
+    EXPECT_NEAR(row.at("per_S"), median / sweep, 1e-9 * median);
+  }
+  EXPECT_EQ(
+    works, (std::set<std::string>{ "law", "query_brute", "servo_step", "tree_build", "update" }));
+  EXPECT_EQ(cases, (std::set<std::string>{ "cold", "jump", "moving", "paced" }));
+
+  // against figures a thousand times as large, and as small
+  for (const auto& [factor, code] : { std::pair(1e3, 0), std::pair(1e-3, 2) })
+  {
+    nlohmann::json recorded = report;
+    for (nlohmann::json& row : recorded.at("rows"))
+    {
+      row["per_S"] = factor * row.at("per_S").get<double>();
+    }
+    const auto file = std::filesystem::path(::testing::TempDir()) / "palp_bench_gate.json";
+    std::ofstream(file) << recorded;
+    EXPECT_EQ(bench("--json --most 1600 --gate " + file.string()).code, code);
+  }
+}
+
+TEST(BenchCommand, RefusesAGateThatIsNoReport)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) / "palp_bench_no_gate.json";
+  std::ofstream(file) << "no report";
+  const test::Finished finished = bench("--most 0 --gate " + file.string());
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.err.find("palp_bench_no_gate.json"), std::string::npos);
+}
+
+} // namespace
+} // namespace palp
