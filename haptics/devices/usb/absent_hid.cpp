@@ -1,0 +1,21 @@
+// Stands in for hid_transport.cpp where hidapi is absent.
+
+#include "haptics/devices/usb/found_device.h"
+#include "haptics/devices/usb/hid_transport.h"
+#include "haptics/error.h"
+
+namespace palp
+{
+
+std::vector<FoundDevice> listHid()
+{
+  return {};
+}
+
+std::unique_ptr<Transport> openHid(const std::string& path)
+{
+  throw Error(ErrorCode::NoDevice,
+    path + ": this build has no hidapi; install libhidapi-dev and build again");
+}
+
+} // namespace palp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// What kind of device something is.
+enum class DeviceKind
+{
+  SpaceMouse,
+  WoodenHaptics,
+  Falcon,
+  RawHid, ///< a generic board: its ids do not say what runs on it, so it is used only when named
+};
+
+/// Something that is plugged in.
+struct FoundDevice
+{
+  DeviceKind kind = DeviceKind::RawHid;
+  std::string name;   ///< for people
+  std::string ids;    ///< vendor:product
+  std::string path;   ///< how to open it
+  std::string hurdle; ///< why it cannot be used, and what to do; empty when it can
+};
+
+/// HID devices that are known, one for each interface that may talk.
+[[nodiscard]] std::vector<FoundDevice> listHid();
+
+/// USB devices that are known.
+[[nodiscard]] std::vector<FoundDevice> listUsb();
+
+} // namespace palp

@@ -1,0 +1,149 @@
+#include "haptics/devices/usb/hid_transport.h"
+
+#include "haptics/devices/usb/found_device.h"
+#include "haptics/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <hidapi/hidapi.h>
+#include <set>
+#include <unistd.h>
+
+namespace palp
+{
+namespace
+{
+
+struct Close
+{
+  void operator()(hid_device* device) const noexcept
+  {
+    hid_close(device);
+  }
+};
+
+class HidTransport final : public Transport
+{
+public:
+  explicit HidTransport(hid_device* device) noexcept
+    : device_(device)
+  {
+  }
+
+  [[nodiscard]] IoResult read(
+    MutableBytes into, std::chrono::microseconds timeout) noexcept override
+  {
+    const auto wait = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
+    const int size = hid_read_timeout(device_.get(), reinterpret_cast<unsigned char*>(into.data()),
+      into.size(), static_cast<int>(wait));
+    if (size < 0)
+    {
+      return { IoCode::Gone, 0 };
+    }
+    return { size > 0 ? IoCode::Ok : IoCode::Timeout, static_cast<std::size_t>(size) };
+  }
+
+  [[nodiscard]] IoCode write(Bytes bytes) noexcept override
+  {
+    const int size =
+      hid_write(device_.get(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    return size < 0 ? IoCode::Gone : IoCode::Ok;
+  }
+
+private:
+  std::unique_ptr<hid_device, Close> device_;
+};
+
+struct Known
+{
+  unsigned short vendor;
+  unsigned short product; // 0: by its usage
+  unsigned short usagePage;
+  unsigned short usage; // 0: any
+  DeviceKind kind;
+  const char* name;
+};
+
+// usages decide where one vendor has many products; generic ids are never more than RawHid
+// @source  FreeSpacenav/spacenavd dev.c; forsslund/haptikfabrikenapi; pjrc.com/teensy/rawhid.html
+constexpr std::array kKnown{
+  Known{ 0x046d, 0, 0x0001, 0x0008, DeviceKind::SpaceMouse, "SpaceMouse (Logitech)" },
+  Known{ 0x256f, 0, 0x0001, 0x0008, DeviceKind::SpaceMouse, "SpaceMouse (3Dconnexion)" },
+  Known{ 0x16c0, 0x0486, 0xffab, 0x0200, DeviceKind::RawHid, "Teensy raw HID" },
+  Known{ 0x1234, 0x0006, 0, 0, DeviceKind::RawHid, "mbed HID" },
+};
+
+const Known* find(const hid_device_info& info) noexcept
+{
+  const auto known = std::ranges::find_if(kKnown,
+    [&](const Known& one)
+    {
+      return one.vendor == info.vendor_id && (one.product == 0 || one.product == info.product_id) &&
+        (one.usage == 0 || (one.usagePage == info.usage_page && one.usage == info.usage));
+    });
+  return known == kKnown.end() ? nullptr : &*known;
+}
+
+std::string hurdleOf(const char* path)
+{
+  if (access(path, R_OK | W_OK) == 0)
+  {
+    return {};
+  }
+  return errno == EACCES
+    ? "no permission; install the udev rules (cmake --install), then plug it in again"
+    : "cannot be opened; plug it in again";
+}
+
+std::string narrow(const wchar_t* text)
+{
+  std::string narrowed;
+  for (; text != nullptr && *text != 0; ++text)
+  {
+    narrowed += *text >= L' ' && *text < 127 ? static_cast<char>(*text) : '?';
+  }
+  return narrowed;
+}
+
+} // namespace
+
+std::vector<FoundDevice> listHid()
+{
+  std::vector<FoundDevice> found;
+  std::set<std::string> paths; // one entry for each usage of an interface otherwise
+  const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all(
+    hid_enumerate(0, 0), &hid_free_enumeration);
+  for (const hid_device_info* info = all.get(); info != nullptr; info = info->next)
+  {
+    const Known* known = find(*info);
+    if (known == nullptr || !paths.insert(info->path).second)
+    {
+      continue;
+    }
+    std::array<char, 10> ids{};
+    std::snprintf(ids.data(), ids.size(), "%04x:%04x", info->vendor_id, info->product_id);
+    const std::string product = narrow(info->product_string);
+    found.push_back({ .kind = known->kind,
+      .name = product.empty() ? known->name : product,
+      .ids = ids.data(),
+      .path = info->path,
+      .hurdle = hurdleOf(info->path) });
+  }
+  return found;
+}
+
+std::unique_ptr<Transport> openHid(const std::string& path)
+{
+  hid_device* device = hid_open_path(path.c_str());
+  if (device == nullptr)
+  {
+    const std::string hurdle = hurdleOf(path.c_str());
+    throw Error(ErrorCode::NoDevice,
+      path + ": " + (hurdle.empty() ? "is used by another program; close it" : hurdle));
+  }
+  return std::make_unique<HidTransport>(device);
+}
+
+} // namespace palp

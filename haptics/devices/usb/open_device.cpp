@@ -1,0 +1,105 @@
+#include "haptics/devices/usb/open_device.h"
+
+#include "haptics/devices/falcon_driver.h"
+#include "haptics/devices/hid_drivers.h"
+#include "haptics/devices/usb/found_device.h"
+#include "haptics/devices/usb/hid_transport.h"
+#include "haptics/devices/usb/usb_transport.h"
+#include "haptics/error.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+std::string readFile(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{ std::istreambuf_iterator<char>(stream), {} };
+  if (!stream)
+  {
+    throw Error(ErrorCode::BadFile, file + ": cannot be read; check name and permission");
+  }
+  return text;
+}
+
+// kind and what stands behind its colon
+std::pair<std::string, std::string> parts(const std::string& name)
+{
+  const std::size_t colon = name.find(':');
+  return { name.substr(0, colon), colon == name.npos ? "" : name.substr(colon + 1) };
+}
+
+std::string onlySpaceMouse()
+{
+  const std::vector<FoundDevice> all = listHid();
+  const auto mouse = std::ranges::find_if(all,
+    [](const FoundDevice& one)
+    { return one.kind == DeviceKind::SpaceMouse && one.hurdle.empty(); });
+  if (mouse == all.end())
+  {
+    throw Error(ErrorCode::NoDevice,
+      "SpaceMouse: none that can be used; plug it in, and see palp devices for why");
+  }
+  return mouse->path;
+}
+
+std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& rest)
+{
+  if (kind == "spacemouse")
+  {
+    return std::make_unique<SpaceMouseDriver>(openHid(rest.empty() ? onlySpaceMouse() : rest));
+  }
+  if (kind == "falcon")
+  {
+    const std::string text = rest.empty() ? "" : readFile(rest);
+    const Bytes bytes = std::as_bytes(std::span(text));
+    return std::make_unique<FalconDriver>(
+      openFalcon(), std::vector<std::byte>(bytes.begin(), bytes.end()));
+  }
+  if (rest.empty())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--device: " + kind +
+        " needs its path, because many boards have the same ids; see palp devices");
+  }
+  if (kind == "phd1")
+  {
+    return std::make_unique<Phd1Driver>(openHid(rest));
+  }
+  const std::size_t comma = rest.find(',');
+  const std::string path = rest.substr(0, comma);
+  const WoodenArm arm = comma == rest.npos
+    ? WoodenArm{}
+    : parseWoodenArm(readFile(rest.substr(comma + 1)), rest.substr(comma + 1));
+  const std::vector<FoundDevice> all = listHid();
+  const bool isMbed = std::ranges::any_of(
+    all, [&](const FoundDevice& one) { return one.path == path && one.ids == "1234:0006"; });
+  return std::make_unique<WoodenDriver>(openHid(path), arm, isMbed ? 14 : 64);
+}
+
+} // namespace
+
+bool namesHardware(const std::string& name)
+{
+  const std::string kind = parts(name).first;
+  return kind == "spacemouse" || kind == "falcon" || kind == "wooden" || kind == "phd1";
+}
+
+std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement)
+{
+  if (!namesHardware(name))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--device: '" + name + "' is no device; give spacemouse, falcon, wooden:PATH or phd1:PATH");
+  }
+  const auto [kind, rest] = parts(name);
+  return std::make_unique<ThreadedDevice>(makeDriver(kind, rest), placement);
+}
+
+} // namespace palp

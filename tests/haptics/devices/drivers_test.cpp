@@ -1,0 +1,358 @@
+#include "haptics/devices/falcon_driver.h"
+#include "haptics/devices/hid_drivers.h"
+#include "haptics/devices/threaded_device.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using namespace std::chrono_literals;
+using Eigen::Vector3d;
+using Packet = std::vector<std::byte>;
+
+Packet packetOf(Bytes bytes)
+{
+  return { bytes.begin(), bytes.end() };
+}
+
+// a device in memory: answers each packet as it is told, or not
+struct Wire
+{
+  std::function<void(Bytes)> hear;
+  std::deque<Packet> replies;
+  std::vector<Packet> heard;
+  bool gone = false;
+  bool silent = false;
+};
+
+class MemoryTransport final : public SerialTransport
+{
+public:
+  explicit MemoryTransport(Wire& wire)
+    : wire_(wire)
+  {
+  }
+
+  IoResult read(MutableBytes into, std::chrono::microseconds) noexcept override
+  {
+    if (wire_.gone)
+    {
+      return { IoCode::Gone, 0 };
+    }
+    if (wire_.silent || wire_.replies.empty())
+    {
+      return { IoCode::Timeout, 0 };
+    }
+    const Packet packet = wire_.replies.front();
+    wire_.replies.pop_front();
+    const std::size_t size = std::min(into.size(), packet.size());
+    std::copy_n(packet.begin(), size, into.begin());
+    return { IoCode::Ok, size };
+  }
+
+  IoCode write(Bytes bytes) noexcept override
+  {
+    if (wire_.gone)
+    {
+      return IoCode::Gone;
+    }
+    wire_.heard.push_back(packetOf(bytes));
+    if (wire_.hear)
+    {
+      wire_.hear(bytes);
+    }
+    return IoCode::Ok;
+  }
+
+  bool request(std::uint8_t, std::uint16_t) noexcept override
+  {
+    return !wire_.gone;
+  }
+
+private:
+  Wire& wire_;
+};
+
+bool isZeroCurrent(const Packet& packet) // with the report id
+{
+  return std::all_of(
+    packet.begin() + 1, packet.begin() + 7, [](std::byte byte) { return byte == std::byte{ 0 }; });
+}
+
+// an arm at rest in its workspace, calibrated by its button
+Packet woodenReport(bool calibrate)
+{
+  Packet report(14);
+  writeInt<std::int16_t>(report, 2, -1000);
+  writeInt<std::int16_t>(report, 4, -6000);
+  writeInt<std::int16_t>(report, 12, calibrate ? 1 : 0);
+  return report;
+}
+
+TEST(WoodenDriver, SendsNoCurrentBeforeItIsCalibrated)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  for (int i = 0; i < 100; ++i)
+  {
+    wire.replies.push_back(woodenReport(false));
+    EXPECT_EQ(driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample), IoCode::Ok);
+    EXPECT_FALSE(sample.homed);
+    EXPECT_TRUE(isZeroCurrent(wire.heard.back()));
+    EXPECT_EQ(wire.heard.back().size(), 15U);
+  }
+  wire.replies.push_back(woodenReport(true));
+  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
+  wire.replies.push_back(woodenReport(false));
+  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample); // the calibration goes out
+  EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
+  EXPECT_TRUE(sample.homed);
+  wire.replies.push_back(woodenReport(false));
+  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
+  EXPECT_FALSE(isZeroCurrent(wire.heard.back()));
+}
+
+TEST(WoodenDriver, TakesTheNewestOfWhatIsQueued)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  for (int i = 0; i < 20; ++i)
+  {
+    wire.replies.push_back(Packet(14));
+  }
+  wire.replies.push_back(woodenReport(false));
+  DriverSample sample;
+  EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+  const WoodenArm arm;
+  EXPECT_TRUE(
+    sample.position.isApprox(placeOf(arm, bodyAngles(arm, { 0, -1000, -6000, 0, 0, 0 }))));
+  EXPECT_TRUE(wire.replies.empty());
+}
+
+TEST(Phd1Driver, SendsForceOnlyToABoardThatIsHomedAndNotStopped)
+{
+  Wire wire;
+  Phd1Driver driver(std::make_unique<MemoryTransport>(wire));
+  Phd1State state;
+  const auto tick = [&]
+  {
+    wire.replies.push_back(packetOf(encode(state)));
+    DriverSample sample;
+    EXPECT_EQ(driver.tick(Vector3d(0, 0, 1), 1.0_ms, sample), IoCode::Ok);
+    return *decodePhd1Command(Bytes(wire.heard.back()).subspan(1));
+  };
+  (void)tick();
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  state.homed = true;
+  (void)tick();
+  EXPECT_TRUE(tick().force.isApprox(Vector3d(0, 0, 1)));
+  state.stopped = true;
+  (void)tick();
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+}
+
+TEST(SpaceMouseDriver, StopsWhenItsReportOfRestWasLost)
+{
+  Wire wire;
+  SpaceMouseDriver driver(std::make_unique<MemoryTransport>(wire));
+  wire.replies.push_back({ std::byte{ 1 }, std::byte{ 0x5E }, std::byte{ 1 }, std::byte{ 0 },
+    std::byte{ 0 }, std::byte{ 0 }, std::byte{ 0 } });
+  DriverSample sample;
+  for (int i = 0; i < 1000; ++i)
+  {
+    EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+  }
+  // full speed for a tenth of a second
+  EXPECT_NEAR(sample.position.x(), 60.0_mm * 0.1, 60.0_mm * 2.0_ms);
+}
+
+// a Falcon that runs: answers each packet with counts of the middle of its reach
+struct Falcon : Wire
+{
+  Falcon()
+  {
+    hear = [this](Bytes packet)
+    {
+      if (packet.size() != kFalconPacket)
+      {
+        return;
+      }
+      Packet reply{ std::byte{ 1 }, std::byte{ 0x60 } };
+      Packet body = packetOf(encode(FalconCommand{}));
+      body[13] = static_cast<std::byte>('A' + (homed ? 0x70 : 0));
+      reply.insert(reply.end(), body.begin(), body.end());
+      replies.push_back(reply);
+    };
+  }
+
+  bool homed = false;
+};
+
+bool isZeroTorque(const Packet& packet)
+{
+  return std::all_of(packet.begin() + 1, packet.begin() + 13,
+    [](std::byte byte) { return byte == std::byte{ 'A' }; });
+}
+
+TEST(FalconDriver, SendsNoTorqueBeforeItIsHomed)
+{
+  Falcon wire;
+  FalconDriver driver(std::make_unique<MemoryTransport>(wire), {});
+  DriverSample sample;
+  for (int i = 0; i < 100; ++i)
+  {
+    EXPECT_EQ(driver.tick(Vector3d(1, 2, 3), 1.0_ms, sample), IoCode::Ok);
+    EXPECT_FALSE(sample.homed);
+    EXPECT_TRUE(isZeroTorque(wire.heard.back()));
+    EXPECT_EQ(wire.heard.back()[13], std::byte{ 'B' }); // keeps asking for homing
+  }
+  wire.homed = true;
+  (void)driver.tick(Vector3d(1, 2, 3), 1.0_ms, sample);
+  EXPECT_TRUE(sample.homed);
+  EXPECT_NEAR(sample.position.z(), 0.1346 - 0.125, 1e-4); // all encoders at zero
+  (void)driver.tick(Vector3d(0, 0, -1), 1.0_ms, sample);
+  EXPECT_FALSE(isZeroTorque(wire.heard.back()));
+}
+
+TEST(FalconDriver, AsksForFirmwareInOneSentence)
+{
+  Wire wire; // says nothing
+  try
+  {
+    FalconDriver driver(std::make_unique<MemoryTransport>(wire), {});
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::NoDevice);
+    EXPECT_NE(std::string(error.what()).find("falcon:FILE"), std::string::npos);
+  }
+}
+
+std::unique_ptr<Driver> makeDriver(int kind, Wire& wire)
+{
+  auto transport = std::make_unique<MemoryTransport>(wire);
+  switch (kind)
+  {
+    case 0:
+      return std::make_unique<SpaceMouseDriver>(std::move(transport));
+    case 1:
+      return std::make_unique<WoodenDriver>(std::move(transport), WoodenArm{}, 14);
+    case 2:
+      return std::make_unique<Phd1Driver>(std::move(transport));
+    default:
+      return std::make_unique<FalconDriver>(std::move(transport), Packet{});
+  }
+}
+
+class EveryDriver : public ::testing::TestWithParam<int>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Drivers, EveryDriver, ::testing::Range(0, 4));
+
+TEST_P(EveryDriver, NoticesThatItsDeviceIsGone)
+{
+  Falcon wire;
+  const auto driver = makeDriver(GetParam(), wire);
+  wire.gone = true;
+  DriverSample sample;
+  EXPECT_EQ(driver->tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Gone);
+}
+
+TEST_P(EveryDriver, BearsGarbageAndNeverGivesAPlaceThatIsNotFinite)
+{
+  Falcon wire;
+  const auto driver = makeDriver(GetParam(), wire);
+  std::mt19937 random(9);
+  for (int i = 0; i < 5000; ++i)
+  {
+    Packet packet(random() % 66);
+    for (std::byte& byte : packet)
+    {
+      byte = static_cast<std::byte>(random());
+    }
+    wire.replies.push_back(packet);
+    DriverSample sample;
+    (void)driver->tick(Vector3d(NAN, 1e9, -1e9), 1.0_ms, sample);
+    ASSERT_TRUE(sample.position.allFinite());
+  }
+}
+
+// one that says where it is, and keeps what it was told
+class Fake final : public Driver
+{
+public:
+  explicit Fake(std::atomic<bool>& pulled, std::vector<Vector3d>& forces)
+    : pulled_(pulled)
+    , forces_(forces)
+  {
+  }
+
+  DeviceLimits limits() const override
+  {
+    return { .model = "fake", .rendersForce = true, .maxForce = 4.0, .damping = 1.0 };
+  }
+
+  IoCode tick(const Vector3d& force, double, DriverSample& sample) noexcept override
+  {
+    forces_.push_back(force);
+    sample.position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm);
+    return pulled_ ? IoCode::Gone : IoCode::Ok;
+  }
+
+private:
+  std::atomic<bool>& pulled_;
+  std::vector<Vector3d>& forces_;
+};
+
+TEST(ThreadedDevice, StandsWhereItIsPlacedAndEndsWithZeroForce)
+{
+  std::atomic<bool> pulled = false;
+  std::vector<Vector3d> forces;
+  {
+    DevicePlacement placement;
+    placement.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1; // a quarter turn about z
+    placement.origin = Vector3d(0.1, 0, 0);
+    ThreadedDevice device(std::make_unique<Fake>(pulled, forces), placement);
+    const auto pose = device.exchange(Vector3d(0, 1, 0), 1.0_ms);
+    ASSERT_TRUE(pose);
+    EXPECT_TRUE(pose->apex.isApprox(Vector3d(0.1 - 2.0_mm, 1.0_mm, 3.0_mm)));
+    std::this_thread::sleep_for(5ms);
+    EXPECT_LT(device.status().age, 1.0);
+  }
+  EXPECT_TRUE(std::ranges::any_of(
+    forces, [](const Vector3d& force) { return force.isApprox(Vector3d(1, 0, 0)); }));
+  ASSERT_GE(forces.size(), 10U);
+  EXPECT_TRUE(std::all_of(
+    forces.end() - 10, forces.end(), [](const Vector3d& force) { return force.isZero(0.0); }));
+}
+
+TEST(ThreadedDevice, IsGoneWhenItsDriverSaysSo)
+{
+  std::atomic<bool> pulled = false;
+  std::vector<Vector3d> forces;
+  ThreadedDevice device(std::make_unique<Fake>(pulled, forces), {});
+  pulled = true;
+  while (device.exchange(Vector3d::Zero(), 1.0_ms))
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  SUCCEED();
+}
+
+} // namespace
+} // namespace palp
