@@ -78,12 +78,25 @@ struct RingCurve
   return { inner, sunk, std::clamp(inner + reach, inner, std::max(inner, outer)), outer };
 }
 
-/// Outer radius of the ring as drawn.
+/// Least outer radius of a ring whose tangents L1 and L2 meet at a distance from its centre.
+///
+/// Just outside: within that circle an undisturbed surface would be inside the tool. Where flanks
+/// are almost level three contact radii are enough.
+///
+/// @param meet           [m]
+/// @param contactRadius  r [m]
+[[nodiscard]] inline double ringRadiusFor(double meet, double contactRadius) noexcept
+{
+  constexpr double kOutside = 1.05;
+  constexpr double kMost = 3.0;
+  return std::min(kOutside * meet, kMost * contactRadius);
+}
+
+/// Outer radius of the ring as drawn, on a plane.
 ///
 /// R_d of the table is the radius of a certain sink, and at small depths it lies inside the
-/// contact. The ring then ends at 1.2 r, or, where the tool itself reaches further, just outside
-/// the circle where L1 and L2 meet: within that circle an undisturbed surface would be inside the
-/// tool. The largest of the three is continuous in the depth.
+/// contact. The ring then ends at 1.2 r or, where the tool itself reaches further, at
+/// ringRadiusFor(). The largest of the three is continuous in the depth.
 ///
 /// @param tip            checked
 /// @param depth          delta [m]
@@ -93,14 +106,11 @@ struct RingCurve
 [[nodiscard]] inline double ringRadius(
   const Tip& tip, double depth, double contactRadius, double extentRadius) noexcept
 {
-  constexpr double kLeast = 1.2;    // [-] of the contact radius
-  constexpr double kOutside = 1.05; // [-] of the circle where the tangents meet
-  constexpr double kMost = 3.0;     // [-] of the contact radius, for flanks almost level
+  constexpr double kLeast = 1.2; // [-] of the contact radius
   const double slope = tipSlope(tip, contactRadius);
   const double sink = std::max(0.0, depth - tipHeight(tip, contactRadius));
   const double meet = slope > 0.0 ? contactRadius + sink / slope : 0.0;
-  return std::max(
-    { extentRadius, kLeast * contactRadius, std::min(kOutside * meet, kMost * contactRadius) });
+  return std::max({ extentRadius, kLeast * contactRadius, ringRadiusFor(meet, contactRadius) });
 }
 
 } // namespace palp

@@ -46,8 +46,11 @@ void Dent::update(const Press& press, const DentArrays& arrays)
     body_.emplace(press.tip, press.pose);
     const double outer =
       ringRadius(press.tip, contact.depth, press.contactRadius, press.extentRadius);
-    region_.grow(contact, *body_, press.contactRadius, outer);
-    field_.lay(region_, *body_, contact.depth);
+    lay(press, outer);
+    if (const double reach = ringRadiusFor(field_.reach(), press.contactRadius); reach > outer)
+    {
+      lay(press, reach);
+    }
     displace(arrays);
   }
   for (const std::int32_t point : before_)
@@ -61,6 +64,12 @@ void Dent::update(const Press& press, const DentArrays& arrays)
   {
     computeNormal(point, arrays);
   }
+}
+
+void Dent::lay(const Press& press, double outer)
+{
+  region_.grow(press.contact, *body_, press.contactRadius, outer);
+  field_.lay(region_, *body_, press.contact.depth);
 }
 
 void Dent::forgetPress(const DentArrays& arrays)

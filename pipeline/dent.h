@@ -69,6 +69,11 @@ public:
     return field_.sinkAt(place, rest, *body_);
   }
 
+  [[nodiscard]] bool isInsideTool(const Eigen::Vector3d& point) const noexcept
+  {
+    return body_->inside(point) > 0.0;
+  }
+
   [[nodiscard]] const PressField& field() const noexcept
   {
     return field_;
@@ -81,6 +86,7 @@ public:
   }
 
 private:
+  void lay(const Press& press, double outer);
   void forgetPress(const DentArrays& arrays);
   void displace(const DentArrays& arrays) const noexcept;
   void computeNormal(std::int32_t point, const DentArrays& arrays) const noexcept;

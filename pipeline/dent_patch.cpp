@@ -134,6 +134,7 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
       place.way = 0.5 * (first.place.way + second.place.way);
       place.distance = 0.5 * (first.place.distance + second.place.distance);
     }
+    place.within = dent.isInsideTool(rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
     corners_.push_back({ rest, normal, place });
   }

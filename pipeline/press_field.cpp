@@ -69,6 +69,7 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
 {
   normal_ = region.normal();
   deepest_ = depth;
+  reach_ = 0.0;
   fitSurface(region);
   for (int k = 0; k < kDirections; ++k)
   {
@@ -114,7 +115,7 @@ double PressField::surfaceHeight(double x, double y) const noexcept
 
 // P0, P1 and P2 of Fig. 5(b) from the tool and the fitted surface
 RingCurve PressField::curveAlong(
-  const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) const noexcept
+  const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept
 {
   const Eigen::Vector3d outwards =
     region.toSurface({ towards.x(), towards.y(), 0.0 }) - region.toSurface(Eigen::Vector3d::Zero());
@@ -147,6 +148,10 @@ RingCurve PressField::curveAlong(
   const double slope = std::isfinite(after) ? 0.5 * (before + after) / step
     : before > 1e-3 * step                  ? before / step
                                             : kVertical;
+  if (slope > 0.0)
+  {
+    reach_ = std::max(reach_, contact - height / slope);
+  }
   return makeRingCurve(contact, -height, slope, region.outer());
 }
 

@@ -40,6 +40,15 @@ public:
   /// Fits the undeformed surface around the contact and finds the control points.
   void lay(const PressRegion& region, const ToolBody& body, double depth);
 
+  /// How far from the centre the tool's tangents at the contact circle meet the surface, at most.
+  ///
+  /// Where it is more than the outer radius, the surface that is drawn lies higher, or is more
+  /// hollow, than the one the contact was found on, and the ring ought to be wider.
+  [[nodiscard]] double reach() const noexcept
+  {
+    return reach_;
+  }
+
   /// @param place  of a point within the dent
   /// @param rest   the point [m]
   [[nodiscard]] Sink sinkAt(
@@ -61,13 +70,14 @@ private:
 
   void fitSurface(const PressRegion& region);
   [[nodiscard]] RingCurve curveAlong(
-    const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) const noexcept;
+    const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
   [[nodiscard]] double ringSink(const Place& place, const RingCurve& curve) const noexcept;
 
   Quadric surface_ = Quadric::Zero();
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
   double deepest_ = 0.0; // delta [m]
+  double reach_ = 0.0;   // [m]
   double fitted_ = 0.0;  // radius within which the surface was fitted [m]
 };
 

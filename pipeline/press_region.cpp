@@ -134,6 +134,12 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   seed_ = seed;
   queue_.clear();
   meet(seed, placeInFront(rest(seed)), body);
+  if (!places_.front().within)
+  {
+    // a tool between the points of a coarse mesh: a finer patch can still show its dent
+    places_.front().within = true;
+    queue_.push_back(0);
+  }
   for (std::size_t i = 0; i < queue_.size(); ++i)
   {
     const auto from = static_cast<std::size_t>(queue_[i]);

@@ -37,7 +37,8 @@ public:
   /// @param triangles  outward oriented
   PressRegion(std::span<const float> rest, std::span<const Triangle> triangles);
 
-  /// Finds the points nearer than the outer radius, those inside the tool, and their neighbours.
+  /// Finds the points nearer than the outer radius, those inside the tool, the one nearest to the
+  /// contact, and the neighbours of all these.
   ///
   /// Its cost follows their number as long as the contact moves by small steps; where it jumps to
   /// another part of the surface, all points are looked at once.
