@@ -195,8 +195,9 @@ void Window::makeMenus()
   file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
 
   QMenu* device = menuBar()->addMenu(tr("&Device"));
-  device->addAction(
+  QAction* stop = device->addAction(
     tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
+  stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   view->addAction(

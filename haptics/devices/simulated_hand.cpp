@@ -55,11 +55,7 @@ DeviceLimits SimulatedHand::limits() const
 std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, double dt) noexcept
 {
   const HandTarget& target = target_.read();
-  if (target.lifted)
-  {
-    pose_ = { .apex = target.apex, .axis = target.axis };
-  }
-  else if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
+  if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
   {
     // (m + c dt + k dt^2) v' = m v + dt (F + k (target - x)), then x' = x + dt v'
     const HandMechanics& hand = mechanics_;

@@ -23,7 +23,7 @@ struct HandTarget
 {
   Eigen::Vector3d apex = Eigen::Vector3d::Zero();   ///< [m]
   Eigen::Vector3d axis = -Eigen::Vector3d::UnitZ(); ///< unit vector from handle to apex
-  bool lifted = false; ///< nothing is in the way: the tool may appear there at once
+  bool lifted = false; ///< nothing is in the way: a tool without mass may appear there at once
 };
 
 /// A hand without a device: a mass with a damper, pulled to a target by the spring of its muscles.
