@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstddef>
 #include <iosfwd>
-#include <span>
 #include <string>
 #include <vector>
 
