@@ -8,6 +8,7 @@ class App;
 namespace palp
 {
 
+struct DevicesOptions;
 struct Pictures;
 struct ViewOptions;
 
@@ -19,5 +20,6 @@ void addRunCommand(CLI::App& app, const Pictures* pictures);
 void addForceCommand(CLI::App& app);
 void addStabilityCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
+void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));
 
 } // namespace palp

@@ -84,6 +84,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addForceCommand(app);
   addStabilityCommand(app);
   addBenchCommand(app);
+  addDevicesCommand(app, parts.devices);
 
   // for the start script: is this word a command of ours?
   if (argc == 3 && std::string_view(argv[1]) == "--is-command")
@@ -96,6 +97,11 @@ int runProgram(int argc, char** argv, const Parts& parts)
     app.parse(withCommand(app, argc, argv));
     std::cout.flush();
     return 0;
+  }
+  catch (const CLI::RuntimeError& error) // a command that has its own exit codes
+  {
+    std::cout.flush();
+    return error.get_exit_code();
   }
   catch (const CLI::ParseError& error)
   {

@@ -14,6 +14,13 @@ struct ViewOptions
   std::string device = "mouse";
 };
 
+/// The whole of `palp devices`.
+struct DevicesOptions
+{
+  std::string probe; ///< as a user names a device; empty: none
+  bool watch = false;
+};
+
 /// What one of the sibling programs carries beyond the common commands.
 ///
 /// palp itself carries neither. A command that needs one becomes, by exec, the sibling that has
@@ -21,8 +28,9 @@ struct ViewOptions
 /// or window library, and nothing has to be loaded or unloaded at run time.
 struct Parts
 {
-  const Pictures* pictures = nullptr;        ///< palp-draw
-  int (*view)(const ViewOptions&) = nullptr; ///< palp-view
+  const Pictures* pictures = nullptr;              ///< palp-draw
+  int (*view)(const ViewOptions&) = nullptr;       ///< palp-view
+  int (*devices)(const DevicesOptions&) = nullptr; ///< palp-devices
 };
 
 /// The main function of palp and its siblings.

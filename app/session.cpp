@@ -2,6 +2,7 @@
 
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/scripted_device.h"
+#include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
 
 #include <algorithm>
@@ -84,8 +85,16 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
     moveTool_ = [](const HandTarget&) {};
     return script;
   }
+  if (namesHardware(name))
+  {
+    auto hardware = openDevice(name, { .origin = restingPlace().apex });
+    moveTool_ = [](const HandTarget&) {};
+    return hardware;
+  }
   throw Error(ErrorCode::BadValue,
-    "--device: '" + name + "' is no device; give mouse, hand or path:FILE.csv");
+    "--device: '" + name +
+      "' is no device; give mouse, hand, path:FILE.csv, spacemouse, falcon, "
+      "wooden:PATH or phd1:PATH");
 }
 
 void Session::useDevice(const std::string& name)

@@ -31,8 +31,8 @@ public:
 
   void setTissue(const ForceLaw& law, ContactRule rule, double damping);
 
-  /// mouse, hand or path:FILE; the recording begins anew.
-  /// @throws Error  BadValue, BadFile; the old device then stays
+  /// mouse, hand, path:FILE, or what openDriver knows; the recording begins anew.
+  /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays
   void useDevice(const std::string& name);
 
   /// Whether the user wants to feel force; off for every device but a simulated hand until asked.

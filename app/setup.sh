@@ -2,7 +2,7 @@
 
 palp_packages=(build-essential cmake ninja-build libeigen3-dev libopenmesh-dev libvtk9-dev
   libvtk9-qt-dev libhidapi-dev libusb-1.0-0-dev libcli11-dev nlohmann-json3-dev libbenchmark-dev
-  libegl-dev libegl1 libgl1-mesa-dri fonts-dejavu-core)
+  libegl-dev libegl1 libgl1-mesa-dri fonts-dejavu-core pkgconf)
 palp_test_packages=(libgtest-dev xvfb xauth xdotool umockdev libumockdev-dev)
 
 # palp_install PACKAGE...: nothing is done, and nothing printed, when all are there

@@ -15,7 +15,8 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   options->press.addTo(*command);
   command
     ->add_option("--device", options->device,
-      "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE")
+      "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
+      "spacemouse; falcon[:FIRMWARE]; wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
     ->capture_default_str();
   command->footer("Examples:\n"
                   "  palp                                       the bundled liver\n"

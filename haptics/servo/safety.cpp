@@ -70,10 +70,11 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
   sinceLast_ += std::max(elapsed, dt_);
   period_.record(elapsed);
-  if (!orders.armed && !orders.stop)
+  if (orders.armed && !wasArmed_ && !orders.stop) // a new wish forgives
   {
     latched_ = 0;
   }
+  wasArmed_ = orders.armed;
   if (orders.stop)
   {
     fault(Flag::EmergencyStop);

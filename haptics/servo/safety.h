@@ -29,7 +29,7 @@ struct SafetySettings
 /// What the user and the program say in a tick.
 struct SafetyOrders
 {
-  bool armed = false; ///< a fault is forgiven when this has been false
+  bool armed = false; ///< a fault is forgiven when this becomes true anew, without a stop
   bool stop = false;  ///< emergency stop
 };
 
@@ -110,6 +110,7 @@ private:
   DeviceState state_ = DeviceState::Closed;
   std::uint32_t flags_ = 0;   // of this tick
   std::uint32_t latched_ = 0; // faults that wait to be forgiven
+  bool wasArmed_ = false;     // last tick
   double dt_ = 0.0;           // of this tick, bounded [s]
   double gain_ = 0.0;         // share of the largest force that may be, of the force in decay
   double share_ = 0.0;        // of the force that is sent while it decays or the device is silent

@@ -91,7 +91,7 @@ bool namesHardware(const std::string& name)
   return kind == "spacemouse" || kind == "falcon" || kind == "wooden" || kind == "phd1";
 }
 
-std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement)
+std::unique_ptr<Driver> openDriver(const std::string& name)
 {
   if (!namesHardware(name))
   {
@@ -99,7 +99,12 @@ std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacemen
       "--device: '" + name + "' is no device; give spacemouse, falcon, wooden:PATH or phd1:PATH");
   }
   const auto [kind, rest] = parts(name);
-  return std::make_unique<ThreadedDevice>(makeDriver(kind, rest), placement);
+  return makeDriver(kind, rest);
+}
+
+std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement)
+{
+  return std::make_unique<ThreadedDevice>(openDriver(name), placement);
 }
 
 } // namespace palp

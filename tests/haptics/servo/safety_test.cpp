@@ -370,9 +370,35 @@ TEST(SafetyChain, EmergencyStopIsImmediateAndLatched)
   {
     ASSERT_EQ(bench.at(5.0_mm).force, Vector3d::Zero());
   }
-  EXPECT_TRUE(has(bench.at(5.0_mm), Flag::EmergencyStop));
   bench.orders.armed = false;
+  EXPECT_TRUE(has(bench.at(5.0_mm), Flag::EmergencyStop)); // says why until it is armed again
+  bench.orders.armed = true;
   EXPECT_FALSE(has(bench.at(5.0_mm), Flag::EmergencyStop));
+  EXPECT_EQ(bench.chain.state(), DeviceState::SoftStart);
+}
+
+// as a window does it: stop with disarm, then both taken back between two ticks
+TEST(SafetyChain, ArmsAgainInTheTickThatTakesTheStopBack)
+{
+  Bench bench;
+  bench.activate();
+  bench.orders = { .armed = false, .stop = true };
+  (void)bench.at(-5.0_mm);
+  bench.orders = { .armed = true, .stop = false };
+  (void)bench.at(-5.0_mm);
+  EXPECT_EQ(bench.chain.state(), DeviceState::SoftStart);
+}
+
+TEST(SafetyChain, ReleasingAStopAloneArmsNothing)
+{
+  Bench bench;
+  bench.orders = { .armed = true, .stop = true };
+  (void)bench.at(-5.0_mm);
+  bench.orders.stop = false;
+  for (int i = 0; i < 100; ++i)
+  {
+    ASSERT_EQ(bench.at(-5.0_mm).state, DeviceState::Ready);
+  }
 }
 
 TEST(SafetyChain, StopHoldsAgainstDisarmingAndArming)

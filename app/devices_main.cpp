@@ -1,0 +1,9 @@
+// palp-devices: palp with hidapi and libusb.
+
+#include "app/devices_report.h"
+#include "app/program.h"
+
+int main(int argc, char** argv)
+{
+  return palp::runProgram(argc, argv, { .devices = &palp::showDevices });
+}

@@ -1,0 +1,158 @@
+#include "app/devices_report.h"
+
+#include "haptics/devices/driver.h"
+#include "haptics/devices/usb/found_device.h"
+#include "haptics/devices/usb/open_device.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kNoneThere = 3;
+constexpr int kNoneUsable = 6;
+
+struct Family
+{
+  DeviceKind kind;
+  const char* name;
+  const char* absent; ///< what to do where none is there
+};
+
+constexpr std::array kFamilies{
+  Family{ DeviceKind::SpaceMouse, "SpaceMouse", "plug one in; it moves the tool, without force" },
+  Family{ DeviceKind::Falcon, "Novint Falcon",
+    "plug in USB and power; the first time give firmware as --device falcon:FILE" },
+  Family{ DeviceKind::RawHid, "WoodenHaptics, PHD1 and other raw HID boards",
+    "plug one in; use it by its path, as --device wooden:/dev/hidraw2" },
+};
+
+std::vector<FoundDevice> findAll()
+{
+  std::vector<FoundDevice> all = listHid();
+  std::ranges::move(listUsb(), std::back_inserter(all));
+  return all;
+}
+
+void print(const FoundDevice& device)
+{
+  std::cout << "  " << device.name << " (" << device.ids << ") at " << device.path << ": "
+            << (device.hurdle.empty() ? "can be used" : device.hurdle) << '\n';
+}
+
+int list(const std::vector<FoundDevice>& all)
+{
+  for (const auto& [kind, name, absent] : kFamilies)
+  {
+    std::cout << name << ": protocol tested against an emulation; not yet on hardware\n";
+    const auto isOurs = [kind = kind](const FoundDevice& one) { return one.kind == kind; };
+    if (std::ranges::none_of(all, isOurs))
+    {
+      std::cout << "  none; " << absent << '\n';
+    }
+    for (const FoundDevice& device : all)
+    {
+      if (isOurs(device))
+      {
+        print(device);
+      }
+    }
+  }
+  if (std::filesystem::exists("/run/spnav.sock"))
+  {
+    std::cout << "spacenavd runs and may hold the SpaceMouse; stop it if the tool does not move\n";
+  }
+  if (all.empty())
+  {
+    return kNoneThere;
+  }
+  const bool usable = std::ranges::any_of(all, [](const auto& one) { return one.hurdle.empty(); });
+  return usable ? 0 : kNoneUsable;
+}
+
+int probe(const std::string& name)
+{
+  const std::unique_ptr<Driver> driver = openDriver(name);
+  std::vector<Clock::duration> times;
+  int answered = 0;
+  DriverSample sample;
+  for (const auto end = Clock::now() + 1s; Clock::now() < end;)
+  {
+    const auto begin = Clock::now();
+    const IoCode code = driver->tick(Eigen::Vector3d::Zero(), 0.001, sample);
+    times.push_back(Clock::now() - begin);
+    answered += code == IoCode::Ok ? 1 : 0;
+    if (code == IoCode::Gone)
+    {
+      std::cout << driver->limits().model << ": went away while it was probed; check its cable\n";
+      return kNoneUsable;
+    }
+    std::this_thread::sleep_until(begin + 1ms);
+  }
+  std::ranges::sort(times);
+  const auto microseconds = [](Clock::duration time)
+  { return std::chrono::duration_cast<std::chrono::microseconds>(time).count(); };
+  std::cout << driver->limits().model << ": " << answered << " of " << times.size()
+            << " exchanges answered in a second; median " << microseconds(times[times.size() / 2])
+            << " us, longest " << microseconds(times.back()) << " us"
+            << (sample.homed ? "" : "; not homed yet") << '\n';
+  return answered > 0 ? 0 : kNoneUsable;
+}
+
+// until the user ends the program
+[[noreturn]] void watch()
+{
+  const auto samePlace = [](const FoundDevice& a)
+  { return [&a](const FoundDevice& b) { return a.path == b.path && a.ids == b.ids; }; };
+  for (std::vector<FoundDevice> before = findAll();; std::this_thread::sleep_for(500ms))
+  {
+    const std::vector<FoundDevice> now = findAll();
+    for (const FoundDevice& one : now)
+    {
+      if (std::ranges::none_of(before, samePlace(one)))
+      {
+        std::cout << "plugged in:\n";
+        print(one);
+      }
+    }
+    for (const FoundDevice& one : before)
+    {
+      if (std::ranges::none_of(now, samePlace(one)))
+      {
+        std::cout << "unplugged: " << one.name << " at " << one.path << '\n';
+      }
+    }
+    std::cout.flush();
+    before = now;
+  }
+}
+
+} // namespace
+
+int showDevices(const DevicesOptions& options)
+{
+  if (!options.probe.empty())
+  {
+    return probe(options.probe);
+  }
+  const int code = list(findAll());
+  if (options.watch)
+  {
+    std::cout.flush();
+    watch();
+  }
+  return code;
+}
+
+} // namespace palp
