@@ -131,6 +131,7 @@ void ForceCharts::refresh()
   samples_->Update();
   timePlot_->SetInputData(samples_->GetOutput(0), 0, 1);
   depthPlot_->SetInputData(samples_->GetOutput(1), 0, 1);
+  timePlot_->SetVisible(samples_->GetOutput(0)->GetNumberOfRows() > 1); // else VTK complains
   const double depthLimit = units::fromMillimetres(
     roomFor(units::toMillimetres(largestDepth_), units::toMillimetres(kFirstDepth)));
   if (depthLimit != lawLimit_)
