@@ -115,11 +115,6 @@ bool indicesInRange(vtkCellArray& cells, vtkIdType points)
 void checkContent(const std::filesystem::path& file, vtkPolyData& data)
 {
   const vtkIdType points = data.GetNumberOfPoints();
-  if (data.GetNumberOfPolys() + data.GetNumberOfStrips() == 0 || points == 0)
-  {
-    throw Error(ErrorCode::BadMesh,
-      file.string() + ": no triangles in it; export a surface, not points or a volume");
-  }
   if (points > std::numeric_limits<int>::max())
   {
     throw Error(ErrorCode::BadMesh, file.string() + ": too many points; export a coarser surface");
@@ -159,9 +154,14 @@ FileSurface readHere(const std::filesystem::path& file, const Format& format)
   cut->PassLinesOff();
   cut->SetInputData(data);
   cut->Update();
-  FileSurface surface{
-    .points = pointsOf(*data), .triangles = trianglesOf(*cut->GetOutput()), .unit = {}
-  };
+  FileSurface surface;
+  surface.points = pointsOf(*data);
+  surface.triangles = trianglesOf(*cut->GetOutput());
+  if (surface.triangles.empty())
+  {
+    throw Error(ErrorCode::BadMesh,
+      file.string() + ": no triangles in it; export a surface, not points or a volume");
+  }
   auto* unit = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kUnitArray));
   if (unit && unit->GetNumberOfValues() == 1)
   {
