@@ -6,11 +6,15 @@
 #include <filesystem>
 #include <locale>
 #include <sstream>
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartXY.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkLookupTable.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPen.h>
 #include <vtkProperty.h>
 #include <vtkTextProperty.h>
 
@@ -117,6 +121,22 @@ void drawInFront(vtkMapper& mapper)
   mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-2.0, -20.0);
   mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-4.0, -200.0);
   mapper.SetRelativeCoincidentTopologyPointOffsetParameter(-200.0);
+}
+
+void setUpChart(
+  vtkChartXY& chart, const std::string& title, const std::string& bottom, const std::string& left)
+{
+  chart.SetTitle(title);
+  setFont(*chart.GetTitleProperties(), 15, kInk, true);
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    vtkAxis* axis = chart.GetAxis(side);
+    axis->SetTitle(side == vtkAxis::BOTTOM ? bottom : left);
+    setFont(*axis->GetTitleProperties(), 13);
+    setFont(*axis->GetLabelProperties(), 12);
+    axis->GetGridPen()->SetColor(225, 228, 232);
+  }
+  chart.GetBackgroundBrush()->SetColor(255, 255, 255);
 }
 
 vtkSmartPointer<vtkMatrix4x4> placement(const Eigen::Vector3d& origin, const Eigen::Matrix3d& axes)

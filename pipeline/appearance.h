@@ -5,6 +5,7 @@
 #include <string>
 #include <vtkSmartPointer.h>
 
+class vtkChartXY;
 class vtkLookupTable;
 class vtkMapper;
 class vtkMatrix4x4;
@@ -59,6 +60,10 @@ void setColor(vtkProperty& property, const Color& color);
 
 /// What lies on a surface is drawn in front of it.
 void drawInFront(vtkMapper& mapper);
+
+/// Fonts, titles and a quiet grid.
+void setUpChart(
+  vtkChartXY& chart, const std::string& title, const std::string& bottom, const std::string& left);
 
 /// A matrix for vtkProp3D::SetUserMatrix.
 /// @param origin  [m]

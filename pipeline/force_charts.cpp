@@ -32,22 +32,13 @@ void setPen(vtkPen& pen, const appearance::Color& color, float width)
   pen.SetWidth(width);
 }
 
-void setUp(vtkChartXY& chart, const char* title, const char* bottom)
+// ranges come from refresh(), not from the plots
+void fixAxes(vtkChartXY& chart)
 {
-  chart.SetTitle(title);
-  appearance::setFont(*chart.GetTitleProperties(), 15, appearance::kInk, true);
-  chart.GetAxis(vtkAxis::BOTTOM)->SetTitle(bottom);
-  chart.GetAxis(vtkAxis::LEFT)->SetTitle("force [N]");
   for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
   {
-    vtkAxis* axis = chart.GetAxis(side);
-    appearance::setFont(*axis->GetTitleProperties(), 13);
-    appearance::setFont(*axis->GetLabelProperties(), 12);
-    axis->SetBehavior(vtkAxis::FIXED);
-    axis->GetGridPen()->SetColor(225, 228, 232);
+    chart.GetAxis(side)->SetBehavior(vtkAxis::FIXED);
   }
-  chart.GetBackgroundBrush()->SetColor(255, 255, 255);
-  chart.SetAutoAxes(true);
 }
 
 void setRange(vtkChartXY& chart, int side, double from, double to)
@@ -76,7 +67,8 @@ double roomFor(double value, double least)
 ForceCharts::ForceCharts()
   : law_(SphereTip{ .radius = 10.0_mm }, Material{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 })
 {
-  setUp(*overTime_, "force over the last minute", "time [s]");
+  appearance::setUpChart(*overTime_, "force over the last minute", "time [s]", "force [N]");
+  fixAxes(*overTime_);
   timePlot_ = overTime_->AddPlot(vtkChart::LINE);
   setPen(*timePlot_->GetPen(), appearance::kMeasured, 1.0F);
 
@@ -87,7 +79,8 @@ ForceCharts::ForceCharts()
     column->SetNumberOfValues(kLawPoints);
     lawTable_->AddColumn(column);
   }
-  setUp(*overDepth_, "force over depth", "depth \u03b4 [mm]");
+  appearance::setUpChart(*overDepth_, "force over depth", "depth \u03b4 [mm]", "force [N]");
+  fixAxes(*overDepth_);
   vtkPlot* law = overDepth_->AddPlot(vtkChart::LINE);
   law->SetInputData(lawTable_, 0, 1);
   law->SetLabel("law");

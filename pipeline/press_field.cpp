@@ -195,6 +195,17 @@ double PressField::ringSink(const Place& place, const RingCurve& curve) const no
   return sink + std::clamp(fade * left, -sink, sink);
 }
 
+// a side below the tool goes down with the surface above it, less and less with its own depth, so
+// that it is compressed and does not fold
+double PressField::sideSink(
+  const Place& place, const RingCurve& curve, double toTool) const noexcept
+{
+  const double below =
+    std::max(0.0, surfaceHeight(place.local.x(), place.local.y()) - place.local.z());
+  const double above = std::isfinite(toTool) ? std::min(below - toTool, deepest_) : 0.0;
+  return std::max(0.0, above * (1.0 - below / curve.outer));
+}
+
 PressField::Sink PressField::sinkAt(
   const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
 {
@@ -205,7 +216,11 @@ PressField::Sink PressField::sinkAt(
     const double sink = std::isfinite(toTool) ? std::max(0.0, -toTool) : curve.sink;
     return { sink, sink > 0.0 ? Zone::Contact : Zone::Ring };
   }
-  const double sink = ringSink(place, curve);
+  double sink = ringSink(place, curve);
+  if (!place.front)
+  {
+    sink = std::max(sink, sideSink(place, curve, body.lowest(rest, normal_)));
+  }
   const Eigen::Vector3d sunk = rest - sink * normal_;
   if (body.inside(sunk) > 0.0)
   {

@@ -73,6 +73,9 @@ private:
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
   [[nodiscard]] double ringSink(const Place& place, const RingCurve& curve) const noexcept;
 
+  [[nodiscard]] double sideSink(
+    const Place& place, const RingCurve& curve, double toTool) const noexcept;
+
   Quadric surface_ = Quadric::Zero();
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();

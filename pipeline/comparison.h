@@ -1,0 +1,60 @@
+#pragma once
+
+#include "calibration/extent_table.h"
+#include "haptics/force/force_law.h"
+#include "pipeline/plot.h"
+#include "pipeline/vtkPalpDeformFilter.h"
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// A curve somebody measured or computed, in SI.
+struct ReferenceCurve
+{
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+/// A law to compare.
+struct NamedLaw
+{
+  std::string name;
+  ForceLaw law;
+};
+
+/// Forces over the depth: the laws, the 7 % band of the first of them, and references.
+///
+/// @param laws        at least one
+/// @param deepest     end of the axis [m]
+/// @param references  depth [m] and force [N]
+/// @source Sec. 4.3: 7 % of the largest force is what a hand just notices
+[[nodiscard]] std::unique_ptr<Plot> forcePlot(
+  const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references);
+
+/// Difference of the references from the first law, in per cent of the largest reference force.
+/// @source Eq. (9)
+[[nodiscard]] std::unique_ptr<Plot> forceErrorPlot(
+  const NamedLaw& law, double deepest, const std::vector<ReferenceCurve>& references);
+
+/// R_d over the depth: the table's rows and line, the quadratic fit of Fig. 8, and references.
+///
+/// @param references  depth [m] and R_d [m]
+[[nodiscard]] std::unique_ptr<Plot> extentPlot(
+  const ExtentTable& table, const std::vector<ReferenceCurve>& references);
+
+/// A cut through the contact along its normal: tool, surface as drawn and at rest, control points.
+///
+/// @param press    up to date, pressed, with its patch
+/// @param towards  direction of the cut, not along the normal
+/// @param reference  distance from the axis [m] and height [m] of another surface, if there is one
+[[nodiscard]] std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press,
+  const Eigen::Vector3d& towards, const std::optional<ReferenceCurve>& reference = std::nullopt);
+
+} // namespace palp

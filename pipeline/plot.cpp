@@ -1,0 +1,172 @@
+#include "pipeline/plot.h"
+
+#include "haptics/error.h"
+
+#include <charconv>
+#include <fstream>
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkGL2PSExporter.h>
+#include <vtkPNGWriter.h>
+#include <vtkPen.h>
+#include <vtkPlot.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkTextProperty.h>
+#include <vtkWindowToImageFilter.h>
+
+namespace palp
+{
+namespace
+{
+
+// shortest digits that read back as the same number
+std::string digits(double value)
+{
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
+  return { text, end };
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file)
+{
+  throw Error(
+    ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
+}
+
+} // namespace
+
+Plot::Plot(const std::string& title, const std::string& bottom, const std::string& left)
+  : bottom_(bottom)
+  , left_(left)
+{
+  appearance::setUpChart(*chart_, title, bottom, left);
+  chart_->SetShowLegend(true);
+  appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
+  chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+}
+
+vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
+  std::span<const double> first, std::span<const double> second)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  const auto addColumn = [&](const std::string& column, std::span<const double> values)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(column.c_str());
+    for (const double value : values)
+    {
+      array->InsertNextValue(value);
+    }
+    table->AddColumn(array);
+  };
+  addColumn(bottom_, x);
+  addColumn(second.empty() ? name : name + ", lower", first);
+  if (!second.empty())
+  {
+    addColumn(name + ", upper", second);
+  }
+  tables_.push_back(table);
+  return table;
+}
+
+void Plot::addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
+  const appearance::Color& color, float width)
+{
+  vtkPlot* plot = chart_->AddPlot(vtkChart::LINE);
+  plot->SetInputData(addTable(name, x, y, {}), 0, 1);
+  plot->SetLabel(name);
+  plot->GetPen()->SetColorF(color[0], color[1], color[2]);
+  plot->SetWidth(width);
+}
+
+void Plot::addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
+  const appearance::Color& color)
+{
+  auto* plot = vtkPlotPoints::SafeDownCast(chart_->AddPlot(vtkChart::POINTS));
+  plot->SetInputData(addTable(name, x, y, {}), 0, 1);
+  plot->SetLabel(name);
+  plot->GetPen()->SetColorF(color[0], color[1], color[2]);
+  plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  plot->SetMarkerSize(6.0F);
+}
+
+void Plot::addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
+  std::span<const double> high, const appearance::Color& color)
+{
+  vtkTable* table = addTable(name, x, low, high);
+  vtkPlot* plot = chart_->AddPlot(vtkChart::AREA);
+  plot->SetInputData(table);
+  for (int column = 0; column < 3; ++column)
+  {
+    plot->SetInputArray(column, table->GetColumnName(column));
+  }
+  plot->SetLabel(name);
+  plot->GetBrush()->SetColorF(color[0], color[1], color[2], 0.25);
+  plot->GetPen()->SetLineType(vtkPen::NO_PEN);
+}
+
+void Plot::addTo(vtkContextScene& scene)
+{
+  scene.AddItem(chart_);
+}
+
+void Plot::writeCsv(const std::filesystem::path& file) const
+{
+  std::ofstream out(file);
+  out << "curve," << bottom_ << ',' << left_ << '\n';
+  for (const auto& table : tables_)
+  {
+    for (vtkIdType column = 1; column < table->GetNumberOfColumns(); ++column)
+    {
+      for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+      {
+        out << '"' << table->GetColumnName(column) << "\","
+            << digits(table->GetValue(row, 0).ToDouble()) << ','
+            << digits(table->GetValue(row, column).ToDouble()) << '\n';
+      }
+    }
+  }
+  if (!out.flush())
+  {
+    refuse(file);
+  }
+}
+
+void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
+{
+  window.Render();
+  vtkNew<vtkWindowToImageFilter> grab;
+  grab->SetInput(&window);
+  grab->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputConnection(grab->GetOutputPort());
+  writer->Write();
+  if (writer->GetErrorCode() != 0)
+  {
+    refuse(file);
+  }
+}
+
+void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
+{
+  window.Render();
+  vtkNew<vtkGL2PSExporter> exporter;
+  exporter->SetRenderWindow(&window);
+  exporter->SetFileFormatToSVG();
+  exporter->CompressOff();
+  exporter->SetSortToOff();
+  exporter->SetTextAsPath(false);
+  exporter->SetFilePrefix((file.parent_path() / file.stem()).c_str());
+  exporter->Write();
+  if (!std::filesystem::exists(file))
+  {
+    refuse(file);
+  }
+}
+
+} // namespace palp

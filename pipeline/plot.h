@@ -1,0 +1,74 @@
+#pragma once
+
+#include "pipeline/appearance.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+#include <vtkChartXY.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkTable.h>
+
+class vtkContextScene;
+class vtkRenderWindow;
+
+namespace palp
+{
+
+/// One chart of curves, each a vtkTable, for the screen and for files.
+class Plot
+{
+public:
+  /// @param title   what is shown
+  /// @param bottom  title of the horizontal axis, with its unit
+  /// @param left    title of the vertical axis, with its unit
+  Plot(const std::string& title, const std::string& bottom, const std::string& left);
+  Plot(const Plot&) = delete;
+  Plot& operator=(const Plot&) = delete;
+
+  /// A line through points, in the units of the axes.
+  void addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
+    const appearance::Color& color, float width = 2.0F);
+
+  void addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
+    const appearance::Color& color);
+
+  /// The area between two curves.
+  void addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
+    std::span<const double> high, const appearance::Color& color);
+
+  /// Puts the chart into a scene, which then draws it.
+  void addTo(vtkContextScene& scene);
+
+  /// The curves in the order in which they were added; the first column is x.
+  [[nodiscard]] const std::vector<vtkSmartPointer<vtkTable>>& tables() const
+  {
+    return tables_;
+  }
+
+  /// Writes all curves: curve,<x>,<y>; a band has two curves, its lower and its upper one.
+  /// @throws Error  BadFile: cannot be written
+  void writeCsv(const std::filesystem::path& file) const;
+
+private:
+  vtkTable* addTable(const std::string& name, std::span<const double> x,
+    std::span<const double> first, std::span<const double> second);
+
+  std::string bottom_;
+  std::string left_;
+  std::vector<vtkSmartPointer<vtkTable>> tables_;
+  vtkNew<vtkChartXY> chart_;
+};
+
+/// Writes what a window shows.
+/// @throws Error  BadFile: cannot be written
+void writePng(vtkRenderWindow& window, const std::filesystem::path& file);
+
+/// Writes what a window of charts shows as lines and text, not pixels; `rsvg-convert -f pdf` makes
+/// a PDF of it.
+/// @throws Error  BadFile: cannot be written
+void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file);
+
+} // namespace palp

@@ -1,0 +1,182 @@
+#include "pipeline/comparison.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+#include "tests/pipeline/surfaces.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <vtkCellArray.h>
+#include <vtkContextScene.h>
+#include <vtkContextView.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkRenderWindow.h>
+#include <vtkTriangleFilter.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+const ForceLaw kLaw(SphereTip{ 10.0_mm }, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 });
+
+std::vector<double> column(vtkTable& table, vtkIdType index)
+{
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < table.GetNumberOfRows(); ++i)
+  {
+    values.push_back(table.GetValue(i, index).ToDouble());
+  }
+  return values;
+}
+
+// a reference that is 10 % stronger at each depth
+ReferenceCurve stronger()
+{
+  ReferenceCurve curve{ "FE", {}, {} };
+  for (const double depth : { 1.0_mm, 2.0_mm, 4.0_mm })
+  {
+    curve.x.push_back(depth);
+    curve.y.push_back(1.1 * kLaw({ .depth = depth }).force);
+  }
+  return curve;
+}
+
+TEST(ForcePlot, HasBandLawsAndReferencesInTheirUnits)
+{
+  const auto plot = forcePlot({ { "paper", kLaw } }, 4.0_mm, { stronger() });
+  ASSERT_EQ(plot->tables().size(), 3U);
+  const double largest = kLaw({ .depth = 4.0_mm }).force;
+  vtkTable& band = *plot->tables()[0];
+  EXPECT_NEAR(column(band, 0).back(), 4.0, 1e-12); // mm
+  EXPECT_NEAR(column(band, 1).back(), 0.93 * largest, 1e-12);
+  EXPECT_NEAR(column(band, 2).back(), 1.07 * largest, 1e-12);
+  EXPECT_NEAR(column(*plot->tables()[1], 1).back(), largest, 1e-12);
+  EXPECT_NEAR(column(*plot->tables()[2], 1).back(), 1.1 * largest, 1e-12);
+}
+
+TEST(ForceErrorPlot, IsEquationNine)
+{
+  const auto plot = forceErrorPlot({ "paper", kLaw }, 4.0_mm, { stronger() });
+  const auto error = column(*plot->tables()[1], 1);
+  ASSERT_EQ(error.size(), 3U);
+  EXPECT_NEAR(error[2], -100.0 / 11.0, 1e-9);                       // 0.1 / 1.1 of the largest
+  EXPECT_NEAR(error[0], -100.0 / 11.0 * std::pow(0.25, 1.5), 1e-9); // Eq. (4): depth^1.5
+}
+
+TEST(ExtentPlot, FitsAQuadraticExactly)
+{
+  std::vector<ExtentTable::Row> rows;
+  for (int i = 1; i <= 10; ++i)
+  {
+    const double mm = i;
+    rows.push_back({ mm * 1.0_mm, (2.0 + 3.0 * mm - 0.1 * mm * mm) * 1.0_mm, 0.0, 0.0 });
+  }
+  const auto plot = extentPlot(ExtentTable(rows), {});
+  vtkTable& fit = *plot->tables()[1];
+  const auto depth = column(fit, 0);
+  const auto radius = column(fit, 1);
+  for (std::size_t i = 0; i < depth.size(); ++i)
+  {
+    EXPECT_NEAR(radius[i], 2.0 + 3.0 * depth[i] - 0.1 * depth[i] * depth[i], 1e-9);
+  }
+}
+
+TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
+{
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(-30.0_mm, -30.0_mm, 0.0);
+  source->SetPoint1(30.0_mm, -30.0_mm, 0.0);
+  source->SetPoint2(-30.0_mm, 30.0_mm, 0.0);
+  source->SetResolution(60, 60);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkPalpDeformFilter> filter;
+  filter->SetInputConnection(triangles->GetOutputPort());
+  filter->GeneratePatchOn();
+  filter->SetPatchLevel(2);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Press press =
+    test::pressAt(Eigen::Vector3d::Zero(), up, SphereTip{ 10.0_mm }, 4.0_mm, 18.0_mm);
+  filter->SetPress(press);
+  const auto plot = sectionPlot(*filter, Eigen::Vector3d::UnitX());
+  ASSERT_EQ(plot->tables().size(), 3U);
+  vtkTable& drawn = *plot->tables()[2];
+  const double r = press.contactRadius;
+  const double sink = 4.0_mm - tipHeight(press.tip, r);
+  const RingCurve ring = makeRingCurve(r, sink, tipSlope(press.tip, r), 18.0_mm);
+  const auto x = column(drawn, 0);
+  const auto z = column(drawn, 1);
+  EXPECT_GT(x.size(), 100U);
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    const double radius = std::abs(units::fromMillimetres(x[i]));
+    const double expected =
+      radius < r ? 4.0_mm - tipHeight(press.tip, radius) : ring.sinkAt(radius);
+    EXPECT_NEAR(units::fromMillimetres(z[i]), -expected, 10.0_um) << x[i];
+  }
+  for (const double height : column(*plot->tables()[1], 1))
+  {
+    EXPECT_NEAR(height, 0.0, 1e-4); // at rest
+  }
+}
+
+class Files : public ::testing::Test
+{
+protected:
+  Files()
+  {
+    std::filesystem::create_directories(folder);
+    view->GetRenderWindow()->SetOffScreenRendering(1);
+    view->GetRenderWindow()->SetMultiSamples(0);
+    view->GetRenderWindow()->SetSize(480, 320);
+    plot->addTo(*view->GetScene());
+  }
+
+  [[nodiscard]] std::string read(const char* name) const
+  {
+    std::ifstream in(folder / name);
+    return { std::istreambuf_iterator<char>(in), {} };
+  }
+
+  std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "palp_plot";
+  std::unique_ptr<Plot> plot = forcePlot({ { "paper", kLaw } }, 4.0_mm, { stronger() });
+  vtkNew<vtkContextView> view;
+};
+
+TEST_F(Files, CsvReadsBack)
+{
+  plot->writeCsv(folder / "force.csv");
+  const std::string text = read("force.csv");
+  EXPECT_EQ(text.substr(0, text.find('\n')), "curve,depth \u03b4 [mm],force [N]");
+  EXPECT_NE(text.find("\"FE\",1,"), std::string::npos);
+  EXPECT_THROW(plot->writeCsv("/nowhere/force.csv"), Error);
+}
+
+TEST_F(Files, SvgHasItsTextAsText)
+{
+  std::filesystem::remove(folder / "force.svg");
+  writeSvg(*view->GetRenderWindow(), folder / "force.svg");
+  const std::string text = read("force.svg");
+  EXPECT_NE(text.find("<svg"), std::string::npos);
+  EXPECT_NE(text.find("force [N]"), std::string::npos);
+  EXPECT_NE(text.find("</svg>"), std::string::npos);
+}
+
+TEST_F(Files, PngIsAPicture)
+{
+  std::filesystem::remove(folder / "force.png");
+  writePng(*view->GetRenderWindow(), folder / "force.png");
+  const std::string text = read("force.png");
+  EXPECT_EQ(text.substr(1, 3), "PNG");
+  EXPECT_GT(text.size(), 4000U); // an empty one has a few hundred bytes
+}
+
+} // namespace
+} // namespace palp
