@@ -129,27 +129,6 @@ void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
   rows.push_back(benchRow("query_brute", vertices, "moving", timed(repetitions, nothing, all)));
 }
 
-BenchRow benchLaw()
-{
-  const ForceLaw law = Scene{}.law;
-  constexpr int kCalls = 1000;
-  double sum = 0.0;
-  std::vector<double> times = timed(
-    1000, [](int) {},
-    [&](int i)
-    {
-      for (int k = 0; k < kCalls; ++k)
-      {
-        sum += law({ .depth = kDepth + 1e-9 * (i + k) }).force;
-      }
-    });
-  for (double& time : times)
-  {
-    time /= kCalls;
-  }
-  return benchRow("law", 0, sum > 0.0 ? "moving" : "", std::move(times));
-}
-
 class CircleDevice final : public Device
 {
 public:
@@ -171,7 +150,7 @@ private:
 
 std::vector<BenchRow> benchServo(std::size_t most)
 {
-  std::vector<BenchRow> rows{ benchLaw() };
+  std::vector<BenchRow> rows = benchLaw();
   CacheFlush flush;
   for (const int n : { 40, 50, 60, 70, 80, 90, 100, 316, 1000 })
   {
