@@ -134,7 +134,9 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   }
   contact.center = place - height * contact.normal;
   contact.triangle = nearest.triangle;
-  contact.surfaceCurvature = 4.0 * (height - patch.height / patch.area) / (radius * radius);
+  const Curvature bend = surface.curvature(nearest.point, nearest.triangle, contact.normal);
+  contact.surfaceCurvature = bend.mean;
+  contact.curvatureSpread = bend.spread;
   contact.thickness = distanceToFarSide(surface, contact.center, -contact.normal);
   contact.edgeDistance = surface.edgeDistance(contact.center, contact.triangle);
   return contact;

@@ -176,7 +176,6 @@ Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center, double 
     patch.normal += part * normal;
     patch.vote += normal;
     patch.voters += inside.weight;
-    patch.height += part * inside.area * height;
   };
   tree.search(near, add);
   return patch;

@@ -15,9 +15,8 @@ struct Patch
   double area = 0.0;                                ///< [m^2]
   double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
-  double height = 0.0; ///< of the height of the centre over each triangle's plane [m^3]
-  Eigen::Vector3d vote = Eigen::Vector3d::Zero(); ///< as normal, with all triangles in full
-  double voters = 0.0;                            ///< as weight, with all triangles in full
+  Eigen::Vector3d vote = Eigen::Vector3d::Zero();   ///< as normal, with all triangles in full
+  double voters = 0.0;                              ///< as weight, with all triangles in full
 };
 
 /// The part of a triangle within a ball.

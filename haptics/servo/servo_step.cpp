@@ -20,7 +20,8 @@ Response respond(const Scene& scene, const Contact& contact, double depth) noexc
   return scene.law(Indentation{ .depth = depth,
     .tilt = contact.tilt,
     .thickness = contact.thickness,
-    .surfaceCurvature = contact.surfaceCurvature });
+    .surfaceCurvature = contact.surfaceCurvature,
+    .curvatureSpread = contact.curvatureSpread });
 }
 
 Sample touch(const Scene& scene, const ToolPose& pose) noexcept
