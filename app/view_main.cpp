@@ -10,12 +10,37 @@
 #include <QSurfaceFormat>
 #include <QVTKOpenGLNativeWidget.h>
 
+#include <QTimer>
+
 #include <clocale>
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 
 namespace
 {
+
+volatile std::sig_atomic_t gEnded = 0;
+
+// ends the program in order, so that the last force sent is zero
+void endOnSignals(QApplication& application)
+{
+  constexpr int kCheckEvery = 20; // [ms]
+  for (const int number : { SIGTERM, SIGINT, SIGHUP })
+  {
+    std::signal(number, [](int) { gEnded = 1; });
+  }
+  auto* timer = new QTimer(&application);
+  QObject::connect(timer, &QTimer::timeout, &application,
+    [&application]
+    {
+      if (gEnded != 0)
+      {
+        application.quit();
+      }
+    });
+  timer->start(kCheckEvery);
+}
 
 int view(const palp::ViewOptions& options)
 {
@@ -42,6 +67,7 @@ int view(const palp::ViewOptions& options)
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
   palp::Window window(session);
   window.show();
+  endOnSignals(application);
   return QApplication::exec();
 }
 

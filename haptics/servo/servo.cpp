@@ -12,6 +12,8 @@ namespace palp
 namespace
 {
 
+constexpr auto kMainThreadSilence = std::chrono::seconds(2);
+
 double seconds(std::chrono::nanoseconds duration) noexcept
 {
   return std::chrono::duration<double>(duration).count();
@@ -53,9 +55,11 @@ void Servo::waitUntil(Clock::time_point due) noexcept
 Sample Servo::answer(
   const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept
 {
-  const bool stopped = stopped_.load(std::memory_order_relaxed);
+  bool stopped = stopped_.load(std::memory_order_relaxed);
   if (chain_)
   {
+    stopped =
+      stopped || Clock::now() - looked_.load(std::memory_order_relaxed) > kMainThreadSilence;
     const auto admitted =
       chain_->admit(pose, device_.status(), { .armed = scene.armed, .stop = stopped }, elapsed);
     Sample sample = admitted ? touch(scene, *admitted) : Sample{};

@@ -34,6 +34,8 @@ struct ServoOptions
 /// last force sent is zero.
 class Servo
 {
+  using Clock = std::chrono::steady_clock;
+
 public:
   /// Starts the thread.
   /// @param device  outlives this object, and is used by its thread alone
@@ -52,8 +54,12 @@ public:
   }
 
   /// For the picture. Main thread only; the reference stays valid until the next call.
+  ///
+  /// Whoever renders force must look at least every two seconds: a main thread that hangs cannot
+  /// show a stop button, so its silence is one.
   [[nodiscard]] const Sample& newest() noexcept
   {
+    looked_.store(Clock::now(), std::memory_order_relaxed);
     return newest_.read();
   }
 
@@ -81,8 +87,6 @@ public:
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   void run(std::stop_token stop) noexcept;
   [[nodiscard]] Sample answer(
     const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept;
@@ -95,6 +99,7 @@ private:
   Latest<Sample> newest_;
   Ring<Sample> history_{ 8192 };
   std::atomic<bool> stopped_ = false;
+  std::atomic<Clock::time_point> looked_ = Clock::now(); // when the main thread was last seen
   Timing timing_;
   std::string schedule_;
   std::jthread thread_; // last: it uses all the others

@@ -101,6 +101,19 @@ TEST(Servo, AHandFeelsNothingUntilTheSceneIsArmed)
   waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::SoftStart; });
 }
 
+TEST(Servo, AMainThreadThatHangsIsAStop)
+{
+  Probe probe;
+  probe.rendersForce = true;
+  Scene world = scene();
+  world.armed = true;
+  Servo servo(probe, world, kPlain);
+  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::Active; });
+  std::this_thread::sleep_for(2200ms);
+  EXPECT_TRUE(has(servo.newest(), Flag::EmergencyStop));
+  EXPECT_EQ(servo.newest().force, Eigen::Vector3d::Zero());
+}
+
 TEST(Servo, TakesANewScene)
 {
   Probe probe;
