@@ -86,10 +86,10 @@ std::unique_ptr<Plot> forceErrorPlot(
 {
   auto plot = std::make_unique<Plot>(
     law.name + " against the references", "depth \u03b4 [mm]", "difference [%]");
-  const std::array ends{ 0.0, units::toMillimetres(deepest) };
-  const std::array low{ -100.0 * kNoticed, -100.0 * kNoticed };
-  const std::array high{ 100.0 * kNoticed, 100.0 * kNoticed };
-  plot->addBand("just noticed by a hand", ends, low, high, colorOf(0));
+  const std::vector<double> shown = inMillimetres(depthsTo(deepest));
+  const std::vector<double> low(shown.size(), -100.0 * kNoticed);
+  const std::vector<double> high(shown.size(), 100.0 * kNoticed);
+  plot->addBand("just noticed by a hand", shown, low, high, colorOf(0));
   std::size_t color = 1;
   for (const ReferenceCurve& reference : references)
   {

@@ -9,12 +9,20 @@ namespace palp
 namespace
 {
 
+bool isFinite(const SurfaceProfile& profile)
+{
+  return std::isfinite(profile.inner) && std::isfinite(profile.outer) &&
+    profile.outer > profile.inner && profile.inner > 0.0 && profile.sink > 0.0 &&
+    std::isfinite(profile.sink) && std::isfinite(profile.slope) &&
+    std::isfinite(profile.control[0]) && std::isfinite(profile.control[1]);
+}
+
 bool isFinite(const Press& press)
 {
   return std::isfinite(press.contact.depth) && press.contact.center.allFinite() &&
     press.contact.normal.allFinite() && press.pose.apex.allFinite() &&
     press.pose.axis.allFinite() && std::isfinite(press.contactRadius) &&
-    std::isfinite(press.extentRadius);
+    std::isfinite(press.extentRadius) && (!press.fitted || isFinite(*press.fitted));
 }
 
 } // namespace
@@ -44,10 +52,11 @@ void Dent::update(const Press& press, const DentArrays& arrays)
   if (contact.touching() && isFinite(press))
   {
     body_.emplace(press.tip, press.pose);
-    const double outer =
-      ringRadius(press.tip, contact.depth, press.contactRadius, press.extentRadius);
+    const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
+    const double extent = press.fitted ? press.fitted->outer : press.extentRadius;
+    const double outer = ringRadius(press.tip, contact.depth, inner, extent);
     lay(press, outer);
-    if (const double reach = ringRadiusFor(field_.reach(), press.contactRadius); reach > outer)
+    if (const double reach = ringRadiusFor(field_.reach(), inner); reach > outer)
     {
       lay(press, reach);
     }
@@ -68,8 +77,9 @@ void Dent::update(const Press& press, const DentArrays& arrays)
 
 void Dent::lay(const Press& press, double outer)
 {
-  region_.grow(press.contact, *body_, press.contactRadius, outer);
-  field_.lay(region_, *body_, press.contact.depth);
+  const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
+  region_.grow(press.contact, *body_, inner, outer);
+  field_.lay(region_, *body_, press.contact.depth, press.fitted);
 }
 
 void Dent::forgetPress(const DentArrays& arrays)

@@ -21,6 +21,9 @@ struct Press
   Tip tip{ SphereTip{ .radius = 0.01 } };
   double contactRadius = 0.0; ///< r [m]
   double extentRadius = 0.0;  ///< R_d of the table [m]
+
+  /// The surface of finite elements at this depth, in place of the paper's ring and its radii.
+  std::optional<SurfaceProfile> fitted{};
 };
 
 /// The arrays of a surface as drawn, three floats a point, one byte a zone.

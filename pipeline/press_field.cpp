@@ -65,8 +65,10 @@ double rootBefore(double end, double atZero, double atEnd, Function function) no
 
 } // namespace
 
-void PressField::lay(const PressRegion& region, const ToolBody& body, double depth)
+void PressField::lay(const PressRegion& region, const ToolBody& body, double depth,
+  const std::optional<SurfaceProfile>& fitted)
 {
+  fittedCurve_ = fitted;
   normal_ = region.normal();
   deepest_ = depth;
   reach_ = 0.0;
@@ -179,9 +181,26 @@ std::array<Eigen::Vector3d, 3> PressField::controlPoints(
   return { point(curve.inner, curve.sink), point(curve.meet, 0.0), point(curve.outer, 0.0) };
 }
 
+double PressField::curveSink(const RingCurve& curve, double radius) const noexcept
+{
+  if (!fittedCurve_ || !(curve.sink > 0.0) || !(curve.meet > curve.inner))
+  {
+    return curve.sinkAt(radius);
+  }
+  // the fitted shape between this direction's own ends
+  SurfaceProfile profile = *fittedCurve_;
+  const double scale = curve.sink / profile.sink;
+  profile.inner = curve.inner;
+  profile.outer = curve.outer;
+  profile.sink = curve.sink;
+  profile.slope = curve.sink / (curve.meet - curve.inner);
+  profile.control = { scale * profile.control[0], scale * profile.control[1] };
+  return profile.sinkAt(radius);
+}
+
 double PressField::ringSink(const Place& place, const RingCurve& curve) const noexcept
 {
-  const double sink = std::min(curve.sinkAt(place.distance), deepest_);
+  const double sink = std::min(curveSink(curve, place.distance), deepest_);
   if (!place.front || !(place.distance < curve.outer))
   {
     return sink;

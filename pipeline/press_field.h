@@ -1,11 +1,13 @@
 #pragma once
 
+#include "calibration/surface_profile.h"
 #include "pipeline/bezier_patch.h"
 #include "pipeline/press_region.h"
 #include "pipeline/tool_body.h"
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 namespace palp
 {
@@ -25,6 +27,9 @@ enum class Zone : unsigned char
 /// sinks below it. On a plane this is Fig. 5 to the letter, on a curved surface it leaves neither a
 /// step at R_d nor one at the contact circle.
 ///
+/// With a fitted profile the ring is that curve of finite elements in place of Eq. (8), joined to
+/// tool and surface in every direction as the Bezier curve is.
+///
 /// @source Sec. 3.3.1
 class PressField
 {
@@ -38,7 +43,10 @@ public:
   };
 
   /// Fits the undeformed surface around the contact and finds the control points.
-  void lay(const PressRegion& region, const ToolBody& body, double depth);
+  ///
+  /// @param fitted  of the same depth on a plane; none for the paper's ring
+  void lay(const PressRegion& region, const ToolBody& body, double depth,
+    const std::optional<SurfaceProfile>& fitted = std::nullopt);
 
   /// How far from the centre the tool's tangents at the contact circle meet the surface, at most.
   ///
@@ -71,11 +79,13 @@ private:
   void fitSurface(const PressRegion& region);
   [[nodiscard]] RingCurve curveAlong(
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
+  [[nodiscard]] double curveSink(const RingCurve& curve, double radius) const noexcept;
   [[nodiscard]] double ringSink(const Place& place, const RingCurve& curve) const noexcept;
 
   [[nodiscard]] double sideSink(
     const Place& place, const RingCurve& curve, double toTool) const noexcept;
 
+  std::optional<SurfaceProfile> fittedCurve_;
   Quadric surface_ = Quadric::Zero();
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();

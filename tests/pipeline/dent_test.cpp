@@ -94,6 +94,31 @@ TEST_P(AnyTip, OnAPlaneIsTheToolAndTheBezierRing)
   }
 }
 
+// 5 mm of a sphere of R = 10 mm, as finite elements of a 50 mm block gave it
+constexpr SurfaceProfile kFitted{ .inner = 6.78708_mm,
+  .outer = 40.0_mm,
+  .sink = 2.344_mm,
+  .slope = 0.924157,
+  .control = { 1.17259_mm, 1.21531_mm } };
+
+TEST(Dent, FollowsAFittedSurfaceOnAPlane)
+{
+  DentedSurface surface = test::plane(100, 1.0_mm);
+  Press press = test::pressAt({ 0.2_mm, 0.1_mm, 0.0 }, kUp, SphereTip{ 10.0_mm }, 5.0_mm, 18.4_mm);
+  press.fitted = kFitted;
+  surface.press(press);
+  for (std::size_t i = 0; i < surface.count(); ++i)
+  {
+    const Eigen::Vector3d rest = DentedSurface::at(surface.rest, i);
+    const double radius = (rest - press.contact.center).norm();
+    const double expected =
+      radius <= kFitted.inner ? 5.0_mm - tipHeight(press.tip, radius) : kFitted.sinkAt(radius);
+    // the table has five digits, and its tool is met at its own radius
+    EXPECT_NEAR(-DentedSurface::at(surface.points, i).z(), expected, 5.0_um) << radius;
+  }
+  EXPECT_LE(deepestInside(surface, press), kInside);
+}
+
 TEST(Dent, IsTheExactRestStateAgainOnRelease)
 {
   DentedSurface surface = test::ellipsoid(5, { 50.0_mm, 40.0_mm, 30.0_mm });
