@@ -1,70 +1,31 @@
 #include "calibration/extent_table.h"
 
+#include "calibration/csv_rows.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 namespace palp
 {
-namespace
-{
-
-[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what)
-{
-  throw Error(ErrorCode::BadFile, file.string() + ":" + std::to_string(line) + ": " + what);
-}
-
-// four numbers separated by commas, in the C locale
-ExtentTable::Row parseRow(const std::filesystem::path& file, int line, const std::string& text)
-{
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  double value[4];
-  for (int i = 0; i < 4; ++i)
-  {
-    char comma = ',';
-    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> value[i]))
-    {
-      refuse(file, line, "expected depth_mm,extent_radius_mm,force_N,contact_radius_mm");
-    }
-  }
-  return { .depth = units::fromMillimetres(value[0]),
-    .extentRadius = units::fromMillimetres(value[1]),
-    .force = value[2],
-    .contactRadius = units::fromMillimetres(value[3]) };
-}
-
-} // namespace
-
 ExtentTable ExtentTable::read(const std::filesystem::path& file)
 {
-  std::ifstream in(file);
-  if (!in)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be opened; name a table file");
-  }
   std::vector<Row> rows;
-  std::string text;
-  for (int line = 1; std::getline(in, text); ++line)
+  for (const auto& row : readCsv(file, 4))
   {
-    if (text.empty() || text[0] == '#' || text.starts_with("depth_mm"))
-    {
-      continue;
-    }
-    rows.push_back(parseRow(file, line, text));
-    if (rows.size() > 1 && !(rows.back().depth > rows[rows.size() - 2].depth))
-    {
-      refuse(file, line, "the depth must increase from row to row");
-    }
+    rows.push_back({ .depth = units::fromMillimetres(row[0]),
+      .extentRadius = units::fromMillimetres(row[1]),
+      .force = row[2],
+      .contactRadius = units::fromMillimetres(row[3]) });
   }
-  if (rows.size() < 2)
+  try
   {
-    throw Error(ErrorCode::BadFile, file.string() + ": fewer than two rows; calibrate again");
+    return ExtentTable(std::move(rows));
   }
-  return ExtentTable(std::move(rows));
+  catch (const Error& error)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": " + error.what());
+  }
 }
 
 ExtentTable::ExtentTable(std::vector<Row> rows)
@@ -74,7 +35,8 @@ ExtentTable::ExtentTable(std::vector<Row> rows)
   if (rows_.size() < 2 || !(rows_.front().depth > 0.0) ||
     std::adjacent_find(rows_.begin(), rows_.end(), notIncreasing) != rows_.end())
   {
-    throw Error(ErrorCode::BadValue, "extent table: needs two rows or more with increasing depths");
+    throw Error(ErrorCode::BadValue,
+      "an R_d table needs two rows or more with increasing depths; calibrate again");
   }
 }
 

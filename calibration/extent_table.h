@@ -23,8 +23,9 @@ public:
     double contactRadius; ///< of the finite elements [m]
   };
 
-  /// Reads `depth_mm,extent_radius_mm,force_N,contact_radius_mm`; lines that begin with # are comments.
-  /// @throws Error  BadFile: missing, fewer than two rows, depths not increasing; names the line
+  /// Reads `depth_mm,extent_radius_mm,force_N,contact_radius_mm`; lines that begin with # are
+  /// comments.
+  /// @throws Error  BadFile: missing, fewer than two rows, depths not increasing
   [[nodiscard]] static ExtentTable read(const std::filesystem::path& file);
 
   /// @param rows    at least two, depths increasing
@@ -35,7 +36,10 @@ public:
   /// @return       R_d [m]
   [[nodiscard]] double extentRadius(double depth) const noexcept;
 
-  [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
+  [[nodiscard]] const std::vector<Row>& rows() const noexcept
+  {
+    return rows_;
+  }
 
 private:
   std::vector<Row> rows_;

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/haptics/force/reference_table.h"
 
 #include <filesystem>
 #include <fstream>
@@ -73,8 +74,8 @@ TEST(ExtentTable, RefusesBadFilesAndNamesTheLine)
 {
   EXPECT_NE(
     refusal(kHeader + std::string("1,3,0.25,2\n2,seven,0.5,4\n")).find(":4:"), std::string::npos);
-  EXPECT_NE(
-    refusal(kHeader + std::string("1,3,0.25,2\n1,7,0.5,4\n")).find(":4:"), std::string::npos);
+  EXPECT_NE(refusal(kHeader + std::string("1,3,0.25,2\n1,7,0.5,4\n")).find("increasing"),
+    std::string::npos);
   EXPECT_NE(refusal(kHeader + std::string("1,3,0.25\n")).find(":3:"), std::string::npos);
   EXPECT_NE(refusal(kHeader + std::string("1,3,0.25,2\n")).find("two rows"), std::string::npos);
   EXPECT_NE(refusal("").find("two rows"), std::string::npos);
@@ -92,27 +93,59 @@ TEST(ExtentTable, RefusesValuesThatAreNoTable)
   EXPECT_THROW(ExtentTable({ Row{ 0.0, 3.0_mm, 0, 0 }, Row{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
 }
 
-class ShippedTable : public testing::TestWithParam<const char*>
+struct Shipped
 {
+  const char* file;
+  const char* reference;
+};
+
+class ShippedTable : public testing::TestWithParam<Shipped>
+{
+protected:
+  static ExtentTable table()
+  {
+    return ExtentTable::read(
+      std::filesystem::path(PALP_SOURCE_DIR) / "data/tables" / GetParam().file);
+  }
 };
 INSTANTIATE_TEST_SUITE_P(ExtentTable, ShippedTable,
-  testing::Values(
-    "sphere_r10_h50.csv", "sphere_r6_h30.csv", "cone45_r10_h50.csv", "cone45_r6_h30.csv"));
+  testing::Values(Shipped{ "sphere_r10_h50.csv", "calib_sphere_R10__NH_h0.5" },
+    Shipped{ "sphere_r6_h30.csv", "fig15_sphere_R6__NH_h0.25" },
+    Shipped{ "cone45_r10_h50.csv", "calib_cone45__NH_h0.5" },
+    Shipped{ "cone45_r6_h30.csv", "fig15_cone45__NH_h0.5" }));
+
+// force within 3 % (5 % to 1 mm), R_d within the larger of 0.3 mm and 4 % (6 % beyond 6 mm)
+TEST_P(ShippedTable, AgreesWithAnIndependentProgram)
+{
+  const auto rows = table().rows();
+  const auto reference = test::referenceTable(GetParam().reference);
+  ASSERT_GE(reference.size(), 10U);
+  for (std::size_t i = 0; i < std::min(rows.size(), reference.size()); ++i)
+  {
+    ASSERT_NEAR(rows[i].depth, reference[i].number("delta_m"), 1e-9);
+    const double force = reference[i].number("F_N");
+    EXPECT_NEAR(rows[i].force, force, (rows[i].depth < 1.01_mm ? 0.05 : 0.03) * force);
+    const double extent = reference[i].number("Rd05_def_m");
+    const double share = rows[i].depth < 6.01_mm ? 0.04 : 0.06;
+    EXPECT_NEAR(rows[i].extentRadius, extent, std::max(0.3_mm, share * extent));
+    // the reference counts whole elements
+    EXPECT_NEAR(rows[i].contactRadius, reference[i].number("a_def_m"), 0.3_mm);
+  }
+}
 
 // deeper is wider; nothing sinks by 0.5 mm before the tool does; the contact lies inside
 TEST_P(ShippedTable, GrowsWithTheDepth)
 {
-  const auto table =
-    ExtentTable::read(std::filesystem::path(PALP_SOURCE_DIR) / "data/tables" / GetParam());
-  EXPECT_EQ(table.rows().front().depth, 0.5_mm);
-  EXPECT_EQ(table.rows().front().extentRadius, 0.0);
-  for (std::size_t i = 1; i < table.rows().size(); ++i)
+  const auto rows = table().rows();
+  EXPECT_EQ(rows.front().depth, 0.5_mm);
+  EXPECT_EQ(rows.front().extentRadius, 0.0);
+  for (std::size_t i = 1; i < rows.size(); ++i)
   {
-    EXPECT_NEAR(table.rows()[i].depth - table.rows()[i - 1].depth, 0.5_mm, 1e-12);
-    EXPECT_GT(table.rows()[i].extentRadius, table.rows()[i - 1].extentRadius);
-    EXPECT_GT(table.rows()[i].force, table.rows()[i - 1].force);
+    EXPECT_NEAR(rows[i].depth - rows[i - 1].depth, 0.5_mm, 1e-12);
+    EXPECT_GT(rows[i].extentRadius, rows[i - 1].extentRadius);
+    EXPECT_GT(rows[i].force, rows[i - 1].force);
   }
-  EXPECT_GT(table.rows().back().extentRadius, 1.2 * table.rows().back().contactRadius);
+  EXPECT_GT(rows.back().extentRadius, 1.2 * rows.back().contactRadius);
 }
 
 } // namespace

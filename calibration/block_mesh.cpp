@@ -1,0 +1,162 @@
+#include "calibration/mesh.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace palp::fem
+{
+namespace
+{
+
+using Eigen::Matrix3d;
+using Gradient = Eigen::Matrix<double, 9, Eigen::Dynamic>;
+
+// the corner a of a brick, as offsets 0 or 1
+std::array<int, 3> offset(int a)
+{
+  return { a & 1, (a >> 1) & 1, (a >> 2) & 1 };
+}
+
+// gradient operator at a point of a brick with the given edges, local coordinates in [0, 1]
+Gradient brickGradient(const std::array<double, 3>& edges, const std::array<double, 3>& at)
+{
+  Gradient gradient = Gradient::Zero(9, 24);
+  for (int a = 0; a < 8; ++a)
+  {
+    const auto corner = offset(a);
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      double slope = (corner[d] == 1 ? 1.0 : -1.0) / edges[d];
+      for (std::size_t e = 0; e < 3; ++e)
+      {
+        if (e != d)
+        {
+          slope *= corner[e] == 1 ? at[e] : 1.0 - at[e];
+        }
+      }
+      for (int i = 0; i < 3; ++i)
+      {
+        gradient(i + 3 * static_cast<int>(d), 3 * a + i) = slope;
+      }
+    }
+  }
+  return gradient;
+}
+
+// half of a row of n nodes, from the middle outwards; where n is even, node -1 is the image of node
+// 0
+struct HalfRow
+{
+  int count;
+  int firstElement;
+  double step;
+  double start;
+
+  HalfRow(double width, int n)
+    : count((n + 1) / 2)
+    , firstElement(n % 2 == 0 ? -1 : 0)
+    , step(width / (n - 1))
+    , start(n % 2 == 0 ? 0.5 * step : 0.0)
+  {
+  }
+  [[nodiscard]] double position(int k) const
+  {
+    return start + k * step;
+  }
+};
+
+} // namespace
+
+Body blockBody(double width, double height, int n, int layers)
+{
+  const HalfRow row(width, n);
+  const double rise = height / (layers - 1);
+  const auto node = [&](int i, int j, int k) { return (k * row.count + j) * row.count + i; };
+
+  Body body{ .dimension = 3, .top = height };
+  body.positions.resize(3, row.count * row.count * layers);
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j < row.count; ++j)
+    {
+      for (int i = 0; i < row.count; ++i)
+      {
+        const int number = node(i, j, k);
+        body.positions.col(number) << row.position(i), row.position(j), k * rise;
+        const bool held = k == 0;
+        if (held)
+        {
+          body.base.push_back(number);
+          body.heldDofs.push_back(3 * number + 2);
+        }
+        if (held || row.position(i) == 0.0)
+        {
+          body.heldDofs.push_back(3 * number);
+        }
+        if (held || row.position(j) == 0.0)
+        {
+          body.heldDofs.push_back(3 * number + 1);
+        }
+        if (k == layers - 1)
+        {
+          body.surface.push_back(number);
+          if (j == 0)
+          {
+            body.profile.push_back(number);
+          }
+        }
+      }
+    }
+  }
+
+  const std::array edges{ row.step, row.step, rise };
+  const double volume = row.step * row.step * rise;
+  const double gauss = 0.5 / std::numbers::sqrt3;
+  for (int k = 0; k + 1 < layers; ++k)
+  {
+    for (int j = row.firstElement; j + 1 < row.count; ++j)
+    {
+      for (int i = row.firstElement; i + 1 < row.count; ++i)
+      {
+        Element element{ .meanDilatation = true };
+        std::vector<int> nodes;
+        Eigen::MatrixXd image = Eigen::MatrixXd::Zero(24, 24); // corners from the element's nodes
+        for (int a = 0; a < 8; ++a)
+        {
+          const auto corner = offset(a);
+          const int x = i + corner[0];
+          const int y = j + corner[1];
+          const int number = node(std::max(x, 0), std::max(y, 0), k + corner[2]);
+          const auto known = std::find(nodes.begin(), nodes.end(), number);
+          const auto column = 3 * (known - nodes.begin());
+          if (known == nodes.end())
+          {
+            nodes.push_back(number);
+            element.dofs.insert(element.dofs.end(), { 3 * number, 3 * number + 1, 3 * number + 2 });
+          }
+          image.block<3, 3>(3 * a, column).diagonal() << (x < 0 ? -1.0 : 1.0), (y < 0 ? -1.0 : 1.0),
+            1.0;
+        }
+        image.conservativeResize(Eigen::NoChange, 3 * static_cast<Eigen::Index>(nodes.size()));
+        const double images = (i < 0 ? 1.0 : 2.0) * (j < 0 ? 1.0 : 2.0);
+        for (int p = 0; p < 8; ++p)
+        {
+          const auto corner = offset(p);
+          std::array<double, 3> at;
+          for (std::size_t d = 0; d < 3; ++d)
+          {
+            at[d] = 0.5 + (corner[d] == 1 ? gauss : -gauss);
+          }
+          element.points.push_back(
+            { .weight = images * volume / 8.0, .gradient = brickGradient(edges, at) * image });
+        }
+        body.elements.push_back(std::move(element));
+      }
+    }
+  }
+  return body;
+}
+
+} // namespace palp::fem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "haptics/material.h"
+
+#include <Eigen/Core>
+#include <optional>
+#include <string_view>
+
+namespace palp::fem
+{
+
+/// Strain energy of the tissue; two that share E and nu differ once strains are large.
+enum class Energy
+{
+  Linear,     ///< small strain, the gap taken at the undeformed radius: the limit of theory
+  Corotated,  ///< mu |F - R|^2 + lambda/2 (tr U - 3)^2; what the paper's program calls linear
+  NeoHookean, ///< mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2
+  NeoHookeanIsochoric, ///< mu/2 (J^(-2/3) I1 - 3) + K/2 (J - 1)^2
+};
+
+/// The name on the command line and in files: linear, corotated, neo-hookean,
+/// neo-hookean-isochoric.
+[[nodiscard]] std::string_view name(Energy energy) noexcept;
+
+/// The formula, for the head of a table.
+[[nodiscard]] std::string_view formula(Energy energy) noexcept;
+
+/// @return  nothing where no energy has that name
+[[nodiscard]] std::optional<Energy> energyNamed(std::string_view name) noexcept;
+
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+/// First Piola-Kirchhoff stress P = dW/dF, and its derivative.
+struct StressResponse
+{
+  double energy;          ///< W [J/m^3]
+  Eigen::Matrix3d stress; ///< P [Pa]
+  Matrix9d tangent;       ///< dP/dF [Pa] over column-major vec(P), vec(F); symmetric
+};
+
+/// @param gradient  F = I + grad u, det F > 0 (any F for Linear)
+/// @param material  nu < 0.5
+/// @source          Bonet and Wood 2008, Secs. 6.4 and 6.5; McAdams et al. 2011 for dR/dF
+[[nodiscard]] StressResponse respond(
+  Energy energy, const Material& material, const Eigen::Matrix3d& gradient);
+
+} // namespace palp::fem

@@ -1,0 +1,112 @@
+#pragma once
+
+#include "calibration/equilibrium.h"
+#include "haptics/force/tip.h"
+
+#include <string>
+#include <vector>
+
+namespace palp::fem
+{
+
+/// The pressed body at one depth.
+struct Indented
+{
+  double depth = 0.0;         ///< delta [m]
+  double force = 0.0;         ///< pressed by the tool, from the contact [N]
+  double baseReaction = 0.0;  ///< carried by the held base [N]
+  double contactRadius = 0.0; ///< on the deformed surface [m]
+  double penetration = 0.0;   ///< largest, of a node into the tool [m]
+  int inverted = 0;           ///< elements inside out, which only a corotated material survives
+
+  struct Point
+  {
+    double radius; ///< of the undeformed point [m]
+    double ur;     ///< outward displacement [m]
+    double uz;     ///< upward displacement [m]
+  };
+  std::vector<Point> profile{}; ///< along a ray from the axis
+};
+
+/// Enough of a pressed body to go on from.
+struct Checkpoint
+{
+  double depth = 0.0;           ///< delta [m]
+  Eigen::VectorXd displacement; ///< of all dofs [m]
+};
+
+/// Presses a rigid, frictionless tool into a body, deeper and deeper.
+///
+/// Total Lagrangian; the nodes in contact slide on the exact tool surface (their height is
+/// eliminated), which nodes those are is found by an active set: a node that would be pulled is
+/// released, one that would enter the tool is taken.
+class Indenter
+{
+public:
+  /// @param body    borrowed; must outlive this
+  /// @throws Error  BadValue: see Equilibrium
+  Indenter(const Body& body, const Tip& tip, Energy energy, const Material& material);
+
+  /// Goes from the present depth to a deeper one, in smaller steps where needed.
+  /// @param depth   delta [m], more than before
+  /// @throws Error  NoSolution: says at which depth and why; the last solution stays
+  void press(double depth);
+
+  [[nodiscard]] Indented state() const;
+
+  [[nodiscard]] Checkpoint checkpoint() const
+  {
+    return { depth_, displacement_ };
+  }
+
+  /// Goes back to a state of the same body, tool and material.
+  /// @throws Error  BadFile: of another size, or no equilibrium
+  void resume(const Checkpoint& checkpoint);
+
+  /// Newton iterations since the start.
+  [[nodiscard]] int iterations() const noexcept
+  {
+    return iterations_;
+  }
+
+private:
+  struct ToolPoint
+  {
+    double height; // of the tool above the undeformed top, at this depth [m]
+    Eigen::Vector2d slope;
+    Eigen::Matrix2d curvature;
+    bool below; // the tool reaches that far from its axis
+  };
+  [[nodiscard]] ToolPoint toolAt(int node) const;
+  [[nodiscard]] double heightOf(int node) const;
+  [[nodiscard]] double radiusOf(int node) const;
+  [[nodiscard]] std::vector<Sliding> sliding() const;
+  [[nodiscard]] bool updateContact(double force, bool onlyOne);
+  [[nodiscard]] Equilibrium::Step downhill(std::vector<Sliding> nodes, bool mayTurn);
+  [[nodiscard]] bool walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, bool closed);
+  [[nodiscard]] std::string settle(double depth); // empty, or what went wrong
+  [[nodiscard]] double contactRadius() const;
+
+  struct Held
+  {
+    Eigen::VectorXd displacement;
+    std::vector<char> touching;
+    double depth;
+    double force;
+  };
+  void restore(const Held& held);
+
+  const Body& body_;
+  Tip tip_;
+  Energy energy_;
+  Equilibrium equilibrium_;
+  Eigen::VectorXd displacement_;
+  std::vector<char> touching_; // per node of body_.surface
+  double depth_ = 0.0;
+  double force_ = 0.0;
+  Eigen::VectorXd previous_; // displacement before the last step, for extrapolation
+  double previousDepth_ = 0.0;
+  int iterations_ = 0;
+};
+
+} // namespace palp::fem

@@ -1,0 +1,248 @@
+#include "calibration/study.h"
+
+#include "calibration/mesh.h"
+#include "calibration/study_files.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <thread>
+
+namespace palp::fem
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kElementSize = 0.5_mm;
+constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
+constexpr int kPaperLayers = 10;
+
+std::string millimetres(double metres)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%g mm", units::toMillimetres(metres));
+  return text;
+}
+
+void require(bool good, const std::string& what)
+{
+  if (!good)
+  {
+    throw Error(ErrorCode::BadValue, what);
+  }
+}
+
+double equalAreaRadius(const Case& study)
+{
+  return std::sqrt(study.width * study.length / std::numbers::pi);
+}
+
+// radius at which the tool is as high as it is deep: no contact reaches further
+double reach(const Tip& tip, double depth)
+{
+  double low = 0.0;
+  double high = baseRadius(tip);
+  for (int i = 0; i < 60; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    (tipHeight(tip, middle) < depth ? low : high) = middle;
+  }
+  return high;
+}
+
+Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
+  const Checkpoint* from, std::stop_token stop,
+  const std::function<void(const Outcome&, const Indenter&)>& keep, const Progress& progress)
+{
+  Outcome outcome{ .steps = std::move(steps), .trouble = {} };
+  Indenter indenter(body, study.tip, study.energy, study.material);
+  if (from != nullptr)
+  {
+    indenter.resume(*from);
+  }
+  while (outcome.steps.size() < study.depths.size())
+  {
+    if (stop.stop_requested())
+    {
+      outcome.trouble = "interrupted; --resume goes on from here";
+      break;
+    }
+    try
+    {
+      indenter.press(study.depths[outcome.steps.size()]);
+    }
+    catch (const Error& error)
+    {
+      outcome.trouble = error.what();
+      break;
+    }
+    outcome.steps.push_back(indenter.state());
+    keep(outcome, indenter);
+    if (progress)
+    {
+      progress(outcome.steps.size(), study.depths.size());
+    }
+  }
+  return outcome;
+}
+
+} // namespace
+
+Tip withCap(const Tip& tip, double cap)
+{
+  const auto* cone = std::get_if<ConeTip>(&tip);
+  if (cone == nullptr || cap == 0.0)
+  {
+    return tip;
+  }
+  return checkedTip(
+    BluntConeTip{ .halfAngle = cone->halfAngle, .tipRadius = cap, .baseRadius = cone->baseRadius });
+}
+
+void check(const Case& study)
+{
+  (void)checkedTip(study.tip);
+  (void)makeMaterial(study.material.youngModulus, study.material.poissonRatio);
+  require(study.width > 0.0 && study.length > 0.0 && study.height > 0.0,
+    "--block: a side of the block is not positive; give it as 100x100x50mm");
+  require(!study.depths.empty() && study.depths.front() > 0.0 &&
+      std::adjacent_find(study.depths.begin(), study.depths.end(),
+        [](double a, double b) { return !(b > a); }) == study.depths.end(),
+    "--depth: the depths must be positive and increase; give them as 0.5:10:0.5mm");
+  const double deepest = study.depths.back();
+  require(baseRadius(study.tip) < 0.45 * std::min(study.width, study.length),
+    "--tip: the tool is larger than the block; its radius must stay below " +
+      millimetres(0.45 * std::min(study.width, study.length)));
+  require(deepest < 0.8 * study.height,
+    "--depth: " + millimetres(deepest) + " goes through the block; stay below " +
+      millimetres(0.8 * study.height));
+  require(study.threshold > 0.0 && study.threshold < deepest,
+    "--threshold: must be positive and less than the deepest depth of " + millimetres(deepest));
+  require(study.elementSize == 0.0 ||
+      (study.elementSize >= 0.01_mm && study.elementSize <= 0.2 * study.height),
+    "--element-size: must be between 0.01 mm and " + millimetres(0.2 * study.height));
+  require(study.model == BodyModel::Axisymmetric || study.width == study.length,
+    "--model: the volumetric block must be square; use --model axisymmetric");
+  require(
+    study.material.poissonRatio < 0.5, "--poisson: finite elements need less than 0.5; give 0.49");
+}
+
+Body bodyOf(const Case& study)
+{
+  if (study.model == BodyModel::Axisymmetric)
+  {
+    const double size = study.elementSize > 0.0 ? study.elementSize : kElementSize;
+    const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
+    return cylinderBody(equalAreaRadius(study), study.height, fine, size);
+  }
+  const auto nodes = [&](double side, int standard)
+  {
+    return study.elementSize > 0.0
+      ? std::max(4, 1 + static_cast<int>(std::lround(side / study.elementSize)))
+      : standard;
+  };
+  return blockBody(
+    study.width, study.height, nodes(study.width, kPaperNodes), nodes(study.height, kPaperLayers));
+}
+
+double extentRadius(const std::vector<Indented::Point>& profile, double threshold)
+{
+  for (std::size_t i = 0; i < profile.size(); ++i)
+  {
+    const double sunk = -profile[i].uz;
+    if (sunk > threshold * (1.0 + 1e-9))
+    {
+      continue;
+    }
+    if (i == 0)
+    {
+      return 0.0;
+    }
+    const double before = -profile[i - 1].uz;
+    const double inner = profile[i - 1].radius + profile[i - 1].ur;
+    const double outer = profile[i].radius + profile[i].ur;
+    return inner + (before - threshold) / (before - sunk) * (outer - inner);
+  }
+  return profile.empty() ? 0.0 : profile.back().radius + profile.back().ur;
+}
+
+double sinkOf(const Indented& pressed, double radius)
+{
+  const auto& profile = pressed.profile;
+  for (std::size_t i = 1; i < profile.size(); ++i)
+  {
+    const double outer = profile[i].radius + profile[i].ur;
+    if (radius <= outer)
+    {
+      const double inner = profile[i - 1].radius + profile[i - 1].ur;
+      const double t = (radius - inner) / (outer - inner);
+      return -(1.0 - t) * profile[i - 1].uz - t * profile[i].uz;
+    }
+  }
+  return -profile.back().uz;
+}
+
+Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progress)
+{
+  check(study);
+  const Body body = bodyOf(study);
+  return press(
+    study, body, {}, nullptr, stop, [](const Outcome&, const Indenter&) {}, progress);
+}
+
+Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bool resume,
+  std::stop_token stop, const Progress& progress)
+{
+  check(study);
+  const Body body = bodyOf(study);
+  const StudyFiles files(folder, study, body);
+  Saved saved = resume ? files.load() : Saved{};
+  const Outcome outcome = press(
+    study, body, std::move(saved.steps), saved.checkpoint ? &*saved.checkpoint : nullptr, stop,
+    [&](const Outcome& reached, const Indenter& indenter)
+    {
+      files.write(reached);
+      files.save(indenter.checkpoint());
+    },
+    progress);
+  files.write(outcome);
+  return outcome;
+}
+
+void sweep(const std::filesystem::path& folder, const std::vector<Case>& cases, bool resume,
+  unsigned jobs, std::stop_token stop,
+  const std::function<void(const std::string& name, const std::string& trouble)>& tell)
+{
+  std::atomic<std::size_t> next{ 0 };
+  std::mutex telling;
+  const auto work = [&]
+  {
+    for (std::size_t i = next++; i < cases.size(); i = next++)
+    {
+      std::string trouble;
+      try
+      {
+        trouble = calibrateInto(folder / cases[i].name, cases[i], resume, stop).trouble;
+      }
+      catch (const std::exception& error)
+      {
+        trouble = error.what();
+      }
+      const std::lock_guard lock(telling);
+      tell(cases[i].name, trouble);
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned i = 0; i < std::max(1U, jobs); ++i)
+  {
+    threads.emplace_back(work);
+  }
+}
+
+} // namespace palp::fem

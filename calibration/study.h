@@ -1,0 +1,86 @@
+#pragma once
+
+#include "calibration/indenter.h"
+
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace palp::fem
+{
+
+/// Which body stands for the tissue.
+enum class BodyModel
+{
+  Axisymmetric, ///< cylinder of equal area, fine mesh: for tables
+  Block,        ///< the paper's volumetric block, square, coarse
+};
+
+/// Everything that determines a calibration.
+struct Case
+{
+  std::string name = "case";
+  double width = 0.1;   ///< of the block [m]
+  double length = 0.1;  ///< [m]
+  double height = 0.05; ///< [m]
+  Tip tip = SphereTip{ 0.01 };
+  Material material{ 50e3, 0.33 };
+  Energy energy = Energy::NeoHookean;
+  std::vector<double> depths{};  ///< increasing [m]
+  double threshold = 0.5e-3;  ///< displacement at the edge of the deformed region [m]
+  BodyModel model = BodyModel::Axisymmetric;
+  double elementSize = 0.0; ///< under the tool [m]; 0: 0.5 mm, or the paper's 30 x 30 x 10 nodes
+};
+
+/// A cone gets a tangent spherical cap, as no mesh follows a sharp apex; other tools stay.
+/// @param cap  radius [m]; 0 keeps the cone sharp
+[[nodiscard]] Tip withCap(const Tip& tip, double cap);
+
+/// @throws Error  BadValue: a geometry that cannot be computed, before any work is done
+void check(const Case& study);
+
+/// The undeformed body of a case.
+[[nodiscard]] Body bodyOf(const Case& study);
+
+/// R_d at the deformed position [m]: where the surface is lowered by the threshold; 0 where
+/// nothing sinks that far, the outermost radius where everything does.
+/// @source  Sec. 3.3.2
+[[nodiscard]] double extentRadius(const std::vector<Indented::Point>& profile, double threshold);
+
+/// Depth of the surface below rest at a deformed radius, straight between points [m].
+[[nodiscard]] double sinkOf(const Indented& pressed, double radius);
+
+/// How a calibration went.
+struct Outcome
+{
+  std::vector<Indented> steps; ///< one for each depth that was reached
+  std::string trouble;         ///< empty, or why the last depths are missing
+};
+
+/// Asked after every depth.
+using Progress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// Presses through all depths; where no solution is found, the depths so far remain.
+/// @throws Error  BadValue: see check
+[[nodiscard]] Outcome calibrate(
+  const Case& study, std::stop_token stop = {}, const Progress& progress = {});
+
+/// The same with files: after every depth, table.csv, profiles.csv, fit.json and a checkpoint are
+/// complete in the folder, whatever happens next.
+///
+/// @param resume  go on from the folder's checkpoint, if there is one
+/// @throws Error  BadFile: not writable, or the checkpoint is of another case
+[[nodiscard]] Outcome calibrateInto(const std::filesystem::path& folder, const Case& study,
+  bool resume, std::stop_token stop = {}, const Progress& progress = {});
+
+/// Several cases at a time, each into the folder of its name; a case that fails leaves the others.
+///
+/// @param jobs  how many at a time, 1 or more
+/// @param tell  called with a case's name and its trouble (empty: none), one call at a time
+void sweep(const std::filesystem::path& folder, const std::vector<Case>& cases, bool resume,
+  unsigned jobs, std::stop_token stop,
+  const std::function<void(const std::string& name, const std::string& trouble)>& tell);
+
+} // namespace palp::fem

@@ -1,0 +1,246 @@
+#include "calibration/study_files.h"
+
+#include "calibration/csv_rows.h"
+#include "calibration/curve_fit.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace palp::fem
+{
+namespace
+{
+
+using units::toMillimetres;
+
+std::string tipText(const Tip& tip)
+{
+  std::ostringstream out;
+  const double base = toMillimetres(baseRadius(tip));
+  if (std::holds_alternative<SphereTip>(tip))
+  {
+    out << "sphere, R = " << base << " mm";
+  }
+  else if (const auto* cone = std::get_if<ConeTip>(&tip))
+  {
+    out << "cone, " << units::toDegrees(cone->halfAngle) << " deg, base " << base << " mm";
+  }
+  else if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
+  {
+    out << "cone, " << units::toDegrees(blunt->halfAngle) << " deg, tangent cap "
+        << toMillimetres(blunt->tipRadius) << " mm, base " << base << " mm";
+  }
+  else
+  {
+    out << "profile of revolution, base " << base << " mm";
+  }
+  return out.str();
+}
+
+void replace(const std::filesystem::path& file, const std::string& content)
+{
+  auto fresh = file;
+  fresh += ".new";
+  {
+    std::ofstream out(fresh, std::ios::binary);
+    out << content;
+    out.flush();
+    if (!out)
+    {
+      throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; choose another --out");
+    }
+  }
+  std::filesystem::rename(fresh, file);
+}
+
+std::ostringstream text(const std::string& header, const char* columns)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(12);
+  out << header << columns << '\n';
+  return out;
+}
+
+std::string noteOf(const Outcome& outcome)
+{
+  return outcome.trouble.empty() ? "" : "# incomplete: " + outcome.trouble + "\n";
+}
+
+nlohmann::json json(const Fit& fit)
+{
+  return { { "coefficients_mm", fit.coefficients }, { "rms_mm", fit.rms },
+    { "largest_residual_mm", fit.worst }, { "up_to_depth_mm", fit.upTo } };
+}
+
+constexpr char kMagic[] = "palp checkpoint 1\n";
+
+void putDoubles(std::ostream& out, const double* values, Eigen::Index count)
+{
+  out.write(
+    reinterpret_cast<const char*>(values), count * static_cast<Eigen::Index>(sizeof(double)));
+}
+
+} // namespace
+
+std::string describe(const Case& study, const Body& body)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << "# palp " << PALP_VERSION << ": " << study.name << "\n# tool: " << tipText(study.tip)
+      << "; depth counted from its tip\n# block: " << toMillimetres(study.width) << " x "
+      << toMillimetres(study.length) << " x " << toMillimetres(study.height)
+      << " mm, base bonded, sides free, frictionless\n# material: "
+      << units::toKilopascals(study.material.youngModulus)
+      << " kPa, nu = " << study.material.poissonRatio << ", " << name(study.energy) << ": "
+      << formula(study.energy) << "\n# model: "
+      << (study.model == BodyModel::Axisymmetric
+             ? "axisymmetric, cylinder of equal area, eight-node quadrilaterals"
+             : "volumetric block, eight-node bricks, one quarter")
+      << ", " << body.elements.size() << " elements, " << body.nodeCount() << " nodes"
+      << "\n# element size under the tool: "
+      << toMillimetres((body.positions.col(body.profile[2]) - body.positions.col(body.profile[0]))
+                         .head(body.dimension - 1)
+                         .norm() /
+           (body.dimension == 2 ? 1.0 : 2.0))
+      << " mm\n# extent_radius_mm: deformed radius at which the surface sinks by "
+      << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus\n";
+  return out.str();
+}
+
+std::string tableText(const Case& study, const std::string& header, const Outcome& outcome)
+{
+  auto table =
+    text(header + noteOf(outcome), "depth_mm,extent_radius_mm,force_N,contact_radius_mm");
+  for (const Indented& step : outcome.steps)
+  {
+    table << toMillimetres(step.depth) << ','
+          << toMillimetres(extentRadius(step.profile, study.threshold)) << ',' << step.force << ','
+          << toMillimetres(step.contactRadius) << '\n';
+  }
+  return table.str();
+}
+
+std::vector<Indented> readSteps(const std::filesystem::path& folder)
+{
+  std::vector<Indented> steps;
+  for (const auto& row : readCsv(folder / "table.csv", 4))
+  {
+    Indented step;
+    step.depth = units::fromMillimetres(row[0]);
+    step.force = row[2];
+    step.contactRadius = units::fromMillimetres(row[3]);
+    steps.push_back(step);
+  }
+  std::size_t at = 0;
+  for (const auto& row : readCsv(folder / "profiles.csv", 4))
+  {
+    const double depth = units::fromMillimetres(row[0]);
+    while (at < steps.size() && steps[at].depth < depth)
+    {
+      ++at;
+    }
+    if (at < steps.size() && steps[at].depth == depth)
+    {
+      steps[at].profile.push_back({ units::fromMillimetres(row[1]), units::fromMillimetres(row[2]),
+        units::fromMillimetres(row[3]) });
+    }
+  }
+  return steps;
+}
+
+StudyFiles::StudyFiles(std::filesystem::path folder, const Case& study, const Body& body)
+  : folder_(std::move(folder))
+  , study_(study)
+  , header_(describe(study, body))
+{
+  std::error_code failed;
+  std::filesystem::create_directories(folder_, failed);
+  if (failed)
+  {
+    throw Error(ErrorCode::BadFile, folder_.string() + ": cannot be made; choose another --out");
+  }
+}
+
+void StudyFiles::write(const Outcome& outcome) const
+{
+  auto profiles = text(header_ + noteOf(outcome), "depth_mm,radius_mm,ur_mm,uz_mm");
+  std::vector<double> depths;
+  std::vector<double> extents;
+  for (const Indented& step : outcome.steps)
+  {
+    depths.push_back(toMillimetres(step.depth));
+    extents.push_back(toMillimetres(extentRadius(step.profile, study_.threshold)));
+    for (const auto& point : step.profile)
+    {
+      profiles << depths.back() << ',' << toMillimetres(point.radius) << ','
+               << toMillimetres(point.ur) << ',' << toMillimetres(point.uz) << '\n';
+    }
+  }
+  replace(folder_ / "table.csv", tableText(study_, header_, outcome));
+  replace(folder_ / "profiles.csv", profiles.str());
+
+  const ExtentFits fits = fitExtent(depths, extents);
+  const nlohmann::json fitted{ { "of", "extent_radius_mm over depth_mm, lowest power first" },
+    { "linear", json(fits.linear) }, { "quadratic", json(fits.quadratic) },
+    { "linear_holds_to_depth_mm", fits.linearHoldsTo },
+    { "linear_holds_means", "every residual below 3 percent of the largest radius" } };
+  replace(folder_ / "fit.json", fitted.dump(2) + "\n");
+}
+
+void StudyFiles::save(const Checkpoint& checkpoint) const
+{
+  std::ostringstream out(std::ios::binary);
+  out << kMagic << header_ << '\n';
+  const auto steps = static_cast<double>(checkpoint.displacement.size());
+  putDoubles(out, &steps, 1);
+  putDoubles(out, &checkpoint.depth, 1);
+  putDoubles(out, checkpoint.displacement.data(), checkpoint.displacement.size());
+  replace(folder_ / "checkpoint.bin", out.str());
+}
+
+Saved StudyFiles::load() const
+{
+  Saved saved;
+  std::ifstream in(folder_ / "checkpoint.bin", std::ios::binary);
+  if (!in)
+  {
+    return saved;
+  }
+  const auto refuse = [&](const std::string& what)
+  {
+    throw Error(ErrorCode::BadFile,
+      (folder_ / "checkpoint.bin").string() + ": " + what + "; start again without --resume");
+  };
+  std::string head(sizeof kMagic - 1 + header_.size() + 1, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != kMagic + header_ + '\n')
+  {
+    refuse("is of another case");
+  }
+  double size = 0.0;
+  Checkpoint checkpoint;
+  const auto get = [&](double* values, Eigen::Index count)
+  { in.read(reinterpret_cast<char*>(values), count * static_cast<Eigen::Index>(sizeof(double))); };
+  get(&size, 1);
+  get(&checkpoint.depth, 1);
+  if (!in || !(size > 0.0 && size < 1e8))
+  {
+    refuse("is damaged");
+  }
+  checkpoint.displacement.resize(static_cast<Eigen::Index>(size));
+  get(checkpoint.displacement.data(), checkpoint.displacement.size());
+  saved.steps = readSteps(folder_);
+  if (!in || saved.steps.empty() ||
+    std::abs(saved.steps.back().depth - checkpoint.depth) > 1e-9 * checkpoint.depth)
+  {
+    refuse("does not fit the table beside it");
+  }
+  saved.checkpoint = std::move(checkpoint);
+  return saved;
+}
+
+} // namespace palp::fem

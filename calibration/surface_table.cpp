@@ -1,0 +1,143 @@
+#include "calibration/surface_table.h"
+
+#include "calibration/csv_rows.h"
+#include "haptics/error.h"
+#include "haptics/force/monotone_cubic.h"
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+struct Between
+{
+  std::size_t low;
+  double weight; // of the next one
+};
+
+Between between(const std::vector<double>& axis, double value)
+{
+  const double x = std::clamp(value, axis.front(), axis.back());
+  const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
+  const auto low = static_cast<std::size_t>(above - axis.begin()) - 1;
+  return { low, (x - axis[low]) / (axis[low + 1] - axis[low]) };
+}
+
+} // namespace
+
+SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
+{
+  const auto lines = readCsv(file, 3 + kRadii.size());
+  SurfaceTable table;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    auto& axis = table.axes_[a];
+    for (const auto& line : lines)
+    {
+      axis.push_back(line[2 - a]);
+    }
+    std::sort(axis.begin(), axis.end());
+    axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
+  }
+  const auto& [poisson, shape, depth] = table.axes_;
+  const std::size_t size = poisson.size() * shape.size() * depth.size();
+  if (poisson.size() < 2 || shape.size() < 2 || depth.size() < 2 || lines.size() != size)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not every combination of depth, thickness and nu; make the tables again");
+  }
+  table.rows_.resize(size);
+  for (const auto& line : lines)
+  {
+    std::size_t at = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const auto& axis = table.axes_[a];
+      const auto found = std::lower_bound(axis.begin(), axis.end(), line[2 - a]);
+      at = at * axis.size() + static_cast<std::size_t>(found - axis.begin());
+    }
+    std::copy(line.begin() + 3, line.end(), table.rows_[at].begin());
+  }
+  return table;
+}
+
+SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
+{
+  const double depth = place.depth / place.tipRadius;
+  const auto n = between(axes_[0], place.poissonRatio);
+  const auto h = between(axes_[1], place.tipRadius / place.thickness);
+  const auto d = between(axes_[2], depth);
+  Row sum{};
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const auto pick = [corner](int bit, const Between& b)
+    {
+      const bool upper = (corner >> bit & 1) != 0;
+      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.weight : 1.0 - b.weight };
+    };
+    const auto [i, wi] = pick(0, n);
+    const auto [j, wj] = pick(1, h);
+    const auto [k, wk] = pick(2, d);
+    const Row& row = rows_[(i * axes_[1].size() + j) * axes_[2].size() + k];
+    for (std::size_t r = 0; r < sum.size(); ++r)
+    {
+      sum[r] += wi * wj * wk * row[r];
+    }
+  }
+  // below the first depth the surface follows the depth
+  const double scale = std::min(1.0, depth / axes_[2].front()) * place.tipRadius;
+  for (double& sink : sum)
+  {
+    sink *= scale;
+  }
+  return sum;
+}
+
+double SurfaceTable::sinkAt(const Place& place, double radius) const
+{
+  const double x = radius / place.tipRadius;
+  if (!(place.depth > 0.0) || !(x >= 0.0) || x > kRadii.back())
+  {
+    return 0.0;
+  }
+  const std::vector<double> radii(kRadii.begin(), kRadii.end());
+  const Row row = rowAt(place);
+  const auto slopes = monotoneSlopes(radii, row);
+  const auto [low, weight] = between(radii, x);
+  return hermite(
+    weight, radii[low + 1] - radii[low], row[low], row[low + 1], slopes[low], slopes[low + 1])
+    .value;
+}
+
+double SurfaceTable::extentRadius(const Place& place, double threshold) const
+{
+  if (!(sinkAt(place, 0.0) > threshold))
+  {
+    return 0.0;
+  }
+  double inside = 0.0;
+  double outside = kRadii.back() * place.tipRadius;
+  if (sinkAt(place, outside) > threshold)
+  {
+    return outside;
+  }
+  for (int i = 0; i < 50; ++i)
+  {
+    const double middle = 0.5 * (inside + outside);
+    (sinkAt(place, middle) > threshold ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+bool SurfaceTable::covers(const Place& place) const
+{
+  const auto within = [](const std::vector<double>& axis, double value)
+  { return value >= axis.front() && value <= axis.back(); };
+  return within(axes_[0], place.poissonRatio) &&
+    within(axes_[1], place.tipRadius / place.thickness) && place.depth >= 0.0 &&
+    place.depth / place.tipRadius <= axes_[2].back();
+}
+
+} // namespace palp

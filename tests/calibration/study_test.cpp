@@ -1,0 +1,182 @@
+#include "calibration/study.h"
+
+#include "calibration/csv_rows.h"
+#include "calibration/curve_fit.h"
+#include "calibration/extent_table.h"
+#include "calibration/study_files.h"
+#include "haptics/error.h"
+#include "tests/calibration/indentation_case.h"
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace palp::fem
+{
+namespace
+{
+
+using namespace units::literals;
+
+std::filesystem::path freshFolder()
+{
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  auto folder = std::filesystem::path(testing::TempDir()) / (std::string("study_") + test->name());
+  std::filesystem::remove_all(folder);
+  return folder;
+}
+
+Case quick()
+{
+  Case study = paperCase();
+  study.elementSize = 2.0_mm;
+  study.depths = { 1.0_mm, 2.0_mm, 3.0_mm };
+  return study;
+}
+
+std::string refusal(const Case& study)
+{
+  try
+  {
+    check(study);
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadValue);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Study, RefusesAbsurdGeometryBeforeAnyWork)
+{
+  EXPECT_EQ(refusal(quick()), "");
+  Case study = quick();
+  study.tip = SphereTip{ 60.0_mm };
+  EXPECT_NE(refusal(study).find("--tip"), std::string::npos);
+  study = quick();
+  study.threshold = 3.0_mm;
+  EXPECT_NE(refusal(study).find("--threshold"), std::string::npos);
+  study = quick();
+  study.depths.back() = 60.0_mm;
+  EXPECT_NE(refusal(study).find("--depth"), std::string::npos);
+  study = quick();
+  study.material.poissonRatio = 0.5;
+  EXPECT_NE(refusal(study).find("--poisson"), std::string::npos);
+  study = quick();
+  study.model = BodyModel::Block;
+  study.length = 80.0_mm;
+  EXPECT_NE(refusal(study).find("--model"), std::string::npos);
+}
+
+TEST(Study, ExtentIsWhereTheDeformedSurfaceCrossesTheThreshold)
+{
+  const std::vector<Indented::Point> profile{ { 0.0, 0.0, -3.0_mm }, { 10.0_mm, 1.0_mm, -1.0_mm },
+    { 20.0_mm, 0.0, 0.0 } };
+  EXPECT_DOUBLE_EQ(extentRadius(profile, 0.5_mm), 15.5_mm); // halfway from 11 to 20 mm
+  EXPECT_EQ(extentRadius(profile, 3.0_mm), 0.0);
+  EXPECT_DOUBLE_EQ(extentRadius({ profile[0], profile[1] }, 0.5_mm), 11.0_mm);
+}
+
+TEST(Study, AConeGetsATangentCap)
+{
+  const Tip capped = withCap(ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm }, 0.3_mm);
+  EXPECT_DOUBLE_EQ(std::get<BluntConeTip>(capped).tipRadius, 0.3_mm);
+  EXPECT_TRUE(std::holds_alternative<SphereTip>(withCap(SphereTip{ 10.0_mm }, 0.3_mm)));
+}
+
+TEST(Study, FilesSayWhatWasComputed)
+{
+  const auto folder = freshFolder();
+  const Outcome outcome = calibrateInto(folder, quick(), false);
+  const auto table = ExtentTable::read(folder / "table.csv");
+  ASSERT_EQ(table.rows().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(table.rows()[i].depth, outcome.steps[i].depth, 1e-12);
+    EXPECT_NEAR(table.rows()[i].force, outcome.steps[i].force, 1e-10);
+    EXPECT_NEAR(
+      table.rows()[i].extentRadius, extentRadius(outcome.steps[i].profile, 0.5_mm), 1e-12);
+  }
+  std::ostringstream text;
+  text << std::ifstream(folder / "table.csv").rdbuf();
+  EXPECT_NE(text.str().find("W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2"), std::string::npos);
+  EXPECT_EQ(readCsv(folder / "profiles.csv", 4).size(), 3 * outcome.steps[0].profile.size());
+  EXPECT_TRUE(std::filesystem::exists(folder / "fit.json"));
+}
+
+TEST(Study, InterruptedAndResumedEqualsUninterrupted)
+{
+  const auto folder = freshFolder();
+  std::stop_source source;
+  const Outcome first = calibrateInto(folder, quick(), false, source.get_token(),
+    [&](std::size_t done, std::size_t)
+    {
+      if (done == 2)
+      {
+        source.request_stop();
+      }
+    });
+  EXPECT_EQ(first.steps.size(), 2U);
+  EXPECT_NE(first.trouble, "");
+  EXPECT_EQ(ExtentTable::read(folder / "table.csv").rows().size(), 2U); // usable as it is
+
+  std::size_t computed = 0;
+  const Outcome rest =
+    calibrateInto(folder, quick(), true, {}, [&](std::size_t, std::size_t) { ++computed; });
+  EXPECT_EQ(computed, 1U);
+  const Outcome whole = calibrate(quick());
+  ASSERT_EQ(rest.steps.size(), 3U);
+  EXPECT_NEAR(rest.steps[2].force, whole.steps[2].force, 1e-6 * whole.steps[2].force);
+  EXPECT_NEAR(rest.steps[0].force, whole.steps[0].force, 1e-9 * whole.steps[0].force);
+  EXPECT_EQ(rest.steps[1].profile.size(), whole.steps[1].profile.size());
+}
+
+TEST(Study, ResumeRefusesAnotherCaseAndADamagedFile)
+{
+  const auto folder = freshFolder();
+  (void)calibrateInto(folder, quick(), false);
+  Case other = quick();
+  other.material.youngModulus = 40.0_kPa;
+  EXPECT_THROW((void)calibrateInto(folder, other, true), Error);
+  const auto file = folder / "checkpoint.bin";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 100);
+  EXPECT_THROW((void)calibrateInto(folder, quick(), true), Error);
+}
+
+TEST(Study, SweepKeepsWhatWorksAndReportsWhatDoesNot)
+{
+  Case bad = quick();
+  bad.name = "too large";
+  bad.tip = SphereTip{ 60.0_mm };
+  Case good = quick();
+  good.name = "good";
+  std::map<std::string, std::string> told;
+  const auto folder = freshFolder();
+  sweep(folder, { bad, good }, false, 2, {},
+    [&](const std::string& name, const std::string& trouble) { told[name] = trouble; });
+  EXPECT_NE(told.at("too large"), "");
+  EXPECT_EQ(told.at("good"), "");
+  EXPECT_EQ(ExtentTable::read(folder / "good" / "table.csv").rows().size(), 3U);
+}
+
+// a fit finds the polynomial that the points were taken from
+TEST(Study, FitRecoversAParabola)
+{
+  const std::vector<double> x{ 1, 2, 3, 4, 5 };
+  std::vector<double> y;
+  for (const double value : x)
+  {
+    y.push_back(2.0 - 0.5 * value + 0.25 * value * value);
+  }
+  const Fit fit = fitPolynomial(x, y, 2);
+  EXPECT_NEAR(fit.coefficients[0], 2.0, 1e-12);
+  EXPECT_NEAR(fit.coefficients[1], -0.5, 1e-12);
+  EXPECT_NEAR(fit.coefficients[2], 0.25, 1e-12);
+  EXPECT_LT(fit.worst, 1e-12);
+  EXPECT_TRUE(fitPolynomial({ 1.0 }, { 1.0 }, 1).coefficients.empty());
+}
+
+} // namespace
+} // namespace palp::fem
