@@ -1,5 +1,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/pictures.h"
+#include "app/program.h"
 #include "app/quantity.h"
 #include "app/tip_spec.h"
 #include "calibration/shipped_tables.h"
@@ -161,6 +163,7 @@ struct CalibrateOptions
   std::filesystem::path tables;
   unsigned jobs = 1;
   bool resume = false;
+  bool noPicture = false;
 };
 
 void runSweep(const CalibrateOptions& options, std::stop_token stop)
@@ -181,21 +184,30 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop)
   }
 }
 
-void calibrateOne(const CalibrateOptions& options, std::stop_token stop)
+void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
 {
   const Case study = caseOf(options.out.filename().string(), options.text);
   const Outcome outcome = calibrateInto(options.out, study, options.resume, stop, ProgressBar());
+  if (!options.noPicture)
+  {
+    pictures->drawCalibration(study, outcome.steps, options.out);
+  }
   if (!outcome.trouble.empty())
   {
     throw Error(ErrorCode::NoSolution,
       outcome.trouble + " (" + std::to_string(outcome.steps.size()) + " of " +
         std::to_string(study.depths.size()) + " depths are in " + options.out.string() + ")");
   }
-  std::cerr << "palp: table.csv, profiles.csv and fit.json are in " << options.out.string() << '\n';
+  std::cerr << "palp: tables, fit and pictures are in " << options.out.string() << '\n';
 }
 
-void runCalibration(const CalibrateOptions& options)
+void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
 {
+  const bool single = options.tables.empty() && options.sweep.empty();
+  if (single && !options.noPicture && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
   const Interrupt interrupt;
   if (!options.tables.empty())
   {
@@ -208,13 +220,13 @@ void runCalibration(const CalibrateOptions& options)
   }
   else
   {
-    calibrateOne(options, interrupt.token());
+    calibrateOne(options, interrupt.token(), pictures);
   }
 }
 
 } // namespace
 
-void addCalibrateCommand(CLI::App& app)
+void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
 {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
@@ -246,7 +258,8 @@ void addCalibrateCommand(CLI::App& app)
     "  palp calibrate --tip cone:45deg:10mm --material corotated --depth 0.5:6:0.5mm --out cone\n"
     "  palp calibrate --sweep cases.json --jobs 2 --out sweep --resume\n"
     "  palp calibrate --tables data/tables          make the shipped tables again");
-  command->callback([options] { runCalibration(*options); });
+  command->add_flag("--no-picture", options->noPicture, "Write the data only");
+  command->callback([options, pictures] { runCalibration(*options, pictures); });
 }
 
 } // namespace palp

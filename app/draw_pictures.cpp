@@ -3,20 +3,16 @@
 #include "app/offscreen.h"
 #include "app/surface_point.h"
 #include "haptics/contact/nearest.h"
-#include "haptics/error.h"
+#include "haptics/units.h"
+#include "pipeline/comparison.h"
 #include "pipeline/force_charts.h"
 #include "pipeline/press_view.h"
 
 #include <vtkContextScene.h>
 #include <vtkContextView.h>
-#include <vtkDataArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkPointData.h>
 #include <vtkRenderer.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <limits>
 
@@ -26,45 +22,6 @@ namespace
 {
 
 constexpr ImageSize kChart{ .width = 1000, .height = 600 };
-
-// a context that came up but draws nothing leaves every pixel alike
-bool uniform(vtkImageData& image)
-{
-  const auto* pixels = static_cast<const unsigned char*>(image.GetScalarPointer());
-  const vtkIdType components = image.GetNumberOfScalarComponents();
-  for (vtkIdType i = components; i < image.GetNumberOfPoints() * components; ++i)
-  {
-    if (pixels[i] != pixels[i - components])
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
-{
-  window.Render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(&window);
-  grab->ReadFrontBufferOff();
-  grab->Update();
-  if (uniform(*grab->GetOutput()))
-  {
-    throw Error(ErrorCode::NoPicture,
-      file.string() +
-        ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
-  }
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.c_str());
-  writer->SetInputConnection(grab->GetOutputPort());
-  writer->Write();
-  if (writer->GetErrorCode() != 0)
-  {
-    throw Error(
-      ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
-  }
-}
 
 // where the camera looks: the deepest place, or where the tool came closest
 SurfacePoint subject(const Recording& recording, const Sample& shown)
@@ -128,6 +85,47 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
     [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
   drawChart(context, directory / "force_depth.png",
     [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
+}
+
+void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+  const std::filesystem::path& directory) const
+{
+  if (steps.size() < 2)
+  {
+    return; // a curve needs two points
+  }
+  const OffscreenContext context;
+  const auto draw = [&](const char* name, Plot& plot)
+  { drawChart(context, directory / name, [&](vtkContextScene& scene) { plot.addTo(scene); }); };
+
+  std::vector<ExtentTable::Row> rows;
+  ReferenceCurve force{
+    .name = "elements, " + std::string(fem::name(study.energy)), .x = {}, .y = {}
+  };
+  Plot profiles("surface at each depth", "distance from the axis [mm]", "height [mm]");
+  for (const fem::Indented& step : steps)
+  {
+    rows.push_back({ .depth = step.depth,
+      .extentRadius = fem::extentRadius(step.profile, study.threshold),
+      .force = step.force,
+      .contactRadius = step.contactRadius });
+    force.x.push_back(step.depth);
+    force.y.push_back(step.force);
+    std::vector<double> radiusMm;
+    std::vector<double> heightMm;
+    for (const fem::Indented::Point& point : step.profile)
+    {
+      radiusMm.push_back(units::toMillimetres(point.radius + point.ur));
+      heightMm.push_back(units::toMillimetres(point.uz));
+    }
+    profiles.addLine({}, radiusMm, heightMm, appearance::kMeasured, 1.5F);
+  }
+  const std::vector<NamedLaw> laws{ { "paper", ForceLaw(study.tip, study.material) },
+    { "exact half-space",
+      ForceLaw(study.tip, study.material, LawSettings{ .mode = LawMode::Exact }) } };
+  draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
+  draw("extent.png", *extentPlot(ExtentTable(rows), {}));
+  draw("profiles.png", profiles);
 }
 
 } // namespace palp

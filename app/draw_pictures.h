@@ -11,6 +11,8 @@ class DrawPictures final : public Pictures
 public:
   void drawPress(const Body& body, const Recording& recording, const ExtentTable& extents,
     const std::filesystem::path& directory, ImageSize size) const override;
+  void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+    const std::filesystem::path& directory) const override;
 };
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/body.h"
 #include "app/recording.h"
 #include "calibration/extent_table.h"
+#include "calibration/study.h"
 
 #include <filesystem>
 
@@ -26,6 +27,13 @@ struct Pictures
   /// @throws Error  NoPicture: no context, or a picture that came out empty
   virtual void drawPress(const Body& body, const Recording& recording, const ExtentTable& extents,
     const std::filesystem::path& directory, ImageSize size) const = 0;
+
+  /// Draws extent.png, force.png and profiles.png of a calibration.
+  ///
+  /// @param steps   fewer than two: nothing is drawn
+  /// @throws Error  as drawPress
+  virtual void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+    const std::filesystem::path& directory) const = 0;
 };
 
 } // namespace palp

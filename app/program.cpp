@@ -82,7 +82,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
   addForceCommand(app);
-  addCalibrateCommand(app);
+  addCalibrateCommand(app, parts.pictures);
   addStabilityCommand(app);
   addBenchCommand(app);
   addDevicesCommand(app, parts.devices);

@@ -10,6 +10,7 @@
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkGL2PSExporter.h>
+#include <vtkImageData.h>
 #include <vtkPNGWriter.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
@@ -35,6 +36,21 @@ std::string digits(double value)
 {
   throw Error(
     ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
+}
+
+// a context that came up but draws nothing leaves every pixel alike
+bool uniform(vtkImageData& image)
+{
+  const auto* pixels = static_cast<const unsigned char*>(image.GetScalarPointer());
+  const vtkIdType components = image.GetNumberOfScalarComponents();
+  for (vtkIdType i = components; i < image.GetNumberOfPoints() * components; ++i)
+  {
+    if (pixels[i] != pixels[i - components])
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace
@@ -142,6 +158,13 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
   vtkNew<vtkWindowToImageFilter> grab;
   grab->SetInput(&window);
   grab->ReadFrontBufferOff();
+  grab->Update();
+  if (uniform(*grab->GetOutput()))
+  {
+    throw Error(ErrorCode::NoPicture,
+      file.string() +
+        ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
+  }
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(file.c_str());
   writer->SetInputConnection(grab->GetOutputPort());

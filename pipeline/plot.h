@@ -63,7 +63,7 @@ private:
 };
 
 /// Writes what a window shows.
-/// @throws Error  BadFile: cannot be written
+/// @throws Error  BadFile: cannot be written; NoPicture: every pixel is alike
 void writePng(vtkRenderWindow& window, const std::filesystem::path& file);
 
 /// Writes what a window of charts shows as lines and text, not pixels; `rsvg-convert -f pdf` makes

@@ -170,6 +170,22 @@ TEST_F(RunCommand, RefusesWhatItCannotRead)
   }
 }
 
+TEST_F(RunCommand, CalibratesWithTablesAndPlots)
+{
+  const std::string out = (folder_.path() / "calibration").string();
+  const Finished finished =
+    palp("calibrate --block 100x100x50mm --tip sphere:10mm --material linear "
+         "--depth 0.5:1.5:0.5mm --element-size 2mm --out " +
+      out);
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const test::CsvTable table = test::readCsv(folder_.path() / "calibration/table.csv");
+  EXPECT_EQ(table["depth_mm"], (std::vector<double>{ 0.5, 1.0, 1.5 }));
+  for (const char* chart : { "extent.png", "force.png", "profiles.png" })
+  {
+    EXPECT_GT(colorsOf(folder_.path() / "calibration" / chart, 1000, 600), 10u) << chart;
+  }
+}
+
 TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)
 {
   const Finished finished = test::runCommand("ldd " PALP_PROGRAM);
