@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vtkCamera.h>
 #include <vtkLightKit.h>
 #include <vtkMatrix4x4.h>
@@ -121,6 +122,11 @@ void PressView::setExtents(const ExtentTable& extents)
   extents_ = extents;
 }
 
+void PressView::setFitted(std::optional<FittedSurfaces> surfaces)
+{
+  fitted_ = std::move(surfaces);
+}
+
 void PressView::setLaw(const ForceLaw& law)
 {
   dent_->setLaw(law);
@@ -159,7 +165,8 @@ void PressView::show(const Sample& sample)
     .pose = sample.pose,
     .tip = tip_,
     .contactRadius = sample.response.contactRadius,
-    .extentRadius = extent });
+    .extentRadius = extent,
+    .fitted = fitted_ ? fitted_->at(sample.contact.depth) : std::nullopt });
   deform_->SetGeneratePatch(sample.contact.touching());
   deform_->Update();
   const Moment moment{ sample, tip_, extent, *deform_ };

@@ -3,6 +3,7 @@
 #include "calibration/extent_table.h"
 #include "haptics/servo/sample.h"
 #include "pipeline/dent_colors.h"
+#include "pipeline/fitted_surfaces.h"
 #include "pipeline/overlay.h"
 #include "pipeline/readings.h"
 #include "pipeline/vtkPalpDeformFilter.h"
@@ -40,6 +41,9 @@ public:
 
   /// R_d for every depth; without a table the ring ends close to the contact.
   void setExtents(const ExtentTable& extents);
+
+  /// Surfaces of finite elements to follow in place of the paper's ring; none for the paper's.
+  void setFitted(std::optional<FittedSurfaces> surfaces);
 
   /// The law whose rules the validity colours and readings name.
   void setLaw(const ForceLaw& law);
@@ -86,6 +90,7 @@ private:
   vtkRenderer& renderer_;
   Tip tip_{ SphereTip{ .radius = 0.01 } };
   std::optional<ExtentTable> extents_;
+  std::optional<FittedSurfaces> fitted_;
   double diagonal_ = 0.0; // of the surface's box [m]
 
   vtkNew<vtkPalpDeformFilter> deform_;

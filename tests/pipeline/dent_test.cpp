@@ -2,6 +2,7 @@
 
 #include "haptics/units.h"
 #include "tests/pipeline/surfaces.h"
+#include "tests/support/allocation_guard.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -294,6 +295,28 @@ TEST_P(RandomPress, TurnsNoTriangleOver)
       ASSERT_GT(area(surface.points).dot(area(surface.rest)), 0.0) << "press " << i;
     }
   }
+}
+
+TEST(Dent, DoesNotAllocateOnceItHasSeenSuchADent)
+{
+  DentedSurface surface = test::ellipsoid(6, { 50.0_mm, 40.0_mm, 30.0_mm });
+  const auto frame = [&](int i)
+  {
+    const double x = 2.0_mm * std::sin(0.3 * i);
+    const Eigen::Vector3d top(x, 0.0, 30.0_mm);
+    surface.press(
+      test::pressAt(top, kUp, SphereTip{ 10.0_mm }, 3.0_mm + 1.0_mm * std::sin(0.7 * i), 15.0_mm));
+  };
+  for (int i = 0; i < 100; ++i)
+  {
+    frame(i);
+  }
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 100; ++i)
+  {
+    frame(i);
+  }
+  EXPECT_EQ(guard.count(), 0);
 }
 
 TEST(Dent, NeedsLessMemoryThanThreeTimesThePoints)

@@ -160,6 +160,21 @@ TEST(PressView, ShowsBlockAndBall)
   }
 }
 
+TEST(PressView, ShowsAFittedSurface)
+{
+  // two rows of data/tables/sphere_r10_h50_surface.csv
+  const FittedSurfaces fitted({ { 1.0, 3.14674, 56.4183, 0.491999, 0.331515, 0.298682, 0.192009 },
+    { 5.0, 6.78708, 56.4099, 2.34408, 0.924157, 1.17259, 1.21531 } });
+  for (const bool isBlock : { true, false })
+  {
+    const Body body = isBlock ? block() : ball();
+    View view(body, kSphere);
+    view.view.setFitted(fitted);
+    expectBaseline(*view.picture(body, pressed(body, kSphere, 5.0_mm)),
+      isBlock ? "block_fitted" : "ball_fitted");
+  }
+}
+
 // each overlay alone
 class EachOverlay : public ::testing::TestWithParam<std::pair<Overlay, const char*>>
 {

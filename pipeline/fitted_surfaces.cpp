@@ -1,0 +1,69 @@
+#include "pipeline/fitted_surfaces.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+// a + t (b - a) of every length and the slope
+SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double t)
+{
+  const auto mix = [t](double x, double y) { return x + t * (y - x); };
+  return { .inner = mix(a.inner, b.inner),
+    .outer = mix(a.outer, b.outer),
+    .sink = mix(a.sink, b.sink),
+    .slope = mix(a.slope, b.slope),
+    .control = { mix(a.control[0], b.control[0]), mix(a.control[1], b.control[1]) } };
+}
+
+} // namespace
+
+FittedSurfaces::FittedSurfaces(const std::vector<std::vector<double>>& rows)
+{
+  const auto metres = &units::fromMillimetres;
+  for (const std::vector<double>& row : rows)
+  {
+    const bool isNext =
+      row.size() == kColumns && metres(row[0]) > (rows_.empty() ? 0.0 : rows_.back().depth);
+    if (!isNext)
+    {
+      throw Error(ErrorCode::BadValue,
+        "fitted surfaces: needs seven columns and increasing depths; make the tables again");
+    }
+    rows_.push_back({ metres(row[0]),
+      { .inner = metres(row[1]),
+        .outer = metres(row[2]),
+        .sink = metres(row[3]),
+        .slope = row[4],
+        .control = { metres(row[5]), metres(row[6]) } } });
+  }
+  if (rows_.size() < 2)
+  {
+    throw Error(ErrorCode::BadValue, "fitted surfaces: fewer than two rows; make the tables again");
+  }
+}
+
+std::optional<SurfaceProfile> FittedSurfaces::at(double depth) const noexcept
+{
+  if (!(depth > 0.0) || depth > rows_.back().depth)
+  {
+    return std::nullopt;
+  }
+  const auto above = std::lower_bound(rows_.begin(), rows_.end(), depth,
+    [](const Row& row, double value) { return row.depth < value; });
+  if (above != rows_.begin())
+  {
+    const Row& below = *(above - 1);
+    return between(
+      below.profile, above->profile, (depth - below.depth) / (above->depth - below.depth));
+  }
+  SurfaceProfile nothing{ .outer = above->profile.outer, .slope = above->profile.slope };
+  return between(nothing, above->profile, depth / above->depth);
+}
+
+} // namespace palp
