@@ -66,9 +66,14 @@ nlohmann::ordered_json toJson(const Bench& bench)
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const BenchRow& row : bench.rows)
   {
-    rows.push_back({ { "work", row.work }, { "vertices", row.vertices }, { "case", row.mode },
-      { "median_us", row.median }, { "mean_us", row.mean }, { "sd_us", row.deviation },
-      { "p99_us", row.p99 }, { "per_S", row.median / bench.sweep } });
+    nlohmann::ordered_json entry{ { "work", row.work }, { "vertices", row.vertices },
+      { "case", row.mode }, { "median_us", row.median }, { "mean_us", row.mean },
+      { "sd_us", row.deviation }, { "p99_us", row.p99 }, { "per_S", row.median / bench.sweep } };
+    if (!row.variant.empty())
+    {
+      entry["variant"] = row.variant;
+    }
+    rows.push_back(entry);
   }
   return { { "machine", machine() }, { "S_us", bench.sweep }, { "rows", rows } };
 }
@@ -88,7 +93,7 @@ void printTable(const Bench& bench)
     {
       std::cout << std::setw(11) << value;
     }
-    std::cout << '\n';
+    std::cout << (row.variant.empty() ? "" : "  ") << row.variant << '\n';
   }
   std::cout << std::defaultfloat;
 }
@@ -115,6 +120,7 @@ void checkGate(const Bench& bench, const nlohmann::json& recorded, double slack)
     for (const BenchRow& row : bench.rows)
     {
       if (old.value("work", "") != row.work || old.value("case", "") != row.mode ||
+        old.value("variant", "") != row.variant ||
         old.value("vertices", std::size_t{ 0 }) != row.vertices)
       {
         continue;
