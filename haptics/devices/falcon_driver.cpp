@@ -66,8 +66,8 @@ FalconDriver::FalconDriver(
   if (firmware.empty())
   {
     throw Error(ErrorCode::NoDevice,
-      "Novint Falcon: has no firmware since it was switched on; give your copy with --firmware "
-      "FILE");
+      "Novint Falcon: has no firmware since it was switched on; give your copy as --device "
+      "falcon:FILE");
   }
   for (int attempt = 0; attempt < kLoadAttempts; ++attempt)
   {
