@@ -12,9 +12,9 @@ namespace palp
 /// One figure of the benchmark, over many repetitions.
 struct BenchRow
 {
-  std::string work;         ///< servo_step, law, update, query_brute or tree_build
+  std::string work;         ///< servo_step, law, law_*, update, query_brute or tree_build
   std::size_t vertices = 0; ///< of the mesh; 0 where there is none
-  std::string mode;         ///< moving, jump, cold or paced; of the law see benchLaw
+  std::string mode;         ///< moving, jump, cold or paced
   double median = 0.0;      ///< [us], as are those below
   double mean = 0.0;
   double deviation = 0.0;
@@ -45,8 +45,8 @@ template <typename Before, typename Work>
 /// S, by which figures of different machines compare: a scalar sweep over 10,000 points [us].
 [[nodiscard]] double benchSweep();
 
-/// The law alone: moving is the scene's own, the paper's for a sphere; then cone, exact sphere,
-/// and all factors of the corrected law for a sphere.
+/// The law alone: the scene's own, which is the paper's for a sphere; the paper's for a cone; the
+/// exact one and all factors of the corrected one for a sphere.
 [[nodiscard]] std::vector<BenchRow> benchLaw();
 
 /// Contact, law and safety chain on the paper's surfaces and on larger ones, and what they are

@@ -12,7 +12,7 @@ using namespace units::literals;
 
 constexpr int kCalls = 1000; // per measurement, for one is shorter than the clock's grain
 
-BenchRow benchOne(const char* mode, const ForceLaw& law)
+BenchRow benchOne(const char* work, const ForceLaw& law)
 {
   double sum = 0.0;
   std::vector<double> times = timed(
@@ -33,7 +33,7 @@ BenchRow benchOne(const char* mode, const ForceLaw& law)
   {
     time /= kCalls;
   }
-  return benchRow("law", 0, sum > 0.0 ? mode : "", std::move(times));
+  return benchRow(work, 0, sum > 0.0 ? "moving" : "", std::move(times));
 }
 
 } // namespace
@@ -45,10 +45,10 @@ std::vector<BenchRow> benchLaw()
   const LawSettings everything{ .mode = LawMode::Corrected,
     .largeStrain = readLargeStrain(
       dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv")) };
-  return { benchOne("moving", paper),
-    benchOne("cone", ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, tissue)),
-    benchOne("exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
-    benchOne("all", ForceLaw(paper.tip(), tissue, everything)) };
+  return { benchOne("law", paper),
+    benchOne("law_cone", ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, tissue)),
+    benchOne("law_exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
+    benchOne("law_all", ForceLaw(paper.tip(), tissue, everything)) };
 }
 
 } // namespace palp

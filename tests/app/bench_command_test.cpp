@@ -39,8 +39,9 @@ TEST(BenchCommand, PrintsOnlyJsonAndComparesWithIt)
     EXPECT_GE(row.at("sd_us"), 0.0);
     EXPECT_NEAR(row.at("per_S"), median / sweep, 1e-9 * median);
   }
-  EXPECT_EQ(
-    works, (std::set<std::string>{ "law", "query_brute", "servo_step", "tree_build", "update" }));
+  EXPECT_EQ(works,
+    (std::set<std::string>{ "law", "law_all", "law_cone", "law_exact", "query_brute", "servo_step",
+      "tree_build", "update" }));
   EXPECT_EQ(cases, (std::set<std::string>{ "cold", "jump", "moving", "paced" }));
 
   // against figures a thousand times as large, and as small
