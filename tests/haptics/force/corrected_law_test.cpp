@@ -190,9 +190,9 @@ INSTANTIATE_TEST_SUITE_P(CorrectedLaw, NeoHookeanBlock,
     Case{ "calib_cone45__NH_h0.25", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm },
     Case{ "calib_cone45__NH_h0.5", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm }));
 
-// Finite elements on a block, from 1 mm to the tool's radius. The ratios stem from these runs and
-// the linear ones on the same meshes; tested is that one curve serves both blocks and both meshes
-// on top of the exact layer, which is infinitely wide.
+// Another program's finite elements on a block, from 1 mm to the tool's radius. The sphere's ratios
+// are computed by our own; the cone's stem from these runs and the linear ones on the same meshes,
+// so that for the cone it is tested that one curve serves both blocks on top of the exact layer.
 TEST_P(NeoHookeanBlock, IsMetWithin3PercentWherePapersLawIsOffBy10)
 {
   const auto rows = test::referenceTable(GetParam().table);
