@@ -1,5 +1,6 @@
 #include "app/export.h"
 
+#include "app/csv.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io.h"
@@ -10,6 +11,8 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <array>
+#include <chrono>
 #include <fstream>
 #include <system_error>
 
@@ -66,6 +69,28 @@ void exportRecording(const std::filesystem::path& directory, const Body& body,
       file.string() + ": cannot be written; choose a folder with room where you may write");
   }
   writeDeformed(directory / "deformed.vtp", body, recording, extents);
+}
+
+void writeTiming(const std::filesystem::path& file, const Timing& timing)
+{
+  using Micro = std::chrono::duration<double, std::micro>;
+  std::ofstream out(file);
+  out << "quantity,p50_us,p99_us,p999_us,max_us,ticks,skipped\n";
+  for (const auto& [name, histogram] :
+    { std::pair("lateness", &timing.lateness), std::pair("step", &timing.step) })
+  {
+    out << name << ',';
+    writeCsvRow(out,
+      std::array{ Micro(histogram->quantile(0.5)).count(), Micro(histogram->quantile(0.99)).count(),
+        Micro(histogram->quantile(0.999)).count(), Micro(histogram->longest()).count(),
+        static_cast<double>(timing.ticks.load()), static_cast<double>(timing.skipped.load()) });
+  }
+  out.close();
+  if (!out)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": cannot be written; choose a folder with room where you may write");
+  }
 }
 
 } // namespace palp

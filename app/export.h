@@ -2,6 +2,7 @@
 
 #include "app/body.h"
 #include "app/recording.h"
+#include "haptics/servo/timing.h"
 #include "pipeline/dent.h"
 
 #include <filesystem>
@@ -24,5 +25,11 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
 /// @throws Error  BadFile: cannot be made or written
 void exportRecording(const std::filesystem::path& directory, const Body& body,
   const Recording& recording, const ExtentTable& extents);
+
+/// Writes how punctual a servo thread was: quantiles of lateness and step time [us], ticks,
+/// skipped.
+///
+/// @throws Error  BadFile: cannot be written
+void writeTiming(const std::filesystem::path& file, const Timing& timing);
 
 } // namespace palp

@@ -4,8 +4,10 @@
 #include "haptics/devices/scripted_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
+#include "haptics/servo/safety.h"
 
 #include <algorithm>
+#include <limits>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -112,6 +114,12 @@ void Session::arm(bool armed)
 {
   recording_.scene.armed = armed;
   servo_->setScene(recording_.scene);
+}
+
+double Session::stableStiffness() const
+{
+  return rendersForce() ? SafetyChain(device_->limits()).stiffnessLimit(recording_.scene.damping)
+                        : std::numeric_limits<double>::infinity();
 }
 
 void Session::stop(bool stopped)

@@ -42,8 +42,16 @@ public:
   void stop(bool stopped);
 
   /// False for devices that no hand can feel.
-  [[nodiscard]] bool rendersForce() const { return device_->limits().rendersForce; }
-  [[nodiscard]] bool armed() const noexcept { return recording_.scene.armed; }
+  [[nodiscard]] bool rendersForce() const
+  {
+    return device_->limits().rendersForce;
+  }
+  /// What the device can render without trembling [N/m]; infinite where no hand can feel it.
+  [[nodiscard]] double stableStiffness() const;
+  [[nodiscard]] bool armed() const noexcept
+  {
+    return recording_.scene.armed;
+  }
 
   /// Moves the tool of mouse and hand; other devices move themselves.
   void aim(const HandTarget& target);

@@ -38,7 +38,7 @@ private:
   void showAngleForConesOnly();
 
   LawSettings settings_; // from the command line, too
-  Tip other_; // a tool from the command line that the panel has no fields for
+  Tip other_;            // a tool from the command line that the panel has no fields for
   QComboBox* kind_;
   QDoubleSpinBox* radiusMm_;
   QDoubleSpinBox* halfAngleDeg_;

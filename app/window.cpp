@@ -1,6 +1,7 @@
 #include "app/window.h"
 
 #include "app/export.h"
+#include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
 #include "haptics/error.h"
@@ -75,6 +76,7 @@ Eigen::Vector3d worldPoint(vtkRenderer& renderer, int x, int y, double depth)
 Window::Window(Session& session)
   : session_(session)
   , view_(*renderer_)
+  , validity_(session.recording().scene.law)
 {
   resize(1440, 860);
   makeView();
@@ -140,6 +142,8 @@ void Window::makeDocks()
       session_.arm(armed);
     });
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
+  reliance_ = new ReliancePanel;
+  addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), reliance_);
 
   addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
   addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
@@ -206,7 +210,10 @@ void Window::makeMenus()
     { tr("&Contact circle"), Overlay::ContactCircle },
     { tr("&Extent circle"), Overlay::ExtentCircle },
     { tr("&Displacement colours"), Overlay::DisplacementColors },
-    { tr("&Readings"), Overlay::Readings } };
+    { tr("&Readings"), Overlay::Readings }, { tr("&Pressure colours"), Overlay::PressureColors },
+    { tr("&Validity colours"), Overlay::ValidityColors },
+    { tr("Bézier control &net"), Overlay::ControlNet },
+    { tr("&Undeformed surface"), Overlay::Ghost } };
   for (const auto& [name, overlay] : overlays)
   {
     QAction* action = view->addAction(name);
@@ -270,6 +277,7 @@ void Window::refresh()
 void Window::refreshCharts()
 {
   panel_->showDevice(session_.newest(), session_.rendersForce(), session_.armed());
+  showReliance(session_.newest());
   charts_.refresh();
   timeView_->GetRenderWindow()->Render();
   depthView_->GetRenderWindow()->Render();
@@ -284,6 +292,25 @@ void Window::refreshCharts()
       .arg(late));
 }
 
+void Window::showReliance(const Sample& sample)
+{
+  const Contact& contact = sample.contact;
+  if (contact.touching())
+  {
+    reliance_->showRules(validity_({ .depth = contact.depth,
+                                     .tilt = contact.tilt,
+                                     .thickness = contact.thickness,
+                                     .surfaceCurvature = contact.surfaceCurvature,
+                                     .curvatureSpread = contact.curvatureSpread },
+      contact.edgeDistance));
+  }
+  else
+  {
+    reliance_->showNoContact();
+  }
+  reliance_->showTiming(session_.timing(), session_.schedule());
+}
+
 void Window::applyTissue()
 {
   attempt(
@@ -291,7 +318,9 @@ void Window::applyTissue()
     {
       const ForceLaw law = panel_->law();
       session_.setTissue(law, panel_->rule(), panel_->damping());
+      validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
       view_.setTip(law.tip());
+      view_.setLaw(law);
       view_.setExtents(session_.extents());
       charts_.setLaw(law);
     });
@@ -301,6 +330,7 @@ void Window::applyDevice(const QString& name)
 {
   attempt([&] { session_.useDevice(name.toStdString()); });
   charts_.clear();
+  applyTissue(); // what is stable depends on the device
 }
 
 bool Window::openSurface(const QString& file, const QString& unit)
@@ -335,6 +365,7 @@ bool Window::exportData(const QString& directory)
     [&]
     {
       session_.update([this](const Sample& sample) { charts_.add(sample); });
+      writeTiming(std::filesystem::path(directory.toStdString()) / "servo.csv", session_.timing());
       exportRecording(
         directory.toStdString(), session_.body(), session_.recording(), session_.extents());
       statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);

@@ -2,6 +2,7 @@
 
 #include "app/session.h"
 #include "app/surface_point.h"
+#include "haptics/force/validity.h"
 #include "pipeline/force_charts.h"
 #include "pipeline/press_view.h"
 
@@ -21,6 +22,7 @@ class vtkRenderer;
 namespace palp
 {
 
+class ReliancePanel;
 class TissuePanel;
 
 /// The window: the body in 3-D, tool and tissue at the left, live curves at the right.
@@ -54,6 +56,7 @@ private:
 
   void refresh();
   void refreshCharts();
+  void showReliance(const Sample& sample);
   void applyTissue();
   void applyDevice(const QString& name);
   bool attempt(const std::function<void()>& work);
@@ -69,11 +72,13 @@ private:
   double depth_ = 0.0;                 // asked for by drag [m]
   double heldDepth_ = 0.0;             // asked for by wheel, stays between presses [m]
   bool pressing_ = false;
+  Validity validity_; // of the law that the session uses
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   vtkNew<vtkContextView> timeView_;
   vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
+  ReliancePanel* reliance_ = nullptr;
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;
 };

@@ -5,7 +5,9 @@ add_library(palp_flags INTERFACE)
 target_compile_options(palp_flags INTERFACE
   -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${PALP_WERROR}>:-Werror>)
 if(PALP_SANITIZE)
-  target_compile_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE} -fno-omit-frame-pointer)
+  # gcc 12 sees values unset in instrumented code that are not
+  target_compile_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE} -fno-omit-frame-pointer
+    -Wno-maybe-uninitialized)
   target_link_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE})
 endif()
 

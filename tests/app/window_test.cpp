@@ -148,6 +148,16 @@ TEST_F(WindowTest, TheSimulatedHandYieldsToTheForceUntilItIsStopped)
   release();
 }
 
+TEST_F(WindowTest, NamesTheRulesThatADeepPressBreaks)
+{
+  press(180); // 9 mm with a tool of 10 mm radius
+  const auto* rules = window_->findChild<QLabel*>("rules");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rules->text().contains("depth"); }, kPatience))
+    << rules->text().toStdString();
+  release();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rules->text().contains("no contact"); }, kPatience));
+}
+
 TEST_F(WindowTest, SavesAScreenshotOfTheDent)
 {
   const QString file = QString::fromStdString((folder_.path() / "shot.png").string());
@@ -179,6 +189,7 @@ TEST_F(WindowTest, ExportsWhatWasMeasured)
   EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peakForce(), 1e-12);
   EXPECT_GT(peakForce(), 1.0);
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "deformed.vtp"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
 }
 
 TEST_F(WindowTest, OpensAnotherSurface)
