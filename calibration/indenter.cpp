@@ -32,8 +32,7 @@ constexpr int kMostChanges = 60;
 
 constexpr double kShortest = 1e-2; // part of a Newton step that is still tried [-]
 constexpr double kNoWorse = 1.5;   // growth of the imbalance that a step may cause [-]
-constexpr double kDecrease =
-  0.5; // of the imbalance, which counts like a decrease of the energy [-]
+constexpr double kDecrease = 0.5;  // of the imbalance, as good as a decrease of the energy [-]
 constexpr std::array kAddedStiffness{ 0.0, 0.01, 0.1, 1.0 }; // to the diagonal [-]
 
 } // namespace
@@ -75,7 +74,7 @@ Indenter::ToolPoint Indenter::toolAt(int node) const
   {
     return point;
   }
-  const double h = 1e-4 * base;
+  const double h = 1e-4 * base; // short against elements, long against the shiver at an edge
   const double inner = std::max(0.0, radius - h);
   const double bend = (tipSlope(tip_, radius + h) - tipSlope(tip_, inner)) / (radius + h - inner);
   const double slope = tipSlope(tip_, radius);
@@ -140,7 +139,6 @@ Equilibrium::Step Indenter::downhill(std::vector<Sliding> nodes, bool mayTurn)
     }
     step = equilibrium_.solve(nodes, added);
   }
-  ++iterations_;
   return step;
 }
 

@@ -63,12 +63,6 @@ public:
   /// @throws Error  BadFile: of another size, or no equilibrium
   void resume(const Checkpoint& checkpoint);
 
-  /// Newton iterations since the start.
-  [[nodiscard]] int iterations() const noexcept
-  {
-    return iterations_;
-  }
-
 private:
   struct ToolPoint
   {
@@ -106,7 +100,6 @@ private:
   double force_ = 0.0;
   Eigen::VectorXd previous_; // displacement before the last step, for extrapolation
   double previousDepth_ = 0.0;
-  int iterations_ = 0;
 };
 
 } // namespace palp::fem

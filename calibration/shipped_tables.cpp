@@ -25,7 +25,8 @@ constexpr double kRadius = 10.0_mm; // of the sphere that stands for all
 constexpr std::array kDepths{ 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0 };
 constexpr std::array kRadiusOverThickness{ 0.05, 0.1, 0.2, 0.35, 0.5 };
 constexpr std::array kPoisson{ 0.0, 0.2, 0.33, 0.45, 0.49 };
-constexpr std::array kConeDegrees{ 30.0, 45.0, 60.0 };
+constexpr std::array kConeDegrees{ 45.0, 60.0 }; // sharper ones scatter by 5 % on this mesh
+constexpr std::array kConePoisson{ 0.0, 0.2, 0.33, 0.45 };
 constexpr double kConeThickness = 50.0_mm;
 constexpr double kCap = 0.3_mm;
 
@@ -208,7 +209,7 @@ void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, co
   std::string notes;
   std::ostringstream forces;
   forces.precision(5);
-  for (const double poisson : kPoisson)
+  for (const double poisson : kConePoisson)
   {
     for (const double degrees : kConeDegrees)
     {

@@ -28,8 +28,8 @@ struct Case
   Tip tip = SphereTip{ 0.01 };
   Material material{ 50e3, 0.33 };
   Energy energy = Energy::NeoHookean;
-  std::vector<double> depths{};  ///< increasing [m]
-  double threshold = 0.5e-3;  ///< displacement at the edge of the deformed region [m]
+  std::vector<double> depths{}; ///< increasing [m]
+  double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]
   BodyModel model = BodyModel::Axisymmetric;
   double elementSize = 0.0; ///< under the tool [m]; 0: 0.5 mm, or the paper's 30 x 30 x 10 nodes
 };

@@ -1,0 +1,79 @@
+#include "calibration/csv_rows.h"
+#include "tests/support/process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using test::Finished;
+
+std::filesystem::path freshFolder()
+{
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  auto folder =
+    std::filesystem::path(testing::TempDir()) / (std::string("calibrate_") + test->name());
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+Finished calibrate(const std::string& arguments)
+{
+  return test::runCommand(PALP_PROGRAM " calibrate --element-size 2mm " + arguments);
+}
+
+TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
+{
+  const auto folder = freshFolder();
+  const Finished finished = calibrate("--material linear --depth 1:3:1mm --out " + folder.string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const auto rows = readCsv(folder / "table.csv", 4);
+  ASSERT_EQ(rows.size(), 3U);
+  for (const auto& row : rows)
+  {
+    const double hertz = 4.0 / 3.0 * 50e3 / (1 - 0.33 * 0.33) * 0.1 * std::pow(row[0] / 1e3, 1.5);
+    EXPECT_GT(row[2], 0.95 * hertz);
+    EXPECT_LT(row[2], 1.15 * hertz);
+  }
+  for (const char* name : { "profiles.csv", "fit.json" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder / name));
+  }
+}
+
+TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
+{
+  const auto folder = freshFolder();
+  std::ofstream(folder / "blocked") << "a file where the second case wants its folder";
+  std::ofstream(folder / "cases.json") << R"([
+    {"name": "good", "young": "5kPa", "depth": "1:2:1mm"},
+    {"name": "blocked", "depth": "1:2:1mm"}])";
+  const Finished finished =
+    calibrate("--sweep " + (folder / "cases.json").string() + " --out " + folder.string());
+  EXPECT_EQ(finished.code, 5);
+  EXPECT_NE(finished.err.find("good: done"), std::string::npos);
+  EXPECT_NE(finished.err.find("1 of 2 cases"), std::string::npos);
+  EXPECT_EQ(readCsv(folder / "good" / "table.csv", 4).size(), 2U);
+}
+
+TEST(CalibrateCommand, RefusesBadInputInOneLine)
+{
+  for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--block 100x100mm",
+         "--block 100x100x50", "--material rubber", "--poisson 0.5", "--depth 0:90:1mm",
+         "--model cube", "--sweep /no/such/file.json" })
+  {
+    const Finished finished = calibrate(bad);
+    EXPECT_EQ(finished.code, 2) << bad;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+}
+
+} // namespace
+} // namespace palp
