@@ -1,5 +1,6 @@
 #include "pipeline/fitted_surfaces.h"
 
+#include "calibration/csv_rows.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -22,6 +23,11 @@ SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double 
 }
 
 } // namespace
+
+FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file)
+{
+  return FittedSurfaces(readCsv(file, kColumns));
+}
 
 FittedSurfaces::FittedSurfaces(const std::vector<std::vector<double>>& rows)
 {

@@ -2,6 +2,7 @@
 
 #include "calibration/surface_profile.h"
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,10 @@ class FittedSurfaces
 {
 public:
   static constexpr std::size_t kColumns = 7;
+
+  /// Reads such a table.
+  /// @throws Error  BadFile: missing, or not seven numbers a row; BadValue: as below
+  [[nodiscard]] static FittedSurfaces read(const std::filesystem::path& file);
 
   /// @param rows    depth_mm,inner_mm,outer_mm,sink_mm,slope,control_outer_mm,control_inner_mm;
   ///                depths increasing

@@ -28,17 +28,7 @@ test::CsvTable table(const std::string& name)
 
 FittedSurfaces fitted(const std::string& name)
 {
-  const test::CsvTable columns = table("tables/" + name + "_surface.csv");
-  std::vector<std::vector<double>> rows(columns["depth_mm"].size());
-  for (const char* column : { "depth_mm", "inner_mm", "outer_mm", "sink_mm", "slope",
-         "control_outer_mm", "control_inner_mm" })
-  {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      rows[i].push_back(columns[column][i]);
-    }
-  }
-  return FittedSurfaces(rows);
+  return FittedSurfaces::read(kData / "tables" / (name + "_surface.csv"));
 }
 
 struct Case
