@@ -348,15 +348,16 @@ TEST_F(HidRig, LastWordsOfADeviceAreZero)
 {
   {
     ThreadedDevice device(openArm(), {});
-    for (int i = 0; i < 50; ++i)
+    while (board_->last == 0) // as long as a machine under load may take
     {
       (void)device.exchange(Vector3d(0.5, 0, 0.5), 1.0_ms);
       std::this_thread::sleep_for(1ms);
     }
-    EXPECT_GT(board_->last, 0);
   }
-  std::this_thread::sleep_for(5ms);
-  EXPECT_EQ(board_->last, 0);
+  while (board_->last != 0)
+  {
+    std::this_thread::sleep_for(1ms);
+  }
 }
 
 } // namespace

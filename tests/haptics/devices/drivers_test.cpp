@@ -310,9 +310,12 @@ public:
   IoCode tick(const Vector3d& force, double, DriverSample& sample) noexcept override
   {
     forces_.push_back(force);
+    pushed = pushed || force.isApprox(Vector3d(1, 0, 0));
     sample.position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm);
     return pulled_ ? IoCode::Gone : IoCode::Ok;
   }
+
+  std::atomic<bool> pushed = false;
 
 private:
   std::atomic<bool>& pulled_;
@@ -327,15 +330,17 @@ TEST(ThreadedDevice, StandsWhereItIsPlacedAndEndsWithZeroForce)
     DevicePlacement placement;
     placement.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1; // a quarter turn about z
     placement.origin = Vector3d(0.1, 0, 0);
-    ThreadedDevice device(std::make_unique<Fake>(pulled, forces), placement);
-    const auto pose = device.exchange(Vector3d(0, 1, 0), 1.0_ms);
-    ASSERT_TRUE(pose);
-    EXPECT_TRUE(pose->apex.isApprox(Vector3d(0.1 - 2.0_mm, 1.0_mm, 3.0_mm)));
-    std::this_thread::sleep_for(5ms);
-    EXPECT_LT(device.status().age, 1.0);
+    auto fake = std::make_unique<Fake>(pulled, forces);
+    const std::atomic<bool>& pushed = fake->pushed;
+    ThreadedDevice device(std::move(fake), placement);
+    while (!pushed) // as long as a machine under load may take
+    {
+      const auto pose = device.exchange(Vector3d(0, 1, 0), 1.0_ms);
+      ASSERT_TRUE(pose);
+      EXPECT_TRUE(pose->apex.isApprox(Vector3d(0.1 - 2.0_mm, 1.0_mm, 3.0_mm)));
+      std::this_thread::sleep_for(1ms);
+    }
   }
-  EXPECT_TRUE(std::ranges::any_of(
-    forces, [](const Vector3d& force) { return force.isApprox(Vector3d(1, 0, 0)); }));
   ASSERT_GE(forces.size(), 10U);
   EXPECT_TRUE(std::all_of(
     forces.end() - 10, forces.end(), [](const Vector3d& force) { return force.isZero(0.0); }));
