@@ -50,7 +50,7 @@ void drawScene(const OffscreenContext& context, const Body& body, const Recordin
   const Sample& shown = deepest ? *deepest : recording.samples.back();
   const SurfacePoint place = subject(recording, shown);
   view.show(shown);
-  view.lookAt(place.position, place.normal);
+  view.lookAtWhole(place.position, place.normal);
   view.show(shown); // labels take their place from the camera
   writePng(*window, file);
 }

@@ -250,4 +250,28 @@ void PressView::lookAt(const Eigen::Vector3d& place, const Eigen::Vector3d& norm
   renderer_.ResetCameraClippingRange();
 }
 
+void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
+{
+  constexpr double kObliquity = 40.0_deg;
+  // a place on top is seen from the front, any other from above
+  const bool onTop = std::abs(normal.z()) > 0.7;
+  const Eigen::Vector3d up = onTop ? normal : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d aside = onTop ? Eigen::Vector3d(-Eigen::Vector3d::UnitY()) : up;
+  const Eigen::Vector3d side = (aside - aside.dot(normal) * normal).normalized();
+  const Eigen::Vector3d towards = std::cos(kObliquity) * normal + std::sin(kObliquity) * side;
+
+  double bounds[6];
+  surfaceMapper_->GetBounds(bounds);
+  const Eigen::Vector3d middle = 0.5 *
+    Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+  const Eigen::Vector3d focus = 0.6 * middle + 0.4 * place;
+  const Eigen::Vector3d eye = focus + 0.45 * diagonal_ / std::tan(0.5 * kViewAngle) * towards;
+  vtkCamera& camera = *renderer_.GetActiveCamera();
+  camera.SetFocalPoint(focus.data());
+  camera.SetPosition(eye.data());
+  camera.SetViewUp(up.data());
+  camera.SetWindowCenter(0.15, 0.0); // the legend has the right side
+  renderer_.ResetCameraClippingRange();
+}
+
 } // namespace palp

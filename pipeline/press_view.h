@@ -67,6 +67,9 @@ public:
   /// @param normal  unit, outward
   void lookAt(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
 
+  /// The whole surface with a place on it, head up where it is pressed from a side.
+  void lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
+
   /// R_d of the table for a depth [m]; 0 without a table.
   [[nodiscard]] double extentRadius(double depth) const noexcept;
 
