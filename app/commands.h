@@ -19,6 +19,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
 void addRunCommand(CLI::App& app, const Pictures* pictures);
 void addForceCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app, const Pictures* pictures);
+void addExperimentCommand(CLI::App& app, const Pictures* pictures);
 void addStabilityCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));

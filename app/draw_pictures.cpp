@@ -14,6 +14,7 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <array>
 #include <limits>
 
 namespace palp
@@ -126,6 +127,63 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
   draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
   draw("extent.png", *extentPlot(ExtentTable(rows), {}));
   draw("profiles.png", profiles);
+}
+
+void DrawPictures::drawExperiment(
+  const fem::Experiment& experiment, const std::filesystem::path& directory) const
+{
+  constexpr std::array kColors{ appearance::kMeasured, appearance::kLaw, appearance::kGood,
+    appearance::kInk, appearance::kExtent, appearance::kDoubtful, appearance::kGhost };
+  // several curves of one quantity follow each other in the rows, told apart by columns before it
+  const auto& names = experiment.columns;
+  const auto isKey = [&](std::size_t k)
+  { return k > 0 && (names[k] == "tool" || names[k] == "depth_mm"); };
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 1; k < names.size(); ++k)
+  {
+    if (!isKey(k))
+    {
+      shown.push_back(k);
+    }
+  }
+  const auto sameCurve = [&](const std::vector<double>& a, const std::vector<double>& b)
+  {
+    for (std::size_t k = 1; k < names.size(); ++k)
+    {
+      if (isKey(k) && a[k] != b[k])
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+
+  Plot plot(experiment.name, names.front(), shown.size() == 1 ? names[shown.front()] : "");
+  for (std::size_t s = 0; s < shown.size(); ++s)
+  {
+    const appearance::Color& color = kColors[s % kColors.size()];
+    std::string label = names[shown[s]];
+    for (std::size_t begin = 0, end = 0; begin < experiment.rows.size(); begin = end)
+    {
+      std::vector<double> x;
+      std::vector<double> y;
+      for (;
+           end < experiment.rows.size() && sameCurve(experiment.rows[begin], experiment.rows[end]);
+           ++end)
+      {
+        x.push_back(experiment.rows[end].front());
+        y.push_back(experiment.rows[end][shown[s]]);
+      }
+      if (x.size() > 1)
+      {
+        plot.addLine(label, x, y, color);
+        label.clear(); // one entry in the legend for all of a kind
+      }
+    }
+  }
+  const OffscreenContext context;
+  drawChart(context, directory / (experiment.name + ".png"),
+    [&](vtkContextScene& scene) { plot.addTo(scene); });
 }
 
 } // namespace palp

@@ -13,6 +13,8 @@ public:
     const std::filesystem::path& directory, ImageSize size) const override;
   void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
     const std::filesystem::path& directory) const override;
+  void drawExperiment(
+    const fem::Experiment& experiment, const std::filesystem::path& directory) const override;
 };
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "app/body.h"
 #include "app/recording.h"
+#include "calibration/experiments.h"
 #include "calibration/extent_table.h"
 #include "calibration/study.h"
 
@@ -34,6 +35,12 @@ struct Pictures
   /// @throws Error  as drawPress
   virtual void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
     const std::filesystem::path& directory) const = 0;
+
+  /// Draws NAME.png of an experiment: every column over the first.
+  ///
+  /// @throws Error  as drawPress
+  virtual void drawExperiment(
+    const fem::Experiment& experiment, const std::filesystem::path& directory) const = 0;
 };
 
 } // namespace palp

@@ -83,6 +83,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addRunCommand(app, parts.pictures);
   addForceCommand(app);
   addCalibrateCommand(app, parts.pictures);
+  addExperimentCommand(app, parts.pictures);
   addStabilityCommand(app);
   addBenchCommand(app);
   addDevicesCommand(app, parts.devices);
