@@ -1,7 +1,6 @@
 #pragma once
 
 #include "app/press_options.h"
-#include "calibration/extent_table.h"
 #include "haptics/contact/surface.h"
 
 #include <memory>
@@ -27,9 +26,5 @@ struct Body
 /// Loads the file that the options name, for both levels, or the bundled liver with its own two.
 /// @throws Error  BadFile, BadMesh, BadValue
 [[nodiscard]] Body loadBody(const PressOptions& options);
-
-/// The calibration table that the options name, or the bundled one nearest to the tool.
-/// @throws Error  BadFile
-[[nodiscard]] ExtentTable loadExtents(const PressOptions& options, const Tip& tip);
 
 } // namespace palp

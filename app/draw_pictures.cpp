@@ -38,7 +38,7 @@ SurfacePoint subject(const Recording& recording, const Sample& shown)
 }
 
 void drawScene(const OffscreenContext& context, const Body& body, const Recording& recording,
-  const ExtentTable& extents, const std::filesystem::path& file, ImageSize size)
+  const Calibration& calibration, const std::filesystem::path& file, ImageSize size)
 {
   const auto window = context.makeWindow(size.width, size.height);
   vtkNew<vtkRenderer> renderer;
@@ -46,7 +46,9 @@ void drawScene(const OffscreenContext& context, const Body& body, const Recordin
   PressView view(*renderer);
   view.setSurface(body.display);
   view.setTip(recording.scene.law.tip());
-  view.setExtents(extents);
+  view.setExtents(calibration.extents);
+  view.setFitted(calibration.surfaces);
+  view.setLaw(recording.scene.law);
   const Sample* deepest = recording.deepest();
   const Sample& shown = deepest ? *deepest : recording.samples.back();
   const SurfacePoint place = subject(recording, shown);
@@ -70,10 +72,10 @@ void drawChart(const OffscreenContext& context, const std::filesystem::path& fil
 } // namespace
 
 void DrawPictures::drawPress(const Body& body, const Recording& recording,
-  const ExtentTable& extents, const std::filesystem::path& directory, ImageSize size) const
+  const Calibration& calibration, const std::filesystem::path& directory, ImageSize size) const
 {
   const OffscreenContext context;
-  drawScene(context, body, recording, extents, directory / "press.png", size);
+  drawScene(context, body, recording, calibration, directory / "press.png", size);
 
   ForceCharts charts;
   charts.setLaw(recording.scene.law);

@@ -9,7 +9,7 @@ namespace palp
 class DrawPictures final : public Pictures
 {
 public:
-  void drawPress(const Body& body, const Recording& recording, const ExtentTable& extents,
+  void drawPress(const Body& body, const Recording& recording, const Calibration& calibration,
     const std::filesystem::path& directory, ImageSize size) const override;
   void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
     const std::filesystem::path& directory) const override;

@@ -19,23 +19,25 @@
 namespace palp
 {
 
-Press pressOf(const Sample& sample, const Tip& tip, const ExtentTable& extents)
+Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
   return { .contact = sample.contact,
     .pose = sample.pose,
     .tip = tip,
     .contactRadius = sample.response.contactRadius,
-    .extentRadius = extents.extentRadius(sample.contact.depth) };
+    .extentRadius = calibration.extents.extentRadius(sample.contact.depth),
+    .fitted =
+      calibration.surfaces ? calibration.surfaces->at(sample.contact.depth) : std::nullopt };
 }
 
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
-  const ExtentTable& extents)
+  const Calibration& calibration)
 {
   vtkNew<vtkPalpDeformFilter> filter;
   filter->SetInputData(body.display);
   if (const Sample* deepest = recording.deepest())
   {
-    filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), extents));
+    filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
   }
   filter->Update();
 
@@ -55,20 +57,20 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
 }
 
 void exportRecording(const std::filesystem::path& directory, const Body& body,
-  const Recording& recording, const ExtentTable& extents)
+  const Recording& recording, const Calibration& calibration)
 {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
   const std::filesystem::path file = directory / "samples.csv";
   std::ofstream samples(file);
-  writeSamples(samples, recording, extents);
+  writeSamples(samples, recording, calibration);
   samples.close();
   if (!samples)
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": cannot be written; choose a folder with room where you may write");
   }
-  writeDeformed(directory / "deformed.vtp", body, recording, extents);
+  writeDeformed(directory / "deformed.vtp", body, recording, calibration);
 }
 
 void writeTiming(const std::filesystem::path& file, const Timing& timing)

@@ -11,20 +11,20 @@ namespace palp
 {
 
 /// What the deformation filter needs of a sample.
-[[nodiscard]] Press pressOf(const Sample& sample, const Tip& tip, const ExtentTable& extents);
+[[nodiscard]] Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration);
 
 /// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
 /// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.
 ///
 /// @throws Error  BadFile: cannot be written
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
-  const ExtentTable& extents);
+  const Calibration& calibration);
 
 /// Writes samples.csv and deformed.vtp into a directory, which is made when it is missing.
 ///
 /// @throws Error  BadFile: cannot be made or written
 void exportRecording(const std::filesystem::path& directory, const Body& body,
-  const Recording& recording, const ExtentTable& extents);
+  const Recording& recording, const Calibration& calibration);
 
 /// Writes how punctual a servo thread was: quantiles of lateness and step time [us], ticks,
 /// skipped.

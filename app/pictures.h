@@ -3,7 +3,6 @@
 #include "app/body.h"
 #include "app/recording.h"
 #include "calibration/experiments.h"
-#include "calibration/extent_table.h"
 #include "calibration/study.h"
 
 #include <filesystem>
@@ -26,8 +25,9 @@ struct Pictures
   /// Draws press.png (the deepest moment), force_time.png and force_depth.png.
   ///
   /// @throws Error  NoPicture: no context, or a picture that came out empty
-  virtual void drawPress(const Body& body, const Recording& recording, const ExtentTable& extents,
-    const std::filesystem::path& directory, ImageSize size) const = 0;
+  virtual void drawPress(const Body& body, const Recording& recording,
+    const Calibration& calibration, const std::filesystem::path& directory,
+    ImageSize size) const = 0;
 
   /// Draws extent.png, force.png and profiles.png of a calibration.
   ///

@@ -45,6 +45,11 @@ void PressOptions::addTo(CLI::App& command)
     ->capture_default_str();
   command.add_option("--damping", damping, "Damping along the surface normal")
     ->capture_default_str();
+  command
+    .add_option("--surface", surface,
+      "paper: the ring of Eq. (8); fitted: curves fitted to finite elements of the nearest tool")
+    ->check(CLI::IsMember({ "paper", "fitted" }))
+    ->capture_default_str();
   command.add_option("--table", table, "Calibration table depth -> R_d; the bundled one if none");
 }
 

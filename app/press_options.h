@@ -38,6 +38,7 @@ struct PressOptions
   std::string contact = "exact";
   std::string damping = "0N*s/m";
   std::filesystem::path table; ///< R_d(depth); empty: the bundled one for the tool
+  std::string surface = "paper";
 
   void addTo(CLI::App& command);
 

@@ -38,7 +38,7 @@ const Sample* Recording::deepest() const noexcept
   return deepest;
 }
 
-void writeSamples(std::ostream& out, const Recording& recording, const ExtentTable& extents)
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration& calibration)
 {
   using units::toMillimetres;
   const ForceLaw& law = recording.scene.law;
@@ -74,7 +74,7 @@ void writeSamples(std::ostream& out, const Recording& recording, const ExtentTab
         toMillimetres(apex.z()), toMillimetres(contact.depth), sample.response.force,
         sample.force.x(), sample.force.y(), sample.force.z(),
         toMillimetres(sample.response.contactRadius),
-        toMillimetres(extents.extentRadius(contact.depth)),
+        toMillimetres(calibration.extents.extentRadius(contact.depth)),
         units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
         contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
         static_cast<double>(sample.flags),

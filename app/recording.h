@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/extent_table.h"
+#include "app/calibration.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
@@ -29,7 +29,7 @@ struct Recording
 ///
 /// The same recording gives the same bytes: no date, no host.
 ///
-/// @param extents  R_d(depth) for the column extent_radius_mm, 0 when apart
-void writeSamples(std::ostream& out, const Recording& recording, const ExtentTable& extents);
+/// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when apart
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration& calibration);
 
 } // namespace palp

@@ -50,7 +50,7 @@ ImageSize parseSize(const std::string& text)
   return size;
 }
 
-void report(const Recording& recording, const ExtentTable& extents)
+void report(const Recording& recording, const Calibration& calibration)
 {
   const Sample* deepest = recording.deepest();
   if (!deepest)
@@ -62,7 +62,8 @@ void report(const Recording& recording, const ExtentTable& extents)
   std::cerr << "palp: deepest " << units::toMillimetres(deepest->contact.depth) << " mm, force "
             << deepest->response.force << " N, contact radius "
             << units::toMillimetres(deepest->response.contactRadius) << " mm, extent radius "
-            << units::toMillimetres(extents.extentRadius(deepest->contact.depth)) << " mm\n";
+            << units::toMillimetres(calibration.extents.extentRadius(deepest->contact.depth))
+            << " mm\n";
 }
 
 void run(const RunOptions& options, const Pictures* pictures)
@@ -88,7 +89,7 @@ void run(const RunOptions& options, const Pictures* pictures)
   const std::filesystem::path path =
     options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
   const ScriptedPath script = readPath(path);
-  const ExtentTable extents = loadExtents(options.press, recording.scene.law.tip());
+  const Calibration calibration = loadCalibration(options.press, recording.scene.law.tip());
 
   const Body body = loadBody(options.press);
   for (const std::string& note : body.notes)
@@ -100,12 +101,12 @@ void run(const RunOptions& options, const Pictures* pictures)
   recording.device = "path:" + path.filename().string();
   recording.scene.surface = body.haptic;
   recording.samples = play(script, recording.scene, options.chain);
-  report(recording, extents);
+  report(recording, calibration);
 
-  exportRecording(options.out, body, recording, extents);
+  exportRecording(options.out, body, recording, calibration);
   if (!options.noPicture)
   {
-    pictures->drawPress(body, recording, extents, options.out, size);
+    pictures->drawPress(body, recording, calibration, options.out, size);
   }
 }
 

@@ -76,9 +76,9 @@ public:
   {
     return body_;
   }
-  [[nodiscard]] const ExtentTable& extents() const noexcept
+  [[nodiscard]] const Calibration& calibration() const noexcept
   {
-    return extents_;
+    return calibration_;
   }
 
   /// The last ten minutes.
@@ -93,7 +93,7 @@ private:
 
   PressOptions options_;
   Body body_;
-  ExtentTable extents_;
+  Calibration calibration_;
   Recording recording_; // its scene is the one that the servo thread has
   std::function<void(const HandTarget&)> moveTool_;
   std::unique_ptr<Device> device_;

@@ -321,7 +321,8 @@ void Window::applyTissue()
       validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
       view_.setTip(law.tip());
       view_.setLaw(law);
-      view_.setExtents(session_.extents());
+      view_.setExtents(session_.calibration().extents);
+      view_.setFitted(session_.calibration().surfaces);
       charts_.setLaw(law);
     });
 }
@@ -367,7 +368,7 @@ bool Window::exportData(const QString& directory)
       session_.update([this](const Sample& sample) { charts_.add(sample); });
       writeTiming(std::filesystem::path(directory.toStdString()) / "servo.csv", session_.timing());
       exportRecording(
-        directory.toStdString(), session_.body(), session_.recording(), session_.extents());
+        directory.toStdString(), session_.body(), session_.recording(), session_.calibration());
       statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);
     });
 }
