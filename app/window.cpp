@@ -8,17 +8,11 @@
 #include "haptics/units.h"
 
 #include <QVTKOpenGLNativeWidget.h>
-#include <vtkContextScene.h>
 #include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
-#include <QAction>
-#include <QDockWidget>
-#include <QFileDialog>
 #include <QLabel>
-#include <QMenuBar>
 #include <QMessageBox>
 #include <QStatusBar>
 #include <QTimer>
@@ -32,35 +26,9 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kFrameMs = 16;               // the picture
-constexpr int kPlotMs = 100;               // the curves, which cost more and need less
-constexpr double kHover = 3.0_mm;          // of the apex above the surface
-constexpr double kDepthPerPixel = 0.05_mm; // of a drag
-constexpr double kDepthPerNotch = 0.5_mm;  // of the wheel
-constexpr double kDeepest = 50.0_mm;
-
-QDockWidget* addDock(
-  QMainWindow* window, Qt::DockWidgetArea area, const QString& title, QWidget* content)
-{
-  auto* dock = new QDockWidget(title, window);
-  dock->setObjectName(title);
-  dock->setWidget(content);
-  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
-  window->addDockWidget(area, dock);
-  return dock;
-}
-
-QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
-{
-  auto* canvas = new QVTKOpenGLNativeWidget;
-  vtkNew<vtkGenericOpenGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  canvas->setRenderWindow(window);
-  canvas->setMinimumSize(360, 200);
-  view.SetRenderWindow(window);
-  view.GetRenderer()->SetBackground(1.0, 1.0, 1.0);
-  return canvas;
-}
+constexpr int kFrameMs = 16;      // the picture
+constexpr int kPlotMs = 100;      // the curves, which cost more and need less
+constexpr double kHover = 3.0_mm; // of the apex above the surface
 
 // a place of the picture, 0 at the near plane and 1 at the far one
 Eigen::Vector3d worldPoint(vtkRenderer& renderer, int x, int y, double depth)
@@ -94,135 +62,6 @@ Window::Window(Session& session)
 }
 
 Window::~Window() = default;
-
-void Window::makeView()
-{
-  canvas_ = new QVTKOpenGLNativeWidget(this);
-  canvas_->setObjectName("canvas");
-  canvas_->setRenderWindow(renderWindow_);
-  renderWindow_->SetMultiSamples(0);
-  renderWindow_->AddRenderer(renderer_);
-  setCentralWidget(canvas_);
-
-  style_->Hover = [this](int x, int y) { point(x, y); };
-  style_->Press = [this](int x, int y)
-  {
-    point(x, y);
-    pressing_ = true;
-    setDepth(heldDepth_);
-  };
-  style_->Drag = [this](int pixelsDown) { setDepth(heldDepth_ + pixelsDown * kDepthPerPixel); };
-  style_->Release = [this]
-  {
-    pressing_ = false;
-    setDepth(heldDepth_);
-  };
-  style_->Wheel = [this](int notches)
-  {
-    heldDepth_ = std::clamp(heldDepth_ + notches * kDepthPerNotch, 0.0, kDeepest);
-    setDepth(heldDepth_);
-  };
-  canvas_->interactor()->SetInteractorStyle(style_);
-}
-
-void Window::makeDocks()
-{
-  const Recording& recording = session_.recording();
-  QStringList devices{ "mouse", "hand" };
-  const QString device = QString::fromStdString(recording.device);
-  devices.removeAll(device);
-  devices.prepend(device);
-  panel_ = new TissuePanel(recording.scene, devices);
-  connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
-  connect(panel_, &TissuePanel::deviceChanged, this, &Window::applyDevice);
-  connect(panel_, &TissuePanel::armAsked, this,
-    [this](bool armed)
-    {
-      session_.stop(false);
-      session_.arm(armed);
-    });
-  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
-  reliance_ = new ReliancePanel;
-  addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), reliance_);
-
-  addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
-  addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
-  charts_.addForceOverTime(*timeView_->GetScene());
-  charts_.addForceOverDepth(*depthView_->GetScene());
-
-  forceLabel_ = new QLabel(tr("Point at the surface, press with the left button, drag down to go "
-                              "deeper; the wheel holds a depth; right button turns the view"));
-  forceLabel_->setObjectName("force");
-  servoLabel_ = new QLabel;
-  servoLabel_->setObjectName("servo");
-  statusBar()->addWidget(forceLabel_, 1);
-  statusBar()->addPermanentWidget(servoLabel_);
-}
-
-void Window::makeMenus()
-{
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  file->addAction(
-    tr("&Open surface…"), this,
-    [this]
-    {
-      const QString name = QFileDialog::getOpenFileName(
-        this, tr("Open surface"), {}, tr("Surfaces (*.stl *.obj *.ply *.off *.vtk *.vtp)"));
-      if (!name.isEmpty())
-      {
-        openSurface(name, "auto");
-      }
-    },
-    QKeySequence::Open);
-  file->addAction(
-    tr("Save &screenshot…"), this,
-    [this]
-    {
-      const QString name =
-        QFileDialog::getSaveFileName(this, tr("Save screenshot"), "palp.png", tr("PNG (*.png)"));
-      if (!name.isEmpty())
-      {
-        saveScreenshot(name);
-      }
-    },
-    QKeySequence::Save);
-  file->addAction(tr("&Export data…"), this,
-    [this]
-    {
-      const QString name = QFileDialog::getExistingDirectory(this, tr("Export data into"));
-      if (!name.isEmpty())
-      {
-        exportData(name);
-      }
-    });
-  file->addSeparator();
-  file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
-
-  QMenu* device = menuBar()->addMenu(tr("&Device"));
-  QAction* stop = device->addAction(
-    tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
-  stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
-
-  QMenu* view = menuBar()->addMenu(tr("&View"));
-  view->addAction(
-    tr("Whole &surface"), this, [this] { view_.lookAtSurface(); }, QKeySequence(Qt::Key_Home));
-  const std::pair<QString, Overlay> overlays[] = { { tr("&Force arrow"), Overlay::ForceArrow },
-    { tr("&Contact circle"), Overlay::ContactCircle },
-    { tr("&Extent circle"), Overlay::ExtentCircle },
-    { tr("&Displacement colours"), Overlay::DisplacementColors },
-    { tr("&Readings"), Overlay::Readings }, { tr("&Pressure colours"), Overlay::PressureColors },
-    { tr("&Validity colours"), Overlay::ValidityColors },
-    { tr("Bézier control &net"), Overlay::ControlNet },
-    { tr("&Undeformed surface"), Overlay::Ghost } };
-  for (const auto& [name, overlay] : overlays)
-  {
-    QAction* action = view->addAction(name);
-    action->setCheckable(true);
-    action->setChecked(view_.isVisible(overlay));
-    connect(action, &QAction::toggled, this,
-      [this, which = overlay](bool on) { view_.setVisible(which, on); });
-  }
-}
 
 void Window::showBody()
 {

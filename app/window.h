@@ -44,6 +44,8 @@ public:
   bool exportData(const QString& directory);
 
 private:
+  static constexpr double kDeepest = 0.05; // that a pointer asks for [m]
+
   void makeView();
   void makeDocks();
   void makeMenus();

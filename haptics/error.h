@@ -9,12 +9,12 @@ namespace palp
 /// What went wrong, for callers that must choose; the text is for people.
 enum class ErrorCode
 {
-  BadFile,      ///< missing, unreadable, or not of the stated format
-  BadMesh,      ///< readable, but not a surface the contact search can use
-  BadValue,     ///< outside its documented range
-  NoDevice,     ///< absent, busy, or not permitted
-  NoPicture,    ///< no way to draw here: no display server and no off-screen context
-  NoSolution,   ///< a computation that could not reach an answer
+  BadFile,    ///< missing, unreadable, or not of the stated format
+  BadMesh,    ///< readable, but not a surface the contact search can use
+  BadValue,   ///< outside its documented range
+  NoDevice,   ///< absent, busy, or not permitted
+  NoPicture,  ///< no way to draw here: no display server and no off-screen context
+  NoSolution, ///< a computation that could not reach an answer
 };
 
 /// The one exception of this project. Thrown while setting up, never while servoing.

@@ -262,8 +262,8 @@ void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d&
 
   double bounds[6];
   surfaceMapper_->GetBounds(bounds);
-  const Eigen::Vector3d middle = 0.5 *
-    Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+  const Eigen::Vector3d middle =
+    0.5 * Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
   const Eigen::Vector3d focus = 0.6 * middle + 0.4 * place;
   const Eigen::Vector3d eye = focus + 0.45 * diagonal_ / std::tan(0.5 * kViewAngle) * towards;
   vtkCamera& camera = *renderer_.GetActiveCamera();
