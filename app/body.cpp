@@ -1,10 +1,15 @@
 #include "app/body.h"
 
 #include "app/data_files.h"
+#include "haptics/contact/deviation.h"
+#include "haptics/units.h"
 #include "pipeline/poly_data.h"
 #include "pipeline/surface_io.h"
 
 #include <vtkPolyData.h>
+
+#include <iomanip>
+#include <sstream>
 
 namespace palp
 {
@@ -28,8 +33,18 @@ Body loadBody(const PressOptions& options)
     .display = loaded.mesh,
     .haptic = nullptr,
     .notes = std::move(loaded.notes) };
-  body.haptic =
-    surfaceOf(bundled ? *readSurface(dataFile("meshes/liver_haptic.vtp")).mesh : *body.display);
+  body.haptic = surfaceOf(*body.display);
+  if (bundled)
+  {
+    const auto coarse = surfaceOf(*readSurface(dataFile("meshes/liver_haptic.vtp")).mesh);
+    const Deviation apart = deviation(*body.haptic, *coarse);
+    body.haptic = coarse;
+    std::ostringstream note;
+    note << "the force comes from " << coarse->points().size() << " points, at most "
+         << std::setprecision(2) << units::toMillimetres(apart.largest) << " mm (RMS "
+         << units::toMillimetres(apart.rootMeanSquare) << " mm) from the surface shown";
+    body.notes.push_back(note.str());
+  }
   return body;
 }
 
