@@ -24,6 +24,9 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   command->callback(
     [options, view]
     {
+      // a wrong value is told before a missing display
+      (void)options->press.tissue.law();
+      (void)options->press.dampingSi();
       if (!view)
       {
         becomeSibling("palp-view");

@@ -74,6 +74,21 @@ TEST(ForceCommand, RefusesWhatIsOutOfRange)
   }
 }
 
+TEST(ViewCommand, TellsAWrongValueBeforeAMissingDisplay)
+{
+  const Finished finished = test::runCommand("env -u DISPLAY " PALP_PROGRAM " --tip sphere:10");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.err.find("has no unit"), std::string::npos) << finished.err;
+}
+
+TEST(ViewCommand, SaysWhatToDoWithoutADisplay)
+{
+  const Finished finished =
+    test::runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " PALP_PROGRAM " view");
+  EXPECT_EQ(finished.code, 4);
+  EXPECT_NE(finished.err.find("palp run"), std::string::npos) << finished.err;
+}
+
 TEST(ForceCommand, HelpTeachesByExample)
 {
   const Finished finished = palp("force --help");
