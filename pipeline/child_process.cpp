@@ -72,10 +72,16 @@ void limit(int resource, std::uint64_t most)
   {
     limit(RLIMIT_DATA, limits.memory);
   }
-  for (const int signal : { SIGXCPU, SIGABRT, SIGSEGV, SIGBUS, SIGFPE })
+  for (const int signal : { SIGXCPU, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGALRM })
   {
     std::signal(signal, SIG_DFL);
   }
+  // a damaged heap can leave the child waiting for a lock, which takes no processor time
+  constexpr std::uint64_t kPatience = 3; // of the time on the processor, for a busy machine
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  alarm(static_cast<unsigned>(kPatience * limits.time));
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);

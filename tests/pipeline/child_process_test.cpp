@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <iostream>
 #include <stdexcept>
+#include <unistd.h>
 #include <vector>
 
 namespace palp::test
@@ -16,6 +17,19 @@ namespace
 {
 
 constexpr ChildLimits kLimits{ .memory = 4ULL << 30, .time = 30 };
+
+// what hangs on a lock takes no processor time, so a limit of that alone would wait for ever
+TEST(ChildProcess, EndsWorkThatOnlyWaits)
+{
+  const auto wait = []() -> std::string
+  {
+    for (;;)
+    {
+      pause();
+    }
+  };
+  EXPECT_FALSE(runInChild(wait, { .memory = kLimits.memory, .time = 1 }));
+}
 
 TEST(ChildProcess, CarriesOverWhatTheWorkReturns)
 {
