@@ -16,34 +16,66 @@ namespace palp
 namespace
 {
 
-std::shared_ptr<const Surface> surfaceOf(vtkPolyData& mesh)
+// points and triangles of all surfaces so far
+struct Union
 {
-  return std::make_shared<const Surface>(pointsOf(mesh), trianglesOf(mesh));
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Triangle> triangles;
+
+  void add(vtkPolyData& mesh, const Eigen::Isometry3d& frame)
+  {
+    const int first = static_cast<int>(points.size());
+    for (const Eigen::Vector3d& point : pointsOf(mesh))
+    {
+      points.push_back(frame * point);
+    }
+    for (const Triangle& triangle : trianglesOf(mesh))
+    {
+      triangles.push_back({ triangle[0] + first, triangle[1] + first, triangle[2] + first });
+    }
+  }
+};
+
+std::string describe(const Deviation& apart, std::size_t points)
+{
+  std::ostringstream note;
+  note << "the force comes from " << points << " points, at most " << std::setprecision(2)
+       << units::toMillimetres(apart.largest) << " mm (RMS "
+       << units::toMillimetres(apart.rootMeanSquare) << " mm) from the surface shown";
+  return note.str();
 }
 
 } // namespace
 
-Body loadBody(const PressOptions& options)
+Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
 {
-  const bool bundled = options.file.empty();
-  const std::filesystem::path file = bundled ? dataFile("meshes/liver.vtp") : options.file;
-  LoadedSurface loaded = readSurface(file, parseUnit(options.unit));
-  Body body{ .name = file.filename().string(),
-    .unit = unitName(loaded.unit),
-    .display = loaded.mesh,
-    .haptic = nullptr,
-    .notes = std::move(loaded.notes) };
-  body.haptic = surfaceOf(*body.display);
-  if (bundled)
+  Body body;
+  Union display;
+  Union haptic;
+  bool coarser = false;
+  for (const MeshSource& source : meshes)
   {
-    const auto coarse = surfaceOf(*readSurface(dataFile("meshes/liver_haptic.vtp")).mesh);
-    const Deviation apart = deviation(*body.haptic, *coarse);
-    body.haptic = coarse;
-    std::ostringstream note;
-    note << "the force comes from " << coarse->points().size() << " points, at most "
-         << std::setprecision(2) << units::toMillimetres(apart.largest) << " mm (RMS "
-         << units::toMillimetres(apart.rootMeanSquare) << " mm) from the surface shown";
-    body.notes.push_back(note.str());
+    const std::filesystem::path file =
+      source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
+    body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
+    const LoadedSurface loaded = readSurface(file, parseUnit(source.unit));
+    body.unit = unitName(loaded.unit);
+    body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
+    display.add(*loaded.mesh, source.frame);
+    const bool liver = source.bundled == "liver";
+    coarser = coarser || liver;
+    haptic.add(
+      liver ? *readSurface(dataFile("meshes/liver_haptic.vtp")).mesh : *loaded.mesh, source.frame);
+  }
+  body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
+  if (shown)
+  {
+    body.display = makePolyData(display.points, display.triangles);
+  }
+  if (shown && coarser)
+  {
+    const Surface fine(display.points, display.triangles);
+    body.notes.push_back(describe(deviation(fine, *body.haptic), body.haptic->points().size()));
   }
   return body;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/press_options.h"
+#include "app/scene_plan.h"
 #include "haptics/contact/surface.h"
 
 #include <memory>
@@ -18,13 +18,17 @@ struct Body
 {
   std::string name;                      ///< file name, for people
   std::string unit;                      ///< that the file's coordinates were read in
-  vtkSmartPointer<vtkPolyData> display;  ///< [m]
+  vtkSmartPointer<vtkPolyData> display;  ///< [m]; null where nobody looks
   std::shared_ptr<const Surface> haptic; ///< [m]
   std::vector<std::string> notes;        ///< what was taken, and warnings; a line each
 };
 
-/// Loads the file that the options name, for both levels, or the bundled liver with its own two.
-/// @throws Error  BadFile, BadMesh, BadValue
-[[nodiscard]] Body loadBody(const PressOptions& options);
+/// Loads surfaces into one body; what is felt is what is shown, but for the bundled liver, which
+/// has a coarser surface to feel.
+///
+/// @param meshes   one or more
+/// @param shown    whether a surface to look at is needed, too
+/// @throws Error   BadFile, BadMesh, BadValue
+[[nodiscard]] Body loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
 
 } // namespace palp

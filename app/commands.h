@@ -17,6 +17,7 @@ struct ViewOptions;
 
 void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
 void addRunCommand(CLI::App& app, const Pictures* pictures);
+void addSceneCommand(CLI::App& app, const Pictures* pictures, int (*view)(const ViewOptions&));
 void addForceCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app, const Pictures* pictures);
 void addExperimentCommand(CLI::App& app, const Pictures* pictures);

@@ -14,6 +14,7 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -38,9 +39,9 @@ SurfacePoint subject(const Recording& recording, const Sample& shown)
 }
 
 void drawScene(const OffscreenContext& context, const Body& body, const Recording& recording,
-  const Calibration& calibration, const std::filesystem::path& file, ImageSize size)
+  const Calibration& calibration, const ScenePlan& plan, const std::filesystem::path& file)
 {
-  const auto window = context.makeWindow(size.width, size.height);
+  const auto window = context.makeWindow(plan.size.width, plan.size.height);
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
   PressView view(*renderer);
@@ -49,6 +50,10 @@ void drawScene(const OffscreenContext& context, const Body& body, const Recordin
   view.setExtents(calibration.extents);
   view.setFitted(calibration.surfaces);
   view.setLaw(recording.scene.law);
+  if (plan.overlays)
+  {
+    view.setVisible(*plan.overlays);
+  }
   const Sample* deepest = recording.deepest();
   const Sample& shown = deepest ? *deepest : recording.samples.back();
   const SurfacePoint place = subject(recording, shown);
@@ -72,11 +77,18 @@ void drawChart(const OffscreenContext& context, const std::filesystem::path& fil
 } // namespace
 
 void DrawPictures::drawPress(const Body& body, const Recording& recording,
-  const Calibration& calibration, const std::filesystem::path& directory, ImageSize size) const
+  const Calibration* calibration, const ScenePlan& plan,
+  const std::filesystem::path& directory) const
 {
   const OffscreenContext context;
-  drawScene(context, body, recording, calibration, directory / "press.png", size);
-
+  if (plan.picture)
+  {
+    drawScene(context, body, recording, *calibration, plan, directory / "press.png");
+  }
+  if (plan.curves.empty())
+  {
+    return;
+  }
   ForceCharts charts;
   charts.setLaw(recording.scene.law);
   for (const Sample& sample : recording.samples)
@@ -84,10 +96,18 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
     charts.add(sample);
   }
   charts.refresh();
-  drawChart(context, directory / "force_time.png",
-    [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
-  drawChart(context, directory / "force_depth.png",
-    [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
+  const auto wants = [&](Curve curve)
+  { return std::find(plan.curves.begin(), plan.curves.end(), curve) != plan.curves.end(); };
+  if (wants(Curve::ForceOverTime))
+  {
+    drawChart(context, directory / "force_time.png",
+      [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
+  }
+  if (wants(Curve::ForceOverDepth))
+  {
+    drawChart(context, directory / "force_depth.png",
+      [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
+  }
 }
 
 void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,

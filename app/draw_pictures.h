@@ -9,8 +9,8 @@ namespace palp
 class DrawPictures final : public Pictures
 {
 public:
-  void drawPress(const Body& body, const Recording& recording, const Calibration& calibration,
-    const std::filesystem::path& directory, ImageSize size) const override;
+  void drawPress(const Body& body, const Recording& recording, const Calibration* calibration,
+    const ScenePlan& plan, const std::filesystem::path& directory) const override;
   void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
     const std::filesystem::path& directory) const override;
   void drawExperiment(

@@ -18,6 +18,16 @@
 
 namespace palp
 {
+namespace
+{
+
+[[noreturn]] void refuse(const std::filesystem::path& file)
+{
+  throw Error(ErrorCode::BadFile,
+    file.string() + ": cannot be written; choose a folder with room where you may write");
+}
+
+} // namespace
 
 Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
@@ -56,20 +66,33 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   writeSurface(file, *mesh);
 }
 
-void exportRecording(const std::filesystem::path& directory, const Body& body,
-  const Recording& recording, const Calibration& calibration)
+void makeDirectory(const std::filesystem::path& directory)
 {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
-  const std::filesystem::path file = directory / "samples.csv";
-  std::ofstream samples(file);
-  writeSamples(samples, recording, calibration);
-  samples.close();
-  if (!samples)
+  if (failure)
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cannot be written; choose a folder with room where you may write");
+    refuse(directory);
   }
+}
+
+void writeSamples(
+  const std::filesystem::path& file, const Recording& recording, const Calibration* calibration)
+{
+  std::ofstream out(file);
+  writeSamples(out, recording, calibration);
+  out.close();
+  if (!out)
+  {
+    refuse(file);
+  }
+}
+
+void exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const Calibration& calibration)
+{
+  makeDirectory(directory);
+  writeSamples(directory / "samples.csv", recording, &calibration);
   writeDeformed(directory / "deformed.vtp", body, recording, calibration);
 }
 
@@ -90,8 +113,7 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing)
   out.close();
   if (!out)
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cannot be written; choose a folder with room where you may write");
+    refuse(file);
   }
 }
 

@@ -20,6 +20,15 @@ namespace palp
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
   const Calibration& calibration);
 
+/// Makes a directory and those above it, where they are missing.
+/// @throws Error  BadFile
+void makeDirectory(const std::filesystem::path& directory);
+
+/// Writes the samples into a file; see the other writeSamples.
+/// @throws Error  BadFile: cannot be written
+void writeSamples(
+  const std::filesystem::path& file, const Recording& recording, const Calibration* calibration);
+
 /// Writes samples.csv and deformed.vtp into a directory, which is made when it is missing.
 ///
 /// @throws Error  BadFile: cannot be made or written

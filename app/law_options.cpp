@@ -79,10 +79,11 @@ LawSettings LawOptions::settings() const
   const LawMode law = mode == "paper" ? LawMode::Paper
     : mode == "exact"                 ? LawMode::Exact
                                       : LawMode::Corrected;
+  const bool needed = material != Constitution::Linear && (rated || law == LawMode::Corrected);
   return { .mode = law,
     .base = base == "slip" ? Base::Slip : Base::Bonded,
     .constitution = material,
-    .largeStrain = material == Constitution::Linear ? nullptr : shippedTable(law) };
+    .largeStrain = needed ? shippedTable(law) : nullptr };
 }
 
 std::string describeLaw(const LawSettings& settings)

@@ -18,6 +18,7 @@ struct LawOptions
   std::string mode = "paper";
   std::string base = "bonded";
   std::string constitution = "neo-hookean";
+  bool rated = true; ///< the law also tells how far it is off, which takes the same table
 
   void addTo(CLI::App& command);
 

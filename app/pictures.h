@@ -10,24 +10,20 @@
 namespace palp
 {
 
-struct ImageSize
-{
-  int width = 1280;
-  int height = 960;
-};
-
 /// What the program that carries rendering can draw. Commands ask through this, so that they
 /// are the same code in every program.
 struct Pictures
 {
   virtual ~Pictures() = default;
 
-  /// Draws press.png (the deepest moment), force_time.png and force_depth.png.
+  /// Draws what the plan asks for of press.png (the deepest moment), force_time.png and
+  /// force_depth.png.
   ///
+  /// @param calibration  null only where the plan has no press.png
   /// @throws Error  NoPicture: no context, or a picture that came out empty
   virtual void drawPress(const Body& body, const Recording& recording,
-    const Calibration& calibration, const std::filesystem::path& directory,
-    ImageSize size) const = 0;
+    const Calibration* calibration, const ScenePlan& plan,
+    const std::filesystem::path& directory) const = 0;
 
   /// Draws extent.png, force.png and profiles.png of a calibration.
   ///

@@ -81,6 +81,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
     "  palp force --tip sphere:10mm --depth 0:10:0.5mm > law.csv");
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
+  addSceneCommand(app, parts.pictures, parts.view);
   addForceCommand(app);
   addCalibrateCommand(app, parts.pictures);
   addExperimentCommand(app, parts.pictures);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/press_options.h"
+#include "app/scene_plan.h"
 
 namespace palp
 {
@@ -10,8 +10,8 @@ struct Pictures;
 /// The whole of `palp view`.
 struct ViewOptions
 {
-  PressOptions press;
-  std::string device = "mouse";
+  ScenePlan plan;
+  bool explain = false; ///< tell what was built once the first picture stands, and end
 };
 
 /// The whole of `palp devices`.

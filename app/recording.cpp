@@ -6,7 +6,7 @@
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
-#include <array>
+#include <optional>
 #include <ostream>
 
 namespace palp
@@ -21,6 +21,17 @@ Indentation placeOf(const Contact& contact)
     .tilt = contact.tilt,
     .thickness = contact.thickness,
     .surfaceCurvature = contact.surfaceCurvature };
+}
+
+void describeRules(std::ostream& out, const Validity& validity)
+{
+  out << "# broken_rules: a sum of the conditions that the place does not meet\n";
+  std::uint32_t bit = 1;
+  for (const Rule& rule : validity(Indentation{}))
+  {
+    out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
+    bit *= 2;
+  }
 }
 
 } // namespace
@@ -38,7 +49,7 @@ const Sample* Recording::deepest() const noexcept
   return deepest;
 }
 
-void writeSamples(std::ostream& out, const Recording& recording, const Calibration& calibration)
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration)
 {
   using units::toMillimetres;
   const ForceLaw& law = recording.scene.law;
@@ -52,33 +63,41 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
       << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
       << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
       << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
-         "and limits; force_x/y/z_N: sent to the device\n"
-      << "# broken_rules: a sum of the conditions that the place does not meet\n";
-  const Validity validity(law);
-  std::uint32_t bit = 1;
-  for (const Rule& rule : validity(Indentation{}))
+         "and limits; force_x/y/z_N: sent to the device\n";
+  const std::optional<Validity> validity =
+    recording.rated ? std::optional<Validity>(law) : std::nullopt;
+  if (validity)
   {
-    out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
-    bit *= 2;
+    describeRules(out, *validity);
   }
   out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
-         "contact_radius_mm,extent_radius_mm,stiffness_N_per_mm,axis_x,axis_y,axis_z,"
-         "normal_x,normal_y,normal_z,tilt_deg,flags,broken_rules\n";
+         "contact_radius_mm,"
+      << (calibration ? "extent_radius_mm," : "")
+      << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
+      << (validity ? ",broken_rules" : "") << '\n';
+  std::vector<double> row;
   for (const Sample& sample : recording.samples)
   {
     const Eigen::Vector3d& apex = sample.pose.apex;
     const Eigen::Vector3d& axis = sample.pose.axis;
     const Contact& contact = sample.contact;
-    writeCsvRow(out,
-      std::array{ sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()),
-        toMillimetres(apex.z()), toMillimetres(contact.depth), sample.response.force,
-        sample.force.x(), sample.force.y(), sample.force.z(),
-        toMillimetres(sample.response.contactRadius),
-        toMillimetres(calibration.extents.extentRadius(contact.depth)),
-        units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
+    row = { sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()), toMillimetres(apex.z()),
+      toMillimetres(contact.depth), sample.response.force, sample.force.x(), sample.force.y(),
+      sample.force.z(), toMillimetres(sample.response.contactRadius) };
+    if (calibration)
+    {
+      row.push_back(toMillimetres(calibration->extents.extentRadius(contact.depth)));
+    }
+    row.insert(row.end(),
+      { units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
         contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
-        static_cast<double>(sample.flags),
-        static_cast<double>(brokenRules(validity(placeOf(contact), contact.edgeDistance))) });
+        static_cast<double>(sample.flags) });
+    if (validity)
+    {
+      row.push_back(
+        static_cast<double>(brokenRules((*validity)(placeOf(contact), contact.edgeDistance))));
+    }
+    writeCsvRow(out, row);
   }
 }
 

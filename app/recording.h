@@ -20,6 +20,7 @@ struct Recording
   std::string device; ///< hand, mouse, path:NAME
   Scene scene;
   std::vector<Sample> samples;
+  bool rated = true; ///< how far each sample may be believed is told, too
 
   /// The first sample of the largest depth; nothing when the tool never touched.
   [[nodiscard]] const Sample* deepest() const noexcept;
@@ -29,7 +30,8 @@ struct Recording
 ///
 /// The same recording gives the same bytes: no date, no host.
 ///
-/// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when apart
-void writeSamples(std::ostream& out, const Recording& recording, const Calibration& calibration);
+/// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when apart; null: no such
+/// column
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration);
 
 } // namespace palp

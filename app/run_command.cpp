@@ -1,19 +1,12 @@
-#include "app/body.h"
 #include "app/commands.h"
 #include "app/data_files.h"
-#include "app/export.h"
-#include "app/pictures.h"
-#include "app/playback.h"
+#include "app/headless.h"
+#include "app/ledger.h"
 #include "app/program.h"
-#include "app/quantity.h"
-#include "app/recording.h"
 #include "haptics/error.h"
-#include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
-#include <iostream>
 #include <memory>
 
 namespace palp
@@ -31,55 +24,13 @@ struct RunOptions
   bool chain = false;
 };
 
-ImageSize parseSize(const std::string& text)
-{
-  ImageSize size;
-  const char* end = text.data() + text.size();
-  const auto [cross, first] = std::from_chars(text.data(), end, size.width);
-  const bool apart = first == std::errc{} && cross != end && *cross == 'x';
-  const auto [rest, second] =
-    apart ? std::from_chars(cross + 1, end, size.height) : std::from_chars_result{};
-  constexpr int kSmallest = 64;
-  constexpr int kLargest = 8192;
-  if (!apart || second != std::errc{} || rest != end ||
-    std::min(size.width, size.height) < kSmallest || std::max(size.width, size.height) > kLargest)
-  {
-    throw Error(ErrorCode::BadValue,
-      "--size: '" + text + "' is no size; write WIDTHxHEIGHT, each 64 to 8192, like 1280x960");
-  }
-  return size;
-}
-
-void report(const Recording& recording, const Calibration& calibration)
-{
-  const Sample* deepest = recording.deepest();
-  if (!deepest)
-  {
-    std::cerr
-      << "palp: the tool never touched the surface; the path may be in another frame or unit\n";
-    return;
-  }
-  std::cerr << "palp: deepest " << units::toMillimetres(deepest->contact.depth) << " mm, force "
-            << deepest->response.force << " N, contact radius "
-            << units::toMillimetres(deepest->response.contactRadius) << " mm, extent radius "
-            << units::toMillimetres(calibration.extents.extentRadius(deepest->contact.depth))
-            << " mm\n";
-}
-
 void run(const RunOptions& options, const Pictures* pictures)
 {
   if (!options.noPicture && !pictures)
   {
     becomeSibling("palp-draw");
   }
-  // every option is checked before any work
-  const ImageSize size = parseSize(options.size);
-  Recording recording;
-  recording.scene.law = options.press.tissue.law();
-  recording.scene.rule = options.press.rule();
-  recording.scene.damping = options.press.dampingSi();
-  recording.scene.forceLimit =
-    options.chain ? Scene{}.forceLimit : std::numeric_limits<double>::infinity();
+  const ImageSize size = parseSize(options.size, "--size");
   const bool bundled = options.press.file.empty();
   if (options.path.empty() && !bundled)
   {
@@ -88,26 +39,18 @@ void run(const RunOptions& options, const Pictures* pictures)
   }
   const std::filesystem::path path =
     options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
-  const ScriptedPath script = readPath(path);
-  const Calibration calibration = loadCalibration(options.press, recording.scene.law.tip());
-
-  const Body body = loadBody(options.press);
-  for (const std::string& note : body.notes)
+  ScenePlan plan{ .meshes = meshesOf(options.press),
+    .press = options.press,
+    .device = "path:" + path.string(),
+    .window = false,
+    .picture = !options.noPicture,
+    .size = size };
+  if (options.noPicture)
   {
-    std::cerr << "palp: " << note << '\n';
+    plan.curves.clear();
   }
-  recording.mesh = body.name;
-  recording.unit = body.unit;
-  recording.device = "path:" + path.filename().string();
-  recording.scene.surface = body.haptic;
-  recording.samples = play(script, recording.scene, options.chain);
-  report(recording, calibration);
-
-  exportRecording(options.out, body, recording, calibration);
-  if (!options.noPicture)
-  {
-    pictures->drawPress(body, recording, calibration, options.out, size);
-  }
+  Ledger silent(false);
+  playPlan(plan, options.chain, options.out, pictures, silent);
 }
 
 } // namespace

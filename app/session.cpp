@@ -20,26 +20,22 @@ constexpr std::size_t kKept = 600'000; // samples, ten minutes
 } // namespace
 
 Session::Session(const ViewOptions& options)
-  : options_(options.press)
-  , body_(loadBody(options.press))
-  , calibration_(loadCalibration(options.press, options.press.tissue.law().tip()))
+  : options_(options.plan.press)
+  , body_(loadBody(options.plan.meshes))
+  , calibration_(loadCalibration(options_, options_.tissue.law().tip()))
 {
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.scene.surface = body_.haptic;
-  recording_.scene.law = options.press.tissue.law();
-  recording_.scene.rule = options.press.rule();
-  recording_.scene.damping = options.press.dampingSi();
-  useDevice(options.device);
+  recording_.scene.law = options_.tissue.law();
+  recording_.scene.rule = options_.rule();
+  recording_.scene.damping = options_.dampingSi();
+  useDevice(options.plan.device);
 }
 
 void Session::open(const std::filesystem::path& file, const std::string& unit)
 {
-  PressOptions next = options_;
-  next.file = file;
-  next.unit = unit;
-  body_ = loadBody(next);
-  options_ = next;
+  body_ = loadBody({ { .file = file, .unit = unit } });
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.scene.surface = body_.haptic;

@@ -12,9 +12,9 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
 {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand("view", "Open the window and press; the default command");
-  options->press.addTo(*command);
+  options->plan.press.addTo(*command);
   command
-    ->add_option("--device", options->device,
+    ->add_option("--device", options->plan.device,
       "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
       "spacemouse; falcon[:FIRMWARE]; wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
     ->capture_default_str();
@@ -25,8 +25,9 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
     [options, view]
     {
       // a wrong value is told before a missing display
-      (void)options->press.tissue.law();
-      (void)options->press.dampingSi();
+      (void)options->plan.press.tissue.law();
+      (void)options->plan.press.dampingSi();
+      options->plan.meshes = meshesOf(options->plan.press);
       if (!view)
       {
         becomeSibling("palp-view");

@@ -153,6 +153,15 @@ void PressView::setVisible(Overlay overlay, bool visible)
   visible_[indexOf(overlay)] = visible;
 }
 
+void PressView::setVisible(const std::vector<Overlay>& overlays)
+{
+  visible_.fill(false);
+  for (const Overlay overlay : overlays)
+  {
+    setVisible(overlay, true);
+  }
+}
+
 bool PressView::isVisible(Overlay overlay) const
 {
   return visible_[indexOf(overlay)];

@@ -13,6 +13,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 #include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
@@ -54,6 +55,9 @@ public:
   /// At first: arrow, circles, colours of the displacement and readings. Takes effect in show().
   void setVisible(Overlay overlay, bool visible);
   [[nodiscard]] bool isVisible(Overlay overlay) const;
+
+  /// Shows these overlays and no others.
+  void setVisible(const std::vector<Overlay>& overlays);
 
   /// Upper end of the colours [mm or kPa]; 0, the default, lets it follow the press.
   void setColorRange(double top);

@@ -1,0 +1,125 @@
+#include "app/headless.h"
+
+#include "app/body.h"
+#include "app/export.h"
+#include "app/ledger.h"
+#include "app/pictures.h"
+#include "app/playback.h"
+#include "app/recording.h"
+#include "haptics/units.h"
+
+#include <iostream>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::string_view kPath = "path:";
+
+void report(const Recording& recording, const Calibration* calibration)
+{
+  using units::toMillimetres;
+  const Sample* deepest = recording.deepest();
+  if (!deepest)
+  {
+    std::cerr
+      << "palp: the tool never touched the surface; the path may be in another frame or unit\n";
+    return;
+  }
+  std::cerr << "palp: deepest " << toMillimetres(deepest->contact.depth) << " mm, force "
+            << deepest->response.force << " N, contact radius "
+            << toMillimetres(deepest->response.contactRadius) << " mm";
+  if (calibration)
+  {
+    std::cerr << ", extent radius "
+              << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm";
+  }
+  std::cerr << '\n';
+}
+
+Scene sceneOf(const ScenePlan& plan, bool chained)
+{
+  Scene scene;
+  scene.law = plan.press.tissue.law();
+  scene.rule = plan.press.rule();
+  scene.damping = plan.press.dampingSi();
+  scene.forceLimit = chained ? scene.forceLimit : std::numeric_limits<double>::infinity();
+  return scene;
+}
+
+void explainOmissions(const ScenePlan& plan, Ledger& ledger)
+{
+  const auto unless = [&](bool built, const char* part, const char* why)
+  {
+    if (!built)
+    {
+      ledger.leaveOut(part, why);
+    }
+  };
+  ledger.leaveOut("window, Qt", "\"window\" is false");
+  ledger.leaveOut("device, USB", "the tool follows a path");
+  ledger.leaveOut("servo thread", "a path without a window is pressed in simulated time");
+  ledger.leaveOut("live sample ring", "no servo thread fills it");
+  unless(plan.draws(), "OpenGL", "no picture and no plot is asked for");
+  unless(plan.picture, "overlays", "no picture shows them");
+  unless(!plan.curves.empty(), "plots", "none is named");
+  unless(plan.dent, "calibration, dent", "\"dent\" is none");
+  unless(plan.validity || plan.press.tissue.options.mode == "corrected", "large-strain table",
+    "the law is not corrected and no sample is rated");
+}
+
+} // namespace
+
+void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& out,
+  const Pictures* pictures, Ledger& ledger)
+{
+  // what is quick to check comes first, before any work
+  Recording recording;
+  recording.rated = plan.validity;
+  recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
+  const std::filesystem::path file = plan.device.substr(kPath.size());
+  const ScriptedPath path = ledger.build("path", "moves the tool", [&] { return readPath(file); });
+  recording.device = std::string(kPath) + file.filename().string();
+  std::optional<Calibration> calibration;
+  if (plan.dent)
+  {
+    calibration = ledger.build("calibration", "how far the surface gives way",
+      [&] { return loadCalibration(plan.press, recording.scene.law.tip()); });
+  }
+  const bool shown = plan.deformed || plan.picture;
+  const Body body = ledger.build("surface", shown ? "felt and shown" : "felt, not shown",
+    [&] { return loadBody(plan.meshes, shown); });
+  for (const std::string& note : body.notes)
+  {
+    std::cerr << "palp: " << note << '\n';
+  }
+  recording.mesh = body.name;
+  recording.unit = body.unit;
+  recording.scene.surface = body.haptic;
+
+  recording.samples = ledger.build(
+    "press", "force at every millisecond", [&] { return play(path, recording.scene, chained); });
+  const Calibration* known = calibration ? &*calibration : nullptr;
+  report(recording, known);
+  makeDirectory(out);
+  if (plan.samples)
+  {
+    ledger.build(
+      "samples.csv", "exported", [&] { writeSamples(out / "samples.csv", recording, known); });
+  }
+  if (plan.deformed)
+  {
+    ledger.build("deformed.vtp", "exported",
+      [&] { writeDeformed(out / "deformed.vtp", body, recording, *known); });
+  }
+  if (plan.draws())
+  {
+    ledger.build(
+      "pictures", "exported", [&] { pictures->drawPress(body, recording, known, plan, out); });
+  }
+  explainOmissions(plan, ledger);
+}
+
+} // namespace palp

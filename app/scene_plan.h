@@ -1,0 +1,71 @@
+#pragma once
+
+#include "app/press_options.h"
+#include "pipeline/overlay.h"
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// A surface and where it stands.
+struct MeshSource
+{
+  std::string bundled{}; ///< name of a shipped surface, as in liver; empty: file
+  std::filesystem::path file{};
+  std::string unit = "auto";                               ///< of the file's coordinates
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity(); ///< from the file's to the scene's [m]
+};
+
+struct ImageSize
+{
+  int width = 1280;
+  int height = 960;
+};
+
+/// Curves that can be drawn while or after a press.
+enum class Curve
+{
+  ForceOverTime,
+  ForceOverDepth,
+};
+
+/// All that a press can be made of, by name: what `run` and `view` take as options and a scene file
+/// as JSON. What is not named here is not built.
+struct ScenePlan
+{
+  std::string name{}; ///< for people
+  std::vector<MeshSource> meshes{ { .bundled = "liver" } };
+  PressOptions press{};
+  std::string device = "mouse";
+  bool window = true;   ///< else: a path in simulated time, without servo thread
+  bool dent = true;     ///< the surface gives way; needs a calibration
+  bool validity = true; ///< each sample is rated by the ten rules
+  std::optional<std::vector<Overlay>> overlays{}; ///< none: those that are shown at first
+  std::vector<Curve> curves{ Curve::ForceOverTime, Curve::ForceOverDepth };
+  bool samples = true;  ///< exported: samples.csv
+  bool deformed = true; ///< exported: deformed.vtp
+  bool picture = true;  ///< exported: press.png
+  ImageSize size{};     ///< of press.png
+
+  /// Whether pictures are made off screen.
+  [[nodiscard]] bool draws() const noexcept
+  {
+    return !window && (picture || !curves.empty());
+  }
+};
+
+/// The surface that the options name.
+[[nodiscard]] std::vector<MeshSource> meshesOf(const PressOptions& options);
+
+/// Reads WIDTHxHEIGHT in pixels, each 64 to 8192.
+///
+/// @param what    stands before the message
+/// @throws Error  BadValue
+[[nodiscard]] ImageSize parseSize(const std::string& text, const std::string& what);
+
+} // namespace palp
