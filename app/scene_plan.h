@@ -52,6 +52,12 @@ struct ScenePlan
   bool picture = true;  ///< exported: press.png
   ImageSize size{};     ///< of press.png
 
+  /// Whether anything is made of the samples of a live press.
+  [[nodiscard]] bool records() const noexcept
+  {
+    return !curves.empty();
+  }
+
   /// Whether pictures are made off screen.
   [[nodiscard]] bool draws() const noexcept
   {

@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include "app/ledger.h"
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/scripted_device.h"
 #include "haptics/devices/usb/open_device.h"
@@ -19,18 +20,21 @@ constexpr std::size_t kKept = 600'000; // samples, ten minutes
 
 } // namespace
 
-Session::Session(const ViewOptions& options)
-  : options_(options.plan.press)
-  , body_(loadBody(options.plan.meshes))
-  , calibration_(loadCalibration(options_, options_.tissue.law().tip()))
+Session::Session(ScenePlan plan, Ledger& ledger)
+  : plan_(std::move(plan))
+  , body_(ledger.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
+  , calibration_(ledger.build("calibration", "how far the surface gives way",
+      [&] { return loadCalibration(plan_.press, plan_.press.tissue.law().tip()); }))
 {
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
+  recording_.rated = plan_.validity;
   recording_.scene.surface = body_.haptic;
-  recording_.scene.law = options_.tissue.law();
-  recording_.scene.rule = options_.rule();
-  recording_.scene.damping = options_.dampingSi();
-  useDevice(options.plan.device);
+  recording_.scene.rule = plan_.press.rule();
+  recording_.scene.damping = plan_.press.dampingSi();
+  recording_.scene.law =
+    ledger.build("law", "tissue and tool", [&] { return plan_.press.tissue.law(); });
+  ledger.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
 void Session::open(const std::filesystem::path& file, const std::string& unit)
@@ -49,7 +53,7 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
   ++recording_.scene.version;
-  calibration_ = loadCalibration(options_, law.tip());
+  calibration_ = loadCalibration(plan_.press, law.tip());
   servo_->setScene(recording_.scene);
 }
 
@@ -103,7 +107,8 @@ void Session::useDevice(const std::string& name)
   recording_.device = name;
   recording_.samples.clear();
   recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
-  servo_ = std::make_unique<Servo>(*device_, recording_.scene);
+  servo_ =
+    std::make_unique<Servo>(*device_, recording_.scene, ServoOptions{ .history = plan_.records() });
 }
 
 void Session::arm(bool armed)

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "app/body.h"
-#include "app/program.h"
+#include "app/calibration.h"
 #include "app/recording.h"
+#include "app/scene_plan.h"
 #include "haptics/devices/device.h"
 #include "haptics/devices/simulated_hand.h"
 #include "haptics/servo/servo.h"
@@ -14,6 +15,8 @@
 namespace palp
 {
 
+class Ledger;
+
 /// A live press: body, tissue, the device that holds the tool, the servo thread, the recording.
 ///
 /// The only writer of the scene. Main thread only.
@@ -22,8 +25,14 @@ class Session
 public:
   static constexpr double kClearance = 0.015; ///< of a hovering tool above the surface [m]
 
-  /// @throws Error  as loadBody, loadExtents, useDevice
-  explicit Session(const ViewOptions& options);
+  /// @throws Error  as loadBody, loadCalibration, useDevice
+  Session(ScenePlan plan, Ledger& ledger);
+
+  /// What it was made of at the start.
+  [[nodiscard]] const ScenePlan& plan() const noexcept
+  {
+    return plan_;
+  }
 
   /// Replaces the body; tissue and device stay.
   /// @throws Error  BadFile, BadMesh; the old body then stays
@@ -81,7 +90,7 @@ public:
     return calibration_;
   }
 
-  /// The last ten minutes.
+  /// The last ten minutes; without samples where the plan has no curves to draw of them.
   [[nodiscard]] const Recording& recording() const noexcept
   {
     return recording_;
@@ -91,7 +100,7 @@ private:
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);
   [[nodiscard]] HandTarget restingPlace() const;
 
-  PressOptions options_;
+  ScenePlan plan_;
   Body body_;
   Calibration calibration_;
   Recording recording_; // its scene is the one that the servo thread has

@@ -1,5 +1,6 @@
 // palp-view: palp with its window.
 
+#include "app/ledger.h"
 #include "app/program.h"
 #include "app/session.h"
 #include "app/window.h"
@@ -42,6 +43,20 @@ void endOnSignals(QApplication& application)
   timer->start(kCheckEvery);
 }
 
+void explainOmissions(const palp::ScenePlan& plan, palp::Ledger& ledger)
+{
+  const auto unless = [&](bool built, const char* part, const char* why)
+  {
+    if (!built)
+    {
+      ledger.leaveOut(part, why);
+    }
+  };
+  unless(plan.records(), "plots, sample ring", "no plot is named");
+  unless(plan.validity, "reliance panel", "\"validity\" is false");
+  unless(plan.press.surface == "fitted", "fitted surfaces", "\"dent\" is the paper's");
+}
+
 int view(const palp::ViewOptions& options)
 {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
@@ -49,6 +64,7 @@ int view(const palp::ViewOptions& options)
     throw palp::Error(palp::ErrorCode::NoPicture,
       "window: there is no display here; use palp run, which needs none");
   }
+  palp::Ledger ledger(options.explain);
   QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
   format.setSamples(0); // several times slower without a graphics card
   QSurfaceFormat::setDefaultFormat(format);
@@ -59,14 +75,25 @@ int view(const palp::ViewOptions& options)
   QApplication application(count, words);
   std::setlocale(LC_NUMERIC, "C"); // Qt takes the user's; files and VTK want a decimal point
 
-  palp::Session session(options);
+  palp::Session session(options.plan, ledger);
   for (const std::string& note : session.body().notes)
   {
     std::cerr << "palp: " << note << '\n';
   }
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
-  palp::Window window(session);
-  window.show();
+  palp::Window window(session, ledger);
+  ledger.build("first picture", "drawn on the display",
+    [&]
+    {
+      window.show();
+      QApplication::processEvents();
+    });
+  if (options.explain)
+  {
+    explainOmissions(options.plan, ledger);
+    ledger.write(std::cout);
+    return 0;
+  }
   endOnSignals(application);
   return QApplication::exec();
 }

@@ -1,6 +1,7 @@
 #include "app/window.h"
 
 #include "app/export.h"
+#include "app/ledger.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
@@ -8,6 +9,7 @@
 #include "haptics/units.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkContextScene.h>
 #include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
@@ -41,15 +43,23 @@ Eigen::Vector3d worldPoint(vtkRenderer& renderer, int x, int y, double depth)
 
 } // namespace
 
-Window::Window(Session& session)
+Window::Window(Session& session, Ledger& ledger)
   : session_(session)
   , view_(*renderer_)
   , validity_(session.recording().scene.law)
 {
   resize(1440, 860);
-  makeView();
-  makeDocks();
-  makeMenus();
+  ledger.build("3-D view", "the window shows the surface", [&] { makeView(); });
+  ledger.build("panels, menus", "tool, tissue and device can be changed",
+    [&]
+    {
+      makeDocks();
+      makeMenus();
+    });
+  if (session_.plan().records())
+  {
+    ledger.build("plots", "named in the scene", [&] { makeCharts(); });
+  }
   showBody();
   applyTissue();
 
@@ -57,7 +67,7 @@ Window::Window(Session& session)
   connect(frames, &QTimer::timeout, this, &Window::refresh);
   frames->start(kFrameMs);
   auto* plots = new QTimer(this);
-  connect(plots, &QTimer::timeout, this, &Window::refreshCharts);
+  connect(plots, &QTimer::timeout, this, &Window::refreshPanels);
   plots->start(kPlotMs);
 }
 
@@ -96,9 +106,29 @@ void Window::aim()
   }
 }
 
+void Window::takeSamples()
+{
+  session_.update(
+    [this](const Sample& sample)
+    {
+      if (charts_)
+      {
+        charts_->add(sample);
+      }
+    });
+}
+
+void Window::clearCharts()
+{
+  if (charts_)
+  {
+    charts_->clear();
+  }
+}
+
 void Window::refresh()
 {
-  session_.update([this](const Sample& sample) { charts_.add(sample); });
+  takeSamples();
   const Sample& sample = session_.newest();
   view_.show(sample);
   renderWindow_->Render();
@@ -113,13 +143,24 @@ void Window::refresh()
   }
 }
 
-void Window::refreshCharts()
+void Window::refreshPanels()
 {
   panel_->showDevice(session_.newest(), session_.rendersForce(), session_.armed());
-  showReliance(session_.newest());
-  charts_.refresh();
-  timeView_->GetRenderWindow()->Render();
-  depthView_->GetRenderWindow()->Render();
+  if (reliance_)
+  {
+    showReliance(session_.newest());
+  }
+  if (charts_)
+  {
+    charts_->refresh();
+    for (vtkContextView* view : { timeView_.Get(), depthView_.Get() })
+    {
+      if (view->GetScene()->GetNumberOfItems() > 0)
+      {
+        view->GetRenderWindow()->Render();
+      }
+    }
+  }
 
   const Timing& timing = session_.timing();
   const auto ticks = timing.ticks.load();
@@ -162,14 +203,17 @@ void Window::applyTissue()
       view_.setLaw(law);
       view_.setExtents(session_.calibration().extents);
       view_.setFitted(session_.calibration().surfaces);
-      charts_.setLaw(law);
+      if (charts_)
+      {
+        charts_->setLaw(law);
+      }
     });
 }
 
 void Window::applyDevice(const QString& name)
 {
   attempt([&] { session_.useDevice(name.toStdString()); });
-  charts_.clear();
+  clearCharts();
   applyTissue(); // what is stable depends on the device
 }
 
@@ -180,7 +224,7 @@ bool Window::openSurface(const QString& file, const QString& unit)
     {
       session_.open(file.toStdString(), unit.toStdString());
       target_.reset();
-      charts_.clear();
+      clearCharts();
       showBody();
     });
 }
@@ -204,7 +248,7 @@ bool Window::exportData(const QString& directory)
   return attempt(
     [&]
     {
-      session_.update([this](const Sample& sample) { charts_.add(sample); });
+      takeSamples();
       writeTiming(std::filesystem::path(directory.toStdString()) / "servo.csv", session_.timing());
       exportRecording(
         directory.toStdString(), session_.body(), session_.recording(), session_.calibration());

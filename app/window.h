@@ -10,6 +10,7 @@
 #include <vtkNew.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 class QLabel;
@@ -22,6 +23,7 @@ class vtkRenderer;
 namespace palp
 {
 
+class Ledger;
 class ReliancePanel;
 class TissuePanel;
 
@@ -34,7 +36,7 @@ class Window : public QMainWindow
 
 public:
   /// @param session  outlives the window
-  explicit Window(Session& session);
+  Window(Session& session, Ledger& ledger);
   ~Window() override;
 
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
@@ -48,6 +50,7 @@ private:
 
   void makeView();
   void makeDocks();
+  void makeCharts();
   void makeMenus();
   void showBody();
 
@@ -56,8 +59,10 @@ private:
   void setDepth(double depth);
   void aim();
 
+  void takeSamples();
+  void clearCharts();
   void refresh();
-  void refreshCharts();
+  void refreshPanels();
   void showReliance(const Sample& sample);
   void applyTissue();
   void applyDevice(const QString& name);
@@ -68,7 +73,7 @@ private:
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkPalpPressStyle> style_;
   PressView view_;
-  ForceCharts charts_;
+  std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
   std::optional<SurfacePoint> target_; // below the pointer
   double depth_ = 0.0;                 // asked for by drag [m]
@@ -80,7 +85,7 @@ private:
   vtkNew<vtkContextView> timeView_;
   vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
-  ReliancePanel* reliance_ = nullptr;
+  ReliancePanel* reliance_ = nullptr; // null: the plan rates no sample
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;
 };

@@ -65,6 +65,10 @@ void Window::makeView()
   renderWindow_->SetMultiSamples(0);
   renderWindow_->AddRenderer(renderer_);
   setCentralWidget(canvas_);
+  if (session_.plan().overlays)
+  {
+    view_.setVisible(*session_.plan().overlays);
+  }
 
   style_->Hover = [this](int x, int y) { point(x, y); };
   style_->Press = [this](int x, int y)
@@ -104,13 +108,11 @@ void Window::makeDocks()
       session_.arm(armed);
     });
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
-  reliance_ = new ReliancePanel;
-  addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), reliance_);
-
-  addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
-  addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
-  charts_.addForceOverTime(*timeView_->GetScene());
-  charts_.addForceOverDepth(*depthView_->GetScene());
+  if (session_.plan().validity)
+  {
+    reliance_ = new ReliancePanel;
+    addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), reliance_);
+  }
 
   forceLabel_ = new QLabel(tr("Point at the surface, press with the left button, drag down to go "
                               "deeper; the wheel holds a depth; right button turns the view"));
@@ -119,6 +121,24 @@ void Window::makeDocks()
   servoLabel_->setObjectName("servo");
   statusBar()->addWidget(forceLabel_, 1);
   statusBar()->addPermanentWidget(servoLabel_);
+}
+
+void Window::makeCharts()
+{
+  charts_ = std::make_unique<ForceCharts>();
+  for (const Curve curve : session_.plan().curves)
+  {
+    if (curve == Curve::ForceOverTime)
+    {
+      addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
+      charts_->addForceOverTime(*timeView_->GetScene());
+    }
+    else
+    {
+      addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
+      charts_->addForceOverDepth(*depthView_->GetScene());
+    }
+  }
 }
 
 void Window::makeMenus()
@@ -148,7 +168,7 @@ void Window::makeMenus()
       }
     },
     QKeySequence::Save);
-  file->addAction(tr("&Export data…"), this,
+  QAction* exporting = file->addAction(tr("&Export data…"), this,
     [this]
     {
       const QString name = QFileDialog::getExistingDirectory(this, tr("Export data into"));
@@ -157,6 +177,7 @@ void Window::makeMenus()
         exportData(name);
       }
     });
+  exporting->setEnabled(session_.plan().records()); // without plots no sample is kept
   file->addSeparator();
   file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
 

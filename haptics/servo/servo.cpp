@@ -12,6 +12,7 @@ namespace palp
 namespace
 {
 
+constexpr std::size_t kKept = 8192; // samples, eight seconds
 constexpr auto kMainThreadSilence = std::chrono::seconds(2);
 
 double seconds(std::chrono::nanoseconds duration) noexcept
@@ -36,6 +37,7 @@ Servo::Servo(Device& device, Scene scene, const ServoOptions& options)
   , options_(options)
   , scene_(scene)
   , chain_(makeChain(device, options))
+  , history_(options.history ? kKept : 1)
   , thread_([this](const std::stop_token& stop) { run(stop); })
 {
   schedule_ =
@@ -99,7 +101,10 @@ void Servo::run(std::stop_token stop) noexcept
     timing_.step.record(Clock::now() - begin);
 
     newest_.publish(sample); // for the picture, which wants the present
-    history_.push(sample);   // for plots and export, which want every sample
+    if (options_.history)
+    {
+      history_.push(sample); // for plots and export, which want every sample
+    }
     timing_.ticks.fetch_add(1, std::memory_order_relaxed);
 
     // what is late is skipped on the same grid, never made up for by a burst

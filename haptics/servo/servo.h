@@ -23,6 +23,7 @@ struct ServoOptions
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);
   std::chrono::nanoseconds spin{ 0 }; ///< before each deadline, awake: costs CPU, saves lateness
   bool realtime = true;               ///< ask for SCHED_FIFO and locked memory
+  bool history = true;                ///< keep every sample for plots and export
 };
 
 /// The loop that a hand feels: device, contact, law, limits, device, at a fixed rate.
@@ -63,7 +64,8 @@ public:
     return newest_.read();
   }
 
-  /// For plots and export, which want every sample; main thread only. Holds eight seconds.
+  /// For plots and export, which want every sample; main thread only. Holds eight seconds, or
+  /// nothing where the options ask for no history.
   [[nodiscard]] Ring<Sample>& history() noexcept
   {
     return history_;
@@ -97,7 +99,7 @@ private:
   Latest<Scene> scene_;
   std::optional<SafetyChain> chain_; // where a hand can feel the force
   Latest<Sample> newest_;
-  Ring<Sample> history_{ 8192 };
+  Ring<Sample> history_;
   std::atomic<bool> stopped_ = false;
   std::atomic<Clock::time_point> looked_ = Clock::now(); // when the main thread was last seen
   Timing timing_;

@@ -1,6 +1,7 @@
 #include "app/window.h"
 
 #include "app/device_words.h"
+#include "app/ledger.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
@@ -41,8 +42,8 @@ protected:
   {
     setenv("PALP_DATA", PALP_SHARE, 1);
     application();
-    session_ = std::make_unique<Session>(ViewOptions{});
-    window_ = std::make_unique<Window>(*session_);
+    session_ = std::make_unique<Session>(ScenePlan{}, silent_);
+    window_ = std::make_unique<Window>(*session_, silent_);
     window_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
     QApplication::setActiveWindow(window_.get()); // no window manager does it here
@@ -86,6 +87,7 @@ protected:
   static constexpr int kPatience = 10'000; // [ms], for a machine that does much else
 
   test::TemporaryFolder folder_;
+  Ledger silent_{ false };
   std::unique_ptr<Session> session_;
   std::unique_ptr<Window> window_;
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
