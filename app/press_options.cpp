@@ -32,11 +32,14 @@ ForceLaw TissueOptions::law() const
 
 void PressOptions::addTo(CLI::App& command)
 {
-  command.add_option(
-    "FILE", file, "Surface: STL, OBJ, PLY, OFF, VTK or VTP; the bundled liver if none");
+  command.add_option("FILE", file,
+    "Surface: STL, OBJ, PLY, OFF, VTK or VTP; image: MHA, MHD, NII, NII.GZ or VTI; the bundled "
+    "liver if none");
   command.add_option("--unit", unit, "Unit of the coordinates in FILE: mm, cm, m or auto")
     ->check(CLI::IsMember({ "mm", "cm", "m", "auto" }))
     ->capture_default_str();
+  command.add_option(
+    "--level", level, "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1");
   tissue.addTo(command);
   command
     .add_option("--contact", contact,

@@ -34,6 +34,7 @@ struct PressOptions
 {
   std::filesystem::path file; ///< empty: the bundled liver
   std::string unit = "auto";
+  std::string level; ///< value of an image on the surface; empty: none
   TissueOptions tissue;
   std::string contact = "exact";
   std::string damping = "0N*s/m";

@@ -85,12 +85,17 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   MeshSource mesh;
   mesh.bundled = object.text("bundled", "");
   const std::string file = object.text("file", "");
+  const std::string level = object.number("level", "");
   mesh.unit = object.text("unit", "auto");
   mesh.frame = readFrame(object.object("frame"));
   object.finish();
   if (mesh.bundled.empty() == file.empty())
   {
     object.refuse("file", "give either a file or the name of a bundled surface");
+  }
+  if (!level.empty())
+  {
+    checkAt(object, "level", [&] { mesh.level = parseNumber(level, "--level"); });
   }
   checkAt(object, "unit", [&] { (void)parseUnit(mesh.unit); });
   mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();

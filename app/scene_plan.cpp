@@ -1,5 +1,6 @@
 #include "app/scene_plan.h"
 
+#include "app/quantity.h"
 #include "haptics/error.h"
 
 #include <algorithm>
@@ -14,7 +15,12 @@ std::vector<MeshSource> meshesOf(const PressOptions& options)
   {
     return { { .bundled = "liver" } };
   }
-  return { { .file = options.file, .unit = options.unit } };
+  std::optional<double> level;
+  if (!options.level.empty())
+  {
+    level = parseNumber(options.level, "--level");
+  }
+  return { { .file = options.file, .level = level, .unit = options.unit } };
 }
 
 ImageSize parseSize(const std::string& text, const std::string& what)

@@ -2,10 +2,12 @@
 
 #include "haptics/error.h"
 #include "pipeline/child_process.h"
+#include "pipeline/image_formats.h"
 #include "pipeline/off_format.h"
 #include "pipeline/poly_data.h"
 #include "pipeline/vtk_formats.h"
 
+#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -39,27 +41,35 @@ struct Format
   const char* ending;
   const char* name;
   const char* signature; // how such a file begins; empty: in many ways
-  vtkSmartPointer<vtkPolyData> (*read)(const std::filesystem::path&);
+  vtkSmartPointer<vtkPolyData> (*read)(const std::filesystem::path&); // null: an image
+  PatientImage (*readImage)(const std::filesystem::path&) = nullptr;
 };
 
 constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".obj", "OBJ", "", readObj }, Format{ ".ply", "PLY", "ply", readPly },
   Format{ ".off", "OFF", "", readOff }, Format{ ".vtk", "legacy VTK", "# vtk DataFile", readVtk },
-  Format{ ".vtp", "VTP", "<", readVtp } };
+  Format{ ".vtp", "VTP", "<", readVtp }, Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
+  Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
+  Format{ ".nii", "NIfTI", "", nullptr, readNifti },
+  Format{ ".nii.gz", "NIfTI", "\x1f\x8b", nullptr, readNifti },
+  Format{ ".vti", "VTI", "<", nullptr, readVti } };
 
 const Format& formatOf(const std::filesystem::path& file)
 {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Format& format : kFormats)
   {
-    if (ending == format.ending)
+    if (name.ends_with(format.ending))
     {
       return format;
     }
   }
-  refuse(file, "not a kind of surface file known here; give .stl, .obj, .ply, .off, .vtk or .vtp");
+  refuse(file,
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp) or an "
+    "image "
+    "(.mha, .mhd, .nii, .nii.gz, .vti)");
 }
 
 void checkFile(const std::filesystem::path& file, const Format& format)
@@ -136,11 +146,24 @@ void checkContent(const std::filesystem::path& file, vtkPolyData& data)
   }
 }
 
-FileSurface readHere(const std::filesystem::path& file, const Format& format)
+vtkSmartPointer<vtkPolyData> readAny(
+  const std::filesystem::path& file, const Format& format, std::optional<double> level)
+{
+  if (format.read)
+  {
+    return format.read(file);
+  }
+  return levelSurface(format.readImage(file), level, file.string());
+}
+
+FileSurface readHere(
+  const std::filesystem::path& file, const Format& format, std::optional<double> level)
 {
   std::setlocale(LC_ALL, "C"); // NOLINT(concurrency-mt-unsafe): alone in its process
+  // the threads of the pool stayed with the parent
+  vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
   const VtkErrors errors;
-  const vtkSmartPointer<vtkPolyData> data = format.read(file);
+  const vtkSmartPointer<vtkPolyData> data = readAny(file, format, level);
   if (!errors.first().empty())
   {
     refuse(file,
@@ -167,6 +190,10 @@ FileSurface readHere(const std::filesystem::path& file, const Format& format)
   {
     surface.unit = unit->GetValue(0);
   }
+  if (format.readImage)
+  {
+    surface.unit = "mm"; // by their definition
+  }
   return surface;
 }
 
@@ -190,17 +217,21 @@ void unpack(std::string_view& bytes, Values& values)
 
 } // namespace
 
-FileSurface readFile(const std::filesystem::path& file)
+FileSurface readFile(const std::filesystem::path& file, std::optional<double> level)
 {
   const Format& format = formatOf(file);
   checkFile(file, format);
+  if (level && format.read)
+  {
+    refuse(file, "a surface, not an image; leave the level out");
+  }
   // several times what the slowest reader takes for an honest file
   const std::uint64_t size = std::filesystem::file_size(file);
   const ChildLimits limits{ .memory = (4ULL << 30) + 64 * size, .time = 10 + (size >> 20) };
   const auto packed = runInChild(
     [&]
     {
-      const FileSurface surface = readHere(file, format);
+      const FileSurface surface = readHere(file, format, level);
       std::string bytes;
       pack(bytes, surface.points.data(), surface.points.size());
       pack(bytes, surface.triangles.data(), surface.triangles.size());

@@ -3,6 +3,7 @@
 #include "haptics/contact/surface.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,16 @@ struct FileSurface
 /// Name of the field array by which a VTP or VTK file states its unit: "mm", "cm" or "m".
 constexpr const char* kUnitArray = "LengthUnit";
 
-/// Reads STL, OBJ, PLY, OFF, legacy VTK or VTP, by the ending of the name.
+/// Reads STL, OBJ, PLY, OFF, legacy VTK or VTP, by the ending of the name; or the level surface of
+/// an image: MetaImage, NIfTI or VTI, in mm.
 ///
+/// @param level   value of an image on the surface; none for a file that is a surface itself
 /// Polygons and strips are cut into triangles. Whatever the file holds, nothing is printed and
 /// nothing crashes; numbers are read with a decimal point in every locale.
 ///
 /// @throws Error  BadFile: missing, not a file, empty, cut off, not of the format its name says;
-///                BadMesh: no triangles, a coordinate that is not a number
-[[nodiscard]] FileSurface readFile(const std::filesystem::path& file);
+///                BadMesh: no triangles, a coordinate that is not a number; as levelSurface
+[[nodiscard]] FileSurface readFile(
+  const std::filesystem::path& file, std::optional<double> level = {});
 
 } // namespace palp

@@ -73,10 +73,11 @@ bool writeWith(const std::filesystem::path& file, vtkPolyData& data)
 
 } // namespace
 
-LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit)
+LoadedSurface readSurface(
+  const std::filesystem::path& file, UnitChoice unit, std::optional<double> level)
 {
   const std::string name = file.filename().string();
-  const FileSurface read = readFile(file);
+  const FileSurface read = readFile(file, level);
   const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
 
   std::string why = "as asked";

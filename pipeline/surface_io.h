@@ -28,11 +28,13 @@ struct LoadedSurface
 /// unit is taken that gives the size of an organ. Coincident points are merged, polygons cut into
 /// triangles, triangles turned outwards. An open or non-manifold surface loads with a warning.
 ///
-/// @param file    STL, OBJ, PLY, OFF, legacy VTK or VTP
+/// @param file    STL, OBJ, PLY, OFF, legacy VTK or VTP; or an image, in the patient's axes (LPS)
 /// @param unit    wins over what the file says
+/// @param level   value of an image on its surface, for MetaImage, NIfTI and VTI
 /// @throws Error  BadFile: unreadable, or not of its format; BadMesh: nothing to press, or the
 ///                unit is in doubt
-[[nodiscard]] LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit = {});
+[[nodiscard]] LoadedSurface readSurface(
+  const std::filesystem::path& file, UnitChoice unit = {}, std::optional<double> level = {});
 
 /// Writes a surface in millimetres: VTP with its arrays and the unit, or bare STL, PLY, OBJ.
 ///

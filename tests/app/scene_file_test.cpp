@@ -98,6 +98,7 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"meshes": []})", "mine.json: /meshes: give at least one" },
     { R"({"meshes": [{}]})", "mine.json: /meshes/0/file: give either" },
     { R"({"meshes": [{"file": "a.stl", "unit": "inch"}]})", "mine.json: /meshes/0/unit: " },
+    { R"({"meshes": [{"file": "a.mha", "level": "high"}]})", "mine.json: /meshes/0/level: " },
     { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1mm"]}}]})",
       "mine.json: /meshes/0/frame/origin: must be three" },
     { R"({"overlays": ["halo"]})", "mine.json: /overlays: 'halo' is not known" },
