@@ -64,6 +64,12 @@ void report(const Recording& recording, const Calibration& calibration)
             << units::toMillimetres(deepest->response.contactRadius) << " mm, extent radius "
             << units::toMillimetres(calibration.extents.extentRadius(deepest->contact.depth))
             << " mm\n";
+  if (!calibration.covers(deepest->contact.depth))
+  {
+    std::cerr << "palp: R_d beyond "
+              << units::toMillimetres(calibration.extents.rows().back().depth)
+              << " mm is that of its table's last row\n";
+  }
 }
 
 void run(const RunOptions& options, const Pictures* pictures)
@@ -89,12 +95,16 @@ void run(const RunOptions& options, const Pictures* pictures)
   const std::filesystem::path path =
     options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
   const ScriptedPath script = readPath(path);
-  const Calibration calibration = loadCalibration(options.press, recording.scene.law.tip());
+  const Calibration calibration = loadCalibration(options.press, recording.scene.law);
 
   const Body body = loadBody(options.press);
   for (const std::string& note : body.notes)
   {
     std::cerr << "palp: " << note << '\n';
+  }
+  if (!calibration.note.empty())
+  {
+    std::cerr << "palp: " << calibration.note << '\n';
   }
   recording.mesh = body.name;
   recording.unit = body.unit;

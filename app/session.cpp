@@ -22,7 +22,7 @@ constexpr std::size_t kKept = 600'000; // samples, ten minutes
 Session::Session(const ViewOptions& options)
   : options_(options.press)
   , body_(loadBody(options.press))
-  , calibration_(loadCalibration(options.press, options.press.tissue.law().tip()))
+  , calibration_(loadCalibration(options.press, options.press.tissue.law()))
 {
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
@@ -53,7 +53,7 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
   ++recording_.scene.version;
-  calibration_ = loadCalibration(options_, law.tip());
+  calibration_ = loadCalibration(options_, law);
   servo_->setScene(recording_.scene);
 }
 
