@@ -1,5 +1,6 @@
 #include "calibration/experiments.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace palp::fem
@@ -18,10 +19,12 @@ TEST(Experiments, InclinationFollowsEquationSeven)
 
 TEST(Experiments, TablesCarryTheirFindingAboveTheColumns)
 {
-  const Experiment two{
-    .name = "two", .columns = { "a_mm", "b_N" }, .rows = { { 1, 2 }, { 3, 0.5 } }, .finding = "Yes."
-  };
-  EXPECT_EQ(csv(two), "# Yes.\na_mm,b_N\n1,2\n3,0.5\n");
+  const Experiment two{ .name = "two",
+    .columns = { "a_mm", "b_N" },
+    .rows = { { 1, NAN }, { 3, 0.5 } },
+    .figures = {},
+    .finding = "Yes." };
+  EXPECT_EQ(csv(two), "# Yes.\na_mm,b_N\n1,\n3,0.5\n");
 }
 
 } // namespace
