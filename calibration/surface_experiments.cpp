@@ -147,9 +147,9 @@ Experiment extents(Resolution resolution, std::stop_token stop)
   const double sphere = addExtents(result, true, depths, resolution, stop);
   const double cone = addExtents(result, false, depths, resolution, stop);
   result.finding += "The cone's is smaller, as the paper says. 50 kPa and 1.5 MPa give the same "
-                    "R_d (largest difference " +
-    fixed(std::max(sphere, cone), 6) +
-    " mm), as statics demands; the different curves of the paper's Figs. 7 and 8 cannot come from "
+                    "R_d (" +
+    fixed(std::max(sphere, cone), 3) +
+    " mm apart), as statics demands; the different curves of the paper's Figs. 7 and 8 cannot come from "
     "elasticity.";
   return result;
 }

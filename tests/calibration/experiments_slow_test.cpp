@@ -22,6 +22,11 @@ void expectFull(const Experiment& experiment)
   {
     EXPECT_EQ(row.size(), experiment.columns.size());
   }
+  EXPECT_FALSE(experiment.figures.empty());
+  for (const Figure& figure : experiment.figures)
+  {
+    EXPECT_FALSE(figure.curves.empty()) << figure.name;
+  }
   testing::Test::RecordProperty("finding", experiment.finding);
 }
 

@@ -83,6 +83,8 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
   ASSERT_GE(rows.size(), outcome.steps.size());
   double worstForce = 0.0;
   double worstExtent = 0.0;
+  double worstReaction = 0.0;
+  double worstPenetration = 0.0;
   for (std::size_t i = 0; i < outcome.steps.size(); ++i)
   {
     const Indented& step = outcome.steps[i];
@@ -91,6 +93,8 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
     // the reaction of the base carries what the contact presses; no node is in the tool
     EXPECT_NEAR(step.baseReaction, step.force, 1e-4 * step.force);
     EXPECT_LE(step.penetration, 1e-3 * step.depth);
+    worstReaction = std::max(worstReaction, std::abs(step.baseReaction / step.force - 1.0));
+    worstPenetration = std::max(worstPenetration, step.penetration / step.depth);
 
     const double force = rows[i].number("F_N");
     if (step.contactRadius >= 4.0 * study.elementSize || study.energy == Energy::Corotated)
@@ -106,6 +110,8 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
   }
   RecordProperty("worst_force_percent", std::to_string(100.0 * worstForce));
   RecordProperty("worst_extent_mm", std::to_string(units::toMillimetres(worstExtent)));
+  RecordProperty("worst_reaction_ppm", std::to_string(1e6 * worstReaction));
+  RecordProperty("worst_penetration_ppm", std::to_string(1e6 * worstPenetration));
 }
 
 class SurfaceAgainstReference : public testing::TestWithParam<Compared>
