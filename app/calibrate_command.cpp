@@ -6,6 +6,7 @@
 #include "app/tip_spec.h"
 #include "calibration/shipped_tables.h"
 #include "calibration/study.h"
+#include "calibration/study_files.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
@@ -166,7 +167,7 @@ struct CalibrateOptions
   bool noPicture = false;
 };
 
-void runSweep(const CalibrateOptions& options, std::stop_token stop)
+void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
 {
   const auto cases = readSweep(options.sweep, options.text);
   std::size_t failed = 0;
@@ -176,6 +177,14 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop)
       failed += trouble.empty() ? 0 : 1;
       std::cerr << "palp: " << name << ": " << (trouble.empty() ? "done" : trouble) << '\n';
     });
+  for (const Case& study : cases)
+  {
+    const auto folder = options.out / study.name;
+    if (!options.noPicture && std::filesystem::exists(folder / "table.csv"))
+    {
+      pictures->drawCalibration(study, readSteps(folder), folder);
+    }
+  }
   if (failed > 0)
   {
     throw Error(ErrorCode::NoSolution,
@@ -203,8 +212,7 @@ void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const P
 
 void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
 {
-  const bool single = options.tables.empty() && options.sweep.empty();
-  if (single && !options.noPicture && !pictures)
+  if (options.tables.empty() && !options.noPicture && !pictures)
   {
     becomeSibling("palp-draw");
   }
@@ -216,7 +224,7 @@ void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
   }
   else if (!options.sweep.empty())
   {
-    runSweep(options, interrupt.token());
+    runSweep(options, interrupt.token(), pictures);
   }
   else
   {

@@ -1,37 +1,139 @@
 #include "app/calibration.h"
 
 #include "app/data_files.h"
+#include "app/quantity.h"
+#include "calibration/surface_table.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
 
-#include <string>
+#include <cmath>
 
 namespace palp
 {
 namespace
 {
 
-// sizes that tables are shipped for; beyond them the nearest one stands in
+using namespace units::literals;
+
+constexpr double kThreshold = 0.5_mm; // Sec. 3.3.2
+constexpr double kPoisson = 0.33;
+constexpr double kLayer = 5.0; // thickness over radius of the paper's blocks, 10 and 6 mm
+
+bool same(double a, double b)
+{
+  return std::abs(a - b) <= 1e-9 * b;
+}
+
+bool isCone(const Tip& tip)
+{
+  return std::holds_alternative<ConeTip>(tip) || std::holds_alternative<BluntConeTip>(tip);
+}
+
+// the nearer of the two radii that tables are shipped for
 std::string bundledTable(const Tip& tip)
 {
-  constexpr double kBetween = 0.008; // [m], between the two radii of sphere and cone
-  const bool small = baseRadius(tip) < kBetween;
-  if (std::holds_alternative<ConeTip>(tip) || std::holds_alternative<BluntConeTip>(tip))
+  const bool small = baseRadius(tip) < 8.0_mm;
+  return std::string(isCone(tip) ? "tables/cone45_" : "tables/sphere_") +
+    (small ? "r6_h30" : "r10_h50");
+}
+
+struct Layer
+{
+  double thickness; // [m]
+  double threshold; // [m]
+};
+
+Layer layerOf(const PressOptions& options, double radius)
+{
+  const auto length = [](const std::string& text, const char* option)
   {
-    return small ? "tables/cone45_r6_h30" : "tables/cone45_r10_h50";
+    const double value = parseQuantity(text, Quantity::Length, option);
+    if (!(value > 0.0))
+    {
+      throw Error(ErrorCode::BadValue,
+        std::string(option) + ": '" + text + "' is not positive; give 40mm, say");
+    }
+    return value;
+  };
+  return { options.layer.empty() ? kLayer * radius : length(options.layer, "--layer"),
+    length(options.threshold, "--threshold") };
+}
+
+std::string noteOn(const SurfaceTable& table, const SurfaceTable::Place& place, const Tip& tip)
+{
+  std::string note;
+  if (!std::holds_alternative<SphereTip>(tip))
+  {
+    note = "R_d is that of a sphere of the same radius";
   }
-  return small ? "tables/sphere_r6_h30" : "tables/sphere_r10_h50";
+  if (!table.covers(place))
+  {
+    note += std::string(note.empty() ? "R_d is" : ", and") +
+      " clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)";
+  }
+  return note;
+}
+
+// of a cone there is one table for each of the paper's blocks
+Calibration ofCone(const PressOptions& options, const ForceLaw& law)
+{
+  const auto& tip = law.tip();
+  const auto* sharp = std::get_if<ConeTip>(&tip);
+  const double angle = sharp != nullptr ? sharp->halfAngle : std::get<BluntConeTip>(tip).halfAngle;
+  const Layer layer = layerOf(options, baseRadius(tip));
+  if (!options.layer.empty() || !same(layer.threshold, kThreshold))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--layer, --threshold: for a cone, make its own table with palp calibrate and give --table");
+  }
+  const bool known = same(angle, 45.0_deg) && same(law.material().poissonRatio, kPoisson) &&
+    (same(baseRadius(tip), 6.0_mm) || same(baseRadius(tip), 10.0_mm));
+  return { .extents = ExtentTable::read(dataFile(bundledTable(tip) + ".csv")),
+    .surfaces = std::nullopt,
+    .note = known ? "" : "R_d is that of the nearest cone with a table: 45 degrees, nu = 0.33" };
+}
+
+Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
+{
+  const double radius = baseRadius(law.tip());
+  const double poisson = law.material().poissonRatio;
+  const Layer layer = layerOf(options, radius);
+  const bool asPaper = (same(radius, 10.0_mm) || same(radius, 6.0_mm)) && same(poisson, kPoisson) &&
+    same(layer.thickness, kLayer * radius) && same(layer.threshold, kThreshold) &&
+    std::holds_alternative<SphereTip>(law.tip());
+  if (asPaper)
+  {
+    return { .extents = ExtentTable::read(dataFile(bundledTable(law.tip()) + ".csv")),
+      .surfaces = std::nullopt,
+      .note = {} };
+  }
+  const SurfaceTable table = SurfaceTable::read(dataFile("tables/surface_sphere.csv"));
+  const SurfaceTable::Place place{
+    .depth = radius, .tipRadius = radius, .thickness = layer.thickness, .poissonRatio = poisson
+  };
+  return { .extents = table.extents(place, layer.threshold),
+    .surfaces = std::nullopt,
+    .note = noteOn(table, place, law.tip()) };
 }
 
 } // namespace
 
-Calibration loadCalibration(const PressOptions& options, const Tip& tip)
+Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
 {
-  const std::string bundled = bundledTable(tip);
-  Calibration calibration{ .extents = ExtentTable::read(
-                             options.table.empty() ? dataFile(bundled + ".csv") : options.table),
-    .surfaces = std::nullopt };
+  const Tip& tip = law.tip();
+  Calibration calibration = !options.table.empty()
+    ? Calibration{ .extents = ExtentTable::read(options.table),
+        .surfaces = std::nullopt,
+        .note = {} }
+    : isCone(tip) ? ofCone(options, law)
+                  : ofSphere(options, law);
   if (options.surface == "fitted")
   {
-    calibration.surfaces = FittedSurfaces::read(dataFile(bundled + "_surface.csv"));
+    const std::string bundled = bundledTable(tip);
+    const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
+    // the same picture for a layer as many radii thick
+    calibration.surfaces =
+      FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
   }
   return calibration;
 }

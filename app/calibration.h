@@ -5,6 +5,7 @@
 #include "pipeline/fitted_surfaces.h"
 
 #include <optional>
+#include <string>
 
 namespace palp
 {
@@ -14,10 +15,19 @@ struct Calibration
 {
   ExtentTable extents;                    ///< R_d(depth), for the paper's ring
   std::optional<FittedSurfaces> surfaces; ///< to follow instead of that ring; none: the paper's
+  std::string note;                       ///< what stands in for what, for the user; or empty
+
+  /// The table has a row as deep as that; beyond, its last R_d.
+  [[nodiscard]] bool covers(double depth) const noexcept
+  {
+    return depth <= extents.rows().back().depth;
+  }
 };
 
-/// The tables that the options name, or the bundled ones nearest to the tool.
-/// @throws Error  BadFile
-[[nodiscard]] Calibration loadCalibration(const PressOptions& options, const Tip& tip);
+/// The table that the options name, the paper's two spheres and cones as they are, any other sphere
+/// from its dimensionless surface.
+///
+/// @throws Error  BadFile; BadValue: --layer or --threshold with a tool whose table has them fixed
+[[nodiscard]] Calibration loadCalibration(const PressOptions& options, const ForceLaw& law);
 
 } // namespace palp

@@ -154,58 +154,36 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
 void DrawPictures::drawExperiment(
   const fem::Experiment& experiment, const std::filesystem::path& directory) const
 {
-  constexpr std::array kColors{ appearance::kMeasured, appearance::kLaw, appearance::kGood,
-    appearance::kInk, appearance::kExtent, appearance::kDoubtful, appearance::kGhost };
-  // several curves of one quantity follow each other in the rows, told apart by columns before it
-  const auto& names = experiment.columns;
-  const auto isKey = [&](std::size_t k)
-  { return k > 0 && (names[k] == "tool" || names[k] == "depth_mm"); };
-  std::vector<std::size_t> shown;
-  for (std::size_t k = 1; k < names.size(); ++k)
-  {
-    if (!isKey(k))
-    {
-      shown.push_back(k);
-    }
-  }
-  const auto sameCurve = [&](const std::vector<double>& a, const std::vector<double>& b)
-  {
-    for (std::size_t k = 1; k < names.size(); ++k)
-    {
-      if (isKey(k) && a[k] != b[k])
-      {
-        return false;
-      }
-    }
-    return true;
-  };
-
-  Plot plot(experiment.name, names.front(), shown.size() == 1 ? names[shown.front()] : "");
-  for (std::size_t s = 0; s < shown.size(); ++s)
-  {
-    const appearance::Color& color = kColors[s % kColors.size()];
-    std::string label = names[shown[s]];
-    for (std::size_t begin = 0, end = 0; begin < experiment.rows.size(); begin = end)
-    {
-      std::vector<double> x;
-      std::vector<double> y;
-      for (;
-           end < experiment.rows.size() && sameCurve(experiment.rows[begin], experiment.rows[end]);
-           ++end)
-      {
-        x.push_back(experiment.rows[end].front());
-        y.push_back(experiment.rows[end][shown[s]]);
-      }
-      if (x.size() > 1)
-      {
-        plot.addLine(label, x, y, color);
-        label.clear(); // one entry in the legend for all of a kind
-      }
-    }
-  }
+  // apart for every kind of colour vision (Okabe and Ito 2008)
+  constexpr std::array<appearance::Color, 6> kColors{ { { 0.00, 0.45, 0.70 }, { 0.84, 0.37, 0.00 },
+    { 0.00, 0.62, 0.45 }, { 0.80, 0.47, 0.65 }, { 0.90, 0.62, 0.00 }, { 0.34, 0.71, 0.91 } } };
+  constexpr double kNoticed = 7.0; // [%] of a force, Sec. 3.2
   const OffscreenContext context;
-  drawChart(context, directory / (experiment.name + ".png"),
-    [&](vtkContextScene& scene) { plot.addTo(scene); });
+  for (const fem::Figure& figure : experiment.figures)
+  {
+    Plot plot(figure.title, figure.bottom, figure.left);
+    if (figure.noticed && !figure.curves.empty() && !figure.curves.front().x.empty())
+    {
+      const std::vector<double>& x = figure.curves.front().x;
+      plot.addBand("just noticed by a hand, 7 %", x, std::vector(x.size(), -kNoticed),
+        std::vector(x.size(), kNoticed), appearance::kInk);
+    }
+    for (const fem::Curve& curve : figure.curves)
+    {
+      const auto& color = kColors[static_cast<std::size_t>(curve.color) % kColors.size()];
+      if (curve.style == fem::Curve::Style::Points)
+      {
+        plot.addPoints(curve.name, curve.x, curve.y, color);
+      }
+      else
+      {
+        plot.addLine(
+          curve.name, curve.x, curve.y, color, 2.0F, curve.style == fem::Curve::Style::Dashed);
+      }
+    }
+    drawChart(context, directory / (figure.name + ".png"),
+      [&](vtkContextScene& scene) { plot.addTo(scene); });
+  }
 }
 
 } // namespace palp

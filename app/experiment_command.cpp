@@ -22,13 +22,13 @@ struct Named
 {
   const char* name;
   const char* what;
-  fem::Experiment (*run)(std::stop_token);
+  fem::Experiment (*run)(fem::Resolution, std::stop_token);
 };
 
 constexpr std::array kExperiments{
   Named{ "curvature", "Fig. 3: elastic spheres against the block", fem::curvature },
   Named{ "inclination", "Eq. (7): angles at which inclination is felt",
-    [](std::stop_token) { return fem::inclination(); } },
+    [](fem::Resolution, std::stop_token) { return fem::inclination(); } },
   Named{ "extents", "Fig. 8: R_d over the depth", fem::extents },
   Named{ "profiles", "Fig. 7: surface profiles", fem::profiles },
   Named{ "forces", "Figs. 15 and 16: laws against finite elements", fem::forces },
@@ -38,6 +38,7 @@ struct ExperimentOptions
 {
   std::vector<std::string> names;
   std::filesystem::path out = "experiments";
+  bool quick = false;
   bool noPicture = false;
 };
 
@@ -72,7 +73,12 @@ void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
       continue;
     }
     std::cerr << "palp: " << named.what << '\n';
-    const fem::Experiment experiment = named.run(interrupt.token());
+    const fem::Experiment experiment =
+      named.run(options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
+    if (interrupt.token().stop_requested())
+    {
+      break; // half an experiment finds nothing
+    }
     write(experiment, options.out);
     if (!options.noPicture)
     {
@@ -99,6 +105,7 @@ void addExperimentCommand(CLI::App& app, const Pictures* pictures)
   command->add_option("NAME", options->names, "Which; all if none")->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "Folder for a CSV and a plot of each")
     ->capture_default_str();
+  command->add_flag("--quick", options->quick, "Coarser, in seconds, for a first look");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer(list + "Example:\n  palp experiment inclination forces --out experiments");
   command->callback([options, pictures] { runExperiments(*options, pictures); });

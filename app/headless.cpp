@@ -37,6 +37,11 @@ void report(const Recording& recording, const Calibration* calibration)
               << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm";
   }
   std::cerr << '\n';
+  if (calibration && !calibration->covers(deepest->contact.depth))
+  {
+    std::cerr << "palp: R_d beyond " << toMillimetres(calibration->extents.rows().back().depth)
+              << " mm is that of its table's last row\n";
+  }
 }
 
 Scene sceneOf(const ScenePlan& plan, bool chained)
@@ -86,7 +91,7 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   if (plan.dent)
   {
     calibration = ledger.build("calibration", "how far the surface gives way",
-      [&] { return loadCalibration(plan.press, recording.scene.law.tip()); });
+      [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
   const bool shown = plan.deformed || plan.picture;
   const Body body = ledger.build("surface", shown ? "felt and shown" : "felt, not shown",
@@ -94,6 +99,10 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   for (const std::string& note : body.notes)
   {
     std::cerr << "palp: " << note << '\n';
+  }
+  if (calibration && !calibration->note.empty())
+  {
+    std::cerr << "palp: " << calibration->note << '\n';
   }
   recording.mesh = body.name;
   recording.unit = body.unit;

@@ -32,7 +32,7 @@ struct Pictures
   virtual void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
     const std::filesystem::path& directory) const = 0;
 
-  /// Draws NAME.png of an experiment: every column over the first.
+  /// Draws a picture of every figure of an experiment.
   ///
   /// @throws Error  as drawPress
   virtual void drawExperiment(

@@ -50,10 +50,14 @@ void PressOptions::addTo(CLI::App& command)
     ->capture_default_str();
   command
     .add_option("--surface", surface,
-      "paper: the ring of Eq. (8); fitted: curves fitted to finite elements of the nearest tool")
+      "paper: the ring of Eq. (8); fitted: curves fitted to finite elements, scaled to the tool")
     ->check(CLI::IsMember({ "paper", "fitted" }))
     ->capture_default_str();
   command.add_option("--table", table, "Calibration table depth -> R_d; the bundled one if none");
+  command.add_option("--layer", layer,
+    "Thickness of the tissue that R_d is taken for; five tool radii if none, as the paper's "
+    "blocks");
+  command.add_option("--threshold", threshold, "Sink of the surface at R_d")->capture_default_str();
 }
 
 ContactRule PressOptions::rule() const

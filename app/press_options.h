@@ -38,7 +38,9 @@ struct PressOptions
   TissueOptions tissue;
   std::string contact = "exact";
   std::string damping = "0N*s/m";
-  std::filesystem::path table; ///< R_d(depth); empty: the bundled one for the tool
+  std::filesystem::path table;     ///< R_d(depth); empty: the bundled one for the tool
+  std::string layer;               ///< thickness that R_d is taken for; empty: five tool radii
+  std::string threshold = "0.5mm"; ///< sink at R_d
   std::string surface = "paper";
 
   void addTo(CLI::App& command);

@@ -129,7 +129,16 @@ void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& f
 {
   plan.press.surface = object.text("surface", plan.press.surface);
   const std::string table = object.text("table", "");
+  plan.press.layer = object.text("layer", "");
+  plan.press.threshold = object.text("threshold", plan.press.threshold);
   object.finish();
+  if (!plan.press.layer.empty())
+  {
+    checkAt(object, "layer",
+      [&] { (void)parseQuantity(plan.press.layer, Quantity::Length, "--layer"); });
+  }
+  checkAt(object, "threshold",
+    [&] { (void)parseQuantity(plan.press.threshold, Quantity::Length, "--threshold"); });
   plan.dent = object.choice("surface", plan.press.surface, { "paper", "fitted", "none" }) != 2;
   plan.press.table = table.empty() ? std::filesystem::path{} : (folder / table).lexically_normal();
 }

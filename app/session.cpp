@@ -24,7 +24,7 @@ Session::Session(ScenePlan plan, Ledger& ledger)
   : plan_(std::move(plan))
   , body_(ledger.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
   , calibration_(ledger.build("calibration", "how far the surface gives way",
-      [&] { return loadCalibration(plan_.press, plan_.press.tissue.law().tip()); }))
+      [&] { return loadCalibration(plan_.press, plan_.press.tissue.law()); }))
 {
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
@@ -53,7 +53,7 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
   ++recording_.scene.version;
-  calibration_ = loadCalibration(plan_.press, law.tip());
+  calibration_ = loadCalibration(plan_.press, law);
   servo_->setScene(recording_.scene);
 }
 

@@ -139,7 +139,8 @@ void Window::refresh()
       tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
         .arg(sample.response.force, 0, 'f', 2)
         .arg(units::toMillimetres(sample.contact.depth), 0, 'f', 1)
-        .arg(units::toNewtonsPerMillimetre(sample.response.stiffness), 0, 'f', 2));
+        .arg(units::toNewtonsPerMillimetre(sample.response.stiffness), 0, 'f', 2) +
+      (session_.calibration().covers(sample.contact.depth) ? QString() : tr("    R_d clamped")));
   }
 }
 
@@ -207,6 +208,7 @@ void Window::applyTissue()
       {
         charts_->setLaw(law);
       }
+      statusBar()->showMessage(QString::fromStdString(session_.calibration().note));
     });
 }
 

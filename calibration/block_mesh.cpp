@@ -45,46 +45,81 @@ Gradient brickGradient(const std::array<double, 3>& edges, const std::array<doub
   return gradient;
 }
 
+// boundaries of steps that grow by one ratio from 0 to length, the first of them `head * first`
+// long
+std::vector<double> growingSteps(double length, std::size_t count, double first, double head)
+{
+  const auto steps = [&](double ratio)
+  {
+    std::vector<double> boundaries{ 0.0, head * first };
+    for (double step = ratio * first; boundaries.size() <= count; step *= ratio)
+    {
+      boundaries.push_back(boundaries.back() + step);
+    }
+    return boundaries;
+  };
+  double low = 0.1;
+  double high = 10.0;
+  for (int i = 0; i < 60; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    (steps(middle).back() < length ? low : high) = middle;
+  }
+  return steps(low);
+}
+
 // half of a row of n nodes, from the middle outwards; where n is even, node -1 is the image of node
 // 0
 struct HalfRow
 {
-  int count;
   int firstElement;
-  double step;
-  double start;
+  std::vector<double> positions;
 
-  HalfRow(double width, int n)
-    : count((n + 1) / 2)
-    , firstElement(n % 2 == 0 ? -1 : 0)
-    , step(width / (n - 1))
-    , start(n % 2 == 0 ? 0.5 * step : 0.0)
+  HalfRow(double width, int n, double fine)
+    : firstElement(n % 2 == 0 ? -1 : 0)
+    , positions(
+        growingSteps(0.5 * width, static_cast<std::size_t>(n / 2), fine, n % 2 == 0 ? 0.5 : 1.0))
   {
+    if (firstElement < 0)
+    {
+      positions.erase(positions.begin());
+    }
+  }
+  [[nodiscard]] int count() const
+  {
+    return static_cast<int>(positions.size());
   }
   [[nodiscard]] double position(int k) const
   {
-    return start + k * step;
+    return k < 0 ? -positions.front() : positions[static_cast<std::size_t>(k)];
+  }
+  [[nodiscard]] double edge(int k) const
+  {
+    return position(k + 1) - position(k);
   }
 };
 
 } // namespace
 
-Body blockBody(double width, double height, int n, int layers)
+Body blockBody(double width, double height, int n, int layers, double fine)
 {
-  const HalfRow row(width, n);
-  const double rise = height / (layers - 1);
-  const auto node = [&](int i, int j, int k) { return (k * row.count + j) * row.count + i; };
+  const HalfRow row(width, n, fine);
+  const int count = row.count();
+  const auto depths = growingSteps(height, static_cast<std::size_t>(layers - 1), fine, 1.0);
+  const auto rise = [&](int k)
+  { return height - depths[static_cast<std::size_t>(layers - 1 - k)]; };
+  const auto node = [&](int i, int j, int k) { return (k * count + j) * count + i; };
 
-  Body body{ .dimension = 3, .top = height };
-  body.positions.resize(3, row.count * row.count * layers);
+  Body body{ .dimension = 3, .top = height, .elementSize = fine };
+  body.positions.resize(3, count * count * layers);
   for (int k = 0; k < layers; ++k)
   {
-    for (int j = 0; j < row.count; ++j)
+    for (int j = 0; j < count; ++j)
     {
-      for (int i = 0; i < row.count; ++i)
+      for (int i = 0; i < count; ++i)
       {
         const int number = node(i, j, k);
-        body.positions.col(number) << row.position(i), row.position(j), k * rise;
+        body.positions.col(number) << row.position(i), row.position(j), rise(k);
         const bool held = k == 0;
         if (held)
         {
@@ -111,15 +146,15 @@ Body blockBody(double width, double height, int n, int layers)
     }
   }
 
-  const std::array edges{ row.step, row.step, rise };
-  const double volume = row.step * row.step * rise;
   const double gauss = 0.5 / std::numbers::sqrt3;
   for (int k = 0; k + 1 < layers; ++k)
   {
-    for (int j = row.firstElement; j + 1 < row.count; ++j)
+    for (int j = row.firstElement; j + 1 < count; ++j)
     {
-      for (int i = row.firstElement; i + 1 < row.count; ++i)
+      for (int i = row.firstElement; i + 1 < count; ++i)
       {
+        const std::array edges{ row.edge(i), row.edge(j), rise(k + 1) - rise(k) };
+        const double volume = edges[0] * edges[1] * edges[2];
         Element element{ .meanDilatation = true };
         std::vector<int> nodes;
         Eigen::MatrixXd image = Eigen::MatrixXd::Zero(24, 24); // corners from the element's nodes

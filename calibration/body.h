@@ -36,6 +36,7 @@ struct Body
   std::vector<int> base{};     ///< nodes held in place
   std::vector<int> heldDofs{}; ///< displacements that stay zero, base and symmetry
   double top = 0.0;            ///< height at which the tool first touches [m]
+  double elementSize = 0.0;    ///< under the tool [m]
 
   [[nodiscard]] int nodeCount() const
   {

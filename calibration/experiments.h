@@ -7,21 +7,55 @@
 namespace palp::fem
 {
 
+/// One curve of a figure, in the units of its axes.
+struct Curve
+{
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;
+  int color = 0; ///< curves that belong together share one
+  enum class Style
+  {
+    Line,
+    Dashed,
+    Points,
+  } style = Style::Line;
+};
+
+/// What an experiment shows.
+struct Figure
+{
+  std::string name; ///< of the file
+  std::string title;
+  std::string bottom; ///< axis, with its unit
+  std::string left;
+  std::vector<Curve> curves;
+  bool noticed = false; ///< with a band of 7 %, what a hand just notices
+};
+
 /// An experiment of the paper done again: numbers, and what they say about the paper's.
 struct Experiment
 {
   std::string name;                 ///< of the file
   std::vector<std::string> columns; ///< the first is the abscissa; each name ends in its unit
   std::vector<std::vector<double>> rows;
+  std::vector<Figure> figures;
   std::string finding; ///< a few sentences
 };
 
-/// Comma-separated values, the finding as comments above them.
+/// How finely an experiment is done.
+enum class Resolution
+{
+  Full,  ///< to the accuracy that the findings state; a minute or two each
+  Quick, ///< elements twice the size and half the depths, for a first look; seconds each
+};
+
+/// Comma-separated values, the finding as comments above them; empty where there is no value.
 [[nodiscard]] std::string csv(const Experiment& experiment);
 
 /// Force on elastic spheres of 30, 50 and 100 mm against the block, two supports, both tools.
 /// @source Sec. 3.2, Eq. (6), Fig. 3
-[[nodiscard]] Experiment curvature(std::stop_token stop = {});
+[[nodiscard]] Experiment curvature(Resolution resolution, std::stop_token stop = {});
 
 /// Angles at which inclination is felt.
 /// @source Sec. 3.2, Eq. (7)
@@ -29,16 +63,16 @@ struct Experiment
 
 /// R_d over depth of sphere and cone, two Young's moduli.
 /// @source Sec. 3.3.2, Fig. 8
-[[nodiscard]] Experiment extents(std::stop_token stop = {});
+[[nodiscard]] Experiment extents(Resolution resolution, std::stop_token stop = {});
 
 /// Surface profiles of sphere and cone at 2.5, 5, 7.5 and 10 mm, with the paper's and the fitted
 /// curve.
 /// @source Sec. 3.3.2, Fig. 7
-[[nodiscard]] Experiment profiles(std::stop_token stop = {});
+[[nodiscard]] Experiment profiles(Resolution resolution, std::stop_token stop = {});
 
 /// Eqs. (4) and (5) against linear, corotated and neo-Hookean finite elements, and the depths at
 /// which they part by 7 %.
 /// @source Sec. 4.3, Eq. (9), Figs. 15 and 16
-[[nodiscard]] Experiment forces(std::stop_token stop = {});
+[[nodiscard]] Experiment forces(Resolution resolution, std::stop_token stop = {});
 
 } // namespace palp::fem

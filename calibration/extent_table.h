@@ -19,8 +19,8 @@ public:
   {
     double depth;         ///< delta [m]
     double extentRadius;  ///< R_d [m]
-    double force;         ///< of the finite elements [N]
-    double contactRadius; ///< of the finite elements [m]
+    double force;         ///< of the finite elements [N], or 0
+    double contactRadius; ///< of the finite elements [m], or 0
   };
 
   /// Reads `depth_mm,extent_radius_mm,force_N,contact_radius_mm`; lines that begin with # are

@@ -226,6 +226,13 @@ bool Indenter::walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, b
   return false;
 }
 
+// no mesh folds around a sharp edge; a sphere meets its shaft without one
+bool Indenter::contactReachesRim() const
+{
+  const double base = baseRadius(tip_);
+  return tipSlope(tip_, base) < 1e3 && contactRadius() > base - body_.elementSize;
+}
+
 void Indenter::press(double depth)
 {
   double step = depth - depth_;
@@ -254,6 +261,7 @@ void Indenter::press(double depth)
     step *= 0.5;
     if (step < smallest)
     {
+      trouble = contactReachesRim() ? "the contact reaches the edge of the tool's rim" : trouble;
       (void)equilibrium_.assemble(displacement_);
       char reached[32];
       std::snprintf(reached, sizeof reached, "%.3f mm", units::toMillimetres(depth_));

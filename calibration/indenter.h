@@ -80,6 +80,7 @@ private:
   [[nodiscard]] bool walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, bool closed);
   [[nodiscard]] std::string settle(double depth); // empty, or what went wrong
   [[nodiscard]] double contactRadius() const;
+  [[nodiscard]] bool contactReachesRim() const;
 
   struct Held
   {

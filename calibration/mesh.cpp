@@ -196,9 +196,11 @@ std::vector<double> gradedSteps(double length, double fineLength, double fine, d
 
 Body cylinderBody(double radius, double height, double fineRadius, double fine)
 {
-  return revolve(gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
+  Body body = revolve(gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
     fromTheTop(height, gradedSteps(height, 0.0, fine, kDownwardGrowth)),
     [](double u, double v) { return Vector2d(u, v); });
+  body.elementSize = fine;
+  return body;
 }
 
 Body sphereBody(double radius, SphereSupport support, double fineRadius, double fine)

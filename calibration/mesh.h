@@ -39,9 +39,12 @@ enum class SphereSupport
 /// Eight-node hexahedra with mean dilatation. One quarter is solved; where n is even the elements
 /// across the middle planes are kept whole, their far nodes being images of the near ones.
 ///
+/// The nodes crowd towards the tool: their distance grows by one ratio from there.
+///
 /// @param n       nodes along each side, 4 or more
 /// @param layers  nodes along the height, 2 or more
+/// @param fine    distance of nodes under the tool [m]; width / (n - 1) spaces them evenly
 /// @source        Sec. 4.3: 100 x 100 x 30 mm, 30 x 30 x 10 nodes
-[[nodiscard]] Body blockBody(double width, double height, int n, int layers);
+[[nodiscard]] Body blockBody(double width, double height, int n, int layers, double fine);
 
 } // namespace palp::fem

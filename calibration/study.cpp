@@ -22,6 +22,7 @@ using namespace units::literals;
 constexpr double kElementSize = 0.5_mm;
 constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
 constexpr int kPaperLayers = 10;
+constexpr double kCoarse = 0.1; // distance of nodes under the tool, over its radius
 
 std::string millimetres(double metres)
 {
@@ -141,14 +142,8 @@ Body bodyOf(const Case& study)
     const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
     return cylinderBody(equalAreaRadius(study), study.height, fine, size);
   }
-  const auto nodes = [&](double side, int standard)
-  {
-    return study.elementSize > 0.0
-      ? std::max(4, 1 + static_cast<int>(std::lround(side / study.elementSize)))
-      : standard;
-  };
-  return blockBody(
-    study.width, study.height, nodes(study.width, kPaperNodes), nodes(study.height, kPaperLayers));
+  return blockBody(study.width, study.height, kPaperNodes, kPaperLayers,
+    study.elementSize > 0.0 ? study.elementSize : kCoarse * baseRadius(study.tip));
 }
 
 double extentRadius(const std::vector<Indented::Point>& profile, double threshold)

@@ -31,7 +31,7 @@ struct Case
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]
   BodyModel model = BodyModel::Axisymmetric;
-  double elementSize = 0.0; ///< under the tool [m]; 0: 0.5 mm, or the paper's 30 x 30 x 10 nodes
+  double elementSize = 0.0; ///< under the tool [m]; 0: 0.5 mm, in the block a tenth of its radius
 };
 
 /// A cone gets a tangent spherical cap, as no mesh follows a sharp apex; other tools stay.

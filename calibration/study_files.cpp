@@ -101,11 +101,7 @@ std::string describe(const Case& study, const Body& body)
              ? "axisymmetric, cylinder of equal area, eight-node quadrilaterals"
              : "volumetric block, eight-node bricks, one quarter")
       << ", " << body.elements.size() << " elements, " << body.nodeCount() << " nodes"
-      << "\n# element size under the tool: "
-      << toMillimetres((body.positions.col(body.profile[2]) - body.positions.col(body.profile[0]))
-                         .head(body.dimension - 1)
-                         .norm() /
-           (body.dimension == 2 ? 1.0 : 2.0))
+      << "\n# element size under the tool: " << toMillimetres(body.elementSize)
       << " mm\n# extent_radius_mm: deformed radius at which the surface sinks by "
       << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus\n";
   return out.str();

@@ -131,6 +131,26 @@ double SurfaceTable::extentRadius(const Place& place, double threshold) const
   return inside;
 }
 
+ExtentTable SurfaceTable::extents(const Place& place, double threshold) const
+{
+  constexpr int kRows = 40;
+  const double deepest = axes_[2].back() * place.tipRadius;
+  const double first = std::min(threshold, 0.5 * deepest);
+  std::vector<ExtentTable::Row> rows;
+  for (int i = 0; i <= kRows; ++i)
+  {
+    // close where R_d begins as a root
+    const double t = static_cast<double>(i) / kRows;
+    Place at = place;
+    at.depth = first + (deepest - first) * t * t;
+    rows.push_back({ .depth = at.depth,
+      .extentRadius = extentRadius(at, threshold),
+      .force = 0.0,
+      .contactRadius = 0.0 });
+  }
+  return ExtentTable(std::move(rows));
+}
+
 bool SurfaceTable::covers(const Place& place) const
 {
   const auto within = [](const std::vector<double>& axis, double value)

@@ -24,9 +24,18 @@ SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double 
 
 } // namespace
 
-FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file)
+FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double scale)
 {
-  return FittedSurfaces(readCsv(file, kColumns));
+  constexpr std::size_t kSlope = 4; // the only column that is no length
+  auto rows = readCsv(file, kColumns);
+  for (auto& row : rows)
+  {
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      row[i] *= i == kSlope ? 1.0 : scale;
+    }
+  }
+  return FittedSurfaces(rows);
 }
 
 FittedSurfaces::FittedSurfaces(const std::vector<std::vector<double>>& rows)

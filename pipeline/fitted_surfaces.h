@@ -17,8 +17,9 @@ public:
   static constexpr std::size_t kColumns = 7;
 
   /// Reads such a table.
+  /// @param scale   of all lengths: for a tool and layer that many times as large [-]
   /// @throws Error  BadFile: missing, or not seven numbers a row; BadValue: as below
-  [[nodiscard]] static FittedSurfaces read(const std::filesystem::path& file);
+  [[nodiscard]] static FittedSurfaces read(const std::filesystem::path& file, double scale = 1.0);
 
   /// @param rows    depth_mm,inner_mm,outer_mm,sink_mm,slope,control_outer_mm,control_inner_mm;
   ///                depths increasing

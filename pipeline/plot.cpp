@@ -2,9 +2,12 @@
 
 #include "haptics/error.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <vtkAxis.h>
+#include <vtkBoundingBox.h>
 #include <vtkBrush.h>
 #include <vtkChartLegend.h>
 #include <vtkContextScene.h>
@@ -62,7 +65,6 @@ Plot::Plot(const std::string& title, const std::string& bottom, const std::strin
   appearance::setUpChart(*chart_, title, bottom, left);
   chart_->SetShowLegend(true);
   appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
-  chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
 }
 
 vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
@@ -90,13 +92,14 @@ vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
 }
 
 void Plot::addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
-  const appearance::Color& color, float width)
+  const appearance::Color& color, float width, bool dashed)
 {
   vtkPlot* plot = chart_->AddPlot(vtkChart::LINE);
   plot->SetInputData(addTable(name, x, y, {}), 0, 1);
   plot->SetLabel(name);
   plot->GetPen()->SetColorF(color[0], color[1], color[2]);
   plot->SetWidth(width);
+  plot->GetPen()->SetLineType(dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
 }
 
 void Plot::addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
@@ -125,8 +128,50 @@ void Plot::addBand(const std::string& name, std::span<const double> x, std::span
   plot->GetPen()->SetLineType(vtkPen::NO_PEN);
 }
 
+// by the points that each corner holds, in a frame around all of them
+void Plot::placeLegend()
+{
+  vtkBoundingBox frame;
+  std::vector<std::array<double, 3>> points;
+  for (const auto& table : tables_)
+  {
+    for (vtkIdType column = 1; column < table->GetNumberOfColumns(); ++column)
+    {
+      for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+      {
+        points.push_back(
+          { table->GetValue(row, 0).ToDouble(), table->GetValue(row, column).ToDouble(), 0.0 });
+        frame.AddPoint(points.back().data());
+      }
+    }
+  }
+  constexpr double kWide = 0.4;
+  constexpr double kHigh = 0.3;
+  std::array<int, 4> inside{}; // top left, bottom right, top right, bottom left
+  for (const auto& point : points)
+  {
+    const double x = (point[0] - frame.GetBound(0)) / std::max(1e-300, frame.GetLength(0));
+    const double y = (point[1] - frame.GetBound(2)) / std::max(1e-300, frame.GetLength(1));
+    const bool left = x < kWide;
+    const bool right = x > 1.0 - kWide;
+    const bool top = y > 1.0 - kHigh;
+    const bool bottom = y < kHigh;
+    inside[0] += left && top ? 1 : 0;
+    inside[1] += right && bottom ? 1 : 0;
+    inside[2] += right && top ? 1 : 0;
+    inside[3] += left && bottom ? 1 : 0;
+  }
+  const auto best = std::min_element(inside.begin(), inside.end()) - inside.begin();
+  const bool atLeft = best == 0 || best == 3;
+  const bool atTop = best == 0 || best == 2;
+  chart_->GetLegend()->SetHorizontalAlignment(
+    atLeft ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
+  chart_->GetLegend()->SetVerticalAlignment(atTop ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
+}
+
 void Plot::addTo(vtkContextScene& scene)
 {
+  placeLegend();
   scene.AddItem(chart_);
 }
 

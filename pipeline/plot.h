@@ -30,7 +30,7 @@ public:
 
   /// A line through points, in the units of the axes.
   void addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
-    const appearance::Color& color, float width = 2.0F);
+    const appearance::Color& color, float width = 2.0F, bool dashed = false);
 
   void addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
     const appearance::Color& color);
@@ -39,7 +39,7 @@ public:
   void addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
     std::span<const double> high, const appearance::Color& color);
 
-  /// Puts the chart into a scene, which then draws it.
+  /// Puts the chart into a scene, which then draws it, the legend in the emptiest corner.
   void addTo(vtkContextScene& scene);
 
   /// The curves in the order in which they were added; the first column is x.
@@ -55,6 +55,8 @@ public:
 private:
   vtkTable* addTable(const std::string& name, std::span<const double> x,
     std::span<const double> first, std::span<const double> second);
+
+  void placeLegend();
 
   std::string bottom_;
   std::string left_;

@@ -48,6 +48,27 @@ TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
   }
 }
 
+TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
+{
+  const auto folder = freshFolder();
+  const std::string command =
+    PALP_PROGRAM " calibrate --no-picture --element-size 1mm --out " + folder.string();
+  const std::string table = (folder / "table.csv").string();
+  const Finished stopped = test::runCommand(command + " & running=$!; until [ -s " + table +
+    " ]; do sleep 0.02; done; kill -INT $running; wait $running");
+  EXPECT_EQ(stopped.code, 5);
+  EXPECT_NE(stopped.err.find("--resume goes on from here"), std::string::npos) << stopped.err;
+  const auto before = readCsv(table, 4);
+  ASSERT_GE(before.size(), 1U);
+  ASSERT_LT(before.size(), 20U);
+
+  const Finished resumed = test::runCommand(command + " --resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  const auto after = readCsv(table, 4);
+  ASSERT_EQ(after.size(), 20U);
+  EXPECT_EQ(after[0], before[0]);
+}
+
 TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
 {
   const auto folder = freshFolder();
@@ -61,13 +82,24 @@ TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
   EXPECT_NE(finished.err.find("good: done"), std::string::npos);
   EXPECT_NE(finished.err.find("1 of 2 cases"), std::string::npos);
   EXPECT_EQ(readCsv(folder / "good" / "table.csv", 4).size(), 2U);
+  for (const char* name : { "extent.png", "force.png", "profiles.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder / "good" / name)) << name;
+  }
+}
+
+TEST(CalibrateCommand, SaysHowLargeAToolAndAThresholdMayBe)
+{
+  EXPECT_NE(calibrate("--tip sphere:60mm").err.find("below 45 mm"), std::string::npos);
+  EXPECT_NE(calibrate("--threshold 12mm").err.find("less than the deepest depth of 10 mm"),
+    std::string::npos);
 }
 
 TEST(CalibrateCommand, RefusesBadInputInOneLine)
 {
-  for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--block 100x100mm",
-         "--block 100x100x50", "--material rubber", "--poisson 0.5", "--depth 0:90:1mm",
-         "--model cube", "--sweep /no/such/file.json" })
+  for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--threshold 10mm",
+         "--block 100x100mm", "--block 100x100x50", "--material rubber", "--poisson 0.5",
+         "--depth 0:90:1mm", "--model cube", "--sweep /no/such/file.json" })
   {
     const Finished finished = calibrate(bad);
     EXPECT_EQ(finished.code, 2) << bad;

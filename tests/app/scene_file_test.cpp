@@ -101,6 +101,7 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"meshes": [{"file": "a.mha", "level": "high"}]})", "mine.json: /meshes/0/level: " },
     { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1mm"]}}]})",
       "mine.json: /meshes/0/frame/origin: must be three" },
+    { R"({"dent": {"layer": "thick"}})", "mine.json: /dent/layer: " },
     { R"({"overlays": ["halo"]})", "mine.json: /overlays: 'halo' is not known" },
     { R"({"plots": "force-time"})", "mine.json: /plots: must be a list" },
     { R"({"window": false})", "mine.json: /window: 'mouse' moves in a window only" },

@@ -29,7 +29,7 @@ Body bodyNamed(const std::string& kind)
   {
     return sphereBody(30.0_mm, SphereSupport::BottomCap, 9.0_mm, 3.0_mm);
   }
-  return blockBody(20.0_mm, 10.0_mm, kind == "even block" ? 6 : 7, 4);
+  return blockBody(20.0_mm, 10.0_mm, kind == "even block" ? 6 : 7, 4, 2.0_mm);
 }
 
 class AnyBody : public testing::TestWithParam<const char*>

@@ -22,13 +22,18 @@ void expectFull(const Experiment& experiment)
   {
     EXPECT_EQ(row.size(), experiment.columns.size());
   }
+  EXPECT_FALSE(experiment.figures.empty());
+  for (const Figure& figure : experiment.figures)
+  {
+    EXPECT_FALSE(figure.curves.empty()) << figure.name;
+  }
   testing::Test::RecordProperty("finding", experiment.finding);
 }
 
 // independent program: 5.98 N at 10 mm
 TEST(SlowExperiments, CurvatureReproducesTheLargestForceOfFigureThree)
 {
-  const Experiment found = curvature();
+  const Experiment found = curvature(Resolution::Full);
   expectFull(found);
   EXPECT_NEAR(at(found, 9, "sphere_block_N"), 5.98, 0.05 * 5.98);
   // softer where it is held on a cap only
@@ -39,7 +44,7 @@ TEST(SlowExperiments, CurvatureReproducesTheLargestForceOfFigureThree)
 // independent program, R = 6 mm: 2.278 N neo-Hookean and 1.770 N corotated at 5 mm
 TEST(SlowExperiments, PapersLawLiesBetweenCorotatedAndNeoHookean)
 {
-  const Experiment found = forces();
+  const Experiment found = forces(Resolution::Full);
   expectFull(found);
   EXPECT_NEAR(at(found, 9, "sphere_neo-hookean_N"), 2.278, 0.03 * 2.278);
   EXPECT_NEAR(at(found, 9, "sphere_corotated_N"), 1.770, 0.05 * 1.770);
@@ -50,7 +55,7 @@ TEST(SlowExperiments, PapersLawLiesBetweenCorotatedAndNeoHookean)
 // independent program: 30.4 and 22.5 mm at 10 mm
 TEST(SlowExperiments, ExtentDoesNotFeelYoungsModulus)
 {
-  const Experiment found = extents();
+  const Experiment found = extents(Resolution::Full);
   expectFull(found);
   EXPECT_NEAR(at(found, 19, "sphere_50kPa_mm"), 30.4, 0.06 * 30.4);
   EXPECT_NEAR(at(found, 19, "cone_50kPa_mm"), 22.5, 0.06 * 22.5);
@@ -59,7 +64,7 @@ TEST(SlowExperiments, ExtentDoesNotFeelYoungsModulus)
 
 TEST(SlowExperiments, ProfilesCompareBothCurves)
 {
-  expectFull(profiles());
+  expectFull(profiles(Resolution::Full));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "calibration/experiments.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace palp::fem
@@ -16,12 +17,32 @@ TEST(Experiments, InclinationFollowsEquationSeven)
   EXPECT_NE(found.finding.find("21.57"), std::string::npos);
 }
 
+// four depths, three curves each; the fitted one is the closer
+TEST(Experiments, QuickProfilesDrawEveryCurve)
+{
+  const Experiment found = profiles(Resolution::Quick);
+  ASSERT_EQ(found.figures.size(), 2U);
+  for (const Figure& figure : found.figures)
+  {
+    ASSERT_EQ(figure.curves.size(), 12U);
+    for (const Curve& curve : figure.curves)
+    {
+      EXPECT_EQ(curve.x.size(), curve.y.size());
+      EXPECT_GT(curve.x.size(), 8U);
+    }
+    EXPECT_EQ(figure.curves[0].name, "finite elements");
+    EXPECT_EQ(figure.curves[3].name, ""); // named once
+  }
+}
+
 TEST(Experiments, TablesCarryTheirFindingAboveTheColumns)
 {
-  const Experiment two{
-    .name = "two", .columns = { "a_mm", "b_N" }, .rows = { { 1, 2 }, { 3, 0.5 } }, .finding = "Yes."
-  };
-  EXPECT_EQ(csv(two), "# Yes.\na_mm,b_N\n1,2\n3,0.5\n");
+  const Experiment two{ .name = "two",
+    .columns = { "a_mm", "b_N" },
+    .rows = { { 1, NAN }, { 3, 0.5 } },
+    .figures = {},
+    .finding = "Yes." };
+  EXPECT_EQ(csv(two), "# Yes.\na_mm,b_N\n1,\n3,0.5\n");
 }
 
 } // namespace

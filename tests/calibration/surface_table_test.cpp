@@ -46,6 +46,28 @@ TEST(SurfaceTable, InterpolatesBetweenItsPlaces)
   }
 }
 
+// the paper's blocks; under 10 mm the free sides, 5.6 radii away, let the surface sink further out
+TEST(SurfaceTable, GivesTheExtentsOfTheShippedTables)
+{
+  const SurfaceTable table = SurfaceTable::read(shipped("surface_sphere.csv"));
+  for (const auto& [name, radius] :
+    { std::pair{ "sphere_r6_h30.csv", 6.0_mm }, std::pair{ "sphere_r10_h50.csv", 10.0_mm } })
+  {
+    const ExtentTable extents = table.extents({ 0.0, radius, 5.0 * radius, 0.33 }, 0.5_mm);
+    const ExtentTable papers = ExtentTable::read(shipped(name));
+    for (const ExtentTable::Row& row : papers.rows())
+    {
+      if (row.depth <= 1.0001 * radius)
+      {
+        const double share = radius == 10.0_mm ? 0.08 : 0.04;
+        EXPECT_NEAR(extents.extentRadius(row.depth), row.extentRadius,
+          std::max(0.3_mm, share * row.extentRadius))
+          << name << ' ' << row.depth;
+      }
+    }
+  }
+}
+
 TEST(SurfaceTable, SaysWhereItIsOutsideItsGrid)
 {
   const SurfaceTable table = SurfaceTable::read(shipped("surface_sphere.csv"));

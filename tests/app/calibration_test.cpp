@@ -1,0 +1,93 @@
+#include "app/calibration.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+Calibration load(const Tip& tip, const PressOptions& options = {}, double poisson = 0.33)
+{
+  return loadCalibration(options, ForceLaw(tip, Material{ 50.0_kPa, poisson }));
+}
+
+TEST(LoadCalibration, ThePapersToolsUseItsTwentyRows)
+{
+  const Calibration sphere = load(SphereTip{ 10.0_mm });
+  EXPECT_EQ(sphere.extents.rows().size(), 20U);
+  EXPECT_EQ(sphere.note, "");
+  EXPECT_EQ(load(ConeTip{ 45.0_deg, 10.0_mm }).extents.rows().size(), 20U);
+}
+
+// one shape at every size: all lengths and the threshold doubled double R_d
+TEST(LoadCalibration, ASphereOfAnotherSizeIsTheSameShape)
+{
+  PressOptions small;
+  small.threshold = "0.35mm";
+  PressOptions large;
+  large.threshold = "0.7mm";
+  const auto a = load(SphereTip{ 7.0_mm }, small).extents;
+  const auto b = load(SphereTip{ 14.0_mm }, large).extents;
+  for (const double depth : { 1.0_mm, 3.0_mm, 6.5_mm })
+  {
+    EXPECT_NEAR(b.extentRadius(2.0 * depth), 2.0 * a.extentRadius(depth), 1e-6);
+  }
+}
+
+// a bonded base holds the surface, and a smaller threshold reaches further
+TEST(LoadCalibration, LayerAndThresholdActAsTheyMust)
+{
+  PressOptions thin;
+  thin.layer = "20mm";
+  PressOptions fine;
+  fine.threshold = "0.2mm";
+  const double depth = 5.0_mm;
+  const double usual = load(SphereTip{ 8.0_mm }).extents.extentRadius(depth);
+  EXPECT_LT(load(SphereTip{ 8.0_mm }, thin).extents.extentRadius(depth), 0.9 * usual);
+  EXPECT_GT(load(SphereTip{ 8.0_mm }, fine).extents.extentRadius(depth), 1.1 * usual);
+}
+
+TEST(LoadCalibration, SaysWhatStandsInForWhat)
+{
+  EXPECT_EQ(load(SphereTip{ 8.0_mm }).note, "");
+  PressOptions thick;
+  thick.layer = "1m";
+  EXPECT_NE(load(SphereTip{ 8.0_mm }, thick).note.find("clamped"), std::string::npos);
+  EXPECT_NE(load(SphereTip{ 8.0_mm }, {}, 0.5).note.find("clamped"), std::string::npos);
+  EXPECT_NE(load(PunchTip{ 8.0_mm }).note.find("sphere"), std::string::npos);
+  EXPECT_NE(load(ConeTip{ 30.0_deg, 10.0_mm }).note.find("cone"), std::string::npos);
+  const Calibration sphere = load(SphereTip{ 8.0_mm });
+  EXPECT_TRUE(sphere.covers(8.0_mm));
+  EXPECT_FALSE(sphere.covers(8.1_mm));
+}
+
+TEST(LoadCalibration, RefusesALayerForAConeAndBadLengths)
+{
+  PressOptions options;
+  options.layer = "40mm";
+  EXPECT_THROW((void)load(ConeTip{ 45.0_deg, 10.0_mm }, options), Error);
+  options.layer = "-1mm";
+  EXPECT_THROW((void)load(SphereTip{ 8.0_mm }, options), Error);
+  options.layer = "40";
+  EXPECT_THROW((void)load(SphereTip{ 8.0_mm }, options), Error);
+}
+
+// the fitted curves of R = 10 mm, half the size
+TEST(LoadCalibration, FittedSurfacesScaleWithTheTool)
+{
+  PressOptions options;
+  options.surface = "fitted";
+  const auto whole = load(SphereTip{ 10.0_mm }, options).surfaces;
+  const auto more = load(SphereTip{ 12.0_mm }, options).surfaces;
+  ASSERT_TRUE(whole && more);
+  EXPECT_NEAR(more->at(6.0_mm)->sinkAt(12.0_mm), 1.2 * whole->at(5.0_mm)->sinkAt(10.0_mm), 1e-9);
+}
+
+} // namespace
+} // namespace palp
