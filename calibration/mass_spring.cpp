@@ -1,7 +1,5 @@
 #include "calibration/mass_spring.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -12,43 +10,6 @@ namespace
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kUniaxial = 1.2; // lambda + 2 mu to E at nu = 1/4 [-]
-
-using Six = Eigen::Matrix<double, 6, 1>;
-
-// least squares over the springs that are kept: those that come out negative are left out
-Six fittedConstants(const Eigen::Matrix<double, 6, 3>& edges, double volume, double young)
-{
-  // a spring's stiffness to strain is k L^2 (d x d) x (d x d), that of the tissue V C
-  Eigen::Matrix<double, 6, 6> products;
-  Six load;
-  for (int e = 0; e < 6; ++e)
-  {
-    for (int f = 0; f < 6; ++f)
-    {
-      const double cosine = edges.row(e).normalized().dot(edges.row(f).normalized());
-      products(e, f) =
-        edges.row(e).squaredNorm() * edges.row(f).squaredNorm() * std::pow(cosine, 4);
-    }
-    load[e] = volume * kUniaxial * young * edges.row(e).squaredNorm();
-  }
-  Six constants;
-  for (int k = 0; k < 6; ++k)
-  {
-    constants = products.ldlt().solve(load);
-    int least = 0;
-    if (constants.minCoeff(&least) >= 0.0)
-    {
-      break;
-    }
-    products.row(least).setZero();
-    products.col(least).setZero();
-    products(least, least) = 1.0;
-    load[least] = 0.0;
-  }
-  return constants.cwiseMax(0.0);
-}
 
 } // namespace
 
@@ -62,25 +23,14 @@ MassSprings::MassSprings(const TetMesh& mesh, const BlockMatrix& matrix, const M
   for (std::array<int, 4> nodes : mesh.tets)
   {
     std::sort(nodes.begin(), nodes.end());
-    Eigen::Matrix<double, 6, 3> edges;
-    std::array<int, 6> places{};
-    int e = 0;
+    const double part = material.youngModulus * volume(mesh.positions, nodes);
     for (std::size_t a = 0; a < 4; ++a)
     {
-      for (std::size_t b = a + 1; b < 4; ++b, ++e)
+      for (std::size_t b = a + 1; b < 4; ++b)
       {
-        edges.row(e) = (mesh.positions.col(nodes[b]) - mesh.positions.col(nodes[a])).transpose();
-        places[static_cast<std::size_t>(e)] = matrix.edgeBetween(nodes[a], nodes[b]);
+        const auto edge = static_cast<std::size_t>(matrix.edgeBetween(nodes[a], nodes[b]));
+        constants_[edge] += part / (lengths_[edge] * lengths_[edge]);
       }
-    }
-    const Vector3d a = edges.row(0);
-    const Vector3d b = edges.row(1);
-    const Vector3d c = edges.row(2);
-    const double volume = std::abs(a.cross(b).dot(c)) / 6.0;
-    const Six constants = fittedConstants(edges, volume, material.youngModulus);
-    for (std::size_t s = 0; s < 6; ++s)
-    {
-      constants_[static_cast<std::size_t>(places[s])] += constants[static_cast<Eigen::Index>(s)];
     }
   }
 }

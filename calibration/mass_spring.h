@@ -9,12 +9,10 @@ namespace palp::fem
 
 /// A spring along every edge of the tetrahedra.
 ///
-/// The six springs of an element are those whose strain energy differs least, over all its modes,
-/// from that of the linear element with the same E and with nu = 1/4, the only one springs have.
-/// For a regular element that is k = (2 sqrt 2 / 25) E L. A spring that would have to push more as
-/// it gets longer is left out.
+/// k = E sum(V) / L^2 over the elements around an edge: averaged over directions, the body has the
+/// given E, and nu = 1/4, the only one that springs have. In one direction it is stiffer or softer.
 ///
-/// @source  Lloyd, Szekely and Harders 2007
+/// @source  Van Gelder 1998
 class MassSprings final : public Elasticity
 {
 public:

@@ -5,7 +5,6 @@
 #include "calibration/mass_spring.h"
 #include "haptics/error.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -54,13 +53,7 @@ Eigen::VectorXd lumpedMasses(const TetMesh& mesh, double density)
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(mesh.positions.cols());
   for (const auto& tet : mesh.tets)
   {
-    Eigen::Matrix3d edges;
-    for (int a = 0; a < 3; ++a)
-    {
-      edges.col(a) =
-        mesh.positions.col(tet[static_cast<std::size_t>(a + 1)]) - mesh.positions.col(tet[0]);
-    }
-    masses(tet).array() += density * std::abs(edges.determinant()) / 24.0;
+    masses(tet).array() += 0.25 * density * volume(mesh.positions, tet);
   }
   return masses;
 }

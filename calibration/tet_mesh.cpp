@@ -57,14 +57,6 @@ std::vector<double> layerHeights(double height, double spacing, int layers)
   return heights;
 }
 
-double volume(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
-{
-  const Eigen::Vector3d a = x.col(tet[1]) - x.col(tet[0]);
-  const Eigen::Vector3d b = x.col(tet[2]) - x.col(tet[0]);
-  const Eigen::Vector3d c = x.col(tet[3]) - x.col(tet[0]);
-  return std::abs(a.cross(b).dot(c)) / 6.0;
-}
-
 double squaredEdge(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
 {
   double sum = 0.0;
@@ -79,6 +71,14 @@ double squaredEdge(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
 }
 
 } // namespace
+
+double volume(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
+{
+  const Eigen::Vector3d a = x.col(tet[1]) - x.col(tet[0]);
+  const Eigen::Vector3d b = x.col(tet[2]) - x.col(tet[0]);
+  const Eigen::Vector3d c = x.col(tet[3]) - x.col(tet[0]);
+  return std::abs(a.cross(b).dot(c)) / 6.0;
+}
 
 TetMesh blockTets(double width, double height, int n, int layers)
 {

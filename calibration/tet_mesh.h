@@ -31,6 +31,9 @@ struct TetMesh
 /// @source        cells: Kuhn 1960, mirrored (Todd's J1), so that no direction is preferred
 [[nodiscard]] TetMesh blockTets(double width, double height, int n, int layers);
 
+/// Volume of a tetrahedron [m^3].
+[[nodiscard]] double volume(const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet);
+
 /// @throws Error  BadMesh: no element, no surface, nothing bonded, an index out of range, a node of
 ///                no element, a coordinate that is no number, or a sliver: an element whose volume
 ///                is below 1/1000 of that of the regular one with the same edges in the mean
