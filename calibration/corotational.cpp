@@ -15,7 +15,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr int kMostTurns = 8;    // of Newton's method for a rotation
-constexpr double kTurned = 1e-7; // angle after which the next one is below rounding [rad]
+constexpr double kTurned = 3e-5; // angle after which the next one is below 1e-9 [rad]
 constexpr double kFarTurn = 0.5; // angle beyond which Newton's method is not trusted [rad]
 
 // the rotation of F from its singular values, whatever F is
@@ -40,26 +40,29 @@ Quaterniond nearestRotation(const Matrix3d& gradient, const Quaterniond& from)
   {
     const Matrix3d s = turn.toRotationMatrix().transpose() * gradient;
     const Vector3d skew(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));
-    Matrix3d weight = -0.5 * (s + s.transpose());
-    weight.diagonal().array() += s.trace();
+    const Vector3d w(s(1, 1) + s(2, 2), s(0, 0) + s(2, 2), s(0, 0) + s(1, 1)); // tr S - S, diagonal
+    const double yz = -0.5 * (s(2, 1) + s(1, 2));
+    const double xz = -0.5 * (s(0, 2) + s(2, 0));
+    const double xy = -0.5 * (s(1, 0) + s(0, 1));
+    Matrix3d adjugate;
+    adjugate << w[1] * w[2] - yz * yz, xz * yz - xy * w[2], xy * yz - xz * w[1], //
+      xz * yz - xy * w[2], w[0] * w[2] - xz * xz, xy * xz - yz * w[0],           //
+      xy * yz - xz * w[1], xy * xz - yz * w[0], w[0] * w[1] - xy * xy;
+    const double determinant = adjugate.row(0).dot(Vector3d(w[0], xy, xz));
     // positive definite where the nearest rotation is the only one nearby
-    const double minor = weight(0, 0) * weight(1, 1) - weight(0, 1) * weight(0, 1);
-    const double determinant = weight.determinant();
-    if (!(weight(0, 0) > 0.0 && minor > 0.0 && determinant > 0.0))
+    if (!(w[0] > 0.0 && adjugate(2, 2) > 0.0 && determinant > 0.0))
     {
       break;
     }
-    const Vector3d by = weight.inverse() * skew;
-    const double angle = by.norm();
-    if (!(angle < kFarTurn))
+    const Vector3d by = adjugate * skew / determinant;
+    const double squaredAngle = by.squaredNorm();
+    if (!(squaredAngle < kFarTurn * kFarTurn))
     {
       break;
     }
-    const double half = 0.5 * angle;
-    const double ratio = half > 1e-4 ? std::sin(half) / angle : 0.5 - half * half / 12.0;
-    turn = turn * Quaterniond(std::cos(half), ratio * by[0], ratio * by[1], ratio * by[2]);
+    turn = turn * Quaterniond(1.0, 0.5 * by[0], 0.5 * by[1], 0.5 * by[2]);
     turn.normalize();
-    if (angle < kTurned)
+    if (squaredAngle < kTurned * kTurned)
     {
       return turn;
     }
@@ -140,8 +143,10 @@ double CorotationalTets::respond(
         Matrix3d& block = blocks[static_cast<std::size_t>(tet.edges[e++])];
         const Vector3d la = l * slope.col(a);
         const Vector3d ma = m * slope.col(a);
-        block.noalias() += la * slope.col(b).transpose();
-        block.noalias() += slope.col(b) * ma.transpose();
+        for (int c = 0; c < 3; ++c)
+        {
+          block.col(c) += slope(c, b) * la + ma[c] * slope.col(b);
+        }
         block.diagonal().array() += ma.dot(slope.col(b));
       }
     }
