@@ -12,10 +12,10 @@ namespace palp
 /// One figure of the benchmark, over many repetitions.
 struct BenchRow
 {
-  std::string work;         ///< servo_step, law, update, query_brute or tree_build
+  std::string work;         ///< servo_step, law, update, query_brute, tree_build or baseline
   std::size_t vertices = 0; ///< of the mesh; 0 where there is none
   std::string mode;         ///< moving, jump, cold or paced
-  std::string variant{};    ///< of a law: which one, "" for the scene's own
+  std::string variant{};    ///< of a law or baseline: which one, "" for the scene's own law
   double median = 0.0;      ///< [us], as are those below
   double mean = 0.0;
   double deviation = 0.0;
@@ -58,6 +58,11 @@ template <typename Before, typename Work>
 /// Contact, law, deformed points and their normals: what one picture costs the processor.
 /// @param most  vertices of the largest surface
 [[nodiscard]] std::vector<BenchRow> benchUpdate(std::size_t most);
+
+/// The methods of Fig. 12 on the paper's smallest surface along one path: ours, springs, elements.
+///
+/// A step of 10 ms of a block 50 mm high whose top that surface is; see fem::StepSettings.
+[[nodiscard]] std::vector<BenchRow> benchBaselines();
 
 /// Writes how far the force on coarse meshes is from that on a fine one, for each rule of contact,
 /// and how smooth it is on a slide over facets.

@@ -21,6 +21,7 @@ struct BenchOptions
 {
   bool json = false;
   bool accuracy = false;
+  bool baselines = false;
   std::string servo;
   std::filesystem::path gate;
   double slack = 1.5;
@@ -47,14 +48,17 @@ std::string machine()
 }
 
 // S before, between and after, for other work on the machine comes and goes
-Bench measure(std::size_t most)
+Bench measure(const BenchOptions& options)
 {
   std::vector<double> sweeps{ benchSweep() };
   Bench bench;
-  bench.rows = benchServo(most);
+  bench.rows = options.baselines ? benchBaselines() : benchServo(options.most);
   sweeps.push_back(benchSweep());
-  const std::vector<BenchRow> update = benchUpdate(most);
-  bench.rows.insert(bench.rows.end(), update.begin(), update.end());
+  if (!options.baselines)
+  {
+    const std::vector<BenchRow> update = benchUpdate(options.most);
+    bench.rows.insert(bench.rows.end(), update.begin(), update.end());
+  }
   sweeps.push_back(benchSweep());
   std::sort(sweeps.begin(), sweeps.end());
   bench.sweep = sweeps[1];
@@ -159,7 +163,7 @@ void runBench(const BenchOptions& options)
     return;
   }
   const nlohmann::json recorded = options.gate.empty() ? nullptr : readGate(options.gate);
-  const Bench bench = measure(options.most);
+  const Bench bench = measure(options);
   if (options.json)
   {
     std::cout << toJson(bench).dump(1) << '\n';
@@ -188,6 +192,8 @@ void addBenchCommand(CLI::App& app)
     ->capture_default_str();
   command->add_option("--most", options->most, "Vertices of the largest surface")
     ->capture_default_str();
+  command->add_flag("--baselines", options->baselines,
+    "Instead: one step of springs and of finite elements beside ours, as Fig. 12");
   command->add_flag("--accuracy", options->accuracy,
     "Instead: force error from the mesh, and smoothness, for each rule of contact");
   command->add_option("--servo", options->servo,

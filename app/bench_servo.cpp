@@ -1,13 +1,10 @@
 #include "app/bench.h"
+#include "app/bench_work.h"
 #include "data/shapes.h"
 #include "haptics/contact/patch.h"
-#include "haptics/servo/safety.h"
 #include "haptics/servo/servo.h"
-#include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
 
-#include <cmath>
-#include <numbers>
 #include <ostream>
 #include <random>
 #include <thread>
@@ -19,54 +16,12 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kSide = 100.0_mm;
-constexpr double kDepth = 5.0_mm;
-constexpr double kPath = 30.0_mm; // radius of the circle that a moving tool follows
-constexpr double kSpeed = 0.1;    // [m/s]
 constexpr int kTicks = 4000;
 
-// round and round at constant depth
-ToolPose poseOnPath(int tick)
+ToolPose poseAtTick(int tick)
 {
-  const double angle = kSpeed * 1.0_ms * tick / kPath;
-  const Eigen::Vector3d outward(std::cos(angle), std::sin(angle), 0.0);
-  return { .apex = kPath * outward - kDepth * Eigen::Vector3d::UnitZ(),
-    .axis = -Eigen::Vector3d::UnitZ(),
-    .velocity = kSpeed * Eigen::Vector3d(-outward.y(), outward.x(), 0.0) };
+  return benchPose(1.0_ms * tick);
 }
-
-DeviceLimits someDevice()
-{
-  return {
-    .model = "bench", .rendersForce = true, .maxForce = 8.0, .damping = 1.0, .workspaceRadius = 0.0
-  };
-}
-
-// all that a servo thread does between two exchanges with a device
-class Tick
-{
-public:
-  explicit Tick(std::shared_ptr<const Surface> surface)
-    : chain_(someDevice(), { .fastest = 1e6 })
-  {
-    scene_.surface = std::move(surface);
-    scene_.damping = 1.0;
-    scene_.armed = true;
-  }
-
-  Sample operator()(const ToolPose& pose)
-  {
-    const auto admitted = chain_.admit(pose, {}, { .armed = true }, 1.0_ms);
-    Sample sample = admitted ? touch(scene_, *admitted) : Sample{};
-    const auto law = [&](double depth) noexcept { return respond(scene_, sample.contact, depth); };
-    chain_.limit(sample, law, scene_);
-    return sample;
-  }
-
-private:
-  SafetyChain chain_;
-  Scene scene_;
-};
 
 // walks over more memory than the caches hold
 class CacheFlush
@@ -86,16 +41,16 @@ private:
 
 void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
 {
-  const Mesh mesh = makeGrid(n, kSide);
+  const Mesh mesh = makeGrid(n, kBenchSide);
   const std::size_t vertices = mesh.points.size();
   rows.push_back(benchRow("tree_build", vertices, "cold",
     timed(
       3, [](int) {}, [&](int) { const BoxTree tree(mesh.points, mesh.triangles); })));
 
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
-  Tick tick(surface);
+  ServoTick tick(surface);
   const auto nothing = [](int) {};
-  const auto move = [&](int i) { (void)tick(poseOnPath(i)); };
+  const auto move = [&](int i) { (void)tick(poseAtTick(i)); };
   for (int i = 0; i < kTicks; ++i)
   {
     move(i); // soft start
@@ -104,8 +59,8 @@ void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
 
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-35.0_mm, 35.0_mm);
-  ToolPose pose = poseOnPath(0);
-  const auto jump = [&](int) { pose.apex = { place(random), place(random), -kDepth }; };
+  ToolPose pose = poseAtTick(0);
+  const auto jump = [&](int) { pose.apex = { place(random), place(random), -kBenchDepth }; };
   rows.push_back(
     benchRow("servo_step", vertices, "jump", timed(kTicks, jump, [&](int) { (void)tick(pose); })));
   rows.push_back(benchRow("servo_step", vertices, "cold", timed(100, flush, move)));
@@ -119,7 +74,7 @@ void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
   double area = 0.0;
   const auto all = [&](int i)
   {
-    const Eigen::Vector3d center = poseOnPath(i).apex + 10.0_mm * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d center = poseAtTick(i).apex + 10.0_mm * Eigen::Vector3d::UnitZ();
     for (const Facet& facet : surface->tree().facets())
     {
       area += integrate(facet, center, 1e-4).area;
@@ -134,12 +89,12 @@ class CircleDevice final : public Device
 public:
   [[nodiscard]] DeviceLimits limits() const override
   {
-    return someDevice();
+    return benchDevice();
   }
 
   [[nodiscard]] std::optional<ToolPose> exchange(const Eigen::Vector3d&, double) noexcept override
   {
-    return poseOnPath(tick_++);
+    return poseAtTick(tick_++);
   }
 
 private:
@@ -164,7 +119,7 @@ std::vector<BenchRow> benchServo(std::size_t most)
 
 void reportServo(std::ostream& out, std::chrono::duration<double> duration)
 {
-  const Mesh mesh = makeGrid(100, kSide);
+  const Mesh mesh = makeGrid(100, kBenchSide);
   Scene scene;
   scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   scene.armed = true;

@@ -1,0 +1,95 @@
+#include "app/bench_work.h"
+
+#include "app/data_files.h"
+
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kCircle = 30.0_mm; // radius of the tool's path
+constexpr double kSpeed = 0.1;      // [m/s]
+
+std::vector<float> inFloats(const std::vector<Eigen::Vector3d>& points)
+{
+  std::vector<float> result;
+  for (const Eigen::Vector3d& point : points)
+  {
+    for (const double x : point)
+    {
+      result.push_back(static_cast<float>(x));
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+ToolPose benchPose(double time)
+{
+  const double angle = kSpeed * time / kCircle;
+  const Eigen::Vector3d outward(std::cos(angle), std::sin(angle), 0.0);
+  return { .apex = kCircle * outward - kBenchDepth * Eigen::Vector3d::UnitZ(),
+    .axis = -Eigen::Vector3d::UnitZ(),
+    .velocity = kSpeed * Eigen::Vector3d(-outward.y(), outward.x(), 0.0) };
+}
+
+DeviceLimits benchDevice()
+{
+  return {
+    .model = "bench", .rendersForce = true, .maxForce = 8.0, .damping = 1.0, .workspaceRadius = 0.0
+  };
+}
+
+ServoTick::ServoTick(std::shared_ptr<const Surface> surface)
+  : chain_(benchDevice(), { .fastest = 1e6 })
+{
+  scene_.surface = std::move(surface);
+  scene_.damping = 1.0;
+  scene_.armed = true;
+}
+
+Sample ServoTick::operator()(const ToolPose& pose)
+{
+  const auto admitted = chain_.admit(pose, {}, { .armed = true }, 1.0_ms);
+  Sample sample = admitted ? touch(scene_, *admitted) : Sample{};
+  const auto law = [&](double depth) noexcept { return respond(scene_, sample.contact, depth); };
+  chain_.limit(sample, law, scene_);
+  return sample;
+}
+
+VisualUpdate::VisualUpdate(int n)
+  : mesh_(makeGrid(n, kBenchSide))
+  , rest_(inFloats(mesh_.points))
+  , dent_(rest_, mesh_.triangles)
+  , extents_(ExtentTable::read(dataFile("tables/sphere_r10_h50.csv")))
+  , points_(rest_.size())
+  , normals_(rest_.size())
+  , displacement_(rest_.size())
+  , zone_(mesh_.points.size())
+{
+  scene_.surface = std::make_shared<const Surface>(mesh_.points, mesh_.triangles);
+  dent_.reset(arrays());
+}
+
+DentArrays VisualUpdate::arrays()
+{
+  return { points_.data(), normals_.data(), displacement_.data(), zone_.data() };
+}
+
+void VisualUpdate::operator()(const ToolPose& pose)
+{
+  const Sample sample = step(scene_, pose);
+  dent_.update({ .contact = sample.contact,
+                 .pose = pose,
+                 .tip = scene_.law.tip(),
+                 .contactRadius = sample.response.contactRadius,
+                 .extentRadius = extents_.extentRadius(sample.contact.depth) },
+    arrays());
+}
+
+} // namespace palp

@@ -1,0 +1,192 @@
+#include "calibration/tet_mesh.h"
+
+#include "haptics/error.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace palp::fem
+{
+namespace
+{
+
+constexpr double kSliver = 1e-3; // volume to that of the regular tetrahedron with such edges [-]
+
+void require(bool good, ErrorCode code, const std::string& message)
+{
+  if (!good)
+  {
+    throw Error(code, message);
+  }
+}
+
+// ratio of neighbouring layers so that `count` of them, the first of thickness `top`, fill height
+double layerGrowth(double height, double top, int count)
+{
+  double low = 1e-3;
+  double high = 1e3;
+  for (int k = 0; k < 100; ++k)
+  {
+    const double growth = std::sqrt(low * high);
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i)
+    {
+      sum += top * std::pow(growth, i);
+    }
+    (sum < height ? low : high) = growth;
+  }
+  return std::sqrt(low * high);
+}
+
+// heights of the layers, from the base upwards to 0
+std::vector<double> layerHeights(double height, double spacing, int layers)
+{
+  const int count = layers - 1;
+  const double top = std::min(spacing, height / count);
+  const double growth = layerGrowth(height, top, count);
+  std::vector<double> heights(static_cast<std::size_t>(layers), 0.0);
+  double thickness = top;
+  for (std::size_t k = heights.size() - 1; k > 0; --k)
+  {
+    heights[k - 1] = heights[k] - thickness;
+    thickness *= growth;
+  }
+  heights.front() = -height;
+  return heights;
+}
+
+double squaredEdge(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
+{
+  double sum = 0.0;
+  for (std::size_t a = 0; a < 4; ++a)
+  {
+    for (std::size_t b = a + 1; b < 4; ++b)
+    {
+      sum += (x.col(tet[a]) - x.col(tet[b])).squaredNorm();
+    }
+  }
+  return sum / 6.0;
+}
+
+} // namespace
+
+double volume(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
+{
+  const Eigen::Vector3d a = x.col(tet[1]) - x.col(tet[0]);
+  const Eigen::Vector3d b = x.col(tet[2]) - x.col(tet[0]);
+  const Eigen::Vector3d c = x.col(tet[3]) - x.col(tet[0]);
+  return std::abs(a.cross(b).dot(c)) / 6.0;
+}
+
+TetMesh blockTets(double width, double height, int n, int layers)
+{
+  require(std::isfinite(width) && width > 0.0 && std::isfinite(height) && height > 0.0,
+    ErrorCode::BadValue, "block: width and height must be positive lengths");
+  require(n >= 2 && layers >= 2 && n <= 1000 && layers <= 1000, ErrorCode::BadValue,
+    "block: give 2 to 1000 nodes along each side and along the height");
+
+  const double spacing = width / (n - 1);
+  const std::vector<double> heights = layerHeights(height, spacing, layers);
+  const auto node = [n](int i, int j, int k) { return (k * n + j) * n + i; };
+  TetMesh mesh;
+  mesh.positions.resize(3, n * n * layers);
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        mesh.positions.col(node(i, j, k)) << i * spacing - 0.5 * width, j * spacing - 0.5 * width,
+          heights[static_cast<std::size_t>(k)];
+      }
+    }
+  }
+  for (int i = 0; i < n * n; ++i)
+  {
+    mesh.bonded.push_back(i);
+    mesh.surface.push_back(node(0, 0, layers - 1) + i);
+  }
+
+  // one tetrahedron for each way along three edges from one corner of a cell to the opposite one;
+  // in odd cells the way is mirrored
+  const auto corner = [&](const std::array<int, 3>& cell, std::array<int, 3> at)
+  {
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      at[d] = cell[d] + (cell[d] % 2 == 0 ? at[d] : 1 - at[d]);
+    }
+    return node(at[0], at[1], at[2]);
+  };
+  for (int k = 0; k + 1 < layers; ++k)
+  {
+    for (int j = 0; j + 1 < n; ++j)
+    {
+      for (int i = 0; i + 1 < n; ++i)
+      {
+        std::array<std::size_t, 3> axes{ 0, 1, 2 };
+        do
+        {
+          std::array<int, 3> at{ 0, 0, 0 };
+          std::array<int, 4> tet{ corner({ i, j, k }, at) };
+          for (std::size_t s = 0; s < 3; ++s)
+          {
+            at[axes[s]] = 1;
+            tet[s + 1] = corner({ i, j, k }, at);
+          }
+          mesh.tets.push_back(tet);
+        } while (std::next_permutation(axes.begin(), axes.end()));
+        if (k + 2 == layers)
+        {
+          const int from = i % 2 == j % 2 ? 0 : 1; // the diagonal that the tetrahedra have there
+          const int z = layers - 1;
+          const int a = node(i + from, j, z);
+          const int b = node(i + 1, j + from, z);
+          const int c = node(i + 1 - from, j + 1, z);
+          const int d = node(i, j + 1 - from, z);
+          mesh.triangles.push_back({ a, b, c });
+          mesh.triangles.push_back({ a, c, d });
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+void check(const TetMesh& mesh)
+{
+  const auto nodes = static_cast<int>(mesh.positions.cols());
+  const auto known = [nodes](int i) { return i >= 0 && i < nodes; };
+  const auto ask = [](bool good, const std::string& what)
+  { require(good, ErrorCode::BadMesh, "soft body: " + what); };
+
+  ask(!mesh.tets.empty(), "no tetrahedron; give a volume mesh, not a surface");
+  ask(!mesh.surface.empty(), "no surface node; name the nodes that the tool may touch");
+  ask(!mesh.bonded.empty(), "no bonded node; name the nodes that hold it, or it flies away");
+  ask(mesh.positions.allFinite(), "a coordinate is not a finite number; repair the mesh");
+  ask(std::all_of(mesh.surface.begin(), mesh.surface.end(), known) &&
+      std::all_of(mesh.bonded.begin(), mesh.bonded.end(), known),
+    "a surface or bonded node is not one of the mesh; number them from 0");
+
+  std::vector<char> used(static_cast<std::size_t>(nodes), 0);
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+  {
+    const std::array<int, 4>& tet = mesh.tets[e];
+    const std::string which = "tetrahedron " + std::to_string(e);
+    ask(std::all_of(tet.begin(), tet.end(), known),
+      which + " has a node that is not one of the mesh; number them from 0");
+    for (const int i : tet)
+    {
+      used[static_cast<std::size_t>(i)] = 1;
+    }
+    const double edge = std::sqrt(squaredEdge(mesh.positions, tet));
+    const double regular = edge * edge * edge / (6.0 * std::sqrt(2.0));
+    ask(volume(mesh.positions, tet) > kSliver * regular,
+      which + " is a sliver or empty; improve the mesh there");
+  }
+  ask(std::all_of(used.begin(), used.end(), [](char u) { return u != 0; }),
+    "a node belongs to no tetrahedron; remove it");
+}
+
+} // namespace palp::fem
