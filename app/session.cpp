@@ -1,6 +1,7 @@
 #include "app/session.h"
 
 #include "haptics/devices/pointer.h"
+#include "haptics/devices/recorded_path.h"
 #include "haptics/devices/scripted_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
@@ -81,9 +82,11 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
     moveTool_ = [&device = *hand](const HandTarget& target) { device.moveTo(target); };
     return hand;
   }
-  if (name.starts_with("path:"))
+  if (name.starts_with("path:") || name.starts_with("replay:"))
   {
-    auto script = std::make_unique<ScriptedDevice>(readPath(name.substr(5)));
+    const std::string file = name.substr(name.find(':') + 1);
+    auto script = std::make_unique<ScriptedDevice>(
+      name.starts_with("path:") ? readPath(file) : readRecording(file));
     moveTool_ = [](const HandTarget&) {};
     return script;
   }
@@ -95,8 +98,8 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
   }
   throw Error(ErrorCode::BadValue,
     "--device: '" + name +
-      "' is no device; give mouse, hand, path:FILE.csv, spacemouse, falcon, "
-      "wooden:PATH or phd1:PATH");
+      "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, spacemouse, "
+      "falcon, wooden:PATH or phd1:PATH");
 }
 
 void Session::useDevice(const std::string& name)

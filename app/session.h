@@ -31,7 +31,7 @@ public:
 
   void setTissue(const ForceLaw& law, ContactRule rule, double damping);
 
-  /// mouse, hand, path:FILE, or what openDriver knows; the recording begins anew.
+  /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; the recording begins anew.
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays
   void useDevice(const std::string& name);
 

@@ -16,7 +16,8 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   command
     ->add_option("--device", options->device,
       "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
-      "spacemouse; falcon[:FIRMWARE]; wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
+      "replay:FILE (a samples.csv that was exported); spacemouse; falcon[:FIRMWARE]; "
+      "wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
     ->capture_default_str();
   command->footer("Examples:\n"
                   "  palp                                       the bundled liver\n"
