@@ -26,6 +26,7 @@ constexpr std::array kWords{
   Words{ Flag::Limited, "largest force" },
   Words{ Flag::SlewLimited, "rate limited" },
   Words{ Flag::Workspace, "end of workspace" },
+  Words{ Flag::Unwatched, "window too slow" },
   Words{ Flag::Reseated, "felt from below the surface until lifted" },
 };
 

@@ -31,6 +31,9 @@ struct SafetyOrders
 {
   bool armed = false; ///< a fault is forgiven when this becomes true anew, without a stop
   bool stop = false;  ///< emergency stop
+  /// Of the main thread [s]. What it knows of the world is trusted for 0.2 s and not at all after
+  /// 0.3 s; after 2 s, when no stop button can work, its silence is an emergency stop.
+  double silence = 0.0;
 };
 
 /// Everything between a force law and a hand, in a fixed order, unconditional.

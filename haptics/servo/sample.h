@@ -27,6 +27,7 @@ enum class Flag : std::uint32_t
   SlewLimited = 2048,     ///< the force rises or falls more slowly than asked
   Workspace = 4096,       ///< pushed back from the end of the device's reach
   Reseated = 8192,        ///< contact is felt from a depth below the surface, until the tool lifts
+  Unwatched = 16384,      ///< the main thread is silent: the force fades until it is back
 };
 
 /// Where a device stands between closed and felt.
