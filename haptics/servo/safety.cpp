@@ -22,7 +22,7 @@ constexpr double kWallForce = 2.0;       // [N]
 SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& settings)
   : device_(device)
   , settings_(settings)
-  , passivity_(settings.passivityDamping)
+  , passivity_(settings.passivityDamping, device.quantum)
   , period_(settings.period)
 {
   for (const double value : { settings.period, settings.stiffnessShare, settings.slewRate,
@@ -218,6 +218,7 @@ void SafetyChain::ramp(bool touching) noexcept
   {
     gain_ = apart_ >= kFreeSpace ? 1.0 : std::min(1.0, gain_ + dt_ / settings_.softStart);
     state_ = gain_ < 1.0 ? DeviceState::SoftStart : DeviceState::Active;
+    restarts_ = gain_ < 1.0 ? restarts_ : 0;
   }
   else if (state_ == DeviceState::Decay)
   {

@@ -119,6 +119,7 @@ private:
   double share_ = 0.0;        // of the force that is sent while it decays or the device is silent
   double trust_ = 0.0;        // less than 1 while the device is silent
   double apart_ = 0.0;        // time without contact [s]
+  int restarts_ = 0;          // after late ticks, since the force was last whole
 
   ToolPose last_;          // admitted
   double sinceLast_ = 0.0; // [s]

@@ -14,6 +14,7 @@ constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
 constexpr int kMostDropped = 3;         // poses in a row that may be implausible
 constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
 constexpr double kLatestTicks = 5.0;
+constexpr int kMostRestarts = 3; // of a force that late ticks let never become whole
 
 // a silence that is borne at first, then lets the force fade, then ends it [s]
 struct Silence
@@ -43,6 +44,7 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   if (orders.armed && !wasArmed_ && !orders.stop) // a new wish forgives
   {
     latched_ = 0;
+    restarts_ = 0;
   }
   wasArmed_ = orders.armed;
   if (orders.stop || !(orders.silence <= kMainThreadGone))
@@ -80,6 +82,10 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
     raise(Flag::Late);
     forceOff(DeviceState::SoftStart);
     fading_ = sent_;
+    if (++restarts_ > kMostRestarts)
+    {
+      fault(Flag::Late);
+    }
   }
   advance(status, orders);
   return last_;

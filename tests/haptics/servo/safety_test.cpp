@@ -262,6 +262,27 @@ TEST(SafetyChain, LateTickStartsTheForceAgain)
   }
 }
 
+// a loop that stalls again before its force is whole cannot hold a hand, and says so
+TEST(SafetyChain, LateTicksThatNeverLetTheForceBecomeWholeEndIt)
+{
+  for (const int apart : { 100, 700 }) // ticks between two stalls
+  {
+    Bench bench;
+    bench.activate();
+    (void)bench.press(5.0_mm);
+    for (int stall = 1; stall <= 10; ++stall)
+    {
+      const Sample late = bench.at(5.0_mm, 21 * kTick);
+      const bool ended = apart == 100 && stall > 3;
+      ASSERT_EQ(late.state, ended ? DeviceState::Ready : DeviceState::SoftStart) << stall;
+      for (int i = 0; i < apart; ++i)
+      {
+        ASSERT_EQ(has(bench.at(5.0_mm), Flag::Late), ended);
+      }
+    }
+  }
+}
+
 TEST(SafetyChain, SilenceLetsTheForceFadeBetweenThreeAndTwentyMilliseconds)
 {
   Bench bench;
