@@ -12,6 +12,7 @@ struct ViewOptions
 {
   PressOptions press;
   std::string device = "mouse";
+  bool deadMan = false; ///< force only while the first button of the device is held
 };
 
 /// The whole of `palp devices`.

@@ -1,8 +1,10 @@
 #include "app/session.h"
 
+#include "app/device_words.h"
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/recorded_path.h"
 #include "haptics/devices/scripted_device.h"
+#include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
 #include "haptics/servo/safety.h"
@@ -17,11 +19,13 @@ namespace
 {
 
 constexpr std::size_t kKept = 600'000; // samples, ten minutes
+constexpr double kForgiving = 0.05;    // until the servo has heard of an order, at the latest [s]
 
 } // namespace
 
-Session::Session(const ViewOptions& options)
+Session::Session(const ViewOptions& options, const std::atomic<bool>* stop)
   : options_(options.press)
+  , servoOptions_{ .deadMan = options.deadMan, .stop = stop }
   , body_(loadBody(options.press))
   , calibration_(loadCalibration(options.press, options.press.tissue.law().tip()))
 {
@@ -104,18 +108,43 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
 
 void Session::useDevice(const std::string& name)
 {
-  std::unique_ptr<Device> next = makeDevice(name);
+  useDevice(name, makeDevice(name));
+}
+
+void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
+{
   servo_.reset(); // stops before its device goes
-  device_ = std::move(next);
+  device_ = std::move(device);
   recording_.device = name;
   recording_.samples.clear();
   recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
-  servo_ = std::make_unique<Servo>(*device_, recording_.scene);
+  armedAt_ = 0.0;
+  servo_ = std::make_unique<Servo>(*device_, recording_.scene, servoOptions_);
+}
+
+std::vector<std::string> Session::devices()
+{
+  std::vector<std::string> names{ "mouse", "hand" };
+  try
+  {
+    for (const FoundDevice& found : findDevices())
+    {
+      if (found.hurdle.empty())
+      {
+        std::ranges::copy(namesOf(found), std::back_inserter(names));
+      }
+    }
+  }
+  catch (const Error&) // no USB here: palp devices says why
+  {
+  }
+  return names;
 }
 
 void Session::arm(bool armed)
 {
   recording_.scene.armed = armed;
+  armedAt_ = servo_->newest().time + kForgiving;
   servo_->setScene(recording_.scene);
 }
 
@@ -123,6 +152,12 @@ double Session::stableStiffness() const
 {
   return rendersForce() ? SafetyChain(device_->limits()).stiffnessLimit(recording_.scene.damping)
                         : std::numeric_limits<double>::infinity();
+}
+
+double Session::largestForce() const
+{
+  return rendersForce() ? std::min(recording_.scene.forceLimit, device_->limits().maxForce)
+                        : recording_.scene.forceLimit;
 }
 
 void Session::stop(bool stopped)
@@ -148,6 +183,10 @@ void Session::update(const std::function<void(const Sample&)>& each)
       kept.push_back(sample);
       each(sample);
     });
+  if (armed() && newest().time > armedAt_ && isFault(newest().state, newest().flags))
+  {
+    arm(false);
+  }
   // a minute at a time, so that moving the rest is rare
   constexpr std::size_t kMinute = kKept / 10;
   if (kept.size() > kKept + kMinute)

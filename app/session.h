@@ -7,9 +7,11 @@
 #include "haptics/devices/simulated_hand.h"
 #include "haptics/servo/servo.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace palp
 {
@@ -22,8 +24,9 @@ class Session
 public:
   static constexpr double kClearance = 0.015; ///< of a hovering tool above the surface [m]
 
+  /// @param stop    an emergency stop for signal handlers; outlives this object, or null
   /// @throws Error  as loadBody, loadExtents, useDevice
-  explicit Session(const ViewOptions& options);
+  explicit Session(const ViewOptions& options, const std::atomic<bool>* stop = nullptr);
 
   /// Replaces the body; tissue and device stay.
   /// @throws Error  BadFile, BadMesh; the old body then stays
@@ -35,7 +38,15 @@ public:
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays
   void useDevice(const std::string& name);
 
+  /// The same with a device of the caller's.
+  void useDevice(const std::string& name, std::unique_ptr<Device> device);
+
+  /// Names that useDevice takes: of the devices that move by themselves only those that are there
+  /// and may be used.
+  [[nodiscard]] static std::vector<std::string> devices();
+
   /// Whether the user wants to feel force; off for every device but a simulated hand until asked.
+  /// A fault takes the wish back.
   void arm(bool armed);
 
   /// Zero force at once and until taken back; then the device must be armed again.
@@ -48,6 +59,8 @@ public:
   }
   /// What the device can render without trembling [N/m]; infinite where no hand can feel it.
   [[nodiscard]] double stableStiffness() const;
+  /// Beyond it a force is shortened [N].
+  [[nodiscard]] double largestForce() const;
   [[nodiscard]] bool armed() const noexcept
   {
     return recording_.scene.armed;
@@ -92,9 +105,11 @@ private:
   [[nodiscard]] HandTarget restingPlace() const;
 
   PressOptions options_;
+  ServoOptions servoOptions_;
   Body body_;
   Calibration calibration_;
-  Recording recording_; // its scene is the one that the servo thread has
+  Recording recording_;  // its scene is the one that the servo thread has
+  double armedAt_ = 0.0; // time of the servo from which on a fault is a new one [s]
   std::function<void(const HandTarget&)> moveTool_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Servo> servo_; // last: it uses the device

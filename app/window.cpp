@@ -1,5 +1,6 @@
 #include "app/window.h"
 
+#include "app/device_panel.h"
 #include "app/export.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
@@ -18,6 +19,7 @@
 #include <QTimer>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp
 {
@@ -98,7 +100,12 @@ void Window::aim()
 
 void Window::refresh()
 {
-  session_.update([this](const Sample& sample) { charts_.add(sample); });
+  session_.update(
+    [this](const Sample& sample)
+    {
+      charts_.add(sample);
+      acting_ |= sample.flags;
+    });
   const Sample& sample = session_.newest();
   view_.show(sample);
   renderWindow_->Render();
@@ -115,7 +122,7 @@ void Window::refresh()
 
 void Window::refreshCharts()
 {
-  panel_->showDevice(session_.newest(), session_.rendersForce(), session_.armed());
+  devicePanel_->show(session_, session_.newest(), std::exchange(acting_, 0));
   showReliance(session_.newest());
   charts_.refresh();
   timeView_->GetRenderWindow()->Render();

@@ -9,6 +9,7 @@
 #include <QMainWindow>
 #include <vtkNew.h>
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -22,6 +23,7 @@ class vtkRenderer;
 namespace palp
 {
 
+class DevicePanel;
 class ReliancePanel;
 class TissuePanel;
 
@@ -48,6 +50,7 @@ private:
 
   void makeView();
   void makeDocks();
+  void makeDevicePanel();
   void makeMenus();
   void showBody();
 
@@ -74,12 +77,14 @@ private:
   double depth_ = 0.0;                 // asked for by drag [m]
   double heldDepth_ = 0.0;             // asked for by wheel, stays between presses [m]
   bool pressing_ = false;
-  Validity validity_; // of the law that the session uses
+  std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
+  Validity validity_;        // of the law that the session uses
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   vtkNew<vtkContextView> timeView_;
   vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
+  DevicePanel* devicePanel_ = nullptr;
   ReliancePanel* reliance_ = nullptr;
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;

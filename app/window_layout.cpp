@@ -1,5 +1,6 @@
 // What the window is made of; what it does is in window.cpp.
 
+#include "app/device_panel.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
@@ -41,6 +42,18 @@ QDockWidget* addDock(
   dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
   window->addDockWidget(area, dock);
   return dock;
+}
+
+// the one in use first
+QStringList deviceNames(const Session& session)
+{
+  QStringList names{ QString::fromStdString(session.recording().device) };
+  for (const std::string& name : Session::devices())
+  {
+    names << QString::fromStdString(name);
+  }
+  names.removeDuplicates();
+  return names;
 }
 
 QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
@@ -89,21 +102,11 @@ void Window::makeView()
 
 void Window::makeDocks()
 {
-  const Recording& recording = session_.recording();
-  QStringList devices{ "mouse", "hand" };
-  const QString device = QString::fromStdString(recording.device);
-  devices.removeAll(device);
-  devices.prepend(device);
-  panel_ = new TissuePanel(recording.scene, devices);
+  panel_ = new TissuePanel(session_.recording().scene);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
-  connect(panel_, &TissuePanel::deviceChanged, this, &Window::applyDevice);
-  connect(panel_, &TissuePanel::armAsked, this,
-    [this](bool armed)
-    {
-      session_.stop(false);
-      session_.arm(armed);
-    });
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
+  makeDevicePanel();
+  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), devicePanel_);
   reliance_ = new ReliancePanel;
   addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), reliance_);
 
@@ -119,6 +122,19 @@ void Window::makeDocks()
   servoLabel_->setObjectName("servo");
   statusBar()->addWidget(forceLabel_, 1);
   statusBar()->addPermanentWidget(servoLabel_);
+}
+
+void Window::makeDevicePanel()
+{
+  devicePanel_ = new DevicePanel(deviceNames(session_));
+  connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
+  connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });
+  connect(devicePanel_, &DevicePanel::armAsked, this,
+    [this](bool armed)
+    {
+      session_.stop(false);
+      session_.arm(armed);
+    });
 }
 
 void Window::makeMenus()
@@ -164,6 +180,9 @@ void Window::makeMenus()
   QAction* stop = device->addAction(
     tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
+  device->addAction(
+    tr("&Look for devices"), this, [this] { devicePanel_->offer(deviceNames(session_)); },
+    QKeySequence::Refresh);
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   view->addAction(

@@ -96,6 +96,26 @@ std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& r
 
 } // namespace
 
+std::vector<FoundDevice> findDevices()
+{
+  std::vector<FoundDevice> all = listHid();
+  std::ranges::move(listUsb(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<std::string> namesOf(const FoundDevice& device)
+{
+  switch (device.kind)
+  {
+    case DeviceKind::SpaceMouse:
+      return { "spacemouse:" + device.path };
+    case DeviceKind::Falcon:
+      return { "falcon" };
+    default:
+      return { "wooden:" + device.path, "phd1:" + device.path };
+  }
+}
+
 bool namesHardware(const std::string& name)
 {
   const std::string kind = parts(name).first;
