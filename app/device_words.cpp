@@ -1,5 +1,6 @@
 #include "app/device_words.h"
 
+#include <algorithm>
 #include <array>
 
 namespace palp
@@ -16,7 +17,7 @@ struct Words
 constexpr std::array kWords{
   Words{ Flag::EmergencyStop, "stopped" },
   Words{ Flag::NotFinite, "value not finite" },
-  Words{ Flag::DeviceLost, "device lost" },
+  Words{ Flag::DeviceLost, "was unplugged" },
   Words{ Flag::Stale, "device silent" },
   Words{ Flag::Jump, "pose jumped" },
   Words{ Flag::NotHomed, "not homed" },
@@ -26,6 +27,7 @@ constexpr std::array kWords{
   Words{ Flag::Limited, "largest force" },
   Words{ Flag::SlewLimited, "rate limited" },
   Words{ Flag::Workspace, "end of workspace" },
+  Words{ Flag::Unwatched, "window too slow" },
   Words{ Flag::Reseated, "felt from below the surface until lifted" },
 };
 
@@ -36,7 +38,7 @@ const char* describe(DeviceState state) noexcept
   switch (state)
   {
     case DeviceState::Closed:
-      return "closed";
+      return "not there";
     case DeviceState::Opening:
       return "opening";
     case DeviceState::NeedsHoming:
@@ -49,6 +51,34 @@ const char* describe(DeviceState state) noexcept
       return "force on";
     case DeviceState::Decay:
       return "force falling";
+  }
+  return "";
+}
+
+bool isFault(DeviceState state, std::uint32_t flags) noexcept
+{
+  constexpr Flag kFaults[] = { Flag::EmergencyStop, Flag::NotFinite, Flag::DeviceLost, Flag::Stale,
+    Flag::Jump, Flag::Late };
+  const bool ended = state == DeviceState::Closed || state == DeviceState::Ready;
+  return ended &&
+    std::ranges::any_of(
+      kFaults, [&](Flag flag) { return (flags & static_cast<std::uint32_t>(flag)) != 0; });
+}
+
+const char* advise(DeviceState state, std::uint32_t flags) noexcept
+{
+  if (state == DeviceState::Closed)
+  {
+    return "plug it in again; it will be found";
+  }
+  if (state == DeviceState::NeedsHoming)
+  {
+    return "Falcon: pull the grip out, then push it in; WoodenHaptics: hold the arm at rest and "
+           "press its button";
+  }
+  if (isFault(state, flags))
+  {
+    return "arm it again when the cause is gone";
   }
   return "";
 }

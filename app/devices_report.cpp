@@ -38,13 +38,6 @@ constexpr std::array kFamilies{
     "plug one in; use it by its path, as --device wooden:/dev/hidraw2" },
 };
 
-std::vector<FoundDevice> findAll()
-{
-  std::vector<FoundDevice> all = listHid();
-  std::ranges::move(listUsb(), std::back_inserter(all));
-  return all;
-}
-
 void print(const FoundDevice& device)
 {
   std::cout << "  " << device.name << " (" << device.ids << ") at " << device.path << ": "
@@ -115,9 +108,9 @@ int probe(const std::string& name)
 {
   const auto samePlace = [](const FoundDevice& a)
   { return [&a](const FoundDevice& b) { return a.path == b.path && a.ids == b.ids; }; };
-  for (std::vector<FoundDevice> before = findAll();; std::this_thread::sleep_for(500ms))
+  for (std::vector<FoundDevice> before = findDevices();; std::this_thread::sleep_for(500ms))
   {
-    const std::vector<FoundDevice> now = findAll();
+    const std::vector<FoundDevice> now = findDevices();
     for (const FoundDevice& one : now)
     {
       if (std::ranges::none_of(before, samePlace(one)))
@@ -146,7 +139,7 @@ int showDevices(const DevicesOptions& options)
   {
     return probe(options.probe);
   }
-  const int code = list(findAll());
+  const int code = list(findDevices());
   if (options.watch)
   {
     std::cout.flush();

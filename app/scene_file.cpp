@@ -134,8 +134,8 @@ void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& f
   object.finish();
   if (!plan.press.layer.empty())
   {
-    checkAt(object, "layer",
-      [&] { (void)parseQuantity(plan.press.layer, Quantity::Length, "--layer"); });
+    checkAt(
+      object, "layer", [&] { (void)parseQuantity(plan.press.layer, Quantity::Length, "--layer"); });
   }
   checkAt(object, "threshold",
     [&] { (void)parseQuantity(plan.press.threshold, Quantity::Length, "--threshold"); });
@@ -169,16 +169,16 @@ void readExports(JsonObject& object, ScenePlan& plan)
 
 void readDevice(JsonObject& object, ScenePlan& plan, const std::filesystem::path& folder)
 {
-  constexpr std::string_view kPath = "path:";
   plan.device = object.text("device", "mouse");
-  const bool path = plan.device.starts_with(kPath);
-  if (path)
+  const bool scripted = isScripted(plan.device);
+  if (scripted)
   {
-    plan.device =
-      kPath.data() + (folder / plan.device.substr(kPath.size())).lexically_normal().string();
+    plan.device = plan.device.substr(0, plan.device.find(':') + 1) +
+      (folder / scriptFile(plan.device)).lexically_normal().string();
   }
-  plan.window = object.flag("window", !path);
-  if (!plan.window && !path)
+  plan.deadMan = object.flag("dead_man", false);
+  plan.window = object.flag("window", !scripted);
+  if (!plan.window && !scripted)
   {
     object.refuse("window", "'" + plan.device + "' moves in a window only; give true");
   }

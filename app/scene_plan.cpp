@@ -1,6 +1,7 @@
 #include "app/scene_plan.h"
 
 #include "app/quantity.h"
+#include "haptics/devices/recorded_path.h"
 #include "haptics/error.h"
 
 #include <algorithm>
@@ -8,6 +9,22 @@
 
 namespace palp
 {
+
+bool isScripted(const std::string& device)
+{
+  return device.starts_with("path:") || device.starts_with("replay:");
+}
+
+std::filesystem::path scriptFile(const std::string& device)
+{
+  return device.substr(device.find(':') + 1);
+}
+
+ScriptedPath readScript(const std::string& device)
+{
+  return device.starts_with("path:") ? readPath(scriptFile(device))
+                                     : readRecording(scriptFile(device));
+}
 
 std::vector<MeshSource> meshesOf(const PressOptions& options)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/press_options.h"
+#include "haptics/devices/scripted_path.h"
 #include "pipeline/overlay.h"
 
 #include <Eigen/Geometry>
@@ -43,6 +44,7 @@ struct ScenePlan
   std::vector<MeshSource> meshes{ { .bundled = "liver" } };
   PressOptions press{};
   std::string device = "mouse";
+  bool deadMan = false; ///< force only while the first button of the device is held
   bool window = true;   ///< else: a path in simulated time, without servo thread
   bool dent = true;     ///< the surface gives way; needs a calibration
   bool validity = true; ///< each sample is rated by the ten rules
@@ -65,6 +67,15 @@ struct ScenePlan
     return !window && (picture || !curves.empty());
   }
 };
+
+/// Whether a device follows a file: path:FILE, or replay:FILE with an exported samples.csv.
+[[nodiscard]] bool isScripted(const std::string& device);
+
+/// The file that a scripted device follows.
+[[nodiscard]] std::filesystem::path scriptFile(const std::string& device);
+
+/// @throws Error  BadFile
+[[nodiscard]] ScriptedPath readScript(const std::string& device);
 
 /// The surface that the options name.
 [[nodiscard]] std::vector<MeshSource> meshesOf(const PressOptions& options);

@@ -1,8 +1,10 @@
 #include "app/session.h"
 
+#include "app/device_words.h"
 #include "app/ledger.h"
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/scripted_device.h"
+#include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
 #include "haptics/servo/safety.h"
@@ -17,11 +19,13 @@ namespace
 {
 
 constexpr std::size_t kKept = 600'000; // samples, ten minutes
+constexpr double kForgiving = 0.05;    // until the servo has heard of an order, at the latest [s]
 
 } // namespace
 
-Session::Session(ScenePlan plan, Ledger& ledger)
+Session::Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop)
   : plan_(std::move(plan))
+  , servoOptions_{ .history = plan_.records(), .deadMan = plan_.deadMan, .stop = stop }
   , body_(ledger.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
   , calibration_(ledger.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan_.press, plan_.press.tissue.law()); }))
@@ -81,9 +85,9 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
     moveTool_ = [&device = *hand](const HandTarget& target) { device.moveTo(target); };
     return hand;
   }
-  if (name.starts_with("path:"))
+  if (isScripted(name))
   {
-    auto script = std::make_unique<ScriptedDevice>(readPath(name.substr(5)));
+    auto script = std::make_unique<ScriptedDevice>(readScript(name));
     moveTool_ = [](const HandTarget&) {};
     return script;
   }
@@ -95,25 +99,49 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
   }
   throw Error(ErrorCode::BadValue,
     "--device: '" + name +
-      "' is no device; give mouse, hand, path:FILE.csv, spacemouse, falcon, "
-      "wooden:PATH or phd1:PATH");
+      "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, spacemouse, "
+      "falcon, wooden:PATH or phd1:PATH");
 }
 
 void Session::useDevice(const std::string& name)
 {
-  std::unique_ptr<Device> next = makeDevice(name);
+  useDevice(name, makeDevice(name));
+}
+
+void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
+{
   servo_.reset(); // stops before its device goes
-  device_ = std::move(next);
+  device_ = std::move(device);
   recording_.device = name;
   recording_.samples.clear();
   recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
-  servo_ =
-    std::make_unique<Servo>(*device_, recording_.scene, ServoOptions{ .history = plan_.records() });
+  armedAt_ = 0.0;
+  servo_ = std::make_unique<Servo>(*device_, recording_.scene, servoOptions_);
+}
+
+std::vector<std::string> Session::devices()
+{
+  std::vector<std::string> names{ "mouse", "hand" };
+  try
+  {
+    for (const FoundDevice& found : findDevices())
+    {
+      if (found.hurdle.empty())
+      {
+        std::ranges::copy(namesOf(found), std::back_inserter(names));
+      }
+    }
+  }
+  catch (const Error&) // no USB here: palp devices says why
+  {
+  }
+  return names;
 }
 
 void Session::arm(bool armed)
 {
   recording_.scene.armed = armed;
+  armedAt_ = servo_->newest().time + kForgiving;
   servo_->setScene(recording_.scene);
 }
 
@@ -121,6 +149,12 @@ double Session::stableStiffness() const
 {
   return rendersForce() ? SafetyChain(device_->limits()).stiffnessLimit(recording_.scene.damping)
                         : std::numeric_limits<double>::infinity();
+}
+
+double Session::largestForce() const
+{
+  return rendersForce() ? std::min(recording_.scene.forceLimit, device_->limits().maxForce)
+                        : recording_.scene.forceLimit;
 }
 
 void Session::stop(bool stopped)
@@ -146,6 +180,10 @@ void Session::update(const std::function<void(const Sample&)>& each)
       kept.push_back(sample);
       each(sample);
     });
+  if (armed() && newest().time > armedAt_ && isFault(newest().state, newest().flags))
+  {
+    arm(false);
+  }
   // a minute at a time, so that moving the rest is rare
   constexpr std::size_t kMinute = kKept / 10;
   if (kept.size() > kKept + kMinute)

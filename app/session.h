@@ -8,9 +8,11 @@
 #include "haptics/devices/simulated_hand.h"
 #include "haptics/servo/servo.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace palp
 {
@@ -25,8 +27,9 @@ class Session
 public:
   static constexpr double kClearance = 0.015; ///< of a hovering tool above the surface [m]
 
+  /// @param stop    an emergency stop for signal handlers; outlives this object, or null
   /// @throws Error  as loadBody, loadCalibration, useDevice
-  Session(ScenePlan plan, Ledger& ledger);
+  Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop = nullptr);
 
   /// What it was made of at the start.
   [[nodiscard]] const ScenePlan& plan() const noexcept
@@ -40,11 +43,19 @@ public:
 
   void setTissue(const ForceLaw& law, ContactRule rule, double damping);
 
-  /// mouse, hand, path:FILE, or what openDriver knows; the recording begins anew.
+  /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; the recording begins anew.
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays
   void useDevice(const std::string& name);
 
+  /// The same with a device of the caller's.
+  void useDevice(const std::string& name, std::unique_ptr<Device> device);
+
+  /// Names that useDevice takes: of the devices that move by themselves only those that are there
+  /// and may be used.
+  [[nodiscard]] static std::vector<std::string> devices();
+
   /// Whether the user wants to feel force; off for every device but a simulated hand until asked.
+  /// A fault takes the wish back.
   void arm(bool armed);
 
   /// Zero force at once and until taken back; then the device must be armed again.
@@ -57,6 +68,8 @@ public:
   }
   /// What the device can render without trembling [N/m]; infinite where no hand can feel it.
   [[nodiscard]] double stableStiffness() const;
+  /// Beyond it a force is shortened [N].
+  [[nodiscard]] double largestForce() const;
   [[nodiscard]] bool armed() const noexcept
   {
     return recording_.scene.armed;
@@ -101,9 +114,11 @@ private:
   [[nodiscard]] HandTarget restingPlace() const;
 
   ScenePlan plan_;
+  ServoOptions servoOptions_;
   Body body_;
   Calibration calibration_;
-  Recording recording_; // its scene is the one that the servo thread has
+  Recording recording_;  // its scene is the one that the servo thread has
+  double armedAt_ = 0.0; // time of the servo from which on a fault is a new one [s]
   std::function<void(const HandTarget&)> moveTool_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Servo> servo_; // last: it uses the device

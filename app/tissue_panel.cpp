@@ -1,6 +1,5 @@
 #include "app/tissue_panel.h"
 
-#include "app/device_words.h"
 #include "app/tip_spec.h"
 #include "haptics/units.h"
 
@@ -8,8 +7,6 @@
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QGroupBox>
-#include <QLabel>
-#include <QPushButton>
 #include <QVBoxLayout>
 
 namespace palp
@@ -47,7 +44,7 @@ QFormLayout* addGroup(QVBoxLayout* column, const QString& title)
 
 } // namespace
 
-TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget* parent)
+TissuePanel::TissuePanel(const Scene& scene, QWidget* parent)
   : QWidget(parent)
   , settings_(scene.law.settings())
   , other_(scene.law.tip())
@@ -89,21 +86,6 @@ TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget
   tissue->addRow(tr("Damping"), damping_);
   tissue->addRow(tr("Contact depth"), rule_);
 
-  QFormLayout* hand = addGroup(column, tr("Device"));
-  device_ = new QComboBox;
-  device_->setObjectName("device");
-  device_->addItems(devices);
-  hand->addRow(tr("Tool held by"), device_);
-  arm_ = new QPushButton(tr("Force on the hand"));
-  arm_->setObjectName("arm");
-  arm_->setCheckable(true);
-  arm_->setToolTip(tr("Off until you arm it; Escape stops the force at once"));
-  state_ = new QLabel;
-  state_->setObjectName("state");
-  state_->setWordWrap(true);
-  hand->addRow(arm_);
-  hand->addRow(tr("State"), state_);
-  connect(arm_, &QPushButton::clicked, this, &TissuePanel::armAsked);
   column->addStretch();
 
   for (QDoubleSpinBox* box : { radiusMm_, halfAngleDeg_, modulusKpa_, poisson_, damping_ })
@@ -118,7 +100,6 @@ TissuePanel::TissuePanel(const Scene& scene, const QStringList& devices, QWidget
   }
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
     &TissuePanel::showAngleForConesOnly);
-  connect(device_, &QComboBox::currentTextChanged, this, &TissuePanel::deviceChanged);
   showAngleForConesOnly();
 }
 
@@ -126,26 +107,6 @@ void TissuePanel::showAngleForConesOnly()
 {
   halfAngleDeg_->setEnabled(kind_->currentIndex() == Cone);
   radiusMm_->setEnabled(kind_->currentIndex() != Other);
-}
-
-void TissuePanel::showDevice(const Sample& sample, bool rendersForce, bool armed)
-{
-  arm_->setEnabled(rendersForce);
-  arm_->setChecked(rendersForce && armed);
-  if (!rendersForce)
-  {
-    state_->setText(tr("no motors: the force is drawn only"));
-    return;
-  }
-  QString text = describe(sample.state);
-  if (sample.response.force > 0.0)
-  {
-    text += tr("\nmodel %1 N, rendered %2 N")
-              .arg(sample.response.force, 0, 'f', 2)
-              .arg(sample.force.norm(), 0, 'f', 2);
-  }
-  const std::string acting = describeFlags(sample.flags);
-  state_->setText(acting.empty() ? text : text + "\n" + QString::fromStdString(acting));
 }
 
 ForceLaw TissuePanel::law() const

@@ -1,38 +1,29 @@
 #pragma once
 
-#include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
 #include <QWidget>
 
 class QComboBox;
 class QDoubleSpinBox;
-class QLabel;
-class QPushButton;
 
 namespace palp
 {
 
-/// Tool, tissue and device with their units; says when any of them changed.
+/// Tool and tissue with their units; says when any of them changed.
 class TissuePanel : public QWidget
 {
   Q_OBJECT
 
 public:
-  /// @param devices  names for the device list; the first is selected
-  TissuePanel(const Scene& scene, const QStringList& devices, QWidget* parent = nullptr);
+  explicit TissuePanel(const Scene& scene, QWidget* parent = nullptr);
 
   [[nodiscard]] ForceLaw law() const;
   [[nodiscard]] ContactRule rule() const;
   [[nodiscard]] double damping() const; ///< b [N s/m]
 
-  /// What the device does now; the button follows what the session says.
-  void showDevice(const Sample& sample, bool rendersForce, bool armed);
-
 Q_SIGNALS:
   void tissueChanged();
-  void armAsked(bool armed);
-  void deviceChanged(const QString& name);
 
 private:
   void showAngleForConesOnly();
@@ -46,9 +37,6 @@ private:
   QDoubleSpinBox* poisson_;
   QDoubleSpinBox* damping_;
   QComboBox* rule_;
-  QComboBox* device_;
-  QPushButton* arm_;
-  QLabel* state_;
 };
 
 } // namespace palp

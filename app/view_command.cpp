@@ -16,8 +16,11 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   command
     ->add_option("--device", options->plan.device,
       "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
-      "spacemouse; falcon[:FIRMWARE]; wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
+      "replay:FILE (a samples.csv that was exported); spacemouse; falcon[:FIRMWARE]; "
+      "wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
     ->capture_default_str();
+  command->add_flag(
+    "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
   command->footer("Examples:\n"
                   "  palp                                       the bundled liver\n"
                   "  palp liver.obj --unit cm --tip sphere:6mm  your own surface");

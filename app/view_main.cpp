@@ -13,6 +13,7 @@
 
 #include <QTimer>
 
+#include <atomic>
 #include <clocale>
 #include <csignal>
 #include <cstdlib>
@@ -21,21 +22,23 @@
 namespace
 {
 
-volatile std::sig_atomic_t gEnded = 0;
+// stops the force in the next tick of the servo, though the window may hang
+std::atomic<bool> gEnded = false; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-// ends the program in order, so that the last force sent is zero
+// then ends the program in order, so that the last force sent is zero
 void endOnSignals(QApplication& application)
 {
   constexpr int kCheckEvery = 20; // [ms]
   for (const int number : { SIGTERM, SIGINT, SIGHUP })
   {
-    std::signal(number, [](int) { gEnded = 1; });
+    std::signal(number, [](int) { gEnded = true; });
   }
   auto* timer = new QTimer(&application);
   QObject::connect(timer, &QTimer::timeout, &application,
     [&application]
     {
-      if (gEnded != 0)
+      if (gEnded)
       {
         application.quit();
       }
@@ -75,7 +78,7 @@ int view(const palp::ViewOptions& options)
   QApplication application(count, words);
   std::setlocale(LC_NUMERIC, "C"); // Qt takes the user's; files and VTK want a decimal point
 
-  palp::Session session(options.plan, ledger);
+  palp::Session session(options.plan, ledger, &gEnded);
   for (const std::string& note : session.body().notes)
   {
     std::cerr << "palp: " << note << '\n';

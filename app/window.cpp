@@ -1,5 +1,6 @@
 #include "app/window.h"
 
+#include "app/device_panel.h"
 #include "app/export.h"
 #include "app/ledger.h"
 #include "app/reliance_panel.h"
@@ -20,6 +21,7 @@
 #include <QTimer>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp
 {
@@ -111,6 +113,7 @@ void Window::takeSamples()
   session_.update(
     [this](const Sample& sample)
     {
+      acting_ |= sample.flags;
       if (charts_)
       {
         charts_->add(sample);
@@ -146,7 +149,7 @@ void Window::refresh()
 
 void Window::refreshPanels()
 {
-  panel_->showDevice(session_.newest(), session_.rendersForce(), session_.armed());
+  devicePanel_->show(session_, session_.newest(), std::exchange(acting_, 0));
   if (reliance_)
   {
     showReliance(session_.newest());
@@ -214,6 +217,11 @@ void Window::applyTissue()
 
 void Window::applyDevice(const QString& name)
 {
+  if (name == tr(kLookForDevices))
+  {
+    offerDevices();
+    return;
+  }
   attempt([&] { session_.useDevice(name.toStdString()); });
   clearCharts();
   applyTissue(); // what is stable depends on the device

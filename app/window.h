@@ -9,6 +9,7 @@
 #include <QMainWindow>
 #include <vtkNew.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@ class vtkRenderer;
 namespace palp
 {
 
+class DevicePanel;
 class Ledger;
 class ReliancePanel;
 class TissuePanel;
@@ -46,11 +48,14 @@ public:
   bool exportData(const QString& directory);
 
 private:
+  static constexpr const char* kLookForDevices = "look for devices…";
   static constexpr double kDeepest = 0.05; // that a pointer asks for [m]
 
   void makeView();
   void makeDocks();
   void makeCharts();
+  void makeDevicePanel();
+  void offerDevices();
   void makeMenus();
   void showBody();
 
@@ -79,12 +84,14 @@ private:
   double depth_ = 0.0;                 // asked for by drag [m]
   double heldDepth_ = 0.0;             // asked for by wheel, stays between presses [m]
   bool pressing_ = false;
-  Validity validity_; // of the law that the session uses
+  std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
+  Validity validity_;        // of the law that the session uses
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   vtkNew<vtkContextView> timeView_;
   vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
+  DevicePanel* devicePanel_ = nullptr;
   ReliancePanel* reliance_ = nullptr; // null: the plan rates no sample
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;

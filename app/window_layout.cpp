@@ -1,5 +1,6 @@
 // What the window is made of; what it does is in window.cpp.
 
+#include "app/device_panel.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
@@ -41,6 +42,18 @@ QDockWidget* addDock(
   dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
   window->addDockWidget(area, dock);
   return dock;
+}
+
+// the one in use first
+QStringList deviceNames(const Session& session, const std::vector<std::string>& others)
+{
+  QStringList names{ QString::fromStdString(session.recording().device) };
+  for (const std::string& name : others)
+  {
+    names << QString::fromStdString(name);
+  }
+  names.removeDuplicates();
+  return names;
 }
 
 QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
@@ -93,21 +106,11 @@ void Window::makeView()
 
 void Window::makeDocks()
 {
-  const Recording& recording = session_.recording();
-  QStringList devices{ "mouse", "hand" };
-  const QString device = QString::fromStdString(recording.device);
-  devices.removeAll(device);
-  devices.prepend(device);
-  panel_ = new TissuePanel(recording.scene, devices);
+  panel_ = new TissuePanel(session_.recording().scene);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
-  connect(panel_, &TissuePanel::deviceChanged, this, &Window::applyDevice);
-  connect(panel_, &TissuePanel::armAsked, this,
-    [this](bool armed)
-    {
-      session_.stop(false);
-      session_.arm(armed);
-    });
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
+  makeDevicePanel();
+  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), devicePanel_);
   if (session_.plan().validity)
   {
     reliance_ = new ReliancePanel;
@@ -139,6 +142,25 @@ void Window::makeCharts()
       charts_->addForceOverDepth(*depthView_->GetScene());
     }
   }
+}
+
+void Window::offerDevices()
+{
+  devicePanel_->offer(deviceNames(session_, Session::devices()));
+}
+
+void Window::makeDevicePanel()
+{
+  // nobody looks at the USB until the user wants a device from there
+  devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kLookForDevices));
+  connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
+  connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });
+  connect(devicePanel_, &DevicePanel::armAsked, this,
+    [this](bool armed)
+    {
+      session_.stop(false);
+      session_.arm(armed);
+    });
 }
 
 void Window::makeMenus()
@@ -185,6 +207,8 @@ void Window::makeMenus()
   QAction* stop = device->addAction(
     tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
+  device->addAction(
+    tr("&Look for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   view->addAction(

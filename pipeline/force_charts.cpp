@@ -32,6 +32,22 @@ void setPen(vtkPen& pen, const appearance::Color& color, float width)
   pen.SetWidth(width);
 }
 
+vtkPlot* addLine(vtkChartXY& chart, const char* name, const appearance::Color& color, float width)
+{
+  vtkPlot* line = chart.AddPlot(vtkChart::LINE);
+  line->SetLabel(name);
+  setPen(*line->GetPen(), color, width);
+  return line;
+}
+
+void addLegend(vtkChartXY& chart)
+{
+  chart.SetShowLegend(true);
+  chart.GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  chart.GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+  appearance::setFont(*chart.GetLegend()->GetLabelProperties(), 12);
+}
+
 // ranges come from refresh(), not from the plots
 void fixAxes(vtkChartXY& chart)
 {
@@ -69,8 +85,9 @@ ForceCharts::ForceCharts()
 {
   appearance::setUpChart(*overTime_, "force over the last minute", "time [s]", "force [N]");
   fixAxes(*overTime_);
-  timePlot_ = overTime_->AddPlot(vtkChart::LINE);
-  setPen(*timePlot_->GetPen(), appearance::kMeasured, 1.0F);
+  timePlot_ = addLine(*overTime_, "law", appearance::kLaw, 3.0F);
+  renderedPlot_ = addLine(*overTime_, "rendered", appearance::kMeasured, 1.0F);
+  addLegend(*overTime_);
 
   for (const char* name : { "depth [mm]", "force [N]" })
   {
@@ -81,20 +98,14 @@ ForceCharts::ForceCharts()
   }
   appearance::setUpChart(*overDepth_, "force over depth", "depth \u03b4 [mm]", "force [N]");
   fixAxes(*overDepth_);
-  vtkPlot* law = overDepth_->AddPlot(vtkChart::LINE);
-  law->SetInputData(lawTable_, 0, 1);
-  law->SetLabel("law");
-  setPen(*law->GetPen(), appearance::kLaw, 5.0F);
+  addLine(*overDepth_, "law", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
   auto* points = vtkPlotPoints::SafeDownCast(overDepth_->AddPlot(vtkChart::POINTS));
   points->SetLabel("measured");
   points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
   points->SetMarkerSize(3.0F);
   setPen(*points->GetPen(), appearance::kMeasured, 1.0F);
   depthPlot_ = points;
-  overDepth_->SetShowLegend(true);
-  overDepth_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
-  overDepth_->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
-  appearance::setFont(*overDepth_->GetLegend()->GetLabelProperties(), 12);
+  addLegend(*overDepth_);
   setLaw(law_);
 }
 
@@ -111,6 +122,9 @@ void ForceCharts::addForceOverDepth(vtkContextScene& scene)
 void ForceCharts::add(const Sample& sample)
 {
   samples_->AddSample(sample);
+  Sample sent = sample;
+  sent.response.force = sample.force.norm();
+  rendered_->AddSample(sent);
   if (std::isfinite(sample.response.force) && std::isfinite(sample.contact.depth))
   {
     largestForce_ = std::max(largestForce_, sample.response.force);
@@ -122,9 +136,14 @@ void ForceCharts::refresh()
 {
   // a plot knows tables, not connections
   samples_->Update();
+  rendered_->Update();
   timePlot_->SetInputData(samples_->GetOutput(0), 0, 1);
   depthPlot_->SetInputData(samples_->GetOutput(1), 0, 1);
-  timePlot_->SetVisible(samples_->GetOutput(0)->GetNumberOfRows() > 1); // else VTK complains
+  renderedPlot_->SetInputData(rendered_->GetOutput(0), 0, 1);
+  for (vtkPlot* plot : { timePlot_, renderedPlot_ })
+  {
+    plot->SetVisible(samples_->GetOutput(0)->GetNumberOfRows() > 1); // else VTK complains
+  }
   const double depthLimit = units::fromMillimetres(
     roomFor(units::toMillimetres(largestDepth_), units::toMillimetres(kFirstDepth)));
   if (depthLimit != lawLimit_)
@@ -144,6 +163,7 @@ void ForceCharts::refresh()
 void ForceCharts::clear()
 {
   samples_->Clear();
+  rendered_->Clear();
   largestForce_ = 0.0;
   largestDepth_ = 0.0;
 }

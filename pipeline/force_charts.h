@@ -14,7 +14,8 @@ class vtkPlot;
 namespace palp
 {
 
-/// The live curves: force over the last minute, and force over depth with the law under it.
+/// The live curves: force over the last minute, of the law and as it was sent to the hand, and
+/// force over depth with the law under it.
 ///
 /// Each chart is put into a scene of the caller, so that both may share a window or not.
 /// Main thread only.
@@ -44,11 +45,13 @@ private:
   void drawLaw(double depthLimit);
 
   vtkNew<vtkPalpSampleSource> samples_;
+  vtkNew<vtkPalpSampleSource> rendered_; // the force that was sent in the place of the law's
   vtkNew<vtkTable> lawTable_;
   vtkNew<vtkChartXY> overTime_;
   vtkNew<vtkChartXY> overDepth_;
-  vtkPlot* timePlot_ = nullptr;  // owned by its chart
-  vtkPlot* depthPlot_ = nullptr; // owned by its chart
+  vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
+  vtkPlot* renderedPlot_ = nullptr;
+  vtkPlot* depthPlot_ = nullptr;
   ForceLaw law_;
   double largestForce_ = 0.0; // measured [N]
   double largestDepth_ = 0.0; // measured [m]

@@ -37,7 +37,7 @@ std::string fault(const PathKnot* previous, const PathKnot& knot)
   {
     return "the time does not increase; give each row a later time than the row before";
   }
-  if (!(knot.apex.cwiseAbs().maxCoeff() <= kFarthest))
+  if (!knot.apex.allFinite() || knot.apex.cwiseAbs().maxCoeff() > kFarthest)
   {
     return "the position is farther than 10 m from the origin; give millimetres in the mesh's "
            "frame";

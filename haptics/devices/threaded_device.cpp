@@ -1,7 +1,9 @@
 #include "haptics/devices/threaded_device.h"
 
 #include "haptics/error.h"
+#include "haptics/servo/realtime.h"
 
+#include <exception>
 #include <utility>
 
 namespace palp
@@ -14,6 +16,8 @@ using namespace std::chrono_literals;
 constexpr auto kPeriod = 1ms;
 constexpr auto kPatience = 1s;
 constexpr auto kCommandAge = 20ms;
+constexpr auto kReopenEvery = 500ms;
+constexpr auto kLook = 10ms;   // for the end of the thread
 constexpr int kLastWords = 10; // packets of zero force
 
 double seconds(std::chrono::nanoseconds duration) noexcept
@@ -23,21 +27,23 @@ double seconds(std::chrono::nanoseconds duration) noexcept
 
 } // namespace
 
-ThreadedDevice::ThreadedDevice(std::unique_ptr<Driver> driver, const DevicePlacement& placement)
-  : driver_(std::move(driver))
+ThreadedDevice::ThreadedDevice(Open open, const DevicePlacement& placement)
+  : open_(std::move(open))
+  , driver_(open_())
+  , limits_(driver_->limits())
   , placement_(placement)
   , thread_([this](const std::stop_token& stop) { run(stop); })
 {
+  (void)makeRealtime(thread_.native_handle()); // without it the bus waits for other programs
   const auto deadline = Clock::now() + kPatience;
-  while (!spoke_.load() && !gone_.load() && Clock::now() < deadline)
+  while (!there_ && losses_ == 0 && Clock::now() < deadline)
   {
     std::this_thread::sleep_for(kPeriod);
   }
-  if (!spoke_.load() || gone_.load())
+  if (!there_)
   {
     throw Error(ErrorCode::NoDevice,
-      driver_->limits().model +
-        ": does not answer; check its power and cable, and plug it in again");
+      limits_.model + ": does not answer; check its power and cable, and plug it in again");
   }
 }
 
@@ -45,7 +51,7 @@ ThreadedDevice::~ThreadedDevice() = default; // the thread stops and joins first
 
 DeviceLimits ThreadedDevice::limits() const
 {
-  DeviceLimits limits = driver_->limits();
+  DeviceLimits limits = limits_;
   limits.workspaceCenter = placement_.rotation * limits.workspaceCenter + placement_.origin;
   return limits;
 }
@@ -54,7 +60,8 @@ std::optional<ToolPose> ThreadedDevice::exchange(const Eigen::Vector3d& force, d
 {
   const auto now = Clock::now();
   wanted_.publish({ .force = placement_.rotation.transpose() * force, .when = now });
-  if (gone_.load(std::memory_order_relaxed))
+  const int losses = losses_.load();
+  if (std::exchange(toldLosses_, losses) != losses || !there_.load())
   {
     return std::nullopt;
   }
@@ -70,7 +77,21 @@ std::optional<ToolPose> ThreadedDevice::exchange(const Eigen::Vector3d& force, d
 
 void ThreadedDevice::run(const std::stop_token& stop) noexcept
 {
-  VelocityEstimator velocity(driver_->limits().quantum);
+  while (!stop.stop_requested())
+  {
+    serve(stop);
+    if (!stop.stop_requested())
+    {
+      reopen(stop);
+    }
+  }
+  endForce();
+}
+
+// until it is unplugged
+void ThreadedDevice::serve(const std::stop_token& stop) noexcept
+{
+  VelocityEstimator velocity(limits_.quantum);
   Heard heard;
   auto last = Clock::now();
   auto lastHeard = last;
@@ -86,7 +107,6 @@ void ThreadedDevice::run(const std::stop_token& stop) noexcept
     last = now;
     if (code == IoCode::Gone)
     {
-      gone_.store(true);
       return;
     }
     if (code == IoCode::Ok)
@@ -95,14 +115,40 @@ void ThreadedDevice::run(const std::stop_token& stop) noexcept
       heard.velocity = velocity(heard.sample.position, seconds(heard.when - lastHeard));
       lastHeard = heard.when;
       heard_.publish(heard);
-      spoke_.store(true);
+      there_ = true;
     }
   }
-  for (int i = 0; i < kLastWords; ++i)
+}
+
+void ThreadedDevice::endForce() noexcept
+{
+  DriverSample unused;
+  for (int i = 0; driver_ && i < kLastWords; ++i)
   {
-    if (driver_->tick(Eigen::Vector3d::Zero(), seconds(kPeriod), heard.sample) == IoCode::Gone)
+    if (driver_->tick(Eigen::Vector3d::Zero(), seconds(kPeriod), unused) == IoCode::Gone)
     {
       return;
+    }
+  }
+}
+
+void ThreadedDevice::reopen(const std::stop_token& stop) noexcept
+{
+  there_ = false;
+  ++losses_;
+  driver_.reset();
+  while (!driver_ && !stop.stop_requested())
+  {
+    for (auto wait = 0ms; wait < kReopenEvery && !stop.stop_requested(); wait += kLook)
+    {
+      std::this_thread::sleep_for(kLook);
+    }
+    try
+    {
+      driver_ = open_();
+    }
+    catch (const std::exception&) // still unplugged
+    {
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -21,13 +22,19 @@ struct DevicePlacement
 
 /// Runs a driver on a thread of its own, so that a slow bus cannot hold the servo loop.
 ///
-/// A command that is not renewed for 20 ms is taken for zero, and the last ones sent are zero.
+/// A command that is not renewed for 20 ms is taken for zero, and the last ones sent are zero. A
+/// device that was unplugged is closed, and opened again when it is back: a new driver then knows
+/// nothing of the old one, so that the device has to be homed anew.
 class ThreadedDevice final : public Device
 {
 public:
-  /// Starts the thread and waits for the first pose.
-  /// @throws Error  NoDevice: silent for a second, or gone
-  ThreadedDevice(std::unique_ptr<Driver> driver, const DevicePlacement& placement);
+  /// Opens the device; throws Error as long as it cannot be opened.
+  using Open = std::function<std::unique_ptr<Driver>()>;
+
+  /// Opens the device here, starts the thread and waits for the first pose.
+  /// @param open    called on the thread, twice a second, while the device is unplugged
+  /// @throws Error  NoDevice: silent for a second, or gone; and what open throws
+  ThreadedDevice(Open open, const DevicePlacement& placement);
 
   /// Stops the thread, with zero force.
   ~ThreadedDevice() override;
@@ -60,14 +67,20 @@ private:
   };
 
   void run(const std::stop_token& stop) noexcept;
+  void serve(const std::stop_token& stop) noexcept;
+  void endForce() noexcept;
+  void reopen(const std::stop_token& stop) noexcept;
 
-  std::unique_ptr<Driver> driver_;
+  Open open_;
+  std::unique_ptr<Driver> driver_; // the thread's; none while the device is unplugged
+  DeviceLimits limits_;
   DevicePlacement placement_;
   DeviceStatus status_;
   Latest<Heard> heard_;
   Latest<Wanted> wanted_;
-  std::atomic<bool> spoke_ = false;
-  std::atomic<bool> gone_ = false;
+  std::atomic<bool> there_ = false; // has said where it is since it was opened
+  std::atomic<int> losses_ = 0;
+  int toldLosses_ = 0;  // to the servo, which must not miss a short one
   std::jthread thread_; // last: it uses all the others
 };
 

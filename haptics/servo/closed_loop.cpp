@@ -99,6 +99,11 @@ public:
     return flags_;
   }
 
+  [[nodiscard]] bool ended() const
+  {
+    return chain_ && chain_->state() == DeviceState::Ready; // though it is armed
+  }
+
   [[nodiscard]] double ledger() const
   {
     return chain_ ? chain_->energy() : 0.0;
@@ -204,6 +209,7 @@ LoopResult simulate(const LoopCase& loop)
   result.portEnd = port;
   result.tailSpeed = tailTime > 0.0 ? std::sqrt(tail / tailTime) : 0.0;
   result.ledgerEnd = controller.ledger();
+  result.ended = controller.ended();
   result.flags = controller.flags();
   result.endDepth = motion.depth;
   result.endForce = last;

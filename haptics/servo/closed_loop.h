@@ -56,6 +56,7 @@ struct LoopResult
   double tailSpeed = 0.0;  ///< root mean square in the last quarter [m/s]
   double endDepth = 0.0;   ///< [m]
   double endForce = 0.0;   ///< [N]
+  bool ended = false;      ///< a fault of the chain ended the force for good
   std::uint32_t flags = 0; ///< of Flag, raised at least once
 };
 

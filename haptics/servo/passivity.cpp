@@ -8,9 +8,6 @@ namespace
 // a coarse encoder makes the ledger too pessimistic without end
 constexpr double kLargestDebt = 1e-3; // [J]
 
-// below this a velocity is the noise of an encoder
-constexpr double kAtRest = 1e-3; // [m/s]
-
 } // namespace
 
 Eigen::Vector3d PassivityController::damp(
@@ -18,7 +15,7 @@ Eigen::Vector3d PassivityController::damp(
 {
   energy_ = std::max(energy_ - sent_.dot(position - position_), -kLargestDebt);
   position_ = position;
-  if (energy_ >= 0.0 || velocity.norm() < kAtRest)
+  if (energy_ >= 0.0 || velocity.norm() <= atRest_)
   {
     return Eigen::Vector3d::Zero();
   }

@@ -17,8 +17,10 @@ class PassivityController
 {
 public:
   /// @param maxDamping  alpha_max [N s/m]
-  explicit PassivityController(double maxDamping) noexcept
+  /// @param quantum     smallest step of the positions [m]; its noise is no velocity to damp
+  explicit PassivityController(double maxDamping, double quantum = 0.0) noexcept
     : maxDamping_(maxDamping)
+    , atRest_(std::min(kAtRest, quantum / kTick))
   {
   }
 
@@ -54,7 +56,11 @@ public:
   }
 
 private:
+  static constexpr double kAtRest = 1e-3; // [m/s], for a coarse encoder
+  static constexpr double kTick = 1e-3;   // in which one step of a fine one is noise [s]
+
   double maxDamping_;
+  double atRest_; // [m/s]
   double energy_ = 0.0;
   Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();

@@ -12,12 +12,6 @@ namespace palp
 namespace
 {
 
-constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
-constexpr int kMostDropped = 3;         // poses in a row that may be implausible
-constexpr double kSilenceBorne = 0.003; // [s]
-constexpr double kSilenceEnds = 0.020;  // [s]
-constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
-constexpr double kLatestTicks = 5.0;
 constexpr double kFreeSpace = 0.050;     // [s] without contact end a soft start
 constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
 constexpr double kWallDamping = 2.0;     // [N s/m]
@@ -28,7 +22,7 @@ constexpr double kWallForce = 2.0;       // [N]
 SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& settings)
   : device_(device)
   , settings_(settings)
-  , passivity_(settings.passivityDamping)
+  , passivity_(settings.passivityDamping, device.quantum)
   , period_(settings.period)
 {
   for (const double value : { settings.period, settings.stiffnessShare, settings.slewRate,
@@ -60,129 +54,6 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
   loop.virtualDamping = damping;
   loop.delay += device_.velocityDelay;
   return settings_.stiffnessShare * std::max(without, stableStiffness(loop));
-}
-
-std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
-  const DeviceStatus& status, const SafetyOrders& orders, double dt) noexcept
-{
-  flags_ = 0;
-  const double elapsed = dt >= 0.0 && std::isfinite(dt) ? dt : settings_.period;
-  dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
-  sinceLast_ += std::max(elapsed, dt_);
-  period_.record(elapsed);
-  if (orders.armed && !wasArmed_ && !orders.stop) // a new wish forgives
-  {
-    latched_ = 0;
-  }
-  wasArmed_ = orders.armed;
-  if (orders.stop)
-  {
-    fault(Flag::EmergencyStop);
-  }
-
-  if (!pose)
-  {
-    fault(Flag::DeviceLost);
-    forceOff(DeviceState::Closed);
-    return std::nullopt;
-  }
-  if (!pose->apex.allFinite() || !pose->velocity.allFinite() ||
-    !(std::abs(pose->axis.norm() - 1.0) < kAxisTolerance))
-  {
-    fault(Flag::NotFinite);
-    return state_ == DeviceState::Closed ? std::nullopt : std::optional(last_);
-  }
-  const bool first = state_ == DeviceState::Closed;
-  if (first)
-  {
-    state_ = DeviceState::Opening;
-    passivity_.restart(pose->apex);
-  }
-  if (first || plausible(*pose))
-  {
-    last_ = *pose;
-    sinceLast_ = 0.0;
-    dropped_ = 0;
-  }
-  const double late = elapsed - settings_.period;
-  if (late > std::max(kLatest, kLatestTicks * settings_.period) * (1.0 + 1e-9) && forceOn())
-  {
-    raise(Flag::Late);
-    forceOff(DeviceState::SoftStart);
-    fading_ = sent_;
-  }
-  advance(status, orders);
-  return last_;
-}
-
-// keeps the last pose for a few ticks; after them the new place is true, but without force
-bool SafetyChain::plausible(const ToolPose& pose) noexcept
-{
-  if ((pose.apex - last_.apex).norm() <= settings_.fastest * sinceLast_)
-  {
-    return true;
-  }
-  raise(Flag::Jump);
-  last_.velocity.setZero();
-  if (++dropped_ <= kMostDropped)
-  {
-    return false;
-  }
-  fault(Flag::Jump);
-  passivity_.restart(pose.apex);
-  reseat_ = true;
-  return true;
-}
-
-void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept
-{
-  trust_ = std::clamp((kSilenceEnds - status.age) / (kSilenceEnds - kSilenceBorne), 0.0, 1.0);
-  if (!(status.age < kSilenceEnds))
-  {
-    fault(Flag::Stale);
-  }
-  if (device_.needsHoming && !status.homed)
-  {
-    raise(Flag::NotHomed);
-    forceOff(DeviceState::NeedsHoming);
-    return;
-  }
-  if (state_ == DeviceState::Opening || state_ == DeviceState::NeedsHoming)
-  {
-    state_ = DeviceState::Ready;
-  }
-
-  const bool held = !settings_.deadMan || (status.buttons & 1U) != 0;
-  const bool wanted = orders.armed && held && latched_ == 0;
-  if (wanted && state_ == DeviceState::Ready)
-  {
-    forceOff(DeviceState::SoftStart);
-  }
-  else if (!wanted && forceOn())
-  {
-    state_ = DeviceState::Decay;
-  }
-}
-
-// a fault is latched; most end the force at once, a jump lets it fade
-void SafetyChain::fault(Flag flag) noexcept
-{
-  raise(flag);
-  latched_ |= static_cast<std::uint32_t>(flag);
-  if (flag != Flag::Jump && forceOn())
-  {
-    forceOff(DeviceState::Ready);
-  }
-}
-
-void SafetyChain::forceOff(DeviceState state) noexcept
-{
-  state_ = state;
-  gain_ = 0.0;
-  apart_ = 0.0;
-  shaped_.setZero();
-  fading_.setZero();
-  reseat_ = true;
 }
 
 void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene) noexcept
@@ -347,6 +218,7 @@ void SafetyChain::ramp(bool touching) noexcept
   {
     gain_ = apart_ >= kFreeSpace ? 1.0 : std::min(1.0, gain_ + dt_ / settings_.softStart);
     state_ = gain_ < 1.0 ? DeviceState::SoftStart : DeviceState::Active;
+    restarts_ = gain_ < 1.0 ? restarts_ : 0;
   }
   else if (state_ == DeviceState::Decay)
   {

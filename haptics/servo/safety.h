@@ -31,6 +31,9 @@ struct SafetyOrders
 {
   bool armed = false; ///< a fault is forgiven when this becomes true anew, without a stop
   bool stop = false;  ///< emergency stop
+  /// Of the main thread [s]. What it knows of the world is trusted for 0.2 s and not at all after
+  /// 0.3 s; after 2 s, when no stop button can work, its silence is an emergency stop.
+  double silence = 0.0;
 };
 
 /// Everything between a force law and a hand, in a fixed order, unconditional.
@@ -116,6 +119,7 @@ private:
   double share_ = 0.0;        // of the force that is sent while it decays or the device is silent
   double trust_ = 0.0;        // less than 1 while the device is silent
   double apart_ = 0.0;        // time without contact [s]
+  int restarts_ = 0;          // after late ticks, since the force was last whole
 
   ToolPose last_;          // admitted
   double sinceLast_ = 0.0; // [s]

@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::size_t kKept = 8192; // samples, eight seconds
-constexpr auto kMainThreadSilence = std::chrono::seconds(2);
 
 double seconds(std::chrono::nanoseconds duration) noexcept
 {
@@ -27,7 +26,8 @@ std::optional<SafetyChain> makeChain(const Device& device, const ServoOptions& o
   {
     return std::nullopt;
   }
-  return SafetyChain(device.limits(), { .period = seconds(options.period) });
+  return SafetyChain(
+    device.limits(), { .period = seconds(options.period), .deadMan = options.deadMan });
 }
 
 } // namespace
@@ -57,20 +57,24 @@ void Servo::waitUntil(Clock::time_point due) noexcept
 Sample Servo::answer(
   const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept
 {
-  bool stopped = stopped_.load(std::memory_order_relaxed);
+  const bool stopped = stopped_.load(std::memory_order_relaxed) ||
+    (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed));
+  const SafetyOrders orders{ .armed = scene.armed,
+    .stop = stopped,
+    .silence = seconds(Clock::now() - looked_.load(std::memory_order_relaxed)) };
+  const std::optional<ToolPose> used =
+    chain_ ? chain_->admit(pose, device_.status(), orders, elapsed) : pose;
+  held_ = used.value_or(ToolPose{ .apex = held_.apex, .axis = held_.axis });
+
+  Sample sample = !used ? Sample{} : chain_ ? touch(scene, held_) : step(scene, held_);
+  sample.pose = held_;
   if (chain_)
   {
-    stopped =
-      stopped || Clock::now() - looked_.load(std::memory_order_relaxed) > kMainThreadSilence;
-    const auto admitted =
-      chain_->admit(pose, device_.status(), { .armed = scene.armed, .stop = stopped }, elapsed);
-    Sample sample = admitted ? touch(scene, *admitted) : Sample{};
     const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
     chain_->limit(sample, law, scene);
     return sample;
   }
-  Sample sample = pose ? step(scene, *pose) : Sample{};
-  sample.flags |= pose ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
+  sample.flags |= used ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
   if (stopped)
   {
     sample.force.setZero();

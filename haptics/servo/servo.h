@@ -24,6 +24,8 @@ struct ServoOptions
   std::chrono::nanoseconds spin{ 0 }; ///< before each deadline, awake: costs CPU, saves lateness
   bool realtime = true;               ///< ask for SCHED_FIFO and locked memory
   bool history = true;                ///< keep every sample for plots and export
+  bool deadMan = false;               ///< force only while the device's first button is held
+  const std::atomic<bool>* stop = nullptr; ///< an emergency stop that outlives servos, for signals
 };
 
 /// The loop that a hand feels: device, contact, law, limits, device, at a fixed rate.
@@ -56,8 +58,8 @@ public:
 
   /// For the picture. Main thread only; the reference stays valid until the next call.
   ///
-  /// Whoever renders force must look at least every two seconds: a main thread that hangs cannot
-  /// show a stop button, so its silence is one.
+  /// Whoever renders force must look ten times a second: the force of a main thread that is silent
+  /// fades, and after two seconds its silence is an emergency stop.
   [[nodiscard]] const Sample& newest() noexcept
   {
     looked_.store(Clock::now(), std::memory_order_relaxed);
@@ -98,6 +100,7 @@ private:
   ServoOptions options_;
   Latest<Scene> scene_;
   std::optional<SafetyChain> chain_; // where a hand can feel the force
+  ToolPose held_;                    // where the tool was last, for a device that is gone
   Latest<Sample> newest_;
   Ring<Sample> history_;
   std::atomic<bool> stopped_ = false;

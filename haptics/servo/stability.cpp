@@ -186,14 +186,14 @@ StabilityRow judge(const StabilityCase& which, bool chain)
     .hum = coarse.hum,
     .energy = exact.energy };
   const double early = std::max(exact.earlySpeed, StabilityLimits::kAtRest);
-  if (row.peakForce == 0.0)
-  {
-    row.outcome = StabilityOutcome::Refused;
-  }
-  else if (row.energy < StabilityLimits::kEnergy ||
-    exact.hum > StabilityLimits::kEnvelope * early || row.hum > StabilityLimits::kHum)
+  if (row.energy < StabilityLimits::kEnergy || exact.hum > StabilityLimits::kEnvelope * early ||
+    row.hum > StabilityLimits::kHum)
   {
     row.outcome = StabilityOutcome::Unstable;
+  }
+  else if (row.peakForce == 0.0 || (exact.ended && coarse.ended))
+  {
+    row.outcome = StabilityOutcome::Refused;
   }
   else if (row.limitedBy != "none")
   {

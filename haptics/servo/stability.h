@@ -23,7 +23,7 @@ enum class StabilityOutcome
 {
   Stable,   ///< and the law was felt as it is
   Limited,  ///< stable, because a stage of the chain acted
-  Refused,  ///< pressed, but no force was given at all
+  Refused,  ///< pressed, but no force was given, or a fault of the chain ended it
   Unstable, ///< gave energy, did not come to rest, or hummed
 };
 

@@ -1,3 +1,7 @@
+#include "app/body.h"
+#include "haptics/devices/recorded_path.h"
+#include "haptics/devices/scripted_device.h"
+#include "haptics/servo/servo_step.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
@@ -12,6 +16,7 @@
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <limits>
 #include <set>
 
 namespace palp
@@ -111,6 +116,26 @@ TEST_F(RunCommand, GivesTheSameBytesTwice)
   const std::string first = test::readAll(folder_.path() / "a/samples.csv");
   EXPECT_GT(first.size(), 1000u);
   EXPECT_EQ(first, test::readAll(folder_.path() / "b/samples.csv"));
+}
+
+TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)
+{
+  ASSERT_EQ(press("--no-picture", "out").code, 0);
+  const std::filesystem::path file = folder_.path() / "out/samples.csv";
+  const test::CsvTable samples = test::readCsv(file);
+  PressOptions options;
+  options.file = block();
+  Scene scene;
+  scene.surface = loadBody(options).haptic;
+  scene.forceLimit = std::numeric_limits<double>::infinity();
+
+  ScriptedDevice device(readRecording(file)); // in ticks of a millisecond, as a servo asks it
+  for (std::size_t k = 1; k < 151; ++k)
+  {
+    const Sample again = step(scene, *device.exchange(Eigen::Vector3d::Zero(), 0.001));
+    EXPECT_NEAR(again.force.z(), samples["force_z_N"][k], 1e-9) << k;
+    EXPECT_NEAR(again.response.force, samples["force_N"][k], 1e-9) << k;
+  }
 }
 
 TEST_F(RunCommand, WritesTheDeepestMomentInMillimetres)

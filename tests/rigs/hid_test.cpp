@@ -245,7 +245,7 @@ protected:
     g_object_unref(bed_);
   }
 
-  static std::unique_ptr<WoodenDriver> openArm()
+  static std::unique_ptr<Driver> openArm()
   {
     return std::make_unique<WoodenDriver>(openHid(kNode), WoodenArm{}, 64);
   }
@@ -325,7 +325,7 @@ TEST_F(HidRig, UnplugIsNoticedInAnyState)
 
 TEST_F(HidRig, SilenceIsToldByTheAgeOfThePose)
 {
-  ThreadedDevice device(openArm(), {});
+  ThreadedDevice device(&openArm, {});
   board_->mood = Board::Mood::Silent;
   std::this_thread::sleep_for(60ms);
   ASSERT_TRUE(device.exchange(Vector3d(0, 0, 1), 1.0_ms));
@@ -347,7 +347,7 @@ TEST_F(HidRig, GarbageGivesNoPlaceThatIsNotFinite)
 TEST_F(HidRig, LastWordsOfADeviceAreZero)
 {
   {
-    ThreadedDevice device(openArm(), {});
+    ThreadedDevice device(&openArm, {});
     while (board_->last == 0) // as long as a machine under load may take
     {
       (void)device.exchange(Vector3d(0.5, 0, 0.5), 1.0_ms);

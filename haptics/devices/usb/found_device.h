@@ -10,7 +10,6 @@ namespace palp
 enum class DeviceKind
 {
   SpaceMouse,
-  WoodenHaptics,
   Falcon,
   RawHid, ///< a generic board: its ids do not say what runs on it, so it is used only when named
 };
@@ -30,5 +29,11 @@ struct FoundDevice
 
 /// USB devices that are known.
 [[nodiscard]] std::vector<FoundDevice> listUsb();
+
+/// All of both.
+[[nodiscard]] std::vector<FoundDevice> findDevices();
+
+/// Names by which openDriver takes a device; a generic board may be one or the other.
+[[nodiscard]] std::vector<std::string> namesOf(const FoundDevice& device);
 
 } // namespace palp

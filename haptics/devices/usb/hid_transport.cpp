@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <hidapi/hidapi.h>
+#include <mutex>
 #include <set>
 #include <unistd.h>
 
@@ -15,6 +16,9 @@ namespace palp
 {
 namespace
 {
+
+// hidapi keeps its last error in one place: one thread at a time may look or open
+std::mutex gLibrary; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 struct Close
 {
@@ -111,6 +115,7 @@ std::string narrow(const wchar_t* text)
 
 std::vector<FoundDevice> listHid()
 {
+  const std::lock_guard lock(gLibrary);
   std::vector<FoundDevice> found;
   std::set<std::string> paths; // one entry for each usage of an interface otherwise
   const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all(
@@ -136,6 +141,7 @@ std::vector<FoundDevice> listHid()
 
 std::unique_ptr<Transport> openHid(const std::string& path)
 {
+  const std::lock_guard lock(gLibrary);
   hid_device* device = hid_open_path(path.c_str());
   if (device == nullptr)
   {

@@ -49,6 +49,21 @@ std::string onlySpaceMouse()
   return mouse->path;
 }
 
+// path and configuration of a board
+std::pair<std::string, std::string> boardParts(const std::string& rest)
+{
+  const std::size_t comma = rest.find(',');
+  return { rest.substr(0, comma), comma == rest.npos ? "" : rest.substr(comma + 1) };
+}
+
+// what the board at a path is; empty where none is
+std::string boardAt(const std::string& path)
+{
+  const std::vector<FoundDevice> all = listHid();
+  const auto board = std::ranges::find(all, path, &FoundDevice::path);
+  return board == all.end() ? "" : board->ids + " " + board->name;
+}
+
 std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& rest)
 {
   if (kind == "spacemouse")
@@ -72,18 +87,34 @@ std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& r
   {
     return std::make_unique<Phd1Driver>(openHid(rest));
   }
-  const std::size_t comma = rest.find(',');
-  const std::string path = rest.substr(0, comma);
-  const WoodenArm arm = comma == rest.npos
-    ? WoodenArm{}
-    : parseWoodenArm(readFile(rest.substr(comma + 1)), rest.substr(comma + 1));
-  const std::vector<FoundDevice> all = listHid();
-  const bool isMbed = std::ranges::any_of(
-    all, [&](const FoundDevice& one) { return one.path == path && one.ids == "1234:0006"; });
+  const auto [path, configuration] = boardParts(rest);
+  const WoodenArm arm =
+    configuration.empty() ? WoodenArm{} : parseWoodenArm(readFile(configuration), configuration);
+  const bool isMbed = boardAt(path).starts_with("1234:0006");
   return std::make_unique<WoodenDriver>(openHid(path), arm, isMbed ? 14 : 64);
 }
 
 } // namespace
+
+std::vector<FoundDevice> findDevices()
+{
+  std::vector<FoundDevice> all = listHid();
+  std::ranges::move(listUsb(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<std::string> namesOf(const FoundDevice& device)
+{
+  switch (device.kind)
+  {
+    case DeviceKind::SpaceMouse:
+      return { "spacemouse:" + device.path };
+    case DeviceKind::Falcon:
+      return { "falcon" };
+    default:
+      return { "wooden:" + device.path, "phd1:" + device.path };
+  }
+}
 
 bool namesHardware(const std::string& name)
 {
@@ -104,7 +135,18 @@ std::unique_ptr<Driver> openDriver(const std::string& name)
 
 std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement)
 {
-  return std::make_unique<ThreadedDevice>(openDriver(name), placement);
+  // another board may get the path of one that was unplugged; the user has chosen that one
+  const std::string path = boardParts(parts(name).second).first;
+  return std::make_unique<ThreadedDevice>(
+    [name, path, chosen = boardAt(path)]
+    {
+      if (boardAt(path) != chosen)
+      {
+        throw Error(ErrorCode::NoDevice, name + ": another device is there now; choose it anew");
+      }
+      return openDriver(name);
+    },
+    placement);
 }
 
 } // namespace palp

@@ -292,71 +292,177 @@ TEST_P(EveryDriver, BearsGarbageAndNeverGivesAPlaceThatIsNotFinite)
   }
 }
 
-// one that says where it is, and keeps what it was told
-class Fake final : public Driver
+// what a made up device was told and what it does, kept beyond the life of its drivers
+struct Fake
+{
+  std::atomic<int> opened = 0;
+  std::atomic<int> losses = 0;
+  std::atomic<bool> pulled = false;
+  std::atomic<bool> homed = true;
+  std::atomic<double> last = 0.0; // size of the last force [N]
+  std::vector<Vector3d> forces;   // read after the thread has ended
+  std::chrono::milliseconds block = 0ms;
+};
+
+class FakeDriver final : public Driver
 {
 public:
-  explicit Fake(std::atomic<bool>& pulled, std::vector<Vector3d>& forces)
-    : pulled_(pulled)
-    , forces_(forces)
+  explicit FakeDriver(Fake& fake)
+    : fake_(fake)
   {
+    if (fake.pulled)
+    {
+      throw Error(ErrorCode::NoDevice, "fake: unplugged");
+    }
+    ++fake.opened;
   }
 
   DeviceLimits limits() const override
   {
-    return { .model = "fake", .rendersForce = true, .maxForce = 4.0, .damping = 1.0 };
+    return {
+      .model = "fake", .rendersForce = true, .needsHoming = true, .maxForce = 4.0, .damping = 1.0
+    };
   }
 
   IoCode tick(const Vector3d& force, double, DriverSample& sample) noexcept override
   {
-    forces_.push_back(force);
-    pushed = pushed || force.isApprox(Vector3d(1, 0, 0));
-    sample.position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm);
-    return pulled_ ? IoCode::Gone : IoCode::Ok;
+    std::this_thread::sleep_for(fake_.block); // as a USB transfer does
+    fake_.forces.push_back(force);
+    fake_.last = force.norm();
+    sample = { .position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm + ++ticks_ * 1.0_um),
+      .homed = fake_.homed };
+    const bool pulled = fake_.pulled;
+    fake_.losses += pulled ? 1 : 0;
+    return pulled ? IoCode::Gone : IoCode::Ok;
   }
 
-  std::atomic<bool> pushed = false;
-
 private:
-  std::atomic<bool>& pulled_;
-  std::vector<Vector3d>& forces_;
+  Fake& fake_;
+  int ticks_ = 0;
 };
+
+ThreadedDevice::Open opening(Fake& fake)
+{
+  return [&fake] { return std::make_unique<FakeDriver>(fake); };
+}
+
+// asks a device once a millisecond, as long as a machine under load may take
+template <typename Condition>
+void exchangeUntil(Device& device, const Vector3d& force, const Condition& condition)
+{
+  while (!condition(device.exchange(force, 1.0_ms)))
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+}
 
 TEST(ThreadedDevice, StandsWhereItIsPlacedAndEndsWithZeroForce)
 {
-  std::atomic<bool> pulled = false;
-  std::vector<Vector3d> forces;
+  Fake fake;
   {
     DevicePlacement placement;
     placement.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1; // a quarter turn about z
     placement.origin = Vector3d(0.1, 0, 0);
-    auto fake = std::make_unique<Fake>(pulled, forces);
-    const std::atomic<bool>& pushed = fake->pushed;
-    ThreadedDevice device(std::move(fake), placement);
-    while (!pushed) // as long as a machine under load may take
-    {
-      const auto pose = device.exchange(Vector3d(0, 1, 0), 1.0_ms);
-      ASSERT_TRUE(pose);
-      EXPECT_TRUE(pose->apex.isApprox(Vector3d(0.1 - 2.0_mm, 1.0_mm, 3.0_mm)));
-      std::this_thread::sleep_for(1ms);
-    }
+    ThreadedDevice device(opening(fake), placement);
+    exchangeUntil(device, Vector3d(0, 1, 0),
+      [&](const auto& pose)
+      {
+        EXPECT_TRUE(pose->apex.head(2).isApprox(Eigen::Vector2d(0.1 - 2.0_mm, 1.0_mm)));
+        return fake.last == 1.0;
+      });
   }
-  ASSERT_GE(forces.size(), 10U);
-  EXPECT_TRUE(std::all_of(
-    forces.end() - 10, forces.end(), [](const Vector3d& force) { return force.isZero(0.0); }));
+  ASSERT_GE(fake.forces.size(), 10U);
+  EXPECT_TRUE(std::ranges::any_of(
+    fake.forces, [](const Vector3d& force) { return force.isApprox(Vector3d(1, 0, 0)); }));
+  EXPECT_TRUE(std::all_of(fake.forces.end() - 10, fake.forces.end(),
+    [](const Vector3d& force) { return force.isZero(0.0); }));
 }
 
-TEST(ThreadedDevice, IsGoneWhenItsDriverSaysSo)
+TEST(ThreadedDevice, GivesTheNewestPoseWithoutWaitingForASlowBus)
 {
-  std::atomic<bool> pulled = false;
-  std::vector<Vector3d> forces;
-  ThreadedDevice device(std::make_unique<Fake>(pulled, forces), {});
-  pulled = true;
-  while (device.exchange(Vector3d::Zero(), 1.0_ms))
+  Fake fake;
+  fake.block = 5ms;
+  ThreadedDevice device(opening(fake), {});
+  double newest = 0.0;
+  int asked = 0;
+  exchangeUntil(device, Vector3d::Zero(),
+    [&](const auto& pose)
+    {
+      ++asked;
+      EXPECT_GE(pose->apex.z(), newest); // never an older one
+      EXPECT_GE(device.status().age, 0.0);
+      newest = pose->apex.z();
+      return newest >= 3.02_mm; // 20 exchanges on the bus
+    });
+  EXPECT_GT(asked, 20);
+}
+
+TEST(ThreadedDevice, AForceThatIsNotRenewedEnds)
+{
+  Fake fake;
+  ThreadedDevice device(opening(fake), {});
+  exchangeUntil(device, Vector3d(0, 0, 1), [&](const auto&) { return fake.last == 1.0; });
+  while (fake.last != 0.0) // the servo has stalled
   {
     std::this_thread::sleep_for(1ms);
   }
-  SUCCEED();
+}
+
+TEST(ThreadedDevice, ComesBackWithANewDriverWhenItIsPluggedInAgain)
+{
+  Fake fake;
+  ThreadedDevice device(opening(fake), {});
+  for (int round = 1; round <= 2; ++round)
+  {
+    EXPECT_EQ(fake.opened, round);
+    fake.pulled = true;
+    exchangeUntil(device, Vector3d(0, 0, 1), [](const auto& pose) { return !pose; });
+    fake.homed = false; // its power was off
+    fake.pulled = false;
+    exchangeUntil(device, Vector3d::Zero(), [](const auto& pose) { return pose.has_value(); });
+    EXPECT_FALSE(device.status().homed);
+  }
+}
+
+// a loop that stalls must not take a device that was replugged for one that was there all the time
+TEST(ThreadedDevice, TellsALossThatTheServoSlept)
+{
+  Fake fake;
+  ThreadedDevice device(opening(fake), {});
+  ASSERT_TRUE(device.exchange(Vector3d::Zero(), 1.0_ms));
+  fake.pulled = true;
+  while (fake.losses == 0)
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  fake.pulled = false;
+  while (fake.opened < 2)
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  std::this_thread::sleep_for(50ms);
+  EXPECT_FALSE(device.exchange(Vector3d::Zero(), 1.0_ms));
+}
+
+TEST(ThreadedDevice, ThatNeverAnswersIsRefusedInOneSentence)
+{
+  Fake fake;
+  const auto open = [&fake]
+  {
+    auto driver = std::make_unique<FakeDriver>(fake);
+    fake.pulled = true; // between opening and the first pose
+    return driver;
+  };
+  try
+  {
+    const ThreadedDevice device(open, {});
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::NoDevice);
+    EXPECT_NE(std::string(error.what()).find("does not answer"), std::string::npos);
+  }
 }
 
 } // namespace

@@ -1,8 +1,10 @@
 #include "haptics/devices/scripted_path.h"
 
+#include "haptics/devices/recorded_path.h"
 #include "haptics/devices/scripted_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/support/process.h"
 
 #include <cmath>
 #include <fstream>
@@ -171,6 +173,58 @@ TEST(ScriptedDevice, PlaysThePathOnItsOwnClockAndCannotBePushed)
   const auto pose = device.exchange(Vector3d::Zero(), 0.0);
   ASSERT_TRUE(pose);
   EXPECT_NEAR(pose->apex.z(), 2.5_mm, 1e-12);
+}
+
+std::filesystem::path write(const test::TemporaryFolder& folder, const std::string& text)
+{
+  const std::filesystem::path file = folder.path() / "samples.csv";
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(Recording, IsReadByTheNamesOfItsColumns)
+{
+  const test::TemporaryFolder folder;
+  const ScriptedPath path = readRecording(write(folder,
+    "# palp\n# force: N\r\n"
+    "force_N,time_s,axis_x,axis_y,axis_z,tool_x_mm,tool_y_mm,tool_z_mm\n"
+    "0.5,2,0,0.6,-0.8,1,2,3\n"
+    "inf,2.001,0,0,-1,1,2,2.5\n"));
+  ASSERT_EQ(path.knots().size(), 2U);
+  EXPECT_EQ(path.startTime(), 2.0);
+  EXPECT_TRUE(path.knots()[0].apex.isApprox(Vector3d(1.0_mm, 2.0_mm, 3.0_mm), 1e-15));
+  EXPECT_TRUE(path.knots()[0].axis->isApprox(Vector3d(0.0, 0.6, -0.8), 1e-15));
+  EXPECT_TRUE(path.knots()[1].axis->isApprox(kDown, 1e-15));
+}
+
+TEST(Recording, SaysInOneSentenceWhatIsWrong)
+{
+  const std::string header = "time_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z\n";
+  const std::pair<std::string, const char*> all[] = { { "", "no column time_s" },
+    { kPress, "no column tool_x_mm" }, { header, "no knot" },
+    { header + "0,1,2,3,0,0\n", "samples.csv:2: 6 columns" },
+    { header + "0,1,2,three,0,0,-1\n", "'three' is not a number" },
+    { header + "0,1,2,nan,0,0,-1\n", "knot 0: the position" },
+    { header + "1,1,2,3,0,0,-1\n1,1,2,3,0,0,-1\n", "knot 1: the time does not increase" },
+    { header + "0,1,2,3,0,0,0\n", "the axis is not of length one" } };
+  for (const auto& [text, expected] : all)
+  {
+    const test::TemporaryFolder folder;
+    try
+    {
+      (void)readRecording(write(folder, text));
+      ADD_FAILURE() << text;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_EQ(error.code(), ErrorCode::BadFile);
+      const std::string what = error.what();
+      EXPECT_NE(what.find(expected), what.npos) << what;
+      EXPECT_NE(what.find("samples.csv"), what.npos) << what;
+      EXPECT_EQ(what.find('\n'), what.npos) << what;
+    }
+  }
+  EXPECT_THROW((void)readRecording("/nowhere/samples.csv"), Error);
 }
 
 } // namespace

@@ -125,6 +125,27 @@ TEST_P(ThroughTheChain, AnyStiffnessBehavesAsAWallThatTheDeviceCanRender)
   }
 }
 
+// not only stable: the very motion of a wall as stiff as may be, until a limit of force or rate
+// acts
+TEST(ClosedLoop, AnyStiffnessMovesAsTheCappedWallDoes)
+{
+  for (const double stiffness : { 34e3, 1e9, kInf })
+  {
+    LoopCase loop;
+    loop.plant.startSpeed = 0.05;
+    loop.duration = 5.0;
+    loop.law = wall(0.7 * 2.0 * loop.plant.damping / loop.period);
+    const LoopResult bare = simulate(loop);
+    loop.law = wall(stiffness);
+    loop.forceLimit = loop.plant.maxForce;
+    loop.chain = SafetySettings{ .passivityDamping = 0.0 };
+    const LoopResult chained = simulate(loop);
+    EXPECT_NEAR(chained.peakForce, bare.peakForce, 1e-9) << stiffness;
+    EXPECT_NEAR(chained.endDepth, bare.endDepth, 1e-9) << stiffness;
+    EXPECT_NEAR(chained.portEnd, bare.portEnd, 1e-9) << stiffness;
+  }
+}
+
 TEST(ClosedLoop, SoftTissueComesThroughTheChainUnchanged)
 {
   LoopCase loop;
@@ -161,6 +182,20 @@ TEST(ClosedLoop, LawSwappedInContactGivesNoEnergy)
       EXPECT_NEAR(result.endForce, loop.plant.handForce, 1e-3);
     }
   }
+}
+
+// the stiffness of the wall is then 1.4 times what is stable, and only passivity control holds it
+TEST(ClosedLoop, ADeviceWithHalfItsStatedDampingComesToRestAtARigidWall)
+{
+  LoopCase loop;
+  loop.law = wall(kInf);
+  loop.plant.statedDamping = 2.0 * loop.plant.damping;
+  loop.chain = SafetySettings{};
+  LoopResult result = simulate(loop);
+  EXPECT_GE(result.energy, -1e-6);
+  EXPECT_LE(result.hum, 1e-6);
+  loop.chain->passivityDamping = 0.0;
+  EXPECT_GE(simulate(loop).hum, 0.1);
 }
 
 TEST(ClosedLoop, LostTicksGiveAtMostAMillijoule)

@@ -262,6 +262,27 @@ TEST(SafetyChain, LateTickStartsTheForceAgain)
   }
 }
 
+// a loop that stalls again before its force is whole cannot hold a hand, and says so
+TEST(SafetyChain, LateTicksThatNeverLetTheForceBecomeWholeEndIt)
+{
+  for (const int apart : { 100, 700 }) // ticks between two stalls
+  {
+    Bench bench;
+    bench.activate();
+    (void)bench.press(5.0_mm);
+    for (int stall = 1; stall <= 10; ++stall)
+    {
+      const Sample late = bench.at(5.0_mm, 21 * kTick);
+      const bool ended = apart == 100 && stall > 3;
+      ASSERT_EQ(late.state, ended ? DeviceState::Ready : DeviceState::SoftStart) << stall;
+      for (int i = 0; i < apart; ++i)
+      {
+        ASSERT_EQ(has(bench.at(5.0_mm), Flag::Late), ended);
+      }
+    }
+  }
+}
+
 TEST(SafetyChain, SilenceLetsTheForceFadeBetweenThreeAndTwentyMilliseconds)
 {
   Bench bench;
@@ -413,17 +434,115 @@ TEST(SafetyChain, StopHoldsAgainstDisarmingAndArming)
   }
 }
 
-TEST(SafetyChain, LostDeviceClosesAndComesBackDisarmed)
+// brings a chain into each state
+class UnpluggedIn : public ::testing::TestWithParam<DeviceState>
 {
-  Bench bench;
-  bench.activate();
-  ASSERT_GT(bench.press(5.0_mm).force.z(), 0.0);
-  const Sample gone = bench.tick(std::nullopt);
+protected:
+  void reach(DeviceState state)
+  {
+    bench_.status.homed = state != DeviceState::NeedsHoming;
+    if (state == DeviceState::Closed)
+    {
+      return;
+    }
+    if (state >= DeviceState::Active)
+    {
+      bench_.activate();
+    }
+    (void)bench_.press(5.0_mm);
+    bench_.orders.armed = state == DeviceState::SoftStart || state == DeviceState::Active;
+    (void)bench_.at(5.0_mm);
+    (void)bench_.at(5.0_mm);
+  }
+
+  static DeviceLimits limits()
+  {
+    DeviceLimits device = arm();
+    device.needsHoming = true;
+    return device;
+  }
+
+  Bench bench_{ limits() };
+};
+INSTANTIATE_TEST_SUITE_P(SafetyChain, UnpluggedIn,
+  ::testing::Values(DeviceState::Closed, DeviceState::NeedsHoming, DeviceState::Ready,
+    DeviceState::SoftStart, DeviceState::Active, DeviceState::Decay));
+
+TEST_P(UnpluggedIn, GivesNoForceUntilItIsBackHomedAndArmedAnew)
+{
+  reach(GetParam());
+  ASSERT_EQ(bench_.chain.state(), GetParam());
+  const Sample gone = bench_.tick(std::nullopt);
   EXPECT_EQ(gone.force, Vector3d::Zero());
   EXPECT_EQ(gone.state, DeviceState::Closed);
   EXPECT_TRUE(has(gone, Flag::DeviceLost));
-  EXPECT_EQ(bench.at(5.0_mm).force, Vector3d::Zero());
-  EXPECT_EQ(bench.chain.state(), DeviceState::Ready);
+
+  bench_.orders.armed = true; // an old wish, or one for a device that is not there
+  (void)bench_.tick(std::nullopt);
+  bench_.status.homed = false;
+  for (int i = 0; i < 100; ++i)
+  {
+    EXPECT_EQ(bench_.at(5.0_mm).force, Vector3d::Zero());
+    ASSERT_EQ(bench_.chain.state(), DeviceState::NeedsHoming);
+  }
+  bench_.status.homed = true;
+  for (int i = 0; i < 100; ++i)
+  {
+    EXPECT_EQ(bench_.at(5.0_mm).force, Vector3d::Zero());
+    ASSERT_EQ(bench_.chain.state(), DeviceState::Ready);
+  }
+  bench_.orders.armed = false;
+  (void)bench_.at(5.0_mm);
+  bench_.orders.armed = true;
+  EXPECT_EQ(bench_.at(5.0_mm).force, Vector3d::Zero()); // softly, from nothing
+  EXPECT_EQ(bench_.chain.state(), DeviceState::SoftStart);
+  for (int i = 0; i < 1000; ++i)
+  {
+    (void)bench_.at(5.0_mm);
+  }
+  bench_.place = 5.0_mm;
+  EXPECT_GT(bench_.press(6.0_mm).force.norm(), 0.0);
+}
+
+TEST(SafetyChain, AMainThreadThatIsSilentLosesTheForceAndGetsItBackSoftly)
+{
+  Bench bench;
+  bench.activate();
+  const double full = bench.press(5.0_mm).force.z();
+  for (int silent = 0; silent <= 1000; ++silent)
+  {
+    bench.orders.silence = silent * kTick;
+    const Sample sample = bench.at(5.0_mm);
+    const double left = std::clamp((300.0 - silent) / 100.0, 0.0, 1.0);
+    ASSERT_NEAR(sample.force.z(), full * left, 1e-9) << silent;
+    ASSERT_EQ(has(sample, Flag::Unwatched), silent >= 200) << silent;
+  }
+  bench.orders.silence = 0.0;
+  Vector3d before = Vector3d::Zero();
+  for (int i = 0; i < 600; ++i)
+  {
+    (void)bench.at(5.0_mm);
+    ASSERT_LE((bench.force - before).norm(), kSoftSlew * (1.0 + 1e-9));
+    before = bench.force;
+  }
+  EXPECT_EQ(
+    bench.chain.state(), DeviceState::Active); // no fault: nothing was wrong with the device
+}
+
+TEST(SafetyChain, AMainThreadThatIsDeadIsAnEmergencyStop)
+{
+  Bench bench;
+  bench.activate();
+  for (const double silence : { 2.1, kNaN })
+  {
+    bench.orders = { .armed = true, .silence = silence };
+    EXPECT_TRUE(has(bench.at(-5.0_mm), Flag::EmergencyStop));
+    bench.orders.silence = 0.0;
+    EXPECT_EQ(bench.at(-5.0_mm).state, DeviceState::Ready); // latched
+    bench.orders.armed = false;
+    (void)bench.at(-5.0_mm);
+    bench.activate();
+  }
 }
 
 TEST(SafetyChain, GivesNoForceBeforeHoming)

@@ -42,12 +42,18 @@ public:
       .velocity = Eigen::Vector3d::Zero() };
   }
 
+  [[nodiscard]] DeviceStatus status() const noexcept override
+  {
+    return { .buttons = button ? 1U : 0U };
+  }
+
   bool rendersForce = false;
   std::atomic<bool> gone = false;
+  std::atomic<bool> button = false;
   std::chrono::milliseconds stall = 0ms;
   Eigen::Vector3d last = Eigen::Vector3d::Zero(); // read after the servo has ended
   double elapsed = 0.0;
-  int calls = 0;
+  std::atomic<int> calls = 0;
 };
 
 Scene scene()
@@ -101,7 +107,7 @@ TEST(Servo, AHandFeelsNothingUntilTheSceneIsArmed)
   waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::SoftStart; });
 }
 
-TEST(Servo, AMainThreadThatHangsIsAStop)
+TEST(Servo, TheForceOfAMainThreadThatHangsFadesAndThenStops)
 {
   Probe probe;
   probe.rendersForce = true;
@@ -112,6 +118,46 @@ TEST(Servo, AMainThreadThatHangsIsAStop)
   std::this_thread::sleep_for(2200ms);
   EXPECT_TRUE(has(servo.newest(), Flag::EmergencyStop));
   EXPECT_EQ(servo.newest().force, Eigen::Vector3d::Zero());
+  bool faded = false;
+  servo.history().drain(
+    [&](const Sample& sample)
+    {
+      faded = faded ||
+        (has(sample, Flag::Unwatched) && !has(sample, Flag::EmergencyStop) &&
+          sample.force.isZero(0.0));
+    });
+  EXPECT_TRUE(faded);
+}
+
+TEST(Servo, AStopFromOutsideWorksWhileTheMainThreadHangs)
+{
+  Probe probe;
+  probe.rendersForce = true;
+  Scene world = scene();
+  world.armed = true;
+  std::atomic<bool> stop = false;
+  Servo servo(probe, world, { .realtime = false, .stop = &stop });
+  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::Active; });
+  stop = true; // a signal
+  const int calls = probe.calls;
+  while (probe.calls < calls + 5)
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_TRUE(has(servo.newest(), Flag::EmergencyStop));
+}
+
+TEST(Servo, DeadManNeedsTheButton)
+{
+  Probe probe;
+  probe.rendersForce = true;
+  Scene world = scene();
+  world.armed = true;
+  Servo servo(probe, world, { .realtime = false, .deadMan = true });
+  waitFor(servo, [](const Sample& sample) { return sample.time > 0.05; });
+  EXPECT_EQ(servo.newest().state, DeviceState::Ready);
+  probe.button = true;
+  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::Active; });
 }
 
 TEST(Servo, TakesANewScene)
@@ -143,10 +189,12 @@ TEST(Servo, ALostDeviceGetsNoForce)
 {
   Probe probe;
   Servo servo(probe, scene(), kPlain);
+  waitFor(servo, [](const Sample& sample) { return sample.contact.touching(); });
   probe.gone = true;
   const Sample lost =
     waitFor(servo, [](const Sample& sample) { return has(sample, Flag::DeviceLost); });
   EXPECT_EQ(lost.force, Eigen::Vector3d::Zero());
+  EXPECT_EQ(lost.pose.apex.z(), -2.0_mm); // frozen where it was
 }
 
 // every period since the start is either a tick or counted as skipped

@@ -7,11 +7,12 @@ namespace palp
 namespace
 {
 
-TEST(Stability, NoSituationMakesTheChainGiveEnergy)
+TEST(Stability, NoSituationMakesTheChainUnstable)
 {
   for (const StabilityCase& what : stabilityCases(true))
   {
     const StabilityRow row = judge(what, true);
+    EXPECT_NE(row.outcome, StabilityOutcome::Unstable) << what.name;
     EXPECT_GE(row.energy, StabilityLimits::kEnergy) << what.name;
     EXPECT_LE(row.peakForce, what.loop.forceLimit * (1.0 + 1e-9)) << what.name;
     EXPECT_TRUE((row.outcome == StabilityOutcome::Stable) == (row.limitedBy == "none") ||

@@ -1,0 +1,173 @@
+// Whether there may be a force: poses, faults and states. How large it may be is in safety.cpp.
+
+#include "haptics/servo/safety.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
+constexpr int kMostDropped = 3;         // poses in a row that may be implausible
+constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
+constexpr double kLatestTicks = 5.0;
+constexpr int kMostRestarts = 3; // of a force that late ticks let never become whole
+
+// a silence that is borne at first, then lets the force fade, then ends it [s]
+struct Silence
+{
+  double borne;
+  double ends;
+
+  [[nodiscard]] double trust(double age) const noexcept
+  {
+    return age < ends ? std::min(1.0, (ends - age) / (ends - borne)) : 0.0;
+  }
+};
+constexpr Silence kDeviceSilence{ 0.003, 0.020 };
+constexpr Silence kMainThreadSilence{ 0.200, 0.300 };
+constexpr double kMainThreadGone = 2.0; // [s]
+
+} // namespace
+
+std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
+  const DeviceStatus& status, const SafetyOrders& orders, double dt) noexcept
+{
+  flags_ = 0;
+  const double elapsed = dt >= 0.0 && std::isfinite(dt) ? dt : settings_.period;
+  dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
+  sinceLast_ += std::max(elapsed, dt_);
+  period_.record(elapsed);
+  if (orders.armed && !wasArmed_ && !orders.stop) // a new wish forgives
+  {
+    latched_ = 0;
+    restarts_ = 0;
+  }
+  wasArmed_ = orders.armed;
+  if (orders.stop || !(orders.silence <= kMainThreadGone))
+  {
+    fault(Flag::EmergencyStop);
+  }
+
+  if (!pose)
+  {
+    fault(Flag::DeviceLost);
+    forceOff(DeviceState::Closed);
+    return std::nullopt;
+  }
+  if (!pose->apex.allFinite() || !pose->velocity.allFinite() ||
+    !(std::abs(pose->axis.norm() - 1.0) < kAxisTolerance))
+  {
+    fault(Flag::NotFinite);
+    return state_ == DeviceState::Closed ? std::nullopt : std::optional(last_);
+  }
+  const bool first = state_ == DeviceState::Closed;
+  if (first)
+  {
+    state_ = DeviceState::Opening;
+    passivity_.restart(pose->apex);
+  }
+  if (first || plausible(*pose))
+  {
+    last_ = *pose;
+    sinceLast_ = 0.0;
+    dropped_ = 0;
+  }
+  const double late = elapsed - settings_.period;
+  if (late > std::max(kLatest, kLatestTicks * settings_.period) * (1.0 + 1e-9) && forceOn())
+  {
+    raise(Flag::Late);
+    forceOff(DeviceState::SoftStart);
+    fading_ = sent_;
+    if (++restarts_ > kMostRestarts)
+    {
+      fault(Flag::Late);
+    }
+  }
+  advance(status, orders);
+  return last_;
+}
+
+// keeps the last pose for a few ticks; after them the new place is true, but without force
+bool SafetyChain::plausible(const ToolPose& pose) noexcept
+{
+  if ((pose.apex - last_.apex).norm() <= settings_.fastest * sinceLast_)
+  {
+    return true;
+  }
+  raise(Flag::Jump);
+  last_.velocity.setZero();
+  if (++dropped_ <= kMostDropped)
+  {
+    return false;
+  }
+  fault(Flag::Jump);
+  passivity_.restart(pose.apex);
+  reseat_ = true;
+  return true;
+}
+
+void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept
+{
+  trust_ = std::min(kDeviceSilence.trust(status.age), kMainThreadSilence.trust(orders.silence));
+  if (!(status.age < kDeviceSilence.ends))
+  {
+    fault(Flag::Stale);
+  }
+  const bool watched = orders.silence < kMainThreadSilence.ends;
+  if (!(orders.silence < kMainThreadSilence.borne))
+  {
+    raise(Flag::Unwatched);
+  }
+  if (!watched && forceOn())
+  {
+    forceOff(DeviceState::Ready);
+  }
+  if (device_.needsHoming && !status.homed)
+  {
+    raise(Flag::NotHomed);
+    forceOff(DeviceState::NeedsHoming);
+    return;
+  }
+  if (state_ == DeviceState::Opening || state_ == DeviceState::NeedsHoming)
+  {
+    state_ = DeviceState::Ready;
+  }
+
+  const bool held = !settings_.deadMan || (status.buttons & 1U) != 0;
+  const bool wanted = orders.armed && held && watched && latched_ == 0;
+  if (wanted && state_ == DeviceState::Ready)
+  {
+    forceOff(DeviceState::SoftStart);
+  }
+  else if (!wanted && forceOn())
+  {
+    state_ = DeviceState::Decay;
+  }
+}
+
+// a fault is latched; most end the force at once, a jump lets it fade
+void SafetyChain::fault(Flag flag) noexcept
+{
+  raise(flag);
+  latched_ |= static_cast<std::uint32_t>(flag);
+  if (flag != Flag::Jump && forceOn())
+  {
+    forceOff(DeviceState::Ready);
+  }
+}
+
+void SafetyChain::forceOff(DeviceState state) noexcept
+{
+  state_ = state;
+  gain_ = 0.0;
+  apart_ = 0.0;
+  shaped_.setZero();
+  fading_.setZero();
+  reseat_ = true;
+}
+
+} // namespace palp
