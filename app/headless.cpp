@@ -16,8 +16,6 @@ namespace palp
 namespace
 {
 
-constexpr std::string_view kPath = "path:";
-
 void report(const Recording& recording, const Calibration* calibration)
 {
   using units::toMillimetres;
@@ -84,9 +82,10 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   Recording recording;
   recording.rated = plan.validity;
   recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
-  const std::filesystem::path file = plan.device.substr(kPath.size());
-  const ScriptedPath path = ledger.build("path", "moves the tool", [&] { return readPath(file); });
-  recording.device = std::string(kPath) + file.filename().string();
+  const ScriptedPath path =
+    ledger.build("path", "moves the tool", [&] { return readScript(plan.device); });
+  recording.device = plan.device.substr(0, plan.device.find(':') + 1) +
+    scriptFile(plan.device).filename().string();
   std::optional<Calibration> calibration;
   if (plan.dent)
   {

@@ -123,10 +123,8 @@ TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)
   ASSERT_EQ(press("--no-picture", "out").code, 0);
   const std::filesystem::path file = folder_.path() / "out/samples.csv";
   const test::CsvTable samples = test::readCsv(file);
-  PressOptions options;
-  options.file = block();
   Scene scene;
-  scene.surface = loadBody(options).haptic;
+  scene.surface = loadBody({ { .file = block() } }).haptic;
   scene.forceLimit = std::numeric_limits<double>::infinity();
 
   ScriptedDevice device(readRecording(file)); // in ticks of a millisecond, as a servo asks it
