@@ -260,7 +260,7 @@ TEST_F(DeviceTest, ThatIsPluggedInAgainIsHomedAndArmedAnew)
   arm_.plugged = false;
   EXPECT_TRUE(waitForState("plug it in again"));
   EXPECT_TRUE(waitForNoForce());
-  EXPECT_FALSE(armButton_->isChecked());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !armButton_->isChecked(); }, kPatience));
   arm(); // does not help
   QTest::qWait(200);
   EXPECT_TRUE(waitForState("plug it in again"));
