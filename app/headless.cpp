@@ -54,23 +54,17 @@ Scene sceneOf(const ScenePlan& plan, bool chained)
 
 void explainOmissions(const ScenePlan& plan, Ledger& ledger)
 {
-  const auto unless = [&](bool built, const char* part, const char* why)
-  {
-    if (!built)
-    {
-      ledger.leaveOut(part, why);
-    }
-  };
+  const bool corrected = plan.press.tissue.options.mode == "corrected";
   ledger.leaveOut("window, Qt", "\"window\" is false");
   ledger.leaveOut("device, USB", "the tool follows a path");
   ledger.leaveOut("servo thread", "a path without a window is pressed in simulated time");
   ledger.leaveOut("live sample ring", "no servo thread fills it");
-  unless(plan.draws(), "OpenGL", "no picture and no plot is asked for");
-  unless(plan.picture, "overlays", "no picture shows them");
-  unless(!plan.curves.empty(), "plots", "none is named");
-  unless(plan.dent, "calibration, dent", "\"dent\" is none");
-  unless(plan.validity || plan.press.tissue.options.mode == "corrected", "large-strain table",
-    "the law is not corrected and no sample is rated");
+  ledger.leaveOut("OpenGL", "no picture and no plot is asked for", !plan.draws());
+  ledger.leaveOut("overlays", "no picture shows them", !plan.picture);
+  ledger.leaveOut("plots", "none is named", plan.curves.empty());
+  ledger.leaveOut("calibration, dent", "\"dent\" is none", !plan.dent);
+  ledger.leaveOut("large-strain table", "the law is not corrected and no sample is rated",
+    !plan.validity && !corrected);
 }
 
 } // namespace
@@ -84,8 +78,8 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
   const ScriptedPath path =
     ledger.build("path", "moves the tool", [&] { return readScript(plan.device); });
-  recording.device = plan.device.substr(0, plan.device.find(':') + 1) +
-    scriptFile(plan.device).filename().string();
+  recording.device =
+    plan.device.substr(0, plan.device.find(':') + 1) + scriptFile(plan.device).filename().string();
   std::optional<Calibration> calibration;
   if (plan.dent)
   {

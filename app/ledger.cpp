@@ -163,9 +163,12 @@ Ledger::Booking::~Booking()
   }
 }
 
-void Ledger::leaveOut(std::string part, std::string why)
+void Ledger::leaveOut(const char* part, const char* why, bool leftOut)
 {
-  leftOut_.emplace_back(std::move(part), std::move(why));
+  if (leftOut)
+  {
+    leftOut_.emplace_back(part, why);
+  }
 }
 
 void Ledger::write(std::ostream& out) const

@@ -37,7 +37,8 @@ public:
     return work();
   }
 
-  void leaveOut(std::string part, std::string why);
+  /// Books what is not built.
+  void leaveOut(const char* part, const char* why, bool leftOut = true);
 
   /// Tables of both and a line with the sums.
   void write(std::ostream& out) const;
@@ -71,7 +72,7 @@ private:
 
   bool told_;
   std::vector<Entry> built_;
-  std::vector<std::pair<std::string, std::string>> leftOut_;
+  std::vector<std::pair<const char*, const char*>> leftOut_;
 };
 
 } // namespace palp

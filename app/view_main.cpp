@@ -48,16 +48,14 @@ void endOnSignals(QApplication& application)
 
 void explainOmissions(const palp::ScenePlan& plan, palp::Ledger& ledger)
 {
-  const auto unless = [&](bool built, const char* part, const char* why)
-  {
-    if (!built)
-    {
-      ledger.leaveOut(part, why);
-    }
-  };
-  unless(plan.records(), "plots, sample ring", "no plot is named");
-  unless(plan.validity, "reliance panel", "\"validity\" is false");
-  unless(plan.press.surface == "fitted", "fitted surfaces", "\"dent\" is the paper's");
+  const bool simulated =
+    plan.device == "mouse" || plan.device == "hand" || palp::isScripted(plan.device);
+  ledger.leaveOut("USB libraries", "come when a device there is looked for", simulated);
+  ledger.leaveOut("plots, sample ring", "no plot is named", !plan.records());
+  ledger.leaveOut("reliance panel", "\"validity\" is false", !plan.validity);
+  ledger.leaveOut(
+    "other overlays", "computed when the View menu shows them", plan.overlays.has_value());
+  ledger.leaveOut("fitted surfaces", "\"dent\" is the paper's", plan.press.surface != "fitted");
 }
 
 int view(const palp::ViewOptions& options)

@@ -34,7 +34,7 @@ ThreadedDevice::ThreadedDevice(Open open, const DevicePlacement& placement)
   , placement_(placement)
   , thread_([this](const std::stop_token& stop) { run(stop); })
 {
-  (void)makeRealtime(thread_.native_handle()); // without it the bus waits for other programs
+  (void)makeRealtime(thread_.native_handle(), true); // without it the bus waits for other programs
   const auto deadline = Clock::now() + kPatience;
   while (!there_ && losses_ == 0 && Clock::now() < deadline)
   {

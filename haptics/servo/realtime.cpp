@@ -23,7 +23,7 @@ bool mayLockMemory()
 
 } // namespace
 
-std::string makeRealtime(pthread_t thread)
+std::string makeRealtime(pthread_t thread, bool locked)
 {
   sched_param wanted{};
   wanted.sched_priority = kPriority;
@@ -33,6 +33,10 @@ std::string makeRealtime(pthread_t thread)
     : std::string("normal priority: SCHED_FIFO refused (") + std::strerror(refused) +
       "); raise rtprio to " + std::to_string(kPriority) + " in /etc/security/limits.d";
 
+  if (!locked)
+  {
+    return words + "; memory not locked: no hand feels this device";
+  }
   if (mayLockMemory() && mlockall(MCL_CURRENT | MCL_FUTURE) == 0)
   {
     return words + ", memory locked";

