@@ -32,14 +32,10 @@ void report(const Recording& recording, const Calibration* calibration)
   if (calibration)
   {
     std::cerr << ", extent radius "
-              << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm";
+              << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm"
+              << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
-  if (calibration && !calibration->covers(deepest->contact.depth))
-  {
-    std::cerr << "palp: R_d beyond " << toMillimetres(calibration->extents.rows().back().depth)
-              << " mm is that of its table's last row\n";
-  }
 }
 
 Scene sceneOf(const ScenePlan& plan, bool chained)
@@ -84,8 +80,8 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
   const ScriptedPath path =
     ledger.build("path", "moves the tool", [&] { return readScript(plan.device); });
-  recording.device = plan.device.substr(0, plan.device.find(':') + 1) +
-    scriptFile(plan.device).filename().string();
+  recording.device =
+    plan.device.substr(0, plan.device.find(':') + 1) + scriptFile(plan.device).filename().string();
   std::optional<Calibration> calibration;
   if (plan.dent)
   {
