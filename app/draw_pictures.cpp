@@ -143,7 +143,13 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
     }
     profiles.addLine({}, radiusMm, heightMm, appearance::kMeasured, 1.5F);
   }
-  const std::vector<NamedLaw> laws{ { "paper", ForceLaw(study.tip, study.material) },
+  // the paper's cone is sharp
+  const auto* blunt = std::get_if<BluntConeTip>(&study.tip);
+  const Tip papers = blunt != nullptr
+    ? Tip{ ConeTip{ .halfAngle = blunt->halfAngle, .baseRadius = blunt->baseRadius } }
+    : study.tip;
+  const std::vector<NamedLaw> laws{ { blunt != nullptr ? "paper, sharp" : "paper",
+                                      ForceLaw(papers, study.material) },
     { "exact half-space",
       ForceLaw(study.tip, study.material, LawSettings{ .mode = LawMode::Exact }) } };
   draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
