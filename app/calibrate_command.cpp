@@ -253,7 +253,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   text("depth", "Indentation depths A:B:STEP");
   text("threshold", "Displacement at the edge of the deformed region");
   text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
-  text("element-size", "Under the tool; 0.5mm unless given");
+  text("element-size", "Under the tool; 0.5mm, or a tenth of its radius in the block");
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from what --out holds");
   command->add_option("--sweep", options->sweep,

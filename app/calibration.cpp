@@ -17,7 +17,8 @@ using namespace units::literals;
 
 constexpr double kThreshold = 0.5_mm; // Sec. 3.3.2
 constexpr double kPoisson = 0.33;
-constexpr double kLayer = 5.0; // thickness over radius of the paper's blocks, 10 and 6 mm
+constexpr double kDeepest = 50.0_mm; // that the window asks for
+constexpr double kLayer = 5.0;       // thickness over radius of the paper's blocks, 10 and 6 mm
 
 bool same(double a, double b)
 {
@@ -59,19 +60,11 @@ Layer layerOf(const PressOptions& options, double radius)
     length(options.threshold, "--threshold") };
 }
 
-std::string noteOn(const SurfaceTable& table, const SurfaceTable::Place& place, const Tip& tip)
+Calibration ofTable(const std::filesystem::path& file)
 {
-  std::string note;
-  if (!std::holds_alternative<SphereTip>(tip))
-  {
-    note = "R_d is that of a sphere of the same radius";
-  }
-  if (!table.covers(place))
-  {
-    note += std::string(note.empty() ? "R_d is" : ", and") +
-      " clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)";
-  }
-  return note;
+  ExtentTable extents = ExtentTable::read(file);
+  const double reach = extents.rows().back().depth;
+  return { .extents = std::move(extents), .surfaces = std::nullopt, .reach = reach, .note = {} };
 }
 
 // of a cone there is one table for each of the paper's blocks
@@ -88,9 +81,13 @@ Calibration ofCone(const PressOptions& options, const ForceLaw& law)
   }
   const bool known = same(angle, 45.0_deg) && same(law.material().poissonRatio, kPoisson) &&
     (same(baseRadius(tip), 6.0_mm) || same(baseRadius(tip), 10.0_mm));
-  return { .extents = ExtentTable::read(dataFile(bundledTable(tip) + ".csv")),
-    .surfaces = std::nullopt,
-    .note = known ? "" : "R_d is that of the nearest cone with a table: 45 degrees, nu = 0.33" };
+  Calibration calibration = ofTable(dataFile(bundledTable(tip) + ".csv"));
+  if (!known)
+  {
+    calibration.reach = 0.0;
+    calibration.note = "R_d is that of the nearest cone with a table: 45 degrees, nu = 0.33";
+  }
+  return calibration;
 }
 
 Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
@@ -103,17 +100,22 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
     std::holds_alternative<SphereTip>(law.tip());
   if (asPaper)
   {
-    return { .extents = ExtentTable::read(dataFile(bundledTable(law.tip()) + ".csv")),
-      .surfaces = std::nullopt,
-      .note = {} };
+    return ofTable(dataFile(bundledTable(law.tip()) + ".csv"));
   }
   const SurfaceTable table = SurfaceTable::read(dataFile("tables/surface_sphere.csv"));
-  const SurfaceTable::Place place{
+  SurfaceTable::Place place{
     .depth = radius, .tipRadius = radius, .thickness = layer.thickness, .poissonRatio = poisson
   };
+  const bool covered = table.covers(place);
+  const bool sphere = std::holds_alternative<SphereTip>(law.tip());
+  place.depth = std::max(radius, kDeepest);
   return { .extents = table.extents(place, layer.threshold),
     .surfaces = std::nullopt,
-    .note = noteOn(table, place, law.tip()) };
+    .reach = sphere && covered ? radius : 0.0,
+    .note = !sphere ? "R_d is that of a sphere of the same radius"
+      : covered
+      ? ""
+      : "R_d is clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)" };
 }
 
 } // namespace
@@ -121,12 +123,9 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
 Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
 {
   const Tip& tip = law.tip();
-  Calibration calibration = !options.table.empty()
-    ? Calibration{ .extents = ExtentTable::read(options.table),
-        .surfaces = std::nullopt,
-        .note = {} }
-    : isCone(tip) ? ofCone(options, law)
-                  : ofSphere(options, law);
+  Calibration calibration = !options.table.empty() ? ofTable(options.table)
+    : isCone(tip)                                  ? ofCone(options, law)
+                                                   : ofSphere(options, law);
   if (options.surface == "fitted")
   {
     const std::string bundled = bundledTable(tip);

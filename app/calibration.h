@@ -15,12 +15,12 @@ struct Calibration
 {
   ExtentTable extents;                    ///< R_d(depth), for the paper's ring
   std::optional<FittedSurfaces> surfaces; ///< to follow instead of that ring; none: the paper's
+  double reach = 0.0;                     ///< depth to which R_d is computed, not estimated [m]
   std::string note;                       ///< what stands in for what, for the user; or empty
 
-  /// The table has a row as deep as that; beyond, its last R_d.
   [[nodiscard]] bool covers(double depth) const noexcept
   {
-    return depth <= extents.rows().back().depth;
+    return depth <= reach;
   }
 };
 

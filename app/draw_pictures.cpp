@@ -143,7 +143,13 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
     }
     profiles.addLine({}, radiusMm, heightMm, appearance::kMeasured, 1.5F);
   }
-  const std::vector<NamedLaw> laws{ { "paper", ForceLaw(study.tip, study.material) },
+  // the paper's cone is sharp
+  const auto* blunt = std::get_if<BluntConeTip>(&study.tip);
+  const Tip papers = blunt != nullptr
+    ? Tip{ ConeTip{ .halfAngle = blunt->halfAngle, .baseRadius = blunt->baseRadius } }
+    : study.tip;
+  const std::vector<NamedLaw> laws{ { blunt != nullptr ? "paper, sharp" : "paper",
+                                      ForceLaw(papers, study.material) },
     { "exact half-space",
       ForceLaw(study.tip, study.material, LawSettings{ .mode = LawMode::Exact }) } };
   draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
@@ -154,9 +160,6 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
 void DrawPictures::drawExperiment(
   const fem::Experiment& experiment, const std::filesystem::path& directory) const
 {
-  // apart for every kind of colour vision (Okabe and Ito 2008)
-  constexpr std::array<appearance::Color, 6> kColors{ { { 0.00, 0.45, 0.70 }, { 0.84, 0.37, 0.00 },
-    { 0.00, 0.62, 0.45 }, { 0.80, 0.47, 0.65 }, { 0.90, 0.62, 0.00 }, { 0.34, 0.71, 0.91 } } };
   constexpr double kNoticed = 7.0; // [%] of a force, Sec. 3.2
   const OffscreenContext context;
   for (const fem::Figure& figure : experiment.figures)
@@ -165,12 +168,13 @@ void DrawPictures::drawExperiment(
     if (figure.noticed && !figure.curves.empty() && !figure.curves.front().x.empty())
     {
       const std::vector<double>& x = figure.curves.front().x;
-      plot.addBand("just noticed by a hand, 7 %", x, std::vector(x.size(), -kNoticed),
-        std::vector(x.size(), kNoticed), appearance::kInk);
+      plot.addBand("less than a hand notices, 7 %", x, std::vector(x.size(), -kNoticed),
+        std::vector(x.size(), kNoticed), appearance::kGround);
     }
     for (const fem::Curve& curve : figure.curves)
     {
-      const auto& color = kColors[static_cast<std::size_t>(curve.color) % kColors.size()];
+      const auto& color =
+        appearance::kCurves[static_cast<std::size_t>(curve.color) % appearance::kCurves.size()];
       if (curve.style == fem::Curve::Style::Points)
       {
         plot.addPoints(curve.name, curve.x, curve.y, color);

@@ -32,14 +32,10 @@ void report(const Recording& recording, const Calibration* calibration)
   if (calibration)
   {
     std::cerr << ", extent radius "
-              << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm";
+              << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm"
+              << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
-  if (calibration && !calibration->covers(deepest->contact.depth))
-  {
-    std::cerr << "palp: R_d beyond " << toMillimetres(calibration->extents.rows().back().depth)
-              << " mm is that of its table's last row\n";
-  }
 }
 
 Scene sceneOf(const ScenePlan& plan, bool chained)

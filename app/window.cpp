@@ -143,7 +143,7 @@ void Window::refresh()
         .arg(sample.response.force, 0, 'f', 2)
         .arg(units::toMillimetres(sample.contact.depth), 0, 'f', 1)
         .arg(units::toNewtonsPerMillimetre(sample.response.stiffness), 0, 'f', 2) +
-      (session_.calibration().covers(sample.contact.depth) ? QString() : tr("    R_d clamped")));
+      (session_.calibration().covers(sample.contact.depth) ? QString() : tr("    R_d estimated")));
   }
 }
 
@@ -211,7 +211,7 @@ void Window::applyTissue()
       {
         charts_->setLaw(law);
       }
-      statusBar()->showMessage(QString::fromStdString(session_.calibration().note));
+      forceLabel_->setToolTip(QString::fromStdString(session_.calibration().note));
     });
 }
 

@@ -34,7 +34,8 @@ Fit fitPolynomial(const std::vector<double>& x, const std::vector<double>& y, in
 
 ExtentFits fitExtent(const std::vector<double>& depths, const std::vector<double>& extents)
 {
-  constexpr double kHolds = 0.03; // residual to the largest radius
+  constexpr double kHolds = 0.03;    // residual to the largest radius
+  constexpr std::size_t kFewest = 4; // points through which a line says something
   std::vector<double> x;
   std::vector<double> y;
   ExtentFits fits;
@@ -47,7 +48,7 @@ ExtentFits fitExtent(const std::vector<double>& depths, const std::vector<double
     x.push_back(depths[i]);
     y.push_back(extents[i]);
     const Fit line = fitPolynomial(x, y, 1);
-    if (!line.coefficients.empty() && line.worst <= kHolds * *std::max_element(y.begin(), y.end()))
+    if (x.size() >= kFewest && line.worst <= kHolds * *std::max_element(y.begin(), y.end()))
     {
       fits.linear = line;
       fits.linearHoldsTo = depths[i];

@@ -22,7 +22,7 @@ struct Fit
 /// @source Fig. 8: linear to about 7 mm, quadratic beyond
 struct ExtentFits
 {
-  Fit linear;                 ///< over the depths to which it holds
+  Fit linear;                 ///< over the depths to which it holds; empty below four
   Fit quadratic;              ///< over all depths
   double linearHoldsTo = 0.0; ///< every residual up to there below 3 % of the largest radius
 };

@@ -75,11 +75,16 @@ double addExtents(Experiment& result, bool sphere, const std::vector<double>& de
   auto& curves = result.figures.front().curves;
   curves.push_back(
     curve(result, name + "_50kPa_mm", name + ", 50 kPa and 1.5 MPa", color, Curve::Style::Points));
-  curves.push_back(
-    polynomial(fits.linear, name + ", line to " + fixed(fits.linearHoldsTo, 1) + " mm", color + 1));
+  if (fits.linearHoldsTo > 0.0)
+  {
+    curves.push_back(polynomial(
+      fits.linear, name + ", line to " + fixed(fits.linearHoldsTo, 1) + " mm", color + 1));
+  }
   curves.push_back(polynomial(fits.quadratic, name + ", parabola", color + 2));
   result.finding += (sphere ? "Sphere: R_d = " : "Cone: R_d = ") + fixed(largest(radii), 1) +
-    " mm at the last depth; a line holds to " + fixed(fits.linearHoldsTo, 1) + " mm" +
+    " mm at the last depth; " +
+    (fits.linearHoldsTo > 0.0 ? "a line holds to " + fixed(fits.linearHoldsTo, 1) + " mm"
+                              : std::string("no line holds from the start")) +
     (sphere ? " (paper: about 7 mm)" : "") + ", a parabola leaves " +
     fixed(fits.quadratic.worst, 2) + " mm. ";
   return apart;
@@ -149,7 +154,8 @@ Experiment extents(Resolution resolution, std::stop_token stop)
   result.finding += "The cone's is smaller, as the paper says. 50 kPa and 1.5 MPa give the same "
                     "R_d (" +
     fixed(std::max(sphere, cone), 3) +
-    " mm apart), as statics demands; the different curves of the paper's Figs. 7 and 8 cannot come from "
+    " mm apart), as statics demands; the different curves of the paper's Figs. 7 and 8 cannot come "
+    "from "
     "elasticity.";
   return result;
 }

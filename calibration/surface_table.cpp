@@ -86,8 +86,9 @@ SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
       sum[r] += wi * wj * wk * row[r];
     }
   }
-  // below the first depth the surface follows the depth
-  const double scale = std::min(1.0, depth / axes_[2].front()) * place.tipRadius;
+  // below the first depth and beyond the last the surface follows the depth
+  const double scale =
+    depth / std::clamp(depth, axes_[2].front(), axes_[2].back()) * place.tipRadius;
   for (double& sink : sum)
   {
     sink *= scale;
@@ -131,18 +132,17 @@ double SurfaceTable::extentRadius(const Place& place, double threshold) const
   return inside;
 }
 
-ExtentTable SurfaceTable::extents(const Place& place, double threshold) const
+ExtentTable SurfaceTable::extents(const Place& deepest, double threshold) const
 {
   constexpr int kRows = 40;
-  const double deepest = axes_[2].back() * place.tipRadius;
-  const double first = std::min(threshold, 0.5 * deepest);
+  const double first = std::min(threshold, 0.5 * deepest.depth);
   std::vector<ExtentTable::Row> rows;
   for (int i = 0; i <= kRows; ++i)
   {
     // close where R_d begins as a root
     const double t = static_cast<double>(i) / kRows;
-    Place at = place;
-    at.depth = first + (deepest - first) * t * t;
+    Place at = deepest;
+    at.depth = first + (deepest.depth - first) * t * t;
     rows.push_back({ .depth = at.depth,
       .extentRadius = extentRadius(at, threshold),
       .force = 0.0,

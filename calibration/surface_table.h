@@ -34,17 +34,18 @@ public:
   /// @throws Error  BadFile: missing, or not a full grid
   [[nodiscard]] static SurfaceTable read(const std::filesystem::path& file);
 
-  /// Sink of the surface [m], 0 beyond the last radius. Outside the grid, as at its border.
+  /// Sink of the surface [m], 0 beyond the last radius. Outside the grid, as at its border; beyond
+  /// the last depth, growing with it.
   /// @param radius  deformed [m]
   [[nodiscard]] double sinkAt(const Place& place, double radius) const;
 
   /// R_d [m], 0 where nothing sinks by the threshold, at most the last radius of the table.
   [[nodiscard]] double extentRadius(const Place& place, double threshold) const;
 
-  /// R_d over the depth, to the deepest row of the grid.
-  /// @param place      its depth is not asked
+  /// R_d over the depth.
+  /// @param deepest    the last depth
   /// @param threshold  sink at R_d [m]
-  [[nodiscard]] ExtentTable extents(const Place& place, double threshold) const;
+  [[nodiscard]] ExtentTable extents(const Place& deepest, double threshold) const;
 
   /// The grid covers the place (a depth below its first one included).
   [[nodiscard]] bool covers(const Place& place) const;

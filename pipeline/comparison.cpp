@@ -19,13 +19,9 @@ namespace
 constexpr double kNoticed = 0.07; // [-] of a force, Sec. 3.2
 constexpr int kSteps = 200;
 
-// Okabe and Ito 2008: apart for every kind of colour vision
-constexpr std::array<appearance::Color, 6> kColors{ { { 0.00, 0.45, 0.70 }, { 0.84, 0.37, 0.00 },
-  { 0.00, 0.62, 0.45 }, { 0.80, 0.47, 0.65 }, { 0.90, 0.62, 0.00 }, { 0.34, 0.71, 0.91 } } };
-
 const appearance::Color& colorOf(std::size_t i)
 {
-  return kColors[i % kColors.size()];
+  return appearance::kCurves[i % appearance::kCurves.size()];
 }
 
 std::vector<double> inMillimetres(std::vector<double> metres)

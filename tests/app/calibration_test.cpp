@@ -36,7 +36,7 @@ TEST(LoadCalibration, ASphereOfAnotherSizeIsTheSameShape)
   const auto b = load(SphereTip{ 14.0_mm }, large).extents;
   for (const double depth : { 1.0_mm, 3.0_mm, 6.5_mm })
   {
-    EXPECT_NEAR(b.extentRadius(2.0 * depth), 2.0 * a.extentRadius(depth), 1e-6);
+    EXPECT_NEAR(b.extentRadius(2.0 * depth), 2.0 * a.extentRadius(depth), 0.1_mm);
   }
 }
 
@@ -59,12 +59,14 @@ TEST(LoadCalibration, SaysWhatStandsInForWhat)
   PressOptions thick;
   thick.layer = "1m";
   EXPECT_NE(load(SphereTip{ 8.0_mm }, thick).note.find("clamped"), std::string::npos);
+  EXPECT_FALSE(load(SphereTip{ 8.0_mm }, thick).covers(1.0_mm));
   EXPECT_NE(load(SphereTip{ 8.0_mm }, {}, 0.5).note.find("clamped"), std::string::npos);
   EXPECT_NE(load(PunchTip{ 8.0_mm }).note.find("sphere"), std::string::npos);
   EXPECT_NE(load(ConeTip{ 30.0_deg, 10.0_mm }).note.find("cone"), std::string::npos);
   const Calibration sphere = load(SphereTip{ 8.0_mm });
   EXPECT_TRUE(sphere.covers(8.0_mm));
   EXPECT_FALSE(sphere.covers(8.1_mm));
+  EXPECT_FALSE(load(PunchTip{ 8.0_mm }).covers(1.0_mm));
 }
 
 TEST(LoadCalibration, RefusesALayerForAConeAndBadLengths)

@@ -21,7 +21,7 @@ TEST(SlowSurfaceTable, ExtentOfAnotherSphereIsThatOfFreshElements)
     .elementSize = 0.4_mm };
   for (const double threshold : { 0.3_mm, 0.5_mm, 1.0_mm })
   {
-    const ExtentTable extents = table.extents({ 0.0, 8.0_mm, study.height, 0.33 }, threshold);
+    const ExtentTable extents = table.extents({ 8.0_mm, 8.0_mm, study.height, 0.33 }, threshold);
     double worst = 0.0;
     for (const Indented& step : completed(study).steps)
     {
