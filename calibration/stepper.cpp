@@ -5,6 +5,7 @@
 #include "calibration/mass_spring.h"
 #include "haptics/error.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -43,9 +44,12 @@ StepSettings checked(const StepSettings& settings)
 
 Material checked(const Material& material, Baseline baseline)
 {
-  require(baseline == Baseline::MassSpring || material.poissonRatio < 0.5,
-    "corotational: nu = 0.5 locks linear elements; give 0.49 or less");
-  return makeMaterial(material.youngModulus, material.poissonRatio);
+  const double nu = material.poissonRatio;
+  require(baseline == Baseline::MassSpring || nu < 0.5,
+    std::string(name(baseline)) + ": nu = 0.5 locks linear elements; give 0.49 or less");
+  require(baseline != Baseline::MassSpringVolume || nu >= 0.25,
+    "mass-spring-volume: springs have nu = 1/4 already; give 0.25 or more");
+  return makeMaterial(material.youngModulus, nu);
 }
 
 Eigen::VectorXd lumpedMasses(const TetMesh& mesh, double density)
@@ -67,18 +71,21 @@ const TetMesh& checkedMesh(const TetMesh& mesh)
 std::unique_ptr<Elasticity> makeElasticity(
   Baseline baseline, const TetMesh& mesh, const BlockMatrix& matrix, const Material& material)
 {
-  if (baseline == Baseline::MassSpring)
+  if (baseline == Baseline::Corotational)
   {
-    return std::make_unique<MassSprings>(mesh, matrix, material);
+    return std::make_unique<CorotationalTets>(mesh, matrix, material);
   }
-  return std::make_unique<CorotationalTets>(mesh, matrix, material);
+  return std::make_unique<MassSprings>(
+    mesh, matrix, material, baseline == Baseline::MassSpringVolume);
 }
 
 } // namespace
 
 std::string_view name(Baseline baseline) noexcept
 {
-  return baseline == Baseline::Corotational ? "corotational" : "mass-spring";
+  constexpr std::array<std::string_view, 3> kNames{ "corotational", "mass-spring",
+    "mass-spring-volume" };
+  return kNames[static_cast<std::size_t>(baseline)];
 }
 
 struct Stepper::State

@@ -4,6 +4,7 @@
 #include "haptics/force/tip.h"
 #include "haptics/material.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -15,11 +16,15 @@ namespace palp::fem
 /// What the paper's own step is compared with, Fig. 12.
 enum class Baseline
 {
-  Corotational, ///< linear tetrahedra that turn with their rotation; any nu below 0.5
-  MassSpring,   ///< a spring along every edge; its Poisson ratio is 1/4 whatever is asked
+  Corotational,     ///< linear tetrahedra that turn with their rotation; any nu below 0.5
+  MassSpring,       ///< a spring along every edge; nu is 1/4 whatever is asked
+  MassSpringVolume, ///< springs, and elements that hold their volume; nu from 1/4 to below 0.5
 };
 
-/// corotational, mass-spring
+inline constexpr std::array kBaselines{ Baseline::Corotational, Baseline::MassSpring,
+  Baseline::MassSpringVolume };
+
+/// corotational, mass-spring, mass-spring-volume
 [[nodiscard]] std::string_view name(Baseline baseline) noexcept;
 
 /// How a step is solved. The defaults are those of the paper's comparison.
@@ -56,7 +61,7 @@ class Elasticity;
 class Stepper
 {
 public:
-  /// @param material  nu < 0.5 for Corotational
+  /// @param material  nu as the baseline takes it
   /// @throws Error    BadMesh: see check(); BadValue: material, tool or a setting out of range
   Stepper(TetMesh mesh, Baseline baseline, const Tip& tip, const Material& material,
     const StepSettings& settings = {});
@@ -116,6 +121,6 @@ struct StepTimes
 /// Steps until the force stands still.
 /// @param change  of the force in a step, relative to it, below which it stands still [-]
 /// @throws Error  NoSolution: it still moves after mostSteps
-StepOutcome settle(Stepper& stepper, double dt, double change = 1e-6, int mostSteps = 2000);
+StepOutcome settle(Stepper& stepper, double dt, double change = 1e-5, int mostSteps = 2000);
 
 } // namespace palp::fem
