@@ -57,7 +57,8 @@ class Elasticity;
 /// damping. Conjugate gradients with the diagonal as preconditioner start from the last
 /// velocities. Surface nodes inside the tool are put on it within the step: their velocity along
 /// its normal is prescribed in the solve and the force that takes is the contact force, exact
-/// whatever the stiffness; a node that is pulled is let go in the next step.
+/// whatever the stiffness; a node that is pulled is let go in the next step. The sharp rim of a
+/// punch holds no node: they slip around it, and the force shivers.
 class Stepper
 {
 public:
@@ -118,8 +119,8 @@ struct StepTimes
 [[nodiscard]] std::vector<Eigen::Vector3d> pressPath(
   double depth, double speed, double hold, double dt);
 
-/// Steps until the force stands still.
-/// @param change  of the force in a step, relative to it, below which it stands still [-]
+/// Steps until the force of a tool stands still and the base carries it.
+/// @param change  of the force in a step, and to that on the base, below which it stands still [-]
 /// @throws Error  NoSolution: it still moves after mostSteps
 StepOutcome settle(Stepper& stepper, double dt, double change = 1e-5, int mostSteps = 2000);
 
