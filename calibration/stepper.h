@@ -30,7 +30,7 @@ inline constexpr std::array kBaselines{ Baseline::Corotational, Baseline::MassSp
 /// How a step is solved. The defaults are those of the paper's comparison.
 struct StepSettings
 {
-  int mostIterations = 25;        ///< of conjugate gradients in one step, 1 or more
+  int mostIterations = 25;        ///< of conjugate gradients in one solve, 1 or more
   double tolerance = 1e-5;        ///< |residual| / |forces and momenta| at which they stop [-]
   double density = 1060.0;        ///< of the tissue [kg/m^3]
   double massDamping = 0.0;       ///< Rayleigh's alpha [1/s]
@@ -57,8 +57,9 @@ class Elasticity;
 /// damping. Conjugate gradients with the diagonal as preconditioner start from the last
 /// velocities. Surface nodes inside the tool are put on it within the step: their velocity along
 /// its normal is prescribed in the solve and the force that takes is the contact force, exact
-/// whatever the stiffness; a node that is pulled is let go in the next step. The sharp rim of a
-/// punch holds no node: they slip around it, and the force shivers.
+/// whatever the stiffness. Nodes that the tool would pull are let go in the next step, or, where
+/// they take more than 1 % of its push as when it is lifted quickly, in a second and third solve of
+/// this one. The sharp rim of a punch holds no node: they slip around it, and the force shivers.
 class Stepper
 {
 public:

@@ -7,6 +7,7 @@
 #include "haptics/units.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -84,6 +85,33 @@ TEST_P(AnyBaseline, AtRestTheBaseCarriesTheForceAndNoNodeIsInTheTool)
     onTool += at.norm() < 10.0_mm + 1e-8 ? 1 : 0;
   }
   EXPECT_EQ(onTool, outcome.touching);
+}
+
+// pressed, slid, and lifted faster than the body follows: the tool pushes or lets go
+TEST_P(AnyBaseline, TheToolNeverPulls)
+{
+  Stepper stepper = smallBlock(GetParam());
+  double most = 0.0;
+  for (int k = 1; k <= 30; ++k)
+  {
+    stepper.placeTool({ std::max(0, k - 10) * 0.5_mm, 0.0, std::max(-3.0_mm, -0.3_mm * k) });
+    const double force = stepper.step(5.0_ms).force;
+    most = std::max(most, force);
+    EXPECT_GT(force, 0.0) << k;
+  }
+  stepper.placeTool({ 10.0_mm, 0.0, 5.0_mm });
+  const StepOutcome lifted = stepper.step(5.0_ms);
+  EXPECT_EQ(lifted.touching, 0);
+  EXPECT_EQ(lifted.force, 0.0);
+  EXPECT_LT(stepper.positions().row(2).maxCoeff(), 1.0_mm);
+
+  stepper.placeTool({ 10.0_mm, 0.0, -3.0_mm }); // and down again at once
+  (void)stepper.step(5.0_ms);
+  for (const double height : { -2.9_mm, -2.0_mm, -1.0_mm })
+  {
+    stepper.placeTool({ 10.0_mm, 0.0, height });
+    EXPECT_GT(stepper.step(5.0_ms).force, -0.01 * most) << height;
+  }
 }
 
 // momentum changes by what the tool and the base give, step by step
