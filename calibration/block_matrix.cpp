@@ -46,6 +46,13 @@ int BlockMatrix::edgeBetween(int i, int j) const
   return static_cast<int>(edge - edges_.begin());
 }
 
+std::array<int, 6> BlockMatrix::edgesOf(const std::array<int, 4>& nodes) const
+{
+  const auto [a, b, c, d] = nodes;
+  return { edgeBetween(a, b), edgeBetween(a, c), edgeBetween(a, d), edgeBetween(b, c),
+    edgeBetween(b, d), edgeBetween(c, d) };
+}
+
 void BlockMatrix::balance()
 {
   std::fill(diagonal_.begin(), diagonal_.end(), Eigen::Matrix3d::Zero());

@@ -26,8 +26,8 @@ public:
     return edges_;
   }
 
-  /// Which edge joins two nodes of a tetrahedron, i < j.
-  [[nodiscard]] int edgeBetween(int i, int j) const;
+  /// Of a tetrahedron whose nodes ascend: 01, 02, 03, 12, 13, 23, as indices into edges().
+  [[nodiscard]] std::array<int, 6> edgesOf(const std::array<int, 4>& nodes) const;
 
   [[nodiscard]] std::vector<Eigen::Matrix3d>& blocks() noexcept
   {
@@ -45,6 +45,8 @@ public:
   void multiply(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& product) const;
 
 private:
+  [[nodiscard]] int edgeBetween(int i, int j) const;
+
   std::vector<int> rows_; // first edge of each node
   std::vector<Edge> edges_;
   std::vector<Eigen::Matrix3d> blocks_;

@@ -81,22 +81,10 @@ CorotationalTets::CorotationalTets(
     Tet tet;
     tet.nodes = nodes;
     std::sort(tet.nodes.begin(), tet.nodes.end());
-    Matrix3d edges;
-    for (int a = 0; a < 3; ++a)
-    {
-      edges.col(a) = mesh.positions.col(tet.nodes[static_cast<std::size_t>(a + 1)]) -
-        mesh.positions.col(tet.nodes[0]);
-    }
+    const Matrix3d edges = edgesOf(mesh.positions, tet.nodes);
     tet.volume = std::abs(edges.determinant()) / 6.0;
     tet.slopes = edges.inverse().transpose();
-    std::size_t e = 0;
-    for (std::size_t a = 0; a < 4; ++a)
-    {
-      for (std::size_t b = a + 1; b < 4; ++b)
-      {
-        tet.edges[e++] = matrix.edgeBetween(tet.nodes[a], tet.nodes[b]);
-      }
-    }
+    tet.edges = matrix.edgesOf(tet.nodes);
     tets_.push_back(tet);
   }
 }
@@ -110,12 +98,7 @@ double CorotationalTets::respond(
   double energy = 0.0;
   for (Tet& tet : tets_)
   {
-    Matrix3d edges;
-    const Vector3d origin = positions.col(tet.nodes[0]);
-    edges.col(0) = positions.col(tet.nodes[1]) - origin;
-    edges.col(1) = positions.col(tet.nodes[2]) - origin;
-    edges.col(2) = positions.col(tet.nodes[3]) - origin;
-    const Matrix3d gradient = edges * tet.slopes.transpose();
+    const Matrix3d gradient = edgesOf(positions, tet.nodes) * tet.slopes.transpose();
     tet.turn = nearestRotation(gradient, tet.turn);
     const Matrix3d rotation = tet.turn.toRotationMatrix();
     const Matrix3d strain = gradient - rotation; // turned into the present frame

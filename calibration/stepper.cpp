@@ -5,6 +5,7 @@
 #include "calibration/mass_spring.h"
 #include "haptics/error.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kNearBase = 1 - 1e-6; // a node on the rim of the tool is off it [-]
 constexpr double kLongestStep = 1.0;   // [s]
+constexpr double kPulled = 0.01; // of the tool's push: more pull than this is not let pass [-]
+constexpr int kMostSolves = 3;   // in a step
 
 void require(bool good, const std::string& message)
 {
@@ -43,9 +46,12 @@ StepSettings checked(const StepSettings& settings)
 
 Material checked(const Material& material, Baseline baseline)
 {
-  require(baseline == Baseline::MassSpring || material.poissonRatio < 0.5,
-    "corotational: nu = 0.5 locks linear elements; give 0.49 or less");
-  return makeMaterial(material.youngModulus, material.poissonRatio);
+  const double nu = material.poissonRatio;
+  require(baseline == Baseline::MassSpring || nu < 0.5,
+    std::string(name(baseline)) + ": nu = 0.5 locks linear elements; give 0.49 or less");
+  require(baseline != Baseline::MassSpringVolume || nu >= 0.25,
+    "mass-spring-volume: springs have nu = 1/4 already; give 0.25 or more");
+  return makeMaterial(material.youngModulus, nu);
 }
 
 Eigen::VectorXd lumpedMasses(const TetMesh& mesh, double density)
@@ -67,18 +73,21 @@ const TetMesh& checkedMesh(const TetMesh& mesh)
 std::unique_ptr<Elasticity> makeElasticity(
   Baseline baseline, const TetMesh& mesh, const BlockMatrix& matrix, const Material& material)
 {
-  if (baseline == Baseline::MassSpring)
+  if (baseline == Baseline::Corotational)
   {
-    return std::make_unique<MassSprings>(mesh, matrix, material);
+    return std::make_unique<CorotationalTets>(mesh, matrix, material);
   }
-  return std::make_unique<CorotationalTets>(mesh, matrix, material);
+  return std::make_unique<MassSprings>(
+    mesh, matrix, material, baseline == Baseline::MassSpringVolume);
 }
 
 } // namespace
 
 std::string_view name(Baseline baseline) noexcept
 {
-  return baseline == Baseline::Corotational ? "corotational" : "mass-spring";
+  constexpr std::array<std::string_view, 3> kNames{ "corotational", "mass-spring",
+    "mass-spring-volume" };
+  return kNames[static_cast<std::size_t>(baseline)];
 }
 
 struct Stepper::State
@@ -100,6 +109,9 @@ struct Stepper::State
   }
 
   void findContacts(double dt);
+  [[nodiscard]] double push(const GivenSpeed& contact) const; // of the tool on a node [N]
+  [[nodiscard]] bool dropPulled();
+  BackwardEuler::Solution solve(double dt);
   StepOutcome step(double dt);
 
   TetMesh mesh;
@@ -111,6 +123,7 @@ struct Stepper::State
   BackwardEuler euler;
   Matrix3Xd positions;  // [m]
   Matrix3Xd velocities; // [m/s]
+  Matrix3Xd before;     // velocities at the start of a step [m/s]
   Matrix3Xd forces;     // of elasticity [N]
   std::optional<Vector3d> apex;
   std::vector<char> touching;        // per node of the surface, as the last step left it
@@ -153,6 +166,64 @@ void Stepper::State::findContacts(double dt)
   }
 }
 
+double Stepper::State::push(const GivenSpeed& contact) const
+{
+  return contact.normal.dot(euler.reactions().col(contact.node));
+}
+
+// drops the nodes that the tool pulls; false where they hardly matter
+bool Stepper::State::dropPulled()
+{
+  double pushed = 0.0;
+  double pulled = 0.0;
+  for (const GivenSpeed& contact : contacts)
+  {
+    (push(contact) >= 0.0 ? pushed : pulled) += std::abs(push(contact));
+  }
+  if (pulled <= kPulled * pushed)
+  {
+    return false;
+  }
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+  {
+    const bool keep = push(contacts[c]) >= 0.0;
+    touching[touchers[c]] = keep ? 1 : 0;
+    contacts[kept] = contacts[c];
+    touchers[kept] = touchers[c];
+    kept += keep ? 1 : 0;
+  }
+  contacts.resize(kept);
+  touchers.resize(kept);
+  return true;
+}
+
+BackwardEuler::Solution Stepper::State::solve(double dt)
+{
+  before = velocities;
+  BackwardEuler::Solution all{};
+  for (int k = 0; k < kMostSolves; ++k)
+  {
+    velocities = before;
+    const auto solution = euler.solve({ .stiffness = stiffness,
+                                        .forces = forces,
+                                        .given = contacts,
+                                        .dt = dt,
+                                        .alpha = settings.massDamping,
+                                        .beta = settings.stiffnessDamping,
+                                        .mostIterations = settings.mostIterations,
+                                        .tolerance = settings.tolerance },
+      velocities);
+    all.iterations += solution.iterations;
+    all.residual = solution.residual;
+    if (k + 1 == kMostSolves || !dropPulled())
+    {
+      break;
+    }
+  }
+  return all;
+}
+
 StepOutcome Stepper::State::step(double dt)
 {
   require(std::isfinite(dt) && dt > 0.0 && dt <= kLongestStep,
@@ -160,15 +231,7 @@ StepOutcome Stepper::State::step(double dt)
   StepOutcome outcome;
   outcome.elasticEnergy = elasticity->respond(positions, forces, stiffness);
   findContacts(dt);
-  const auto solution = euler.solve({ .stiffness = stiffness,
-                                      .forces = forces,
-                                      .given = contacts,
-                                      .dt = dt,
-                                      .alpha = settings.massDamping,
-                                      .beta = settings.stiffnessDamping,
-                                      .mostIterations = settings.mostIterations,
-                                      .tolerance = settings.tolerance },
-    velocities);
+  const auto solution = solve(dt);
   positions += dt * velocities;
   if (!positions.allFinite())
   {
@@ -181,9 +244,8 @@ StepOutcome Stepper::State::step(double dt)
   outcome.touching = static_cast<int>(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c)
   {
-    const double push = contacts[c].normal.dot(euler.reactions().col(contacts[c].node));
-    outcome.force -= push * contacts[c].normal.z();
-    touching[touchers[c]] = push >= 0.0 ? 1 : 0; // a node that is pulled is let go
+    outcome.force -= push(contacts[c]) * contacts[c].normal.z();
+    touching[touchers[c]] = push(contacts[c]) >= 0.0 ? 1 : 0; // a node that is pulled is let go
   }
   for (const int i : mesh.bonded)
   {

@@ -4,6 +4,7 @@
 #include "haptics/force/tip.h"
 #include "haptics/material.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -15,17 +16,21 @@ namespace palp::fem
 /// What the paper's own step is compared with, Fig. 12.
 enum class Baseline
 {
-  Corotational, ///< linear tetrahedra that turn with their rotation; any nu below 0.5
-  MassSpring,   ///< a spring along every edge; its Poisson ratio is 1/4 whatever is asked
+  Corotational,     ///< linear tetrahedra that turn with their rotation; any nu below 0.5
+  MassSpring,       ///< a spring along every edge; nu is 1/4 whatever is asked
+  MassSpringVolume, ///< springs, and elements that hold their volume; nu from 1/4 to below 0.5
 };
 
-/// corotational, mass-spring
+inline constexpr std::array kBaselines{ Baseline::Corotational, Baseline::MassSpring,
+  Baseline::MassSpringVolume };
+
+/// corotational, mass-spring, mass-spring-volume
 [[nodiscard]] std::string_view name(Baseline baseline) noexcept;
 
 /// How a step is solved. The defaults are those of the paper's comparison.
 struct StepSettings
 {
-  int mostIterations = 25;        ///< of conjugate gradients in one step, 1 or more
+  int mostIterations = 25;        ///< of conjugate gradients in one solve, 1 or more
   double tolerance = 1e-5;        ///< |residual| / |forces and momenta| at which they stop [-]
   double density = 1060.0;        ///< of the tissue [kg/m^3]
   double massDamping = 0.0;       ///< Rayleigh's alpha [1/s]
@@ -52,11 +57,13 @@ class Elasticity;
 /// damping. Conjugate gradients with the diagonal as preconditioner start from the last
 /// velocities. Surface nodes inside the tool are put on it within the step: their velocity along
 /// its normal is prescribed in the solve and the force that takes is the contact force, exact
-/// whatever the stiffness; a node that is pulled is let go in the next step.
+/// whatever the stiffness. Nodes that the tool would pull are let go in the next step, or, where
+/// they take more than 1 % of its push as when it is lifted quickly, in a second and third solve of
+/// this one. The sharp rim of a punch holds no node: they slip around it, and the force shivers.
 class Stepper
 {
 public:
-  /// @param material  nu < 0.5 for Corotational
+  /// @param material  nu as the baseline takes it
   /// @throws Error    BadMesh: see check(); BadValue: material, tool or a setting out of range
   Stepper(TetMesh mesh, Baseline baseline, const Tip& tip, const Material& material,
     const StepSettings& settings = {});
@@ -113,9 +120,9 @@ struct StepTimes
 [[nodiscard]] std::vector<Eigen::Vector3d> pressPath(
   double depth, double speed, double hold, double dt);
 
-/// Steps until the force stands still.
-/// @param change  of the force in a step, relative to it, below which it stands still [-]
+/// Steps until the force of a tool stands still and the base carries it.
+/// @param change  of the force in a step, and to that on the base, below which it stands still [-]
 /// @throws Error  NoSolution: it still moves after mostSteps
-StepOutcome settle(Stepper& stepper, double dt, double change = 1e-6, int mostSteps = 2000);
+StepOutcome settle(Stepper& stepper, double dt, double change = 1e-5, int mostSteps = 2000);
 
 } // namespace palp::fem

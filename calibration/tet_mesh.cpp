@@ -2,7 +2,7 @@
 
 #include "haptics/error.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -72,12 +72,28 @@ double squaredEdge(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
 
 } // namespace
 
-double volume(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
+Eigen::Matrix3d edgesOf(const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet)
 {
-  const Eigen::Vector3d a = x.col(tet[1]) - x.col(tet[0]);
-  const Eigen::Vector3d b = x.col(tet[2]) - x.col(tet[0]);
-  const Eigen::Vector3d c = x.col(tet[3]) - x.col(tet[0]);
-  return std::abs(a.cross(b).dot(c)) / 6.0;
+  Eigen::Matrix3d edges;
+  edges.col(0) = positions.col(tet[1]) - positions.col(tet[0]);
+  edges.col(1) = positions.col(tet[2]) - positions.col(tet[0]);
+  edges.col(2) = positions.col(tet[3]) - positions.col(tet[0]);
+  return edges;
+}
+
+double volume(const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet)
+{
+  return std::abs(edgesOf(positions, tet).determinant()) / 6.0;
+}
+
+int invertedElements(const TetMesh& mesh, const Eigen::Matrix3Xd& positions)
+{
+  return static_cast<int>(std::count_if(mesh.tets.begin(), mesh.tets.end(),
+    [&](const std::array<int, 4>& tet)
+    {
+      return edgesOf(positions, tet).determinant() * edgesOf(mesh.positions, tet).determinant() <=
+        0.0;
+    }));
 }
 
 TetMesh blockTets(double width, double height, int n, int layers)

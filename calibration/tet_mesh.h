@@ -31,8 +31,15 @@ struct TetMesh
 /// @source        cells: Kuhn 1960, mirrored (Todd's J1), so that no direction is preferred
 [[nodiscard]] TetMesh blockTets(double width, double height, int n, int layers);
 
+/// From the first node of a tetrahedron to the others, in columns [m].
+[[nodiscard]] Eigen::Matrix3d edgesOf(
+  const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet);
+
 /// Volume of a tetrahedron [m^3].
 [[nodiscard]] double volume(const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet);
+
+/// How many tetrahedra are turned inside out at these positions of the nodes.
+[[nodiscard]] int invertedElements(const TetMesh& mesh, const Eigen::Matrix3Xd& positions);
 
 /// @throws Error  BadMesh: no element, no surface, nothing bonded, an index out of range, a node of
 ///                no element, a coordinate that is no number, or a sliver: an element whose volume

@@ -57,6 +57,22 @@ TEST(BenchCommand, PrintsOnlyJsonAndComparesWithIt)
   }
 }
 
+TEST(BenchCommand, PutsSpringsAndElementsBesideOurs)
+{
+  const test::Finished finished = bench("--json --baselines");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  std::set<std::string> names;
+  for (const nlohmann::json& row : nlohmann::json::parse(finished.out).at("rows"))
+  {
+    EXPECT_EQ(row.at("vertices"), 1600);
+    EXPECT_GT(row.at("median_us"), 0.0);
+    names.insert(row.value("variant", row.at("work").get<std::string>()));
+  }
+  EXPECT_EQ(names,
+    (std::set<std::string>{
+      "corotational", "mass-spring", "mass-spring-volume", "servo_step", "update" }));
+}
+
 TEST(BenchCommand, RefusesAGateThatIsNoReport)
 {
   const auto file = std::filesystem::path(::testing::TempDir()) / "palp_bench_no_gate.json";
