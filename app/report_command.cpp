@@ -115,6 +115,10 @@ std::vector<Section> makeParts(const Folder& folder, bool quick, const Interrupt
     {
       std::cerr << '\n';
     }
+    catch (const Error& error) // the other parts stand without it
+    {
+      std::cerr << "\npalp: " << error.what() << '\n';
+    }
   }
   return sections;
 }
@@ -175,8 +179,8 @@ void makeReport(const ReportOptions& options, const Pictures* pictures)
   if (!unfinished.empty())
   {
     throw Error(ErrorCode::NoSolution,
-      page + ": interrupted with " + std::to_string(kParts.size() - unfinished.size()) + " of " +
-        std::to_string(kParts.size()) + " parts; --resume goes on from here");
+      page + ": " + std::to_string(kParts.size() - unfinished.size()) + " of " +
+        std::to_string(kParts.size()) + " parts are finished; --resume goes on from here");
   }
   std::cerr << "palp: " << page << '\n';
 }

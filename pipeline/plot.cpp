@@ -92,6 +92,9 @@ Plot::Plot(const std::string& title, const std::string& bottom, const std::strin
   , left_(left)
 {
   appearance::setUpChart(*chart_, title, bottom, left);
+  vtkAxis* vertical = chart_->GetAxis(vtkAxis::LEFT);
+  vertical->SetLabelOffset(4.0F); // or the labels touch the title
+  vertical->SetTickLength(3.0F);
   chart_->SetShowLegend(true);
   appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
 }

@@ -84,7 +84,19 @@ void addFigure(Section& section, const fem::Figure& figure)
   section.charts.push_back(std::move(chart));
 }
 
-Section sectionOf(const Experiment& experiment, const Effort& effort)
+// figures with the same curves stand side by side
+bool haveSameLegend(const std::vector<Chart>& charts)
+{
+  const auto isSame = [&](const Chart& chart)
+  {
+    return std::ranges::equal(
+      chart.curves, charts.front().curves, {}, &Curve::label, &Curve::label);
+  };
+  return charts.size() > 1 && std::ranges::all_of(charts, isSame);
+}
+
+/// @param see  what to see in the figures
+Section sectionOf(const Experiment& experiment, const Effort& effort, const std::string& see)
 {
   effort.reached(1.0); // an interrupted experiment lacks rows
   Section section;
@@ -93,6 +105,12 @@ Section sectionOf(const Experiment& experiment, const Effort& effort)
   for (const fem::Figure& figure : experiment.figures)
   {
     addFigure(section, figure);
+  }
+  const bool together = haveSameLegend(section.charts);
+  for (Chart& chart : section.charts)
+  {
+    chart.group = together ? see : "";
+    chart.caption += together ? "" : " " + see;
   }
   return section;
 }
@@ -170,7 +188,9 @@ double firstToDepart(const Experiment& experiment, const std::string& tool, cons
 Section curvature(const Effort& effort)
 {
   const Experiment found = fem::curvature(resolutionOf(effort), effort.stop);
-  Section section = sectionOf(found, effort);
+  Section section = sectionOf(found, effort,
+    "How far the force on a ball departs from that on the block: where a curve leaves the dashed "
+    "lines a hand notices. The two supports lie further apart than the three radii.");
   const double most = largest(columnOf(found, "sphere_block_N"));
   const auto claim = [&](const char* of, const char* tool, double limit)
   {
@@ -197,7 +217,9 @@ Section curvature(const Effort& effort)
 Section inclination(const Effort& effort)
 {
   const Experiment found = fem::inclination();
-  Section section = sectionOf(found, effort);
+  Section section = sectionOf(found, effort,
+    "A tool may tilt until its curve crosses the dashed line; the cone's does so at half the "
+    "sphere's angle.");
   const auto tilts = columnOf(found, "tilt_deg");
   const auto change = columnOf(found, "cone_force_change_percent");
   section.claims = { { .of = "Eq. (7)",
@@ -215,7 +237,9 @@ Section inclination(const Effort& effort)
 
 Section profiles(const Effort& effort)
 {
-  Section section = sectionOf(fem::profiles(resolutionOf(effort), effort.stop), effort);
+  Section section = sectionOf(fem::profiles(resolutionOf(effort), effort.stop), effort,
+    "The paper's curve leaves the surface of the finite elements at once and ends at R_d; the "
+    "fitted one lies on it.");
   section.claims = { { .of = "Fig. 7",
     .paper = "other surface profiles for 50 kPa than for 1.5 MPa",
     .here = "one profile for both",
@@ -228,7 +252,8 @@ Section profiles(const Effort& effort)
 Section extents(const Effort& effort)
 {
   const Experiment found = fem::extents(resolutionOf(effort), effort.stop);
-  Section section = sectionOf(found, effort);
+  Section section = sectionOf(found, effort,
+    "The points of both moduli are the same. A line serves shallow presses, a parabola all.");
   const auto soft = columnOf(found, "sphere_50kPa_mm");
   const auto stiff = columnOf(found, "sphere_1500kPa_mm");
   double apart = 0.0;
@@ -238,7 +263,8 @@ Section extents(const Effort& effort)
   }
   section.claims = { { .of = "Fig. 8",
                        .paper = "R_d depends on Young's modulus",
-                       .here = "50 kPa and 1.5 MPa differ by " + shown(apart) + " mm at most",
+                       .here = "50 kPa and 1.5 MPa differ by " +
+                         std::string(apart < 1e-6 ? "less than 1e-6" : shown(apart)) + " mm",
                        .verdict = "differs, as Fig. 7" },
     { .of = "Fig. 8(b)",
       .paper = "the cone deforms a smaller region than the sphere",
@@ -251,7 +277,8 @@ Section extents(const Effort& effort)
 Section forces(const Effort& effort)
 {
   const Experiment found = fem::forces(resolutionOf(effort), effort.stop);
-  Section section = sectionOf(found, effort);
+  Section section = sectionOf(
+    found, effort, "The material of the elements decides on which side of the law they lie.");
   const auto depths = columnOf(found, "depth_mm");
   const auto at = [&](const std::string& name, double depth)
   {

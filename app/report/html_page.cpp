@@ -27,7 +27,7 @@ a { color: #00548a; }
 nav li { margin: .15rem 0; }
 figure { margin: 1.5rem 0; break-inside: avoid; }
 .charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1rem; }
-.charts > div { max-width: 34rem; }
+.charts > div { max-width: 27rem; }
 .charts.alone > div { max-width: 44rem; }
 .charts svg { width: 100%; height: auto; }
 .wide svg { max-width: 100%; height: auto; }

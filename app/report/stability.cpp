@@ -48,9 +48,11 @@ Section stability(const Effort& effort)
   drawStabilityMap(map, cases);
   Section section;
   std::istringstream summary(stabilitySummary(cases));
+  std::string& words = section.text.emplace_back();
   for (std::string line; std::getline(summary, line);)
   {
-    section.text.push_back(std::move(line));
+    const bool named = line.starts_with("  "); // an exception, on a line of its own
+    words.append(words.empty() ? "" : " ").append(line, named ? 2 : 0).append(named ? ";" : "");
   }
   section.text.emplace_back(
     "Hand, device, coupling and tissue are simulated in closed loop (palp stability). Unstable: "

@@ -168,8 +168,8 @@ void addTrial(Section& section, const BlockPress& press,
     line.emplace_back(rms); // no number where there is no reference
     if (!times.empty())
     {
-      section.tables[1].rows.push_back({ trial.method, line[1], regime.name, spreadOf(times).median,
-        toMillimetres(off.largest), rms });
+      section.tables[1].rows.push_back({ trial.method, press.name + "; " + trial.setting,
+        regime.name, spreadOf(times).median, toMillimetres(off.largest), rms });
       all.insert(all.end(), times.begin(), times.end());
     }
   }
@@ -228,7 +228,8 @@ void addCharts(Section& section, const BlockPress& press)
       .left = "RMS error of the surface [mm]",
       .logBottom = true,
       .logLeft = true,
-      .group = press.name + ": error of the surface against the time of one picture." };
+      .group = "RMS error of the surface against the time of one picture, " + press.name +
+        ". Lower and further left is better." };
     for (const Mark& mark : kMarks)
     {
       chart.curves.push_back({ .label = mark.method,
@@ -240,6 +241,13 @@ void addCharts(Section& section, const BlockPress& press)
         .style = mark.point,
         .color = mark.color });
     }
+    chart.curves.push_back({ .label = "Pareto front",
+      .table = "surface_pareto_front",
+      .x = "time_us",
+      .y = "error_rms_mm",
+      .where = { { "front", press.name }, { "regime", regime.name } },
+      .style = Curve::Style::Dashed,
+      .color = 0 });
     section.charts.push_back(std::move(chart));
   }
   for (const double depth : profileDepths(press))
@@ -336,6 +344,14 @@ Section surfaceAgainstTime(const Effort& effort)
     measurePress(section, press, effort, begin, share);
     begin += share;
   }
+  Table front{ .name = "surface_pareto_front",
+    .caption = "The Pareto fronts: no other surface is both faster and more accurate.",
+    .columns = { "front", "method", "setting", "regime", "time_us", "error_rms_mm" } };
+  for (const BlockPress& press : wanted)
+  {
+    addParetoFront(front, press.name, section.tables[1], "error_rms_mm", press.name, "");
+  }
+  section.tables.insert(section.tables.begin() + 1, std::move(front));
   return section;
 }
 

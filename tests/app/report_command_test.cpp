@@ -205,6 +205,7 @@ TEST_F(QuickReport, HasEveryMethodInEveryRegimeWithFiniteFigures)
   for (std::size_t i = 0; i < surface.rows.size(); ++i)
   {
     methods.insert(surface.at(i, "method"));
+    EXPECT_TRUE(surface.at(i, "setting").starts_with("sphere R10 H50; "));
     EXPECT_GT(surface.number(i, "time_us"), 0.0);
     EXPECT_LE(surface.number(i, "error_rms_mm"), surface.number(i, "error_max_mm"));
     EXPECT_LT(surface.number(i, "error_max_mm"), 10.0);
@@ -413,6 +414,7 @@ TEST_F(QuickReport, PageIsCompleteAndHoldsItself)
   EXPECT_GE(count("<figure"), kParts.size() - 3); // the errors have several, the claims have none
   EXPECT_EQ(count("<figure"), count("<figcaption"));
   EXPECT_EQ(page.find("nan"), std::string::npos);
+  EXPECT_EQ(page.find("<div class=\"legend\"></div>"), std::string::npos); // a figure of nothing
 }
 
 TEST_F(QuickReport, JsonHoldsTheNumbersOfTheCsv)
