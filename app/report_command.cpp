@@ -39,9 +39,9 @@ constexpr std::array kParts{
   Part{ "inclination", "Eq. (7): the inclined tool", inclination },
   Part{ "profiles", "Fig. 7: surface profiles", profiles },
   Part{ "extents", "Fig. 8: the radius of the deformed region", extents },
-  Part{ "forces", "Figs. 15 and 16: forces against finite elements", forces },
   Part{ "dynamics", "Fig. 12: finite elements and springs stepped in time", dynamics },
   Part{ "scaling", "Table 1, Figs. 13 and 14: scaling with the number of vertices", scaling },
+  Part{ "forces", "Figs. 15 and 16: forces against finite elements", forces },
   Part{ "stability", "Stability of the closed loop", stability },
   Part{ "servo", "Punctuality of the servo thread", servo },
 };

@@ -164,8 +164,12 @@ Section dynamics(const Effort& effort)
       timeOurs(times, kOurs, 40, path, effort), timeOurs(times, kOursFine, 100, path, effort) } };
   effort.reached(0.1);
   Section section;
-  for (const auto& [baseline, paper] : { std::pair{ fem::Baseline::MassSpring, kSprings },
-         std::pair{ fem::Baseline::Corotational, kTets } })
+  section.claims.push_back({ .of = "Fig. 12(a)",
+    .paper = "analytical: 0.154 ms a step, within 0.25 ms",
+    .here = shown(summary.rows.front()[4]) + " ms",
+    .verdict = "agrees: fits into 1 kHz, on another machine" });
+  for (const auto& [baseline, paper] : { std::pair{ fem::Baseline::Corotational, kTets },
+         std::pair{ fem::Baseline::MassSpring, kSprings } })
   {
     summary.rows.push_back(timeStepper(times, baseline, path, runs, effort));
     section.claims.push_back({ .of = paper.figure,
@@ -175,7 +179,7 @@ Section dynamics(const Effort& effort)
         " times the analytical step",
       .verdict = "the order agrees: no 1 kHz loop holds it; the figure follows the body, the "
                  "iterations and the machine, of which the paper names the surface only" });
-    effort.reached(baseline == fem::Baseline::MassSpring ? 0.4 : 1.0);
+    effort.reached(baseline == fem::Baseline::Corotational ? 0.7 : 1.0);
   }
   const fem::TetMesh body = baselineBody(kHeight);
   const fem::StepSettings settings;
@@ -193,6 +197,13 @@ Section dynamics(const Effort& effort)
       " ms. One core. The analytical step is contact, force, dent and normals of the same surface.",
     "For comparison: the paper's framework takes about 1.5 ms for springs on the surface alone and "
     "21 to 42 ms for a volume of finite elements at 25 iterations on a machine like this." };
+  const double inverted = std::get<double>(summary.rows.back().back());
+  if (inverted > 0.0)
+  {
+    section.text.push_back("The springs fold under the tool: " + shown(inverted) +
+      " tetrahedra are inside out at the end, which springs do not resist, and the force falls "
+      "while the tool rests.");
+  }
   section.charts = { chartOf(
                        "fig12_times", "time of a step", "time of a step [ms]", "time_ms", true),
     chartOf("fig12_forces", "force", "force [N]", "force_N", false) };

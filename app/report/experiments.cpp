@@ -200,9 +200,10 @@ Section curvature(const Effort& effort)
       .paper = std::string(tool) + ": no curved body departs by 7 % before " + millimetres(limit),
       .here = "the first departs at " + millimetres(half) + " (lower half held), " +
         millimetres(cap) + " (glued cap)",
-      .verdict = std::string(std::min(half, cap) >= limit ? "agrees" : "differs") +
-        ": how the body is held matters more than its curvature, and the paper does not say how "
-        "it was" };
+      .verdict = std::min(half, cap) >= limit
+        ? "agrees"
+        : "differs: how the body is held matters more than its curvature, and the paper does not "
+          "say how it was" };
   };
   section.claims = { { .of = "Fig. 3",
                        .paper = "the block answers a sphere with at most 5.66 N",

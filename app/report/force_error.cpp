@@ -4,6 +4,8 @@
 #include "app/report/parts.h"
 
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace palp::report
 {
@@ -167,6 +169,35 @@ void addCharts(Section& section, const BlockPress& press)
   }
 }
 
+// what a reader asks first: which of the laws lie on the fronts
+std::string finding(const Table& front)
+{
+  std::set<std::string> places; // press and regime
+  std::map<std::string, std::array<std::set<std::string>, 2>> laws;
+  for (const auto& row : front.rows)
+  {
+    const auto& setting = std::get<std::string>(row[front.indexOf("setting")]);
+    const std::string place = setting.substr(0, setting.find(';')) + ", " +
+      std::get<std::string>(row[front.indexOf("regime")]);
+    const bool withTable = row[front.indexOf("front")] == Cell("all methods");
+    places.insert(place);
+    laws[std::get<std::string>(row[front.indexOf("method")])][withTable ? 0 : 1].insert(place);
+  }
+  const auto all = std::to_string(places.size());
+  std::string text = "Of " + all + " fronts (presses times regimes)";
+  const char* separator = " ";
+  for (const char* law : { "paper law", "exact half-space", "corrected law", "table" })
+  {
+    text.append(separator).append("the ").append(law).append(" is on ");
+    text.append(std::to_string(laws[law][0].size()));
+    text.append(law == std::string("table")
+        ? ""
+        : ", or " + std::to_string(laws[law][1].size()) + " without the table");
+    separator = "; ";
+  }
+  return text + ". The table is our own calibration of this very press and knows no other.";
+}
+
 constexpr double kTrials = kEnergies.size() * kResolutions.size() + 3; // of a press
 
 void tryAll(
@@ -237,6 +268,7 @@ Section forceAgainstTime(const Effort& effort)
     addParetoFront(front, "all methods", tables.errors, "error_rms_pct", setting, "");
     addParetoFront(front, "no table", tables.errors, "error_rms_pct", setting, "table");
   }
+  section.text.insert(section.text.begin(), finding(front));
   section.tables = { std::move(tables.summary), std::move(front), std::move(tables.errors),
     std::move(tables.spread) };
   for (const BlockPress& press : wanted)

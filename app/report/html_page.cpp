@@ -26,9 +26,8 @@ p { max-width: 48rem; }
 a { color: #00548a; }
 nav li { margin: .15rem 0; }
 figure { margin: 1.5rem 0; break-inside: avoid; }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1rem; }
-.charts > div { max-width: 27rem; }
-.charts.alone > div { max-width: 44rem; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 27rem)); gap: 1rem; }
+.charts.alone { grid-template-columns: minmax(20rem, 44rem); }
 .charts svg { width: 100%; height: auto; }
 .wide svg { max-width: 100%; height: auto; }
 svg text { font-family: "DejaVu Sans", Helvetica, Arial, sans-serif; }
@@ -151,12 +150,15 @@ void writeFigure(std::ostream& out, const std::filesystem::path& folder, const S
   out << "</div>\n<figcaption>" << escape(alone ? group.front().caption : group.front().group)
       << " Data: ";
   std::vector<std::string> named;
-  for (const Curve& curve : group.front().curves)
+  for (const Chart& chart : group)
   {
-    if (std::ranges::find(named, curve.table) == named.end())
+    for (const Curve& curve : chart.curves)
     {
-      out << (named.empty() ? "" : ", ") << fileLink(curve.table + ".csv");
-      named.push_back(curve.table);
+      if (std::ranges::find(named, curve.table) == named.end())
+      {
+        out << (named.empty() ? "" : ", ") << fileLink(curve.table + ".csv");
+        named.push_back(curve.table);
+      }
     }
   }
   out << ".</figcaption>\n</figure>\n";

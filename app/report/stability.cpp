@@ -38,6 +38,22 @@ Table outcomes(const std::vector<JudgedCase>& cases)
   return table;
 }
 
+// the exceptions, which begin with two blanks on lines of their own, as a list in brackets
+std::string inOneParagraph(const std::string& summary)
+{
+  std::istringstream lines(summary);
+  std::string words;
+  bool listing = false;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const bool named = line.starts_with("  ");
+    const char* joint = named ? (listing ? "; " : " (") : (listing ? ") " : " ");
+    words.append(words.empty() ? "" : joint).append(line, named ? 2 : 0);
+    listing = named;
+  }
+  return words;
+}
+
 } // namespace
 
 Section stability(const Effort& effort)
@@ -47,13 +63,7 @@ Section stability(const Effort& effort)
   std::ostringstream map;
   drawStabilityMap(map, cases);
   Section section;
-  std::istringstream summary(stabilitySummary(cases));
-  std::string& words = section.text.emplace_back();
-  for (std::string line; std::getline(summary, line);)
-  {
-    const bool named = line.starts_with("  "); // an exception, on a line of its own
-    words.append(words.empty() ? "" : " ").append(line, named ? 2 : 0).append(named ? ";" : "");
-  }
+  section.text = { inOneParagraph(stabilitySummary(cases)) };
   section.text.emplace_back(
     "Hand, device, coupling and tissue are simulated in closed loop (palp stability). Unstable: "
     "the loop gave energy to the hand, or the hand did not come to rest, or it hummed at an "
