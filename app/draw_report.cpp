@@ -15,13 +15,10 @@ namespace palp
 namespace
 {
 
-using report::Chart;
-using report::Curve;
-
 constexpr ImageSize kAlone{ .width = 720, .height = 430 };
 constexpr ImageSize kOfGroup{ .width = 420, .height = 340 };
 
-appearance::Color colorOf(const Curve& curve)
+appearance::Color colorOf(const report::Curve& curve)
 {
   const auto digits = std::stoul(report::paletteColor(curve.color) + 1, nullptr, 16);
   const auto part = [&](unsigned shift)
@@ -29,27 +26,27 @@ appearance::Color colorOf(const Curve& curve)
   return { part(16), part(8), part(0) };
 }
 
-void addCurve(Plot& plot, const report::Section& section, const Curve& curve)
+void addCurve(Plot& plot, const report::Section& section, const report::Curve& curve)
 {
   const report::Points points = report::pointsOf(section, curve);
   const appearance::Color color = colorOf(curve);
   switch (curve.style)
   {
-    case Curve::Style::Line:
-    case Curve::Style::Dashed:
+    case report::Curve::Style::Line:
+    case report::Curve::Style::Dashed:
       if (points.x.size() > 1)
       {
-        plot.addLine(
-          curve.label, points.x, points.y, color, 2.0F, curve.style == Curve::Style::Dashed);
+        plot.addLine(curve.label, points.x, points.y, color, 2.0F,
+          curve.style == report::Curve::Style::Dashed);
       }
       break;
-    case Curve::Style::Circles:
+    case report::Curve::Style::Circles:
       plot.addPoints(curve.label, points.x, points.y, color, Plot::Mark::Circle, 8.0F);
       break;
-    case Curve::Style::Squares:
+    case report::Curve::Style::Squares:
       plot.addPoints(curve.label, points.x, points.y, color, Plot::Mark::Square, 7.0F);
       break;
-    case Curve::Style::Diamonds:
+    case report::Curve::Style::Diamonds:
       plot.addPoints(curve.label, points.x, points.y, color, Plot::Mark::Diamond, 10.0F);
       break;
   }
@@ -61,10 +58,10 @@ void DrawPictures::drawReport(
   const report::Section& section, const std::filesystem::path& directory) const
 {
   const OffscreenContext context;
-  for (const Chart& chart : section.charts)
+  for (const report::Chart& chart : section.charts)
   {
     Plot plot("", chart.bottom, chart.left);
-    for (const Curve& curve : chart.curves)
+    for (const report::Curve& curve : chart.curves)
     {
       addCurve(plot, section, curve);
     }

@@ -1,7 +1,6 @@
 #include "app/bench.h"
-#include "app/data_files.h"
+#include "app/bench_work.h"
 #include "app/report/force_methods.h"
-#include "app/report/our_step.h"
 #include "app/report/parts.h"
 #include "haptics/units.h"
 
@@ -80,15 +79,14 @@ double folded(const fem::Stepper& stepper)
 std::vector<Cell> timeOurs(Table& table, const char* method, int side,
   const std::vector<Eigen::Vector3d>& path, const Effort& effort)
 {
-  OurStep step(
-    side, SphereTip{ 10.0_mm }, ExtentTable::read(dataFile("tables/sphere_r10_h50.csv")));
+  VisualUpdate step(side); // of such a sphere
   const ForceLaw law(SphereTip{ 10.0_mm }, kTissue);
   std::vector<double> all;
   for (int run = 0; run <= effort.repeats(); ++run)
   {
     const auto times = timed(
       static_cast<int>(path.size()), [](int) {},
-      [&](int i) { step(path[static_cast<std::size_t>(i)]); });
+      [&](int i) { step(straightDown(path[static_cast<std::size_t>(i)])); });
     for (std::size_t i = 0; i < times.size() && run > 0; ++i) // the first run warms up
     {
       all.push_back(times[i] / 1e3);

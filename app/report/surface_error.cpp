@@ -1,7 +1,6 @@
 #include "app/bench.h"
-#include "app/data_files.h"
+#include "app/bench_work.h"
 #include "app/report/force_methods.h"
-#include "app/report/our_step.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
 #include "haptics/units.h"
@@ -67,9 +66,7 @@ SurfaceTrial tryDent(const BlockPress& press, std::span<const ReferenceSurface> 
                         : "the surface beyond R_d, where it is still 0.5 mm deep; volume",
     .surfaces = {},
     .times = {} };
-  const std::string table = "tables/" + press.table;
-  OurStep step(kPoints, press.tip, ExtentTable::read(dataFile(table + ".csv")),
-    fitted ? std::optional(FittedSurfaces::read(dataFile(table + "_surface.csv"))) : std::nullopt);
+  VisualUpdate step(kPoints, press.tip, press.table, fitted);
   for (const ReferenceSurface& reference : references)
   {
     effort.check();
@@ -79,11 +76,11 @@ SurfaceTrial tryDent(const BlockPress& press, std::span<const ReferenceSurface> 
       const auto measured = timed(
         41, [](int) {},
         [&](int k) {
-          step({ 2.0_mm * (k % 20 - 10), 0.0, -reference.depth });
+          step(straightDown({ 2.0_mm * (k % 20 - 10), 0.0, -reference.depth }));
         });
       times.push_back(spreadOf(measured).median);
     }
-    step({ 0.0, 0.0, -reference.depth });
+    step(straightDown({ 0.0, 0.0, -reference.depth }));
     Drawn drawn;
     for (std::size_t i = 0; i < step.vertices(); ++i)
     {
