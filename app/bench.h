@@ -1,7 +1,10 @@
 #pragma once
 
+#include "haptics/servo/timing.h"
+
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -52,8 +55,9 @@ template <typename Before, typename Work>
 
 /// Contact, law and safety chain on the paper's surfaces and on larger ones, and what they are
 /// made of.
-/// @param most  vertices of the largest surface
-[[nodiscard]] std::vector<BenchRow> benchServo(std::size_t most);
+/// @param most   vertices of the largest surface
+/// @param ticks  of each measurement; a quarter of them at the pace of 1 kHz, a fortieth cold
+[[nodiscard]] std::vector<BenchRow> benchServo(std::size_t most, int ticks = 4000);
 
 /// Contact, law, deformed points and their normals: what one picture costs the processor.
 /// @param most  vertices of the largest surface
@@ -67,6 +71,12 @@ template <typename Before, typename Work>
 /// Writes how far the force on coarse meshes is from that on a fine one, for each rule of contact,
 /// and how smooth it is on a slide over facets.
 void reportAccuracy(std::ostream& out);
+
+/// Lets a servo thread touch a surface of 10,000 points with a tool that circles in it.
+/// @param watch     asked ten times a second, with the seconds so far; false ends the run
+/// @param finished  gets what the thread counted, its schedule in words, and the seconds it ran
+void runServo(const std::function<bool(double)>& watch,
+  const std::function<void(const Timing&, const std::string&, double)>& finished);
 
 /// Writes how well a servo thread keeps 1 kHz.
 void reportServo(std::ostream& out, std::chrono::duration<double> duration);

@@ -1,6 +1,7 @@
 #include "app/bench.h"
 #include "app/commands.h"
 #include "app/quantity.h"
+#include "app/report/machine.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
@@ -34,19 +35,6 @@ struct Bench
   std::vector<BenchRow> rows;
 };
 
-std::string machine()
-{
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);)
-  {
-    if (line.starts_with("model name"))
-    {
-      return line.substr(line.find(':') + 2);
-    }
-  }
-  return "unknown";
-}
-
 // S before, between and after, for other work on the machine comes and goes
 Bench measure(const BenchOptions& options)
 {
@@ -79,13 +67,13 @@ nlohmann::ordered_json toJson(const Bench& bench)
     }
     rows.push_back(entry);
   }
-  return { { "machine", machine() }, { "S_us", bench.sweep }, { "rows", rows } };
+  return { { "machine", processorName() }, { "S_us", bench.sweep }, { "rows", rows } };
 }
 
 void printTable(const Bench& bench)
 {
   std::cout
-    << machine() << ", S = " << std::fixed << std::setprecision(2) << bench.sweep << " us\n\n"
+    << processorName() << ", S = " << std::fixed << std::setprecision(2) << bench.sweep << " us\n\n"
     << "work         vertices  case     median us    mean us      sd us     p99 us       x S\n";
   for (const BenchRow& row : bench.rows)
   {

@@ -5,6 +5,7 @@
 #include "haptics/servo/servo.h"
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <ostream>
 #include <random>
 #include <thread>
@@ -16,7 +17,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kTicks = 4000;
+constexpr int kSoftStart = 4000; // ticks
 
 ToolPose poseAtTick(int tick)
 {
@@ -39,7 +40,7 @@ private:
   std::vector<char> bytes_ = std::vector<char>(64UL << 20U);
 };
 
-void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
+void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& rows)
 {
   const Mesh mesh = makeGrid(n, kBenchSide);
   const std::size_t vertices = mesh.points.size();
@@ -51,24 +52,24 @@ void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
   ServoTick tick(surface);
   const auto nothing = [](int) {};
   const auto move = [&](int i) { (void)tick(poseAtTick(i)); };
-  for (int i = 0; i < kTicks; ++i)
+  for (int i = 0; i < kSoftStart; ++i)
   {
-    move(i); // soft start
+    move(i);
   }
-  rows.push_back(benchRow("servo_step", vertices, "moving", timed(kTicks, nothing, move)));
+  rows.push_back(benchRow("servo_step", vertices, "moving", timed(ticks, nothing, move)));
 
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-35.0_mm, 35.0_mm);
   ToolPose pose = poseAtTick(0);
   const auto jump = [&](int) { pose.apex = { place(random), place(random), -kBenchDepth }; };
   rows.push_back(
-    benchRow("servo_step", vertices, "jump", timed(kTicks, jump, [&](int) { (void)tick(pose); })));
-  rows.push_back(benchRow("servo_step", vertices, "cold", timed(100, flush, move)));
+    benchRow("servo_step", vertices, "jump", timed(ticks, jump, [&](int) { (void)tick(pose); })));
+  rows.push_back(benchRow("servo_step", vertices, "cold", timed(ticks / 40, flush, move)));
 
   auto due = std::chrono::steady_clock::now();
   const auto wait = [&](int)
   { std::this_thread::sleep_until(due += std::chrono::milliseconds(1)); };
-  rows.push_back(benchRow("servo_step", vertices, "paced", timed(1000, wait, move)));
+  rows.push_back(benchRow("servo_step", vertices, "paced", timed(ticks / 4, wait, move)));
 
   // the same integrals over all triangles
   double area = 0.0;
@@ -80,7 +81,7 @@ void benchSurface(int n, CacheFlush& flush, std::vector<BenchRow>& rows)
       area += integrate(facet, center, 1e-4).area;
     }
   };
-  const int repetitions = vertices > 20'000 ? 20 : 200;
+  const int repetitions = std::min(vertices > 20'000 ? 20 : 200, ticks / 20);
   rows.push_back(benchRow("query_brute", vertices, "moving", timed(repetitions, nothing, all)));
 }
 
@@ -103,7 +104,7 @@ private:
 
 } // namespace
 
-std::vector<BenchRow> benchServo(std::size_t most)
+std::vector<BenchRow> benchServo(std::size_t most, int ticks)
 {
   std::vector<BenchRow> rows = benchLaw();
   CacheFlush flush;
@@ -111,13 +112,14 @@ std::vector<BenchRow> benchServo(std::size_t most)
   {
     if (static_cast<std::size_t>(n) * static_cast<std::size_t>(n) <= most)
     {
-      benchSurface(n, flush, rows);
+      benchSurface(n, ticks, flush, rows);
     }
   }
   return rows;
 }
 
-void reportServo(std::ostream& out, std::chrono::duration<double> duration)
+void runServo(const std::function<bool(double)>& watch,
+  const std::function<void(const Timing&, const std::string&, double)>& finished)
 {
   const Mesh mesh = makeGrid(100, kBenchSide);
   Scene scene;
@@ -125,11 +127,15 @@ void reportServo(std::ostream& out, std::chrono::duration<double> duration)
   scene.armed = true;
   CircleDevice device;
   Servo servo(device, scene);
-  out << "servo thread: " << servo.schedule() << std::endl;
-  std::this_thread::sleep_for(duration);
-  const double elapsed = servo.newest().time;
+  while (watch(servo.newest().time))
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  finished(servo.timing(), servo.schedule(), servo.newest().time);
+}
 
-  const Timing& timing = servo.timing();
+void reportServo(std::ostream& out, std::chrono::duration<double> duration)
+{
   const auto line = [&](const char* name, const Histogram& histogram)
   {
     const auto us = [](Histogram::Duration time)
@@ -138,11 +144,16 @@ void reportServo(std::ostream& out, std::chrono::duration<double> duration)
         << us(histogram.quantile(0.99)) << ", p99.9 " << us(histogram.quantile(0.999)) << ", max "
         << us(histogram.longest()) << '\n';
   };
-  line("lateness", timing.lateness);
-  line("step", timing.step);
-  const std::uint64_t ticks = timing.ticks;
-  const std::uint64_t skipped = timing.skipped;
-  out << "ticks " << ticks << " + skipped " << skipped << " in " << elapsed << " s\n";
+  runServo([&](double elapsed) { return elapsed < duration.count(); },
+    [&](const Timing& timing, const std::string& schedule, double elapsed)
+    {
+      out << "servo thread: " << schedule << '\n';
+      line("lateness", timing.lateness);
+      line("step", timing.step);
+      const std::uint64_t ticks = timing.ticks;
+      const std::uint64_t skipped = timing.skipped;
+      out << "ticks " << ticks << " + skipped " << skipped << " in " << elapsed << " s\n";
+    });
 }
 
 } // namespace palp

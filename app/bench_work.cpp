@@ -62,17 +62,22 @@ Sample ServoTick::operator()(const ToolPose& pose)
   return sample;
 }
 
-VisualUpdate::VisualUpdate(int n)
+VisualUpdate::VisualUpdate(int n, const Tip& tip, const std::string& table, bool fitted)
   : mesh_(makeGrid(n, kBenchSide))
   , rest_(inFloats(mesh_.points))
   , dent_(rest_, mesh_.triangles)
-  , extents_(ExtentTable::read(dataFile("tables/sphere_r10_h50.csv")))
+  , extents_(ExtentTable::read(dataFile("tables/" + table + ".csv")))
   , points_(rest_.size())
   , normals_(rest_.size())
   , displacement_(rest_.size())
   , zone_(mesh_.points.size())
 {
   scene_.surface = std::make_shared<const Surface>(mesh_.points, mesh_.triangles);
+  scene_.law = ForceLaw(tip, scene_.law.material());
+  if (fitted)
+  {
+    fitted_ = FittedSurfaces::read(dataFile("tables/" + table + "_surface.csv"));
+  }
   dent_.reset(arrays());
 }
 
@@ -84,11 +89,13 @@ DentArrays VisualUpdate::arrays()
 void VisualUpdate::operator()(const ToolPose& pose)
 {
   const Sample sample = step(scene_, pose);
+  const double depth = sample.contact.depth;
   dent_.update({ .contact = sample.contact,
                  .pose = pose,
                  .tip = scene_.law.tip(),
                  .contactRadius = sample.response.contactRadius,
-                 .extentRadius = extents_.extentRadius(sample.contact.depth) },
+                 .extentRadius = extents_.extentRadius(depth),
+                 .fitted = fitted_ ? fitted_->at(depth) : std::nullopt },
     arrays());
 }
 

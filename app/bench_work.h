@@ -6,8 +6,11 @@
 #include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
 #include "pipeline/dent.h"
+#include "pipeline/fitted_surfaces.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 // what the benchmarks repeat: one tool path, one servo step, one visual update
@@ -20,6 +23,13 @@ constexpr double kBenchDepth = units::fromMillimetres(5.0);
 
 /// A tool that goes round and round at constant depth, 0.1 m/s.
 [[nodiscard]] ToolPose benchPose(double time);
+
+/// A tool at rest whose axis points down.
+/// @param apex  [m]
+[[nodiscard]] inline ToolPose straightDown(const Eigen::Vector3d& apex)
+{
+  return { .apex = apex, .axis = -Eigen::Vector3d::UnitZ(), .velocity = Eigen::Vector3d::Zero() };
+}
 
 [[nodiscard]] DeviceLimits benchDevice();
 
@@ -39,8 +49,22 @@ private:
 class VisualUpdate
 {
 public:
-  explicit VisualUpdate(int n);
+  /// @param table   of data/tables, that of the tip
+  /// @param fitted  its fitted surface in place of the paper's ring
+  explicit VisualUpdate(int n, const Tip& tip = Scene{}.law.tip(),
+    const std::string& table = "sphere_r10_h50", bool fitted = false);
   void operator()(const ToolPose& pose);
+
+  [[nodiscard]] std::size_t vertices() const noexcept
+  {
+    return zone_.size();
+  }
+
+  /// Where a vertex is after the last update [m].
+  [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const noexcept
+  {
+    return Eigen::Map<const Eigen::Vector3f>(points_.data() + 3 * i).cast<double>();
+  }
 
 private:
   [[nodiscard]] DentArrays arrays();
@@ -50,6 +74,7 @@ private:
   Dent dent_;
   Scene scene_;
   ExtentTable extents_;
+  std::optional<FittedSurfaces> fitted_;
   std::vector<float> points_;
   std::vector<float> normals_;
   std::vector<float> displacement_;

@@ -21,6 +21,7 @@ void addSceneCommand(CLI::App& app, const Pictures* pictures, int (*view)(const 
 void addForceCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app, const Pictures* pictures);
 void addExperimentCommand(CLI::App& app, const Pictures* pictures);
+void addReportCommand(CLI::App& app, const Pictures* pictures);
 void addStabilityCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));

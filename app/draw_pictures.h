@@ -15,6 +15,8 @@ public:
     const std::filesystem::path& directory) const override;
   void drawExperiment(
     const fem::Experiment& experiment, const std::filesystem::path& directory) const override;
+  void drawReport(
+    const report::Section& section, const std::filesystem::path& directory) const override;
 };
 
 } // namespace palp

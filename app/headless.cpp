@@ -16,7 +16,7 @@ namespace palp
 namespace
 {
 
-void report(const Recording& recording, const Calibration* calibration)
+void tell(const Recording& recording, const Calibration* calibration)
 {
   using units::toMillimetres;
   const Sample* deepest = recording.deepest();
@@ -100,7 +100,7 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   recording.samples = ledger.build(
     "press", "force at every millisecond", [&] { return play(path, recording.scene, chained); });
   const Calibration* known = calibration ? &*calibration : nullptr;
-  report(recording, known);
+  tell(recording, known);
   makeDirectory(out);
   if (plan.samples)
   {

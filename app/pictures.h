@@ -2,6 +2,7 @@
 
 #include "app/body.h"
 #include "app/recording.h"
+#include "app/report/document.h"
 #include "calibration/experiments.h"
 #include "calibration/study.h"
 
@@ -37,6 +38,12 @@ struct Pictures
   /// @throws Error  as drawPress
   virtual void drawExperiment(
     const fem::Experiment& experiment, const std::filesystem::path& directory) const = 0;
+
+  /// Draws NAME.svg of every chart of a part of the report.
+  ///
+  /// @throws Error  as drawPress
+  virtual void drawReport(
+    const report::Section& section, const std::filesystem::path& directory) const = 0;
 };
 
 } // namespace palp

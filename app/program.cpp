@@ -85,6 +85,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addForceCommand(app);
   addCalibrateCommand(app, parts.pictures);
   addExperimentCommand(app, parts.pictures);
+  addReportCommand(app, parts.pictures);
   addStabilityCommand(app);
   addBenchCommand(app);
   addDevicesCommand(app, parts.devices);

@@ -126,7 +126,8 @@ void drawStabilityMap(std::ostream& out, std::span<const JudgedCase> cases)
   const int panel = static_cast<int>(moduli.size()) * kCell;
   const int height = kHead + static_cast<int>(rows.size()) * kRow + kFoot;
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << kLabels + 2 * panel + 60
-      << "\" height=\"" << height << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+      << "\" height=\"" << height << "\" viewBox=\"0 0 " << kLabels + 2 * panel + 60 << ' '
+      << height << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   text(out, 12, 24, "Closed loop of hand, device and tissue: worst outcome of each cell",
     "font-size=\"15\"");

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <vtkAxis.h>
 #include <vtkBoundingBox.h>
 #include <vtkBrush.h>
@@ -19,6 +21,7 @@
 #include <vtkPlot.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderWindow.h>
+#include <vtkStringArray.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -56,6 +59,32 @@ bool uniform(vtkImageData& image)
   return true;
 }
 
+int styleOf(Plot::Mark mark)
+{
+  switch (mark)
+  {
+    case Plot::Mark::Square:
+      return vtkPlotPoints::SQUARE;
+    case Plot::Mark::Diamond:
+      return vtkPlotPoints::DIAMOND;
+    default:
+      return vtkPlotPoints::CIRCLE;
+  }
+}
+
+// 10 to an integer power, as people write it
+std::string powerOfTen(int exponent)
+{
+  static constexpr std::array kDigits{ "\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075",
+    "\u2076", "\u2077", "\u2078", "\u2079" };
+  std::string text = exponent < 0 ? "10\u207b" : "10";
+  for (const char digit : std::to_string(std::abs(exponent)))
+  {
+    text += kDigits[static_cast<std::size_t>(digit - '0')];
+  }
+  return text;
+}
+
 } // namespace
 
 Plot::Plot(const std::string& title, const std::string& bottom, const std::string& left)
@@ -63,6 +92,9 @@ Plot::Plot(const std::string& title, const std::string& bottom, const std::strin
   , left_(left)
 {
   appearance::setUpChart(*chart_, title, bottom, left);
+  vtkAxis* vertical = chart_->GetAxis(vtkAxis::LEFT);
+  vertical->SetLabelOffset(4.0F); // or the labels touch the title
+  vertical->SetTickLength(3.0F);
   chart_->SetShowLegend(true);
   appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
 }
@@ -103,14 +135,14 @@ void Plot::addLine(const std::string& name, std::span<const double> x, std::span
 }
 
 void Plot::addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
-  const appearance::Color& color)
+  const appearance::Color& color, Mark mark, float size)
 {
   auto* plot = vtkPlotPoints::SafeDownCast(chart_->AddPlot(vtkChart::POINTS));
   plot->SetInputData(addTable(name, x, y, {}), 0, 1);
   plot->SetLabel(name);
   plot->GetPen()->SetColorF(color[0], color[1], color[2]);
-  plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  plot->SetMarkerSize(6.0F);
+  plot->SetMarkerStyle(styleOf(mark));
+  plot->SetMarkerSize(size);
 }
 
 void Plot::addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
@@ -167,6 +199,60 @@ void Plot::placeLegend()
   chart_->GetLegend()->SetHorizontalAlignment(
     atLeft ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
   chart_->GetLegend()->SetVerticalAlignment(atTop ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
+}
+
+void Plot::setDecades(vtkAxis& axis, bool isBottom)
+{
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const auto& table : tables_)
+  {
+    for (vtkIdType column = isBottom ? 0 : 1; column < (isBottom ? 1 : table->GetNumberOfColumns());
+         ++column)
+    {
+      for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+      {
+        low = std::min(low, table->GetValue(row, column).ToDouble());
+        high = std::max(high, table->GetValue(row, column).ToDouble());
+      }
+    }
+  }
+  if (!(low > 0.0 && high < std::numeric_limits<double>::infinity()))
+  {
+    return; // nothing there, or nothing that has a logarithm
+  }
+  constexpr double kMargin = 0.05; // of a decade, so that no mark lies on the border
+  const auto first = static_cast<int>(std::floor(std::log10(low) - kMargin));
+  const auto last = static_cast<int>(std::ceil(std::log10(high) + kMargin));
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  const int step = last - first > 9 ? 2 : 1;
+  for (int exponent = first; exponent <= last; exponent += step)
+  {
+    positions->InsertNextValue(exponent);
+    labels->InsertNextValue(powerOfTen(exponent));
+  }
+  axis.SetLogScale(true);
+  axis.SetBehavior(vtkAxis::FIXED);
+  axis.SetUnscaledRange(std::pow(10.0, first), std::pow(10.0, last));
+  axis.SetCustomTickPositions(positions, labels);
+}
+
+void Plot::setLogarithmic(bool bottom, bool left)
+{
+  if (bottom)
+  {
+    setDecades(*chart_->GetAxis(vtkAxis::BOTTOM), true);
+  }
+  if (left)
+  {
+    setDecades(*chart_->GetAxis(vtkAxis::LEFT), false);
+  }
+}
+
+void Plot::hideLegend()
+{
+  chart_->SetShowLegend(false);
 }
 
 void Plot::addTo(vtkContextScene& scene)
@@ -228,6 +314,7 @@ void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
   exporter->SetFileFormatToSVG();
   exporter->CompressOff();
   exporter->SetSortToOff();
+  exporter->SilentOn(); // else it complains of the background, which it cannot embed
   exporter->SetTextAsPath(false);
   exporter->SetFilePrefix((file.parent_path() / file.stem()).c_str());
   exporter->Write();

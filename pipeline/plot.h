@@ -11,6 +11,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
+class vtkAxis;
 class vtkContextScene;
 class vtkRenderWindow;
 
@@ -28,16 +29,28 @@ public:
   Plot(const Plot&) = delete;
   Plot& operator=(const Plot&) = delete;
 
+  enum class Mark
+  {
+    Circle,
+    Square,
+    Diamond,
+  };
+
   /// A line through points, in the units of the axes.
   void addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
     const appearance::Color& color, float width = 2.0F, bool dashed = false);
 
   void addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
-    const appearance::Color& color);
+    const appearance::Color& color, Mark mark = Mark::Circle, float size = 6.0F);
 
   /// The area between two curves.
   void addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
     std::span<const double> high, const appearance::Color& color);
+
+  /// Logarithmic axes over whole decades, once all curves are in; all numbers positive there.
+  void setLogarithmic(bool bottom, bool left);
+
+  void hideLegend();
 
   /// Puts the chart into a scene, which then draws it, the legend in the emptiest corner.
   void addTo(vtkContextScene& scene);
@@ -55,6 +68,7 @@ public:
 private:
   vtkTable* addTable(const std::string& name, std::span<const double> x,
     std::span<const double> first, std::span<const double> second);
+  void setDecades(vtkAxis& axis, bool isBottom);
 
   void placeLegend();
 

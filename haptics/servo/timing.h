@@ -26,6 +26,19 @@ public:
   /// @return          0 when nothing was recorded; never beyond longest()
   [[nodiscard]] Duration quantile(double fraction) const noexcept;
 
+  /// Calls f(upper bound, count) for every bucket that holds something, shortest first.
+  template <typename Function>
+  void forEach(const Function& f) const
+  {
+    for (std::size_t i = 0; i < kBuckets; ++i)
+    {
+      if (const std::uint64_t here = counts_[i].load(std::memory_order_relaxed); here > 0)
+      {
+        f(Duration(upperBound(i)), here);
+      }
+    }
+  }
+
   [[nodiscard]] Duration longest() const noexcept;
   [[nodiscard]] std::uint64_t count() const noexcept;
 

@@ -1,0 +1,227 @@
+#include "app/report/force_methods.h"
+
+#include "app/bench.h"
+#include "app/data_files.h"
+#include "calibration/extent_table.h"
+#include "calibration/study.h"
+#include "haptics/error.h"
+#include "haptics/force/force_law.h"
+#include "haptics/force/monotone_cubic.h"
+#include "haptics/units.h"
+
+#include <cmath>
+#include <limits>
+
+namespace palp::report
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr int kCalls = 1000; // per measurement, for one is shorter than the clock's grain
+
+// times and values of a function of the depth that takes nanoseconds
+template <typename Force>
+void measure(Trial& trial, std::span<const double> depths, const Effort& effort, Force forceAt)
+{
+  for (const double depth : depths)
+  {
+    effort.check();
+    trial.forces.push_back(forceAt(depth));
+    auto& times = trial.times.emplace_back();
+    for (int i = 0; i < effort.repeats(); ++i)
+    {
+      double sum = 0.0;
+      const auto measured = timed(
+        21, [](int) {},
+        [&](int k)
+        {
+          for (int call = 0; call < kCalls; ++call)
+          {
+            sum += forceAt(depth + 1e-12 * (call + k));
+          }
+        });
+      times.push_back(sum > 0.0 ? spreadOf(measured).median / kCalls : 0.0);
+    }
+  }
+}
+
+// F(depth) through the rows of a calibration, smooth and monotone
+class ForceTable
+{
+public:
+  explicit ForceTable(const ExtentTable& table)
+    : depths_{ 0.0 }
+    , forces_{ 0.0 }
+  {
+    for (const ExtentTable::Row& row : table.rows())
+    {
+      depths_.push_back(row.depth);
+      forces_.push_back(row.force);
+    }
+    slopes_ = monotoneSlopes(depths_, forces_);
+  }
+
+  double operator()(double depth) const
+  {
+    const auto above = std::ranges::upper_bound(depths_, depth);
+    if (above == depths_.end())
+    {
+      return depth == depths_.back() ? forces_.back() : std::numeric_limits<double>::quiet_NaN();
+    }
+    const auto i = static_cast<std::size_t>(above - depths_.begin());
+    const double width = depths_[i] - depths_[i - 1];
+    return hermite((depth - depths_[i - 1]) / width, width, forces_[i - 1], forces_[i],
+      slopes_[i - 1], slopes_[i])
+      .value;
+  }
+
+private:
+  std::vector<double> depths_;
+  std::vector<double> forces_;
+  std::vector<double> slopes_;
+};
+
+Trial start(const char* method, const char* leavesOut, fem::Energy like)
+{
+  return { method, "", leavesOut, like, {}, {} };
+}
+
+const char* omissionsOf(fem::Energy energy)
+{
+  switch (energy)
+  {
+    case fem::Energy::Linear:
+      return "large strain, rotation, the sideways motion of what is touched; inertia, friction";
+    case fem::Energy::Corotated:
+      return "stiffening at large strain; inertia, friction";
+    default:
+      return "inertia, friction; the square block is a cylinder of equal area";
+  }
+}
+
+} // namespace
+
+std::vector<Trial> tryLaws(
+  const BlockPress& press, std::span<const double> depths, const Effort& effort)
+{
+  const LawSettings corrected{ .mode = LawMode::Corrected,
+    .largeStrain = readLargeStrain(
+      dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv")) };
+  const ForceLaw paper(press.sharp, kTissue);
+  const ForceLaw exact(press.tip, kTissue, { .mode = LawMode::Exact });
+  const ForceLaw full(press.tip, kTissue, corrected);
+  const ForceTable table(ExtentTable::read(dataFile("tables/" + press.table + ".csv")));
+
+  std::vector<Trial> trials;
+  const auto add = [&](const char* method, const char* leavesOut, fem::Energy like, auto forceAt)
+  { measure(trials.emplace_back(start(method, leavesOut, like)), depths, effort, forceAt); };
+  add("paper law", "thickness and width of the body, large strain; that r is not small",
+    fem::Energy::Linear, [&](double depth) { return paper({ .depth = depth }).force; });
+  add("exact half-space", "thickness and width of the body, large strain", fem::Energy::Linear,
+    [&](double depth) { return exact({ .depth = depth }).force; });
+  add("corrected law", "width of the body, friction, inertia", fem::Energy::NeoHookean,
+    [&](double depth) { return full({ .depth = depth, .thickness = press.height }).force; });
+  add("table", "every tool, body and nu but its own, tilt, curvature; friction, inertia",
+    fem::Energy::NeoHookean, [&](double depth) { return table(depth); });
+  return trials;
+}
+
+Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
+  std::span<const double> depths, int repeats, const Effort& effort,
+  std::vector<fem::Indented>* surfaces)
+{
+  Trial trial = start("", omissionsOf(energy), energy);
+  trial.method = "finite elements " + std::string(fem::name(energy));
+  trial.setting = "h R/" + std::to_string(std::lround(1.0 / size));
+  trial.forces.assign(depths.size(), std::numeric_limits<double>::quiet_NaN());
+  trial.times.resize(depths.size());
+  const fem::Case study{ .name = press.name,
+    .height = press.height,
+    .tip = press.tip,
+    .material = kTissue,
+    .energy = energy,
+    .depths = { depths.begin(), depths.end() },
+    .elementSize = size * press.size };
+  const fem::Body body = fem::bodyOf(study);
+  for (int repeat = 0; repeat < repeats; ++repeat)
+  {
+    fem::Indenter indenter(body, press.tip, energy, kTissue);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+    {
+      effort.check();
+      try
+      {
+        trial.times[i].push_back(timed(
+          1, [](int) {},
+          [&](int) {
+            indenter.press(depths[i]);
+          }).front());
+      }
+      catch (const Error&)
+      {
+        break; // no equilibrium so deep: the rows of this regime are left out
+      }
+      const fem::Indented state = indenter.state();
+      trial.forces[i] = state.force;
+      if (surfaces && repeat == 0)
+      {
+        surfaces->push_back(state);
+      }
+    }
+  }
+  return trial;
+}
+
+fem::TetMesh baselineBody(double height)
+{
+  constexpr int kSide = 40; // 1,600 vertices
+  constexpr int kLayers = 10;
+  return fem::blockTets(100.0_mm, height, kSide, kLayers);
+}
+
+Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const double> depths,
+  const std::function<bool(double)>& wanted, const Effort& effort)
+{
+  constexpr double kStep = 20.0_ms; // the graphics loop in which the paper runs such methods
+  constexpr double kStill = 1e-4;   // change of the force in a step [-]
+  constexpr int kMostSteps = 300;
+  constexpr int kTimed = 5;
+  const bool springs = baseline == fem::Baseline::MassSpring;
+  Trial trial = start("",
+    springs ? "Poisson's ratio, which is 1/4; the stress of a continuum"
+            : "stiffening at large strain; elements are larger than the contact when shallow",
+    springs ? fem::Energy::NeoHookean : fem::Energy::Corotated);
+  trial.method = fem::name(baseline);
+  trial.setting = "1600 vertices";
+  trial.forces.assign(depths.size(), std::numeric_limits<double>::quiet_NaN());
+  trial.times.resize(depths.size());
+  fem::Stepper stepper(baselineBody(press.height), baseline, press.tip, kTissue);
+  for (std::size_t i = 0; i < depths.size(); ++i)
+  {
+    if (!wanted(depths[i]))
+    {
+      continue;
+    }
+    effort.check();
+    const Eigen::Vector3d apex(0.0, 0.0, -depths[i]);
+    stepper.placeTool(apex);
+    try
+    {
+      trial.forces[i] = fem::settle(stepper, kStep, kStill, kMostSteps).force;
+    }
+    catch (const Error&)
+    {
+      break; // it never rests: the rows of this regime are left out
+    }
+    const std::vector<Eigen::Vector3d> further(kTimed, apex - 0.01_mm * Eigen::Vector3d::UnitZ());
+    for (const double time : fem::timeSteps(stepper, further, kStep).milliseconds)
+    {
+      trial.times[i].push_back(time * 1e3); // [us]
+    }
+  }
+  return trial;
+}
+
+} // namespace palp::report

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/report/effort.h"
+#include "app/report/references.h"
+#include "calibration/indenter.h"
+#include "calibration/stepper.h"
+
+namespace palp::report
+{
+
+/// A way to get the force of a press, tried at given depths.
+struct Trial
+{
+  std::string method;
+  std::string setting;                    ///< of the method, as "h 1 mm"; empty: none
+  std::string leavesOut;                  ///< what it does not know
+  fem::Energy like;                       ///< the material it is made for
+  std::vector<double> forces;             ///< for each depth [N]; not a number where it finds none
+  std::vector<std::vector<double>> times; ///< for each depth, of repeated evaluations [us]
+};
+
+/// Laws: the paper's, the exact half-space, the corrected one, and a table of forces.
+/// @throws Interrupted
+[[nodiscard]] std::vector<Trial> tryLaws(
+  const BlockPress& press, std::span<const double> depths, const Effort& effort);
+
+/// Element sizes over the tool's size, coarse to fine, one for each resolution.
+inline constexpr std::array kResolutions{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 16 };
+
+/// Our own finite elements; an evaluation is the step from the depth before.
+/// @param size      of an element under the tool, over the tool's size
+/// @param surfaces  takes the pressed body at each depth, where wanted
+/// @throws Interrupted
+[[nodiscard]] Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
+  std::span<const double> depths, int repeats, const Effort& effort,
+  std::vector<fem::Indented>* surfaces = nullptr);
+
+/// Bodies of tetrahedra and of springs stepped in time, Fig. 12, each held at a depth until its
+/// force stands still; an evaluation is one step.
+/// @param wanted  which of the depths are tried
+/// @throws Interrupted
+[[nodiscard]] Trial trySteps(const BlockPress& press, fem::Baseline baseline,
+  std::span<const double> depths, const std::function<bool(double)>& wanted, const Effort& effort);
+
+/// The body of Fig. 12: 1,600 vertices on top.
+[[nodiscard]] fem::TetMesh baselineBody(double height);
+
+} // namespace palp::report

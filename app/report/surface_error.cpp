@@ -1,0 +1,355 @@
+#include "app/bench.h"
+#include "app/bench_work.h"
+#include "app/report/force_methods.h"
+#include "app/report/pareto.h"
+#include "app/report/parts.h"
+#include "haptics/units.h"
+
+#include <cmath>
+#include <ranges>
+
+namespace palp::report
+{
+namespace
+{
+
+using namespace units::literals;
+using units::toMillimetres;
+
+constexpr int kPoints = 101;          // along a side of the plane that is drawn
+constexpr double kFarthest = 45.0_mm; // from the axis; the block ends at 50 mm
+
+// a surface as a method has it: distance from the axis and sink of its points [m]
+using Drawn = std::vector<std::pair<double, double>>;
+
+struct SurfaceTrial
+{
+  std::string method;
+  std::string setting;
+  std::string leavesOut;
+  std::vector<Drawn> surfaces;            // for each reference surface
+  std::vector<std::vector<double>> times; // likewise, of repeated updates [us]
+};
+
+struct Off
+{
+  double largest = 0.0;
+  double squares = 0.0; // over the length [m^3]
+  double length = 0.0;
+};
+
+// each point counts for half the way to its neighbours
+void add(Off& off, Drawn drawn, const ReferenceSurface& reference)
+{
+  std::ranges::sort(drawn);
+  for (std::size_t i = 1; i + 1 < drawn.size(); ++i)
+  {
+    const auto [radius, sink] = drawn[i];
+    if (radius > kFarthest)
+    {
+      break;
+    }
+    const double error = std::abs(sink - reference.sinkAt(radius));
+    const double width = 0.5 * (drawn[i + 1].first - drawn[i - 1].first);
+    off.largest = std::max(off.largest, error);
+    off.squares += width * error * error;
+    off.length += width;
+  }
+}
+
+SurfaceTrial tryDent(const BlockPress& press, std::span<const ReferenceSurface> references,
+  bool fitted, const Effort& effort)
+{
+  SurfaceTrial trial{ .method = fitted ? "fitted Bezier" : "paper Bezier",
+    .setting = std::to_string(kPoints * kPoints) + " vertices",
+    .leavesOut = fitted ? "every tool, body and nu but its own; volume"
+                        : "the surface beyond R_d, where it is still 0.5 mm deep; volume",
+    .surfaces = {},
+    .times = {} };
+  VisualUpdate step(kPoints, press.tip, press.table, fitted);
+  for (const ReferenceSurface& reference : references)
+  {
+    effort.check();
+    auto& times = trial.times.emplace_back();
+    for (int i = 0; i < effort.repeats(); ++i)
+    {
+      const auto measured = timed(
+        41, [](int) {},
+        [&](int k) {
+          step(straightDown({ 2.0_mm * (k % 20 - 10), 0.0, -reference.depth }));
+        });
+      times.push_back(spreadOf(measured).median);
+    }
+    step(straightDown({ 0.0, 0.0, -reference.depth }));
+    Drawn drawn;
+    for (std::size_t i = 0; i < step.vertices(); ++i)
+    {
+      const Eigen::Vector3d vertex = step.vertex(i);
+      if (std::abs(vertex.y()) < 1e-6 && vertex.x() > -1e-6) // the row from the axis outwards
+      {
+        drawn.emplace_back(vertex.x(), -vertex.z());
+      }
+    }
+    trial.surfaces.push_back(std::move(drawn));
+  }
+  return trial;
+}
+
+SurfaceTrial tryElementSurface(const BlockPress& press,
+  std::span<const ReferenceSurface> references, double size, const Effort& effort)
+{
+  std::vector<double> depths;
+  for (int i = 1; i * 0.5_mm < references.back().depth + 0.1_mm; ++i)
+  {
+    depths.push_back(i * 0.5_mm);
+  }
+  std::vector<fem::Indented> steps;
+  const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, 1, effort, &steps);
+  SurfaceTrial trial{ .method = "finite elements",
+    .setting = forces.setting,
+    .leavesOut = forces.leavesOut,
+    .surfaces = {},
+    .times = {} };
+  for (const ReferenceSurface& reference : references)
+  {
+    const auto found = std::ranges::min_element(
+      steps, {}, [&](const fem::Indented& step) { return std::abs(step.depth - reference.depth); });
+    Drawn drawn;
+    for (const auto& point : found->profile)
+    {
+      drawn.emplace_back(point.radius + point.ur, -point.uz);
+    }
+    trial.surfaces.push_back(std::move(drawn));
+    trial.times.push_back(forces.times[static_cast<std::size_t>(found - steps.begin())]);
+  }
+  return trial;
+}
+
+Section start()
+{
+  Section section;
+  section.tables = { Table{ .name = "surface_summary",
+                       .caption = "RMS error of the drawn surface in each regime [mm], and what "
+                                  "each method leaves out.",
+                       .columns = { "press", "method", "setting", "time_us", "shallow_rms_mm",
+                         "jnd_rms_mm", "deep_rms_mm", "leaves_out" } },
+    Table{ .name = "surface_error_vs_time",
+      .caption = "Error of the surface of every method, setting and regime.",
+      .columns = { "method", "setting", "regime", "time_us", "error_max_mm", "error_rms_mm" },
+      .shown = false },
+    Table{ .name = "surface_profiles",
+      .caption = "Surfaces: height over the distance from the axis.",
+      .columns = { "press", "method", "depth_mm", "radius_mm", "height_mm" },
+      .shown = false } };
+  return section;
+}
+
+void addTrial(Section& section, const BlockPress& press,
+  std::span<const ReferenceSurface> references, const SurfaceTrial& trial)
+{
+  std::vector<Cell> line{ press.name, trial.method, trial.setting };
+  std::vector<double> all;
+  for (const Regime& regime : kRegimes)
+  {
+    Off off;
+    std::vector<double> times;
+    for (std::size_t i = 0; i < references.size(); ++i)
+    {
+      if (isIn(regime, references[i].depth, press.size))
+      {
+        add(off, trial.surfaces[i], references[i]);
+        times.insert(times.end(), trial.times[i].begin(), trial.times[i].end());
+      }
+    }
+    const double rms = toMillimetres(std::sqrt(off.squares / off.length));
+    line.emplace_back(rms); // no number where there is no reference
+    if (!times.empty())
+    {
+      section.tables[1].rows.push_back({ trial.method, press.name + "; " + trial.setting,
+        regime.name, spreadOf(times).median, toMillimetres(off.largest), rms });
+      all.insert(all.end(), times.begin(), times.end());
+    }
+  }
+  line.insert(line.begin() + 3, spreadOf(all).median);
+  line.emplace_back(trial.leavesOut);
+  section.tables[0].rows.push_back(std::move(line));
+}
+
+void addProfile(Table& table, const BlockPress& press, const std::string& method, double depth,
+  const Drawn& drawn)
+{
+  for (const auto& [radius, sink] : drawn)
+  {
+    if (radius <= kFarthest)
+    {
+      table.rows.push_back(
+        { press.name, method, toMillimetres(depth), toMillimetres(radius), -toMillimetres(sink) });
+    }
+  }
+}
+
+// the last reference at the JND limit and the last one to R
+std::vector<double> profileDepths(const BlockPress& press)
+{
+  std::vector<double> depths;
+  for (const Regime& regime : { kRegimes[1], kRegimes[2] })
+  {
+    double last = 0.0;
+    for (const ReferenceSurface& reference : referenceSurfaces(press))
+    {
+      last = isIn(regime, reference.depth, press.size) ? reference.depth : last;
+    }
+    depths.push_back(last);
+  }
+  return depths;
+}
+
+struct Mark
+{
+  const char* method;
+  Curve::Style point;
+  Curve::Style line;
+  int color;
+};
+constexpr std::array kMarks{ Mark{ "paper Bezier", Curve::Style::Circles, Curve::Style::Line, 2 },
+  Mark{ "fitted Bezier", Curve::Style::Circles, Curve::Style::Line, 1 },
+  Mark{ "finite elements", Curve::Style::Diamonds, Curve::Style::Dashed, 0 } };
+
+void addCharts(Section& section, const BlockPress& press)
+{
+  for (const Regime& regime : kRegimes)
+  {
+    Chart chart{ .name = "surface_error_" + fileWord(press.name) + "_" + fileWord(regime.name),
+      .caption = regime.name,
+      .bottom = "time of one picture [\u00b5s]",
+      .left = "RMS error of the surface [mm]",
+      .logBottom = true,
+      .logLeft = true,
+      .group = "RMS error of the surface against the time of one picture, " + press.name +
+        ". Lower and further left is better." };
+    for (const Mark& mark : kMarks)
+    {
+      chart.curves.push_back({ .label = mark.method,
+        .table = "surface_error_vs_time",
+        .x = "time_us",
+        .y = "error_rms_mm",
+        .where = { { "method", mark.method }, { "setting", press.name },
+          { "regime", regime.name } },
+        .style = mark.point,
+        .color = mark.color });
+    }
+    chart.curves.push_back({ .label = "Pareto front",
+      .table = "surface_pareto_front",
+      .x = "time_us",
+      .y = "error_rms_mm",
+      .where = { { "front", press.name }, { "regime", regime.name } },
+      .style = Curve::Style::Dashed,
+      .color = 0 });
+    section.charts.push_back(std::move(chart));
+  }
+  for (const double depth : profileDepths(press))
+  {
+    const std::string depthMm = shown(toMillimetres(depth));
+    Chart profile{ .name =
+                     "surface_profiles_" + fileWord(press.name) + "_" + fileWord(depthMm) + "mm",
+      .caption = depthMm + " mm deep",
+      .bottom = "distance from the axis [mm]",
+      .left = "height [mm]",
+      .group = "The surface under " + press.name +
+        ". The paper's curve meets the undeformed surface at R_d, where the tissue is still 0.5 mm "
+        "deep; at a depth of R its Eq. (3) has contact up to the equator and leaves no ring. The "
+        "fitted curve follows the tissue to the edge of the block." };
+    profile.curves.push_back({ .label = "independent elements",
+      .table = "surface_profiles",
+      .x = "radius_mm",
+      .y = "height_mm",
+      .where = { { "press", press.name }, { "method", "reference" }, { "depth_mm", depthMm } },
+      .style = Curve::Style::Circles,
+      .color = 7 });
+    for (const Mark& mark : kMarks)
+    {
+      profile.curves.push_back({ .label = mark.method,
+        .table = "surface_profiles",
+        .x = "radius_mm",
+        .y = "height_mm",
+        .where = { { "press", press.name }, { "method", mark.method }, { "depth_mm", depthMm } },
+        .style = mark.line,
+        .color = mark.color });
+    }
+    section.charts.push_back(std::move(profile));
+  }
+}
+
+void measurePress(
+  Section& section, const BlockPress& press, const Effort& effort, double begin, double share)
+{
+  const auto references = referenceSurfaces(press);
+  const auto depths = profileDepths(press);
+  const auto isShown = [&](const ReferenceSurface& one)
+  { return std::ranges::find(depths, one.depth) != depths.end(); };
+  for (const ReferenceSurface& one : references | std::views::filter(isShown))
+  {
+    Drawn points; // every sixth, to be seen apart
+    for (std::size_t i = 0; i < one.radius.size(); i += 6)
+    {
+      points.emplace_back(one.radius[i], one.sink[i]);
+    }
+    addProfile(section.tables[2], press, "reference", one.depth, points);
+  }
+  const auto keep = [&](const SurfaceTrial& trial, bool profile)
+  {
+    addTrial(section, press, references, trial);
+    for (std::size_t i = 0; profile && i < references.size(); ++i)
+    {
+      if (isShown(references[i]))
+      {
+        addProfile(section.tables[2], press, trial.method, references[i].depth, trial.surfaces[i]);
+      }
+    }
+  };
+  keep(tryDent(press, references, false, effort), true);
+  keep(tryDent(press, references, true, effort), true);
+  for (std::size_t i = 0; i < kResolutions.size(); ++i)
+  {
+    keep(
+      tryElementSurface(press, references, kResolutions[i], effort), i + 1 == kResolutions.size());
+    effort.reached(begin + share * static_cast<double>(i + 1) / kResolutions.size());
+  }
+  addCharts(section, press);
+}
+
+} // namespace
+
+Section surfaceAgainstTime(const Effort& effort)
+{
+  Section section = start();
+  section.text = {
+    "Reference: the neo-Hookean surfaces of the same independent program. The error is vertical, "
+    "over the radius from the axis to 45 mm, each point by the length it stands for; only depths "
+    "at which that program wrote its surface count (2.5, 5, 7.5 and 10 mm), so that the smaller "
+    "sphere has none in the shallow regime.",
+    "Time is that of one picture: for the Bezier surfaces contact, force, dent and normals of " +
+      std::to_string(kPoints * kPoints) +
+      " vertices; for finite elements the step from the depth half a millimetre before."
+  };
+  const std::span all(presses());
+  const auto wanted = effort.quick ? all.subspan(1, 1) : all.first(2);
+  const double share = 1.0 / static_cast<double>(wanted.size());
+  double begin = 0.0;
+  for (const BlockPress& press : wanted)
+  {
+    measurePress(section, press, effort, begin, share);
+    begin += share;
+  }
+  Table front{ .name = "surface_pareto_front",
+    .caption = "The Pareto fronts: no other surface is both faster and more accurate.",
+    .columns = { "front", "method", "setting", "regime", "time_us", "error_rms_mm" } };
+  for (const BlockPress& press : wanted)
+  {
+    addParetoFront(front, press.name, section.tables[1], "error_rms_mm", press.name, "");
+  }
+  section.tables.insert(section.tables.begin() + 1, std::move(front));
+  return section;
+}
+
+} // namespace palp::report
