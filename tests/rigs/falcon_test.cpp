@@ -2,6 +2,7 @@
 // program answers the requests of usbfs. A FIFO in the place of the node wakes libusb's poll.
 
 #include "haptics/devices/falcon_driver.h"
+#include "haptics/devices/falcon_kinematics.h"
 #include "haptics/devices/threaded_device.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/usb_transport.h"
@@ -36,6 +37,7 @@ using namespace units::literals;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Eigen::Vector3d;
+using Packet = std::vector<std::byte>;
 
 constexpr const char* kNode = "/dev/bus/usb/001/002";
 constexpr const char* kDevice = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-3";
@@ -54,6 +56,7 @@ enum class Mood
   Split,   // a reply in two packets
   Garbage, // before each reply
   Silent,
+  Stalled, // the endpoint refuses each transfer
 };
 
 // chip, boot loader and firmware of a Falcon, behind the requests of usbfs
@@ -105,8 +108,9 @@ public:
   std::atomic<bool> homed = false;
   std::atomic<bool> loaded = false; // runs firmware
   std::atomic<int> packets = 0;
-  std::atomic<int> tooEarly = 0; // torques before homing
-  std::atomic<int> torque = 0;   // sum of the sizes of the last
+  std::atomic<int> tooEarly = 0;             // torques before homing
+  std::atomic<int> torque = 0;               // sum of the sizes of the last
+  std::array<std::atomic<int>, 3> torques{}; // the last
   std::vector<std::byte> firmware;
 
 private:
@@ -258,7 +262,8 @@ void MadeUpFalcon::run(std::byte byte)
       word |= ((std::to_integer<unsigned>(heard_[1 + 4 * i + nibble]) - 'A') & 0xFU)
         << (4 * nibble);
     }
-    sum += std::abs(static_cast<std::int16_t>(word));
+    torques[i] = static_cast<std::int16_t>(word);
+    sum += std::abs(torques[i]);
   }
   torque = sum;
   tooEarly += !homed && sum != 0 ? 1 : 0;
@@ -321,6 +326,11 @@ int MadeUpFalcon::answer(unsigned long request, void* argument)
       }
       else
       {
+        if (mood == Mood::Stalled)
+        {
+          finish({ urb, {} }, -EPIPE, 0);
+          return 0;
+        }
         waiting_.push_back({ urb, Clock::now() + 1ms });
         serve();
       }
@@ -391,6 +401,11 @@ protected:
       GTEST_SKIP() << "umockdev's preload library is not loaded";
     }
     ASSERT_TRUE(listUsb().empty());
+    plugIn();
+  }
+
+  void plugIn()
+  {
     GError* error = nullptr;
     ASSERT_TRUE(umockdev_testbed_add_from_string(bed_, kRecord, &error)) << error->message;
     falcon_ = std::make_unique<MadeUpFalcon>();
@@ -412,6 +427,13 @@ protected:
     falcon_->unplug();
     umockdev_testbed_uevent(bed_, kDevice, "remove");
     umockdev_testbed_remove_device(bed_, kDevice);
+  }
+
+  // true when it answers
+  static bool answers(FalconDriver& driver)
+  {
+    DriverSample sample;
+    return driver.tick(Vector3d::Zero(), 1.0_ms, sample) == IoCode::Ok;
   }
 
   static std::vector<std::byte> someFirmware()
@@ -501,6 +523,33 @@ TEST_F(FalconRig, NoTorqueComesBeforeHoming)
   EXPECT_NEAR(sample.position.z(), 0.1346 - 0.125, 1e-4);
 }
 
+// by the work that a small motion does: torques times the way of the legs is force times the way
+// of the grip
+TEST_F(FalconRig, MotorsGetTheTorquesOfTheForce)
+{
+  falcon_->loaded = true;
+  falcon_->homed = true;
+  FalconDriver driver(openFalcon(), {});
+  DriverSample sample;
+  (void)driver.tick(Vector3d::Zero(), 1.0_ms, sample);
+  const Vector3d place = sample.position + falconCentre(); // all encoders at zero
+  for (const Vector3d& force : { Vector3d(0, 0, -8), Vector3d(5, 0, 2), Vector3d(-2, 6, -3) })
+  {
+    (void)driver.tick(force, 1.0_ms, sample);
+    (void)driver.tick(force, 1.0_ms, sample); // an answer: the first has been taken up
+    Vector3d felt;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vector3d step = 1.0_um * Vector3d::Unit(axis);
+      const Vector3d way = *falconAngles(place + step) - *falconAngles(place - step);
+      const Vector3d torques(falcon_->torques[0], falcon_->torques[1], falcon_->torques[2]);
+      felt[axis] = -torques.dot(way) / 2.0_um / 2300.0; // counts in a newton metre
+    }
+    EXPECT_NEAR(felt.norm(), force.norm(), 0.01 * force.norm());
+    EXPECT_LT(std::acos(std::min(1.0, felt.normalized().dot(force.normalized()))), 0.5_deg);
+  }
+}
+
 TEST_F(FalconRig, FindsRepliesThatAreSplitOrFollowGarbage)
 {
   falcon_->loaded = true;
@@ -519,13 +568,46 @@ TEST_F(FalconRig, FindsRepliesThatAreSplitOrFollowGarbage)
   }
 }
 
-TEST_F(FalconRig, SilenceIsATimeoutAndNoHang)
+TEST_F(FalconRig, SilenceAndStallsAreTimeoutsAndNoHang)
 {
   falcon_->loaded = true;
   FalconDriver driver(openFalcon(), {});
+  for (const Mood mood : { Mood::Silent, Mood::Stalled })
+  {
+    falcon_->mood = mood;
+    DriverSample sample;
+    EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Timeout);
+  }
+  falcon_->mood = Mood::Good;
+  while (!answers(driver)) // goes on as if nothing had been
+  {
+  }
+}
+
+TEST_F(FalconRig, IsSilentThenGoneThenBack)
+{
+  falcon_->loaded = true;
+  ThreadedDevice device([] { return std::make_unique<FalconDriver>(openFalcon(), Packet{}); }, {});
   falcon_->mood = Mood::Silent;
-  DriverSample sample;
-  EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Timeout);
+  while (device.exchange(Vector3d::Zero(), 1.0_ms) && device.status().age < 20.0_ms)
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_GE(device.status().age, 20.0_ms);
+  unplug();
+  while (device.exchange(Vector3d::Zero(), 1.0_ms))
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  gFalcon = nullptr;
+  falcon_.reset();
+  plugIn();
+  falcon_->loaded = true;
+  while (!device.exchange(Vector3d::Zero(), 1.0_ms))
+  {
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_FALSE(device.status().homed);
 }
 
 TEST_F(FalconRig, UnplugIsNoticedInAnyState)
