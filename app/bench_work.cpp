@@ -62,34 +62,38 @@ Sample ServoTick::operator()(const ToolPose& pose)
   return sample;
 }
 
-VisualUpdate::VisualUpdate(int n)
-  : mesh_(makeGrid(n, kBenchSide))
-  , rest_(inFloats(mesh_.points))
-  , dent_(rest_, mesh_.triangles)
-  , extents_(ExtentTable::read(dataFile("tables/sphere_r10_h50.csv")))
-  , points_(rest_.size())
-  , normals_(rest_.size())
-  , displacement_(rest_.size())
-  , zone_(mesh_.points.size())
+DrawnSurface::DrawnSurface(const Mesh& mesh)
+  : rest(inFloats(mesh.points))
+  , points(rest.size())
+  , normals(rest.size())
+  , displacement(rest.size())
+  , zone(mesh.points.size())
+  , dent(rest, mesh.triangles)
 {
-  scene_.surface = std::make_shared<const Surface>(mesh_.points, mesh_.triangles);
-  dent_.reset(arrays());
+  dent.reset({ points.data(), normals.data(), displacement.data(), zone.data() });
 }
 
-DentArrays VisualUpdate::arrays()
+void DrawnSurface::press(const Press& with)
 {
-  return { points_.data(), normals_.data(), displacement_.data(), zone_.data() };
+  dent.update(with, { points.data(), normals.data(), displacement.data(), zone.data() });
+}
+
+VisualUpdate::VisualUpdate(int n)
+  : extents_(ExtentTable::read(dataFile("tables/sphere_r10_h50.csv")))
+  , drawn_(makeGrid(n, kBenchSide))
+{
+  const Mesh mesh = makeGrid(n, kBenchSide);
+  scene_.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
 }
 
 void VisualUpdate::operator()(const ToolPose& pose)
 {
   const Sample sample = step(scene_, pose);
-  dent_.update({ .contact = sample.contact,
-                 .pose = pose,
-                 .tip = scene_.law.tip(),
-                 .contactRadius = sample.response.contactRadius,
-                 .extentRadius = extents_.extentRadius(sample.contact.depth) },
-    arrays());
+  drawn_.press({ .contact = sample.contact,
+    .pose = pose,
+    .tip = scene_.law.tip(),
+    .contactRadius = sample.response.contactRadius,
+    .extentRadius = extents_.extentRadius(sample.contact.depth) });
 }
 
 } // namespace palp

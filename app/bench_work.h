@@ -35,6 +35,20 @@ private:
   Scene scene_;
 };
 
+/// A surface in the arrays in which it is drawn, at rest.
+struct DrawnSurface
+{
+  explicit DrawnSurface(const Mesh& mesh);
+  DrawnSurface(const DrawnSurface&) = delete; // the dent refers to its points
+  DrawnSurface& operator=(const DrawnSurface&) = delete;
+
+  void press(const Press& with);
+
+  std::vector<float> rest, points, normals, displacement;
+  std::vector<unsigned char> zone;
+  Dent dent;
+};
+
 /// Contact, law, deformed points and their normals on the paper's surface of n x n points.
 class VisualUpdate
 {
@@ -43,17 +57,9 @@ public:
   void operator()(const ToolPose& pose);
 
 private:
-  [[nodiscard]] DentArrays arrays();
-
-  Mesh mesh_;
-  std::vector<float> rest_;
-  Dent dent_;
   Scene scene_;
   ExtentTable extents_;
-  std::vector<float> points_;
-  std::vector<float> normals_;
-  std::vector<float> displacement_;
-  std::vector<unsigned char> zone_;
+  DrawnSurface drawn_;
 };
 
 } // namespace palp

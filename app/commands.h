@@ -22,7 +22,7 @@ void addForceCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app, const Pictures* pictures);
 void addExperimentCommand(CLI::App& app, const Pictures* pictures);
 void addStabilityCommand(CLI::App& app);
-void addBenchCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app, const Pictures* pictures);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));
 
 } // namespace palp

@@ -15,6 +15,7 @@ public:
     const std::filesystem::path& directory) const override;
   void drawExperiment(
     const fem::Experiment& experiment, const std::filesystem::path& directory) const override;
+  [[nodiscard]] std::vector<BenchRow> benchFrames(std::size_t most) const override;
 };
 
 } // namespace palp

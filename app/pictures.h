@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/bench.h"
 #include "app/body.h"
 #include "app/recording.h"
 #include "calibration/experiments.h"
@@ -37,6 +38,12 @@ struct Pictures
   /// @throws Error  as drawPress
   virtual void drawExperiment(
     const fem::Experiment& experiment, const std::filesystem::path& directory) const = 0;
+
+  /// What a moved dent costs a picture beyond drawing the same scene again, upload included.
+  ///
+  /// @param most    points of the largest surface
+  /// @throws Error  as drawPress
+  [[nodiscard]] virtual std::vector<BenchRow> benchFrames(std::size_t most) const = 0;
 };
 
 } // namespace palp

@@ -86,7 +86,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addCalibrateCommand(app, parts.pictures);
   addExperimentCommand(app, parts.pictures);
   addStabilityCommand(app);
-  addBenchCommand(app);
+  addBenchCommand(app, parts.pictures);
   addDevicesCommand(app, parts.devices);
 
   // for the start script: is this word a command of ours?
