@@ -15,9 +15,9 @@ namespace palp
 /// One figure of the benchmark, over many repetitions.
 struct BenchRow
 {
-  std::string work;         ///< servo_step, law, update, query_brute, tree_build or baseline
+  std::string work; ///< servo_step, law, update, dent, frame, query_brute, tree_build or baseline
   std::size_t vertices = 0; ///< of the mesh; 0 where there is none
-  std::string mode;         ///< moving, jump, cold or paced
+  std::string mode;         ///< moving, jump, cold, paced, still, or how many points are displaced
   std::string variant{};    ///< of a law or baseline: which one, "" for the scene's own law
   double median = 0.0;      ///< [us], as are those below
   double mean = 0.0;
@@ -59,7 +59,8 @@ template <typename Before, typename Work>
 /// @param ticks  of each measurement; a quarter of them at the pace of 1 kHz, a fortieth cold
 [[nodiscard]] std::vector<BenchRow> benchServo(std::size_t most, int ticks = 4000);
 
-/// Contact, law, deformed points and their normals: what one picture costs the processor.
+/// Contact, law, deformed points and their normals: what one picture costs the processor; and the
+/// last two alone by the number of displaced points, on meshes of 10,000 and 1,000,000.
 /// @param most  vertices of the largest surface
 [[nodiscard]] std::vector<BenchRow> benchUpdate(std::size_t most);
 

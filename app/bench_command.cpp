@@ -1,5 +1,7 @@
 #include "app/bench.h"
 #include "app/commands.h"
+#include "app/pictures.h"
+#include "app/program.h"
 #include "app/quantity.h"
 #include "app/report/machine.h"
 #include "haptics/error.h"
@@ -23,6 +25,7 @@ struct BenchOptions
   bool json = false;
   bool accuracy = false;
   bool baselines = false;
+  bool frames = false;
   std::string servo;
   std::filesystem::path gate;
   double slack = 1.5;
@@ -36,13 +39,15 @@ struct Bench
 };
 
 // S before, between and after, for other work on the machine comes and goes
-Bench measure(const BenchOptions& options)
+Bench measure(const BenchOptions& options, const Pictures* pictures)
 {
   std::vector<double> sweeps{ benchSweep() };
   Bench bench;
-  bench.rows = options.baselines ? benchBaselines() : benchServo(options.most);
+  bench.rows = options.baselines ? benchBaselines()
+    : options.frames             ? pictures->benchFrames(options.most)
+                                 : benchServo(options.most);
   sweeps.push_back(benchSweep());
-  if (!options.baselines)
+  if (!options.baselines && !options.frames)
   {
     const std::vector<BenchRow> update = benchUpdate(options.most);
     bench.rows.insert(bench.rows.end(), update.begin(), update.end());
@@ -137,8 +142,12 @@ void checkGate(const Bench& bench, const nlohmann::json& recorded, double slack)
   }
 }
 
-void runBench(const BenchOptions& options)
+void runBench(const BenchOptions& options, const Pictures* pictures)
 {
+  if (options.frames && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
   if (options.accuracy)
   {
     reportAccuracy(std::cout);
@@ -151,7 +160,7 @@ void runBench(const BenchOptions& options)
     return;
   }
   const nlohmann::json recorded = options.gate.empty() ? nullptr : readGate(options.gate);
-  const Bench bench = measure(options);
+  const Bench bench = measure(options, pictures);
   if (options.json)
   {
     std::cout << toJson(bench).dump(1) << '\n';
@@ -168,7 +177,7 @@ void runBench(const BenchOptions& options)
 
 } // namespace
 
-void addBenchCommand(CLI::App& app)
+void addBenchCommand(CLI::App& app, const Pictures* pictures)
 {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Measure speed and accuracy on this machine");
@@ -182,6 +191,8 @@ void addBenchCommand(CLI::App& app)
     ->capture_default_str();
   command->add_flag("--baselines", options->baselines,
     "Instead: one step of springs and of finite elements beside ours, as Fig. 12");
+  command->add_flag("--frames", options->frames,
+    "Instead: what a moved dent costs a picture beyond drawing the same scene again");
   command->add_flag("--accuracy", options->accuracy,
     "Instead: force error from the mesh, and smoothness, for each rule of contact");
   command->add_option("--servo", options->servo,
@@ -192,7 +203,7 @@ void addBenchCommand(CLI::App& app)
                   "  palp bench\n"
                   "  palp bench --json > before.json && palp bench --gate before.json\n"
                   "  palp bench --servo 60s");
-  command->callback([options] { runBench(*options); });
+  command->callback([options, pictures] { runBench(*options, pictures); });
 }
 
 } // namespace palp

@@ -62,41 +62,45 @@ Sample ServoTick::operator()(const ToolPose& pose)
   return sample;
 }
 
-VisualUpdate::VisualUpdate(int n, const Tip& tip, const std::string& table, bool fitted)
-  : mesh_(makeGrid(n, kBenchSide))
-  , rest_(inFloats(mesh_.points))
-  , dent_(rest_, mesh_.triangles)
-  , extents_(ExtentTable::read(dataFile("tables/" + table + ".csv")))
-  , points_(rest_.size())
-  , normals_(rest_.size())
-  , displacement_(rest_.size())
-  , zone_(mesh_.points.size())
+DrawnSurface::DrawnSurface(const Mesh& mesh)
+  : rest(inFloats(mesh.points))
+  , points(rest.size())
+  , normals(rest.size())
+  , displacement(rest.size())
+  , zone(mesh.points.size())
+  , dent(rest, mesh.triangles)
 {
-  scene_.surface = std::make_shared<const Surface>(mesh_.points, mesh_.triangles);
+  dent.reset({ points.data(), normals.data(), displacement.data(), zone.data() });
+}
+
+void DrawnSurface::press(const Press& with)
+{
+  dent.update(with, { points.data(), normals.data(), displacement.data(), zone.data() });
+}
+
+VisualUpdate::VisualUpdate(int n, const Tip& tip, const std::string& table, bool fitted)
+  : extents_(ExtentTable::read(dataFile("tables/" + table + ".csv")))
+  , drawn_(makeGrid(n, kBenchSide))
+{
+  const Mesh mesh = makeGrid(n, kBenchSide);
+  scene_.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   scene_.law = ForceLaw(tip, scene_.law.material());
   if (fitted)
   {
     fitted_ = FittedSurfaces::read(dataFile("tables/" + table + "_surface.csv"));
   }
-  dent_.reset(arrays());
-}
-
-DentArrays VisualUpdate::arrays()
-{
-  return { points_.data(), normals_.data(), displacement_.data(), zone_.data() };
 }
 
 void VisualUpdate::operator()(const ToolPose& pose)
 {
   const Sample sample = step(scene_, pose);
   const double depth = sample.contact.depth;
-  dent_.update({ .contact = sample.contact,
-                 .pose = pose,
-                 .tip = scene_.law.tip(),
-                 .contactRadius = sample.response.contactRadius,
-                 .extentRadius = extents_.extentRadius(depth),
-                 .fitted = fitted_ ? fitted_->at(depth) : std::nullopt },
-    arrays());
+  drawn_.press({ .contact = sample.contact,
+    .pose = pose,
+    .tip = scene_.law.tip(),
+    .contactRadius = sample.response.contactRadius,
+    .extentRadius = extents_.extentRadius(depth),
+    .fitted = fitted_ ? fitted_->at(depth) : std::nullopt });
 }
 
 } // namespace palp

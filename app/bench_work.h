@@ -45,6 +45,20 @@ private:
   Scene scene_;
 };
 
+/// A surface in the arrays in which it is drawn, at rest.
+struct DrawnSurface
+{
+  explicit DrawnSurface(const Mesh& mesh);
+  DrawnSurface(const DrawnSurface&) = delete; // the dent refers to its points
+  DrawnSurface& operator=(const DrawnSurface&) = delete;
+
+  void press(const Press& with);
+
+  std::vector<float> rest, points, normals, displacement;
+  std::vector<unsigned char> zone;
+  Dent dent;
+};
+
 /// Contact, law, deformed points and their normals on the paper's surface of n x n points.
 class VisualUpdate
 {
@@ -57,28 +71,20 @@ public:
 
   [[nodiscard]] std::size_t vertices() const noexcept
   {
-    return zone_.size();
+    return drawn_.zone.size();
   }
 
   /// Where a vertex is after the last update [m].
   [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const noexcept
   {
-    return Eigen::Map<const Eigen::Vector3f>(points_.data() + 3 * i).cast<double>();
+    return Eigen::Map<const Eigen::Vector3f>(drawn_.points.data() + 3 * i).cast<double>();
   }
 
 private:
-  [[nodiscard]] DentArrays arrays();
-
-  Mesh mesh_;
-  std::vector<float> rest_;
-  Dent dent_;
   Scene scene_;
   ExtentTable extents_;
   std::optional<FittedSurfaces> fitted_;
-  std::vector<float> points_;
-  std::vector<float> normals_;
-  std::vector<float> displacement_;
-  std::vector<unsigned char> zone_;
+  DrawnSurface drawn_;
 };
 
 } // namespace palp

@@ -23,7 +23,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures);
 void addExperimentCommand(CLI::App& app, const Pictures* pictures);
 void addReportCommand(CLI::App& app, const Pictures* pictures);
 void addStabilityCommand(CLI::App& app);
-void addBenchCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app, const Pictures* pictures);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));
 
 } // namespace palp

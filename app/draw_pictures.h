@@ -17,6 +17,7 @@ public:
     const fem::Experiment& experiment, const std::filesystem::path& directory) const override;
   void drawReport(
     const report::Section& section, const std::filesystem::path& directory) const override;
+  [[nodiscard]] std::vector<BenchRow> benchFrames(std::size_t most) const override;
 };
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/bench.h"
 #include "app/body.h"
 #include "app/recording.h"
 #include "app/report/document.h"
@@ -44,6 +45,12 @@ struct Pictures
   /// @throws Error  as drawPress
   virtual void drawReport(
     const report::Section& section, const std::filesystem::path& directory) const = 0;
+
+  /// What a moved dent costs a picture beyond drawing the same scene again, upload included.
+  ///
+  /// @param most    points of the largest surface
+  /// @throws Error  as drawPress
+  [[nodiscard]] virtual std::vector<BenchRow> benchFrames(std::size_t most) const = 0;
 };
 
 } // namespace palp

@@ -87,7 +87,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addExperimentCommand(app, parts.pictures);
   addReportCommand(app, parts.pictures);
   addStabilityCommand(app);
-  addBenchCommand(app);
+  addBenchCommand(app, parts.pictures);
   addDevicesCommand(app, parts.devices);
 
   // for the start script: is this word a command of ours?

@@ -56,7 +56,7 @@ struct RingCurve
       return first > 0.0 ? sink * (1.0 + (inner - radius) / first) : sink;
     }
     // radius(u) = inner + 2 u (meet - inner) + u^2 (inner - 2 meet + outer), and v = 1 - u
-    const double bend = inner - 2.0 * meet + outer;
+    const double bend = (outer - meet) - first;
     const double rise = radius - inner;
     const double root = std::sqrt(std::max(0.0, first * first + bend * rise));
     const double u = rise > 0.0 ? rise / (first + root) : 0.0;

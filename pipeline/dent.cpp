@@ -25,6 +25,15 @@ bool isFinite(const Press& press)
     std::isfinite(press.extentRadius) && (!press.fitted || isFinite(*press.fitted));
 }
 
+// x, y, z in one register
+using Lanes = float __attribute__((vector_size(16)));
+
+// y, z, x
+Lanes turned(Lanes v) noexcept
+{
+  return __builtin_shufflevector(v, v, 1, 2, 0, 3);
+}
+
 } // namespace
 
 Dent::Dent(std::span<const float> rest, std::span<const Triangle> triangles)
@@ -126,31 +135,25 @@ void Dent::computeNormal(std::int32_t point, const DentArrays& arrays) const noe
   const auto position = [&](std::int32_t of)
   {
     const float* p = arrays.points + 3 * static_cast<std::size_t>(of);
-    return Eigen::Vector3f(p[0], p[1], p[2]);
+    return Lanes{ p[0], p[1], p[2], 0.0F };
   };
-  const Eigen::Vector3f center = position(point);
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  Eigen::Vector3f last = Eigen::Vector3f::Zero();
-  bool open = false;
+  const Lanes center = position(point);
+  Lanes sum{};
+  Lanes last{};
   for (const std::int32_t next : region_.umbrella().around(point))
   {
-    if (next == Umbrella::kEnd)
-    {
-      open = false;
-      continue;
-    }
-    const Eigen::Vector3f edge = position(next) - center;
-    if (open)
-    {
-      sum += last.cross(edge);
-    }
+    const Lanes edge = next == Umbrella::kEnd ? Lanes{} : position(next) - center;
+    sum += last * turned(edge) - turned(last) * edge;
     last = edge;
-    open = true;
   }
-  const float length = sum.norm();
-  const Eigen::Vector3f normal =
-    length > 0.0F ? Eigen::Vector3f(sum / length) : Eigen::Vector3f(Eigen::Vector3f::Zero());
-  std::copy_n(normal.data(), 3, arrays.normals + 3 * static_cast<std::size_t>(point));
+  sum = turned(sum);
+  const float length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+  const float scale = length > 0.0F ? 1.0F / length : 0.0F;
+  float* normal = arrays.normals + 3 * static_cast<std::size_t>(point);
+  for (int k = 0; k < 3; ++k)
+  {
+    normal[k] = scale * sum[k];
+  }
 }
 
 } // namespace palp

@@ -131,7 +131,8 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
     place.front = first.place.front && second.place.front;
     if (!place.front)
     {
-      place.way = 0.5 * (first.place.way + second.place.way);
+      const Eigen::Vector2d way = first.place.way() + second.place.way();
+      place.turns = quarterTurns(way.x(), way.y());
       place.distance = 0.5 * (first.place.distance + second.place.distance);
     }
     place.within = dent.isInsideTool(rest);

@@ -14,27 +14,6 @@ constexpr double kWithinBase = 1.0 - 1e-9; // [-]
 constexpr double kVertical = 1e6;          // [-] slope of a shaft
 constexpr double kFitReach = 1.5;          // [-] of the contact radius
 
-// position of a direction among evenly spaced ones, 0 to 4 without trigonometry
-double quarterTurns(double x, double y) noexcept
-{
-  const double sum = std::abs(x) + std::abs(y);
-  if (!(sum > 0.0))
-  {
-    return 0.0;
-  }
-  const double t = y / sum;
-  return x < 0.0 ? 2.0 - t : (y < 0.0 ? 4.0 + t : t);
-}
-
-Eigen::Vector2d directionAt(double turns) noexcept
-{
-  const int quarter = static_cast<int>(turns);
-  const double f = turns - quarter;
-  const Eigen::Vector2d first = Eigen::Vector2d(1.0 - f, f).normalized();
-  const Eigen::Vector2d turned(-first.y(), first.x());
-  return ((quarter & 2) != 0 ? -1.0 : 1.0) * ((quarter & 1) != 0 ? turned : first);
-}
-
 // root of a function that is negative at 0 and positive at the end, by the Illinois rule
 template <typename Function>
 double rootBefore(double end, double atZero, double atEnd, Function function) noexcept
@@ -76,7 +55,7 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
   for (int k = 0; k < kDirections; ++k)
   {
     curves_[static_cast<std::size_t>(k)] =
-      curveAlong(directionAt(4.0 * k / kDirections), region, body);
+      curveAlong(directionOf(4.0 * k / kDirections), region, body);
   }
   curves_.back() = curves_.front();
 }
@@ -87,26 +66,45 @@ void PressField::fitSurface(const PressRegion& region)
   const double reach = kFitReach * std::max(region.inner(), 2.0 * region.edgeLength());
   const double scale = 1.0 / reach;
   fitted_ = reach;
-  Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6> sums;
   Quadric heights = Quadric::Zero();
+  // the sums of w x^i y^j, of which the normal equations have each several times
+  std::array<double, 15> moments{};
   for (const Place& place : region.places())
   {
     const double x = scale * place.local.x();
     const double y = scale * place.local.y();
     const double left = 1.0 - x * x - y * y;
-    if (left > 0.0 && place.front)
+    if (!(left > 0.0) || !place.front)
     {
-      Quadric terms;
-      terms << 1.0, x, y, x * x, x * y, y * y;
-      sums.triangularView<Eigen::Lower>() += (left * left * terms) * terms.transpose();
-      heights += left * left * place.local.z() * terms;
+      continue;
+    }
+    const double xx = x * x;
+    const double xy = x * y;
+    const double yy = y * y;
+    const std::array<double, 15> terms{ 1.0, x, y, xx, xy, yy, xx * x, xx * y, yy * x, yy * y,
+      xx * xx, xx * xy, xx * yy, xy * yy, yy * yy };
+    for (std::size_t i = 0; i < moments.size(); ++i)
+    {
+      moments[i] += left * left * terms[i];
+    }
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+      heights[static_cast<Eigen::Index>(i)] += left * left * place.local.z() * terms[i];
     }
   }
+  const auto& m = moments;
+  sums << m[0], m[1], m[2], m[3], m[4], m[5], //
+    m[1], m[3], m[4], m[6], m[7], m[8],       //
+    m[2], m[4], m[5], m[7], m[8], m[9],       //
+    m[3], m[6], m[7], m[10], m[11], m[12],    //
+    m[4], m[7], m[8], m[11], m[12], m[13],    //
+    m[5], m[8], m[9], m[12], m[13], m[14];
   // a trace of stiffness keeps at zero what few points leave open
   sums.diagonal().array() += 1e-6 * sums(0, 0) + 1e-12;
   Quadric units;
   units << 1.0, scale, scale, scale * scale, scale * scale, scale * scale;
-  surface_ = sums.selfadjointView<Eigen::Lower>().ldlt().solve(heights).cwiseProduct(units);
+  surface_ = sums.ldlt().solve(heights).cwiseProduct(units);
 }
 
 double PressField::surfaceHeight(double x, double y) const noexcept
@@ -157,13 +155,13 @@ RingCurve PressField::curveAlong(
   return makeRingCurve(contact, -height, slope, region.outer());
 }
 
-RingCurve PressField::curveTowards(double x, double y) const noexcept
+inline RingCurve PressField::curveTowards(double turns) const noexcept
 {
-  const double turns = quarterTurns(x, y) * (kDirections / 4);
-  const auto below = std::min(static_cast<std::size_t>(turns), std::size_t{ kDirections - 1 });
-  const double v = turns - static_cast<double>(below);
-  const RingCurve& a = curves_[below];
-  const RingCurve& b = curves_[below + 1];
+  const double patch = turns * (kDirections / 4);
+  const int below = std::min(static_cast<int>(patch), kDirections - 1);
+  const double v = patch - below;
+  const RingCurve& a = curves_[static_cast<std::size_t>(below)];
+  const RingCurve& b = curves_[static_cast<std::size_t>(below) + 1];
   const auto between = [v](double first, double second) { return first + v * (second - first); };
   return { between(a.inner, b.inner), between(a.sink, b.sink), between(a.meet, b.meet), a.outer };
 }
@@ -172,7 +170,7 @@ std::array<Eigen::Vector3d, 3> PressField::controlPoints(
   int direction, const PressRegion& region) const noexcept
 {
   const RingCurve& curve = curves_[static_cast<std::size_t>(direction)];
-  const Eigen::Vector2d towards = directionAt(4.0 * direction / kDirections);
+  const Eigen::Vector2d towards = directionOf(4.0 * direction / kDirections);
   const auto point = [&](double radius, double sink)
   {
     const Eigen::Vector2d at = radius * towards;
@@ -181,13 +179,9 @@ std::array<Eigen::Vector3d, 3> PressField::controlPoints(
   return { point(curve.inner, curve.sink), point(curve.meet, 0.0), point(curve.outer, 0.0) };
 }
 
-double PressField::curveSink(const RingCurve& curve, double radius) const noexcept
+// the fitted shape between a direction's own ends
+double PressField::fittedSink(const RingCurve& curve, double radius) const noexcept
 {
-  if (!fittedCurve_ || !(curve.sink > 0.0) || !(curve.meet > curve.inner))
-  {
-    return curve.sinkAt(radius);
-  }
-  // the fitted shape between this direction's own ends
   SurfaceProfile profile = *fittedCurve_;
   const double scale = curve.sink / profile.sink;
   profile.inner = curve.inner;
@@ -198,17 +192,19 @@ double PressField::curveSink(const RingCurve& curve, double radius) const noexce
   return profile.sinkAt(radius);
 }
 
-double PressField::ringSink(const Place& place, const RingCurve& curve) const noexcept
+inline double PressField::ringSink(const Place& place, const RingCurve& curve) const noexcept
 {
-  const double sink = std::min(curveSink(curve, place.distance), deepest_);
-  if (!place.front || !(place.distance < curve.outer))
+  const bool isFitted = fittedCurve_ && curve.sink > 0.0 && curve.meet > curve.inner;
+  const double sink =
+    std::min(isFitted ? fittedSink(curve, place.distance) : curve.sinkAt(place.distance), deepest_);
+  const double end = std::min(fitted_, curve.outer);
+  if (!place.front || !(place.distance < end))
   {
     return sink;
   }
   // what the fit leaves of the surface goes with it at the contact circle, and less and less so to
   // where the fit ends
-  const double t =
-    std::min(1.0, (place.distance - curve.inner) / (std::min(fitted_, curve.outer) - curve.inner));
+  const double t = (place.distance - curve.inner) / (end - curve.inner);
   const double fade = (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
   const double left = place.local.z() - surfaceHeight(place.local.x(), place.local.y());
   return sink + std::clamp(fade * left, -sink, sink);
@@ -228,7 +224,7 @@ double PressField::sideSink(
 PressField::Sink PressField::sinkAt(
   const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
 {
-  const RingCurve curve = curveTowards(place.way.x(), place.way.y());
+  const RingCurve curve = curveTowards(place.turns);
   if (place.front && place.distance <= curve.inner)
   {
     const double toTool = body.lowest(rest, normal_);
@@ -241,7 +237,7 @@ PressField::Sink PressField::sinkAt(
     sink = std::max(sink, sideSink(place, curve, body.lowest(rest, normal_)));
   }
   const Eigen::Vector3d sunk = rest - sink * normal_;
-  if (body.inside(sunk) > 0.0)
+  if (body.contains(sunk))
   {
     return { sink - body.lowest(sunk, normal_), Zone::Contact };
   }

@@ -62,9 +62,6 @@ public:
   [[nodiscard]] Sink sinkAt(
     const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
 
-  /// The ring's curve in a direction of the tangent plane, between those of its patch.
-  [[nodiscard]] RingCurve curveTowards(double x, double y) const noexcept;
-
   /// P0, P1 and P2 in one of kDirections, in the frame of the surface [m].
   [[nodiscard]] std::array<Eigen::Vector3d, 3> controlPoints(
     int direction, const PressRegion& region) const noexcept;
@@ -77,9 +74,10 @@ private:
   using Quadric = Eigen::Matrix<double, 6, 1>;
 
   void fitSurface(const PressRegion& region);
+  [[nodiscard]] RingCurve curveTowards(double turns) const noexcept;
   [[nodiscard]] RingCurve curveAlong(
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
-  [[nodiscard]] double curveSink(const RingCurve& curve, double radius) const noexcept;
+  [[nodiscard]] double fittedSink(const RingCurve& curve, double radius) const noexcept;
   [[nodiscard]] double ringSink(const Place& place, const RingCurve& curve) const noexcept;
 
   [[nodiscard]] double sideSink(

@@ -15,6 +15,16 @@ constexpr double kSeedFacing = 0.2; // [-] cosine: the surface that was touched,
 constexpr double kShorter = 0.999;  // [-] of the distance: ends the search for still shorter ways
 constexpr double kTiny = 1e-12;     // [m]
 
+// of a triangle by two of its edges in the frame of the contact; scalars, for a vector would go
+// through memory
+inline bool facesTool(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept
+{
+  const double x = a.y() * b.z() - a.z() * b.y();
+  const double y = a.z() * b.x() - a.x() * b.z();
+  const double z = a.x() * b.y() - a.y() * b.x();
+  return z > 0.0 && z * z > kFront * kFront * (x * x + y * y + z * z);
+}
+
 } // namespace
 
 PressRegion::PressRegion(std::span<const float> rest, std::span<const Triangle> triangles)
@@ -71,10 +81,26 @@ bool PressRegion::faces(std::int32_t point, const Eigen::Vector3d& normal) const
 }
 
 // the nearest point that faces the tool: downhill from the last one, or, where that ends on
-// another sheet or the tool has jumped, through all points
+// another sheet or the tool has jumped, from the nearest of a few, or else through all points
 std::int32_t PressRegion::findSeed(const Contact& contact) const noexcept
 {
-  std::int32_t best = seed_;
+  const auto few = static_cast<std::size_t>(std::sqrt(static_cast<double>(slot_.size())));
+  std::int32_t best = downhill(seed_, contact);
+  if (best < 0)
+  {
+    best = downhill(findNearest(contact, few), contact);
+  }
+  return best < 0 ? findNearest(contact, 1) : best;
+}
+
+// to the nearest point that a way of ever nearer points leads to; -1 when the contact is not there
+std::int32_t PressRegion::downhill(std::int32_t start, const Contact& contact) const noexcept
+{
+  if (start < 0)
+  {
+    return -1;
+  }
+  std::int32_t best = start;
   double square = (rest(best) - contact.center).squaredNorm();
   double longestEdge = 0.0;
   for (bool better = true; better;)
@@ -97,14 +123,15 @@ std::int32_t PressRegion::findSeed(const Contact& contact) const noexcept
       }
     }
   }
-  return square <= longestEdge && faces(best, contact.normal) ? best : findNearest(contact);
+  return square <= longestEdge && faces(best, contact.normal) ? best : -1;
 }
 
-std::int32_t PressRegion::findNearest(const Contact& contact) const noexcept
+// of every so many points the nearest one that faces the tool; -1 when none does
+std::int32_t PressRegion::findNearest(const Contact& contact, std::size_t every) const noexcept
 {
-  std::int32_t best = kNowhere;
+  std::int32_t best = -1;
   double square = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < slot_.size(); ++i)
+  for (std::size_t i = 0; i < slot_.size(); i += every)
   {
     const auto point = static_cast<std::int32_t>(i);
     if (const double candidate = (rest(point) - contact.center).squaredNorm();
@@ -126,14 +153,15 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   center_ = contact.center;
   inner_ = inner;
   outer_ = outer;
+  perWidth_ = 1.0 / (outer - inner);
   const std::int32_t seed = findSeed(contact);
-  if (seed == kNowhere)
+  if (seed < 0)
   {
     return;
   }
   seed_ = seed;
   queue_.clear();
-  meet(seed, placeInFront(rest(seed)), body);
+  settle(seed, toLocal(rest(seed)), body);
   if (!places_.front().within)
   {
     // a tool between the points of a coarse mesh: a finer patch can still show its dent
@@ -143,18 +171,18 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   for (std::size_t i = 0; i < queue_.size(); ++i)
   {
     const auto from = static_cast<std::size_t>(queue_[i]);
-    const auto around = umbrella_.around(points_[from]);
-    bool open = true; // the neighbour before has no settled place
     std::int32_t before = Umbrella::kEnd;
-    for (const std::int32_t next : around)
+    bool isOpen = false; // what was before has no settled place
+    for (const std::int32_t next : umbrella_.around(points_[from]))
     {
-      const bool isOpen = next != Umbrella::kEnd && !isSettled(next);
-      if (before != Umbrella::kEnd && next != Umbrella::kEnd && (open || isOpen))
+      const bool wasOpen = isOpen;
+      isOpen = next != Umbrella::kEnd && !isSettled(next);
+      if (before != Umbrella::kEnd && next != Umbrella::kEnd && (wasOpen || isOpen))
       {
         expand(from, before, next, body);
+        isOpen = !isSettled(next);
       }
       before = next;
-      open = isOpen && !isSettled(next);
     }
   }
 }
@@ -162,87 +190,118 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
 // meets the corners of a triangle that has one within the dent
 void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body)
 {
-  bool front = places_[from].front;
-  if (front)
+  if (places_[from].front)
   {
-    const Eigen::Vector3d p = rest(points_[from]);
-    const Eigen::Vector3d area = (rest(a) - p).cross(rest(b) - p);
-    const double towards = area.dot(axes_.row(2));
-    front = towards > 0.0 && towards * towards > kFront * kFront * area.squaredNorm();
-  }
-  for (const std::int32_t point : { a, b })
-  {
-    if (isSettled(point))
+    const Eigen::Vector3d p = places_[from].local;
+    const Eigen::Vector3d atA = toLocal(rest(a));
+    const Eigen::Vector3d atB = toLocal(rest(b));
+    if (facesTool(atA - p, atB - p))
     {
-      continue;
+      settle(a, atA, body);
+      settle(b, atB, body);
+      return;
     }
-    Place place = placeInFront(rest(point));
-    place.front = front;
-    if (!front)
-    {
-      place.way = unrolled(points_[from], point == a ? b : a, point);
-      place.distance = place.way.norm();
-    }
-    meet(point, place, body);
   }
+  meetAround(a, points_[from], b, body);
+  meetAround(b, points_[from], a, body);
 }
 
-// takes a point, or a shorter way to one that was met before
-void PressRegion::meet(std::int32_t point, Place place, const ToolBody& body)
+// takes a point that faces the tool; inlined, for most of the time of growing is spent here
+[[gnu::always_inline]] inline void PressRegion::settle(
+  std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body)
 {
-  std::int32_t& slot = slot_[static_cast<std::size_t>(point)];
-  if (slot != kNowhere && !place.front &&
-    !(place.distance < kShorter * places_[static_cast<std::size_t>(slot)].distance))
+  if (isSettled(point))
   {
     return;
   }
-  place.within = place.distance < outer_ || body.inside(rest(point)) > 0.0;
-  if (slot == kNowhere)
-  {
-    slot = static_cast<std::int32_t>(points_.size());
-    points_.push_back(point);
-    places_.push_back(place);
-  }
-  else
-  {
-    places_[static_cast<std::size_t>(slot)] = place;
-  }
+  const std::size_t index = indexOf(point);
+  slot_[static_cast<std::size_t>(point)] |= 1;
+  Place& place = places_[index];
+  place.local = local;
+  place.turns = quarterTurns(local.x(), local.y());
+  place.distance = distanceInFront(local);
+  place.front = true;
+  place.within = place.distance < outer_ || body.contains(rest(point));
   if (place.within)
   {
-    queue_.push_back(slot);
+    queue_.push_back(static_cast<std::int32_t>(index));
   }
+}
+
+// takes a point beyond an edge, or a shorter way to one that was met before
+void PressRegion::meetAround(
+  std::int32_t point, std::int32_t from, std::int32_t beside, const ToolBody& body)
+{
+  if (isSettled(point))
+  {
+    return;
+  }
+  const bool isNew = find(point) < 0;
+  Place place = placeAround(from, beside, point);
+  const std::size_t index = indexOf(point);
+  if (!isNew && !(place.distance < kShorter * places_[index].distance))
+  {
+    return;
+  }
+  place.within = place.distance < outer_ || body.contains(rest(point));
+  places_[index] = place;
+  if (place.within)
+  {
+    queue_.push_back(static_cast<std::int32_t>(index));
+  }
+}
+
+// of a point in points(), where it is put if it was not there
+[[gnu::always_inline]] inline std::size_t PressRegion::indexOf(std::int32_t point)
+{
+  std::int32_t& slot = slot_[static_cast<std::size_t>(point)];
+  if (slot == kNowhere)
+  {
+    slot = 2 * static_cast<std::int32_t>(points_.size());
+    points_.push_back(point);
+    places_.emplace_back();
+  }
+  return static_cast<std::size_t>(slot >> 1);
+}
+
+inline Eigen::Vector3d PressRegion::toLocal(const Eigen::Vector3d& point) const noexcept
+{
+  return axes_ * (point - center_);
+}
+
+inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const noexcept
+{
+  const double square = local.head<2>().squaredNorm();
+  const double seen = std::sqrt(square);
+  if (!(seen > inner_))
+  {
+    return seen;
+  }
+  const double straight = std::sqrt(square + local.z() * local.z());
+  const double t = std::min(1.0, (straight - inner_) * perWidth_);
+  return seen + t * t * (straight - seen);
 }
 
 Place PressRegion::placeInFront(const Eigen::Vector3d& point) const noexcept
 {
-  const Eigen::Vector3d local = axes_ * (point - center_);
-  const Eigen::Vector2d across = local.head<2>();
-  const double square = across.squaredNorm();
-  const double seen = std::sqrt(square);
-  double stretch = 1.0;
-  if (seen > inner_)
-  {
-    const double straight = std::sqrt(square + local.z() * local.z());
-    const double t = std::min(1.0, (straight - inner_) / (outer_ - inner_));
-    stretch += t * t * (straight / seen - 1.0);
-  }
+  const Eigen::Vector3d local = toLocal(point);
   return { .local = local,
-    .way = stretch * across,
-    .distance = stretch * seen,
+    .turns = quarterTurns(local.x(), local.y()),
+    .distance = distanceInFront(local),
     .front = true,
     .within = false };
 }
 
 // the way to a point across the edge between two others, straight where their triangle is laid into
 // the plane of their own ways; along an edge where it is not seen through the first
-Eigen::Vector2d PressRegion::unrolled(
+Place PressRegion::placeAround(
   std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept
 {
   const Place& first = places_[static_cast<std::size_t>(find(from))];
   const Eigen::Vector3d arm = rest(point) - rest(from);
   double distance = first.distance + arm.norm();
-  Eigen::Vector2d towards = first.way;
-  if (const std::int32_t slot = find(beside); slot != kNowhere)
+  double turns = first.turns;
+  if (const std::int32_t slot = find(beside); slot >= 0)
   {
     // the edge on the x axis, the contact's centre below it, the point above
     const Place& second = places_[static_cast<std::size_t>(slot)];
@@ -259,12 +318,16 @@ Eigen::Vector2d PressRegion::unrolled(
     if (crossing >= 0.0 && crossing <= length)
     {
       distance = std::sqrt((x - centerX) * (x - centerX) + (y + below) * (y + below));
-      towards = (length - crossing) * first.way + crossing * second.way;
+      const Eigen::Vector2d towards = (length - crossing) * first.way() + crossing * second.way();
+      turns = quarterTurns(towards.x(), towards.y());
     }
   }
-  distance = std::max(distance, (rest(point) - center_).norm());
-  const double norm = towards.norm();
-  return norm > 0.0 ? Eigen::Vector2d(distance / norm * towards) : Eigen::Vector2d(distance, 0.0);
+  const Eigen::Vector3d local = axes_ * (rest(point) - center_);
+  return { .local = local,
+    .turns = turns,
+    .distance = std::max(distance, local.norm()),
+    .front = false,
+    .within = false };
 }
 
 std::vector<Triangle> PressRegion::triangles() const

@@ -5,6 +5,7 @@
 #include "pipeline/umbrella.h"
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,14 +13,36 @@
 namespace palp
 {
 
+/// Position of a direction of a plane among evenly spaced ones, without trigonometry or a branch.
+///
+/// @return  0 to 4 quarter turns from x over y; 0 for no direction
+[[nodiscard]] inline double quarterTurns(double x, double y) noexcept
+{
+  const double sum = std::abs(x) + std::abs(y);
+  return sum > 0.0 ? 2.0 - std::copysign(1.0 + x / sum, y) : 0.0;
+}
+
+/// The unit vector of quarterTurns().
+[[nodiscard]] inline Eigen::Vector2d directionOf(double turns) noexcept
+{
+  const double x = turns < 2.0 ? 1.0 - turns : turns - 3.0;
+  return Eigen::Vector2d(x, std::copysign(1.0 - std::abs(x), 2.0 - turns)).normalized();
+}
+
 /// A place of a pressed surface, seen from the contact.
 struct Place
 {
   Eigen::Vector3d local; ///< rest position from the contact's centre [m], z along its normal
-  Eigen::Vector2d way; ///< from the contact along the surface, unrolled into its tangent plane [m]
-  double distance;     ///< length of the way [m]
-  bool front;          ///< the surface faces the tool all along the way
-  bool within;         ///< within the dent; else next to it
+  double turns;          ///< where in the tangent plane the way there begins, see quarterTurns()
+  double distance;       ///< length of the way along the surface [m]
+  bool front;            ///< the surface faces the tool all along the way
+  bool within;           ///< within the dent; else next to it
+
+  /// The way, unrolled into the tangent plane [m].
+  [[nodiscard]] Eigen::Vector2d way() const noexcept
+  {
+    return distance * directionOf(turns);
+  }
 };
 
 /// The part of a surface around a contact, grown over mesh neighbours.
@@ -40,8 +63,8 @@ public:
   /// Finds the points nearer than the outer radius, those inside the tool, the one nearest to the
   /// contact, and the neighbours of all these.
   ///
-  /// Its cost follows their number as long as the contact moves by small steps; where it jumps to
-  /// another part of the surface, all points are looked at once.
+  /// Its cost follows their number as long as the contact moves by small steps; a jump to another
+  /// part of the surface adds the square root of all points, one to another sheet all of them.
   ///
   /// @param inner  contact radius r [m]
   /// @param outer  outer radius [m], more than inner
@@ -65,7 +88,7 @@ public:
   /// Index of a point in points(), negative when it is not there.
   [[nodiscard]] std::int32_t find(std::int32_t point) const noexcept
   {
-    return slot_[static_cast<std::size_t>(point)];
+    return slot_[static_cast<std::size_t>(point)] >> 1;
   }
 
   /// Triangles with a corner within the dent; indices into points().
@@ -113,24 +136,28 @@ public:
   [[nodiscard]] std::size_t bytes() const noexcept;
 
 private:
-  static constexpr std::int32_t kNowhere = -1;
+  static constexpr std::int32_t kNowhere = -2;
 
   [[nodiscard]] std::int32_t findSeed(const Contact& contact) const noexcept;
-  [[nodiscard]] std::int32_t findNearest(const Contact& contact) const noexcept;
+  [[nodiscard]] std::int32_t downhill(std::int32_t start, const Contact& contact) const noexcept;
+  [[nodiscard]] std::int32_t findNearest(const Contact& contact, std::size_t every) const noexcept;
   [[nodiscard]] bool faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept;
   [[nodiscard]] bool isSettled(std::int32_t point) const noexcept
   {
-    const std::int32_t slot = find(point);
-    return slot != kNowhere && places_[static_cast<std::size_t>(slot)].front;
+    return (slot_[static_cast<std::size_t>(point)] & 1) != 0;
   }
   void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
-  void meet(std::int32_t point, Place place, const ToolBody& body);
-  [[nodiscard]] Eigen::Vector2d unrolled(
+  [[nodiscard]] std::size_t indexOf(std::int32_t point);
+  void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
+  void meetAround(std::int32_t point, std::int32_t from, std::int32_t beside, const ToolBody& body);
+  [[nodiscard]] Eigen::Vector3d toLocal(const Eigen::Vector3d& point) const noexcept;
+  [[nodiscard]] double distanceInFront(const Eigen::Vector3d& local) const noexcept;
+  [[nodiscard]] Place placeAround(
     std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;
 
   std::span<const float> rest_;
   Umbrella umbrella_;
-  std::vector<std::int32_t> slot_; // of every point, place in points_
+  std::vector<std::int32_t> slot_; // of every point twice its index in points_, + 1 if settled
 
   // of one press; capacity is kept from frame to frame
   std::vector<std::int32_t> points_;
@@ -140,6 +167,7 @@ private:
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double inner_ = 0.0;
   double outer_ = 0.0;
+  double perWidth_ = 0.0; // 1 / (outer - inner) [1/m]
   std::int32_t seed_ = 0;
 };
 

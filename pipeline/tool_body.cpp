@@ -1,7 +1,5 @@
 #include "pipeline/tool_body.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace palp
@@ -22,6 +20,7 @@ ToolBody::ToolBody(const Tip& tip, const ToolPose& pose)
   , handle_(-pose.axis)
   , base_(baseRadius(tip))
   , sphere_(std::holds_alternative<SphereTip>(tip) ? std::get<SphereTip>(tip).radius : 0.0)
+  , flank_(std::holds_alternative<ConeTip>(tip) ? tipSlope(tip, 0.0) : 0.0)
 {
 }
 
@@ -30,7 +29,7 @@ double ToolBody::inside(const Eigen::Vector3d& point) const noexcept
   const Eigen::Vector3d fromApex = point - apex_;
   const double height = fromApex.dot(handle_);
   const double radius = (fromApex - height * handle_).norm();
-  return std::min(height - tipHeight(tip_, radius), base_ - radius);
+  return std::min(height - heightAt(radius), base_ - radius);
 }
 
 double ToolBody::lowest(const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept
@@ -62,7 +61,7 @@ double ToolBody::lowest(const Eigen::Vector3d& origin, const Eigen::Vector3d& up
   if (slant < kParallel * kParallel)
   {
     const double radius = radial.norm();
-    return radius < base_ ? start + tipHeight(tip_, radius) / climb : kMiss;
+    return radius < base_ ? start + heightAt(radius) / climb : kMiss;
   }
   const double along = radial.dot(drift) / slant;
   const double square = along * along - (radial.squaredNorm() - base_ * base_) / slant;
@@ -85,7 +84,7 @@ double ToolBody::march(double start, double height, double climb, const Eigen::V
     const Eigen::Vector3d across = radial + t * drift;
     const double radius = across.norm();
     const double widening = radius > 0.0 ? across.dot(drift) / radius : 0.0;
-    const double overTip = height + t * climb - tipHeight(tip_, radius);
+    const double overTip = height + t * climb - heightAt(radius);
     const double inShaft = base_ - radius;
     const double value = std::min(overTip, inShaft);
     if (value > -kTolerance)

@@ -4,6 +4,8 @@
 #include "haptics/force/tip.h"
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 namespace palp
 {
@@ -22,6 +24,20 @@ public:
   /// @return [m]
   [[nodiscard]] double inside(const Eigen::Vector3d& point) const noexcept;
 
+  /// Whether a point is inside, at a fraction of the cost.
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point) const noexcept
+  {
+    const Eigen::Vector3d fromApex = point - apex_;
+    const double height = fromApex.dot(handle_);
+    const double square = fromApex.squaredNorm() - height * height;
+    if (!(height > 0.0) || !(square < base_ * base_))
+    {
+      return false;
+    }
+    return sphere_ > 0.0 ? height > sphere_ || square + height * height < 2.0 * sphere_ * height
+                         : height > heightAt(std::sqrt(std::max(0.0, square)));
+  }
+
   /// Where a line enters the tool, coming from below.
   ///
   /// @param origin  of the line [m]
@@ -31,6 +47,10 @@ public:
     const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept;
 
 private:
+  [[nodiscard]] double heightAt(double radius) const noexcept
+  {
+    return flank_ > 0.0 ? flank_ * radius : tipHeight(tip_, radius);
+  }
   [[nodiscard]] double march(double start, double height, double climb,
     const Eigen::Vector3d& radial, const Eigen::Vector3d& drift) const noexcept;
 
@@ -39,6 +59,7 @@ private:
   Eigen::Vector3d handle_; // unit vector from apex to handle
   double base_;            // [m]
   double sphere_;          // radius of a spherical tip [m], 0 for other tips
+  double flank_;           // slope of a sharp cone [-], 0 for other tips
 };
 
 } // namespace palp

@@ -73,6 +73,16 @@ TEST(BenchCommand, PutsSpringsAndElementsBesideOurs)
       "corotational", "mass-spring", "mass-spring-volume", "servo_step", "update" }));
 }
 
+TEST(BenchCommand, MeasuresPicturesByTheProgramThatDrawsThem)
+{
+  const test::Finished finished = bench("--frames --json --most 1600");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const nlohmann::json rows = nlohmann::json::parse(finished.out).at("rows");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("case"), "still");
+  EXPECT_EQ(rows[1].at("case"), "500");
+}
+
 TEST(BenchCommand, RefusesAGateThatIsNoReport)
 {
   const auto file = std::filesystem::path(::testing::TempDir()) / "palp_bench_no_gate.json";

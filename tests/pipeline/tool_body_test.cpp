@@ -55,6 +55,7 @@ TEST_P(AnyTool, IsEnteredFromOutsideWhenTilted)
   {
     const ToolBody body(GetParam(), tilted(angle(random)));
     const Eigen::Vector3d origin(place(random), place(random), place(random));
+    EXPECT_EQ(body.contains(origin), body.inside(origin) > 0.0);
     const double t = body.lowest(origin, kUp);
     if (std::isinf(t))
     {
