@@ -62,7 +62,8 @@ TEST(BenchCommand, PutsSpringsAndElementsBesideOurs)
   const test::Finished finished = bench("--json --baselines");
   ASSERT_EQ(finished.code, 0) << finished.err;
   std::set<std::string> names;
-  for (const nlohmann::json& row : nlohmann::json::parse(finished.out).at("rows"))
+  const nlohmann::json report = nlohmann::json::parse(finished.out);
+  for (const nlohmann::json& row : report.at("rows"))
   {
     EXPECT_EQ(row.at("vertices"), 1600);
     EXPECT_GT(row.at("median_us"), 0.0);
