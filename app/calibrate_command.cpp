@@ -221,6 +221,11 @@ void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
   {
     makeShippedTables(options.tables, interrupt.token(),
       [](const std::string& name) { std::cerr << "palp: " << name << '\n'; });
+    if (interrupt.token().stop_requested())
+    {
+      throw Error(ErrorCode::NoSolution,
+        "interrupted; the tables that were not finished are as before, start again for them");
+    }
   }
   else if (!options.sweep.empty())
   {

@@ -67,8 +67,7 @@ void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
   for (const Named& named : kExperiments)
   {
     const auto& wanted = options.names;
-    if (interrupt.token().stop_requested() ||
-      (!wanted.empty() && std::find(wanted.begin(), wanted.end(), named.name) == wanted.end()))
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), named.name) == wanted.end())
     {
       continue;
     }
@@ -77,7 +76,9 @@ void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
       named.run(options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
     if (interrupt.token().stop_requested())
     {
-      break; // half an experiment finds nothing
+      throw Error(ErrorCode::NoSolution,
+        std::string(named.name) + ": interrupted; what was finished before it is in " +
+          options.out.string());
     }
     write(experiment, options.out);
     if (!options.noPicture)

@@ -105,10 +105,6 @@ void makeExtentTables(const std::filesystem::path& folder, std::stop_token stop,
     Shipped{ "cone45_r6_h30", cone(6.0_mm), 30.0_mm } };
   for (const Shipped& shipped : all)
   {
-    if (stop.stop_requested())
-    {
-      return;
-    }
     tell(shipped.name);
     Case study{ .name = shipped.name, .height = shipped.height, .tip = shipped.tip };
     for (int i = 1; i <= 20; ++i)
@@ -116,6 +112,10 @@ void makeExtentTables(const std::filesystem::path& folder, std::stop_token stop,
       study.depths.push_back(i * 0.5_mm);
     }
     const Outcome outcome = calibrate(study, stop);
+    if (stop.stop_requested())
+    {
+      return; // the table that is there is better than half of a new one
+    }
     const auto header = describe(study, bodyOf(study));
     std::ostringstream extents;
     extents << tableText(study, header, outcome);

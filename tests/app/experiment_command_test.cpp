@@ -1,0 +1,45 @@
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using test::Finished;
+
+Finished experiment(const std::string& arguments)
+{
+  return test::runCommand(PALP_PROGRAM " experiment " + arguments);
+}
+
+TEST(ExperimentCommand, WritesDataFindingAndEveryFigure)
+{
+  const test::TemporaryFolder folder;
+  const Finished finished =
+    experiment("inclination profiles --quick --out " + folder.path().string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("21.57 degrees by Eq. (7)"), std::string::npos);
+  EXPECT_TRUE(test::readAll(folder.path() / "inclination.csv").starts_with("# Sphere: 21.57"));
+  for (const char* name :
+    { "inclination.png", "profiles.csv", "profiles_sphere.png", "profiles_cone.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "forces.csv"));
+}
+
+TEST(ExperimentCommand, RefusesAnUnknownNameAndAFolderThatCannotBe)
+{
+  const test::TemporaryFolder folder;
+  const Finished unknown = experiment("gravity");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("inclination"), std::string::npos) << unknown.err; // what there is
+  const Finished blocked = experiment("inclination --no-picture --out /dev/null/experiments");
+  EXPECT_EQ(blocked.code, 2);
+  EXPECT_NE(blocked.err.find("/dev/null/experiments"), std::string::npos) << blocked.err;
+}
+
+} // namespace
+} // namespace palp
