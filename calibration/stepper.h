@@ -57,8 +57,8 @@ class Elasticity;
 /// damping. Conjugate gradients with the diagonal as preconditioner start from the last
 /// velocities. Surface nodes inside the tool are put on it within the step: their velocity along
 /// its normal is prescribed in the solve and the force that takes is the contact force, exact
-/// whatever the stiffness. Nodes that the tool would pull are let go in the next step, or, where
-/// they take more than 1 % of its push as when it is lifted quickly, in a second and third solve of
+/// whatever the stiffness. Nodes that the tool would pull are let go in the next step; where the
+/// pull is above a quarter of the push, as of a tool that is lifted quickly, in another solve of
 /// this one. The sharp rim of a punch holds no node: they slip around it, and the force shivers.
 class Stepper
 {
