@@ -27,7 +27,7 @@ inline constexpr std::array kBaselines{ Baseline::Corotational, Baseline::MassSp
 /// corotational, mass-spring, mass-spring-volume
 [[nodiscard]] std::string_view name(Baseline baseline) noexcept;
 
-/// How a step is solved. The defaults are those of the paper's comparison.
+/// How a step is solved. The paper states none of these figures; 25 iterations are usual.
 struct StepSettings
 {
   int mostIterations = 25;        ///< of conjugate gradients in one solve, 1 or more
