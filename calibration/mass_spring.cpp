@@ -7,13 +7,9 @@
 
 namespace palp::fem
 {
-namespace
-{
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-} // namespace
 
 MassSprings::MassSprings(
   const TetMesh& mesh, const BlockMatrix& matrix, const Material& material, bool holdVolumes)

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double kNearBase = 1 - 1e-6; // a node on the rim of the tool is off it [-]
 constexpr double kLongestStep = 1.0;   // [s]
-constexpr double kPulled = 0.01; // of the tool's push: more pull than this is not let pass [-]
+constexpr double kPulled = 0.25; // of the push of a tool that presses; beyond, it is lifted [-]
 constexpr int kMostSolves = 3;   // in a step
 
 void require(bool good, const std::string& message)

@@ -27,7 +27,7 @@ inline constexpr std::array kBaselines{ Baseline::Corotational, Baseline::MassSp
 /// corotational, mass-spring, mass-spring-volume
 [[nodiscard]] std::string_view name(Baseline baseline) noexcept;
 
-/// How a step is solved. The defaults are those of the paper's comparison.
+/// How a step is solved. The paper states none of these figures; 25 iterations are usual.
 struct StepSettings
 {
   int mostIterations = 25;        ///< of conjugate gradients in one solve, 1 or more
@@ -57,8 +57,8 @@ class Elasticity;
 /// damping. Conjugate gradients with the diagonal as preconditioner start from the last
 /// velocities. Surface nodes inside the tool are put on it within the step: their velocity along
 /// its normal is prescribed in the solve and the force that takes is the contact force, exact
-/// whatever the stiffness. Nodes that the tool would pull are let go in the next step, or, where
-/// they take more than 1 % of its push as when it is lifted quickly, in a second and third solve of
+/// whatever the stiffness. Nodes that the tool would pull are let go in the next step; where the
+/// pull is above a quarter of the push, as of a tool that is lifted quickly, in another solve of
 /// this one. The sharp rim of a punch holds no node: they slip around it, and the force shivers.
 class Stepper
 {
