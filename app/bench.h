@@ -57,7 +57,7 @@ template <typename Before, typename Work>
 /// made of.
 /// @param most   vertices of the largest surface
 /// @param ticks  of each measurement; a quarter of them at the pace of 1 kHz, a fortieth cold
-[[nodiscard]] std::vector<BenchRow> benchServo(std::size_t most, int ticks = 4000);
+[[nodiscard]] std::vector<BenchRow> benchServo(std::size_t most, int ticks);
 
 /// Contact, law, deformed points and their normals: what one picture costs the processor; and the
 /// last two alone by the number of displaced points, on meshes of 10,000 and 1,000,000.

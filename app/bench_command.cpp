@@ -26,6 +26,7 @@ struct BenchOptions
   bool accuracy = false;
   bool baselines = false;
   bool frames = false;
+  bool quick = false;
   std::string servo;
   std::filesystem::path gate;
   double slack = 1.5;
@@ -45,7 +46,7 @@ Bench measure(const BenchOptions& options, const Pictures* pictures)
   Bench bench;
   bench.rows = options.baselines ? benchBaselines()
     : options.frames             ? pictures->benchFrames(options.most)
-                                 : benchServo(options.most);
+                                 : benchServo(options.most, options.quick ? 400 : 4000);
   sweeps.push_back(benchSweep());
   if (!options.baselines && !options.frames)
   {
@@ -189,6 +190,7 @@ void addBenchCommand(CLI::App& app, const Pictures* pictures)
     ->capture_default_str();
   command->add_option("--most", options->most, "Vertices of the largest surface")
     ->capture_default_str();
+  command->add_flag("--quick", options->quick, "A tenth of the repetitions");
   command->add_flag("--baselines", options->baselines,
     "Instead: one step of springs and of finite elements beside ours, as Fig. 12");
   command->add_flag("--frames", options->frames,

@@ -29,21 +29,17 @@ void measure(Trial& trial, std::span<const double> depths, const Effort& effort,
   {
     effort.check();
     trial.forces.push_back(forceAt(depth));
-    auto& times = trial.times.emplace_back();
-    for (int i = 0; i < effort.repeats(); ++i)
-    {
-      double sum = 0.0;
-      const auto measured = timed(
-        21, [](int) {},
-        [&](int k)
+    double sum = 0.0;
+    const auto measured = timed(
+      21, [](int) {},
+      [&](int k)
+      {
+        for (int call = 0; call < kCalls; ++call)
         {
-          for (int call = 0; call < kCalls; ++call)
-          {
-            sum += forceAt(depth + 1e-12 * (call + k));
-          }
-        });
-      times.push_back(sum > 0.0 ? spreadOf(measured).median / kCalls : 0.0);
-    }
+          sum += forceAt(depth + 1e-12 * (call + k));
+        }
+      });
+    trial.times.push_back({ sum > 0.0 ? spreadOf(measured).median / kCalls : 0.0 });
   }
 }
 
@@ -129,8 +125,7 @@ std::vector<Trial> tryLaws(
 }
 
 Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
-  std::span<const double> depths, int repeats, const Effort& effort,
-  std::vector<fem::Indented>* surfaces)
+  std::span<const double> depths, const Effort& effort, std::vector<fem::Indented>* surfaces)
 {
   Trial trial = start("", omissionsOf(energy), energy);
   trial.method = "finite elements " + std::string(fem::name(energy));
@@ -145,30 +140,24 @@ Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
     .depths = { depths.begin(), depths.end() },
     .elementSize = size * press.size };
   const fem::Body body = fem::bodyOf(study);
-  for (int repeat = 0; repeat < repeats; ++repeat)
+  fem::Indenter indenter(body, press.tip, energy, kTissue);
+  for (std::size_t i = 0; i < depths.size(); ++i)
   {
-    fem::Indenter indenter(body, press.tip, energy, kTissue);
-    for (std::size_t i = 0; i < depths.size(); ++i)
+    effort.check();
+    try
     {
-      effort.check();
-      try
-      {
-        trial.times[i].push_back(timed(
-          1, [](int) {},
-          [&](int) {
-            indenter.press(depths[i]);
-          }).front());
-      }
-      catch (const Error&)
-      {
-        break; // no equilibrium so deep: the rows of this regime are left out
-      }
-      const fem::Indented state = indenter.state();
-      trial.forces[i] = state.force;
-      if (surfaces && repeat == 0)
-      {
-        surfaces->push_back(state);
-      }
+      trial.times[i] = timed(
+        1, [](int) {}, [&](int) { indenter.press(depths[i]); });
+    }
+    catch (const Error&)
+    {
+      break; // no equilibrium so deep: the rows of this regime are left out
+    }
+    const fem::Indented state = indenter.state();
+    trial.forces[i] = state.force;
+    if (surfaces)
+    {
+      surfaces->push_back(state);
     }
   }
   return trial;
@@ -187,7 +176,7 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
   constexpr double kStep = 20.0_ms; // the graphics loop in which the paper runs such methods
   constexpr double kStill = 1e-4;   // change of the force in a step [-]
   constexpr int kMostSteps = 300;
-  constexpr int kTimed = 5;
+  constexpr int kTimed = 15;
   const bool springs = baseline == fem::Baseline::MassSpring;
   Trial trial = start("",
     springs ? "Poisson's ratio, which is 1/4; the stress of a continuum"

@@ -32,7 +32,7 @@ inline constexpr std::array kResolutions{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 
 /// @param surfaces  takes the pressed body at each depth, where wanted
 /// @throws Interrupted
 [[nodiscard]] Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
-  std::span<const double> depths, int repeats, const Effort& effort,
+  std::span<const double> depths, const Effort& effort,
   std::vector<fem::Indented>* surfaces = nullptr);
 
 /// Bodies of tetrahedra and of springs stepped in time, Fig. 12, each held at a depth until its

@@ -104,7 +104,7 @@ SurfaceTrial tryElementSurface(const BlockPress& press,
     depths.push_back(i * 0.5_mm);
   }
   std::vector<fem::Indented> steps;
-  const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, 1, effort, &steps);
+  const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, effort, &steps);
   SurfaceTrial trial{ .method = "finite elements",
     .setting = forces.setting,
     .leavesOut = forces.leavesOut,
@@ -343,7 +343,8 @@ Section surfaceAgainstTime(const Effort& effort)
   }
   Table front{ .name = "surface_pareto_front",
     .caption = "The Pareto fronts: no other surface is both faster and more accurate.",
-    .columns = { "front", "method", "setting", "regime", "time_us", "error_rms_mm" } };
+    .columns = { "front", "method", "setting", "regime", "time_us", "error_rms_mm" },
+    .shown = false };
   for (const BlockPress& press : wanted)
   {
     addParetoFront(front, press.name, section.tables[1], "error_rms_mm", press.name, "");
