@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/devices_report.h"
 #include "app/program.h"
 
 #include <CLI/CLI.hpp>

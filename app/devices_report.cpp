@@ -3,10 +3,12 @@
 #include "haptics/devices/driver.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
+#include "haptics/error.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <thread>
@@ -27,15 +29,17 @@ struct Family
 {
   DeviceKind kind;
   const char* name;
-  const char* absent; ///< what to do where none is there
+  const char* absent;                ///< what to do where none is there
+  const char* (*library)() noexcept; ///< what is wrong with the library it needs
 };
 
 constexpr std::array kFamilies{
-  Family{ DeviceKind::SpaceMouse, "SpaceMouse", "plug one in; it moves the tool, without force" },
+  Family{ DeviceKind::SpaceMouse, "SpaceMouse", "plug one in; it moves the tool, without force",
+    &hidHurdle },
   Family{ DeviceKind::Falcon, "Novint Falcon",
-    "plug in USB and power; the first time give firmware as --device falcon:FILE" },
+    "plug in USB and power; the first time give firmware as --device falcon:FILE", &usbHurdle },
   Family{ DeviceKind::RawHid, "WoodenHaptics, PHD1 and other raw HID boards",
-    "plug one in; use it by its path, as --device wooden:/dev/hidraw2" },
+    "plug one in; use it by its path, as --device wooden:/dev/hidraw2", &hidHurdle },
 };
 
 void print(const FoundDevice& device)
@@ -44,15 +48,41 @@ void print(const FoundDevice& device)
             << (device.hurdle.empty() ? "can be used" : device.hurdle) << '\n';
 }
 
-int list(const std::vector<FoundDevice>& all)
+// a Falcon that can be opened may still lack its firmware: only its answer tells
+void probeFirmware(FoundDevice& device)
 {
-  for (const auto& [kind, name, absent] : kFamilies)
+  if (device.kind == DeviceKind::Falcon && device.hurdle.empty())
+  {
+    try
+    {
+      (void)openDriver("falcon");
+    }
+    catch (const Error& error)
+    {
+      const std::string what = error.what(); // begins with the name
+      device.hurdle = what.substr(what.find(": ") + 2);
+    }
+  }
+}
+
+// spacenavd and its clients agree on this name
+bool spacenavdRuns()
+{
+  const char* socket = std::getenv("SPNAV_SOCKET");
+  return std::filesystem::exists(socket != nullptr ? socket : "/run/spnav.sock");
+}
+
+int list(std::vector<FoundDevice> all)
+{
+  std::ranges::for_each(all, probeFirmware);
+  for (const auto& [kind, name, absent, library] : kFamilies)
   {
     std::cout << name << ": protocol tested against an emulation; not yet on hardware\n";
     const auto isOurs = [kind = kind](const FoundDevice& one) { return one.kind == kind; };
     if (std::ranges::none_of(all, isOurs))
     {
-      std::cout << "  none; " << absent << '\n';
+      const std::string broken = library();
+      std::cout << "  none; " << (broken.empty() ? absent : broken) << '\n';
     }
     for (const FoundDevice& device : all)
     {
@@ -62,7 +92,7 @@ int list(const std::vector<FoundDevice>& all)
       }
     }
   }
-  if (std::filesystem::exists("/run/spnav.sock"))
+  if (spacenavdRuns())
   {
     std::cout << "spacenavd runs and may hold the SpaceMouse; stop it if the tool does not move\n";
   }

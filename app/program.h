@@ -5,6 +5,7 @@
 namespace palp
 {
 
+struct DevicesOptions;
 struct Pictures;
 
 /// The whole of `palp view`.
@@ -12,13 +13,6 @@ struct ViewOptions
 {
   ScenePlan plan;
   bool explain = false; ///< tell what was built once the first picture stands, and end
-};
-
-/// The whole of `palp devices`.
-struct DevicesOptions
-{
-  std::string probe; ///< as a user names a device; empty: none
-  bool watch = false;
 };
 
 /// What one of the sibling programs carries beyond the common commands.

@@ -136,6 +136,35 @@ TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)
   }
 }
 
+// above the block for as long as a force takes to start, then 5 mm into it in 0.2 s, and out again
+TEST_F(RunCommand, ThroughTheChainTheForceIsWhatTheArmOfThePaperBears)
+{
+  std::ostringstream rows;
+  rows << "0,0,0," << topMm() + 5 << "\n0.1,0,0," << topMm() + 5 << "\n0.3,0,0," << topMm() - 5
+       << "\n0.4,0,0," << topMm() - 5 << "\n0.6,0,0," << topMm() + 5 << "\n";
+  const auto path = writePath(folder_.path(), rows.str().c_str());
+  for (const char* young : { "20kPa", "1.5MPa" })
+  {
+    const Finished finished = palp("run " + block() + " --path " + path.string() +
+      " --chain --no-picture --young " + young + " --out " + (folder_.path() / "out").string());
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    const test::CsvTable samples = test::readCsv(folder_.path() / "out/samples.csv");
+    const auto& law = samples["force_N"];
+    const auto& sent = samples["force_z_N"];
+    for (std::size_t k = 1; k < sent.size(); ++k)
+    {
+      ASSERT_LE(sent[k], 4.0 * (1.0 + 1e-9)) << k;
+      ASSERT_LE(std::abs(sent[k] - sent[k - 1]), 0.5 * (1.0 + 1e-9)) << k;
+      ASSERT_GE(sent[k], 0.0) << k;
+    }
+    const std::size_t rest = 390; // 5 mm deep
+    const auto flags = static_cast<unsigned>(samples["flags"][rest]);
+    const bool soft = young[0] == '2';
+    EXPECT_NEAR(sent[rest], soft ? law[rest] : 4.0, 1e-6);
+    EXPECT_EQ((flags & static_cast<unsigned>(Flag::StiffnessLimited)) != 0, !soft);
+  }
+}
+
 TEST_F(RunCommand, WritesTheDeepestMomentInMillimetres)
 {
   ASSERT_EQ(press("--no-picture", "out").code, 0);

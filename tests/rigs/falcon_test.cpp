@@ -1,6 +1,7 @@
 // libusb itself, against a Novint Falcon that is made up: umockdev gives it a place in /sys, this
 // program answers the requests of usbfs. A FIFO in the place of the node wakes libusb's poll.
 
+#include "app/devices_report.h"
 #include "haptics/devices/falcon_driver.h"
 #include "haptics/devices/falcon_kinematics.h"
 #include "haptics/devices/threaded_device.h"
@@ -472,6 +473,18 @@ TEST_F(FalconRig, LoadsTheFirmwareByteForByteOnlyWhereNoneRuns)
 TEST_F(FalconRig, SaysThatFirmwareIsMissing)
 {
   EXPECT_THROW(FalconDriver(openFalcon(), {}), Error);
+}
+
+TEST_F(FalconRig, DevicesTellsThatItsFirmwareIsMissing)
+{
+  for (const bool loaded : { false, true })
+  {
+    falcon_->loaded = loaded;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(showDevices({}), loaded ? 0 : 6);
+    const std::string text = testing::internal::GetCapturedStdout();
+    EXPECT_NE(text.find(loaded ? ": can be used" : ": has no firmware since"), text.npos) << text;
+  }
 }
 
 // a machine under load may answer late: that is no loss

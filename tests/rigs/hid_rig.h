@@ -38,6 +38,7 @@ inline constexpr int kDescriptorSize = 27;
 
 inline std::atomic<int> gHostEnd = -1; // handed out to the one who opens the node
 inline std::atomic<int> gOpen = -1;
+inline std::atomic<bool> gDenied = false; // to this user, as without udev rules
 
 template <typename Function>
 Function next(const char* name)
@@ -54,6 +55,11 @@ extern "C" int open(const char* path, int flags, ...)
   va_start(arguments, flags);
   const int mode = va_arg(arguments, int);
   va_end(arguments);
+  if (std::strcmp(path, palp::test::kNode) == 0 && palp::test::gDenied)
+  {
+    errno = EACCES;
+    return -1;
+  }
   if (std::strcmp(path, palp::test::kNode) == 0)
   {
     palp::test::gOpen = palp::test::gHostEnd.exchange(-1);
@@ -62,6 +68,17 @@ extern "C" int open(const char* path, int flags, ...)
   }
   static const auto real = palp::test::next<int (*)(const char*, int, ...)>("open");
   return real(path, flags, mode);
+}
+
+extern "C" int access(const char* path, int mode) noexcept
+{
+  if (std::strcmp(path, palp::test::kNode) == 0 && palp::test::gDenied)
+  {
+    errno = EACCES;
+    return -1;
+  }
+  static const auto real = palp::test::next<int (*)(const char*, int)>("access");
+  return real(path, mode);
 }
 
 extern "C" int fstat(int file, struct stat* status) noexcept
@@ -288,6 +305,7 @@ protected:
 
   void TearDown() override
   {
+    gDenied = false;
     board_.reset();
     if (const int unused = gHostEnd.exchange(-1); unused >= 0)
     {

@@ -1,8 +1,10 @@
+#include "app/devices_report.h"
 #include "haptics/devices/threaded_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/rigs/hid_rig.h"
 
+#include <cstdlib>
 #include <vector>
 
 namespace palp
@@ -31,6 +33,56 @@ TEST_F(HidRig, FindsTheBoardButOnlyAsOneOfManyWithItsIds)
   EXPECT_EQ(found[0].name, "Polhem");
   EXPECT_EQ(found[0].ids, "16c0:0486");
   EXPECT_EQ(found[0].path, kNode);
+}
+
+struct Told
+{
+  int code;
+  std::string text;
+};
+
+Told tellDevices(const DevicesOptions& options = {})
+{
+  testing::internal::CaptureStdout();
+  const int code = showDevices(options);
+  return { code, testing::internal::GetCapturedStdout() };
+}
+
+TEST_F(HidRig, DevicesTellsWhatIsThereAndWhyItCannotBeUsed)
+{
+  const Told there = tellDevices();
+  EXPECT_EQ(there.code, 0);
+  EXPECT_NE(there.text.find("Polhem (16c0:0486) at /dev/hidraw0: can be used"), there.text.npos)
+    << there.text;
+
+  test::gDenied = true;
+  const Told denied = tellDevices();
+  EXPECT_EQ(denied.code, 6);
+  EXPECT_NE(denied.text.find("no permission; install the udev rules"), denied.text.npos);
+  EXPECT_THROW((void)openArm(), Error);
+  test::gDenied = false;
+
+  unplug();
+  const Told none = tellDevices();
+  EXPECT_EQ(none.code, 3);
+  EXPECT_NE(none.text.find("none; plug one in"), none.text.npos);
+}
+
+TEST_F(HidRig, DevicesNamesSpacenavd)
+{
+  EXPECT_EQ(tellDevices().text.find("spacenavd"), std::string::npos);
+  setenv("SPNAV_SOCKET", "/", 1); // something that exists
+  EXPECT_NE(tellDevices().text.find("spacenavd runs"), std::string::npos);
+  unsetenv("SPNAV_SOCKET");
+}
+
+TEST_F(HidRig, ProbeMeasuresTheExchange)
+{
+  const Told told = tellDevices({ .probe = std::string("wooden:") + kNode });
+  EXPECT_EQ(told.code, 0);
+  EXPECT_NE(told.text.find("exchanges answered in a second; median"), told.text.npos) << told.text;
+  EXPECT_GT(board_->packets, 100);
+  EXPECT_EQ(board_->pushes, 0); // zero force only
 }
 
 // a machine under load may answer late: that is no loss

@@ -7,6 +7,11 @@
 namespace palp
 {
 
+const char* hidHurdle() noexcept
+{
+  return "this build has no hidapi; install libhidapi-dev and build again";
+}
+
 std::vector<FoundDevice> listHid()
 {
   return {};
@@ -14,8 +19,7 @@ std::vector<FoundDevice> listHid()
 
 std::unique_ptr<Transport> openHid(const std::string& path)
 {
-  throw Error(ErrorCode::NoDevice,
-    path + ": this build has no hidapi; install libhidapi-dev and build again");
+  throw Error(ErrorCode::NoDevice, path + ": " + hidHurdle());
 }
 
 } // namespace palp

@@ -7,6 +7,11 @@
 namespace palp
 {
 
+const char* usbHurdle() noexcept
+{
+  return "this build has no libusb; install libusb-1.0-0-dev and build again";
+}
+
 std::vector<FoundDevice> listUsb()
 {
   return {};
@@ -14,8 +19,7 @@ std::vector<FoundDevice> listUsb()
 
 std::unique_ptr<SerialTransport> openFalcon()
 {
-  throw Error(ErrorCode::NoDevice,
-    "Novint Falcon: this build has no libusb; install libusb-1.0-0-dev and build again");
+  throw Error(ErrorCode::NoDevice, std::string("Novint Falcon: ") + usbHurdle());
 }
 
 } // namespace palp

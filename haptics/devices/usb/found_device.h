@@ -24,6 +24,10 @@ struct FoundDevice
   std::string hurdle; ///< why it cannot be used, and what to do; empty when it can
 };
 
+/// Why no such device can be found whatever is plugged in, and what to do; empty where it can.
+[[nodiscard]] const char* hidHurdle() noexcept;
+[[nodiscard]] const char* usbHurdle() noexcept;
+
 /// HID devices that are known, one for each interface that may talk.
 [[nodiscard]] std::vector<FoundDevice> listHid();
 

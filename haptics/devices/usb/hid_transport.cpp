@@ -113,6 +113,11 @@ std::string narrow(const wchar_t* text)
 
 } // namespace
 
+const char* hidHurdle() noexcept
+{
+  return "";
+}
+
 std::vector<FoundDevice> listHid()
 {
   const std::lock_guard lock(gLibrary);

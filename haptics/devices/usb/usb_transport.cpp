@@ -26,7 +26,7 @@ Context makeContext()
   libusb_context* context = nullptr;
   if (libusb_init(&context) != LIBUSB_SUCCESS)
   {
-    throw Error(ErrorCode::NoDevice, "USB: cannot be used on this system; check /dev/bus/usb");
+    throw Error(ErrorCode::NoDevice, std::string("Novint Falcon: ") + usbHurdle());
   }
   return { context, &libusb_exit };
 }
@@ -105,9 +105,24 @@ private:
 
 } // namespace
 
+const char* usbHurdle() noexcept
+{
+  libusb_context* context = nullptr;
+  if (libusb_init(&context) != LIBUSB_SUCCESS)
+  {
+    return "USB cannot be used on this system; check /dev/bus/usb";
+  }
+  libusb_exit(context);
+  return "";
+}
+
 std::vector<FoundDevice> listUsb()
 {
   std::vector<FoundDevice> found;
+  if (*usbHurdle() != '\0')
+  {
+    return found;
+  }
   const Context context = makeContext();
   libusb_device** devices = nullptr;
   const auto count = libusb_get_device_list(context.get(), &devices);

@@ -1,0 +1,41 @@
+#include "app/devices_report.h"
+#include "haptics/devices/usb/open_device.h"
+#include "haptics/error.h"
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+TEST(WithoutLibraries, DevicesSaysWhatToInstall)
+{
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(showDevices({}), 3);
+  const std::string text = testing::internal::GetCapturedStdout();
+  EXPECT_NE(text.find("SpaceMouse"), text.npos);
+  EXPECT_NE(text.find("none; this build has no hidapi; install libhidapi-dev"), text.npos) << text;
+  EXPECT_NE(text.find("none; this build has no libusb; install libusb"), text.npos) << text;
+}
+
+TEST(WithoutLibraries, ADeviceThatIsNamedIsRefusedWithTheReason)
+{
+  for (const auto& [name, library] :
+    { std::pair("phd1:/dev/hidraw0", "libhidapi-dev"), std::pair("falcon", "libusb-1.0-0-dev") })
+  {
+    try
+    {
+      (void)openDriver(name);
+      ADD_FAILURE() << name;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_EQ(error.code(), ErrorCode::NoDevice);
+      EXPECT_NE(std::string(error.what()).find(library), std::string::npos) << error.what();
+    }
+  }
+}
+
+} // namespace
+} // namespace palp
