@@ -187,9 +187,7 @@ TEST(Indenter, LargeLinearBlockIsHertzsHalfSpace)
 
 TEST(Indenter, HalvingTheMeshChangesTheForceByLessThanTwoPercent)
 {
-  Case capped = cone(Energy::NeoHookean, 50.0_mm, 2.0_mm);
-  capped.depths = { 1.0_mm, 2.0_mm };
-  for (const Case& coarse : { paperCase(Energy::Linear), paperCase(), capped })
+  for (const Case& coarse : { paperCase(Energy::Linear), paperCase() })
   {
     Case fine = coarse;
     fine.elementSize = 0.5 * coarse.elementSize;
@@ -282,7 +280,7 @@ TEST(Indenter, ElasticSpheresAgreeWithReference)
   }
 }
 
-// the paper's 30 x 30 x 10 nodes; block_slow_test goes through all depths and materials
+// the paper's 30 x 30 x 10 nodes; indenter_slow_test goes through all depths and materials
 TEST(Indenter, CoarseVolumetricBlockAgreesWithTheCylinder)
 {
   Case study = paperCase();

@@ -59,5 +59,24 @@ TEST_P(SlowBlock, ForceIsWithinEightPercentFromOneMillimetreOn)
   RecordProperty("worst_extent_mm", std::to_string(units::toMillimetres(worstExtent)));
 }
 
+// from where the contact spans four elements
+TEST(SlowIndenter, HalvingTheMeshUnderTheConeChangesTheForceByLessThanTwoPercent)
+{
+  Case coarse = paperCase();
+  coarse.tip = cappedCone();
+  coarse.elementSize = 0.5_mm;
+  Case fine = coarse;
+  fine.elementSize = 0.25_mm;
+  const auto before = completed(coarse).steps;
+  const auto after = completed(fine).steps;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    EXPECT_NEAR(before[i].force, after[i].force, 0.02 * after[i].force) << before[i].depth;
+    worst = std::max(worst, std::abs(before[i].force / after[i].force - 1.0));
+  }
+  RecordProperty("worst_force_percent", std::to_string(100.0 * worst));
+}
+
 } // namespace
 } // namespace palp::fem
