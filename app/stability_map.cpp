@@ -1,5 +1,6 @@
 #include "app/stability_map.h"
 
+#include "app/csv.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -50,17 +51,14 @@ std::string columnName(double modulus)
     double size;
     const char* name;
   };
-  for (const auto& [size, name] : { Unit{ 1e9, "GPa" }, Unit{ 1e6, "MPa" } })
+  for (const auto& [size, name] : { Unit{ 1e9, "GPa" }, Unit{ 1e6, "MPa" }, Unit{ 1e3, "kPa" } })
   {
     if (modulus >= size && std::isfinite(modulus))
     {
-      const std::string digits = std::to_string(modulus / size);
-      return digits.substr(0, modulus < 10.0 * size ? 3 : digits.find('.')) + " " + name;
+      return shortest(modulus / size) + " " + name;
     }
   }
-  return std::isfinite(modulus)
-    ? std::to_string(std::lround(units::toKilopascals(modulus))) + " kPa"
-    : "rigid";
+  return "rigid";
 }
 
 std::string rowName(const StabilityCase& what)
@@ -69,8 +67,7 @@ std::string rowName(const StabilityCase& what)
   {
     return what.name;
   }
-  const std::string period = std::to_string(units::toMilliseconds(what.loop.period));
-  return "period " + period.substr(0, 4) + " ms";
+  return "period " + shortest(units::toMilliseconds(what.loop.period)) + " ms";
 }
 
 void text(std::ostream& out, int x, int y, const std::string& words, const char* more = "")

@@ -14,7 +14,7 @@ constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
 constexpr int kMostDropped = 3;         // poses in a row that may be implausible
 constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
 constexpr double kLatestTicks = 5.0;
-constexpr int kMostRestarts = 3; // of a force that late ticks let never become whole
+constexpr int kMostRestarts = 5; // of a force that late ticks let never become whole
 
 // a silence that is borne at first, then lets the force fade, then ends it [s]
 struct Silence

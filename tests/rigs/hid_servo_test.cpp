@@ -303,8 +303,13 @@ INSTANTIATE_TEST_SUITE_P(Wire, HidServoUnplug,
 TEST_P(HidServoUnplug, IsToldAndComesBackWithoutForce)
 {
   reach(GetParam());
-  unplug();
+  const auto pulled = Board::Clock::now();
+  std::thread puller([this] { board_->unplug(); }); // its wire, at once; then its place in /sys
   const Sample gone = waitForState(DeviceState::Closed);
+  const std::chrono::duration<double, std::milli> took = Board::Clock::now() - pulled;
+  std::printf("noticed after %.1f ms\n", took.count()); // no gate
+  puller.join();
+  unplug();
   EXPECT_EQ(gone.force, Vector3d::Zero());
   EXPECT_TRUE(has(gone, Flag::DeviceLost));
 
