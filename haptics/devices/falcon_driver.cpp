@@ -39,7 +39,7 @@ constexpr std::uint16_t kEightBits = 8;
 constexpr std::size_t kStatusBytes = 2; // before the data of each packet of the chip
 constexpr std::size_t kChunk = 62;
 constexpr int kLoadAttempts = 10;
-constexpr int kGreetings = 100;
+constexpr int kGreetings = 10; // in each: without its power supply it would take minutes otherwise
 
 // motor counts for a torque: not calibrated, and low on purpose until somebody weighs it
 // @source  ratio of the traces in libnifalcon's translate_packet.py

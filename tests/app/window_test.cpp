@@ -37,6 +37,11 @@ QApplication& application()
   return instance;
 }
 
+bool has(const Sample& sample, Flag flag)
+{
+  return (sample.flags & static_cast<std::uint32_t>(flag)) != 0;
+}
+
 class WindowTest : public ::testing::Test
 {
 protected:
@@ -140,9 +145,18 @@ TEST_F(WindowTest, TheSimulatedHandYieldsToTheForceUntilItIsStopped)
 {
   window_->findChild<QComboBox*>("device")->setCurrentText("hand");
   press(300);
+  // a machine under load interrupts the force, which then is whole again once the tool has lifted
+  for (int again = 0; again < 5 && has(session_->newest(), Flag::Reseated); ++again)
+  {
+    release();
+    EXPECT_TRUE(
+      QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+    session_->arm(true);
+    press(300);
+  }
   const Sample felt = session_->newest();
   EXPECT_GT(felt.contact.depth, 0.5e-3);
-  EXPECT_LT(felt.contact.depth, 13e-3); // asked for 15 mm
+  EXPECT_LT(felt.contact.depth, 13e-3) << describeFlags(felt.flags); // asked for 15 mm
   EXPECT_GT(felt.force.norm(), 0.1) << describe(felt.state) << ": " << describeFlags(felt.flags);
 
   QTest::keyClick(window_.get(), Qt::Key_Escape);
