@@ -46,8 +46,11 @@ void PlotPanel::refresh()
     return;
   }
   Plots plots = pages_[static_cast<std::size_t>(tabs_->currentIndex())].make();
-  showPlots(*window_, plots);
-  plots_ = std::move(plots); // the ones before are drawn no more
+  if (!plots.empty()) // else the last ones stay, to be looked at when the tool is lifted
+  {
+    showPlots(*window_, plots);
+    plots_ = std::move(plots); // the window has let go of those before
+  }
   window_->Render();
 }
 

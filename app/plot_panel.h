@@ -29,7 +29,8 @@ public:
 
   explicit PlotPanel(std::vector<Page> pages, QWidget* parent = nullptr);
 
-  /// Makes and draws the plots of the tab in front; nothing where nobody sees them.
+  /// Makes and draws the plots of the tab in front, if anybody sees them; where there is nothing to
+  /// make them of, those before stay.
   void refresh();
 
   /// Writes what is shown.

@@ -95,6 +95,7 @@ Plot::Plot(const std::string& title, const std::string& bottom, const std::strin
   vertical->SetTickLength(3.0F);
   chart_->SetShowLegend(true);
   appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
+  chart_->GetLegend()->GetBrush()->SetColor(255, 255, 255, 190); // curves below it are still seen
 }
 
 vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
