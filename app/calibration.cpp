@@ -17,6 +17,7 @@ using namespace units::literals;
 
 constexpr double kThreshold = 0.5_mm; // Sec. 3.3.2
 constexpr double kPoisson = 0.33;
+constexpr double kYoung = 50.0_kPa;
 constexpr double kDeepest = 50.0_mm; // that the window asks for
 constexpr double kLayer = 5.0;       // thickness over radius of the paper's blocks, 10 and 6 mm
 
@@ -60,11 +61,16 @@ Layer layerOf(const PressOptions& options, double radius)
     length(options.threshold, "--threshold") };
 }
 
-Calibration ofTable(const std::filesystem::path& file)
+Calibration ofTable(const std::filesystem::path& file, double young)
 {
   ExtentTable extents = ExtentTable::read(file);
   const double reach = extents.rows().back().depth;
-  return { .extents = std::move(extents), .surfaces = std::nullopt, .reach = reach, .note = {} };
+  return { .extents = std::move(extents),
+    .surfaces = std::nullopt,
+    .reach = reach,
+    .note = {},
+    .elements = std::nullopt,
+    .young = young };
 }
 
 // of a cone there is one table for each of the paper's blocks
@@ -81,10 +87,11 @@ Calibration ofCone(const PressOptions& options, const ForceLaw& law)
   }
   const bool known = same(angle, 45.0_deg) && same(law.material().poissonRatio, kPoisson) &&
     (same(baseRadius(tip), 6.0_mm) || same(baseRadius(tip), 10.0_mm));
-  Calibration calibration = ofTable(dataFile(bundledTable(tip) + ".csv"));
+  Calibration calibration = ofTable(dataFile(bundledTable(tip) + ".csv"), kYoung);
   if (!known)
   {
     calibration.reach = 0.0;
+    calibration.young.reset();
     calibration.note = "R_d is that of the nearest cone with a table: 45 degrees, nu = 0.33";
   }
   return calibration;
@@ -100,7 +107,7 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
     std::holds_alternative<SphereTip>(law.tip());
   if (asPaper)
   {
-    return ofTable(dataFile(bundledTable(law.tip()) + ".csv"));
+    return ofTable(dataFile(bundledTable(law.tip()) + ".csv"), kYoung);
   }
   const SurfaceTable table = SurfaceTable::read(dataFile("tables/surface_sphere.csv"));
   SurfaceTable::Place place{
@@ -113,9 +120,10 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
     .surfaces = std::nullopt,
     .reach = sphere && covered ? radius : 0.0,
     .note = !sphere ? "R_d is that of a sphere of the same radius"
-      : covered
-      ? ""
-      : "R_d is clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)" };
+      : covered     ? ""
+                : "R_d is clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)",
+    .elements = std::nullopt,
+    .young = std::nullopt };
 }
 
 } // namespace
@@ -123,16 +131,19 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
 Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
 {
   const Tip& tip = law.tip();
-  Calibration calibration = !options.table.empty() ? ofTable(options.table)
-    : isCone(tip)                                  ? ofCone(options, law)
-                                                   : ofSphere(options, law);
+  // a table of the user's is made of the tissue that is pressed
+  Calibration calibration = !options.table.empty()
+    ? ofTable(options.table, law.material().youngModulus)
+    : isCone(tip) ? ofCone(options, law)
+                  : ofSphere(options, law);
+  const std::string bundled = bundledTable(tip);
+  const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
+  // the same picture for a layer as many radii thick
+  calibration.elements =
+    FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
   if (options.surface == "fitted")
   {
-    const std::string bundled = bundledTable(tip);
-    const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
-    // the same picture for a layer as many radii thick
-    calibration.surfaces =
-      FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
+    calibration.surfaces = calibration.elements;
   }
   return calibration;
 }

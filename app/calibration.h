@@ -18,6 +18,10 @@ struct Calibration
   double reach = 0.0;                     ///< depth to which R_d is computed, not estimated [m]
   std::string note;                       ///< what stands in for what, for the user; or empty
 
+  // to compare with
+  std::optional<FittedSurfaces> elements; ///< of the tool, or of the one that stands in for it
+  std::optional<double> young;            ///< E of the table's forces [Pa]; none: of another tool
+
   [[nodiscard]] bool covers(double depth) const noexcept
   {
     return depth <= reach;

@@ -1,10 +1,11 @@
 #include "app/draw_pictures.h"
 
+#include "app/export.h"
 #include "app/offscreen.h"
+#include "app/press_plots.h"
 #include "app/surface_point.h"
 #include "haptics/contact/nearest.h"
 #include "haptics/units.h"
-#include "pipeline/comparison.h"
 #include "pipeline/force_charts.h"
 #include "pipeline/press_view.h"
 
@@ -74,6 +75,43 @@ void drawChart(const OffscreenContext& context, const std::filesystem::path& fil
   writePng(*window, file);
 }
 
+void drawForce(const OffscreenContext& context, const Recording& recording, const ScenePlan& plan,
+  const std::filesystem::path& directory)
+{
+  ForceCharts charts;
+  charts.setLaw(recording.scene.law);
+  for (const Sample& sample : recording.samples)
+  {
+    charts.add(sample);
+  }
+  charts.refresh();
+  if (plan.has(Curve::ForceOverTime))
+  {
+    drawChart(context, directory / "force_time.png",
+      [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
+  }
+  if (plan.has(Curve::ForceOverDepth))
+  {
+    drawChart(context, directory / "force_depth.png",
+      [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
+  }
+}
+
+Plots deepestSection(const Body& body, const Recording& recording, const Calibration& calibration)
+{
+  const Sample* deepest = recording.deepest();
+  if (!deepest)
+  {
+    return {};
+  }
+  vtkNew<vtkPalpDeformFilter> press;
+  press->SetInputData(body.display);
+  press->GeneratePatchOn();
+  press->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
+  press->Update();
+  return sectionOf(*press, calibration);
+}
+
 } // namespace
 
 void DrawPictures::drawPress(const Body& body, const Recording& recording,
@@ -85,28 +123,30 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
   {
     drawScene(context, body, recording, *calibration, plan, directory / "press.png");
   }
-  if (plan.curves.empty())
+  drawForce(context, recording, plan, directory);
+  const auto draw = [&](Curve curve, const char* name, const Plots& plots)
   {
-    return;
-  }
-  ForceCharts charts;
-  charts.setLaw(recording.scene.law);
-  for (const Sample& sample : recording.samples)
+    if (!plan.has(curve) || plots.empty())
+    {
+      return;
+    }
+    const auto window =
+      context.makeWindow(kChart.width, kChart.height * (plots.size() > 1 ? 3 : 2) / 2);
+    showPlots(*window, plots);
+    for (const std::string& ending : plan.plotFiles)
+    {
+      writePlots(plots, *window, directory / (name + ("." + ending)));
+    }
+  };
+  std::vector<ReferenceCurve> references{ forceCurveOf(recording.samples) };
+  std::transform(
+    plan.references.begin(), plan.references.end(), std::back_inserter(references), readForceCurve);
+  draw(
+    Curve::Comparison, "comparison", forceComparison(recording.scene.law, calibration, references));
+  if (calibration)
   {
-    charts.add(sample);
-  }
-  charts.refresh();
-  const auto wants = [&](Curve curve)
-  { return std::find(plan.curves.begin(), plan.curves.end(), curve) != plan.curves.end(); };
-  if (wants(Curve::ForceOverTime))
-  {
-    drawChart(context, directory / "force_time.png",
-      [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
-  }
-  if (wants(Curve::ForceOverDepth))
-  {
-    drawChart(context, directory / "force_depth.png",
-      [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
+    draw(Curve::Section, "section", deepestSection(body, recording, *calibration));
+    draw(Curve::Extent, "extent", extentComparison(*calibration));
   }
 }
 

@@ -1,6 +1,6 @@
 #include "app/export.h"
 
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io.h"

@@ -1,5 +1,5 @@
 #include "app/commands.h"
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "app/law_options.h"
 #include "app/press_options.h"
 #include "app/quantity.h"

@@ -82,7 +82,7 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
     calibration = ledger.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
-  const bool shown = plan.deformed || plan.picture;
+  const bool shown = plan.deformed || plan.picture || plan.has(Curve::Section);
   const Body body = ledger.build("surface", shown ? "felt and shown" : "felt, not shown",
     [&] { return loadBody(plan.meshes, shown); });
   for (const std::string& note : body.notes)

@@ -1,6 +1,6 @@
 #include "app/json_object.h"
 
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "app/recording.h"
 
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "app/law_options.h"
 #include "app/tip_spec.h"
 #include "haptics/force/validity.h"

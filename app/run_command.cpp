@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace palp
@@ -20,6 +21,9 @@ struct RunOptions
   std::filesystem::path path;
   std::filesystem::path out;
   std::string size = "1280x960";
+  std::vector<std::string> plots{ "force-time", "force-depth" };
+  std::vector<std::string> plotFiles{ "png" };
+  std::vector<std::filesystem::path> references;
   bool noPicture = false;
   bool chain = false;
 };
@@ -43,11 +47,18 @@ void run(const RunOptions& options, const Pictures* pictures)
     .press = options.press,
     .device = "path:" + path.string(),
     .window = false,
+    .curves = {},
+    .plotFiles = options.plotFiles,
+    .references = options.references,
     .picture = !options.noPicture,
     .size = size };
-  if (options.noPicture)
+  for (const std::string& name : options.plots)
   {
-    plan.curves.clear();
+    const auto found = std::find(kCurveNames.begin(), kCurveNames.end(), name);
+    if (!options.noPicture)
+    {
+      plan.curves.push_back(static_cast<Curve>(found - kCurveNames.begin()));
+    }
   }
   Ledger silent(false);
   playPlan(plan, options.chain, options.out, pictures, silent);
@@ -67,13 +78,31 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
   command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
     ->required();
   command->add_option("--size", options->size, "Size of press.png")->capture_default_str();
+  command
+    ->add_option("--plots", options->plots,
+      "Curves to draw, like section,comparison: force-time and force-depth; section (a cut through "
+      "the deepest contact); comparison (force over depth of the laws, this press, finite elements "
+      "and --reference); extent (R_d over depth)")
+    ->delimiter(',')
+    ->check(CLI::IsMember(kCurveNames))
+    ->capture_default_str();
+  command
+    ->add_option("--plot-files", options->plotFiles,
+      "Kinds of files for section, comparison and extent: png, svg, pdf, csv")
+    ->delimiter(',')
+    ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }))
+    ->capture_default_str();
+  command->add_option("--reference", options->references,
+    "CSV depth_mm,force_N, measured or computed elsewhere, for the comparison; several are "
+    "allowed");
   command->add_flag("--chain", options->chain,
     "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
                   "Examples:\n"
                   "  palp run --out out                                  the bundled liver\n"
-                  "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm");
+                  "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm\n"
+                  "  palp run --out out --plots section,comparison --plot-files png,csv");
   command->callback([options, pictures] { run(*options, pictures); });
 }
 

@@ -23,7 +23,6 @@ const std::vector<std::string> kOverlays{ "force-arrow", "contact-circle", "exte
   "displacement-colors", "readings", "pressure-colors", "validity-colors", "control-net",
   "ghost" }; // in the order of Overlay
 static_assert(kOverlayCount == 9);
-const std::vector<std::string> kCurves{ "force-time", "force-depth" }; // in the order of Curve
 const std::vector<std::string> kExports{ "samples", "deformed", "picture" };
 
 // the message of an option, "--young: what", told of a place in the document instead; a place that
@@ -192,6 +191,10 @@ void checkTogether(const JsonObject& object, const ScenePlan& plan)
     object.refuse("dent",
       "'none' leaves nothing to see; leave the window and the exports deformed and picture out");
   }
+  if (!plan.dent && (plan.has(Curve::Section) || plan.has(Curve::Extent)))
+  {
+    object.refuse("plots", "section and extent show the dent; leave them out, or name a surface");
+  }
   if (plan.window && (plan.samples || plan.deformed || plan.picture))
   {
     object.refuse("exports", "a window exports when asked, from its File menu; leave this out");
@@ -230,7 +233,7 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   {
     plan.overlays = kinds<Overlay>(object, "overlays", kOverlays);
   }
-  plan.curves = kinds<Curve>(object, "plots", kCurves);
+  plan.curves = kinds<Curve>(object, "plots", kCurveNames);
   readExports(object, plan);
   object.finish();
 

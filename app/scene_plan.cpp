@@ -10,6 +10,9 @@
 namespace palp
 {
 
+const std::vector<std::string> kCurveNames{ "force-time", "force-depth", "section", "comparison",
+  "extent" };
+
 bool isScripted(const std::string& device)
 {
   return device.starts_with("path:") || device.starts_with("replay:");

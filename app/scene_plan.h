@@ -5,6 +5,7 @@
 #include "pipeline/overlay.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ enum class Curve
 {
   ForceOverTime,
   ForceOverDepth,
+  Section,    ///< through the contact: tool, surface, Bezier curve, elements
+  Comparison, ///< forces of laws, elements and others over the depth, and their differences
+  Extent,     ///< R_d over the depth
 };
 
 /// All that a press can be made of, by name: what `run` and `view` take as options and a scene file
@@ -50,10 +54,17 @@ struct ScenePlan
   bool validity = true; ///< each sample is rated by the ten rules
   std::optional<std::vector<Overlay>> overlays{}; ///< none: those that are shown at first
   std::vector<Curve> curves{ Curve::ForceOverTime, Curve::ForceOverDepth };
-  bool samples = true;  ///< exported: samples.csv
-  bool deformed = true; ///< exported: deformed.vtp
-  bool picture = true;  ///< exported: press.png
-  ImageSize size{};     ///< of press.png
+  std::vector<std::string> plotFiles{ "png" };     ///< endings: png, svg, pdf, csv
+  std::vector<std::filesystem::path> references{}; ///< forces to compare with, depth_mm,force_N
+  bool samples = true;                             ///< exported: samples.csv
+  bool deformed = true;                            ///< exported: deformed.vtp
+  bool picture = true;                             ///< exported: press.png
+  ImageSize size{};                                ///< of press.png
+
+  [[nodiscard]] bool has(Curve curve) const noexcept
+  {
+    return std::find(curves.begin(), curves.end(), curve) != curves.end();
+  }
 
   /// Whether anything is made of the samples of a live press.
   [[nodiscard]] bool records() const noexcept
@@ -67,6 +78,9 @@ struct ScenePlan
     return !window && (picture || !curves.empty());
   }
 };
+
+/// The names of the curves in files and options, in the order of Curve.
+extern const std::vector<std::string> kCurveNames;
 
 /// Whether a device follows a file: path:FILE, or replay:FILE with an exported samples.csv.
 [[nodiscard]] bool isScripted(const std::string& device);

@@ -1,6 +1,6 @@
 #include "app/stability_map.h"
 
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "app/stability_study.h"
 
-#include "app/csv.h"
 #include "app/tip_spec.h"
+#include "calibration/csv_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "app/tip_spec.h"
 
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "app/quantity.h"
 #include "haptics/error.h"
 #include "haptics/force/profile.h"

@@ -3,6 +3,7 @@
 #include "app/device_panel.h"
 #include "app/export.h"
 #include "app/ledger.h"
+#include "app/plot_panel.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
@@ -166,6 +167,11 @@ void Window::refreshPanels()
     }
   }
 
+  if (plots_)
+  {
+    plots_->refresh();
+  }
+
   const Timing& timing = session_.timing();
   const auto ticks = timing.ticks.load();
   const auto late = timing.skipped.load();
@@ -251,6 +257,11 @@ bool Window::saveScreenshot(const QString& file)
           file.toStdString() + ": cannot be written; choose another folder or a name in .png");
       }
     });
+}
+
+bool Window::savePlots(const QString& file)
+{
+  return attempt([&] { plots_->save(file.toStdString()); });
 }
 
 bool Window::exportData(const QString& directory)

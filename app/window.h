@@ -26,6 +26,7 @@ namespace palp
 
 class DevicePanel;
 class Ledger;
+class PlotPanel;
 class ReliancePanel;
 class TissuePanel;
 
@@ -45,6 +46,7 @@ public:
 
   bool openSurface(const QString& file, const QString& unit);
   bool saveScreenshot(const QString& file);
+  bool savePlots(const QString& file);
   bool exportData(const QString& directory);
 
 private:
@@ -55,6 +57,7 @@ private:
   void makeDocks();
   void makeCharts();
   void makeDevicePanel();
+  void makePlots(bool shown);
   void offerDevices();
   void makeMenus();
   void showBody();
@@ -93,6 +96,7 @@ private:
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;
   ReliancePanel* reliance_ = nullptr; // null: the plan rates no sample
+  PlotPanel* plots_ = nullptr;        // null: never shown
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;
 };

@@ -1,6 +1,7 @@
 // What the window is made of; what it does is in window.cpp.
 
 #include "app/device_panel.h"
+#include "app/plot_panel.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
@@ -136,12 +137,43 @@ void Window::makeCharts()
       addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
       charts_->addForceOverTime(*timeView_->GetScene());
     }
-    else
+    else if (curve == Curve::ForceOverDepth)
     {
       addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
       charts_->addForceOverDepth(*depthView_->GetScene());
     }
   }
+}
+
+// made when it is first shown
+void Window::makePlots(bool shown)
+{
+  if (plots_)
+  {
+    plots_->parentWidget()->setVisible(shown);
+    return;
+  }
+  const auto forces = [this]
+  {
+    const Recording& recording = session_.recording();
+    return forceComparison(
+      recording.scene.law, &session_.calibration(), { forceCurveOf(recording.samples) });
+  };
+  plots_ = new PlotPanel(
+    { { tr("Section"), [this] { return sectionOf(view_.press(), session_.calibration()); } },
+      { tr("Forces"), forces },
+      { tr("Extent"), [this] { return extentComparison(session_.calibration()); } } });
+  connect(plots_, &PlotPanel::saveAsked, this,
+    [this]
+    {
+      const QString name = QFileDialog::getSaveFileName(
+        this, tr("Save plots"), "plots.png", tr("Plots (*.png *.svg *.pdf *.csv)"));
+      if (!name.isEmpty())
+      {
+        savePlots(name);
+      }
+    });
+  addDock(this, Qt::RightDockWidgetArea, tr("Section and comparison"), plots_);
 }
 
 void Window::offerDevices()
@@ -229,6 +261,14 @@ void Window::makeMenus()
     connect(action, &QAction::toggled, this,
       [this, which = overlay](bool on) { view_.setVisible(which, on); });
   }
+  view->addSeparator();
+  QAction* plots = view->addAction(tr("Section and comparison &plots"));
+  plots->setObjectName("plotsAction");
+  plots->setCheckable(true);
+  connect(plots, &QAction::toggled, this, &Window::makePlots);
+  const ScenePlan& plan = session_.plan();
+  plots->setChecked(
+    plan.has(Curve::Section) || plan.has(Curve::Comparison) || plan.has(Curve::Extent));
 }
 
 } // namespace palp

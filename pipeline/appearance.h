@@ -34,6 +34,12 @@ inline constexpr Color kBad{ 0.84, 0.37, 0.00 };
 inline constexpr std::array<Color, 6> kCurves{ { { 0.00, 0.45, 0.70 }, { 0.84, 0.37, 0.00 },
   { 0.00, 0.62, 0.45 }, { 0.80, 0.47, 0.65 }, { 0.90, 0.62, 0.00 }, { 0.34, 0.71, 0.91 } } };
 
+/// The next one of them, again from the first after the last.
+[[nodiscard]] constexpr const Color& curveColor(std::size_t i) noexcept
+{
+  return kCurves[i % kCurves.size()];
+}
+
 inline constexpr Color kInk{ 0.10, 0.11, 0.13 };
 inline constexpr Color kPaper{ 1.0, 1.0, 1.0 };
 inline constexpr Color kSky{ 0.95, 0.96, 0.97 };

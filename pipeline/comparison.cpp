@@ -6,10 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vtkCutter.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 
 namespace palp
 {
@@ -18,11 +14,6 @@ namespace
 
 constexpr double kNoticed = 0.07; // [-] of a force, Sec. 3.2
 constexpr int kSteps = 200;
-
-const appearance::Color& colorOf(std::size_t i)
-{
-  return appearance::kCurves[i % appearance::kCurves.size()];
-}
 
 std::vector<double> inMillimetres(std::vector<double> metres)
 {
@@ -64,29 +55,31 @@ std::unique_ptr<Plot> forcePlot(
   std::vector<double> high = first;
   std::for_each(low.begin(), low.end(), [=](double& f) { f = std::max(0.0, f - margin); });
   std::for_each(high.begin(), high.end(), [=](double& f) { f += margin; });
-  plot->addBand("7 % of the largest force", shown, low, high, colorOf(0));
+  plot->addBand("7 % of the largest force", shown, low, high, appearance::curveColor(0));
   std::size_t color = 0;
   for (const NamedLaw& law : laws)
   {
-    plot->addLine(law.name, shown, forcesOf(law.law, depths), colorOf(color++));
+    plot->addLine(law.name, shown, forcesOf(law.law, depths), appearance::curveColor(color++));
   }
   for (const ReferenceCurve& reference : references)
   {
-    plot->addPoints(reference.name, inMillimetres(reference.x), reference.y, colorOf(color++));
+    plot->addPoints(
+      reference.name, inMillimetres(reference.x), reference.y, appearance::curveColor(color++));
   }
   return plot;
 }
 
 std::unique_ptr<Plot> forceErrorPlot(
-  const NamedLaw& law, double deepest, const std::vector<ReferenceCurve>& references)
+  const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references)
 {
+  const NamedLaw& law = laws.front();
   auto plot = std::make_unique<Plot>(
     law.name + " against the references", "depth \u03b4 [mm]", "difference [%]");
   const std::vector<double> shown = inMillimetres(depthsTo(deepest));
   const std::vector<double> low(shown.size(), -100.0 * kNoticed);
   const std::vector<double> high(shown.size(), 100.0 * kNoticed);
-  plot->addBand("just noticed by a hand", shown, low, high, colorOf(0));
-  std::size_t color = 1;
+  plot->addBand("just noticed by a hand", shown, low, high, appearance::curveColor(0));
+  std::size_t color = laws.size();
   for (const ReferenceCurve& reference : references)
   {
     const double largest = *std::max_element(reference.y.begin(), reference.y.end());
@@ -96,7 +89,8 @@ std::unique_ptr<Plot> forceErrorPlot(
       const double ours = law.law({ .depth = reference.x[i] }).force;
       error.push_back(100.0 * (ours - reference.y[i]) / largest);
     }
-    plot->addLine(reference.name, inMillimetres(reference.x), error, colorOf(color++));
+    plot->addLine(
+      reference.name, inMillimetres(reference.x), error, appearance::curveColor(color++));
   }
   return plot;
 }
@@ -133,84 +127,14 @@ std::unique_ptr<Plot> extentPlot(
     line.push_back(units::toMillimetres(table.extentRadius(units::fromMillimetres(depth))));
     curve.push_back(std::max(0.0, fit.dot(Eigen::Vector3d(1.0, depth, depth * depth))));
   }
-  plot->addLine("table, linear in between", shown, line, colorOf(0));
-  plot->addLine("quadratic fit", shown, curve, colorOf(1));
-  plot->addPoints("table", depths, radii, colorOf(0));
+  plot->addLine("table, linear in between", shown, line, appearance::curveColor(0));
+  plot->addLine("quadratic fit", shown, curve, appearance::curveColor(1));
+  plot->addPoints("table", depths, radii, appearance::curveColor(0));
   std::size_t color = 2;
   for (const ReferenceCurve& reference : references)
   {
-    plot->addPoints(
-      reference.name, inMillimetres(reference.x), inMillimetres(reference.y), colorOf(color++));
-  }
-  return plot;
-}
-
-std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vector3d& towards,
-  const std::optional<ReferenceCurve>& reference)
-{
-  const Press& pressed = press.GetPress();
-  const Eigen::Vector3d center = pressed.contact.center;
-  const Eigen::Vector3d up = pressed.contact.normal;
-  const Eigen::Vector3d along = (towards - towards.dot(up) * up).normalized();
-  auto plot = std::make_unique<Plot>(
-    "section through the contact", "distance from the contact [mm]", "height [mm]");
-
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(center.data());
-  plane->SetNormal(Eigen::Vector3d(up.cross(along)).data());
-  vtkNew<vtkCutter> cutter;
-  cutter->SetCutFunction(plane);
-  cutter->SetInputConnection(press.GetOutputPort(1));
-  cutter->Update();
-  struct Cut
-  {
-    double x, drawn, rest; // [mm]
-  };
-  std::vector<Cut> cuts;
-  vtkPolyData* lines = cutter->GetOutput();
-  vtkDataArray* moved = lines->GetPointData()->GetArray("Displacement");
-  for (vtkIdType i = 0; moved && i < lines->GetNumberOfPoints(); ++i)
-  {
-    Eigen::Vector3d point;
-    Eigen::Vector3d displacement;
-    lines->GetPoint(i, point.data());
-    moved->GetTuple(i, displacement.data());
-    const Eigen::Vector3d local = point - center;
-    cuts.push_back({ units::toMillimetres(local.dot(along)), units::toMillimetres(local.dot(up)),
-      units::toMillimetres((local - displacement).dot(up)) });
-  }
-  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.x < b.x; });
-  std::vector<double> x;
-  std::vector<double> drawn;
-  std::vector<double> rest;
-  for (const Cut& cut : cuts)
-  {
-    x.push_back(cut.x);
-    drawn.push_back(cut.drawn);
-    rest.push_back(cut.rest);
-  }
-
-  const ToolBody body(pressed.tip, pressed.pose);
-  const double base = baseRadius(pressed.tip);
-  std::vector<double> toolX;
-  std::vector<double> tool;
-  for (int i = -kSteps; i <= kSteps; ++i)
-  {
-    const double radius = 0.9999 * base * i / kSteps;
-    const double height = body.lowest(center + radius * along, up);
-    if (std::isfinite(height) && height < base)
-    {
-      toolX.push_back(units::toMillimetres(radius));
-      tool.push_back(units::toMillimetres(height));
-    }
-  }
-  plot->addLine("tool", toolX, tool, { 0.45, 0.47, 0.50 }, 4.0F);
-  plot->addLine("surface at rest", x, rest, colorOf(5));
-  plot->addLine("surface as drawn", x, drawn, colorOf(1), 2.5F);
-  if (reference)
-  {
-    plot->addLine(
-      reference->name, inMillimetres(reference->x), inMillimetres(reference->y), colorOf(2));
+    plot->addPoints(reference.name, inMillimetres(reference.x), inMillimetres(reference.y),
+      appearance::curveColor(color++));
   }
   return plot;
 }

@@ -38,10 +38,11 @@ struct NamedLaw
 [[nodiscard]] std::unique_ptr<Plot> forcePlot(
   const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references);
 
-/// Difference of the references from the first law, in per cent of the largest reference force.
+/// Difference of the references from the first law, in per cent of the largest reference force; in
+/// the colours of forcePlot().
 /// @source Eq. (9)
 [[nodiscard]] std::unique_ptr<Plot> forceErrorPlot(
-  const NamedLaw& law, double deepest, const std::vector<ReferenceCurve>& references);
+  const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references);
 
 /// R_d over the depth: the table's rows and line, the quadratic fit of Fig. 8, and references.
 ///
@@ -49,12 +50,16 @@ struct NamedLaw
 [[nodiscard]] std::unique_ptr<Plot> extentPlot(
   const ExtentTable& table, const std::vector<ReferenceCurve>& references);
 
-/// A cut through the contact along its normal: tool, surface as drawn and at rest, control points.
+/// A cut through the contact along its normal: tool, surface at rest and as drawn, the Bezier curve
+/// of Eq. (8) with its control points, and the surface of finite elements.
 ///
-/// @param press    up to date, pressed, with its patch
-/// @param towards  direction of the cut, not along the normal
-/// @param reference  distance from the axis [m] and height [m] of another surface, if there is one
+/// @param press     up to date, pressed, with its patch
+/// @param towards   direction of the cut, not along the normal; the edge between two Bezier patches
+///                  that is nearest to it
+/// @param elements  of the same tool and depth on a plane, if they are known; drawn below the
+///                  surface at rest
+/// @source          Fig. 5
 [[nodiscard]] std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press,
-  const Eigen::Vector3d& towards, const std::optional<ReferenceCurve>& reference = std::nullopt);
+  const Eigen::Vector3d& towards, const std::optional<SurfaceProfile>& elements = std::nullopt);
 
 } // namespace palp

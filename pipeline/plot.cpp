@@ -1,17 +1,21 @@
 #include "pipeline/plot.h"
 
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <vtkAxis.h>
 #include <vtkBoundingBox.h>
 #include <vtkBrush.h>
 #include <vtkChartLegend.h>
+#include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkGL2PSExporter.h>
@@ -21,6 +25,8 @@
 #include <vtkPlot.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 #include <vtkStringArray.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
@@ -29,14 +35,6 @@ namespace palp
 {
 namespace
 {
-
-// shortest digits that read back as the same number
-std::string digits(double value)
-{
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
-  return { text, end };
-}
 
 [[noreturn]] void refuse(const std::filesystem::path& file)
 {
@@ -97,6 +95,7 @@ Plot::Plot(const std::string& title, const std::string& bottom, const std::strin
   vertical->SetTickLength(3.0F);
   chart_->SetShowLegend(true);
   appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
+  chart_->GetLegend()->GetBrush()->SetColor(255, 255, 255, 190); // curves below it are still seen
 }
 
 vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
@@ -261,26 +260,68 @@ void Plot::addTo(vtkContextScene& scene)
   scene.AddItem(chart_);
 }
 
-void Plot::writeCsv(const std::filesystem::path& file) const
+void Plot::addTo(vtkContextScene& scene, const vtkRectf& place)
 {
-  std::ofstream out(file);
+  chart_->SetAutoSize(false);
+  chart_->SetLayoutStrategy(vtkChart::FILL_RECT);
+  chart_->SetSize(place);
+  addTo(scene);
+}
+
+void Plot::writeCsv(std::ostream& out) const
+{
   out << "curve," << bottom_ << ',' << left_ << '\n';
+  std::string name;
   for (const auto& table : tables_)
   {
     for (vtkIdType column = 1; column < table->GetNumberOfColumns(); ++column)
     {
+      const std::string own = table->GetColumnName(column);
+      name = own.empty() ? name : own; // a part without a name goes on with the curve before
       for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
       {
-        out << '"' << table->GetColumnName(column) << "\","
-            << digits(table->GetValue(row, 0).ToDouble()) << ','
-            << digits(table->GetValue(row, column).ToDouble()) << '\n';
+        out << '"' << name << "\"," << shortest(table->GetValue(row, 0).ToDouble()) << ','
+            << shortest(table->GetValue(row, column).ToDouble()) << '\n';
       }
     }
+  }
+}
+
+void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file)
+{
+  std::ofstream out(file);
+  for (const auto& plot : plots)
+  {
+    out << (&plot == &plots.front() ? "" : "\n");
+    plot->writeCsv(out);
   }
   if (!out.flush())
   {
     refuse(file);
   }
+}
+
+void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots)
+{
+  // in one scene, for the exporter of lines and text knows no other place than the whole window
+  window.GetRenderers()->RemoveAllItems();
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  vtkNew<vtkContextActor> actor;
+  actor->GetScene()->SetRenderer(renderer);
+  constexpr double kFirst = 0.6; // of the height
+  const int* size = window.GetSize();
+  double top = size[1];
+  for (const auto& plot : plots)
+  {
+    const double bottom = &plot == &plots.back() ? 0.0 : (1.0 - kFirst) * top;
+    plot->addTo(*actor->GetScene(),
+      vtkRectf(0.0F, static_cast<float>(bottom), static_cast<float>(size[0]),
+        static_cast<float>(top - bottom)));
+    top = bottom;
+  }
+  renderer->AddActor(actor);
+  window.AddRenderer(renderer);
 }
 
 void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
@@ -321,6 +362,30 @@ void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
   if (!std::filesystem::exists(file))
   {
     refuse(file);
+  }
+}
+
+void writePdf(vtkRenderWindow& window, const std::filesystem::path& file)
+{
+  const std::filesystem::path svg = file.string() + ".svg";
+  writeSvg(window, svg);
+  std::array<std::string, 6> words{ "rsvg-convert", "--format=pdf", "--background-color=white",
+    "--output", file.string(), svg.string() };
+  std::array<char*, 7> arguments{};
+  std::transform(
+    words.begin(), words.end(), arguments.begin(), [](std::string& word) { return word.data(); });
+  pid_t child = 0;
+  int status = 1;
+  const bool started =
+    posix_spawnp(&child, words[0].c_str(), nullptr, nullptr, arguments.data(), environ) == 0;
+  while (started && waitpid(child, &status, 0) < 0 && errno == EINTR)
+  {
+  }
+  std::filesystem::remove(svg);
+  if (!started || status != 0)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
   }
 }
 

@@ -3,11 +3,14 @@
 #include "pipeline/appearance.h"
 
 #include <filesystem>
+#include <iosfwd>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 #include <vtkChartXY.h>
 #include <vtkNew.h>
+#include <vtkRect.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
@@ -55,6 +58,9 @@ public:
   /// Puts the chart into a scene, which then draws it, the legend in the emptiest corner.
   void addTo(vtkContextScene& scene);
 
+  /// The same in a part of the scene [pixels].
+  void addTo(vtkContextScene& scene, const vtkRectf& place);
+
   /// The curves in the order in which they were added; the first column is x.
   [[nodiscard]] const std::vector<vtkSmartPointer<vtkTable>>& tables() const
   {
@@ -62,8 +68,7 @@ public:
   }
 
   /// Writes all curves: curve,<x>,<y>; a band has two curves, its lower and its upper one.
-  /// @throws Error  BadFile: cannot be written
-  void writeCsv(const std::filesystem::path& file) const;
+  void writeCsv(std::ostream& out) const;
 
 private:
   vtkTable* addTable(const std::string& name, std::span<const double> x,
@@ -78,13 +83,24 @@ private:
   vtkNew<vtkChartXY> chart_;
 };
 
+/// Puts charts into a window in the place of what it showed, one below the other.
+void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots);
+
+/// Writes the curves of charts, one after the other, an empty line between them.
+/// @throws Error  BadFile: cannot be written
+void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file);
+
 /// Writes what a window shows.
 /// @throws Error  BadFile: cannot be written; NoPicture: every pixel is alike
 void writePng(vtkRenderWindow& window, const std::filesystem::path& file);
 
-/// Writes what a window of charts shows as lines and text, not pixels; `rsvg-convert -f pdf` makes
-/// a PDF of it.
+/// Writes what a window of charts shows as lines and text, not pixels.
+/// @param file    its name ends in .svg
 /// @throws Error  BadFile: cannot be written
 void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file);
+
+/// The same as PDF, by rsvg-convert: the toolkit's own PDF has no Greek letters.
+/// @throws Error  BadFile: cannot be written, or rsvg-convert is not installed
+void writePdf(vtkRenderWindow& window, const std::filesystem::path& file);
 
 } // namespace palp

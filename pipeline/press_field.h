@@ -62,6 +62,12 @@ public:
   [[nodiscard]] Sink sinkAt(
     const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
 
+  /// The ring's curve in one of kDirections.
+  [[nodiscard]] const RingCurve& curve(int direction) const noexcept
+  {
+    return curves_[static_cast<std::size_t>(direction)];
+  }
+
   /// P0, P1 and P2 in one of kDirections, in the frame of the surface [m].
   [[nodiscard]] std::array<Eigen::Vector3d, 3> controlPoints(
     int direction, const PressRegion& region) const noexcept;

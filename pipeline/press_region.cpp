@@ -264,11 +264,6 @@ void PressRegion::meetAround(
   return static_cast<std::size_t>(slot >> 1);
 }
 
-inline Eigen::Vector3d PressRegion::toLocal(const Eigen::Vector3d& point) const noexcept
-{
-  return axes_ * (point - center_);
-}
-
 inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const noexcept
 {
   const double square = local.head<2>().squaredNorm();

@@ -109,6 +109,12 @@ public:
     return center_ + axes_.transpose() * local;
   }
 
+  /// And the other way.
+  [[nodiscard]] Eigen::Vector3d toLocal(const Eigen::Vector3d& point) const noexcept
+  {
+    return axes_ * (point - center_);
+  }
+
   [[nodiscard]] Eigen::Vector3d normal() const noexcept
   {
     return axes_.row(2);
@@ -150,7 +156,6 @@ private:
   [[nodiscard]] std::size_t indexOf(std::int32_t point);
   void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
   void meetAround(std::int32_t point, std::int32_t from, std::int32_t beside, const ToolBody& body);
-  [[nodiscard]] Eigen::Vector3d toLocal(const Eigen::Vector3d& point) const noexcept;
   [[nodiscard]] double distanceInFront(const Eigen::Vector3d& local) const noexcept;
   [[nodiscard]] Place placeAround(
     std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;

@@ -238,27 +238,6 @@ void PressView::lookAtSurface()
   renderer_.ResetCamera(bounds);
 }
 
-void PressView::lookAt(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
-{
-  // 50 degrees from the normal shows into the dent and along the arrow
-  constexpr double kObliquity = 50.0_deg;
-  const double base = baseRadius(tip_);
-  const double height =
-    std::max(9.0 * base, std::clamp(14.0 * base, 0.2 * diagonal_, 0.45 * diagonal_));
-  const double distance = 0.5 * height / std::tan(0.5 * kViewAngle);
-  // from the front where that is possible, so that the view does not roll with the normal
-  Eigen::Vector3d side = -Eigen::Vector3d::UnitY() + normal.y() * normal;
-  side = side.norm() > 0.3 ? side.normalized() : normal.unitOrthogonal();
-  const Eigen::Vector3d towards = std::cos(kObliquity) * normal + std::sin(kObliquity) * side;
-  const Eigen::Vector3d focus = place + 0.12 * height * normal;
-  const Eigen::Vector3d eye = focus + distance * towards;
-  vtkCamera& camera = *renderer_.GetActiveCamera();
-  camera.SetFocalPoint(focus.data());
-  camera.SetPosition(eye.data());
-  camera.SetViewUp(normal.data());
-  renderer_.ResetCameraClippingRange();
-}
-
 void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
 {
   constexpr double kObliquity = 40.0_deg;

@@ -65,13 +65,10 @@ public:
   /// The whole surface, from the front and above.
   void lookAtSurface();
 
-  /// One place and what surrounds it, obliquely, so that dent, tool and arrow are seen.
+  /// The whole surface with a place on it, head up where it is pressed from a side.
   ///
   /// @param place   on the surface [m]
   /// @param normal  unit, outward
-  void lookAt(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
-
-  /// The whole surface with a place on it, head up where it is pressed from a side.
   void lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
 
   /// R_d of the table for a depth [m]; 0 without a table.

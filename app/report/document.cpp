@@ -1,6 +1,6 @@
 #include "app/report/document.h"
 
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 
 #include <algorithm>

@@ -249,5 +249,29 @@ TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)
   }
 }
 
+// every plot in every kind of file, the user's own curve among them
+TEST_F(RunCommand, WritesThePlotsThatAreAskedFor)
+{
+  const auto reference = folder_.path() / "mine.csv";
+  std::ofstream(reference) << "depth_mm,force_N\n1,0.25\n4,2.0\n";
+  const Finished finished = press(
+    "--plots section,comparison,extent --plot-files png,svg,csv --reference " + reference.string(),
+    "plots");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const auto out = folder_.path() / "plots";
+  for (const std::string name : { "section", "comparison", "extent" })
+  {
+    for (const char* ending : { ".png", ".svg", ".csv" })
+    {
+      EXPECT_TRUE(std::filesystem::exists(out / (name + ending))) << name << ending;
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(out / "force_time.png"));
+  const std::string forces = test::readAll(out / "comparison.csv");
+  EXPECT_NE(forces.find("\"mine\",4,2\n"), std::string::npos);
+  EXPECT_NE(forces.find("\"finite elements\",1,0.252384048021\n"), std::string::npos); // the table
+  EXPECT_EQ(press("--plots sections", "none").code, 2);
+}
+
 } // namespace
 } // namespace palp

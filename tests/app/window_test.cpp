@@ -2,9 +2,11 @@
 
 #include "app/device_words.h"
 #include "app/ledger.h"
+#include "app/plot_panel.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -18,6 +20,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -381,6 +385,31 @@ TEST_F(WindowTest, SavesAScreenshotOfTheDent)
     }
   }
   EXPECT_GT(colors.size(), 500u);
+}
+
+// made when it is asked for; what it saves is what the press shows
+TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)
+{
+  EXPECT_EQ(window_->findChild<PlotPanel*>(), nullptr);
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  auto* panel = window_->findChild<PlotPanel*>();
+  ASSERT_NE(panel, nullptr);
+  press(100); // 5 mm
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "section.csv";
+  ASSERT_TRUE(window_->savePlots(QString::fromStdString(file.string())));
+  std::ifstream in(file);
+  double lowest = 0.0;
+  for (std::string line; std::getline(in, line);)
+  {
+    if (line.starts_with("\"surface as drawn\""))
+    {
+      lowest = std::min(lowest, std::stod(line.substr(line.rfind(',') + 1)));
+    }
+  }
+  EXPECT_NEAR(lowest, -5.0, 0.5);
+  window_->findChild<QAction*>("plotsAction")->setChecked(false);
+  EXPECT_FALSE(panel->isVisible());
 }
 
 TEST_F(WindowTest, ExportsWhatWasMeasured)

@@ -5,10 +5,12 @@
 #include "tests/pipeline/surfaces.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <span>
 #include <vtkCellArray.h>
 #include <vtkContextScene.h>
 #include <vtkContextView.h>
@@ -63,7 +65,7 @@ TEST(ForcePlot, HasBandLawsAndReferencesInTheirUnits)
 
 TEST(ForceErrorPlot, IsEquationNine)
 {
-  const auto plot = forceErrorPlot({ "paper", kLaw }, 4.0_mm, { stronger() });
+  const auto plot = forceErrorPlot({ NamedLaw{ "paper", kLaw } }, 4.0_mm, { stronger() });
   const auto error = column(*plot->tables()[1], 1);
   ASSERT_EQ(error.size(), 3U);
   EXPECT_NEAR(error[2], -100.0 / 11.0, 1e-9);                       // 0.1 / 1.1 of the largest
@@ -105,8 +107,12 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
   const Press press =
     test::pressAt(Eigen::Vector3d::Zero(), up, SphereTip{ 10.0_mm }, 4.0_mm, 18.0_mm);
   filter->SetPress(press);
-  const auto plot = sectionPlot(*filter, Eigen::Vector3d::UnitX());
-  ASSERT_EQ(plot->tables().size(), 3U);
+  // as if elements had found a hyperbola outside the contact
+  const SurfaceProfile elements{
+    .inner = 7.0_mm, .outer = 40.0_mm, .sink = 2.0_mm, .slope = 0.5, .control = { 1.0_mm, 1.0_mm }
+  };
+  const auto plot = sectionPlot(*filter, Eigen::Vector3d(1.0, 0.05, 0.0), elements);
+  ASSERT_EQ(plot->tables().size(), 8U); // the curve and the elements on either side
   vtkTable& drawn = *plot->tables()[2];
   const double r = press.contactRadius;
   const double sink = 4.0_mm - tipHeight(press.tip, r);
@@ -124,6 +130,30 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
   for (const double height : column(*plot->tables()[1], 1))
   {
     EXPECT_NEAR(height, 0.0, 1e-4); // at rest
+  }
+  // Fig. 5(b): P0 on the tool, P1 where its tangent meets the surface, P2 at R_d
+  const auto controlX = column(*plot->tables()[5], 0);
+  const auto controlZ = column(*plot->tables()[5], 1);
+  const double meet = r + sink / tipSlope(press.tip, r);
+  const std::vector<std::pair<double, double>> control{ { r, -sink }, { meet, 0.0 },
+    { 18.0_mm, 0.0 } };
+  ASSERT_EQ(controlX.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    const double side = i < 3 ? 1.0 : -1.0;
+    EXPECT_NEAR(units::fromMillimetres(controlX[i]), side * control[i % 3].first, 10.0_um);
+    EXPECT_NEAR(units::fromMillimetres(controlZ[i]), control[i % 3].second, 10.0_um);
+  }
+  for (const int side : { 6, 7 })
+  {
+    const auto radius = column(*plot->tables()[side], 0);
+    const auto height = column(*plot->tables()[side], 1);
+    EXPECT_GT(radius.size(), 20U);
+    for (std::size_t i = 0; i < radius.size(); ++i)
+    {
+      const double at = std::abs(units::fromMillimetres(radius[i]));
+      EXPECT_NEAR(units::fromMillimetres(height[i]), -elements.sinkAt(at), 1.0_um);
+    }
   }
 }
 
@@ -152,11 +182,11 @@ protected:
 
 TEST_F(Files, CsvReadsBack)
 {
-  plot->writeCsv(folder / "force.csv");
+  writeCsv(std::span(&plot, 1), folder / "force.csv");
   const std::string text = read("force.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')), "curve,depth \u03b4 [mm],force [N]");
   EXPECT_NE(text.find("\"FE\",1,"), std::string::npos);
-  EXPECT_THROW(plot->writeCsv("/nowhere/force.csv"), Error);
+  EXPECT_THROW(writeCsv(std::span(&plot, 1), "/nowhere/force.csv"), Error);
 }
 
 TEST_F(Files, SvgHasItsTextAsText)
@@ -167,6 +197,45 @@ TEST_F(Files, SvgHasItsTextAsText)
   EXPECT_NE(text.find("<svg"), std::string::npos);
   EXPECT_NE(text.find("force [N]"), std::string::npos);
   EXPECT_NE(text.find("</svg>"), std::string::npos);
+}
+
+TEST_F(Files, PdfIsMadeOfTheSameOrRefusedInOneSentence)
+{
+  const auto file = folder / "force.pdf";
+  std::filesystem::remove(file);
+  if (std::system("rsvg-convert --version > /dev/null 2>&1") == 0)
+  {
+    writePdf(*view->GetRenderWindow(), file);
+    EXPECT_EQ(read("force.pdf").substr(0, 5), "%PDF-");
+  }
+  setenv("PATH", "/nowhere", 1);
+  try
+  {
+    writePdf(*view->GetRenderWindow(), file);
+    FAIL() << "not refused";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("install librsvg2-bin"), std::string::npos);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "force.pdf.svg"));
+}
+
+// two charts in one window keep to their own halves: the lower one's curve is below the upper one's
+TEST_F(Files, PlotsStandOneBelowTheOther)
+{
+  std::vector<std::unique_ptr<Plot>> plots;
+  plots.push_back(forcePlot({ { "paper", kLaw } }, 4.0_mm, { stronger() }));
+  plots.push_back(forceErrorPlot({ NamedLaw{ "paper", kLaw } }, 4.0_mm, { stronger() }));
+  showPlots(*view->GetRenderWindow(), plots);
+  writeSvg(*view->GetRenderWindow(), folder / "two.svg");
+  const std::string text = read("two.svg");
+  const auto heightOf = [&](const char* word) // of its text, from above [pixels]
+  {
+    const std::size_t tag = text.rfind("<text", text.find(word));
+    return std::stod(text.substr(text.find(" y=\"", tag) + 4));
+  };
+  EXPECT_NEAR(heightOf("against the references") - heightOf("force over depth"), 0.6 * 320, 2.0);
 }
 
 TEST_F(Files, PngIsAPicture)

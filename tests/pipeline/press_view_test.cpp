@@ -1,13 +1,21 @@
 #include "pipeline/press_view.h"
 
 #include "haptics/units.h"
+#include "pipeline/comparison.h"
 #include "pipeline/control_net.h"
 #include "pipeline/tool_surface.h"
 #include "tests/pipeline/picture.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
+#include <vtkCamera.h>
 #include <vtkCleanPolyData.h>
 #include <vtkCubeSource.h>
 #include <vtkLinearSubdivisionFilter.h>
@@ -100,6 +108,7 @@ struct View
 {
   explicit View(const Body& body, const Tip& tip)
     : view(*renderer)
+    , tool(tip)
   {
     window->SetOffScreenRendering(1);
     window->SetMultiSamples(0);
@@ -115,13 +124,35 @@ struct View
   vtkSmartPointer<vtkImageData> picture(const Body& body, const Sample& sample)
   {
     view.show(sample);
-    view.lookAt(body.place, body.normal);
+    lookAt(body);
     return test::imageOf(*window);
+  }
+
+  // 50 degrees from the normal, which shows into the dent and along the arrow; from the front, so
+  // that the view does not roll with the normal
+  void lookAt(const Body& body)
+  {
+    const double base = baseRadius(tool);
+    const double diagonal = body.surface->GetLength();
+    const double height =
+      std::max(9.0 * base, std::clamp(14.0 * base, 0.2 * diagonal, 0.45 * diagonal));
+    const double distance = 0.5 * height / std::tan(15.0_deg);
+    Eigen::Vector3d side = -Eigen::Vector3d::UnitY() + body.normal.y() * body.normal;
+    side = side.norm() > 0.3 ? side.normalized() : body.normal.unitOrthogonal();
+    const Eigen::Vector3d towards = std::cos(50.0_deg) * body.normal + std::sin(50.0_deg) * side;
+    const Eigen::Vector3d focus = body.place + 0.12 * height * body.normal;
+    const Eigen::Vector3d eye = focus + distance * towards;
+    vtkCamera& camera = *renderer->GetActiveCamera();
+    camera.SetFocalPoint(focus.data());
+    camera.SetPosition(eye.data());
+    camera.SetViewUp(body.normal.data());
+    renderer->ResetCameraClippingRange();
   }
 
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderWindow> window;
   PressView view;
+  Tip tool;
 };
 
 void expectBaseline(vtkImageData& image, const std::string& name)
@@ -160,19 +191,45 @@ TEST(PressView, ShowsBlockAndBall)
   }
 }
 
-TEST(PressView, ShowsAFittedSurface)
+TEST(PressView, ShowsFittedSurfaces)
 {
-  // two rows of data/tables/sphere_r10_h50_surface.csv
-  const FittedSurfaces fitted({ { 1.0, 3.14674, 56.4183, 0.491999, 0.331515, 0.298682, 0.192009 },
-    { 5.0, 6.78708, 56.4099, 2.34408, 0.924157, 1.17259, 1.21531 } });
-  for (const bool isBlock : { true, false })
+  const auto fitted = [](const std::string& tool)
+  { return FittedSurfaces::read(PALP_SHARE "/tables/" + tool + "_r10_h50_surface.csv"); };
+  const std::array<std::pair<Body, std::string>, 3> bodies{ std::pair(block(), "block"),
+    std::pair(ball(), "ball"), std::pair(liver(), "liver") };
+  for (const auto& [body, name] : bodies)
   {
-    const Body body = isBlock ? block() : ball();
-    View view(body, kSphere);
-    view.view.setFitted(fitted);
-    expectBaseline(*view.picture(body, pressed(body, kSphere, 5.0_mm)),
-      isBlock ? "block_fitted" : "ball_fitted");
+    View sphere(body, kSphere);
+    sphere.view.setFitted(fitted("sphere"));
+    expectBaseline(*sphere.picture(body, pressed(body, kSphere, 5.0_mm)), name + "_fitted");
+    View cone(body, kCone);
+    cone.view.setFitted(fitted("cone45"));
+    expectBaseline(*cone.picture(body, pressed(body, kCone, 6.0_mm)), name + "_cone_fitted");
   }
+}
+
+TEST(PressView, NamesTheRuleThatColoursTheDent)
+{
+  const Body body = ball();
+  View view(body, kSphere);
+  view.view.setVisible(std::vector{ Overlay::ValidityColors, Overlay::Readings });
+  expectBaseline(*view.picture(body, pressed(body, kSphere, 5.0_mm)), "validity_rule");
+}
+
+TEST(SectionPlot, ShowsFig5OnABall)
+{
+  const Body body = ball();
+  View view(body, kSphere);
+  view.view.show(pressed(body, kSphere, 5.0_mm));
+  std::vector<std::unique_ptr<Plot>> plots;
+  plots.push_back(sectionPlot(view.view.press(), Eigen::Vector3d::UnitX(),
+    FittedSurfaces::read(PALP_SHARE "/tables/sphere_r10_h50_surface.csv").at(5.0_mm)));
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(480, 360);
+  showPlots(*window, plots);
+  expectBaseline(*test::imageOf(*window), "section");
 }
 
 // each overlay alone

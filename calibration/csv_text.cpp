@@ -1,4 +1,4 @@
-#include "app/csv.h"
+#include "calibration/csv_text.h"
 
 #include <array>
 #include <charconv>

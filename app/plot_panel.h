@@ -1,0 +1,50 @@
+#pragma once
+
+#include "app/press_plots.h"
+
+#include <QWidget>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+
+#include <functional>
+
+class QTabBar;
+
+namespace palp
+{
+
+/// Plots that judge the press as it is: section, comparison of forces, R_d. One at a time, drawn
+/// only while it can be seen.
+class PlotPanel : public QWidget
+{
+  Q_OBJECT
+
+public:
+  /// What a tab is called, and how its plots are made.
+  struct Page
+  {
+    QString name;
+    std::function<Plots()> make;
+  };
+
+  explicit PlotPanel(std::vector<Page> pages, QWidget* parent = nullptr);
+
+  /// Makes and draws the plots of the tab in front, if anybody sees them; where there is nothing to
+  /// make them of, those before stay.
+  void refresh();
+
+  /// Writes what is shown.
+  /// @throws Error  as writePlots; BadValue: nothing is shown yet
+  void save(const std::filesystem::path& file);
+
+Q_SIGNALS:
+  void saveAsked();
+
+private:
+  std::vector<Page> pages_;
+  Plots plots_;
+  QTabBar* tabs_;
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+};
+
+} // namespace palp
