@@ -43,15 +43,20 @@ std::vector<double> timesIn(
   return reached ? times : std::vector<double>();
 }
 
-// a method that takes long is tried at the deepest press of each regime only
-bool isDeepest(const ReferenceForces& reference, double depth, double size)
+// the first or the last depth of a regime, for methods that take long
+bool isBorder(const ReferenceForces& reference, double depth, double size)
 {
   return std::ranges::any_of(kRegimes,
     [&](const Regime& regime)
     {
-      return isIn(regime, depth, size) &&
-        std::ranges::none_of(reference.depths,
-          [&](double other) { return other > depth && isIn(regime, other, size); });
+      bool before = false;
+      bool after = false;
+      for (const double other : reference.depths)
+      {
+        before = before || (other < depth && isIn(regime, other, size));
+        after = after || (other > depth && isIn(regime, other, size));
+      }
+      return isIn(regime, depth, size) && !(before && after);
     });
 }
 
@@ -128,6 +133,7 @@ constexpr std::array kMarks{ Mark{ "paper law", Curve::Style::Circles, 2 },
   Mark{ "finite elements corotated", Curve::Style::Diamonds, 5 },
   Mark{ "finite elements neo-hookean", Curve::Style::Diamonds, 0 },
   Mark{ "mass-spring", Curve::Style::Squares, 5 },
+  Mark{ "mass-spring-volume", Curve::Style::Squares, 6 },
   Mark{ "corotational", Curve::Style::Squares, 2 } };
 
 void addCharts(Section& section, const BlockPress& press)
@@ -198,7 +204,8 @@ std::string finding(const Table& front)
   return text + ". The table is our own calibration of this very press and knows no other.";
 }
 
-constexpr double kTrials = kEnergies.size() * kResolutions.size() + 3; // of a press
+constexpr double kTrials =
+  kEnergies.size() * kResolutions.size() + fem::kBaselines.size() + 1; // of a press
 
 // every method once, in the same order each time
 std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& reference,
@@ -208,11 +215,12 @@ std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& refere
   std::erase_if(depths, [&](double depth) { return depth > press.size * (1.0 + 1e-9); });
   std::vector<Trial> trials = tryLaws(press, depths, effort);
   tried();
-  const auto deepest = [&](double depth) { return isDeepest(reference, depth, press.size); };
-  for (const fem::Baseline baseline : { fem::Baseline::MassSpring, fem::Baseline::Corotational })
+  const auto wanted = [&](double depth)
+  { return !effort.quick || isBorder(reference, depth, press.size); };
+  for (const fem::Baseline baseline : fem::kBaselines)
   {
     // they take long to come to rest, and then many steps are timed
-    trials.push_back(again ? Trial{} : trySteps(press, baseline, depths, deepest, effort));
+    trials.push_back(again ? Trial{} : trySteps(press, baseline, depths, wanted, effort));
     tried();
   }
   for (const Energy energy : kEnergies)
