@@ -187,7 +187,7 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
   const std::function<bool(double)>& wanted, const Effort& effort)
 {
   constexpr double kStep = 20.0_ms; // the graphics loop in which the paper runs such methods
-  constexpr double kStill = 1e-4;   // change of the force in a step [-]
+  constexpr double kStill = 1e-3;   // change of the force in a step [-]
   constexpr int kMostSteps = 300;
   constexpr int kTimed = 5;
   const bool elements = baseline == fem::Baseline::Corotational;
