@@ -164,7 +164,8 @@ Section dynamics(const Effort& effort)
     const auto& row = summary.rows.back();
     if (std::get<double>(row.back()) > 0.0)
     {
-      folds.append(std::get<std::string>(row[0])).append(" folds under the tool: ");
+      folds.append("The method ").append(std::get<std::string>(row[0]));
+      folds.append(" folds under the tool: ");
       folds.append(shown(row.back())).append(" tetrahedra are inside out at the end. ");
     }
     const bool elements = baseline == fem::Baseline::Corotational;

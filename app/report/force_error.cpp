@@ -2,6 +2,7 @@
 #include "app/report/force_methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
+#include "haptics/units.h"
 
 #include <cmath>
 #include <map>
@@ -216,7 +217,11 @@ std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& refere
   std::vector<Trial> trials = tryLaws(press, depths, effort);
   tried();
   const auto wanted = [&](double depth)
-  { return !effort.quick || isBorder(reference, depth, press.size); };
+  {
+    const double depthMm = units::toMillimetres(depth);
+    return isBorder(reference, depth, press.size) ||
+      (!effort.quick && std::abs(depthMm - std::round(depthMm)) < 1e-6);
+  };
   for (const fem::Baseline baseline : fem::kBaselines)
   {
     // they take long to come to rest, and then many steps are timed
@@ -284,7 +289,8 @@ Section forceAgainstTime(const Effort& effort)
     "per cent of its largest reference force, as in Eq. (9); local is the largest error relative "
     "to the reference force at the same depth, which is what a hand judges by.",
     "Time is that of one more force: for a law one evaluation; for finite elements the step from "
-    "the depth half a millimetre before; for the steppers one step of their time integration. "
+    "the depth half a millimetre before; for the steppers one step of their time integration, at "
+    "the ends of each regime and, in a full report, whole millimetres. "
     "Medians of " +
       std::to_string(effort.repeats()) +
       " runs, one for elements below R/4 in a quick report; their spread is in time_spread.csv."

@@ -188,7 +188,7 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
 {
   constexpr double kStep = 20.0_ms; // the graphics loop in which the paper runs such methods
   constexpr double kStill = 1e-3;   // change of the force in a step [-]
-  constexpr int kMostSteps = 300;
+  constexpr int kMostSteps = 100;
   constexpr int kTimed = 5;
   const bool elements = baseline == fem::Baseline::Corotational;
   Trial trial =
