@@ -57,6 +57,10 @@ void addCurve(Plot& plot, const report::Section& section, const report::Curve& c
 void DrawPictures::drawReport(
   const report::Section& section, const std::filesystem::path& directory) const
 {
+  if (section.charts.empty())
+  {
+    return;
+  }
   const OffscreenContext context;
   for (const report::Chart& chart : section.charts)
   {

@@ -74,8 +74,9 @@ public:
   void finish() const
   {
     const std::chrono::duration<double> spent = Clock::now() - start_;
-    std::cerr << (isatty(STDERR_FILENO) != 0 ? "\r" : "") << head_ << ": "
-              << std::lround(spent.count()) << " s    \n";
+    const bool over = isatty(STDERR_FILENO) != 0;
+    std::cerr << (over ? "\r" : "") << head_ << ": " << std::lround(spent.count()) << " s"
+              << (over ? "    \n" : "\n");
   }
 
 private:

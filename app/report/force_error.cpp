@@ -2,6 +2,7 @@
 #include "app/report/force_methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
+#include "haptics/units.h"
 
 #include <cmath>
 #include <map>
@@ -43,15 +44,20 @@ std::vector<double> timesIn(
   return reached ? times : std::vector<double>();
 }
 
-// a method that takes long is tried at the deepest press of each regime only
-bool isDeepest(const ReferenceForces& reference, double depth, double size)
+// the first or the last depth of a regime, for methods that take long
+bool isBorder(const ReferenceForces& reference, double depth, double size)
 {
   return std::ranges::any_of(kRegimes,
     [&](const Regime& regime)
     {
-      return isIn(regime, depth, size) &&
-        std::ranges::none_of(reference.depths,
-          [&](double other) { return other > depth && isIn(regime, other, size); });
+      bool before = false;
+      bool after = false;
+      for (const double other : reference.depths)
+      {
+        before = before || (other < depth && isIn(regime, other, size));
+        after = after || (other > depth && isIn(regime, other, size));
+      }
+      return isIn(regime, depth, size) && !(before && after);
     });
 }
 
@@ -128,6 +134,7 @@ constexpr std::array kMarks{ Mark{ "paper law", Curve::Style::Circles, 2 },
   Mark{ "finite elements corotated", Curve::Style::Diamonds, 5 },
   Mark{ "finite elements neo-hookean", Curve::Style::Diamonds, 0 },
   Mark{ "mass-spring", Curve::Style::Squares, 5 },
+  Mark{ "mass-spring-volume", Curve::Style::Squares, 6 },
   Mark{ "corotational", Curve::Style::Squares, 2 } };
 
 void addCharts(Section& section, const BlockPress& press)
@@ -198,7 +205,8 @@ std::string finding(const Table& front)
   return text + ". The table is our own calibration of this very press and knows no other.";
 }
 
-constexpr double kTrials = kEnergies.size() * kResolutions.size() + 3; // of a press
+constexpr double kTrials =
+  kEnergies.size() * kResolutions.size() + fem::kBaselines.size() + 1; // of a press
 
 // every method once, in the same order each time
 std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& reference,
@@ -208,11 +216,16 @@ std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& refere
   std::erase_if(depths, [&](double depth) { return depth > press.size * (1.0 + 1e-9); });
   std::vector<Trial> trials = tryLaws(press, depths, effort);
   tried();
-  const auto deepest = [&](double depth) { return isDeepest(reference, depth, press.size); };
-  for (const fem::Baseline baseline : { fem::Baseline::MassSpring, fem::Baseline::Corotational })
+  const auto wanted = [&](double depth)
+  {
+    const double depthMm = units::toMillimetres(depth);
+    return isBorder(reference, depth, press.size) ||
+      (!effort.quick && std::abs(depthMm - std::round(depthMm)) < 1e-6);
+  };
+  for (const fem::Baseline baseline : fem::kBaselines)
   {
     // they take long to come to rest, and then many steps are timed
-    trials.push_back(again ? Trial{} : trySteps(press, baseline, depths, deepest, effort));
+    trials.push_back(again ? Trial{} : trySteps(press, baseline, depths, wanted, effort));
     tried();
   }
   for (const Energy energy : kEnergies)
@@ -276,7 +289,8 @@ Section forceAgainstTime(const Effort& effort)
     "per cent of its largest reference force, as in Eq. (9); local is the largest error relative "
     "to the reference force at the same depth, which is what a hand judges by.",
     "Time is that of one more force: for a law one evaluation; for finite elements the step from "
-    "the depth half a millimetre before; for the steppers one step of their time integration. "
+    "the depth half a millimetre before; for the steppers one step of their time integration, at "
+    "the ends of each regime and, in a full report, whole millimetres. "
     "Medians of " +
       std::to_string(effort.repeats()) +
       " runs, one for elements below R/4 in a quick report; their spread is in time_spread.csv."

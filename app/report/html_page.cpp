@@ -26,7 +26,7 @@ p { max-width: 48rem; }
 a { color: #00548a; }
 nav li { margin: .15rem 0; }
 figure { margin: 1.5rem 0; break-inside: avoid; }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 27rem)); gap: 1rem; }
+.charts { display: grid; grid-template-columns: repeat(3, 1fr); gap: 1rem; }
 .charts.alone { grid-template-columns: minmax(20rem, 44rem); }
 .charts svg { width: 100%; height: auto; }
 .wide svg { max-width: 100%; height: auto; }
@@ -45,10 +45,12 @@ td:nth-child(-n+3) { white-space: nowrap; }
 #claims td { white-space: normal; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .missing { border-left: 4px solid #d55e00; padding-left: .8rem; }
+@media (max-width: 50rem) { .charts { grid-template-columns: 1fr; } }
 @media print { body { font-size: 10pt; max-width: none; margin: 0; } h2 { break-after: avoid; }
   a { color: inherit; text-decoration: none; } .scroll { overflow: visible; }
   tr { break-inside: avoid; }
-  .charts { grid-template-columns: repeat(3, 1fr); } .charts.alone { grid-template-columns: 70%; }
+  .charts { grid-template-columns: repeat(3, 1fr); }
+  .charts.alone { grid-template-columns: 70%; }
   * { print-color-adjust: exact; } }
 </style>
 )";

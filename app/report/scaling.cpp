@@ -267,6 +267,7 @@ Section scaling(const Effort& effort)
       curve("servo step, tool jumps", "servo_step", "jump", Curve::Style::Squares, 1),
       curve("servo step, cold cache", "servo_step", "cold", Curve::Style::Squares, 4),
       curve("force, dent and normals", "update", "moving", Curve::Style::Diamonds, 3),
+      curve("dent of 2,300 vertices", "dent", "2300", Curve::Style::Diamonds, 5),
       curve("every triangle asked", "query_brute", "moving", Curve::Style::Diamonds, 7),
       { .label = "paper, Table 1",
         .table = "paper_line",
