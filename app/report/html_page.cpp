@@ -15,6 +15,13 @@ namespace
 constexpr std::array kPalette{ "#1a1c21", "#0072b2", "#d55e00", "#009e73", "#56b4e9", "#cc79a7",
   "#e69f00", "#7f7f7f" };
 
+// as 166 ranges of two quick reports on one idle machine did
+constexpr const char* kBetweenRuns =
+  "Times are medians, with the lowest and the highest of repeated runs beside them. What else runs "
+  "on a machine, and its clock, move from one report to the next: expect the ranges of two "
+  "reports to meet once both are widened by 8 %. Columns per S are divided by a fixed piece of "
+  "work timed in the same run and come closer: compare machines and runs by them.";
+
 constexpr const char* kStyle = R"(<style>
 body { font: 16px/1.5 "Source Serif 4", Charter, Georgia, serif; color: #1a1c21; max-width: 72rem;
   margin: 2rem auto; padding: 0 1.5rem; }
@@ -245,7 +252,8 @@ void writeHead(std::ostream& out, const nlohmann::ordered_json& machine,
     out << "<tr><th scope=\"row\">" << escape(key) << "</th><td>" << escape(shown(cell))
         << "</td></tr>\n";
   }
-  out << "</table>\n<p>The same as data: " << fileLink("machine.json") << ".</p>\n<nav><ol>\n";
+  out << "</table>\n<p>The same as data: " << fileLink("machine.json") << ".</p>\n<p>"
+      << kBetweenRuns << "</p>\n<nav><ol>\n";
   for (const Section& section : sections)
   {
     out << "<li><a href=\"#" << section.name << "\">" << escape(section.title) << "</a></li>\n";
