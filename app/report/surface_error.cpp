@@ -3,8 +3,10 @@
 #include "app/report/force_methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
+#include "calibration/csv_text.h"
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ranges>
 
@@ -249,7 +251,7 @@ void addCharts(Section& section, const BlockPress& press)
   }
   for (const double depth : profileDepths(press))
   {
-    const std::string depthMm = shown(toMillimetres(depth));
+    const std::string depthMm = shortest(toMillimetres(depth)); // as the table's cells
     Chart profile{ .name =
                      "surface_profiles_" + fileWord(press.name) + "_" + fileWord(depthMm) + "mm",
       .caption = depthMm + " mm deep",
@@ -350,6 +352,13 @@ Section surfaceAgainstTime(const Effort& effort)
     addParetoFront(front, press.name, section.tables[1], "error_rms_mm", press.name, "");
   }
   section.tables.insert(section.tables.begin() + 1, std::move(front));
+  // a regime without a depth of the references
+  std::erase_if(section.charts,
+    [&](const Chart& chart)
+    {
+      return std::ranges::all_of(
+        chart.curves, [&](const Curve& curve) { return pointsOf(section, curve).x.empty(); });
+    });
   return section;
 }
 
