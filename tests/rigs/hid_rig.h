@@ -161,6 +161,7 @@ public:
   {
     if (thread_.joinable())
     {
+      pulled = Clock::now();
       shutdown(end_, SHUT_RDWR);
       thread_.join();
       close(end_);
@@ -175,6 +176,7 @@ public:
   std::atomic<int> last = 0;                     // sum of the sizes of the last currents [mA]
   std::atomic<int> pushes = 0;                   // packets whose currents were not all zero
   std::atomic<Clock::time_point> lastPush{};     // when the last of them came
+  std::atomic<Clock::time_point> pulled{};       // when its wire was
   std::array<std::atomic<int>, 3> currents{};    // last [mA]
   std::array<std::int16_t, 3> encoders = kStart; // the thread's, until it has ended
 
