@@ -8,6 +8,8 @@
 #include "tests/support/surfaces.h"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace palp
