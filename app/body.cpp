@@ -61,7 +61,10 @@ Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
     const LoadedSurface loaded = readSurface(file, parseUnit(source.unit), source.level);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
-    display.add(*loaded.mesh, source.frame);
+    if (shown)
+    {
+      display.add(*loaded.mesh, source.frame);
+    }
     const bool liver = source.bundled == "liver";
     coarser = coarser || liver;
     haptic.add(

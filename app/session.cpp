@@ -21,23 +21,31 @@ namespace
 constexpr std::size_t kKept = 600'000; // samples, ten minutes
 constexpr double kForgiving = 0.05;    // until the servo has heard of an order, at the latest [s]
 
+// what is recorded of a press that has not begun
+Recording startOf(const ScenePlan& plan, const Body& body, Ledger& ledger)
+{
+  Recording recording;
+  recording.mesh = body.name;
+  recording.unit = body.unit;
+  recording.rated = plan.validity;
+  recording.scene.surface = body.haptic;
+  recording.scene.rule = plan.press.rule();
+  recording.scene.damping = plan.press.dampingSi();
+  recording.scene.law =
+    ledger.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
+  return recording;
+}
+
 } // namespace
 
 Session::Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop)
   : plan_(std::move(plan))
   , servoOptions_{ .history = plan_.records(), .deadMan = plan_.deadMan, .stop = stop }
   , body_(ledger.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
+  , recording_(startOf(plan_, body_, ledger))
   , calibration_(ledger.build("calibration", "how far the surface gives way",
-      [&] { return loadCalibration(plan_.press, plan_.press.tissue.law()); }))
+      [&] { return loadCalibration(plan_.press, recording_.scene.law); }))
 {
-  recording_.mesh = body_.name;
-  recording_.unit = body_.unit;
-  recording_.rated = plan_.validity;
-  recording_.scene.surface = body_.haptic;
-  recording_.scene.rule = plan_.press.rule();
-  recording_.scene.damping = plan_.press.dampingSi();
-  recording_.scene.law =
-    ledger.build("law", "tissue and tool", [&] { return plan_.press.tissue.law(); });
   ledger.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 

@@ -116,8 +116,8 @@ private:
   ScenePlan plan_;
   ServoOptions servoOptions_;
   Body body_;
+  Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;
-  Recording recording_;  // its scene is the one that the servo thread has
   double armedAt_ = 0.0; // time of the servo from which on a fault is a new one [s]
   std::function<void(const HandTarget&)> moveTool_;
   std::unique_ptr<Device> device_;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <charconv>
+#include <fstream>
 #include <ostream>
+#include <system_error>
 
 namespace palp
 {
@@ -24,6 +26,21 @@ void writeCsvRow(std::ostream& out, std::span<const double> values)
     separator = ",";
   }
   out << '\n';
+}
+
+bool replaceFile(const std::filesystem::path& file, const std::string& content)
+{
+  auto fresh = file;
+  fresh += ".new";
+  std::ofstream out(fresh, std::ios::binary);
+  out << content;
+  out.close();
+  std::error_code failed;
+  if (out)
+  {
+    std::filesystem::rename(fresh, file, failed);
+  }
+  return out && !failed;
 }
 
 } // namespace palp

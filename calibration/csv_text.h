@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <span>
 #include <string>
@@ -12,5 +13,9 @@ namespace palp
 
 /// Writes one line of comma-separated numbers, shortest digits.
 void writeCsvRow(std::ostream& out, std::span<const double> values);
+
+/// Replaces a file as a whole, so that an interruption leaves the one before.
+/// @return  false where it cannot be written
+[[nodiscard]] bool replaceFile(const std::filesystem::path& file, const std::string& content);
 
 } // namespace palp

@@ -107,21 +107,33 @@ double largest(const std::vector<double>& values)
   return most;
 }
 
-std::string passesAt(const std::vector<double>& depths, const std::vector<double>& errors)
+double passing(const std::vector<double>& depths, const std::vector<double>& errors, double limit)
 {
   double last = 0.0;
   double before = 0.0;
   for (std::size_t i = 0; i < depths.size() && !std::isnan(errors[i]); ++i)
   {
     const double error = std::abs(errors[i]);
-    if (error > kJnd)
+    if (error > limit)
     {
-      const double at = last + (depths[i] - last) * (kJnd - before) / (error - before);
-      return "at " + fixed(toMillimetres(at), 1) + " mm";
+      return last + (depths[i] - last) * (limit - before) / (error - before);
     }
     last = depths[i];
     before = error;
   }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::string passesAt(const std::vector<double>& depths, const std::vector<double>& errors)
+{
+  const double at = passing(depths, errors, kJnd);
+  if (std::isfinite(at))
+  {
+    return "at " + fixed(toMillimetres(at), 1) + " mm";
+  }
+  const auto known = std::ranges::find_if(errors, [](double error) { return std::isnan(error); });
+  const double last =
+    known == errors.begin() ? 0.0 : depths[static_cast<std::size_t>(known - errors.begin()) - 1];
   return "nowhere to " + fixed(toMillimetres(last), 1) + " mm";
 }
 

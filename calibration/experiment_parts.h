@@ -36,6 +36,11 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 /// The largest value that is there; 0 where none is.
 [[nodiscard]] double largest(const std::vector<double>& values);
 
+/// Where errors first pass a limit, on straight lines from (0, 0); infinite where they never do, or
+/// not before the first that is not there.
+[[nodiscard]] double passing(
+  const std::vector<double>& depths, const std::vector<double>& errors, double limit);
+
 /// Where errors first pass 7 %, in words: "at 4.1 mm", or "nowhere to 8 mm".
 [[nodiscard]] std::string passesAt(
   const std::vector<double>& depths, const std::vector<double>& errors);

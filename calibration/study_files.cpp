@@ -1,6 +1,7 @@
 #include "calibration/study_files.h"
 
 #include "calibration/csv_rows.h"
+#include "calibration/csv_text.h"
 #include "calibration/curve_fit.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -42,18 +43,10 @@ std::string tipText(const Tip& tip)
 
 void replace(const std::filesystem::path& file, const std::string& content)
 {
-  auto fresh = file;
-  fresh += ".new";
+  if (!replaceFile(file, content))
   {
-    std::ofstream out(fresh, std::ios::binary);
-    out << content;
-    out.flush();
-    if (!out)
-    {
-      throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; choose another --out");
-    }
+    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; choose another --out");
   }
-  std::filesystem::rename(fresh, file);
 }
 
 std::ostringstream text(const std::string& header, const char* columns)

@@ -25,6 +25,40 @@ Between between(const std::vector<double>& axis, double value)
   return { low, (x - axis[low]) / (axis[low + 1] - axis[low]) };
 }
 
+// a surface through its values at the radii of a table
+class Curve
+{
+public:
+  explicit Curve(const std::array<double, SurfaceTable::kRadii.size()>& sinks)
+    : sinks_(sinks)
+    , slopes_(monotoneSlopes(radii(), sinks_))
+  {
+  }
+
+  // x: distance from the axis over the tip's radius
+  [[nodiscard]] double at(double x) const
+  {
+    if (!(x >= 0.0) || x > radii().back())
+    {
+      return 0.0;
+    }
+    const auto [low, weight] = between(radii(), x);
+    return hermite(weight, radii()[low + 1] - radii()[low], sinks_[low], sinks_[low + 1],
+      slopes_[low], slopes_[low + 1])
+      .value;
+  }
+
+private:
+  static const std::vector<double>& radii()
+  {
+    static const std::vector<double> all(SurfaceTable::kRadii.begin(), SurfaceTable::kRadii.end());
+    return all;
+  }
+
+  std::array<double, SurfaceTable::kRadii.size()> sinks_;
+  std::vector<double> slopes_;
+};
+
 } // namespace
 
 SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
@@ -98,36 +132,30 @@ SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
 
 double SurfaceTable::sinkAt(const Place& place, double radius) const
 {
-  const double x = radius / place.tipRadius;
-  if (!(place.depth > 0.0) || !(x >= 0.0) || x > kRadii.back())
-  {
-    return 0.0;
-  }
-  const std::vector<double> radii(kRadii.begin(), kRadii.end());
-  const Row row = rowAt(place);
-  const auto slopes = monotoneSlopes(radii, row);
-  const auto [low, weight] = between(radii, x);
-  return hermite(
-    weight, radii[low + 1] - radii[low], row[low], row[low + 1], slopes[low], slopes[low + 1])
-    .value;
+  return place.depth > 0.0 ? Curve(rowAt(place)).at(radius / place.tipRadius) : 0.0;
 }
 
 double SurfaceTable::extentRadius(const Place& place, double threshold) const
 {
-  if (!(sinkAt(place, 0.0) > threshold))
+  if (!(place.depth > 0.0))
+  {
+    return 0.0;
+  }
+  const Curve curve(rowAt(place));
+  if (!(curve.at(0.0) > threshold))
   {
     return 0.0;
   }
   double inside = 0.0;
   double outside = kRadii.back() * place.tipRadius;
-  if (sinkAt(place, outside) > threshold)
+  if (curve.at(kRadii.back()) > threshold)
   {
     return outside;
   }
   for (int i = 0; i < 50; ++i)
   {
     const double middle = 0.5 * (inside + outside);
-    (sinkAt(place, middle) > threshold ? inside : outside) = middle;
+    (curve.at(middle / place.tipRadius) > threshold ? inside : outside) = middle;
   }
   return inside;
 }

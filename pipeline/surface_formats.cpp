@@ -68,8 +68,7 @@ const Format& formatOf(const std::filesystem::path& file)
   }
   refuse(file,
     "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp) or an "
-    "image "
-    "(.mha, .mhd, .nii, .nii.gz, .vti)");
+    "image (.mha, .mhd, .nii, .nii.gz, .vti)");
 }
 
 void checkFile(const std::filesystem::path& file, const Format& format)

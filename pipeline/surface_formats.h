@@ -24,10 +24,10 @@ constexpr const char* kUnitArray = "LengthUnit";
 /// Reads STL, OBJ, PLY, OFF, legacy VTK or VTP, by the ending of the name; or the level surface of
 /// an image: MetaImage, NIfTI or VTI, in mm.
 ///
-/// @param level   value of an image on the surface; none for a file that is a surface itself
 /// Polygons and strips are cut into triangles. Whatever the file holds, nothing is printed and
 /// nothing crashes; numbers are read with a decimal point in every locale.
 ///
+/// @param level   value of an image on the surface; none for a file that is a surface itself
 /// @throws Error  BadFile: missing, not a file, empty, cut off, not of the format its name says;
 ///                BadMesh: no triangles, a coordinate that is not a number; as levelSurface
 [[nodiscard]] FileSurface readFile(

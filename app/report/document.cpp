@@ -7,7 +7,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -203,18 +202,7 @@ std::string fileWord(const std::string& name)
 
 void writeText(const std::filesystem::path& file, const std::string& text)
 {
-  // replaced whole, so that an interruption leaves the one before
-  auto fresh = file;
-  fresh += ".new";
-  std::ofstream out(fresh, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code failed;
-  if (out)
-  {
-    std::filesystem::rename(fresh, file, failed);
-  }
-  if (!out || failed)
+  if (!replaceFile(file, text))
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": cannot be written; choose a folder with room where you may write");

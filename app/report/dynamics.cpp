@@ -4,9 +4,7 @@
 #include "app/report/parts.h"
 #include "haptics/units.h"
 
-#include <Eigen/LU>
 #include <cmath>
-#include <numeric>
 
 namespace palp::report
 {
@@ -15,7 +13,6 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kStep = 20.0_ms; // the graphics loop, in which the paper runs such methods
 constexpr double kDepth = 5.0_mm;
 constexpr double kSpeed = 0.02; // [m/s]
 constexpr double kHold = 0.25;  // [s]
@@ -35,35 +32,10 @@ Table timesTable()
 std::vector<Cell> summaryRow(const std::string& method, const std::vector<double>& times,
   double iterations, double force, double folded)
 {
-  const auto count = static_cast<double>(times.size());
-  const double mean = std::accumulate(times.begin(), times.end(), 0.0) / count;
-  double squares = 0.0;
-  for (const double time : times)
-  {
-    squares += (time - mean) * (time - mean);
-  }
+  const BenchRow row = benchRow("step", 0, "", times);
   const Spread spread = spreadOf(times);
-  return { method, count, mean, std::sqrt(squares / count), spread.median, spread.low, spread.high,
-    iterations, force, folded };
-}
-
-double volume(const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet)
-{
-  Eigen::Matrix3d edges;
-  for (int a = 0; a < 3; ++a)
-  {
-    edges.col(a) = positions.col(tet[static_cast<std::size_t>(a) + 1]) - positions.col(tet[0]);
-  }
-  return edges.determinant() / 6.0;
-}
-
-// tetrahedra that are inside out
-double folded(const fem::Stepper& stepper)
-{
-  const fem::TetMesh& mesh = stepper.mesh();
-  return static_cast<double>(std::ranges::count_if(mesh.tets,
-    [&](const auto& tet)
-    { return volume(mesh.positions, tet) * volume(stepper.positions(), tet) < 0.0; }));
+  return { method, static_cast<double>(times.size()), row.mean, row.deviation, row.median,
+    spread.low, spread.high, iterations, force, folded };
 }
 
 // our own step, along the path of the others
@@ -100,7 +72,7 @@ std::vector<Cell> timeStepper(Table& table, fem::Baseline baseline,
   {
     effort.check();
     stepper.reset();
-    const fem::StepTimes times = fem::timeSteps(stepper, path, kStep);
+    const fem::StepTimes times = fem::timeSteps(stepper, path, kGraphicsStep);
     for (std::size_t i = 0; i < path.size(); ++i)
     {
       table.rows.push_back(
@@ -111,7 +83,8 @@ std::vector<Cell> timeStepper(Table& table, fem::Baseline baseline,
     iterations = times.iterations;
     force = times.outcomes.back().force;
   }
-  return summaryRow(method, all, iterations, force, folded(stepper));
+  return summaryRow(method, all, iterations, force,
+    static_cast<double>(fem::invertedElements(stepper.mesh(), stepper.positions())));
 }
 
 Chart chartOf(const char* name, const char* caption, const char* left, const char* column, bool log)
@@ -142,7 +115,7 @@ Chart chartOf(const char* name, const char* caption, const char* left, const cha
 
 Section dynamics(const Effort& effort)
 {
-  const auto path = fem::pressPath(kDepth, kSpeed, kHold, kStep);
+  const auto path = fem::pressPath(kDepth, kSpeed, kHold, kGraphicsStep);
   const int runs = effort.quick ? 1 : effort.repeats();
   Table times = timesTable();
   Table summary{ .name = "fig12",
@@ -188,7 +161,7 @@ Section dynamics(const Effort& effort)
                    "triangles: " +
       std::to_string(body.tets.size()) + " tetrahedra, " + std::to_string(body.positions.cols()) +
       " nodes, 50 mm thick, bonded at its base. Backward Euler with one linearisation a step of " +
-      shown(units::toMilliseconds(kStep)) +
+      shown(units::toMilliseconds(kGraphicsStep)) +
       " ms; conjugate gradients with the diagonal as "
       "preconditioner, warm start from the last velocities, at most " +
       std::to_string(settings.mostIterations) + " iterations a solve or a relative residual of " +

@@ -1,4 +1,4 @@
-#include "calibration/experiments.h"
+#include "calibration/experiment_parts.h"
 
 #include "app/report/parts.h"
 #include "haptics/units.h"
@@ -14,6 +14,8 @@ namespace
 {
 
 using fem::Experiment;
+using fem::parts::largest;
+using fem::parts::passing;
 
 constexpr double kJnd = 7.0; // [%] of a force that a hand just notices, Sec. 3.2
 
@@ -128,34 +130,6 @@ std::vector<double> columnOf(const Experiment& experiment, const std::string& na
   return values;
 }
 
-double largest(const std::vector<double>& values)
-{
-  double most = 0.0;
-  for (const double value : values)
-  {
-    most = value > most ? value : most;
-  }
-  return most;
-}
-
-// where a percentage over the depth first passes 7; infinite where it never does
-double passes(const std::vector<double>& depths, const std::vector<double>& percent)
-{
-  double last = 0.0;
-  double before = 0.0;
-  for (std::size_t i = 0; i < depths.size(); ++i)
-  {
-    const double error = std::abs(percent[i]);
-    if (error > kJnd)
-    {
-      return last + (depths[i] - last) * (kJnd - before) / (error - before);
-    }
-    last = depths[i];
-    before = error;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 std::string millimetres(double value)
 {
   char text[32];
@@ -177,8 +151,8 @@ double firstToDepart(const Experiment& experiment, const std::string& tool, cons
   for (const char* radius : { "30", "50", "100" })
   {
     first = std::min(first,
-      passes(columnOf(experiment, "depth_mm"),
-        columnOf(experiment, tool + "_R0_" + radius + "mm_" + support + "_percent")));
+      passing(columnOf(experiment, "depth_mm"),
+        columnOf(experiment, tool + "_R0_" + radius + "mm_" + support + "_percent"), kJnd));
   }
   return first;
 }
@@ -229,8 +203,8 @@ Section inclination(const Effort& effort)
                        .verdict = "agrees, rounded up" },
     { .of = "Eq. (7), cone",
       .paper = "a cone of 45 degrees may tilt by 9 degrees",
-      .here = percentage(change[9]) + " at 9 degrees; 7 % at " + shown(passes(tilts, change)) +
-        " degrees",
+      .here = percentage(change[9]) + " at 9 degrees; 7 % at " +
+        shown(passing(tilts, change, kJnd)) + " degrees",
       .verdict = "plausible: boundary elements on a linear half-space here, finite elements on a "
                  "block there" } };
   return section;
@@ -302,8 +276,8 @@ Section forces(const Effort& effort)
   const auto [cone, coneAgrees] = threeOf("cone");
   const auto limit = [&](const char* material)
   {
-    return millimetres(
-      passes(depths, columnOf(found, "sphere_" + std::string(material) + "_difference_percent")));
+    return millimetres(passing(
+      depths, columnOf(found, "sphere_" + std::string(material) + "_difference_percent"), kJnd));
   };
   section.claims = { { .of = "Fig. 15(a)",
                        .paper = "Eq. (4) lies above linear elements when deep and below "

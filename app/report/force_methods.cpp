@@ -186,8 +186,7 @@ fem::TetMesh baselineBody(double height)
 Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const double> depths,
   const std::function<bool(double)>& wanted, const Effort& effort)
 {
-  constexpr double kStep = 20.0_ms; // the graphics loop in which the paper runs such methods
-  constexpr double kStill = 1e-3;   // change of the force in a step [-]
+  constexpr double kStill = 1e-3; // change of the force in a step [-]
   constexpr int kMostSteps = 100;
   constexpr int kTimed = 5;
   const bool elements = baseline == fem::Baseline::Corotational;
@@ -209,14 +208,14 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
     stepper.placeTool(apex);
     try
     {
-      trial.forces[i] = fem::settle(stepper, kStep, kStill, kMostSteps).force;
+      trial.forces[i] = fem::settle(stepper, kGraphicsStep, kStill, kMostSteps).force;
     }
     catch (const Error&)
     {
       continue; // it never rests there
     }
     const std::vector<Eigen::Vector3d> further(kTimed, apex - 0.01_mm * Eigen::Vector3d::UnitZ());
-    for (const double time : fem::timeSteps(stepper, further, kStep).milliseconds)
+    for (const double time : fem::timeSteps(stepper, further, kGraphicsStep).milliseconds)
     {
       trial.times[i].push_back(time * 1e3); // [us]
     }

@@ -8,6 +8,9 @@
 namespace palp::report
 {
 
+/// Of the graphics loop, in which the paper runs elements and springs [s].
+inline constexpr double kGraphicsStep = 0.02;
+
 /// A way to get the force of a press, tried at given depths.
 struct Trial
 {

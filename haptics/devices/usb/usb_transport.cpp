@@ -21,14 +21,23 @@ constexpr unsigned kPatience = 100; // for what should take no time [ms]
 using Context = std::unique_ptr<libusb_context, decltype(&libusb_exit)>;
 using Handle = std::unique_ptr<libusb_device_handle, decltype(&libusb_close)>;
 
-Context makeContext()
+constexpr const char* kNoUsb = "USB cannot be used on this system; check /dev/bus/usb";
+
+// null where there is no USB
+Context openContext() noexcept
 {
   libusb_context* context = nullptr;
-  if (libusb_init(&context) != LIBUSB_SUCCESS)
+  return { libusb_init(&context) == LIBUSB_SUCCESS ? context : nullptr, &libusb_exit };
+}
+
+Context makeContext()
+{
+  Context context = openContext();
+  if (!context)
   {
-    throw Error(ErrorCode::NoDevice, std::string("Novint Falcon: ") + usbHurdle());
+    throw Error(ErrorCode::NoDevice, std::string("Novint Falcon: ") + kNoUsb);
   }
-  return { context, &libusb_exit };
+  return context;
 }
 
 std::string hurdleOf(int error)
@@ -107,23 +116,17 @@ private:
 
 const char* usbHurdle() noexcept
 {
-  libusb_context* context = nullptr;
-  if (libusb_init(&context) != LIBUSB_SUCCESS)
-  {
-    return "USB cannot be used on this system; check /dev/bus/usb";
-  }
-  libusb_exit(context);
-  return "";
+  return openContext() ? "" : kNoUsb;
 }
 
 std::vector<FoundDevice> listUsb()
 {
   std::vector<FoundDevice> found;
-  if (*usbHurdle() != '\0')
+  const Context context = openContext();
+  if (!context)
   {
     return found;
   }
-  const Context context = makeContext();
   libusb_device** devices = nullptr;
   const auto count = libusb_get_device_list(context.get(), &devices);
   for (long i = 0; i < static_cast<long>(count); ++i)
