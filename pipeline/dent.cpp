@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace palp
@@ -24,6 +25,9 @@ bool isFinite(const Press& press)
     press.pose.axis.allFinite() && std::isfinite(press.contactRadius) &&
     std::isfinite(press.extentRadius) && (!press.fitted || isFinite(*press.fitted));
 }
+
+constexpr int kUprightPasses = 30;
+constexpr double kUpright = 0.05; // [-] share of its area at rest that a side keeps at least
 
 // x, y, z in one register
 using Lanes = float __attribute__((vector_size(16)));
@@ -69,7 +73,11 @@ void Dent::update(const Press& press, const DentArrays& arrays)
     {
       lay(press, reach);
     }
-    displace(arrays);
+    displace(0, region_.points().size(), arrays);
+    if (region_.hasSides())
+    {
+      keepSidesUpright(arrays);
+    }
   }
   for (const std::int32_t point : before_)
   {
@@ -104,29 +112,93 @@ void Dent::forgetPress(const DentArrays& arrays)
   }
 }
 
-void Dent::displace(const DentArrays& arrays) const noexcept
+PressField::Sink Dent::sinkAt(const Place& place, const Eigen::Vector3d& rest) const noexcept
+{
+  PressField::Sink sink = field_.sinkAt(place, rest, *body_);
+  if (place.isBetween())
+  {
+    const PressField::Sink front = field_.sinkAt(region_.placeInFront(rest), rest, *body_);
+    sink.depth += place.facing * (front.depth - sink.depth);
+  }
+  sink.depth += place.extra;
+  return sink;
+}
+
+void Dent::displace(std::size_t from, std::size_t to, const DentArrays& arrays) const noexcept
 {
   const Eigen::Vector3d normal = region_.normal();
   const auto points = region_.points();
   const auto places = region_.places();
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = from; i < to; ++i)
   {
     if (!places[i].within)
     {
       continue;
     }
     const Eigen::Vector3d rest = region_.rest(points[i]);
-    const PressField::Sink sink = sinkAt(places[i], rest);
-    const Eigen::Vector3d moved = -sink.depth * normal;
-    const Eigen::Vector3d to = rest + moved;
+    const PressField::Sink sink = field_.sinkAt(places[i], rest, *body_);
+    const Eigen::Vector3d moved = -(sink.depth + places[i].extra) * normal;
+    const Eigen::Vector3d sunk = rest + moved;
     const auto at = static_cast<std::size_t>(points[i]);
     for (Eigen::Index k = 0; k < 3; ++k)
     {
       arrays.displacement[3 * at + static_cast<std::size_t>(k)] = static_cast<float>(moved[k]);
-      arrays.points[3 * at + static_cast<std::size_t>(k)] = static_cast<float>(to[k]);
+      arrays.points[3 * at + static_cast<std::size_t>(k)] = static_cast<float>(sunk[k]);
     }
     arrays.zone[at] = static_cast<unsigned char>(sink.zone);
   }
+}
+
+// What faces the tool keeps its order under any displacement along the normal. Where a side or an
+// overhang would turn over, its lesser sinks are raised, just enough.
+void Dent::keepSidesUpright(const DentArrays& arrays)
+{
+  bool isUpright = false;
+  for (int pass = 0; pass < kUprightPasses && !isUpright; ++pass)
+  {
+    isUpright = true;
+    region_.forEachTriangle(
+      [&](const Triangle& corners) { isUpright = keepUpright(corners, arrays) && isUpright; });
+  }
+}
+
+// whether it was, or cannot be
+bool Dent::keepUpright(const Triangle& corners, const DentArrays& arrays)
+{
+  std::array<Eigen::Vector3d, 3> rest;
+  std::array<double, 3> sinks{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (!region_.places()[static_cast<std::size_t>(corners[k])].within)
+    {
+      return true; // hangs from a point at rest
+    }
+    const std::int32_t point = region_.points()[static_cast<std::size_t>(corners[k])];
+    rest[k] = region_.rest(point);
+    sinks[k] = -Eigen::Map<const Eigen::Vector3f>(arrays.displacement + 3 * point)
+                  .cast<double>()
+                  .dot(region_.normal());
+  }
+  const Eigen::Vector3d first = rest[1] - rest[0];
+  const Eigen::Vector3d second = rest[2] - rest[0];
+  const Eigen::Vector3d area = first.cross(second);
+  // what the sinks take from the area, which is linear in their differences
+  const double lost = region_.normal().dot(
+    area.cross((sinks[2] - sinks[0]) * first - (sinks[1] - sinks[0]) * second));
+  const double whole = area.squaredNorm();
+  if (area.dot(region_.normal()) > 0.0 || !(lost > (1.0 - kUpright) * whole))
+  {
+    return true;
+  }
+  const double share = 1.0 - (1.0 - 2.0 * kUpright) * whole / lost;
+  const double most = *std::max_element(sinks.begin(), sinks.end());
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto index = static_cast<std::size_t>(corners[k]);
+    region_.sinkFurther(index, share * (most - sinks[k]));
+    displace(index, index + 1, arrays);
+  }
+  return false;
 }
 
 // one way for rest and dent, so that rest comes back to the bit

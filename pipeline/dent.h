@@ -65,12 +65,10 @@ public:
     return region_;
   }
 
-  /// How far the surface gives way at a place of the last press.
+  /// How far the surface gives way at a place of the last press; continuous along the surface,
+  /// but for the wall that a tool sunk beyond its base cuts.
   [[nodiscard]] PressField::Sink sinkAt(
-    const Place& place, const Eigen::Vector3d& rest) const noexcept
-  {
-    return field_.sinkAt(place, rest, *body_);
-  }
+    const Place& place, const Eigen::Vector3d& rest) const noexcept;
 
   [[nodiscard]] bool isInsideTool(const Eigen::Vector3d& point) const noexcept
   {
@@ -91,7 +89,9 @@ public:
 private:
   void lay(const Press& press, double outer);
   void forgetPress(const DentArrays& arrays);
-  void displace(const DentArrays& arrays) const noexcept;
+  void displace(std::size_t from, std::size_t to, const DentArrays& arrays) const noexcept;
+  void keepSidesUpright(const DentArrays& arrays);
+  bool keepUpright(const Triangle& corners, const DentArrays& arrays);
   void computeNormal(std::int32_t point, const DentArrays& arrays) const noexcept;
 
   std::span<const float> rest_;

@@ -71,7 +71,8 @@ void DentPatch::takeCorners(const Dent& dent)
     const std::int32_t point = region.points()[i];
     corners_.push_back({ region.rest(point), restNormal(region, point), region.places()[i] });
   }
-  triangles = region.triangles();
+  triangles.clear();
+  region.forEachTriangle([&](const Triangle& triangle) { triangles.push_back(triangle); });
 }
 
 // an edge between two points at rest stays whole: the surface beside the patch has it whole
@@ -127,14 +128,7 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
     const Corner& first = corners_[static_cast<std::size_t>(a)];
     const Corner& second = corners_[static_cast<std::size_t>(b)];
     const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
-    Place place = dent.region().placeInFront(rest);
-    place.front = first.place.front && second.place.front;
-    if (!place.front)
-    {
-      const Eigen::Vector2d way = first.place.way() + second.place.way();
-      place.turns = quarterTurns(way.x(), way.y());
-      place.distance = 0.5 * (first.place.distance + second.place.distance);
-    }
+    Place place = dent.region().placeBetween(first.place, second.place, 0.5, rest);
     place.within = dent.isInsideTool(rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
     corners_.push_back({ rest, normal, place });
@@ -145,7 +139,7 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
 bool DentPatch::rests(int corner, const Dent& dent) const noexcept
 {
   const Place& place = corners_[static_cast<std::size_t>(corner)].place;
-  return !place.within && !(place.distance < dent.region().outer());
+  return !place.within && !(place.distance < dent.region().outer()) && !place.isBetween();
 }
 
 void DentPatch::displace(const Dent& dent)

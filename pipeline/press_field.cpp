@@ -13,6 +13,15 @@ constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool l
 constexpr double kWithinBase = 1.0 - 1e-9; // [-]
 constexpr double kVertical = 1e6;          // [-] slope of a shaft
 constexpr double kFitReach = 1.5;          // [-] of the contact radius
+constexpr double kFilledPit = 0.1;         // [-] of the contact radius: pressed onto the tool
+constexpr double kOpenPit = 0.4;           // [-] of the contact radius: not reached by the tool
+
+// 0 to 1 between 0 and 1, level at both ends
+double smoothStep(double t) noexcept
+{
+  const double within = std::clamp(t, 0.0, 1.0);
+  return within * within * (3.0 - 2.0 * within);
+}
 
 // root of a function that is negative at 0 and positive at the end, by the Illinois rule
 template <typename Function>
@@ -42,6 +51,37 @@ double rootBefore(double end, double atZero, double atEnd, Function function) no
   return low;
 }
 
+// how far the tool is above the undeformed surface at a distance from the contact's centre, less
+// than zero where it is pressed in
+class Gap
+{
+public:
+  Gap(const PressField& field, const PressRegion& region, const ToolBody& body,
+    const Eigen::Vector2d& towards) noexcept
+    : field_(field)
+    , body_(body)
+    , towards_(towards)
+    , normal_(region.normal())
+    , center_(region.toSurface(Eigen::Vector3d::Zero()))
+    , outwards_(region.toSurface({ towards.x(), towards.y(), 0.0 }) - center_)
+  {
+  }
+
+  double operator()(double radius) const noexcept
+  {
+    return body_.lowest(center_ + radius * outwards_, normal_) -
+      field_.surfaceHeight(radius * towards_.x(), radius * towards_.y());
+  }
+
+private:
+  const PressField& field_;
+  const ToolBody& body_;
+  Eigen::Vector2d towards_;
+  Eigen::Vector3d normal_;
+  Eigen::Vector3d center_;
+  Eigen::Vector3d outwards_;
+};
+
 } // namespace
 
 void PressField::lay(const PressRegion& region, const ToolBody& body, double depth,
@@ -58,6 +98,17 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
       curveAlong(directionOf(4.0 * k / kDirections), region, body);
   }
   curves_.back() = curves_.front();
+  for (int k = 0; k < kDirections; ++k)
+  {
+    // a straight line between two directions' sinks would leave a step at the contact circle
+    const double turns = 4.0 * (k + 0.5) / kDirections;
+    const RingCurve& a = curves_[static_cast<std::size_t>(k)];
+    const RingCurve& b = curves_[static_cast<std::size_t>(k) + 1];
+    const double exact = -Gap(*this, region, body, directionOf(turns))(0.5 * (a.inner + b.inner));
+    bulges_[static_cast<std::size_t>(k)] = a.sink > 0.0 && b.sink > 0.0 && std::isfinite(exact)
+      ? 4.0 * (std::max(0.0, exact) - 0.5 * (a.sink + b.sink))
+      : 0.0;
+  }
 }
 
 // least squares over the points around the contact, weighted so that none enters with a jump
@@ -75,7 +126,7 @@ void PressField::fitSurface(const PressRegion& region)
     const double x = scale * place.local.x();
     const double y = scale * place.local.y();
     const double left = 1.0 - x * x - y * y;
-    if (!(left > 0.0) || !place.front)
+    if (!(left > 0.0) || !place.isFront())
     {
       continue;
     }
@@ -117,15 +168,7 @@ double PressField::surfaceHeight(double x, double y) const noexcept
 RingCurve PressField::curveAlong(
   const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept
 {
-  const Eigen::Vector3d outwards =
-    region.toSurface({ towards.x(), towards.y(), 0.0 }) - region.toSurface(Eigen::Vector3d::Zero());
-  const Eigen::Vector3d center = region.toSurface(Eigen::Vector3d::Zero());
-  // how far the tool is above the undeformed surface, less than zero where it is pressed in
-  const auto gap = [&](double radius)
-  {
-    return body.lowest(center + radius * outwards, normal_) -
-      surfaceHeight(radius * towards.x(), radius * towards.y());
-  };
+  const Gap gap(*this, region, body, towards);
   const double atCenter = gap(0.0);
   if (!(atCenter < 0.0))
   {
@@ -163,7 +206,9 @@ inline RingCurve PressField::curveTowards(double turns) const noexcept
   const RingCurve& a = curves_[static_cast<std::size_t>(below)];
   const RingCurve& b = curves_[static_cast<std::size_t>(below) + 1];
   const auto between = [v](double first, double second) { return first + v * (second - first); };
-  return { between(a.inner, b.inner), between(a.sink, b.sink), between(a.meet, b.meet), a.outer };
+  const double bulge = v * (1.0 - v) * bulges_[static_cast<std::size_t>(below)];
+  return { between(a.inner, b.inner), between(a.sink, b.sink) + bulge, between(a.meet, b.meet),
+    a.outer };
 }
 
 std::array<Eigen::Vector3d, 3> PressField::controlPoints(
@@ -192,56 +237,71 @@ double PressField::fittedSink(const RingCurve& curve, double radius) const noexc
   return profile.sinkAt(radius);
 }
 
-inline double PressField::ringSink(const Place& place, const RingCurve& curve) const noexcept
+// of the smooth surface: what the paper gives every way from the contact
+inline double PressField::smoothSink(double distance, const RingCurve& curve) const noexcept
 {
   const bool isFitted = fittedCurve_ && curve.sink > 0.0 && curve.meet > curve.inner;
-  const double sink =
-    std::min(isFitted ? fittedSink(curve, place.distance) : curve.sinkAt(place.distance), deepest_);
-  const double end = std::min(fitted_, curve.outer);
-  if (!place.front || !(place.distance < end))
-  {
-    return sink;
-  }
-  // what the fit leaves of the surface goes with it at the contact circle, and less and less so to
-  // where the fit ends
-  const double t = (place.distance - curve.inner) / (end - curve.inner);
-  const double fade = (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
-  const double left = place.local.z() - surfaceHeight(place.local.x(), place.local.y());
-  return sink + std::clamp(fade * left, -sink, sink);
+  return std::min(isFitted ? fittedSink(curve, distance) : curve.sinkAt(distance), deepest_);
 }
 
 // a side below the tool goes down with the surface above it, less and less with its own depth, so
 // that it is compressed and does not fold
-double PressField::sideSink(
-  const Place& place, const RingCurve& curve, double toTool) const noexcept
+[[gnu::noinline]] double PressField::sideSink(const Place& place, const Eigen::Vector3d& rest,
+  const RingCurve& curve, const ToolBody& body) const noexcept
 {
-  const double below =
-    std::max(0.0, surfaceHeight(place.local.x(), place.local.y()) - place.local.z());
+  const double toTool = body.lowest(rest, normal_);
+  const double below = std::max(0.0, -heightOverFit(place));
   const double above = std::isfinite(toTool) ? std::min(below - toTool, deepest_) : 0.0;
-  return std::max(0.0, above * (1.0 - below / curve.outer));
+  const double way = std::min(1.0, place.distance / curve.outer);
+  const double left = std::max(0.0, 1.0 - below / curve.outer) * (1.0 - way * way * way * way);
+  return std::max(smoothSink(place.distance, curve), above * left);
+}
+
+// on the tool within the contact; around it what the fit leaves of the surface goes with it, less
+// and less so to where the fit ends; a pit that the tool does not reach goes down as a side does
+inline double PressField::frontSink(const Place& place, const Eigen::Vector3d& rest,
+  const RingCurve& curve, const ToolBody& body) const noexcept
+{
+  const double left = heightOverFit(place);
+  double sink = 0.0;
+  double fade = 1.0;
+  if (place.distance <= curve.inner)
+  {
+    const double toTool = body.lowest(rest, normal_);
+    sink = std::isfinite(toTool) ? std::max(0.0, -toTool) : curve.sink;
+  }
+  else
+  {
+    sink = smoothSink(place.distance, curve);
+    const double end = std::min(fitted_, curve.outer);
+    if (!(place.distance < end))
+    {
+      return sink;
+    }
+    fade = 1.0 - smoothStep((place.distance - curve.inner) / (end - curve.inner));
+    sink += fade * std::max(left, -sink);
+  }
+  if (-left > kFilledPit * curve.inner)
+  {
+    const double pit = smoothStep((-left / curve.inner - kFilledPit) / (kOpenPit - kFilledPit));
+    sink += fade * pit * std::max(0.0, sideSink(place, rest, curve, body) - sink);
+  }
+  return sink;
 }
 
 PressField::Sink PressField::sinkAt(
   const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
 {
   const RingCurve curve = curveTowards(place.turns);
-  if (place.front && place.distance <= curve.inner)
-  {
-    const double toTool = body.lowest(rest, normal_);
-    const double sink = std::isfinite(toTool) ? std::max(0.0, -toTool) : curve.sink;
-    return { sink, sink > 0.0 ? Zone::Contact : Zone::Ring };
-  }
-  double sink = ringSink(place, curve);
-  if (!place.front)
-  {
-    sink = std::max(sink, sideSink(place, curve, body.lowest(rest, normal_)));
-  }
+  const double sink =
+    place.isFront() ? frontSink(place, rest, curve, body) : sideSink(place, rest, curve, body);
+  const bool isUnder = place.isFront() && place.distance <= curve.inner && sink > 0.0;
   const Eigen::Vector3d sunk = rest - sink * normal_;
-  if (body.contains(sunk))
+  if (!isUnder && body.contains(sunk))
   {
     return { sink - body.lowest(sunk, normal_), Zone::Contact };
   }
-  return { sink, Zone::Ring };
+  return { sink, isUnder ? Zone::Contact : Zone::Ring };
 }
 
 } // namespace palp

@@ -57,7 +57,7 @@ public:
     return reach_;
   }
 
-  /// @param place  of a point within the dent
+  /// @param place  of a point within the dent, whose way either faces the tool or does not
   /// @param rest   the point [m]
   [[nodiscard]] Sink sinkAt(
     const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
@@ -84,14 +84,20 @@ private:
   [[nodiscard]] RingCurve curveAlong(
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
   [[nodiscard]] double fittedSink(const RingCurve& curve, double radius) const noexcept;
-  [[nodiscard]] double ringSink(const Place& place, const RingCurve& curve) const noexcept;
-
-  [[nodiscard]] double sideSink(
-    const Place& place, const RingCurve& curve, double toTool) const noexcept;
+  [[nodiscard]] double smoothSink(double distance, const RingCurve& curve) const noexcept;
+  [[nodiscard]] double sideSink(const Place& place, const Eigen::Vector3d& rest,
+    const RingCurve& curve, const ToolBody& body) const noexcept;
+  [[nodiscard]] double frontSink(const Place& place, const Eigen::Vector3d& rest,
+    const RingCurve& curve, const ToolBody& body) const noexcept;
+  [[nodiscard]] double heightOverFit(const Place& place) const noexcept
+  {
+    return place.local.z() - surfaceHeight(place.local.x(), place.local.y());
+  }
 
   std::optional<SurfaceProfile> fittedCurve_;
   Quadric surface_ = Quadric::Zero();
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
+  std::array<double, kDirections> bulges_{};        // of the sink between two of them [m], times 4
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
   double deepest_ = 0.0; // delta [m]
   double reach_ = 0.0;   // [m]

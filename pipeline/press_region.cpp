@@ -13,7 +13,9 @@ namespace
 constexpr double kFront = 0.5;      // [-] cosine to the contact normal: steeper surface is unrolled
 constexpr double kSeedFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
 constexpr double kShorter = 0.999;  // [-] of the distance: ends the search for still shorter ways
-constexpr double kTiny = 1e-12;     // [m]
+constexpr double kTurn =
+  10.0; // [-] 1 / share of the inner radius from lengths as seen to true ones
+constexpr double kTiny = 1e-12; // [m]
 
 // of a triangle by two of its edges in the frame of the contact; scalars, for a vector would go
 // through memory
@@ -47,6 +49,7 @@ void PressRegion::clear() noexcept
   }
   points_.clear();
   places_.clear();
+  hasSides_ = false;
   outer_ = 0.0;
 }
 
@@ -154,6 +157,7 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   inner_ = inner;
   outer_ = outer;
   perWidth_ = 1.0 / (outer - inner);
+  perTurn_ = kTurn / inner;
   const std::int32_t seed = findSeed(contact);
   if (seed < 0)
   {
@@ -190,7 +194,7 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
 // meets the corners of a triangle that has one within the dent
 void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body)
 {
-  if (places_[from].front)
+  if (places_[from].isFront())
   {
     const Eigen::Vector3d p = places_[from].local;
     const Eigen::Vector3d atA = toLocal(rest(a));
@@ -202,6 +206,7 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
       return;
     }
   }
+  hasSides_ = true;
   meetAround(a, points_[from], b, body);
   meetAround(b, points_[from], a, body);
 }
@@ -220,7 +225,7 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
   place.local = local;
   place.turns = quarterTurns(local.x(), local.y());
   place.distance = distanceInFront(local);
-  place.front = true;
+  place.facing = 1.0F;
   place.within = place.distance < outer_ || body.contains(rest(point));
   if (place.within)
   {
@@ -274,17 +279,33 @@ inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const n
   }
   const double straight = std::sqrt(square + local.z() * local.z());
   const double t = std::min(1.0, (straight - inner_) * perWidth_);
-  return seen + t * t * (straight - seen);
+  const double s = std::min(1.0, perTurn_ * (seen - inner_));
+  return seen + t * t * s * (straight - seen);
 }
 
 Place PressRegion::placeInFront(const Eigen::Vector3d& point) const noexcept
 {
   const Eigen::Vector3d local = toLocal(point);
   return { .local = local,
-    .turns = quarterTurns(local.x(), local.y()),
     .distance = distanceInFront(local),
-    .front = true,
+    .turns = quarterTurns(local.x(), local.y()),
+    .facing = 1.0F,
     .within = false };
+}
+
+Place PressRegion::placeBetween(
+  const Place& a, const Place& b, double share, const Eigen::Vector3d& point) const noexcept
+{
+  Place place = placeInFront(point);
+  if (!a.isFront() || !b.isFront())
+  {
+    const Eigen::Vector2d way = a.way() + share * (b.way() - a.way());
+    place.turns = quarterTurns(way.x(), way.y());
+    place.distance = a.distance + share * (b.distance - a.distance);
+    place.facing = a.facing + static_cast<float>(share) * (b.facing - a.facing);
+  }
+  place.extra = a.extra + static_cast<float>(share) * (b.extra - a.extra);
+  return place;
 }
 
 // the way to a point across the edge between two others, straight where their triangle is laid into
@@ -295,7 +316,7 @@ Place PressRegion::placeAround(
   const Place& first = places_[static_cast<std::size_t>(find(from))];
   const Eigen::Vector3d arm = rest(point) - rest(from);
   double distance = first.distance + arm.norm();
-  double turns = first.turns;
+  float turns = first.turns;
   if (const std::int32_t slot = find(beside); slot >= 0)
   {
     // the edge on the x axis, the contact's centre below it, the point above
@@ -319,41 +340,10 @@ Place PressRegion::placeAround(
   }
   const Eigen::Vector3d local = axes_ * (rest(point) - center_);
   return { .local = local,
-    .turns = turns,
     .distance = std::max(distance, local.norm()),
-    .front = false,
+    .turns = turns,
+    .facing = 0.0F,
     .within = false };
-}
-
-std::vector<Triangle> PressRegion::triangles() const
-{
-  std::vector<Triangle> all;
-  all.reserve(2 * points_.size());
-  const auto isWithin = [&](std::int32_t slot)
-  { return places_[static_cast<std::size_t>(slot)].within; };
-  for (std::int32_t owner = 0; owner < static_cast<std::int32_t>(points_.size()); ++owner)
-  {
-    if (!isWithin(owner))
-    {
-      continue;
-    }
-    std::int32_t before = Umbrella::kEnd;
-    for (const std::int32_t next : umbrella_.around(points_[static_cast<std::size_t>(owner)]))
-    {
-      if (before != Umbrella::kEnd && next != Umbrella::kEnd)
-      {
-        // a triangle belongs to the first of its corners within the dent
-        const std::int32_t a = find(before);
-        const std::int32_t b = find(next);
-        if ((a > owner || !isWithin(a)) && (b > owner || !isWithin(b)))
-        {
-          all.push_back({ owner, a, b });
-        }
-      }
-      before = next;
-    }
-  }
-  return all;
 }
 
 } // namespace palp

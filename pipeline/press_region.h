@@ -16,10 +16,10 @@ namespace palp
 /// Position of a direction of a plane among evenly spaced ones, without trigonometry or a branch.
 ///
 /// @return  0 to 4 quarter turns from x over y; 0 for no direction
-[[nodiscard]] inline double quarterTurns(double x, double y) noexcept
+[[nodiscard]] inline float quarterTurns(double x, double y) noexcept
 {
   const double sum = std::abs(x) + std::abs(y);
-  return sum > 0.0 ? 2.0 - std::copysign(1.0 + x / sum, y) : 0.0;
+  return sum > 0.0 ? static_cast<float>(2.0 - std::copysign(1.0 + x / sum, y)) : 0.0F;
 }
 
 /// The unit vector of quarterTurns().
@@ -33,15 +33,26 @@ namespace palp
 struct Place
 {
   Eigen::Vector3d local; ///< rest position from the contact's centre [m], z along its normal
-  double turns;          ///< where in the tangent plane the way there begins, see quarterTurns()
   double distance;       ///< length of the way along the surface [m]
-  bool front;            ///< the surface faces the tool all along the way
+  float turns;           ///< where in the tangent plane the way there begins, see quarterTurns()
+  float facing;          ///< 1 where the surface faces the tool all along the way, 0 where it does
+                         ///< not, between on an edge from the one to the other
+  float extra = 0.0F;    ///< sinks further than the field by this, so that no side turns over [m]
   bool within;           ///< within the dent; else next to it
 
   /// The way, unrolled into the tangent plane [m].
   [[nodiscard]] Eigen::Vector2d way() const noexcept
   {
     return distance * directionOf(turns);
+  }
+
+  [[nodiscard]] bool isFront() const noexcept
+  {
+    return facing == 1.0F;
+  }
+  [[nodiscard]] bool isBetween() const noexcept
+  {
+    return facing > 0.0F && facing < 1.0F;
   }
 };
 
@@ -91,11 +102,29 @@ public:
     return slot_[static_cast<std::size_t>(point)] >> 1;
   }
 
-  /// Triangles with a corner within the dent; indices into points().
-  [[nodiscard]] std::vector<Triangle> triangles() const;
+  /// Calls a function with every triangle that has a corner within the dent, as indices into
+  /// points().
+  template <typename Function>
+  void forEachTriangle(Function function) const;
+
+  /// Whether a triangle was met that does not face the tool.
+  [[nodiscard]] bool hasSides() const noexcept
+  {
+    return hasSides_;
+  }
+
+  /// Adds to Place::extra of the point of an index.
+  void sinkFurther(std::size_t index, double more) noexcept
+  {
+    places_[index].extra += static_cast<float>(more);
+  }
 
   /// The place of a point that faces the tool.
   [[nodiscard]] Place placeInFront(const Eigen::Vector3d& point) const noexcept;
+
+  /// The place of a point on the edge between two others, at a share of the way from a to b.
+  [[nodiscard]] Place placeBetween(
+    const Place& a, const Place& b, double share, const Eigen::Vector3d& point) const noexcept;
 
   [[nodiscard]] Eigen::Vector3d rest(std::int32_t point) const noexcept
   {
@@ -173,7 +202,38 @@ private:
   double inner_ = 0.0;
   double outer_ = 0.0;
   double perWidth_ = 0.0; // 1 / (outer - inner) [1/m]
+  double perTurn_ = 0.0;  // 1 / width of the zone where lengths become true ones [1/m]
   std::int32_t seed_ = 0;
+  bool hasSides_ = false;
 };
+
+template <typename Function>
+void PressRegion::forEachTriangle(Function function) const
+{
+  const auto isWithin = [&](std::int32_t index)
+  { return places_[static_cast<std::size_t>(index)].within; };
+  for (std::int32_t owner = 0; owner < static_cast<std::int32_t>(points_.size()); ++owner)
+  {
+    if (!isWithin(owner))
+    {
+      continue;
+    }
+    std::int32_t before = Umbrella::kEnd;
+    for (const std::int32_t next : umbrella_.around(points_[static_cast<std::size_t>(owner)]))
+    {
+      if (before != Umbrella::kEnd && next != Umbrella::kEnd)
+      {
+        // a triangle belongs to the first of its corners within the dent
+        const std::int32_t a = find(before);
+        const std::int32_t b = find(next);
+        if ((a > owner || !isWithin(a)) && (b > owner || !isWithin(b)))
+        {
+          function(Triangle{ owner, a, b });
+        }
+      }
+      before = next;
+    }
+  }
+}
 
 } // namespace palp
