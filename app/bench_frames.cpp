@@ -3,6 +3,7 @@
 #include "app/offscreen.h"
 #include "haptics/units.h"
 #include "pipeline/poly_data.h"
+#include "pipeline/press_view.h"
 #include "pipeline/vtkPalpDeformFilter.h"
 #include "pipeline/vtkPalpPatchMapper.h"
 
@@ -48,7 +49,50 @@ protected:
 };
 vtkStandardNewMacro(SomeTriangles);
 
-// a picture drawn again, and how much longer one with a moved dent takes
+struct Frames
+{
+  std::vector<double> still; ///< a picture drawn again [us]
+  std::vector<double> above; ///< how much longer one with a moved dent takes [us]
+};
+
+// in turns, for other work on the machine comes and goes
+Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
+{
+  const auto draw = [&]
+  {
+    window.Render();
+    glFinish();
+  };
+  const auto drawMoved = [&](int i)
+  {
+    move(i);
+    draw();
+  };
+  for (int i = 0; i < kSteps; ++i)
+  {
+    drawMoved(i);
+  }
+  Frames frames;
+  const auto redraw = [&](int)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    draw();
+    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
+    frames.still.push_back(time.count());
+  };
+  frames.above = timed(kFrames, redraw, drawMoved);
+  std::transform(frames.above.begin(), frames.above.end(), frames.still.begin(),
+    frames.above.begin(), std::minus<>());
+  return frames;
+}
+
+// where the tool is in a frame, to and fro [m]
+double wayOf(int frame, double outer)
+{
+  return 0.05 * outer * (frame % kSteps - kSteps / 2);
+}
+
+// the surface alone
 std::vector<BenchRow> benchSurface(
   const OffscreenContext& context, const BenchDome& dome, double touched, const char* mode)
 {
@@ -64,33 +108,39 @@ std::vector<BenchRow> benchSurface(
   renderer->AddActor(actor);
   const auto window = context.makeWindow(160, 120);
   window->AddRenderer(renderer);
-  const auto draw = [&](int)
-  {
-    window->Render();
-    glFinish();
-  };
-  const auto move = [&](int i)
-  {
-    press->SetPress(dome.press(outer, 0.05 * outer * (i % kSteps - kSteps / 2)));
-    draw(i);
-  };
-  for (int i = 0; i < kSteps; ++i)
-  {
-    move(i);
-  }
-  // in turns, for other work on the machine comes and goes
-  std::vector<double> still;
-  const auto redraw = [&](int i)
-  {
-    const auto begin = std::chrono::steady_clock::now();
-    draw(i);
-    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
-    still.push_back(time.count());
-  };
-  std::vector<double> above = timed(kFrames, redraw, move);
-  std::transform(above.begin(), above.end(), still.begin(), above.begin(), std::minus<>());
-  return { benchRow("frame", mesh.points.size(), "still", still),
-    benchRow("frame", mesh.points.size(), mode, above) };
+  const Frames frames =
+    measure(*window, [&](int i) { press->SetPress(dome.press(outer, wayOf(i, outer))); });
+  return { benchRow("frame", mesh.points.size(), "still", frames.still),
+    benchRow("frame", mesh.points.size(), mode, frames.above) };
+}
+
+// the whole view of a dent of 500 points with one overlay
+BenchRow benchOverlay(
+  const OffscreenContext& context, const char* name, const std::vector<Overlay>& overlays)
+{
+  const BenchDome dome{ 100, 100.0_mm };
+  const Mesh mesh = dome.mesh();
+  const double outer = dome.radiusOf(500);
+  vtkNew<vtkRenderer> renderer;
+  PressView view(*renderer);
+  view.setSurface(makePolyData(mesh.points, mesh.triangles));
+  view.setTip(dome.press(outer, 0.0).tip);
+  view.setVisible(overlays);
+  view.lookAtSurface();
+  const auto window = context.makeWindow(160, 120);
+  window->AddRenderer(renderer);
+  const Frames frames = measure(*window,
+    [&](int i)
+    {
+      const Press press = dome.press(outer, wayOf(i, outer));
+      Sample sample;
+      sample.pose = press.pose;
+      sample.contact = press.contact;
+      sample.response.contactRadius = press.contactRadius;
+      sample.response.force = 1.0;
+      view.show(sample);
+    });
+  return benchRow("overlay", mesh.points.size(), name, frames.above);
 }
 
 } // namespace
@@ -112,6 +162,17 @@ std::vector<BenchRow> DrawPictures::benchFrames(std::size_t most) const
       }
     }
   }
+  const std::vector<Overlay> usual{ Overlay::ForceArrow, Overlay::ContactCircle,
+    Overlay::ExtentCircle, Overlay::DisplacementColors, Overlay::Readings };
+  rows.push_back(benchOverlay(context, "none", {}));
+  rows.push_back(benchOverlay(context, "arrow", { Overlay::ForceArrow }));
+  rows.push_back(benchOverlay(context, "circle", { Overlay::ContactCircle }));
+  rows.push_back(benchOverlay(context, "colours", { Overlay::DisplacementColors }));
+  rows.push_back(benchOverlay(context, "readings", { Overlay::Readings }));
+  rows.push_back(benchOverlay(context, "pressure", { Overlay::PressureColors }));
+  rows.push_back(benchOverlay(context, "net", { Overlay::ControlNet }));
+  rows.push_back(benchOverlay(context, "ghost", { Overlay::Ghost }));
+  rows.push_back(benchOverlay(context, "usual", usual));
   return rows;
 }
 

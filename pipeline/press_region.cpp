@@ -13,9 +13,8 @@ namespace
 constexpr double kFront = 0.5;      // [-] cosine to the contact normal: steeper surface is unrolled
 constexpr double kSeedFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
 constexpr double kShorter = 0.999;  // [-] of the distance: ends the search for still shorter ways
-constexpr double kTurn =
-  10.0; // [-] 1 / share of the inner radius from lengths as seen to true ones
-constexpr double kTiny = 1e-12; // [m]
+constexpr double kTurn = 10.0;      // [-] inner radii to the one where lengths are true, inverted
+constexpr double kTiny = 1e-12;     // [m]
 
 // of a triangle by two of its edges in the frame of the contact; scalars, for a vector would go
 // through memory

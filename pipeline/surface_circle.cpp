@@ -2,12 +2,21 @@
 
 #include "pipeline/appearance.h"
 
+#include <cmath>
+#include <vtkFloatArray.h>
+#include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
 namespace palp
 {
+namespace
+{
+
+constexpr double kSame = 0.01; // [-] of the radius: the point faces the tool, its way is straight
+
+} // namespace
 
 SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, Of of)
   : of_(of)
@@ -17,7 +26,7 @@ SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, 
   contour_->ComputeScalarsOff();
   contour_->ComputeNormalsOff();
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(contour_->GetOutputPort());
+  mapper->SetInputData(line_);
   mapper->ScalarVisibilityOff();
   appearance::drawInFront(*mapper);
   actor_->SetMapper(mapper);
@@ -34,7 +43,34 @@ void SurfaceCircle::show(const Moment& moment)
   const double radius =
     of_ == Of::Contact ? moment.sample.response.contactRadius : moment.extentRadius;
   contour_->SetValue(0, radius);
+  contour_->Update();
+  line_->ShallowCopy(contour_->GetOutput());
+  putOnField(moment.press.GetDent(), radius);
   actor_->SetVisibility(radius > 0.0);
+}
+
+// the line crosses triangles, and at a steep wall those are far from the field between their
+// corners
+void SurfaceCircle::putOnField(const Dent& dent, double radius)
+{
+  const auto* moved = vtkFloatArray::SafeDownCast(line_->GetPointData()->GetArray("Displacement"));
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(line_->GetPoints());
+  for (vtkIdType i = 0; moved && i < points->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d rest(points->GetPoint(i));
+    for (int k = 0; k < 3; ++k)
+    {
+      rest[k] -= moved->GetTypedComponent(i, k);
+    }
+    const Place place = dent.region().placeInFront(rest);
+    if (std::abs(place.distance - radius) < kSame * radius)
+    {
+      rest -= dent.sinkAt(place, rest).depth * dent.region().normal();
+      points->SetPoint(i, rest.data());
+    }
+  }
+  line_->SetPoints(points);
 }
 
 void SurfaceCircle::hide()

@@ -6,6 +6,7 @@
 #include <vtkActor.h>
 #include <vtkContourFilter.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 
 namespace palp
 {
@@ -25,8 +26,11 @@ public:
   void hide() override;
 
 private:
+  void putOnField(const Dent& dent, double radius);
+
   Of of_;
   vtkNew<vtkContourFilter> contour_;
+  vtkNew<vtkPolyData> line_;
   vtkNew<vtkActor> actor_;
 };
 

@@ -1,5 +1,6 @@
 #include "pipeline/fitted_surfaces.h"
 
+#include "calibration/study.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/pipeline/surfaces.h"
@@ -46,45 +47,76 @@ INSTANTIATE_TEST_SUITE_P(FittedSurfaces, AgainstFiniteElements,
     Case{ "cone45_r10_h50", "calib_cone45__NH_h0.5", BluntConeTip{ 45.0_deg, 0.3_mm, 10.0_mm } }),
   [](const auto& with) { return std::string(with.param.table); });
 
-// the mesh as drawn, against profiles that another program computed: RMS over the surface from the
-// axis to 40 mm, in per cent of the depth
+// RMS between the mesh as drawn and a deformed profile, over the surface from the axis to 40 mm
+double rmsOnMesh(const FittedSurfaces& surfaces, const Tip& tip, double depth,
+  const std::vector<Eigen::Vector2d>& profile)
+{
+  static DentedSurface surface = test::plane(240, 0.5_mm);
+  Press press =
+    test::pressAt(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), tip, depth, 30.0_mm);
+  press.fitted = surfaces.at(depth);
+  EXPECT_TRUE(press.fitted);
+  surface.press(press);
+  double sum = 0.0;
+  int count = 0;
+  for (const Eigen::Vector2d& point : profile)
+  {
+    if (point.x() > 40.0_mm)
+    {
+      continue;
+    }
+    // along the row of mesh points through the axis, linear as it is drawn
+    const double at = 120.0 + point.x() / 0.5_mm;
+    const auto below = static_cast<std::size_t>(at);
+    const std::size_t row = 120 * 241;
+    const double low = DentedSurface::at(surface.points, row + below).z();
+    const double high = DentedSurface::at(surface.points, row + below + 1).z();
+    const double drawn = low + (at - static_cast<double>(below)) * (high - low);
+    sum += std::pow(drawn - point.y(), 2);
+    ++count;
+  }
+  EXPECT_GT(count, 20);
+  return std::sqrt(sum / count);
+}
+
+// profiles that another program computed
 TEST_P(AgainstFiniteElements, IsWithinThreePerCentOnTheMesh)
 {
-  const FittedSurfaces surfaces = fitted(GetParam().table);
-  const test::CsvTable profiles =
-    table(std::string("reference/") + GetParam().profiles + "__profiles.csv");
-  DentedSurface surface = test::plane(240, 0.5_mm);
+  const test::CsvTable table =
+    ::palp::table(std::string("reference/") + GetParam().profiles + "__profiles.csv");
   for (const double depth : { 2.5_mm, 5.0_mm, 7.5_mm, 10.0_mm })
   {
-    Press press = test::pressAt(
-      Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), GetParam().tip, depth, 30.0_mm);
-    press.fitted = surfaces.at(depth);
-    ASSERT_TRUE(press.fitted);
-    surface.press(press);
-    double sum = 0.0;
-    int count = 0;
-    for (std::size_t i = 0; i < profiles["delta_m"].size(); ++i)
+    std::vector<Eigen::Vector2d> profile;
+    for (std::size_t i = 0; i < table["delta_m"].size(); ++i)
     {
-      const double radius = profiles["r_ref_m"][i] + profiles["ur_m"][i];
-      if (std::abs(profiles["delta_m"][i] - depth) > 1e-9 || radius > 40.0_mm)
+      if (std::abs(table["delta_m"][i] - depth) < 1e-9)
       {
-        continue;
+        profile.emplace_back(table["r_ref_m"][i] + table["ur_m"][i], table["uz_m"][i]);
       }
-      // along the row of mesh points through the axis, linear as it is drawn
-      const double at = 120.0 + radius / 0.5_mm;
-      const auto below = static_cast<std::size_t>(at);
-      const std::size_t row = 120 * 241;
-      const double low = DentedSurface::at(surface.points, row + below).z();
-      const double high = DentedSurface::at(surface.points, row + below + 1).z();
-      const double drawn = low + (at - static_cast<double>(below)) * (high - low);
-      sum += std::pow(drawn - profiles["uz_m"][i], 2);
-      ++count;
     }
-    ASSERT_GT(count, 20);
-    const double rms = std::sqrt(sum / count) / depth;
+    const double rms = rmsOnMesh(fitted(GetParam().table), GetParam().tip, depth, profile) / depth;
     RecordProperty("rms_percent_" + std::to_string(depth), std::to_string(100.0 * rms));
     EXPECT_LE(rms, 0.03) << "depth " << depth;
   }
+}
+
+// shallow, where those have no profile: our own elements, finer than those of the table
+TEST_P(AgainstFiniteElements, IsWithinThreePerCentAtOneMillimetre)
+{
+  const fem::Case shallow{
+    .tip = GetParam().tip, .depths = { 0.5_mm, 1.0_mm }, .elementSize = 0.25_mm
+  };
+  const fem::Outcome outcome = calibrate(shallow);
+  ASSERT_EQ(outcome.steps.size(), 2U) << outcome.trouble;
+  const fem::Indented& pressed = outcome.steps.back();
+  std::vector<Eigen::Vector2d> profile;
+  for (const fem::Indented::Point& point : pressed.profile)
+  {
+    profile.emplace_back(point.radius + point.ur, point.uz);
+  }
+  const double rms = rmsOnMesh(fitted(GetParam().table), GetParam().tip, 1.0_mm, profile) / 1.0_mm;
+  RecordProperty("rms_percent", std::to_string(100.0 * rms));
+  EXPECT_LE(rms, 0.03);
 }
 
 TEST(FittedSurfaces, GoesThroughItsRowsAndToNothing)
