@@ -10,7 +10,8 @@ namespace palp
 namespace
 {
 
-constexpr double kFront = 0.5;      // [-] cosine to the contact normal: steeper surface is unrolled
+constexpr double kFront = 0.5;   // [-] cosine to the contact normal: steeper surface is unrolled
+constexpr double kSharp = 0.966; // [-] cosine of 15 degrees, half of what kFront leaves to a side
 constexpr double kSeedFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
 constexpr double kShorter = 0.999;  // [-] of the distance: ends the search for still shorter ways
 constexpr double kTurn = 10.0;      // [-] inner radii to the one where lengths are true, inverted
@@ -33,6 +34,30 @@ PressRegion::PressRegion(std::span<const float> rest, std::span<const Triangle> 
   , umbrella_(rest.size() / 3, triangles)
   , slot_(rest.size() / 3, kNowhere)
 {
+  for (std::size_t i = 0; i < slot_.size(); ++i)
+  {
+    slot_[i] |= isSharpAt(static_cast<std::int32_t>(i)) ? kSharpBit : 0;
+  }
+}
+
+// whether one triangle of a point may face the tool as kFront asks and another may not at all
+bool PressRegion::isSharpAt(std::int32_t point) const
+{
+  const Eigen::Vector3d p = rest(point);
+  std::vector<Eigen::Vector3d> normals;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  std::int32_t before = Umbrella::kEnd;
+  for (const std::int32_t next : umbrella_.around(point))
+  {
+    if (before != Umbrella::kEnd && next != Umbrella::kEnd)
+    {
+      normals.push_back((rest(before) - p).cross(rest(next) - p).normalized());
+      mean += normals.back();
+    }
+    before = next;
+  }
+  return std::any_of(normals.begin(), normals.end(),
+    [&](const Eigen::Vector3d& n) { return !(n.dot(mean) > kSharp * mean.norm()); });
 }
 
 std::size_t PressRegion::bytes() const noexcept
@@ -44,7 +69,8 @@ void PressRegion::clear() noexcept
 {
   for (const std::int32_t point : points_)
   {
-    slot_[static_cast<std::size_t>(point)] = kNowhere;
+    std::int32_t& slot = slot_[static_cast<std::size_t>(point)];
+    slot = kNowhere | (slot & kSharpBit);
   }
   points_.clear();
   places_.clear();
@@ -219,7 +245,8 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
     return;
   }
   const std::size_t index = indexOf(point);
-  slot_[static_cast<std::size_t>(point)] |= 1;
+  slot_[static_cast<std::size_t>(point)] |= kSettledBit;
+  hasSides_ = hasSides_ || (slot_[static_cast<std::size_t>(point)] & kSharpBit) != 0;
   Place& place = places_[index];
   place.local = local;
   place.turns = quarterTurns(local.x(), local.y());
@@ -259,13 +286,13 @@ void PressRegion::meetAround(
 [[gnu::always_inline]] inline std::size_t PressRegion::indexOf(std::int32_t point)
 {
   std::int32_t& slot = slot_[static_cast<std::size_t>(point)];
-  if (slot == kNowhere)
+  if (slot < 0)
   {
-    slot = 2 * static_cast<std::int32_t>(points_.size());
+    slot = static_cast<std::int32_t>(points_.size()) << kBits | (slot & kSharpBit);
     points_.push_back(point);
     places_.emplace_back();
   }
-  return static_cast<std::size_t>(slot >> 1);
+  return static_cast<std::size_t>(slot >> kBits);
 }
 
 inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const noexcept

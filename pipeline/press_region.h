@@ -99,7 +99,7 @@ public:
   /// Index of a point in points(), negative when it is not there.
   [[nodiscard]] std::int32_t find(std::int32_t point) const noexcept
   {
-    return slot_[static_cast<std::size_t>(point)] >> 1;
+    return slot_[static_cast<std::size_t>(point)] >> kBits;
   }
 
   /// Calls a function with every triangle that has a corner within the dent, as indices into
@@ -107,7 +107,7 @@ public:
   template <typename Function>
   void forEachTriangle(Function function) const;
 
-  /// Whether a triangle was met that does not face the tool.
+  /// Whether there may be a triangle that does not face the tool.
   [[nodiscard]] bool hasSides() const noexcept
   {
     return hasSides_;
@@ -171,7 +171,10 @@ public:
   [[nodiscard]] std::size_t bytes() const noexcept;
 
 private:
-  static constexpr std::int32_t kNowhere = -2;
+  static constexpr std::int32_t kSettledBit = 1;
+  static constexpr std::int32_t kSharpBit = 2; // see isSharpAt()
+  static constexpr std::int32_t kBits = 2;
+  static constexpr std::int32_t kNowhere = -1 << kBits;
 
   [[nodiscard]] std::int32_t findSeed(const Contact& contact) const noexcept;
   [[nodiscard]] std::int32_t downhill(std::int32_t start, const Contact& contact) const noexcept;
@@ -179,8 +182,9 @@ private:
   [[nodiscard]] bool faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept;
   [[nodiscard]] bool isSettled(std::int32_t point) const noexcept
   {
-    return (slot_[static_cast<std::size_t>(point)] & 1) != 0;
+    return (slot_[static_cast<std::size_t>(point)] & kSettledBit) != 0;
   }
+  [[nodiscard]] bool isSharpAt(std::int32_t point) const;
   void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
   [[nodiscard]] std::size_t indexOf(std::int32_t point);
   void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
@@ -191,7 +195,7 @@ private:
 
   std::span<const float> rest_;
   Umbrella umbrella_;
-  std::vector<std::int32_t> slot_; // of every point twice its index in points_, + 1 if settled
+  std::vector<std::int32_t> slot_; // of every point its index in points_, above kBits
 
   // of one press; capacity is kept from frame to frame
   std::vector<std::int32_t> points_;

@@ -173,7 +173,7 @@ TEST(Dent, TakesNoHarmFromValuesThatAreNotFinite)
 // away than R_d over the edge does not move, though it lies 4 mm below the tool
 TEST(Dent, FarSideOfAThinLobeStaysPut)
 {
-  DentedSurface surface = test::ellipsoid(6, { 60.0_mm, 40.0_mm, 2.0_mm });
+  DentedSurface surface = test::ellipsoid(5, { 60.0_mm, 40.0_mm, 2.0_mm });
   const Press press =
     test::pressAt({ 0.0, 0.0, 2.0_mm }, kUp, SphereTip{ 10.0_mm }, 1.5_mm, 20.0_mm);
   surface.press(press);
@@ -192,7 +192,7 @@ TEST(Dent, FarSideOfAThinLobeStaysPut)
 
 TEST(Dent, ReachesAroundAnEdgeByTheWayAlongTheSurface)
 {
-  DentedSurface surface = test::ellipsoid(6, { 60.0_mm, 40.0_mm, 2.0_mm });
+  DentedSurface surface = test::ellipsoid(5, { 60.0_mm, 40.0_mm, 2.0_mm });
   // 10 mm from the edge, R_d = 14 mm: the far side is reached for about 4 mm
   const double y = 30.0_mm;
   const double z = 2.0_mm * std::sqrt(1.0 - y * y / (40.0_mm * 40.0_mm));
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(Dent, RandomPress,
 
 TEST_P(RandomPress, KeepsEveryPointOutOfTheToolAndBeyondRdAtRest)
 {
-  DentedSurface surface = test::ellipsoid(6, GetParam());
+  DentedSurface surface = test::ellipsoid(5, GetParam());
   std::mt19937 random(11);
   std::uniform_int_distribution<std::size_t> vertex(0, surface.count() - 1);
   std::uniform_real_distribution<double> share(0.05, 1.0);
@@ -271,7 +271,7 @@ TEST_P(RandomPress, KeepsEveryPointOutOfTheToolAndBeyondRdAtRest)
 
 TEST_P(RandomPress, TurnsNoTriangleOver)
 {
-  DentedSurface surface = test::ellipsoid(6, GetParam());
+  DentedSurface surface = test::ellipsoid(5, GetParam());
   std::mt19937 random(5);
   std::uniform_int_distribution<std::size_t> vertex(0, surface.count() - 1);
   std::uniform_real_distribution<double> share(0.05, 1.0);
@@ -299,7 +299,7 @@ TEST_P(RandomPress, TurnsNoTriangleOver)
 
 TEST(Dent, DoesNotAllocateOnceItHasSeenSuchADent)
 {
-  DentedSurface surface = test::ellipsoid(6, { 50.0_mm, 40.0_mm, 30.0_mm });
+  DentedSurface surface = test::ellipsoid(5, { 50.0_mm, 40.0_mm, 30.0_mm });
   const auto frame = [&](int i)
   {
     const double x = 2.0_mm * std::sin(0.3 * i);
@@ -321,7 +321,7 @@ TEST(Dent, DoesNotAllocateOnceItHasSeenSuchADent)
 
 TEST(Dent, NeedsLessMemoryThanThreeTimesThePoints)
 {
-  const DentedSurface surface = test::ellipsoid(6, { 50.0_mm, 50.0_mm, 50.0_mm });
+  const DentedSurface surface = test::ellipsoid(5, { 50.0_mm, 50.0_mm, 50.0_mm });
   EXPECT_LE(surface.dent.bytes(), 3 * surface.rest.size() * sizeof(float));
 }
 

@@ -36,14 +36,7 @@ using test::DentedSurface;
 
 DentedSurface dented(vtkPolyData& mesh)
 {
-  DentedSurface surface;
-  for (const Eigen::Vector3d& point : pointsOf(mesh))
-  {
-    surface.add(point);
-  }
-  surface.triangles = trianglesOf(mesh);
-  surface.finish();
-  return surface;
+  return test::dented({ pointsOf(mesh), trianglesOf(mesh) });
 }
 
 DentedSurface read(const std::filesystem::path& file)
@@ -142,7 +135,7 @@ std::vector<Case> cases()
       } },
     { "irregular",
       [] {
-        return shaken(test::ellipsoid(6, { 80.0_mm, 60.0_mm, 35.0_mm }), 1.5_mm);
+        return shaken(test::ellipsoid(5, { 80.0_mm, 60.0_mm, 35.0_mm }), 2.0_mm);
       } },
     { "sheet", [] { return shaken(test::plane(60, 1.5_mm), 1.5_mm); } },
     { "segmented", segmented },

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "data/shapes.h"
 #include "pipeline/dent.h"
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <variant>
 #include <vector>
 
 namespace palp::test
@@ -60,69 +59,33 @@ struct DentedSurface
   }
 };
 
-/// A square plane z = 0 of n x n cells of a width, seen from above.
-inline DentedSurface plane(int n, double width)
+inline DentedSurface dented(const Mesh& mesh)
 {
   DentedSurface surface;
-  for (int j = 0; j <= n; ++j)
+  for (const Eigen::Vector3d& point : mesh.points)
   {
-    for (int i = 0; i <= n; ++i)
-    {
-      surface.add({ (i - 0.5 * n) * width, (j - 0.5 * n) * width, 0.0 });
-    }
+    surface.add(point);
   }
-  for (int j = 0; j < n; ++j)
-  {
-    for (int i = 0; i < n; ++i)
-    {
-      const int a = j * (n + 1) + i;
-      surface.triangles.push_back({ a, a + 1, a + n + 2 });
-      surface.triangles.push_back({ a, a + n + 2, a + n + 1 });
-    }
-  }
+  surface.triangles = mesh.triangles;
   surface.finish();
   return surface;
 }
 
-/// An ellipsoid of given half axes, of 8 x 4^level triangles.
-inline DentedSurface ellipsoid(int level, const Eigen::Vector3d& axes)
+/// A square plane z = 0 of n x n cells of a width, seen from above.
+inline DentedSurface plane(int n, double width)
 {
-  std::vector<Eigen::Vector3d> points{ { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { -1, 0, 0 },
-    { 0, -1, 0 }, { 0, 0, -1 } };
-  std::vector<Triangle> triangles{ { 0, 1, 2 }, { 1, 3, 2 }, { 3, 4, 2 }, { 4, 0, 2 }, { 1, 0, 5 },
-    { 3, 1, 5 }, { 4, 3, 5 }, { 0, 4, 5 } };
-  for (int k = 0; k < level; ++k)
+  return dented(makeGrid(n + 1, n * width));
+}
+
+/// An ellipsoid of given half axes, of 20 x 4^splits triangles.
+inline DentedSurface ellipsoid(int splits, const Eigen::Vector3d& axes)
+{
+  Mesh mesh = makeSphere(1.0, splits);
+  for (Eigen::Vector3d& point : mesh.points)
   {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b)
-    {
-      const auto [it, isNew] =
-        middles.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
-      if (isNew)
-      {
-        points.push_back(
-          (points[static_cast<std::size_t>(a)] + points[static_cast<std::size_t>(b)]).normalized());
-      }
-      return it->second;
-    };
-    std::vector<Triangle> finer;
-    for (const auto& [a, b, c] : triangles)
-    {
-      const int ab = middle(a, b);
-      const int bc = middle(b, c);
-      const int ca = middle(c, a);
-      finer.insert(finer.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
-    }
-    triangles = std::move(finer);
+    point = point.cwiseProduct(axes);
   }
-  DentedSurface surface;
-  for (const Eigen::Vector3d& point : points)
-  {
-    surface.add(point.cwiseProduct(axes));
-  }
-  surface.triangles = std::move(triangles);
-  surface.finish();
-  return surface;
+  return dented(mesh);
 }
 
 /// A tool pressed along a normal at a point of the surface, its axis turned by an angle.
