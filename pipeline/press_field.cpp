@@ -1,6 +1,5 @@
 #include "pipeline/press_field.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -56,9 +55,9 @@ double rootBefore(double end, double atZero, double atEnd, Function function) no
 class Gap
 {
 public:
-  Gap(const PressField& field, const PressRegion& region, const ToolBody& body,
+  Gap(const LocalQuadric& surface, const PressRegion& region, const ToolBody& body,
     const Eigen::Vector2d& towards) noexcept
-    : field_(field)
+    : surface_(surface)
     , body_(body)
     , towards_(towards)
     , normal_(region.normal())
@@ -70,11 +69,11 @@ public:
   double operator()(double radius) const noexcept
   {
     return body_.lowest(center_ + radius * outwards_, normal_) -
-      field_.surfaceHeight(radius * towards_.x(), radius * towards_.y());
+      surface_.height(radius * towards_.x(), radius * towards_.y());
   }
 
 private:
-  const PressField& field_;
+  const LocalQuadric& surface_;
   const ToolBody& body_;
   Eigen::Vector2d towards_;
   Eigen::Vector3d normal_;
@@ -91,7 +90,7 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
   normal_ = region.normal();
   deepest_ = depth;
   reach_ = 0.0;
-  fitSurface(region);
+  surface_.fit(region, kFitReach * std::max(region.inner(), 2.0 * region.edgeLength()));
   for (int k = 0; k < kDirections; ++k)
   {
     curves_[static_cast<std::size_t>(k)] =
@@ -104,71 +103,19 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
     const double turns = 4.0 * (k + 0.5) / kDirections;
     const RingCurve& a = curves_[static_cast<std::size_t>(k)];
     const RingCurve& b = curves_[static_cast<std::size_t>(k) + 1];
-    const double exact = -Gap(*this, region, body, directionOf(turns))(0.5 * (a.inner + b.inner));
+    const double exact =
+      -Gap(surface_, region, body, directionOf(turns))(0.5 * (a.inner + b.inner));
     bulges_[static_cast<std::size_t>(k)] = a.sink > 0.0 && b.sink > 0.0 && std::isfinite(exact)
       ? 4.0 * (std::max(0.0, exact) - 0.5 * (a.sink + b.sink))
       : 0.0;
   }
 }
 
-// least squares over the points around the contact, weighted so that none enters with a jump
-void PressField::fitSurface(const PressRegion& region)
-{
-  const double reach = kFitReach * std::max(region.inner(), 2.0 * region.edgeLength());
-  const double scale = 1.0 / reach;
-  fitted_ = reach;
-  Eigen::Matrix<double, 6, 6> sums;
-  Quadric heights = Quadric::Zero();
-  // the sums of w x^i y^j, of which the normal equations have each several times
-  std::array<double, 15> moments{};
-  for (const Place& place : region.places())
-  {
-    const double x = scale * place.local.x();
-    const double y = scale * place.local.y();
-    const double left = 1.0 - x * x - y * y;
-    if (!(left > 0.0) || !place.isFront())
-    {
-      continue;
-    }
-    const double xx = x * x;
-    const double xy = x * y;
-    const double yy = y * y;
-    const std::array<double, 15> terms{ 1.0, x, y, xx, xy, yy, xx * x, xx * y, yy * x, yy * y,
-      xx * xx, xx * xy, xx * yy, xy * yy, yy * yy };
-    for (std::size_t i = 0; i < moments.size(); ++i)
-    {
-      moments[i] += left * left * terms[i];
-    }
-    for (std::size_t i = 0; i < 6; ++i)
-    {
-      heights[static_cast<Eigen::Index>(i)] += left * left * place.local.z() * terms[i];
-    }
-  }
-  const auto& m = moments;
-  sums << m[0], m[1], m[2], m[3], m[4], m[5], //
-    m[1], m[3], m[4], m[6], m[7], m[8],       //
-    m[2], m[4], m[5], m[7], m[8], m[9],       //
-    m[3], m[6], m[7], m[10], m[11], m[12],    //
-    m[4], m[7], m[8], m[11], m[12], m[13],    //
-    m[5], m[8], m[9], m[12], m[13], m[14];
-  // a trace of stiffness keeps at zero what few points leave open
-  sums.diagonal().array() += 1e-6 * sums(0, 0) + 1e-12;
-  Quadric units;
-  units << 1.0, scale, scale, scale * scale, scale * scale, scale * scale;
-  surface_ = sums.ldlt().solve(heights).cwiseProduct(units);
-}
-
-double PressField::surfaceHeight(double x, double y) const noexcept
-{
-  return surface_[0] + x * (surface_[1] + x * surface_[3] + y * surface_[4]) +
-    y * (surface_[2] + y * surface_[5]);
-}
-
 // P0, P1 and P2 of Fig. 5(b) from the tool and the fitted surface
 RingCurve PressField::curveAlong(
   const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept
 {
-  const Gap gap(*this, region, body, towards);
+  const Gap gap(surface_, region, body, towards);
   const double atCenter = gap(0.0);
   if (!(atCenter < 0.0))
   {
@@ -219,7 +166,7 @@ std::array<Eigen::Vector3d, 3> PressField::controlPoints(
   const auto point = [&](double radius, double sink)
   {
     const Eigen::Vector2d at = radius * towards;
-    return region.toSurface({ at.x(), at.y(), surfaceHeight(at.x(), at.y()) - sink });
+    return region.toSurface({ at.x(), at.y(), surface_.height(at.x(), at.y()) - sink });
   };
   return { point(curve.inner, curve.sink), point(curve.meet, 0.0), point(curve.outer, 0.0) };
 }
@@ -273,7 +220,7 @@ inline double PressField::frontSink(const Place& place, const Eigen::Vector3d& r
   else
   {
     sink = smoothSink(place.distance, curve);
-    const double end = std::min(fitted_, curve.outer);
+    const double end = std::min(surface_.reach(), curve.outer);
     if (!(place.distance < end))
     {
       return sink;

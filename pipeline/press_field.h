@@ -2,6 +2,7 @@
 
 #include "calibration/surface_profile.h"
 #include "pipeline/bezier_patch.h"
+#include "pipeline/local_quadric.h"
 #include "pipeline/press_region.h"
 #include "pipeline/tool_body.h"
 
@@ -72,14 +73,13 @@ public:
   [[nodiscard]] std::array<Eigen::Vector3d, 3> controlPoints(
     int direction, const PressRegion& region) const noexcept;
 
-  /// Height of the fitted surface over the tangent plane [m].
-  [[nodiscard]] double surfaceHeight(double x, double y) const noexcept;
+  /// The undeformed surface around the contact, in the frame of the contact.
+  [[nodiscard]] const LocalQuadric& surface() const noexcept
+  {
+    return surface_;
+  }
 
 private:
-  // z = c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2
-  using Quadric = Eigen::Matrix<double, 6, 1>;
-
-  void fitSurface(const PressRegion& region);
   [[nodiscard]] RingCurve curveTowards(double turns) const noexcept;
   [[nodiscard]] RingCurve curveAlong(
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
@@ -91,17 +91,16 @@ private:
     const RingCurve& curve, const ToolBody& body) const noexcept;
   [[nodiscard]] double heightOverFit(const Place& place) const noexcept
   {
-    return place.local.z() - surfaceHeight(place.local.x(), place.local.y());
+    return place.local.z() - surface_.height(place.local.x(), place.local.y());
   }
 
   std::optional<SurfaceProfile> fittedCurve_;
-  Quadric surface_ = Quadric::Zero();
+  LocalQuadric surface_;
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
   std::array<double, kDirections> bulges_{};        // of the sink between two of them [m], times 4
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
   double deepest_ = 0.0; // delta [m]
   double reach_ = 0.0;   // [m]
-  double fitted_ = 0.0;  // radius within which the surface was fitted [m]
 };
 
 } // namespace palp

@@ -285,7 +285,7 @@ TEST_P(RandomPress, IsSmoothAtTheContact)
       {
         const Eigen::Vector3d foot = region.placeInFront(center + radius * outwards).local;
         const Eigen::Vector3d point =
-          region.toSurface({ foot.x(), foot.y(), field.surfaceHeight(foot.x(), foot.y()) });
+          region.toSurface({ foot.x(), foot.y(), field.surface().height(foot.x(), foot.y()) });
         const Place place = region.placeInFront(point);
         return place.distance < region.outer() ? surface.dent.sinkAt(place, point).depth : 0.0;
       };
