@@ -24,6 +24,7 @@ QLabel* addLabel(QFormLayout* form, const QString& title, const char* name)
   auto* label = new QLabel;
   label->setObjectName(name);
   label->setWordWrap(true);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
   label->setTextFormat(Qt::RichText);
   form->addRow(title, label);
   return label;
@@ -93,6 +94,16 @@ void DevicePanel::offer(const QStringList& devices)
   device_->clear();
   device_->addItems(devices);
   device_->setCurrentText(current);
+}
+
+void DevicePanel::choose(const QString& device)
+{
+  const QSignalBlocker quiet(device_);
+  if (device_->findText(device) < 0)
+  {
+    device_->addItem(device);
+  }
+  device_->setCurrentText(device);
 }
 
 void DevicePanel::show(const Session& session, const Sample& sample, std::uint32_t acting)

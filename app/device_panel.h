@@ -27,6 +27,9 @@ public:
   /// Offers other devices; the one that holds the tool stays selected.
   void offer(const QStringList& devices);
 
+  /// Names the one that holds the tool; nothing is asked for.
+  void choose(const QString& device);
+
 Q_SIGNALS:
   void armAsked(bool armed);
   void stopAsked();

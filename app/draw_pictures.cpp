@@ -7,6 +7,7 @@
 #include "haptics/contact/nearest.h"
 #include "haptics/units.h"
 #include "pipeline/force_charts.h"
+#include "pipeline/plot_files.h"
 #include "pipeline/press_view.h"
 
 #include <vtkContextScene.h>

@@ -1,7 +1,7 @@
 #include "app/draw_pictures.h"
 #include "app/offscreen.h"
 #include "app/report/html_page.h"
-#include "pipeline/plot.h"
+#include "pipeline/plot_files.h"
 
 #include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>

@@ -20,7 +20,7 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
   auto* canvas = new QVTKOpenGLNativeWidget;
   canvas->setObjectName("plots");
   canvas->setRenderWindow(window_);
-  canvas->setMinimumSize(420, 320);
+  canvas->setMinimumSize(320, 240);
   tabs_->setObjectName("plotTabs");
   tabs_->setExpanding(false);
   for (const Page& page : pages_)
@@ -45,11 +45,14 @@ void PlotPanel::refresh()
   {
     return;
   }
-  Plots plots = pages_[static_cast<std::size_t>(tabs_->currentIndex())].make();
-  if (!plots.empty()) // else the last ones stay, to be looked at when the tool is lifted
+  const int page = tabs_->currentIndex();
+  Plots plots = pages_[static_cast<std::size_t>(page)].make();
+  // those of the same page stay, to be looked at when the tool is lifted
+  if (!plots.empty() || page != page_)
   {
     showPlots(*window_, plots);
     plots_ = std::move(plots); // the window has let go of those before
+    page_ = page;
   }
   window_->Render();
 }

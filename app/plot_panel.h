@@ -43,6 +43,7 @@ Q_SIGNALS:
 private:
   std::vector<Page> pages_;
   Plots plots_;
+  int page_ = 0; // that they are of
   QTabBar* tabs_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
 };

@@ -3,6 +3,7 @@
 #include "calibration/csv_rows.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "pipeline/plot_files.h"
 
 #include <algorithm>
 

@@ -18,24 +18,6 @@ namespace
 
 char** gArguments = nullptr; // of main, for becomeSibling
 
-int exitCode(ErrorCode code)
-{
-  switch (code)
-  {
-    case ErrorCode::BadFile:
-    case ErrorCode::BadMesh:
-    case ErrorCode::BadValue:
-      return 2;
-    case ErrorCode::NoDevice:
-      return 3;
-    case ErrorCode::NoPicture:
-      return 4;
-    case ErrorCode::NoSolution:
-      return 5;
-  }
-  return 1;
-}
-
 // help, version, or one of the subcommands
 bool isCommand(const CLI::App& app, const std::string& word)
 {
@@ -56,6 +38,24 @@ std::vector<std::string> withCommand(const CLI::App& app, int argc, char** argv)
 }
 
 } // namespace
+
+int exitCode(ErrorCode code)
+{
+  switch (code)
+  {
+    case ErrorCode::BadFile:
+    case ErrorCode::BadMesh:
+    case ErrorCode::BadValue:
+      return 2;
+    case ErrorCode::NoDevice:
+      return 3;
+    case ErrorCode::NoPicture:
+      return 4;
+    case ErrorCode::NoSolution:
+      return 5;
+  }
+  return 1;
+}
 
 void becomeSibling(const char* name)
 {
@@ -98,14 +98,21 @@ int runProgram(int argc, char** argv, const Parts& parts)
 
   try
   {
-    app.parse(withCommand(app, argc, argv));
-    std::cout.flush();
-    return 0;
-  }
-  catch (const CLI::RuntimeError& error) // a command that has its own exit codes
-  {
-    std::cout.flush();
-    return error.get_exit_code();
+    int code = 0;
+    try
+    {
+      app.parse(withCommand(app, argc, argv));
+    }
+    catch (const CLI::RuntimeError& error) // a command that has its own exit codes
+    {
+      code = error.get_exit_code();
+    }
+    if (!std::cout.flush())
+    {
+      throw Error(
+        ErrorCode::BadFile, "standard output: cannot be written in full; check the space");
+    }
+    return code;
   }
   catch (const CLI::ParseError& error)
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scene_plan.h"
+#include "haptics/error.h"
 
 namespace palp
 {
@@ -26,6 +27,9 @@ struct Parts
   int (*view)(const ViewOptions&) = nullptr;       ///< palp-view
   int (*devices)(const DevicesOptions&) = nullptr; ///< palp-devices
 };
+
+/// What the program ends with after an error of this kind, 2 to 5.
+[[nodiscard]] int exitCode(ErrorCode code);
 
 /// The main function of palp and its siblings.
 /// @return  exit code: 0, or by kind of error 2 (input), 3 (device), 4 (picture), 5 (no solution)

@@ -1,8 +1,9 @@
 #include "app/recording.h"
 
-#include "calibration/csv_text.h"
 #include "app/law_options.h"
 #include "app/tip_spec.h"
+#include "calibration/csv_text.h"
+#include "haptics/contact/indentation_of.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
@@ -14,14 +15,6 @@ namespace palp
 
 namespace
 {
-
-Indentation placeOf(const Contact& contact)
-{
-  return { .depth = contact.depth,
-    .tilt = contact.tilt,
-    .thickness = contact.thickness,
-    .surfaceCurvature = contact.surfaceCurvature };
-}
 
 void describeRules(std::ostream& out, const Validity& validity)
 {
@@ -94,8 +87,8 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
         static_cast<double>(sample.flags) });
     if (validity)
     {
-      row.push_back(
-        static_cast<double>(brokenRules((*validity)(placeOf(contact), contact.edgeDistance))));
+      row.push_back(static_cast<double>(
+        brokenRules((*validity)(indentationOf(contact), contact.edgeDistance))));
     }
     writeCsvRow(out, row);
   }

@@ -68,6 +68,7 @@ ReliancePanel::ReliancePanel(QWidget* parent)
     column->addWidget(label);
   }
   column->addStretch();
+  rules_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
   showNoContact();
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -51,22 +52,36 @@ Session::Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop)
 
 void Session::open(const std::filesystem::path& file, const std::string& unit)
 {
-  body_ = loadBody({ { .file = file, .unit = unit } });
+  Body old = std::exchange(body_, loadBody({ { .file = file, .unit = unit } }));
+  const std::string device = recording_.device;
+  std::unique_ptr<Device> holder;
+  try
+  {
+    holder = makeDevice(device);
+  }
+  catch (...)
+  {
+    body_ = std::move(old);
+    keepHolding();
+    throw;
+  }
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.scene.surface = body_.haptic;
   ++recording_.scene.version;
-  useDevice(recording_.device);
+  useDevice(device, std::move(holder));
 }
 
 void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
 {
+  calibration_ = loadCalibration(plan_.press, law); // may throw
   recording_.scene.law = law;
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
   ++recording_.scene.version;
-  calibration_ = loadCalibration(plan_.press, law);
   servo_->setScene(recording_.scene);
+  recording_.samples.clear();
+  recordedFrom_ = servo_->newest().time + kForgiving;
 }
 
 HandTarget Session::restingPlace() const
@@ -101,6 +116,11 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
   }
   if (namesHardware(name))
   {
+    if (name == recording_.device)
+    {
+      servo_.reset();
+      device_.reset();
+    }
     auto hardware = openDevice(name, { .origin = restingPlace().apex });
     moveTool_ = [](const HandTarget&) {};
     return hardware;
@@ -113,7 +133,25 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
 
 void Session::useDevice(const std::string& name)
 {
-  useDevice(name, makeDevice(name));
+  try
+  {
+    useDevice(name, makeDevice(name));
+  }
+  catch (...)
+  {
+    keepHolding();
+    throw;
+  }
+}
+
+// hardware can be opened once only: what is open must be let go of before it is opened again, and
+// where that fails the mouse takes the tool
+void Session::keepHolding()
+{
+  if (!device_)
+  {
+    useDevice("mouse");
+  }
 }
 
 void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
@@ -124,6 +162,7 @@ void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
   recording_.samples.clear();
   recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
   armedAt_ = 0.0;
+  recordedFrom_ = 0.0;
   servo_ = std::make_unique<Servo>(*device_, recording_.scene, servoOptions_);
 }
 
@@ -161,6 +200,10 @@ double Session::largestForce() const
 
 void Session::stop(bool stopped)
 {
+  if (!rendersForce())
+  {
+    return; // nothing to stop, and nobody could take it back
+  }
   servo_->setEmergencyStop(stopped);
   if (stopped)
   {
@@ -179,8 +222,11 @@ void Session::update(const std::function<void(const Sample&)>& each)
   servo_->history().drain(
     [&](const Sample& sample)
     {
-      kept.push_back(sample);
-      each(sample);
+      if (sample.time >= recordedFrom_)
+      {
+        kept.push_back(sample);
+        each(sample);
+      }
     });
   if (armed() && newest().time > armedAt_ && isFault(newest().state, newest().flags))
   {

@@ -38,13 +38,16 @@ public:
   }
 
   /// Replaces the body; tissue and device stay.
-  /// @throws Error  BadFile, BadMesh; the old body then stays
+  /// @throws Error  BadFile, BadMesh, or as useDevice; the old body then stays
   void open(const std::filesystem::path& file, const std::string& unit);
 
+  /// The recording begins anew, as its header tells of one tool and tissue.
+  /// @throws Error  as loadCalibration; everything then stays
   void setTissue(const ForceLaw& law, ContactRule rule, double damping);
 
   /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; the recording begins anew.
-  /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays
+  /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays, or, where it was asked
+  ///                for again and is gone, the mouse takes its place
   void useDevice(const std::string& name);
 
   /// The same with a device of the caller's.
@@ -111,6 +114,7 @@ public:
 
 private:
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);
+  void keepHolding();
   [[nodiscard]] HandTarget restingPlace() const;
 
   ScenePlan plan_;
@@ -118,7 +122,8 @@ private:
   Body body_;
   Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;
-  double armedAt_ = 0.0; // time of the servo from which on a fault is a new one [s]
+  double armedAt_ = 0.0;      // time of the servo from which on a fault is a new one [s]
+  double recordedFrom_ = 0.0; // and from which on a sample is of the tool and tissue in use [s]
   std::function<void(const HandTarget&)> moveTool_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Servo> servo_; // last: it uses the device

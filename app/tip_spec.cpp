@@ -1,7 +1,7 @@
 #include "app/tip_spec.h"
 
-#include "calibration/csv_text.h"
 #include "app/quantity.h"
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 #include "haptics/force/profile.h"
 #include "haptics/units.h"

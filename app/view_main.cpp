@@ -58,6 +58,18 @@ void explainOmissions(const palp::ScenePlan& plan, palp::Ledger& ledger)
   ledger.leaveOut("fitted surfaces", "\"dent\" is the paper's", plan.press.surface != "fitted");
 }
 
+// Qt aborts where it finds no display
+void refuseToAbort(QtMsgType type, const QMessageLogContext&, const QString& text)
+{
+  std::cerr << (type == QtFatalMsg ? "palp: window: the display cannot be used; check DISPLAY, or "
+                                     "use palp run, which needs none\n"
+                                   : text.toStdString() + '\n');
+  if (type == QtFatalMsg)
+  {
+    std::_Exit(palp::exitCode(palp::ErrorCode::NoPicture));
+  }
+}
+
 int view(const palp::ViewOptions& options)
 {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
@@ -73,7 +85,9 @@ int view(const palp::ViewOptions& options)
   int count = 1;
   char name[] = "palp";
   char* words[] = { name, nullptr };
+  const QtMessageHandler before = qInstallMessageHandler(refuseToAbort);
   QApplication application(count, words);
+  qInstallMessageHandler(before);
   std::setlocale(LC_NUMERIC, "C"); // Qt takes the user's; files and VTK want a decimal point
 
   palp::Session session(options.plan, ledger, &gEnded);

@@ -7,6 +7,7 @@
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
+#include "haptics/contact/indentation_of.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -44,6 +45,19 @@ Eigen::Vector3d worldPoint(vtkRenderer& renderer, int x, int y, double depth)
   return Eigen::Vector3d(world[0], world[1], world[2]) / world[3];
 }
 
+// whether nobody could tell their pictures apart
+bool looksAlike(const Sample& a, const Sample& b)
+{
+  constexpr double kLength = 1e-6; // [m]
+  constexpr double kAngle = 1e-4;  // [rad]
+  constexpr double kForce = 1e-3;  // [N]
+  const bool near = (a.pose.apex - b.pose.apex).norm() < kLength &&
+    (a.pose.axis - b.pose.axis).norm() < kAngle &&
+    (a.contact.normal - b.contact.normal).norm() < kAngle;
+  return near && std::abs(a.contact.depth - b.contact.depth) < kLength &&
+    std::abs(a.response.force - b.response.force) < kForce;
+}
+
 } // namespace
 
 Window::Window(Session& session, Ledger& ledger)
@@ -57,7 +71,9 @@ Window::Window(Session& session, Ledger& ledger)
     [&]
     {
       makeDocks();
-      makeMenus();
+      makeFileMenu();
+      makeDeviceMenu();
+      makeViewMenu();
     });
   if (session_.plan().records())
   {
@@ -81,6 +97,7 @@ void Window::showBody()
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   view_.setSurface(session_.body().display);
   view_.lookAtSurface();
+  isStale_ = true;
 }
 
 void Window::point(int x, int y)
@@ -134,9 +151,15 @@ void Window::refresh()
 {
   takeSamples();
   const Sample& sample = session_.newest();
-  view_.show(sample);
-  renderWindow_->Render();
+  if (isStale_ || !looksAlike(sample, shown_))
+  {
+    view_.show(sample);
+    renderWindow_->Render();
+    shown_ = sample;
+    isStale_ = false;
+  }
 
+  forceLabel_->setText(tr(kHint));
   if (sample.contact.touching())
   {
     forceLabel_->setText(
@@ -187,12 +210,7 @@ void Window::showReliance(const Sample& sample)
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    reliance_->showRules(validity_({ .depth = contact.depth,
-                                     .tilt = contact.tilt,
-                                     .thickness = contact.thickness,
-                                     .surfaceCurvature = contact.surfaceCurvature,
-                                     .curvatureSpread = contact.curvatureSpread },
-      contact.edgeDistance));
+    reliance_->showRules(validity_(indentationOf(contact), contact.edgeDistance));
   }
   else
   {
@@ -217,6 +235,8 @@ void Window::applyTissue()
       {
         charts_->setLaw(law);
       }
+      clearCharts(); // as the recording
+      isStale_ = true;
       forceLabel_->setToolTip(QString::fromStdString(session_.calibration().note));
     });
 }
@@ -229,13 +249,13 @@ void Window::applyDevice(const QString& name)
     return;
   }
   attempt([&] { session_.useDevice(name.toStdString()); });
-  clearCharts();
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
   applyTissue(); // what is stable depends on the device
 }
 
 bool Window::openSurface(const QString& file, const QString& unit)
 {
-  return attempt(
+  const bool opened = attempt(
     [&]
     {
       session_.open(file.toStdString(), unit.toStdString());
@@ -243,6 +263,8 @@ bool Window::openSurface(const QString& file, const QString& unit)
       clearCharts();
       showBody();
     });
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  return opened;
 }
 
 bool Window::saveScreenshot(const QString& file)
@@ -270,9 +292,9 @@ bool Window::exportData(const QString& directory)
     [&]
     {
       takeSamples();
-      writeTiming(std::filesystem::path(directory.toStdString()) / "servo.csv", session_.timing());
       exportRecording(
         directory.toStdString(), session_.body(), session_.recording(), session_.calibration());
+      writeTiming(std::filesystem::path(directory.toStdString()) / "servo.csv", session_.timing());
       statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);
     });
 }

@@ -51,6 +51,9 @@ public:
 
 private:
   static constexpr const char* kLookForDevices = "look for devices…";
+  static constexpr const char* kHint =
+    "Point at the surface, press with the left button, drag down to go deeper; the wheel holds a "
+    "depth; the right button turns the view, Ctrl and the wheel zoom, the middle button moves it";
   static constexpr double kDeepest = 0.05; // that a pointer asks for [m]
 
   void makeView();
@@ -59,7 +62,9 @@ private:
   void makeDevicePanel();
   void makePlots(bool shown);
   void offerDevices();
-  void makeMenus();
+  void makeFileMenu();
+  void makeDeviceMenu();
+  void makeViewMenu();
   void showBody();
 
   // the pointer as a tool, in display pixels
@@ -89,6 +94,8 @@ private:
   bool pressing_ = false;
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
   Validity validity_;        // of the law that the session uses
+  Sample shown_;             // in the picture
+  bool isStale_ = true;      // the picture, whatever the newest sample is
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   vtkNew<vtkContextView> timeView_;

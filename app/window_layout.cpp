@@ -16,10 +16,13 @@
 #include <vtkRenderer.h>
 
 #include <QAction>
+#include <QActionGroup>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QStatusBar>
 
 #include <algorithm>
@@ -45,6 +48,19 @@ QDockWidget* addDock(
   return dock;
 }
 
+// for a screen that is too low for all panels
+QScrollArea* scrolled(QWidget* content)
+{
+  auto* area = new QScrollArea;
+  area->setWidget(content);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setMinimumWidth(
+    content->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width());
+  return area;
+}
+
 // the one in use first
 QStringList deviceNames(const Session& session, const std::vector<std::string>& others)
 {
@@ -63,7 +79,7 @@ QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
   canvas->setRenderWindow(window);
-  canvas->setMinimumSize(360, 200);
+  canvas->setMinimumSize(280, 150);
   view.SetRenderWindow(window);
   view.GetRenderer()->SetBackground(1.0, 1.0, 1.0);
   return canvas;
@@ -109,18 +125,18 @@ void Window::makeDocks()
 {
   panel_ = new TissuePanel(session_.recording().scene);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
-  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), panel_);
+  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), scrolled(panel_));
   makeDevicePanel();
-  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), devicePanel_);
+  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), scrolled(devicePanel_));
   if (session_.plan().validity)
   {
     reliance_ = new ReliancePanel;
-    addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), reliance_);
+    addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), scrolled(reliance_));
   }
 
-  forceLabel_ = new QLabel(tr("Point at the surface, press with the left button, drag down to go "
-                              "deeper; the wheel holds a depth; right button turns the view"));
+  forceLabel_ = new QLabel;
   forceLabel_->setObjectName("force");
+  forceLabel_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // cut, not the window's
   servoLabel_ = new QLabel;
   servoLabel_->setObjectName("servo");
   statusBar()->addWidget(forceLabel_, 1);
@@ -195,7 +211,7 @@ void Window::makeDevicePanel()
     });
 }
 
-void Window::makeMenus()
+void Window::makeFileMenu()
 {
   QMenu* file = menuBar()->addMenu(tr("&File"));
   file->addAction(
@@ -234,33 +250,54 @@ void Window::makeMenus()
   exporting->setEnabled(session_.plan().records()); // without plots no sample is kept
   file->addSeparator();
   file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
+}
 
+void Window::makeDeviceMenu()
+{
   QMenu* device = menuBar()->addMenu(tr("&Device"));
   QAction* stop = device->addAction(
     tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
   device->addAction(
     tr("&Look for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
+}
 
+void Window::makeViewMenu()
+{
   QMenu* view = menuBar()->addMenu(tr("&View"));
   view->addAction(
-    tr("Whole &surface"), this, [this] { view_.lookAtSurface(); }, QKeySequence(Qt::Key_Home));
-  const std::pair<QString, Overlay> overlays[] = { { tr("&Force arrow"), Overlay::ForceArrow },
-    { tr("&Contact circle"), Overlay::ContactCircle },
-    { tr("&Extent circle"), Overlay::ExtentCircle },
-    { tr("&Displacement colours"), Overlay::DisplacementColors },
-    { tr("&Readings"), Overlay::Readings }, { tr("&Pressure colours"), Overlay::PressureColors },
-    { tr("&Validity colours"), Overlay::ValidityColors },
-    { tr("Bézier control &net"), Overlay::ControlNet },
-    { tr("&Undeformed surface"), Overlay::Ghost } };
-  for (const auto& [name, overlay] : overlays)
+    tr("Whole &surface"), this,
+    [this]
+    {
+      view_.lookAtSurface();
+      isStale_ = true;
+    },
+    QKeySequence(Qt::Key_Home));
+  const auto add = [&](const QString& name, Overlay overlay)
   {
     QAction* action = view->addAction(name);
     action->setCheckable(true);
     action->setChecked(view_.isVisible(overlay));
     connect(action, &QAction::toggled, this,
-      [this, which = overlay](bool on) { view_.setVisible(which, on); });
-  }
+      [this, overlay](bool on)
+      {
+        view_.setVisible(overlay, on);
+        isStale_ = true;
+      });
+    return action;
+  };
+  add(tr("&Force arrow"), Overlay::ForceArrow);
+  add(tr("&Contact circle"), Overlay::ContactCircle);
+  add(tr("&Extent circle"), Overlay::ExtentCircle);
+  add(tr("&Readings"), Overlay::Readings);
+  add(tr("Bézier control &net"), Overlay::ControlNet);
+  add(tr("&Undeformed surface"), Overlay::Ghost);
+  view->addSeparator();
+  auto* colors = new QActionGroup(this); // the surface has one at a time, or its own
+  colors->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+  colors->addAction(add(tr("&Displacement colours"), Overlay::DisplacementColors));
+  colors->addAction(add(tr("&Pressure colours"), Overlay::PressureColors));
+  colors->addAction(add(tr("&Validity colours"), Overlay::ValidityColors));
   view->addSeparator();
   QAction* plots = view->addAction(tr("Section and comparison &plots"));
   plots->setObjectName("plotsAction");

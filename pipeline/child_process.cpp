@@ -105,7 +105,7 @@ void limit(int resource, std::uint64_t most)
 
 std::optional<std::string> runInChild(const std::function<std::string()>& work, ChildLimits limits)
 {
-  int ends[2];
+  int ends[2] = { -1, -1 };
   pid_t child = -1;
   if (pipe2(ends, O_CLOEXEC) == 0)
   {
@@ -113,8 +113,11 @@ std::optional<std::string> runInChild(const std::function<std::string()>& work, 
   }
   if (child < 0)
   {
+    const int why = errno;
+    close(ends[0]);
+    close(ends[1]);
     throw Error(ErrorCode::BadFile,
-      std::string("reader: cannot be started (") + std::strerror(errno) + "); close some programs");
+      std::string("reader: cannot be started (") + std::strerror(why) + "); close some programs");
   }
   if (child == 0)
   {

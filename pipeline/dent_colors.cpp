@@ -1,5 +1,6 @@
 #include "pipeline/dent_colors.h"
 
+#include "haptics/contact/indentation_of.h"
 #include "haptics/units.h"
 #include "pipeline/appearance.h"
 
@@ -113,11 +114,7 @@ std::optional<Rule> DentColors::worstRule(const Moment& moment) const
     return std::nullopt;
   }
   const Contact& contact = moment.sample.contact;
-  const Rules rules = (*validity_)({ .depth = contact.depth,
-                                     .tilt = contact.tilt,
-                                     .thickness = contact.thickness,
-                                     .surfaceCurvature = contact.surfaceCurvature },
-    contact.edgeDistance);
+  const Rules rules = (*validity_)(indentationOf(contact), contact.edgeDistance);
   return *std::max_element(
     rules.begin(), rules.end(), [](const Rule& a, const Rule& b) { return a.share() < b.share(); });
 }

@@ -1,16 +1,10 @@
 #include "pipeline/plot.h"
 
 #include "calibration/csv_text.h"
-#include "haptics/error.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <vtkAxis.h>
 #include <vtkBoundingBox.h>
 #include <vtkBrush.h>
@@ -18,9 +12,6 @@
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
-#include <vtkGL2PSExporter.h>
-#include <vtkImageData.h>
-#include <vtkPNGWriter.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
 #include <vtkPlotPoints.h>
@@ -29,33 +20,11 @@
 #include <vtkRendererCollection.h>
 #include <vtkStringArray.h>
 #include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
 
 namespace palp
 {
 namespace
 {
-
-[[noreturn]] void refuse(const std::filesystem::path& file)
-{
-  throw Error(
-    ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
-}
-
-// a context that came up but draws nothing leaves every pixel alike
-bool uniform(vtkImageData& image)
-{
-  const auto* pixels = static_cast<const unsigned char*>(image.GetScalarPointer());
-  const vtkIdType components = image.GetNumberOfScalarComponents();
-  for (vtkIdType i = components; i < image.GetNumberOfPoints() * components; ++i)
-  {
-    if (pixels[i] != pixels[i - components])
-    {
-      return false;
-    }
-  }
-  return true;
-}
 
 int styleOf(Plot::Mark mark)
 {
@@ -128,6 +97,7 @@ void Plot::addLine(const std::string& name, std::span<const double> x, std::span
   vtkPlot* plot = chart_->AddPlot(vtkChart::LINE);
   plot->SetInputData(addTable(name, x, y, {}), 0, 1);
   plot->SetLabel(name);
+  plot->SetVisible(x.size() > 1); // else it is complained of at every picture
   plot->GetPen()->SetColorF(color[0], color[1], color[2]);
   plot->SetWidth(width);
   plot->GetPen()->SetLineType(dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
@@ -287,20 +257,6 @@ void Plot::writeCsv(std::ostream& out) const
   }
 }
 
-void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file)
-{
-  std::ofstream out(file);
-  for (const auto& plot : plots)
-  {
-    out << (&plot == &plots.front() ? "" : "\n");
-    plot->writeCsv(out);
-  }
-  if (!out.flush())
-  {
-    refuse(file);
-  }
-}
-
 void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots)
 {
   // in one scene, for the exporter of lines and text knows no other place than the whole window
@@ -322,71 +278,6 @@ void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> p
   }
   renderer->AddActor(actor);
   window.AddRenderer(renderer);
-}
-
-void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
-{
-  window.Render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(&window);
-  grab->ReadFrontBufferOff();
-  grab->Update();
-  if (uniform(*grab->GetOutput()))
-  {
-    throw Error(ErrorCode::NoPicture,
-      file.string() +
-        ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
-  }
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.c_str());
-  writer->SetInputConnection(grab->GetOutputPort());
-  writer->Write();
-  if (writer->GetErrorCode() != 0)
-  {
-    refuse(file);
-  }
-}
-
-void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
-{
-  window.Render();
-  vtkNew<vtkGL2PSExporter> exporter;
-  exporter->SetRenderWindow(&window);
-  exporter->SetFileFormatToSVG();
-  exporter->CompressOff();
-  exporter->SetSortToOff();
-  exporter->SilentOn(); // else it complains of the background, which it cannot embed
-  exporter->SetTextAsPath(false);
-  exporter->SetFilePrefix((file.parent_path() / file.stem()).c_str());
-  exporter->Write();
-  if (!std::filesystem::exists(file))
-  {
-    refuse(file);
-  }
-}
-
-void writePdf(vtkRenderWindow& window, const std::filesystem::path& file)
-{
-  const std::filesystem::path svg = file.string() + ".svg";
-  writeSvg(window, svg);
-  std::array<std::string, 6> words{ "rsvg-convert", "--format=pdf", "--background-color=white",
-    "--output", file.string(), svg.string() };
-  std::array<char*, 7> arguments{};
-  std::transform(
-    words.begin(), words.end(), arguments.begin(), [](std::string& word) { return word.data(); });
-  pid_t child = 0;
-  int status = 1;
-  const bool started =
-    posix_spawnp(&child, words[0].c_str(), nullptr, nullptr, arguments.data(), environ) == 0;
-  while (started && waitpid(child, &status, 0) < 0 && errno == EINTR)
-  {
-  }
-  std::filesystem::remove(svg);
-  if (!started || status != 0)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
-  }
 }
 
 } // namespace palp

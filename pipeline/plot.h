@@ -86,21 +86,4 @@ private:
 /// Puts charts into a window in the place of what it showed, one below the other.
 void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots);
 
-/// Writes the curves of charts, one after the other, an empty line between them.
-/// @throws Error  BadFile: cannot be written
-void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file);
-
-/// Writes what a window shows.
-/// @throws Error  BadFile: cannot be written; NoPicture: every pixel is alike
-void writePng(vtkRenderWindow& window, const std::filesystem::path& file);
-
-/// Writes what a window of charts shows as lines and text, not pixels.
-/// @param file    its name ends in .svg
-/// @throws Error  BadFile: cannot be written
-void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file);
-
-/// The same as PDF, by rsvg-convert: the toolkit's own PDF has no Greek letters.
-/// @throws Error  BadFile: cannot be written, or rsvg-convert is not installed
-void writePdf(vtkRenderWindow& window, const std::filesystem::path& file);
-
 } // namespace palp

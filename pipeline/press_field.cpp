@@ -246,7 +246,11 @@ PressField::Sink PressField::sinkAt(
   const Eigen::Vector3d sunk = rest - sink * normal_;
   if (!isUnder && body.contains(sunk))
   {
-    return { sink - body.lowest(sunk, normal_), Zone::Contact };
+    // infinite where the tool points along the surface or away from it
+    if (const double up = body.lowest(sunk, normal_); std::isfinite(up))
+    {
+      return { sink - up, Zone::Contact };
+    }
   }
   return { sink, isUnder ? Zone::Contact : Zone::Ring };
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -112,40 +113,27 @@ LoadedSurface readSurface(
 
 void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
 {
+  using Writer = bool (*)(const std::filesystem::path&, vtkPolyData&);
+  const std::map<std::string, Writer> writers{ { ".vtp", writeWith<vtkXMLPolyDataWriter> },
+    { ".stl", writeWith<vtkSTLWriter> }, { ".ply", writeWith<vtkPLYWriter> },
+    { ".obj", writeWith<vtkOBJWriter> } };
+  const auto writer = writers.find(file.extension().string());
+  if (writer == writers.end())
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
+  }
   if (!std::ofstream(file, std::ios::app))
   {
     throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; check the folder");
   }
   const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimetre));
-  const std::string ending = file.extension().string();
-  bool written = false;
-  if (ending == ".vtp")
-  {
-    vtkNew<vtkStringArray> unit;
-    unit->SetName(kUnitArray);
-    unit->InsertNextValue(unitName(LengthUnit::Millimetre));
-    data->SetFieldData(vtkNew<vtkFieldData>());
-    data->GetFieldData()->AddArray(unit);
-    written = writeWith<vtkXMLPolyDataWriter>(file, *data);
-  }
-  else if (ending == ".stl")
-  {
-    written = writeWith<vtkSTLWriter>(file, *data);
-  }
-  else if (ending == ".ply")
-  {
-    written = writeWith<vtkPLYWriter>(file, *data);
-  }
-  else if (ending == ".obj")
-  {
-    written = writeWith<vtkOBJWriter>(file, *data);
-  }
-  else
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
-  }
-  if (!written)
+  vtkNew<vtkStringArray> unit; // that only VTP has a place for
+  unit->SetName(kUnitArray);
+  unit->InsertNextValue(unitName(LengthUnit::Millimetre));
+  data->SetFieldData(vtkNew<vtkFieldData>());
+  data->GetFieldData()->AddArray(unit);
+  if (!writer->second(file, *data))
   {
     throw Error(ErrorCode::BadFile, file.string() + ": cannot be written in full; check the space");
   }

@@ -63,11 +63,14 @@ double* vtkPalpPatchMapper::GetBounds()
 void vtkPalpPatchMapper::ComputeBounds()
 {
   vtkPolyData* input = this->GetInput();
+  // the filter keeps its array of points until it is given another surface
+  vtkDataArray* points = input->GetPoints()->GetData();
   const vtkMTimeType topology = input->GetPolys()->GetMTime();
-  if (this->BoundsTopology != topology)
+  if (this->BoundsTopology != topology || this->BoundsPoints != points)
   {
     input->GetCellsBounds(this->RestBounds.data());
     this->BoundsTopology = topology;
+    this->BoundsPoints = points;
   }
   for (std::size_t i = 0; i < 6; ++i)
   {
@@ -140,7 +143,9 @@ void vtkPalpPatchMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* ac
 void vtkPalpPatchMapper::ReplaceShaderNormal(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  if (this->VBOs->GetNumberOfComponents("normalMC") == 3)
+  // without lighting the shader has no normals
+  if (this->VBOs->GetNumberOfComponents("normalMC") == 3 &&
+    this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity > 0)
   {
     std::string source = shaders[vtkShader::Fragment]->GetSource();
     vtkShaderProgram::Substitute(source, "//VTK::Normal::Impl",

@@ -104,6 +104,7 @@ private:
   Built Current;
   std::array<double, 6> RestBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   vtkMTimeType BoundsTopology = 0;
+  vtkWeakPointer<vtkDataArray> BoundsPoints;
   std::vector<unsigned char> IsMarked; // one for each block of points
   std::vector<vtkIdType> Marked;       // blocks to send
   std::vector<vtkIdType> Sent;         // blocks not at rest in the graphics memory

@@ -1,6 +1,7 @@
 #include "pipeline/comparison.h"
 
 #include "haptics/error.h"
+#include "pipeline/plot_files.h"
 #include "haptics/units.h"
 #include "tests/pipeline/surfaces.h"
 

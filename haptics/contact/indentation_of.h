@@ -1,0 +1,19 @@
+#pragma once
+
+#include "haptics/contact/contact.h"
+#include "haptics/force/force_law.h"
+
+namespace palp
+{
+
+/// What a force law needs to know of a contact.
+[[nodiscard]] inline Indentation indentationOf(const Contact& contact) noexcept
+{
+  return { .depth = contact.depth,
+    .tilt = contact.tilt,
+    .thickness = contact.thickness,
+    .surfaceCurvature = contact.surfaceCurvature,
+    .curvatureSpread = contact.curvatureSpread };
+}
+
+} // namespace palp
