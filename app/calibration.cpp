@@ -61,6 +61,15 @@ Layer layerOf(const PressOptions& options, double radius)
     length(options.threshold, "--threshold") };
 }
 
+// whether finite elements of a tool of this shape were computed, whatever its size
+bool hasElements(const Tip& tip)
+{
+  const auto* sharp = std::get_if<ConeTip>(&tip);
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
+  return std::holds_alternative<SphereTip>(tip) || (sharp && same(sharp->halfAngle, 45.0_deg)) ||
+    (blunt && same(blunt->halfAngle, 45.0_deg));
+}
+
 Calibration ofTable(const std::filesystem::path& file, double young)
 {
   ExtentTable extents = ExtentTable::read(file);
@@ -136,14 +145,22 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     ? ofTable(options.table, law.material().youngModulus)
     : isCone(tip) ? ofCone(options, law)
                   : ofSphere(options, law);
-  const std::string bundled = bundledTable(tip);
-  const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
-  // the same picture for a layer as many radii thick
-  calibration.elements =
-    FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
+  if (hasElements(tip))
+  {
+    const std::string bundled = bundledTable(tip);
+    const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
+    // the same picture for a layer as many radii thick
+    calibration.elements =
+      FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
+  }
   if (options.surface == "fitted")
   {
     calibration.surfaces = calibration.elements;
+    if (!calibration.elements)
+    {
+      calibration.note += (calibration.note.empty() ? "" : "; ") +
+        std::string("the surface is the paper's, as none is fitted to this tool");
+    }
   }
   return calibration;
 }

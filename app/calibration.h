@@ -19,7 +19,7 @@ struct Calibration
   std::string note;                       ///< what stands in for what, for the user; or empty
 
   // to compare with
-  std::optional<FittedSurfaces> elements; ///< of the tool, or of the one that stands in for it
+  std::optional<FittedSurfaces> elements; ///< of a tool of this shape, scaled; none: not computed
   std::optional<double> young;            ///< E of the table's forces [Pa]; none: of another tool
 
   [[nodiscard]] bool covers(double depth) const noexcept

@@ -9,6 +9,7 @@ namespace
 {
 
 constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool leaves the surface
+constexpr double kLeap = 0.1;              // [-] of the gap at the centre
 constexpr double kWithinBase = 1.0 - 1e-9; // [-]
 constexpr double kVertical = 1e6;          // [-] slope of a shaft
 constexpr double kFitReach = 1.5;          // [-] of the contact radius
@@ -123,21 +124,28 @@ RingCurve PressField::curveAlong(
   }
   double end = region.inner() / kStillOnTool;
   double atEnd = gap(end);
-  if (!std::isfinite(atEnd))
+  bool isRim = !std::isfinite(atEnd); // the tool ends in its shaft there, not above the surface
+  if (isRim)
   {
-    end = kWithinBase * region.inner(); // the tool ends in its shaft there, not above the surface
+    end = kWithinBase * region.inner();
     atEnd = gap(end);
   }
-  const double contact = atEnd > 0.0 ? kStillOnTool * rootBefore(end, atCenter, atEnd, gap)
-                                     : std::min(region.inner(), end);
+  double contact = std::min(region.inner(), end);
+  if (atEnd > 0.0)
+  {
+    // where a tilted tool ends the gap leaps from below the surface to its shaft
+    const double root = rootBefore(end, atCenter, atEnd, gap);
+    isRim = gap(root) < kLeap * atCenter;
+    contact = isRim ? root : kStillOnTool * root;
+  }
   const double step = 1e-3 * contact;
   const double height = gap(contact);
   const double before = height - gap(contact - step);
   const double after = gap(contact + step) - height;
-  // at the rim of the base the flank goes on; a flat base ends in its shaft
-  const double slope = std::isfinite(after) ? 0.5 * (before + after) / step
-    : before > 1e-3 * step                  ? before / step
-                                            : kVertical;
+  // at the rim of the base the flank goes on; a flat base, however tilted, ends in its shaft
+  const double slope = !isRim && std::isfinite(after) ? 0.5 * (before + after) / step
+    : before > 1e-3 * step && !body.hasFlatBase()     ? before / step
+                                                      : kVertical;
   if (slope > 0.0)
   {
     reach_ = std::max(reach_, contact - height / slope);

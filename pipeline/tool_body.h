@@ -46,6 +46,12 @@ public:
   [[nodiscard]] double lowest(
     const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept;
 
+  /// Whether the tip is flat up to its base.
+  [[nodiscard]] bool hasFlatBase() const noexcept
+  {
+    return flatRadius(tip_) >= base_;
+  }
+
 private:
   [[nodiscard]] double heightAt(double radius) const noexcept
   {
