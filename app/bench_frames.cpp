@@ -124,7 +124,10 @@ BenchRow benchOverlay(
   vtkNew<vtkRenderer> renderer;
   PressView view(*renderer);
   view.setSurface(makePolyData(mesh.points, mesh.triangles));
-  view.setTip(dome.press(outer, 0.0).tip);
+  const Press middle = dome.press(outer, 0.0);
+  view.setTip(middle.tip);
+  view.setExtents(ExtentTable({ { 0.5 * middle.contact.depth, 0.5 * outer, 0.0, 0.0 },
+    { middle.contact.depth, outer, 0.0, 0.0 } }));
   view.setVisible(overlays);
   view.lookAtSurface();
   const auto window = context.makeWindow(160, 120);
@@ -167,6 +170,7 @@ std::vector<BenchRow> DrawPictures::benchFrames(std::size_t most) const
   rows.push_back(benchOverlay(context, "none", {}));
   rows.push_back(benchOverlay(context, "arrow", { Overlay::ForceArrow }));
   rows.push_back(benchOverlay(context, "circle", { Overlay::ContactCircle }));
+  rows.push_back(benchOverlay(context, "extent", { Overlay::ExtentCircle }));
   rows.push_back(benchOverlay(context, "colours", { Overlay::DisplacementColors }));
   rows.push_back(benchOverlay(context, "readings", { Overlay::Readings }));
   rows.push_back(benchOverlay(context, "pressure", { Overlay::PressureColors }));

@@ -79,10 +79,12 @@ void drawChart(const OffscreenContext& context, const std::filesystem::path& fil
 void drawForce(const OffscreenContext& context, const Recording& recording, const ScenePlan& plan,
   const std::filesystem::path& directory)
 {
-  ForceCharts charts;
+  const double start = recording.samples.front().time;
+  ForceCharts charts(recording.samples.back().time - start);
   charts.setLaw(recording.scene.law);
-  for (const Sample& sample : recording.samples)
+  for (Sample sample : recording.samples)
   {
+    sample.time -= start; // a clock may have counted from long ago
     charts.add(sample);
   }
   charts.refresh();

@@ -6,8 +6,12 @@
 #include "app/pictures.h"
 #include "app/playback.h"
 #include "app/recording.h"
+#include "calibration/csv_text.h"
+#include "haptics/contact/indentation_of.h"
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 
+#include <cmath>
 #include <iostream>
 #include <limits>
 
@@ -16,19 +20,45 @@ namespace palp
 namespace
 {
 
+// whether the device got the force of the law
+bool isWhole(const Sample& sample)
+{
+  constexpr double kSame = 0.01; // [-]
+  return std::abs(sample.force.norm() - sample.response.force) <= kSame * sample.response.force;
+}
+
+// names the conditions of the law that a contact breaks
+void tellLimits(const ForceLaw& law, const Contact& contact)
+{
+  std::string broken;
+  for (const Rule& rule : Validity(law)(indentationOf(contact), contact.edgeDistance))
+  {
+    if (!rule.holds())
+    {
+      broken += (broken.empty() ? "" : ", ") + std::string(rule.name);
+    }
+  }
+  if (!broken.empty())
+  {
+    std::cerr << "palp: warning: there the law is outside its limits (" << broken
+              << "); samples.csv tells it of each sample, broken_rules\n";
+  }
+}
+
 void tell(const Recording& recording, const Calibration* calibration)
 {
   using units::toMillimetres;
   const Sample* deepest = recording.deepest();
   if (!deepest)
   {
-    std::cerr
-      << "palp: the tool never touched the surface; the path may be in another frame or unit\n";
+    std::cerr << "palp: warning: the tool never touched the surface; the path may be in another "
+                 "frame or unit\n";
     return;
   }
   std::cerr << "palp: deepest " << toMillimetres(deepest->contact.depth) << " mm, force "
-            << deepest->response.force << " N, contact radius "
-            << toMillimetres(deepest->response.contactRadius) << " mm";
+            << deepest->response.force << " N"
+            << (isWhole(*deepest) ? "" : " (cut to " + shortest(deepest->force.norm()) + " N)")
+            << ", contact radius " << toMillimetres(deepest->response.contactRadius) << " mm";
   if (calibration)
   {
     std::cerr << ", extent radius "
@@ -36,6 +66,10 @@ void tell(const Recording& recording, const Calibration* calibration)
               << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
+  if (recording.rated)
+  {
+    tellLimits(recording.scene.law, deepest->contact);
+  }
 }
 
 Scene sceneOf(const ScenePlan& plan, bool chained)

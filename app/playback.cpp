@@ -3,6 +3,7 @@
 #include "app/surface_point.h"
 #include "haptics/contact/nearest.h"
 #include "haptics/devices/paper_arm.h"
+#include "haptics/error.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
 
@@ -15,10 +16,17 @@ namespace
 {
 
 constexpr double kTicksPerSecond = 1000.0;
+constexpr double kLongest = 3600.0; // [s]
 
 // times of the samples: the millisecond grid from the start, and the end where the grid misses it
 std::vector<double> sampleTimes(const ScriptedPath& path)
 {
+  if (path.duration() > kLongest)
+  {
+    throw Error(ErrorCode::BadValue,
+      "path: it lasts " + std::to_string(std::lround(path.duration())) +
+        " s; cut it to an hour at most, a sample is kept for each millisecond");
+  }
   const double ticks = path.duration() * kTicksPerSecond;
   const double whole = std::floor(ticks + 1e-6);
   std::vector<double> times;

@@ -15,23 +15,21 @@ namespace palp
 namespace
 {
 
-constexpr double kAmber = 0.8; // share of a limit
-
 QString colorOf(double share)
 {
   const appearance::Color& color = share > 1.0 ? appearance::kBad
-    : share > kAmber                           ? appearance::kDoubtful
+    : share > Rule::kDoubtful                  ? appearance::kDoubtful
                                                : appearance::kGood;
   return QColor::fromRgbF(color[0], color[1], color[2]).name();
 }
 
 QString number(const Rule& rule, double value)
 {
-  const bool angle = std::string_view(rule.unit) == "rad";
-  const QString unit = angle             ? QStringLiteral("°")
-    : std::string_view(rule.unit) == "-" ? QString()
-                                         : QStringLiteral(" ") + rule.unit;
-  return QString::number(angle ? units::toDegrees(value) : value, 'g', 3) + unit;
+  const std::string_view unit = rule.unit;
+  return unit == "rad" ? QString::number(units::toDegrees(value), 'g', 3) + QStringLiteral("°")
+    : unit == "N/m"
+    ? QString::number(units::toNewtonsPerMillimetre(value), 'g', 3) + QStringLiteral(" N/mm")
+    : QString::number(value, 'g', 3);
 }
 
 QString microseconds(Histogram::Duration duration)
@@ -90,8 +88,10 @@ void ReliancePanel::showRules(const Rules& rules)
       continue; // nothing to say of a rule that does not bear on this place
     }
     text +=
-      QStringLiteral("<br><span style='color:%1'>&#9679;</span> %2: %3 of %4")
-        .arg(colorOf(rule.share()), rule.name, number(rule, rule.value), number(rule, rule.limit));
+      QStringLiteral("<br><span style='color:%1'>&#9679;</span> %2: %3 % of its limit (%4 of %5)")
+        .arg(colorOf(rule.share()), QString(rule.name).replace('_', ' '))
+        .arg(100.0 * rule.share(), 0, 'f', 0)
+        .arg(number(rule, rule.value), number(rule, rule.limit));
     if (!rule.holds())
     {
       text += QStringLiteral("<br>&nbsp;&nbsp;<i>%1</i>").arg(rule.why);

@@ -125,7 +125,9 @@ void Window::makeDocks()
 {
   panel_ = new TissuePanel(session_.recording().scene);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
-  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), scrolled(panel_));
+  QScrollArea* tissue = scrolled(panel_);
+  tissue->setMaximumHeight(panel_->sizeHint().height()); // the rest is for what changes
+  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), tissue);
   makeDevicePanel();
   addDock(this, Qt::LeftDockWidgetArea, tr("Device"), scrolled(devicePanel_));
   if (session_.plan().validity)

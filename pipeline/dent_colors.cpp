@@ -11,13 +11,6 @@
 
 namespace palp
 {
-namespace
-{
-
-constexpr double kDoubtful = 0.8; // [-] of a limit: amber from here, red beyond the limit
-
-} // namespace
-
 DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
   : map_(appearance::viridisOn(appearance::kLiver))
   , plain_(property)
@@ -89,7 +82,7 @@ void DentColors::show(const Moment& moment, By by)
   else if (const auto worst = worstRule(moment); by == By::Validity && worst)
   {
     const appearance::Color& color = !worst->holds() ? appearance::kBad
-      : worst->share() > kDoubtful                   ? appearance::kDoubtful
+      : worst->share() > Rule::kDoubtful             ? appearance::kDoubtful
                                                      : appearance::kGood;
     vtkNew<vtkProperty> property;
     property->DeepCopy(plain_);
@@ -129,7 +122,7 @@ std::string DentColors::rule(const Moment& moment) const
   std::string name = worst->name;
   std::replace(name.begin(), name.end(), '_', ' ');
   const char* verdict = !worst->holds() ? "not valid: "
-    : worst->share() > kDoubtful        ? "doubtful: "
+    : worst->share() > Rule::kDoubtful  ? "doubtful: "
                                         : "valid: ";
   return verdict + name + " uses " + appearance::fixedText(100.0 * worst->share(), 0) +
     " % of its limit";

@@ -23,6 +23,11 @@ constexpr double kLongest = 30.0_mm; // or five tool radii: what a view of the p
 
 } // namespace
 
+double ForceArrow::lengthOf(double force, double baseRadius) noexcept
+{
+  return std::clamp(force * kLengthPerForce, kShortest, std::max(kLongest, 5.0 * baseRadius));
+}
+
 ForceArrow::ForceArrow(vtkRenderer& renderer)
 {
   source_->SetTipResolution(32);
@@ -48,8 +53,7 @@ void ForceArrow::show(const Moment& moment)
 {
   const double base = baseRadius(moment.tip);
   const double force = moment.sample.response.force;
-  const double length =
-    std::clamp(force * kLengthPerForce, kShortest, std::max(kLongest, 5.0 * base));
+  const double length = lengthOf(force, base);
   const double thickness = std::min(0.15 * base, 0.12 * length);
   source_->SetShaftRadius(thickness / length);
   source_->SetTipRadius(2.6 * thickness / length);

@@ -15,6 +15,12 @@ class ForceArrow : public OverlayProps
 {
 public:
   explicit ForceArrow(vtkRenderer& renderer);
+
+  /// @param force       [N]
+  /// @param baseRadius  of the tool [m]
+  /// @return            [m]
+  [[nodiscard]] static double lengthOf(double force, double baseRadius) noexcept;
+
   void show(const Moment& moment) override;
   void hide() override;
 

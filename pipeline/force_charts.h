@@ -4,6 +4,7 @@
 #include "haptics/servo/sample.h"
 #include "pipeline/vtkPalpSampleSource.h"
 
+#include <optional>
 #include <vtkChartXY.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -22,7 +23,8 @@ namespace palp
 class ForceCharts
 {
 public:
-  ForceCharts();
+  /// @param duration  of the whole press [s], from time 0; none: the last minute is shown
+  explicit ForceCharts(std::optional<double> duration = std::nullopt);
   ForceCharts(const ForceCharts&) = delete;
   ForceCharts& operator=(const ForceCharts&) = delete;
 

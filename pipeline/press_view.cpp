@@ -26,6 +26,12 @@ using namespace units::literals;
 
 constexpr double kViewAngle = 30.0_deg;
 
+// that is drawn of a tool, from its apex [m]
+double toolHeight(const Tip& tip)
+{
+  return std::max(2.2 * baseRadius(tip), 20.0_mm);
+}
+
 constexpr std::size_t indexOf(Overlay overlay)
 {
   return static_cast<std::size_t>(overlay);
@@ -114,7 +120,7 @@ void PressView::setSurface(vtkPolyData* surface)
 void PressView::setTip(const Tip& tip)
 {
   tip_ = tip;
-  toolMapper_->SetInputData(toolSurface(tip, std::max(2.2 * baseRadius(tip), 20.0_mm)));
+  toolMapper_->SetInputData(toolSurface(tip, toolHeight(tip)));
 }
 
 void PressView::setExtents(const ExtentTable& extents)
@@ -181,6 +187,9 @@ void PressView::show(const Sample& sample)
   const Moment moment{ sample, tip_, extent, *deform_ };
   placeTool(sample.pose);
   placeDent(moment);
+  const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
+  above_ = std::max(toolHeight(tip_),
+    isPushed ? ForceArrow::lengthOf(sample.response.force, baseRadius(tip_)) : 0.0);
   readings_->setKeys(isVisible(Overlay::ContactCircle), isVisible(Overlay::ExtentCircle),
     isVisible(Overlay::ValidityColors) ? dent_->rule(moment) : std::string{});
   for (std::size_t i = 0; i < kOverlayCount; ++i)
@@ -253,7 +262,13 @@ void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d&
   const Eigen::Vector3d middle =
     0.5 * Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
   const Eigen::Vector3d focus = 0.6 * middle + 0.4 * place;
-  const Eigen::Vector3d eye = focus + 0.45 * diagonal_ / std::tan(0.5 * kViewAngle) * towards;
+  const double spread = std::tan(0.5 * kViewAngle);
+  // tool and arrow may be larger than the surface, and are nearer
+  const Eigen::Vector3d top = place + above_ * normal - focus;
+  const double nearer = top.dot(towards);
+  const double across = (top - nearer * towards).norm();
+  const double away = std::max(0.45 * diagonal_ / spread, nearer + 1.2 * across / spread);
+  const Eigen::Vector3d eye = focus + away * towards;
   vtkCamera& camera = *renderer_.GetActiveCamera();
   camera.SetFocalPoint(focus.data());
   camera.SetPosition(eye.data());

@@ -96,6 +96,7 @@ private:
   std::optional<ExtentTable> extents_;
   std::optional<FittedSurfaces> fitted_;
   double diagonal_ = 0.0; // of the surface's box [m]
+  double above_ = 0.0;    // the surface reach tool and arrow [m]
 
   vtkNew<vtkPalpDeformFilter> deform_;
   vtkNew<vtkPalpPatchMapper> surfaceMapper_;

@@ -2,7 +2,10 @@
 
 #include "pipeline/appearance.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+#include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
@@ -50,13 +53,18 @@ void SurfaceCircle::show(const Moment& moment)
 }
 
 // the line crosses triangles, and at a steep wall those are far from the field between their
-// corners
+// corners; around a ridge the contact has no line, for there the tool does not follow the surface
 void SurfaceCircle::putOnField(const Dent& dent, double radius)
 {
   const auto* moved = vtkFloatArray::SafeDownCast(line_->GetPointData()->GetArray("Displacement"));
+  if (!moved)
+  {
+    return;
+  }
   vtkNew<vtkPoints> points;
   points->DeepCopy(line_->GetPoints());
-  for (vtkIdType i = 0; moved && i < points->GetNumberOfPoints(); ++i)
+  std::vector<bool> isInFront(static_cast<std::size_t>(points->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
     Eigen::Vector3d rest(points->GetPoint(i));
     for (int k = 0; k < 3; ++k)
@@ -66,11 +74,28 @@ void SurfaceCircle::putOnField(const Dent& dent, double radius)
     const Place place = dent.region().placeInFront(rest);
     if (std::abs(place.distance - radius) < kSame * radius)
     {
+      isInFront[static_cast<std::size_t>(i)] = true;
       rest -= dent.sinkAt(place, rest).depth * dent.region().normal();
       points->SetPoint(i, rest.data());
     }
   }
   line_->SetPoints(points);
+  if (of_ == Of::Contact)
+  {
+    vtkNew<vtkCellArray> kept;
+    vtkNew<vtkIdList> ends;
+    for (vtkIdType i = 0; i < line_->GetNumberOfLines(); ++i)
+    {
+      line_->GetLines()->GetCellAtId(i, ends);
+      const auto isFront = [&](vtkIdType point)
+      { return isInFront[static_cast<std::size_t>(point)]; };
+      if (std::all_of(ends->begin(), ends->end(), isFront))
+      {
+        kept->InsertNextCell(ends);
+      }
+    }
+    line_->SetLines(kept);
+  }
 }
 
 void SurfaceCircle::hide()

@@ -36,8 +36,16 @@ vtkPalpSampleSource::vtkPalpSampleSource()
 void vtkPalpSampleSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "LastTime: " << this->LastTime << " s\n"
+  os << indent << "Span: " << this->Span << " s\n"
+     << indent << "LastTime: " << this->LastTime << " s\n"
      << indent << "Depths: " << this->Depths.size() << " points\n";
+}
+
+void vtkPalpSampleSource::SetSpan(double seconds)
+{
+  this->Span = seconds;
+  this->Time = palp::SampleColumns(seconds, Columns);
+  this->Modified();
 }
 
 void vtkPalpSampleSource::AddSample(const palp::Sample& sample)

@@ -3,7 +3,7 @@
  * @brief   the samples of the servo loop as tables for charts
  *
  * Output 0, force against time: float columns "time [s]" and "force [N]", two rows for each of
- * Columns intervals of the last Span seconds, the least and the largest force in it.
+ * Columns intervals of the last seconds, Span of them, the least and the largest force in it.
  * Output 1, force against depth: float columns "depth [mm]" and "force [N]", the last Points
  * samples that differ from the one before by something that can be seen.
  *
@@ -25,9 +25,17 @@ public:
   static vtkPalpSampleSource* New();
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  static constexpr double Span = 60.0;        ///< of output 0 [s]
+  static constexpr double Minute = 60.0;      ///< [s]
   static constexpr std::size_t Columns = 800; ///< of output 0
   static constexpr std::size_t Points = 2000; ///< of output 1
+
+  ///@{
+  /**
+   * Seconds of output 0; to be set before the first sample. Default: Minute.
+   */
+  void SetSpan(double seconds);
+  vtkGetMacro(Span, double);
+  ///@}
 
   /**
    * Appends one sample; its time must not be less than that of the one before.
@@ -61,7 +69,8 @@ private:
     double Force; // [N]
   };
 
-  palp::SampleColumns Time{ Span, Columns };
+  double Span = Minute;
+  palp::SampleColumns Time{ Minute, Columns };
   std::vector<Point> Depths; // ring of Points
   std::size_t NextDepth = 0;
   double LastTime = 0.0;

@@ -131,7 +131,8 @@ private:
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
     {
-      fail(std::string{ '"' }.append(text.substr(0, 40)) + "\" is not a number; write it as -1.25");
+      fail(std::string{ '"' }.append(text.substr(0, 40)) +
+        "\" is not a number; write it as -1.25, below a header " + std::string(kHeader));
     }
     return value;
   }
@@ -212,6 +213,10 @@ ScriptedPath parsePath(std::string_view text, const std::string& name)
 
 ScriptedPath readPath(const std::filesystem::path& file)
 {
+  if (std::filesystem::is_directory(file))
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": a folder; give the CSV file in it");
+  }
   std::ifstream stream(file, std::ios::binary);
   const std::string text{ std::istreambuf_iterator<char>(stream), {} };
   if (!stream)

@@ -12,6 +12,8 @@ namespace palp
 /// One condition under which a law may be believed, at one place.
 struct Rule
 {
+  static constexpr double kDoubtful = 0.8; ///< share from which on the limit is near
+
   const char* name;
   const char* unit; ///< of value and limit: "-", "rad" or "N/m"
   double value;     ///< 0 or more
