@@ -53,6 +53,13 @@ TEST(ForceCommand, PrintsSneddonForTheConeByTheAngleFromTheAxis)
     2.0 / std::numbers::pi * modulus * std::tan(std::numbers::pi / 6.0) * 25e-6, 1e-12);
 }
 
+TEST(ForceCommand, TellsThatItsOutputWasLost)
+{
+  const Finished finished = palp("force --tip sphere:10mm --depth 0:10:0.5mm > /dev/full");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.err.find("cannot be written"), std::string::npos) << finished.err;
+}
+
 TEST(ForceCommand, RefusesABareModulusInOneLine)
 {
   const Finished finished = palp("force --young 50");

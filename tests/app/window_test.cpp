@@ -3,6 +3,7 @@
 #include "app/device_words.h"
 #include "app/ledger.h"
 #include "app/plot_panel.h"
+#include "haptics/error.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
@@ -143,6 +144,48 @@ TEST_F(WindowTest, TakesAnotherTool)
 {
   window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
   EXPECT_TRUE(std::holds_alternative<ConeTip>(session_->recording().scene.law.tip()));
+}
+
+// what was recorded is of one tool and tissue
+TEST_F(WindowTest, AnotherToolBeginsTheRecordingAnew)
+{
+  press(160); // deeper than what comes
+  release();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+  window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
+  press(60);
+  release();
+  const Sample* deepest = session_->recording().deepest();
+  ASSERT_NE(deepest, nullptr);
+  EXPECT_LT(deepest->contact.depth, 4e-3);
+  const ForceLaw& law = session_->recording().scene.law;
+  EXPECT_NEAR(deepest->response.force, law({ .depth = deepest->contact.depth }).force, 1e-9);
+}
+
+TEST_F(WindowTest, WhatFailsLeavesEverythingAsItWas)
+{
+  const std::string file = (folder_.path() / "path.csv").string();
+  std::ofstream(file) << "time_s,x_mm,y_mm,z_mm\n0,0,0,200\n1,0,0,200\n";
+  session_->useDevice("path:" + file);
+  const std::string body = session_->body().name;
+  std::filesystem::remove(file);
+  EXPECT_THROW(session_->open(PALP_SHARE "/meshes/sphere_50.vtp", "auto"), Error);
+  EXPECT_EQ(session_->body().name, body);
+  EXPECT_EQ(session_->recording().mesh, body);
+  EXPECT_EQ(session_->recording().device, "path:" + file);
+}
+
+TEST_F(WindowTest, EscapeStopsNoMouse)
+{
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  press(100);
+  EXPECT_GT(session_->newest().force.norm(), 1.0);
+  EXPECT_TRUE(window_->findChild<QLabel*>("force")->text().startsWith("Force"));
+  release();
+  const auto isHint = [this]
+  { return window_->findChild<QLabel*>("force")->text().startsWith("Point at"); };
+  EXPECT_TRUE(QTest::qWaitFor(isHint, kPatience));
 }
 
 TEST_F(WindowTest, TheSimulatedHandYieldsToTheForceUntilItIsStopped)
@@ -349,6 +392,14 @@ TEST(UsbModule, ComesWhenDevicesAreLookedFor)
   const std::vector<std::string> names = Session::devices();
   EXPECT_NE(std::find(names.begin(), names.end(), "mouse"), names.end());
   EXPECT_NE(test::readAll("/proc/self/maps").find("palp-usb.so"), std::string::npos);
+}
+
+TEST(ViewProgram, WithoutAUsableDisplayEndsWithItsExitCode)
+{
+  const test::Finished finished =
+    test::runCommand("DISPLAY=:987 PALP_DATA=" PALP_SHARE " " PALP_VIEW " view");
+  EXPECT_EQ(finished.code, 4);
+  EXPECT_NE(finished.err.find("palp run"), std::string::npos) << finished.err;
 }
 
 TEST(ViewProgram, EndsInOrderOnSigterm)

@@ -1,8 +1,8 @@
 #include "pipeline/comparison.h"
 
 #include "haptics/error.h"
-#include "pipeline/plot_files.h"
 #include "haptics/units.h"
+#include "pipeline/plot_files.h"
 #include "tests/pipeline/surfaces.h"
 
 #include <cmath>
@@ -198,6 +198,14 @@ TEST_F(Files, SvgHasItsTextAsText)
   EXPECT_NE(text.find("<svg"), std::string::npos);
   EXPECT_NE(text.find("force [N]"), std::string::npos);
   EXPECT_NE(text.find("</svg>"), std::string::npos);
+}
+
+TEST_F(Files, SvgThatCannotBeWrittenIsAnError)
+{
+  EXPECT_THROW(writeSvg(*view->GetRenderWindow(), "/nowhere/force.svg"), Error);
+  std::filesystem::create_directories(folder / "taken.svg");
+  EXPECT_THROW(writeSvg(*view->GetRenderWindow(), folder / "taken.svg"), Error);
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "taken.svg"));
 }
 
 TEST_F(Files, PdfIsMadeOfTheSameOrRefusedInOneSentence)

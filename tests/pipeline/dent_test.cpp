@@ -169,6 +169,50 @@ TEST(Dent, TakesNoHarmFromValuesThatAreNotFinite)
   }
 }
 
+// a device may turn the tool any way
+TEST(Dent, IsFiniteHoweverTheToolIsTurned)
+{
+  DentedSurface surface = test::plane(40, 2.0_mm);
+  for (const Tip& tip : { Tip{ SphereTip{ 10.0_mm } }, Tip{ ConeTip{ 45.0_deg, 10.0_mm } },
+         Tip{ PunchTip{ 5.0_mm } }, Tip{ ParaboloidTip{ 10.0_mm } } })
+  {
+    for (const double tilt : { 60.0_deg, 89.99_deg, 90.0_deg, 110.0_deg, 180.0_deg })
+    {
+      Press press = test::pressAt(Eigen::Vector3d::Zero(), kUp, tip, 3.0_mm, 15.0_mm);
+      press.pose.axis = Eigen::Vector3d(std::sin(tilt), 0.0, -std::cos(tilt));
+      surface.press(press);
+      const auto isFinite = [](float x) { return std::isfinite(x); };
+      for (const auto* values : { &surface.points, &surface.normals, &surface.displacement })
+      {
+        EXPECT_TRUE(std::all_of(values->begin(), values->end(), isFinite))
+          << "tip " << tip.index() << " at " << units::toDegrees(tilt);
+      }
+    }
+  }
+}
+
+// The wall beside a punch begins at its rim, on the high side of a tilted one as on a straight one:
+// one contact radius further out the surface has risen by more than half.
+TEST(Dent, LeavesATiltedPunchAtItsRim)
+{
+  DentedSurface surface = test::plane(160, 0.5_mm);
+  const double depth = 8.0_mm;
+  Press press = test::pressAt(Eigen::Vector3d::Zero(), kUp, PunchTip{ 5.0_mm }, depth, 15.0_mm);
+  for (const double tilt : { 0.0_deg, 10.0_deg })
+  {
+    press.pose.axis = Eigen::Vector3d(std::sin(tilt), 0.0, -std::cos(tilt));
+    surface.press(press);
+    for (std::size_t i = 0; i < surface.count(); ++i)
+    {
+      const Eigen::Vector3d rest = DentedSurface::at(surface.rest, i);
+      if (std::abs(rest.norm() - 10.0_mm) < 0.25_mm)
+      {
+        EXPECT_GT(DentedSurface::at(surface.points, i).z(), -0.5 * depth) << rest.transpose();
+      }
+    }
+  }
+}
+
 // pressed near its edge the lobe bends around it, but a point of the other side that is farther
 // away than R_d over the edge does not move, though it lies 4 mm below the tool
 TEST(Dent, FarSideOfAThinLobeStaysPut)

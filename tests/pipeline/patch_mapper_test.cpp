@@ -10,7 +10,8 @@
 #include <vtkCamera.h>
 
 #include <vtkNew.h>
-
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
@@ -130,6 +131,50 @@ TEST(PatchMapper, SendsNoMoreThanTheDent)
   EXPECT_GT(mapper->GetSentBytes(), 0);
   scene.draw(Press{});
   EXPECT_EQ(mapper->GetSentBytes(), 0);
+}
+
+// without lights a shader has no normals
+TEST(PatchMapper, DrawsWithoutLight)
+{
+  vtkNew<vtkPalpPatchMapper> ours;
+  vtkNew<vtkPolyDataMapper> theirs;
+  Scene quick(ours);
+  Scene plain(theirs);
+  for (Scene* scene : { &quick, &plain })
+  {
+    scene->actor->GetProperty()->LightingOff();
+    scene->draw(pressOnTop(4.0_mm));
+  }
+  EXPECT_LE(differences(quick.pixels(), plain.pixels()), 20);
+}
+
+// a transformed surface shares its triangles with the one before
+TEST(PatchMapper, BoundsFollowPointsThatAreReplaced)
+{
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(kRadius);
+  ball->Update();
+  vtkNew<vtkPolyData> moved;
+  moved->ShallowCopy(ball->GetOutput());
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(moved->GetPoints());
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d point(points->GetPoint(i));
+    point.x() += 1.0;
+    points->SetPoint(i, point.data());
+  }
+  moved->SetPoints(points);
+  vtkNew<vtkPalpDeformFilter> filter;
+  vtkNew<vtkPalpPatchMapper> mapper;
+  mapper->SetInputConnection(filter->GetOutputPort());
+  for (vtkPolyData* surface : { ball->GetOutput(), moved.Get() })
+  {
+    filter->SetInputDataObject(surface);
+    const double* bounds = mapper->GetBounds();
+    const double middle = 0.5 * (bounds[0] + bounds[1]);
+    EXPECT_NEAR(middle, surface == moved.Get() ? 1.0 : 0.0, 1e-3);
+  }
 }
 
 TEST(PatchMapper, SendsEverythingForAnotherSurface)

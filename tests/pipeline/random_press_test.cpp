@@ -229,6 +229,11 @@ TEST_P(RandomPress, LeavesNoPointInsideTheToolAndTurnsNoTriangleOver)
       deepest = std::max(deepest, body.inside(DentedSurface::at(surface.points, at)));
     }
     patch.build(surface.dent, DentPatch::levelFor(surface.dent));
+    const auto isFinite = [](float x) { return std::isfinite(x); };
+    ASSERT_TRUE(std::all_of(surface.points.begin(), surface.points.end(), isFinite));
+    ASSERT_TRUE(std::all_of(surface.normals.begin(), surface.normals.end(), isFinite));
+    ASSERT_TRUE(std::all_of(patch.points.begin(), patch.points.end(),
+      [](const Eigen::Vector3f& point) { return point.allFinite(); }));
     for (const Eigen::Vector3f& point : patch.points)
     {
       deepest = std::max(deepest, body.inside(point.cast<double>()));

@@ -533,6 +533,7 @@ TEST_F(SurfaceFile, ThatCannotBeWrittenIsAnError)
   testing::internal::CaptureStderr();
   EXPECT_THROW(write("no/such/folder.vtp", grid), Error);
   EXPECT_THROW(write("surface.step", grid), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "surface.step"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
