@@ -1,8 +1,9 @@
 #include "calibration/surface_table.h"
 
-#include "calibration/csv_rows.h"
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 #include "haptics/force/monotone_cubic.h"
+#include "haptics/force/number_table.h"
 
 #include <algorithm>
 
@@ -61,16 +62,26 @@ private:
 
 } // namespace
 
+std::string SurfaceTable::header()
+{
+  std::string columns = "depth_over_radius,radius_over_thickness,poisson_ratio";
+  for (const double radius : kRadii)
+  {
+    columns += ",sink_at_" + shortest(radius);
+  }
+  return columns;
+}
+
 SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
 {
-  const auto lines = readCsv(file, 3 + kRadii.size());
+  const auto lines = NumberTable::readFinite(file, header()).rows;
   SurfaceTable table;
   for (std::size_t a = 0; a < 3; ++a)
   {
     auto& axis = table.axes_[a];
     for (const auto& line : lines)
     {
-      axis.push_back(line[2 - a]);
+      axis.push_back(line.values[2 - a]);
     }
     std::sort(axis.begin(), axis.end());
     axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
@@ -83,16 +94,22 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
       file.string() + ": not every combination of depth, thickness and nu; make the tables again");
   }
   table.rows_.resize(size);
-  for (const auto& line : lines)
+  std::vector<char> seen(size, 0);
+  for (const auto& [values, line] : lines)
   {
     std::size_t at = 0;
     for (std::size_t a = 0; a < 3; ++a)
     {
       const auto& axis = table.axes_[a];
-      const auto found = std::lower_bound(axis.begin(), axis.end(), line[2 - a]);
+      const auto found = std::lower_bound(axis.begin(), axis.end(), values[2 - a]);
       at = at * axis.size() + static_cast<std::size_t>(found - axis.begin());
     }
-    std::copy(line.begin() + 3, line.end(), table.rows_[at].begin());
+    if (seen[at] != 0)
+    {
+      throw Error(ErrorCode::BadFile, where(file, line) + "given twice; give each place once");
+    }
+    seen[at] = 1;
+    std::copy(values.begin() + 3, values.end(), table.rows_[at].begin());
   }
   return table;
 }

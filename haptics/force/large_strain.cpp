@@ -60,7 +60,7 @@ Bracket bracket(const std::vector<double>& axis, double value) noexcept
 LargeStrainGrid readGrid(
   const std::filesystem::path& file, const std::string& header, double (*scale)(double))
 {
-  const NumberTable table = NumberTable::read(file, header);
+  const NumberTable table = NumberTable::readFinite(file, header);
   std::array<std::vector<double>, 3> axes;
   for (const NumberTable::Row& row : table.rows)
   {
