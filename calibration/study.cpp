@@ -44,6 +44,26 @@ double equalAreaRadius(const Case& study)
   return std::sqrt(study.width * study.length / std::numbers::pi);
 }
 
+// in the volumetric block, whose number of elements is given, wider ones than evenly spaced under
+// the tool would overshoot its side
+double largestElement(const Case& study)
+{
+  const double ofHeight = 0.2 * study.height;
+  return study.model == BodyModel::Block ? std::min(ofHeight, study.width / (kPaperNodes - 1))
+                                         : ofHeight;
+}
+
+double elementSize(const Case& study)
+{
+  if (study.elementSize > 0.0)
+  {
+    return study.elementSize;
+  }
+  return study.model == BodyModel::Block
+    ? std::min(kCoarse * baseRadius(study.tip), largestElement(study))
+    : kElementSize;
+}
+
 // radius at which the tool is as high as it is deep: no contact reaches further
 double reach(const Tip& tip, double depth)
 {
@@ -126,8 +146,9 @@ void check(const Case& study)
   require(study.threshold > 0.0 && study.threshold < deepest,
     "--threshold: must be positive and less than the deepest depth of " + millimetres(deepest));
   require(study.elementSize == 0.0 ||
-      (study.elementSize >= 0.01_mm && study.elementSize <= 0.2 * study.height),
-    "--element-size: must be between 0.01 mm and " + millimetres(0.2 * study.height));
+      (study.elementSize >= 0.01_mm && study.elementSize <= largestElement(study)),
+    "--element-size: must be between 0.01 mm and " + millimetres(largestElement(study)) +
+      " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
   require(
@@ -136,14 +157,13 @@ void check(const Case& study)
 
 Body bodyOf(const Case& study)
 {
+  const double size = elementSize(study);
   if (study.model == BodyModel::Axisymmetric)
   {
-    const double size = study.elementSize > 0.0 ? study.elementSize : kElementSize;
     const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
     return cylinderBody(equalAreaRadius(study), study.height, fine, size);
   }
-  return blockBody(study.width, study.height, kPaperNodes, kPaperLayers,
-    study.elementSize > 0.0 ? study.elementSize : kCoarse * baseRadius(study.tip));
+  return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }
 
 double extentRadius(const std::vector<Indented::Point>& profile, double threshold)

@@ -31,7 +31,9 @@ struct Case
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]
   BodyModel model = BodyModel::Axisymmetric;
-  double elementSize = 0.0; ///< under the tool [m]; 0: 0.5 mm, in the block a tenth of its radius
+  /// Under the tool [m], 0.01 mm to height / 5, in the block at most width / 29 as well;
+  /// 0: 0.5 mm, in the block a tenth of the tool's radius where that is allowed.
+  double elementSize = 0.0;
 };
 
 /// A cone gets a tangent spherical cap, as no mesh follows a sharp apex; other tools stay.

@@ -70,6 +70,49 @@ TEST(Study, RefusesAbsurdGeometryBeforeAnyWork)
   EXPECT_NE(refusal(study).find("--model"), std::string::npos);
 }
 
+// elements wider than evenly spaced ones do not fill the block, but overshoot it
+TEST(Study, RefusesElementsThatABlockCannotHold)
+{
+  Case study = quick();
+  study.model = BodyModel::Block;
+  study.elementSize = 100.0_mm / 29.0;
+  EXPECT_EQ(refusal(study), "");
+  study.elementSize *= 1.001;
+  EXPECT_NE(refusal(study).find("--element-size"), std::string::npos);
+  study.width = study.length = 10.0_mm;
+  study.height = 100.0_mm;
+  study.tip = SphereTip{ 4.0_mm };
+  study.elementSize = 20.0_mm;
+  EXPECT_NE(refusal(study).find("--element-size"), std::string::npos);
+}
+
+class BlockOf : public testing::TestWithParam<std::array<double, 4>>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Study, BlockOf,
+  testing::Values(std::array{ 100.0_mm, 50.0_mm, 10.0_mm, 0.0 },
+    std::array{ 100.0_mm, 50.0_mm, 44.0_mm, 0.0 }, std::array{ 100.0_mm, 4.0_mm, 44.0_mm, 0.0 },
+    std::array{ 10.0_mm, 100.0_mm, 4.0_mm, 10.0_mm / 29.0 },
+    std::array{ 100.0_mm, 5.0_mm, 10.0_mm, 1.0_mm },
+    std::array{ 100.0_mm, 50.0_mm, 10.0_mm, 0.01_mm }));
+
+TEST_P(BlockOf, HasTheSizeThatWasAskedFor)
+{
+  const auto [width, height, radius, elementSize] = GetParam();
+  Case study = quick();
+  study.model = BodyModel::Block;
+  study.width = study.length = width;
+  study.height = height;
+  study.tip = SphereTip{ radius };
+  study.elementSize = elementSize;
+  ASSERT_EQ(refusal(study), "");
+  const Body body = bodyOf(study);
+  EXPECT_NEAR(body.positions.row(0).maxCoeff(), 0.5 * width, 1e-9 * width);
+  EXPECT_NEAR(body.positions.row(1).maxCoeff(), 0.5 * width, 1e-9 * width);
+  EXPECT_NEAR(body.positions.row(2).minCoeff(), 0.0, 1e-9 * height);
+  EXPECT_NEAR(body.positions.row(2).maxCoeff(), height, 1e-9 * height);
+}
+
 TEST(Study, ExtentIsWhereTheDeformedSurfaceCrossesTheThreshold)
 {
   const std::vector<Indented::Point> profile{ { 0.0, 0.0, -3.0_mm }, { 10.0_mm, 1.0_mm, -1.0_mm },
