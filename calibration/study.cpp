@@ -77,17 +77,19 @@ double reach(const Tip& tip, double depth)
   return high;
 }
 
-Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
-  const Checkpoint* from, std::stop_token stop,
+Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token stop,
   const std::function<void(const Outcome&, const Indenter&)>& keep, const Progress& progress)
 {
-  Outcome outcome{ .steps = std::move(steps), .trouble = {} };
+  Outcome outcome{ .steps = std::move(saved.steps), .trouble = {} };
   Indenter indenter(body, study.tip, study.energy, study.material);
-  if (from != nullptr)
+  double reached = 0.0;
+  if (saved.checkpoint)
   {
-    indenter.resume(*from);
+    indenter.resume(*saved.checkpoint);
+    reached = saved.checkpoint->depth * (1.0 + kSameDepth);
   }
-  while (outcome.steps.size() < study.depths.size())
+  const auto& depths = study.depths;
+  for (auto depth = std::ranges::upper_bound(depths, reached); depth != depths.end(); ++depth)
   {
     if (stop.stop_requested())
     {
@@ -96,7 +98,7 @@ Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
     }
     try
     {
-      indenter.press(study.depths[outcome.steps.size()]);
+      indenter.press(*depth);
     }
     catch (const Error& error)
     {
@@ -107,7 +109,7 @@ Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
     keep(outcome, indenter);
     if (progress)
     {
-      progress(outcome.steps.size(), study.depths.size());
+      progress(static_cast<std::size_t>(depth - depths.begin()) + 1, depths.size());
     }
   }
   return outcome;
@@ -208,7 +210,7 @@ Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progr
   check(study);
   const Body body = bodyOf(study);
   return press(
-    study, body, {}, nullptr, stop, [](const Outcome&, const Indenter&) {}, progress);
+    study, body, {}, stop, [](const Outcome&, const Indenter&) {}, progress);
 }
 
 Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bool resume,
@@ -217,9 +219,8 @@ Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bo
   check(study);
   const Body body = bodyOf(study);
   const StudyFiles files(folder, study, body);
-  Saved saved = resume ? files.load() : Saved{};
   const Outcome outcome = press(
-    study, body, std::move(saved.steps), saved.checkpoint ? &*saved.checkpoint : nullptr, stop,
+    study, body, resume ? files.load() : Saved{}, stop,
     [&](const Outcome& reached, const Indenter& indenter)
     {
       files.write(reached);

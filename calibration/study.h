@@ -72,8 +72,10 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 /// The same with files: after every depth, table.csv, profiles.csv, fit.json and a checkpoint are
 /// complete in the folder, whatever happens next.
 ///
-/// @param resume  go on from the folder's checkpoint, if there is one
-/// @throws Error  BadFile: not writable, or the checkpoint is of another case
+/// @param resume  go on from the folder's checkpoint, if there is one; the depths that are in the
+///                table stay there, whether they are asked for again or not
+/// @throws Error  BadFile: not writable, or the checkpoint is of another case, or past a depth that
+///                is asked for and not in the table
 [[nodiscard]] Outcome calibrateInto(const std::filesystem::path& folder, const Case& study,
   bool resume, std::stop_token stop = {}, const Progress& progress = {});
 
