@@ -12,50 +12,27 @@ namespace palp
 namespace
 {
 
-struct Between
-{
-  std::size_t low;
-  double weight; // of the next one
-};
-
-Between between(const std::vector<double>& axis, double value)
-{
-  const double x = std::clamp(value, axis.front(), axis.back());
-  const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
-  const auto low = static_cast<std::size_t>(above - axis.begin()) - 1;
-  return { low, (x - axis[low]) / (axis[low + 1] - axis[low]) };
-}
-
 // a surface through its values at the radii of a table
 class Curve
 {
 public:
   explicit Curve(const std::array<double, SurfaceTable::kRadii.size()>& sinks)
     : sinks_(sinks)
-    , slopes_(monotoneSlopes(radii(), sinks_))
+    , slopes_(monotoneSlopes(SurfaceTable::kRadii, sinks_))
   {
   }
 
   // x: distance from the axis over the tip's radius
   [[nodiscard]] double at(double x) const
   {
-    if (!(x >= 0.0) || x > radii().back())
+    if (!(x >= 0.0) || x > SurfaceTable::kRadii.back())
     {
       return 0.0;
     }
-    const auto [low, weight] = between(radii(), x);
-    return hermite(weight, radii()[low + 1] - radii()[low], sinks_[low], sinks_[low + 1],
-      slopes_[low], slopes_[low + 1])
-      .value;
+    return cubicAt(SurfaceTable::kRadii, sinks_, slopes_, x).value;
   }
 
 private:
-  static const std::vector<double>& radii()
-  {
-    static const std::vector<double> all(SurfaceTable::kRadii.begin(), SurfaceTable::kRadii.end());
-    return all;
-  }
-
   std::array<double, SurfaceTable::kRadii.size()> sinks_;
   std::vector<double> slopes_;
 };
@@ -117,16 +94,16 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
 SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
 {
   const double depth = place.depth / place.tipRadius;
-  const auto n = between(axes_[0], place.poissonRatio);
-  const auto h = between(axes_[1], place.tipRadius / place.thickness);
-  const auto d = between(axes_[2], depth);
+  const auto n = bracket(axes_[0], place.poissonRatio);
+  const auto h = bracket(axes_[1], place.tipRadius / place.thickness);
+  const auto d = bracket(axes_[2], depth);
   Row sum{};
   for (int corner = 0; corner < 8; ++corner)
   {
-    const auto pick = [corner](int bit, const Between& b)
+    const auto pick = [corner](int bit, const Bracket& b)
     {
       const bool upper = (corner >> bit & 1) != 0;
-      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.weight : 1.0 - b.weight };
+      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.place : 1.0 - b.place };
     };
     const auto [i, wi] = pick(0, n);
     const auto [j, wj] = pick(1, h);
