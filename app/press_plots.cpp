@@ -1,7 +1,7 @@
 #include "app/press_plots.h"
 
-#include "calibration/csv_rows.h"
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
 #include "haptics/units.h"
 #include "pipeline/plot_files.h"
 
@@ -67,10 +67,10 @@ ReferenceCurve elementsOf(const Calibration& calibration, const ForceLaw& law)
 ReferenceCurve readForceCurve(const std::filesystem::path& file)
 {
   ReferenceCurve curve{ .name = file.stem().string(), .x = {}, .y = {} };
-  for (const std::vector<double>& row : readCsv(file, 2))
+  for (const auto& [values, line] : NumberTable::readFinite(file, "depth_mm,force_N").rows)
   {
-    curve.x.push_back(units::fromMillimetres(row[0]));
-    curve.y.push_back(row[1]);
+    curve.x.push_back(units::fromMillimetres(values[0]));
+    curve.y.push_back(values[1]);
   }
   return curve;
 }

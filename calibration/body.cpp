@@ -12,12 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Gradient = Eigen::Matrix<double, 9, Eigen::Dynamic>;
-using Vector9d = Eigen::Matrix<double, 9, 1>;
-
-Vector9d vec(const Matrix3d& m)
-{
-  return Eigen::Map<const Vector9d>(m.data());
-}
 
 Matrix3d deformation(const Gradient& gradient, const VectorXd& displacement)
 {

@@ -12,7 +12,6 @@ namespace
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Vector9d = Eigen::Matrix<double, 9, 1>;
 
 struct Lame
 {
@@ -25,11 +24,6 @@ Lame lame(const Material& material)
   const double nu = material.poissonRatio;
   const double mu = material.shearModulus();
   return { .lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu), .mu = mu };
-}
-
-Vector9d vec(const Matrix3d& m)
-{
-  return Eigen::Map<const Vector9d>(m.data());
 }
 
 // derivative of F^-T, which is -F^-T dF^T F^-T

@@ -28,7 +28,14 @@ enum class Energy
 /// @return  nothing where no energy has that name
 [[nodiscard]] std::optional<Energy> energyNamed(std::string_view name) noexcept;
 
+using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+/// The columns of a matrix, one below the other.
+[[nodiscard]] inline Vector9d vec(const Eigen::Matrix3d& m)
+{
+  return Eigen::Map<const Vector9d>(m.data());
+}
 
 /// First Piola-Kirchhoff stress P = dW/dF, and its derivative.
 struct StressResponse

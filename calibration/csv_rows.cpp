@@ -1,53 +1,48 @@
 #include "calibration/csv_rows.h"
 
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <string>
 
 namespace palp
 {
+namespace
+{
+
+// the first line that is no comment
+std::string headerOf(const std::filesystem::path& file)
+{
+  std::ifstream in(file);
+  std::string line;
+  do
+  {
+    std::getline(in, line);
+    line.erase(std::find(line.begin(), line.end(), '\r'), line.end());
+  } while (in && (line.empty() || line.front() == '#'));
+  return line;
+}
+
+} // namespace
 
 std::vector<std::vector<double>> readCsv(const std::filesystem::path& file, std::size_t columns)
 {
-  std::ifstream in(file);
-  if (!in)
+  const std::string header = headerOf(file);
+  const NumberTable table = NumberTable::readFinite(file, header);
+  const auto names = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
+  if (names != columns || std::isalpha(static_cast<unsigned char>(header.front())) == 0)
   {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be opened; name a table file");
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": no header; begin with the names of " + std::to_string(columns) +
+        " columns");
   }
   std::vector<std::vector<double>> rows;
-  std::string header;
-  std::string text;
-  for (int line = 1; std::getline(in, text); ++line)
+  for (const NumberTable::Row& row : table.rows)
   {
-    if (text.empty() || text[0] == '#')
-    {
-      continue;
-    }
-    if (header.empty())
-    {
-      header = text;
-      continue;
-    }
-    std::vector<double> row;
-    const char* at = text.data();
-    const char* end = at + text.size();
-    for (double value = 0.0; row.size() < columns; ++at)
-    {
-      const auto [next, error] = std::from_chars(at, end, value);
-      row.push_back(value);
-      const bool last = row.size() == columns;
-      if (error != std::errc{} || !std::isfinite(value) ||
-        (last ? next != end : next == end || *next != ','))
-      {
-        throw Error(ErrorCode::BadFile,
-          file.string() + ":" + std::to_string(line) + ": expected numbers for " + header);
-      }
-      at = next;
-    }
-    rows.push_back(std::move(row));
+    rows.push_back(row.values);
   }
   return rows;
 }

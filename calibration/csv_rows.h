@@ -6,12 +6,14 @@
 namespace palp
 {
 
-/// Rows of numbers from a file of comma-separated values; C locale.
+/// Rows of finite numbers from a file whose columns are known by their order only; where their
+/// names are known, NumberTable compares them.
 ///
 /// Lines that begin with # are comments; the first other line names the columns.
 ///
 /// @param columns  numbers in every row
-/// @throws Error   BadFile: missing, or a row with other contents; names the line
+/// @throws Error   BadFile: missing, no names of as many columns, or a row with other contents;
+///                 names the line
 [[nodiscard]] std::vector<std::vector<double>> readCsv(
   const std::filesystem::path& file, std::size_t columns);
 

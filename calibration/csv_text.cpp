@@ -33,6 +33,10 @@ bool replaceFile(const std::filesystem::path& file, const std::string& content)
   auto fresh = file;
   fresh += ".new";
   std::ofstream out(fresh, std::ios::binary);
+  if (!out)
+  {
+    return false; // whatever is there is not ours to remove
+  }
   out << content;
   out.close();
   std::error_code failed;
@@ -40,7 +44,12 @@ bool replaceFile(const std::filesystem::path& file, const std::string& content)
   {
     std::filesystem::rename(fresh, file, failed);
   }
-  return out && !failed;
+  const bool replaced = out && !failed;
+  if (!replaced)
+  {
+    std::filesystem::remove(fresh, failed);
+  }
+  return replaced;
 }
 
 } // namespace palp

@@ -15,7 +15,7 @@ namespace palp
 void writeCsvRow(std::ostream& out, std::span<const double> values);
 
 /// Replaces a file as a whole, so that an interruption leaves the one before.
-/// @return  false where it cannot be written
+/// @return  false where it cannot be written; the file before remains, and nothing beside it
 [[nodiscard]] bool replaceFile(const std::filesystem::path& file, const std::string& content);
 
 } // namespace palp

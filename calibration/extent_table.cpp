@@ -1,7 +1,7 @@
 #include "calibration/extent_table.h"
 
-#include "calibration/csv_rows.h"
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace palp
 ExtentTable ExtentTable::read(const std::filesystem::path& file)
 {
   std::vector<Row> rows;
-  for (const auto& row : readCsv(file, 4))
+  for (const auto& [values, line] : NumberTable::readFinite(file, kHeader).rows)
   {
-    rows.push_back({ .depth = units::fromMillimetres(row[0]),
-      .extentRadius = units::fromMillimetres(row[1]),
-      .force = row[2],
-      .contactRadius = units::fromMillimetres(row[3]) });
+    rows.push_back({ .depth = units::fromMillimetres(values[0]),
+      .extentRadius = units::fromMillimetres(values[1]),
+      .force = values[2],
+      .contactRadius = units::fromMillimetres(values[3]) });
   }
   try
   {

@@ -15,6 +15,9 @@ namespace palp
 class ExtentTable
 {
 public:
+  /// Columns of a file.
+  static constexpr const char* kHeader = "depth_mm,extent_radius_mm,force_N,contact_radius_mm";
+
   struct Row
   {
     double depth;         ///< delta [m]
@@ -23,9 +26,8 @@ public:
     double contactRadius; ///< of the finite elements [m], or 0
   };
 
-  /// Reads `depth_mm,extent_radius_mm,force_N,contact_radius_mm`; lines that begin with # are
-  /// comments.
-  /// @throws Error  BadFile: missing, fewer than two rows, depths not increasing
+  /// Reads the columns of kHeader; lines that begin with # are comments.
+  /// @throws Error  BadFile: missing, another header, fewer than two rows, depths not increasing
   [[nodiscard]] static ExtentTable read(const std::filesystem::path& file);
 
   /// @param rows    at least two, depths increasing

@@ -83,10 +83,11 @@ IntegrationPoint ringPoint(const Eigen::Matrix<double, 2, 8>& corners, double x,
   return point;
 }
 
-// bodies of revolution: `place` maps a grid of (u, v) to (r, z); u = 0 is the axis, the last v the
-// top
-Body revolve(const std::vector<double>& us, const std::vector<double>& vs,
-  const std::function<Vector2d(double, double)>& place)
+using Place = std::function<Vector2d(double, double)>; // (u, v) to (r, z)
+
+// nodes at the corners and the middles of the sides of a grid, none in the middle of a cell
+Eigen::MatrixXi addNodes(
+  Body& body, const std::vector<double>& us, const std::vector<double>& vs, const Place& place)
 {
   const int columns = 2 * static_cast<int>(us.size()) - 1;
   const int rows = 2 * static_cast<int>(vs.size()) - 1;
@@ -95,8 +96,6 @@ Body revolve(const std::vector<double>& us, const std::vector<double>& vs,
     const auto k = static_cast<std::size_t>(i / 2);
     return i % 2 == 0 ? steps[k] : 0.5 * (steps[k] + steps[k + 1]);
   };
-
-  Body body{ .dimension = 2 };
   Eigen::MatrixXi number = Eigen::MatrixXi::Constant(columns, rows, -1);
   body.positions.resize(2, columns * rows);
   int count = 0;
@@ -106,7 +105,7 @@ Body revolve(const std::vector<double>& us, const std::vector<double>& vs,
     {
       if (i % 2 == 1 && j % 2 == 1)
       {
-        continue; // no node in the middle
+        continue;
       }
       number(i, j) = count;
       body.positions.col(count) = place(halfway(us, i), halfway(vs, j));
@@ -127,31 +126,44 @@ Body revolve(const std::vector<double>& us, const std::vector<double>& vs,
     }
   }
   body.positions.conservativeResize(2, count);
+  return number;
+}
+
+// the element around the middle (i, j) of a cell
+Element ring(const Body& body, const Eigen::MatrixXi& number, int i, int j)
+{
+  Element element{ .meanDilatation = false };
+  Eigen::Matrix<double, 2, 8> corners;
+  for (int a = 0; a < 8; ++a)
+  {
+    const auto& local = kLocal[static_cast<std::size_t>(a)];
+    const int node = number(i + local[0], j + local[1]);
+    corners.col(a) = body.positions.col(node);
+    element.dofs.insert(element.dofs.end(), { 2 * node, 2 * node + 1 });
+  }
+  const double gauss = 1.0 / std::numbers::sqrt3;
+  for (const double y : { -gauss, gauss })
+  {
+    for (const double x : { -gauss, gauss })
+    {
+      element.points.push_back(ringPoint(corners, x, y));
+    }
+  }
+  return element;
+}
+
+// a body of revolution: u = 0 is the axis, the first v the base, the last the top
+Body revolve(const std::vector<double>& us, const std::vector<double>& vs, const Place& place)
+{
+  Body body{ .dimension = 2 };
+  const Eigen::MatrixXi number = addNodes(body, us, vs, place);
   body.profile = body.surface;
   body.top = body.positions(1, body.surface.front());
-
-  const double gauss = 1.0 / std::numbers::sqrt3;
-  for (int j = 1; j < rows; j += 2)
+  for (int j = 1; j < number.cols(); j += 2)
   {
-    for (int i = 1; i < columns; i += 2)
+    for (int i = 1; i < number.rows(); i += 2)
     {
-      Element element{ .meanDilatation = false };
-      Eigen::Matrix<double, 2, 8> corners;
-      for (int a = 0; a < 8; ++a)
-      {
-        const auto& local = kLocal[static_cast<std::size_t>(a)];
-        const int node = number(i + local[0], j + local[1]);
-        corners.col(a) = body.positions.col(node);
-        element.dofs.insert(element.dofs.end(), { 2 * node, 2 * node + 1 });
-      }
-      for (const double y : { -gauss, gauss })
-      {
-        for (const double x : { -gauss, gauss })
-        {
-          element.points.push_back(ringPoint(corners, x, y));
-        }
-      }
-      body.elements.push_back(std::move(element));
+      body.elements.push_back(ring(body, number, i, j));
     }
   }
   return body;

@@ -43,7 +43,8 @@ enum class SphereSupport
 ///
 /// @param n       nodes along each side, 4 or more
 /// @param layers  nodes along the height, 2 or more
-/// @param fine    distance of nodes under the tool [m]; width / (n - 1) spaces them evenly
+/// @param fine    distance of nodes under the tool [m], at most width / (n - 1), which spaces them
+///                evenly, and height / 5
 /// @source        Sec. 4.3: 100 x 100 x 30 mm, 30 x 30 x 10 nodes
 [[nodiscard]] Body blockBody(double width, double height, int n, int layers, double fine);
 

@@ -1,5 +1,6 @@
 #include "calibration/shipped_tables.h"
 
+#include "calibration/csv_text.h"
 #include "calibration/study_files.h"
 #include "calibration/surface_fit.h"
 #include "calibration/surface_table.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -41,10 +41,7 @@ std::ostringstream table(const std::string& header)
 
 void store(const std::filesystem::path& file, const std::ostringstream& content)
 {
-  std::ofstream out(file);
-  out << content.str();
-  out.flush();
-  if (!out)
+  if (!replaceFile(file, content.str()))
   {
     throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; choose another folder");
   }
@@ -192,13 +189,9 @@ void makeSphereTables(const std::filesystem::path& folder, std::stop_token stop,
 
   auto surfaceTable = table(
     "# Sink of the surface of a neo-Hookean layer under a sphere, -u_z / R at deformed r / R.\n"
-    "# W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2; bonded, frictionless, elements of R / 20\n"
-    "depth_over_radius,radius_over_thickness,poisson_ratio");
-  for (const double radius : SurfaceTable::kRadii)
-  {
-    surfaceTable << ",sink_at_" << radius;
-  }
-  surfaceTable << '\n' << surfaces.str();
+    "# W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2; bonded, frictionless, elements of R / "
+    "20\n");
+  surfaceTable << SurfaceTable::header() << '\n' << surfaces.str();
   store(folder / "surface_sphere.csv", surfaceTable);
 }
 

@@ -44,6 +44,26 @@ double equalAreaRadius(const Case& study)
   return std::sqrt(study.width * study.length / std::numbers::pi);
 }
 
+// in the volumetric block, whose number of elements is given, wider ones than evenly spaced under
+// the tool would overshoot its side
+double largestElement(const Case& study)
+{
+  const double ofHeight = 0.2 * study.height;
+  return study.model == BodyModel::Block ? std::min(ofHeight, study.width / (kPaperNodes - 1))
+                                         : ofHeight;
+}
+
+double elementSize(const Case& study)
+{
+  if (study.elementSize > 0.0)
+  {
+    return study.elementSize;
+  }
+  return study.model == BodyModel::Block
+    ? std::min(kCoarse * baseRadius(study.tip), largestElement(study))
+    : kElementSize;
+}
+
 // radius at which the tool is as high as it is deep: no contact reaches further
 double reach(const Tip& tip, double depth)
 {
@@ -57,17 +77,19 @@ double reach(const Tip& tip, double depth)
   return high;
 }
 
-Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
-  const Checkpoint* from, std::stop_token stop,
+Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token stop,
   const std::function<void(const Outcome&, const Indenter&)>& keep, const Progress& progress)
 {
-  Outcome outcome{ .steps = std::move(steps), .trouble = {} };
+  Outcome outcome{ .steps = std::move(saved.steps), .trouble = {} };
   Indenter indenter(body, study.tip, study.energy, study.material);
-  if (from != nullptr)
+  double reached = 0.0;
+  if (saved.checkpoint)
   {
-    indenter.resume(*from);
+    indenter.resume(*saved.checkpoint);
+    reached = saved.checkpoint->depth * (1.0 + kSameDepth);
   }
-  while (outcome.steps.size() < study.depths.size())
+  const auto& depths = study.depths;
+  for (auto depth = std::ranges::upper_bound(depths, reached); depth != depths.end(); ++depth)
   {
     if (stop.stop_requested())
     {
@@ -76,7 +98,7 @@ Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
     }
     try
     {
-      indenter.press(study.depths[outcome.steps.size()]);
+      indenter.press(*depth);
     }
     catch (const Error& error)
     {
@@ -87,7 +109,7 @@ Outcome press(const Case& study, const Body& body, std::vector<Indented> steps,
     keep(outcome, indenter);
     if (progress)
     {
-      progress(outcome.steps.size(), study.depths.size());
+      progress(static_cast<std::size_t>(depth - depths.begin()) + 1, depths.size());
     }
   }
   return outcome;
@@ -126,8 +148,9 @@ void check(const Case& study)
   require(study.threshold > 0.0 && study.threshold < deepest,
     "--threshold: must be positive and less than the deepest depth of " + millimetres(deepest));
   require(study.elementSize == 0.0 ||
-      (study.elementSize >= 0.01_mm && study.elementSize <= 0.2 * study.height),
-    "--element-size: must be between 0.01 mm and " + millimetres(0.2 * study.height));
+      (study.elementSize >= 0.01_mm && study.elementSize <= largestElement(study)),
+    "--element-size: must be between 0.01 mm and " + millimetres(largestElement(study)) +
+      " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
   require(
@@ -136,14 +159,13 @@ void check(const Case& study)
 
 Body bodyOf(const Case& study)
 {
+  const double size = elementSize(study);
   if (study.model == BodyModel::Axisymmetric)
   {
-    const double size = study.elementSize > 0.0 ? study.elementSize : kElementSize;
     const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
     return cylinderBody(equalAreaRadius(study), study.height, fine, size);
   }
-  return blockBody(study.width, study.height, kPaperNodes, kPaperLayers,
-    study.elementSize > 0.0 ? study.elementSize : kCoarse * baseRadius(study.tip));
+  return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }
 
 double extentRadius(const std::vector<Indented::Point>& profile, double threshold)
@@ -188,7 +210,7 @@ Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progr
   check(study);
   const Body body = bodyOf(study);
   return press(
-    study, body, {}, nullptr, stop, [](const Outcome&, const Indenter&) {}, progress);
+    study, body, {}, stop, [](const Outcome&, const Indenter&) {}, progress);
 }
 
 Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bool resume,
@@ -197,9 +219,8 @@ Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bo
   check(study);
   const Body body = bodyOf(study);
   const StudyFiles files(folder, study, body);
-  Saved saved = resume ? files.load() : Saved{};
   const Outcome outcome = press(
-    study, body, std::move(saved.steps), saved.checkpoint ? &*saved.checkpoint : nullptr, stop,
+    study, body, resume ? files.load() : Saved{}, stop,
     [&](const Outcome& reached, const Indenter& indenter)
     {
       files.write(reached);

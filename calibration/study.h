@@ -31,7 +31,9 @@ struct Case
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]
   BodyModel model = BodyModel::Axisymmetric;
-  double elementSize = 0.0; ///< under the tool [m]; 0: 0.5 mm, in the block a tenth of its radius
+  /// Under the tool [m], 0.01 mm to height / 5, in the block at most width / 29 as well;
+  /// 0: 0.5 mm, in the block a tenth of the tool's radius where that is allowed.
+  double elementSize = 0.0;
 };
 
 /// A cone gets a tangent spherical cap, as no mesh follows a sharp apex; other tools stay.
@@ -70,8 +72,10 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 /// The same with files: after every depth, table.csv, profiles.csv, fit.json and a checkpoint are
 /// complete in the folder, whatever happens next.
 ///
-/// @param resume  go on from the folder's checkpoint, if there is one
-/// @throws Error  BadFile: not writable, or the checkpoint is of another case
+/// @param resume  go on from the folder's checkpoint, if there is one; the depths that are in the
+///                table stay there, whether they are asked for again or not
+/// @throws Error  BadFile: not writable, or the checkpoint is of another case, or past a depth that
+///                is asked for and not in the table
 [[nodiscard]] Outcome calibrateInto(const std::filesystem::path& folder, const Case& study,
   bool resume, std::stop_token stop = {}, const Progress& progress = {});
 

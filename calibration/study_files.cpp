@@ -1,12 +1,18 @@
 #include "calibration/study_files.h"
 
-#include "calibration/csv_rows.h"
 #include "calibration/csv_text.h"
 #include "calibration/curve_fit.h"
+#include "calibration/extent_table.h"
 #include "haptics/error.h"
+#include "haptics/force/half_space.h"
+#include "haptics/force/number_table.h"
+#include "haptics/force/profile.h"
 #include "haptics/units.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -17,9 +23,11 @@ namespace
 
 using units::toMillimetres;
 
-std::string tipText(const Tip& tip)
+std::string tipText(const Tip& tip, int digits)
 {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
   const double base = toMillimetres(baseRadius(tip));
   if (std::holds_alternative<SphereTip>(tip))
   {
@@ -34,9 +42,24 @@ std::string tipText(const Tip& tip)
     out << "cone, " << units::toDegrees(blunt->halfAngle) << " deg, tangent cap "
         << toMillimetres(blunt->tipRadius) << " mm, base " << base << " mm";
   }
+  else if (const auto* truncated = std::get_if<TruncatedConeTip>(&tip))
+  {
+    out << "truncated cone, " << units::toDegrees(truncated->halfAngle) << " deg, flat "
+        << toMillimetres(truncated->flatRadius) << " mm, base " << base << " mm";
+  }
+  else if (const auto* profile = std::get_if<ProfileTip>(&tip))
+  {
+    // every point has its part in the depth at which the whole of it is in contact
+    const auto file = std::filesystem::path(profile->profile->name()).filename();
+    out << "profile of revolution " << file.string() << (file.empty() ? "" : ", ") << "base "
+        << base << " mm, height " << toMillimetres(tipHeight(tip, baseRadius(tip)))
+        << " mm, all in contact with a half-space at "
+        << toMillimetres(contactDepth(tip, baseRadius(tip))) << " mm";
+  }
   else
   {
-    out << "profile of revolution, base " << base << " mm";
+    out << (std::holds_alternative<PunchTip>(tip) ? "flat punch" : "paraboloid") << ", R = " << base
+        << " mm";
   }
   return out.str();
 }
@@ -69,7 +92,29 @@ nlohmann::json json(const Fit& fit)
     { "largest_residual_mm", fit.worst }, { "up_to_depth_mm", fit.upTo } };
 }
 
-constexpr char kMagic[] = "palp checkpoint 1\n";
+constexpr const char* kTable = "table.csv";
+constexpr const char* kProfiles = "profiles.csv";
+constexpr const char* kColumns = "depth_mm,radius_mm,ur_mm,uz_mm"; // of the profiles
+constexpr const char* kCheckpoint = "checkpoint.bin";
+constexpr const char* kMagic = "palp checkpoint 1\n";
+
+bool begins(std::istream& in, const std::string& text)
+{
+  std::string start(text.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in && start == text;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what)
+{
+  throw Error(ErrorCode::BadFile, file.string() + ": " + what + "; start again without --resume");
+}
+
+bool has(const std::vector<Indented>& steps, double depth)
+{
+  return std::ranges::any_of(steps,
+    [depth](const Indented& step) { return std::abs(step.depth - depth) <= kSameDepth * depth; });
+}
 
 void putDoubles(std::ostream& out, const double* values, Eigen::Index count)
 {
@@ -79,11 +124,13 @@ void putDoubles(std::ostream& out, const double* values, Eigen::Index count)
 
 } // namespace
 
-std::string describe(const Case& study, const Body& body)
+std::string describe(const Case& study, const Body& body, int digits)
 {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << "# palp " << PALP_VERSION << ": " << study.name << "\n# tool: " << tipText(study.tip)
+  out.precision(digits);
+  out << "# palp " << PALP_VERSION << ": " << study.name
+      << "\n# tool: " << tipText(study.tip, digits)
       << "; depth counted from its tip\n# block: " << toMillimetres(study.width) << " x "
       << toMillimetres(study.length) << " x " << toMillimetres(study.height)
       << " mm, base bonded, sides free, frictionless\n# material: "
@@ -102,8 +149,7 @@ std::string describe(const Case& study, const Body& body)
 
 std::string tableText(const Case& study, const std::string& header, const Outcome& outcome)
 {
-  auto table =
-    text(header + noteOf(outcome), "depth_mm,extent_radius_mm,force_N,contact_radius_mm");
+  auto table = text(header + noteOf(outcome), ExtentTable::kHeader);
   for (const Indented& step : outcome.steps)
   {
     table << toMillimetres(step.depth) << ','
@@ -116,7 +162,8 @@ std::string tableText(const Case& study, const std::string& header, const Outcom
 std::vector<Indented> readSteps(const std::filesystem::path& folder)
 {
   std::vector<Indented> steps;
-  for (const auto& row : readCsv(folder / "table.csv", 4))
+  for (const auto& [row, line] :
+    NumberTable::readFinite(folder / kTable, ExtentTable::kHeader).rows)
   {
     Indented step;
     step.depth = units::fromMillimetres(row[0]);
@@ -125,7 +172,7 @@ std::vector<Indented> readSteps(const std::filesystem::path& folder)
     steps.push_back(step);
   }
   std::size_t at = 0;
-  for (const auto& row : readCsv(folder / "profiles.csv", 4))
+  for (const auto& [row, line] : NumberTable::readFinite(folder / kProfiles, kColumns).rows)
   {
     const double depth = units::fromMillimetres(row[0]);
     while (at < steps.size() && steps[at].depth < depth)
@@ -145,6 +192,8 @@ StudyFiles::StudyFiles(std::filesystem::path folder, const Case& study, const Bo
   : folder_(std::move(folder))
   , study_(study)
   , header_(describe(study, body))
+  , key_(describe(study, body, std::numeric_limits<double>::max_digits10) +
+      "# squared distances of the nodes: " + shortest(body.positions.squaredNorm()))
 {
   std::error_code failed;
   std::filesystem::create_directories(folder_, failed);
@@ -156,7 +205,7 @@ StudyFiles::StudyFiles(std::filesystem::path folder, const Case& study, const Bo
 
 void StudyFiles::write(const Outcome& outcome) const
 {
-  auto profiles = text(header_ + noteOf(outcome), "depth_mm,radius_mm,ur_mm,uz_mm");
+  auto profiles = text(header_ + noteOf(outcome), kColumns);
   std::vector<double> depths;
   std::vector<double> extents;
   for (const Indented& step : outcome.steps)
@@ -169,8 +218,8 @@ void StudyFiles::write(const Outcome& outcome) const
                << toMillimetres(point.ur) << ',' << toMillimetres(point.uz) << '\n';
     }
   }
-  replace(folder_ / "table.csv", tableText(study_, header_, outcome));
-  replace(folder_ / "profiles.csv", profiles.str());
+  replace(folder_ / kProfiles, profiles.str());
+  replace(folder_ / kTable, tableText(study_, header_, outcome));
 
   const ExtentFits fits = fitExtent(depths, extents);
   const nlohmann::json fitted{ { "of", "extent_radius_mm over depth_mm, lowest power first" },
@@ -183,32 +232,34 @@ void StudyFiles::write(const Outcome& outcome) const
 void StudyFiles::save(const Checkpoint& checkpoint) const
 {
   std::ostringstream out(std::ios::binary);
-  out << kMagic << header_ << '\n';
+  out << kMagic << key_ << '\n';
   const auto steps = static_cast<double>(checkpoint.displacement.size());
   putDoubles(out, &steps, 1);
   putDoubles(out, &checkpoint.depth, 1);
   putDoubles(out, checkpoint.displacement.data(), checkpoint.displacement.size());
-  replace(folder_ / "checkpoint.bin", out.str());
+  replace(folder_ / kCheckpoint, out.str());
 }
 
 Saved StudyFiles::load() const
 {
   Saved saved;
-  std::ifstream in(folder_ / "checkpoint.bin", std::ios::binary);
+  const auto file = folder_ / kCheckpoint;
+  std::ifstream in(file, std::ios::binary);
   if (!in)
   {
     return saved;
   }
-  const auto refuse = [&](const std::string& what)
+  if (!begins(in, kMagic + key_ + '\n'))
   {
-    throw Error(ErrorCode::BadFile,
-      (folder_ / "checkpoint.bin").string() + ": " + what + "; start again without --resume");
-  };
-  std::string head(sizeof kMagic - 1 + header_.size() + 1, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (head != kMagic + header_ + '\n')
+    refuse(file, "is of another case");
+  }
+  for (const char* name : { kTable, kProfiles })
   {
-    refuse("is of another case");
+    std::ifstream table(folder_ / name, std::ios::binary);
+    if (!begins(table, header_))
+    {
+      refuse(folder_ / name, "is of another case than the checkpoint beside it");
+    }
   }
   double size = 0.0;
   Checkpoint checkpoint;
@@ -218,15 +269,25 @@ Saved StudyFiles::load() const
   get(&checkpoint.depth, 1);
   if (!in || !(size > 0.0 && size < 1e8))
   {
-    refuse("is damaged");
+    refuse(file, "is damaged");
   }
   checkpoint.displacement.resize(static_cast<Eigen::Index>(size));
   get(checkpoint.displacement.data(), checkpoint.displacement.size());
+
+  // the table may be one depth ahead
+  const double deepest = checkpoint.depth * (1.0 + kSameDepth);
   saved.steps = readSteps(folder_);
-  if (!in || saved.steps.empty() ||
-    std::abs(saved.steps.back().depth - checkpoint.depth) > 1e-9 * checkpoint.depth)
+  std::erase_if(saved.steps, [&](const Indented& step) { return step.depth > deepest; });
+  if (!in || !has(saved.steps, checkpoint.depth) ||
+    std::ranges::any_of(saved.steps, [](const Indented& step) { return step.profile.empty(); }))
   {
-    refuse("does not fit the table beside it");
+    refuse(file, "does not fit the tables beside it");
+  }
+  const auto missing = std::ranges::find_if(
+    study_.depths, [&](double depth) { return depth < deepest && !has(saved.steps, depth); });
+  if (missing != study_.depths.end())
+  {
+    refuse(file, "is past " + shortest(toMillimetres(*missing)) + " mm, which the table lacks");
   }
   saved.checkpoint = std::move(checkpoint);
   return saved;

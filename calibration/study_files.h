@@ -7,19 +7,23 @@
 namespace palp::fem
 {
 
-/// What a folder holds of an earlier run.
+constexpr double kSameDepth = 1e-9; ///< of a depth [-], by which the digits of a file may err
+
+/// What a folder holds of an earlier run: the steps as readSteps gives them.
 struct Saved
 {
   std::vector<Indented> steps{};
   std::optional<Checkpoint> checkpoint{};
 };
 
-/// The depths of table.csv with the profiles of profiles.csv.
+/// The depths of table.csv with the profiles of profiles.csv. What no file holds is 0: base
+/// reaction, penetration and inverted elements.
 /// @throws Error  BadFile
 [[nodiscard]] std::vector<Indented> readSteps(const std::filesystem::path& folder);
 
-/// Lines with # that name all inputs, the energy, the mesh and the version.
-[[nodiscard]] std::string describe(const Case& study, const Body& body);
+/// Lines with # that name all inputs but the depths, the energy, the mesh and the version.
+/// @param digits  of each number; 17 tell any two cases apart
+[[nodiscard]] std::string describe(const Case& study, const Body& body, int digits = 6);
 
 /// The contents of table.csv.
 [[nodiscard]] std::string tableText(
@@ -32,19 +36,22 @@ public:
   /// @throws Error  BadFile: the folder cannot be made
   StudyFiles(std::filesystem::path folder, const Case& study, const Body& body);
 
-  /// Each file is replaced whole, so that an interruption leaves the one before.
+  /// Each file is replaced whole, so that an interruption leaves the one before. The surfaces come
+  /// before the table and the checkpoint last: no file says more than those before it.
   /// @throws Error  BadFile: not writable
   void write(const Outcome& outcome) const;
   void save(const Checkpoint& checkpoint) const;
 
-  /// @return        nothing where there is no checkpoint
-  /// @throws Error  BadFile: of another case, or damaged
+  /// @return        up to the checkpoint; nothing where there is none
+  /// @throws Error  BadFile: of another case, damaged, or already deeper than a depth that is
+  ///                missing
   [[nodiscard]] Saved load() const;
 
 private:
   std::filesystem::path folder_;
   const Case& study_;
-  std::string header_; // lines with #, all inputs
+  std::string header_; // lines with #, for people
+  std::string key_;    // the same with every digit, and where the nodes are
 };
 
 } // namespace palp::fem

@@ -1,8 +1,9 @@
 #include "calibration/surface_table.h"
 
-#include "calibration/csv_rows.h"
+#include "calibration/csv_text.h"
 #include "haptics/error.h"
 #include "haptics/force/monotone_cubic.h"
+#include "haptics/force/number_table.h"
 
 #include <algorithm>
 
@@ -11,66 +12,53 @@ namespace palp
 namespace
 {
 
-struct Between
-{
-  std::size_t low;
-  double weight; // of the next one
-};
-
-Between between(const std::vector<double>& axis, double value)
-{
-  const double x = std::clamp(value, axis.front(), axis.back());
-  const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
-  const auto low = static_cast<std::size_t>(above - axis.begin()) - 1;
-  return { low, (x - axis[low]) / (axis[low + 1] - axis[low]) };
-}
-
 // a surface through its values at the radii of a table
 class Curve
 {
 public:
   explicit Curve(const std::array<double, SurfaceTable::kRadii.size()>& sinks)
     : sinks_(sinks)
-    , slopes_(monotoneSlopes(radii(), sinks_))
+    , slopes_(monotoneSlopes(SurfaceTable::kRadii, sinks_))
   {
   }
 
   // x: distance from the axis over the tip's radius
   [[nodiscard]] double at(double x) const
   {
-    if (!(x >= 0.0) || x > radii().back())
+    if (!(x >= 0.0) || x > SurfaceTable::kRadii.back())
     {
       return 0.0;
     }
-    const auto [low, weight] = between(radii(), x);
-    return hermite(weight, radii()[low + 1] - radii()[low], sinks_[low], sinks_[low + 1],
-      slopes_[low], slopes_[low + 1])
-      .value;
+    return cubicAt(SurfaceTable::kRadii, sinks_, slopes_, x).value;
   }
 
 private:
-  static const std::vector<double>& radii()
-  {
-    static const std::vector<double> all(SurfaceTable::kRadii.begin(), SurfaceTable::kRadii.end());
-    return all;
-  }
-
   std::array<double, SurfaceTable::kRadii.size()> sinks_;
   std::vector<double> slopes_;
 };
 
 } // namespace
 
+std::string SurfaceTable::header()
+{
+  std::string columns = "depth_over_radius,radius_over_thickness,poisson_ratio";
+  for (const double radius : kRadii)
+  {
+    columns += ",sink_at_" + shortest(radius);
+  }
+  return columns;
+}
+
 SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
 {
-  const auto lines = readCsv(file, 3 + kRadii.size());
+  const auto lines = NumberTable::readFinite(file, header()).rows;
   SurfaceTable table;
   for (std::size_t a = 0; a < 3; ++a)
   {
     auto& axis = table.axes_[a];
     for (const auto& line : lines)
     {
-      axis.push_back(line[2 - a]);
+      axis.push_back(line.values[2 - a]);
     }
     std::sort(axis.begin(), axis.end());
     axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
@@ -83,16 +71,22 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
       file.string() + ": not every combination of depth, thickness and nu; make the tables again");
   }
   table.rows_.resize(size);
-  for (const auto& line : lines)
+  std::vector<char> seen(size, 0);
+  for (const auto& [values, line] : lines)
   {
     std::size_t at = 0;
     for (std::size_t a = 0; a < 3; ++a)
     {
       const auto& axis = table.axes_[a];
-      const auto found = std::lower_bound(axis.begin(), axis.end(), line[2 - a]);
+      const auto found = std::lower_bound(axis.begin(), axis.end(), values[2 - a]);
       at = at * axis.size() + static_cast<std::size_t>(found - axis.begin());
     }
-    std::copy(line.begin() + 3, line.end(), table.rows_[at].begin());
+    if (seen[at] != 0)
+    {
+      throw Error(ErrorCode::BadFile, where(file, line) + "given twice; give each place once");
+    }
+    seen[at] = 1;
+    std::copy(values.begin() + 3, values.end(), table.rows_[at].begin());
   }
   return table;
 }
@@ -100,16 +94,16 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
 SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
 {
   const double depth = place.depth / place.tipRadius;
-  const auto n = between(axes_[0], place.poissonRatio);
-  const auto h = between(axes_[1], place.tipRadius / place.thickness);
-  const auto d = between(axes_[2], depth);
+  const auto n = bracket(axes_[0], place.poissonRatio);
+  const auto h = bracket(axes_[1], place.tipRadius / place.thickness);
+  const auto d = bracket(axes_[2], depth);
   Row sum{};
   for (int corner = 0; corner < 8; ++corner)
   {
-    const auto pick = [corner](int bit, const Between& b)
+    const auto pick = [corner](int bit, const Bracket& b)
     {
       const bool upper = (corner >> bit & 1) != 0;
-      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.weight : 1.0 - b.weight };
+      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.place : 1.0 - b.place };
     };
     const auto [i, wi] = pick(0, n);
     const auto [j, wj] = pick(1, h);

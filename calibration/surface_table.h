@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace palp
@@ -31,7 +32,10 @@ public:
     double poissonRatio; ///< nu
   };
 
-  /// @throws Error  BadFile: missing, or not a full grid
+  /// Columns of a file: depth / R, R / thickness, nu and the sink over R at each of kRadii.
+  [[nodiscard]] static std::string header();
+
+  /// @throws Error  BadFile: missing, another header, not a full grid, or a place twice
   [[nodiscard]] static SurfaceTable read(const std::filesystem::path& file);
 
   /// Sink of the surface [m], 0 beyond the last radius. Outside the grid, as at its border; beyond

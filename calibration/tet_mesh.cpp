@@ -70,6 +70,74 @@ double squaredEdge(const Eigen::Matrix3Xd& x, const std::array<int, 4>& tet)
   return sum / 6.0;
 }
 
+// numbers of the nodes of a block
+struct Nodes
+{
+  int n; // along each side
+  int layers;
+
+  int operator()(int i, int j, int k) const
+  {
+    return (k * n + j) * n + i;
+  }
+};
+
+void placeNodes(TetMesh& mesh, const Nodes& node, double width, double height)
+{
+  const double spacing = width / (node.n - 1);
+  const std::vector<double> heights = layerHeights(height, spacing, node.layers);
+  for (int k = 0; k < node.layers; ++k)
+  {
+    for (int j = 0; j < node.n; ++j)
+    {
+      for (int i = 0; i < node.n; ++i)
+      {
+        mesh.positions.col(node(i, j, k)) << i * spacing - 0.5 * width, j * spacing - 0.5 * width,
+          heights[static_cast<std::size_t>(k)];
+      }
+    }
+  }
+}
+
+// one tetrahedron for each way along three edges from one corner of a cell to the opposite one;
+// in odd cells the way is mirrored
+void addTets(TetMesh& mesh, const Nodes& node, const std::array<int, 3>& cell)
+{
+  const auto corner = [&](std::array<int, 3> at)
+  {
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      at[d] = cell[d] + (cell[d] % 2 == 0 ? at[d] : 1 - at[d]);
+    }
+    return node(at[0], at[1], at[2]);
+  };
+  std::array<std::size_t, 3> axes{ 0, 1, 2 };
+  do
+  {
+    std::array<int, 3> at{ 0, 0, 0 };
+    std::array<int, 4> tet{ corner(at) };
+    for (std::size_t s = 0; s < 3; ++s)
+    {
+      at[axes[s]] = 1;
+      tet[s + 1] = corner(at);
+    }
+    mesh.tets.push_back(tet);
+  } while (std::next_permutation(axes.begin(), axes.end()));
+}
+
+// the top of a cell, cut along the diagonal that its tetrahedra have there
+void addTriangles(TetMesh& mesh, const Nodes& node, int i, int j)
+{
+  const int from = i % 2 == j % 2 ? 0 : 1;
+  const int z = node.layers - 1;
+  const int a = node(i + from, j, z);
+  const int b = node(i + 1, j + from, z);
+  const int c = node(i + 1 - from, j + 1, z);
+  const int d = node(i, j + 1 - from, z);
+  mesh.triangles.push_back({ a, b, c });
+  mesh.triangles.push_back({ a, c, d });
+}
+
 } // namespace
 
 Eigen::Matrix3d edgesOf(const Eigen::Matrix3Xd& positions, const std::array<int, 4>& tet)
@@ -103,66 +171,25 @@ TetMesh blockTets(double width, double height, int n, int layers)
   require(n >= 2 && layers >= 2 && n <= 1000 && layers <= 1000, ErrorCode::BadValue,
     "block: give 2 to 1000 nodes along each side and along the height");
 
-  const double spacing = width / (n - 1);
-  const std::vector<double> heights = layerHeights(height, spacing, layers);
-  const auto node = [n](int i, int j, int k) { return (k * n + j) * n + i; };
+  const Nodes nodes{ n, layers };
   TetMesh mesh;
   mesh.positions.resize(3, n * n * layers);
-  for (int k = 0; k < layers; ++k)
-  {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        mesh.positions.col(node(i, j, k)) << i * spacing - 0.5 * width, j * spacing - 0.5 * width,
-          heights[static_cast<std::size_t>(k)];
-      }
-    }
-  }
+  placeNodes(mesh, nodes, width, height);
   for (int i = 0; i < n * n; ++i)
   {
     mesh.bonded.push_back(i);
-    mesh.surface.push_back(node(0, 0, layers - 1) + i);
+    mesh.surface.push_back(nodes(0, 0, layers - 1) + i);
   }
-
-  // one tetrahedron for each way along three edges from one corner of a cell to the opposite one;
-  // in odd cells the way is mirrored
-  const auto corner = [&](const std::array<int, 3>& cell, std::array<int, 3> at)
-  {
-    for (std::size_t d = 0; d < 3; ++d)
-    {
-      at[d] = cell[d] + (cell[d] % 2 == 0 ? at[d] : 1 - at[d]);
-    }
-    return node(at[0], at[1], at[2]);
-  };
   for (int k = 0; k + 1 < layers; ++k)
   {
     for (int j = 0; j + 1 < n; ++j)
     {
       for (int i = 0; i + 1 < n; ++i)
       {
-        std::array<std::size_t, 3> axes{ 0, 1, 2 };
-        do
-        {
-          std::array<int, 3> at{ 0, 0, 0 };
-          std::array<int, 4> tet{ corner({ i, j, k }, at) };
-          for (std::size_t s = 0; s < 3; ++s)
-          {
-            at[axes[s]] = 1;
-            tet[s + 1] = corner({ i, j, k }, at);
-          }
-          mesh.tets.push_back(tet);
-        } while (std::next_permutation(axes.begin(), axes.end()));
+        addTets(mesh, nodes, { i, j, k });
         if (k + 2 == layers)
         {
-          const int from = i % 2 == j % 2 ? 0 : 1; // the diagonal that the tetrahedra have there
-          const int z = layers - 1;
-          const int a = node(i + from, j, z);
-          const int b = node(i + 1, j + from, z);
-          const int c = node(i + 1 - from, j + 1, z);
-          const int d = node(i, j + 1 - from, z);
-          mesh.triangles.push_back({ a, b, c });
-          mesh.triangles.push_back({ a, c, d });
+          addTriangles(mesh, nodes, i, j);
         }
       }
     }

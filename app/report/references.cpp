@@ -1,8 +1,8 @@
 #include "app/report/references.h"
 
 #include "app/data_files.h"
-#include "calibration/csv_rows.h"
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -14,8 +14,6 @@ namespace
 {
 
 using namespace units::literals;
-
-constexpr std::size_t kColumns = 6; // of a table of forces, the first two of which are read
 
 BlockPress spherePress(double radius, double height, const char* name, const char* table,
   const char* neoHookean, const char* linear, const char* corotated)
@@ -55,12 +53,15 @@ ReferenceForces referenceForces(const BlockPress& press, fem::Energy energy)
     : energy == fem::Energy::Corotated                    ? press.corotated
                                                           : press.neoHookean;
   // one table has fewer columns, its values being restored from a summary
-  const std::size_t columns = name == "calib_cone45__COROT_h0.5" ? 3 : kColumns;
+  const char* header = name == "calib_cone45__COROT_h0.5"
+    ? "delta_m,F_N,Rd05_ref_m"
+    : "delta_m,F_N,a_ref_m,a_def_m,Rd05_ref_m,Rd05_def_m";
   ReferenceForces reference;
-  for (const auto& row : readCsv(dataFile("reference/" + name + ".csv"), columns))
+  const auto table = NumberTable::readFinite(dataFile("reference/" + name + ".csv"), header);
+  for (const auto& [values, line] : table.rows)
   {
-    reference.depths.push_back(row[0]);
-    reference.forces.push_back(row[1]);
+    reference.depths.push_back(values[0]);
+    reference.forces.push_back(values[1]);
   }
   return reference;
 }
@@ -84,14 +85,16 @@ double ReferenceSurface::sinkAt(double at) const
 std::vector<ReferenceSurface> referenceSurfaces(const BlockPress& press)
 {
   std::vector<ReferenceSurface> surfaces;
-  for (const auto& row : readCsv(dataFile("reference/" + press.neoHookean + "__profiles.csv"), 4))
+  const auto file = dataFile("reference/" + press.neoHookean + "__profiles.csv");
+  const auto table = NumberTable::readFinite(file, "delta_m,r_ref_m,ur_m,uz_m");
+  for (const auto& [values, line] : table.rows)
   {
-    if (surfaces.empty() || surfaces.back().depth != row[0])
+    if (surfaces.empty() || surfaces.back().depth != values[0])
     {
-      surfaces.push_back({ .depth = row[0], .radius = {}, .sink = {} });
+      surfaces.push_back({ .depth = values[0], .radius = {}, .sink = {} });
     }
-    surfaces.back().radius.push_back(row[1] + row[2]);
-    surfaces.back().sink.push_back(-row[3]);
+    surfaces.back().radius.push_back(values[1] + values[2]);
+    surfaces.back().sink.push_back(-values[3]);
   }
   return surfaces;
 }

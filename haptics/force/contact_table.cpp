@@ -20,7 +20,11 @@ double contactRadius(const Tip& tip, double depth, double low, double high)
 {
   double below = contactDepth(tip, low) - depth;
   double above = contactDepth(tip, high) - depth;
-  for (int i = 0; i < 60 && high - low > 1e-14 * high && above > 0.0; ++i)
+  if (!(above > 0.0))
+  {
+    return high; // rounding at a wall, which rises by more than one row between two numbers
+  }
+  for (int i = 0; i < 60 && high - low > 1e-14 * high; ++i)
   {
     const double middle =
       below < 0.0 ? std::clamp((low * above - high * below) / (above - below), low, high) : low;

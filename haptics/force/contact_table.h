@@ -28,7 +28,8 @@ public:
   explicit ContactTable(const Tip& tip);
 
   /// @param depth  [m], more than 0; at most baseDepth() is read
-  /// @return       smooth and monotone in depth, relative error of the force below 1e-6
+  /// @return       smooth and monotone in depth, relative error of the force below 1e-6, within
+  ///               4 % of the depth at which a corner of a profile is reached below 6e-5
   /// @realtime     pure; no allocation, no lock, no exception
   [[nodiscard]] Entry operator()(double depth) const noexcept;
 

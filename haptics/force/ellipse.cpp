@@ -30,14 +30,7 @@ EllipseFactor::EllipseFactor()
 
 double EllipseFactor::operator()(double spread) const noexcept
 {
-  const double x = std::clamp(spread, 0.0, kSlimmest);
-  const auto above = std::upper_bound(spreads_.begin() + 1, spreads_.end() - 1, x);
-  const auto high = static_cast<std::size_t>(above - spreads_.begin());
-  const std::size_t low = high - 1;
-  const double width = spreads_[high] - spreads_[low];
-  return hermite(
-    (x - spreads_[low]) / width, width, factors_[low], factors_[high], slopes_[low], slopes_[high])
-    .value;
+  return cubicAt(spreads_, factors_, slopes_, std::clamp(spread, 0.0, kSlimmest)).value;
 }
 
 } // namespace palp

@@ -31,11 +31,6 @@ double newton(double x, Function stepAt) noexcept
   return x;
 }
 
-double cot(double angle) noexcept
-{
-  return 1.0 / std::tan(angle);
-}
-
 // a cone whose tip is a cap: the lengths that its formulas share
 struct CappedCone
 {

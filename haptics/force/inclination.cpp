@@ -42,6 +42,16 @@ constexpr double slopeAt(std::size_t i) noexcept
     (before + after);
 }
 
+constexpr auto kSlopes = []
+{
+  std::array<double, kTilts.size()> slopes{};
+  for (std::size_t i = 0; i < slopes.size(); ++i)
+  {
+    slopes[i] = slopeAt(i);
+  }
+  return slopes;
+}();
+
 // tilt at which the force of a cone is 7 % higher: the parabola through the three half angles
 double noticeableTilt(const ConeTip& cone) noexcept
 {
@@ -68,14 +78,8 @@ double tiltFactor(const Tip& tip, double tilt) noexcept
   {
     return 1.0;
   }
-  const double place = std::min(std::abs(tilt) * kMiddle / noticeableTilt(*cone), kTilts.back());
-  const auto above = std::upper_bound(kTilts.begin() + 1, kTilts.end() - 1, place);
-  const auto high = static_cast<std::size_t>(above - kTilts.begin());
-  const std::size_t low = high - 1;
-  const double width = kTilts[high] - kTilts[low];
-  return hermite(
-    (place - kTilts[low]) / width, width, kForces[low], kForces[high], slopeAt(low), slopeAt(high))
-    .value;
+  const double place = std::abs(tilt) * kMiddle / noticeableTilt(*cone);
+  return cubicAt(kTilts, kForces, kSlopes, place).value;
 }
 
 double tiltReach(const Tip& tip) noexcept

@@ -30,37 +30,16 @@ void checkAxis(const std::vector<double>& axis, const std::string& name, std::si
   }
 }
 
-// neighbours on an axis and the weight of the upper one
-struct Bracket
-{
-  std::size_t low = 0;
-  std::size_t high = 0;
-  double weight = 0.0;
-};
-
 bool near(const std::vector<double>& axis, double value) noexcept
 {
   return value >= axis.front() - kNear && value <= axis.back() + kNear;
-}
-
-Bracket bracket(const std::vector<double>& axis, double value) noexcept
-{
-  if (axis.size() == 1)
-  {
-    return {};
-  }
-  const double x = std::clamp(value, axis.front(), axis.back());
-  const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
-  const auto high = static_cast<std::size_t>(above - axis.begin());
-  const std::size_t low = high - 1;
-  return { low, high, (x - axis[low]) / (axis[high] - axis[low]) };
 }
 
 // the grid in a file; scale brings the second column to SI
 LargeStrainGrid readGrid(
   const std::filesystem::path& file, const std::string& header, double (*scale)(double))
 {
-  const NumberTable table = NumberTable::read(file, header);
+  const NumberTable table = NumberTable::readFinite(file, header);
   std::array<std::vector<double>, 3> axes;
   for (const NumberTable::Row& row : table.rows)
   {
@@ -131,11 +110,10 @@ LargeStrainGrid::LargeStrainGrid(std::vector<double> first, std::vector<double> 
 
 LargeStrainGrid::Ratio LargeStrainGrid::along(std::size_t row, double first) const noexcept
 {
-  const Bracket b = bracket(first_, first);
-  const std::size_t low = row * first_.size() + b.low;
-  const double width = first_[b.high] - first_[b.low];
-  const Cubic cubic =
-    hermite(b.weight, width, ratios_[low], ratios_[low + 1], slopes_[low], slopes_[low + 1]);
+  const std::size_t count = first_.size();
+  const auto of = [&](const std::vector<double>& all)
+  { return std::span(all).subspan(row * count, count); };
+  const Cubic cubic = cubicAt(first_, of(ratios_), of(slopes_), first);
   const bool inside = first >= first_.front() && first <= first_.back();
   return { cubic.value, inside ? cubic.slope : 0.0, inside };
 }
@@ -149,6 +127,8 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
   }
   const Bracket s = bracket(second_, second);
   const Bracket n = bracket(poisson_, poisson);
+  const std::size_t nextShape = std::min(s.low + 1, second_.size() - 1);
+  const std::size_t nextPoisson = std::min(n.low + 1, poisson_.size() - 1);
   Ratio result{ 0.0, 0.0, near(second_, second) };
   const auto add = [&](std::size_t nu, std::size_t shape, double weight)
   {
@@ -157,10 +137,10 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
     result.slope += weight * one.slope;
     result.inside = result.inside && one.inside;
   };
-  add(n.low, s.low, (1.0 - n.weight) * (1.0 - s.weight));
-  add(n.low, s.high, (1.0 - n.weight) * s.weight);
-  add(n.high, s.low, n.weight * (1.0 - s.weight));
-  add(n.high, s.high, n.weight * s.weight);
+  add(n.low, s.low, (1.0 - n.place) * (1.0 - s.place));
+  add(n.low, nextShape, (1.0 - n.place) * s.place);
+  add(nextPoisson, s.low, n.place * (1.0 - s.place));
+  add(nextPoisson, nextShape, n.place * s.place);
   return result;
 }
 

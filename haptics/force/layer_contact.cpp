@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palp
 {
@@ -11,6 +12,8 @@ namespace
 constexpr int kMostSteps = 30;       // of the secant method; three or four are usual
 constexpr double kClose = 1e-8;      // of the depth; the force errs by its square
 constexpr double kLongestStep = 4.0; // factor by which a step may change the depth
+constexpr int kHollowSamples = 700;  // down to a thousandth of the base
+constexpr double kHollowSpacing = 0.99;
 
 } // namespace
 
@@ -19,18 +22,19 @@ LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)
   , layer_(poissonRatio, base)
   , mostHollow_(0.0)
 {
-  // the least of depth / a^2 over the tip
   if (flatRadius(tip) > 0.0)
   {
     return;
   }
-  constexpr int samples = 200;
-  for (int i = 1; i <= samples; ++i)
+  // the least of depth / a^2 over the tip, by radii: a step may lie where the depth hardly grows;
+  // depth / a never falls, so from one radius to the next it is at least that of the smaller one
+  double outer = table_(table_.baseDepth()).radius;
+  mostHollow_ = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kHollowSamples; ++i)
   {
-    const double depth = table_.baseDepth() * i / samples;
-    const double radius = table_(depth).radius;
-    const double hollow = 0.5 * depth / (radius * radius);
-    mostHollow_ = i == 1 ? hollow : std::min(mostHollow_, hollow);
+    const double inner = kHollowSpacing * outer;
+    mostHollow_ = std::min(mostHollow_, 0.5 * contactDepth(tip, inner) / (inner * outer));
+    outer = inner;
   }
 }
 

@@ -6,6 +6,25 @@
 namespace palp
 {
 
+Bracket bracket(std::span<const double> axis, double value) noexcept
+{
+  if (axis.size() < 2)
+  {
+    return { 0, 0.0 };
+  }
+  const double x = std::clamp(value, axis.front(), axis.back());
+  const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
+  const auto low = static_cast<std::size_t>(above - axis.begin()) - 1;
+  return { low, (x - axis[low]) / (axis[low + 1] - axis[low]) };
+}
+
+Cubic cubicAt(std::span<const double> x, std::span<const double> y, std::span<const double> slopes,
+  double at) noexcept
+{
+  const auto [low, place] = bracket(x, at);
+  return hermite(place, x[low + 1] - x[low], y[low], y[low + 1], slopes[low], slopes[low + 1]);
+}
+
 std::vector<double> polynomialSlopes(std::span<const double> x, std::span<const double> y)
 {
   const std::size_t count = x.size();

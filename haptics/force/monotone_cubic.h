@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,28 @@ struct Cubic
   return { y0 + width * place * (slope0 + place * (turn + place * bend)),
     slope0 + place * (2.0 * turn + 3.0 * place * bend) };
 }
+
+/// An interval of an axis.
+struct Bracket
+{
+  std::size_t low; ///< its first point
+  double place;    ///< 0 to 1, towards the next point
+};
+
+/// The interval that holds a value; beyond the axis, its border.
+///
+/// @param axis  increasing; of one value alone it is { 0, 0 }
+/// @realtime    pure; no allocation, no lock, no exception
+[[nodiscard]] Bracket bracket(std::span<const double> axis, double value) noexcept;
+
+/// The curve of cubics through points; beyond them, the border.
+///
+/// @param x       2 or more, increasing
+/// @param y       as many
+/// @param slopes  dy/dx, as many
+/// @realtime      pure; no allocation, no lock, no exception
+[[nodiscard]] Cubic cubicAt(std::span<const double> x, std::span<const double> y,
+  std::span<const double> slopes, double at) noexcept;
 
 /// Slopes at points of a smooth curve, of the polynomial through the nearest five points.
 ///

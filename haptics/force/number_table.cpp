@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 
@@ -81,6 +82,19 @@ NumberTable NumberTable::read(const std::filesystem::path& file, const std::stri
       }
     }
     started = true;
+  }
+  return table;
+}
+
+NumberTable NumberTable::readFinite(const std::filesystem::path& file, const std::string& header)
+{
+  NumberTable table = read(file, header);
+  for (const Row& row : table.rows)
+  {
+    if (!std::ranges::all_of(row.values, [](double value) { return std::isfinite(value); }))
+    {
+      throw Error(ErrorCode::BadFile, where(file, row.line) + "not finite; give numbers");
+    }
   }
   return table;
 }

@@ -22,6 +22,10 @@ struct NumberTable
   /// @throws Error  BadFile: missing, another header, not a number, too few columns; with the line
   [[nodiscard]] static NumberTable read(
     const std::filesystem::path& file, const std::string& header);
+
+  /// @throws Error  BadFile: also where a number is infinite or none
+  [[nodiscard]] static NumberTable readFinite(
+    const std::filesystem::path& file, const std::string& header);
 };
 
 /// "FILE:LINE: ", as messages begin.

@@ -2,8 +2,18 @@
 
 #include "haptics/force/tip.h"
 
+#include <cmath>
+
 namespace palp
 {
+
+/// Slope of a cone's flank.
+/// @param angle  alpha [rad] between axis and flank
+/// @realtime     pure; no allocation, no lock, no exception
+[[nodiscard]] inline double cot(double angle) noexcept
+{
+  return 1.0 / std::tan(angle);
+}
 
 /// Calls function with the shape that a tip has.
 ///

@@ -18,11 +18,6 @@ using namespace units::literals;
 
 constexpr double kSteepest = 1e6; // [-], stands for the vertical flank of a sphere's equator
 
-double cot(double angle) noexcept
-{
-  return 1.0 / std::tan(angle);
-}
-
 // height and slope of a spherical cap
 double capHeight(double sphereRadius, double radius) noexcept
 {

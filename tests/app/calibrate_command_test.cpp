@@ -1,4 +1,4 @@
-#include "calibration/csv_rows.h"
+#include "haptics/force/number_table.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
@@ -24,6 +24,11 @@ std::filesystem::path freshFolder()
   return folder;
 }
 
+std::vector<NumberTable::Row> rowsOf(const std::filesystem::path& table)
+{
+  return NumberTable::read(table, "depth_mm,extent_radius_mm,force_N,contact_radius_mm").rows;
+}
+
 Finished calibrate(const std::string& arguments)
 {
   return test::runCommand(PALP_PROGRAM " calibrate --element-size 2mm " + arguments);
@@ -34,9 +39,9 @@ TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
   const auto folder = freshFolder();
   const Finished finished = calibrate("--material linear --depth 1:3:1mm --out " + folder.string());
   ASSERT_EQ(finished.code, 0) << finished.err;
-  const auto rows = readCsv(folder / "table.csv", 4);
+  const auto rows = rowsOf(folder / "table.csv");
   ASSERT_EQ(rows.size(), 3U);
-  for (const auto& row : rows)
+  for (const auto& [row, line] : rows)
   {
     const double hertz = 4.0 / 3.0 * 50e3 / (1 - 0.33 * 0.33) * 0.1 * std::pow(row[0] / 1e3, 1.5);
     EXPECT_GT(row[2], 0.95 * hertz);
@@ -58,15 +63,15 @@ TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
     " ]; do sleep 0.02; done; kill -INT $running; wait $running");
   EXPECT_EQ(stopped.code, 5);
   EXPECT_NE(stopped.err.find("--resume goes on from here"), std::string::npos) << stopped.err;
-  const auto before = readCsv(table, 4);
+  const auto before = rowsOf(table);
   ASSERT_GE(before.size(), 1U);
   ASSERT_LT(before.size(), 20U);
 
   const Finished resumed = test::runCommand(command + " --resume");
   EXPECT_EQ(resumed.code, 0) << resumed.err;
-  const auto after = readCsv(table, 4);
+  const auto after = rowsOf(table);
   ASSERT_EQ(after.size(), 20U);
-  EXPECT_EQ(after[0], before[0]);
+  EXPECT_EQ(after[0].values, before[0].values);
 }
 
 TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
@@ -81,7 +86,7 @@ TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
   EXPECT_EQ(finished.code, 5);
   EXPECT_NE(finished.err.find("good: done"), std::string::npos);
   EXPECT_NE(finished.err.find("1 of 2 cases"), std::string::npos);
-  EXPECT_EQ(readCsv(folder / "good" / "table.csv", 4).size(), 2U);
+  EXPECT_EQ(rowsOf(folder / "good" / "table.csv").size(), 2U);
   for (const char* name : { "extent.png", "force.png", "profiles.png" })
   {
     EXPECT_TRUE(std::filesystem::exists(folder / "good" / name)) << name;

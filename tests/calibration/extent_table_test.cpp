@@ -81,6 +81,31 @@ TEST(ExtentTable, RefusesBadFilesAndNamesTheLine)
   EXPECT_NE(refusal("").find("two rows"), std::string::npos);
 }
 
+// the first row of numbers must not be taken for the names of the columns
+TEST(ExtentTable, RefusesAFileWithoutItsHeader)
+{
+  EXPECT_NE(refusal("1,3,0.25,2\n2,7,0.5,4\n3,9,0.7,5\n").find(":1:"), std::string::npos);
+  EXPECT_NE(refusal("depth_m,extent_radius_m,force_N,contact_radius_m\n1,3,0.25,2\n2,7,0.5,4\n")
+              .find("depth_mm,extent_radius_mm,force_N,contact_radius_mm"),
+    std::string::npos);
+}
+
+TEST(ExtentTable, ReadsLinesAsWindowsEndsThem)
+{
+  const auto table = ExtentTable::read(
+    written("depth_mm,extent_radius_mm,force_N,contact_radius_mm\r\n1,3,0.25,2\r\n2,7,0.5,4\r\n"));
+  ASSERT_EQ(table.rows().size(), 2U);
+  EXPECT_DOUBLE_EQ(table.rows()[1].contactRadius, 4.0_mm);
+}
+
+TEST(ExtentTable, RefusesWhatIsNotFinite)
+{
+  EXPECT_NE(
+    refusal(kHeader + std::string("1,3,0.25,2\n2,7,nan,4\n")).find(":4:"), std::string::npos);
+  EXPECT_NE(
+    refusal(kHeader + std::string("1,3,0.25,2\n2,inf,0.5,4\n")).find(":4:"), std::string::npos);
+}
+
 TEST(ExtentTable, RefusesWhatItCannotOpen)
 {
   EXPECT_THROW((void)ExtentTable::read("no/such/table.csv"), Error);

@@ -1,12 +1,14 @@
 #include "calibration/study.h"
 
-#include "calibration/csv_rows.h"
 #include "calibration/curve_fit.h"
 #include "calibration/extent_table.h"
 #include "calibration/study_files.h"
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
+#include "haptics/force/profile.h"
 #include "tests/calibration/indentation_case.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -49,6 +51,21 @@ std::string refusal(const Case& study)
   return {};
 }
 
+// the message of the error that resuming gives; empty when it goes on
+std::string resumeRefusal(const std::filesystem::path& folder, const Case& study)
+{
+  try
+  {
+    (void)calibrateInto(folder, study, true);
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadFile);
+    return error.what();
+  }
+  return {};
+}
+
 TEST(Study, RefusesAbsurdGeometryBeforeAnyWork)
 {
   EXPECT_EQ(refusal(quick()), "");
@@ -68,6 +85,49 @@ TEST(Study, RefusesAbsurdGeometryBeforeAnyWork)
   study.model = BodyModel::Block;
   study.length = 80.0_mm;
   EXPECT_NE(refusal(study).find("--model"), std::string::npos);
+}
+
+// elements wider than evenly spaced ones do not fill the block, but overshoot it
+TEST(Study, RefusesElementsThatABlockCannotHold)
+{
+  Case study = quick();
+  study.model = BodyModel::Block;
+  study.elementSize = 100.0_mm / 29.0;
+  EXPECT_EQ(refusal(study), "");
+  study.elementSize *= 1.001;
+  EXPECT_NE(refusal(study).find("--element-size"), std::string::npos);
+  study.width = study.length = 10.0_mm;
+  study.height = 100.0_mm;
+  study.tip = SphereTip{ 4.0_mm };
+  study.elementSize = 20.0_mm;
+  EXPECT_NE(refusal(study).find("--element-size"), std::string::npos);
+}
+
+class BlockOf : public testing::TestWithParam<std::array<double, 4>>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Study, BlockOf,
+  testing::Values(std::array{ 100.0_mm, 50.0_mm, 10.0_mm, 0.0 },
+    std::array{ 100.0_mm, 50.0_mm, 44.0_mm, 0.0 }, std::array{ 100.0_mm, 4.0_mm, 44.0_mm, 0.0 },
+    std::array{ 10.0_mm, 100.0_mm, 4.0_mm, 10.0_mm / 29.0 },
+    std::array{ 100.0_mm, 5.0_mm, 10.0_mm, 1.0_mm },
+    std::array{ 100.0_mm, 50.0_mm, 10.0_mm, 0.01_mm }));
+
+TEST_P(BlockOf, HasTheSizeThatWasAskedFor)
+{
+  const auto [width, height, radius, elementSize] = GetParam();
+  Case study = quick();
+  study.model = BodyModel::Block;
+  study.width = study.length = width;
+  study.height = height;
+  study.tip = SphereTip{ radius };
+  study.elementSize = elementSize;
+  ASSERT_EQ(refusal(study), "");
+  const Body body = bodyOf(study);
+  EXPECT_NEAR(body.positions.row(0).maxCoeff(), 0.5 * width, 1e-9 * width);
+  EXPECT_NEAR(body.positions.row(1).maxCoeff(), 0.5 * width, 1e-9 * width);
+  EXPECT_NEAR(body.positions.row(2).minCoeff(), 0.0, 1e-9 * height);
+  EXPECT_NEAR(body.positions.row(2).maxCoeff(), height, 1e-9 * height);
 }
 
 TEST(Study, ExtentIsWhereTheDeformedSurfaceCrossesTheThreshold)
@@ -102,7 +162,9 @@ TEST(Study, FilesSayWhatWasComputed)
   std::ostringstream text;
   text << std::ifstream(folder / "table.csv").rdbuf();
   EXPECT_NE(text.str().find("W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2"), std::string::npos);
-  EXPECT_EQ(readCsv(folder / "profiles.csv", 4).size(), 3 * outcome.steps[0].profile.size());
+  EXPECT_EQ(
+    NumberTable::read(folder / "profiles.csv", "depth_mm,radius_mm,ur_mm,uz_mm").rows.size(),
+    3 * outcome.steps[0].profile.size());
   EXPECT_TRUE(std::filesystem::exists(folder / "fit.json"));
 }
 
@@ -131,6 +193,156 @@ TEST(Study, InterruptedAndResumedEqualsUninterrupted)
   EXPECT_NEAR(rest.steps[2].force, whole.steps[2].force, 1e-6 * whole.steps[2].force);
   EXPECT_NEAR(rest.steps[0].force, whole.steps[0].force, 1e-9 * whole.steps[0].force);
   EXPECT_EQ(rest.steps[1].profile.size(), whole.steps[1].profile.size());
+}
+
+// three depths are as if nothing had happened
+void expectWhole(const Outcome& outcome)
+{
+  static const Outcome kWhole = calibrate(quick());
+  ASSERT_EQ(outcome.steps.size(), kWhole.steps.size());
+  for (std::size_t i = 0; i < outcome.steps.size(); ++i)
+  {
+    const Indented& step = outcome.steps[i];
+    EXPECT_NEAR(step.depth, kWhole.steps[i].depth, 1e-9 * step.depth);
+    EXPECT_NEAR(step.force, kWhole.steps[i].force, 1e-6 * step.force);
+    EXPECT_EQ(step.profile.size(), kWhole.steps[i].profile.size());
+  }
+}
+
+// the disk refuses one file after the other, as if the program were killed before it
+TEST(Study, ResumesFromBetweenAnyTwoFiles)
+{
+  for (const char* name : { "profiles.csv", "table.csv", "fit.json", "checkpoint.bin" })
+  {
+    const auto folder = freshFolder();
+    const auto refused = folder / (std::string(name) + ".new");
+    EXPECT_THROW((void)calibrateInto(folder, quick(), false, {},
+                   [&](std::size_t done, std::size_t)
+                   {
+                     if (done == 2)
+                     {
+                       std::filesystem::create_directory(refused);
+                     }
+                   }),
+      Error)
+      << name;
+    std::filesystem::remove(refused);
+    try
+    {
+      expectWhole(calibrateInto(folder, quick(), true));
+    }
+    catch (const Error& error)
+    {
+      ADD_FAILURE() << name << ": " << error.what();
+    }
+  }
+}
+
+// no row of the table is without its curve, at no time
+TEST(Study, WritesTheSurfacesBeforeTheTable)
+{
+  const auto folder = freshFolder();
+  std::filesystem::create_directories(folder / "table.csv.new");
+  EXPECT_THROW((void)calibrateInto(folder, quick(), false), Error);
+  EXPECT_TRUE(std::filesystem::exists(folder / "profiles.csv"));
+}
+
+TEST(Study, ResumeGoesOnToFurtherDepths)
+{
+  const auto folder = freshFolder();
+  Case study = quick();
+  study.depths = { 1.0_mm, 2.0_mm };
+  (void)calibrateInto(folder, study, false);
+  study.depths = { 2.0_mm, 3.0_mm };
+  std::size_t computed = 0;
+  expectWhole(
+    calibrateInto(folder, study, true, {}, [&](std::size_t, std::size_t) { ++computed; }));
+  EXPECT_EQ(computed, 1U);
+  study.depths = { 1.0_mm, 2.0_mm };
+  expectWhole(calibrateInto(folder, study, true)); // what is there stays
+}
+
+// nothing can be pressed less deep again
+TEST(Study, ResumeRefusesADepthThatWasPassedAndLeavesTheTable)
+{
+  const auto folder = freshFolder();
+  (void)calibrateInto(folder, quick(), false);
+  Case study = quick();
+  study.depths = { 0.6_mm, 1.0_mm, 1.5_mm, 3.5_mm };
+  EXPECT_NE(resumeRefusal(folder, study).find("0.6 mm"), std::string::npos);
+  const auto rows = ExtentTable::read(folder / "table.csv").rows();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_DOUBLE_EQ(rows[0].depth, 1.0_mm);
+}
+
+Tip profileTip(double middle)
+{
+  return ProfileTip{ std::make_shared<const Profile>(
+    std::vector<Profile::Point>{ { 0.0, 0.0 }, { 5.0_mm, middle }, { 10.0_mm, 5.0_mm } }) };
+}
+
+// all of one base, as a file of a tool that was edited is
+TEST(Study, ResumeRefusesAnotherTool)
+{
+  const auto folder = freshFolder();
+  Case study = quick();
+  study.depths = { 1.0_mm };
+  study.tip = profileTip(1.0_mm);
+  (void)calibrateInto(folder, study, false);
+  EXPECT_EQ(resumeRefusal(folder, study), "");
+  for (const Tip& other : { profileTip(1.0_mm + 1e-9), profileTip(2.0_mm),
+         Tip{ ParaboloidTip{ 10.0_mm } }, Tip{ PunchTip{ 10.0_mm } },
+         Tip{ TruncatedConeTip{ 45.0_deg, 5.0_mm, 10.0_mm } }, Tip{ SphereTip{ 10.0_mm } } })
+  {
+    study.tip = other;
+    EXPECT_NE(resumeRefusal(folder, study).find("another case"), std::string::npos);
+  }
+}
+
+// and not only another one to the six digits that people read
+TEST(Study, ResumeComparesEveryDigit)
+{
+  const auto folder = freshFolder();
+  Case study = quick();
+  study.depths = { 1.0_mm };
+  (void)calibrateInto(folder, study, false);
+  study.tip = SphereTip{ 10.0_mm + 1e-9 };
+  EXPECT_NE(resumeRefusal(folder, study).find("another case"), std::string::npos);
+  study = quick();
+  study.depths = { 1.0_mm };
+  study.material.poissonRatio += 1e-9;
+  EXPECT_NE(resumeRefusal(folder, study).find("another case"), std::string::npos);
+}
+
+// deeper presses want fine elements further out: as many in all, elsewhere
+TEST(Study, ResumeRefusesAnotherMesh)
+{
+  const auto folder = freshFolder();
+  Case study = quick();
+  study.elementSize = 1.4_mm;
+  study.depths = { 1.5_mm };
+  const Body body = bodyOf(study);
+  (void)calibrateInto(folder, study, false);
+  study.depths = { 1.5_mm, 1.75_mm };
+  ASSERT_EQ(bodyOf(study).nodeCount(), body.nodeCount());
+  ASSERT_NE(bodyOf(study).positions, body.positions);
+  EXPECT_NE(resumeRefusal(folder, study).find("another case"), std::string::npos);
+}
+
+// a table that an interrupted run of another case left beside an older checkpoint
+TEST(Study, ResumeRefusesTheTableOfAnotherCase)
+{
+  const auto folder = freshFolder();
+  const auto table = folder / "table.csv";
+  Case study = quick();
+  study.depths = { 1.0_mm };
+  study.material.youngModulus = 40.0_kPa;
+  (void)calibrateInto(folder, study, false);
+  std::filesystem::rename(table, folder / "other.csv");
+  study.material.youngModulus = 50.0_kPa;
+  (void)calibrateInto(folder, study, false);
+  std::filesystem::rename(folder / "other.csv", table);
+  EXPECT_NE(resumeRefusal(folder, study), "");
 }
 
 TEST(Study, ResumeRefusesAnotherCaseAndADamagedFile)

@@ -4,6 +4,7 @@
 #include "tests/calibration/indentation_case.h"
 
 #include <fstream>
+#include <functional>
 
 namespace palp::fem
 {
@@ -79,21 +80,35 @@ TEST(SurfaceTable, SaysWhereItIsOutsideItsGrid)
   EXPECT_EQ(table.extentRadius({ 0.4_mm, 10.0_mm, 50.0_mm, 0.33 }, 0.5_mm), 0.0);
 }
 
-TEST(SurfaceTable, RefusesAnIncompleteGrid)
+// the shipped table with line 20 changed
+std::filesystem::path changed(const std::function<std::string(const std::string&)>& change)
 {
-  const auto file = std::filesystem::path(testing::TempDir()) / "hole.csv";
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto file =
+    std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".csv");
   std::ifstream in(shipped("surface_sphere.csv"));
   std::ofstream out(file);
+  std::string before;
   std::string line;
   for (int i = 0; std::getline(in, line); ++i)
   {
-    if (i != 20)
-    {
-      out << line << '\n';
-    }
+    out << (i == 20 ? change(before) : line + '\n');
+    before = line;
   }
-  out.close();
-  EXPECT_THROW((void)SurfaceTable::read(file), Error);
+  return file;
+}
+
+TEST(SurfaceTable, RefusesAnIncompleteGrid)
+{
+  EXPECT_THROW((void)SurfaceTable::read(changed([](const std::string&) { return ""; })), Error);
+}
+
+// as many rows as the grid has places, one of them twice
+TEST(SurfaceTable, RefusesAPlaceThatIsGivenTwice)
+{
+  EXPECT_THROW(
+    (void)SurfaceTable::read(changed([](const std::string& before) { return before + '\n'; })),
+    Error);
 }
 
 } // namespace

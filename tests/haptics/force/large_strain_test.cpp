@@ -125,5 +125,13 @@ TEST_F(LargeStrainFile, IsRefusedWithTheLine)
   EXPECT_EQ(refusal("0,0,0.33,1\n1,0.2,0.33,1\n").substr(0, 4), ":3: ");
 }
 
+// what has no order cannot be sorted into an axis
+TEST_F(LargeStrainFile, IsRefusedWhereANumberIsNotFinite)
+{
+  EXPECT_EQ(refusal("0,0,0.33,1\nnan,0,0.33,1\n"), ":3: not finite; give numbers");
+  EXPECT_EQ(refusal("0,0,0.33,1\n1,0,inf,1\n"), ":3: not finite; give numbers");
+  EXPECT_EQ(refusal("0,0,0.33,1\n1,0,0.33,nan\n"), ":3: not finite; give numbers");
+}
+
 } // namespace
 } // namespace palp

@@ -222,5 +222,23 @@ TEST(LayerContact, ConeOnASphereIsItsClosedForm)
   }
 }
 
+// half of depth / a^2 is least where the contact reaches the step: pi / 4 * 0.1 mm / (5 mm)^2
+TEST(LayerContact, AHollowSurfaceIsNoMoreHollowThanAStepOfTheTip)
+{
+  const Tip stepped = ProfileTip{ std::make_shared<const Profile>(
+    std::vector<Profile::Point>{ { 0.0, 0.0 }, { 5.0_mm, 0.1_mm }, { 6.0_mm, 50.0_mm } }) };
+  const LayerContact law(stepped, 0.33, Base::Bonded);
+  const double most = std::numbers::pi / 4.0 * 0.1_mm / (5.0_mm * 5.0_mm);
+  EXPECT_GE(law.allowedCurvature(-100.0), -most * (1.0 + 1e-9));
+  EXPECT_LE(law.allowedCurvature(-100.0), -0.98 * most);
+  double before = 0.0;
+  for (int i = 1; i <= 500; ++i)
+  {
+    const double force = law(i * 0.002_mm, kInfinite, -100.0).force;
+    EXPECT_GT(force, before) << i * 0.002 << " mm";
+    before = force;
+  }
+}
+
 } // namespace
 } // namespace palp

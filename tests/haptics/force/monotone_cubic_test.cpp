@@ -66,5 +66,37 @@ TEST(MonotoneSlopes, KeepTheCurveBetweenItsPoints)
   }
 }
 
+TEST(MonotoneCubic, BracketHoldsTheValueAndEndsAtTheBorder)
+{
+  const std::vector<double> axis{ 1.0, 2.0, 4.0 };
+  const auto expect = [&](double value, std::size_t low, double place)
+  {
+    EXPECT_EQ(bracket(axis, value).low, low) << value;
+    EXPECT_DOUBLE_EQ(bracket(axis, value).place, place) << value;
+  };
+  expect(0.0, 0, 0.0);
+  expect(1.5, 0, 0.5);
+  expect(2.0, 1, 0.0);
+  expect(3.5, 1, 0.75);
+  expect(4.0, 1, 1.0);
+  expect(9.0, 1, 1.0);
+  EXPECT_EQ(bracket(std::vector{ 3.0 }, 7.0).low, 0U);
+  EXPECT_EQ(bracket(std::vector{ 3.0 }, 7.0).place, 0.0);
+}
+
+TEST(MonotoneCubic, CurveGoesThroughItsPointsAndStaysBeyond)
+{
+  const std::vector<double> x{ 0.0, 1.0, 3.0 };
+  const std::vector<double> y{ 0.0, 1.0, 27.0 };
+  const std::vector<double> slopes{ 0.0, 3.0, 27.0 }; // of x^3, which a cubic is
+  for (const double at : { 0.0, 0.3, 1.0, 1.7, 3.0 })
+  {
+    EXPECT_NEAR(cubicAt(x, y, slopes, at).value, at * at * at, 1e-13);
+    EXPECT_NEAR(cubicAt(x, y, slopes, at).slope, 3.0 * at * at, 1e-13);
+  }
+  EXPECT_EQ(cubicAt(x, y, slopes, -1.0).value, 0.0);
+  EXPECT_EQ(cubicAt(x, y, slopes, 5.0).value, 27.0);
+}
+
 } // namespace
 } // namespace palp

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace palp
 {
@@ -142,6 +143,31 @@ TEST_P(SampledTip, AnswersAsItsClosedForm)
     EXPECT_NEAR(baked(depth).radius, exact(depth).radius, 2e-4 * exact(depth).radius);
   }
   RecordProperty("worst", std::to_string(worst));
+}
+
+// Sneddon: F / E* = 2 depth^2 tan(alpha) / pi, until the contact reaches the wall
+TEST(Profile, IsTheConeInFrontOfAWallHoweverSteep)
+{
+  double worst = 0.0;
+  double worstAtWall = 0.0;
+  for (const double width : { 1e-9, 1e-8, 1e-6, 1e-4 })
+  {
+    const HalfSpace law(ProfileTip{ std::make_shared<const Profile>(std::vector<Profile::Point>{
+      { 0.0, 0.0 }, { 5.0_mm, 0.1_mm }, { 5.0_mm + width, 50.0_mm } }) });
+    const double slope = 0.1 / 5.0;
+    const double wall = 0.5 * std::numbers::pi * 0.1_mm; // depth at which it is reached
+    for (double depth = 1e-3 * wall; depth < wall; depth *= 1.003)
+    {
+      const double cone = 2.0 * depth * depth / (std::numbers::pi * slope);
+      const double error = std::abs(law(depth).force / cone - 1.0);
+      double& largest = depth < 0.95 * wall ? worst : worstAtWall;
+      largest = std::max(largest, error);
+    }
+  }
+  EXPECT_LT(worst, 1e-6);
+  EXPECT_LT(worstAtWall, 6e-5); // between two rows of the table
+  RecordProperty("worst", std::to_string(worst * 1e6) + "e-6");
+  RecordProperty("worst_at_wall", std::to_string(worstAtWall * 1e6) + "e-6");
 }
 
 } // namespace
