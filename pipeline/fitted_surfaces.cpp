@@ -1,7 +1,7 @@
 #include "pipeline/fitted_surfaces.h"
 
-#include "calibration/csv_rows.h"
 #include "haptics/error.h"
+#include "haptics/force/number_table.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -10,6 +10,9 @@ namespace palp
 {
 namespace
 {
+
+constexpr const char* kHeader =
+  "depth_mm,inner_mm,outer_mm,sink_mm,slope,control_outer_mm,control_inner_mm";
 
 // a + t (b - a) of every length and the slope
 SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double t)
@@ -27,12 +30,13 @@ SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double 
 FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double scale)
 {
   constexpr std::size_t kSlope = 4; // the only column that is no length
-  auto rows = readCsv(file, kColumns);
-  for (auto& row : rows)
+  std::vector<std::vector<double>> rows;
+  for (const NumberTable::Row& read : NumberTable::readFinite(file, kHeader).rows)
   {
-    for (std::size_t i = 0; i < row.size(); ++i)
+    rows.push_back(read.values);
+    for (std::size_t i = 0; i < kColumns; ++i)
     {
-      row[i] *= i == kSlope ? 1.0 : scale;
+      rows.back()[i] *= i == kSlope ? 1.0 : scale;
     }
   }
   return FittedSurfaces(rows);

@@ -43,11 +43,15 @@ bool uniform(vtkImageData& image)
 bool isWholeSvg(const std::filesystem::path& file)
 {
   constexpr std::streamoff kTail = 32;
+  if (!std::filesystem::is_regular_file(file))
+  {
+    return false;
+  }
   std::ifstream in(file, std::ios::binary);
   in.seekg(0, std::ios::end);
   in.seekg(std::max<std::streamoff>(0, in.tellg() - kTail));
   const std::string tail{ std::istreambuf_iterator<char>(in), {} };
-  return std::filesystem::is_regular_file(file) && tail.find("</svg>") != std::string::npos;
+  return tail.find("</svg>") != std::string::npos;
 }
 
 } // namespace

@@ -1,6 +1,4 @@
-#include "calibration/csv_rows.h"
 #include "calibration/csv_text.h"
-#include "haptics/error.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
@@ -20,21 +18,6 @@ protected:
     std::filesystem::create_directories(folder_);
   }
 
-  [[nodiscard]] std::string refusal(const std::string& text) const
-  {
-    std::ofstream(file_) << text;
-    try
-    {
-      (void)readCsv(file_, 2);
-    }
-    catch (const Error& error)
-    {
-      EXPECT_EQ(error.code(), ErrorCode::BadFile);
-      return std::string(error.what()).substr(file_.string().size());
-    }
-    return "accepted";
-  }
-
   [[nodiscard]] std::ptrdiff_t filesBeside() const
   {
     return std::distance(std::filesystem::directory_iterator(folder_), {});
@@ -44,29 +27,6 @@ protected:
     ("csv_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
   std::filesystem::path file_ = folder_ / "table.csv";
 };
-
-TEST_F(Csv, RowsAreThoseBelowTheHeader)
-{
-  std::ofstream(file_) << "# a comment\r\n\r\na_mm,b\r\n1,2.5\r\n# another\r\n-3,4e-1\r\n";
-  EXPECT_EQ(readCsv(file_, 2), (std::vector<std::vector<double>>{ { 1.0, 2.5 }, { -3.0, 0.4 } }));
-}
-
-TEST_F(Csv, RowsWithoutAHeaderAreRefused)
-{
-  const std::string none = ": no header; begin with the names of 2 columns";
-  EXPECT_EQ(refusal("1,2\n3,4\n"), none);
-  EXPECT_EQ(refusal("-1,2\n3,4\n"), none);
-  EXPECT_EQ(refusal("a,b,c\n"), none);
-  EXPECT_EQ(refusal(""), none);
-}
-
-TEST_F(Csv, RowsOfOtherContentsAreRefusedWithTheLine)
-{
-  EXPECT_EQ(refusal("a,b\n1,2\n3,x\n"), ":3: 'x' is not a number; give a,b");
-  EXPECT_EQ(refusal("a,b\n1,2,3\n"), ":2: 3 columns; give a,b");
-  EXPECT_EQ(refusal("a,b\n1,nan\n"), ":2: not finite; give numbers");
-  EXPECT_THROW((void)readCsv(folder_ / "none.csv", 2), Error);
-}
 
 TEST_F(Csv, AFileIsReplacedWhole)
 {
