@@ -84,7 +84,7 @@ public:
   }
 
 private:
-  [[nodiscard]] bool plausible(const ToolPose& pose) noexcept;
+  [[nodiscard]] bool plausible(const ToolPose& pose, double age) noexcept;
   void advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept;
   void fault(Flag flag) noexcept;
   void forceOff(DeviceState state) noexcept;
@@ -123,6 +123,7 @@ private:
 
   ToolPose last_;          // admitted
   double sinceLast_ = 0.0; // [s]
+  double lastAge_ = 0.0;   // of it, when it was admitted [s]
   int dropped_ = 0;        // poses in a row
 
   double seat_ = 0.0;         // depth at which contact is felt to begin [m]

@@ -136,6 +136,43 @@ TEST(SafetyChain, AShortSilenceEndsWithoutAStep)
   }
 }
 
+// the last pose is told again and again while a device is silent; the next one is as far as a hand
+// went meanwhile
+TEST(SafetyChain, AHandThatMovesDuringASilenceHasNotJumped)
+{
+  for (const double speed : { 0.6, 1.0, 1.9 })
+  {
+    for (int silent = 1; silent < 20; ++silent)
+    {
+      Bench bench;
+      bench.place = -50.0_mm;
+      bench.activate();
+      for (int age = 1; age <= silent; ++age)
+      {
+        bench.status.age = age * kTick;
+        EXPECT_FALSE(has(bench.at(bench.place), Flag::Jump));
+      }
+      bench.status.age = 0.0;
+      const Sample back = bench.at(bench.place + speed * (silent + 1) * kTick);
+      ASSERT_FALSE(has(back, Flag::Jump)) << speed << " m/s for " << silent << " ms";
+      EXPECT_EQ(back.state, DeviceState::Active);
+    }
+  }
+}
+
+TEST(SafetyChain, ASilenceExcusesNoMoreThanAHandCanMoveInIt)
+{
+  Bench bench;
+  bench.activate();
+  for (int age = 1; age <= 8; ++age)
+  {
+    bench.status.age = age * kTick;
+    (void)bench.at(bench.place);
+  }
+  bench.status.age = 0.0;
+  EXPECT_TRUE(has(bench.at(bench.place - 2.1 * 9 * kTick), Flag::Jump)); // [m], at 2.1 m/s
+}
+
 TEST(SafetyChain, JumpIsHeldThenAFaultThatFades)
 {
   Bench bench;

@@ -200,6 +200,58 @@ TEST(SafetyChain, GivesNoForceBeforeHoming)
   EXPECT_EQ(bench.chain.state(), DeviceState::SoftStart);
 }
 
+// before it, places mean nothing; with it, all of them change at once
+TEST(SafetyChain, HomingMovesEveryPlaceWithoutAFault)
+{
+  DeviceLimits device = arm();
+  device.needsHoming = true;
+  Bench bench(device);
+  bench.orders.armed = true;
+  for (int round = 0; round < 2; ++round) // the second as after a loss of its zero
+  {
+    bench.status.homed = false;
+    for (int i = 0; i < 20; ++i)
+    {
+      const Sample sample = bench.at(i % 2 == 0 ? -5.0_mm : -69.0_mm);
+      ASSERT_EQ(sample.state, DeviceState::NeedsHoming);
+      ASSERT_TRUE(!has(sample, Flag::Jump) || i == 0);
+    }
+    bench.status.homed = true;
+    const Sample homed = bench.at(-5.0_mm);
+    EXPECT_FALSE(has(homed, Flag::Jump));
+    EXPECT_EQ(homed.pose.apex.z(), 5.0_mm);
+    EXPECT_EQ(homed.force, Vector3d::Zero());
+    EXPECT_EQ(bench.chain.state(), DeviceState::SoftStart);
+    bench.place = -5.0_mm;
+    bench.activate();
+  }
+}
+
+TEST(SafetyChain, AStopOfTheBoardIsLatchedAsAnyOther)
+{
+  Bench bench;
+  bench.activate();
+  ASSERT_GT(bench.press(5.0_mm).force.z(), 0.0);
+  bench.status.stopped = true;
+  const Sample stopped = bench.at(5.0_mm);
+  EXPECT_EQ(stopped.force, Vector3d::Zero());
+  EXPECT_TRUE(has(stopped, Flag::EmergencyStop));
+  for (const bool armed : { true, false, true }) // arming a stopped board arms nothing
+  {
+    bench.orders.armed = armed;
+    EXPECT_EQ(bench.at(5.0_mm).state, DeviceState::Ready);
+  }
+  bench.status.stopped = false;
+  for (int i = 0; i < 1000; ++i)
+  {
+    ASSERT_EQ(bench.at(5.0_mm).state, DeviceState::Ready);
+  }
+  bench.orders.armed = false;
+  (void)bench.at(5.0_mm);
+  bench.orders.armed = true;
+  EXPECT_EQ(bench.at(5.0_mm).state, DeviceState::SoftStart);
+}
+
 TEST(SafetyChain, DeadManNeedsTheButton)
 {
   Bench bench(arm(), { .deadMan = true });
@@ -239,6 +291,35 @@ TEST(SafetyChain, DisarmingLetsTheForceFade)
   }
   EXPECT_EQ(last, 0.0);
   EXPECT_EQ(bench.chain.state(), DeviceState::Ready);
+}
+
+// the share of the largest force that a start has reached is no share of the force
+TEST(SafetyChain, DisarmingDuringASoftStartLetsTheForceFade)
+{
+  for (const int ticks : { 50, 200, 400 })
+  {
+    Bench bench;
+    (void)bench.press(5.0_mm);
+    bench.orders.armed = true;
+    (void)bench.at(5.0_mm);
+    for (int i = 1; i <= ticks; ++i)
+    {
+      bench.place = 5.0_mm + i * 0.01_mm;
+      (void)bench.at(bench.place);
+    }
+    ASSERT_EQ(bench.chain.state(), DeviceState::SoftStart);
+    double last = bench.force.z();
+    ASSERT_GT(last, 0.1);
+    bench.orders.armed = false;
+    for (int i = 0; i < 101; ++i)
+    {
+      const double now = bench.at(bench.place).force.z();
+      ASSERT_LE(now, last);
+      ASSERT_LE(last - now, kSoftSlew) << i;
+      last = now;
+    }
+    EXPECT_EQ(last, 0.0);
+  }
 }
 
 } // namespace
