@@ -49,7 +49,7 @@ class SafetyChain
 {
 public:
   /// @throws Error  BadValue: a setting or a limit of the device that is not positive where it must
-  /// be
+  ///                be, or a softSlewRate that is not below slewRate
   explicit SafetyChain(const DeviceLimits& device, const SafetySettings& settings = {});
 
   /// First half of a tick: may this pose be used, and is force allowed?
@@ -74,7 +74,8 @@ public:
     return state_;
   }
 
-  /// Stiffness that may be rendered now [N/m], for a damping of the law [N s/m].
+  /// Stiffness that may be rendered now [N/m], for a damping of the law [N s/m], of which no more
+  /// than twice that of the device is rendered.
   [[nodiscard]] double stiffnessLimit(double damping) const noexcept;
 
   /// Energy that the loop has taken from the hand, by the force really sent [J].
@@ -90,6 +91,12 @@ private:
   void forceOff(DeviceState state) noexcept;
   [[nodiscard]] Eigen::Vector3d rendered(
     Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
+  void reseat(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
+  void resumeShare() noexcept;
+  [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
+  [[nodiscard]] Eigen::Vector3d push(
+    const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept;
+  [[nodiscard]] double renderedDamping(double wanted) const noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
   [[nodiscard]] Eigen::Vector3d bounded(Eigen::Vector3d force, double largest) noexcept;
   [[nodiscard]] double largestForce(const Scene& scene) const noexcept;

@@ -90,6 +90,24 @@ TEST(SafetyChain, NeverPullsHoweverFastTheToolWithdraws)
   }
 }
 
+// what acts a tick late adds energy: beyond some damping it no longer brakes
+TEST(SafetyChain, DampsAtMostTwiceAsMuchAsTheDeviceItself)
+{
+  Bench bench;
+  bench.activate();
+  (void)bench.press(5.0_mm);
+  for (const double damping : { 3.0, 4.0, 50.0 })
+  {
+    bench.scene.damping = damping;
+    const ToolPose pose{ .apex = Vector3d(0, 0, -5.0_mm), .velocity = Vector3d(0, 0, -0.1) };
+    const Sample sample = bench.tick(pose);
+    EXPECT_NEAR(sample.force.z(), 500.0 * 5.0_mm + std::min(damping, 4.0) * 0.1, 1e-12);
+    EXPECT_EQ(has(sample, Flag::DampingLimited), damping > 4.0);
+    EXPECT_NEAR(
+      bench.chain.stiffnessLimit(damping), 0.7 * (2.0 + std::min(damping, 4.0)) / 0.5_ms, 1e-6);
+  }
+}
+
 TEST(SafetyChain, ForceStepsAreBounded)
 {
   Bench bench;
@@ -143,6 +161,8 @@ TEST(SafetyChain, RefusesLimitsThatMakeNoSense)
   device.maxForce = kNaN;
   EXPECT_THROW(SafetyChain{ device }, Error);
   EXPECT_THROW((SafetyChain{ arm(), { .period = 0.0 } }), Error);
+  // a force that is let go fades by what a soft start leaves of the rate: by nothing
+  EXPECT_THROW((SafetyChain{ arm(), { .slewRate = 50.0, .softSlewRate = 50.0 } }), Error);
 }
 
 } // namespace
