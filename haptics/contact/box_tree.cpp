@@ -64,17 +64,8 @@ bool makeFacet(std::span<const Eigen::Vector3d> points, const Triangle& triangle
   {
     facet.corners[k] = points[static_cast<std::size_t>(triangle[k])];
   }
-  const Eigen::Vector3d u = facet.corners[1] - facet.corners[0];
-  const Eigen::Vector3d v = facet.corners[2] - facet.corners[0];
-  const Eigen::Vector3d cross = u.cross(v);
-  const double longest = std::max({ u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm() });
-  const double area = cross.norm();
-  if (!(area > kFlattest * longest))
-  {
-    return false;
-  }
-  facet.normal = cross / area;
-  return true;
+  facet.normal = unitNormal(points, triangle);
+  return !facet.normal.isZero(0.0);
 }
 
 // median split along the longest side of the box of the middles
@@ -112,6 +103,18 @@ void split(std::vector<BoxTree::Node>& nodes, std::span<Entry> entries, int firs
 }
 
 } // namespace
+
+Eigen::Vector3d unitNormal(
+  std::span<const Eigen::Vector3d> points, const Triangle& triangle) noexcept
+{
+  const Eigen::Vector3d& a = points[static_cast<std::size_t>(triangle[0])];
+  const Eigen::Vector3d u = points[static_cast<std::size_t>(triangle[1])] - a;
+  const Eigen::Vector3d v = points[static_cast<std::size_t>(triangle[2])] - a;
+  const Eigen::Vector3d cross = u.cross(v);
+  const double longest = std::max({ u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm() });
+  const double area = cross.norm();
+  return area > kFlattest * longest ? cross / area : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
 
 BoxTree::BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {

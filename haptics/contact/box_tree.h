@@ -11,6 +11,11 @@ namespace palp
 
 using Triangle = std::array<int, 3>; ///< point indices, counter-clockwise from outside
 
+/// Outward unit normal of a triangle; zero where it has no area, but for rounding.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Eigen::Vector3d unitNormal(
+  std::span<const Eigen::Vector3d> points, const Triangle& triangle) noexcept;
+
 /// One triangle as the search needs it, in the order in which the tree meets it.
 struct Facet
 {

@@ -11,6 +11,8 @@ namespace palp
 namespace
 {
 
+constexpr double kOverlap = 1e-9; // of triangles under a ray, by their height [-]
+
 // what of a triangle is nearest: its face, the edge from corner k to k + 1, or corner k
 enum class Feature
 {
@@ -68,16 +70,6 @@ OnFacet nearestOnFacet(const Facet& facet, const Eigen::Vector3d& p) noexcept
   return { a + (vb * ab + vc * ac) / (va + vb + vc), Feature::Face, 0 };
 }
 
-Eigen::Vector3d normalOf(const Surface& surface, int triangle) noexcept
-{
-  const auto points = surface.points();
-  const Triangle& t = surface.triangles()[static_cast<std::size_t>(triangle)];
-  const Eigen::Vector3d& a = points[static_cast<std::size_t>(t[0])];
-  return (points[static_cast<std::size_t>(t[1])] - a)
-    .cross(points[static_cast<std::size_t>(t[2])] - a)
-    .normalized();
-}
-
 // normal that tells inside from outside at a feature, and whether the surface ends there
 std::pair<Eigen::Vector3d, bool> sideOf(
   const Surface& surface, const Facet& facet, int triangle, const OnFacet& hit) noexcept
@@ -91,9 +83,75 @@ std::pair<Eigen::Vector3d, bool> sideOf(
   const int other = hit.feature == Feature::Edge ? surface.across(triangle, hit.k) : -1;
   if (other >= 0)
   {
-    return { (facet.normal + normalOf(surface, other)).normalized(), false };
+    const Triangle& across = surface.triangles()[static_cast<std::size_t>(other)];
+    return { (facet.normal + unitNormal(surface.points(), across)).normalized(), false };
   }
   return { facet.normal, hit.feature == Feature::Edge };
+}
+
+// the nearest of the facets that were looked at
+struct Closest
+{
+  double squared; // distance [m^2]
+  int facet = -1;
+  OnFacet hit{};
+
+  void look(const BoxTree& tree, const BoxTree::Node& leaf, const Eigen::Vector3d& place) noexcept
+  {
+    for (int i = leaf.first; i < leaf.first + leaf.count; ++i)
+    {
+      const OnFacet candidate = nearestOnFacet(tree.facets()[static_cast<std::size_t>(i)], place);
+      const double distance = (candidate.point - place).squaredNorm();
+      if (distance < squared)
+      {
+        *this = { distance, i, candidate };
+      }
+    }
+  }
+};
+
+// a box that may hold something nearer
+struct Waiting
+{
+  std::int32_t node;
+  double squared;
+};
+
+Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& place, double reach) noexcept
+{
+  const auto nodes = tree.nodes();
+  const auto boxOf = [&](std::int32_t node) {
+    return Waiting{ node, squaredDistance(nodes[static_cast<std::size_t>(node)], place) };
+  };
+  std::array<Waiting, BoxTree::kDepth> stack;
+  std::size_t waiting = 0;
+  Closest best{ .squared = reach * reach };
+  for (Waiting current = tree.empty() ? Waiting{ 0, best.squared } : boxOf(0);;)
+  {
+    while (current.squared < best.squared)
+    {
+      const BoxTree::Node& node = nodes[static_cast<std::size_t>(current.node)];
+      if (node.count > 0)
+      {
+        best.look(tree, node, place);
+        break;
+      }
+      // the nearer child first: it shortens the reach for the other
+      const Waiting left = boxOf(current.node + 1);
+      const Waiting right = boxOf(node.first);
+      const bool rightFirst = right.squared < left.squared;
+      current = rightFirst ? right : left;
+      if (const Waiting& far = rightFirst ? left : right; far.squared < best.squared)
+      {
+        stack[waiting++] = far;
+      }
+    }
+    if (waiting == 0)
+    {
+      return best;
+    }
+    current = stack[--waiting];
+  }
 }
 
 } // namespace
@@ -101,74 +159,22 @@ std::pair<Eigen::Vector3d, bool> sideOf(
 Nearest findNearest(const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept
 {
   const BoxTree& tree = surface.tree();
-  const auto nodes = tree.nodes();
-  struct Waiting
-  {
-    std::int32_t node;
-    double squared;
-  };
-  std::array<Waiting, BoxTree::kDepth> stack;
-  std::size_t waiting = 0;
-  double best = reach * reach;
-  int bestFacet = -1;
-  OnFacet hit{};
-  Waiting current{ 0, tree.empty() ? best : squaredDistance(nodes[0], place) };
-  while (true)
-  {
-    if (current.squared < best)
-    {
-      const BoxTree::Node& node = nodes[static_cast<std::size_t>(current.node)];
-      if (node.count == 0)
-      {
-        // the nearer child first: it shortens the reach for the other
-        Waiting near{ current.node + 1,
-          squaredDistance(nodes[static_cast<std::size_t>(current.node) + 1], place) };
-        Waiting far{ node.first,
-          squaredDistance(nodes[static_cast<std::size_t>(node.first)], place) };
-        if (far.squared < near.squared)
-        {
-          std::swap(near, far);
-        }
-        if (far.squared < best)
-        {
-          stack[waiting++] = far;
-        }
-        current = near;
-        continue;
-      }
-      for (int i = node.first; i < node.first + node.count; ++i)
-      {
-        const OnFacet candidate = nearestOnFacet(tree.facets()[static_cast<std::size_t>(i)], place);
-        const double squared = (candidate.point - place).squaredNorm();
-        if (squared < best)
-        {
-          best = squared;
-          bestFacet = i;
-          hit = candidate;
-        }
-      }
-    }
-    if (waiting == 0)
-    {
-      break;
-    }
-    current = stack[--waiting];
-  }
-  if (bestFacet < 0)
+  const Closest best = closestFacet(tree, place, reach);
+  if (best.facet < 0)
   {
     return {};
   }
-
-  const int triangle = tree.triangle(bestFacet);
+  const OnFacet& hit = best.hit;
+  const int triangle = tree.triangle(best.facet);
   const auto [normal, open] =
-    sideOf(surface, tree.facets()[static_cast<std::size_t>(bestFacet)], triangle, hit);
-  const double distance = std::sqrt(best);
+    sideOf(surface, tree.facets()[static_cast<std::size_t>(best.facet)], triangle, hit);
+  const double distance = std::sqrt(best.squared);
   const double height = normal.dot(place - hit.point);
   if (height >= 0.0)
   {
     return { triangle, hit.point, distance };
   }
-  const double beside = open ? std::sqrt(std::max(0.0, best - height * height)) : 0.0;
+  const double beside = open ? std::sqrt(std::max(0.0, best.squared - height * height)) : 0.0;
   return { triangle, hit.point, open ? beside + height : -distance };
 }
 
@@ -203,9 +209,11 @@ double distanceToFarSide(
     const auto& [a, b, c] = facet.corners;
     const double t = facet.normal.dot(a - origin) / outward;
     const Eigen::Vector3d x = origin + t * direction;
-    const bool within = (b - a).cross(x - a).dot(facet.normal) >= 0.0 &&
-      (c - b).cross(x - b).dot(facet.normal) >= 0.0 &&
-      (a - c).cross(x - c).dot(facet.normal) >= 0.0;
+    // a little beyond its edges, so that rounding opens no gap between it and its neighbours
+    const double slack = -kOverlap * (b - a).cross(c - a).norm();
+    const bool within = (b - a).cross(x - a).dot(facet.normal) >= slack &&
+      (c - b).cross(x - b).dot(facet.normal) >= slack &&
+      (a - c).cross(x - c).dot(facet.normal) >= slack;
     if (within && t > 0.0 && t < nearest)
     {
       nearest = t;

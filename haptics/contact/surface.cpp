@@ -49,12 +49,12 @@ std::vector<Eigen::Vector3d> angleWeightedNormals(
   std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
   for (const Triangle& t : triangles)
   {
+    const Eigen::Vector3d normal = unitNormal(points, t);
     for (std::size_t k = 0; k < 3; ++k)
     {
       const Eigen::Vector3d u = points[at(t[(k + 1) % 3])] - points[at(t[k])];
       const Eigen::Vector3d v = points[at(t[(k + 2) % 3])] - points[at(t[k])];
-      const Eigen::Vector3d cross = u.cross(v);
-      normals[at(t[k])] += std::atan2(cross.norm(), u.dot(v)) * cross.normalized();
+      normals[at(t[k])] += std::atan2(u.cross(v).norm(), u.dot(v)) * normal;
     }
   }
   for (Eigen::Vector3d& normal : normals)

@@ -29,6 +29,7 @@ struct DeviceLimits
 struct DeviceStatus
 {
   bool homed = true;
+  bool stopped = false;      ///< by an emergency stop of its own
   std::uint32_t buttons = 0; ///< a bit each, the first in bit 0
   double age = 0.0;          ///< of the pose, since the hardware sent it [s]
 };

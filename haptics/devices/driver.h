@@ -12,6 +12,7 @@ struct DriverSample
   Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the handle [m]
   std::uint32_t buttons = 0;
   bool homed = true;
+  bool stopped = false; ///< by an emergency stop of the device's own
 };
 
 /// What one kind of device says and hears. May block for a few milliseconds, so it lives on a

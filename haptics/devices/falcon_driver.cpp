@@ -46,6 +46,8 @@ constexpr int kGreetings = 10; // in each: without its power supply it would tak
 constexpr double kCountsPerTorque = 2300.0; // [1/(N m)]
 constexpr double kLargestCount = 4096.0;
 
+constexpr int kPurges = 3; // exchanges that begin with one: a late reply may come after the first
+
 using Packet = std::array<std::byte, 64>;
 
 constexpr std::array kGreeting{ std::byte{ 0x0A }, std::byte{ 0x43 }, std::byte{ 0x0D } };
@@ -156,9 +158,16 @@ bool FalconDriver::sendAndExpect(Bytes sent, Bytes expected) noexcept
   return expected.empty();
 }
 
+// each packet has one reply, which does not say whose it is: once one comes late, it and those
+// after it would be taken for the next
 IoCode FalconDriver::exchange(const FalconCommand& command, std::optional<FalconState>& state,
   std::chrono::microseconds wait) noexcept
 {
+  if (purges_ > 0)
+  {
+    (void)request(Reset, kPurgeIn);
+  }
+  const int purges = std::exchange(purges_, kPurges); // unless this reply is in time
   if (transport_->write(encode(command)) == IoCode::Gone)
   {
     return IoCode::Gone;
@@ -177,7 +186,12 @@ IoCode FalconDriver::exchange(const FalconCommand& command, std::optional<Falcon
       state = reader_.take(Bytes(packet).first(result.size).subspan(kStatusBytes));
     }
   }
-  return state ? IoCode::Ok : IoCode::Timeout;
+  if (!state)
+  {
+    return IoCode::Timeout;
+  }
+  purges_ = std::max(0, purges - 1);
+  return IoCode::Ok;
 }
 
 DeviceLimits FalconDriver::limits() const

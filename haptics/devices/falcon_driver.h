@@ -38,6 +38,7 @@ private:
   FalconReader reader_;
   Eigen::Vector3d place_ = falconCentre();
   bool homed_ = false;
+  int purges_ = 0; // exchanges that are to begin by forgetting what was not read
 };
 
 } // namespace palp

@@ -158,7 +158,9 @@ DeviceLimits Phd1Driver::limits() const
 IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
 {
   const bool ready = state_.homed && !state_.stopped;
-  Phd1Command command{ .order = ready ? Phd1Order::Force : Phd1Order::Home,
+  Phd1Command command{ .order = ready ? Phd1Order::Force
+      : state_.stopped                ? Phd1Order::Idle
+                                      : Phd1Order::Home,
     .sequence = sequence_++ };
   if (ready)
   {
@@ -179,7 +181,8 @@ IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& samp
   {
     sample = { .position = state_.position,
       .buttons = state_.buttons,
-      .homed = state_.homed && !state_.stopped };
+      .homed = state_.homed,
+      .stopped = state_.stopped };
   }
   return code;
 }

@@ -58,17 +58,17 @@ DeviceLimits ThreadedDevice::limits() const
 
 std::optional<ToolPose> ThreadedDevice::exchange(const Eigen::Vector3d& force, double) noexcept
 {
-  const auto now = Clock::now();
-  wanted_.publish({ .force = placement_.rotation.transpose() * force, .when = now });
+  wanted_.publish({ .force = placement_.rotation.transpose() * force, .when = Clock::now() });
   const int losses = losses_.load();
   if (std::exchange(toldLosses_, losses) != losses || !there_.load())
   {
     return std::nullopt;
   }
   const Heard& heard = heard_.read();
-  status_ = {
-    .homed = heard.sample.homed, .buttons = heard.sample.buttons, .age = seconds(now - heard.when)
-  };
+  status_ = { .homed = heard.sample.homed,
+    .stopped = heard.sample.stopped,
+    .buttons = heard.sample.buttons,
+    .age = seconds(Clock::now() - heard.when) };
   ToolPose pose;
   pose.apex = placement_.rotation * heard.sample.position + placement_.origin;
   pose.velocity = placement_.rotation * heard.velocity;
@@ -88,7 +88,7 @@ void ThreadedDevice::run(const std::stop_token& stop) noexcept
   endForce();
 }
 
-// until it is unplugged
+// until a transfer fails
 void ThreadedDevice::serve(const std::stop_token& stop) noexcept
 {
   VelocityEstimator velocity(limits_.quantum);
@@ -120,6 +120,7 @@ void ThreadedDevice::serve(const std::stop_token& stop) noexcept
   }
 }
 
+// also where a transfer has failed: some failures pass, and the motors hold what they heard last
 void ThreadedDevice::endForce() noexcept
 {
   DriverSample unused;
@@ -127,7 +128,7 @@ void ThreadedDevice::endForce() noexcept
   {
     if (driver_->tick(Eigen::Vector3d::Zero(), seconds(kPeriod), unused) == IoCode::Gone)
     {
-      return;
+      std::this_thread::sleep_for(kPeriod);
     }
   }
 }
@@ -136,6 +137,7 @@ void ThreadedDevice::reopen(const std::stop_token& stop) noexcept
 {
   there_ = false;
   ++losses_;
+  endForce();
   driver_.reset();
   while (!driver_ && !stop.stop_requested())
   {

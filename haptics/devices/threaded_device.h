@@ -23,8 +23,9 @@ struct DevicePlacement
 /// Runs a driver on a thread of its own, so that a slow bus cannot hold the servo loop.
 ///
 /// A command that is not renewed for 20 ms is taken for zero, and the last ones sent are zero. A
-/// device that was unplugged is closed, and opened again when it is back: a new driver then knows
-/// nothing of the old one, so that the device has to be homed anew.
+/// device that was unplugged, or whose transfer failed, is closed, with zero force if it still
+/// hears, and opened again when it is back: a new driver then knows nothing of the old one, so that
+/// the device has to be homed anew.
 class ThreadedDevice final : public Device
 {
 public:

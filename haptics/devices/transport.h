@@ -11,7 +11,7 @@ enum class IoCode
 {
   Ok,
   Timeout, ///< nothing came; the device may still be there
-  Gone,    ///< unplugged
+  Gone,    ///< unplugged, or a transfer that failed
 };
 
 struct IoResult

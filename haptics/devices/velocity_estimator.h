@@ -31,12 +31,6 @@ public:
   /// @realtime        no allocation, no lock, no exception
   [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& position, double dt) noexcept;
 
-  /// Forgets all positions.
-  void restart() noexcept
-  {
-    count_ = 0;
-  }
-
 private:
   static constexpr std::size_t kPositions = 41; // 10 ms at 4 kHz
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace palp
@@ -13,6 +12,7 @@ namespace
 {
 
 constexpr double kFreeSpace = 0.050;     // [s] without contact end a soft start
+constexpr double kMostDamping = 2.0;     // of the law, by that of the device [-]
 constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
 constexpr double kWallDamping = 2.0;     // [N s/m]
 constexpr double kWallForce = 2.0;       // [N]
@@ -33,6 +33,11 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
       throw Error(ErrorCode::BadValue, "safety chain: a setting is not above 0; give one that is");
     }
   }
+  if (settings.softSlewRate >= settings.slewRate) // a force that is let go would stay for ever
+  {
+    throw Error(ErrorCode::BadValue,
+      "safety chain: a force starts no more slowly than it changes; give a lower softSlewRate");
+  }
   for (const double value : { settings.passivityDamping, device.maxForce, device.damping,
          device.delay, device.velocityDelay, device.workspaceRadius })
   {
@@ -44,6 +49,13 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
   }
 }
 
+// in simulated loops, from three times that of the device on, damping that comes a tick late makes
+// a hand hum
+double SafetyChain::renderedDamping(double wanted) const noexcept
+{
+  return std::min(wanted, kMostDamping * device_.damping);
+}
+
 double SafetyChain::stiffnessLimit(double damping) const noexcept
 {
   // a damping that comes late helps little: count it with its delay, or not at all
@@ -51,7 +63,7 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
     .deviceDamping = device_.damping, .period = period_.period(), .delay = device_.delay
   };
   const double without = stableStiffness(loop);
-  loop.virtualDamping = damping;
+  loop.virtualDamping = renderedDamping(damping);
   loop.delay += device_.velocityDelay;
   return settings_.stiffnessShare * std::max(without, stableStiffness(loop));
 }
@@ -104,7 +116,33 @@ Eigen::Vector3d SafetyChain::rendered(
 {
   const double depth = sample.contact.depth;
   const double stiffest = stiffnessLimit(scene.damping);
-  const bool changed = std::exchange(version_, scene.version) != scene.version;
+  reseat(law, depth, stiffest, scene.version);
+  resumeShare();
+  sample.response = depth > 0.0 ? law(depth) : Response{};
+  Rendered felt = couple(law, depth - seat_, stiffest);
+  // what rises faster than may be slips: a force that lags, or grows while the tool rests, would
+  // give energy to the hand
+  if (const double highest = highestNormalForce(scene); felt.force > highest)
+  {
+    raise(Flag::SlewLimited);
+    seat_ = depth - depthOf(law, highest, stiffest, depth);
+    felt = couple(law, depth - seat_, stiffest);
+  }
+  normalForce_ = felt.force;
+  sample.proxyDepth = felt.proxyDepth;
+  if (std::isnan(sample.response.force) || !(scene.damping >= 0.0) || !(scene.forceLimit >= 0.0))
+  {
+    fault(Flag::NotFinite);
+    return Eigen::Vector3d::Zero();
+  }
+  return push(sample.contact.normal, felt, scene);
+}
+
+// where contact is felt to begin, so that no force jumps
+void SafetyChain::reseat(
+  const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept
+{
+  const bool changed = std::exchange(version_, version) != version;
   if (std::exchange(reseat_, false))
   {
     seat_ = depth;
@@ -114,49 +152,49 @@ Eigen::Vector3d SafetyChain::rendered(
     seat_ = depth - depthOf(law, normalForce_, stiffest, depth);
   }
   seat_ = std::clamp(seat_, 0.0, depth > 0.0 ? depth : 0.0);
+}
 
-  // what rises faster than may be slips: a force that lags, or grows while the tool rests, would
-  // give energy to the hand
-  sample.response = depth > 0.0 ? law(depth) : Response{};
-  Rendered felt = couple(law, depth - seat_, stiffest);
-  const bool starts = state_ == DeviceState::SoftStart;
+// of the force that is sent; a share that grows goes on from the force that was
+void SafetyChain::resumeShare() noexcept
+{
   const double share = trust_ * (state_ == DeviceState::Decay ? gain_ : 1.0);
-  if (share > share_) // goes on from the force that was sent
+  if (share > share_)
   {
     normalForce_ *= share_ / share;
     shaped_ *= share_ / share;
   }
-  const double highest =
-    std::min(normalForce_ + (starts ? settings_.softSlewRate : settings_.slewRate) * dt_,
-      starts ? gain_ * largestForce(scene) : std::numeric_limits<double>::infinity());
-  if (felt.force > highest)
-  {
-    raise(Flag::SlewLimited);
-    seat_ = depth - depthOf(law, highest, stiffest, depth);
-    felt = couple(law, depth - seat_, stiffest);
-  }
-  normalForce_ = felt.force;
   share_ = share;
-  sample.proxyDepth = felt.proxyDepth;
-  if (std::isnan(sample.response.force) || !(scene.damping >= 0.0) || !(scene.forceLimit >= 0.0))
-  {
-    fault(Flag::NotFinite);
-    return Eigen::Vector3d::Zero();
-  }
+}
+
+// that the law may reach in this tick [N]
+double SafetyChain::highestNormalForce(const Scene& scene) const noexcept
+{
+  return state_ == DeviceState::SoftStart
+    ? std::min(normalForce_ + settings_.softSlewRate * dt_, gain_ * largestForce(scene))
+    : normalForce_ + settings_.slewRate * dt_;
+}
+
+Eigen::Vector3d SafetyChain::push(
+  const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept
+{
   if (!(felt.force > 0.0))
   {
     return Eigen::Vector3d::Zero();
   }
+  const double damping = renderedDamping(scene.damping);
   if (felt.limited)
   {
     raise(Flag::StiffnessLimited);
+  }
+  if (damping < scene.damping)
+  {
+    raise(Flag::DampingLimited);
   }
   if (seat_ > 0.0)
   {
     raise(Flag::Reseated);
   }
-  const double push = felt.force - scene.damping * last_.velocity.dot(sample.contact.normal);
-  return std::max(0.0, push) * sample.contact.normal;
+  return std::max(0.0, felt.force - damping * last_.velocity.dot(normal)) * normal;
 }
 
 Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept

@@ -49,7 +49,7 @@ class SafetyChain
 {
 public:
   /// @throws Error  BadValue: a setting or a limit of the device that is not positive where it must
-  /// be
+  ///                be, or a softSlewRate that is not below slewRate
   explicit SafetyChain(const DeviceLimits& device, const SafetySettings& settings = {});
 
   /// First half of a tick: may this pose be used, and is force allowed?
@@ -74,7 +74,8 @@ public:
     return state_;
   }
 
-  /// Stiffness that may be rendered now [N/m], for a damping of the law [N s/m].
+  /// Stiffness that may be rendered now [N/m], for a damping of the law [N s/m], of which no more
+  /// than twice that of the device is rendered.
   [[nodiscard]] double stiffnessLimit(double damping) const noexcept;
 
   /// Energy that the loop has taken from the hand, by the force really sent [J].
@@ -84,12 +85,18 @@ public:
   }
 
 private:
-  [[nodiscard]] bool plausible(const ToolPose& pose) noexcept;
+  [[nodiscard]] bool plausible(const ToolPose& pose, double age) noexcept;
   void advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept;
   void fault(Flag flag) noexcept;
   void forceOff(DeviceState state) noexcept;
   [[nodiscard]] Eigen::Vector3d rendered(
     Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
+  void reseat(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
+  void resumeShare() noexcept;
+  [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
+  [[nodiscard]] Eigen::Vector3d push(
+    const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept;
+  [[nodiscard]] double renderedDamping(double wanted) const noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
   [[nodiscard]] Eigen::Vector3d bounded(Eigen::Vector3d force, double largest) noexcept;
   [[nodiscard]] double largestForce(const Scene& scene) const noexcept;
@@ -123,6 +130,7 @@ private:
 
   ToolPose last_;          // admitted
   double sinceLast_ = 0.0; // [s]
+  double lastAge_ = 0.0;   // of it, when it was admitted [s]
   int dropped_ = 0;        // poses in a row
 
   double seat_ = 0.0;         // depth at which contact is felt to begin [m]

@@ -41,13 +41,14 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
   sinceLast_ += std::max(elapsed, dt_);
   period_.record(elapsed);
-  if (orders.armed && !wasArmed_ && !orders.stop) // a new wish forgives
+  const bool stopped = orders.stop || status.stopped || !(orders.silence <= kMainThreadGone);
+  if (orders.armed && !wasArmed_ && !stopped) // a new wish forgives
   {
     latched_ = 0;
     restarts_ = 0;
   }
   wasArmed_ = orders.armed;
-  if (orders.stop || !(orders.silence <= kMainThreadGone))
+  if (stopped)
   {
     fault(Flag::EmergencyStop);
   }
@@ -64,15 +65,17 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
     fault(Flag::NotFinite);
     return state_ == DeviceState::Closed ? std::nullopt : std::optional(last_);
   }
-  const bool first = state_ == DeviceState::Closed;
-  if (first)
+  // nothing follows from where it was said to be before it was there, or knew its zero
+  const bool isNew = state_ == DeviceState::Closed || state_ == DeviceState::NeedsHoming;
+  if (isNew)
   {
-    state_ = DeviceState::Opening;
+    state_ = state_ == DeviceState::Closed ? DeviceState::Opening : state_;
     passivity_.restart(pose->apex);
   }
-  if (first || plausible(*pose))
+  if (isNew || plausible(*pose, status.age))
   {
     last_ = *pose;
+    lastAge_ = status.age;
     sinceLast_ = 0.0;
     dropped_ = 0;
   }
@@ -92,9 +95,11 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
 }
 
 // keeps the last pose for a few ticks; after them the new place is true, but without force
-bool SafetyChain::plausible(const ToolPose& pose) noexcept
+bool SafetyChain::plausible(const ToolPose& pose, double age) noexcept
 {
-  if ((pose.apex - last_.apex).norm() <= settings_.fastest * sinceLast_)
+  // a pose that was told again while the device was silent is as old as it was the first time
+  const double moving = sinceLast_ + std::max(0.0, lastAge_ - age);
+  if ((pose.apex - last_.apex).norm() <= settings_.fastest * moving)
   {
     return true;
   }
@@ -145,6 +150,8 @@ void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders
   }
   else if (!wanted && forceOn())
   {
+    // that of a start is a share of the largest force, that of a decay of the force itself
+    gain_ = state_ == DeviceState::SoftStart ? 1.0 : gain_;
     state_ = DeviceState::Decay;
   }
 }

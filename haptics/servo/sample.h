@@ -28,6 +28,7 @@ enum class Flag : std::uint32_t
   Workspace = 4096,       ///< pushed back from the end of the device's reach
   Reseated = 8192,        ///< contact is felt from a depth below the surface, until the tool lifts
   Unwatched = 16384,      ///< the main thread is silent: the force fades until it is back
+  DampingLimited = 32768, ///< the law damps more than the device can render
 };
 
 /// Where a device stands between closed and felt.

@@ -54,13 +54,14 @@ Sample step(const Scene& scene, const ToolPose& pose) noexcept
     return sample;
   }
   const double viscous = -scene.damping * pose.velocity.dot(sample.contact.normal);
-  const double wanted = std::max(0.0, sample.response.force + viscous);
-  const double push = std::min(wanted, scene.forceLimit);
-  if (!std::isfinite(wanted) || !(push >= 0.0))
+  const double sum = sample.response.force + viscous;
+  if (!std::isfinite(sum) || !(scene.forceLimit >= 0.0)) // before max and min, which hide a NaN
   {
     raise(sample, Flag::NotFinite);
     return sample;
   }
+  const double wanted = std::max(0.0, sum);
+  const double push = std::min(wanted, scene.forceLimit);
   if (push < wanted)
   {
     raise(sample, Flag::Limited);

@@ -21,7 +21,7 @@ namespace palp
 /// The tissue pushes and never pulls, however fast the tool withdraws. The caller sets the time.
 ///
 /// @return    a sample whose force is finite and no longer than scene.forceLimit; zero, and
-///            flagged, where the pose or what follows from it is not finite
+///            flagged, where the pose or what follows from it is not finite, or the limit none
 /// @source    Fig. 9(b)
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Sample step(const Scene& scene, const ToolPose& pose) noexcept;

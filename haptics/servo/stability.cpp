@@ -81,12 +81,24 @@ void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double mod
     vary("delay of " + std::to_string(delay) + (delay == 1 ? " tick" : " ticks"),
       [&](LoopCase& loop) { loop.plant.delay = delay; });
   }
-  vary("virtual damping", [](LoopCase& loop) { loop.damping = 2.0; });
+  for (const int damping : { 2, 5, 20, 50 })
+  {
+    vary("virtual damping of " + std::to_string(damping) + " N s/m",
+      [&](LoopCase& loop) { loop.damping = damping; });
+  }
   vary("light device",
     [](LoopCase& loop)
     {
       loop.plant.mass = 0.05;
       loop.plant.damping = 0.2;
+    });
+  vary("light late device damped 20 N s/m",
+    [](LoopCase& loop)
+    {
+      loop.plant.mass = 0.05;
+      loop.plant.damping = 0.2;
+      loop.plant.delay = 1;
+      loop.damping = 20.0;
     });
   vary("heavy device",
     [](LoopCase& loop)
@@ -121,8 +133,8 @@ struct Stage
 
 // in the order of the chain
 constexpr Stage kStages[] = { { Flag::Late, "late" }, { Flag::StiffnessLimited, "stiffness" },
-  { Flag::Reseated, "reseat" }, { Flag::Passivity, "passivity" }, { Flag::Limited, "force" },
-  { Flag::SlewLimited, "slew" } };
+  { Flag::Reseated, "reseat" }, { Flag::DampingLimited, "damping" },
+  { Flag::Passivity, "passivity" }, { Flag::Limited, "force" }, { Flag::SlewLimited, "slew" } };
 
 std::string stagesIn(std::uint32_t flags)
 {

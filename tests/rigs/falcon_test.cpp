@@ -107,7 +107,8 @@ public:
 
   std::atomic<Mood> mood = Mood::Good;
   std::atomic<bool> homed = false;
-  std::atomic<bool> loaded = false; // runs firmware
+  std::atomic<bool> loaded = false;  // runs firmware
+  std::atomic<bool> claimed = false; // by a driver that is open
   std::atomic<int> packets = 0;
   std::atomic<int> tooEarly = 0;             // torques before homing
   std::atomic<int> torque = 0;               // sum of the sizes of the last
@@ -297,6 +298,7 @@ int MadeUpFalcon::answer(unsigned long request, void* argument)
       return fail(ENODATA);
     case USBDEVFS_CLAIMINTERFACE:
     case USBDEVFS_RELEASEINTERFACE:
+      claimed = request == USBDEVFS_CLAIMINTERFACE;
       return gone_ ? fail(ENODEV) : 0;
     case USBDEVFS_SUBMITURB:
     {
@@ -515,6 +517,24 @@ TEST_F(FalconRig, ClosedLoopLosesNoReply)
   EXPECT_EQ(falcon_->packets, kTicks);
 }
 
+TEST_F(FalconRig, RepliesThatComeLateAreForgotten)
+{
+  falcon_->loaded = true;
+  FalconDriver driver(openFalcon(), {});
+  DriverSample sample;
+  falcon_->mood = Mood::Silent;
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Timeout);
+  }
+  falcon_->mood = Mood::Good;
+  falcon_->homed = true; // what the late replies do not know
+  while (driver.tick(Vector3d::Zero(), 1.0_ms, sample) != IoCode::Ok)
+  {
+  }
+  EXPECT_TRUE(sample.homed);
+}
+
 TEST_F(FalconRig, NoTorqueComesBeforeHoming)
 {
   falcon_->loaded = true;
@@ -608,7 +628,7 @@ TEST_F(FalconRig, IsSilentThenGoneThenBack)
   }
   EXPECT_GE(device.status().age, 20.0_ms);
   unplug();
-  while (device.exchange(Vector3d::Zero(), 1.0_ms))
+  while (device.exchange(Vector3d::Zero(), 1.0_ms) || falcon_->claimed)
   {
     std::this_thread::sleep_for(1ms);
   }

@@ -48,6 +48,7 @@ int reachFor(double way)
 // counts what goes through, and for how long each answer takes
 struct Traffic
 {
+  std::atomic<bool> fails = false; // the next command, and it alone
   std::atomic<int> sent = 0;
   std::atomic<int> heard = 0;
   std::vector<double> times; // from a command to the first answer [us]; read after the end
@@ -75,6 +76,10 @@ public:
   }
   [[nodiscard]] IoCode write(Bytes bytes) noexcept override
   {
+    if (traffic_.fails.exchange(false))
+    {
+      return IoCode::Gone;
+    }
     asked_ = Board::Clock::now();
     ++traffic_.sent;
     return wire_->write(bytes);
@@ -251,6 +256,25 @@ TEST_F(HidServo, AStopIsZeroOnTheWireAtOnceAndStays)
   std::ranges::sort(took);
   std::printf("last force after a stop: median %.2f ms, largest %.2f ms\n", took[4], took[8]);
   EXPECT_LE(late[4], 2); // a tick of the servo and one of the device: 2 ms
+}
+
+TEST_F(HidServo, ACommandThatDoesNotArriveLeavesNoCurrent)
+{
+  Traffic traffic;
+  start(std::make_unique<ThreadedDevice>(
+    [&traffic]
+    {
+      return std::make_unique<WoodenDriver>(
+        std::make_unique<CountedTransport>(openHid(kNode), traffic), kArm, 64);
+    },
+    placement()));
+  pressDown();
+  traffic.fails = true;
+  waitForState(DeviceState::Closed);
+  std::this_thread::sleep_for(100ms); // it is opened again after half a second
+  EXPECT_EQ(board_->last, 0);
+  servo_.reset();
+  device_.reset(); // while its traffic is there
 }
 
 class HidServoFault

@@ -95,5 +95,100 @@ TEST(Surface, FarSideOfABlockIsItsThickness)
     std::numeric_limits<double>::infinity());
 }
 
+// a ray that meets an edge or a corner leaves through one of their triangles, in whatever pose
+TEST(Surface, FarSideHasNoGapsBetweenItsTriangles)
+{
+  constexpr int kCells = 4;
+  const Eigen::Vector3d size(0.03, 0.03, 0.03);
+  const test::Mesh straight = test::block(size, kCells);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int missed = 0;
+  for (int pose = 0; pose < 200; ++pose)
+  {
+    const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    const Eigen::Vector3d shift(any(random), any(random), any(random));
+    const auto placed = [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(turn * x + shift); };
+    test::Mesh mesh = straight;
+    for (Eigen::Vector3d& x : mesh.first)
+    {
+      x = placed(x);
+    }
+    const Surface surface = test::makeSurface(mesh);
+    for (int i = 0; i <= 2 * kCells; ++i) // nodes, and middles of edges
+    {
+      for (int j = 0; j <= 2 * kCells; ++j)
+      {
+        const Eigen::Vector3d below(
+          size.x() * (0.5 * i / kCells - 0.5), size.y() * (0.5 * j / kCells - 0.5), -size.z());
+        const Eigen::Vector3d aslant(
+          0.2 * size.x() * any(random), 0.2 * size.y() * any(random), 0.0);
+        for (const Eigen::Vector3d& above : { Eigen::Vector3d(below.x(), below.y(), 0.0), aslant })
+        {
+          const bool grazes =
+            above.x() == below.x() && (i % (2 * kCells) == 0 || j % (2 * kCells) == 0);
+          if (!grazes) // no ray within a side of the block
+          {
+            const double thickness = (below - above).norm();
+            const double found = distanceToFarSide(
+              surface, placed(above), (placed(below) - placed(above)).normalized());
+            missed += std::abs(found - thickness) < 1e-9 ? 0 : 1;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(missed, 0);
+}
+
+// where a long triangle meets two short ones, a third, without area but for rounding, lies between
+test::Mesh roofWithATJoint(double slope, const Eigen::Quaterniond& turn)
+{
+  test::Mesh mesh{ { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, -slope }, { 0, 1, -slope },
+                     { 0.1, 0, 0 } },
+    { { 0, 1, 3 }, { 0, 2, 4 }, { 4, 2, 1 }, { 0, 4, 1 } } };
+  for (Eigen::Vector3d& x : mesh.first)
+  {
+    x = turn * x;
+  }
+  return mesh;
+}
+
+class TJoint : public ::testing::TestWithParam<double> // slope of the roof
+{
+};
+INSTANTIATE_TEST_SUITE_P(Surface, TJoint, ::testing::Values(0.0, 0.5, -0.5));
+
+TEST_P(TJoint, SliverOfRoundingHasNoSayInNormalsAndSides)
+{
+  const double slope = GetParam();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int pose = 0; pose < 1000; ++pose)
+  {
+    const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    const Surface surface = test::makeSurface(roofWithATJoint(slope, turn));
+    const Eigen::Vector3d up = turn * Eigen::Vector3d::UnitZ();
+    if (slope == 0.0)
+    {
+      for (const Eigen::Vector3d& normal : surface.normals())
+      {
+        ASSERT_LT((normal - up).norm(), 1e-9);
+      }
+    }
+    for (const double x : { -0.2, 0.0, 0.3 })
+    {
+      const Eigen::Vector3d ridge = turn * Eigen::Vector3d(x, 0, 0);
+      const double out = findNearest(surface, ridge + 0.01 * up, 1.0).distance;
+      const double in = findNearest(surface, ridge - 0.01 * up, 1.0).distance;
+      const double aside = 0.01 / std::hypot(1.0, slope); // of the slopes, from where they meet
+      ASSERT_NEAR(out, slope < 0.0 ? aside : 0.01, 1e-9) << x;
+      ASSERT_NEAR(in, slope > 0.0 ? -aside : -0.01, 1e-9) << x;
+    }
+  }
+}
+
 } // namespace
 } // namespace palp

@@ -77,8 +77,12 @@ public:
     return IoCode::Ok;
   }
 
-  bool request(std::uint8_t, std::uint16_t) noexcept override
+  bool request(std::uint8_t what, std::uint16_t value) noexcept override
   {
+    if (what == 0 && value == 1) // purges what nobody has read
+    {
+      wire_.replies.clear();
+    }
     return !wire_.gone;
   }
 
@@ -165,6 +169,22 @@ TEST(Phd1Driver, SendsForceOnlyToABoardThatIsHomedAndNotStopped)
   EXPECT_EQ(tick().force, Vector3d::Zero());
 }
 
+// a stopped board keeps its place, and must not be asked to go home
+TEST(Phd1Driver, TellsThatItsBoardIsStoppedAndOrdersNothing)
+{
+  Wire wire;
+  Phd1Driver driver(std::make_unique<MemoryTransport>(wire));
+  DriverSample sample;
+  for (int i = 0; i < 2; ++i)
+  {
+    wire.replies.push_back(packetOf(encode(Phd1State{ .homed = true, .stopped = true })));
+    EXPECT_EQ(driver.tick(Vector3d(0, 0, 1), 1.0_ms, sample), IoCode::Ok);
+  }
+  EXPECT_TRUE(sample.homed);
+  EXPECT_TRUE(sample.stopped);
+  EXPECT_EQ(decodePhd1Command(Bytes(wire.heard.back()).subspan(1))->order, Phd1Order::Idle);
+}
+
 TEST(SpaceMouseDriver, StopsWhenItsReportOfRestWasLost)
 {
   Wire wire;
@@ -192,14 +212,18 @@ struct Falcon : Wire
         return;
       }
       Packet reply{ std::byte{ 1 }, std::byte{ 0x60 } };
-      Packet body = packetOf(encode(FalconCommand{}));
+      Packet body = packetOf(encode(FalconCommand{ .torque = encoder })); // the same letters
       body[13] = static_cast<std::byte>('A' + (homed ? 0x70 : 0));
       reply.insert(reply.end(), body.begin(), body.end());
+      replies.insert(replies.end(), late.begin(), late.end());
+      late.clear();
       replies.push_back(reply);
     };
   }
 
   bool homed = false;
+  std::deque<Packet> late; // replies that come with the next
+  std::array<std::int16_t, 3> encoder{};
 };
 
 bool isZeroTorque(const Packet& packet)
@@ -226,6 +250,29 @@ TEST(FalconDriver, SendsNoTorqueBeforeItIsHomed)
   EXPECT_NEAR(sample.position.z(), 0.1346 - 0.125, 1e-4); // all encoders at zero
   (void)driver.tick(Vector3d(0, 0, -1), 1.0_ms, sample);
   EXPECT_FALSE(isZeroTorque(wire.heard.back()));
+}
+
+// one reply for each packet: one that came late would put all that follow a tick behind
+TEST(FalconDriver, AReplyThatComesLateIsNotTakenForTheNext)
+{
+  for (const bool afterTheNextPacket : { false, true })
+  {
+    Falcon wire;
+    wire.homed = true;
+    FalconDriver driver(std::make_unique<MemoryTransport>(wire), {});
+    DriverSample sample;
+    wire.silent = true;
+    EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Timeout);
+    wire.silent = false;
+    wire.encoder = { 1000, 1000, 1000 };
+    if (afterTheNextPacket)
+    {
+      wire.late.swap(wire.replies);
+      (void)driver.tick(Vector3d::Zero(), 1.0_ms, sample);
+    }
+    EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+    EXPECT_NEAR(sample.position.z(), 0.1736 - 0.125, 1e-4) << afterTheNextPacket; // not 0.1346
+  }
 }
 
 TEST(FalconDriver, AsksForFirmwareInOneSentence)
@@ -299,7 +346,10 @@ struct Fake
   std::atomic<int> losses = 0;
   std::atomic<bool> pulled = false;
   std::atomic<bool> homed = true;
-  std::atomic<double> last = 0.0; // size of the last force [N]
+  std::atomic<bool> stopped = false;
+  std::atomic<int> failing = 0;   // transfers that do not reach it, from now on
+  std::atomic<double> last = 0.0; // size of the last force that reached it [N]
+  std::atomic<double> left = 0.0; // the same, when its driver was closed
   std::vector<Vector3d> forces;   // read after the thread has ended
   std::chrono::milliseconds block = 0ms;
 };
@@ -317,6 +367,14 @@ public:
     ++fake.opened;
   }
 
+  ~FakeDriver() override
+  {
+    fake_.left = fake_.last.load();
+  }
+
+  FakeDriver(const FakeDriver&) = delete;
+  FakeDriver& operator=(const FakeDriver&) = delete;
+
   DeviceLimits limits() const override
   {
     return {
@@ -327,13 +385,18 @@ public:
   IoCode tick(const Vector3d& force, double, DriverSample& sample) noexcept override
   {
     std::this_thread::sleep_for(fake_.block); // as a USB transfer does
+    if (fake_.pulled || fake_.failing > 0)
+    {
+      --fake_.failing;
+      ++fake_.losses;
+      return IoCode::Gone;
+    }
     fake_.forces.push_back(force);
     fake_.last = force.norm();
     sample = { .position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm + ++ticks_ * 1.0_um),
-      .homed = fake_.homed };
-    const bool pulled = fake_.pulled;
-    fake_.losses += pulled ? 1 : 0;
-    return pulled ? IoCode::Gone : IoCode::Ok;
+      .homed = fake_.homed,
+      .stopped = fake_.stopped };
+    return IoCode::Ok;
   }
 
 private:
@@ -395,6 +458,45 @@ TEST(ThreadedDevice, GivesTheNewestPoseWithoutWaitingForASlowBus)
       return newest >= 3.02_mm; // 20 exchanges on the bus
     });
   EXPECT_GT(asked, 20);
+}
+
+TEST(ThreadedDevice, NoPoseIsYoungerThanNow)
+{
+  Fake fake;
+  ThreadedDevice device(opening(fake), {});
+  double youngest = 0.0;
+  for (double newest = 0.0; newest < 3.5_mm;) // 500 exchanges, each asked for all the time
+  {
+    newest = device.exchange(Vector3d::Zero(), 1.0_ms)->apex.z();
+    youngest = std::min(youngest, device.status().age);
+  }
+  EXPECT_EQ(youngest, 0.0);
+}
+
+TEST(ThreadedDevice, PassesOnThatItsDeviceIsStopped)
+{
+  Fake fake;
+  fake.stopped = true;
+  ThreadedDevice device(opening(fake), {});
+  EXPECT_TRUE(device.exchange(Vector3d::Zero(), 1.0_ms));
+  EXPECT_TRUE(device.status().stopped);
+}
+
+// some errors pass: a device that is still there would hold the last force for ever
+TEST(ThreadedDevice, ATransferThatFailsLeavesNoForceInTheMotors)
+{
+  for (const int failing : { 1, 4 })
+  {
+    Fake fake;
+    ThreadedDevice device(opening(fake), {});
+    exchangeUntil(device, Vector3d(0, 0, 3), [&](const auto&) { return fake.last == 3.0; });
+    fake.failing = failing;
+    while (fake.opened < 2)
+    {
+      std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_EQ(fake.left, 0.0);
+  }
 }
 
 TEST(ThreadedDevice, AForceThatIsNotRenewedEnds)

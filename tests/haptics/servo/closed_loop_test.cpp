@@ -146,6 +146,34 @@ TEST(ClosedLoop, AnyStiffnessMovesAsTheCappedWallDoes)
   }
 }
 
+// the delay of a tick or of an encoder makes an accelerator of a damper that is strong enough
+TEST(ClosedLoop, NoVirtualDampingMakesTheHandHum)
+{
+  for (const double damping : { 5.0, 20.0, 50.0 })
+  {
+    for (const double stiffness : { 350.0, 34e3, kInf })
+    {
+      for (const double quantum : { 0.0, 48.0_um })
+      {
+        for (const int delay : { 0, 1 })
+        {
+          LoopCase loop;
+          loop.plant.mass = 0.05;
+          loop.plant.damping = 0.2;
+          loop.plant.quantum = quantum;
+          loop.plant.delay = delay;
+          loop.law = wall(stiffness);
+          loop.damping = damping;
+          loop.chain = SafetySettings{};
+          const LoopResult result = simulate(loop);
+          EXPECT_LE(result.hum, 0.025) << damping << " N s/m, " << stiffness << " N/m, " << quantum
+                                       << " m, " << delay << " ticks";
+        }
+      }
+    }
+  }
+}
+
 TEST(ClosedLoop, SoftTissueComesThroughTheChainUnchanged)
 {
   LoopCase loop;

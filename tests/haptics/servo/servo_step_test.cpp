@@ -76,11 +76,24 @@ TEST(ServoStep, WhatIsNotFiniteGivesNoForce)
     }
     Scene world = scene();
     world.damping = bad;
-    EXPECT_TRUE(step(world, at(-2.0_mm, -0.1)).force.allFinite());
-    world = scene();
-    world.forceLimit = bad;
-    EXPECT_TRUE(step(world, at(-2.0_mm)).force.allFinite());
+    const Sample sample = step(world, at(-2.0_mm, -0.1));
+    EXPECT_EQ(sample.force, Eigen::Vector3d::Zero()) << bad;
+    EXPECT_TRUE(sample.flags & static_cast<std::uint32_t>(Flag::NotFinite)) << bad;
   }
+}
+
+TEST(ServoStep, ALimitThatIsNoneGivesNoForce)
+{
+  Scene world = scene();
+  for (const double bad : { std::numeric_limits<double>::quiet_NaN(), -1.0 })
+  {
+    world.forceLimit = bad;
+    const Sample sample = step(world, at(-2.0_mm));
+    EXPECT_EQ(sample.force, Eigen::Vector3d::Zero()) << bad;
+    EXPECT_TRUE(sample.flags & static_cast<std::uint32_t>(Flag::NotFinite)) << bad;
+  }
+  world.forceLimit = std::numeric_limits<double>::infinity(); // bounds nothing
+  EXPECT_EQ(step(world, at(-2.0_mm)).force, step(scene(), at(-2.0_mm)).force);
 }
 
 TEST(ServoStep, AnEmptySceneCannotBeTouched)
