@@ -23,6 +23,7 @@ constexpr std::array kWords{
   Words{ Flag::NotHomed, "not homed" },
   Words{ Flag::Late, "tick late" },
   Words{ Flag::StiffnessLimited, "stiffness limited" },
+  Words{ Flag::DampingLimited, "damping limited" },
   Words{ Flag::Passivity, "damped for passivity" },
   Words{ Flag::Limited, "largest force" },
   Words{ Flag::SlewLimited, "rate limited" },

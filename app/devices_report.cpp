@@ -129,7 +129,8 @@ int probe(const std::string& name)
   std::cout << driver->limits().model << ": " << answered << " of " << times.size()
             << " exchanges answered in a second; median " << microseconds(times[times.size() / 2])
             << " us, longest " << microseconds(times.back()) << " us"
-            << (sample.homed ? "" : "; not homed yet") << '\n';
+            << (sample.homed ? "" : "; not homed yet") << (sample.stopped ? "; stopped" : "")
+            << '\n';
   return answered > 0 ? 0 : kNoneUsable;
 }
 

@@ -1,5 +1,7 @@
 #include "haptics/servo/servo_step.h"
 
+#include "haptics/contact/indentation_of.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +19,9 @@ void raise(Sample& sample, Flag flag) noexcept
 
 Response respond(const Scene& scene, const Contact& contact, double depth) noexcept
 {
-  return scene.law(Indentation{ .depth = depth,
-    .tilt = contact.tilt,
-    .thickness = contact.thickness,
-    .surfaceCurvature = contact.surfaceCurvature,
-    .curvatureSpread = contact.curvatureSpread });
+  Indentation place = indentationOf(contact);
+  place.depth = depth;
+  return scene.law(place);
 }
 
 Sample touch(const Scene& scene, const ToolPose& pose) noexcept
