@@ -66,15 +66,42 @@ Scene scene()
 
 constexpr ServoOptions kPlain{ .realtime = false };
 
-// waits until a sample says so, as long as the test program may run
+// whether a sample comes to say so in time
 template <typename Condition>
-Sample waitFor(Servo& servo, Condition condition)
+bool becomes(Servo& servo, Condition condition, std::chrono::milliseconds longest)
 {
-  while (!condition(servo.newest()))
+  const auto end = std::chrono::steady_clock::now() + longest;
+  while (!condition(servo.newest()) && std::chrono::steady_clock::now() < end)
   {
     std::this_thread::sleep_for(1ms);
   }
+  return condition(servo.newest());
+}
+
+template <typename Condition>
+Sample waitFor(Servo& servo, Condition condition)
+{
+  EXPECT_TRUE(becomes(servo, condition, 60s));
   return servo.newest();
+}
+
+// a machine that does much else loses ticks, and then the force has to be asked for again
+void waitForForce(Servo& servo, Scene world)
+{
+  const auto isActive = [](const Sample& sample) { return sample.state == DeviceState::Active; };
+  for (int attempt = 0; attempt < 20; ++attempt)
+  {
+    if (becomes(servo, isActive, 1s))
+    {
+      return;
+    }
+    world.armed = false;
+    servo.setScene(world);
+    std::this_thread::sleep_for(100ms);
+    world.armed = true;
+    servo.setScene(world);
+  }
+  ADD_FAILURE() << "no force";
 }
 
 bool has(const Sample& sample, Flag flag)
@@ -114,7 +141,7 @@ TEST(Servo, TheForceOfAMainThreadThatHangsFadesAndThenStops)
   Scene world = scene();
   world.armed = true;
   Servo servo(probe, world, kPlain);
-  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::Active; });
+  waitForForce(servo, world);
   std::this_thread::sleep_for(2200ms);
   EXPECT_TRUE(has(servo.newest(), Flag::EmergencyStop));
   EXPECT_EQ(servo.newest().force, Eigen::Vector3d::Zero());
@@ -137,13 +164,10 @@ TEST(Servo, AStopFromOutsideWorksWhileTheMainThreadHangs)
   world.armed = true;
   std::atomic<bool> stop = false;
   Servo servo(probe, world, { .realtime = false, .stop = &stop });
-  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::Active; });
+  waitForForce(servo, world);
   stop = true; // a signal
   const int calls = probe.calls;
-  while (probe.calls < calls + 5)
-  {
-    std::this_thread::sleep_for(1ms);
-  }
+  waitFor(servo, [&](const Sample&) { return probe.calls >= calls + 5; });
   EXPECT_TRUE(has(servo.newest(), Flag::EmergencyStop));
 }
 
@@ -157,7 +181,7 @@ TEST(Servo, DeadManNeedsTheButton)
   waitFor(servo, [](const Sample& sample) { return sample.time > 0.05; });
   EXPECT_EQ(servo.newest().state, DeviceState::Ready);
   probe.button = true;
-  waitFor(servo, [](const Sample& sample) { return sample.state == DeviceState::Active; });
+  waitForForce(servo, world);
 }
 
 TEST(Servo, TakesANewScene)
