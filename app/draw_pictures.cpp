@@ -141,11 +141,10 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
       writePlots(plots, *window, directory / (name + ("." + ending)));
     }
   };
-  std::vector<ReferenceCurve> references{ forceCurveOf(recording.samples) };
+  std::vector<ReferenceCurve> references;
   std::transform(
     plan.references.begin(), plan.references.end(), std::back_inserter(references), readForceCurve);
-  draw(
-    Curve::Comparison, "comparison", forceComparison(recording.scene.law, calibration, references));
+  draw(Curve::Comparison, "comparison", forceComparison(recording, calibration, references));
   if (calibration)
   {
     draw(Curve::Section, "section", deepestSection(body, recording, *calibration));

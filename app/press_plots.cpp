@@ -1,5 +1,6 @@
 #include "app/press_plots.h"
 
+#include "haptics/contact/indentation_of.h"
 #include "haptics/error.h"
 #include "haptics/force/number_table.h"
 #include "haptics/units.h"
@@ -29,10 +30,10 @@ const char* nameOf(LawMode mode)
 }
 
 // the one in use first: the band is about it
-std::vector<NamedLaw> lawsToCompare(const ForceLaw& law)
+std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const Indentation& place)
 {
   const LawMode used = law.settings().mode;
-  std::vector<NamedLaw> laws{ { nameOf(used), law } };
+  std::vector<NamedLaw> laws{ { nameOf(used), law, place } };
   for (const LawMode mode : { LawMode::Paper, LawMode::Exact })
   {
     if (mode != used)
@@ -62,19 +63,7 @@ ReferenceCurve elementsOf(const Calibration& calibration, const ForceLaw& law)
   return curve;
 }
 
-} // namespace
-
-ReferenceCurve readForceCurve(const std::filesystem::path& file)
-{
-  ReferenceCurve curve{ .name = file.stem().string(), .x = {}, .y = {} };
-  for (const auto& [values, line] : NumberTable::readFinite(file, "depth_mm,force_N").rows)
-  {
-    curve.x.push_back(units::fromMillimetres(values[0]));
-    curve.y.push_back(values[1]);
-  }
-  return curve;
-}
-
+// on the way to the deepest sample, thinned out; empty where nothing was touched
 ReferenceCurve forceCurveOf(std::span<const Sample> samples)
 {
   constexpr double kStep = 0.1_mm;
@@ -95,23 +84,41 @@ ReferenceCurve forceCurveOf(std::span<const Sample> samples)
   return curve;
 }
 
-Plots forceComparison(
-  const ForceLaw& law, const Calibration* calibration, std::vector<ReferenceCurve> references)
+} // namespace
+
+ReferenceCurve readForceCurve(const std::filesystem::path& file)
 {
+  ReferenceCurve curve{ .name = file.stem().string(), .x = {}, .y = {} };
+  for (const auto& [values, line] : NumberTable::readFinite(file, "depth_mm,force_N").rows)
+  {
+    curve.x.push_back(units::fromMillimetres(values[0]));
+    curve.y.push_back(values[1]);
+  }
+  return curve;
+}
+
+Plots forceComparison(const Recording& recording, const Calibration* calibration,
+  const std::vector<ReferenceCurve>& others)
+{
+  const ForceLaw& law = recording.scene.law;
+  const Sample* deepest = recording.deepest();
+  std::vector<ReferenceCurve> references{ forceCurveOf(recording.samples) };
+  references.insert(references.end(), others.begin(), others.end());
   if (calibration)
   {
     references.push_back(elementsOf(*calibration, law));
   }
   std::erase_if(references, [](const ReferenceCurve& curve) { return curve.x.empty(); });
-  double deepest = 1.0_mm;
+  double depth = 1.0_mm;
   for (const ReferenceCurve& curve : references)
   {
-    deepest = std::max(deepest, *std::max_element(curve.x.begin(), curve.x.end()));
+    depth = std::max(depth, *std::max_element(curve.x.begin(), curve.x.end()));
   }
-  const std::vector<NamedLaw> laws = lawsToCompare(law);
+  const std::vector<NamedLaw> laws =
+    lawsToCompare(law, deepest ? indentationOf(deepest->contact) : Indentation{});
   Plots plots;
-  plots.push_back(forcePlot(laws, deepest, references));
-  plots.push_back(forceErrorPlot(laws, deepest, references));
+  plots.push_back(forcePlot(laws, depth, references));
+  plots.push_back(forceErrorPlot(laws, depth, references));
   return plots;
 }
 

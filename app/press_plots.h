@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/calibration.h"
+#include "app/recording.h"
 #include "haptics/servo/sample.h"
 #include "pipeline/comparison.h"
 
@@ -22,16 +23,15 @@ using Plots = std::vector<std::unique_ptr<Plot>>; ///< one below the other
 /// @throws Error  BadFile
 [[nodiscard]] ReferenceCurve readForceCurve(const std::filesystem::path& file);
 
-/// Force over depth on the way to the deepest sample, thinned out; empty where nothing was touched.
-[[nodiscard]] ReferenceCurve forceCurveOf(std::span<const Sample> samples);
-
-/// F(depth) of the law in use, of the paper's and of the exact one, with the 7 % band; measured and
-/// of finite elements; and the differences below.
+/// F(depth) of the law in use, of the paper's and of the exact one, with the 7 % band; of this
+/// press, of finite elements and of others; and the differences below.
+///
+/// The law in use knows thickness, curvature and tilt of the deepest contact, as it did there.
 ///
 /// @param calibration  gives the elements; null for none
-/// @param references   first what was measured; those without points are left out
-[[nodiscard]] Plots forceComparison(
-  const ForceLaw& law, const Calibration* calibration, std::vector<ReferenceCurve> references);
+/// @param others       depth [m] and force [N]; those without points are left out
+[[nodiscard]] Plots forceComparison(const Recording& recording, const Calibration* calibration,
+  const std::vector<ReferenceCurve>& others = {});
 
 /// R_d(depth) of the calibration and its quadratic fit.
 [[nodiscard]] Plots extentComparison(const Calibration& calibration);

@@ -172,11 +172,7 @@ void Window::makePlots(bool shown)
     return;
   }
   const auto forces = [this]
-  {
-    const Recording& recording = session_.recording();
-    return forceComparison(
-      recording.scene.law, &session_.calibration(), { forceCurveOf(recording.samples) });
-  };
+  { return forceComparison(session_.recording(), &session_.calibration()); };
   plots_ = new PlotPanel(
     { { tr("Section"), [this] { return sectionOf(view_.press(), session_.calibration()); } },
       { tr("Forces"), forces },

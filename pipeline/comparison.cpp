@@ -31,12 +31,12 @@ std::vector<double> depthsTo(double deepest)
   return depths;
 }
 
-std::vector<double> forcesOf(const ForceLaw& law, const std::vector<double>& depths)
+std::vector<double> forcesOf(const NamedLaw& law, const std::vector<double>& depths)
 {
   std::vector<double> forces;
   for (const double depth : depths)
   {
-    forces.push_back(law({ .depth = depth }).force);
+    forces.push_back(law.force(depth));
   }
   return forces;
 }
@@ -49,7 +49,7 @@ std::unique_ptr<Plot> forcePlot(
   auto plot = std::make_unique<Plot>("force over depth", "depth \u03b4 [mm]", "force [N]");
   const std::vector<double> depths = depthsTo(deepest);
   const std::vector<double> shown = inMillimetres(depths);
-  const std::vector<double> first = forcesOf(laws.front().law, depths);
+  const std::vector<double> first = forcesOf(laws.front(), depths);
   const double margin = kNoticed * first.back();
   std::vector<double> low = first;
   std::vector<double> high = first;
@@ -59,7 +59,7 @@ std::unique_ptr<Plot> forcePlot(
   std::size_t color = 0;
   for (const NamedLaw& law : laws)
   {
-    plot->addLine(law.name, shown, forcesOf(law.law, depths), appearance::curveColor(color++));
+    plot->addLine(law.name, shown, forcesOf(law, depths), appearance::curveColor(color++));
   }
   for (const ReferenceCurve& reference : references)
   {
@@ -74,7 +74,7 @@ std::unique_ptr<Plot> forceErrorPlot(
 {
   const NamedLaw& law = laws.front();
   auto plot = std::make_unique<Plot>(
-    law.name + " against the references", "depth \u03b4 [mm]", "difference [%]");
+    law.name + " against the references", "depth \u03b4 [mm]", "difference [% of the largest]");
   const std::vector<double> shown = inMillimetres(depthsTo(deepest));
   const std::vector<double> low(shown.size(), -100.0 * kNoticed);
   const std::vector<double> high(shown.size(), 100.0 * kNoticed);
@@ -86,7 +86,7 @@ std::unique_ptr<Plot> forceErrorPlot(
     std::vector<double> error;
     for (std::size_t i = 0; i < reference.x.size(); ++i)
     {
-      const double ours = law.law({ .depth = reference.x[i] }).force;
+      const double ours = law.force(reference.x[i]);
       error.push_back(100.0 * (ours - reference.y[i]) / largest);
     }
     plot->addLine(

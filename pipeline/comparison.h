@@ -27,6 +27,15 @@ struct NamedLaw
 {
   std::string name;
   ForceLaw law;
+  Indentation
+    place{}; ///< what the law knows but the depth; by default a half-space pressed straight
+
+  [[nodiscard]] double force(double depth) const noexcept
+  {
+    Indentation at = place;
+    at.depth = depth;
+    return law(at).force;
+  }
 };
 
 /// Forces over the depth: the laws, the 7 % band of the first of them, and references.
