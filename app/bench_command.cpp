@@ -99,6 +99,10 @@ void printTable(const Bench& bench)
 nlohmann::json readGate(const std::filesystem::path& file)
 {
   std::ifstream in(file);
+  if (!in)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the name");
+  }
   nlohmann::json recorded = nlohmann::json::parse(in, nullptr, false);
   if (!recorded.is_object() || !recorded.contains("rows"))
   {

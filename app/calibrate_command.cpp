@@ -103,6 +103,10 @@ Case caseOf(const std::string& name, const CaseText& text)
 std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& defaults)
 {
   std::ifstream in(file);
+  if (!in)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the name");
+  }
   std::vector<Case> cases;
   try
   {

@@ -47,18 +47,18 @@ struct Layer
 
 Layer layerOf(const PressOptions& options, double radius)
 {
-  const auto length = [](const std::string& text, const char* option)
+  const auto length = [](const std::string& text, const char* option, const char* example)
   {
     const double value = parseQuantity(text, Quantity::Length, option);
     if (!(value > 0.0))
     {
       throw Error(ErrorCode::BadValue,
-        std::string(option) + ": '" + text + "' is not positive; give 40mm, say");
+        std::string(option) + ": '" + text + "' is not positive; give " + example + ", say");
     }
     return value;
   };
-  return { options.layer.empty() ? kLayer * radius : length(options.layer, "--layer"),
-    length(options.threshold, "--threshold") };
+  return { options.layer.empty() ? kLayer * radius : length(options.layer, "--layer", "40mm"),
+    length(options.threshold, "--threshold", "0.5mm") };
 }
 
 // whether finite elements of a tool of this shape were computed, whatever its size

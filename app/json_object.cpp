@@ -45,7 +45,10 @@ void JsonObject::refuse(const std::string& key, const std::string& what) const
 
 const nlohmann::json* JsonObject::find(const char* key)
 {
-  known_.emplace_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end())
+  {
+    known_.emplace_back(key);
+  }
   const auto found = value_.find(key);
   return found == value_.end() ? nullptr : &*found;
 }

@@ -219,10 +219,6 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   {
     meshes.push_back(readMesh(mesh, folder));
   }
-  if (meshes.empty())
-  {
-    object.refuse("meshes", "give at least one surface, as in [{\"bundled\": \"liver\"}]");
-  }
   plan.meshes = meshes;
   readDevice(object, plan, folder); // first: what follows depends on the window
   readTissue(object.object("tissue"), plan.press);
@@ -236,6 +232,10 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   plan.curves = kinds<Curve>(object, "plots", kCurveNames);
   readExports(object, plan);
   object.finish();
+  if (meshes.empty())
+  {
+    object.refuse("meshes", "give at least one surface, as in [{\"bundled\": \"liver\"}]");
+  }
 
   plan.press.tissue.options.rated = plan.validity;
   checkAt(object, "tool", [&] { (void)parseTip(plan.press.tissue.tip); });
