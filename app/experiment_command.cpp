@@ -1,3 +1,4 @@
+#include "app/export.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/pictures.h"
@@ -44,8 +45,6 @@ struct ExperimentOptions
 
 void write(const fem::Experiment& experiment, const std::filesystem::path& directory)
 {
-  std::error_code failure;
-  std::filesystem::create_directories(directory, failure);
   const std::filesystem::path file = directory / (experiment.name + ".csv");
   std::ofstream out(file);
   out << fem::csv(experiment);
@@ -63,6 +62,7 @@ void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
   {
     becomeSibling("palp-draw");
   }
+  makeDirectory(options.out);
   const Interrupt interrupt;
   for (const Named& named : kExperiments)
   {

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <fstream>
 #include <system_error>
+#include <unistd.h>
 
 namespace palp
 {
@@ -70,7 +71,7 @@ void makeDirectory(const std::filesystem::path& directory)
 {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
-  if (failure)
+  if (failure || access(directory.c_str(), W_OK) != 0)
   {
     refuse(directory);
   }

@@ -21,7 +21,7 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   const Calibration& calibration);
 
 /// Makes a directory and those above it, where they are missing.
-/// @throws Error  BadFile
+/// @throws Error  BadFile: it cannot be made, or nothing may be written there
 void makeDirectory(const std::filesystem::path& directory);
 
 /// Writes the samples into a file; see the other writeSamples.

@@ -103,6 +103,7 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
   const Pictures* pictures, Ledger& ledger)
 {
   // what is quick to check comes first, before any work
+  makeDirectory(out);
   Recording recording;
   recording.rated = plan.validity;
   recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
@@ -135,7 +136,6 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
     "press", "force at every millisecond", [&] { return play(path, recording.scene, chained); });
   const Calibration* known = calibration ? &*calibration : nullptr;
   tell(recording, known);
-  makeDirectory(out);
   if (plan.samples)
   {
     ledger.build(

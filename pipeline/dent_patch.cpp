@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace palp
@@ -80,7 +81,8 @@ void DentPatch::halveEdges(const Dent& dent)
 {
   coarse_.swap(triangles);
   triangles.clear();
-  middles_.clear();
+  middles_.assign(
+    std::bit_ceil(4 * coarse_.size() + 1), Middle{}); // there are fewer edges than that
   for (const Triangle& corners : coarse_)
   {
     std::array<int, 3> middle{}; // of the edge after each corner
@@ -120,10 +122,8 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
     return kWhole;
   }
   const auto [low, high] = std::minmax(a, b);
-  const std::uint64_t key =
-    static_cast<std::uint64_t>(low) << 32U | static_cast<std::uint64_t>(high);
-  const auto [entry, isNew] = middles_.try_emplace(key, static_cast<int>(corners_.size()));
-  if (isNew)
+  Middle& middle = entryOf(low, high);
+  if (middle.corner < 0)
   {
     const Corner& first = corners_[static_cast<std::size_t>(a)];
     const Corner& second = corners_[static_cast<std::size_t>(b)];
@@ -131,9 +131,24 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
     Place place = dent.region().placeBetween(first.place, second.place, 0.5, rest);
     place.within = dent.isInsideTool(rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
+    middle = { low, high, static_cast<int>(corners_.size()) };
     corners_.push_back({ rest, normal, place });
   }
-  return entry->second;
+  return middle.corner;
+}
+
+// where an edge is, or is to be put
+DentPatch::Middle& DentPatch::entryOf(int low, int high)
+{
+  constexpr std::size_t kScatter = 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
+  const std::size_t mask = middles_.size() - 1;
+  const std::size_t key = static_cast<std::size_t>(low) << 32U | static_cast<std::size_t>(high);
+  std::size_t at = (key * kScatter) >> 40U & mask;
+  while (middles_[at].corner >= 0 && (middles_[at].low != low || middles_[at].high != high))
+  {
+    at = (at + 1) & mask;
+  }
+  return middles_[at];
 }
 
 bool DentPatch::rests(int corner, const Dent& dent) const noexcept
@@ -167,7 +182,7 @@ void DentPatch::turnNormals()
 {
   std::vector<Eigen::Vector3f>& turned = normals;
   turned.assign(corners_.size(), Eigen::Vector3f::Zero());
-  std::vector<Eigen::Vector3f> atRest(corners_.size(), Eigen::Vector3f::Zero());
+  normalsAtRest_.assign(corners_.size(), Eigen::Vector3f::Zero());
   for (const Triangle& triangle : triangles)
   {
     const auto a = static_cast<std::size_t>(triangle[0]);
@@ -180,12 +195,12 @@ void DentPatch::turnNormals()
     for (const std::size_t corner : { a, b, c })
     {
       turned[corner] += now;
-      atRest[corner] += before;
+      normalsAtRest_[corner] += before;
     }
   }
   for (std::size_t i = 0; i < turned.size(); ++i)
   {
-    const Eigen::Vector3f change = turned[i].normalized() - atRest[i].normalized();
+    const Eigen::Vector3f change = turned[i].normalized() - normalsAtRest_[i].normalized();
     turned[i] = (corners_[i].normal + change).normalized();
   }
 }

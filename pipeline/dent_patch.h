@@ -3,8 +3,6 @@
 #include "pipeline/dent.h"
 
 #include <array>
-#include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace palp
@@ -40,8 +38,17 @@ private:
     Place place;
   };
 
+  // the corner half way along an edge, which is known by its ends
+  struct Middle
+  {
+    int low = -1;
+    int high = -1;
+    int corner = -1;
+  };
+
   void takeCorners(const Dent& dent);
   void halveEdges(const Dent& dent);
+  [[nodiscard]] Middle& entryOf(int low, int high);
   [[nodiscard]] int middleOf(int a, int b, const Dent& dent);
   [[nodiscard]] bool rests(int corner, const Dent& dent) const noexcept;
   void displace(const Dent& dent);
@@ -49,7 +56,8 @@ private:
 
   std::vector<Corner> corners_;
   std::vector<Triangle> coarse_;
-  std::unordered_map<std::uint64_t, int> middles_; // of edges by their ends
+  std::vector<Eigen::Vector3f> normalsAtRest_; // of the triangles, not smoothed
+  std::vector<Middle> middles_;                // of edges, a hash table with room for all
 };
 
 } // namespace palp

@@ -51,6 +51,16 @@ vtkPalpDeformFilter::vtkPalpDeformFilter()
 {
   this->SetNumberOfOutputPorts(2);
   this->Touched->SetName("TouchedPoints");
+  this->PatchNormals->SetName("Normals");
+  this->PatchDisplacement->SetName("Displacement");
+  this->PatchLength->SetName("Displacement [mm]");
+  this->PatchDistance->SetName("Distance");
+  this->PatchZone->SetName("Zone");
+  for (vtkFloatArray* array :
+    { this->PatchPositions.Get(), this->PatchNormals.Get(), this->PatchDisplacement.Get() })
+  {
+    array->SetNumberOfComponents(3);
+  }
 }
 
 void vtkPalpDeformFilter::PrintSelf(ostream& os, vtkIndent indent)
@@ -170,41 +180,43 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
     this->PatchLevel < 0 ? palp::DentPatch::levelFor(this->Dent) : this->PatchLevel;
   this->Patch.build(this->Dent, this->UsedPatchLevel);
   const auto count = static_cast<vtkIdType>(this->Patch.points.size());
-  const auto positions = floats("Points", 3, count);
-  const auto normals = floats("Normals", 3, count);
-  const auto moved = floats("Displacement", 3, count);
-  const auto length = floats("Displacement [mm]", 1, count);
-  const auto distance = floats("Distance", 1, count);
-  vtkNew<vtkUnsignedCharArray> zone;
-  zone->SetName("Zone");
-  zone->SetNumberOfTuples(count);
+  for (vtkDataArray* array : { static_cast<vtkDataArray*>(this->PatchPositions),
+         static_cast<vtkDataArray*>(this->PatchNormals),
+         static_cast<vtkDataArray*>(this->PatchDisplacement),
+         static_cast<vtkDataArray*>(this->PatchLength),
+         static_cast<vtkDataArray*>(this->PatchDistance),
+         static_cast<vtkDataArray*>(this->PatchZone) })
+  {
+    array->SetNumberOfTuples(count); // keeps memory that is large enough
+    array->Modified();
+  }
   const Eigen::Vector3f normal = this->Dent.region().normal().cast<float>();
   for (vtkIdType i = 0; i < count; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
-    positions->SetTypedTuple(i, this->Patch.points[at].data());
-    normals->SetTypedTuple(i, this->Patch.normals[at].data());
+    this->PatchPositions->SetTypedTuple(i, this->Patch.points[at].data());
+    this->PatchNormals->SetTypedTuple(i, this->Patch.normals[at].data());
     const Eigen::Vector3f displacement = -this->Patch.sink[at] * normal;
-    moved->SetTypedTuple(i, displacement.data());
+    this->PatchDisplacement->SetTypedTuple(i, displacement.data());
     const double millimetres = palp::units::toMillimetres(this->Patch.sink[at]);
-    length->SetValue(i, static_cast<float>(millimetres));
-    distance->SetValue(i, this->Patch.distance[at]);
-    zone->SetValue(i, static_cast<unsigned char>(this->Patch.zone[at]));
+    this->PatchLength->SetValue(i, static_cast<float>(millimetres));
+    this->PatchDistance->SetValue(i, this->Patch.distance[at]);
+    this->PatchZone->SetValue(i, static_cast<unsigned char>(this->Patch.zone[at]));
   }
-  vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact(static_cast<vtkIdType>(this->Patch.triangles.size()),
-    3 * static_cast<vtkIdType>(this->Patch.triangles.size()));
+  this->PatchTriangles->Reset();
   for (const palp::Triangle& triangle : this->Patch.triangles)
   {
-    triangles->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
+    const vtkIdType corners[] = { triangle[0], triangle[1], triangle[2] };
+    this->PatchTriangles->InsertNextCell(3, corners);
   }
-  vtkNew<vtkPoints> points;
-  points->SetData(positions);
-  patch->SetPoints(points);
-  patch->SetPolys(triangles);
-  patch->GetPointData()->SetNormals(normals);
-  patch->GetPointData()->AddArray(moved);
-  patch->GetPointData()->AddArray(length);
-  patch->GetPointData()->AddArray(distance);
-  patch->GetPointData()->AddArray(zone);
+  this->PatchTriangles->Modified();
+  this->PatchPoints->SetData(this->PatchPositions);
+  this->PatchPoints->Modified();
+  patch->SetPoints(this->PatchPoints);
+  patch->SetPolys(this->PatchTriangles);
+  patch->GetPointData()->SetNormals(this->PatchNormals);
+  patch->GetPointData()->AddArray(this->PatchDisplacement);
+  patch->GetPointData()->AddArray(this->PatchLength);
+  patch->GetPointData()->AddArray(this->PatchDistance);
+  patch->GetPointData()->AddArray(this->PatchZone);
 }

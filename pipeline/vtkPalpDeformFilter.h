@@ -14,7 +14,7 @@
  *   "Displacement [mm]"  float, length of the displacement
  *   "Distance"           float [m], from the contact's centre along the undeformed surface
  *   "Zone"               as above
- * It costs nothing until GeneratePatch is on.
+ * It costs nothing until GeneratePatch is on; its arrays are changed in place, too.
  *
  * The arrays of output 0 are made once for an input and then changed in place, at a cost that
  * follows the dent. They are marked modified, as any filter's; a mapper that would send all of
@@ -27,14 +27,13 @@
 #include "pipeline/dent_patch.h"
 
 #include <memory>
+#include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataAlgorithm.h>
 #include <vtkUnsignedCharArray.h>
-
-class vtkCellArray;
 
 class vtkPalpDeformFilter : public vtkPolyDataAlgorithm
 {
@@ -120,4 +119,14 @@ private:
   vtkSmartPointer<vtkFloatArray> Displacement;
   vtkSmartPointer<vtkUnsignedCharArray> Zone;
   vtkNew<vtkIntArray> Touched;
+
+  // output 1, the same
+  vtkNew<vtkPoints> PatchPoints;
+  vtkNew<vtkFloatArray> PatchPositions;
+  vtkNew<vtkFloatArray> PatchNormals;
+  vtkNew<vtkFloatArray> PatchDisplacement;
+  vtkNew<vtkFloatArray> PatchLength; // of the displacement
+  vtkNew<vtkFloatArray> PatchDistance;
+  vtkNew<vtkUnsignedCharArray> PatchZone;
+  vtkNew<vtkCellArray> PatchTriangles;
 };

@@ -2,6 +2,7 @@
 
 #include "haptics/units.h"
 #include "tests/pipeline/surfaces.h"
+#include "tests/support/allocation_guard.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -121,6 +122,27 @@ TEST_F(SmallTool, IsEmptyAtRest)
   patch.build(surface.dent, 2);
   EXPECT_TRUE(patch.points.empty());
   EXPECT_TRUE(patch.triangles.empty());
+}
+
+TEST_F(SmallTool, NeedsNoMemoryOnceItsPatchWasAsLarge)
+{
+  const auto pressAside = [&](double aside)
+  {
+    press.contact.center.x() = aside;
+    press.pose.apex.x() = aside;
+    surface.press(press);
+    patch.build(surface.dent, 3);
+  };
+  press.extentRadius = 9.0_mm;
+  pressAside(0.0);
+  pressAside(0.3_mm);
+  press.extentRadius = 7.0_mm;
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 10; ++i)
+  {
+    pressAside(0.3_mm * i);
+  }
+  EXPECT_EQ(guard.count(), 0U);
 }
 
 } // namespace
