@@ -17,6 +17,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
+#include <regex>
 #include <set>
 
 namespace palp
@@ -220,6 +221,39 @@ TEST_F(RunCommand, RefusesWhatItCannotRead)
     EXPECT_EQ(finished.code, 2) << arguments;
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
   }
+}
+
+TEST_F(RunCommand, RefusesWhatWouldBeInVainBeforeTheWork)
+{
+  const auto refused = [&](const std::string& arguments, const char* word)
+  {
+    const Finished finished = palp("run " + block() + " --no-picture " + arguments);
+    EXPECT_EQ(finished.code, 2) << finished.err;
+    EXPECT_NE(finished.err.find(word), std::string::npos) << finished.err;
+    EXPECT_EQ(finished.err.find("deepest"), std::string::npos) << "after the press";
+  };
+  const std::string out = " --out " + (folder_.path() / "out").string();
+  const std::string press = " --path " + writePath(folder_.path(), "0,0,0,20\n1,0,0,20\n").string();
+  refused(press + " --out /proc/palp", "/proc/palp");
+  refused(" --path " + folder_.path().string() + out, "a folder");
+  const auto endless = writePath(folder_.path(), "0,0,0,20\n1e9,0,0,20\n");
+  refused(" --path " + endless.string() + out, "an hour at most");
+}
+
+TEST_F(RunCommand, TellsWhereTheLawIsOutsideItsLimits)
+{
+  const auto namesDepth = [](const Finished& finished)
+  {
+    return std::regex_search(finished.err, std::regex("outside its limits .*\\bdepth\\b.*samples"));
+  };
+  // 5 mm is half of the tool's radius, 9 mm beyond the 0.55 of Sec. 4.3
+  EXPECT_FALSE(namesDepth(press("--no-picture", "shallow")));
+  std::ostringstream rows;
+  rows << "0,0,0," << topMm() + 1.0 << "\n1,0,0," << topMm() - 9.0 << '\n';
+  const Finished deep = palp("run " + block() + " --no-picture --path " +
+    writePath(folder_.path(), rows.str().c_str()).string() + " --out " +
+    (folder_.path() / "deep").string());
+  EXPECT_TRUE(namesDepth(deep)) << deep.err;
 }
 
 TEST_F(RunCommand, CalibratesWithTablesAndPlots)
