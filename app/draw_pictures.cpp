@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 
 namespace palp
@@ -127,9 +128,10 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
     drawScene(context, body, recording, *calibration, plan, directory / "press.png");
   }
   drawForce(context, recording, plan, directory);
-  const auto draw = [&](Curve curve, const char* name, const Plots& plots)
+  const auto draw = [&](Curve curve, const char* name, const std::function<Plots()>& make)
   {
-    if (!plan.has(curve) || plots.empty())
+    const Plots plots = plan.has(curve) ? make() : Plots{};
+    if (plots.empty())
     {
       return;
     }
@@ -144,11 +146,12 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
   std::vector<ReferenceCurve> references;
   std::transform(
     plan.references.begin(), plan.references.end(), std::back_inserter(references), readForceCurve);
-  draw(Curve::Comparison, "comparison", forceComparison(recording, calibration, references));
+  draw(Curve::Comparison, "comparison",
+    [&] { return forceComparison(recording, calibration, references); });
   if (calibration)
   {
-    draw(Curve::Section, "section", deepestSection(body, recording, *calibration));
-    draw(Curve::Extent, "extent", extentComparison(*calibration));
+    draw(Curve::Section, "section", [&] { return deepestSection(body, recording, *calibration); });
+    draw(Curve::Extent, "extent", [&] { return extentComparison(*calibration); });
   }
 }
 

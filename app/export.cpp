@@ -3,6 +3,7 @@
 #include "calibration/csv_text.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "pipeline/press_of.h"
 #include "pipeline/surface_io.h"
 #include "pipeline/vtkPalpDeformFilter.h"
 
@@ -32,13 +33,8 @@ namespace
 
 Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
-  return { .contact = sample.contact,
-    .pose = sample.pose,
-    .tip = tip,
-    .contactRadius = sample.response.contactRadius,
-    .extentRadius = calibration.extents.extentRadius(sample.contact.depth),
-    .fitted =
-      calibration.surfaces ? calibration.surfaces->at(sample.contact.depth) : std::nullopt };
+  const double extent = calibration.extents.extentRadius(sample.contact.depth);
+  return pressOf(sample, tip, extent, calibration.surfaces);
 }
 
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,

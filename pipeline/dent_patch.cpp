@@ -15,22 +15,6 @@ constexpr int kMaxLevel = 4;
 constexpr int kWhole = -1;                   // stands for the middle of an edge that is not halved
 constexpr std::size_t kMaxTriangles = 24000; // as many as a picture is quick with
 
-Eigen::Vector3f restNormal(const PressRegion& region, std::int32_t point)
-{
-  const Eigen::Vector3d p = region.rest(point);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  std::int32_t before = Umbrella::kEnd;
-  for (const std::int32_t next : region.umbrella().around(point))
-  {
-    if (before != Umbrella::kEnd && next != Umbrella::kEnd)
-    {
-      sum += (region.rest(before) - p).cross(region.rest(next) - p);
-    }
-    before = next;
-  }
-  return sum.normalized().cast<float>();
-}
-
 } // namespace
 
 int DentPatch::levelFor(const Dent& dent)
@@ -70,7 +54,8 @@ void DentPatch::takeCorners(const Dent& dent)
   for (std::size_t i = 0; i < region.points().size(); ++i)
   {
     const std::int32_t point = region.points()[i];
-    corners_.push_back({ region.rest(point), restNormal(region, point), region.places()[i] });
+    const Eigen::Vector3f normal = region.areaAround(point).normalized().cast<float>();
+    corners_.push_back({ region.rest(point), normal, region.places()[i] });
   }
   triangles.clear();
   region.forEachTriangle([&](const Triangle& triangle) { triangles.push_back(triangle); });

@@ -41,23 +41,15 @@ PressRegion::PressRegion(std::span<const float> rest, std::span<const Triangle> 
 }
 
 // whether one triangle of a point may face the tool as kFront asks and another may not at all
-bool PressRegion::isSharpAt(std::int32_t point) const
+bool PressRegion::isSharpAt(std::int32_t point) const noexcept
 {
-  const Eigen::Vector3d p = rest(point);
-  std::vector<Eigen::Vector3d> normals;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  std::int32_t before = Umbrella::kEnd;
-  for (const std::int32_t next : umbrella_.around(point))
-  {
-    if (before != Umbrella::kEnd && next != Umbrella::kEnd)
-    {
-      normals.push_back((rest(before) - p).cross(rest(next) - p).normalized());
-      mean += normals.back();
-    }
-    before = next;
-  }
-  return std::any_of(normals.begin(), normals.end(),
-    [&](const Eigen::Vector3d& n) { return !(n.dot(mean) > kSharp * mean.norm()); });
+  forEachAreaAround(point, [&](const Eigen::Vector3d& area) { mean += area.normalized(); });
+  bool isSharp = false;
+  forEachAreaAround(point,
+    [&](const Eigen::Vector3d& area)
+    { isSharp = isSharp || !(area.normalized().dot(mean) > kSharp * mean.norm()); });
+  return isSharp;
 }
 
 std::size_t PressRegion::bytes() const noexcept
@@ -93,19 +85,17 @@ double PressRegion::edgeLength() const noexcept
   return count > 0 ? sum / count : 0.0;
 }
 
+Eigen::Vector3d PressRegion::areaAround(std::int32_t point) const noexcept
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  forEachAreaAround(point, [&](const Eigen::Vector3d& area) { sum += area; });
+  return sum;
+}
+
 bool PressRegion::faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept
 {
-  const Eigen::Vector3d p = rest(point);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const auto around = umbrella_.around(point);
-  for (std::size_t i = 1; i < around.size(); ++i)
-  {
-    if (around[i - 1] != Umbrella::kEnd && around[i] != Umbrella::kEnd)
-    {
-      sum += (rest(around[i - 1]) - p).cross(rest(around[i]) - p);
-    }
-  }
-  return sum.dot(normal) > kSeedFacing * sum.norm();
+  const Eigen::Vector3d area = areaAround(point);
+  return area.dot(normal) > kSeedFacing * area.norm();
 }
 
 // the nearest point that faces the tool: downhill from the last one, or, where that ends on

@@ -5,6 +5,7 @@
 #include "pipeline/umbrella.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -132,6 +133,9 @@ public:
     return { p[0], p[1], p[2] };
   }
 
+  /// Along the normal of the surface at rest at a point, twice the area of its triangles [m^2].
+  [[nodiscard]] Eigen::Vector3d areaAround(std::int32_t point) const noexcept;
+
   /// A position of the contact's frame in that of the surface [m].
   [[nodiscard]] Eigen::Vector3d toSurface(const Eigen::Vector3d& local) const noexcept
   {
@@ -184,7 +188,9 @@ private:
   {
     return (slot_[static_cast<std::size_t>(point)] & kSettledBit) != 0;
   }
-  [[nodiscard]] bool isSharpAt(std::int32_t point) const;
+  template <typename Function>
+  void forEachAreaAround(std::int32_t point, Function function) const;
+  [[nodiscard]] bool isSharpAt(std::int32_t point) const noexcept;
   void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
   [[nodiscard]] std::size_t indexOf(std::int32_t point);
   void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
@@ -210,6 +216,22 @@ private:
   std::int32_t seed_ = 0;
   bool hasSides_ = false;
 };
+
+// calls with twice the area vector of each triangle of a point, at rest
+template <typename Function>
+void PressRegion::forEachAreaAround(std::int32_t point, Function function) const
+{
+  const Eigen::Vector3d p = rest(point);
+  std::int32_t before = Umbrella::kEnd;
+  for (const std::int32_t next : umbrella_.around(point))
+  {
+    if (before != Umbrella::kEnd && next != Umbrella::kEnd)
+    {
+      function(Eigen::Vector3d((rest(before) - p).cross(rest(next) - p)));
+    }
+    before = next;
+  }
+}
 
 template <typename Function>
 void PressRegion::forEachTriangle(Function function) const

@@ -5,6 +5,7 @@
 #include "pipeline/control_net.h"
 #include "pipeline/force_arrow.h"
 #include "pipeline/ghost.h"
+#include "pipeline/press_of.h"
 #include "pipeline/surface_circle.h"
 #include "pipeline/tool_surface.h"
 
@@ -176,12 +177,7 @@ bool PressView::isVisible(Overlay overlay) const
 void PressView::show(const Sample& sample)
 {
   const double extent = extentRadius(sample.contact.depth);
-  deform_->SetPress({ .contact = sample.contact,
-    .pose = sample.pose,
-    .tip = tip_,
-    .contactRadius = sample.response.contactRadius,
-    .extentRadius = extent,
-    .fitted = fitted_ ? fitted_->at(sample.contact.depth) : std::nullopt });
+  deform_->SetPress(pressOf(sample, tip_, extent, fitted_));
   deform_->SetGeneratePatch(sample.contact.touching());
   deform_->Update();
   const Moment moment{ sample, tip_, extent, *deform_ };

@@ -1,8 +1,8 @@
 #include "app/press_plots.h"
 
 #include "haptics/error.h"
+#include "tests/support/csv_table.h"
 
-#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -10,22 +10,13 @@ namespace palp
 namespace
 {
 
-std::filesystem::path written(const std::string& text)
-{
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto file =
-    std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".csv");
-  std::ofstream(file) << text;
-  return file;
-}
-
 TEST(PressPlots, ReadACurveHoweverItsLinesEnd)
 {
   for (const char* end : { "\n", "\r\n" })
   {
     const std::string e = end;
-    const ReferenceCurve curve =
-      readForceCurve(written("# mine" + e + "depth_mm,force_N" + e + "1,0.25" + e + "4,2" + e));
+    const ReferenceCurve curve = readForceCurve(
+      test::writtenCsv("# mine" + e + "depth_mm,force_N" + e + "1,0.25" + e + "4,2" + e));
     EXPECT_EQ(curve.name, "ReadACurveHoweverItsLinesEnd");
     EXPECT_EQ(curve.x, (std::vector<double>{ 0.001, 0.004 }));
     EXPECT_EQ(curve.y, (std::vector<double>{ 0.25, 2.0 }));
@@ -36,7 +27,7 @@ TEST(PressPlots, RefuseACurveWithoutItsHeader)
 {
   try
   {
-    (void)readForceCurve(written("1,0.25\n4,2\n"));
+    (void)readForceCurve(test::writtenCsv("1,0.25\n4,2\n"));
     ADD_FAILURE() << "accepted";
   }
   catch (const Error& error)

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/haptics/force/reference_table.h"
+#include "tests/support/csv_table.h"
 
 #include <filesystem>
 #include <fstream>
@@ -17,21 +18,12 @@ namespace
 using namespace units::literals;
 using Row = ExtentTable::Row;
 
-std::filesystem::path written(const std::string& text)
-{
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto file =
-    std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".csv");
-  std::ofstream(file) << text;
-  return file;
-}
-
 // the message of the error that reading the text gives; empty when it can be read
 std::string refusal(const std::string& text)
 {
   try
   {
-    (void)ExtentTable::read(written(text));
+    (void)ExtentTable::read(test::writtenCsv(text));
   }
   catch (const Error& error)
   {
@@ -45,7 +37,8 @@ constexpr auto kHeader = "# how it was made\ndepth_mm,extent_radius_mm,force_N,c
 
 TEST(ExtentTable, ReadsMillimetresAsMetres)
 {
-  const auto table = ExtentTable::read(written(kHeader + std::string("1,3,0.25,2\n2,7,0.5,4\n")));
+  const auto table =
+    ExtentTable::read(test::writtenCsv(kHeader + std::string("1,3,0.25,2\n2,7,0.5,4\n")));
   ASSERT_EQ(table.rows().size(), 2U);
   EXPECT_DOUBLE_EQ(table.rows()[1].depth, 2.0_mm);
   EXPECT_DOUBLE_EQ(table.rows()[1].extentRadius, 7.0_mm);
@@ -92,8 +85,8 @@ TEST(ExtentTable, RefusesAFileWithoutItsHeader)
 
 TEST(ExtentTable, ReadsLinesAsWindowsEndsThem)
 {
-  const auto table = ExtentTable::read(
-    written("depth_mm,extent_radius_mm,force_N,contact_radius_mm\r\n1,3,0.25,2\r\n2,7,0.5,4\r\n"));
+  const auto table = ExtentTable::read(test::writtenCsv(
+    "depth_mm,extent_radius_mm,force_N,contact_radius_mm\r\n1,3,0.25,2\r\n2,7,0.5,4\r\n"));
   ASSERT_EQ(table.rows().size(), 2U);
   EXPECT_DOUBLE_EQ(table.rows()[1].contactRadius, 4.0_mm);
 }

@@ -65,4 +65,14 @@ inline CsvTable readCsv(const std::filesystem::path& file)
   return parseCsv(in);
 }
 
+/// A file of a text, named after the test that asks for it.
+inline std::filesystem::path writtenCsv(const std::string& text)
+{
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto file =
+    std::filesystem::path(::testing::TempDir()) / (std::string(test->name()) + ".csv");
+  std::ofstream(file) << text;
+  return file;
+}
+
 } // namespace palp::test
