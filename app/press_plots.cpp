@@ -7,6 +7,7 @@
 #include "pipeline/plot_files.h"
 
 #include <algorithm>
+#include <span>
 
 namespace palp
 {
@@ -63,22 +64,19 @@ ReferenceCurve elementsOf(const Calibration& calibration, const ForceLaw& law)
   return curve;
 }
 
-// on the way to the deepest sample, thinned out; empty where nothing was touched
+// thinned out
 ReferenceCurve forceCurveOf(std::span<const Sample> samples)
 {
   constexpr double kStep = 0.1_mm;
   ReferenceCurve curve{ .name = "this press", .x = {}, .y = {} };
-  const auto deeper = [](const Sample& a, const Sample& b)
-  { return a.contact.depth < b.contact.depth; };
-  const auto deepest = std::max_element(samples.begin(), samples.end(), deeper);
   double next = kStep;
-  for (auto sample = samples.begin(); sample != deepest; ++sample)
+  for (const Sample& sample : samples)
   {
-    if (sample->contact.depth >= next)
+    if (sample.contact.depth >= next)
     {
-      curve.x.push_back(sample->contact.depth);
-      curve.y.push_back(sample->response.force);
-      next = sample->contact.depth + kStep;
+      curve.x.push_back(sample.contact.depth);
+      curve.y.push_back(sample.response.force);
+      next = sample.contact.depth + kStep;
     }
   }
   return curve;
@@ -102,8 +100,12 @@ Plots forceComparison(const Recording& recording, const Calibration* calibration
 {
   const ForceLaw& law = recording.scene.law;
   const Sample* deepest = recording.deepest();
-  std::vector<ReferenceCurve> references{ forceCurveOf(recording.samples) };
-  references.insert(references.end(), others.begin(), others.end());
+  std::vector<ReferenceCurve> references = others;
+  if (deepest)
+  {
+    const auto until = static_cast<std::size_t>(deepest - recording.samples.data());
+    references.insert(references.begin(), forceCurveOf(std::span(recording.samples).first(until)));
+  }
   if (calibration)
   {
     references.push_back(elementsOf(*calibration, law));

@@ -2,12 +2,10 @@
 
 #include "app/calibration.h"
 #include "app/recording.h"
-#include "haptics/servo/sample.h"
 #include "pipeline/comparison.h"
 
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <vector>
 
 class vtkRenderWindow;

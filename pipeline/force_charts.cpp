@@ -81,13 +81,14 @@ double roomFor(double value, double least)
 } // namespace
 
 ForceCharts::ForceCharts(std::optional<double> duration)
-  : law_(SphereTip{ .radius = 10.0_mm }, Material{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 })
+  : duration_(duration.value_or(0.0))
+  , law_(SphereTip{ .radius = 10.0_mm }, Material{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 })
 {
   const char* title = duration ? "force over time" : "force over the last minute";
   appearance::setUpChart(*overTime_, title, "time [s]", "force [N]");
   for (vtkPalpSampleSource* source : { samples_.Get(), rendered_.Get() })
   {
-    source->SetSpan(std::max(duration.value_or(0.0), vtkPalpSampleSource::Minute));
+    source->SetSpan(std::max(duration_, vtkPalpSampleSource::Minute));
   }
   fixAxes(*overTime_);
   timePlot_ = addLine(*overTime_, "law", appearance::kLaw, 3.0F);
@@ -158,7 +159,9 @@ void ForceCharts::refresh()
   const double law = law_({ .depth = depthLimit }).force;
   const double last = samples_->GetLastTime();
   const double span = samples_->GetSpan();
-  const double end = last < span ? std::min(span, roomFor(last, kFirstTime)) : last;
+  const double end = duration_ > 0.0 ? duration_
+    : last < span                    ? std::min(span, roomFor(last, kFirstTime))
+                                     : last;
   setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
   setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(largestForce_, kFirstForce));
   setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimetres(depthLimit));

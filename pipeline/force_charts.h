@@ -54,6 +54,7 @@ private:
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
   vtkPlot* renderedPlot_ = nullptr;
   vtkPlot* depthPlot_ = nullptr;
+  double duration_; // of a press that is known from the start [s]; else 0
   ForceLaw law_;
   double largestForce_ = 0.0; // measured [N]
   double largestDepth_ = 0.0; // measured [m]
