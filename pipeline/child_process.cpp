@@ -7,6 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -64,71 +65,53 @@ void limit(int resource, std::uint64_t most)
   setrlimit(resource, &limits);
 }
 
-[[noreturn]] void serve(const std::function<std::string()>& work, ChildLimits limits, int pipe)
+// @return  the child, or nothing with errno
+std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
 {
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, limits.time);
-  if (kLimitMemory)
+  std::vector<char*> arguments;
+  for (const std::string& argument : command)
   {
-    limit(RLIMIT_DATA, limits.memory);
+    arguments.push_back(const_cast<char*>(argument.c_str()));
   }
-  for (const int signal : { SIGXCPU, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGALRM })
-  {
-    std::signal(signal, SIG_DFL);
-  }
-  // a damaged heap can leave the child waiting for a lock, which takes no processor time
-  constexpr std::uint64_t kPatience = 3; // of the time on the processor, for a busy machine
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  alarm(static_cast<unsigned>(kPatience * limits.time));
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
-  int status = 0;
-  try
-  {
-    writeAll(pipe, kResult + work());
-  }
-  catch (const Error& error)
-  {
-    writeAll(pipe, std::string{ kError, static_cast<char>(error.code()) } + error.what());
-  }
-  catch (const std::exception&)
-  {
-    status = 1; // out of memory
-  }
-  _exit(status); // and nothing of the parent is flushed or closed here
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigfillset(&signals);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  pid_t child = -1;
+  errno = posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return errno == 0 ? std::optional(child) : std::nullopt;
 }
 
 } // namespace
 
-std::optional<std::string> runInChild(const std::function<std::string()>& work, ChildLimits limits)
+std::optional<std::string> answerOf(const std::vector<std::string>& command)
 {
   int ends[2] = { -1, -1 };
-  pid_t child = -1;
-  if (pipe2(ends, O_CLOEXEC) == 0)
-  {
-    child = fork();
-  }
-  if (child < 0)
-  {
-    const int why = errno;
-    close(ends[0]);
-    close(ends[1]);
-    throw Error(ErrorCode::BadFile,
-      std::string("reader: cannot be started (") + std::strerror(why) + "); close some programs");
-  }
-  if (child == 0)
-  {
-    close(ends[0]);
-    serve(work, limits, ends[1]);
-  }
+  const bool piped = pipe2(ends, O_CLOEXEC) == 0;
+  const std::optional<pid_t> child = piped ? spawn(command, ends[1]) : std::nullopt;
+  const int why = errno;
   close(ends[1]);
+  if (!child)
+  {
+    close(ends[0]);
+    throw Error(ErrorCode::BadFile,
+      command[0] + ": cannot be started (" + std::strerror(why) + "); build or install it");
+  }
   const std::string answer = readAll(ends[0]);
   close(ends[0]);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+  while (waitpid(*child, &status, 0) < 0 && errno == EINTR)
   {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty())
@@ -140,6 +123,35 @@ std::optional<std::string> runInChild(const std::function<std::string()>& work, 
     throw Error(static_cast<ErrorCode>(answer[1]), answer.substr(2));
   }
   return answer.substr(1);
+}
+
+void answer(const std::function<std::string()>& work, ChildLimits limits)
+{
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.time);
+  if (kLimitMemory)
+  {
+    limit(RLIMIT_DATA, limits.memory);
+  }
+  // a damaged heap can leave a process waiting for a lock, which takes no processor time
+  constexpr std::uint64_t kPatience = 3; // of the time on the processor, for a busy machine
+  alarm(static_cast<unsigned>(kPatience * limits.time));
+  const int output = dup(STDOUT_FILENO);
+  dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+  int status = 0;
+  try
+  {
+    writeAll(output, kResult + work());
+  }
+  catch (const Error& error)
+  {
+    writeAll(output, std::string{ kError, static_cast<char>(error.code()) } + error.what());
+  }
+  catch (const std::exception&)
+  {
+    status = 1; // out of memory
+  }
+  _exit(status); // a damaged heap is not taken down in order
 }
 
 } // namespace palp

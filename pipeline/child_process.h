@@ -4,26 +4,32 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace palp
 {
 
-/// What a child process may use before it is ended.
+/// Runs a program that answers, so that a crash there is an answer here.
+///
+/// A program rather than a fork of this one: that would hold for ever the locks that other threads
+/// hold at that moment.
+///
+/// @param command  path of a program whose main function is answer, and its arguments
+/// @return         nothing when the program crashed, or reached a limit
+/// @throws Error   what the work threw; BadFile when the program cannot be started
+[[nodiscard]] std::optional<std::string> answerOf(const std::vector<std::string>& command);
+
+/// What a process may use before it is ended.
 struct ChildLimits
 {
   std::uint64_t memory; ///< [bytes]
   std::uint64_t time;   ///< of the processor [s]
 };
 
-/// Does work in a process of its own, so that a crash there is an answer here.
+/// Main function of a program that answers: limits itself, does the work, and writes what that
+/// returns or throws to standard output.
 ///
-/// For readers of other people's files, which no check beforehand makes safe. The process prints
-/// nothing and leaves no core file.
-///
-/// @param work    starts no thread and needs none; what it returns is carried over
-/// @return        nothing when the process crashed, or reached a limit
-/// @throws Error  what the work threw; BadFile when no process can be started
-[[nodiscard]] std::optional<std::string> runInChild(
-  const std::function<std::string()>& work, ChildLimits limits);
+/// Whatever else prints, prints nothing, and a crash leaves no core file.
+[[noreturn]] void answer(const std::function<std::string()>& work, ChildLimits limits);
 
 } // namespace palp

@@ -1,17 +1,14 @@
 #include "pipeline/surface_formats.h"
 
 #include "haptics/error.h"
-#include "pipeline/child_process.h"
 #include "pipeline/image_formats.h"
 #include "pipeline/off_format.h"
 #include "pipeline/poly_data.h"
 #include "pipeline/vtk_formats.h"
 
-#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <clocale>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -155,12 +152,16 @@ vtkSmartPointer<vtkPolyData> readAny(
   return levelSurface(format.readImage(file), level, file.string());
 }
 
-FileSurface readHere(
-  const std::filesystem::path& file, const Format& format, std::optional<double> level)
+} // namespace
+
+FileSurface readFile(const std::filesystem::path& file, std::optional<double> level)
 {
-  std::setlocale(LC_ALL, "C"); // NOLINT(concurrency-mt-unsafe): alone in its process
-  // the threads of the pool stayed with the parent
-  vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
+  const Format& format = formatOf(file);
+  checkFile(file, format);
+  if (level && format.read)
+  {
+    refuse(file, "a surface, not an image; leave the level out");
+  }
   const VtkErrors errors;
   const vtkSmartPointer<vtkPolyData> data = readAny(file, format, level);
   if (!errors.first().empty())
@@ -193,62 +194,6 @@ FileSurface readHere(
   {
     surface.unit = "mm"; // by their definition
   }
-  return surface;
-}
-
-template <typename Value>
-void pack(std::string& bytes, const Value* values, std::size_t count)
-{
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-  bytes.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
-}
-
-template <typename Values>
-void unpack(std::string_view& bytes, Values& values)
-{
-  std::size_t count = 0;
-  std::memcpy(&count, bytes.data(), sizeof count);
-  values.resize(count);
-  std::memcpy(static_cast<void*>(values.data()), bytes.data() + sizeof count,
-    count * sizeof(typename Values::value_type));
-  bytes.remove_prefix(sizeof count + count * sizeof(typename Values::value_type));
-}
-
-} // namespace
-
-FileSurface readFile(const std::filesystem::path& file, std::optional<double> level)
-{
-  const Format& format = formatOf(file);
-  checkFile(file, format);
-  if (level && format.read)
-  {
-    refuse(file, "a surface, not an image; leave the level out");
-  }
-  // several times what the slowest reader takes for an honest file
-  const std::uint64_t size = std::filesystem::file_size(file);
-  const ChildLimits limits{ .memory = (4ULL << 30) + 64 * size, .time = 10 + (size >> 20) };
-  const auto packed = runInChild(
-    [&]
-    {
-      const FileSurface surface = readHere(file, format, level);
-      std::string bytes;
-      pack(bytes, surface.points.data(), surface.points.size());
-      pack(bytes, surface.triangles.data(), surface.triangles.size());
-      pack(bytes, surface.unit.data(), surface.unit.size());
-      return bytes;
-    },
-    limits);
-  if (!packed)
-  {
-    refuse(file,
-      std::string("damaged or cut off, no ") + format.name +
-        " reader gets through it; export or copy it again");
-  }
-  std::string_view rest = *packed;
-  FileSurface surface;
-  unpack(rest, surface.points);
-  unpack(rest, surface.triangles);
-  unpack(rest, surface.unit);
   return surface;
 }
 

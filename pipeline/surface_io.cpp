@@ -2,10 +2,12 @@
 
 #include "haptics/error.h"
 #include "haptics/units.h"
-#include "pipeline/surface_formats.h"
+#include "pipeline/child_process.h"
+#include "pipeline/file_surface.h"
 #include "pipeline/surface_repair.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -57,6 +59,26 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   }
   text << " mm; coordinates taken in " << unitName(surface.unit) << ", " << why;
   return text.str();
+}
+
+FileSurface readFile(const std::filesystem::path& file, std::optional<double> level)
+{
+  const auto reader =
+    std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin/palp-read";
+  std::vector<std::string> command{ reader.string(), file.string() };
+  if (level)
+  {
+    char digits[32];
+    command.emplace_back(digits, std::to_chars(digits, std::end(digits), *level).ptr);
+  }
+  const auto answer = answerOf(command);
+  if (!answer)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() +
+        ": damaged or cut off, its reader does not get through it; export or copy it again");
+  }
+  return unpack(*answer);
 }
 
 template <typename Writer>

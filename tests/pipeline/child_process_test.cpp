@@ -3,51 +3,36 @@
 #include "haptics/error.h"
 
 #include <atomic>
-#include <csignal>
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <iostream>
-#include <stdexcept>
-#include <unistd.h>
-#include <vector>
+#include <memory>
+#include <thread>
 
 namespace palp::test
 {
 namespace
 {
 
-constexpr ChildLimits kLimits{ .memory = 4ULL << 30, .time = 30 };
-
-// what hangs on a lock takes no processor time, so a limit of that alone would wait for ever
-TEST(ChildProcess, EndsWorkThatOnlyWaits)
+std::optional<std::string> answering(const std::string& way)
 {
-  const auto wait = []() -> std::string
-  {
-    for (;;)
-    {
-      pause();
-    }
-  };
-  EXPECT_FALSE(runInChild(wait, { .memory = kLimits.memory, .time = 1 }));
+  return answerOf({ PALP_ANSWERING, way });
 }
 
 TEST(ChildProcess, CarriesOverWhatTheWorkReturns)
 {
-  // larger than any pipe, with every byte
   std::string bytes(3'000'000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
     bytes[i] = static_cast<char>(i * 7 + i / 251);
   }
-  EXPECT_EQ(runInChild([&] { return bytes; }, kLimits), bytes);
-  EXPECT_EQ(runInChild([] { return std::string(); }, kLimits), std::string());
+  EXPECT_EQ(answering("bytes"), bytes);
+  EXPECT_EQ(answering("nothing"), std::string());
 }
 
 TEST(ChildProcess, PassesAnErrorOn)
 {
   try
   {
-    (void)runInChild([]() -> std::string { throw Error(ErrorCode::BadMesh, "a: b; c"); }, kLimits);
+    (void)answering("error");
     FAIL() << "no error came through";
   }
   catch (const Error& error)
@@ -57,66 +42,77 @@ TEST(ChildProcess, PassesAnErrorOn)
   }
 }
 
+TEST(ChildProcess, NamesAProgramThatIsNotThere)
+{
+  try
+  {
+    (void)answerOf({ "/nowhere/reader" });
+    FAIL() << "started from nowhere";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadFile);
+    EXPECT_TRUE(std::string(error.what()).starts_with("/nowhere/reader: cannot be started"));
+  }
+}
+
 TEST(ChildProcess, TurnsACrashIntoNothing)
 {
   testing::internal::CaptureStderr();
-  EXPECT_EQ(runInChild([]() -> std::string { std::abort(); }, kLimits), std::nullopt);
-  EXPECT_EQ(runInChild(
-              []
-              {
-                std::raise(SIGSEGV);
-                return std::string();
-              },
-              kLimits),
-    std::nullopt);
-  EXPECT_EQ(runInChild([]() -> std::string { std::_Exit(3); }, kLimits), std::nullopt);
-  EXPECT_EQ(runInChild([]() -> std::string { std::_Exit(0); }, kLimits), std::nullopt);
-  EXPECT_EQ(runInChild([]() -> std::string { throw std::bad_alloc(); }, kLimits), std::nullopt);
+  for (const char* way : { "abort", "segmentation", "exit 3", "exit 0", "no memory" })
+  {
+    EXPECT_EQ(answering(way), std::nullopt) << way;
+  }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(ChildProcess, EndsWorkThatNeverEnds)
+// what hangs on a lock takes no processor time, so a limit of that alone would wait for ever
+TEST(ChildProcess, EndsWhatOnlyWaits)
 {
-  const auto forever = []() -> std::string
+  EXPECT_EQ(answering("wait"), std::nullopt);
+}
+
+TEST(ChildProcess, EndsWhatNeverEnds)
+{
+  EXPECT_EQ(answering("work"), std::nullopt);
+}
+
+// a copy of this process would now and then start with the allocator locked
+TEST(ChildProcess, AnswersWhateverOtherThreadsDo)
+{
+  std::atomic<bool> done = false;
+  const auto allocate = [&]
   {
-    for (std::atomic<int> i = 0;; ++i)
+    for (std::size_t size = 1; !done; size = size % 4096 + 1)
     {
+      *std::make_unique<volatile char[]>(size).get() = 1;
     }
   };
-  EXPECT_EQ(runInChild(forever, { .memory = 4ULL << 30, .time = 1 }), std::nullopt);
+  std::thread one(allocate);
+  std::thread two(allocate);
+  for (int i = 0; i < 20; ++i)
+  {
+    EXPECT_EQ(answering("nothing"), std::string());
+  }
+  done = true;
+  one.join();
+  two.join();
 }
 
 TEST(ChildProcess, PrintsNothing)
 {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  EXPECT_EQ(runInChild(
-              []
-              {
-                std::cout << "out" << std::endl;
-                std::cerr << "err" << std::endl;
-                return std::string("done");
-              },
-              kLimits),
-    "done");
+  EXPECT_EQ(answering("print"), "done");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 // sanitizers reserve more address space than any limit
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST(ChildProcess, EndsWorkThatWantsTooMuchMemory)
+TEST(ChildProcess, EndsWhatWantsTooMuchMemory)
 {
-  const auto greedy = []
-  {
-    std::vector<std::string> hoard;
-    for (int i = 0; i < 1000; ++i)
-    {
-      hoard.emplace_back(10'000'000, 'x');
-    }
-    return std::string("got ten gigabytes");
-  };
-  EXPECT_EQ(runInChild(greedy, { .memory = 200'000'000, .time = 30 }), std::nullopt);
+  EXPECT_EQ(answering("greedy"), std::nullopt);
 }
 #endif
 

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "haptics/contact/surface.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palp
+{
+
+/// What a surface file holds, as it stands there.
+struct FileSurface
+{
+  std::vector<Eigen::Vector3d> points; ///< in the unit of the file; finite
+  std::vector<Triangle> triangles;     ///< at least one; indices in range
+  std::string unit;                    ///< that the file states; empty: none
+};
+
+/// Name of the field array by which a VTP or VTK file states its unit: "mm", "cm" or "m".
+constexpr const char* kUnitArray = "LengthUnit";
+
+/// @return  bytes for another process on this machine
+[[nodiscard]] std::string pack(const FileSurface& surface);
+
+/// @param bytes  of pack
+[[nodiscard]] FileSurface unpack(std::string_view bytes);
+
+} // namespace palp
