@@ -1,42 +1,50 @@
 #pragma once
 
+#include "app/law_options.h"
 #include "haptics/servo/scene.h"
 
 #include <QWidget>
 
-class QComboBox;
-class QDoubleSpinBox;
+class QGroupBox;
 
 namespace palp
 {
 
-/// Tool and tissue with their units; says when any of them changed.
+class ChoiceBox;
+class LawPanel;
+class QuantityBox;
+class ToolPanel;
+
+/// Tool, tissue and law with their units; says when any of them changed.
 class TissuePanel : public QWidget
 {
   Q_OBJECT
 
 public:
-  explicit TissuePanel(const Scene& scene, QWidget* parent = nullptr);
+  /// @param options  of the scene's law
+  TissuePanel(const Scene& scene, const LawOptions& options, QWidget* parent = nullptr);
 
+  /// As the fields say.
+  /// @throws Error  as ToolPanel::tip, LawPanel::settings, ForceLaw
   [[nodiscard]] ForceLaw law() const;
   [[nodiscard]] ContactRule rule() const;
   [[nodiscard]] double damping() const; ///< b [N s/m]
+
+  /// Shows what is in use, without a signal.
+  void setScene(const Scene& scene);
 
 Q_SIGNALS:
   void tissueChanged();
 
 private:
-  void showAngleForConesOnly();
+  QGroupBox* makeTissue();
 
-  LawSettings settings_; // from the command line, too
-  Tip other_;            // a tool from the command line that the panel has no fields for
-  QComboBox* kind_;
-  QDoubleSpinBox* radiusMm_;
-  QDoubleSpinBox* halfAngleDeg_;
-  QDoubleSpinBox* modulusKpa_;
-  QDoubleSpinBox* poisson_;
-  QDoubleSpinBox* damping_;
-  QComboBox* rule_;
+  ToolPanel* tool_;
+  LawPanel* law_;
+  QuantityBox* modulus_;
+  QuantityBox* poisson_;
+  QuantityBox* damping_;
+  ChoiceBox* rule_;
 };
 
 } // namespace palp

@@ -239,6 +239,7 @@ void Window::applyTissue()
       isStale_ = true;
       forceLabel_->setToolTip(QString::fromStdString(session_.calibration().note));
     });
+  panel_->setScene(session_.recording().scene); // what was refused is not in use
 }
 
 void Window::applyDevice(const QString& name)

@@ -123,7 +123,7 @@ void Window::makeView()
 
 void Window::makeDocks()
 {
-  panel_ = new TissuePanel(session_.recording().scene);
+  panel_ = new TissuePanel(session_.recording().scene, session_.plan().press.tissue.options);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
   QScrollArea* tissue = scrolled(panel_);
   tissue->setMaximumHeight(panel_->sizeHint().height()); // the rest is for what changes

@@ -3,19 +3,22 @@
 #include "app/device_words.h"
 #include "app/ledger.h"
 #include "app/plot_panel.h"
+#include "app/tool_panel.h"
+#include "haptics/contact/indentation_of.h"
 #include "haptics/error.h"
+#include "tests/app/application.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
 #include <QAction>
-#include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QImage>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
-#include <QSurfaceFormat>
 #include <QTest>
+#include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 
 #include <algorithm>
@@ -23,6 +26,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -30,17 +34,6 @@ namespace palp
 {
 namespace
 {
-
-/// One application for all tests; a missing display is a failure, not a skip.
-QApplication& application()
-{
-  static int count = 1;
-  static char name[] = "window_test";
-  static char* words[] = { name, nullptr };
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
-  static QApplication instance(count, words);
-  return instance;
-}
 
 bool has(const Sample& sample, Flag flag)
 {
@@ -53,7 +46,7 @@ protected:
   WindowTest()
   {
     setenv("PALP_DATA", PALP_SHARE, 1);
-    application();
+    test::application();
     session_ = std::make_unique<Session>(ScenePlan{}, silent_);
     window_ = std::make_unique<Window>(*session_, silent_);
     window_->show();
@@ -83,6 +76,25 @@ protected:
   void release()
   {
     QTest::mouseRelease(canvas_, Qt::LeftButton);
+  }
+
+  // of the message that work ends in, which is closed
+  [[nodiscard]] static QString whatIsSaidOf(const std::function<void()>& work)
+  {
+    QString said;
+    QTimer closer;
+    QObject::connect(&closer, &QTimer::timeout,
+      [&]
+      {
+        if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+        {
+          said = message->text();
+          message->accept();
+        }
+      });
+    closer.start(100);
+    work();
+    return said;
   }
 
   // the largest force that any sample so far has
@@ -161,6 +173,54 @@ TEST_F(WindowTest, AnotherToolBeginsTheRecordingAnew)
   EXPECT_LT(deepest->contact.depth, 4e-3);
   const ForceLaw& law = session_->recording().scene.law;
   EXPECT_NEAR(deepest->response.force, law({ .depth = deepest->contact.depth }).force, 1e-9);
+}
+
+// the force at the place that is held, from a law made here
+TEST_F(WindowTest, TheCorrectedLawAnswersAHeldPress)
+{
+  press(100);
+  window_->findChild<QComboBox*>("law")->setCurrentText("Corrected");
+  const ForceLaw law(SphereTip{ 0.01 }, Material{ 50e3, 0.33 },
+    { .mode = LawMode::Corrected,
+      .largeStrain = readLargeStrain(PALP_SHARE "/tables/large_strain_sphere.csv",
+        PALP_SHARE "/tables/large_strain_cone.csv") });
+  const ForceLaw paper(SphereTip{ 0.01 }, Material{ 50e3, 0.33 });
+  const auto answers = [&]
+  {
+    const Sample sample = session_->newest();
+    return std::abs(sample.response.force - law(indentationOf(sample.contact)).force) < 1e-9;
+  };
+  EXPECT_TRUE(QTest::qWaitFor(answers, kPatience));
+  const Sample sample = session_->newest();
+  EXPECT_GT(std::abs(sample.response.force - paper(indentationOf(sample.contact)).force), 0.02);
+  release();
+}
+
+TEST_F(WindowTest, ARefusedProfileLeavesEverythingAsItWas)
+{
+  const std::string file = (folder_.path() / "falling.csv").string();
+  std::ofstream(file) << "radius_mm,height_mm\n0,0\n1,2\n2,1\n";
+  const QString said =
+    whatIsSaidOf([&] { window_->findChild<ToolPanel*>()->askForProfile(file.c_str()); });
+  EXPECT_TRUE(said.contains("falling.csv") && said.contains("the height falls"))
+    << said.toStdString();
+  EXPECT_TRUE(std::holds_alternative<SphereTip>(session_->recording().scene.law.tip()));
+  EXPECT_EQ(window_->findChild<QComboBox*>("kind")->currentText(), "Sphere");
+}
+
+// R_d of a cone is known for one thickness only
+TEST_F(WindowTest, AToolWithoutAnExtentLeavesEverythingAsItWas)
+{
+  ScenePlan plan;
+  plan.press.layer = "40mm";
+  window_.reset();
+  session_ = std::make_unique<Session>(plan, silent_);
+  window_ = std::make_unique<Window>(*session_, silent_);
+  auto* kind = window_->findChild<QComboBox*>("kind");
+  const QString said = whatIsSaidOf([&] { kind->setCurrentText("Cone"); });
+  EXPECT_TRUE(said.contains("for a cone")) << said.toStdString();
+  EXPECT_TRUE(std::holds_alternative<SphereTip>(session_->recording().scene.law.tip()));
+  EXPECT_EQ(kind->currentText(), "Sphere");
 }
 
 TEST_F(WindowTest, WhatFailsLeavesEverythingAsItWas)

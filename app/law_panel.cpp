@@ -1,0 +1,96 @@
+#include "app/law_panel.h"
+
+#include "app/panel_boxes.h"
+
+#include <QGridLayout>
+#include <QHBoxLayout>
+
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+// the words of the options, each list in the order of its enumeration
+constexpr const char* kModes[]{ "paper", "exact", "corrected" };
+constexpr const char* kBases[]{ "bonded", "slip" };
+constexpr const char* kConstitutions[]{ "linear", "neo-hookean" };
+
+static_assert(static_cast<int>(LawMode::Corrected) == 2);
+static_assert(static_cast<int>(Base::Slip) == 1);
+static_assert(static_cast<int>(Constitution::NeoHookean) == 1);
+
+} // namespace
+
+LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent)
+  : QGroupBox(tr("Law"), parent)
+  , options_(std::move(options))
+  , mode_(new ChoiceBox("law", { tr("Paper"), tr("Exact half-space"), tr("Corrected") }))
+  , base_(new ChoiceBox("base", { tr("Bonded"), tr("Slip") }))
+  , constitution_(new ChoiceBox("material", { tr("Linear"), tr("Neo-Hookean") }))
+{
+  mode_->setToolTip(tr("Paper: Eqs. (2)-(5)\nExact half-space: the linear solution for every tool\n"
+                       "Corrected: thickness, curvature, tilt and large strain, where they act"));
+  base_->setToolTip(tr("Under the body; acts where the body is thin"));
+  constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
+  QGridLayout& rows = *makeRows(*this);
+  addRow(rows, tr("Force law"), mode_);
+  addRow(rows, tr("Base, material"), makePair());
+  setSettings(inUse);
+
+  for (ChoiceBox* box : { mode_, base_, constitution_ })
+  {
+    connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this,
+      [this]
+      {
+        enableWhatActs();
+        Q_EMIT lawChanged();
+      });
+  }
+}
+
+// both are short, and the panel is high
+QWidget* LawPanel::makePair()
+{
+  auto* pair = new QWidget;
+  auto* row = new QHBoxLayout(pair);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(base_);
+  row->addWidget(constitution_, 1);
+  return pair;
+}
+
+LawSettings LawPanel::settings() const
+{
+  const bool same = mode_->currentIndex() == static_cast<int>(inUse_.mode) &&
+    base_->currentIndex() == static_cast<int>(inUse_.base) &&
+    constitution_->currentIndex() == static_cast<int>(inUse_.constitution);
+  if (same)
+  {
+    return inUse_; // reads no table again
+  }
+  LawOptions options = options_;
+  options.mode = kModes[mode_->currentIndex()];
+  options.base = kBases[base_->currentIndex()];
+  options.constitution = kConstitutions[constitution_->currentIndex()];
+  return options.settings();
+}
+
+void LawPanel::setSettings(const LawSettings& inUse)
+{
+  inUse_ = inUse;
+  mode_->show(static_cast<int>(inUse.mode));
+  base_->show(static_cast<int>(inUse.base));
+  constitution_->show(static_cast<int>(inUse.constitution));
+  enableWhatActs();
+}
+
+void LawPanel::enableWhatActs()
+{
+  const bool corrected = mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
+  base_->setEnabled(corrected);
+  constitution_->setEnabled(corrected);
+}
+
+} // namespace palp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "app/law_options.h"
+
+#include <QGroupBox>
+
+namespace palp
+{
+
+class ChoiceBox;
+
+/// The law and what its corrections take into account; says when any of it changed.
+class LawPanel : public QGroupBox
+{
+  Q_OBJECT
+
+public:
+  /// @param inUse    settings of the law
+  /// @param options  what they were made of; what the panel does not ask for stays as there
+  LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent = nullptr);
+
+  /// As the fields say.
+  /// @throws Error  as LawOptions::settings
+  [[nodiscard]] LawSettings settings() const;
+
+  /// Shows the law in use, without a signal.
+  void setSettings(const LawSettings& inUse);
+
+Q_SIGNALS:
+  void lawChanged();
+
+private:
+  [[nodiscard]] QWidget* makePair();
+  void enableWhatActs();
+
+  LawSettings inUse_;
+  LawOptions options_;
+  ChoiceBox* mode_;
+  ChoiceBox* base_;
+  ChoiceBox* constitution_;
+};
+
+} // namespace palp

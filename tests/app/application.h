@@ -1,0 +1,22 @@
+#pragma once
+
+#include <QApplication>
+#include <QSurfaceFormat>
+#include <QVTKOpenGLNativeWidget.h>
+
+namespace palp::test
+{
+
+/// One application for all tests of a program; a missing display is a failure, not a skip.
+inline QApplication& application()
+{
+  static int count = 1;
+  static char name[] = "test";
+  static char* words[] = { name, nullptr };
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  static auto* instance =
+    new QApplication(count, words); // stays, as it may not outlive Qt's statics
+  return *instance;
+}
+
+} // namespace palp::test
