@@ -63,6 +63,8 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   , stop_(new QPushButton(tr("STOP (Esc)")))
 {
   auto* form = new QFormLayout(this);
+  form->setContentsMargins(8, 2, 8, 2);
+  form->setVerticalSpacing(4);
   device_->setObjectName("device");
   device_->addItems(devices);
   form->addRow(tr("Tool held by"), device_);

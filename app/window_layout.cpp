@@ -1,6 +1,7 @@
 // What the window is made of; what it does is in window.cpp.
 
 #include "app/device_panel.h"
+#include "app/panel_area.h"
 #include "app/plot_panel.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
@@ -21,6 +22,7 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
+#include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QStatusBar>
@@ -125,11 +127,14 @@ void Window::makeDocks()
 {
   panel_ = new TissuePanel(session_.recording().scene, session_.plan().press.tissue.options);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
-  QScrollArea* tissue = scrolled(panel_);
-  tissue->setMaximumHeight(panel_->sizeHint().height()); // the rest is for what changes
-  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), tissue);
+  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), new PanelArea(panel_));
   makeDevicePanel();
-  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), scrolled(devicePanel_));
+  QScrollArea* device = scrolled(devicePanel_);
+  const int usual = devicePanel_->sizeHint().height();
+  constexpr int kMore = 4; // lines, to tell of a fault or a limit
+  device->setMinimumHeight(std::min(usual, screen()->availableGeometry().height() / 6));
+  device->setMaximumHeight(usual + kMore * devicePanel_->fontMetrics().lineSpacing());
+  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), device);
   if (session_.plan().validity)
   {
     reliance_ = new ReliancePanel;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <QScrollArea>
+
+namespace palp
+{
+
+/// A panel in a dock: as high as what it shows, up to half of the screen; then scrolled.
+class PanelArea : public QScrollArea
+{
+public:
+  /// @param content  becomes the area's
+  explicit PanelArea(QWidget* content);
+
+protected:
+  bool eventFilter(QObject* object, QEvent* event) override;
+
+private:
+  void fit();
+};
+
+} // namespace palp
