@@ -21,13 +21,6 @@ constexpr double kEdge = 1.0 / 3.0;           // a / distance, a rule of thumb
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
 constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
 
-LawSettings best(LawSettings settings)
-{
-  settings.mode = LawMode::Corrected;
-  settings.curvature = settings.thickness = settings.inclination = true;
-  return settings;
-}
-
 bool isRound(const Tip& tip) noexcept
 {
   return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
@@ -75,7 +68,7 @@ Validity::Validity(const ForceLaw& law)
 
 Validity::Validity(const ForceLaw& law, const Limits& limits)
   : law_(law)
-  , best_(law.tip(), law.material(), best(law.settings()))
+  , best_(law.corrected())
   , limits_(limits)
   , thickness_(kVerifiedWidth)
   , tilt_(tiltLimit(law))
