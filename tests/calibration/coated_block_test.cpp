@@ -1,7 +1,11 @@
 #include "calibration/mesh.h"
 #include "haptics/error.h"
 #include "haptics/force/force_law.h"
+#include "haptics/force/validity.h"
 #include "tests/calibration/indentation_case.h"
+
+#include <algorithm>
+#include <string_view>
 
 namespace palp::fem
 {
@@ -73,6 +77,34 @@ TEST_P(CoatedBlock, NeoHookeanSheetsBeginAsLinearOnes)
   const double linear = completed(study).steps.front().force;
   study.energy = Energy::NeoHookean;
   EXPECT_NEAR(completed(study).steps.front().force, linear, 0.03 * linear);
+}
+
+// where the rule of large strain breaks, the linear law is still near; soon after it is not
+TEST(CoatedBlocks, StiffSkinOnFatStretchesOncePressedDeeperThanItIsThick)
+{
+  Case study = coatedCase(coatings({ { 1.0_mm, kSkin }, { 8.0_mm, kFat } }));
+  study.energy = Energy::NeoHookean;
+  study.elementSize = 0.5_mm;
+  study.depths = { 0.5_mm, 1.0_mm, 2.0_mm, 3.0_mm };
+  const ForceLaw law(
+    study.tip, study.material, { .mode = LawMode::Corrected, .coatings = study.coatings });
+  const Validity validity(law);
+  const auto steps = completed(study).steps;
+  const auto shortOf = [&](std::size_t i)
+  {
+    return 1.0 - law({ .depth = steps[i].depth, .thickness = study.height }).force / steps[i].force;
+  };
+  const auto believed = [&](std::size_t i)
+  {
+    const Rules rules = validity({ .depth = steps[i].depth, .thickness = study.height });
+    return std::ranges::all_of(rules,
+      [](const Rule& rule)
+      { return std::string_view(rule.name) != "large_strain" || rule.holds(); });
+  };
+  EXPECT_TRUE(believed(0) && believed(1));
+  EXPECT_LT(shortOf(1), 0.08);
+  EXPECT_FALSE(believed(2) || believed(3));
+  EXPECT_GT(shortOf(3), 0.15);
 }
 
 TEST(CoatedBlocks, SheetsMeetTheirBoundsAndFillThem)
