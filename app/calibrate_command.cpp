@@ -1,3 +1,4 @@
+#include "app/coating_spec.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/pictures.h"
@@ -31,7 +32,7 @@ struct CaseText
   std::map<std::string, std::string> values{ { "block", "100x100x50mm" }, { "tip", "sphere:10mm" },
     { "young", "50kPa" }, { "poisson", "0.33" }, { "material", "neo-hookean" },
     { "depth", "0.5:10:0.5mm" }, { "threshold", "0.5mm" }, { "cap", "0.3mm" },
-    { "model", "axisymmetric" }, { "element-size", "" } };
+    { "model", "axisymmetric" }, { "element-size", "" }, { "coating", "" } };
 };
 
 // A x B x C; a unit on the last number counts for all
@@ -87,6 +88,7 @@ Case caseOf(const std::string& name, const CaseText& text)
     .tip = withCap(parseTip(value("tip")), length("cap")),
     .material = makeMaterial(parseQuantity(value("young"), Quantity::Pressure, "--young"),
       parseNumber(value("poisson"), "--poisson")),
+    .coatings = parseCoatings(value("coating")),
     .energy = *energy,
     .depths = parseRange(value("depth"), Quantity::Length, "--depth").si,
     .threshold = length("threshold"),
@@ -262,6 +264,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   text("depth", "Indentation depths A:B:STEP");
   text("threshold", "Displacement at the edge of the deformed region");
   text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
+  text("coating", "On the block, its height included: THICKNESS:YOUNG:NU from the surface down");
   text("element-size", "Under the tool; 0.5mm, or a tenth of its radius in the block");
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from what --out holds");
@@ -273,6 +276,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
     "Examples:\n"
     "  palp calibrate --tip sphere:10mm --block 100x100x50mm --out sphere\n"
     "  palp calibrate --tip cone:45deg:10mm --material corotated --depth 0.5:6:0.5mm --out cone\n"
+    "  palp calibrate --young 5kPa --coating 2mm:50kPa:0.45 --out skin\n"
     "  palp calibrate --sweep cases.json --jobs 2 --out sweep --resume\n"
     "  palp calibrate --tables data/tables          make the shipped tables again");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");

@@ -153,6 +153,14 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     calibration.elements =
       FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
   }
+  if (options.table.empty() && !law.settings().coatings.empty())
+  {
+    calibration.reach = 0.0;
+    calibration.elements.reset();
+    calibration.young.reset();
+    calibration.note += (calibration.note.empty() ? "" : "; ") +
+      std::string("R_d is that of tissue without coatings; palp calibrate --coating makes its own");
+  }
   if (options.surface == "fitted")
   {
     calibration.surfaces = calibration.elements;

@@ -46,6 +46,12 @@ void tellFactors(const ForceLaw& law, const Indentation& deepest)
   }
 }
 
+// that of coatings only where there are some
+std::span<const Factor> factorsOf(const ForceLaw& law, const Factors& factors)
+{
+  return std::span(factors).first(factors.size() - (law.settings().coatings.empty() ? 1 : 0));
+}
+
 void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
@@ -57,7 +63,7 @@ void printForces(const ForceOptions& options)
   std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
   if (!paper)
   {
-    for (const Factor& factor : law.factors(place))
+    for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
     {
       header += ",factor_" + std::string(factor.name);
     }
@@ -83,7 +89,8 @@ void printForces(const ForceOptions& options)
       units::toNewtonsPerMillimetre(response.stiffness) };
     if (!paper)
     {
-      for (const Factor& factor : law.factors(place))
+      for (const Factors factors = law.factors(place);
+           const Factor& factor : factorsOf(law, factors))
       {
         row.push_back(factor.value);
       }
@@ -125,7 +132,8 @@ void addForceCommand(CLI::App& app)
     "Examples:\n"
     "  palp force --tip cone:45deg:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm\n"
     "  palp force --tip sphere:6mm --law corrected --thickness 30mm --surface-radius 50mm\n"
-    "  palp force --tip profile:tip.csv --law exact --validity");
+    "  palp force --tip profile:tip.csv --law exact --validity\n"
+    "  palp force --young 5kPa --poisson 0.45 --law corrected --coating 2mm:50kPa:0.45");
   command->callback([options] { printForces(*options); });
 }
 

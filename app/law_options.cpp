@@ -1,5 +1,6 @@
 #include "app/law_options.h"
 
+#include "app/coating_spec.h"
 #include "app/data_files.h"
 #include "app/quantity.h"
 #include "haptics/error.h"
@@ -70,6 +71,9 @@ void LawOptions::addTo(CLI::App& command)
       "--material", constitution, "Under large strain, for --law corrected: linear or neo-hookean")
     ->check(CLI::IsMember({ "linear", "neo-hookean" }))
     ->capture_default_str();
+  command.add_option("--coating", coating,
+    "Skin, fat, a capsule on the tissue, for --law corrected: THICKNESS:YOUNG:NU from the surface "
+    "down, as in 2mm:200kPa:0.45,10mm:20kPa:0.48");
 }
 
 LawSettings LawOptions::settings() const
@@ -80,10 +84,16 @@ LawSettings LawOptions::settings() const
     : mode == "exact"                 ? LawMode::Exact
                                       : LawMode::Corrected;
   const bool needed = material != Constitution::Linear && (rated || law == LawMode::Corrected);
+  if (!coating.empty() && law != LawMode::Corrected)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--coating: the law '" + mode + "' knows none; add --law corrected, or leave it out");
+  }
   return { .mode = law,
     .base = base == "slip" ? Base::Slip : Base::Bonded,
     .constitution = material,
-    .largeStrain = needed ? shippedTable(law) : nullptr };
+    .largeStrain = needed ? shippedTable(law) : nullptr,
+    .coatings = parseCoatings(coating) };
 }
 
 std::string describeLaw(const LawSettings& settings)
@@ -93,7 +103,8 @@ std::string describeLaw(const LawSettings& settings)
     return settings.mode == LawMode::Paper ? "paper" : "exact";
   }
   return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") +
-    " base, " + (settings.constitution == Constitution::Linear ? "linear" : "neo-hookean");
+    " base, " + (settings.constitution == Constitution::Linear ? "linear" : "neo-hookean") +
+    (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings));
 }
 
 void PlaceOptions::addTo(CLI::App& command)

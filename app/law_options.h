@@ -18,11 +18,13 @@ struct LawOptions
   std::string mode = "paper";
   std::string base = "bonded";
   std::string constitution = "neo-hookean";
-  bool rated = true; ///< the law also tells how far it is off, which takes the same table
+  std::string coating; ///< as parseCoatings
+  bool rated = true;   ///< the law also tells how far it is off, which takes the same table
 
   void addTo(CLI::App& command);
 
-  /// @throws Error  BadFile: the shipped table of large strain, where it is needed
+  /// @throws Error  BadFile: the shipped table of large strain, where it is needed; BadValue: as
+  ///                parseCoatings, or coatings under another law than the corrected one
   [[nodiscard]] LawSettings settings() const;
 };
 

@@ -103,6 +103,7 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
 
 void readTissue(JsonObject object, PressOptions& press)
 {
+  press.tissue.options.coating = object.text("coating", press.tissue.options.coating);
   press.tissue.young = object.text("young", press.tissue.young);
   press.tissue.poisson = object.number("poisson", press.tissue.poisson);
   press.damping = object.text("damping", press.damping);

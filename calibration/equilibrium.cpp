@@ -17,6 +17,15 @@ VectorXd gather(const Element& element, const VectorXd& all)
   return all(element.dofs);
 }
 
+void checkPoisson(const Material& material)
+{
+  if (!(material.poissonRatio >= 0.0 && material.poissonRatio < 0.5))
+  {
+    throw Error(ErrorCode::BadValue,
+      "poisson: finite elements need 0 or more and less than 0.5; give 0.49 for tissue like water");
+  }
+}
+
 } // namespace
 
 Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& material)
@@ -26,10 +35,10 @@ Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& materi
   , held_(static_cast<std::size_t>(body.dofCount()), 0)
   , responses_(body.elements.size())
 {
-  if (!(material.poissonRatio >= 0.0 && material.poissonRatio < 0.5))
+  checkPoisson(material);
+  for (const Element& element : body.elements)
   {
-    throw Error(ErrorCode::BadValue,
-      "poisson: finite elements need 0 or more and less than 0.5; give 0.49 for tissue like water");
+    checkPoisson(element.coating.value_or(material));
   }
   for (const int dof : body.heldDofs)
   {
@@ -86,7 +95,8 @@ bool Equilibrium::assemble(const VectorXd& displacement)
   for (std::size_t e = 0; e < body_.elements.size(); ++e)
   {
     const Element& element = body_.elements[e];
-    auto response = respond(element, energy_, material_, gather(element, displacement));
+    auto response =
+      respond(element, energy_, element.coating.value_or(material_), gather(element, displacement));
     if (!response)
     {
       return false;

@@ -1,6 +1,7 @@
 #include "calibration/mesh.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -182,6 +183,40 @@ std::vector<double> fromTheTop(double top, std::vector<double> depths)
 constexpr double kOutwardGrowth = 1.15; // changes R_d of the paper's block by less than 0.02 mm
 constexpr double kDownwardGrowth = 1.1;
 
+// depths at which the sheets of a coated body begin, and its own end
+std::vector<double> sheetBounds(double height, const Coatings& coatings)
+{
+  std::vector<double> bounds{ 0.0 };
+  for (const Coating& coating : coatings.all())
+  {
+    bounds.push_back(bounds.back() + coating.thickness);
+  }
+  bounds.push_back(height);
+  return bounds;
+}
+
+// steps that grow with the depth and meet every bound; two at least in every sheet
+std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine)
+{
+  std::vector<double> steps{ 0.0 };
+  double first = fine;
+  for (std::size_t i = 1; i < bounds.size(); ++i)
+  {
+    const double thickness = bounds[i] - bounds[i - 1];
+    for (const double step :
+      gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), kDownwardGrowth))
+    {
+      if (step > 0.0)
+      {
+        steps.push_back(bounds[i - 1] + step);
+      }
+    }
+    steps.back() = bounds[i];
+    first = std::max(fine, bounds[i] - steps[steps.size() - 2]);
+  }
+  return steps;
+}
+
 } // namespace
 
 std::vector<double> gradedSteps(double length, double fineLength, double fine, double growth)
@@ -206,11 +241,25 @@ std::vector<double> gradedSteps(double length, double fineLength, double fine, d
   return steps;
 }
 
-Body cylinderBody(double radius, double height, double fineRadius, double fine)
+Body cylinderBody(
+  double radius, double height, double fineRadius, double fine, const Coatings& coatings)
 {
+  const std::vector<double> sheets = sheetBounds(height, coatings);
   Body body = revolve(gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
-    fromTheTop(height, gradedSteps(height, 0.0, fine, kDownwardGrowth)),
+    fromTheTop(height, sheetSteps(sheets, fine)),
     [](double u, double v) { return Vector2d(u, v); });
+  for (Element& element : body.elements)
+  {
+    // the first two nodes are at the bottom, the next two at the top
+    const double depth = height -
+      0.5 * (body.positions(1, element.dofs[0] / 2) + body.positions(1, element.dofs[4] / 2));
+    const auto sheet = static_cast<std::size_t>(
+      std::upper_bound(sheets.begin(), sheets.end(), depth) - sheets.begin() - 1);
+    if (sheet < coatings.all().size())
+    {
+      element.coating = coatings.all()[sheet].material;
+    }
+  }
   body.elementSize = fine;
   return body;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibration/body.h"
+#include "haptics/force/coating.h"
 
 #include <vector>
 
@@ -18,10 +19,12 @@ namespace palp::fem
 /// Eight-node quadrilaterals with four integration points: no locking, no spurious mode.
 ///
 /// @param radius      of the cylinder [m]
-/// @param height      [m]
+/// @param height      [m], that of the coatings included
+/// @param coatings    thinner than the height together
 /// @param fineRadius  elements have the size `fine` up to here [m]
 /// @param fine        element size under the tool [m]
-[[nodiscard]] Body cylinderBody(double radius, double height, double fineRadius, double fine);
+[[nodiscard]] Body cylinderBody(
+  double radius, double height, double fineRadius, double fine, const Coatings& coatings = {});
 
 /// How an elastic sphere is held.
 enum class SphereSupport

@@ -153,6 +153,18 @@ void check(const Case& study)
       " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
+  require(study.coatings.empty() || study.model == BodyModel::Axisymmetric,
+    "--coating: the volumetric block takes none; use --model axisymmetric");
+  require(study.coatings.thickness() < study.height,
+    "--coating: as thick as the block of " + millimetres(study.height) + "; give less");
+  for (const Coating& coating : study.coatings.all())
+  {
+    require(coating.material.poissonRatio < 0.5,
+      "--coating: finite elements need a Poisson's ratio of less than 0.5; give 0.49");
+    require(coating.thickness >= elementSize(study),
+      "--coating: thinner than an element; give --element-size " + millimetres(coating.thickness) +
+        " or less");
+  }
   require(
     study.material.poissonRatio < 0.5, "--poisson: finite elements need less than 0.5; give 0.49");
 }
@@ -163,7 +175,7 @@ Body bodyOf(const Case& study)
   if (study.model == BodyModel::Axisymmetric)
   {
     const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
-    return cylinderBody(equalAreaRadius(study), study.height, fine, size);
+    return cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings);
   }
   return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }

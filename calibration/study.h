@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibration/indenter.h"
+#include "haptics/force/coating.h"
 
 #include <filesystem>
 #include <functional>
@@ -24,9 +25,10 @@ struct Case
   std::string name = "case";
   double width = 0.1;   ///< of the block [m]
   double length = 0.1;  ///< [m]
-  double height = 0.05; ///< [m]
+  double height = 0.05; ///< [m], that of the coatings included
   Tip tip = SphereTip{ 0.01 };
   Material material{ 50e3, 0.33 };
+  Coatings coatings{}; ///< on top of it; axisymmetric only
   Energy energy = Energy::NeoHookean;
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]

@@ -122,6 +122,20 @@ void putDoubles(std::ostream& out, const double* values, Eigen::Index count)
     reinterpret_cast<const char*>(values), count * static_cast<Eigen::Index>(sizeof(double)));
 }
 
+std::string coatingsText(const Coatings& coatings, int digits)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  for (const Coating& coating : coatings.all())
+  {
+    out << "\n# under the tool first: " << toMillimetres(coating.thickness) << " mm of "
+        << units::toKilopascals(coating.material.youngModulus)
+        << " kPa, nu = " << coating.material.poissonRatio << ", bonded to what is below";
+  }
+  return out.str();
+}
+
 } // namespace
 
 std::string describe(const Case& study, const Body& body, int digits)
@@ -136,14 +150,15 @@ std::string describe(const Case& study, const Body& body, int digits)
       << " mm, base bonded, sides free, frictionless\n# material: "
       << units::toKilopascals(study.material.youngModulus)
       << " kPa, nu = " << study.material.poissonRatio << ", " << name(study.energy) << ": "
-      << formula(study.energy) << "\n# model: "
+      << formula(study.energy) << coatingsText(study.coatings, digits) << "\n# model: "
       << (study.model == BodyModel::Axisymmetric
              ? "axisymmetric, cylinder of equal area, eight-node quadrilaterals"
              : "volumetric block, eight-node bricks, one quarter")
       << ", " << body.elements.size() << " elements, " << body.nodeCount() << " nodes"
       << "\n# element size under the tool: " << toMillimetres(body.elementSize)
       << " mm\n# extent_radius_mm: deformed radius at which the surface sinks by "
-      << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus\n";
+      << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus"
+      << (study.coatings.empty() ? "" : ", only on its ratios") << '\n';
   return out.str();
 }
 

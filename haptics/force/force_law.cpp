@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace palp
 {
@@ -93,6 +95,7 @@ double share(double part, double whole) noexcept
 struct ForceLaw::Corrections
 {
   LayerContact layer;
+  std::optional<LayerContact> coated;
   EllipseFactor ellipse;
 };
 
@@ -104,9 +107,29 @@ ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings setting
 {
   if (settings_.mode == LawMode::Corrected)
   {
-    corrections_ = std::make_shared<const Corrections>(
-      Corrections{ LayerContact(tip_, material_.poissonRatio, settings_.base), EllipseFactor() });
+    Corrections corrections{ .layer = LayerContact(tip_, material_.poissonRatio, settings_.base),
+      .coated = std::nullopt,
+      .ellipse = EllipseFactor() };
+    if (!settings_.coatings.empty())
+    {
+      corrections.coated.emplace(tip_, settings_.coatings, material_, settings_.base);
+    }
+    corrections_ = std::make_shared<const Corrections>(std::move(corrections));
   }
+}
+
+ForceLaw ForceLaw::corrected() const
+{
+  LawSettings all = settings_;
+  all.mode = LawMode::Corrected;
+  all.curvature = all.thickness = all.inclination = true;
+  if (corrections_ == nullptr)
+  {
+    return ForceLaw(tip_, material_, all);
+  }
+  ForceLaw law = *this;
+  law.settings_ = all;
+  return law;
 }
 
 Response ForceLaw::operator()(const Indentation& local) const noexcept
@@ -147,6 +170,13 @@ Response ForceLaw::paper(double depth) const noexcept
 
 LinearContact ForceLaw::linear(const Indentation& local) const noexcept
 {
+  return corrections_ != nullptr && corrections_->coated
+    ? (*corrections_->coated)(local.depth, local.thickness, local.surfaceCurvature)
+    : uncoated(local);
+}
+
+LinearContact ForceLaw::uncoated(const Indentation& local) const noexcept
+{
   const bool plain = local.thickness == kInfinite && local.surfaceCurvature == 0.0;
   return plain || corrections_ == nullptr
     ? halfSpace_(local.depth)
@@ -170,7 +200,7 @@ double ForceLaw::ellipse(const Indentation& local) const noexcept
 LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noexcept
 {
   if (settings_.mode != LawMode::Corrected || settings_.constitution == Constitution::Linear ||
-    settings_.largeStrain == nullptr || !(local.depth > 0.0))
+    settings_.largeStrain == nullptr || !settings_.coatings.empty() || !(local.depth > 0.0))
   {
     return {};
   }
@@ -194,7 +224,7 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noe
 Factors ForceLaw::factors(const Indentation& local) const noexcept
 {
   Factors result{ { { "shape", 1.0 }, { "curvature", 1.0 }, { "ellipse", 1.0 },
-    { "thickness", 1.0 }, { "large_strain", 1.0 }, { "inclination", 1.0 } } };
+    { "thickness", 1.0 }, { "large_strain", 1.0 }, { "inclination", 1.0 }, { "coatings", 1.0 } } };
   if (settings_.mode == LawMode::Paper || !(local.depth > 0.0 && std::isfinite(local.depth)))
   {
     return result;
@@ -202,15 +232,17 @@ Factors ForceLaw::factors(const Indentation& local) const noexcept
   const Indentation place = sanitized(local, settings_);
   Indentation flat = place; // without what acts later
   flat.thickness = kInfinite;
-  const double curved = linear(flat).force;
+  const double curved = uncoated(flat).force;
   flat.surfaceCurvature = 0.0;
-  const double plain = linear(flat).force;
+  const double plain = uncoated(flat).force;
+  const double layered = uncoated(place).force;
   result[0].value = share(material_.contactModulus() * plain, paper(place.depth).force);
   result[1].value = share(curved, plain);
   result[2].value = ellipse(place);
-  result[3].value = share(linear(place).force, curved);
+  result[3].value = share(layered, curved);
   result[4].value = largeStrain(place).value;
   result[5].value = tiltFactor(tip_, place.tilt);
+  result[6].value = share(linear(place).force, layered);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/force/coating.h"
 #include "haptics/force/half_space.h"
 #include "haptics/force/large_strain.h"
 #include "haptics/force/layer.h"
@@ -53,7 +54,8 @@ struct LawSettings
   LawMode mode = LawMode::Paper;
   Base base = Base::Bonded;
   Constitution constitution = Constitution::NeoHookean;
-  LargeStrainTable largeStrain{}; ///< null: the ratio is 1
+  LargeStrainTable largeStrain{}; ///< null: the ratio is 1; of a body without coatings
+  Coatings coatings{};            ///< on the body, whose thickness counts theirs
   bool curvature = true;
   bool thickness = true;
   bool inclination = true;
@@ -68,7 +70,7 @@ struct Factor
 
 /// The corrections in the order in which they act; the paper's force times all of them is the
 /// law's. A tip without a paper's law begins with its exact one.
-using Factors = std::array<Factor, 6>;
+using Factors = std::array<Factor, 7>;
 
 /// Reaction of soft tissue to a rigid tip: Eq. (1), F = Phi(tip, depth, E, nu).
 ///
@@ -76,7 +78,8 @@ using Factors = std::array<Factor, 6>;
 class ForceLaw
 {
 public:
-  /// @throws Error  BadValue: see checkedTip and makeMaterial
+  /// @param material  of the body, below its coatings
+  /// @throws Error    BadValue: see checkedTip, makeMaterial and CoatedBody
   ForceLaw(const Tip& tip, const Material& material, LawSettings settings = {});
 
   /// @param local  where and how deep; depth of 0 or less, or not finite, is no contact
@@ -85,7 +88,7 @@ public:
   [[nodiscard]] Response operator()(const Indentation& local) const noexcept;
 
   /// The law at one place, taken apart: shape, curvature, ellipse, thickness, large_strain,
-  /// inclination; 1 where nothing acts.
+  /// inclination, coatings; 1 where nothing acts.
   ///
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] Factors factors(const Indentation& local) const noexcept;
@@ -93,6 +96,9 @@ public:
   /// The ratio of large strain at one place, with whether the table covers it.
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] LargeStrainGrid::Ratio largeStrain(const Indentation& local) const noexcept;
+
+  /// The best law known here for the same tip and tissue: every correction switched on.
+  [[nodiscard]] ForceLaw corrected() const;
 
   [[nodiscard]] const Tip& tip() const noexcept
   {
@@ -111,6 +117,7 @@ private:
   struct Corrections;
 
   [[nodiscard]] Response paper(double depth) const noexcept;
+  [[nodiscard]] LinearContact uncoated(const Indentation& local) const noexcept;
   [[nodiscard]] LinearContact linear(const Indentation& local) const noexcept;
   [[nodiscard]] double ellipse(const Indentation& local) const noexcept;
 

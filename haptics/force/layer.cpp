@@ -1,13 +1,7 @@
 #include "haptics/force/layer.h"
 
-#include "haptics/force/monotone_cubic.h"
-#include "haptics/force/quadrature.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace palp
 {
@@ -36,92 +30,33 @@ double deficit(double y, double nu, Base base)
 Layer::Layer(double poissonRatio, Base base)
   : rows_(kRows)
 {
-  const Quadrature y = gaussLegendre(80, 0.0, kDeepest);
-  const Quadrature x = gaussLegendre(16, 0.0, 1.0);
-  const auto waves = static_cast<Eigen::Index>(y.nodes.size());
-  const auto places = static_cast<Eigen::Index>(x.nodes.size());
-  const auto at = [](const std::vector<double>& values, Eigen::Index i)
-  { return values[static_cast<std::size_t>(i)]; };
-
-  Eigen::VectorXd spectrum(waves);
-  for (Eigen::Index q = 0; q < waves; ++q)
-  {
-    spectrum[q] = at(y.weights, q) * deficit(at(y.nodes, q), poissonRatio, base);
-  }
-  const Eigen::VectorXd weights = Eigen::Map<const Eigen::VectorXd>(x.weights.data(), places);
-  Eigen::MatrixXd powers(places, kTerms);
-  for (Eigen::Index i = 0; i < places; ++i)
-  {
-    for (int k = 0; k < kTerms; ++k)
-    {
-      powers(i, k) = std::pow(at(x.nodes, i), 2 * k);
-    }
-  }
-  // least squares in even powers keeps the integrals of phi and of x^2 phi exact
-  const Eigen::MatrixXd fit =
-    (powers.transpose() * weights.asDiagonal() * powers).ldlt().solve(powers.transpose());
-
+  PunchEquation equation(gaussLegendre(80, 0.0, kDeepest), 16);
+  const std::vector<double>& y = equation.wavenumbers();
+  Eigen::VectorXd deficits(static_cast<Eigen::Index>(y.size()));
+  std::transform(y.begin(), y.end(), deficits.begin(),
+    [&](double at) { return deficit(at, poissonRatio, base); });
   for (int row = 0; row < kRows; ++row)
   {
-    const double width = row * kStep;
-    Eigen::MatrixXd cosines(places, waves);
-    for (Eigen::Index i = 0; i < places; ++i)
-    {
-      for (Eigen::Index q = 0; q < waves; ++q)
-      {
-        cosines(i, q) = std::cos(width * at(x.nodes, i) * at(y.nodes, q));
-      }
-    }
-    const Eigen::MatrixXd kernel = 2.0 * width / std::numbers::pi * cosines *
-      spectrum.asDiagonal() * cosines.transpose() * weights.asDiagonal();
-    const Eigen::VectorXd phi = (Eigen::MatrixXd::Identity(places, places) - kernel)
-                                  .partialPivLu()
-                                  .solve(Eigen::VectorXd::Ones(places));
-    const Eigen::VectorXd terms = fit * weights.cwiseProduct(phi);
-    std::copy(terms.begin(), terms.end(), rows_[static_cast<std::size_t>(row)].value.begin());
+    equation.setRadius(row * kStep);
+    rows_[static_cast<std::size_t>(row)].value = equation.solve(equation.kernel(deficits));
   }
-
-  std::vector<double> widths(kRows);
-  std::vector<double> values(kRows);
-  for (std::size_t k = 0; k < kTerms; ++k)
-  {
-    for (std::size_t row = 0; row < kRows; ++row)
-    {
-      widths[row] = static_cast<double>(row) * kStep;
-      values[row] = rows_[row].value[k];
-    }
-    const std::vector<double> slopes = polynomialSlopes(widths, values);
-    for (std::size_t row = 0; row < kRows; ++row)
-    {
-      rows_[row].slope[k] = slopes[row];
-    }
-  }
+  setSlopes(rows_, 1, kStep);
 }
 
-Layer::Terms Layer::operator()(double width) const noexcept
+PunchSolution Layer::operator()(double width) const noexcept
 {
-  if (width >= kWidest)
+  if (width < kWidest)
   {
-    Terms terms = rows_.back();
-    for (std::size_t k = 0; k < kTerms; ++k)
-    {
-      terms.value[k] += terms.slope[k] * (width - kWidest);
-    }
-    return terms;
+    const double along = width / kStep;
+    const auto i = std::min(static_cast<std::size_t>(along), rows_.size() - 2);
+    return between(rows_[i], rows_[i + 1], kStep, along - static_cast<double>(i));
   }
-  const double along = width / kStep;
-  const std::size_t i = std::min(static_cast<std::size_t>(along), rows_.size() - 2);
-  const Terms& low = rows_[i];
-  const Terms& high = rows_[i + 1];
-  Terms terms;
-  for (std::size_t k = 0; k < kTerms; ++k)
+  PunchSolution solution = rows_.back();
+  for (std::size_t k = 0; k < PunchSolution::kTerms; ++k)
   {
-    const Cubic cubic = hermite(along - static_cast<double>(i), kStep, low.value[k], high.value[k],
-      low.slope[k], high.slope[k]);
-    terms.value[k] = cubic.value;
-    terms.slope[k] = cubic.slope;
+    solution.value[k] += solution.slope[k] * (width - kWidest);
   }
-  return terms;
+  return solution;
 }
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace palp
 {
@@ -18,8 +19,19 @@ constexpr double kHollowSpacing = 0.99;
 } // namespace
 
 LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)
-  : table_(tip)
-  , layer_(poissonRatio, base)
+  : LayerContact(tip, ContactTable(tip), Layer(poissonRatio, base))
+{
+}
+
+LayerContact::LayerContact(
+  const Tip& tip, const Coatings& coatings, const Material& body, Base base)
+  : LayerContact(tip, ContactTable(tip), CoatedBody(coatings, body, base, baseRadius(tip)))
+{
+}
+
+LayerContact::LayerContact(const Tip& tip, ContactTable table, std::variant<Layer, CoatedBody> body)
+  : table_(std::move(table))
+  , body_(std::move(body))
   , mostHollow_(0.0)
 {
   if (flatRadius(tip) > 0.0)
@@ -43,27 +55,40 @@ double LayerContact::allowedCurvature(double curvature) const noexcept
   return mostHollow_ > 0.0 ? std::max(curvature, -mostHollow_) : 0.0;
 }
 
+PunchSolution LayerContact::solution(double radius, double thickness) const noexcept
+{
+  if (const auto* coated = std::get_if<CoatedBody>(&body_))
+  {
+    return (*coated)(radius, thickness);
+  }
+  PunchSolution phi = (*std::get_if<Layer>(&body_))(radius / thickness);
+  for (double& slope : phi.slope)
+  {
+    slope /= thickness;
+  }
+  return phi;
+}
+
 LayerContact::Trial LayerContact::trial(
   double halfSpaceDepth, double thickness, double curvature) const noexcept
 {
   const ContactTable::Entry entry = table_(halfSpaceDepth);
   const double a = entry.radius;
-  const double width = a / thickness;
-  const Layer::Terms phi = layer_(width);
+  const PunchSolution phi = solution(a, thickness);
 
   // A, B and their derivatives by a; F is stationary in a where depth = B' / A'
   const double gap = std::min(halfSpaceDepth, table_.baseDepth()) + curvature * a * a;
   Trial result{ 0.0, a, 0.0, 0.0 };
   double uniformSlope = 0.0;
   double shapeSlope = 0.0;
-  for (std::size_t k = 0; k < Layer::kTerms; ++k)
+  for (std::size_t k = 0; k < PunchSolution::kTerms; ++k)
   {
     const auto order = static_cast<double>(2 * k);
     const double moment = entry.moments[k] + curvature * a * a * a / (order + 3.0);
     result.uniform += a * phi.value[k] / (order + 1.0);
     result.shape += phi.value[k] * moment;
-    uniformSlope += (phi.value[k] + width * phi.slope[k]) / (order + 1.0);
-    shapeSlope += phi.slope[k] * moment / thickness + phi.value[k] * (gap - order * moment / a);
+    uniformSlope += (phi.value[k] + a * phi.slope[k]) / (order + 1.0);
+    shapeSlope += phi.slope[k] * moment + phi.value[k] * (gap - order * moment / a);
   }
   result.depth = shapeSlope / uniformSlope;
   return result;
@@ -74,13 +99,21 @@ LinearContact LayerContact::operator()(
 {
   const double base = table_.baseDepth();
   const double kappa = allowedCurvature(curvature);
+  double shallow = 0.0; // places between which the depth is met
+  double deep = base;
   double place = std::min(depth, base);
   Trial now = trial(place, thickness, kappa);
   double nextPlace = place * depth / now.depth;
   for (int i = 0; i < kMostSteps && std::abs(now.depth - depth) > kClose * depth; ++i)
   {
-    nextPlace = std::min(base, std::clamp(nextPlace, place / kLongestStep, place * kLongestStep));
-    if (!(nextPlace != place))
+    (now.depth < depth ? shallow : deep) = place;
+    nextPlace = std::clamp(nextPlace, place / kLongestStep, place * kLongestStep);
+    if (!(nextPlace > shallow && nextPlace < deep))
+    {
+      // the base where nothing shallower was too deep, else halfway
+      nextPlace = nextPlace >= base && deep == base ? base : 0.5 * (shallow + deep);
+    }
+    if (nextPlace == place)
     {
       break; // the whole base is in contact
     }

@@ -1,13 +1,17 @@
 #pragma once
 
+#include "haptics/force/coated_body.h"
 #include "haptics/force/contact_table.h"
 #include "haptics/force/half_space.h"
 #include "haptics/force/layer.h"
 
+#include <variant>
+
 namespace palp
 {
 
-/// Exact linear solution for a rigid frictionless tip on a layer with a curved surface.
+/// Exact linear solution for a rigid frictionless tip on a layer, coated or of one material, with a
+/// curved surface.
 ///
 /// The curvature of the surface widens the gap by r^2 / 2 R0, which adds a^2 / R0 to the depth
 /// of contact; it stands for the surface near the tip, not for the shape of the whole body.
@@ -17,6 +21,9 @@ class LayerContact
 {
 public:
   LayerContact(const Tip& tip, double poissonRatio, Base base);
+
+  /// @throws Error  as CoatedBody
+  LayerContact(const Tip& tip, const Coatings& coatings, const Material& body, Base base);
 
   /// @param depth      delta [m], more than 0
   /// @param thickness  of the body [m], more than 0; infinite for a half-space
@@ -39,11 +46,14 @@ private:
     double shape;   // B [m^2]
   };
 
+  LayerContact(const Tip& tip, ContactTable table, std::variant<Layer, CoatedBody> body);
+
+  [[nodiscard]] PunchSolution solution(double radius, double thickness) const noexcept;
   [[nodiscard]] Trial trial(
     double halfSpaceDepth, double thickness, double curvature) const noexcept;
 
   ContactTable table_;
-  Layer layer_;
+  std::variant<Layer, CoatedBody> body_;
   double mostHollow_; // [1/m], 0 or more
 };
 

@@ -68,6 +68,7 @@ private:
   Limits limits_;
   double thickness_; // limit of a / thickness
   double tilt_;      // limit for the force's magnitude [rad]
+  double linear_;    // limit of depth / base radius without a table of large strain
 };
 
 } // namespace palp

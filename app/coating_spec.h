@@ -1,0 +1,21 @@
+#pragma once
+
+#include "haptics/force/coating.h"
+
+#include <string>
+#include <string_view>
+
+namespace palp
+{
+
+/// Reads coatings from the surface down, as in `2mm:200kPa:0.45,10mm:20kPa:0.48`: thickness,
+/// Young's modulus, Poisson's ratio.
+///
+/// @param text    empty: none
+/// @throws Error  BadValue: not of this form, a value out of range, too many
+[[nodiscard]] Coatings parseCoatings(std::string_view text);
+
+/// The same text back, in mm and kPa.
+[[nodiscard]] std::string describeCoatings(const Coatings& coatings);
+
+} // namespace palp
