@@ -1,9 +1,11 @@
 #include "app/law_panel.h"
 
+#include "app/coating_spec.h"
 #include "app/panel_boxes.h"
 
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QLineEdit>
 
 #include <utility>
 
@@ -26,17 +28,23 @@ static_assert(static_cast<int>(Constitution::NeoHookean) == 1);
 LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent)
   : QGroupBox(tr("Law"), parent)
   , options_(std::move(options))
+  , rows_(makeRows(*this))
   , mode_(new ChoiceBox("law", { tr("Paper"), tr("Exact half-space"), tr("Corrected") }))
   , base_(new ChoiceBox("base", { tr("Bonded"), tr("Slip") }))
   , constitution_(new ChoiceBox("material", { tr("Linear"), tr("Neo-Hookean") }))
+  , coatings_(new QLineEdit)
 {
   mode_->setToolTip(tr("Paper: Eqs. (2)-(5)\nExact half-space: the linear solution for every tool\n"
                        "Corrected: thickness, curvature, tilt and large strain, where they act"));
   base_->setToolTip(tr("Under the body; acts where the body is thin"));
   constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
-  QGridLayout& rows = *makeRows(*this);
-  addRow(rows, tr("Force law"), mode_);
-  addRow(rows, tr("Base, material"), makePair());
+  coatings_->setObjectName("coatings");
+  coatings_->setPlaceholderText(tr("none; 2mm:200kPa:0.45"));
+  coatings_->setToolTip(tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
+                           "and Poisson's ratio of each, with commas between"));
+  addRow(*rows_, tr("Force law"), mode_);
+  addRow(*rows_, tr("Base, material"), makePair());
+  addRow(*rows_, tr("Coatings"), coatings_);
   setSettings(inUse);
 
   for (ChoiceBox* box : { mode_, base_, constitution_ })
@@ -44,9 +52,20 @@ LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this,
       [this]
       {
-        enableWhatActs();
+        showWhatActs();
         Q_EMIT lawChanged();
       });
+  }
+  connect(coatings_, &QLineEdit::editingFinished, this, &LawPanel::takeCoatings);
+}
+
+// also comes when the field is left as it was
+void LawPanel::takeCoatings()
+{
+  if (coatings_->isModified())
+  {
+    coatings_->setModified(false);
+    Q_EMIT lawChanged();
   }
 }
 
@@ -63,7 +82,10 @@ QWidget* LawPanel::makePair()
 
 LawSettings LawPanel::settings() const
 {
+  const bool corrected = mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
+  const std::string coating = corrected ? coatings_->text().remove(' ').toStdString() : "";
   const bool same = mode_->currentIndex() == static_cast<int>(inUse_.mode) &&
+    coating == describeCoatings(inUse_.coatings) &&
     base_->currentIndex() == static_cast<int>(inUse_.base) &&
     constitution_->currentIndex() == static_cast<int>(inUse_.constitution);
   if (same)
@@ -74,6 +96,7 @@ LawSettings LawPanel::settings() const
   options.mode = kModes[mode_->currentIndex()];
   options.base = kBases[base_->currentIndex()];
   options.constitution = kConstitutions[constitution_->currentIndex()];
+  options.coating = coating;
   return options.settings();
 }
 
@@ -83,14 +106,19 @@ void LawPanel::setSettings(const LawSettings& inUse)
   mode_->show(static_cast<int>(inUse.mode));
   base_->show(static_cast<int>(inUse.base));
   constitution_->show(static_cast<int>(inUse.constitution));
-  enableWhatActs();
+  if (inUse.mode == LawMode::Corrected) // the others know none, and the text may be wanted again
+  {
+    coatings_->setText(QString::fromStdString(describeCoatings(inUse.coatings)));
+  }
+  showWhatActs();
 }
 
-void LawPanel::enableWhatActs()
+void LawPanel::showWhatActs()
 {
   const bool corrected = mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
   base_->setEnabled(corrected);
   constitution_->setEnabled(corrected);
+  setRowVisible(*rows_, coatings_, corrected);
 }
 
 } // namespace palp

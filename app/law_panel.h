@@ -4,6 +4,9 @@
 
 #include <QGroupBox>
 
+class QGridLayout;
+class QLineEdit;
+
 namespace palp
 {
 
@@ -31,13 +34,16 @@ Q_SIGNALS:
 
 private:
   [[nodiscard]] QWidget* makePair();
-  void enableWhatActs();
+  void showWhatActs();
+  void takeCoatings();
 
   LawSettings inUse_;
   LawOptions options_;
+  QGridLayout* rows_;
   ChoiceBox* mode_;
   ChoiceBox* base_;
   ChoiceBox* constitution_;
+  QLineEdit* coatings_;
 };
 
 } // namespace palp

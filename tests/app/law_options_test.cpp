@@ -137,5 +137,29 @@ TEST(LawOptions, RefusesWhatMakesNoSense)
   }
 }
 
+TEST(LawOptions, CoatingsActOnTheCorrectedLawOnly)
+{
+  const auto at2mm = [](const std::string& options)
+  { return force("--depth 2:2:1mm --law corrected --material linear " + options); };
+  const double plain = table(at2mm(""))["force_N"][0];
+  const auto same = table(at2mm("--coating 2mm:50kPa:0.33"));
+  EXPECT_NEAR(same["force_N"][0], plain, 1e-3 * plain);
+  const auto skin = table(at2mm("--coating 2mm:250kPa:0.33"));
+  EXPECT_GT(skin["force_N"][0], 1.1 * plain);
+  EXPECT_NEAR(skin["factor_coatings"][0], skin["force_N"][0] / plain, 1e-9);
+  EXPECT_EQ(at2mm("").out.find("factor_coatings"), std::string::npos);
+
+  const std::string corrected = "--law corrected --coating ";
+  for (const std::string& wrong : { std::string("--coating 2mm:50kPa:0.45"),
+         std::string("--law exact --coating 2mm:50kPa:0.45"), corrected + "2mm:50kPa",
+         corrected + "2mm:50:0.45", corrected + "0.1mm:50kPa:0.45", corrected + "2mm:50MPa:0.45" })
+  {
+    const Finished refused = force(wrong);
+    EXPECT_EQ(refused.code, 2) << wrong;
+    EXPECT_NE(refused.err.find("coating"), std::string::npos) << refused.err;
+    EXPECT_TRUE(refused.out.empty()) << refused.out;
+  }
+}
+
 } // namespace
 } // namespace palp

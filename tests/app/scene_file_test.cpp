@@ -91,6 +91,8 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"tissue": {"young": 50}})", "mine.json: /tissue/young: must be a text" },
     { R"({"tissue": {"poisson": 0.7}})", "mine.json: /tissue" },
     { R"({"tissue": {"damping": "-1N*s/m"}})", "mine.json: /tissue/damping: " },
+    { R"({"tissue": {"coating": "2mm:50kPa:0.45"}})", "mine.json: /tissue/" },
+    { R"({"tissue": {"coating": "2mm"}, "law": {"mode": "corrected"}})", "mine.json: /tissue/" },
     { R"({"tissue": []})", "mine.json: /tissue: must be an object" },
     { R"({"tool": "hammer:1mm"})", "mine.json: /tool: " },
     { R"({"law": {"mode": "guess"}})", "mine.json: /law/mode: 'guess' is not known; give paper" },

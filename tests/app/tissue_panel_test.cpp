@@ -331,6 +331,37 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesItsTableOnlyForNeoHookeanTissue)
   EXPECT_EQ(settings.largeStrain, nullptr);
 }
 
+TEST_F(TissuePanelTest, TheCorrectedLawTakesCoatings)
+{
+  auto& field = *panel_->findChild<QLineEdit*>("coatings");
+  EXPECT_FALSE(field.isVisible());
+  list("law").setCurrentIndex(2);
+  ASSERT_TRUE(field.isVisible());
+  const QSignalSpy changes(panel_.get(), &TissuePanel::tissueChanged);
+  QTest::keyClicks(&field, "2mm:200kPa:0.45, 1cm:5kPa:0.48");
+  QTest::keyClick(&field, Qt::Key_Return);
+  EXPECT_EQ(changes.count(), 1);
+  const ForceLaw law = panel_->law();
+  const auto sheets = law.settings().coatings.all();
+  ASSERT_EQ(sheets.size(), 2U);
+  EXPECT_NEAR(sheets[0].thickness, 2.0_mm, 1e-12);
+  EXPECT_NEAR(sheets[1].thickness, 10.0_mm, 1e-12);
+  EXPECT_NEAR(sheets[1].material.youngModulus, 5.0_kPa, 1e-9);
+
+  // another law knows none; this one has them again
+  Scene scene = sceneOf(SphereTip{ 10.0_mm });
+  scene.law = law;
+  panel_->setScene(scene);
+  list("law").setCurrentIndex(0);
+  EXPECT_TRUE(panel_->law().settings().coatings.empty());
+  panel_->setScene(sceneOf(SphereTip{ 10.0_mm }));
+  list("law").setCurrentIndex(2);
+  EXPECT_EQ(panel_->law().settings().coatings.all().size(), 2U);
+
+  field.setText("2mm");
+  EXPECT_THROW((void)panel_->law(), Error);
+}
+
 TEST_F(TissuePanelTest, TheWheelChangesOnlyWhatWasClicked)
 {
   QDoubleSpinBox& radius = box("radius");

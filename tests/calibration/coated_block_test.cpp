@@ -5,6 +5,7 @@
 #include "tests/calibration/indentation_case.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace palp::fem
@@ -47,7 +48,10 @@ class CoatedBlock : public ::testing::TestWithParam<Coatings>
 };
 INSTANTIATE_TEST_SUITE_P(Sheets, CoatedBlock,
   ::testing::Values(coatings({ { 2.0_mm, kSkin } }), coatings({ { 6.0_mm, kFat } }),
-    coatings({ { 1.0_mm, kSkin }, { 8.0_mm, kFat } })));
+    coatings({ { 1.0_mm, kSkin }, { 8.0_mm, kFat } })),
+  [](const auto& info) {
+    return std::array{ "Skin", "Fat", "SkinOnFat" }[info.index];
+  });
 
 // elements know nothing of integral equations
 TEST_P(CoatedBlock, LinearElementsMeetTheLaw)
