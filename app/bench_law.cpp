@@ -47,9 +47,12 @@ std::vector<BenchRow> benchLaw()
   const LawSettings everything{ .mode = LawMode::Corrected,
     .largeStrain = readLargeStrain(
       dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv")) };
+  LawSettings coated = everything;
+  coated.coatings.add({ 2.0_mm, { 4.0 * tissue.youngModulus, tissue.poissonRatio } });
   return { benchOne("", paper), benchOne("cone", ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, tissue)),
     benchOne("exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
-    benchOne("corrected", ForceLaw(paper.tip(), tissue, everything)) };
+    benchOne("corrected", ForceLaw(paper.tip(), tissue, everything)),
+    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)) };
 }
 
 } // namespace palp

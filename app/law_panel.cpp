@@ -109,6 +109,7 @@ void LawPanel::setSettings(const LawSettings& inUse)
   if (inUse.mode == LawMode::Corrected) // the others know none, and the text may be wanted again
   {
     coatings_->setText(QString::fromStdString(describeCoatings(inUse.coatings)));
+    coatings_->setCursorPosition(0); // the uppermost is seen first
   }
   showWhatActs();
 }

@@ -149,8 +149,8 @@ TEST_F(SceneFile, ReaderKnowsWhatTheSchemaDescribes)
 
 TEST_F(SceneFile, EveryShippedSceneIsWhole)
 {
-  for (const char* name :
-    { "block_force", "paper_block", "paper_spheres", "liver_mouse", "liver_device", "thin_lobe" })
+  for (const char* name : { "block_force", "paper_block", "paper_spheres", "liver_mouse",
+         "liver_device", "liver_coated", "thin_lobe" })
   {
     const ScenePlan plan = readScene(name);
     EXPECT_FALSE(plan.name.empty());

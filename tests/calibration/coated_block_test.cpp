@@ -46,12 +46,15 @@ Case coatedCase(const Coatings& coatings)
 class CoatedBlock : public ::testing::TestWithParam<Coatings>
 {
 };
+std::string nameOf(const testing::TestParamInfo<Coatings>& sheets)
+{
+  constexpr std::array names{ "Skin", "Fat", "SkinOnFat" };
+  return names[sheets.index];
+}
 INSTANTIATE_TEST_SUITE_P(Sheets, CoatedBlock,
   ::testing::Values(coatings({ { 2.0_mm, kSkin } }), coatings({ { 6.0_mm, kFat } }),
     coatings({ { 1.0_mm, kSkin }, { 8.0_mm, kFat } })),
-  [](const auto& info) {
-    return std::array{ "Skin", "Fat", "SkinOnFat" }[info.index];
-  });
+  nameOf);
 
 // elements know nothing of integral equations
 TEST_P(CoatedBlock, LinearElementsMeetTheLaw)

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <utility>
 
 namespace palp
 {
@@ -86,23 +87,18 @@ INSTANTIATE_TEST_SUITE_P(CoatedBody, AnyTip, ::testing::ValuesIn(test::allTips()
 TEST_P(AnyTip, CoatedWithItsOwnMaterialIsTheBodyAlone)
 {
   double worst = 0.0;
-  for (const Base base : { Base::Bonded, Base::Slip })
+  for (const auto& [nu, base] :
+    { std::pair(0.0, Base::Slip), { 0.33, Base::Bonded }, { 0.5, Base::Bonded } })
   {
-    for (const double nu : { 0.0, 0.33, 0.5 })
+    const Material body{ 10.0_kPa, nu };
+    const LayerContact plain(GetParam(), nu, base);
+    const LayerContact coated(GetParam(), one(1.0_mm, body), body, base);
+    for (const double thickness : { 12.0_mm, 17.0_mm, 23.0_mm, 50.0_mm, 200.0_mm, kInfinite })
     {
-      const LayerContact plain(GetParam(), nu, base);
-      for (const double coating : { 0.5_mm, 3.0_mm })
+      for (const double depth : { 0.02_mm, 0.3_mm, 1.0_mm, 4.0_mm })
       {
-        const Material body{ 10.0_kPa, nu };
-        const LayerContact coated(GetParam(), one(coating, body), body, base);
-        for (const double thickness : { 12.0_mm, 17.0_mm, 23.0_mm, 50.0_mm, 200.0_mm, kInfinite })
-        {
-          for (const double depth : { 0.02_mm, 0.3_mm, 1.0_mm, 4.0_mm })
-          {
-            const double force = plain(depth, thickness, 0.0).force;
-            worst = std::max(worst, std::abs(coated(depth, thickness, 0.0).force / force - 1.0));
-          }
-        }
+        const double force = plain(depth, thickness, 0.0).force;
+        worst = std::max(worst, std::abs(coated(depth, thickness, 0.0).force / force - 1.0));
       }
     }
   }
@@ -129,7 +125,7 @@ TEST_P(AnyTip, StiffnessIsTheDerivativeOfTheForceAndNeverFalls)
 {
   for (const double contrast : { 1e-3, 0.05, 20.0, 100.0 })
   {
-    for (const double coating : { 0.5_mm, 1.0_mm, 5.0_mm, 20.0_mm })
+    for (const double coating : { 0.5_mm, 5.0_mm })
     {
       Coatings coatings = one(coating, { contrast * 10.0_kPa, 0.45 });
       if (contrast == 20.0)
