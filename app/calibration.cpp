@@ -1,5 +1,6 @@
 #include "app/calibration.h"
 
+#include "app/coating_spec.h"
 #include "app/data_files.h"
 #include "app/quantity.h"
 #include "calibration/surface_table.h"
@@ -135,6 +136,17 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
     .young = std::nullopt };
 }
 
+// shipped tables are of tissue without any, the user's of the tissue that was asked for at first
+bool isOfTheseCoatings(const PressOptions& options, const LawSettings& settings)
+{
+  if (options.table.empty() || settings.mode != LawMode::Corrected)
+  {
+    return settings.coatings.empty();
+  }
+  return describeCoatings(settings.coatings) ==
+    describeCoatings(parseCoatings(options.tissue.options.coating));
+}
+
 } // namespace
 
 Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
@@ -153,13 +165,14 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     calibration.elements =
       FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
   }
-  if (options.table.empty() && !law.settings().coatings.empty())
+  if (!isOfTheseCoatings(options, law.settings()))
   {
     calibration.reach = 0.0;
     calibration.elements.reset();
     calibration.young.reset();
     calibration.note += (calibration.note.empty() ? "" : "; ") +
-      std::string("R_d is that of tissue without coatings; palp calibrate --coating makes its own");
+      std::string("R_d is that of tissue with other coatings or none; palp calibrate --coating "
+                  "makes its own");
   }
   if (options.surface == "fitted")
   {

@@ -27,8 +27,9 @@ Coatings parseCoatings(std::string_view text)
 {
   constexpr const char* option = "--coating";
   Coatings coatings;
-  while (!text.empty())
+  for (bool more = !text.empty(); more;)
   {
+    more = text.find(',') != text.npos;
     std::string_view one = cut(text, ',');
     if (std::count(one.begin(), one.end(), ':') != 2)
     {

@@ -1,6 +1,7 @@
 #include "app/data_files.h"
 
 #include "haptics/error.h"
+#include "haptics/prefix.h"
 
 #include <cstdlib>
 #include <set>
@@ -37,9 +38,8 @@ std::string namesBeside(const std::filesystem::path& file)
 std::filesystem::path dataFile(const std::filesystem::path& name)
 {
   const char* chosen = std::getenv("PALP_DATA"); // NOLINT(concurrency-mt-unsafe): nobody sets it
-  const std::filesystem::path directory = chosen
-    ? std::filesystem::path(chosen)
-    : std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/palp";
+  const std::filesystem::path directory =
+    chosen ? std::filesystem::path(chosen) : prefix() / "share/palp";
   std::filesystem::path file = directory / name;
   if (!std::filesystem::exists(file))
   {

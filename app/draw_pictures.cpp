@@ -5,6 +5,7 @@
 #include "app/press_plots.h"
 #include "app/surface_point.h"
 #include "haptics/contact/nearest.h"
+#include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/force_charts.h"
 #include "pipeline/plot_files.h"
@@ -116,6 +117,24 @@ Plots deepestSection(const Body& body, const Recording& recording, const Calibra
   return sectionOf(*press, calibration);
 }
 
+// elements take sheets that are too thin or too stiff for the law
+void addCoatedLaw(std::vector<NamedLaw>& laws, const fem::Case& study)
+{
+  if (study.coatings.empty())
+  {
+    return;
+  }
+  try
+  {
+    const LawSettings settings{ .mode = LawMode::Corrected, .coatings = study.coatings };
+    laws.push_back({ "corrected, linear", ForceLaw(study.tip, study.material, settings),
+      { .thickness = study.height } });
+  }
+  catch (const Error&)
+  {
+  }
+}
+
 } // namespace
 
 void DrawPictures::drawPress(const Body& body, const Recording& recording,
@@ -193,10 +212,12 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
   const Tip papers = blunt != nullptr
     ? Tip{ ConeTip{ .halfAngle = blunt->halfAngle, .baseRadius = blunt->baseRadius } }
     : study.tip;
-  const std::vector<NamedLaw> laws{ { blunt != nullptr ? "paper, sharp" : "paper",
-                                      ForceLaw(papers, study.material) },
-    { "exact half-space",
+  const std::string of = study.coatings.empty() ? "" : ", without coatings";
+  std::vector<NamedLaw> laws{ { (blunt != nullptr ? "paper, sharp" : "paper") + of,
+                                ForceLaw(papers, study.material) },
+    { "exact half-space" + of,
       ForceLaw(study.tip, study.material, LawSettings{ .mode = LawMode::Exact }) } };
+  addCoatedLaw(laws, study);
   draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
   draw("extent.png", *extentPlot(ExtentTable(rows), {}));
   draw("profiles.png", profiles);

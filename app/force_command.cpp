@@ -42,7 +42,9 @@ void tellFactors(const ForceLaw& law, const Indentation& deepest)
     law.settings().constitution == Constitution::NeoHookean && !law.largeStrain(deepest).inside;
   if (bare)
   {
-    std::cerr << "palp: no table of large strain covers this tool and place; linear there\n";
+    std::cerr << (law.settings().coatings.empty()
+        ? "palp: no table of large strain covers this tool and place; linear there\n"
+        : "palp: coated tissue counts as linear at large strain\n");
   }
 }
 

@@ -87,7 +87,7 @@ LawSettings LawOptions::settings() const
   if (!coating.empty() && law != LawMode::Corrected)
   {
     throw Error(ErrorCode::BadValue,
-      "--coating: the law '" + mode + "' knows none; add --law corrected, or leave it out");
+      "--coating: the law '" + mode + "' knows none; take the corrected law, or leave it out");
   }
   return { .mode = law,
     .base = base == "slip" ? Base::Slip : Base::Bonded,

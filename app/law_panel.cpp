@@ -28,7 +28,6 @@ static_assert(static_cast<int>(Constitution::NeoHookean) == 1);
 LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent)
   : QGroupBox(tr("Law"), parent)
   , options_(std::move(options))
-  , rows_(makeRows(*this))
   , mode_(new ChoiceBox("law", { tr("Paper"), tr("Exact half-space"), tr("Corrected") }))
   , base_(new ChoiceBox("base", { tr("Bonded"), tr("Slip") }))
   , constitution_(new ChoiceBox("material", { tr("Linear"), tr("Neo-Hookean") }))
@@ -40,11 +39,13 @@ LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent
   constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
   coatings_->setObjectName("coatings");
   coatings_->setPlaceholderText(tr("none; 2mm:200kPa:0.45"));
-  coatings_->setToolTip(tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
-                           "and Poisson's ratio of each, with commas between"));
-  addRow(*rows_, tr("Force law"), mode_);
-  addRow(*rows_, tr("Base, material"), makePair());
-  addRow(*rows_, tr("Coatings"), coatings_);
+  coatings_->setToolTip(
+    tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
+       "and Poisson's ratio of each, with commas between; for the corrected law"));
+  QGridLayout& rows = *makeRows(*this);
+  addRow(rows, tr("Force law"), mode_);
+  addRow(rows, tr("Base, material"), makePair());
+  addRow(rows, tr("Coatings"), coatings_);
   setSettings(inUse);
 
   for (ChoiceBox* box : { mode_, base_, constitution_ })
@@ -65,6 +66,7 @@ void LawPanel::takeCoatings()
   if (coatings_->isModified())
   {
     coatings_->setModified(false);
+    showWhatActs();
     Q_EMIT lawChanged();
   }
 }
@@ -119,7 +121,8 @@ void LawPanel::showWhatActs()
   const bool corrected = mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
   base_->setEnabled(corrected);
   constitution_->setEnabled(corrected);
-  setRowVisible(*rows_, coatings_, corrected);
+  // kept for the corrected law, and to be taken out where that refuses them
+  coatings_->setEnabled(corrected || !coatings_->text().isEmpty());
 }
 
 } // namespace palp

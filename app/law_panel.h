@@ -4,7 +4,6 @@
 
 #include <QGroupBox>
 
-class QGridLayout;
 class QLineEdit;
 
 namespace palp
@@ -39,7 +38,6 @@ private:
 
   LawSettings inUse_;
   LawOptions options_;
-  QGridLayout* rows_;
   ChoiceBox* mode_;
   ChoiceBox* base_;
   ChoiceBox* constitution_;

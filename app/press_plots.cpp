@@ -34,13 +34,14 @@ const char* nameOf(LawMode mode)
 std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const Indentation& place)
 {
   const LawMode used = law.settings().mode;
+  const char* of = law.settings().coatings.empty() ? "" : ", without coatings";
   std::vector<NamedLaw> laws{ { nameOf(used), law, place } };
   for (const LawMode mode : { LawMode::Paper, LawMode::Exact })
   {
     if (mode != used)
     {
-      laws.push_back(
-        { nameOf(mode), ForceLaw(law.tip(), law.material(), LawSettings{ .mode = mode }) });
+      laws.push_back({ nameOf(mode) + std::string(of),
+        ForceLaw(law.tip(), law.material(), LawSettings{ .mode = mode }) });
     }
   }
   return laws;

@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "haptics/error.h"
+#include "haptics/prefix.h"
 
 #include <CLI/CLI.hpp>
 
@@ -59,8 +60,7 @@ int exitCode(ErrorCode code)
 
 void becomeSibling(const char* name)
 {
-  const std::filesystem::path program =
-    std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  const std::filesystem::path program = prefix() / "bin" / name;
   execv(program.c_str(), gArguments);
   throw Error(ErrorCode::NoPicture,
     program.string() +

@@ -23,7 +23,7 @@ struct Element
   std::vector<IntegrationPoint> points{};
   bool meanDilatation =
     false; ///< volume change averaged over the element, so that nu = 0.49 does not lock
-  std::optional<Material> coating{}; ///< what it is made of, where that is not the body's material
+  std::optional<Material> material{}; ///< where it is not the body's
 };
 
 /// The soft body: axisymmetric (r, z), or a block (x, y, z); the last coordinate points out of it.

@@ -35,10 +35,9 @@ Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& materi
   , held_(static_cast<std::size_t>(body.dofCount()), 0)
   , responses_(body.elements.size())
 {
-  checkPoisson(material);
   for (const Element& element : body.elements)
   {
-    checkPoisson(element.coating.value_or(material));
+    checkPoisson(element.material.value_or(material));
   }
   for (const int dof : body.heldDofs)
   {
@@ -95,8 +94,8 @@ bool Equilibrium::assemble(const VectorXd& displacement)
   for (std::size_t e = 0; e < body_.elements.size(); ++e)
   {
     const Element& element = body_.elements[e];
-    auto response =
-      respond(element, energy_, element.coating.value_or(material_), gather(element, displacement));
+    auto response = respond(
+      element, energy_, element.material.value_or(material_), gather(element, displacement));
     if (!response)
     {
       return false;

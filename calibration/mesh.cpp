@@ -257,7 +257,7 @@ Body cylinderBody(
       std::upper_bound(sheets.begin(), sheets.end(), depth) - sheets.begin() - 1);
     if (sheet < coatings.all().size())
     {
-      element.coating = coatings.all()[sheet].material;
+      element.material = coatings.all()[sheet].material;
     }
   }
   body.elementSize = fine;

@@ -28,17 +28,18 @@ constexpr bool kLimitMemory = false;
 constexpr bool kLimitMemory = true;
 #endif
 
-void writeAll(int pipe, const std::string& bytes)
+bool writeAll(int pipe, const std::string& bytes)
 {
   for (std::size_t done = 0; done < bytes.size();)
   {
     const ssize_t n = write(pipe, bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno != EINTR)
     {
-      return; // the parent is gone
+      return false; // the parent is gone
     }
     done += n > 0 ? static_cast<std::size_t>(n) : 0;
   }
+  return true;
 }
 
 std::string readAll(int pipe)
@@ -106,7 +107,8 @@ std::optional<std::string> answerOf(const std::vector<std::string>& command)
   {
     close(ends[0]);
     throw Error(ErrorCode::BadFile,
-      command[0] + ": cannot be started (" + std::strerror(why) + "); build or install it");
+      command[0] + ": cannot be started (" + std::strerror(why) + "); " +
+        (why == ENOENT || why == EACCES ? "build or install it" : "close some programs"));
   }
   const std::string answer = readAll(ends[0]);
   close(ends[0]);
@@ -138,20 +140,20 @@ void answer(const std::function<std::string()>& work, ChildLimits limits)
   alarm(static_cast<unsigned>(kPatience * limits.time));
   const int output = dup(STDOUT_FILENO);
   dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
-  int status = 0;
+  bool answered = false;
   try
   {
-    writeAll(output, kResult + work());
+    answered = writeAll(output, kResult + work());
   }
   catch (const Error& error)
   {
-    writeAll(output, std::string{ kError, static_cast<char>(error.code()) } + error.what());
+    answered =
+      writeAll(output, std::string{ kError, static_cast<char>(error.code()) } + error.what());
   }
-  catch (const std::exception&)
+  catch (const std::exception&) // out of memory
   {
-    status = 1; // out of memory
   }
-  _exit(status); // a damaged heap is not taken down in order
+  _exit(answered ? 0 : 1); // a damaged heap is not taken down in order
 }
 
 } // namespace palp

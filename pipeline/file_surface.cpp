@@ -1,6 +1,8 @@
 #include "pipeline/file_surface.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace palp
 {
@@ -17,14 +19,32 @@ void packValues(std::string& bytes, const Values& values)
 }
 
 template <typename Values>
-void unpackValues(std::string_view& bytes, Values& values)
+bool unpackValues(std::string_view& bytes, Values& values)
 {
+  constexpr std::size_t size = sizeof(typename Values::value_type);
   std::size_t count = 0;
+  if (bytes.size() < sizeof count)
+  {
+    return false;
+  }
   std::memcpy(&count, bytes.data(), sizeof count);
+  bytes.remove_prefix(sizeof count);
+  if (count > bytes.size() / size)
+  {
+    return false;
+  }
   values.resize(count);
-  std::memcpy(static_cast<void*>(values.data()), bytes.data() + sizeof count,
-    count * sizeof(typename Values::value_type));
-  bytes.remove_prefix(sizeof count + count * sizeof(typename Values::value_type));
+  std::memcpy(static_cast<void*>(values.data()), bytes.data(), count * size);
+  bytes.remove_prefix(count * size);
+  return true;
+}
+
+bool indicesInRange(const FileSurface& surface)
+{
+  const auto inRange = [&](int corner)
+  { return corner >= 0 && static_cast<std::size_t>(corner) < surface.points.size(); };
+  return std::ranges::all_of(surface.triangles,
+    [&](const Triangle& triangle) { return std::ranges::all_of(triangle, inRange); });
 }
 
 } // namespace
@@ -38,13 +58,12 @@ std::string pack(const FileSurface& surface)
   return bytes;
 }
 
-FileSurface unpack(std::string_view bytes)
+std::optional<FileSurface> unpack(std::string_view bytes)
 {
   FileSurface surface;
-  unpackValues(bytes, surface.points);
-  unpackValues(bytes, surface.triangles);
-  unpackValues(bytes, surface.unit);
-  return surface;
+  const bool whole = unpackValues(bytes, surface.points) &&
+    unpackValues(bytes, surface.triangles) && unpackValues(bytes, surface.unit) && bytes.empty();
+  return whole && indicesInRange(surface) ? std::optional(std::move(surface)) : std::nullopt;
 }
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "haptics/contact/surface.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ constexpr const char* kUnitArray = "LengthUnit";
 [[nodiscard]] std::string pack(const FileSurface& surface);
 
 /// @param bytes  of pack
-[[nodiscard]] FileSurface unpack(std::string_view bytes);
+/// @return       nothing where they are not, or name a point that is not there
+[[nodiscard]] std::optional<FileSurface> unpack(std::string_view bytes);
 
 } // namespace palp

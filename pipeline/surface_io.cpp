@@ -1,6 +1,7 @@
 #include "pipeline/surface_io.h"
 
 #include "haptics/error.h"
+#include "haptics/prefix.h"
 #include "haptics/units.h"
 #include "pipeline/child_process.h"
 #include "pipeline/file_surface.h"
@@ -61,24 +62,23 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   return text.str();
 }
 
-FileSurface readFile(const std::filesystem::path& file, std::optional<double> level)
+FileSurface readElsewhere(const std::filesystem::path& file, std::optional<double> level)
 {
-  const auto reader =
-    std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin/palp-read";
-  std::vector<std::string> command{ reader.string(), file.string() };
+  std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
   if (level)
   {
     char digits[32];
     command.emplace_back(digits, std::to_chars(digits, std::end(digits), *level).ptr);
   }
   const auto answer = answerOf(command);
-  if (!answer)
+  auto surface = answer ? unpack(*answer) : std::nullopt;
+  if (!surface)
   {
     throw Error(ErrorCode::BadFile,
       file.string() +
         ": damaged or cut off, its reader does not get through it; export or copy it again");
   }
-  return unpack(*answer);
+  return *std::move(surface);
 }
 
 template <typename Writer>
@@ -100,7 +100,7 @@ LoadedSurface readSurface(
   const std::filesystem::path& file, UnitChoice unit, std::optional<double> level)
 {
   const std::string name = file.filename().string();
-  const FileSurface read = readFile(file, level);
+  const FileSurface read = readElsewhere(file, level);
   const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
 
   std::string why = "as asked";

@@ -1,6 +1,7 @@
 #include "app/report/parts.h"
 #include "data/shapes.h"
 #include "haptics/error.h"
+#include "haptics/prefix.h"
 
 #include <array>
 #include <cmath>
@@ -196,7 +197,7 @@ Curve curve(const char* label, const char* work, const char* mode, Curve::Style 
 // palp bench in a process of its own, for where the loader puts a program changes its speed
 nlohmann::json runBench(const Effort& effort)
 {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "palp";
+  const auto program = prefix() / "bin/palp";
   std::string command = "'";
   command.append(program.string())
     .append("' bench --json --most ")

@@ -20,7 +20,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector2d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kNarrowest = 5.0; // widest contact over the thinnest body that is told apart
+constexpr double kNarrowest = 1.0 / CoatedBody::kThinnestBody;
 
 // Two states at one height, as columns: displacement (along, down) and traction over 2 k and a
 // common shear modulus (along, down). Every state there is a sum of the two.
@@ -132,17 +132,19 @@ void check(const Coatings& coatings, const Material& body, double widest)
         " are too thin under this tool to be computed; give " +
         millimetres(CoatedBody::kThinnest * widest) + " or more, or leave it out");
   }
-  for (std::size_t i = 0; i < all.size(); ++i)
+  constexpr double rounding = 1.0 + 1e-9;
+  double softest = body.contactModulus(); // of what is below
+  for (auto coating = all.rbegin(); coating != all.rend(); ++coating)
   {
-    const Material& below = i + 1 < all.size() ? all[i + 1].material : body;
-    const double ratio = all[i].material.contactModulus() / below.contactModulus();
-    constexpr double rounding = 1.0 + 1e-9;
-    if (!(ratio <= CoatedBody::kStiffest * rounding && ratio * rounding >= CoatedBody::kSoftest))
+    const double modulus = coating->material.contactModulus();
+    if (!(modulus <= CoatedBody::kStiffest * rounding * softest &&
+          modulus * rounding >= CoatedBody::kSoftest * softest))
     {
       throw Error(ErrorCode::BadValue,
-        "coatings: one is more than 100 times as stiff, or 1000 times as soft, as what is below; "
-        "give it in steps");
+        "coatings: one is more than 20 times as stiff, or 1000 times as soft, as what is below; "
+        "give tissues that differ less");
     }
+    softest = std::min(softest, modulus);
   }
 }
 

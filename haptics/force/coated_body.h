@@ -16,7 +16,8 @@ namespace palp
 /// @param body        what lies below them
 /// @param thickness   of the body without its coatings [m]: infinite, or down to the base; 0: the
 ///                    coatings lie on the base
-/// @return            1 for a large k, E* of the uppermost over that of the body for a small one on
+/// @return            [-]; 1 for a large k, E* of the uppermost over that of the body for a small
+/// one on
 ///                    a half-space, 0 for a small one on a base
 /// @source            the general solution of plane strain in each sheet, joined from below; two
 ///                    sheets: Burmister 1943
@@ -28,8 +29,10 @@ namespace palp
 class CoatedBody
 {
 public:
-  static constexpr double kThinnest = 0.05;  ///< uppermost coating, over the widest contact
-  static constexpr double kStiffest = 100.0; ///< E* of a coating, over that of what is below
+  static constexpr double kThinnest = 0.05;    ///< uppermost coating, over the widest contact
+  static constexpr double kThinnestBody = 0.2; ///< below the coatings, as well
+  static constexpr double kStiffest = 20.0; ///< E* of a coating, over that of the softest below it;
+                                            ///< stiffer, the contact is no longer a single circle
   static constexpr double kSoftest = 0.001;
 
   /// @param coatings  at least one
@@ -39,7 +42,8 @@ public:
   CoatedBody(const Coatings& coatings, const Material& body, Base base, double widest);
 
   /// @param radius     a [m], 0 to the widest
-  /// @param thickness  of the body with its coatings [m]; at least that of the coatings is taken
+  /// @param thickness  of the body with its coatings [m]; below them at least kThinnestBody is
+  /// taken
   /// @return           phi, relative to a half-space of the body; slopes by the radius [1/m]
   /// @realtime         pure; no allocation, no lock, no exception
   [[nodiscard]] PunchSolution operator()(double radius, double thickness) const noexcept;

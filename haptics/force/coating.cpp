@@ -19,13 +19,18 @@ void Coatings::add(const Coating& coating)
   }
   if (!(coating.thickness >= 0.01_mm && coating.thickness <= 1.0))
   {
-    throw Error(ErrorCode::BadValue,
-      "coatings: a thickness of " + std::to_string(units::toMillimetres(coating.thickness)) +
-        " mm is out of range; give 0.01 mm to 1 m");
+    throw Error(
+      ErrorCode::BadValue, "coatings: a thickness is out of range; give each 0.01 mm to 1 m");
   }
-  items_[count_] = { coating.thickness,
-    makeMaterial(coating.material.youngModulus, coating.material.poissonRatio) };
-  ++count_;
+  try
+  {
+    (void)makeMaterial(coating.material.youngModulus, coating.material.poissonRatio);
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(), std::string("coatings: ") + error.what());
+  }
+  items_[count_++] = coating;
 }
 
 double Coatings::thickness() const noexcept

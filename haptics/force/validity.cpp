@@ -1,5 +1,6 @@
 #include "haptics/force/validity.h"
 
+#include "haptics/force/coated_body.h"
 #include "haptics/force/inclination.h"
 #include "haptics/units.h"
 
@@ -21,24 +22,39 @@ constexpr double kEdge = 1.0 / 3.0;           // a / distance, a rule of thumb
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
 constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
 
-// Depth over base radius to which a linear law holds where no table of large strain does. A sheet
-// five times as stiff as what is below stretches as a membrane once it is pressed deeper than it is
-// thick, which adds 3 to 8 % there and 30 % soon after (neo-Hookean elements, 5 to 100 times).
+// Depth over base radius to which a linear law holds where no table of large strain does. What is
+// five times as stiff as something below stretches as a membrane once it is pressed deeper than it
+// is thick, which adds 3 to 8 % there and 20 % later (neo-Hookean elements, 5 to 20 times).
 double linearReach(const ForceLaw& law)
 {
   constexpr double uncoated = 0.3;
   constexpr double membrane = 5.0;
   double reach = uncoated;
   const auto sheets = law.settings().coatings.all();
-  for (std::size_t i = 0; i < sheets.size(); ++i)
+  for (auto sheet = sheets.begin(); sheet != sheets.end(); ++sheet)
   {
-    const Material& below = i + 1 < sheets.size() ? sheets[i + 1].material : law.material();
-    if (sheets[i].material.contactModulus() > membrane * below.contactModulus())
+    double thickness = 0.0; // down to something soft
+    for (auto below = sheet; below != sheets.end(); ++below)
     {
-      reach = std::min(reach, sheets[i].thickness / baseRadius(law.tip()));
+      thickness += below->thickness;
+      const Material& next = below + 1 != sheets.end() ? below[1].material : law.material();
+      if (sheet->material.contactModulus() > membrane * next.contactModulus())
+      {
+        reach = std::min(reach, thickness / baseRadius(law.tip()));
+        break;
+      }
     }
   }
   return reach;
+}
+
+// of a coated body: thinner ones are answered as this [m]
+double thinnestBody(const ForceLaw& law)
+{
+  const Coatings& coatings = law.settings().coatings;
+  return coatings.empty()
+    ? 0.0
+    : coatings.thickness() + CoatedBody::kThinnestBody * baseRadius(law.tip());
 }
 
 bool isRound(const Tip& tip) noexcept
@@ -93,6 +109,7 @@ Validity::Validity(const ForceLaw& law, const Limits& limits)
   , thickness_(kVerifiedWidth)
   , tilt_(tiltLimit(law))
   , linear_(linearReach(law))
+  , thinnest_(thinnestBody(law))
 {
   if (law.settings().mode != LawMode::Corrected || !law.settings().thickness)
   {
@@ -136,7 +153,8 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
       settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity()
                                                     : linear_,
       "at large strain and outside the table of finite elements the tissue counts as linear" },
-    { "thickness", "-", shown(response.contactRadius / local.thickness), thickness_,
+    { "thickness", "-", shown(response.contactRadius / local.thickness),
+      local.thickness < thinnest_ ? 0.0 : thickness_,
       corrected ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
                 : "a wider contact feels the base by 7 %" },
     { "edge", "-", shown(response.contactRadius / edgeDistance), kEdge,

@@ -69,6 +69,7 @@ private:
   double thickness_; // limit of a / thickness
   double tilt_;      // limit for the force's magnitude [rad]
   double linear_;    // limit of depth / base radius without a table of large strain
+  double thinnest_;  // body that the law tells from thinner ones [m]
 };
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "app/calibration.h"
 
+#include "app/data_files.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -67,6 +68,25 @@ TEST(LoadCalibration, SaysWhatStandsInForWhat)
   EXPECT_TRUE(sphere.covers(8.0_mm));
   EXPECT_FALSE(sphere.covers(8.1_mm));
   EXPECT_FALSE(load(PunchTip{ 8.0_mm }).covers(1.0_mm));
+}
+
+TEST(LoadCalibration, KnowsNothingOfCoatedTissueButByItsOwnTable)
+{
+  LawSettings settings{ .mode = LawMode::Corrected };
+  settings.coatings.add({ 2.0_mm, { 200.0_kPa, 0.4 } });
+  const ForceLaw law(SphereTip{ 10.0_mm }, Material{ 50.0_kPa, 0.33 }, settings);
+  const Calibration shipped = loadCalibration({}, law);
+  EXPECT_EQ(shipped.reach, 0.0);
+  EXPECT_NE(shipped.note.find("coatings"), std::string::npos);
+  EXPECT_FALSE(shipped.young || shipped.elements);
+
+  PressOptions own;
+  own.table = dataFile("tables/sphere_r10_h50.csv");
+  own.tissue.options.coating = "2mm:200kPa:0.4";
+  EXPECT_EQ(loadCalibration(own, law).note, "");
+  EXPECT_GT(loadCalibration(own, law).reach, 0.0);
+  own.tissue.options.coating = "3mm:200kPa:0.4";
+  EXPECT_EQ(loadCalibration(own, law).reach, 0.0);
 }
 
 TEST(LoadCalibration, RefusesALayerForAConeAndBadLengths)

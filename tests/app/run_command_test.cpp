@@ -19,6 +19,7 @@
 #include <limits>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace palp
 {
@@ -108,6 +109,21 @@ TEST_F(RunCommand, MeasuresHertzOnTheBlock)
   EXPECT_GT(samples["extent_radius_mm"][deepest], samples["contact_radius_mm"][deepest]);
   EXPECT_EQ(samples["force_N"].front(), 0.0);
   EXPECT_EQ(samples["depth_mm"].back(), 0.0);
+}
+
+TEST_F(RunCommand, PressesThroughACoating)
+{
+  const std::string law =
+    " --law corrected --material linear --young 50kPa --poisson 0.33 --coating 2mm:200kPa:0.4";
+  const Finished finished = press("--no-picture" + law, "out");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const auto file = folder_.path() / "out/samples.csv";
+  EXPECT_NE(test::readAll(file).find("coated by 2mm:200kPa:0.4\n"), std::string::npos);
+  const Finished alone =
+    test::runCommand(PALP_PROGRAM " force --thickness 50mm --depth 5:5:1mm" + law);
+  std::istringstream rows(alone.out);
+  const double expected = test::parseCsv(rows)["force_N"].front();
+  EXPECT_NEAR(test::readCsv(file)["force_N"][100], expected, 1e-3 * expected);
 }
 
 TEST_F(RunCommand, GivesTheSameBytesTwice)

@@ -334,11 +334,11 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesItsTableOnlyForNeoHookeanTissue)
 TEST_F(TissuePanelTest, TheCorrectedLawTakesCoatings)
 {
   auto& field = *panel_->findChild<QLineEdit*>("coatings");
-  EXPECT_FALSE(field.isVisible());
+  EXPECT_FALSE(field.isEnabled());
   list("law").setCurrentIndex(2);
-  ASSERT_TRUE(field.isVisible());
+  ASSERT_TRUE(field.isEnabled());
   const QSignalSpy changes(panel_.get(), &TissuePanel::tissueChanged);
-  QTest::keyClicks(&field, "2mm:200kPa:0.45, 1cm:5kPa:0.48");
+  QTest::keyClicks(&field, "2mm:80kPa:0.45, 1cm:5kPa:0.48");
   QTest::keyClick(&field, Qt::Key_Return);
   EXPECT_EQ(changes.count(), 1);
   const ForceLaw law = panel_->law();
@@ -357,6 +357,19 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesCoatings)
   panel_->setScene(sceneOf(SphereTip{ 10.0_mm }));
   list("law").setCurrentIndex(2);
   EXPECT_EQ(panel_->law().settings().coatings.all().size(), 2U);
+
+  // too thin under a larger tool: they can be taken out under any law
+  list("law").setCurrentIndex(0);
+  type("radius", "100");
+  list("law").setCurrentIndex(2);
+  EXPECT_THROW((void)panel_->law(), Error);
+  panel_->setScene(sceneOf(SphereTip{ 100.0_mm })); // as the window does where it is refused
+  ASSERT_TRUE(field.isEnabled());
+  field.selectAll();
+  QTest::keyClick(&field, Qt::Key_Delete);
+  QTest::keyClick(&field, Qt::Key_Return);
+  list("law").setCurrentIndex(2);
+  EXPECT_TRUE(panel_->law().settings().coatings.empty());
 
   field.setText("2mm");
   EXPECT_THROW((void)panel_->law(), Error);

@@ -314,6 +314,20 @@ TEST(Study, ResumeComparesEveryDigit)
   EXPECT_NE(resumeRefusal(folder, study).find("another case"), std::string::npos);
 }
 
+TEST(Study, ResumeRefusesOtherCoatings)
+{
+  const auto folder = freshFolder();
+  Case study = quick();
+  study.depths = { 1.0_mm };
+  study.coatings.add({ 5.0_mm, { 10.0_kPa, 0.4 } });
+  (void)calibrateInto(folder, study, false);
+  EXPECT_EQ(resumeRefusal(folder, study), "");
+  Case other = study;
+  other.coatings = {};
+  other.coatings.add({ 5.0_mm, { 10.0_kPa + 1e-6, 0.4 } });
+  EXPECT_NE(resumeRefusal(folder, other).find("another case"), std::string::npos);
+}
+
 // deeper presses want fine elements further out: as many in all, elsewhere
 TEST(Study, ResumeRefusesAnotherMesh)
 {

@@ -6,6 +6,7 @@
 #include "haptics/devices/usb/usb_module.h"
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
+#include "haptics/prefix.h"
 
 #include <dlfcn.h>
 #include <filesystem>
@@ -17,9 +18,7 @@ namespace
 
 const UsbModule& loadModule()
 {
-  const std::filesystem::path file =
-    std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
-    "lib/palp/palp-usb.so";
+  const std::filesystem::path file = prefix() / "lib/palp/palp-usb.so";
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: drivers live in it
   using Entry = const UsbModule* (*)();
   const auto entry =
