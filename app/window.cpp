@@ -19,6 +19,7 @@
 
 #include <QLabel>
 #include <QMessageBox>
+#include <QScreen>
 #include <QStatusBar>
 #include <QTimer>
 
@@ -65,7 +66,7 @@ Window::Window(Session& session, Ledger& ledger)
   , view_(*renderer_)
   , validity_(session.recording().scene.law)
 {
-  resize(1440, 860);
+  resize(QSize(1440, 860).boundedTo(screen()->availableSize()));
   ledger.build("3-D view", "the window shows the surface", [&] { makeView(); });
   ledger.build("panels, menus", "tool, tissue and device can be changed",
     [&]
