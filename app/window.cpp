@@ -59,6 +59,13 @@ bool looksAlike(const Sample& a, const Sample& b)
     std::abs(a.response.force - b.response.force) < kForce;
 }
 
+// distance from the line on which a place is pressed [m]
+double aside(const Eigen::Vector3d& apex, const SurfacePoint& place)
+{
+  const Eigen::Vector3d from = apex - place.position;
+  return (from - from.dot(place.normal) * place.normal).norm();
+}
+
 } // namespace
 
 Window::Window(Session& session, Ledger& ledger)
@@ -115,16 +122,28 @@ void Window::setDepth(double depth)
   aim();
 }
 
+// the straight way to another place may lead through the body: the tool lifts off where it is, and
+// presses only once it is above the place
 void Window::aim()
 {
-  if (target_)
+  if (!target_)
   {
-    const bool lifted = !pressing_ && depth_ == 0.0;
-    const double below = lifted ? -kHover : depth_;
-    session_.aim({ .apex = target_->position - below * target_->normal,
-      .axis = -target_->normal,
-      .lifted = lifted && !session_.newest().contact.touching() });
+    return;
   }
+  const Sample& now = session_.newest();
+  const bool touching = now.contact.touching();
+  const bool lifting = !pressing_ && depth_ == 0.0;
+  const bool elsewhere = !touching && aside(now.pose.apex, *target_) > kHover;
+  if (!lifting && !elsewhere)
+  {
+    pressed_ = target_;
+  }
+  const SurfacePoint& place = lifting && touching && pressed_ ? *pressed_ : *target_;
+  const double below = lifting || elsewhere ? -kHover : depth_;
+  session_.aim({ .apex = place.position - below * place.normal,
+    .axis = -place.normal,
+    .lifted = (lifting || elsewhere) && !touching });
+  isOnItsWay_ = lifting ? touching : elsewhere;
 }
 
 void Window::takeSamples()
@@ -151,6 +170,10 @@ void Window::clearCharts()
 void Window::refresh()
 {
   takeSamples();
+  if (isOnItsWay_)
+  {
+    aim();
+  }
   const Sample& sample = session_.newest();
   if (isStale_ || !looksAlike(sample, shown_))
   {
@@ -262,6 +285,7 @@ bool Window::openSurface(const QString& file, const QString& unit)
     {
       session_.open(file.toStdString(), unit.toStdString());
       target_.reset();
+      pressed_.reset();
       clearCharts();
       showBody();
     });

@@ -88,9 +88,11 @@ private:
   PressView view_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
-  std::optional<SurfacePoint> target_; // below the pointer
-  double depth_ = 0.0;                 // asked for by drag [m]
-  double heldDepth_ = 0.0;             // asked for by wheel, stays between presses [m]
+  std::optional<SurfacePoint> target_;  // below the pointer
+  std::optional<SurfacePoint> pressed_; // where the tool was pressed last
+  bool isOnItsWay_ = false;             // to above the target, before it may press
+  double depth_ = 0.0;                  // asked for by drag [m]
+  double heldDepth_ = 0.0;              // asked for by wheel, stays between presses [m]
   bool pressing_ = false;
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
   Validity validity_;        // of the law that the session uses

@@ -141,6 +141,30 @@ TEST_F(WindowTest, HoveringNeverTouches)
   EXPECT_EQ(peakForce(), 0.0);
 }
 
+// the straight way to another place would lead through the liver
+TEST_F(WindowTest, GoesToAnotherPlaceOverTheSurface)
+{
+  press(60);
+  const QPoint middle = canvas_->rect().center();
+  for (const QPoint place : { QPoint(-150, 0), QPoint(120, -30), QPoint(-60, -60) })
+  {
+    release();
+    QTest::mouseMove(canvas_, middle + place);
+    QTest::mousePress(canvas_, Qt::LeftButton, {}, middle + place);
+    QTest::mouseMove(canvas_, middle + place + QPoint(0, 60));
+    const auto there = [this]
+    {
+      const Sample sample = session_->newest();
+      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5;
+    };
+    QTest::qWait(100);
+    EXPECT_TRUE(QTest::qWaitFor(there, kPatience));
+  }
+  release();
+  ASSERT_NE(session_->recording().deepest(), nullptr);
+  EXPECT_LT(session_->recording().deepest()->contact.depth, 60 * 0.05e-3 + 0.3e-3);
+}
+
 TEST_F(WindowTest, AStifferTissuePushesBackHarder)
 {
   press(100);
