@@ -3,11 +3,14 @@
 #include "pipeline/child_process.h"
 #include "pipeline/surface_formats.h"
 
+#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
 #include <cstdlib>
 #include <system_error>
 
 int main(int argc, char** argv)
 {
+  // the limit of time counts all threads, and one reads as fast
+  vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
   const std::filesystem::path file = argc > 1 ? argv[1] : "";
   std::optional<double> level;
   if (argc > 2)
