@@ -117,7 +117,7 @@ Plots deepestSection(const Body& body, const Recording& recording, const Calibra
   return sectionOf(*press, calibration);
 }
 
-// elements take sheets that are too thin or too stiff for the law
+// first, as the band is about it; elements take sheets that are too thin or too stiff for the law
 void addCoatedLaw(std::vector<NamedLaw>& laws, const fem::Case& study)
 {
   if (study.coatings.empty())
@@ -127,8 +127,9 @@ void addCoatedLaw(std::vector<NamedLaw>& laws, const fem::Case& study)
   try
   {
     const LawSettings settings{ .mode = LawMode::Corrected, .coatings = study.coatings };
-    laws.push_back({ "corrected, linear", ForceLaw(study.tip, study.material, settings),
-      { .thickness = study.height } });
+    laws.insert(laws.begin(),
+      { "corrected, linear", ForceLaw(study.tip, study.material, settings),
+        { .thickness = study.height } });
   }
   catch (const Error&)
   {
