@@ -84,8 +84,7 @@ QWidget* LawPanel::makePair()
 
 LawSettings LawPanel::settings() const
 {
-  const bool corrected = mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
-  const std::string coating = corrected ? coatings_->text().remove(' ').toStdString() : "";
+  const std::string coating = isCorrected() ? coatings_->text().remove(' ').toStdString() : "";
   const bool same = mode_->currentIndex() == static_cast<int>(inUse_.mode) &&
     coating == describeCoatings(inUse_.coatings) &&
     base_->currentIndex() == static_cast<int>(inUse_.base) &&
@@ -116,9 +115,14 @@ void LawPanel::setSettings(const LawSettings& inUse)
   showWhatActs();
 }
 
+bool LawPanel::isCorrected() const
+{
+  return mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
+}
+
 void LawPanel::showWhatActs()
 {
-  const bool corrected = mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
+  const bool corrected = isCorrected();
   base_->setEnabled(corrected);
   constitution_->setEnabled(corrected);
   // kept for the corrected law, and to be taken out where that refuses them

@@ -33,6 +33,7 @@ Q_SIGNALS:
 
 private:
   [[nodiscard]] QWidget* makePair();
+  [[nodiscard]] bool isCorrected() const;
   void showWhatActs();
   void takeCoatings();
 

@@ -9,12 +9,29 @@
 namespace palp
 {
 
+namespace
+{
+
+void fitWidth(QScrollArea& area)
+{
+  area.setMinimumWidth(
+    area.widget()->minimumSizeHint().width() + area.verticalScrollBar()->sizeHint().width());
+}
+
+} // namespace
+
+void scrollDownOnly(QScrollArea& area, QWidget* content)
+{
+  area.setWidget(content);
+  area.setWidgetResizable(true);
+  area.setFrameShape(QFrame::NoFrame);
+  area.setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  fitWidth(area);
+}
+
 PanelArea::PanelArea(QWidget* content)
 {
-  setWidget(content);
-  setWidgetResizable(true);
-  setFrameShape(QFrame::NoFrame);
-  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scrollDownOnly(*this, content);
   fit();
 }
 
@@ -33,7 +50,7 @@ void PanelArea::fit()
   const int height = widget()->sizeHint().height();
   setMinimumHeight(std::min(height, screen()->availableGeometry().height() / 2));
   setMaximumHeight(height);
-  setMinimumWidth(widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width());
+  fitWidth(*this);
 }
 
 } // namespace palp

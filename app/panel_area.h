@@ -5,6 +5,10 @@
 namespace palp
 {
 
+/// Shows all of the width of a panel, and as much of its height as there is room.
+/// @param content  becomes the area's
+void scrollDownOnly(QScrollArea& area, QWidget* content);
+
 /// A panel in a dock: as high as what it shows, up to half of the screen; then scrolled.
 class PanelArea : public QScrollArea
 {

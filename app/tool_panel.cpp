@@ -22,24 +22,14 @@ namespace
 
 using namespace units::literals;
 
-enum Kind // in the order of Tip
-{
-  Sphere,
-  Cone,
-  Punch,
-  TruncatedCone,
-  BluntCone,
-  Paraboloid,
-  FromFile,
-  KindCount
-};
-static_assert(KindCount == std::variant_size_v<Tip>);
+static_assert(ToolPanel::KindCount == std::variant_size_v<Tip>);
 
 constexpr double kSmallest = 0.001; // of a flat or of a spherical tip [mm]
 
 bool isConical(int kind)
 {
-  return kind == Cone || kind == TruncatedCone || kind == BluntCone;
+  return kind == ToolPanel::Cone || kind == ToolPanel::TruncatedCone ||
+    kind == ToolPanel::BluntCone;
 }
 
 QuantityBox* makeLength(const char* name, double lowMm)

@@ -19,6 +19,18 @@ class ToolPanel : public QGroupBox
   Q_OBJECT
 
 public:
+  enum Kind ///< shapes in the order of the list and of Tip
+  {
+    Sphere,
+    Cone,
+    Punch,
+    TruncatedCone,
+    BluntCone,
+    Paraboloid,
+    FromFile,
+    KindCount
+  };
+
   explicit ToolPanel(const Tip& tip, QWidget* parent = nullptr);
 
   /// As the fields say.

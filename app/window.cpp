@@ -143,7 +143,6 @@ void Window::aim()
   session_.aim({ .apex = place.position - below * place.normal,
     .axis = -place.normal,
     .lifted = (lifting || elsewhere) && !touching });
-  isOnItsWay_ = lifting ? touching : elsewhere;
 }
 
 void Window::takeSamples()
@@ -170,10 +169,7 @@ void Window::clearCharts()
 void Window::refresh()
 {
   takeSamples();
-  if (isOnItsWay_)
-  {
-    aim();
-  }
+  aim(); // what stood in the way may be passed
   const Sample& sample = session_.newest();
   if (isStale_ || !looksAlike(sample, shown_))
   {

@@ -90,7 +90,6 @@ private:
 
   std::optional<SurfacePoint> target_;  // below the pointer
   std::optional<SurfacePoint> pressed_; // where the tool was pressed last
-  bool isOnItsWay_ = false;             // to above the target, before it may press
   double depth_ = 0.0;                  // asked for by drag [m]
   double heldDepth_ = 0.0;              // asked for by wheel, stays between presses [m]
   bool pressing_ = false;

@@ -24,7 +24,6 @@
 #include <QMenuBar>
 #include <QScreen>
 #include <QScrollArea>
-#include <QScrollBar>
 #include <QStatusBar>
 
 #include <algorithm>
@@ -54,12 +53,7 @@ QDockWidget* addDock(
 QScrollArea* scrolled(QWidget* content)
 {
   auto* area = new QScrollArea;
-  area->setWidget(content);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setMinimumWidth(
-    content->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width());
+  scrollDownOnly(*area, content);
   return area;
 }
 

@@ -24,13 +24,6 @@ constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
 constexpr int kPaperLayers = 10;
 constexpr double kCoarse = 0.1; // distance of nodes under the tool, over its radius
 
-std::string millimetres(double metres)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%g mm", units::toMillimetres(metres));
-  return text;
-}
-
 void require(bool good, const std::string& what)
 {
   if (!good)
@@ -141,29 +134,30 @@ void check(const Case& study)
   const double deepest = study.depths.back();
   require(baseRadius(study.tip) < 0.45 * std::min(study.width, study.length),
     "--tip: the tool is larger than the block; its radius must stay below " +
-      millimetres(0.45 * std::min(study.width, study.length)));
+      units::inMillimetres(0.45 * std::min(study.width, study.length)));
   require(deepest < 0.8 * study.height,
-    "--depth: " + millimetres(deepest) + " goes through the block; stay below " +
-      millimetres(0.8 * study.height));
+    "--depth: " + units::inMillimetres(deepest) + " goes through the block; stay below " +
+      units::inMillimetres(0.8 * study.height));
   require(study.threshold > 0.0 && study.threshold < deepest,
-    "--threshold: must be positive and less than the deepest depth of " + millimetres(deepest));
+    "--threshold: must be positive and less than the deepest depth of " +
+      units::inMillimetres(deepest));
   require(study.elementSize == 0.0 ||
       (study.elementSize >= 0.01_mm && study.elementSize <= largestElement(study)),
-    "--element-size: must be between 0.01 mm and " + millimetres(largestElement(study)) +
+    "--element-size: must be between 0.01 mm and " + units::inMillimetres(largestElement(study)) +
       " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
   require(study.coatings.empty() || study.model == BodyModel::Axisymmetric,
     "--coating: the volumetric block takes none; use --model axisymmetric");
   require(study.coatings.thickness() < study.height,
-    "--coating: as thick as the block of " + millimetres(study.height) + "; give less");
+    "--coating: as thick as the block of " + units::inMillimetres(study.height) + "; give less");
   for (const Coating& coating : study.coatings.all())
   {
     require(coating.material.poissonRatio < 0.5,
       "--coating: finite elements need a Poisson's ratio of less than 0.5; give 0.49");
     require(coating.thickness >= elementSize(study),
-      "--coating: thinner than an element; give --element-size " + millimetres(coating.thickness) +
-        " or less");
+      "--coating: thinner than an element; give --element-size " +
+        units::inMillimetres(coating.thickness) + " or less");
   }
   require(
     study.material.poissonRatio < 0.5, "--poisson: finite elements need less than 0.5; give 0.49");

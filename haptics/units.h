@@ -3,7 +3,9 @@
 // Every double in this code base is SI: m, N, Pa, s, rad.
 // Millimetres, kilopascals and degrees live at the edges, and reach the inside through here.
 
+#include <cstdio>
 #include <numbers>
+#include <string>
 
 namespace palp::units
 {
@@ -11,6 +13,14 @@ namespace palp::units
 constexpr double toMillimetres(double metres) noexcept
 {
   return metres * 1e3;
+}
+
+/// For messages, as in `0.5 mm`.
+inline std::string inMillimetres(double metres)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%g mm", toMillimetres(metres));
+  return text;
 }
 
 constexpr double fromMillimetres(double millimetres) noexcept

@@ -88,10 +88,12 @@ std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
   posix_spawnattr_setsigdefault(&attributes, &signals);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   pid_t child = -1;
-  errno = posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+  const int failure =
+    posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
-  return errno == 0 ? std::optional(child) : std::nullopt;
+  errno = failure;
+  return failure == 0 ? std::optional(child) : std::nullopt;
 }
 
 } // namespace

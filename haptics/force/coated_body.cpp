@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace palp
@@ -115,22 +114,15 @@ void add(PunchSolution& sum, double weight, const PunchSolution& part) noexcept
   }
 }
 
-std::string millimetres(double metres)
-{
-  std::ostringstream text;
-  text << units::toMillimetres(metres) << " mm";
-  return text.str();
-}
-
 void check(const Coatings& coatings, const Material& body, double widest)
 {
   const auto all = coatings.all();
   if (all.front().thickness < CoatedBody::kThinnest * widest)
   {
     throw Error(ErrorCode::BadValue,
-      "coatings: " + millimetres(all.front().thickness) +
+      "coatings: " + units::inMillimetres(all.front().thickness) +
         " are too thin under this tool to be computed; give " +
-        millimetres(CoatedBody::kThinnest * widest) + " or more, or leave it out");
+        units::inMillimetres(CoatedBody::kThinnest * widest) + " or more, or leave it out");
   }
   constexpr double rounding = 1.0 + 1e-9;
   double softest = body.contactModulus(); // of what is below
@@ -198,6 +190,7 @@ CoatedBody::CoatedBody(const Coatings& coatings, const Material& body, Base base
       [&](double at)
       { return 1.0 - surfaceCompliance(at, coatings.all(), body, thickness, base); });
   }
+  const Eigen::MatrixXd differences = deficits.colwise() - deficits.col(0).eval();
   const double relative = coatings.all().front().material.contactModulus() / body.contactModulus();
   for (int radius = 0; radius < kRadii; ++radius)
   {
@@ -206,7 +199,7 @@ CoatedBody::CoatedBody(const Coatings& coatings, const Material& body, Base base
     for (int i = 0; i < kThicknesses; ++i)
     {
       auto& value = rows_[static_cast<std::size_t>(radius * kThicknesses + i)].value;
-      value = equation.solve(endless + equation.kernel(deficits.col(i) - deficits.col(0)));
+      value = equation.solve(endless + equation.kernel(differences.col(i)));
       std::transform(
         value.begin(), value.end(), value.begin(), [&](double term) { return relative * term; });
     }

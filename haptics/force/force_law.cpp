@@ -112,7 +112,7 @@ ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings setting
       .ellipse = EllipseFactor() };
     if (!settings_.coatings.empty())
     {
-      corrections.coated.emplace(tip_, settings_.coatings, material_, settings_.base);
+      corrections.coated = corrections.layer.coated(settings_.coatings, material_, settings_.base);
     }
     corrections_ = std::make_shared<const Corrections>(std::move(corrections));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace palp
 {
@@ -19,19 +18,8 @@ constexpr double kHollowSpacing = 0.99;
 } // namespace
 
 LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)
-  : LayerContact(tip, ContactTable(tip), Layer(poissonRatio, base))
-{
-}
-
-LayerContact::LayerContact(
-  const Tip& tip, const Coatings& coatings, const Material& body, Base base)
-  : LayerContact(tip, ContactTable(tip), CoatedBody(coatings, body, base, baseRadius(tip)))
-{
-}
-
-LayerContact::LayerContact(const Tip& tip, ContactTable table, std::variant<Layer, CoatedBody> body)
-  : table_(std::move(table))
-  , body_(std::move(body))
+  : table_(tip)
+  , body_(Layer(poissonRatio, base))
   , mostHollow_(0.0)
 {
   if (flatRadius(tip) > 0.0)
@@ -48,6 +36,13 @@ LayerContact::LayerContact(const Tip& tip, ContactTable table, std::variant<Laye
     mostHollow_ = std::min(mostHollow_, 0.5 * contactDepth(tip, inner) / (inner * outer));
     outer = inner;
   }
+}
+
+LayerContact LayerContact::coated(const Coatings& coatings, const Material& body, Base base) const
+{
+  LayerContact contact = *this;
+  contact.body_ = CoatedBody(coatings, body, base, table_(table_.baseDepth()).radius);
+  return contact;
 }
 
 double LayerContact::allowedCurvature(double curvature) const noexcept

@@ -22,8 +22,10 @@ class LayerContact
 public:
   LayerContact(const Tip& tip, double poissonRatio, Base base);
 
+  /// The same tip on a coated body.
   /// @throws Error  as CoatedBody
-  LayerContact(const Tip& tip, const Coatings& coatings, const Material& body, Base base);
+  [[nodiscard]] LayerContact coated(
+    const Coatings& coatings, const Material& body, Base base) const;
 
   /// @param depth      delta [m], more than 0
   /// @param thickness  of the body [m], more than 0; infinite for a half-space
@@ -45,8 +47,6 @@ private:
     double uniform; // A [m]
     double shape;   // B [m^2]
   };
-
-  LayerContact(const Tip& tip, ContactTable table, std::variant<Layer, CoatedBody> body);
 
   [[nodiscard]] PunchSolution solution(double radius, double thickness) const noexcept;
   [[nodiscard]] Trial trial(

@@ -31,16 +31,7 @@ namespace
 
 using namespace units::literals;
 
-enum Shape // as listed
-{
-  Sphere,
-  Cone,
-  Punch,
-  TruncatedCone,
-  BluntCone,
-  Paraboloid,
-  FromFile
-};
+using enum ToolPanel::Kind;
 
 const char* const kFields[]{ "radius", "halfAngle", "flatRadius", "tipRadius", "profile" };
 
@@ -127,7 +118,7 @@ protected:
 
 struct Typed
 {
-  Shape shape;
+  ToolPanel::Kind shape;
   std::map<std::string, const char*> fields; // all that the shape has
   Tip tip;
 };

@@ -32,6 +32,12 @@ Coatings one(double thickness, const Material& material)
   return coatings;
 }
 
+LayerContact coatedContact(
+  const Tip& tip, const Coatings& coatings, const Material& body, Base base = Base::Bonded)
+{
+  return LayerContact(tip, body.poissonRatio, base).coated(coatings, body, base);
+}
+
 // Burmister 1943, two incompressible sheets: with N = (n - 1) / (n + 1), e = exp(-2 m),
 // (1 + 4 N m e - N^2 e^2) / (1 - 2 N (1 + 2 m^2) e + N^2 e^2)
 TEST(SurfaceCompliance, IsBurmistersForTwoIncompressibleSheets)
@@ -95,7 +101,7 @@ TEST_P(AnyTip, CoatedWithItsOwnMaterialIsTheBodyAlone)
   {
     const Material body{ 10.0_kPa, nu };
     const LayerContact plain(GetParam(), nu, base);
-    const LayerContact coated(GetParam(), one(1.0_mm, body), body, base);
+    const LayerContact coated = coatedContact(GetParam(), one(1.0_mm, body), body, base);
     for (const double thickness : { 12.0_mm, 17.0_mm, 23.0_mm, 50.0_mm, 200.0_mm, kInfinite })
     {
       for (const double depth : { 0.02_mm, 0.3_mm, 1.0_mm, 4.0_mm })
@@ -114,7 +120,7 @@ TEST_P(AnyTip, CoatingOnSomethingHardIsALayerOfItsThickness)
 {
   const Material soft{ 1.0_kPa, 0.45 };
   const Material hard{ 900.0_kPa, 0.45 };
-  const LayerContact coated(GetParam(), one(15.0_mm, soft), hard, Base::Bonded);
+  const LayerContact coated = coatedContact(GetParam(), one(15.0_mm, soft), hard);
   const LayerContact layer(GetParam(), 0.45, Base::Bonded);
   for (const double depth : { 0.1_mm, 1.0_mm, 4.0_mm })
   {
@@ -135,7 +141,7 @@ TEST_P(AnyTip, StiffnessIsTheDerivativeOfTheForceAndNeverFalls)
       {
         coatings.add({ 10.0_mm, { 6.0_kPa, 0.48 } });
       }
-      const LayerContact law(GetParam(), coatings, kBody, Base::Bonded);
+      const LayerContact law = coatedContact(GetParam(), coatings, kBody);
       for (const double thickness : { coating + 2.0_mm, coating + 5.0_mm, 60.0_mm, kInfinite })
       {
         double force = 0.0;
@@ -162,7 +168,7 @@ TEST_P(AnyTip, ContactNeverJumps)
 {
   for (const double skin : { 0.5_mm, 1.0_mm, 3.0_mm })
   {
-    const LayerContact law(GetParam(), one(skin, { 200.0_kPa, 0.45 }), kBody, Base::Bonded);
+    const LayerContact law = coatedContact(GetParam(), one(skin, { 200.0_kPa, 0.45 }), kBody);
     LinearContact before = law(0.5_mm, kInfinite, 0.0);
     for (int i = 1; i < 600; ++i)
     {
@@ -281,13 +287,12 @@ TEST(Coatings, RefuseWhatCannotBeComputed)
   EXPECT_NEAR(coatings.thickness(), 4.0_mm, 1e-12);
   // hide over water, and a sheet of paper under a fist
   EXPECT_THROW(
-    LayerContact(SphereTip{ 10.0_mm }, one(1.0_mm, { 300.0_kPa, 0.4 }), kBody, Base::Bonded),
-    Error);
+    (void)coatedContact(SphereTip{ 10.0_mm }, one(1.0_mm, { 300.0_kPa, 0.4 }), kBody), Error);
   // nor by steps
   Coatings steps = one(1.0_mm, { 300.0_kPa, 0.4 });
   steps.add({ 1.0_mm, { 60.0_kPa, 0.4 } });
-  EXPECT_THROW(LayerContact(SphereTip{ 10.0_mm }, steps, kBody, Base::Bonded), Error);
-  EXPECT_THROW(LayerContact(SphereTip{ 50.0_mm }, one(0.1_mm, kBody), kBody, Base::Bonded), Error);
+  EXPECT_THROW((void)coatedContact(SphereTip{ 10.0_mm }, steps, kBody), Error);
+  EXPECT_THROW((void)coatedContact(SphereTip{ 50.0_mm }, one(0.1_mm, kBody), kBody), Error);
 }
 
 } // namespace
