@@ -36,7 +36,7 @@ inline constexpr const char* kNode = "/dev/hidraw0";
 inline constexpr int kMajor = 241;
 inline constexpr int kDescriptorSize = 27;
 
-inline std::atomic<int> gHostEnd = -1; // handed out to the one who opens the node
+inline std::atomic<int> gHostEnd = -1; // a copy for whoever opens the node
 inline std::atomic<int> gOpen = -1;
 inline std::atomic<bool> gDenied = false; // to this user, as without udev rules
 
@@ -62,8 +62,9 @@ extern "C" int open(const char* path, int flags, ...)
   }
   if (std::strcmp(path, palp::test::kNode) == 0)
   {
-    palp::test::gOpen = palp::test::gHostEnd.exchange(-1);
-    errno = palp::test::gOpen < 0 ? ENODEV : 0;
+    const int end = palp::test::gHostEnd;
+    palp::test::gOpen = end < 0 ? -1 : dup(end);
+    errno = end < 0 ? ENODEV : 0;
     return palp::test::gOpen;
   }
   static const auto real = palp::test::next<int (*)(const char*, int, ...)>("open");

@@ -68,6 +68,27 @@ TEST_F(HidRig, DevicesTellsWhatIsThereAndWhyItCannotBeUsed)
   EXPECT_NE(none.text.find("none; plug one in"), none.text.npos);
 }
 
+// none of them may reach hidapi, which uses such a device after it has freed it
+TEST_F(HidRig, WhatIsNoHidDeviceIsRefusedByName)
+{
+  for (const char* path : { "/dev/null", "/dev/zero", "/etc/passwd", "/tmp", "/proc/self/mem" })
+  {
+    try
+    {
+      (void)openHid(path);
+      ADD_FAILURE() << path;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_EQ(error.code(), ErrorCode::NoDevice);
+      EXPECT_TRUE(std::string(error.what()).starts_with(std::string(path) + ": ")) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("another program"), std::string::npos)
+        << error.what();
+    }
+  }
+  EXPECT_NE(openHid(kNode), nullptr);
+}
+
 TEST_F(HidRig, DevicesNamesSpacenavd)
 {
   EXPECT_EQ(tellDevices().text.find("spacenavd"), std::string::npos);

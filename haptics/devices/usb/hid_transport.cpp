@@ -7,9 +7,13 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <fcntl.h>
 #include <hidapi/hidapi.h>
+#include <linux/hidraw.h>
 #include <mutex>
 #include <set>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace palp
@@ -101,6 +105,25 @@ std::string hurdleOf(const char* path)
     : "cannot be opened; plug it in again";
 }
 
+// hidapi 0.13 uses a device that it has freed where a path is none (libusb/hidapi issue 542)
+void checkIsHid(const std::string& path)
+{
+  struct stat status{};
+  int size = 0;
+  const int file = open(path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  bool isOther = file < 0 && errno == EISDIR;
+  if (file >= 0)
+  {
+    isOther = fstat(file, &status) != 0 || !S_ISCHR(status.st_mode) ||
+      ioctl(file, HIDIOCGRDESCSIZE, &size) < 0 || size <= 0;
+    close(file);
+  }
+  if (isOther)
+  {
+    throw Error(ErrorCode::NoDevice, path + ": not a HID device; see palp devices");
+  }
+}
+
 std::string narrow(const wchar_t* text)
 {
   std::string narrowed;
@@ -147,6 +170,7 @@ std::vector<FoundDevice> listHid()
 std::unique_ptr<Transport> openHid(const std::string& path)
 {
   const std::lock_guard lock(gLibrary);
+  checkIsHid(path);
   hid_device* device = hid_open_path(path.c_str());
   if (device == nullptr)
   {
