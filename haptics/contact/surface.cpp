@@ -1,5 +1,6 @@
 #include "haptics/contact/surface.h"
 
+#include "haptics/contact/sides.h"
 #include "haptics/error.h"
 
 #include <Eigen/Geometry>
@@ -72,47 +73,6 @@ double distanceToSegment(
   return (x - a - t * along).norm();
 }
 
-// one side of a triangle, kept at the lower of its two points
-struct Side
-{
-  int other;
-  int triangle;
-  int k;
-};
-
-// sides in the order of their lower points, as a CSR
-struct Sides
-{
-  std::vector<int> first;
-  std::vector<Side> all;
-};
-
-Sides sidesByPoint(std::size_t points, std::span<const Triangle> triangles)
-{
-  Sides sides{ .first = std::vector<int>(points + 1, 0), .all = {} };
-  const auto eachSide = [&](auto&& use)
-  {
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-    {
-      const Triangle& t = triangles[i];
-      for (std::size_t k = 0; k < 3 && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; ++k)
-      {
-        const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
-        use(low, Side{ high, static_cast<int>(i), static_cast<int>(k) });
-      }
-    }
-  };
-  eachSide([&](int low, const Side&) { ++sides.first[at(low) + 1]; });
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    sides.first[i + 1] += sides.first[i];
-  }
-  sides.all.resize(at(sides.first.back()));
-  std::vector<int> next = sides.first;
-  eachSide([&](int low, const Side& side) { sides.all[at(next[at(low)]++)] = side; });
-  return sides;
-}
-
 } // namespace
 
 Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> triangles)
@@ -144,34 +104,27 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
 
 void Surface::linkEdges()
 {
-  Sides sides = sidesByPoint(points_.size(), triangles_);
+  const Sides sides = sidesByPoint(points_.size(), triangles_);
   across_.assign(triangles_.size(), { -1, -1, -1 });
   std::vector<std::array<int, 2>> edges;
   edges.reserve(sides.all.size() / 2);
   double sum = 0.0;
-  for (std::size_t point = 0; point < points_.size(); ++point)
-  {
-    const auto begin = sides.all.begin() + sides.first[point];
-    const auto end = sides.all.begin() + sides.first[point + 1];
-    std::sort(begin, end, [](const Side& a, const Side& b) { return a.other < b.other; });
-    for (auto side = begin; side != end;)
+  forEachEdge(sides,
+    [&](int point, std::span<const Side> edge)
     {
-      const int other = side->other;
-      const auto last = std::find_if(side, end, [&](const Side& s) { return s.other != other; });
-      edges.push_back({ static_cast<int>(point), other });
-      sum += (points_[point] - points_[at(other)]).squaredNorm();
-      if (last - side == 2)
+      const int other = edge.front().other;
+      edges.push_back({ point, other });
+      sum += (points_[at(point)] - points_[at(other)]).squaredNorm();
+      if (edge.size() == 2)
       {
-        across_[at(side[0].triangle)][at(side[0].k)] = side[1].triangle;
-        across_[at(side[1].triangle)][at(side[1].k)] = side[0].triangle;
+        across_[at(edge[0].triangle)][at(edge[0].k)] = edge[1].triangle;
+        across_[at(edge[1].triangle)][at(edge[1].k)] = edge[0].triangle;
       }
       else
       {
         openEdges_.push_back(edges.back());
       }
-      side = last;
-    }
-  }
+    });
   edgeLength_ = std::sqrt(sum / static_cast<double>(edges.size()));
 
   firstNeighbour_.assign(points_.size() + 1, 0);

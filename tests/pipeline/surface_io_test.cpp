@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
+#include <sstream>
 #include <vtkPolyData.h>
 
 namespace palp::test
@@ -445,6 +447,29 @@ TEST_F(SurfaceFile, LosesTrianglesWhoseCornersCoincide)
   EXPECT_EQ(meshOf(surface).triangles.size(), 4u);
   EXPECT_TRUE(surface.closed);
   EXPECT_TRUE(mentions(surface, "2 triangles whose corners coincide dropped"));
+}
+
+// two cones base to base: 60,000 triangles share each apex, and one triangle stands 1e9 mm away
+TEST_F(SurfaceFile, OfAnyShapeIsMadeReadyInTimeThatGrowsAsItsSize)
+{
+  constexpr int count = 60'000;
+  std::ostringstream text;
+  text << "v 0 0 50\nv 0 0 -50\nv 1e9 0 0\nv 1e9 1e9 0\nv 1e9 0 1e9\nf 3 4 5\n";
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 2.0 * std::numbers::pi * i / count;
+    text << "v " << 100.0 * std::cos(angle) << ' ' << 100.0 * std::sin(angle) << " 0\n";
+    const int a = 6 + i;
+    const int b = 6 + (i + 1) % count;
+    text << "f 1 " << a << ' ' << b << "\nf 2 " << a << ' ' << b << '\n'; // half face inwards
+  }
+  const LoadedSurface surface = load("cones.obj", text.str(), LengthUnit::Millimetre);
+  EXPECT_TRUE(mentions(surface, "open: 3 edges"));
+  EXPECT_TRUE(mentions(surface, "60000 triangles turned to face as their neighbours"));
+  const Mesh mesh = meshOf(surface);
+  const Surface made(mesh.points, mesh.triangles);
+  EXPECT_EQ(made.neighbours(3).size(), count); // behind the lone triangle's three points
+  EXPECT_NEAR(made.normals()[3].z(), 1.0, 1e-3);
 }
 
 // each is refused in one line that starts with the file and ends with what to do

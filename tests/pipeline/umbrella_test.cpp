@@ -40,6 +40,25 @@ TEST(Umbrella, SeparatesSheetsThatShareAPoint)
   EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2, Umbrella::kEnd, 3, 4 }));
 }
 
+// a book of pages, and a fan, each with more triangles than their squares could be looked at
+TEST(Umbrella, TakesAnyNumberOfTrianglesAtAPoint)
+{
+  constexpr int count = 200'000;
+  std::vector<Triangle> fan;
+  std::vector<Triangle> book;
+  for (int i = 0; i < count; ++i)
+  {
+    fan.push_back({ 0, 1 + i, 1 + (i + 1) % count });
+    book.push_back({ 0, 1, 2 + i });
+  }
+  const Umbrella around(count + 2, fan);
+  EXPECT_EQ(around.around(0).size(), count + 1U);
+  EXPECT_EQ(around.around(0).front(), around.around(0).back());
+  const Umbrella pages(count + 2, book);
+  EXPECT_EQ(std::ranges::count(pages.around(0), 1), count);
+  EXPECT_EQ(std::ranges::count(pages.around(0), Umbrella::kEnd), count - 1);
+}
+
 TEST(Umbrella, LeavesOutTrianglesThatNameAPointTwice)
 {
   const Umbrella umbrella(3, std::vector<Triangle>{ { 0, 0, 1 }, { 0, 1, 2 } });
