@@ -105,11 +105,11 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
 {
   Report command{};
   const MutableBytes payload = MutableBytes(command).first(reportSize_);
-  if (calibrating_)
+  if (calibrate_)
   {
-    encodeWoodenCalibration({}, payload);
-    calibrating_ = false;
-    homed_ = true;
+    encodeWoodenCalibration(arm_, payload);
+    calibrate_ = false; // once: by the next tick the arm may have left
+    told_ = true;
   }
   else
   {
@@ -126,7 +126,8 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
       if (heard)
       {
         angles_ = bodyAngles(arm_, heard->encoders);
-        calibrating_ = calibrating_ || heard->calibrate;
+        calibrate_ = heard->calibrate;
+        homed_ = told_ && !calibrate_;
       }
       return heard.has_value();
     });

@@ -45,8 +45,9 @@ private:
   WoodenArm arm_;
   std::size_t reportSize_;
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();
+  bool calibrate_ = false; // asked for by the board
+  bool told_ = false;      // that it stands at rest
   bool homed_ = false;
-  bool calibrating_ = false;
 };
 
 /// A board that speaks PHD1.

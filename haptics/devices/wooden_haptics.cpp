@@ -54,7 +54,7 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
   const std::array keys{ Key{ "capstan", arm.capstan, true }, Key{ "length", arm.length, true },
     Key{ "body", arm.body, true }, Key{ "origin", arm.origin, false },
     Key{ "torque", arm.torque, true }, Key{ "counts", arm.counts, true },
-    Key{ "sign", arm.sign, false }, Key{ "radius", { &arm.radius, 1 }, true },
+    Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false }, Key{ "radius", { &arm.radius, 1 }, true },
     Key{ "max_force", { &arm.maxForce, 1 }, true },
     Key{ "max_current", { &arm.maxCurrent, 1 }, true },
     Key{ "damping", { &arm.damping, 1 }, true } };
@@ -81,6 +81,14 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
     if (std::abs(sign) != 1.0)
     {
       throw Error(ErrorCode::BadFile, name + ": a sign is neither 1 nor -1; give one of them");
+    }
+  }
+  for (const double count : arm.rest)
+  {
+    if (nearestInt<std::int16_t>(count) != count)
+    {
+      throw Error(ErrorCode::BadFile,
+        name + ": rest is no whole number of counts from -32768 to 32767; give one");
     }
   }
   return arm;
@@ -110,15 +118,13 @@ void encodeWooden(const std::array<double, 3>& currents, MutableBytes report) no
   }
 }
 
-void encodeWoodenCalibration(
-  const std::array<std::int16_t, 6>& encoders, MutableBytes report) noexcept
+void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 {
   constexpr std::int16_t kSetCounters = 1;
-  std::ranges::fill(report, std::byte{ 0 });
+  std::ranges::fill(report, std::byte{ 0 }); // the counters of a wrist, too
   for (std::size_t i = 0; i < 3; ++i)
   {
-    writeInt(report, 2 * i, encoders[3 + i]);
-    writeInt(report, 8 + 2 * i, encoders[i]);
+    writeInt(report, 8 + 2 * i, nearestInt<std::int16_t>(arm.rest[i]));
   }
   writeInt(report, 6, kSetCounters);
 }

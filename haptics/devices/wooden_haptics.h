@@ -14,7 +14,7 @@ namespace palp
 /// Geometry and motors of an arm of the WoodenHaptics family.
 ///
 /// The defaults are WoodenHaptics of 2015; a text of `key = value` lines changes them.
-/// @source  WoodenHaptics/woody-experimental CWoodenDevice.h; forsslund/haptikfabrikenapi
+/// @source  forsslund/haptikfabrikenapi, src/haptikfabrikenapi.h, woodenhaptics_v2015
 struct WoodenArm
 {
   std::array<double, 3> capstan{ 0.010, 0.010, 0.010 };   ///< diameters [m]
@@ -23,7 +23,8 @@ struct WoodenArm
   std::array<double, 3> origin{ 0.220, 0.0, 0.080 };      ///< of the workspace [m]
   std::array<double, 3> torque{ 0.0259, 0.0259, 0.0259 }; ///< constants [N m/A]
   std::array<double, 3> counts{ 2000.0, 2000.0, 2000.0 }; ///< in a turn of the motor
-  std::array<double, 3> sign{ -1.0, -1.0, -1.0 };         ///< of body against motor
+  std::array<double, 3> sign{ 1.0, 1.0, 1.0 };            ///< of body against motor
+  std::array<double, 3> rest{ 0.0, 0.0, 6000.0 };         ///< counts where it is calibrated
   double radius = 0.100;                                  ///< of the workspace [m]
   double maxForce = 5.0;                                  ///< [N]
   double maxCurrent = 2.0;                                ///< in a motor [A]
@@ -50,10 +51,9 @@ struct WoodenReport
 /// @realtime      pure; no allocation, no lock, no exception
 void encodeWooden(const std::array<double, 3>& currents, MutableBytes report) noexcept;
 
-/// Tells the board what its encoders read now.
+/// Tells the board what its encoders read now: an arm that is held at rest.
 /// @param report  of 14 bytes or more, as the board takes them, without report id
-void encodeWoodenCalibration(
-  const std::array<std::int16_t, 6>& encoders, MutableBytes report) noexcept;
+void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept;
 
 /// Angles of the three bodies [rad].
 /// @realtime  pure; no allocation, no lock, no exception

@@ -128,6 +128,10 @@ Eigen::Vector3d SafetyChain::rendered(
     seat_ = depth - depthOf(law, highest, stiffest, depth);
     felt = couple(law, depth - seat_, stiffest);
   }
+  if (seat_ > 0.0) // also where the law is not yet felt
+  {
+    raise(Flag::Reseated);
+  }
   normalForce_ = felt.force;
   sample.proxyDepth = felt.proxyDepth;
   if (std::isnan(sample.response.force) || !(scene.damping >= 0.0) || !(scene.forceLimit >= 0.0))
@@ -189,10 +193,6 @@ Eigen::Vector3d SafetyChain::push(
   if (damping < scene.damping)
   {
     raise(Flag::DampingLimited);
-  }
-  if (seat_ > 0.0)
-  {
-    raise(Flag::Reseated);
   }
   return std::max(0.0, felt.force - damping * last_.velocity.dot(normal)) * normal;
 }

@@ -7,8 +7,8 @@
 #include "haptics/devices/hid_drivers.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/hid_transport.h"
+#include "tests/rigs/wooden_board.h"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -130,138 +130,6 @@ inline constexpr std::array kNodes{
   "/sys/devices/usb1/1-2/1-2:1.0/0003:16C0:0486.0001",
   "/sys/devices/usb1/1-2/1-2:1.0",
   "/sys/devices/usb1/1-2",
-};
-
-// the board: encoders that follow the currents, one report for each
-class Board
-{
-public:
-  enum class Mood
-  {
-    Good,
-    Silent,
-    Garbage, // of any length
-    Short,   // reports that are cut off
-  };
-
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::array<std::int16_t, 3> kStart{ 0, -1000, -6000 }; // in its workspace
-
-  explicit Board(int end)
-    : end_(end)
-    , thread_([this] { run(); })
-  {
-  }
-
-  ~Board()
-  {
-    unplug();
-  }
-
-  void unplug()
-  {
-    if (thread_.joinable())
-    {
-      pulled = Clock::now();
-      shutdown(end_, SHUT_RDWR);
-      thread_.join();
-      close(end_);
-    }
-  }
-
-  std::atomic<Mood> mood = Mood::Good;
-  std::atomic<bool> button = true; // calibrates as soon as it is asked
-  std::atomic<int> reach = 0;      // counts of the third encoder that the arm moves to
-  std::atomic<int> packets = 0;
-  std::atomic<int> beforeCalibration = 0;        // currents that were not zero too early
-  std::atomic<int> last = 0;                     // sum of the sizes of the last currents [mA]
-  std::atomic<int> pushes = 0;                   // packets whose currents were not all zero
-  std::atomic<Clock::time_point> lastPush{};     // when the last of them came
-  std::atomic<Clock::time_point> pulled{};       // when its wire was
-  std::array<std::atomic<int>, 3> currents{};    // last [mA]
-  std::array<std::int16_t, 3> encoders = kStart; // the thread's, until it has ended
-
-private:
-  // what the arm does with a command
-  void hear(Bytes payload)
-  {
-    constexpr int kCalibrate = 1;
-    if (readInt<std::int16_t>(payload, 6) == kCalibrate)
-    {
-      calibrated_ = true;
-      button = false;
-      return;
-    }
-    int sum = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      currents[i] = readInt<std::int16_t>(payload, 2 * i);
-      sum += std::abs(currents[i]);
-    }
-    encoders[0] = static_cast<std::int16_t>(encoders[0] + currents[0] / 1000); // so it can be told
-    if (sum != 0)
-    {
-      lastPush = Clock::now();
-      ++pushes;
-      beforeCalibration += calibrated_ ? 0 : 1;
-    }
-    last = sum;
-  }
-
-  // a count in each packet: a hand that moves at some 60 mm/s
-  void move()
-  {
-    const int step = std::clamp(reach - reached_, -1, 1);
-    reached_ += step;
-    encoders[2] = static_cast<std::int16_t>(encoders[2] + step);
-  }
-
-  [[nodiscard]] std::size_t answer(MutableBytes out)
-  {
-    if (mood == Mood::Garbage)
-    {
-      for (std::byte& byte : out)
-      {
-        noise_ = noise_ * 1664525U + 1013904223U;
-        byte = static_cast<std::byte>(noise_ >> 24);
-      }
-      return 1 + noise_ % 64;
-    }
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      writeInt(out, 2 * i, encoders[i]);
-    }
-    writeInt<std::int16_t>(out, 12, button ? 1 : 0);
-    return mood == Mood::Short ? 7 : out.size();
-  }
-
-  void run()
-  {
-    std::array<std::byte, 128> in{};
-    for (;;)
-    {
-      const ssize_t size = recv(end_, in.data(), in.size(), 0);
-      if (size <= 0)
-      {
-        return;
-      }
-      ++packets;
-      hear(Bytes(in.data() + 1, static_cast<std::size_t>(size) - 1));
-      move();
-      std::array<std::byte, 64> out{};
-      const std::size_t length = answer(out);
-      if (mood != Mood::Silent && send(end_, out.data(), length, MSG_NOSIGNAL) < 0)
-      {
-        return;
-      }
-    }
-  }
-
-  int reached_ = 0;
-  bool calibrated_ = false;
-  std::uint32_t noise_ = 1;
-  int end_;
-  std::thread thread_;
 };
 
 class HidRig : public ::testing::Test

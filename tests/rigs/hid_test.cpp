@@ -123,9 +123,9 @@ TEST_F(HidRig, ClosedLoopLosesNoReply)
     const IoResult result = wire->read(in, 1s);
     times.push_back(
       std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
-    // the encoder moves one count with each ampere that arrived
+    // the encoder, which began at 5, moves one count with each ampere that arrived
     answered +=
-      result.size == in.size() && decodeWooden(in)->encoders[0] == static_cast<std::int16_t>(i + 1);
+      result.size == in.size() && decodeWooden(in)->encoders[0] == static_cast<std::int16_t>(i + 6);
     std::this_thread::sleep_for(50us);
   }
   std::nth_element(times.begin(), times.begin() + kTicks / 2, times.end());
@@ -145,6 +145,18 @@ TEST_F(HidRig, NoCurrentReachesTheBoardBeforeItsCalibration)
   EXPECT_EQ(board_->beforeCalibration, 0);
   EXPECT_TRUE(sample.homed);
   EXPECT_GT(board_->last, 0);
+}
+
+// counters mean nothing when the board is plugged in
+TEST_F(HidRig, OnceCalibratedThePoseIsThatOfTheArm)
+{
+  const auto arm = openArm();
+  DriverSample sample;
+  while (!sample.homed || (sample.position - test::woodenTool(Board::kStart)).norm() > 1e-9)
+  {
+    ASSERT_LT(board_->packets, 5000) << "the driver sees " << sample.position.transpose();
+    (void)arm->tick(Vector3d::Zero(), 1.0_ms, sample);
+  }
 }
 
 TEST_F(HidRig, UnplugIsNoticedInAnyState)

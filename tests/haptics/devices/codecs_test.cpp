@@ -5,8 +5,8 @@
 #include "haptics/devices/falcon.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/support/wooden_reference.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -147,11 +147,11 @@ TEST(WoodenHaptics, ReadsCountsAndWritesMilliamperes)
 
 TEST(WoodenHaptics, StandsWhereTheDrawingSays)
 {
-  const WoodenArm arm; // upper arm straight up, forearm straight out
-  const Vector3d place = placeOf(arm, Vector3d(0.0, 0.0, std::acos(-1.0) / 2.0));
+  const WoodenArm arm; // at rest: upper arm straight up, forearm straight out
+  const Vector3d place = placeOf(arm, bodyAngles(arm, { 0, 0, 6000, 0, 0, 0 }));
   EXPECT_TRUE(place.isApprox(Vector3d(0.245 - 0.220, 0.0, 0.080 + 0.205 - 0.080), 1e-12));
   // a count of the second encoder is 54 um at the end of the upper arm
-  const Vector3d angles = bodyAngles(arm, { 0, -1, 0, 0, 0, 0 });
+  const Vector3d angles = bodyAngles(arm, { 0, 1, 0, 0, 0, 0 });
   EXPECT_NEAR(angles[1] * 0.205, 54.0_um, 0.5_um);
 }
 
@@ -173,7 +173,7 @@ TEST(WoodenHaptics, JacobianIsTheDerivative)
   }
 }
 
-// model, torques, currents, wire, currents, torques, force: what a board would make of it
+// what the makers' numbers and geometry say of the currents on the wire
 TEST(WoodenHaptics, ForceArrivesThroughTheWire)
 {
   const WoodenArm arm;
@@ -181,19 +181,18 @@ TEST(WoodenHaptics, ForceArrivesThroughTheWire)
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   for (int i = 0; i < 1000; ++i)
   {
-    const Vector3d angles(
-      0.4 * share(random), 0.2 + 0.3 * share(random), 1.4 + 0.3 * share(random));
+    const auto count = [&](double middle, double range)
+    { return static_cast<std::int16_t>(middle + range * share(random)); };
+    const std::array<std::int16_t, 6> counts{ count(0, 2000), count(760, 1140),
+      count(5300, 1140), 0, 0, 0 };
+    const test::WoodenCounts at{ counts[0], counts[1], counts[2] };
+    const Vector3d angles = bodyAngles(arm, counts);
+    EXPECT_LT((placeOf(arm, angles) - test::woodenTool(at)).norm(), 1e-9);
     const Vector3d force = 3.0 * Vector3d(share(random), share(random), share(random)).normalized();
     std::array<std::byte, 14> wire{};
     encodeWooden(currentsFor(arm, angles, force), wire);
-    Vector3d torques;
-    for (std::size_t motor = 0; motor < 3; ++motor)
-    {
-      const double current = readInt<std::int16_t>(wire, 2 * motor) / 1000.0;
-      torques[static_cast<int>(motor)] =
-        current * arm.torque[motor] * arm.sign[motor] * arm.body[motor] / arm.capstan[motor];
-    }
-    const Vector3d felt = placeJacobian(arm, angles).transpose().inverse() * torques;
+    const auto current = [&](std::size_t motor) { return readInt<std::int16_t>(wire, 2 * motor); };
+    const Vector3d felt = test::woodenForce(at, { current(0), current(1), current(2) });
     // a larger force than the motors bear is shorter but has the same direction
     EXPECT_LT(std::acos(std::min(1.0, felt.normalized().dot(force.normalized()))), 0.5_deg);
     EXPECT_LE(felt.norm(), 3.0 * 1.01);
@@ -227,7 +226,7 @@ TEST(WoodenHaptics, ConfigurationIsReadAndCheckedByLine)
   EXPECT_EQ(arm.origin[2], 0.0);
   EXPECT_EQ(arm.maxForce, 3.0);
   for (const char* bad : { "lenght = 1 2 3", "length = 1 2", "length 1 2 3", "length = 1 2 3 4",
-         "body = 0 1 1", "sign = 0.5 1 1", "radius = nan" })
+         "body = 0 1 1", "sign = 0.5 1 1", "rest = 0 0 0.5", "rest = 0 0 40000", "radius = nan" })
   {
     EXPECT_THROW((void)parseWoodenArm(bad, "arm.conf"), Error) << bad;
   }

@@ -3,6 +3,7 @@
 #include "haptics/devices/threaded_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/support/wooden_reference.h"
 
 #include <algorithm>
 #include <atomic>
@@ -96,12 +97,12 @@ bool isZeroCurrent(const Packet& packet) // with the report id
     packet.begin() + 1, packet.begin() + 7, [](std::byte byte) { return byte == std::byte{ 0 }; });
 }
 
-// an arm at rest in its workspace, calibrated by its button
+// an arm in its workspace, calibrated by its button
 Packet woodenReport(bool calibrate)
 {
   Packet report(14);
-  writeInt<std::int16_t>(report, 2, -1000);
-  writeInt<std::int16_t>(report, 4, -6000);
+  writeInt<std::int16_t>(report, 2, 764);
+  writeInt<std::int16_t>(report, 4, 3667);
   writeInt<std::int16_t>(report, 12, calibrate ? 1 : 0);
   return report;
 }
@@ -124,10 +125,30 @@ TEST(WoodenDriver, SendsNoCurrentBeforeItIsCalibrated)
   wire.replies.push_back(woodenReport(false));
   (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample); // the calibration goes out
   EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
+  EXPECT_EQ(readInt<std::int16_t>(wire.heard.back(), 13), 6000); // where the makers calibrate
   EXPECT_TRUE(sample.homed);
   wire.replies.push_back(woodenReport(false));
   (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
   EXPECT_FALSE(isZeroCurrent(wire.heard.back()));
+}
+
+TEST(WoodenDriver, IsNotHomedUntilTheBoardHasDoneAsItWasTold)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  const auto homedAfter = [&](bool calibrate)
+  {
+    wire.replies.push_back(woodenReport(calibrate));
+    (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
+    return sample.homed;
+  };
+  EXPECT_FALSE(homedAfter(true));
+  EXPECT_FALSE(homedAfter(true)); // did not hear of it, or said so before: it is told again
+  EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
+  EXPECT_TRUE(homedAfter(false));
+  EXPECT_FALSE(homedAfter(true)); // the button once more
+  EXPECT_TRUE(homedAfter(false));
 }
 
 TEST(WoodenDriver, TakesTheNewestOfWhatIsQueued)
@@ -141,9 +162,7 @@ TEST(WoodenDriver, TakesTheNewestOfWhatIsQueued)
   wire.replies.push_back(woodenReport(false));
   DriverSample sample;
   EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
-  const WoodenArm arm;
-  EXPECT_TRUE(
-    sample.position.isApprox(placeOf(arm, bodyAngles(arm, { 0, -1000, -6000, 0, 0, 0 }))));
+  EXPECT_TRUE(sample.position.isApprox(test::woodenTool(test::WoodenCounts{ 0, 764, 3667 })));
   EXPECT_TRUE(wire.replies.empty());
 }
 

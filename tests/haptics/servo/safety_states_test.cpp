@@ -43,6 +43,23 @@ TEST(SafetyChain, StartsFromZeroInContactAndGently)
   }
 }
 
+// a start in contact feels nothing at first: that, too, is said
+TEST(SafetyChain, SaysThatContactIsFeltFromBelowTheSurfaceUntilTheToolHasLifted)
+{
+  Bench bench;
+  (void)bench.press(5.0_mm);
+  bench.orders.armed = true;
+  for (int i = 0; i < 700; ++i)
+  {
+    ASSERT_TRUE(has(bench.at(5.0_mm), Flag::Reseated)) << "tick " << i;
+  }
+  EXPECT_EQ(bench.force, Vector3d::Zero());
+  EXPECT_TRUE(has(bench.press(8.0_mm), Flag::Reseated));
+  EXPECT_FALSE(has(bench.press(-1.0_mm), Flag::Reseated));
+  EXPECT_FALSE(has(bench.press(5.0_mm), Flag::Reseated));
+  EXPECT_GT(bench.force.z(), 0.0);
+}
+
 TEST(SafetyChain, FreeSpaceEndsASoftStart)
 {
   Bench bench;
