@@ -16,7 +16,7 @@ using namespace units::literals;
 using namespace std::chrono_literals;
 
 // requests of the FTDI chip
-// @source  libftdi and libnifalcon FalconCommLibUSB.cpp, as facts
+// @source  libnifalcon FalconCommLibUSB.cpp; libftdi ftdi.h (SIO_TCIFLUSH, SIO_TCOFLUSH), as facts
 enum Request : std::uint8_t
 {
   Reset = 0,
@@ -26,8 +26,8 @@ enum Request : std::uint8_t
   Format = 4,
   Latency = 9,
 };
-constexpr std::uint16_t kPurgeIn = 1;
-constexpr std::uint16_t kPurgeOut = 2;
+constexpr std::uint16_t kPurgeIn = 2;  // what waits for the host
+constexpr std::uint16_t kPurgeOut = 1; // what it has sent
 constexpr std::uint16_t kDtrOn = 0x0101;
 constexpr std::uint16_t kDtrOff = 0x0100;
 constexpr std::uint16_t kRtsOff = 0x0200;

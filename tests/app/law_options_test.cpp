@@ -82,7 +82,8 @@ TEST(LawOptions, TiltedConeIsThatOfTheBoundaryElements)
 
 TEST(LawOptions, EveryToolIsUnderstood)
 {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "palp_tool.csv";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "tool.csv";
   std::ofstream(file) << "radius_mm,height_mm\n0,0\n2,0\n10,8\n";
   for (const std::string tip : { "sphere:10mm", "cone:45deg:10mm", "punch:5mm",
          "truncated-cone:45deg:2mm:10mm", "blunt-cone:45deg:0.3mm:10mm", "paraboloid:10mm" })
@@ -92,7 +93,6 @@ TEST(LawOptions, EveryToolIsUnderstood)
   // a profile in the shape of the truncated cone
   EXPECT_NEAR(table(force("--depth 3:3:1mm --tip profile:" + file.string()))["force_N"][0],
     table(force("--depth 3:3:1mm --tip truncated-cone:45deg:2mm:10mm"))["force_N"][0], 1e-6);
-  std::filesystem::remove(file);
 }
 
 TEST(LawOptions, PaperStaysThePapersWhateverThePlace)

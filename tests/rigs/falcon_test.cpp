@@ -27,6 +27,7 @@
 #include <thread>
 #include <umockdev.h>
 #include <unistd.h>
+#include <stdexcept>
 #include <vector>
 
 namespace palp
@@ -316,9 +317,9 @@ int MadeUpFalcon::answer(unsigned long request, void* argument)
           divisor_ = readInt<std::uint16_t>(bytes, 2);
           loaded = loaded || (divisor_ == 0x2 && !firmware.empty());
         }
-        else if (bytes[1] == std::byte{ 0 })
+        else if (bytes[1] == std::byte{ 0 } && readInt<std::uint16_t>(bytes, 2) != 1)
         {
-          data_.clear();
+          data_.clear(); // 0 resets, 2 is SIO_TCIFLUSH of libftdi; 1 spares what waits for the host
         }
         finish({ urb, {} }, 0, 0);
       }
@@ -439,6 +440,19 @@ protected:
     return driver.tick(Vector3d::Zero(), 1.0_ms, sample) == IoCode::Ok;
   }
 
+  // as long as a machine under load may take
+  static void untilAnswered(FalconDriver& driver, const Vector3d& force, DriverSample& sample)
+  {
+    const auto end = Clock::now() + 60s;
+    while (driver.tick(force, 1.0_ms, sample) != IoCode::Ok)
+    {
+      if (Clock::now() > end)
+      {
+        throw std::runtime_error("no answer within a minute");
+      }
+    }
+  }
+
   static std::vector<std::byte> someFirmware()
   {
     std::vector<std::byte> firmware(7914);
@@ -506,7 +520,7 @@ TEST_F(FalconRig, ClosedLoopLosesNoReply)
     while (!state)
     {
       std::array<std::byte, 64> packet{};
-      const IoResult result = wire->read(packet, 1s);
+      const IoResult result = wire->read(packet, 60s);
       ASSERT_EQ(result.code, IoCode::Ok);
       state = reader.take(Bytes(packet).first(result.size).subspan(2));
     }
@@ -529,9 +543,7 @@ TEST_F(FalconRig, RepliesThatComeLateAreForgotten)
   }
   falcon_->mood = Mood::Good;
   falcon_->homed = true; // what the late replies do not know
-  while (driver.tick(Vector3d::Zero(), 1.0_ms, sample) != IoCode::Ok)
-  {
-  }
+  untilAnswered(driver, Vector3d::Zero(), sample);
   EXPECT_TRUE(sample.homed);
 }
 
@@ -542,7 +554,7 @@ TEST_F(FalconRig, NoTorqueComesBeforeHoming)
   DriverSample sample;
   for (int i = 0; i < 200; ++i)
   {
-    (void)driver.tick(Vector3d(0, 0, -1), 1.0_ms, sample);
+    untilAnswered(driver, Vector3d(0, 0, -1), sample);
   }
   EXPECT_EQ(falcon_->torque, 0);
   falcon_->homed = true;
@@ -564,12 +576,11 @@ TEST_F(FalconRig, MotorsGetTheTorquesOfTheForce)
   falcon_->homed = true;
   FalconDriver driver(openFalcon(), {});
   DriverSample sample;
-  (void)driver.tick(Vector3d::Zero(), 1.0_ms, sample);
+  untilAnswered(driver, Vector3d::Zero(), sample);
   const Vector3d place = sample.position + falconCentre(); // all encoders at zero
   for (const Vector3d& force : { Vector3d(0, 0, -8), Vector3d(5, 0, 2), Vector3d(-2, 6, -3) })
   {
-    (void)driver.tick(force, 1.0_ms, sample);
-    (void)driver.tick(force, 1.0_ms, sample); // an answer: the first has been taken up
+    untilAnswered(driver, force, sample); // so that it has been taken up
     Vector3d felt;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -590,14 +601,12 @@ TEST_F(FalconRig, FindsRepliesThatAreSplitOrFollowGarbage)
   for (const Mood mood : { Mood::Split, Mood::Garbage })
   {
     falcon_->mood = mood;
-    int answered = 0;
     for (int i = 0; i < 200; ++i)
     {
       DriverSample sample;
-      answered += driver.tick(Vector3d::Zero(), 1.0_ms, sample) == IoCode::Ok;
+      untilAnswered(driver, Vector3d::Zero(), sample);
       ASSERT_TRUE(sample.position.allFinite());
     }
-    EXPECT_GT(answered, 0);
   }
 }
 

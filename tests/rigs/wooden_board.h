@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
@@ -39,6 +40,14 @@ public:
 
   using Clock = std::chrono::steady_clock;
   static constexpr WoodenCounts kStart{ 764, 764, 3667 }; // in the workspace
+
+  // of a report: a wrist that turns by a count in each, so that none is missed
+  [[nodiscard]] static std::uint16_t turnsOfTheWrist(std::span<const std::byte> report)
+  {
+    std::uint16_t turns = 0;
+    std::memcpy(&turns, report.data() + 8, sizeof turns);
+    return turns;
+  }
 
   explicit Board(int end)
     : end_(end)
@@ -145,6 +154,7 @@ private:
     {
       report.first[i] = static_cast<std::int16_t>(zero_[i] + at_[i]);
     }
+    report.rest[0] = static_cast<std::int16_t>(packets.load());
     report.rest[2] = button ? 1 : 0;
     std::memcpy(out.data(), &report, sizeof report);
     return mood == Mood::Short ? 7 : out.size();

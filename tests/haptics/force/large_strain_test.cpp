@@ -1,6 +1,7 @@
 #include "haptics/force/large_strain.h"
 
 #include "haptics/error.h"
+#include "tests/support/process.h"
 
 #include <cmath>
 #include <filesystem>
@@ -73,12 +74,6 @@ TEST(LargeStrainGrid, RefusesAxesOutOfOrderAndMissingRatios)
 class LargeStrainFile : public ::testing::Test
 {
 protected:
-  ~LargeStrainFile() override
-  {
-    std::filesystem::remove(sphere_);
-    std::filesystem::remove(cone_);
-  }
-
   void write(const std::string& sphere) const
   {
     std::ofstream(sphere_) << "depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio\n"
@@ -101,10 +96,9 @@ protected:
     return "accepted";
   }
 
-  std::filesystem::path sphere_ = std::filesystem::temp_directory_path() /
-    (::testing::UnitTest::GetInstance()->current_test_info()->name() + std::string("_sphere.csv"));
-  std::filesystem::path cone_ = std::filesystem::temp_directory_path() /
-    (::testing::UnitTest::GetInstance()->current_test_info()->name() + std::string("_cone.csv"));
+  test::TemporaryFolder folder_;
+  std::filesystem::path sphere_ = folder_.path() / "sphere.csv";
+  std::filesystem::path cone_ = folder_.path() / "cone.csv";
 };
 
 TEST_F(LargeStrainFile, IsReadInAnyOrder)

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/force/half_space.h"
 #include "haptics/units.h"
+#include "tests/support/process.h"
 
 #include <cmath>
 #include <filesystem>
@@ -31,11 +32,6 @@ std::vector<Profile::Point> sampled(const Tip& tip, int count)
 class ProfileFile : public ::testing::Test
 {
 protected:
-  ~ProfileFile() override
-  {
-    std::filesystem::remove(file_);
-  }
-
   [[nodiscard]] std::string refusal(const std::string& text) const
   {
     std::ofstream(file_) << text;
@@ -51,9 +47,8 @@ protected:
     return "accepted";
   }
 
-  std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-    ("palp_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-      ".csv");
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "profile.csv";
 };
 
 TEST_F(ProfileFile, IsReadInMillimetres)

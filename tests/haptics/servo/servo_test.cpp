@@ -142,17 +142,21 @@ TEST(Servo, TheForceOfAMainThreadThatHangsFadesAndThenStops)
   world.armed = true;
   Servo servo(probe, world, kPlain);
   waitForForce(servo, world);
-  std::this_thread::sleep_for(2200ms);
-  EXPECT_TRUE(has(servo.newest(), Flag::EmergencyStop));
-  EXPECT_EQ(servo.newest().force, Eigen::Vector3d::Zero());
   bool faded = false;
-  servo.history().drain(
-    [&](const Sample& sample)
-    {
-      faded = faded ||
-        (has(sample, Flag::Unwatched) && !has(sample, Flag::EmergencyStop) &&
-          sample.force.isZero(0.0));
-    });
+  bool stopped = false;
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (!stopped && std::chrono::steady_clock::now() < end) // whoever drains does not look
+  {
+    std::this_thread::sleep_for(1ms);
+    servo.history().drain(
+      [&](const Sample& sample)
+      {
+        stopped = stopped || has(sample, Flag::EmergencyStop);
+        faded = faded || (has(sample, Flag::Unwatched) && !stopped && sample.force.isZero(0.0));
+        EXPECT_TRUE(!stopped || sample.force.isZero(0.0));
+      });
+  }
+  EXPECT_TRUE(stopped);
   EXPECT_TRUE(faded);
 }
 
@@ -232,9 +236,11 @@ TEST(Servo, SkipsAndCountsWhatItMissed)
     Servo servo(probe, scene(), kPlain);
     const Sample last = waitFor(servo, [](const Sample& sample) { return sample.time > 0.1; });
     time = last.time;
+    waitFor(servo, [&](const Sample& sample) { return sample.time > time; }); // it has been counted
     periods = servo.timing().ticks + servo.timing().skipped;
     EXPECT_GE(servo.timing().skipped, 29U);
-    EXPECT_GE(servo.timing().lateness.count(), servo.timing().ticks);
+    const std::uint64_t ticks = servo.timing().ticks; // first: the servo goes on
+    EXPECT_GE(servo.timing().lateness.count(), ticks);
     servo.history().drain(
       [&, previous = -1.0](const Sample& sample) mutable
       {
