@@ -54,8 +54,8 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
   const std::array keys{ Key{ "capstan", arm.capstan, true }, Key{ "length", arm.length, true },
     Key{ "body", arm.body, true }, Key{ "origin", arm.origin, false },
     Key{ "torque", arm.torque, true }, Key{ "counts", arm.counts, true },
-    Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false }, Key{ "radius", { &arm.radius, 1 }, true },
-    Key{ "max_force", { &arm.maxForce, 1 }, true },
+    Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false },
+    Key{ "radius", { &arm.radius, 1 }, true }, Key{ "max_force", { &arm.maxForce, 1 }, true },
     Key{ "max_current", { &arm.maxCurrent, 1 }, true },
     Key{ "damping", { &arm.damping, 1 }, true } };
   for (int line = 1; !text.empty(); ++line)

@@ -82,7 +82,7 @@ TEST(LawOptions, TiltedConeIsThatOfTheBoundaryElements)
 
 TEST(LawOptions, EveryToolIsUnderstood)
 {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "tool.csv";
   std::ofstream(file) << "radius_mm,height_mm\n0,0\n2,0\n10,8\n";
   for (const std::string tip : { "sphere:10mm", "cone:45deg:10mm", "punch:5mm",

@@ -22,12 +22,12 @@
 #include <linux/usbdevice_fs.h>
 #include <list>
 #include <mutex>
+#include <stdexcept>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <thread>
 #include <umockdev.h>
 #include <unistd.h>
-#include <stdexcept>
 #include <vector>
 
 namespace palp

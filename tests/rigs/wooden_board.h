@@ -1,8 +1,8 @@
 #pragma once
 
-// The arm's board, as its published firmware behaves (forsslund/haptikfabrikenapi firmware/main.cpp):
-// seven int16 both ways; command 0 runs currents, command 1 sets the counters and lets go of the
-// button, whose request stands until then.
+// The arm's board, as its published firmware behaves (forsslund/haptikfabrikenapi
+// firmware/main.cpp): seven int16 both ways; command 0 runs currents, command 1 sets the counters
+// and lets go of the button, whose request stands until then.
 
 #include "tests/support/wooden_reference.h"
 
@@ -116,8 +116,8 @@ private:
     at_[0] += currents[0] / 1000; // a hand that yields, so that it can be told
   }
 
-  // once it is calibrated, a hand lets go of the button, takes the arm from its rest to the start at
-  // some 0.4 m/s, and moves it from there at 60 mm/s, a count in each packet
+  // once it is calibrated, a hand lets go of the button, takes the arm from its rest to the start
+  // at some 0.4 m/s, and moves it from there at 60 mm/s, a count in each packet
   void move()
   {
     if (!calibrated_ || waiting_ > 0)
@@ -184,7 +184,7 @@ private:
     }
   }
 
-  WoodenCounts at_ = kWoodenRest;         // where the arm is, whatever the counters say
+  WoodenCounts at_ = kWoodenRest;           // where the arm is, whatever the counters say
   std::array<int, 3> zero_{ 5, -7, -5997 }; // of the counters, which began when it was plugged in
   bool calibrated_ = false;
   int waiting_ = 50; // packets before the hand moves

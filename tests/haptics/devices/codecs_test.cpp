@@ -183,8 +183,8 @@ TEST(WoodenHaptics, ForceArrivesThroughTheWire)
   {
     const auto count = [&](double middle, double range)
     { return static_cast<std::int16_t>(middle + range * share(random)); };
-    const std::array<std::int16_t, 6> counts{ count(0, 2000), count(760, 1140),
-      count(5300, 1140), 0, 0, 0 };
+    const std::array<std::int16_t, 6> counts{ count(0, 2000), count(760, 1140), count(5300, 1140),
+      0, 0, 0 };
     const test::WoodenCounts at{ counts[0], counts[1], counts[2] };
     const Vector3d angles = bodyAngles(arm, counts);
     EXPECT_LT((placeOf(arm, angles) - test::woodenTool(at)).norm(), 1e-9);

@@ -366,10 +366,10 @@ struct Fake
   std::atomic<bool> pulled = false;
   std::atomic<bool> homed = true;
   std::atomic<bool> stopped = false;
-  std::atomic<int> failing = 0;   // transfers that do not reach it, from now on
-  std::atomic<double> last = 0.0; // size of the last force that reached it [N]
-  std::atomic<double> left = 0.0; // the same, when its driver was closed
-  std::vector<Vector3d> forces;   // read after the thread has ended
+  std::atomic<int> failing = 0;     // transfers that do not reach it, from now on
+  std::atomic<double> last = 0.0;   // size of the last force that reached it [N]
+  std::atomic<double> left = 0.0;   // the same, when its driver was closed
+  std::vector<Vector3d> forces;     // read after the thread has ended
   std::atomic<bool> blocks = false; // its bus: no transfer comes to an end
   std::atomic<bool> blocked = false;
 };
