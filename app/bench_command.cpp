@@ -20,6 +20,9 @@ namespace palp
 namespace
 {
 
+constexpr double kShortestServo = 1.0;    // [s]
+constexpr double kLongestServo = 86400.0; // [s]
+
 struct BenchOptions
 {
   bool json = false;
@@ -149,6 +152,10 @@ void checkGate(const Bench& bench, const nlohmann::json& recorded, double slack)
 
 void runBench(const BenchOptions& options, const Pictures* pictures)
 {
+  if (!(options.slack >= 1.0)) // CLI11's range lets nan pass
+  {
+    throw Error(ErrorCode::BadValue, "--slack: not a number; give 1 to 100");
+  }
   if (options.frames && !pictures)
   {
     becomeSibling("palp-draw");
@@ -160,8 +167,13 @@ void runBench(const BenchOptions& options, const Pictures* pictures)
   }
   if (!options.servo.empty())
   {
-    reportServo(std::cout,
-      std::chrono::duration<double>(parseQuantity(options.servo, Quantity::Time, "--servo")));
+    const double time = parseQuantity(options.servo, Quantity::Time, "--servo");
+    if (!(time >= kShortestServo && time <= kLongestServo))
+    {
+      throw Error(
+        ErrorCode::BadValue, "--servo: '" + options.servo + "' is out of range; give 1s to 86400s");
+    }
+    reportServo(std::cout, std::chrono::duration<double>(time));
     return;
   }
   const nlohmann::json recorded = options.gate.empty() ? nullptr : readGate(options.gate);
@@ -193,6 +205,7 @@ void addBenchCommand(CLI::App& app, const Pictures* pictures)
     ->check(CLI::Range(1.0, 100.0))
     ->capture_default_str();
   command->add_option("--most", options->most, "Vertices of the largest surface")
+    ->check(CLI::Range(0, 10'000'000))
     ->capture_default_str();
   command->add_flag("--quick", options->quick, "A tenth of the repetitions");
   command->add_flag("--baselines", options->baselines,

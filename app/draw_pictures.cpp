@@ -163,11 +163,8 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
       writePlots(plots, *window, directory / (name + ("." + ending)));
     }
   };
-  std::vector<ReferenceCurve> references;
-  std::transform(
-    plan.references.begin(), plan.references.end(), std::back_inserter(references), readForceCurve);
   draw(Curve::Comparison, "comparison",
-    [&] { return forceComparison(recording, calibration, references); });
+    [&] { return forceComparison(recording, calibration, plan.references); });
   if (calibration)
   {
     draw(Curve::Section, "section", [&] { return deepestSection(body, recording, *calibration); });

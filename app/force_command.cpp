@@ -3,6 +3,7 @@
 #include "app/press_options.h"
 #include "app/quantity.h"
 #include "calibration/csv_text.h"
+#include "haptics/error.h"
 #include "haptics/force/inclination.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
@@ -15,6 +16,8 @@ namespace palp
 {
 namespace
 {
+
+constexpr double kLargestDepth = 1.0; // [m]; no organ is deeper
 
 struct ForceOptions
 {
@@ -58,6 +61,11 @@ void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
   const Range depths = parseRange(options.depth, Quantity::Length, "--depth");
+  if (depths.si.front() < 0.0 || depths.si.back() > kLargestDepth)
+  {
+    throw Error(
+      ErrorCode::BadValue, "--depth: '" + options.depth + "' is out of range; give 0mm to 1m");
+  }
   const bool paper = law.settings().mode == LawMode::Paper;
   Indentation place = options.place.place();
   const Validity validity(law, { .deepest = depths.si.back() });
@@ -111,6 +119,11 @@ void printForces(const ForceOptions& options)
   if (!paper)
   {
     tellFactors(law, place);
+  }
+  if (const std::string broken = brokenNames(validity(place)); !broken.empty())
+  {
+    std::cerr << "palp: warning: at the largest depth the law is outside its limits (" << broken
+              << "); --validity tells how far at each\n";
   }
   if (options.place.given() && law.settings().mode != LawMode::Corrected)
   {

@@ -30,14 +30,8 @@ bool isWhole(const Sample& sample)
 // names the conditions of the law that a contact breaks
 void tellLimits(const ForceLaw& law, const Contact& contact)
 {
-  std::string broken;
-  for (const Rule& rule : Validity(law)(indentationOf(contact), contact.edgeDistance))
-  {
-    if (!rule.holds())
-    {
-      broken += (broken.empty() ? "" : ", ") + std::string(rule.name);
-    }
-  }
+  const std::string broken =
+    brokenNames(Validity(law)(indentationOf(contact), contact.edgeDistance));
   if (!broken.empty())
   {
     std::cerr << "palp: warning: there the law is outside its limits (" << broken

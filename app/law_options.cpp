@@ -107,6 +107,19 @@ std::string describeLaw(const LawSettings& settings)
     (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings));
 }
 
+std::string brokenNames(const Rules& rules)
+{
+  std::string names;
+  for (const Rule& rule : rules)
+  {
+    if (!rule.holds())
+    {
+      names += (names.empty() ? "" : ", ") + std::string(rule.name);
+    }
+  }
+  return names;
+}
+
 void PlaceOptions::addTo(CLI::App& command)
 {
   command.add_option("--thickness", thickness, "Of the body under the tool, as in 30mm");
@@ -136,7 +149,7 @@ Indentation PlaceOptions::place() const
   if (!tilt.empty())
   {
     const double value = parseQuantity(tilt, Quantity::Angle, "--tilt");
-    place.tilt = checked(value, std::abs(value) <= 89.0_deg, "--tilt", tilt, "0deg to 89deg");
+    place.tilt = checked(value, value >= 0.0 && value <= 89.0_deg, "--tilt", tilt, "0deg to 89deg");
   }
   return place;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/force/force_law.h"
+#include "haptics/force/validity.h"
 
 #include <string>
 
@@ -49,5 +50,8 @@ struct PlaceOptions
     return !thickness.empty() || !surfaceRadius.empty() || !tilt.empty();
   }
 };
+
+/// The conditions of a law that a place breaks, for people; empty when it holds.
+[[nodiscard]] std::string brokenNames(const Rules& rules);
 
 } // namespace palp

@@ -24,8 +24,8 @@ std::vector<double> sampleTimes(const ScriptedPath& path)
   if (path.duration() > kLongest)
   {
     throw Error(ErrorCode::BadValue,
-      "path: it lasts " + std::to_string(std::lround(path.duration())) +
-        " s; cut it to an hour at most, a sample is kept for each millisecond");
+      "path: it lasts longer than an hour, which is the most, since a sample is kept for each "
+      "millisecond; cut it, or check that its times are seconds");
   }
   const double ticks = path.duration() * kTicksPerSecond;
   const double whole = std::floor(ticks + 1e-6);

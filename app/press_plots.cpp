@@ -2,7 +2,6 @@
 
 #include "haptics/contact/indentation_of.h"
 #include "haptics/error.h"
-#include "haptics/force/number_table.h"
 #include "haptics/units.h"
 #include "pipeline/plot_files.h"
 
@@ -84,17 +83,6 @@ ReferenceCurve forceCurveOf(std::span<const Sample> samples)
 }
 
 } // namespace
-
-ReferenceCurve readForceCurve(const std::filesystem::path& file)
-{
-  ReferenceCurve curve{ .name = file.stem().string(), .x = {}, .y = {} };
-  for (const auto& [values, line] : NumberTable::readFinite(file, "depth_mm,force_N").rows)
-  {
-    curve.x.push_back(units::fromMillimetres(values[0]));
-    curve.y.push_back(values[1]);
-  }
-  return curve;
-}
 
 Plots forceComparison(const Recording& recording, const Calibration* calibration,
   const std::vector<ReferenceCurve>& others)

@@ -17,10 +17,6 @@ namespace palp
 
 using Plots = std::vector<std::unique_ptr<Plot>>; ///< one below the other
 
-/// Reads a curve of the user's, `depth_mm,force_N`, with the file's name.
-/// @throws Error  BadFile
-[[nodiscard]] ReferenceCurve readForceCurve(const std::filesystem::path& file);
-
 /// F(depth) of the law in use, of the paper's and of the exact one, with the 7 % band; of this
 /// press, of finite elements and of others; and the differences below.
 ///

@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <unistd.h>
 #include <vector>
 
@@ -23,19 +25,67 @@ char** gArguments = nullptr; // of main, for becomeSibling
 bool isCommand(const CLI::App& app, const std::string& word)
 {
   const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
-  return word == "-h" || word == "--help" || word == "--version" ||
+  return word == "help" || word == "-h" || word == "--help" || word == "--version" ||
     !app.get_subcommands(named).empty();
 }
 
-// `palp liver.stl` is `palp view liver.stl`
+// a word that nobody would give to a file, so that a slip is not sought on the disk
+void refuseUnknownCommand(const CLI::App& app, const std::string& word)
+{
+  if (word.empty() || word.find_first_of("-./") != word.npos || std::filesystem::exists(word))
+  {
+    return;
+  }
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands({}))
+  {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw Error(ErrorCode::BadValue,
+    "'" + word + "' is neither a command nor a file here; the commands are " + names);
+}
+
+// `palp liver.stl` is `palp view liver.stl`, `palp help run` is `palp run --help`
 std::vector<std::string> withCommand(const CLI::App& app, int argc, char** argv)
 {
   std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words[0] == "help")
+  {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
   if (words.empty() || !isCommand(app, words[0]))
   {
+    refuseUnknownCommand(app, words.empty() ? "" : words[0]);
     words.insert(words.begin(), "view");
   }
   return { words.rbegin(), words.rend() }; // the order in which CLI11 consumes them
+}
+
+// an unset variable of the shell must not stand for a default
+void refuseEmptyValues(CLI::App& app)
+{
+  const CLI::Validator notEmpty(
+    [](const std::string& text)
+    { return std::string(text.empty() ? "is empty; give a value, or leave it out" : ""); },
+    "");
+  for (CLI::App* command : app.get_subcommands({}))
+  {
+    for (CLI::Option* option : command->get_options())
+    {
+      if (option->get_expected_max() > 0 && option->get_type_size() > 0)
+      {
+        option->check(notEmpty);
+      }
+    }
+  }
+}
+
+// what a file or a name holds must not command the terminal
+std::string printable(std::string text)
+{
+  std::ranges::replace_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+  return text;
 }
 
 } // namespace
@@ -89,6 +139,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
   addStabilityCommand(app);
   addBenchCommand(app, parts.pictures);
   addDevicesCommand(app, parts.devices);
+  refuseEmptyValues(app);
 
   // for the start script: is this word a command of ours?
   if (argc == 3 && std::string_view(argv[1]) == "--is-command")
@@ -120,12 +171,17 @@ int runProgram(int argc, char** argv, const Parts& parts)
   }
   catch (const Error& error)
   {
-    std::cerr << "palp: " << error.what() << '\n';
+    std::cerr << "palp: " << printable(error.what()) << '\n';
     return exitCode(error.code());
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << "palp: not enough memory for this; try a smaller input\n";
+    return 1;
   }
   catch (const std::exception& error)
   {
-    std::cerr << "palp: " << error.what() << '\n';
+    std::cerr << "palp: internal error, please report it: " << printable(error.what()) << '\n';
     return 1;
   }
 }

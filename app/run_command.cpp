@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/data_files.h"
+#include "app/force_curve.h"
 #include "app/headless.h"
 #include "app/ledger.h"
 #include "app/program.h"
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 namespace palp
@@ -35,6 +37,7 @@ void run(const RunOptions& options, const Pictures* pictures)
     becomeSibling("palp-draw");
   }
   const ImageSize size = parseSize(options.size, "--size");
+  const std::vector<MeshSource> meshes = meshesOf(options.press);
   const bool bundled = options.press.file.empty();
   if (options.path.empty() && !bundled)
   {
@@ -43,15 +46,15 @@ void run(const RunOptions& options, const Pictures* pictures)
   }
   const std::filesystem::path path =
     options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
-  ScenePlan plan{ .meshes = meshesOf(options.press),
+  ScenePlan plan{ .meshes = meshes,
     .press = options.press,
     .device = "path:" + path.string(),
     .window = false,
     .curves = {},
     .plotFiles = options.plotFiles,
-    .references = options.references,
     .picture = !options.noPicture,
     .size = size };
+  std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
   for (const std::string& name : options.plots)
   {
     const auto found = std::find(kCurveNames.begin(), kCurveNames.end(), name);
@@ -73,8 +76,9 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
     "run", "Press along a recorded path, without a display: data, picture and curves");
   options->press.addTo(*command);
   command->add_option("--path", options->path,
-    "CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az]: the tool's apex in the frame of FILE, and the unit "
-    "vector from handle to apex (the inward surface normal where it is missing)");
+    "CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az]: the tool's apex in the coordinates of FILE (LPS for "
+    "NIfTI: x and y of a RAS viewer change sign), and the unit vector from handle to apex (the "
+    "inward surface normal where it is missing); or a samples.csv that was exported");
   command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
     ->required();
   command->add_option("--size", options->size, "Size of press.png")->capture_default_str();
@@ -93,8 +97,8 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
     ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }))
     ->capture_default_str();
   command->add_option("--reference", options->references,
-    "CSV depth_mm,force_N, measured or computed elsewhere, for the comparison; several are "
-    "allowed");
+    "CSV with columns depth_mm and force_N for the comparison, from elsewhere or Palp's own (palp "
+    "force, samples.csv); several are allowed");
   command->add_flag("--chain", options->chain,
     "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");

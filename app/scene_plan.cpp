@@ -1,7 +1,6 @@
 #include "app/scene_plan.h"
 
 #include "app/quantity.h"
-#include "haptics/devices/recorded_path.h"
 #include "haptics/error.h"
 
 #include <algorithm>
@@ -25,8 +24,7 @@ std::filesystem::path scriptFile(const std::string& device)
 
 ScriptedPath readScript(const std::string& device)
 {
-  return device.starts_with("path:") ? readPath(scriptFile(device))
-                                     : readRecording(scriptFile(device));
+  return readPath(scriptFile(device));
 }
 
 std::vector<MeshSource> meshesOf(const PressOptions& options)
@@ -39,6 +37,10 @@ std::vector<MeshSource> meshesOf(const PressOptions& options)
   if (!options.level.empty())
   {
     level = parseNumber(options.level, "--level");
+  }
+  if (!std::filesystem::exists(options.file))
+  {
+    throw Error(ErrorCode::BadFile, options.file.string() + ": there is no such file; check the path");
   }
   return { { .file = options.file, .level = level, .unit = options.unit } };
 }

@@ -3,6 +3,7 @@
 #include "app/press_options.h"
 #include "haptics/devices/scripted_path.h"
 #include "pipeline/overlay.h"
+#include "pipeline/reference_curve.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -54,12 +55,12 @@ struct ScenePlan
   bool validity = true; ///< each sample is rated by the ten rules
   std::optional<std::vector<Overlay>> overlays{}; ///< none: those that are shown at first
   std::vector<Curve> curves{ Curve::ForceOverTime, Curve::ForceOverDepth };
-  std::vector<std::string> plotFiles{ "png" };     ///< endings: png, svg, pdf, csv
-  std::vector<std::filesystem::path> references{}; ///< forces to compare with, depth_mm,force_N
-  bool samples = true;                             ///< exported: samples.csv
-  bool deformed = true;                            ///< exported: deformed.vtp
-  bool picture = true;                             ///< exported: press.png
-  ImageSize size{};                                ///< of press.png
+  std::vector<std::string> plotFiles{ "png" }; ///< endings: png, svg, pdf, csv
+  std::vector<ReferenceCurve> references{};    ///< forces [N] over depth [m] to compare with
+  bool samples = true;                         ///< exported: samples.csv
+  bool deformed = true;                        ///< exported: deformed.vtp
+  bool picture = true;                         ///< exported: press.png
+  ImageSize size{};                            ///< of press.png
 
   [[nodiscard]] bool has(Curve curve) const noexcept
   {
@@ -82,7 +83,7 @@ struct ScenePlan
 /// The names of the curves in files and options, in the order of Curve.
 extern const std::vector<std::string> kCurveNames;
 
-/// Whether a device follows a file: path:FILE, or replay:FILE with an exported samples.csv.
+/// Whether a device follows a file: path:FILE or replay:FILE, a path or an exported samples.csv.
 [[nodiscard]] bool isScripted(const std::string& device);
 
 /// The file that a scripted device follows.

@@ -3,6 +3,7 @@
 #include "calibration/extent_table.h"
 #include "haptics/force/force_law.h"
 #include "pipeline/plot.h"
+#include "pipeline/reference_curve.h"
 #include "pipeline/vtkPalpDeformFilter.h"
 
 #include <Eigen/Core>
@@ -13,14 +14,6 @@
 
 namespace palp
 {
-
-/// A curve somebody measured or computed, in SI.
-struct ReferenceCurve
-{
-  std::string name;
-  std::vector<double> x;
-  std::vector<double> y;
-};
 
 /// A law to compare.
 struct NamedLaw

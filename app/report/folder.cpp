@@ -23,6 +23,13 @@ Json read(const std::filesystem::path& file)
   return json;
 }
 
+// whatever a file holds, for a message
+std::string word(const Json& json, const char* key)
+{
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "unknown";
+}
+
 // what figures must have in common to stand on one page
 bool isSame(const Json& a, const Json& b)
 {
@@ -56,9 +63,8 @@ Folder::Folder(std::filesystem::path path, bool quick, const Json& machine, bool
   if (!isSame(before, machine_))
   {
     throw Error(ErrorCode::BadFile,
-      path_.string() + ": holds a report of other settings (" +
-        before.value("effort", "of unknown effort") + ", " + before.value("version", "") + ", " +
-        before.value("processor", "") + "); choose another --out");
+      path_.string() + ": holds a report of other settings (" + word(before, "effort") + ", " +
+        word(before, "version") + ", " + word(before, "processor") + "); choose another --out");
   }
   machine_ = std::move(before);
 }

@@ -26,6 +26,11 @@ constexpr std::string_view kHeaderWithAxis = "time_s,x_mm,y_mm,z_mm,ax,ay,az";
 constexpr std::size_t kShortRow = 4;
 constexpr std::size_t kLongRow = 7;
 
+using Names = std::array<std::string_view, kLongRow>;
+constexpr Names kOfPaths{ "time_s", "x_mm", "y_mm", "z_mm", "ax", "ay", "az" };
+constexpr Names kOfRecordings{ "time_s", "tool_x_mm", "tool_y_mm", "tool_z_mm", "axis_x", "axis_y",
+  "axis_z" };
+
 // what is wrong with a knot that follows another; empty when nothing is
 std::string fault(const PathKnot* previous, const PathKnot& knot)
 {
@@ -80,18 +85,16 @@ public:
     {
       ++line_;
       const std::string_view row = trimmed(cut(text, '\n'));
-      if (row.empty() || row.front() == '#')
+      if (row.empty() || row.front() == '#' ||
+        (std::exchange(mayBeHeader, false) && readHeader(cellsOf(row))))
       {
         continue;
       }
-      if (!std::exchange(mayBeHeader, false) || (row != kHeader && row != kHeaderWithAxis))
+      knots.push_back(knot(cellsOf(row)));
+      const PathKnot* previous = knots.size() > 1 ? &knots[knots.size() - 2] : nullptr;
+      if (const std::string what = fault(previous, knots.back()); !what.empty())
       {
-        knots.push_back(knot(row));
-        const PathKnot* previous = knots.size() > 1 ? &knots[knots.size() - 2] : nullptr;
-        if (const std::string what = fault(previous, knots.back()); !what.empty())
-        {
-          fail(what);
-        }
+        fail(what);
       }
     }
     if (knots.empty())
@@ -103,17 +106,58 @@ public:
   }
 
 private:
-  PathKnot knot(std::string_view row) const
+  using Cells = std::vector<std::string_view>;
+
+  static Cells cellsOf(std::string_view row)
   {
-    std::array<double, kLongRow> values{};
-    std::size_t count = 0;
-    for (; !row.empty() && count < values.size(); ++count)
+    Cells cells;
+    while (!row.empty())
     {
-      values[count] = number(trimmed(cut(row, ',')));
+      cells.push_back(trimmed(cut(row, ',')));
     }
-    if (!row.empty() || (count != kShortRow && count != kLongRow))
+    return cells;
+  }
+
+  // finds the columns of a path, or of a recording among its others; false: a row of numbers
+  bool readHeader(const Cells& cells)
+  {
+    const auto has = [&](std::string_view name) { return std::ranges::count(cells, name) > 0; };
+    if (!has(kOfPaths[0]))
+    {
+      return false;
+    }
+    const Names& names = has(kOfRecordings[1]) ? kOfRecordings : kOfPaths;
+    const bool turned = has(names[kShortRow]);
+    columns_.resize(turned ? kLongRow : kShortRow);
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+    {
+      if (!has(names[i]))
+      {
+        fail("no column " + std::string(names[i]) + "; give " + std::string(kHeaderWithAxis) +
+          ", or a samples.csv that Palp has exported");
+      }
+      columns_[i] = static_cast<std::size_t>(std::ranges::find(cells, names[i]) - cells.begin());
+    }
+    width_ = cells.size();
+    return true;
+  }
+
+  [[nodiscard]] PathKnot knot(const Cells& cells) const
+  {
+    if (width_ != 0 && cells.size() != width_)
+    {
+      fail("a row of " + std::to_string(cells.size()) + " columns below a header of " +
+        std::to_string(width_));
+    }
+    if (width_ == 0 && cells.size() != kShortRow && cells.size() != kLongRow)
     {
       fail("a row has 4 or 7 columns; give " + std::string(kHeaderWithAxis));
+    }
+    const std::size_t count = width_ != 0 ? columns_.size() : cells.size();
+    std::array<double, kLongRow> values{};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      values[i] = number(cells[width_ != 0 ? columns_[i] : i]);
     }
     PathKnot knot;
     knot.time = values[0];
@@ -144,6 +188,8 @@ private:
 
   std::string name_;
   int line_ = 0;
+  std::vector<std::size_t> columns_; // of time, position and axis below a header
+  std::size_t width_ = 0;            // of the header; 0 without one
 };
 
 } // namespace

@@ -6,7 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace palp
 {
@@ -38,6 +41,70 @@ std::vector<double> parseLine(std::string_view line, const std::string& header)
   return values;
 }
 
+// what a table's first line says; throws what is wrong without saying where
+using CheckHeader = std::function<void(const std::string& line)>;
+
+NumberTable readRows(const std::filesystem::path& file, const CheckHeader& check)
+{
+  std::ifstream stream(file);
+  if (!stream)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check name and permission");
+  }
+  NumberTable table;
+  std::string header;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);)
+  {
+    table.lastLine = ++number;
+    if (line.ends_with('\r'))
+    {
+      line.pop_back();
+    }
+    if (line.empty() || line.front() == '#')
+    {
+      continue;
+    }
+    try
+    {
+      if (header.empty())
+      {
+        check(line);
+        header = line;
+        continue;
+      }
+      table.rows.push_back({ parseLine(line, header), number });
+    }
+    catch (const Error& error)
+    {
+      throw Error(ErrorCode::BadFile, where(file, number) + error.what());
+    }
+  }
+  return table;
+}
+
+void refuseInfinite(const NumberTable& table, const std::filesystem::path& file)
+{
+  for (const auto& [values, line] : table.rows)
+  {
+    if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+    {
+      throw Error(ErrorCode::BadFile, where(file, line) + "not finite; give numbers");
+    }
+  }
+}
+
+std::vector<std::string> namesIn(const std::string& header)
+{
+  std::vector<std::string> names;
+  std::istringstream text(header);
+  for (std::string name; std::getline(text, name, ',');)
+  {
+    names.push_back(name);
+  }
+  return names;
+}
+
 } // namespace
 
 std::string where(const std::filesystem::path& file, int line)
@@ -47,54 +114,58 @@ std::string where(const std::filesystem::path& file, int line)
 
 NumberTable NumberTable::read(const std::filesystem::path& file, const std::string& header)
 {
-  std::ifstream stream(file);
-  if (!stream)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the path");
-  }
-  NumberTable table;
-  bool started = false;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);)
-  {
-    table.lastLine = ++number;
-    if (!line.empty() && line.back() == '\r')
+  return readRows(file,
+    [&header](const std::string& line)
     {
-      line.pop_back();
-    }
-    if (line.empty() || line.front() == '#')
-    {
-      continue;
-    }
-    if (!started && line != header)
-    {
-      throw Error(ErrorCode::BadFile, where(file, number) + "no header; begin with " + header);
-    }
-    if (started)
-    {
-      try
+      if (line != header)
       {
-        table.rows.push_back({ parseLine(line, header), number });
+        throw Error(ErrorCode::BadFile, "no header; begin with " + header);
       }
-      catch (const Error& error)
-      {
-        throw Error(ErrorCode::BadFile, where(file, number) + error.what());
-      }
-    }
-    started = true;
-  }
-  return table;
+    });
 }
 
 NumberTable NumberTable::readFinite(const std::filesystem::path& file, const std::string& header)
 {
   NumberTable table = read(file, header);
-  for (const Row& row : table.rows)
+  refuseInfinite(table, file);
+  return table;
+}
+
+NumberTable NumberTable::readColumns(
+  const std::filesystem::path& file, std::span<const char* const> columns)
+{
+  std::vector<std::size_t> positions;
+  std::vector<std::string> names;
+  const auto findColumns = [&](const std::string& line)
   {
-    if (!std::ranges::all_of(row.values, [](double value) { return std::isfinite(value); }))
+    names = namesIn(line);
+    for (const char* column : columns)
     {
-      throw Error(ErrorCode::BadFile, where(file, row.line) + "not finite; give numbers");
+      const auto found = std::ranges::find(names, column);
+      if (found == names.end())
+      {
+        throw Error(
+          ErrorCode::BadFile, "no column " + std::string(column) + "; begin with a line that names it");
+      }
+      positions.push_back(static_cast<std::size_t>(found - names.begin()));
     }
+  };
+  NumberTable table = readRows(file, findColumns);
+  if (positions.empty())
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": no column " + columns.front() + "; begin with a line that names it");
+  }
+  refuseInfinite(table, file);
+  table.names = std::move(names);
+  for (Row& row : table.rows)
+  {
+    std::vector<double> picked;
+    for (const std::size_t position : positions)
+    {
+      picked.push_back(row.values[position]);
+    }
+    row.values = std::move(picked);
   }
   return table;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct NumberTable
   };
 
   std::vector<Row> rows;
+  std::vector<std::string> names; ///< of all the file's columns; readColumns() only
   int lastLine = 1;
 
   /// @throws Error  BadFile: missing, another header, not a number, too few columns; with the line
@@ -26,6 +28,11 @@ struct NumberTable
   /// @throws Error  BadFile: also where a number is infinite or none
   [[nodiscard]] static NumberTable readFinite(
     const std::filesystem::path& file, const std::string& header);
+
+  /// Columns by their names, in the order asked for, wherever they stand among others.
+  /// @throws Error  BadFile: as readFinite; a column that is missing
+  [[nodiscard]] static NumberTable readColumns(
+    const std::filesystem::path& file, std::span<const char* const> columns);
 };
 
 /// "FILE:LINE: ", as messages begin.

@@ -97,5 +97,16 @@ TEST(BenchCommand, RefusesAGateThatIsNoReport)
   EXPECT_NE(finished.err.find("palp_bench_no_gate.json"), std::string::npos);
 }
 
+TEST(BenchCommand, RefusesWhatIsNoTimeAndNoNumber)
+{
+  for (const char* arguments : { "--servo -5s", "--servo 0s", "--servo 1e300s", "--most -5",
+         "--slack nan --most 0", "--slack 0.5" })
+  {
+    const test::Finished finished = bench(arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_EQ(finished.out, "") << arguments;
+  }
+}
+
 } // namespace
 } // namespace palp

@@ -72,13 +72,23 @@ TEST(ForceCommand, RefusesWhatIsOutOfRange)
 {
   for (const char* arguments : { "--young 0.5Pa", "--young 11GPa", "--poisson 0.51",
          "--poisson -0.1", "--tip sphere:0.05mm", "--tip sphere:1.1m", "--tip cone:0.5deg:10mm",
-         "--tip cone:90deg:10mm", "--tip egg:3mm", "--tip sphere", "--depth 3:1:1mm" })
+         "--tip cone:90deg:10mm", "--tip egg:3mm", "--tip sphere", "--depth 3:1:1mm", "--depth 0:1e300:1e299mm", "--depth 1e300:1e300:1mm",
+         "--depth -1:3:1mm", "--law corrected --tilt -10deg" })
   {
     const Finished finished = palp(std::string("force ") + arguments);
     EXPECT_EQ(finished.code, 2) << arguments;
     EXPECT_EQ(finished.out, "") << arguments;
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
   }
+}
+
+TEST(ForceCommand, WarnsWhereTheLawIsOutsideItsLimits)
+{
+  const Finished deep =
+    palp("force --law corrected --thickness 1mm --depth 10:10:1mm"); // deeper than it is thick
+  EXPECT_EQ(deep.code, 0);
+  EXPECT_NE(deep.err.find("outside its limits"), std::string::npos) << deep.err;
+  EXPECT_EQ(palp("force --depth 1:1:1mm").err.find("outside"), std::string::npos);
 }
 
 TEST(ViewCommand, TellsAWrongValueBeforeAMissingDisplay)

@@ -460,5 +460,16 @@ TEST_F(QuickReport, FolderOfAnotherReportIsRefusedInOneSentence)
   }
 }
 
+TEST(ReportCommand, SaysInItsOwnWordsWhatIsNoReport)
+{
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "machine.json") << R"({"effort": 7, "version": [], "processor": {}})";
+  const test::Finished refused =
+    test::runCommand(PALP_PROGRAM " report --quick --resume --out " + folder.path().string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err.find("json.exception"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("other settings"), std::string::npos) << refused.err;
+}
+
 } // namespace
 } // namespace palp

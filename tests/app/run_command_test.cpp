@@ -1,6 +1,6 @@
 #include "app/body.h"
-#include "haptics/devices/recorded_path.h"
 #include "haptics/devices/scripted_device.h"
+#include "haptics/devices/scripted_path.h"
 #include "haptics/servo/servo_step.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
@@ -144,7 +144,7 @@ TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)
   scene.surface = loadBody({ { .file = block() } }).haptic;
   scene.forceLimit = std::numeric_limits<double>::infinity();
 
-  ScriptedDevice device(readRecording(file)); // in ticks of a millisecond, as a servo asks it
+  ScriptedDevice device(readPath(file)); // in ticks of a millisecond, as a servo asks it
   for (std::size_t k = 1; k < 151; ++k)
   {
     const Sample again = step(scene, *device.exchange(Eigen::Vector3d::Zero(), 0.001));
@@ -253,7 +253,11 @@ TEST_F(RunCommand, RefusesWhatWouldBeInVainBeforeTheWork)
   refused(press + " --out /proc/palp", "/proc/palp");
   refused(" --path " + folder_.path().string() + out, "a folder");
   const auto endless = writePath(folder_.path(), "0,0,0,20\n1e9,0,0,20\n");
-  refused(" --path " + endless.string() + out, "an hour at most");
+  refused(" --path " + endless.string() + out, "longer than an hour");
+  const auto eternal = writePath(folder_.path(), "0,0,0,20\n1e300,0,0,20\n");
+  refused(" --path " + eternal.string() + out, "longer than an hour");
+  refused(press + out + " --reference /nonexistent.csv", "/nonexistent.csv");
+  refused(press + out + " --reference " + press.substr(8), "no column depth_mm");
 }
 
 TEST_F(RunCommand, TellsWhereTheLawIsOutsideItsLimits)
@@ -286,6 +290,70 @@ TEST_F(RunCommand, CalibratesWithTablesAndPlots)
   {
     EXPECT_GT(colorsOf(folder_.path() / "calibration" / chart, 1000, 600), 10u) << chart;
   }
+}
+
+// what palp writes it reads again: a law's table and a recording as references, and a recording as
+// a path, which gives the same forces
+TEST_F(RunCommand, TakesItsOwnTablesAndRecordings)
+{
+  ASSERT_EQ(press("--no-picture", "first").code, 0);
+  const auto samples = folder_.path() / "first/samples.csv";
+  const auto law = folder_.path() / "law.csv";
+  ASSERT_EQ(palp("force --depth 0:6:1mm > " + law.string()).code, 0);
+  const auto again = folder_.path() / "again";
+  const Finished finished = palp("run " + block() + " --path " + samples.string() +
+    " --plots comparison --plot-files csv --reference " + law.string() + " --reference " +
+    samples.string() + " --out " + again.string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NE(test::readAll(again / "comparison.csv").find("\"law\",6,"), std::string::npos);
+  EXPECT_NE(test::readAll(again / "comparison.csv").find("\"samples\",5,"), std::string::npos);
+  const test::CsvTable before = test::readCsv(samples);
+  const test::CsvTable after = test::readCsv(again / "samples.csv");
+  ASSERT_EQ(after["force_N"].size(), before["force_N"].size());
+  for (std::size_t i = 0; i < before["force_N"].size(); ++i)
+  {
+    EXPECT_NEAR(after["force_N"][i], before["force_N"][i], 1e-9) << i;
+  }
+}
+
+TEST_F(RunCommand, AnUnsetVariableIsNoDefault)
+{
+  const std::string out = " --no-picture --out " + (folder_.path() / "out").string();
+  for (const std::string& arguments :
+    { "run ''" + out, "run --path ''" + out, std::string("run --out ''"), std::string("''") })
+  {
+    const Finished finished = palp(arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_NE(finished.err.find("is empty"), std::string::npos) << finished.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out"));
+}
+
+TEST(Program, HelpsByWordAndNamesTheCommands)
+{
+  for (const char* arguments : { "help", "--help", "help run", "run --help" })
+  {
+    const Finished finished = palp(arguments);
+    EXPECT_EQ(finished.code, 0) << arguments;
+    EXPECT_NE(finished.out.find(std::string(arguments).find("run") < 9 ? "--path" : "calibrate"),
+      std::string::npos)
+      << arguments;
+  }
+  const Finished slip = palp("runn");
+  EXPECT_EQ(slip.code, 2);
+  EXPECT_NE(slip.err.find("'runn' is neither a command nor a file here"), std::string::npos);
+  EXPECT_NE(slip.err.find("calibrate"), std::string::npos) << slip.err;
+  // what is wrong with the file comes before the missing display
+  EXPECT_NE(palp("view /nonexistent.stl").err.find("/nonexistent.stl"), std::string::npos);
+}
+
+TEST_F(RunCommand, ShowsNoControlCharacterOfAFile)
+{
+  const auto path = writePath(folder_.path(), "\033]0;owned\007,1,2,3\n");
+  const Finished finished = palp("run --no-picture --path " + path.string() + " --out " +
+    (folder_.path() / "out").string());
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_EQ(finished.err.find_first_of("\033\007"), std::string::npos) << finished.err;
 }
 
 TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)

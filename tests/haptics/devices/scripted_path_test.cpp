@@ -1,6 +1,5 @@
 #include "haptics/devices/scripted_path.h"
 
-#include "haptics/devices/recorded_path.h"
 #include "haptics/devices/scripted_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -185,7 +184,7 @@ std::filesystem::path write(const test::TemporaryFolder& folder, const std::stri
 TEST(Recording, IsReadByTheNamesOfItsColumns)
 {
   const test::TemporaryFolder folder;
-  const ScriptedPath path = readRecording(write(folder,
+  const ScriptedPath path = readPath(write(folder,
     "# palp\n# force: N\r\n"
     "force_N,time_s,axis_x,axis_y,axis_z,tool_x_mm,tool_y_mm,tool_z_mm\n"
     "0.5,2,0,0.6,-0.8,1,2,3\n"
@@ -200,19 +199,19 @@ TEST(Recording, IsReadByTheNamesOfItsColumns)
 TEST(Recording, SaysInOneSentenceWhatIsWrong)
 {
   const std::string header = "time_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z\n";
-  const std::pair<std::string, const char*> all[] = { { "", "no column time_s" },
-    { kPress, "no column tool_x_mm" }, { header, "no knot" },
-    { header + "0,1,2,3,0,0\n", "samples.csv:2: 6 columns" },
-    { header + "0,1,2,three,0,0,-1\n", "'three' is not a number" },
-    { header + "0,1,2,nan,0,0,-1\n", "knot 0: the position" },
-    { header + "1,1,2,3,0,0,-1\n1,1,2,3,0,0,-1\n", "knot 1: the time does not increase" },
+  const std::pair<std::string, const char*> all[] = { { "time_s,tool_x_mm,z_mm\n", "no column tool_y_mm" },
+    { "time_s,x_mm,force_N\n", "no column y_mm" }, { header, "no row" },
+    { header + "0,1,2,3,0,0\n", "samples.csv:2: a row of 6 columns below a header of 7" },
+    { header + "0,1,2,three,0,0,-1\n", "\"three\" is not a number" },
+    { header + "0,1,2,nan,0,0,-1\n", "samples.csv:2: \"nan\" is not a number" },
+    { header + "1,1,2,3,0,0,-1\n1,1,2,3,0,0,-1\n", "samples.csv:3: the time does not increase" },
     { header + "0,1,2,3,0,0,0\n", "the axis is not of length one" } };
   for (const auto& [text, expected] : all)
   {
     const test::TemporaryFolder folder;
     try
     {
-      (void)readRecording(write(folder, text));
+      (void)readPath(write(folder, text));
       ADD_FAILURE() << text;
     }
     catch (const Error& error)
@@ -224,7 +223,7 @@ TEST(Recording, SaysInOneSentenceWhatIsWrong)
       EXPECT_EQ(what.find('\n'), what.npos) << what;
     }
   }
-  EXPECT_THROW((void)readRecording("/nowhere/samples.csv"), Error);
+  EXPECT_THROW((void)readPath("/nowhere/samples.csv"), Error);
 }
 
 } // namespace
