@@ -149,15 +149,15 @@ private:
       fail("a row of " + std::to_string(cells.size()) + " columns below a header of " +
         std::to_string(width_));
     }
-    if (width_ == 0 && cells.size() != kShortRow && cells.size() != kLongRow)
-    {
-      fail("a row has 4 or 7 columns; give " + std::string(kHeaderWithAxis));
-    }
     const std::size_t count = width_ != 0 ? columns_.size() : cells.size();
     std::array<double, kLongRow> values{};
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < std::min(count, values.size()); ++i)
     {
       values[i] = number(cells[width_ != 0 ? columns_[i] : i]);
+    }
+    if (count != kShortRow && count != kLongRow)
+    {
+      fail("a row has 4 or 7 columns; give " + std::string(kHeaderWithAxis));
     }
     PathKnot knot;
     knot.time = values[0];
