@@ -51,7 +51,7 @@ TEST(BenchCommand, PrintsOnlyJsonAndComparesWithIt)
     {
       row["per_S"] = factor * row.at("per_S").get<double>();
     }
-    const auto file = std::filesystem::path(::testing::TempDir()) / "palp_bench_gate.json";
+    const auto file = test::freshFolder() / "gate.json";
     std::ofstream(file) << recorded;
     EXPECT_EQ(bench("--json --most 1600 --gate " + file.string()).code, code);
   }
@@ -90,11 +90,11 @@ TEST(BenchCommand, MeasuresPicturesByTheProgramThatDrawsThem)
 
 TEST(BenchCommand, RefusesAGateThatIsNoReport)
 {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "palp_bench_no_gate.json";
+  const auto file = test::freshFolder() / "gate.json";
   std::ofstream(file) << "no report";
   const test::Finished finished = bench("--most 0 --gate " + file.string());
   EXPECT_EQ(finished.code, 2);
-  EXPECT_NE(finished.err.find("palp_bench_no_gate.json"), std::string::npos);
+  EXPECT_NE(finished.err.find("gate.json"), std::string::npos);
 }
 
 TEST(BenchCommand, RefusesWhatIsNoTimeAndNoNumber)

@@ -14,16 +14,6 @@ namespace
 
 using test::Finished;
 
-std::filesystem::path freshFolder()
-{
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  auto folder =
-    std::filesystem::path(testing::TempDir()) / (std::string("calibrate_") + test->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 std::vector<NumberTable::Row> rowsOf(const std::filesystem::path& table)
 {
   return NumberTable::read(table, "depth_mm,extent_radius_mm,force_N,contact_radius_mm").rows;
@@ -36,7 +26,7 @@ Finished calibrate(const std::string& arguments)
 
 TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   const Finished finished = calibrate("--material linear --depth 1:3:1mm --out " + folder.string());
   ASSERT_EQ(finished.code, 0) << finished.err;
   const auto rows = rowsOf(folder / "table.csv");
@@ -55,7 +45,7 @@ TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
 
 TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   const std::string command =
     PALP_PROGRAM " calibrate --no-picture --element-size 1mm --out " + folder.string();
   const std::string table = (folder / "table.csv").string();
@@ -76,7 +66,7 @@ TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
 
 TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   std::ofstream(folder / "blocked") << "a file where the second case wants its folder";
   std::ofstream(folder / "cases.json") << R"([
     {"name": "good", "young": "5kPa", "depth": "1:2:1mm"},

@@ -1,4 +1,5 @@
 #include "calibration/csv_text.h"
+#include "tests/support/process.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
@@ -12,19 +13,12 @@ namespace
 class Csv : public testing::Test
 {
 protected:
-  Csv()
-  {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-
   [[nodiscard]] std::ptrdiff_t filesBeside() const
   {
     return std::distance(std::filesystem::directory_iterator(folder_), {});
   }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-    ("csv_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  std::filesystem::path folder_ = test::freshFolder();
   std::filesystem::path file_ = folder_ / "table.csv";
 };
 

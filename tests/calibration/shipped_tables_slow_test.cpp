@@ -1,4 +1,5 @@
 #include "calibration/shipped_tables.h"
+#include "tests/support/process.h"
 
 #include <cmath>
 #include <fstream>
@@ -34,7 +35,7 @@ std::vector<double> numbers(const std::filesystem::path& file)
 // palp calibrate --tables: what the program ships is what it makes
 TEST(SlowShippedTables, AreMadeAgain)
 {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "tables";
+  const auto folder = test::freshFolder();
   makeShippedTables(folder, {}, [](const std::string&) {});
   int compared = 0;
   for (const auto& entry :

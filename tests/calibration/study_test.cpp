@@ -7,6 +7,7 @@
 #include "haptics/force/number_table.h"
 #include "haptics/force/profile.h"
 #include "tests/calibration/indentation_case.h"
+#include "tests/support/process.h"
 
 #include <array>
 #include <filesystem>
@@ -20,14 +21,6 @@ namespace
 {
 
 using namespace units::literals;
-
-std::filesystem::path freshFolder()
-{
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  auto folder = std::filesystem::path(testing::TempDir()) / (std::string("study_") + test->name());
-  std::filesystem::remove_all(folder);
-  return folder;
-}
 
 Case quick()
 {
@@ -148,7 +141,7 @@ TEST(Study, AConeGetsATangentCap)
 
 TEST(Study, FilesSayWhatWasComputed)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   const Outcome outcome = calibrateInto(folder, quick(), false);
   const auto table = ExtentTable::read(folder / "table.csv");
   ASSERT_EQ(table.rows().size(), 3U);
@@ -170,7 +163,7 @@ TEST(Study, FilesSayWhatWasComputed)
 
 TEST(Study, InterruptedAndResumedEqualsUninterrupted)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   std::stop_source source;
   const Outcome first = calibrateInto(folder, quick(), false, source.get_token(),
     [&](std::size_t done, std::size_t)
@@ -214,7 +207,7 @@ TEST(Study, ResumesFromBetweenAnyTwoFiles)
 {
   for (const char* name : { "profiles.csv", "table.csv", "fit.json", "checkpoint.bin" })
   {
-    const auto folder = freshFolder();
+    const auto folder = test::freshFolder();
     const auto refused = folder / (std::string(name) + ".new");
     EXPECT_THROW((void)calibrateInto(folder, quick(), false, {},
                    [&](std::size_t done, std::size_t)
@@ -241,7 +234,7 @@ TEST(Study, ResumesFromBetweenAnyTwoFiles)
 // no row of the table is without its curve, at no time
 TEST(Study, WritesTheSurfacesBeforeTheTable)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   std::filesystem::create_directories(folder / "table.csv.new");
   EXPECT_THROW((void)calibrateInto(folder, quick(), false), Error);
   EXPECT_TRUE(std::filesystem::exists(folder / "profiles.csv"));
@@ -249,7 +242,7 @@ TEST(Study, WritesTheSurfacesBeforeTheTable)
 
 TEST(Study, ResumeGoesOnToFurtherDepths)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   Case study = quick();
   study.depths = { 1.0_mm, 2.0_mm };
   (void)calibrateInto(folder, study, false);
@@ -265,7 +258,7 @@ TEST(Study, ResumeGoesOnToFurtherDepths)
 // nothing can be pressed less deep again
 TEST(Study, ResumeRefusesADepthThatWasPassedAndLeavesTheTable)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   (void)calibrateInto(folder, quick(), false);
   Case study = quick();
   study.depths = { 0.6_mm, 1.0_mm, 1.5_mm, 3.5_mm };
@@ -284,7 +277,7 @@ Tip profileTip(double middle)
 // all of one base, as a file of a tool that was edited is
 TEST(Study, ResumeRefusesAnotherTool)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   Case study = quick();
   study.depths = { 1.0_mm };
   study.tip = profileTip(1.0_mm);
@@ -302,7 +295,7 @@ TEST(Study, ResumeRefusesAnotherTool)
 // and not only another one to the six digits that people read
 TEST(Study, ResumeComparesEveryDigit)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   Case study = quick();
   study.depths = { 1.0_mm };
   (void)calibrateInto(folder, study, false);
@@ -316,7 +309,7 @@ TEST(Study, ResumeComparesEveryDigit)
 
 TEST(Study, ResumeRefusesOtherCoatings)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   Case study = quick();
   study.depths = { 1.0_mm };
   study.coatings.add({ 5.0_mm, { 10.0_kPa, 0.4 } });
@@ -331,7 +324,7 @@ TEST(Study, ResumeRefusesOtherCoatings)
 // deeper presses want fine elements further out: as many in all, elsewhere
 TEST(Study, ResumeRefusesAnotherMesh)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   Case study = quick();
   study.elementSize = 1.4_mm;
   study.depths = { 1.5_mm };
@@ -346,7 +339,7 @@ TEST(Study, ResumeRefusesAnotherMesh)
 // a table that an interrupted run of another case left beside an older checkpoint
 TEST(Study, ResumeRefusesTheTableOfAnotherCase)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   const auto table = folder / "table.csv";
   Case study = quick();
   study.depths = { 1.0_mm };
@@ -361,7 +354,7 @@ TEST(Study, ResumeRefusesTheTableOfAnotherCase)
 
 TEST(Study, ResumeRefusesAnotherCaseAndADamagedFile)
 {
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   (void)calibrateInto(folder, quick(), false);
   Case other = quick();
   other.material.youngModulus = 40.0_kPa;
@@ -379,7 +372,7 @@ TEST(Study, SweepKeepsWhatWorksAndReportsWhatDoesNot)
   Case good = quick();
   good.name = "good";
   std::map<std::string, std::string> told;
-  const auto folder = freshFolder();
+  const auto folder = test::freshFolder();
   sweep(folder, { bad, good }, false, 2, {},
     [&](const std::string& name, const std::string& trouble) { told[name] = trouble; });
   EXPECT_NE(told.at("too large"), "");

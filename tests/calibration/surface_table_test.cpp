@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "tests/calibration/indentation_case.h"
+#include "tests/support/process.h"
 
 #include <fstream>
 #include <functional>
@@ -83,9 +84,7 @@ TEST(SurfaceTable, SaysWhereItIsOutsideItsGrid)
 // the shipped table with line 20 changed
 std::filesystem::path changed(const std::function<std::string(const std::string&)>& change)
 {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto file =
-    std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".csv");
+  const auto file = test::freshFolder() / "table.csv";
   std::ifstream in(shipped("surface_sphere.csv"));
   std::ofstream out(file);
   std::string before;

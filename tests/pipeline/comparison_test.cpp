@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 #include "pipeline/plot_files.h"
 #include "tests/pipeline/surfaces.h"
+#include "tests/support/process.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -163,7 +164,6 @@ class Files : public ::testing::Test
 protected:
   Files()
   {
-    std::filesystem::create_directories(folder);
     view->GetRenderWindow()->SetOffScreenRendering(1);
     view->GetRenderWindow()->SetMultiSamples(0);
     view->GetRenderWindow()->SetSize(480, 320);
@@ -176,7 +176,7 @@ protected:
     return { std::istreambuf_iterator<char>(in), {} };
   }
 
-  std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "palp_plot";
+  std::filesystem::path folder = test::freshFolder();
   std::unique_ptr<Plot> plot = forcePlot({ { "paper", kLaw } }, 4.0_mm, { stronger() });
   vtkNew<vtkContextView> view;
 };

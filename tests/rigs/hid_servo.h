@@ -207,12 +207,8 @@ protected:
     waitForState(DeviceState::Ready);
     arm(true);
     const double soon = servo_->newest().time + 0.02; // when the servo has heard of it
-    return isForced(waitFor(
-      [soon](const Sample& sample)
-      {
-        return isForced(sample) ||
-          (sample.time > soon && (has(sample, Flag::Late) || has(sample, Flag::Jump)));
-      }));
+    return isForced(
+      waitFor([soon](const Sample& sample) { return isForced(sample) || sample.time > soon; }));
   }
 
   // again, where a machine under load has interrupted the force: it is whole once the tool lifted
@@ -231,13 +227,13 @@ protected:
     } while (board_->last == 0 || has(servo_->newest(), Flag::Reseated));
   }
 
-  [[nodiscard]] std::unique_ptr<ThreadedDevice> openCounted(Traffic& traffic) const
+  [[nodiscard]] std::unique_ptr<ThreadedDevice> openCounted()
   {
     return std::make_unique<ThreadedDevice>(
-      [&traffic]
+      [this]
       {
         return std::make_unique<WoodenDriver>(
-          std::make_unique<CountedTransport>(openHid(kNode), traffic), WoodenArm{}, 64);
+          std::make_unique<CountedTransport>(openHid(kNode), traffic_), WoodenArm{}, 64);
       },
       placement());
   }
@@ -253,6 +249,7 @@ protected:
   }
 
   Scene scene_;
+  Traffic traffic_;             // of what openCounted() opens
   std::vector<Sample> samples_; // all that came while something was waited for
   std::unique_ptr<Device> device_;
   std::unique_ptr<Servo> servo_;

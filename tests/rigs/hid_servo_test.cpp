@@ -16,24 +16,22 @@ using test::Board;
 using test::CountedDevice;
 using test::kName;
 using test::reachFor;
-using test::Traffic;
 
 using HidServo = test::HidServo;
 
 TEST_F(HidServo, FiveThousandTicksLoseNoReply)
 {
-  Traffic traffic;
-  traffic.times.reserve(20'000);
-  start(openCounted(traffic));
-  while (traffic.heard < 5000 || board_->pushes < 500)
+  traffic_.times.reserve(20'000);
+  start(openCounted());
+  while (traffic_.heard < 5000 || board_->pushes < 500)
   {
     pressDown();
   }
   servo_.reset();
   device_.reset();
-  EXPECT_EQ(traffic.lost, 0);
-  std::ranges::sort(traffic.times);
-  std::printf("median exchange %.1f us\n", traffic.times[traffic.times.size() / 2]); // no gate
+  EXPECT_EQ(traffic_.lost, 0);
+  std::ranges::sort(traffic_.times);
+  std::printf("median exchange %.1f us\n", traffic_.times[traffic_.times.size() / 2]); // no gate
 }
 
 // Law, coupling, torques, currents, wire, torques, force: what a hand at the board would feel. The
@@ -78,8 +76,7 @@ TEST_F(HidServo, TheBoardPushesAsTheChainSays)
 // device's thread the one that it has just taken
 TEST_F(HidServo, AStopIsZeroOnTheWireAtOnceAndStays)
 {
-  Traffic traffic;
-  auto counted = std::make_unique<CountedDevice>(openCounted(traffic), traffic);
+  auto counted = std::make_unique<CountedDevice>(openCounted(), traffic_);
   CountedDevice& device = *counted;
   start(std::move(counted));
   std::vector<double> took; // [ms]
@@ -96,7 +93,7 @@ TEST_F(HidServo, AStopIsZeroOnTheWireAtOnceAndStays)
     took.push_back(
       std::chrono::duration<double, std::milli>(board_->lastPush.load() - asked).count());
     EXPECT_LE(device.handed - handed, 1);
-    EXPECT_LE(traffic.pushes - device.before, 1);
+    EXPECT_LE(traffic_.pushes - device.before, 1);
     EXPECT_EQ(board_->last, 0);
     board_->reach = 0;
     waitFor([](const Sample& sample) { return sample.contact.depth == 0.0; });
@@ -104,21 +101,16 @@ TEST_F(HidServo, AStopIsZeroOnTheWireAtOnceAndStays)
   }
   std::ranges::sort(took);
   std::printf("last force after a stop: median %.2f ms, largest %.2f ms\n", took[4], took[8]);
-  servo_.reset();
-  device_.reset(); // while its traffic is there
 }
 
 TEST_F(HidServo, ACommandThatDoesNotArriveLeavesNoCurrent)
 {
-  Traffic traffic;
-  start(openCounted(traffic));
+  start(openCounted());
   pressDown();
-  traffic.fails = true;
-  waitFor([&](const Sample&) { return traffic.closed == 1; });
-  EXPECT_TRUE(traffic.rests);
+  traffic_.fails = true;
+  waitFor([&](const Sample&) { return traffic_.closed == 1; });
+  EXPECT_TRUE(traffic_.rests);
   waitFor([this](const Sample&) { return board_->last == 0; });
-  servo_.reset();
-  device_.reset(); // while its traffic is there
 }
 
 class HidServoFault

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/support/process.h"
+
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -65,12 +67,10 @@ inline CsvTable readCsv(const std::filesystem::path& file)
   return parseCsv(in);
 }
 
-/// A file of a text, named after the test that asks for it.
+/// A file of a text, in a folder of its own.
 inline std::filesystem::path writtenCsv(const std::string& text)
 {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto file =
-    std::filesystem::path(::testing::TempDir()) / (std::string(test->name()) + ".csv");
+  const auto file = freshFolder() / "table.csv";
   std::ofstream(file) << text;
   return file;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <list>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -50,6 +51,13 @@ public:
 private:
   std::filesystem::path path_;
 };
+
+/// An empty folder of the test's own, gone when the program ends.
+inline std::filesystem::path freshFolder()
+{
+  static std::list<TemporaryFolder> folders;
+  return folders.emplace_back().path();
+}
 
 /// Runs a shell command to its end.
 inline Finished runCommand(const std::string& command)

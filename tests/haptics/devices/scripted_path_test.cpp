@@ -147,7 +147,7 @@ TEST(ScriptedPath, NamesAFileThatIsNotThere)
 
 TEST(ScriptedPath, ReadsWhatWasWritten)
 {
-  const std::string file = ::testing::TempDir() + "scripted_path_test.csv";
+  const std::string file = (test::freshFolder() / "path.csv").string();
   std::ofstream(file) << kPress;
   EXPECT_EQ(readPath(file).knots().size(), 3U);
 }
