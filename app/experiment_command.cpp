@@ -1,16 +1,18 @@
-#include "app/export.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/output.h"
 #include "app/pictures.h"
 #include "app/program.h"
 #include "calibration/experiments.h"
+#include "calibration/replace_file.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
-#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
@@ -40,20 +42,30 @@ struct ExperimentOptions
   std::vector<std::string> names;
   std::filesystem::path out = "experiments";
   bool quick = false;
+  bool overwrite = false;
   bool noPicture = false;
 };
 
-void write(const fem::Experiment& experiment, const std::filesystem::path& directory)
+std::vector<Named> wantedOf(const std::vector<std::string>& names)
 {
-  const std::filesystem::path file = directory / (experiment.name + ".csv");
-  std::ofstream out(file);
-  out << fem::csv(experiment);
-  out.close();
-  if (!out)
+  std::vector<Named> wanted;
+  std::ranges::copy_if(kExperiments, std::back_inserter(wanted),
+    [&](const Named& named)
+    { return names.empty() || std::ranges::find(names, named.name) != names.end(); });
+  return wanted;
+}
+
+// what is finished; where earlier files would be replaced by some of the new ones only, nothing
+void endEarly(const char* name, OutputFolder& output)
+{
+  const bool fresh = output.found().empty();
+  if (fresh)
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cannot be written; choose a folder with room where you may write");
+    output.publish();
   }
+  throw Error(ErrorCode::NoSolution,
+    std::string(name) + ": interrupted; " + output.path().string() +
+      (fresh ? " holds what was finished before it" : " is as it was"));
 }
 
 void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
@@ -62,31 +74,31 @@ void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
   {
     becomeSibling("palp-draw");
   }
-  makeDirectory(options.out);
-  const Interrupt interrupt;
-  for (const Named& named : kExperiments)
+  const std::vector<Named> wanted = wantedOf(options.names);
+  std::vector<std::string> tables;
+  for (const Named& named : wanted)
   {
-    const auto& wanted = options.names;
-    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), named.name) == wanted.end())
-    {
-      continue;
-    }
+    tables.push_back(std::string(named.name) + ".csv");
+  }
+  const auto output = openOutput(options.out, tables, options.overwrite);
+  const Interrupt interrupt;
+  for (const Named& named : wanted)
+  {
     std::cerr << "palp: " << named.what << '\n';
     const fem::Experiment experiment =
       named.run(options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
     if (interrupt.token().stop_requested())
     {
-      throw Error(ErrorCode::NoSolution,
-        std::string(named.name) + ": interrupted; what was finished before it is in " +
-          options.out.string());
+      endEarly(named.name, *output);
     }
-    write(experiment, options.out);
+    replaceFile(output->stage() / (experiment.name + ".csv"), fem::csv(experiment));
     if (!options.noPicture)
     {
-      pictures->drawExperiment(experiment, options.out);
+      pictures->drawExperiment(experiment, output->stage());
     }
     std::cerr << experiment.finding << '\n';
   }
+  output->publish();
 }
 
 } // namespace
@@ -106,6 +118,7 @@ void addExperimentCommand(CLI::App& app, const Pictures* pictures)
   command->add_option("NAME", options->names, "Which; all if none")->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "Folder for a CSV and a plot of each")
     ->capture_default_str();
+  addOverwrite(*command, options->overwrite);
   command->add_flag("--quick", options->quick, "Coarser, in seconds, for a first look");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer(list + "Example:\n  palp experiment inclination forces --out experiments");

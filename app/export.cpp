@@ -1,7 +1,8 @@
 #include "app/export.h"
 
 #include "calibration/csv_text.h"
-#include "haptics/error.h"
+#include "calibration/output_folder.h"
+#include "calibration/replace_file.h"
 #include "haptics/units.h"
 #include "pipeline/press_of.h"
 #include "pipeline/surface_io.h"
@@ -14,22 +15,10 @@
 
 #include <array>
 #include <chrono>
-#include <fstream>
-#include <system_error>
-#include <unistd.h>
+#include <sstream>
 
 namespace palp
 {
-namespace
-{
-
-[[noreturn]] void refuse(const std::filesystem::path& file)
-{
-  throw Error(ErrorCode::BadFile,
-    file.string() + ": cannot be written; choose a folder with room where you may write");
-}
-
-} // namespace
 
 Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
@@ -63,40 +52,18 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   writeSurface(file, *mesh);
 }
 
-void makeDirectory(const std::filesystem::path& directory)
-{
-  std::error_code failure;
-  std::filesystem::create_directories(directory, failure);
-  if (failure || access(directory.c_str(), W_OK) != 0)
-  {
-    refuse(directory);
-  }
-}
-
 void writeSamples(
   const std::filesystem::path& file, const Recording& recording, const Calibration* calibration)
 {
-  std::ofstream out(file);
+  std::ostringstream out;
   writeSamples(out, recording, calibration);
-  out.close();
-  if (!out)
-  {
-    refuse(file);
-  }
-}
-
-void exportRecording(const std::filesystem::path& directory, const Body& body,
-  const Recording& recording, const Calibration& calibration)
-{
-  makeDirectory(directory);
-  writeSamples(directory / "samples.csv", recording, &calibration);
-  writeDeformed(directory / "deformed.vtp", body, recording, calibration);
+  replaceFile(file, out.view());
 }
 
 void writeTiming(const std::filesystem::path& file, const Timing& timing)
 {
   using Micro = std::chrono::duration<double, std::micro>;
-  std::ofstream out(file);
+  std::ostringstream out;
   out << "quantity,p50_us,p99_us,p999_us,max_us,ticks,skipped\n";
   for (const auto& [name, histogram] :
     { std::pair("lateness", &timing.lateness), std::pair("step", &timing.step) })
@@ -107,11 +74,24 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing)
         Micro(histogram->quantile(0.999)).count(), Micro(histogram->longest()).count(),
         static_cast<double>(timing.ticks.load()), static_cast<double>(timing.skipped.load()) });
   }
-  out.close();
-  if (!out)
+  replaceFile(file, out.view());
+}
+
+bool exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const Calibration& calibration, const Timing& timing,
+  const std::function<bool(const std::vector<std::string>& found)>& mayReplace)
+{
+  OutputFolder output(
+    directory, { "samples.csv", "deformed.vtp", "servo.csv" }, OutputFolder::Earlier::Replace);
+  if (!output.found().empty() && !mayReplace(output.found()))
   {
-    refuse(file);
+    return false;
   }
+  writeSamples(output.stage() / "samples.csv", recording, &calibration);
+  writeDeformed(output.stage() / "deformed.vtp", body, recording, calibration);
+  writeTiming(output.stage() / "servo.csv", timing);
+  output.publish();
+  return true;
 }
 
 } // namespace palp

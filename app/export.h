@@ -6,6 +6,9 @@
 #include "pipeline/dent.h"
 
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace palp
 {
@@ -20,25 +23,25 @@ namespace palp
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
   const Calibration& calibration);
 
-/// Makes a directory and those above it, where they are missing.
-/// @throws Error  BadFile: it cannot be made, or nothing may be written there
-void makeDirectory(const std::filesystem::path& directory);
-
 /// Writes the samples into a file; see the other writeSamples.
 /// @throws Error  BadFile: cannot be written
 void writeSamples(
   const std::filesystem::path& file, const Recording& recording, const Calibration* calibration);
-
-/// Writes samples.csv and deformed.vtp into a directory, which is made when it is missing.
-///
-/// @throws Error  BadFile: cannot be made or written
-void exportRecording(const std::filesystem::path& directory, const Body& body,
-  const Recording& recording, const Calibration& calibration);
 
 /// Writes how punctual a servo thread was: quantiles of lateness and step time [us], ticks,
 /// skipped.
 ///
 /// @throws Error  BadFile: cannot be written
 void writeTiming(const std::filesystem::path& file, const Timing& timing);
+
+/// Writes samples.csv, deformed.vtp and servo.csv into a directory, which is made when it is
+/// missing: all of them or none.
+///
+/// @param mayReplace  asked with their names where some are there already
+/// @return            false where they may not be replaced
+/// @throws Error      as OutputFolder
+[[nodiscard]] bool exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const Calibration& calibration, const Timing& timing,
+  const std::function<bool(const std::vector<std::string>& found)>& mayReplace);
 
 } // namespace palp

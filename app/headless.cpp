@@ -2,11 +2,13 @@
 
 #include "app/body.h"
 #include "app/export.h"
+#include "app/interrupt.h"
 #include "app/ledger.h"
 #include "app/pictures.h"
 #include "app/playback.h"
 #include "app/recording.h"
 #include "calibration/csv_text.h"
+#include "calibration/output_folder.h"
 #include "haptics/contact/indentation_of.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
@@ -93,11 +95,25 @@ void explainOmissions(const ScenePlan& plan, Ledger& ledger)
 
 } // namespace
 
-void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& out,
-  const Pictures* pictures, Ledger& ledger)
+std::vector<std::string> pressFiles()
 {
-  // what is quick to check comes first, before any work
-  makeDirectory(out);
+  std::vector<std::string> names{ "samples.csv", "deformed.vtp", "press.png", "force_time.png",
+    "force_depth.png" };
+  for (const std::string plot : { "section", "comparison", "extent" })
+  {
+    for (const char* ending : { ".png", ".svg", ".pdf", ".csv" })
+    {
+      names.push_back(plot + ending);
+    }
+  }
+  return names;
+}
+
+void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Pictures* pictures,
+  Ledger& ledger)
+{
+  const Interrupt interrupt([&output] { output.discard(); });
+  const std::filesystem::path out = output.stage();
   Recording recording;
   recording.rated = plan.validity;
   recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
@@ -145,6 +161,7 @@ void playPlan(const ScenePlan& plan, bool chained, const std::filesystem::path& 
     ledger.build(
       "pictures", "exported", [&] { pictures->drawPress(body, recording, known, plan, out); });
   }
+  output.publish();
   explainOmissions(plan, ledger);
 }
 

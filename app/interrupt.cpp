@@ -1,15 +1,29 @@
 #include "app/interrupt.h"
 
 #include <pthread.h>
+#include <unistd.h>
+#include <utility>
 
 namespace palp
 {
 
 Interrupt::Interrupt()
+  : Interrupt(nullptr)
+{
+}
+
+Interrupt::Interrupt(std::function<void()> last)
+  : last_(std::move(last))
 {
   sigemptyset(&signals_);
-  sigaddset(&signals_, SIGINT);
-  sigaddset(&signals_, SIGTERM);
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    struct sigaction action = {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN)
+    {
+      sigaddset(&signals_, signal); // else nohup or the shell does not want it
+    }
+  }
   pthread_sigmask(SIG_BLOCK, &signals_, &before_);
   listener_ = std::jthread(
     [this](const std::stop_token& finished)
@@ -17,7 +31,14 @@ Interrupt::Interrupt()
       const timespec wait{ .tv_sec = 0, .tv_nsec = 100'000'000 };
       while (!finished.stop_requested())
       {
-        if (sigtimedwait(&signals_, nullptr, &wait) > 0)
+        const int signal = sigtimedwait(&signals_, nullptr, &wait);
+        if (signal > 0 && last_)
+        {
+          last_();
+          kill(getpid(), signal);
+          pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
+        }
+        else if (signal > 0)
         {
           source_.request_stop();
         }

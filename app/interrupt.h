@@ -1,19 +1,25 @@
 #pragma once
 
 #include <csignal>
+#include <functional>
 #include <stop_token>
 #include <thread>
 
 namespace palp
 {
 
-/// While it lives, Ctrl-C asks the work to stop instead of ending the program.
+/// While it lives, Ctrl-C, SIGTERM and a terminal that closes do not end the program at once.
 ///
 /// Made before any other thread, which then inherits that the signals wait here.
 class Interrupt
 {
 public:
+  /// They ask the work to stop.
   Interrupt();
+
+  /// They call a function, from another thread, and then end the program as they always do.
+  explicit Interrupt(std::function<void()> last);
+
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
@@ -25,6 +31,7 @@ public:
 
 private:
   std::stop_source source_;
+  std::function<void()> last_;
   sigset_t signals_{};
   sigset_t before_{};
   std::jthread listener_;

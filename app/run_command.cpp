@@ -3,6 +3,7 @@
 #include "app/force_curve.h"
 #include "app/headless.h"
 #include "app/ledger.h"
+#include "app/output.h"
 #include "app/program.h"
 #include "haptics/error.h"
 
@@ -28,6 +29,7 @@ struct RunOptions
   std::vector<std::filesystem::path> references;
   bool noPicture = false;
   bool chain = false;
+  bool overwrite = false;
 };
 
 void run(const RunOptions& options, const Pictures* pictures)
@@ -64,7 +66,8 @@ void run(const RunOptions& options, const Pictures* pictures)
     }
   }
   Ledger silent(false);
-  playPlan(plan, options.chain, options.out, pictures, silent);
+  const auto output = openOutput(options.out, pressFiles(), options.overwrite);
+  playPlan(plan, options.chain, *output, pictures, silent);
 }
 
 } // namespace
@@ -81,6 +84,7 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
     "inward surface normal where it is missing); or a samples.csv that was exported");
   command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
     ->required();
+  addOverwrite(*command, options->overwrite);
   command->add_option("--size", options->size, "Size of press.png")->capture_default_str();
   command
     ->add_option("--plots", options->plots,

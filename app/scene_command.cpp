@@ -1,6 +1,7 @@
 #include "app/commands.h"
 #include "app/headless.h"
 #include "app/ledger.h"
+#include "app/output.h"
 #include "app/program.h"
 #include "app/scene_file.h"
 
@@ -19,6 +20,7 @@ struct SceneOptions
   std::string file;
   std::filesystem::path out = "out";
   bool explain = false;
+  bool overwrite = false;
 };
 
 void run(const SceneOptions& options, const Pictures* pictures, int (*view)(const ViewOptions&))
@@ -37,7 +39,8 @@ void run(const SceneOptions& options, const Pictures* pictures, int (*view)(cons
     becomeSibling("palp-draw");
   }
   Ledger ledger(options.explain);
-  playPlan(plan, false, options.out, pictures, ledger);
+  const auto output = openOutput(options.out, pressFiles(), options.overwrite);
+  playPlan(plan, false, *output, pictures, ledger);
   if (options.explain)
   {
     ledger.write(std::cout);
@@ -55,6 +58,7 @@ void addSceneCommand(CLI::App& app, const Pictures* pictures, int (*view)(const 
     ->required();
   command->add_option("--out", options->out, "Directory for the exports of a scene without window")
     ->capture_default_str();
+  addOverwrite(*command, options->overwrite);
   command->add_flag("--explain", options->explain,
     "Build it, tell what was built and what left out, with cost and reason, and end");
   command->footer("data/scenes/scene.schema.json describes the file.\n"

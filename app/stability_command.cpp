@@ -1,14 +1,16 @@
 #include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/output.h"
 #include "app/stability_map.h"
 #include "app/stability_study.h"
-#include "haptics/error.h"
+#include "calibration/replace_file.h"
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 namespace palp
@@ -20,29 +22,20 @@ struct StabilityOptions
 {
   std::filesystem::path out;
   bool quick = false;
+  bool overwrite = false;
 };
-
-std::ofstream openFile(const std::filesystem::path& file)
-{
-  std::ofstream out(file);
-  if (!out)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cannot be written; give --out a directory where you may write");
-  }
-  return out;
-}
 
 void studyStability(const StabilityOptions& options)
 {
-  std::error_code failed; // opening the files says what is wrong
-  std::filesystem::create_directories(options.out, failed);
-  std::ofstream table = openFile(options.out / "stability.csv");
-  std::ofstream map = openFile(options.out / "stability.svg");
-
+  const auto output =
+    openOutput(options.out, { "stability.csv", "stability.svg" }, options.overwrite);
+  const Interrupt interrupt([&output] { output->discard(); });
   const std::vector<JudgedCase> cases = judgeAll(options.quick);
-  table << report::csv(stabilityTable(cases));
+  std::ostringstream map;
   drawStabilityMap(map, cases);
+  replaceFile(output->stage() / "stability.csv", report::csv(stabilityTable(cases)));
+  replaceFile(output->stage() / "stability.svg", map.str());
+  output->publish();
   std::cout << stabilitySummary(cases);
 }
 
@@ -55,6 +48,7 @@ void addStabilityCommand(CLI::App& app)
     "stability", "Simulate hand, device and tissue in closed loop, from soft to rigid");
   command->add_option("--out", options->out, "Directory for stability.csv and stability.svg")
     ->required();
+  addOverwrite(*command, options->overwrite);
   command->add_flag("--quick", options->quick, "A tenth of the cases: seconds, not minutes");
   command->footer(
     "unstable: the loop gave energy to the hand (energy_uJ below -1), or the hand did not come\n"

@@ -7,6 +7,7 @@
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
+#include "calibration/replace_file.h"
 #include "haptics/contact/indentation_of.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -295,11 +296,15 @@ bool Window::saveScreenshot(const QString& file)
     [&]
     {
       renderWindow_->Render();
-      if (!canvas_->grabFramebuffer().save(file))
-      {
-        throw Error(ErrorCode::BadFile,
-          file.toStdString() + ": cannot be written; choose another folder or a name in .png");
-      }
+      replaceFile(file.toStdString(),
+        [&](const std::filesystem::path& fresh)
+        {
+          if (!canvas_->grabFramebuffer().save(QString::fromStdString(fresh.string())))
+          {
+            throw Error(ErrorCode::BadFile,
+              file.toStdString() + ": cannot be written; choose another folder or a name in .png");
+          }
+        });
     });
 }
 
@@ -314,10 +319,22 @@ bool Window::exportData(const QString& directory)
     [&]
     {
       takeSamples();
-      exportRecording(
-        directory.toStdString(), session_.body(), session_.recording(), session_.calibration());
-      writeTiming(std::filesystem::path(directory.toStdString()) / "servo.csv", session_.timing());
-      statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);
+      const auto ask = [&](const std::vector<std::string>& found)
+      {
+        QStringList names;
+        for (const std::string& name : found)
+        {
+          names << QString::fromStdString(name);
+        }
+        return QMessageBox::question(this, tr("Palp"),
+                 tr("%1 holds %2 already. Replace?").arg(directory, names.join(", "))) ==
+          QMessageBox::Yes;
+      };
+      if (exportRecording(directory.toStdString(), session_.body(), session_.recording(),
+            session_.calibration(), session_.timing(), ask))
+      {
+        statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);
+      }
     });
 }
 

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <ostream>
-#include <system_error>
 
 namespace palp
 {
@@ -26,30 +24,6 @@ void writeCsvRow(std::ostream& out, std::span<const double> values)
     separator = ",";
   }
   out << '\n';
-}
-
-bool replaceFile(const std::filesystem::path& file, const std::string& content)
-{
-  auto fresh = file;
-  fresh += ".new";
-  std::ofstream out(fresh, std::ios::binary);
-  if (!out)
-  {
-    return false; // whatever is there is not ours to remove
-  }
-  out << content;
-  out.close();
-  std::error_code failed;
-  if (out)
-  {
-    std::filesystem::rename(fresh, file, failed);
-  }
-  const bool replaced = out && !failed;
-  if (!replaced)
-  {
-    std::filesystem::remove(fresh, failed);
-  }
-  return replaced;
 }
 
 } // namespace palp

@@ -1,10 +1,9 @@
 #include "calibration/shipped_tables.h"
 
-#include "calibration/csv_text.h"
+#include "calibration/replace_file.h"
 #include "calibration/study_files.h"
 #include "calibration/surface_fit.h"
 #include "calibration/surface_table.h"
-#include "haptics/error.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -37,14 +36,6 @@ std::ostringstream table(const std::string& header)
   out.precision(6);
   out << "# palp " << PALP_VERSION << ": palp calibrate --tables DIR\n" << header;
   return out;
-}
-
-void store(const std::filesystem::path& file, const std::ostringstream& content)
-{
-  if (!replaceFile(file, content.str()))
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; choose another folder");
-  }
 }
 
 // a layer so wide that its side is not felt
@@ -116,7 +107,7 @@ void makeExtentTables(const std::filesystem::path& folder, std::stop_token stop,
     const auto header = describe(study, bodyOf(study));
     std::ostringstream extents;
     extents << tableText(study, header, outcome);
-    store(folder / (std::string(shipped.name) + ".csv"), extents);
+    replaceFile(folder / (std::string(shipped.name) + ".csv"), extents.view());
 
     auto curves = table(header +
       "# fitted surface: Bezier curve of degree 5 over 1/radius, calibration/surface_profile.h\n"
@@ -129,7 +120,7 @@ void makeExtentTables(const std::filesystem::path& folder, std::stop_token stop,
              << ',' << toMillimetres(curve.control[0]) << ',' << toMillimetres(curve.control[1])
              << '\n';
     }
-    store(folder / (std::string(shipped.name) + "_surface.csv"), curves);
+    replaceFile(folder / (std::string(shipped.name) + "_surface.csv"), curves.view());
   }
 }
 
@@ -185,14 +176,14 @@ void makeSphereTables(const std::filesystem::path& folder, std::stop_token stop,
           "/ 20\n" +
       notes + "depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio\n");
   ratioTable << forces.str();
-  store(folder / "large_strain_sphere.csv", ratioTable);
+  replaceFile(folder / "large_strain_sphere.csv", ratioTable.view());
 
   auto surfaceTable = table(
     "# Sink of the surface of a neo-Hookean layer under a sphere, -u_z / R at deformed r / R.\n"
     "# W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2; bonded, frictionless, elements of R / "
     "20\n");
   surfaceTable << SurfaceTable::header() << '\n' << surfaces.str();
-  store(folder / "surface_sphere.csv", surfaceTable);
+  replaceFile(folder / "surface_sphere.csv", surfaceTable.view());
 }
 
 // a cone has no length of its own: the ratio follows depth / thickness; the cap is felt near 0 only
@@ -238,7 +229,7 @@ void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, co
           "# cap of 0.3 mm; below 2 mm the ratio of 2 mm\n" +
       notes + "depth_over_thickness,half_angle_deg,poisson_ratio,force_ratio\n");
   ratioTable << forces.str();
-  store(folder / "large_strain_cone.csv", ratioTable);
+  replaceFile(folder / "large_strain_cone.csv", ratioTable.view());
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "calibration/csv_text.h"
 #include "calibration/curve_fit.h"
 #include "calibration/extent_table.h"
+#include "calibration/replace_file.h"
 #include "haptics/error.h"
 #include "haptics/force/half_space.h"
 #include "haptics/force/number_table.h"
@@ -62,14 +63,6 @@ std::string tipText(const Tip& tip, int digits)
         << " mm";
   }
   return out.str();
-}
-
-void replace(const std::filesystem::path& file, const std::string& content)
-{
-  if (!replaceFile(file, content))
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; choose another --out");
-  }
 }
 
 std::ostringstream text(const std::string& header, const char* columns)
@@ -233,15 +226,15 @@ void StudyFiles::write(const Outcome& outcome) const
                << toMillimetres(point.ur) << ',' << toMillimetres(point.uz) << '\n';
     }
   }
-  replace(folder_ / kProfiles, profiles.str());
-  replace(folder_ / kTable, tableText(study_, header_, outcome));
+  replaceFile(folder_ / kProfiles, profiles.str());
+  replaceFile(folder_ / kTable, tableText(study_, header_, outcome));
 
   const ExtentFits fits = fitExtent(depths, extents);
   const nlohmann::json fitted{ { "of", "extent_radius_mm over depth_mm, lowest power first" },
     { "linear", json(fits.linear) }, { "quadratic", json(fits.quadratic) },
     { "linear_holds_to_depth_mm", fits.linearHoldsTo },
     { "linear_holds_means", "every residual below 3 percent of the largest radius" } };
-  replace(folder_ / "fit.json", fitted.dump(2) + "\n");
+  replaceFile(folder_ / "fit.json", fitted.dump(2) + "\n");
 }
 
 void StudyFiles::save(const Checkpoint& checkpoint) const
@@ -252,7 +245,7 @@ void StudyFiles::save(const Checkpoint& checkpoint) const
   putDoubles(out, &steps, 1);
   putDoubles(out, &checkpoint.depth, 1);
   putDoubles(out, checkpoint.displacement.data(), checkpoint.displacement.size());
-  replace(folder_ / kCheckpoint, out.str());
+  replaceFile(folder_ / kCheckpoint, out.str());
 }
 
 Saved StudyFiles::load() const

@@ -1,29 +1,28 @@
 #include "pipeline/plot_files.h"
 
+#include "calibration/replace_file.h"
 #include "haptics/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <fcntl.h>
 #include <fstream>
 #include <spawn.h>
+#include <sstream>
 #include <sys/wait.h>
+#include <unistd.h>
 #include <vtkGL2PSExporter.h>
 #include <vtkImageData.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace palp
 {
 namespace
 {
-
-[[noreturn]] void refuse(const std::filesystem::path& file)
-{
-  throw Error(
-    ErrorCode::BadFile, file.string() + ": cannot be written; check space and permissions");
-}
 
 // a context that came up but draws nothing leaves every pixel alike
 bool uniform(vtkImageData& image)
@@ -43,10 +42,6 @@ bool uniform(vtkImageData& image)
 bool isWholeSvg(const std::filesystem::path& file)
 {
   constexpr std::streamoff kTail = 32;
-  if (!std::filesystem::is_regular_file(file))
-  {
-    return false;
-  }
   std::ifstream in(file, std::ios::binary);
   in.seekg(0, std::ios::end);
   in.seekg(std::max<std::streamoff>(0, in.tellg() - kTail));
@@ -54,20 +49,39 @@ bool isWholeSvg(const std::filesystem::path& file)
   return tail.find("</svg>") != std::string::npos;
 }
 
+// whether rsvg-convert made a PDF; it does so in silence
+bool convert(const std::filesystem::path& svg, const std::filesystem::path& pdf)
+{
+  std::array<std::string, 6> words{ "rsvg-convert", "--format=pdf", "--background-color=white",
+    "--output", pdf.string(), svg.string() };
+  std::array<char*, 7> arguments{};
+  std::transform(
+    words.begin(), words.end(), arguments.begin(), [](std::string& word) { return word.data(); });
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  int status = 1;
+  const bool started =
+    posix_spawnp(&child, words[0].c_str(), &files, nullptr, arguments.data(), environ) == 0;
+  posix_spawn_file_actions_destroy(&files);
+  while (started && waitpid(child, &status, 0) < 0 && errno == EINTR)
+  {
+  }
+  return started && status == 0;
+}
+
 } // namespace
 
 void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file)
 {
-  std::ofstream out(file);
+  std::ostringstream out;
   for (const auto& plot : plots)
   {
     out << (&plot == &plots.front() ? "" : "\n");
     plot->writeCsv(out);
   }
-  if (!out.flush())
-  {
-    refuse(file);
-  }
+  replaceFile(file, out.view());
 }
 
 void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
@@ -84,21 +98,17 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
         ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
   }
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.c_str());
   writer->SetInputConnection(grab->GetOutputPort());
+  writer->WriteToMemoryOn(); // libpng would tell of a full disk in its own words
   writer->Write();
-  if (writer->GetErrorCode() != 0)
-  {
-    refuse(file);
-  }
+  vtkUnsignedCharArray& png = *writer->GetResult();
+  replaceFile(file,
+    std::string_view(reinterpret_cast<const char*>(png.GetPointer(0)),
+      static_cast<std::size_t>(png.GetNumberOfValues())));
 }
 
 void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
 {
-  if (std::filesystem::is_regular_file(file))
-  {
-    std::filesystem::remove(file); // the exporter does not tell whether it wrote
-  }
   window.Render();
   vtkNew<vtkGL2PSExporter> exporter;
   exporter->SetRenderWindow(&window);
@@ -107,37 +117,32 @@ void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
   exporter->SetSortToOff();
   exporter->SilentOn(); // else it complains of the background, which it cannot embed
   exporter->SetTextAsPath(false);
-  exporter->SetFilePrefix((file.parent_path() / file.stem()).c_str());
-  exporter->Write();
-  if (!isWholeSvg(file))
-  {
-    refuse(file);
-  }
+  replaceFile(file,
+    [&](const std::filesystem::path& fresh)
+    {
+      exporter->SetFilePrefix((fresh.parent_path() / fresh.stem()).c_str());
+      exporter->Write();
+      if (!isWholeSvg(fresh)) // it does not tell whether it wrote
+      {
+        refuseFile(fresh, ENOSPC);
+      }
+    });
 }
 
 void writePdf(vtkRenderWindow& window, const std::filesystem::path& file)
 {
-  const std::filesystem::path pdf = std::filesystem::absolute(file); // begins with no dash
-  const std::filesystem::path svg = pdf.string() + ".svg";
-  writeSvg(window, svg);
-  std::array<std::string, 6> words{ "rsvg-convert", "--format=pdf", "--background-color=white",
-    "--output", pdf.string(), svg.string() };
-  std::array<char*, 7> arguments{};
-  std::transform(
-    words.begin(), words.end(), arguments.begin(), [](std::string& word) { return word.data(); });
-  pid_t child = 0;
-  int status = 1;
-  const bool started =
-    posix_spawnp(&child, words[0].c_str(), nullptr, nullptr, arguments.data(), environ) == 0;
-  while (started && waitpid(child, &status, 0) < 0 && errno == EINTR)
+  const auto make = [&](const std::filesystem::path& fresh)
   {
-  }
-  std::filesystem::remove(svg);
-  if (!started || status != 0)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
-  }
+    const std::filesystem::path pdf = std::filesystem::absolute(fresh); // begins with no dash
+    const std::filesystem::path svg = pdf.string() + ".svg";
+    writeSvg(window, svg);
+    if (!convert(svg, pdf))
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
+    }
+  };
+  replaceFile(file, make);
 }
 
 } // namespace palp

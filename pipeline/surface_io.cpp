@@ -1,5 +1,6 @@
 #include "pipeline/surface_io.h"
 
+#include "calibration/replace_file.h"
 #include "haptics/error.h"
 #include "haptics/prefix.h"
 #include "haptics/units.h"
@@ -8,9 +9,9 @@
 #include "pipeline/surface_repair.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <vtkFieldData.h>
@@ -81,17 +82,34 @@ FileSurface readElsewhere(const std::filesystem::path& file, std::optional<doubl
   return *std::move(surface);
 }
 
+// by way of memory, as VTK would tell of a full disk in its own words
+void writeVtp(const std::filesystem::path& file, vtkPolyData& data)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(&data);
+  writer->Write();
+  replaceFile(file, writer->GetOutputString());
+}
+
 template <typename Writer>
-bool writeWith(const std::filesystem::path& file, vtkPolyData& data)
+void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 {
   vtkNew<Writer> writer;
   if constexpr (std::is_same_v<Writer, vtkSTLWriter>)
   {
     writer->SetFileTypeToBinary(); // the others are binary where they can be
   }
-  writer->SetFileName(file.c_str());
   writer->SetInputData(&data);
-  return writer->Write() == 1 && writer->GetErrorCode() == 0;
+  replaceFile(file,
+    [&](const std::filesystem::path& fresh)
+    {
+      writer->SetFileName(fresh.c_str());
+      if (writer->Write() != 1 || writer->GetErrorCode() != 0)
+      {
+        refuseFile(fresh, EIO);
+      }
+    });
 }
 
 } // namespace
@@ -135,8 +153,8 @@ LoadedSurface readSurface(
 
 void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
 {
-  using Writer = bool (*)(const std::filesystem::path&, vtkPolyData&);
-  const std::map<std::string, Writer> writers{ { ".vtp", writeWith<vtkXMLPolyDataWriter> },
+  using Writer = void (*)(const std::filesystem::path&, vtkPolyData&);
+  const std::map<std::string, Writer> writers{ { ".vtp", writeVtp },
     { ".stl", writeWith<vtkSTLWriter> }, { ".ply", writeWith<vtkPLYWriter> },
     { ".obj", writeWith<vtkOBJWriter> } };
   const auto writer = writers.find(file.extension().string());
@@ -145,20 +163,13 @@ void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
     throw Error(ErrorCode::BadFile,
       file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
   }
-  if (!std::ofstream(file, std::ios::app))
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written; check the folder");
-  }
   const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimetre));
   vtkNew<vtkStringArray> unit; // that only VTP has a place for
   unit->SetName(kUnitArray);
   unit->InsertNextValue(unitName(LengthUnit::Millimetre));
   data->SetFieldData(vtkNew<vtkFieldData>());
   data->GetFieldData()->AddArray(unit);
-  if (!writer->second(file, *data))
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be written in full; check the space");
-  }
+  writer->second(file, *data);
 }
 
 } // namespace palp

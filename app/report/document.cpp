@@ -200,15 +200,6 @@ std::string fileWord(const std::string& name)
   return word;
 }
 
-void writeText(const std::filesystem::path& file, const std::string& text)
-{
-  if (!replaceFile(file, text))
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cannot be written; choose a folder with room where you may write");
-  }
-}
-
 namespace
 {
 

@@ -107,9 +107,6 @@ struct Points
 /// Letters and digits of a name, joined by _, for files and anchors.
 [[nodiscard]] std::string fileWord(const std::string& name);
 
-/// @throws Error  BadFile: cannot be written
-void writeText(const std::filesystem::path& file, const std::string& text);
-
 [[nodiscard]] std::string csv(const Table& table);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const Section& section);

@@ -1,5 +1,6 @@
 #include "app/report/folder.h"
 
+#include "calibration/replace_file.h"
 #include "haptics/error.h"
 
 #include <fstream>
@@ -50,7 +51,7 @@ Folder::Folder(std::filesystem::path path, bool quick, const Json& machine, bool
   const auto file = path_ / "machine.json";
   if (!std::filesystem::exists(file))
   {
-    writeText(file, machine_.dump(1) + '\n');
+    replaceFile(file, machine_.dump(1) + '\n');
     return;
   }
   if (!resume)
@@ -91,14 +92,14 @@ void Folder::keep(const Section& section) const
 {
   for (const Table& table : section.tables)
   {
-    writeText(path_ / (table.name + ".csv"), csv(table));
+    replaceFile(path_ / (table.name + ".csv"), csv(table));
   }
   for (const Picture& picture : section.pictures)
   {
-    writeText(path_ / picture.name, picture.svg);
+    replaceFile(path_ / picture.name, picture.svg);
   }
   // last, for its presence says that the part is finished
-  writeText(path_ / (section.name + ".json"), toJson(section).dump(1) + '\n');
+  replaceFile(path_ / (section.name + ".json"), toJson(section).dump(1) + '\n');
 }
 
 } // namespace palp::report

@@ -1,5 +1,6 @@
 #include "app/report/html_page.h"
 
+#include "calibration/replace_file.h"
 #include "haptics/error.h"
 
 #include <array>
@@ -282,7 +283,7 @@ void writePage(const std::filesystem::path& folder, const nlohmann::ordered_json
     writeSection(out, folder, section);
   }
   out << "</body>\n</html>\n";
-  writeText(folder / "report.html", out.str());
+  replaceFile(folder / "report.html", out.str());
 }
 
 } // namespace palp::report

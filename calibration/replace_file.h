@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace palp
+{
+
+/// What the name of a hidden folder begins with, in which things wait until they are finished.
+/// @param of  the folder that it stands beside; empty: the one that it stands in
+[[nodiscard]] std::string hiddenStart(const std::string& of = {});
+
+/// Whether a name is a start and six more characters.
+[[nodiscard]] bool isHidden(const std::string& name, const std::string& start = hiddenStart());
+
+/// Makes a hidden folder in another one, with a name that nobody had.
+/// @return  empty, with errno, where it cannot be made
+[[nodiscard]] std::filesystem::path makeHidden(const std::filesystem::path& folder);
+
+/// Brings the content of a file, or the names of a folder, to the disk.
+/// @return  0, or errno
+int syncToDisk(const std::filesystem::path& path);
+
+/// Ends the writing of a file with what the system said; hidden folders are
+/// left out of its name.
+/// @param reason  errno
+/// @throws Error  BadFile
+[[noreturn]] void refuseFile(const std::filesystem::path& file, int reason);
+
+/// Replaces a file as a whole: written beside it, on the disk, then renamed. A link of that name is
+/// replaced, not followed.
+/// @throws Error  BadFile: cannot be written; the file before remains, and nothing beside it
+void replaceFile(const std::filesystem::path& file, std::string_view content);
+
+/// The same for what writes itself into the file that it is given.
+void replaceFile(const std::filesystem::path& file,
+  const std::function<void(const std::filesystem::path& fresh)>& write);
+
+} // namespace palp
