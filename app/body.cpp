@@ -67,8 +67,12 @@ Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
     }
     const bool liver = source.bundled == "liver";
     coarser = coarser || liver;
-    haptic.add(
-      liver ? *readSurface(dataFile("meshes/liver_haptic.vtp")).mesh : *loaded.mesh, source.frame);
+    const std::filesystem::path felt = liver ? dataFile("meshes/liver_haptic.vtp") : file;
+    haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame);
+    MeshFile& origin = body.files.emplace_back(describeFile(felt));
+    origin.unit = body.unit;
+    origin.level = source.level;
+    origin.moved = !source.frame.isApprox(Eigen::Isometry3d::Identity());
   }
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
   if (shown)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/mesh_file.h"
 #include "app/scene_plan.h"
 #include "haptics/contact/surface.h"
 
@@ -18,6 +19,7 @@ struct Body
 {
   std::string name;                      ///< file name, for people
   std::string unit;                      ///< that the file's coordinates were read in
+  std::vector<MeshFile> files;           ///< that are felt
   vtkSmartPointer<vtkPolyData> display;  ///< [m]; null where nobody looks
   std::shared_ptr<const Surface> haptic; ///< [m]
   std::vector<std::string> notes;        ///< what was taken, and warnings; a line each

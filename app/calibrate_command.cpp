@@ -1,6 +1,7 @@
 #include "app/coating_spec.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/output.h"
 #include "app/pictures.h"
 #include "app/program.h"
 #include "app/quantity.h"
@@ -170,25 +171,40 @@ struct CalibrateOptions
   std::filesystem::path tables;
   unsigned jobs = 1;
   bool resume = false;
+  bool overwrite = false;
   bool noPicture = false;
 };
+
+std::unique_ptr<OutputFolder> openFolder(
+  const std::filesystem::path& folder, const CalibrateOptions& options)
+{
+  return options.resume
+    ? std::make_unique<OutputFolder>(folder, calibrationFiles(), OutputFolder::Earlier::Keep)
+    : openOutput(folder, calibrationFiles(), options.overwrite);
+}
 
 void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
 {
   const auto cases = readSweep(options.sweep, options.text);
+  const OutputFolder whole(options.out, {}, OutputFolder::Earlier::Keep); // one sweep in a folder
+  std::vector<std::unique_ptr<OutputFolder>> folders;
+  for (const Case& study : cases)
+  {
+    folders.push_back(openFolder(options.out / study.name, options));
+  }
   std::size_t failed = 0;
-  sweep(options.out, cases, options.resume, options.jobs, stop,
+  sweep(folders, cases, options.resume, options.jobs, stop,
     [&](const std::string& name, const std::string& trouble)
     {
       failed += trouble.empty() ? 0 : 1;
       std::cerr << "palp: " << name << ": " << (trouble.empty() ? "done" : trouble) << '\n';
     });
-  for (const Case& study : cases)
+  for (std::size_t i = 0; i < cases.size(); ++i)
   {
-    const auto folder = options.out / study.name;
-    if (!options.noPicture && std::filesystem::exists(folder / "table.csv"))
+    if (!options.noPicture && std::filesystem::exists(folders[i]->path() / "table.csv"))
     {
-      pictures->drawCalibration(study, readSteps(folder), folder);
+      pictures->drawCalibration(cases[i], readSteps(folders[i]->path()), folders[i]->stage());
+      folders[i]->publish();
     }
   }
   if (failed > 0)
@@ -202,10 +218,12 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictu
 void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
 {
   const Case study = caseOf(options.out.filename().string(), options.text);
-  const Outcome outcome = calibrateInto(options.out, study, options.resume, stop, ProgressBar());
+  const auto folder = openFolder(options.out, options);
+  const Outcome outcome = calibrateInto(*folder, study, options.resume, stop, ProgressBar());
   if (!options.noPicture)
   {
-    pictures->drawCalibration(study, outcome.steps, options.out);
+    pictures->drawCalibration(study, outcome.steps, folder->stage());
+    folder->publish();
   }
   if (!outcome.trouble.empty())
   {
@@ -214,6 +232,20 @@ void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const P
         std::to_string(study.depths.size()) + " depths are in " + options.out.string() + ")");
   }
   std::cerr << "palp: tables, fit and pictures are in " << options.out.string() << '\n';
+}
+
+std::vector<std::string> tablesIn(const std::filesystem::path& folder)
+{
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+  {
+    if (entry.path().extension() == ".csv")
+    {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  return names;
 }
 
 void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
@@ -225,13 +257,16 @@ void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
   const Interrupt interrupt;
   if (!options.tables.empty())
   {
-    makeShippedTables(options.tables, interrupt.token(),
+    const auto folder = openOutput(options.tables,
+      options.overwrite ? std::vector<std::string>{} : tablesIn(options.tables), options.overwrite);
+    makeShippedTables(folder->stage(), interrupt.token(),
       [](const std::string& name) { std::cerr << "palp: " << name << '\n'; });
     if (interrupt.token().stop_requested())
     {
-      throw Error(ErrorCode::NoSolution,
-        "interrupted; the tables that were not finished are as before, start again for them");
+      throw Error(
+        ErrorCode::NoSolution, "interrupted; " + options.tables.string() + " is as it was");
     }
+    folder->publish();
   }
   else if (!options.sweep.empty())
   {
@@ -268,6 +303,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   text("element-size", "Under the tool; 0.5mm, or a tenth of its radius in the block");
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from what --out holds");
+  addOverwrite(*command, options->overwrite);
   command->add_option("--sweep", options->sweep,
     "A list of cases in JSON: the names above with their values, and a \"name\" each");
   command->add_option("--jobs", options->jobs, "Cases of a sweep at a time")->capture_default_str();
@@ -278,7 +314,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
     "  palp calibrate --tip cone:45deg:10mm --material corotated --depth 0.5:6:0.5mm --out cone\n"
     "  palp calibrate --young 5kPa --coating 2mm:50kPa:0.45 --out skin\n"
     "  palp calibrate --sweep cases.json --jobs 2 --out sweep --resume\n"
-    "  palp calibrate --tables data/tables          make the shipped tables again");
+    "  palp calibrate --tables data/tables --overwrite   make the shipped tables again");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->callback([options, pictures] { runCalibration(*options, pictures); });
 }

@@ -6,6 +6,7 @@
 #include "app/ledger.h"
 #include "app/pictures.h"
 #include "app/playback.h"
+#include "app/program.h"
 #include "app/recording.h"
 #include "calibration/csv_text.h"
 #include "calibration/output_folder.h"
@@ -140,6 +141,8 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const P
   }
   recording.mesh = body.name;
   recording.unit = body.unit;
+  recording.files = body.files;
+  recording.command = commandLine();
   recording.scene.surface = body.haptic;
 
   recording.samples = ledger.build(

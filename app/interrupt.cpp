@@ -16,13 +16,12 @@ Interrupt::Interrupt(std::function<void()> last)
   : last_(std::move(last))
 {
   sigemptyset(&signals_);
-  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  struct sigaction hangup = {};
+  if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN)
   {
-    struct sigaction action = {};
-    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN)
-    {
-      sigaddset(&signals_, signal); // else nohup or the shell does not want it
-    }
+    sigaddset(&signals_, SIGHUP); // else nohup
   }
   pthread_sigmask(SIG_BLOCK, &signals_, &before_);
   listener_ = std::jthread(
@@ -35,6 +34,7 @@ Interrupt::Interrupt(std::function<void()> last)
         if (signal > 0 && last_)
         {
           last_();
+          std::signal(signal, SIG_DFL); // a shell ignores Ctrl-C for what runs in the background
           kill(getpid(), signal);
           pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
         }

@@ -27,6 +27,16 @@ void describeRules(std::ostream& out, const Validity& validity)
   }
 }
 
+std::string origin(const Recording& recording)
+{
+  std::string lines = recording.command.empty() ? "" : "# command: " + recording.command + '\n';
+  for (const MeshFile& file : recording.files)
+  {
+    lines += "# felt: " + describe(file) + '\n';
+  }
+  return lines;
+}
+
 } // namespace
 
 const Sample* Recording::deepest() const noexcept
@@ -48,7 +58,7 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
   const ForceLaw& law = recording.scene.law;
   out << "# palp " << PALP_VERSION << '\n'
       << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
-      << "# device: " << recording.device << '\n'
+      << origin(recording) << "# device: " << recording.device << '\n'
       << "# tool: " << describeTip(law.tip()) << '\n'
       << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
       << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
@@ -56,7 +66,9 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
       << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
       << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
       << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
-         "and limits; force_x/y/z_N: sent to the device\n";
+         "and limits; force_x/y/z_N: sent to the device\n"
+      << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
+         "all factors\n";
   const std::optional<Validity> validity =
     recording.rated ? std::optional<Validity>(law) : std::nullopt;
   if (validity)
@@ -67,7 +79,13 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
          "contact_radius_mm,"
       << (calibration ? "extent_radius_mm," : "")
       << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
-      << (validity ? ",broken_rules" : "") << '\n';
+      << (validity ? ",broken_rules" : "")
+      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
+  for (const Factor& factor : law.factors({}))
+  {
+    out << ",factor_" << factor.name;
+  }
+  out << '\n';
   std::vector<double> row;
   for (const Sample& sample : recording.samples)
   {
@@ -89,6 +107,12 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
     {
       row.push_back(static_cast<double>(
         brokenRules((*validity)(indentationOf(contact), contact.edgeDistance))));
+    }
+    row.insert(row.end(),
+      { toMillimetres(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
+    for (const Factor& factor : law.factors(indentationOf(contact)))
+    {
+      row.push_back(factor.value);
     }
     writeCsvRow(out, row);
   }

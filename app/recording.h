@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/calibration.h"
+#include "app/mesh_file.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
@@ -15,9 +16,11 @@ namespace palp
 /// A finished press: who pressed what, and everything that was measured.
 struct Recording
 {
-  std::string mesh;   ///< file name, for people
-  std::string unit;   ///< that its coordinates were read in
-  std::string device; ///< hand, mouse, path:NAME
+  std::string mesh;              ///< file name, for people
+  std::string unit;              ///< that its coordinates were read in
+  std::string device;            ///< hand, mouse, path:NAME
+  std::vector<MeshFile> files{}; ///< that were felt
+  std::string command{};         ///< see commandLine
   Scene scene;
   std::vector<Sample> samples;
   bool rated = true; ///< how far each sample may be believed is told, too
@@ -27,6 +30,11 @@ struct Recording
 };
 
 /// Writes samples.csv: a header of comment lines, the column names with units, one row per sample.
+///
+/// Each row tells what its force was computed from: the place (thickness, infinite where there is
+/// none below; mean curvature, convex positive, and half the difference of the principal ones) and
+/// the factors of the law there, by which force_N is the product of the paper's force and theirs.
+/// A tip without a paper's law begins with its exact one.
 ///
 /// The same recording gives the same bytes: no date, no host.
 ///

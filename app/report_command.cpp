@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/output.h"
 #include "app/pictures.h"
 #include "app/program.h"
 #include "app/report/folder.h"
@@ -51,6 +52,7 @@ struct ReportOptions
   std::filesystem::path out;
   bool quick = false;
   bool resume = false;
+  bool overwrite = false;
 };
 
 // one line that is written over itself on a terminal; elsewhere one line for a finished part
@@ -85,7 +87,7 @@ private:
 };
 
 // the parts that are finished, in their order; the rest is left where the user stops it
-std::vector<Section> makeParts(const Folder& folder, bool quick, const Interrupt& interrupt)
+std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& interrupt)
 {
   std::vector<Section> sections;
   for (std::size_t i = 0; i < kParts.size(); ++i)
@@ -162,8 +164,16 @@ void makeReport(const ReportOptions& options, const Pictures* pictures)
     becomeSibling("palp-draw");
   }
   const Interrupt interrupt;
-  const Folder folder(options.out, options.quick, describeMachine(), options.resume);
+  Folder folder(options.out, options.quick, describeMachine(),
+    options.resume        ? Before::Resume
+      : options.overwrite ? Before::Replace
+                          : Before::Refuse);
   std::vector<Section> sections = makeParts(folder, options.quick, interrupt);
+  if (sections.empty())
+  {
+    throw Error(ErrorCode::NoSolution,
+      options.out.string() + ": no part is finished; what was there is as it was");
+  }
   const auto unfinished = unfinishedOf(sections);
   const Section claims = claimByClaim(sections);
   folder.keep(claims);
@@ -173,10 +183,11 @@ void makeReport(const ReportOptions& options, const Pictures* pictures)
     claims);
   for (const Section& section : sections)
   {
-    pictures->drawReport(section, folder.path());
+    pictures->drawReport(section, folder.output().stage());
   }
-  writePage(folder.path(), folder.machine(), sections, unfinished);
-  const std::string page = (folder.path() / "report.html").string();
+  folder.output().publish();
+  writePage(folder.output().path(), folder.machine(), sections, unfinished);
+  const std::string page = (folder.output().path() / "report.html").string();
   if (!unfinished.empty())
   {
     throw Error(ErrorCode::NoSolution,
@@ -196,6 +207,7 @@ void addReportCommand(CLI::App& app, const Pictures* pictures)
   command->add_option("--out", options->out, "Folder for report.html, CSV and JSON")->required();
   command->add_flag("--quick", options->quick, "A minute, not a quarter of an hour");
   command->add_flag("--resume", options->resume, "Go on with what --out holds of this report");
+  addOverwrite(*command, options->overwrite);
   command->footer(
     "Ctrl-C leaves a page of the finished parts. Let nothing else run meanwhile: times are taken.\n"
     "Examples:\n"

@@ -28,6 +28,8 @@ Recording startOf(const ScenePlan& plan, const Body& body, Ledger& ledger)
   Recording recording;
   recording.mesh = body.name;
   recording.unit = body.unit;
+  recording.files = body.files;
+  recording.command = commandLine();
   recording.rated = plan.validity;
   recording.scene.surface = body.haptic;
   recording.scene.rule = plan.press.rule();
@@ -67,6 +69,7 @@ void Session::open(const std::filesystem::path& file, const std::string& unit)
   }
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
+  recording_.files = body_.files;
   recording_.scene.surface = body_.haptic;
   ++recording_.scene.version;
   useDevice(device, std::move(holder));

@@ -236,7 +236,6 @@ void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, co
 
 void makeShippedTables(const std::filesystem::path& folder, std::stop_token stop, const Tell& tell)
 {
-  std::filesystem::create_directories(folder);
   makeExtentTables(folder, stop, tell);
   makeSphereTables(folder, stop, tell);
   makeConeTable(folder, stop, tell);

@@ -16,8 +16,9 @@ namespace palp::fem
 /// the ratio of the neo-Hookean to the linear force of sphere and cone on layers; and the surface
 /// under a sphere over (depth / R, R / thickness, nu).
 ///
-/// Takes four minutes of one core. A stop leaves the files that are not complete as they were.
+/// Takes four minutes of one core. A stop leaves some of them out.
 ///
+/// @param folder  exists
 /// @param tell    called before each case with its name
 /// @throws Error  BadFile: not writable
 void makeShippedTables(const std::filesystem::path& folder, std::stop_token stop,

@@ -211,6 +211,12 @@ double sinkOf(const Indented& pressed, double radius)
   return -profile.back().uz;
 }
 
+std::vector<std::string> calibrationFiles()
+{
+  return { "table.csv", "profiles.csv", "fit.json", "checkpoint.bin", "extent.png", "force.png",
+    "profiles.png" };
+}
+
 Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progress)
 {
   check(study);
@@ -219,8 +225,8 @@ Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progr
     study, body, {}, stop, [](const Outcome&, const Indenter&) {}, progress);
 }
 
-Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bool resume,
-  std::stop_token stop, const Progress& progress)
+Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume, std::stop_token stop,
+  const Progress& progress)
 {
   check(study);
   const Body body = bodyOf(study);
@@ -233,12 +239,15 @@ Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bo
       files.save(indenter.checkpoint());
     },
     progress);
-  files.write(outcome);
+  if (!outcome.steps.empty()) // else what is there stays
+  {
+    files.write(outcome);
+  }
   return outcome;
 }
 
-void sweep(const std::filesystem::path& folder, const std::vector<Case>& cases, bool resume,
-  unsigned jobs, std::stop_token stop,
+void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
+  const std::vector<Case>& cases, bool resume, unsigned jobs, std::stop_token stop,
   const std::function<void(const std::string& name, const std::string& trouble)>& tell)
 {
   std::atomic<std::size_t> next{ 0 };
@@ -250,7 +259,7 @@ void sweep(const std::filesystem::path& folder, const std::vector<Case>& cases, 
       std::string trouble;
       try
       {
-        trouble = calibrateInto(folder / cases[i].name, cases[i], resume, stop).trouble;
+        trouble = calibrateInto(*folders[i], cases[i], resume, stop).trouble;
       }
       catch (const std::exception& error)
       {

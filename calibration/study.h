@@ -1,10 +1,11 @@
 #pragma once
 
 #include "calibration/indenter.h"
+#include "calibration/output_folder.h"
 #include "haptics/force/coating.h"
 
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -63,6 +64,9 @@ struct Outcome
   std::string trouble;         ///< empty, or why the last depths are missing
 };
 
+/// The names of all files that a calibration, with its pictures, may leave.
+[[nodiscard]] std::vector<std::string> calibrationFiles();
+
 /// Asked after every depth.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
@@ -74,19 +78,21 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 /// The same with files: after every depth, table.csv, profiles.csv, fit.json and a checkpoint are
 /// complete in the folder, whatever happens next.
 ///
+/// @param folder  stays locked; an earlier calibration in it goes when the first depth is reached
 /// @param resume  go on from the folder's checkpoint, if there is one; the depths that are in the
 ///                table stay there, whether they are asked for again or not
 /// @throws Error  BadFile: not writable, or the checkpoint is of another case, or past a depth that
 ///                is asked for and not in the table
-[[nodiscard]] Outcome calibrateInto(const std::filesystem::path& folder, const Case& study,
-  bool resume, std::stop_token stop = {}, const Progress& progress = {});
+[[nodiscard]] Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume,
+  std::stop_token stop = {}, const Progress& progress = {});
 
-/// Several cases at a time, each into the folder of its name; a case that fails leaves the others.
+/// Several cases at a time, each into its folder; a case that fails leaves the others.
 ///
+/// @param folders  one for each case, see calibrateInto
 /// @param jobs  how many at a time, 1 or more
 /// @param tell  called with a case's name and its trouble (empty: none), one call at a time
-void sweep(const std::filesystem::path& folder, const std::vector<Case>& cases, bool resume,
-  unsigned jobs, std::stop_token stop,
+void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
+  const std::vector<Case>& cases, bool resume, unsigned jobs, std::stop_token stop,
   const std::function<void(const std::string& name, const std::string& trouble)>& tell);
 
 } // namespace palp::fem

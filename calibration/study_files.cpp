@@ -196,19 +196,13 @@ std::vector<Indented> readSteps(const std::filesystem::path& folder)
   return steps;
 }
 
-StudyFiles::StudyFiles(std::filesystem::path folder, const Case& study, const Body& body)
-  : folder_(std::move(folder))
+StudyFiles::StudyFiles(OutputFolder& folder, const Case& study, const Body& body)
+  : folder_(folder)
   , study_(study)
   , header_(describe(study, body))
   , key_(describe(study, body, std::numeric_limits<double>::max_digits10) +
       "# squared distances of the nodes: " + shortest(body.positions.squaredNorm()))
 {
-  std::error_code failed;
-  std::filesystem::create_directories(folder_, failed);
-  if (failed)
-  {
-    throw Error(ErrorCode::BadFile, folder_.string() + ": cannot be made; choose another --out");
-  }
 }
 
 void StudyFiles::write(const Outcome& outcome) const
@@ -226,15 +220,16 @@ void StudyFiles::write(const Outcome& outcome) const
                << toMillimetres(point.ur) << ',' << toMillimetres(point.uz) << '\n';
     }
   }
-  replaceFile(folder_ / kProfiles, profiles.str());
-  replaceFile(folder_ / kTable, tableText(study_, header_, outcome));
+  replaceFile(folder_.stage() / kProfiles, profiles.str());
+  replaceFile(folder_.stage() / kTable, tableText(study_, header_, outcome));
 
   const ExtentFits fits = fitExtent(depths, extents);
   const nlohmann::json fitted{ { "of", "extent_radius_mm over depth_mm, lowest power first" },
     { "linear", json(fits.linear) }, { "quadratic", json(fits.quadratic) },
     { "linear_holds_to_depth_mm", fits.linearHoldsTo },
     { "linear_holds_means", "every residual below 3 percent of the largest radius" } };
-  replaceFile(folder_ / "fit.json", fitted.dump(2) + "\n");
+  replaceFile(folder_.stage() / "fit.json", fitted.dump(2) + "\n");
+  folder_.publish();
 }
 
 void StudyFiles::save(const Checkpoint& checkpoint) const
@@ -245,13 +240,14 @@ void StudyFiles::save(const Checkpoint& checkpoint) const
   putDoubles(out, &steps, 1);
   putDoubles(out, &checkpoint.depth, 1);
   putDoubles(out, checkpoint.displacement.data(), checkpoint.displacement.size());
-  replaceFile(folder_ / kCheckpoint, out.str());
+  replaceFile(folder_.stage() / kCheckpoint, out.str());
+  folder_.publish();
 }
 
 Saved StudyFiles::load() const
 {
   Saved saved;
-  const auto file = folder_ / kCheckpoint;
+  const auto file = folder_.path() / kCheckpoint;
   std::ifstream in(file, std::ios::binary);
   if (!in)
   {
@@ -263,10 +259,10 @@ Saved StudyFiles::load() const
   }
   for (const char* name : { kTable, kProfiles })
   {
-    std::ifstream table(folder_ / name, std::ios::binary);
+    std::ifstream table(folder_.path() / name, std::ios::binary);
     if (!begins(table, header_))
     {
-      refuse(folder_ / name, "is of another case than the checkpoint beside it");
+      refuse(folder_.path() / name, "is of another case than the checkpoint beside it");
     }
   }
   double size = 0.0;
@@ -284,7 +280,7 @@ Saved StudyFiles::load() const
 
   // the table may be one depth ahead
   const double deepest = checkpoint.depth * (1.0 + kSameDepth);
-  saved.steps = readSteps(folder_);
+  saved.steps = readSteps(folder_.path());
   std::erase_if(saved.steps, [&](const Indented& step) { return step.depth > deepest; });
   if (!in || !has(saved.steps, checkpoint.depth) ||
     std::ranges::any_of(saved.steps, [](const Indented& step) { return step.profile.empty(); }))

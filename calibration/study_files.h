@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibration/output_folder.h"
 #include "calibration/study.h"
 
 #include <optional>
@@ -33,11 +34,10 @@ struct Saved
 class StudyFiles
 {
 public:
-  /// @throws Error  BadFile: the folder cannot be made
-  StudyFiles(std::filesystem::path folder, const Case& study, const Body& body);
+  StudyFiles(OutputFolder& folder, const Case& study, const Body& body);
 
-  /// Each file is replaced whole, so that an interruption leaves the one before. The surfaces come
-  /// before the table and the checkpoint last: no file says more than those before it.
+  /// Each file is replaced whole, so that an interruption leaves the one before. The checkpoint
+  /// comes last: it says no more than the tables.
   /// @throws Error  BadFile: not writable
   void write(const Outcome& outcome) const;
   void save(const Checkpoint& checkpoint) const;
@@ -48,7 +48,7 @@ public:
   [[nodiscard]] Saved load() const;
 
 private:
-  std::filesystem::path folder_;
+  OutputFolder& folder_;
   const Case& study_;
   std::string header_; // lines with #, for people
   std::string key_;    // the same with every digit, and where the nodes are

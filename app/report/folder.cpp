@@ -3,7 +3,9 @@
 #include "calibration/replace_file.h"
 #include "haptics/error.h"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 
 namespace palp::report
 {
@@ -31,6 +33,18 @@ std::string word(const Json& json, const char* key)
   return found != json.end() && found->is_string() ? found->get<std::string>() : "unknown";
 }
 
+std::optional<Section> sectionIn(const Json& json)
+{
+  try
+  {
+    return json.is_object() ? std::optional(sectionOf(json)) : std::nullopt;
+  }
+  catch (const Json::exception&)
+  {
+    return std::nullopt;
+  }
+}
+
 // what figures must have in common to stand on one page
 bool isSame(const Json& a, const Json& b)
 {
@@ -39,67 +53,100 @@ bool isSame(const Json& a, const Json& b)
   return same("effort") && same("version") && same("processor") && same("compiler");
 }
 
+constexpr const char* kMachine = "machine.json";
+
+// all files of the report in a folder
+std::vector<std::string> filesIn(const std::filesystem::path& folder)
+{
+  std::vector<std::string> names{ kMachine, "report.html" };
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+  {
+    std::ifstream in(entry.path());
+    const bool json = entry.path().extension() == ".json" && entry.path().filename() != kMachine;
+    const auto section = json ? sectionIn(Json::parse(in, nullptr, false)) : std::nullopt;
+    if (section)
+    {
+      names.push_back(entry.path().filename().string());
+      std::ranges::transform(section->tables, std::back_inserter(names),
+        [](const Table& table) { return table.name + ".csv"; });
+      std::ranges::transform(section->charts, std::back_inserter(names),
+        [](const Chart& chart) { return chart.name + ".svg"; });
+      std::ranges::transform(section->pictures, std::back_inserter(names), &Picture::name);
+    }
+  }
+  return names;
+}
+
 } // namespace
 
-Folder::Folder(std::filesystem::path path, bool quick, const Json& machine, bool resume)
-  : path_(std::move(path))
+Folder::Folder(const std::filesystem::path& path, bool quick, const Json& machine, Before before)
+  : before_(before)
+  , output_(path, before == Before::Replace ? filesIn(path) : std::vector<std::string>{},
+      before == Before::Replace ? OutputFolder::Earlier::Replace : OutputFolder::Earlier::Keep)
   , machine_(machine)
 {
   machine_["effort"] = quick ? "quick" : "full";
-  std::error_code failed; // writing says what is wrong
-  std::filesystem::create_directories(path_, failed);
-  const auto file = path_ / "machine.json";
-  if (!std::filesystem::exists(file))
+  const auto file = output_.path() / kMachine;
+  if (before == Before::Replace || !std::filesystem::exists(file))
   {
-    replaceFile(file, machine_.dump(1) + '\n');
+    replaceFile(output_.stage() / kMachine, machine_.dump(1) + '\n'); // appears with the first part
     return;
   }
-  if (!resume)
+  if (before == Before::Refuse)
   {
     throw Error(ErrorCode::BadFile,
-      path_.string() +
-        ": holds a report already; choose another --out, or pass --resume to go on with it");
+      path.string() +
+        ": holds a report already; choose another --out, or pass --resume to go on with it or "
+        "--overwrite to replace it");
   }
-  Json before = read(file);
-  if (!isSame(before, machine_))
+  Json earlier = read(file);
+  if (!isSame(earlier, machine_))
   {
     throw Error(ErrorCode::BadFile,
-      path_.string() + ": holds a report of other settings (" + word(before, "effort") + ", " +
-        word(before, "version") + ", " + word(before, "processor") + "); choose another --out");
+      path.string() + ": holds a report of other settings (" + word(earlier, "effort") + ", " +
+        word(earlier, "version") + ", " + word(earlier, "processor") + "); choose another --out");
   }
-  machine_ = std::move(before);
+  machine_ = std::move(earlier);
 }
 
 std::optional<Section> Folder::finished(const std::string& part) const
 {
-  const auto file = path_ / (part + ".json");
-  if (!std::filesystem::exists(file))
+  const auto file = output_.path() / (part + ".json");
+  if (before_ == Before::Replace || !std::filesystem::exists(file))
   {
     return std::nullopt;
   }
-  try
-  {
-    return sectionOf(read(file));
-  }
-  catch (const Json::exception&)
+  std::optional<Section> section = sectionIn(read(file));
+  if (!section)
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": not a part of a report; delete it to have that part done again");
   }
+  return section;
 }
 
-void Folder::keep(const Section& section) const
+void Folder::keep(const Section& section)
 {
+  const std::filesystem::path stage = output_.stage();
   for (const Table& table : section.tables)
   {
-    replaceFile(path_ / (table.name + ".csv"), csv(table));
+    replaceFile(stage / (table.name + ".csv"), csv(table));
   }
   for (const Picture& picture : section.pictures)
   {
-    replaceFile(path_ / picture.name, picture.svg);
+    replaceFile(stage / picture.name, picture.svg);
   }
+  const std::string name = section.name + ".json";
+  const std::string json = toJson(section).dump(1) + '\n';
+  if (before_ != Before::Resume) // of this report there is nothing yet: all in one step
+  {
+    replaceFile(stage / name, json);
+  }
+  output_.publish();
   // last, for its presence says that the part is finished
-  replaceFile(path_ / (section.name + ".json"), toJson(section).dump(1) + '\n');
+  replaceFile(output_.path() / name, json);
+  before_ = Before::Resume;
 }
 
 } // namespace palp::report

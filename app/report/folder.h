@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/report/document.h"
+#include "calibration/output_folder.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,26 +9,35 @@
 namespace palp::report
 {
 
+/// What becomes of a report that is there already.
+enum class Before
+{
+  Refuse,
+  Replace, ///< when the first new part is kept
+  Resume,
+};
+
 /// The folder of a report: machine.json, and for every finished part NAME.json and its CSV files.
 class Folder
 {
 public:
   /// @param machine  what describeMachine() says
-  /// @param resume   go on with what the folder holds
-  /// @throws Error   BadFile: not writable, holds a report already, or one of other settings
-  Folder(
-    std::filesystem::path path, bool quick, const nlohmann::ordered_json& machine, bool resume);
+  /// @throws Error   BadFile: not writable, in use, holds a report already, or one of other
+  /// settings
+  Folder(const std::filesystem::path& path, bool quick, const nlohmann::ordered_json& machine,
+    Before before);
 
   /// @return        nothing where the part is not finished
   /// @throws Error  BadFile: damaged
   [[nodiscard]] std::optional<Section> finished(const std::string& part) const;
 
   /// @throws Error  BadFile: not writable
-  void keep(const Section& section) const;
+  void keep(const Section& section);
 
-  [[nodiscard]] const std::filesystem::path& path() const noexcept
+  /// Locked; its stage is for more files.
+  [[nodiscard]] OutputFolder& output() noexcept
   {
-    return path_;
+    return output_;
   }
 
   /// The machine, and what was asked for; of the first run.
@@ -37,7 +47,8 @@ public:
   }
 
 private:
-  std::filesystem::path path_;
+  Before before_;
+  OutputFolder output_;
   nlohmann::ordered_json machine_;
 };
 

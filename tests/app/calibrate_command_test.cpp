@@ -64,23 +64,45 @@ TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
   EXPECT_EQ(after[0].values, before[0].values);
 }
 
-TEST(CalibrateCommand, SweepReportsTheCaseThatFailsAndKeepsTheRest)
+TEST(CalibrateCommand, SweepRefusesAFolderThatCannotBeBeforeTheWork)
 {
   const auto folder = test::freshFolder();
-  std::ofstream(folder / "blocked") << "a file where the second case wants its folder";
+  std::ofstream(folder / "second") << "a file where the second case wants its folder";
   std::ofstream(folder / "cases.json") << R"([
     {"name": "good", "young": "5kPa", "depth": "1:2:1mm"},
-    {"name": "blocked", "depth": "1:2:1mm"}])";
-  const Finished finished =
-    calibrate("--sweep " + (folder / "cases.json").string() + " --out " + folder.string());
-  EXPECT_EQ(finished.code, 5);
+    {"name": "second", "depth": "1:2:1mm"}])";
+  const std::string sweep =
+    "--sweep " + (folder / "cases.json").string() + " --out " + folder.string();
+  const Finished blocked = calibrate(sweep);
+  EXPECT_EQ(blocked.code, 2);
+  EXPECT_NE(blocked.err.find("second: cannot be written"), std::string::npos) << blocked.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "good"));
+
+  std::filesystem::remove(folder / "second");
+  const Finished finished = calibrate(sweep);
+  EXPECT_EQ(finished.code, 0);
   EXPECT_NE(finished.err.find("good: done"), std::string::npos);
-  EXPECT_NE(finished.err.find("1 of 2 cases"), std::string::npos);
   EXPECT_EQ(rowsOf(folder / "good" / "table.csv").size(), 2U);
   for (const char* name : { "extent.png", "force.png", "profiles.png" })
   {
     EXPECT_TRUE(std::filesystem::exists(folder / "good" / name)) << name;
   }
+}
+
+TEST(CalibrateCommand, ReplacesAnEarlierCalibrationOnlyWhenAsked)
+{
+  const auto folder = test::freshFolder();
+  const std::string command = "--no-picture --depth 1:2:1mm --out " + folder.string();
+  ASSERT_EQ(calibrate(command).code, 0);
+  const std::string before = test::readAll(folder / "table.csv");
+  const Finished refused = calibrate(command + " --young 5kPa");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::readAll(folder / "table.csv"), before);
+  const Finished replaced = calibrate(command + " --young 5kPa --overwrite");
+  EXPECT_EQ(replaced.code, 0);
+  EXPECT_NE(replaced.err.find("replaces"), std::string::npos) << replaced.err;
+  EXPECT_NE(test::readAll(folder / "table.csv"), before);
 }
 
 TEST(CalibrateCommand, SaysHowLargeAToolAndAThresholdMayBe)

@@ -135,6 +135,162 @@ TEST_F(RunCommand, GivesTheSameBytesTwice)
   EXPECT_EQ(first, test::readAll(folder_.path() / "b/samples.csv"));
 }
 
+// Hertz and Sneddon by hand, from the numbers in the file alone
+TEST_F(RunCommand, EachForceFollowsFromItsRow)
+{
+  struct Tool
+  {
+    const char* tip;
+    double (*force)(double modulus, double depth);
+  };
+  const Tool tools[] = {
+    { "sphere:10mm",
+      [](double modulus, double d) { return 4.0 / 3.0 * modulus * 0.1 * std::pow(d, 1.5); } },
+    { "cone:45deg:10mm", [](double modulus, double d) { return 2.0 / M_PI * modulus * d * d; } },
+  };
+  for (const auto& [tip, force] : tools)
+  {
+    for (const std::string law : { "paper", "exact", "corrected" })
+    {
+      const std::string out = (folder_.path() / (law + tip)).string();
+      const Finished finished =
+        palp("run --no-picture --out " + out + " --law " + law + " --tip " + tip);
+      ASSERT_EQ(finished.code, 0) << finished.err;
+      const std::string file = out + "/samples.csv";
+      const std::string text = test::readAll(file);
+      std::smatch found;
+      ASSERT_TRUE(std::regex_search(
+        text, found, std::regex("Young's modulus: (\\S+) kPa, Poisson's ratio: (\\S+)\n")));
+      const double nu = std::stod(found[2]);
+      const double modulus = 1e3 * std::stod(found[1]) / (1.0 - nu * nu);
+      const test::CsvTable rows = test::readCsv(file);
+      int acting = 0;
+      for (std::size_t k = 0; k < rows["force_N"].size(); ++k)
+      {
+        double expected = force(modulus, rows["depth_mm"][k] / 1e3);
+        for (const std::string name : { "shape", "curvature", "ellipse", "thickness",
+               "large_strain", "inclination", "coatings" })
+        {
+          expected *= rows["factor_" + name][k];
+          acting += rows["factor_" + name][k] != 1.0 ? 1 : 0;
+        }
+        ASSERT_NEAR(rows["force_N"][k], expected, 1e-9 * expected) << file << ' ' << k;
+      }
+      EXPECT_EQ(acting > 0, law == "corrected" || (law == "exact" && tip[0] == 's')) << law << tip;
+    }
+  }
+}
+
+// the place as the file tells it, asked again of palp force
+TEST_F(RunCommand, EachFactorFollowsFromItsPlace)
+{
+  const std::string law = " --law corrected --tip sphere:10mm";
+  const Finished finished =
+    palp("run --no-picture --out " + (folder_.path() / "out").string() + law);
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const test::CsvTable rows = test::readCsv(folder_.path() / "out/samples.csv");
+  int asked = 0;
+  for (std::size_t k = 0; k < rows["force_N"].size(); k += 400)
+  {
+    if (rows["depth_mm"][k] < 0.5)
+    {
+      continue;
+    }
+    std::ostringstream place;
+    place.precision(17);
+    place << " --thickness " << rows["thickness_mm"][k] << "mm --surface-radius "
+          << 1e3 / rows["curvature_per_m"][k] << "mm --tilt " << rows["tilt_deg"][k]
+          << "deg --depth " << rows["depth_mm"][k] << ":" << rows["depth_mm"][k] << ":1mm";
+    const Finished alone = palp("force" + law + place.str());
+    std::istringstream table(alone.out);
+    const double expected = test::parseCsv(table)["force_N"].front() * rows["factor_ellipse"][k];
+    EXPECT_NEAR(rows["force_N"][k], expected, 1e-9 * expected) << place.str() << alone.err;
+    ++asked;
+  }
+  EXPECT_GE(asked, 3);
+}
+
+TEST_F(RunCommand, TellsWhichMeshAndHow)
+{
+  ASSERT_EQ(press("--no-picture --young 20kPa", "out").code, 0);
+  const std::string text = test::readAll(folder_.path() / "out/samples.csv");
+  const Finished sum = test::runCommand("sha256sum " + block()); // of other hands
+  EXPECT_NE(text.find("# felt: block_50.vtp, SHA-256 " + sum.out.substr(0, 64) +
+              ", read in mm, frame of the file\n"),
+    std::string::npos)
+    << text.substr(0, 2000);
+  EXPECT_NE(text.find("# command: palp run " + block() + " --path " + folder_.path().string() +
+              "/press.csv --no-picture --young 20kPa\n"),
+    std::string::npos)
+    << text.substr(0, 2000);
+}
+
+TEST_F(RunCommand, ReplacesWhatIsThereOnlyWhenAsked)
+{
+  ASSERT_EQ(press("--no-picture", "out").code, 0);
+  const auto file = folder_.path() / "out/samples.csv";
+  const std::string before = test::readAll(file);
+  const Finished refused = press("--no-picture --young 5kPa", "out");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("samples.csv of an earlier run; pass --overwrite"), std::string::npos);
+  EXPECT_EQ(refused.err.find("deepest"), std::string::npos) << "after the press";
+  EXPECT_EQ(test::readAll(file), before);
+  std::ofstream(folder_.path() / "out/section.svg") << "of the run before";
+  const Finished replaced = press("--no-picture --young 5kPa --overwrite", "out");
+  EXPECT_EQ(replaced.code, 0);
+  EXPECT_NE(replaced.err.find("replaces deformed.vtp, samples.csv, section.svg"), std::string::npos)
+    << replaced.err;
+  EXPECT_NE(test::readAll(file), before);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/section.svg"));
+}
+
+// a limit on the size of files stands for a full disk
+TEST_F(RunCommand, AFullDiskLeavesTheEarlierFilesAndOneSentence)
+{
+  ASSERT_EQ(press("", "out").code, 0);
+  const auto out = folder_.path() / "out";
+  const std::string samples = test::readAll(out / "samples.csv");
+  const std::string picture = test::readAll(out / "press.png");
+  for (const char* blocks : { "8", "64" }) // of 512 bytes: samples.csv, then press.png
+  {
+    const Finished full = test::runCommand("ulimit -f " + std::string(blocks) +
+      "; " PALP_PROGRAM " run --overwrite --out " + out.string() + " " +
+      (blocks[0] == '6' ? block() : "") +
+      (blocks[0] == '6' ? " --path " + writePath(folder_.path(), "0,0,0,20\n0.05,0,0,20\n").string()
+                        : ""));
+    EXPECT_EQ(full.code, 2);
+    EXPECT_NE(full.err.find("cannot be written (File too large)"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("\x1b"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("libpng"), std::string::npos) << full.err;
+    EXPECT_EQ(test::readAll(out / "samples.csv"), samples);
+    EXPECT_EQ(test::readAll(out / "press.png"), picture);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 5);
+  }
+}
+
+TEST_F(RunCommand, ASignalLeavesNothingBehind)
+{
+  const auto out = folder_.path() / "out";
+  for (const char* signal : { "INT", "TERM", "HUP" })
+  {
+    const Finished ended = test::runCommand(PALP_PROGRAM " run --out " + out.string() +
+      " 2>/dev/null & running=$!; until [ -e " + out.string() +
+      "/.palp-* ]; do sleep 0.01; done; kill -" + signal + " $running; wait $running");
+    EXPECT_GT(ended.code, 128) << signal; // as a shell tells it
+    EXPECT_FALSE(std::filesystem::exists(out)) << signal;
+  }
+}
+
+TEST_F(RunCommand, TwoAtOnceDoNotMix)
+{
+  const std::string out = (folder_.path() / "out").string();
+  const std::string run = PALP_PROGRAM " run --out " + out;
+  const Finished both = test::runCommand(run + " >/dev/null 2>&1 & running=$!; until [ -e " + out +
+    "/.palp-* ]; do sleep 0.01; done; " + run + "; echo $?; wait $running; echo $?");
+  EXPECT_EQ(both.out, "2\n0\n") << both.err;
+  EXPECT_NE(both.err.find("another palp is writing there"), std::string::npos) << both.err;
+}
+
 TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)
 {
   ASSERT_EQ(press("--no-picture", "out").code, 0);
@@ -163,7 +319,8 @@ TEST_F(RunCommand, ThroughTheChainTheForceIsWhatTheArmOfThePaperBears)
   for (const char* young : { "20kPa", "1.5MPa" })
   {
     const Finished finished = palp("run " + block() + " --path " + path.string() +
-      " --chain --no-picture --young " + young + " --out " + (folder_.path() / "out").string());
+      " --chain --no-picture --overwrite --young " + young + " --out " +
+      (folder_.path() / "out").string());
     ASSERT_EQ(finished.code, 0) << finished.err;
     const test::CsvTable samples = test::readCsv(folder_.path() / "out/samples.csv");
     const auto& law = samples["force_N"];

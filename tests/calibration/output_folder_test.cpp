@@ -8,8 +8,10 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <set>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace palp
@@ -104,8 +106,7 @@ TEST_F(Output, KeepsTheFileThatCannotBeReplaced)
   std::filesystem::create_directories(folder_.path() / "b.csv" / "full");
   {
     const SmallDisk disk(50'000);
-    const auto words =
-      refusal([&] { replaceFile(file, std::string(100'000, 'x')); });
+    const auto words = refusal([&] { replaceFile(file, std::string(100'000, 'x')); });
     EXPECT_NE(words.find("File too large"), std::string::npos) << words;
     EXPECT_TRUE(words.starts_with(file.string())) << words;
   }
@@ -219,6 +220,86 @@ TEST_F(Output, ClearsWhatAKilledRunLeft)
   EXPECT_EQ(namesIn(out_.parent_path()), (Names{ "out", ".other.palp-abcdef" }));
 }
 
+// lets a child go on for so many stops at system calls, then kills it
+// @return  whether it had ended before
+bool endsWithin(pid_t child, int stops)
+{
+  int status = 0;
+  waitpid(child, &status, 0);
+  for (int i = 0; i < stops && WIFSTOPPED(status); ++i)
+  {
+    ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
+    waitpid(child, &status, 0);
+  }
+  const bool ended = WIFEXITED(status);
+  EXPECT_TRUE(ended ? WEXITSTATUS(status) == 0 : WIFSTOPPED(status));
+  if (!ended)
+  {
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+  }
+  return ended;
+}
+
+TEST_F(Output, KilledAtAnySystemCallTheFolderIsOldOrNew)
+{
+  for (const bool shared : { false, true })
+  {
+    const Names files = shared ? Names{ "notes.txt" } : Names{};
+    int seenOld = 0;
+    int seenNew = 0;
+    bool ended = false;
+    for (int stops = 0; !ended; ++stops)
+    {
+      std::filesystem::remove_all(out_);
+      write("old");
+      std::ofstream(out_ / "plot.png") << "old";
+      if (shared)
+      {
+        std::ofstream(out_ / "notes.txt") << "mine";
+      }
+      const pid_t child = fork();
+      if (child == 0)
+      {
+        ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+        raise(SIGSTOP);
+        write("new", Earlier::Replace);
+        _exit(0);
+      }
+      ended = endsWithin(child, stops);
+      std::set<std::string> texts;
+      int count = 0;
+      for (const char* name : { "a.csv", "b.csv", "plot.png" })
+      {
+        const bool there = std::filesystem::exists(out_ / name);
+        count += there ? 1 : 0;
+        texts.insert(there ? test::readAll(out_ / name) : "");
+      }
+      texts.erase("");
+      ASSERT_LE(texts.size(), 1U) << "two runs are mixed after " << stops;
+      const std::string text = texts.empty() ? "" : *texts.begin();
+      if (!shared)
+      {
+        ASSERT_EQ(count, text == "old" ? 3 : 2) << "some are missing after " << stops;
+      }
+      else
+      {
+        ASSERT_EQ(test::readAll(out_ / "notes.txt"), "mine");
+      }
+      seenOld += text == "old" ? 1 : 0;
+      seenNew += text == "new" ? 1 : 0;
+    }
+    EXPECT_GT(seenOld, 20);
+    EXPECT_GT(seenNew, 5);
+    write("last", Earlier::Replace);
+    expectBoth("last");
+    Names all = files;
+    all.insert({ "a.csv", "b.csv" });
+    EXPECT_EQ(namesIn(out_), all);
+    EXPECT_EQ(namesIn(out_.parent_path()), Names{ "out" });
+  }
+}
+
 TEST_F(Output, SaysWhatStandsInTheWay)
 {
   std::ofstream(folder_.path() / "file") << "x";
@@ -228,8 +309,8 @@ TEST_F(Output, SaysWhatStandsInTheWay)
   EXPECT_NE(refusal([&] { write("1"); }).find("Not a directory"), std::string::npos);
   out_ = folder_.path() / "out";
   std::filesystem::create_directories(out_ / "a.csv");
-  EXPECT_NE(refusal([&] { write("1", Earlier::Replace); }).find("Is a directory"),
-    std::string::npos);
+  EXPECT_NE(
+    refusal([&] { write("1", Earlier::Replace); }).find("Is a directory"), std::string::npos);
 }
 
 } // namespace

@@ -44,6 +44,15 @@ std::string refusal(const Case& study)
   return {};
 }
 
+// into a folder, as the command does it
+Outcome calibrateInto(const std::filesystem::path& folder, const Case& study, bool resume,
+  std::stop_token stop = {}, const Progress& progress = {})
+{
+  OutputFolder output(folder, calibrationFiles(),
+    resume ? OutputFolder::Earlier::Keep : OutputFolder::Earlier::Replace);
+  return fem::calibrateInto(output, study, resume, stop, progress);
+}
+
 // the message of the error that resuming gives; empty when it goes on
 std::string resumeRefusal(const std::filesystem::path& folder, const Case& study)
 {
@@ -202,24 +211,26 @@ void expectWhole(const Outcome& outcome)
   }
 }
 
-// the disk refuses one file after the other, as if the program were killed before it
+// the disk refuses a file, as if the program were killed before it
 TEST(Study, ResumesFromBetweenAnyTwoFiles)
 {
-  for (const char* name : { "profiles.csv", "table.csv", "fit.json", "checkpoint.bin" })
+  for (const char* name : { "table.csv", "checkpoint.bin" })
   {
     const auto folder = test::freshFolder();
-    const auto refused = folder / (std::string(name) + ".new");
+    const auto aside = folder.string() + "_aside";
     EXPECT_THROW((void)calibrateInto(folder, quick(), false, {},
                    [&](std::size_t done, std::size_t)
                    {
                      if (done == 2)
                      {
-                       std::filesystem::create_directory(refused);
+                       std::filesystem::rename(folder / name, aside);
+                       std::filesystem::create_directory(folder / name);
                      }
                    }),
       Error)
       << name;
-    std::filesystem::remove(refused);
+    std::filesystem::remove(folder / name);
+    std::filesystem::rename(aside, folder / name);
     try
     {
       expectWhole(calibrateInto(folder, quick(), true));
@@ -231,13 +242,21 @@ TEST(Study, ResumesFromBetweenAnyTwoFiles)
   }
 }
 
-// no row of the table is without its curve, at no time
-TEST(Study, WritesTheSurfacesBeforeTheTable)
+TEST(Study, AnEarlierCalibrationGoesWithTheFirstDepth)
 {
   const auto folder = test::freshFolder();
-  std::filesystem::create_directories(folder / "table.csv.new");
-  EXPECT_THROW((void)calibrateInto(folder, quick(), false), Error);
-  EXPECT_TRUE(std::filesystem::exists(folder / "profiles.csv"));
+  (void)calibrateInto(folder, quick(), false);
+  std::ofstream(folder / "extent.png") << "of that one";
+  std::stop_source source;
+  source.request_stop();
+  Case other = quick();
+  other.material.youngModulus = 40.0_kPa;
+  EXPECT_NE(calibrateInto(folder, other, false, source.get_token()).trouble, "");
+  EXPECT_EQ(resumeRefusal(folder, quick()), ""); // what is there stays, before any depth
+  EXPECT_TRUE(std::filesystem::exists(folder / "extent.png"));
+  (void)calibrateInto(folder, other, false);
+  EXPECT_EQ(resumeRefusal(folder, other), "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "extent.png"));
 }
 
 TEST(Study, ResumeGoesOnToFurtherDepths)
@@ -373,7 +392,13 @@ TEST(Study, SweepKeepsWhatWorksAndReportsWhatDoesNot)
   good.name = "good";
   std::map<std::string, std::string> told;
   const auto folder = test::freshFolder();
-  sweep(folder, { bad, good }, false, 2, {},
+  std::vector<std::unique_ptr<OutputFolder>> folders;
+  for (const Case& study : { bad, good })
+  {
+    folders.push_back(std::make_unique<OutputFolder>(
+      folder / study.name, calibrationFiles(), OutputFolder::Earlier::Refuse));
+  }
+  sweep(folders, { bad, good }, false, 2, {},
     [&](const std::string& name, const std::string& trouble) { told[name] = trouble; });
   EXPECT_NE(told.at("too large"), "");
   EXPECT_EQ(told.at("good"), "");
