@@ -6,6 +6,12 @@
 
 namespace palp
 {
+namespace
+{
+
+constexpr int kWake = SIGURG; // does nothing by default
+
+} // namespace
 
 Interrupt::Interrupt()
   : Interrupt(nullptr)
@@ -18,6 +24,7 @@ Interrupt::Interrupt(std::function<void()> last)
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
+  sigaddset(&signals_, kWake);
   struct sigaction hangup = {};
   if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN)
   {
@@ -27,28 +34,31 @@ Interrupt::Interrupt(std::function<void()> last)
   listener_ = std::jthread(
     [this](const std::stop_token& finished)
     {
-      const timespec wait{ .tv_sec = 0, .tv_nsec = 100'000'000 };
       while (!finished.stop_requested())
       {
-        const int signal = sigtimedwait(&signals_, nullptr, &wait);
-        if (signal > 0 && last_)
+        const int signal = sigwaitinfo(&signals_, nullptr);
+        if (signal <= 0 || signal == kWake)
         {
-          last_();
-          std::signal(signal, SIG_DFL); // a shell ignores Ctrl-C for what runs in the background
-          kill(getpid(), signal);
-          pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
+          continue;
         }
-        else if (signal > 0)
+        if (!last_)
         {
           source_.request_stop();
+          continue;
         }
+        last_();
+        std::signal(signal, SIG_DFL); // a shell ignores Ctrl-C for what runs in the background
+        kill(getpid(), signal);
+        pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
       }
     });
 }
 
 Interrupt::~Interrupt()
 {
-  listener_ = {}; // ends before the signals act again
+  listener_.request_stop();
+  pthread_kill(listener_.native_handle(), kWake);
+  listener_.join(); // before the signals act again
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 

@@ -577,6 +577,31 @@ TEST_F(WindowTest, ExportsWhatWasMeasured)
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
 }
 
+TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)
+{
+  const auto file = folder_.path() / "samples.csv";
+  std::ofstream(file) << "mine";
+  const auto exporting = [&]
+  { EXPECT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string()))); };
+  EXPECT_TRUE(whatIsSaidOf(exporting).contains("samples.csv")); // and closed without a yes
+  EXPECT_EQ(test::readAll(file), "mine");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+
+  QTimer yes;
+  QObject::connect(&yes, &QTimer::timeout,
+    []
+    {
+      if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+      {
+        message->button(QMessageBox::Yes)->click();
+      }
+    });
+  yes.start(100);
+  exporting();
+  EXPECT_TRUE(test::readAll(file).starts_with("# palp"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
+}
+
 TEST_F(WindowTest, OpensAnotherSurface)
 {
   ASSERT_TRUE(window_->openSurface(PALP_SHARE "/meshes/sphere_50.vtp", "auto"));
