@@ -2,6 +2,7 @@
 
 #include "app/device_words.h"
 #include "app/ledger.h"
+#include "app/program.h"
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/scripted_device.h"
 #include "haptics/devices/usb/found_device.h"

@@ -60,7 +60,7 @@ protected:
   [[nodiscard]] Finished scene(const std::string& arguments) const
   {
     return test::runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " PALP_PROGRAM " scene " +
-      arguments + " --out " + (folder_.path() / "out").string());
+      arguments + " --overwrite --out " + (folder_.path() / "out").string());
   }
   [[nodiscard]] test::CsvTable samples() const
   {
