@@ -79,7 +79,7 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing)
 
 bool exportRecording(const std::filesystem::path& directory, const Body& body,
   const Recording& recording, const Calibration& calibration, const Timing& timing,
-  const std::function<bool(const std::vector<std::string>& found)>& mayReplace)
+  const std::function<bool(const std::string& found)>& mayReplace)
 {
   OutputFolder output(
     directory, { "samples.csv", "deformed.vtp", "servo.csv" }, OutputFolder::Earlier::Replace);

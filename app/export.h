@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace palp
 {
@@ -37,11 +36,11 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing);
 /// Writes samples.csv, deformed.vtp and servo.csv into a directory, which is made when it is
 /// missing: all of them or none.
 ///
-/// @param mayReplace  asked with their names where some are there already
+/// @param mayReplace  asked with their names, as words, where some are there already
 /// @return            false where they may not be replaced
 /// @throws Error      as OutputFolder
 [[nodiscard]] bool exportRecording(const std::filesystem::path& directory, const Body& body,
   const Recording& recording, const Calibration& calibration, const Timing& timing,
-  const std::function<bool(const std::vector<std::string>& found)>& mayReplace);
+  const std::function<bool(const std::string& found)>& mayReplace);
 
 } // namespace palp

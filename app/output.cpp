@@ -20,12 +20,8 @@ std::unique_ptr<OutputFolder> openOutput(
     folder, std::move(own), overwrite ? Earlier::Replace : Earlier::Refuse);
   if (!output->found().empty())
   {
-    std::string names;
-    for (const std::string& name : output->found())
-    {
-      names.append(names.empty() ? "" : ", ").append(name);
-    }
-    std::cerr << "palp: " << folder.string() << ": replaces " << names << " of an earlier run\n";
+    std::cerr << "palp: " << folder.string() << ": replaces " << output->found()
+              << " of an earlier run\n";
   }
   return output;
 }

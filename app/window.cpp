@@ -319,16 +319,11 @@ bool Window::exportData(const QString& directory)
     [&]
     {
       takeSamples();
-      const auto ask = [&](const std::vector<std::string>& found)
+      const auto ask = [&](const std::string& found)
       {
-        QStringList names;
-        for (const std::string& name : found)
-        {
-          names << QString::fromStdString(name);
-        }
+        const QString text = tr("%1 holds %2 already. Replace?");
         return QMessageBox::question(this, tr("Palp"),
-                 tr("%1 holds %2 already. Replace?").arg(directory, names.join(", "))) ==
-          QMessageBox::Yes;
+                 text.arg(directory, QString::fromStdString(found))) == QMessageBox::Yes;
       };
       if (exportRecording(directory.toStdString(), session_.body(), session_.recording(),
             session_.calibration(), session_.timing(), ask))

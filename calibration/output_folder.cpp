@@ -154,7 +154,7 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
     }
     if (isThere(folder_ / name))
     {
-      found_.push_back(name);
+      found_.append(found_.empty() ? "" : ", ").append(name);
     }
   }
   try
@@ -162,8 +162,8 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
     if (earlier_ == Earlier::Refuse && !found_.empty())
     {
       throw Error(ErrorCode::BadFile,
-        shown_.string() + ": holds " + found_.front() +
-          " of an earlier run; pass --overwrite to replace it, or choose another folder");
+        shown_.string() + ": holds " + found_ +
+          " of an earlier run; pass --overwrite to replace that, or choose another folder");
     }
     (void)stage(); // tells before any work whether anything may be written
   }

@@ -46,8 +46,8 @@ public:
     return shown_;
   }
 
-  /// Those of the own files that were there at the start.
-  [[nodiscard]] const std::vector<std::string>& found() const noexcept
+  /// Those of the own files that were there at the start, as words; empty: none.
+  [[nodiscard]] const std::string& found() const noexcept
   {
     return found_;
   }
@@ -73,7 +73,7 @@ private:
   std::filesystem::path folder_; // absolute, no links
   std::vector<std::string> own_;
   Earlier earlier_;
-  std::vector<std::string> found_;
+  std::string found_;
   std::vector<std::filesystem::path> made_; // the folder and those above it, deepest first
   std::filesystem::path stage_;             // empty: none
   std::mutex mutex_;

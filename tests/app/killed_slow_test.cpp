@@ -119,7 +119,7 @@ TEST_F(Killed, RunOfDataOnly)
 
 TEST_F(Killed, RunWithPictures)
 {
-  killOften("run --plots force-time,section --plot-files svg,csv");
+  killOften("run --plots force-time,section --plot-files png,csv");
 }
 
 TEST_F(Killed, Scene)
