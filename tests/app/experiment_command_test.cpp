@@ -28,6 +28,10 @@ TEST(ExperimentCommand, WritesDataFindingAndEveryFigure)
     EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "forces.csv"));
+
+  const std::string again = "inclination --no-picture --out " + folder.path().string();
+  EXPECT_EQ(experiment(again).code, 2);
+  EXPECT_EQ(experiment(again + " --overwrite").code, 0);
 }
 
 TEST(ExperimentCommand, RefusesAnUnknownNameAndAFolderThatCannotBe)

@@ -119,6 +119,20 @@ TEST(StabilityCommand, TellsTheSameInColumnsInWordsAndAsAPicture)
   EXPECT_EQ(test::readAll(folder.path() / "stability.svg").find("<svg"), 0u);
 }
 
+TEST(StabilityCommand, LeavesTheStudyBeforeUntilItsEnd)
+{
+  const test::TemporaryFolder folder;
+  const auto table = folder.path() / "stability.csv";
+  std::ofstream(table) << "of the study before";
+  const std::string out = " --out " + folder.path().string();
+  EXPECT_EQ(stability("--quick" + out).code, 2); // without --overwrite
+  const test::Finished ended =
+    test::runCommand("timeout -s INT 0.5 " PALP_PROGRAM " stability --overwrite" + out);
+  EXPECT_EQ(ended.code, 124) << ended.err;
+  EXPECT_EQ(test::readAll(table), "of the study before");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
 TEST(StabilityCommand, RefusesAPlaceWhereItCannotWrite)
 {
   const test::TemporaryFolder folder;
