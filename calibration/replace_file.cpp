@@ -65,15 +65,20 @@ int syncToDisk(const fs::path& path)
   return file && (fsync(file.get()) == 0 || errno == EINVAL) ? 0 : errno;
 }
 
-void refuseFile(const fs::path& file, int reason)
+std::string shownName(const fs::path& file)
 {
   fs::path shown;
   for (const fs::path& part : file)
   {
     shown /= isHidden(part.string()) ? fs::path() : part;
   }
+  return shown.string();
+}
+
+void refuseFile(const fs::path& file, int reason)
+{
   throw Error(ErrorCode::BadFile,
-    shown.string() + ": cannot be written (" + std::generic_category().message(reason) +
+    shownName(file) + ": cannot be written (" + std::generic_category().message(reason) +
       "); choose a folder with room where you may write");
 }
 

@@ -23,8 +23,10 @@ namespace palp
 /// @return  0, or errno
 int syncToDisk(const std::filesystem::path& path);
 
-/// Ends the writing of a file with what the system said; hidden folders are
-/// left out of its name.
+/// The name of a file as it will be, without the hidden folders that it waits in.
+[[nodiscard]] std::string shownName(const std::filesystem::path& file);
+
+/// Ends the writing of a file with what the system said.
 /// @param reason  errno
 /// @throws Error  BadFile
 [[noreturn]] void refuseFile(const std::filesystem::path& file, int reason);

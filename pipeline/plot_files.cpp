@@ -94,7 +94,7 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
   if (uniform(*grab->GetOutput()))
   {
     throw Error(ErrorCode::NoPicture,
-      file.string() +
+      shownName(file) +
         ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
   }
   vtkNew<vtkPNGWriter> writer;
@@ -139,7 +139,7 @@ void writePdf(vtkRenderWindow& window, const std::filesystem::path& file)
     if (!convert(svg, pdf))
     {
       throw Error(ErrorCode::BadFile,
-        file.string() + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
+        shownName(file) + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
     }
   };
   replaceFile(file, make);
