@@ -156,7 +156,6 @@ NumberTable NumberTable::readColumns(
     throw Error(ErrorCode::BadFile,
       file.string() + ": no column " + columns.front() + "; begin with a line that names it");
   }
-  refuseInfinite(table, file);
   table.names = std::move(names);
   for (Row& row : table.rows)
   {
@@ -167,6 +166,7 @@ NumberTable NumberTable::readColumns(
     }
     row.values = std::move(picked);
   }
+  refuseInfinite(table, file); // what nobody asked for may be: a half-space is infinitely thick
   return table;
 }
 
