@@ -5,6 +5,7 @@
 #include "app/program.h"
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/scripted_device.h"
+#include "haptics/devices/simulated_hand.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
@@ -83,12 +84,16 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
   ++recording_.scene.version;
+  if (guided_ != nullptr)
+  {
+    guided_->setScene(recording_.scene);
+  }
   servo_->setScene(recording_.scene);
   recording_.samples.clear();
   recordedFrom_ = servo_->newest().time + kForgiving;
 }
 
-HandTarget Session::restingPlace() const
+ToolPose Session::restingPlace() const
 {
   // above the highest point of the body, pointing down
   const auto points = body_.haptic->points();
@@ -102,21 +107,15 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
 {
   if (name == "mouse")
   {
-    auto pointer = std::make_unique<Pointer>(restingPlace());
-    moveTool_ = [&device = *pointer](const HandTarget& target) { device.moveTo(target); };
-    return pointer;
+    return std::make_unique<Pointer>(restingPlace());
   }
   if (name == "hand")
   {
-    auto hand = std::make_unique<SimulatedHand>(restingPlace());
-    moveTool_ = [&device = *hand](const HandTarget& target) { device.moveTo(target); };
-    return hand;
+    return std::make_unique<SimulatedHand>(restingPlace());
   }
   if (isScripted(name))
   {
-    auto script = std::make_unique<ScriptedDevice>(readScript(name));
-    moveTool_ = [](const HandTarget&) {};
-    return script;
+    return std::make_unique<ScriptedDevice>(readScript(name));
   }
   if (namesHardware(name))
   {
@@ -125,9 +124,7 @@ std::unique_ptr<Device> Session::makeDevice(const std::string& name)
       servo_.reset();
       device_.reset();
     }
-    auto hardware = openDevice(name, { .origin = restingPlace().apex });
-    moveTool_ = [](const HandTarget&) {};
-    return hardware;
+    return openDevice(name, { .origin = restingPlace().apex });
   }
   throw Error(ErrorCode::BadValue,
     "--device: '" + name +
@@ -162,11 +159,16 @@ void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
 {
   servo_.reset(); // stops before its device goes
   device_ = std::move(device);
+  guided_ = device_->guided();
   recording_.device = name;
   recording_.samples.clear();
   recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
   armedAt_ = 0.0;
   recordedFrom_ = 0.0;
+  if (guided_ != nullptr)
+  {
+    guided_->setScene(recording_.scene);
+  }
   servo_ = std::make_unique<Servo>(*device_, recording_.scene, servoOptions_);
 }
 
@@ -215,9 +217,12 @@ void Session::stop(bool stopped)
   }
 }
 
-void Session::aim(const HandTarget& target)
+void Session::aim(const PressTarget& target)
 {
-  moveTool_(target);
+  if (guided_ != nullptr)
+  {
+    guided_->moveTo(target);
+  }
 }
 
 void Session::update(const std::function<void(const Sample&)>& each)

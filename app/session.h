@@ -5,7 +5,7 @@
 #include "app/recording.h"
 #include "app/scene_plan.h"
 #include "haptics/devices/device.h"
-#include "haptics/devices/simulated_hand.h"
+#include "haptics/devices/guided_tool.h"
 #include "haptics/servo/servo.h"
 
 #include <atomic>
@@ -79,7 +79,7 @@ public:
   }
 
   /// Moves the tool of mouse and hand; other devices move themselves.
-  void aim(const HandTarget& target);
+  void aim(const PressTarget& target);
 
   /// Fetches what the servo thread did since the last call.
   /// @param each  called for each new sample, in order
@@ -115,7 +115,7 @@ public:
 private:
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);
   void keepHolding();
-  [[nodiscard]] HandTarget restingPlace() const;
+  [[nodiscard]] ToolPose restingPlace() const;
 
   ScenePlan plan_;
   ServoOptions servoOptions_;
@@ -124,8 +124,8 @@ private:
   Calibration calibration_;
   double armedAt_ = 0.0;      // time of the servo from which on a fault is a new one [s]
   double recordedFrom_ = 0.0; // and from which on a sample is of the tool and tissue in use [s]
-  std::function<void(const HandTarget&)> moveTool_;
   std::unique_ptr<Device> device_;
+  GuidedTool* guided_ = nullptr; // of the device; null where it moves by itself
   std::unique_ptr<Servo> servo_; // last: it uses the device
 };
 

@@ -39,6 +39,7 @@ void vtkPalpPressStyle::OnLeftButtonUp()
 //------------------------------------------------------------------------------
 void vtkPalpPressStyle::OnRightButtonDown()
 {
+  this->Turn();
   if (this->Interactor->GetControlKey())
   {
     this->Superclass::OnRightButtonDown();
@@ -57,14 +58,22 @@ void vtkPalpPressStyle::OnRightButtonUp()
 }
 
 //------------------------------------------------------------------------------
+void vtkPalpPressStyle::OnMiddleButtonDown()
+{
+  this->Turn();
+  this->Superclass::OnMiddleButtonDown();
+}
+
+//------------------------------------------------------------------------------
 void vtkPalpPressStyle::OnMouseWheelForward()
 {
   if (this->Interactor->GetControlKey())
   {
+    this->Turn();
     this->Superclass::OnMouseWheelForward();
     return;
   }
-  this->Wheel(-1);
+  this->RollWheel(-1);
 }
 
 //------------------------------------------------------------------------------
@@ -72,8 +81,29 @@ void vtkPalpPressStyle::OnMouseWheelBackward()
 {
   if (this->Interactor->GetControlKey())
   {
+    this->Turn();
     this->Superclass::OnMouseWheelBackward();
     return;
   }
-  this->Wheel(1);
+  this->RollWheel(1);
+}
+
+//------------------------------------------------------------------------------
+void vtkPalpPressStyle::RollWheel(int notches)
+{
+  if (!this->Pressing && this->State == VTKIS_NONE)
+  {
+    const int* position = this->Interactor->GetEventPosition();
+    this->Hover(position[0], position[1]); // the wheel may turn before the pointer has moved
+  }
+  this->Wheel(notches);
+}
+
+//------------------------------------------------------------------------------
+void vtkPalpPressStyle::OnLeave()
+{
+  if (!this->Pressing) // a drag may go on beyond the view
+  {
+    this->Leave();
+  }
 }

@@ -24,14 +24,18 @@ public:
   std::function<void(int pixelsDown)> Drag;
   std::function<void()> Release;
   std::function<void(int notches)> Wheel;
+  std::function<void()> Turn;  ///< the view changes below the pointer
+  std::function<void()> Leave; ///< the pointer left the view, with no button down
 
   void OnMouseMove() override;
   void OnLeftButtonDown() override;
   void OnLeftButtonUp() override;
   void OnRightButtonDown() override;
   void OnRightButtonUp() override;
+  void OnMiddleButtonDown() override;
   void OnMouseWheelForward() override;
   void OnMouseWheelBackward() override;
+  void OnLeave() override;
   void OnChar() override
   {
   } // the letters of the toolkit's default would surprise
@@ -43,6 +47,8 @@ protected:
 private:
   vtkPalpPressStyle(const vtkPalpPressStyle&) = delete;
   void operator=(const vtkPalpPressStyle&) = delete;
+
+  void RollWheel(int notches);
 
   bool Pressing = false;
   int PressedAt = 0; // y of the pointer when the button went down

@@ -34,18 +34,8 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kFrameMs = 16;      // the picture
-constexpr int kPlotMs = 100;      // the curves, which cost more and need less
-constexpr double kHover = 3.0_mm; // of the apex above the surface
-
-// a place of the picture, 0 at the near plane and 1 at the far one
-Eigen::Vector3d worldPoint(vtkRenderer& renderer, int x, int y, double depth)
-{
-  renderer.SetDisplayPoint(x, y, depth);
-  renderer.DisplayToWorld();
-  const double* world = renderer.GetWorldPoint();
-  return Eigen::Vector3d(world[0], world[1], world[2]) / world[3];
-}
+constexpr int kFrameMs = 16; // the picture
+constexpr int kPlotMs = 100; // the curves, which cost more and need less
 
 // whether nobody could tell their pictures apart
 bool looksAlike(const Sample& a, const Sample& b)
@@ -60,18 +50,12 @@ bool looksAlike(const Sample& a, const Sample& b)
     std::abs(a.response.force - b.response.force) < kForce;
 }
 
-// distance from the line on which a place is pressed [m]
-double aside(const Eigen::Vector3d& apex, const SurfacePoint& place)
-{
-  const Eigen::Vector3d from = apex - place.position;
-  return (from - from.dot(place.normal) * place.normal).norm();
-}
-
 } // namespace
 
 Window::Window(Session& session, Ledger& ledger)
   : session_(session)
   , view_(*renderer_)
+  , pointer_([this](double x, double y) { return sightLine(x, y); })
   , validity_(session.recording().scene.law)
 {
   resize(QSize(1440, 860).boundedTo(screen()->availableSize()));
@@ -105,45 +89,9 @@ void Window::showBody()
 {
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   view_.setSurface(session_.body().display);
+  pointer_.setSurface(session_.body().haptic);
   view_.lookAtSurface();
   isStale_ = true;
-}
-
-void Window::point(int x, int y)
-{
-  const Eigen::Vector3d near = worldPoint(*renderer_, x, y, 0.0);
-  const Eigen::Vector3d far = worldPoint(*renderer_, x, y, 1.0);
-  target_ = pick(*session_.body().haptic, near, (far - near).normalized());
-  aim();
-}
-
-void Window::setDepth(double depth)
-{
-  depth_ = std::clamp(depth, 0.0, kDeepest);
-  aim();
-}
-
-// the straight way to another place may lead through the body: the tool lifts off where it is, and
-// presses only once it is above the place
-void Window::aim()
-{
-  if (!target_)
-  {
-    return;
-  }
-  const Sample& now = session_.newest();
-  const bool touching = now.contact.touching();
-  const bool lifting = !pressing_ && depth_ == 0.0;
-  const bool elsewhere = !touching && aside(now.pose.apex, *target_) > kHover;
-  if (!lifting && !elsewhere)
-  {
-    pressed_ = target_;
-  }
-  const SurfacePoint& place = lifting && touching && pressed_ ? *pressed_ : *target_;
-  const double below = lifting || elsewhere ? -kHover : depth_;
-  session_.aim({ .apex = place.position - below * place.normal,
-    .axis = -place.normal,
-    .lifted = (lifting || elsewhere) && !touching });
 }
 
 void Window::takeSamples()
@@ -170,7 +118,7 @@ void Window::clearCharts()
 void Window::refresh()
 {
   takeSamples();
-  aim(); // what stood in the way may be passed
+  aim(); // a click ends by itself
   const Sample& sample = session_.newest();
   if (isStale_ || !looksAlike(sample, shown_))
   {
@@ -281,8 +229,6 @@ bool Window::openSurface(const QString& file, const QString& unit)
     [&]
     {
       session_.open(file.toStdString(), unit.toStdString());
-      target_.reset();
-      pressed_.reset();
       clearCharts();
       showBody();
     });

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/pointer_tool.h"
 #include "app/session.h"
-#include "app/surface_point.h"
 #include "haptics/force/validity.h"
 #include "pipeline/force_charts.h"
 #include "pipeline/press_view.h"
@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 
 class QLabel;
 class QVTKOpenGLNativeWidget;
@@ -49,12 +48,14 @@ public:
   bool savePlots(const QString& file);
   bool exportData(const QString& directory);
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 private:
   static constexpr const char* kLookForDevices = "look for devices…";
   static constexpr const char* kHint =
     "Point at the surface, press with the left button, drag down to go deeper; the wheel holds a "
     "depth; the right button turns the view, Ctrl and the wheel zoom, the middle button moves it";
-  static constexpr double kDeepest = 0.05; // that a pointer asks for [m]
 
   void makeView();
   void makeDocks();
@@ -68,9 +69,10 @@ private:
   void showBody();
 
   // the pointer as a tool, in display pixels
-  void point(int x, int y);
-  void setDepth(double depth);
+  void makePointer();
+  [[nodiscard]] SightLine sightLine(double x, double y);
   void aim();
+  void letGo();
 
   void takeSamples();
   void clearCharts();
@@ -88,11 +90,7 @@ private:
   PressView view_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
-  std::optional<SurfacePoint> target_;  // below the pointer
-  std::optional<SurfacePoint> pressed_; // where the tool was pressed last
-  double depth_ = 0.0;                  // asked for by drag [m]
-  double heldDepth_ = 0.0;              // asked for by wheel, stays between presses [m]
-  bool pressing_ = false;
+  PointerTool pointer_;
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
   Validity validity_;        // of the law that the session uses
   Sample shown_;             // in the picture

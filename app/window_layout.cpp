@@ -35,9 +35,6 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kDepthPerPixel = 0.05_mm; // of a drag
-constexpr double kDepthPerNotch = 0.5_mm;  // of the wheel
-
 QDockWidget* addDock(
   QMainWindow* window, Qt::DockWidgetArea area, const QString& title, QWidget* content)
 {
@@ -96,25 +93,7 @@ void Window::makeView()
     view_.setVisible(*session_.plan().overlays);
   }
 
-  style_->Hover = [this](int x, int y) { point(x, y); };
-  style_->Press = [this](int x, int y)
-  {
-    point(x, y);
-    pressing_ = true;
-    setDepth(heldDepth_);
-  };
-  style_->Drag = [this](int pixelsDown) { setDepth(heldDepth_ + pixelsDown * kDepthPerPixel); };
-  style_->Release = [this]
-  {
-    pressing_ = false;
-    setDepth(heldDepth_);
-  };
-  style_->Wheel = [this](int notches)
-  {
-    heldDepth_ = std::clamp(heldDepth_ + notches * kDepthPerNotch, 0.0, kDeepest);
-    setDepth(heldDepth_);
-  };
-  canvas_->interactor()->SetInteractorStyle(style_);
+  makePointer();
 }
 
 void Window::makeDocks()
@@ -253,7 +232,13 @@ void Window::makeDeviceMenu()
 {
   QMenu* device = menuBar()->addMenu(tr("&Device"));
   QAction* stop = device->addAction(
-    tr("&Stop the force"), this, [this] { session_.stop(true); }, QKeySequence(Qt::Key_Escape));
+    tr("&Stop the force"), this,
+    [this]
+    {
+      letGo();
+      session_.stop(true);
+    },
+    QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
   device->addAction(
     tr("&Look for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);

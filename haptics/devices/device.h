@@ -34,6 +34,8 @@ struct DeviceStatus
   double age = 0.0;          ///< of the pose, since the hardware sent it [s]
 };
 
+class GuidedTool; // haptics/devices/guided_tool.h
+
 /// One thing that holds the tool: a hand, an arm, a recorded path.
 ///
 /// Set up and closed on the main thread; exchange() is called by one thread only.
@@ -52,6 +54,12 @@ public:
   /// @realtime     no allocation, no lock, no exception; must not block
   [[nodiscard]] virtual std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double dt) noexcept = 0;
+
+  /// What the main thread steers; null for a device that moves by itself.
+  [[nodiscard]] virtual GuidedTool* guided() noexcept
+  {
+    return nullptr;
+  }
 
   /// As of the last exchange.
   /// @realtime  no allocation, no lock, no exception

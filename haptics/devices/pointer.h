@@ -1,33 +1,37 @@
 #pragma once
 
 #include "haptics/devices/device.h"
-#include "haptics/devices/simulated_hand.h"
-#include "haptics/servo/latest.h"
+#include "haptics/devices/guided_tool.h"
 
 namespace palp
 {
 
-/// A tool that goes where the mouse says, whatever the force: the jumps of a mouse become motion.
+/// A tool that goes where the mouse says, over the surface, whatever the force.
 class Pointer final : public Device
 {
 public:
-  static constexpr double kSpeed = 0.25;    ///< at most [m/s], a quick stroke of a hand
-  static constexpr double kLagTime = 0.020; ///< to close most of a short gap [s]
+  /// @throws Error  as GuidedTool
+  explicit Pointer(const ToolPose& start)
+    : tool_(start)
+  {
+  }
 
-  /// @param start    the tool rests there
-  /// @throws Error   BadValue: not finite
-  explicit Pointer(const HandTarget& start);
-
-  /// Moves the target; main thread only. A target that is not finite is ignored.
-  void moveTo(const HandTarget& target);
-
-  [[nodiscard]] DeviceLimits limits() const override;
+  [[nodiscard]] GuidedTool* guided() noexcept override
+  {
+    return &tool_;
+  }
+  [[nodiscard]] DeviceLimits limits() const override
+  {
+    return { .model = "mouse" };
+  }
   [[nodiscard]] std::optional<ToolPose> exchange(
-    const Eigen::Vector3d& force, double dt) noexcept override;
+    const Eigen::Vector3d&, double dt) noexcept override
+  {
+    return tool_.advance(dt);
+  }
 
 private:
-  Latest<HandTarget> target_;
-  ToolPose pose_;
+  GuidedTool tool_;
 };
 
 } // namespace palp

@@ -17,9 +17,9 @@ constexpr double kTurnTime = 0.020; // for most of a turn of the wrist toward th
 
 } // namespace
 
-SimulatedHand::SimulatedHand(const HandTarget& start, const HandMechanics& mechanics)
+SimulatedHand::SimulatedHand(const ToolPose& start, const HandMechanics& mechanics)
   : mechanics_(mechanics)
-  , target_(start)
+  , tool_(start)
   , pose_{ .apex = start.apex, .axis = start.axis }
 {
   const auto isZeroOrMore = [](double value) { return std::isfinite(value) && value >= 0.0; };
@@ -29,18 +29,6 @@ SimulatedHand::SimulatedHand(const HandTarget& start, const HandMechanics& mecha
     throw Error(ErrorCode::BadValue,
       "simulated hand: mass, damping or stiffness out of range; give a mass above 0 kg, a damping "
       "and a stiffness of 0 or more");
-  }
-  if (!start.apex.allFinite() || !start.axis.allFinite())
-  {
-    throw Error(ErrorCode::BadValue, "simulated hand: start is not finite; give a place in metres");
-  }
-}
-
-void SimulatedHand::moveTo(const HandTarget& target)
-{
-  if (target.apex.allFinite() && target.axis.allFinite())
-  {
-    target_.publish(target);
   }
 }
 
@@ -54,7 +42,10 @@ DeviceLimits SimulatedHand::limits() const
 
 std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, double dt) noexcept
 {
-  const HandTarget& target = target_.read();
+  const Scene& scene = tool_.scene();
+  const bool isFree = scene.surface == nullptr ||
+    !findContact(*scene.surface, scene.law.tip(), pose_, scene.rule).touching();
+  const ToolPose& target = tool_.advance(std::isfinite(dt) ? dt : 0.0, isFree);
   if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
   {
     // (m + c dt + k dt^2) v' = m v + dt (F + k (target - x)), then x' = x + dt v'

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "haptics/devices/device.h"
-#include "haptics/servo/latest.h"
+#include "haptics/devices/guided_tool.h"
 
 namespace palp
 {
@@ -18,26 +18,20 @@ struct HandMechanics
   double stiffness = 135.0; ///< of the muscles toward the target [N/m], 0 or more
 };
 
-/// Where a hand wants the apex of the tool, and how it holds it.
-struct HandTarget
-{
-  Eigen::Vector3d apex = Eigen::Vector3d::Zero();   ///< [m]
-  Eigen::Vector3d axis = -Eigen::Vector3d::UnitZ(); ///< unit vector from handle to apex
-  bool lifted = false; ///< nothing is in the way: a tool without mass may appear there at once
-};
-
-/// A hand without a device: a mass with a damper, pulled to a target by the spring of its muscles.
+/// A hand without a device: a mass with a damper, pulled by the spring of its muscles to where a
+/// tool without mass would be.
 class SimulatedHand final : public Device
 {
 public:
-  /// @param start      the hand rests there, with its target at the same place
+  /// @param start      the hand rests there until its tool is steered
   /// @param mechanics  within the ranges of HandMechanics
   /// @throws Error     BadValue: a value out of its range
-  explicit SimulatedHand(const HandTarget& start, const HandMechanics& mechanics = {});
+  explicit SimulatedHand(const ToolPose& start, const HandMechanics& mechanics = {});
 
-  /// Moves the target; main thread only. A target that is not finite is ignored.
-  void moveTo(const HandTarget& target);
-
+  [[nodiscard]] GuidedTool* guided() noexcept override
+  {
+    return &tool_;
+  }
   [[nodiscard]] DeviceLimits limits() const override;
 
   /// Implicit in spring and damper, so that it is stable for any tick.
@@ -46,7 +40,7 @@ public:
 
 private:
   HandMechanics mechanics_;
-  Latest<HandTarget> target_;
+  GuidedTool tool_;
   ToolPose pose_;
 };
 

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-const HandTarget kOrigin{};
-const HandTarget kAside{ .apex = Vector3d(0.0, 10.0_mm, 0.0) };
+const ToolPose kOrigin{};
+const PressTarget kAside{ .place = Vector3d(0.0, 10.0_mm, 1.0_mm), .depth = 1.0_mm };
 
 // a damped oscillator let go at rest, from a textbook
 double textbook(const HandMechanics& hand, double from, double time)
@@ -33,7 +33,7 @@ TEST(SimulatedHand, MovesAsADampedOscillator)
 {
   const HandMechanics mechanics;
   SimulatedHand hand(kOrigin, mechanics);
-  hand.moveTo(kAside);
+  hand.guided()->moveTo(kAside);
   const double tick = 0.1_ms;
   for (int i = 1; i <= 10000; ++i)
   {
@@ -48,7 +48,7 @@ TEST(SimulatedHand, ConvergesWithItsTick)
   const auto error = [](double tick)
   {
     SimulatedHand hand(kOrigin);
-    hand.moveTo(kAside);
+    hand.guided()->moveTo(kAside);
     double y = 0.0;
     for (int i = 0; i < static_cast<int>(std::lround(0.1 / tick)); ++i)
     {
@@ -76,7 +76,7 @@ TEST(SimulatedHand, IsStableForAnyTick)
   for (const double tick : { 1e-6, 1.0_ms, 0.1, 10.0 })
   {
     SimulatedHand hand(kOrigin, { .mass = 0.001, .damping = 0.0, .stiffness = 1e6 });
-    hand.moveTo(kAside);
+    hand.guided()->moveTo(kAside);
     for (int i = 0; i < 1000; ++i)
     {
       ASSERT_LE(hand.exchange(Vector3d::Zero(), tick)->apex.norm(), 20.0_mm * 1.001) << tick;
@@ -87,8 +87,8 @@ TEST(SimulatedHand, IsStableForAnyTick)
 TEST(SimulatedHand, StaysFiniteWhateverItIsGiven)
 {
   SimulatedHand hand(kOrigin);
-  hand.moveTo({ .apex = Vector3d(kNaN, 0, 0) });
-  hand.moveTo({ .axis = Vector3d(kNaN, 0, 0) });
+  hand.guided()->moveTo({ .place = Vector3d(kNaN, 0, 0) });
+  hand.guided()->moveTo({ .normal = Vector3d(kNaN, 0, 0) });
   for (const double tick : { kNaN, -1.0, 0.0, HUGE_VAL })
   {
     EXPECT_TRUE(hand.exchange(Vector3d(kNaN, 0, 0), tick)->apex.allFinite());
