@@ -24,15 +24,12 @@
 #include <QStatusBar>
 #include <QTimer>
 
-#include <algorithm>
 #include <utility>
 
 namespace palp
 {
 namespace
 {
-
-using namespace units::literals;
 
 constexpr int kFrameMs = 16; // the picture
 constexpr int kPlotMs = 100; // the curves, which cost more and need less

@@ -7,7 +7,6 @@
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
 #include "app/window.h"
-#include "haptics/units.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkContextScene.h>
@@ -32,8 +31,6 @@ namespace palp
 {
 namespace
 {
-
-using namespace units::literals;
 
 QDockWidget* addDock(
   QMainWindow* window, Qt::DockWidgetArea area, const QString& title, QWidget* content)

@@ -66,10 +66,12 @@ protected:
     QTest::qWait(100);
     QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
     QTest::mouseMove(canvas_, middle + QPoint(0, pixelsDown));
-    const auto rests = [this]
+    const double told = session_->newest().time;
+    const auto rests = [this, told] // and not since before the drag
     {
       const Sample sample = session_->newest();
-      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5;
+      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5 &&
+        sample.time > told + 0.1;
     };
     EXPECT_TRUE(QTest::qWaitFor(rests, kPatience));
   }
