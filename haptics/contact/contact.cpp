@@ -16,6 +16,8 @@ constexpr double kSmoothing = 1.5; // [-] edge lengths; below 1.2 the facets com
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear vote
 constexpr double kRounding = 1e-9; // [-]
+constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
+constexpr double kFinest = 2.0;    // [-] such sums across the least contact
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 
 // the ball that meets a smooth body first; a sharp or flat tip has one of radius zero
@@ -36,20 +38,16 @@ double noseRadius(const Tip& tip) noexcept
   return 0.0;
 }
 
-// radius over which facets may be smoothed out: the mesh's scale, within the contact
-double smoothingRadius(const Tip& tip, double nose, double distance, double edgeLength) noexcept
+// radius of the contact, as the undeformed surface cuts it out of the tool
+double contactRadius(const Tip& tip, double nose, double distance) noexcept
 {
-  double contact = flatRadius(tip);
   if (nose > 0.0)
   {
     const double outside = std::max(0.0, distance);
-    contact = std::sqrt(std::max(0.0, nose * nose - outside * outside));
+    return std::sqrt(std::max(0.0, nose * nose - outside * outside));
   }
-  else if (contact == 0.0)
-  {
-    contact = std::min(2.0 * std::abs(distance), baseRadius(tip));
-  }
-  return std::min(kSmoothing * edgeLength, contact);
+  const double flat = flatRadius(tip);
+  return flat > 0.0 ? flat : std::min(2.0 * std::abs(distance), baseRadius(tip));
 }
 
 // Distance to the surface that the facets stand for.
@@ -78,7 +76,9 @@ struct Neighbourhood
 Neighbourhood look(
   const Surface& surface, const Tip& tip, const Eigen::Vector3d& place, double distance) noexcept
 {
-  const double radius = smoothingRadius(tip, noseRadius(tip), distance, surface.edgeLength());
+  // facets are smoothed out over the scale of the mesh, within the contact
+  const double radius = std::min(
+    kSmoothing * surface.edgeLength(), contactRadius(tip, noseRadius(tip), distance));
   const double squaredBall = distance * distance + radius * radius;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
   return { distance, radius, squaredBall,
@@ -134,11 +134,16 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   }
   contact.center = place - height * contact.normal;
   contact.triangle = nearest.triangle;
-  const Curvature bend = surface.curvature(nearest.point, nearest.triangle, contact.normal);
-  contact.surfaceCurvature = bend.mean;
-  contact.curvatureSpread = bend.spread;
-  contact.thickness = distanceToFarSide(surface, contact.center, -contact.normal);
-  contact.edgeDistance = surface.edgeDistance(contact.center, contact.triangle);
+  const double grain = kGrain * (nose + flatRadius(tip));
+  const double span = std::max(
+    { contactRadius(tip, nose, distance), surface.shape().finest(), kFinest * grain });
+  const LocalShape shape =
+    surface.shape()(place, std::hypot(distance, span), contact.normal, grain);
+  contact.surfaceCurvature = shape.meanCurvature;
+  contact.curvatureSpread = shape.curvatureSpread;
+  contact.thickness = shape.thickness;
+  contact.edgeDistance =
+    std::min(shape.edgeDistance, surface.edgeDistance(contact.center, contact.triangle));
   return contact;
 }
 

@@ -26,9 +26,9 @@ struct Contact
   double tilt = 0.0;                                ///< tool axis to -normal [rad]
   int triangle = -1;                                ///< below the centre; -1 when apart
   double surfaceCurvature = 0.0;                    ///< mean, 1/R0 [1/m], convex positive
-  double curvatureSpread = 0.0;                     ///< see Curvature [1/m]
+  double curvatureSpread = 0.0;                     ///< half the difference [1/m]
   double thickness = std::numeric_limits<double>::infinity();    ///< of the body below [m]
-  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open edge [m]
+  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open or sharp edge [m]
 
   [[nodiscard]] bool touching() const noexcept
   {

@@ -95,11 +95,11 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
     }
   }
   linkEdges();
-  curvature_ = curvatureTensors(points_, normals_, [this](int point) { return neighbours(point); });
   if (!closed())
   {
     spreadOpenEdges();
   }
+  shape_ = ShapeField(*this);
 }
 
 void Surface::linkEdges()
@@ -215,24 +215,6 @@ double Surface::edgeDistance(const Eigen::Vector3d& position, int triangle) cons
     }
   }
   return nearest;
-}
-
-Curvature Surface::curvature(
-  const Eigen::Vector3d& position, int triangle, const Eigen::Vector3d& normal) const noexcept
-{
-  // each point counts by the area across from it
-  const Triangle& t = triangles_[at(triangle)];
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  double total = 0.0;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const Eigen::Vector3d& a = points_[at(t[(k + 1) % 3])];
-    const Eigen::Vector3d& b = points_[at(t[(k + 2) % 3])];
-    const double area = (a - position).cross(b - position).norm();
-    sum += area * curvature_[at(t[k])].cast<double>();
-    total += area;
-  }
-  return total > 0.0 ? curvatureAcross(sum / total, normal) : Curvature{};
 }
 
 } // namespace palp

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "haptics/contact/box_tree.h"
-#include "haptics/contact/curvature.h"
+#include "haptics/contact/shape_field.h"
 
 #include <Eigen/Core>
 #include <array>
@@ -73,13 +73,11 @@ public:
   /// @realtime        pure; no allocation, no lock, no exception
   [[nodiscard]] double edgeDistance(const Eigen::Vector3d& position, int triangle) const noexcept;
 
-  /// Curvature at a place, interpolated between the points of its triangle.
-  ///
-  /// @param position  on the triangle [m]
-  /// @param normal    unit vector across which to see it
-  /// @realtime        pure; no allocation, no lock, no exception
-  [[nodiscard]] Curvature curvature(
-    const Eigen::Vector3d& position, int triangle, const Eigen::Vector3d& normal) const noexcept;
+  /// Curvature, thickness and edges, averaged over a contact.
+  [[nodiscard]] const ShapeField& shape() const noexcept
+  {
+    return shape_;
+  }
 
   /// Root mean square of the edge lengths [m], the scale below which the mesh knows nothing.
   [[nodiscard]] double edgeLength() const noexcept
@@ -105,9 +103,9 @@ private:
   std::vector<std::array<int, 3>> across_;
   std::vector<std::array<int, 2>> openEdges_;
   std::vector<int> nearestOpenEdge_; // per point, empty when closed
-  std::vector<Eigen::Matrix3f> curvature_;
   double edgeLength_ = 0.0;
   BoxTree tree_;
+  ShapeField shape_;
 };
 
 } // namespace palp

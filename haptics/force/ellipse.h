@@ -12,7 +12,9 @@ namespace palp
 class EllipseFactor
 {
 public:
-  static constexpr double kSlimmest = 0.9; ///< spread beyond which the factor stays
+  /// Spread beyond which the factor stays: the contact is 2.6 times as long as wide, and no longer
+  /// on the part of a body that its curvature at one place describes.
+  static constexpr double kSlimmest = 0.6;
 
   EllipseFactor();
 

@@ -168,10 +168,15 @@ Response ForceLaw::paper(double depth) const noexcept
     .stiffness = material_.contactModulus() * contact.stiffness };
 }
 
+double ForceLaw::layerThickness(const Indentation& local) const noexcept
+{
+  return corrections_->layer.layerThickness(local.thickness, local.surfaceCurvature);
+}
+
 LinearContact ForceLaw::linear(const Indentation& local) const noexcept
 {
   return corrections_ != nullptr && corrections_->coated
-    ? (*corrections_->coated)(local.depth, local.thickness, local.surfaceCurvature)
+    ? (*corrections_->coated)(local.depth, layerThickness(local), local.surfaceCurvature)
     : uncoated(local);
 }
 
@@ -180,21 +185,26 @@ LinearContact ForceLaw::uncoated(const Indentation& local) const noexcept
   const bool plain = local.thickness == kInfinite && local.surfaceCurvature == 0.0;
   return plain || corrections_ == nullptr
     ? halfSpace_(local.depth)
-    : corrections_->layer(local.depth, local.thickness, local.surfaceCurvature);
+    : corrections_->layer(local.depth, layerThickness(local), local.surfaceCurvature);
+}
+
+double ForceLaw::gapSpread(const Indentation& local) const noexcept
+{
+  const bool round =
+    std::holds_alternative<SphereTip>(tip_) || std::holds_alternative<ParaboloidTip>(tip_);
+  const Indentation place = sanitized(local, settings_);
+  if (!round || place.curvatureSpread == 0.0 || corrections_ == nullptr)
+  {
+    return 0.0;
+  }
+  const double mean =
+    1.0 / baseRadius(tip_) + corrections_->layer.allowedCurvature(place.surfaceCurvature);
+  return place.curvatureSpread / mean;
 }
 
 double ForceLaw::ellipse(const Indentation& local) const noexcept
 {
-  const bool round =
-    std::holds_alternative<SphereTip>(tip_) || std::holds_alternative<ParaboloidTip>(tip_);
-  if (!round || local.curvatureSpread == 0.0 || corrections_ == nullptr)
-  {
-    return 1.0;
-  }
-  // curvature of the gap, mean over the directions
-  const double mean =
-    1.0 / baseRadius(tip_) + corrections_->layer.allowedCurvature(local.surfaceCurvature);
-  return corrections_->ellipse(local.curvatureSpread / mean);
+  return corrections_ != nullptr ? corrections_->ellipse(gapSpread(local)) : 1.0;
 }
 
 LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noexcept

@@ -97,6 +97,11 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] LargeStrainGrid::Ratio largeStrain(const Indentation& local) const noexcept;
 
+  /// Half the difference of the principal curvatures of the gap over their mean; 0 where no ellipse
+  /// is formed.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double gapSpread(const Indentation& local) const noexcept;
+
   /// The best law known here for the same tip and tissue: every correction switched on.
   [[nodiscard]] ForceLaw corrected() const;
 
@@ -119,6 +124,7 @@ private:
   [[nodiscard]] Response paper(double depth) const noexcept;
   [[nodiscard]] LinearContact uncoated(const Indentation& local) const noexcept;
   [[nodiscard]] LinearContact linear(const Indentation& local) const noexcept;
+  [[nodiscard]] double layerThickness(const Indentation& local) const noexcept;
   [[nodiscard]] double ellipse(const Indentation& local) const noexcept;
 
   Tip tip_;

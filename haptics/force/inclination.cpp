@@ -85,7 +85,15 @@ double tiltFactor(const Tip& tip, double tilt) noexcept
 double tiltReach(const Tip& tip) noexcept
 {
   const auto* cone = std::get_if<ConeTip>(&tip);
-  return cone == nullptr ? 0.0 : kTilts.back() * noticeableTilt(*cone) / kMiddle;
+  if (cone == nullptr)
+  {
+    return 0.0;
+  }
+  // to which boundary elements were compared; a flank soon lies along the surface
+  constexpr std::array angles{ 30.0_deg, 45.0_deg, 60.0_deg, 90.0_deg };
+  constexpr std::array reaches{ 25.0_deg, 30.0_deg, 15.0_deg, 0.0 };
+  const Bracket at = bracket(angles, cone->halfAngle);
+  return reaches[at.low] + at.place * (reaches[at.low + 1] - reaches[at.low]);
 }
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace palp
 {
@@ -17,11 +18,19 @@ constexpr double kHollowSpacing = 0.99;
 
 } // namespace
 
+double shareOfBall(double thickness, double curvature) noexcept
+{
+  return curvature > 0.0 ? std::min(1.0, 0.5 * thickness * curvature) : 0.0;
+}
+
 LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)
   : table_(tip)
   , body_(Layer(poissonRatio, base))
   , mostHollow_(0.0)
+  , ball_(0.0)
 {
+  const double m0 = 0.5 * std::numbers::pi * std::get_if<Layer>(&body_)->operator()(0.0).slope[0];
+  ball_ = (3.0 - 2.0 * poissonRatio) / (4.0 * (1.0 - poissonRatio) * m0);
   if (flatRadius(tip) > 0.0)
   {
     return;
@@ -48,6 +57,11 @@ LayerContact LayerContact::coated(const Coatings& coatings, const Material& body
 double LayerContact::allowedCurvature(double curvature) const noexcept
 {
   return mostHollow_ > 0.0 ? std::max(curvature, -mostHollow_) : 0.0;
+}
+
+double LayerContact::layerThickness(double thickness, double curvature) const noexcept
+{
+  return thickness / (1.0 - (1.0 - ball_) * shareOfBall(thickness, curvature));
 }
 
 PunchSolution LayerContact::solution(double radius, double thickness) const noexcept

@@ -10,6 +10,13 @@
 namespace palp
 {
 
+/// Share of a ball in the shape of a body: 0 where its surface is flat or hollow, 1 where it bends
+/// so much that it closes within the thickness.
+/// @param thickness  [m], more than 0; infinite where it is not known
+/// @param curvature  of the surface [1/m], convex positive
+/// @realtime         pure; no allocation, no lock, no exception
+[[nodiscard]] double shareOfBall(double thickness, double curvature) noexcept;
+
 /// Exact linear solution for a rigid frictionless tip on a layer, coated or of one material, with a
 /// curved surface.
 ///
@@ -38,6 +45,20 @@ public:
   /// its apex first is the most, and a flat tip takes none.
   [[nodiscard]] double allowedCurvature(double curvature) const noexcept;
 
+  /// Thickness of the flat layer that holds the tool up as much as a body of this thickness whose
+  /// surface bends away.
+  ///
+  /// A flat layer's base reaches far to the sides; a ball's does not. The far field of the force,
+  /// seen from the middle of a ball of radius R0, shortens the depth by
+  /// (3 - 2 nu) / (4 pi (1 - nu)) F / (E* R0) where the ball is held at its middle, by nothing
+  /// where it rests freely: half of that stands for a support that is not known. Bodies between a
+  /// flat one and a ball, by the share of a ball, take it in proportion.
+  ///
+  /// @param thickness  [m], more than 0; infinite for a half-space
+  /// @source           Tatara 1991 (ball)
+  /// @realtime         pure; no allocation, no lock, no exception
+  [[nodiscard]] double layerThickness(double thickness, double curvature) const noexcept;
+
 private:
   /// The contact while the half-space would be in contact on the same circle at halfSpaceDepth.
   struct Trial
@@ -55,6 +76,7 @@ private:
   ContactTable table_;
   std::variant<Layer, CoatedBody> body_;
   double mostHollow_; // [1/m], 0 or more
+  double ball_;       // of a ball: its thickness over that of the layer that stands for it [-]
 };
 
 } // namespace palp

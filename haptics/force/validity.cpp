@@ -1,7 +1,10 @@
 #include "haptics/force/validity.h"
 
 #include "haptics/force/coated_body.h"
+#include "haptics/force/ellipse.h"
 #include "haptics/force/inclination.h"
+#include "haptics/force/layer_contact.h"
+#include "haptics/force/on_tip.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -18,7 +21,9 @@ constexpr double kPaperDepth = 3.3 / 6.0;     // depth / R, Sec. 4.3
 constexpr double kPaperCurvature = 1.0 / 3.0; // R / R0, Sec. 3.2
 constexpr double kHollow = 0.5;               // R / R0 to which a hollow surface is corrected
 constexpr double kVerifiedWidth = 0.6;        // a / thickness to which the layer is verified
-constexpr double kEdge = 1.0 / 3.0;           // a / distance, a rule of thumb
+constexpr double kEdge = 0.2;                 // a / distance, at 90 degrees: 7 % (elements)
+constexpr double kSupport = 0.08;             // a / R0 of a ball: 5 % from support to support
+constexpr double kDeepest = 0.5;              // depth / thickness that was compared
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
 constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
 
@@ -46,6 +51,20 @@ double linearReach(const ForceLaw& law)
     }
   }
   return reach;
+}
+
+// The strain under a cone does not depend on the depth, and nor does what a linear law errs by:
+// 0.6 cot(alpha) (0.38 - nu) to within 0.04 cot(alpha) of neo-Hookean elements at 30 to 60 degrees.
+double strainOfCone(const ForceLaw& law)
+{
+  const auto cotOf = [](const auto& tip) { return cot(tip.halfAngle); };
+  const Tip& tip = law.tip();
+  const auto* sharp = std::get_if<ConeTip>(&tip);
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
+  const auto* truncated = std::get_if<TruncatedConeTip>(&tip);
+  const double slope = sharp ? cotOf(*sharp) : blunt ? cotOf(*blunt) : truncated ? cotOf(*truncated) : 0.0;
+  return slope * (0.6 * std::abs(0.38 - law.material().poissonRatio) + 0.04) /
+    Validity::kJustNoticeable;
 }
 
 // of a coated body: thinner ones are answered as this [m]
@@ -109,6 +128,7 @@ Validity::Validity(const ForceLaw& law, const Limits& limits)
   , thickness_(kVerifiedWidth)
   , tilt_(tiltLimit(law))
   , linear_(linearReach(law))
+  , strain_(strainOfCone(law))
   , thinnest_(thinnestBody(law))
 {
   if (law.settings().mode != LawMode::Corrected || !law.settings().thickness)
@@ -132,6 +152,9 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
   const double maximum = std::max(best_(deepest).force, truth);
   const double depth = std::max(0.0, local.depth);
   const LargeStrainGrid::Ratio ratio = best_.largeStrain(local);
+  const double strain = depth > 0.0 ? strain_ : 0.0;
+  const double radius = response.contactRadius;
+  const double ball = shareOfBall(local.thickness, local.surfaceCurvature);
   const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
   const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
 
@@ -149,21 +172,26 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
     { "depth", "-", shown(depth / base), !corrected && isRound(tip) ? kPaperDepth : 1.0,
       corrected ? "deeper than the tip's radius nothing was compared with finite elements"
                 : "deeper, the law departs from neo-Hookean finite elements by 7 % (Sec. 4.3)" },
-    { "large_strain", "-", ratio.inside ? 0.0 : shown(depth / base),
-      settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity()
-                                                    : linear_,
+    { "large_strain", "-", ratio.inside ? 0.0 : shown(std::max(depth / base / linear_, strain)),
+      settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity() : 1.0,
       "at large strain and outside the table of finite elements the tissue counts as linear" },
-    { "thickness", "-", shown(response.contactRadius / local.thickness),
+    { "thickness", "-", shown(radius / local.thickness),
       local.thickness < thinnest_ ? 0.0 : thickness_,
       corrected ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
                 : "a wider contact feels the base by 7 %" },
-    { "edge", "-", shown(response.contactRadius / edgeDistance), kEdge,
-      "nearer than three contact radii an edge yields" },
+    { "edge", "-", shown(radius / edgeDistance), kEdge,
+      "nearer than five contact radii an edge yields" },
     { "curvature", "-", shown(local.surfaceCurvature * base), flattest,
       curved ? "a surface curved as much as the tip is no small correction"
              : "a surface curved more than a third of the tip is not flat (Sec. 3.2)" },
     { "stiffness", "N/m", shown(response.stiffness), limits_.stableStiffness,
       "stiffer than the device renders without vibrating" },
+    { "ellipse", "-", shown(law_.gapSpread(local)), EllipseFactor::kSlimmest,
+      "a contact more than 2.6 times as long as wide leaves the place whose curvature is known" },
+    { "support", "-", shown(radius * local.surfaceCurvature * ball), kSupport,
+      "how a convex body is held changes the force by more than 5 % either way" },
+    { "penetration", "-", shown(depth / local.thickness), kDeepest,
+      "deeper than half the body nothing was compared with finite elements" },
   } };
 }
 

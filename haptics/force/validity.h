@@ -32,7 +32,7 @@ struct Rule
   }
 };
 
-using Rules = std::array<Rule, 10>;
+using Rules = std::array<Rule, 13>;
 
 /// A bit for each rule that does not hold, the first rule the lowest.
 /// @realtime  pure; no allocation, no lock, no exception
@@ -56,7 +56,7 @@ public:
   explicit Validity(const ForceLaw& law);
   Validity(const ForceLaw& law, const Limits& limits);
 
-  /// @param edgeDistance  from the contact to an open edge [m]; infinite where there is none
+  /// @param edgeDistance  from the contact to an open or sharp edge [m]; infinite where there is none
   /// @source              Eqs. (7), (9), Secs. 3.2, 4.3
   /// @realtime            pure; no allocation, no lock, no exception
   [[nodiscard]] Rules operator()(const Indentation& local,
@@ -68,7 +68,8 @@ private:
   Limits limits_;
   double thickness_; // limit of a / thickness
   double tilt_;      // limit for the force's magnitude [rad]
-  double linear_;    // limit of depth / base radius without a table of large strain
+  double linear_;    // depth / base radius to which the law holds without a table of large strain
+  double strain_;    // of a cone without such a table: error over what is just noticeable
   double thinnest_;  // body that the law tells from thinner ones [m]
 };
 

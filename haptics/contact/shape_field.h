@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace palp
+{
+
+class Surface;
+
+/// What a force law asks of the surface that a tool presses, averaged over the contact.
+struct LocalShape
+{
+  double meanCurvature = 0.0;                                    ///< [1/m], convex positive
+  double curvatureSpread = 0.0;                                  ///< half the difference [1/m]
+  double thickness = std::numeric_limits<double>::infinity();    ///< of the body [m]
+  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to a sharp edge [m]
+};
+
+/// Curvature, thickness and edge distance of a surface, averaged over any ball.
+///
+/// The surface is cut into cells of about a hundredth of its size, gathered in a tree of sums. An
+/// average weighs the cells by their area across a normal and by a smooth function of their
+/// distance, so that it changes continuously with the ball whatever the mesh, at a cost that does
+/// not grow with it.
+///
+/// The curvature is that of the edges of the mesh: each turns the normal by its dihedral angle,
+/// across itself. So a face is flat however it is cut, and a hollow counts by what is in contact.
+///
+/// @source curvature of edges: Cohen-Steiner and Morvan, "Restricted Delaunay triangulations and
+///         normal cycle", SoCG 2003
+class ShapeField
+{
+public:
+  ShapeField() = default;
+
+  /// @param surface  with its tree and neighbours
+  explicit ShapeField(const Surface& surface);
+
+  /// Averages over the part of the surface in a ball that faces along a normal.
+  ///
+  /// @param center  of the ball [m]
+  /// @param radius  of the ball [m]
+  /// @param normal  unit vector
+  /// @param grain   radius of the sums that may be taken as one [m]; constant for a tool
+  /// @return        flat and without end where the ball holds nothing
+  /// @realtime      pure; no allocation, no lock, no exception
+  [[nodiscard]] LocalShape operator()(const Eigen::Vector3d& center, double radius,
+    const Eigen::Vector3d& normal, double grain) const noexcept;
+
+  /// Smallest radius over which an average is smooth [m].
+  [[nodiscard]] double finest() const noexcept
+  {
+    return finest_;
+  }
+
+private:
+  // one part of the surface, and whether it is looked into
+  struct Node
+  {
+    Eigen::Vector3f center = Eigen::Vector3f::Zero(); // from the origin [m]
+    float radius = 0.0F;    // of the ball about the center that holds all [m]
+    float grain = 0.0F;     // from which on the sums stand for the part; infinite: two sides [m]
+    std::int32_t right = 0; // right child, the left one follows; 0: a leaf
+  };
+
+  // of the same part
+  struct Sums
+  {
+    Eigen::Vector3f area = Eigen::Vector3f::Zero(); // along the outward normal [m^2]
+    Eigen::Matrix3f bend = Eigen::Matrix3f::Zero(); // area times the tensor of curvature [m]
+    float slenderness = 0.0F;                       // area over the root of the thickness [m^1.5]
+    float edge = 0.0F;                              // area times the distance to an edge [m^3]
+  };
+
+  // of the surface, smaller than a cell
+  struct Piece
+  {
+    Eigen::Vector3f center; // from the origin [m]
+    Sums sums;
+  };
+
+  template <typename Visit>
+  void search(const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
+  void build(std::span<Piece> pieces, float cell);
+  void measureLeaves(const Surface& surface);
+  void addUp();
+  [[nodiscard]] float toSharpEdge(std::size_t at, const Eigen::Vector3f& from, float best) const;
+
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<Node> nodes_; // depth first
+  std::vector<Sums> sums_;
+  std::vector<char> sharp_; // nodes that hold some of a sharp edge; while setting up
+  double cell_ = 0.0; // longest side of a leaf [m]
+  double finest_ = 0.0;
+  bool hasEdges_ = false;
+};
+
+} // namespace palp
