@@ -172,8 +172,9 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
     { "depth", "-", shown(depth / base), !corrected && isRound(tip) ? kPaperDepth : 1.0,
       corrected ? "deeper than the tip's radius nothing was compared with finite elements"
                 : "deeper, the law departs from neo-Hookean finite elements by 7 % (Sec. 4.3)" },
-    { "large_strain", "-", ratio.inside ? 0.0 : shown(std::max(depth / base / linear_, strain)),
-      settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity() : 1.0,
+    { "large_strain", "-", ratio.inside ? 0.0 : shown(std::max(depth / base, strain * linear_)),
+      settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity()
+                                                    : linear_,
       "at large strain and outside the table of finite elements the tissue counts as linear" },
     { "thickness", "-", shown(radius / local.thickness),
       local.thickness < thinnest_ ? 0.0 : thickness_,
