@@ -5,6 +5,7 @@
 #include "pipeline/poly_data.h"
 #include "pipeline/surface_io.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
