@@ -37,6 +37,7 @@ PressRegion::PressRegion(std::span<const float> rest, std::span<const Triangle> 
   for (std::size_t i = 0; i < slot_.size(); ++i)
   {
     slot_[i] |= isSharpAt(static_cast<std::int32_t>(i)) ? kSharpBit : 0;
+    longestEdge_ = std::max(longestEdge_, longestEdge(static_cast<std::int32_t>(i)));
   }
 }
 
@@ -50,6 +51,27 @@ bool PressRegion::isSharpAt(std::int32_t point) const noexcept
     [&](const Eigen::Vector3d& area)
     { isSharp = isSharp || !(area.normalized().dot(mean) > kSharp * mean.norm()); });
   return isSharp;
+}
+
+double PressRegion::longestEdge(std::int32_t point) const noexcept
+{
+  double square = 0.0;
+  for (const std::int32_t next : umbrella_.around(point))
+  {
+    if (next != Umbrella::kEnd)
+    {
+      square = std::max(square, (rest(next) - rest(point)).squaredNorm());
+    }
+  }
+  return std::sqrt(square);
+}
+
+// whether a triangle of a point may meet the tool
+bool PressRegion::isNear(std::int32_t point, const ToolBody& body) const noexcept
+{
+  constexpr double kUnits = 2.0; // [-] of the depth in the tool over the distance from it
+  const double outside = -body.inside(rest(point));
+  return outside < kUnits * longestEdge_ && outside < kUnits * longestEdge(point);
 }
 
 std::size_t PressRegion::bytes() const noexcept
@@ -243,7 +265,7 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
   place.distance = distanceInFront(local);
   place.facing = 1.0F;
   place.within = place.distance < outer_ || body.contains(rest(point));
-  if (place.within)
+  if (place.within || isNear(point, body))
   {
     queue_.push_back(static_cast<std::int32_t>(index));
   }
@@ -266,7 +288,7 @@ void PressRegion::meetAround(
   }
   place.within = place.distance < outer_ || body.contains(rest(point));
   places_[index] = place;
-  if (place.within)
+  if (place.within || isNear(point, body))
   {
     queue_.push_back(static_cast<std::int32_t>(index));
   }

@@ -73,7 +73,8 @@ public:
   PressRegion(std::span<const float> rest, std::span<const Triangle> triangles);
 
   /// Finds the points nearer than the outer radius, those inside the tool, the one nearest to the
-  /// contact, and the neighbours of all these.
+  /// contact, and the neighbours of all these. Where edges are longer than the contact is wide, the
+  /// way to a point inside the tool leads over points that stay where they are, next to the tool.
   ///
   /// Its cost follows their number as long as the contact moves by small steps; a jump to another
   /// part of the surface adds the square root of all points, one to another sheet all of them.
@@ -191,6 +192,8 @@ private:
   template <typename Function>
   void forEachAreaAround(std::int32_t point, Function function) const;
   [[nodiscard]] bool isSharpAt(std::int32_t point) const noexcept;
+  [[nodiscard]] double longestEdge(std::int32_t point) const noexcept;
+  [[nodiscard]] bool isNear(std::int32_t point, const ToolBody& body) const noexcept;
   void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
   [[nodiscard]] std::size_t indexOf(std::int32_t point);
   void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
@@ -211,8 +214,9 @@ private:
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double inner_ = 0.0;
   double outer_ = 0.0;
-  double perWidth_ = 0.0; // 1 / (outer - inner) [1/m]
-  double perTurn_ = 0.0;  // 1 / width of the zone where lengths become true ones [1/m]
+  double longestEdge_ = 0.0; // of the surface [m]
+  double perWidth_ = 0.0;    // 1 / (outer - inner) [1/m]
+  double perTurn_ = 0.0;     // 1 / width of the zone where lengths become true ones [1/m]
   std::int32_t seed_ = 0;
   bool hasSides_ = false;
 };

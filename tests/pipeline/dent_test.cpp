@@ -255,6 +255,42 @@ TEST(Dent, ReachesAroundAnEdgeByTheWayAlongTheSurface)
   EXPECT_NEAR(nearest, 36.0_mm, 1.5_mm);
 }
 
+// where edges are longer than the contact is wide, a point in the tool may be no neighbour of one
+// that moves
+TEST(Dent, FindsEveryPointInTheToolOnARoughCoarseSurface)
+{
+  DentedSurface rough = test::plane(30, 2.3_mm);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> by(-1.2_mm, 1.2_mm);
+  for (std::size_t i = 0; i < rough.count(); ++i)
+  {
+    rough.rest[3 * i + 2] = static_cast<float>(by(random));
+  }
+  const DentedSurface shape = rough;
+  DentedSurface surface;
+  surface.rest = shape.rest;
+  surface.triangles = shape.triangles;
+  surface.finish();
+  for (const Tip& tip :
+    { Tip{ BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm } }, Tip{ SphereTip{ 4.0_mm } },
+      Tip{ ConeTip{ 60.0_deg, 6.0_mm } }, Tip{ PunchTip{ 3.0_mm } } })
+  {
+    for (int i = 0; i < 300; ++i)
+    {
+      const Press press = test::pressAt({ by(random), by(random), 0.0 }, kUp, tip, 1.26_mm, 0.0);
+      surface.press(press);
+      for (std::size_t k = 0; k < surface.count(); ++k)
+      {
+        // by the tip's own profile
+        const Eigen::Vector3d from = DentedSurface::at(surface.points, k) - press.pose.apex;
+        const double radius = from.head<2>().norm();
+        const double inside = std::min(from.z() - tipHeight(tip, radius), baseRadius(tip) - radius);
+        ASSERT_LE(inside, kInside) << "tip " << tip.index() << ", press " << i;
+      }
+    }
+  }
+}
+
 TEST(Dent, MeetsTheEdgeOfAnOpenSurface)
 {
   DentedSurface surface = test::plane(40, 1.0_mm);
