@@ -87,20 +87,15 @@ VisualUpdate::VisualUpdate(int n, const Tip& tip, const std::string& table, bool
   scene_.law = ForceLaw(tip, scene_.law.material());
   if (fitted)
   {
-    fitted_ = FittedSurfaces::read(dataFile("tables/" + table + "_surface.csv"));
+    style_.fitted = FittedSurfaces::read(dataFile("tables/" + table + "_surface.csv"));
   }
 }
 
 void VisualUpdate::operator()(const ToolPose& pose)
 {
   const Sample sample = step(scene_, pose);
-  const double depth = sample.contact.depth;
-  drawn_.press({ .contact = sample.contact,
-    .pose = pose,
-    .tip = scene_.law.tip(),
-    .contactRadius = sample.response.contactRadius,
-    .extentRadius = extents_.extentRadius(depth),
-    .fitted = fitted_ ? fitted_->at(depth) : std::nullopt });
+  drawn_.press(
+    pressOf(sample, scene_.law.tip(), extents_.extentRadius(sample.contact.depth), style_));
 }
 
 } // namespace palp

@@ -6,7 +6,7 @@
 #include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
 #include "pipeline/dent.h"
-#include "pipeline/fitted_surfaces.h"
+#include "pipeline/press_of.h"
 
 #include <memory>
 #include <optional>
@@ -83,7 +83,7 @@ public:
 private:
   Scene scene_;
   ExtentTable extents_;
-  std::optional<FittedSurfaces> fitted_;
+  DentStyle style_;
   DrawnSurface drawn_;
 };
 

@@ -20,6 +20,7 @@ constexpr double kThreshold = 0.5_mm; // Sec. 3.3.2
 constexpr double kPoisson = 0.33;
 constexpr double kYoung = 50.0_kPa;
 constexpr double kDeepest = 50.0_mm; // that the window asks for
+constexpr double kTableTip = 0.3_mm; // of the cones' tables
 constexpr double kLayer = 5.0;       // thickness over radius of the paper's blocks, 10 and 6 mm
 
 bool same(double a, double b)
@@ -76,7 +77,7 @@ Calibration ofTable(const std::filesystem::path& file, double young)
   ExtentTable extents = ExtentTable::read(file);
   const double reach = extents.rows().back().depth;
   return { .extents = std::move(extents),
-    .surfaces = std::nullopt,
+    .style = {},
     .reach = reach,
     .note = {},
     .elements = std::nullopt,
@@ -95,14 +96,18 @@ Calibration ofCone(const PressOptions& options, const ForceLaw& law)
     throw Error(ErrorCode::BadValue,
       "--layer, --threshold: for a cone, make its own table with palp calibrate and give --table");
   }
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
   const bool known = same(angle, 45.0_deg) && same(law.material().poissonRatio, kPoisson) &&
-    (same(baseRadius(tip), 6.0_mm) || same(baseRadius(tip), 10.0_mm));
+    (same(baseRadius(tip), 6.0_mm) || same(baseRadius(tip), 10.0_mm)) &&
+    (!blunt || same(blunt->tipRadius, kTableTip));
   Calibration calibration = ofTable(dataFile(bundledTable(tip) + ".csv"), kYoung);
   if (!known)
   {
     calibration.reach = 0.0;
     calibration.young.reset();
-    calibration.note = "R_d is that of the nearest cone with a table: 45 degrees, nu = 0.33";
+    calibration.note = "R_d is that of the nearest cone with a table (45 degrees, tip of 0.3 mm, "
+                       "nu = 0.33) and may be wrong by half; palp calibrate makes its own for "
+                       "--table";
   }
   return calibration;
 }
@@ -127,13 +132,29 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
   const bool sphere = std::holds_alternative<SphereTip>(law.tip());
   place.depth = std::max(radius, kDeepest);
   return { .extents = table.extents(place, layer.threshold),
-    .surfaces = std::nullopt,
+    .style = {},
     .reach = sphere && covered ? radius : 0.0,
-    .note = !sphere ? "R_d is that of a sphere of the same radius"
+    .note = !sphere ? "R_d is that of a sphere of the same radius and may be wrong by half; palp "
+                      "calibrate makes its own for --table"
       : covered     ? ""
                 : "R_d is clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)",
     .elements = std::nullopt,
     .young = std::nullopt };
+}
+
+// the shape, layer and tissue that the fitted surfaces were computed for, whatever the size
+bool isOfTheseElements(const PressOptions& options, const ForceLaw& law)
+{
+  const auto* blunt = std::get_if<BluntConeTip>(&law.tip());
+  const double radius = baseRadius(law.tip());
+  return same(law.material().poissonRatio, kPoisson) &&
+    same(layerOf(options, radius).thickness, kLayer * radius) &&
+    (!blunt || blunt->tipRadius <= 2.0 * kTableTip);
+}
+
+void add(std::string& notes, const std::string& note)
+{
+  notes += (notes.empty() ? "" : "; ") + note;
 }
 
 // shipped tables are of tissue without any, the user's of the tissue that was asked for at first
@@ -162,25 +183,37 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     const std::string bundled = bundledTable(tip);
     const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
     // the same picture for a layer as many radii thick
-    calibration.elements =
-      FittedSurfaces::read(dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped);
+    calibration.elements = FittedSurfaces::read(
+      dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped, baseRadius(tip));
   }
   if (!isOfTheseCoatings(options, law.settings()))
   {
     calibration.reach = 0.0;
     calibration.elements.reset();
     calibration.young.reset();
-    calibration.note += (calibration.note.empty() ? "" : "; ") +
-      std::string("R_d is that of tissue with other coatings or none; palp calibrate --coating "
-                  "makes its own");
+    add(calibration.note,
+      "R_d is that of tissue with other coatings or none; palp calibrate --coating makes its own");
   }
+  calibration.style.isLiteral = options.surface == "paper-literal";
   if (options.surface == "fitted")
   {
-    calibration.surfaces = calibration.elements;
+    calibration.style.fitted = calibration.elements;
     if (!calibration.elements)
     {
-      calibration.note += (calibration.note.empty() ? "" : "; ") +
-        std::string("the surface is the paper's, as none is fitted to this tool");
+      add(calibration.note, "the surface is the paper's, as none is fitted to this tool");
+    }
+    else if (!isOfTheseElements(options, law))
+    {
+      calibration.reach = 0.0;
+      calibration.elements.reset(); // not those of this press
+      add(calibration.note,
+        "the surface is fitted to a layer of five tool radii, nu = 0.33 and a sharp tip; here it "
+        "may "
+        "be wrong by more than 3 % of the depth");
+    }
+    else
+    {
+      calibration.reach = std::min(calibration.reach, calibration.elements->deepest());
     }
   }
   return calibration;

@@ -2,7 +2,7 @@
 
 #include "app/press_options.h"
 #include "calibration/extent_table.h"
-#include "pipeline/fitted_surfaces.h"
+#include "pipeline/press_of.h"
 
 #include <optional>
 #include <string>
@@ -13,10 +13,10 @@ namespace palp
 /// How the surface gives way around a tool, as found by finite elements.
 struct Calibration
 {
-  ExtentTable extents;                    ///< R_d(depth), for the paper's ring
-  std::optional<FittedSurfaces> surfaces; ///< to follow instead of that ring; none: the paper's
-  double reach = 0.0;                     ///< depth to which R_d is computed, not estimated [m]
-  std::string note;                       ///< what stands in for what, for the user; or empty
+  ExtentTable extents; ///< R_d(depth), for the paper's ring
+  DentStyle style;     ///< of the picture
+  double reach = 0.0;  ///< depth to which R_d is computed, not estimated [m]
+  std::string note;    ///< what stands in for what, for the user; or empty
 
   // to compare with
   std::optional<FittedSurfaces> elements; ///< of a tool of this shape, scaled; none: not computed

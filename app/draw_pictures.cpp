@@ -52,7 +52,7 @@ void drawScene(const OffscreenContext& context, const Body& body, const Recordin
   view.setSurface(body.display);
   view.setTip(recording.scene.law.tip());
   view.setExtents(calibration.extents);
-  view.setFitted(calibration.surfaces);
+  view.setStyle(calibration.style);
   view.setLaw(recording.scene.law);
   if (plan.overlays)
   {

@@ -5,6 +5,7 @@
 #include "calibration/replace_file.h"
 #include "haptics/units.h"
 #include "pipeline/press_of.h"
+#include "pipeline/refined_surface.h"
 #include "pipeline/surface_io.h"
 #include "pipeline/vtkPalpDeformFilter.h"
 
@@ -23,14 +24,15 @@ namespace palp
 Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
   const double extent = calibration.extents.extentRadius(sample.contact.depth);
-  return pressOf(sample, tip, extent, calibration.surfaces);
+  return pressOf(sample, tip, extent, calibration.style);
 }
 
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
-  const Calibration& calibration)
+  const Calibration& calibration, bool refined)
 {
   vtkNew<vtkPalpDeformFilter> filter;
   filter->SetInputData(body.display);
+  filter->SetGeneratePatch(refined);
   if (const Sample* deepest = recording.deepest())
   {
     filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
@@ -39,7 +41,7 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
 
   // the writer turns the points into millimetres, the displacement is ours to turn
   vtkNew<vtkPolyData> mesh;
-  mesh->ShallowCopy(filter->GetOutput());
+  mesh->ShallowCopy(refined ? refinedSurface(*filter).Get() : filter->GetOutput());
   vtkNew<vtkFloatArray> displacement;
   displacement->DeepCopy(mesh->GetPointData()->GetArray("Displacement"));
   for (vtkIdType i = 0; i < displacement->GetNumberOfValues(); ++i)

@@ -157,7 +157,7 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const P
   if (plan.deformed)
   {
     ledger.build("deformed.vtp", "exported",
-      [&] { writeDeformed(out / "deformed.vtp", body, recording, *known); });
+      [&] { writeDeformed(out / "deformed.vtp", body, recording, *known, plan.refined); });
   }
   if (plan.draws())
   {

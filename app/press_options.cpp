@@ -50,8 +50,11 @@ void PressOptions::addTo(CLI::App& command)
     ->capture_default_str();
   command
     .add_option("--surface", surface,
-      "paper: the ring of Eq. (8); fitted: curves fitted to finite elements, scaled to the tool")
-    ->check(CLI::IsMember({ "paper", "fitted" }))
+      "paper: the ring of Eq. (8), beyond half a sphere's radius from the contact that a sphere "
+      "can "
+      "have; paper-literal: from r = sqrt(R depth) there, too; fitted: curves fitted to finite "
+      "elements, scaled to the tool")
+    ->check(CLI::IsMember({ "paper", "paper-literal", "fitted" }))
     ->capture_default_str();
   command.add_option("--table", table, "Calibration table depth -> R_d; the bundled one if none");
   command.add_option("--layer", layer,

@@ -131,7 +131,9 @@ Plots sectionOf(vtkPalpDeformFilter& press, const Calibration& calibration)
       ? Eigen::Vector3d(Eigen::Vector3d::UnitX())
       : Eigen::Vector3d(Eigen::Vector3d::UnitY());
     plots.push_back(sectionPlot(press, towards,
-      calibration.elements ? calibration.elements->at(contact.depth) : std::nullopt));
+      calibration.elements && contact.depth <= calibration.elements->deepest()
+        ? calibration.elements->at(contact.depth)
+        : std::nullopt));
   }
   return plots;
 }

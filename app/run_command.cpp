@@ -27,6 +27,7 @@ struct RunOptions
   std::vector<std::string> plots{ "force-time", "force-depth" };
   std::vector<std::string> plotFiles{ "png" };
   std::vector<std::filesystem::path> references;
+  bool refined = false;
   bool noPicture = false;
   bool chain = false;
   bool overwrite = false;
@@ -54,6 +55,7 @@ void run(const RunOptions& options, const Pictures* pictures)
     .window = false,
     .curves = {},
     .plotFiles = options.plotFiles,
+    .refined = options.refined,
     .picture = !options.noPicture,
     .size = size };
   std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
@@ -105,6 +107,9 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
     "force, samples.csv); several are allowed");
   command->add_flag("--chain", options->chain,
     "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
+  command->add_flag("--refined", options->refined,
+    "Divide the triangles of the dent in deformed.vtp as in the picture, so that none cuts the "
+    "tool");
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
                   "Examples:\n"

@@ -23,7 +23,7 @@ const std::vector<std::string> kOverlays{ "force-arrow", "contact-circle", "exte
   "displacement-colors", "readings", "pressure-colors", "validity-colors", "control-net",
   "ghost" }; // in the order of Overlay
 static_assert(kOverlayCount == 9);
-const std::vector<std::string> kExports{ "samples", "deformed", "picture" };
+const std::vector<std::string> kExports{ "samples", "deformed", "picture", "refined" };
 
 // the message of an option, "--young: what", told of a place in the document instead; a place that
 // ends in a slash goes on with the option's name
@@ -139,7 +139,9 @@ void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& f
   }
   checkAt(object, "threshold",
     [&] { (void)parseQuantity(plan.press.threshold, Quantity::Length, "--threshold"); });
-  plan.dent = object.choice("surface", plan.press.surface, { "paper", "fitted", "none" }) != 2;
+  constexpr int kNone = 3;
+  plan.dent = object.choice("surface", plan.press.surface,
+                { "paper", "paper-literal", "fitted", "none" }) != kNone;
   plan.press.table = table.empty() ? std::filesystem::path{} : (folder / table).lexically_normal();
 }
 
@@ -161,7 +163,8 @@ void readExports(JsonObject& object, ScenePlan& plan)
   const auto has = [&](int which)
   { return std::find(wanted.begin(), wanted.end(), which) != wanted.end(); };
   plan.samples = has(0);
-  plan.deformed = has(1);
+  plan.refined = has(3);
+  plan.deformed = has(1) || plan.refined;
   plan.picture = has(2);
   const std::string size = object.text("size", "1280x960");
   checkAt(object, "size", [&] { plan.size = parseSize(size, "--size"); });

@@ -196,7 +196,7 @@ void Window::applyTissue()
       view_.setTip(law.tip());
       view_.setLaw(law);
       view_.setExtents(session_.calibration().extents);
-      view_.setFitted(session_.calibration().surfaces);
+      view_.setStyle(session_.calibration().style);
       if (charts_)
       {
         charts_->setLaw(law);

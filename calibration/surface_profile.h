@@ -18,6 +18,7 @@ struct SurfaceProfile
   double sink = 0.0;               ///< of the surface at the inner radius [m]
   double slope = 0.0;              ///< of the tool there, outwards and up [-]
   std::array<double, 2> control{}; ///< free control values, the outer one first [m]
+  double rest = 0.0;               ///< a sink of this or less is none [m], faded to from 2.5 times
 
   /// Depth of the surface below rest.
   ///
@@ -35,8 +36,21 @@ struct SurfaceProfile
       return sink + slope * (inner - radius);
     }
     const auto weight = bernstein(parameter(radius));
-    return weight[2] * control[0] + weight[3] * control[1] + weight[4] * lastButOne() +
-      weight[5] * sink;
+    return faded(weight[2] * control[0] + weight[3] * control[1] + weight[4] * lastButOne() +
+      weight[5] * sink);
+  }
+
+  /// Radius where the sink ends, the outer one at most [m].
+  [[nodiscard]] double reach() const noexcept
+  {
+    double within = inner;
+    double beyond = outer;
+    for (int i = 0; i < 30; ++i)
+    {
+      const double middle = 0.5 * (within + beyond);
+      (sinkAt(middle) > 0.0 ? within : beyond) = middle;
+    }
+    return beyond;
   }
 
   /// 0 at the outer end to 1 at the inner end, linear in 1/radius.
@@ -58,6 +72,19 @@ struct SurfaceProfile
   [[nodiscard]] double lastButOne() const noexcept
   {
     return sink - slope * inner * (1.0 - inner / outer) / 5.0;
+  }
+
+private:
+  // a tail of 1/radius has no end
+  [[nodiscard]] double faded(double full) const noexcept
+  {
+    constexpr double kFadedFrom = 2.5;
+    if (!(rest > 0.0) || full >= kFadedFrom * rest)
+    {
+      return full;
+    }
+    const double t = std::max(0.0, (full / rest - 1.0) / (kFadedFrom - 1.0));
+    return full * t * t * (3.0 - 2.0 * t);
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/force/half_space.h"
 #include "haptics/force/tip.h"
 
 #include <Eigen/Core>
@@ -76,6 +77,28 @@ struct RingCurve
   const double sunk = std::max(0.0, sink);
   const double reach = slope > 0.0 ? sunk / slope : outer;
   return { inner, sunk, std::clamp(inner + reach, inner, std::max(inner, outer)), outer };
+}
+
+/// Contact radius as drawn.
+///
+/// Up to half a sphere's radius deep the law's, from there on more and more that of the exact
+/// sphere: r = sqrt(R delta) would reach the equator at delta = R, where the tangent is vertical
+/// and the sink of the ring none. From delta = R on never more than the exact sphere's.
+///
+/// @param depth      delta [m]
+/// @param lawRadius  r of the law [m]
+/// @source           Sneddon 1965: delta = (a / 2) ln((R + a) / (R - a)), a = 0.834 R at delta = R
+[[nodiscard]] inline double drawnContactRadius(
+  const Tip& tip, double depth, double lawRadius) noexcept
+{
+  const auto* sphere = std::get_if<SphereTip>(&tip);
+  if (sphere == nullptr || !(depth > 0.5 * sphere->radius))
+  {
+    return lawRadius;
+  }
+  const double t = std::min(1.0, 2.0 * depth / sphere->radius - 1.0);
+  const double most = std::min(lawRadius, HalfSpace(tip)(depth).radius);
+  return std::lerp(lawRadius, most, t * t * (3.0 - 2.0 * t));
 }
 
 /// Least outer radius of a ring whose tangents L1 and L2 meet at a distance from its centre.

@@ -66,7 +66,7 @@ void Dent::update(const Press& press, const DentArrays& arrays)
   {
     body_.emplace(press.tip, press.pose);
     const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
-    const double extent = press.fitted ? press.fitted->outer : press.extentRadius;
+    const double extent = press.fitted ? press.fitted->reach() : press.extentRadius;
     const double outer = ringRadius(press.tip, contact.depth, inner, extent);
     lay(press, outer);
     if (const double reach = ringRadiusFor(field_.reach(), inner); reach > outer)

@@ -13,6 +13,7 @@ namespace
 
 constexpr const char* kHeader =
   "depth_mm,inner_mm,outer_mm,sink_mm,slope,control_outer_mm,control_inner_mm";
+constexpr double kRest = 0.01; // [-] of the depth
 
 // a + t (b - a) of every length and the slope
 SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double t)
@@ -27,9 +28,10 @@ SurfaceProfile between(const SurfaceProfile& a, const SurfaceProfile& b, double 
 
 } // namespace
 
-FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double scale)
+FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double scale, double deepest)
 {
   constexpr std::size_t kSlope = 4; // the only column that is no length
+  constexpr double kRounding = 1e-9;
   std::vector<std::vector<double>> rows;
   for (const NumberTable::Row& read : NumberTable::readFinite(file, kHeader).rows)
   {
@@ -37,6 +39,10 @@ FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double sc
     for (std::size_t i = 0; i < kColumns; ++i)
     {
       rows.back()[i] *= i == kSlope ? 1.0 : scale;
+    }
+    if (units::fromMillimetres(rows.back().front()) > (1.0 + kRounding) * deepest)
+    {
+      rows.pop_back();
     }
   }
   return FittedSurfaces(rows);
@@ -69,10 +75,21 @@ FittedSurfaces::FittedSurfaces(const std::vector<std::vector<double>>& rows)
 
 std::optional<SurfaceProfile> FittedSurfaces::at(double depth) const noexcept
 {
-  if (!(depth > 0.0) || depth > rows_.back().depth)
+  if (!(depth > 0.0))
   {
     return std::nullopt;
   }
+  SurfaceProfile profile = profileAt(std::min(depth, rows_.back().depth));
+  const double deeper = std::max(0.0, depth - rows_.back().depth);
+  const double grown = (profile.sink + deeper) / profile.sink;
+  profile.sink += deeper;
+  profile.control = { grown * profile.control[0], grown * profile.control[1] };
+  profile.rest = kRest * depth;
+  return profile;
+}
+
+SurfaceProfile FittedSurfaces::profileAt(double depth) const noexcept
+{
   const auto above = std::lower_bound(rows_.begin(), rows_.end(), depth,
     [](const Row& row, double value) { return row.depth < value; });
   if (above != rows_.begin())

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace palp
 {
@@ -9,9 +11,11 @@ namespace
 {
 
 constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool leaves the surface
-constexpr double kLeap = 0.1;              // [-] of the gap at the centre
-constexpr double kWithinBase = 1.0 - 1e-9; // [-]
-constexpr double kVertical = 1e6;          // [-] slope of a shaft
+constexpr double kLedge = 0.1;             // [-] of the depth: a base that ends below the surface
+constexpr double kWithinBase = 1.0 - 1e-7; // [-]
+constexpr double kRim = 1.0 - 1e-6;        // [-] of the base: as far as contact goes
+constexpr double kSlopeStep = 1e-3;        // [-] of the contact radius
+constexpr double kCornerStep = 0.05;       // [-] a corner turns the tangent within a while
 constexpr double kFitReach = 1.5;          // [-] of the contact radius
 constexpr double kFilledPit = 0.1;         // [-] of the contact radius: pressed onto the tool
 constexpr double kOpenPit = 0.4;           // [-] of the contact radius: not reached by the tool
@@ -31,7 +35,7 @@ double rootBefore(double end, double atZero, double atEnd, Function function) no
   double high = end;
   double atLow = atZero;
   double atHigh = std::min(atEnd, end);
-  for (int i = 0; i < 12 && high - low > 1e-6 * end; ++i)
+  for (int i = 0; i < 40 && high - low > 1e-6 * end; ++i)
   {
     const double middle = low + (high - low) * atLow / (atLow - atHigh);
     const double value = std::min(function(middle), end);
@@ -64,22 +68,34 @@ public:
     , normal_(region.normal())
     , center_(region.toSurface(Eigen::Vector3d::Zero()))
     , outwards_(region.toSurface({ towards.x(), towards.y(), 0.0 }) - center_)
+    , onTip_(isOnTip(center_ + body.lowest(center_, normal_) * normal_))
   {
   }
 
+  // infinite where a tool whose tip is below the center has its shaft, which leans over the
+  // surface by next to nothing
   double operator()(double radius) const noexcept
   {
-    return body_.lowest(center_ + radius * outwards_, normal_) -
-      surface_.height(radius * towards_.x(), radius * towards_.y());
+    const Eigen::Vector3d foot = center_ + radius * outwards_;
+    const double up = body_.lowest(foot, normal_);
+    return onTip_ && !isOnTip(foot + up * normal_)
+      ? std::numeric_limits<double>::infinity()
+      : up - surface_.height(radius * towards_.x(), radius * towards_.y());
   }
 
 private:
+  [[nodiscard]] bool isOnTip(const Eigen::Vector3d& point) const noexcept
+  {
+    return body_.fromAxis(point) < kWithinBase * body_.base();
+  }
+
   const LocalQuadric& surface_;
   const ToolBody& body_;
   Eigen::Vector2d towards_;
   Eigen::Vector3d normal_;
   Eigen::Vector3d center_;
   Eigen::Vector3d outwards_;
+  bool onTip_;
 };
 
 } // namespace
@@ -120,32 +136,35 @@ RingCurve PressField::curveAlong(
   const double atCenter = gap(0.0);
   if (!(atCenter < 0.0))
   {
-    return makeRingCurve(0.0, 0.0, kVertical, region.outer());
+    return makeRingCurve(0.0, 0.0, 0.0, region.outer());
   }
-  double end = region.inner() / kStillOnTool;
-  double atEnd = gap(end);
-  bool isRim = !std::isfinite(atEnd); // the tool ends in its shaft there, not above the surface
-  if (isRim)
+  // where the tool leaves the surface, or its base ends below it
+  double exit = std::min(region.inner() / kStillOnTool, kRim * body.base());
+  double atExit = gap(exit);
+  if (atExit > 0.0)
   {
-    end = kWithinBase * region.inner();
-    atEnd = gap(end);
+    exit = rootBefore(exit, atCenter, atExit, gap);
+    atExit = gap(exit);
   }
-  double contact = std::min(region.inner(), end);
-  if (atEnd > 0.0)
-  {
-    // where a tilted tool ends the gap leaps from below the surface to its shaft
-    const double root = rootBefore(end, atCenter, atEnd, gap);
-    isRim = gap(root) < kLeap * atCenter;
-    contact = isRim ? root : kStillOnTool * root;
-  }
-  const double step = 1e-3 * contact;
+  // contact ends before the tool leaves the surface at an angle, but at the rim of a base, and not
+  // within a flat whose edge is below the surface
+  const auto ledgeOf = [&](double height) { return smoothStep(height / (kLedge * atCenter)); };
+  const auto endBefore = [](double radius, double ledge)
+  { return radius * std::lerp(kStillOnTool, 1.0, ledge); };
+  const double ledge = ledgeOf(atExit);
+  const double flat = body.flat() < exit ? endBefore(body.flat(), ledgeOf(gap(body.flat()))) : 0.0;
+  const double contact = std::min(region.inner(), std::max(flat, endBefore(exit, ledge)));
+  const double step = (body.hasCorners() ? kCornerStep : kSlopeStep) * contact;
   const double height = gap(contact);
   const double before = height - gap(contact - step);
   const double after = gap(contact + step) - height;
-  // at the rim of the base the flank goes on; a flat base, however tilted, ends in its shaft
-  const double slope = !isRim && std::isfinite(after) ? 0.5 * (before + after) / step
-    : before > 1e-3 * step && !body.hasFlatBase()     ? before / step
-                                                      : kVertical;
+  // at the rim the flank goes on
+  double slope = (std::isfinite(after) ? 0.5 * (before + after) : before) / step;
+  if (body.hasFlatBase())
+  {
+    // however tilted, it ends in its shaft
+    slope = std::tan(std::lerp(std::atan(slope), 0.5 * std::numbers::pi, ledge));
+  }
   if (slope > 0.0)
   {
     reach_ = std::max(reach_, contact - height / slope);
@@ -185,10 +204,10 @@ double PressField::fittedSink(const RingCurve& curve, double radius) const noexc
   SurfaceProfile profile = *fittedCurve_;
   const double scale = curve.sink / profile.sink;
   profile.inner = curve.inner;
-  profile.outer = curve.outer;
   profile.sink = curve.sink;
   profile.slope = curve.sink / (curve.meet - curve.inner);
   profile.control = { scale * profile.control[0], scale * profile.control[1] };
+  profile.rest *= scale; // so that it ends where it does elsewhere
   return profile.sinkAt(radius);
 }
 

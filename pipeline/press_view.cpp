@@ -129,9 +129,9 @@ void PressView::setExtents(const ExtentTable& extents)
   extents_ = extents;
 }
 
-void PressView::setFitted(std::optional<FittedSurfaces> surfaces)
+void PressView::setStyle(DentStyle style)
 {
-  fitted_ = std::move(surfaces);
+  style_ = std::move(style);
 }
 
 void PressView::setLaw(const ForceLaw& law)
@@ -177,7 +177,7 @@ bool PressView::isVisible(Overlay overlay) const
 void PressView::show(const Sample& sample)
 {
   const double extent = extentRadius(sample.contact.depth);
-  deform_->SetPress(pressOf(sample, tip_, extent, fitted_));
+  deform_->SetPress(pressOf(sample, tip_, extent, style_));
   deform_->SetGeneratePatch(sample.contact.touching());
   deform_->Update();
   const Moment moment{ sample, tip_, extent, *deform_ };

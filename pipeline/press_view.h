@@ -3,8 +3,8 @@
 #include "calibration/extent_table.h"
 #include "haptics/servo/sample.h"
 #include "pipeline/dent_colors.h"
-#include "pipeline/fitted_surfaces.h"
 #include "pipeline/overlay.h"
+#include "pipeline/press_of.h"
 #include "pipeline/readings.h"
 #include "pipeline/vtkPalpDeformFilter.h"
 #include "pipeline/vtkPalpPatchMapper.h"
@@ -43,8 +43,8 @@ public:
   /// R_d for every depth; without a table the ring ends close to the contact.
   void setExtents(const ExtentTable& extents);
 
-  /// Surfaces of finite elements to follow in place of the paper's ring; none for the paper's.
-  void setFitted(std::optional<FittedSurfaces> surfaces);
+  /// What the surface around the tool is drawn as; the paper's ring at first.
+  void setStyle(DentStyle style);
 
   /// The law whose rules the validity colours and readings name.
   void setLaw(const ForceLaw& law);
@@ -94,7 +94,7 @@ private:
   vtkRenderer& renderer_;
   Tip tip_{ SphereTip{ .radius = 0.01 } };
   std::optional<ExtentTable> extents_;
-  std::optional<FittedSurfaces> fitted_;
+  DentStyle style_;
   double diagonal_ = 0.0; // of the surface's box [m]
   double above_ = 0.0;    // the surface reach tool and arrow [m]
 

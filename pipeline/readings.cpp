@@ -49,7 +49,7 @@ void Readings::show(const Moment& moment)
     millimetres(moment.sample.contact.depth);
   if (contactCircle_)
   {
-    texts[1] = " \u25cb contact circle r = " + millimetres(response.contactRadius);
+    texts[1] = " \u25cb contact circle r = " + millimetres(moment.press.GetPress().contactRadius);
   }
   if (extentCircle_ && moment.extentRadius > 0.0)
   {

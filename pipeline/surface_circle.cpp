@@ -44,7 +44,7 @@ SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, 
 void SurfaceCircle::show(const Moment& moment)
 {
   const double radius =
-    of_ == Of::Contact ? moment.sample.response.contactRadius : moment.extentRadius;
+    of_ == Of::Contact ? moment.press.GetPress().contactRadius : moment.extentRadius;
   contour_->SetValue(0, radius);
   contour_->Update();
   line_->ShallowCopy(contour_->GetOutput());

@@ -19,6 +19,7 @@ ToolBody::ToolBody(const Tip& tip, const ToolPose& pose)
   , apex_(pose.apex)
   , handle_(-pose.axis)
   , base_(baseRadius(tip))
+  , flat_(flatRadius(tip))
   , sphere_(std::holds_alternative<SphereTip>(tip) ? std::get<SphereTip>(tip).radius : 0.0)
   , flank_(std::holds_alternative<ConeTip>(tip) ? tipSlope(tip, 0.0) : 0.0)
 {

@@ -46,10 +46,35 @@ public:
   [[nodiscard]] double lowest(
     const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept;
 
+  /// Distance of a point from the axis [m].
+  [[nodiscard]] double fromAxis(const Eigen::Vector3d& point) const noexcept
+  {
+    return (point - apex_).cross(handle_).norm();
+  }
+
+  /// Radius of the shaft [m].
+  [[nodiscard]] double base() const noexcept
+  {
+    return base_;
+  }
+
+  /// Radius of the flat end [m], 0 for other tips.
+  [[nodiscard]] double flat() const noexcept
+  {
+    return flat_;
+  }
+
   /// Whether the tip is flat up to its base.
   [[nodiscard]] bool hasFlatBase() const noexcept
   {
-    return flatRadius(tip_) >= base_;
+    return flat_ >= base_;
+  }
+
+  /// Whether the slope of the tip may leap.
+  [[nodiscard]] bool hasCorners() const noexcept
+  {
+    return std::holds_alternative<TruncatedConeTip>(tip_) ||
+      std::holds_alternative<ProfileTip>(tip_);
   }
 
 private:
@@ -64,6 +89,7 @@ private:
   Eigen::Vector3d apex_;
   Eigen::Vector3d handle_; // unit vector from apex to handle
   double base_;            // [m]
+  double flat_;            // [m]
   double sphere_;          // radius of a spherical tip [m], 0 for other tips
   double flank_;           // slope of a sharp cone [-], 0 for other tips
 };

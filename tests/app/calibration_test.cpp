@@ -70,6 +70,30 @@ TEST(LoadCalibration, SaysWhatStandsInForWhat)
   EXPECT_FALSE(load(PunchTip{ 8.0_mm }).covers(1.0_mm));
 }
 
+// the tip of the tables' cones has a radius of 0.3 mm
+TEST(LoadCalibration, SaysThatABluntConeHasATableOfAnother)
+{
+  EXPECT_EQ(load(BluntConeTip{ 45.0_deg, 0.3_mm, 10.0_mm }).note, "");
+  const Calibration blunt = load(BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm });
+  EXPECT_NE(blunt.note.find("nearest cone"), std::string::npos);
+  EXPECT_FALSE(blunt.covers(1.0_mm));
+}
+
+TEST(LoadCalibration, SaysWhereAFittedSurfaceIsOfAnotherBody)
+{
+  PressOptions options;
+  options.surface = "fitted";
+  const Calibration same = load(SphereTip{ 10.0_mm }, options);
+  EXPECT_EQ(same.note, "");
+  EXPECT_TRUE(same.covers(10.0_mm));
+  EXPECT_FALSE(same.covers(10.1_mm));
+  const Calibration softer = load(SphereTip{ 8.0_mm }, options, 0.45);
+  EXPECT_NE(softer.note.find("3 %"), std::string::npos);
+  EXPECT_FALSE(softer.covers(1.0_mm));
+  options.layer = "20mm";
+  EXPECT_NE(load(SphereTip{ 8.0_mm }, options).note.find("3 %"), std::string::npos);
+}
+
 TEST(LoadCalibration, KnowsNothingOfCoatedTissueButByItsOwnTable)
 {
   LawSettings settings{ .mode = LawMode::Corrected };
@@ -105,8 +129,8 @@ TEST(LoadCalibration, FittedSurfacesScaleWithTheTool)
 {
   PressOptions options;
   options.surface = "fitted";
-  const auto whole = load(SphereTip{ 10.0_mm }, options).surfaces;
-  const auto more = load(SphereTip{ 12.0_mm }, options).surfaces;
+  const auto whole = load(SphereTip{ 10.0_mm }, options).style.fitted;
+  const auto more = load(SphereTip{ 12.0_mm }, options).style.fitted;
   ASSERT_TRUE(whole && more);
   EXPECT_NEAR(more->at(6.0_mm)->sinkAt(12.0_mm), 1.2 * whole->at(5.0_mm)->sinkAt(10.0_mm), 1e-9);
 }

@@ -128,7 +128,50 @@ TEST(FittedSurfaces, GoesThroughItsRowsAndToNothing)
   EXPECT_DOUBLE_EQ(surfaces.at(1.5_mm)->outer, 51.0_mm);
   EXPECT_DOUBLE_EQ(surfaces.at(0.5_mm)->sink, 0.25_mm);
   EXPECT_FALSE(surfaces.at(0.0));
-  EXPECT_FALSE(surfaces.at(2.1_mm));
+}
+
+// with the tool, by no more than the tool, and no place comes up again
+TEST(FittedSurfaces, SinkOnBeyondTheLastRow)
+{
+  for (const char* name : { "sphere_r10_h50", "sphere_r6_h30", "cone45_r10_h50", "cone45_r6_h30" })
+  {
+    const double radius = std::string(name).find("_r6") == std::string::npos ? 10.0_mm : 6.0_mm;
+    const FittedSurfaces surfaces =
+      FittedSurfaces::read(kData / "tables" / (std::string(name) + "_surface.csv"), 1.0, radius);
+    const double step = 0.02_mm;
+    for (double depth = surfaces.deepest(); depth < 2.5 * surfaces.deepest(); depth += step)
+    {
+      const SurfaceProfile before = *surfaces.at(depth);
+      const SurfaceProfile after = *surfaces.at(depth + step);
+      for (double at = after.inner; at < 60.0_mm; at += 0.5_mm)
+      {
+        const double sunk = after.sinkAt(at) - before.sinkAt(at);
+        ASSERT_LE(sunk, 1.001 * step) << name << " at " << depth << ", " << at;
+        ASSERT_GE(sunk, -1e-12) << name << " at " << depth << ", " << at;
+      }
+    }
+  }
+}
+
+// the block of the elements ends at 56 mm; what cannot be seen stays at rest
+TEST(FittedSurfaces, EndWhereASinkIsNone)
+{
+  const double scale = 2.0;
+  const FittedSurfaces large =
+    FittedSurfaces::read(kData / "tables" / "sphere_r10_h50_surface.csv", scale);
+  const FittedSurfaces whole = fitted("sphere_r10_h50");
+  EXPECT_LT(large.at(1.3_mm)->reach(), 55.0_mm);
+  for (const double depth : { 0.5_mm, 2.0_mm, 5.0_mm, 10.0_mm })
+  {
+    SurfaceProfile full = *whole.at(depth);
+    const SurfaceProfile drawn = full;
+    full.rest = 0.0;
+    for (double radius = full.inner; radius < full.outer; radius += 0.1_mm)
+    {
+      EXPECT_NEAR(drawn.sinkAt(radius), full.sinkAt(radius), 0.015 * depth) << radius;
+    }
+    EXPECT_EQ(drawn.sinkAt(drawn.reach() + 1e-6), 0.0);
+  }
 }
 
 TEST(FittedSurfaces, RefusesWhatIsNoTable)

@@ -200,10 +200,10 @@ TEST(PressView, ShowsFittedSurfaces)
   for (const auto& [body, name] : bodies)
   {
     View sphere(body, kSphere);
-    sphere.view.setFitted(fitted("sphere"));
+    sphere.view.setStyle({ .fitted = fitted("sphere") });
     expectBaseline(*sphere.picture(body, pressed(body, kSphere, 5.0_mm)), name + "_fitted");
     View cone(body, kCone);
-    cone.view.setFitted(fitted("cone45"));
+    cone.view.setStyle({ .fitted = fitted("cone45") });
     expectBaseline(*cone.picture(body, pressed(body, kCone, 6.0_mm)), name + "_cone_fitted");
   }
 }
