@@ -23,9 +23,8 @@ std::string_view cut(std::string_view& text, char separator)
 
 } // namespace
 
-Coatings parseCoatings(std::string_view text)
+Coatings parseCoatings(std::string_view text, std::string_view what)
 {
-  constexpr const char* option = "--coating";
   Coatings coatings;
   for (bool more = !text.empty(); more;)
   {
@@ -34,13 +33,13 @@ Coatings parseCoatings(std::string_view text)
     if (std::count(one.begin(), one.end(), ':') != 2)
     {
       throw Error(ErrorCode::BadValue,
-        std::string(option) + ": '" + std::string(one) +
+        std::string(what) + ": '" + std::string(one) +
           "' has not the form 2mm:200kPa:0.45 (thickness, Young's modulus, Poisson's ratio); write "
           "it like that");
     }
-    const double thickness = parseQuantity(cut(one, ':'), Quantity::Length, option);
-    const double young = parseQuantity(cut(one, ':'), Quantity::Pressure, option);
-    coatings.add({ thickness, { young, parseNumber(one, option) } });
+    const double thickness = parseQuantity(cut(one, ':'), Quantity::Length, what);
+    const double young = parseQuantity(cut(one, ':'), Quantity::Pressure, what);
+    coatings.add({ thickness, { young, parseNumber(one, what) } });
   }
   return coatings;
 }

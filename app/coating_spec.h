@@ -12,8 +12,9 @@ namespace palp
 /// Young's modulus, Poisson's ratio.
 ///
 /// @param text    empty: none
+/// @param what    name of the option or field, for the message
 /// @throws Error  BadValue: not of this form, a value out of range, too many
-[[nodiscard]] Coatings parseCoatings(std::string_view text);
+[[nodiscard]] Coatings parseCoatings(std::string_view text, std::string_view what = "--coating");
 
 /// The same text back, in mm and kPa.
 [[nodiscard]] std::string describeCoatings(const Coatings& coatings);

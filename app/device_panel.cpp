@@ -59,7 +59,7 @@ QString stateText(const Sample& sample)
 DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   : QWidget(parent)
   , device_(new QComboBox)
-  , arm_(new QPushButton(tr("Force on the hand")))
+  , arm_(new QPushButton(tr("Turn force on")))
   , stop_(new QPushButton(tr("STOP (Esc)")))
 {
   auto* form = new QFormLayout(this);
@@ -67,13 +67,13 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   form->setVerticalSpacing(4);
   device_->setObjectName("device");
   device_->addItems(devices);
-  form->addRow(tr("Tool held by"), device_);
+  form->addRow(tr("Input device"), device_);
 
   arm_->setObjectName("arm");
   arm_->setCheckable(true);
-  arm_->setToolTip(tr("Off until you arm it"));
+  arm_->setToolTip(tr("Off until you turn it on"));
   stop_->setObjectName("stop");
-  stop_->setToolTip(tr("No force at once, until you arm it again"));
+  stop_->setToolTip(tr("Stops the force at once; turn it on again to continue"));
   stop_->setStyleSheet("QPushButton:enabled { background: #b3261e; color: white; "
                        "font-weight: bold; padding: 4px }");
   auto* buttons = new QHBoxLayout;
@@ -113,14 +113,14 @@ void DevicePanel::show(const Session& session, const Sample& sample, std::uint32
   const bool renders = session.rendersForce();
   arm_->setEnabled(renders);
   arm_->setChecked(renders && session.armed());
-  arm_->setText(renders && session.armed() ? tr("Armed: disarm") : tr("Arm: force on the hand"));
+  arm_->setText(renders && session.armed() ? tr("Turn force off") : tr("Turn force on"));
   stop_->setEnabled(renders);
-  state_->setText(renders ? stateText(sample) : tr("no motors: the force is drawn only"));
-  force_->setText(tr("law %1 N, <b>rendered %2 N</b>")
-                    .arg(sample.response.force, 0, 'f', 2)
-                    .arg(sample.force.norm(), 0, 'f', 2));
+  state_->setText(renders ? stateText(sample) : tr("Display only: no force feedback"));
+  const QString model = tr("model %1 N").arg(sample.response.force, 0, 'f', 2);
+  force_->setText(
+    renders ? tr("%1, <b>sent %2 N</b>").arg(model).arg(sample.force.norm(), 0, 'f', 2) : model);
 
-  QString text = tr("at most %1 N").arg(session.largestForce(), 0, 'g', 3);
+  QString text = tr("%1 N").arg(session.largestForce(), 0, 'g', 3);
   if (renders)
   {
     const double stiffest = units::toNewtonsPerMillimetre(session.stableStiffness());

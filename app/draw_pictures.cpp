@@ -164,7 +164,9 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
     }
   };
   draw(Curve::Comparison, "comparison",
-    [&] { return forceComparison(recording, calibration, plan.references); });
+    [&] {
+      return forceComparison(recording.scene.law, recording.samples, calibration, plan.references);
+    });
   if (calibration)
   {
     draw(Curve::Section, "section", [&] { return deepestSection(body, recording, *calibration); });

@@ -2,9 +2,11 @@
 
 #include "app/coating_spec.h"
 #include "app/panel_boxes.h"
+#include "haptics/error.h"
 
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QLineEdit>
 
 #include <utility>
@@ -38,7 +40,7 @@ LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent
   base_->setToolTip(tr("Under the body; acts where the body is thin"));
   constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
   coatings_->setObjectName("coatings");
-  coatings_->setPlaceholderText(tr("none; 2mm:200kPa:0.45"));
+  coatings_->setPlaceholderText(tr("e.g. 2mm:200kPa:0.45"));
   coatings_->setToolTip(
     tr("Skin, fat, a capsule from the surface down: thickness, Young's modulus "
        "and Poisson's ratio of each, with commas between; for the corrected law"));
@@ -46,6 +48,7 @@ LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent
   addRow(rows, tr("Force law"), mode_);
   addRow(rows, tr("Base, material"), makePair());
   addRow(rows, tr("Coatings"), coatings_);
+  reason_ = addReason(rows, *coatings_);
   setSettings(inUse);
 
   for (ChoiceBox* box : { mode_, base_, constitution_ })
@@ -66,9 +69,27 @@ void LawPanel::takeCoatings()
   if (coatings_->isModified())
   {
     coatings_->setModified(false);
+    const std::string before = std::exchange(coating_, coatings_->text().remove(' ').toStdString());
+    try
+    {
+      (void)parseCoatings(coating_, tr("Coatings").toStdString());
+      check_();
+    }
+    catch (const Error& error)
+    {
+      coating_ = before;
+      showReason(*reason_, *coatings_, QString::fromStdString(error.what()));
+      return;
+    }
+    showReason(*reason_, *coatings_, {});
     showWhatActs();
     Q_EMIT lawChanged();
   }
+}
+
+void LawPanel::setCheck(std::function<void()> check)
+{
+  check_ = std::move(check);
 }
 
 // both are short, and the panel is high
@@ -84,7 +105,7 @@ QWidget* LawPanel::makePair()
 
 LawSettings LawPanel::settings() const
 {
-  const std::string coating = isCorrected() ? coatings_->text().remove(' ').toStdString() : "";
+  const std::string coating = isCorrected() ? coating_ : "";
   const bool same = mode_->currentIndex() == static_cast<int>(inUse_.mode) &&
     coating == describeCoatings(inUse_.coatings) &&
     base_->currentIndex() == static_cast<int>(inUse_.base) &&
@@ -107,10 +128,14 @@ void LawPanel::setSettings(const LawSettings& inUse)
   mode_->show(static_cast<int>(inUse.mode));
   base_->show(static_cast<int>(inUse.base));
   constitution_->show(static_cast<int>(inUse.constitution));
-  if (inUse.mode == LawMode::Corrected) // the others know none, and the text may be wanted again
+  const std::string coating = describeCoatings(inUse.coatings);
+  // the other laws know none, and the text may be wanted again, as that which was refused
+  if (inUse.mode == LawMode::Corrected && (coating != coating_ || reason_->text().isEmpty()))
   {
-    coatings_->setText(QString::fromStdString(describeCoatings(inUse.coatings)));
+    coating_ = coating;
+    coatings_->setText(QString::fromStdString(coating));
     coatings_->setCursorPosition(0); // the uppermost is seen first
+    showReason(*reason_, *coatings_, {});
   }
   showWhatActs();
 }

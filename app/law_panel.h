@@ -4,6 +4,10 @@
 
 #include <QGroupBox>
 
+#include <functional>
+#include <string>
+
+class QLabel;
 class QLineEdit;
 
 namespace palp
@@ -20,6 +24,9 @@ public:
   /// @param inUse    settings of the law
   /// @param options  what they were made of; what the panel does not ask for stays as there
   LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent = nullptr);
+
+  /// What coatings have to pass before they are in use; throws Error.
+  void setCheck(std::function<void()> check);
 
   /// As the fields say.
   /// @throws Error  as LawOptions::settings
@@ -43,6 +50,9 @@ private:
   ChoiceBox* base_;
   ChoiceBox* constitution_;
   QLineEdit* coatings_;
+  QLabel* reason_;      // why coatings are refused
+  std::string coating_; // last taken
+  std::function<void()> check_;
 };
 
 } // namespace palp

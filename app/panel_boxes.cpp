@@ -1,12 +1,18 @@
 #include "app/panel_boxes.h"
 
+#include "haptics/error.h"
 #include "haptics/units.h"
+#include "pipeline/appearance.h"
 
 #include <QGridLayout>
 #include <QGroupBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QSignalBlocker>
 #include <QWheelEvent>
+
+#include <cmath>
+#include <utility>
 
 namespace palp
 {
@@ -18,75 +24,159 @@ double same(double value)
   return value;
 }
 
+QColor colorOf(const appearance::Color& color)
+{
+  return QColor::fromRgbF(color[0], color[1], color[2]);
+}
+
+QLabel* labelOf(const QGridLayout& rows, const QWidget* field)
+{
+  for (int row = 0; row < rows.rowCount(); ++row)
+  {
+    QLayoutItem* item = rows.itemAtPosition(row, 1);
+    if (item != nullptr && item->widget() == field)
+    {
+      return qobject_cast<QLabel*>(rows.itemAtPosition(row, 0)->widget());
+    }
+  }
+  return nullptr;
+}
+
 } // namespace
 
 ShownUnit ShownUnit::millimetres()
 {
-  return { QStringLiteral("mm"), units::toMillimetres, units::fromMillimetres };
+  return { "mm", Quantity::Length, units::toMillimetres };
 }
 
 ShownUnit ShownUnit::degrees()
 {
-  return { QStringLiteral("°"), units::toDegrees, units::fromDegrees };
+  return { "°", Quantity::Angle, units::toDegrees };
 }
 
 ShownUnit ShownUnit::kilopascals()
 {
-  return { QStringLiteral("kPa"), units::toKilopascals, units::fromKilopascals };
+  return { "kPa", Quantity::Pressure, units::toKilopascals };
 }
 
-ShownUnit ShownUnit::si(const QString& suffix)
+ShownUnit ShownUnit::damping()
 {
-  return { suffix, same, same };
+  return { "N·s/m", Quantity::Damping, same };
 }
 
-QuantityBox::QuantityBox(
-  const char* name, const ShownUnit& unit, int decimals, double low, double high)
+ShownUnit ShownUnit::none()
+{
+  return { "", std::nullopt, same };
+}
+
+QuantityBox::QuantityBox(const char* name, const ShownUnit& unit)
   : unit_(unit)
 {
   setObjectName(name);
-  setDecimals(decimals);
-  setRange(low, high);
-  setSuffix(unit.suffix.isEmpty() ? QString() : " " + unit.suffix);
-  setKeyboardTracking(false);
-  setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   setFocusPolicy(Qt::StrongFocus);
+  setKeyboardTracking(false);
+  connect(this, &QAbstractSpinBox::editingFinished, this, &QuantityBox::take);
+}
+
+void QuantityBox::setCheck(std::function<void()> check)
+{
+  check_ = std::move(check);
 }
 
 void QuantityBox::setSi(double value)
 {
-  const QSignalBlocker quiet(this);
-  setValue(unit_.fromSi(value));
-  exact_ = value;
-  exactAs_ = this->value();
+  if (value != si_ || text().isEmpty())
+  {
+    si_ = value;
+    forget();
+  }
 }
 
 double QuantityBox::si() const
 {
-  return value() == exactAs_ ? exact_ : unit_.toSi(value());
+  return si_;
 }
 
-// 10 mm, not 10.000 mm
-QString QuantityBox::textFromValue(double value) const
+void QuantityBox::forget()
 {
-  QString text = QDoubleSpinBox::textFromValue(value);
-  if (text.contains(locale().decimalPoint()))
+  showNumber(unit_.fromSi(si_));
+  Q_EMIT refused({});
+}
+
+void QuantityBox::showNumber(double shown)
+{
+  constexpr int kDigits = 10;
+  const QString unit = QString::fromStdString(unit_.name);
+  read_ = (QString::number(shown, 'g', kDigits) + ' ' + unit).trimmed();
+  lineEdit()->setText(read_);
+}
+
+double QuantityBox::read() const
+{
+  const std::string typed = text().toStdString();
+  const std::string name = accessibleName().toStdString();
+  return unit_.kind ? parseQuantity(typed, *unit_.kind, name, unit_.name)
+                    : parseNumber(typed, name);
+}
+
+// also comes when the field is left as it was
+void QuantityBox::take()
+{
+  if (text() == read_)
   {
-    while (text.endsWith(locale().zeroDigit()))
-    {
-      text.chop(1);
-    }
-    if (text.endsWith(locale().decimalPoint()))
-    {
-      text.chop(1);
-    }
+    return;
   }
-  return text;
+  read_ = text();
+  const double before = si_;
+  try
+  {
+    si_ = read();
+    check_();
+  }
+  catch (const Error& error)
+  {
+    si_ = before;
+    Q_EMIT refused(QString::fromStdString(error.what()));
+    return;
+  }
+  forget();
+  if (si_ != before)
+  {
+    Q_EMIT changed();
+  }
+}
+
+// by one in the second digit
+void QuantityBox::stepBy(int steps)
+{
+  constexpr double kFromZero = 0.1;
+  const double shown = unit_.fromSi(si_);
+  const double step = shown > 0.0 ? std::pow(10.0, std::floor(std::log10(shown)) - 1.0) : kFromZero;
+  showNumber(step * (std::round(shown / step) + steps));
+  read_.clear();
+  take();
+}
+
+// no quantity here may be negative
+QAbstractSpinBox::StepEnabled QuantityBox::stepEnabled() const
+{
+  return si_ > 0.0 ? StepUpEnabled | StepDownEnabled : StepEnabled(StepUpEnabled);
+}
+
+QSize QuantityBox::sizeHint() const
+{
+  const int width = fontMetrics().horizontalAdvance("0000000.00 kPa");
+  return QAbstractSpinBox::sizeHint() + QSize(width, 0);
+}
+
+QSize QuantityBox::minimumSizeHint() const
+{
+  return sizeHint();
 }
 
 void QuantityBox::wheelEvent(QWheelEvent* event)
 {
-  hasFocus() ? QDoubleSpinBox::wheelEvent(event) : event->ignore();
+  hasFocus() ? QAbstractSpinBox::wheelEvent(event) : event->ignore();
 }
 
 ChoiceBox::ChoiceBox(const char* name, const QStringList& choices)
@@ -127,19 +217,45 @@ void addRow(QGridLayout& rows, const QString& label, QWidget* field)
   text->setBuddy(field);
   rows.addWidget(text, row, 0);
   rows.addWidget(field, row, 1);
+  field->setAccessibleName(label);
 }
 
-QLabel* labelOf(const QGridLayout& rows, const QWidget* field)
+void addRow(QGridLayout& rows, const QString& label, QuantityBox* field)
 {
-  for (int row = 0; row < rows.rowCount(); ++row)
+  addRow(rows, label, static_cast<QWidget*>(field));
+  QLabel* reason = addReason(rows, *field);
+  QObject::connect(field, &QuantityBox::refused, reason,
+    [=](const QString& why) { showReason(*reason, *field, why); });
+}
+
+QLabel* addReason(QGridLayout& rows, const QWidget& field)
+{
+  auto* reason = new QLabel;
+  reason->setObjectName(field.objectName() + "Reason");
+  reason->setWordWrap(true);
+  reason->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
+  reason->setStyleSheet("color: " + colorOf(appearance::kBad).name());
+  reason->hide();
+  rows.addWidget(reason, rows.rowCount(), 0, 1, 2);
+  return reason;
+}
+
+void showReason(QLabel& row, QWidget& field, const QString& why)
+{
+  QPalette palette = row.parentWidget()->palette();
+  if (!why.isEmpty())
   {
-    QLayoutItem* item = rows.itemAtPosition(row, 1);
-    if (item != nullptr && item->widget() == field)
-    {
-      return qobject_cast<QLabel*>(rows.itemAtPosition(row, 0)->widget());
-    }
+    palette.setColor(QPalette::Text, colorOf(appearance::kBad));
   }
-  return nullptr;
+  field.setPalette(palette);
+  row.setText(why);
+  row.setVisible(!why.isEmpty());
+}
+
+void setLabel(const QGridLayout& rows, QWidget* field, const QString& label)
+{
+  labelOf(rows, field)->setText(label);
+  field->setAccessibleName(label);
 }
 
 void setRowVisible(const QGridLayout& rows, QWidget* field, bool visible)

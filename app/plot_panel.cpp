@@ -3,6 +3,8 @@
 #include "haptics/error.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkRenderWindow.h>
+#include <vtkRendererCollection.h>
 
 #include <QHBoxLayout>
 #include <QPushButton>
@@ -20,7 +22,7 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
   auto* canvas = new QVTKOpenGLNativeWidget;
   canvas->setObjectName("plots");
   canvas->setRenderWindow(window_);
-  canvas->setMinimumSize(320, 240);
+  canvas->setMinimumSize(280, 180);
   tabs_->setObjectName("plotTabs");
   tabs_->setExpanding(false);
   for (const Page& page : pages_)
@@ -57,13 +59,37 @@ void PlotPanel::refresh()
   window_->Render();
 }
 
-void PlotPanel::save(const std::filesystem::path& file)
+QString PlotPanel::save(const std::filesystem::path& file)
 {
   if (plots_.empty())
   {
     throw Error(ErrorCode::BadValue, "nothing to save yet: press the surface");
   }
-  writePlots(plots_, *window_, file);
+  const QString what = savePlots(plots_, file);
+  showPlots(*window_, plots_); // a chart is in one window at a time
+  window_->Render();
+  return what;
+}
+
+QString savePlots(const Plots& plots, const std::filesystem::path& file)
+{
+  constexpr int kWidth = 1600; // [pixels]
+  constexpr int kHeight = 1000;
+  constexpr int kDpi = 144; // letters and marks twice as large as on a screen
+  const bool isPicture = file.extension() == ".png";
+  const int share = isPicture ? 1 : 2; // lines and text are as sharp at any size
+  const int height = plots.size() > 1 ? kHeight * 3 / 2 : kHeight;
+  vtkNew<vtkRenderWindow> window;
+  window->SetShowWindow(false);
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(isPicture ? 8 : 0);
+  window->SetSize(kWidth / share, height / share);
+  window->SetDPI(kDpi / share);
+  showPlots(*window, plots);
+  writePlots(plots, *window, file);
+  window->GetRenderers()->RemoveAllItems(); // the charts outlive it
+  return isPicture ? QObject::tr("%1 x %2 pixels").arg(kWidth).arg(height)
+                   : QObject::tr("lines and text");
 }
 
 } // namespace palp

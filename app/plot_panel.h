@@ -33,9 +33,9 @@ public:
   /// make them of, those before stay.
   void refresh();
 
-  /// Writes what is shown.
-  /// @throws Error  as writePlots; BadValue: nothing is shown yet
-  void save(const std::filesystem::path& file);
+  /// Writes what is shown; see savePlots.
+  /// @throws Error  as savePlots; BadValue: nothing is shown yet
+  QString save(const std::filesystem::path& file);
 
 Q_SIGNALS:
   void saveAsked();
@@ -47,5 +47,10 @@ private:
   QTabBar* tabs_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
 };
+
+/// Writes plots, laid out for print whatever size they have on the screen.
+/// @return         what was written, for people, as in `1600 x 1000 pixels`
+/// @throws Error   as writePlots
+QString savePlots(const Plots& plots, const std::filesystem::path& file);
 
 } // namespace palp

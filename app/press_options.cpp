@@ -70,12 +70,7 @@ ContactRule PressOptions::rule() const
 
 double PressOptions::dampingSi() const
 {
-  const double value = parseQuantity(damping, Quantity::Damping, "--damping");
-  if (value < 0.0)
-  {
-    throw Error(ErrorCode::BadValue, "--damping: '" + damping + "' is negative; give 0 or more");
-  }
-  return value;
+  return checkedDamping(parseQuantity(damping, Quantity::Damping, "--damping"));
 }
 
 } // namespace palp

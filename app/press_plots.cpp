@@ -34,13 +34,14 @@ std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const Indentation& plac
 {
   const LawMode used = law.settings().mode;
   const char* of = law.settings().coatings.empty() ? "" : ", without coatings";
-  std::vector<NamedLaw> laws{ { nameOf(used), law, place } };
+  const auto color = [](LawMode mode) { return static_cast<std::size_t>(mode); };
+  std::vector<NamedLaw> laws{ { nameOf(used), law, place, color(used) } };
   for (const LawMode mode : { LawMode::Paper, LawMode::Exact })
   {
     if (mode != used)
     {
       laws.push_back({ nameOf(mode) + std::string(of),
-        ForceLaw(law.tip(), law.material(), LawSettings{ .mode = mode }) });
+        ForceLaw(law.tip(), law.material(), LawSettings{ .mode = mode }), {}, color(mode) });
     }
   }
   return laws;
@@ -84,16 +85,15 @@ ReferenceCurve forceCurveOf(std::span<const Sample> samples)
 
 } // namespace
 
-Plots forceComparison(const Recording& recording, const Calibration* calibration,
-  const std::vector<ReferenceCurve>& others)
+Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
+  const Calibration* calibration, const std::vector<ReferenceCurve>& others)
 {
-  const ForceLaw& law = recording.scene.law;
-  const Sample* deepest = recording.deepest();
+  const Sample* deepest = deepestOf(press);
   std::vector<ReferenceCurve> references = others;
   if (deepest)
   {
-    const auto until = static_cast<std::size_t>(deepest - recording.samples.data());
-    references.insert(references.begin(), forceCurveOf(std::span(recording.samples).first(until)));
+    const auto until = static_cast<std::size_t>(deepest - press.data());
+    references.insert(references.begin(), forceCurveOf(press.first(until + 1)));
   }
   if (calibration)
   {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 class vtkRenderWindow;
@@ -17,15 +18,16 @@ namespace palp
 
 using Plots = std::vector<std::unique_ptr<Plot>>; ///< one below the other
 
-/// F(depth) of the law in use, of the paper's and of the exact one, with the 7 % band; of this
-/// press, of finite elements and of others; and the differences below.
+/// F(depth) of the law in use, of the paper's and of the exact one, with the 7 % band; of a press,
+/// of finite elements and of others; and the differences below.
 ///
 /// The law in use knows thickness, curvature and tilt of the deepest contact, as it did there.
 ///
+/// @param press        its samples, in order
 /// @param calibration  gives the elements; null for none
 /// @param others       depth [m] and force [N]; those without points are left out
-[[nodiscard]] Plots forceComparison(const Recording& recording, const Calibration* calibration,
-  const std::vector<ReferenceCurve>& others = {});
+[[nodiscard]] Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
+  const Calibration* calibration, const std::vector<ReferenceCurve>& others = {});
 
 /// R_d(depth) of the calibration and its quadratic fit.
 [[nodiscard]] Plots extentComparison(const Calibration& calibration);

@@ -2,12 +2,14 @@
 
 #include "haptics/error.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 
 namespace palp
@@ -25,11 +27,11 @@ constexpr std::array kLength{ Unit{ "mm", 1e-3L }, Unit{ "um", 1e-6L }, Unit{ "c
   Unit{ "m", 1.0L } };
 constexpr std::array kPressure{ Unit{ "kPa", 1e3L }, Unit{ "Pa", 1.0L }, Unit{ "MPa", 1e6L },
   Unit{ "GPa", 1e9L } };
-constexpr std::array kAngle{ Unit{ "deg", std::numbers::pi_v<long double> / 180.0L },
-  Unit{ "rad", 1.0L } };
+constexpr long double kDegree = std::numbers::pi_v<long double> / 180.0L;
+constexpr std::array kAngle{ Unit{ "deg", kDegree }, Unit{ "rad", 1.0L }, Unit{ "°", kDegree } };
 constexpr std::array kForce{ Unit{ "N", 1.0L }, Unit{ "mN", 1e-3L } };
 constexpr std::array kTime{ Unit{ "s", 1.0L }, Unit{ "ms", 1e-3L } };
-constexpr std::array kDamping{ Unit{ "N*s/m", 1.0L }, Unit{ "Ns/m", 1.0L } };
+constexpr std::array kDamping{ Unit{ "N*s/m", 1.0L }, Unit{ "Ns/m", 1.0L }, Unit{ "N·s/m", 1.0L } };
 constexpr std::array kStiffness{ Unit{ "N/m", 1.0L }, Unit{ "N/mm", 1e3L } };
 
 // the first unit is the one that messages recommend
@@ -66,16 +68,29 @@ struct Split
   std::string_view rest; // what follows the number
 };
 
+std::string_view trimmed(std::string_view text)
+{
+  const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
+  const std::size_t last = text.find_last_not_of(' ') + 1; // 0 where there is nothing else
+  return text.substr(first, last > first ? last - first : 0);
+}
+
 Split splitNumber(std::string_view text, std::string_view what)
 {
-  const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
+  std::string_view digits = trimmed(text);
+  digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
   double number = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error != std::errc{} || !std::isfinite(number))
   {
     refuse(what, text, "is not a number; write it like 10 or 1.5e+06");
   }
-  return { number, digits.substr(static_cast<std::size_t>(end - digits.data())) };
+  const std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
+  if (rest.starts_with(','))
+  {
+    refuse(what, text, "has a comma; write decimals with a point, like 12.5");
+  }
+  return { number, trimmed(rest) };
 }
 
 std::string listOf(std::span<const Unit> units)
@@ -115,11 +130,24 @@ double toSi(double number, const Unit& unit)
 
 } // namespace
 
-double parseQuantity(std::string_view text, Quantity kind, std::string_view what)
+double parseQuantity(
+  std::string_view text, Quantity kind, std::string_view what, std::string_view usual)
 {
   const Split split = splitNumber(text, what);
-  const Unit& unit = unitNamed(split.rest, kind, what, text, text);
+  const Unit& unit = unitNamed(split.rest.empty() ? usual : split.rest, kind, what, text, text);
   return toSi(split.number, unit);
+}
+
+double checkedDamping(double damping)
+{
+  constexpr double kMost = 1000.0; // [N s/m], of an oil damper
+  if (!(damping >= 0.0 && damping <= kMost))
+  {
+    std::ostringstream text;
+    text << "damping: " << damping << " N*s/m; give 0 to " << kMost << " N*s/m";
+    throw Error(ErrorCode::BadValue, text.str());
+  }
+  return damping;
 }
 
 double parseNumber(std::string_view text, std::string_view what)

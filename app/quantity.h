@@ -18,13 +18,19 @@ enum class Quantity
   Stiffness, ///< N/m N/mm
 };
 
-/// Reads a number with its unit, as in `10mm`, `1.5e+06Pa`, `45deg`; C locale whatever the user's.
+/// Reads a number with its unit, as in `10mm`, `1.5e+06 Pa`, `45deg`; C locale whatever the user's.
 ///
-/// @param what   the option's name, for the message
+/// @param what   name of the option or field, for the message
+/// @param usual  unit of a number that has none, where the reader is told it; empty: refused
 /// @return       SI
 /// @throws Error BadValue: no number, no unit (the message gives the fix), or another quantity's
 /// unit
-[[nodiscard]] double parseQuantity(std::string_view text, Quantity kind, std::string_view what);
+[[nodiscard]] double parseQuantity(
+  std::string_view text, Quantity kind, std::string_view what, std::string_view usual = {});
+
+/// @param damping  b [N s/m]
+/// @throws Error   BadValue: not 0 to 1000 N s/m
+[[nodiscard]] double checkedDamping(double damping);
 
 /// Reads a bare number.
 /// @throws Error BadValue

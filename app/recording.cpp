@@ -7,6 +7,7 @@
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <optional>
 #include <ostream>
 
@@ -40,6 +41,19 @@ std::string origin(const Recording& recording)
 } // namespace
 
 const Sample* Recording::deepest() const noexcept
+{
+  return deepestOf(samples);
+}
+
+std::span<const Sample> Recording::lastPress() const noexcept
+{
+  const auto touches = [](const Sample& sample) { return sample.contact.touching(); };
+  const auto end = std::find_if(samples.rbegin(), samples.rend(), touches);
+  const auto begin = std::find_if_not(end, samples.rend(), touches);
+  return { begin.base(), end.base() };
+}
+
+const Sample* deepestOf(std::span<const Sample> samples) noexcept
 {
   const Sample* deepest = nullptr;
   for (const Sample& sample : samples)

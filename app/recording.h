@@ -7,13 +7,15 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace palp
 {
 
-/// A finished press: who pressed what, and everything that was measured.
+/// Who pressed what, and everything that was measured. Of a tool that rests away from the surface
+/// only the first and the last sample are kept.
 struct Recording
 {
   std::string mesh;              ///< file name, for people
@@ -27,7 +29,13 @@ struct Recording
 
   /// The first sample of the largest depth; nothing when the tool never touched.
   [[nodiscard]] const Sample* deepest() const noexcept;
+
+  /// The samples of the last contact without a gap; the present one, where the tool touches.
+  [[nodiscard]] std::span<const Sample> lastPress() const noexcept;
 };
+
+/// The first sample of the largest depth; null where none touches.
+[[nodiscard]] const Sample* deepestOf(std::span<const Sample> samples) noexcept;
 
 /// Writes samples.csv: a header of comment lines, the column names with units, one row per sample.
 ///

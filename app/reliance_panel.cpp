@@ -72,7 +72,7 @@ ReliancePanel::ReliancePanel(QWidget* parent)
 
 void ReliancePanel::showNoContact()
 {
-  rules_->setText(tr("<b>Validity of the law</b><br>no contact"));
+  rules_->setText(tr("no contact"));
 }
 
 void ReliancePanel::showRules(const Rules& rules)
@@ -80,7 +80,7 @@ void ReliancePanel::showRules(const Rules& rules)
   Rules sorted = rules;
   std::stable_sort(sorted.begin(), sorted.end(),
     [](const Rule& a, const Rule& b) { return a.share() > b.share(); });
-  QString text = tr("<b>Validity of the law</b>");
+  QString text;
   for (const Rule& rule : sorted)
   {
     if (rule.share() == 0.0)
@@ -88,13 +88,13 @@ void ReliancePanel::showRules(const Rules& rules)
       continue; // nothing to say of a rule that does not bear on this place
     }
     text +=
-      QStringLiteral("<br><span style='color:%1'>&#9679;</span> %2: %3 % of its limit (%4 of %5)")
+      QStringLiteral("<span style='color:%1'>&#9679;</span> %2: %3 % of its limit (%4 of %5)<br>")
         .arg(colorOf(rule.share()), QString(rule.name).replace('_', ' '))
         .arg(100.0 * rule.share(), 0, 'f', 0)
         .arg(number(rule, rule.value), number(rule, rule.limit));
     if (!rule.holds())
     {
-      text += QStringLiteral("<br>&nbsp;&nbsp;<i>%1</i>").arg(rule.why);
+      text += QStringLiteral("&nbsp;&nbsp;<i>%1</i><br>").arg(rule.why);
     }
   }
   rules_->setText(text);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vtkPolyData.h>
 
@@ -23,6 +24,17 @@ namespace
 
 constexpr std::size_t kKept = 600'000; // samples, ten minutes
 constexpr double kForgiving = 0.05;    // until the servo has heard of an order, at the latest [s]
+
+// a tool that nobody moves, away from the surface
+bool restsAt(const Sample& before, const Sample& now)
+{
+  constexpr double kLength = 1e-7; // [m], less than any device tells
+  constexpr double kAngle = 1e-6;  // [rad]
+  const bool touches = before.contact.touching() || now.contact.touching();
+  return !touches && before.force.isZero() && now.force.isZero() && before.flags == now.flags &&
+    before.state == now.state && (before.pose.apex - now.pose.apex).norm() < kLength &&
+    (before.pose.axis - now.pose.axis).norm() < kAngle;
+}
 
 // what is recorded of a press that has not begun
 Recording startOf(const ScenePlan& plan, const Body& body, Ledger& ledger)
@@ -54,9 +66,9 @@ Session::Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop)
   ledger.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
-void Session::open(const std::filesystem::path& file, const std::string& unit)
+void Session::open(const MeshSource& source)
 {
-  Body old = std::exchange(body_, loadBody({ { .file = file, .unit = unit } }));
+  Body old = std::exchange(body_, loadBody({ source }));
   const std::string device = recording_.device;
   std::unique_ptr<Device> holder;
   try
@@ -69,6 +81,7 @@ void Session::open(const std::filesystem::path& file, const std::string& unit)
     keepHolding();
     throw;
   }
+  endRecording(old);
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.files = body_.files;
@@ -79,7 +92,9 @@ void Session::open(const std::filesystem::path& file, const std::string& unit)
 
 void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
 {
-  calibration_ = loadCalibration(plan_.press, law); // may throw
+  Calibration calibration = loadCalibration(plan_.press, law); // may throw
+  endRecording(body_);
+  calibration_ = std::move(calibration);
   recording_.scene.law = law;
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
@@ -89,7 +104,6 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
     guided_->setScene(recording_.scene);
   }
   servo_->setScene(recording_.scene);
-  recording_.samples.clear();
   recordedFrom_ = servo_->newest().time + kForgiving;
 }
 
@@ -157,11 +171,11 @@ void Session::keepHolding()
 
 void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
 {
+  endRecording(body_);
   servo_.reset(); // stops before its device goes
   device_ = std::move(device);
   guided_ = device_->guided();
   recording_.device = name;
-  recording_.samples.clear();
   recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
   armedAt_ = 0.0;
   recordedFrom_ = 0.0;
@@ -227,14 +241,12 @@ void Session::aim(const PressTarget& target)
 
 void Session::update(const std::function<void(const Sample&)>& each)
 {
-  std::vector<Sample>& kept = recording_.samples;
   servo_->history().drain(
     [&](const Sample& sample)
     {
       if (sample.time >= recordedFrom_)
       {
-        kept.push_back(sample);
-        each(sample);
+        record(sample, each);
       }
     });
   if (armed() && newest().time > armedAt_ && isFault(newest().state, newest().flags))
@@ -243,9 +255,59 @@ void Session::update(const std::function<void(const Sample&)>& each)
   }
   // a minute at a time, so that moving the rest is rare
   constexpr std::size_t kMinute = kKept / 10;
+  std::vector<Sample>& kept = recording_.samples;
   if (kept.size() > kKept + kMinute)
   {
     kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(kKept));
+  }
+  boundEarlier();
+}
+
+// of a rest the first sample and the last, so that curves go level between them
+void Session::record(const Sample& sample, const std::function<void(const Sample&)>& each)
+{
+  std::vector<Sample>& kept = recording_.samples;
+  if (!kept.empty() && restsAt(kept.back(), sample))
+  {
+    resting_ = sample;
+    return;
+  }
+  if (resting_)
+  {
+    kept.push_back(*resting_);
+    each(kept.back());
+    resting_.reset();
+  }
+  kept.push_back(sample);
+  each(sample);
+}
+
+void Session::endRecording(const Body& body)
+{
+  if (servo_)
+  {
+    update([](const Sample&) {});
+  }
+  if (recording_.deepest())
+  {
+    std::vector<Sample> samples = std::exchange(recording_.samples, {});
+    earlier_.push_back({ body, recording_, calibration_ });
+    earlier_.back().recording.samples = std::move(samples);
+  }
+  recording_.samples.clear();
+  resting_.reset();
+}
+
+void Session::boundEarlier()
+{
+  const auto samples = [this]
+  {
+    return std::accumulate(earlier_.begin(), earlier_.end(), recording_.samples.size(),
+      [](std::size_t sum, const Take& take) { return sum + take.recording.samples.size(); });
+  };
+  while (!earlier_.empty() && samples() > kKept)
+  {
+    earlier_.erase(earlier_.begin());
   }
 }
 

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,13 +40,13 @@ public:
 
   /// Replaces the body; tissue and device stay.
   /// @throws Error  BadFile, BadMesh, or as useDevice; the old body then stays
-  void open(const std::filesystem::path& file, const std::string& unit);
+  void open(const MeshSource& source);
 
-  /// The recording begins anew, as its header tells of one tool and tissue.
+  /// A recording begins, as its header tells of one tool and tissue; see earlier().
   /// @throws Error  as loadCalibration; everything then stays
   void setTissue(const ForceLaw& law, ContactRule rule, double damping);
 
-  /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; the recording begins anew.
+  /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; a recording begins.
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays, or, where it was asked
   ///                for again and is gone, the mouse takes its place
   void useDevice(const std::string& name);
@@ -112,7 +113,24 @@ public:
     return recording_;
   }
 
+  /// A recording that another body, tool, tissue or device ended, with what it was made on.
+  struct Take
+  {
+    Body body;
+    Recording recording;
+    Calibration calibration;
+  };
+
+  /// Those with a press in them, oldest first; of all samples kept the newest ten minutes.
+  [[nodiscard]] const std::vector<Take>& earlier() const noexcept
+  {
+    return earlier_;
+  }
+
 private:
+  void record(const Sample& sample, const std::function<void(const Sample&)>& each);
+  void endRecording(const Body& body);
+  void boundEarlier();
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);
   void keepHolding();
   [[nodiscard]] ToolPose restingPlace() const;
@@ -122,8 +140,10 @@ private:
   Body body_;
   Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;
-  double armedAt_ = 0.0;      // time of the servo from which on a fault is a new one [s]
-  double recordedFrom_ = 0.0; // and from which on a sample is of the tool and tissue in use [s]
+  double armedAt_ = 0.0;          // time of the servo from which on a fault is a new one [s]
+  double recordedFrom_ = 0.0;     // and from which on a sample is of the tool and tissue in use [s]
+  std::optional<Sample> resting_; // the last that was like the one recorded before it
+  std::vector<Take> earlier_;
   std::unique_ptr<Device> device_;
   GuidedTool* guided_ = nullptr; // of the device; null where it moves by itself
   std::unique_ptr<Servo> servo_; // last: it uses the device

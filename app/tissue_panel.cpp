@@ -2,6 +2,7 @@
 
 #include "app/law_panel.h"
 #include "app/panel_boxes.h"
+#include "app/quantity.h"
 #include "app/tool_panel.h"
 
 #include <QGridLayout>
@@ -15,9 +16,9 @@ TissuePanel::TissuePanel(const Scene& scene, const LawOptions& options, QWidget*
   : QWidget(parent)
   , tool_(new ToolPanel(scene.law.tip()))
   , law_(new LawPanel(scene.law.settings(), options))
-  , modulus_(new QuantityBox("young", ShownUnit::kilopascals(), 3, 0.001, 1e7))
-  , poisson_(new QuantityBox("poisson", ShownUnit::si(), 3, 0.0, 0.5))
-  , damping_(new QuantityBox("damping", ShownUnit::si(tr("N·s/m")), 2, 0.0, 50.0))
+  , modulus_(new QuantityBox("young", ShownUnit::kilopascals()))
+  , poisson_(new QuantityBox("poisson", ShownUnit::none()))
+  , damping_(new QuantityBox("damping", ShownUnit::damping()))
   , rule_(new ChoiceBox("rule", { tr("Exact, on triangles"), tr("Paper, on mesh points") }))
 {
   auto* column = new QVBoxLayout(this);
@@ -31,10 +32,11 @@ TissuePanel::TissuePanel(const Scene& scene, const LawOptions& options, QWidget*
 
   connect(tool_, &ToolPanel::toolChanged, this, &TissuePanel::tissueChanged);
   connect(law_, &LawPanel::lawChanged, this, &TissuePanel::tissueChanged);
+  law_->setCheck([this] { (void)law(); });
   for (QuantityBox* box : { modulus_, poisson_, damping_ })
   {
-    connect(
-      box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &TissuePanel::tissueChanged);
+    box->setCheck([this] { check(); });
+    connect(box, &QuantityBox::changed, this, &TissuePanel::tissueChanged);
   }
   connect(
     rule_, qOverload<int>(&QComboBox::currentIndexChanged), this, &TissuePanel::tissueChanged);
@@ -59,6 +61,12 @@ void TissuePanel::setScene(const Scene& scene)
   poisson_->setSi(scene.law.material().poissonRatio);
   damping_->setSi(scene.damping);
   rule_->show(scene.rule == ContactRule::Paper ? 1 : 0);
+}
+
+void TissuePanel::check() const
+{
+  (void)makeMaterial(modulus_->si(), poisson_->si());
+  (void)checkedDamping(damping_->si());
 }
 
 ForceLaw TissuePanel::law() const

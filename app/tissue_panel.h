@@ -38,6 +38,7 @@ Q_SIGNALS:
 
 private:
   QGroupBox* makeTissue();
+  void check() const;
 
   ToolPanel* tool_;
   LawPanel* law_;

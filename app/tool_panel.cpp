@@ -1,6 +1,7 @@
 #include "app/tool_panel.h"
 
 #include "app/panel_boxes.h"
+#include "haptics/error.h"
 #include "haptics/force/profile.h"
 #include "haptics/units.h"
 
@@ -13,7 +14,7 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 
-#include <cmath>
+#include <utility>
 
 namespace palp
 {
@@ -24,17 +25,15 @@ using namespace units::literals;
 
 static_assert(ToolPanel::KindCount == std::variant_size_v<Tip>);
 
-constexpr double kSmallest = 0.001; // of a flat or of a spherical tip [mm]
-
 bool isConical(int kind)
 {
   return kind == ToolPanel::Cone || kind == ToolPanel::TruncatedCone ||
     kind == ToolPanel::BluntCone;
 }
 
-QuantityBox* makeLength(const char* name, double lowMm)
+QuantityBox* makeLength(const char* name)
 {
-  return new QuantityBox(name, ShownUnit::millimetres(), 3, lowMm, 1000.0);
+  return new QuantityBox(name, ShownUnit::millimetres());
 }
 
 } // namespace
@@ -45,10 +44,10 @@ ToolPanel::ToolPanel(const Tip& tip, QWidget* parent)
   , kind_(new ChoiceBox("kind",
       { tr("Sphere"), tr("Cone"), tr("Flat punch"), tr("Truncated cone"), tr("Blunt cone"),
         tr("Paraboloid"), tr("Profile from a file…") }))
-  , radius_(makeLength("radius", 0.1))
-  , halfAngle_(new QuantityBox("halfAngle", ShownUnit::degrees(), 2, 1.0, 89.0))
-  , flatRadius_(makeLength("flatRadius", kSmallest))
-  , tipRadius_(makeLength("tipRadius", kSmallest))
+  , radius_(makeLength("radius"))
+  , halfAngle_(new QuantityBox("halfAngle", ShownUnit::degrees()))
+  , flatRadius_(makeLength("flatRadius"))
+  , tipRadius_(makeLength("tipRadius"))
   , fileName_(new QLineEdit)
   , file_(makeFile())
 {
@@ -61,12 +60,8 @@ ToolPanel::ToolPanel(const Tip& tip, QWidget* parent)
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &ToolPanel::choose);
   for (QuantityBox* box : { radius_, halfAngle_, flatRadius_, tipRadius_ })
   {
-    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-      [this]
-      {
-        fitRanges();
-        Q_EMIT toolChanged();
-      });
+    box->setCheck([this] { (void)checkedTip(this->tip()); });
+    connect(box, &QuantityBox::changed, this, &ToolPanel::toolChanged);
   }
 }
 
@@ -144,7 +139,6 @@ void ToolPanel::setTip(const Tip& tip)
       {
         halfAngle_->setSi(shape.halfAngle);
       }
-      fitRanges();
       if constexpr (requires { shape.flatRadius; })
       {
         flatRadius_->setSi(shape.flatRadius);
@@ -173,8 +167,8 @@ void ToolPanel::choose(int kind)
     chooseFile();
     return;
   }
-  fitRanges();
   showFields();
+  fitTip();
   Q_EMIT toolChanged();
 }
 
@@ -190,33 +184,42 @@ void ToolPanel::chooseFile()
   askForProfile(file);
 }
 
-// so that what can be typed is a tool: a flat and a cap are narrower than the base. Only for the
-// shape shown, so that the others keep what was typed.
-void ToolPanel::fitRanges()
+// a flat or a cap that was meant for a wider base would refuse the shape as a whole
+void ToolPanel::fitTip()
 {
-  constexpr double kNarrower = 0.999;
-  const auto highest = [](double mm) { return std::floor(1e3 * mm) / 1e3; };
+  constexpr double kShare = 0.5;
   const int kind = kind_->currentIndex();
-  const QSignalBlocker quiet[]{ QSignalBlocker(flatRadius_), QSignalBlocker(tipRadius_) };
-  if (kind == TruncatedCone)
+  if (kind != TruncatedCone && kind != BluntCone)
   {
-    flatRadius_->setMaximum(highest(kNarrower * radius_->value()));
+    return;
   }
-  else if (kind == BluntCone)
+  try
   {
-    tipRadius_->setMaximum(highest(kNarrower * radius_->value() / std::cos(halfAngle_->si())));
+    (void)checkedTip(tip());
+  }
+  catch (const Error&)
+  {
+    QuantityBox* end = kind == TruncatedCone ? flatRadius_ : tipRadius_;
+    end->setSi(kShare * radius_->si());
+    Q_EMIT end->refused(tr("Wider than the base before; half of the base is taken."));
   }
 }
 
 void ToolPanel::showFields()
 {
   const int kind = kind_->currentIndex();
-  setRowVisible(*rows_, radius_, kind != FromFile);
-  setRowVisible(*rows_, halfAngle_, isConical(kind));
-  setRowVisible(*rows_, flatRadius_, kind == TruncatedCone);
-  setRowVisible(*rows_, tipRadius_, kind == BluntCone);
+  for (const auto& [box, shown] :
+    { std::pair(radius_, kind != FromFile), { halfAngle_, isConical(kind) },
+      { flatRadius_, kind == TruncatedCone }, { tipRadius_, kind == BluntCone } })
+  {
+    setRowVisible(*rows_, box, shown);
+    if (!shown)
+    {
+      box->forget();
+    }
+  }
   setRowVisible(*rows_, file_, kind == FromFile);
-  labelOf(*rows_, radius_)->setText(isConical(kind) ? tr("Base radius") : tr("Radius"));
+  setLabel(*rows_, radius_, isConical(kind) ? tr("Base radius") : tr("Radius"));
   showProfile();
 }
 

@@ -53,7 +53,7 @@ private:
   void choose(int kind);
   void chooseFile();
   void showFields();
-  void fitRanges();
+  void fitTip();
   void showProfile();
 
   Tip inUse_;

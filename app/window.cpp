@@ -1,13 +1,11 @@
 #include "app/window.h"
 
 #include "app/device_panel.h"
-#include "app/export.h"
 #include "app/ledger.h"
 #include "app/plot_panel.h"
 #include "app/reliance_panel.h"
 #include "app/tissue_panel.h"
 #include "app/vtkPalpPressStyle.h"
-#include "calibration/replace_file.h"
 #include "haptics/contact/indentation_of.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -31,8 +29,9 @@ namespace palp
 namespace
 {
 
-constexpr int kFrameMs = 16; // the picture
-constexpr int kPlotMs = 100; // the curves, which cost more and need less
+constexpr int kFrameMs = 16;    // the picture
+constexpr int kPlotMs = 100;    // the curves, which cost more and need less
+constexpr int kTimingMs = 1000; // what always changes a little, and draws the window anew
 
 // whether nobody could tell their pictures apart
 bool looksAlike(const Sample& a, const Sample& b)
@@ -44,7 +43,7 @@ bool looksAlike(const Sample& a, const Sample& b)
     (a.pose.axis - b.pose.axis).norm() < kAngle &&
     (a.contact.normal - b.contact.normal).norm() < kAngle;
   return near && std::abs(a.contact.depth - b.contact.depth) < kLength &&
-    std::abs(a.response.force - b.response.force) < kForce;
+    std::abs(a.response.force - b.response.force) < kForce && (a.force - b.force).norm() < kForce;
 }
 
 } // namespace
@@ -55,7 +54,8 @@ Window::Window(Session& session, Ledger& ledger)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
   , validity_(session.recording().scene.law)
 {
-  resize(QSize(1440, 860).boundedTo(screen()->availableSize()));
+  constexpr QSize kFrame{ 16, 48 }; // about what a title bar and borders take
+  resize(QSize(1440, 860).boundedTo(screen()->availableSize() - kFrame));
   ledger.build("3-D view", "the window shows the surface", [&] { makeView(); });
   ledger.build("panels, menus", "tool, tissue and device can be changed",
     [&]
@@ -78,6 +78,9 @@ Window::Window(Session& session, Ledger& ledger)
   auto* plots = new QTimer(this);
   connect(plots, &QTimer::timeout, this, &Window::refreshPanels);
   plots->start(kPlotMs);
+  auto* timing = new QTimer(this);
+  connect(timing, &QTimer::timeout, this, &Window::refreshTiming);
+  timing->start(kTimingMs);
 }
 
 Window::~Window() = default;
@@ -87,7 +90,7 @@ void Window::showBody()
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   view_.setSurface(session_.body().display);
   pointer_.setSurface(session_.body().haptic);
-  view_.lookAtSurface();
+  fittedTo_ = std::pair(0, 0);
   isStale_ = true;
 }
 
@@ -97,6 +100,7 @@ void Window::takeSamples()
     [this](const Sample& sample)
     {
       acting_ |= sample.flags;
+      chartsAreStale_ = true;
       if (charts_)
       {
         charts_->add(sample);
@@ -110,40 +114,91 @@ void Window::clearCharts()
   {
     charts_->clear();
   }
+  chartsAreStale_ = true;
 }
 
 void Window::refresh()
 {
   takeSamples();
   aim(); // a click ends by itself
+  fitView();
   const Sample& sample = session_.newest();
+  shown_.flags = sample.flags;
+  shown_.state = sample.state;
   if (isStale_ || !looksAlike(sample, shown_))
   {
-    view_.show(sample);
-    renderWindow_->Render();
     shown_ = sample;
     isStale_ = false;
+    chartsAreStale_ = true; // the section
+    view_.show(shown_);
+    renderWindow_->Render();
+    showReadings();
   }
+}
 
-  forceLabel_->setText(tr(kHint));
-  if (sample.contact.touching())
+// all of the body, until the user looks at it in another way
+void Window::fitView()
+{
+  const int* size = renderWindow_->GetSize();
+  if (fittedTo_ && *fittedTo_ != std::pair(size[0], size[1]))
   {
-    forceLabel_->setText(
-      tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
-        .arg(sample.response.force, 0, 'f', 2)
-        .arg(units::toMillimetres(sample.contact.depth), 0, 'f', 1)
-        .arg(units::toNewtonsPerMillimetre(sample.response.stiffness), 0, 'f', 2) +
-      (session_.calibration().covers(sample.contact.depth) ? QString() : tr("    R_d estimated")));
+    fittedTo_ = std::pair(size[0], size[1]);
+    view_.lookAtSurface();
+    isStale_ = true;
   }
+}
+
+void Window::keepView()
+{
+  fittedTo_.reset();
+}
+
+// all that tells of the press is of the one sample that the picture shows
+void Window::showReadings()
+{
+  devicePanel_->show(session_, shown_, acted_ | shown_.flags);
+  if (reliance_)
+  {
+    showReliance(shown_);
+  }
+  const Contact& contact = shown_.contact;
+  forceLabel_->setText(!contact.touching()
+      ? tr(kHint)
+      : tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
+          .arg(shown_.response.force, 0, 'f', 2)
+          .arg(units::toMillimetres(contact.depth), 0, 'f', 1)
+          .arg(units::toNewtonsPerMillimetre(shown_.response.stiffness), 0, 'f', 2) +
+        (session_.calibration().covers(contact.depth) ? QString() : tr("    R_d estimated")));
 }
 
 void Window::refreshPanels()
 {
-  devicePanel_->show(session_, session_.newest(), std::exchange(acting_, 0));
+  acted_ = std::exchange(acting_, 0);
+  showReadings();
+  if (std::exchange(chartsAreStale_, false))
+  {
+    refreshCharts();
+  }
+}
+
+void Window::refreshTiming()
+{
+  const Timing& timing = session_.timing();
   if (reliance_)
   {
-    showReliance(session_.newest());
+    reliance_->showTiming(timing, session_.schedule());
   }
+  const auto ticks = timing.ticks.load();
+  const auto late = timing.skipped.load();
+  const double elapsed = static_cast<double>(ticks + late);
+  servoLabel_->setText(
+    tr("servo %1 Hz    late ticks %2")
+      .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
+      .arg(late));
+}
+
+void Window::refreshCharts()
+{
   if (charts_)
   {
     charts_->refresh();
@@ -155,20 +210,10 @@ void Window::refreshPanels()
       }
     }
   }
-
   if (plots_)
   {
     plots_->refresh();
   }
-
-  const Timing& timing = session_.timing();
-  const auto ticks = timing.ticks.load();
-  const auto late = timing.skipped.load();
-  const double elapsed = static_cast<double>(ticks + late);
-  servoLabel_->setText(
-    tr("servo %1 Hz    late ticks %2")
-      .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
-      .arg(late));
 }
 
 void Window::showReliance(const Sample& sample)
@@ -182,7 +227,6 @@ void Window::showReliance(const Sample& sample)
   {
     reliance_->showNoContact();
   }
-  reliance_->showTiming(session_.timing(), session_.schedule());
 }
 
 void Window::applyTissue()
@@ -191,6 +235,7 @@ void Window::applyTissue()
     [this]
     {
       const ForceLaw law = panel_->law();
+      takeSamples();
       session_.setTissue(law, panel_->rule(), panel_->damping());
       validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
       view_.setTip(law.tip());
@@ -202,15 +247,29 @@ void Window::applyTissue()
         charts_->setLaw(law);
       }
       clearCharts(); // as the recording
+      sayWhatIsKept();
       isStale_ = true;
       forceLabel_->setToolTip(QString::fromStdString(session_.calibration().note));
     });
   panel_->setScene(session_.recording().scene); // what was refused is not in use
 }
 
+// a change ends a recording
+void Window::sayWhatIsKept()
+{
+  const std::size_t takes = session_.earlier().size();
+  if (takes > takesKept_)
+  {
+    const std::vector<Sample>& samples = session_.earlier().back().recording.samples;
+    say(tr("A new recording begins. The one before, %1 s, is kept: Export data writes it, too")
+          .arg(samples.back().time - samples.front().time, 0, 'f', 1));
+  }
+  takesKept_ = takes;
+}
+
 void Window::applyDevice(const QString& name)
 {
-  if (name == tr(kLookForDevices))
+  if (name == tr(kScan))
   {
     offerDevices();
     return;
@@ -218,62 +277,6 @@ void Window::applyDevice(const QString& name)
   attempt([&] { session_.useDevice(name.toStdString()); });
   devicePanel_->choose(QString::fromStdString(session_.recording().device));
   applyTissue(); // what is stable depends on the device
-}
-
-bool Window::openSurface(const QString& file, const QString& unit)
-{
-  const bool opened = attempt(
-    [&]
-    {
-      session_.open(file.toStdString(), unit.toStdString());
-      clearCharts();
-      showBody();
-    });
-  devicePanel_->choose(QString::fromStdString(session_.recording().device));
-  return opened;
-}
-
-bool Window::saveScreenshot(const QString& file)
-{
-  return attempt(
-    [&]
-    {
-      renderWindow_->Render();
-      replaceFile(file.toStdString(),
-        [&](const std::filesystem::path& fresh)
-        {
-          if (!canvas_->grabFramebuffer().save(QString::fromStdString(fresh.string())))
-          {
-            throw Error(ErrorCode::BadFile,
-              file.toStdString() + ": cannot be written; choose another folder or a name in .png");
-          }
-        });
-    });
-}
-
-bool Window::savePlots(const QString& file)
-{
-  return attempt([&] { plots_->save(file.toStdString()); });
-}
-
-bool Window::exportData(const QString& directory)
-{
-  return attempt(
-    [&]
-    {
-      takeSamples();
-      const auto ask = [&](const std::string& found)
-      {
-        const QString text = tr("%1 holds %2 already. Replace?");
-        return QMessageBox::question(this, tr("Palp"),
-                 text.arg(directory, QString::fromStdString(found))) == QMessageBox::Yes;
-      };
-      if (exportRecording(directory.toStdString(), session_.body(), session_.recording(),
-            session_.calibration(), session_.timing(), ask))
-      {
-        statusBar()->showMessage(tr("Written to %1").arg(directory), 5000);
-      }
-    });
 }
 
 bool Window::attempt(const std::function<void()>& work)

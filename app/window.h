@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 
 class QLabel;
 class QVTKOpenGLNativeWidget;
@@ -43,19 +45,20 @@ public:
 
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
 
-  bool openSurface(const QString& file, const QString& unit);
+  bool openFile(const QString& file); // asks for what the file does not tell
   bool saveScreenshot(const QString& file);
   bool savePlots(const QString& file);
+  bool saveCurves(const QString& file);
   bool exportData(const QString& directory);
 
 protected:
   void changeEvent(QEvent* event) override;
 
 private:
-  static constexpr const char* kLookForDevices = "look for devices…";
+  static constexpr const char* kScan = "Scan for devices…";
   static constexpr const char* kHint =
-    "Point at the surface, press with the left button, drag down to go deeper; the wheel holds a "
-    "depth; the right button turns the view, Ctrl and the wheel zoom, the middle button moves it";
+    "Drag down: press    Wheel: hold a depth    Right-drag: rotate    Middle-drag: move    "
+    "Ctrl+wheel: zoom";
 
   void makeView();
   void makeDocks();
@@ -77,10 +80,17 @@ private:
   void takeSamples();
   void clearCharts();
   void refresh();
+  void fitView();
+  void keepView();
+  void showReadings();
   void refreshPanels();
+  void refreshCharts();
+  void refreshTiming();
   void showReliance(const Sample& sample);
   void applyTissue();
   void applyDevice(const QString& name);
+  void sayWhatIsKept();
+  void say(const QString& what);
   bool attempt(const std::function<void()>& work);
 
   Session& session_;
@@ -92,9 +102,14 @@ private:
 
   PointerTool pointer_;
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
+  std::uint32_t acted_ = 0;  // and in the time before
   Validity validity_;        // of the law that the session uses
   Sample shown_;             // in the picture
   bool isStale_ = true;      // the picture, whatever the newest sample is
+  bool chartsAreStale_ = true;
+  std::optional<std::pair<int, int>> fittedTo_ =
+    std::pair(0, 0); // size that all of the body is seen in
+  std::size_t takesKept_ = 0;
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   vtkNew<vtkContextView> timeView_;

@@ -9,6 +9,7 @@
 #include "app/window.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkCommand.h>
 #include <vtkContextScene.h>
 #include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -69,7 +70,7 @@ QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
   canvas->setRenderWindow(window);
-  canvas->setMinimumSize(280, 150);
+  canvas->setMinimumSize(260, 120);
   view.SetRenderWindow(window);
   view.GetRenderer()->SetBackground(1.0, 1.0, 1.0);
   return canvas;
@@ -91,6 +92,7 @@ void Window::makeView()
   }
 
   makePointer();
+  style_->AddObserver(vtkCommand::StartInteractionEvent, this, &Window::keepView);
 }
 
 void Window::makeDocks()
@@ -108,7 +110,7 @@ void Window::makeDocks()
   if (session_.plan().validity)
   {
     reliance_ = new ReliancePanel;
-    addDock(this, Qt::LeftDockWidgetArea, tr("Reliance"), scrolled(reliance_));
+    addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(reliance_));
   }
 
   forceLabel_ = new QLabel;
@@ -144,10 +146,14 @@ void Window::makePlots(bool shown)
   if (plots_)
   {
     plots_->parentWidget()->setVisible(shown);
+    chartsAreStale_ = true;
     return;
   }
   const auto forces = [this]
-  { return forceComparison(session_.recording(), &session_.calibration()); };
+  {
+    const Recording& recording = session_.recording();
+    return forceComparison(recording.scene.law, recording.lastPress(), &session_.calibration());
+  };
   plots_ = new PlotPanel(
     { { tr("Section"), [this] { return sectionOf(view_.press(), session_.calibration()); } },
       { tr("Forces"), forces },
@@ -167,13 +173,21 @@ void Window::makePlots(bool shown)
 
 void Window::offerDevices()
 {
-  devicePanel_->offer(deviceNames(session_, Session::devices()));
+  const std::vector<std::string> found = Session::devices();
+  const QStringList names = deviceNames(session_, found);
+  devicePanel_->offer(names + QStringList(tr(kScan)));
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  QStringList others = names;
+  others.removeAll("mouse");
+  others.removeAll("hand");
+  say(others.isEmpty() ? tr("No device found that can be used; palp devices tells why")
+                       : tr("Devices: %1").arg(others.join(", ")));
 }
 
 void Window::makeDevicePanel()
 {
   // nobody looks at the USB until the user wants a device from there
-  devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kLookForDevices));
+  devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kScan));
   connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
   connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });
   connect(devicePanel_, &DevicePanel::armAsked, this,
@@ -182,47 +196,6 @@ void Window::makeDevicePanel()
       session_.stop(false);
       session_.arm(armed);
     });
-}
-
-void Window::makeFileMenu()
-{
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  file->addAction(
-    tr("&Open surface…"), this,
-    [this]
-    {
-      const QString name = QFileDialog::getOpenFileName(
-        this, tr("Open surface"), {}, tr("Surfaces (*.stl *.obj *.ply *.off *.vtk *.vtp)"));
-      if (!name.isEmpty())
-      {
-        openSurface(name, "auto");
-      }
-    },
-    QKeySequence::Open);
-  file->addAction(
-    tr("Save &screenshot…"), this,
-    [this]
-    {
-      const QString name =
-        QFileDialog::getSaveFileName(this, tr("Save screenshot"), "palp.png", tr("PNG (*.png)"));
-      if (!name.isEmpty())
-      {
-        saveScreenshot(name);
-      }
-    },
-    QKeySequence::Save);
-  QAction* exporting = file->addAction(tr("&Export data…"), this,
-    [this]
-    {
-      const QString name = QFileDialog::getExistingDirectory(this, tr("Export data into"));
-      if (!name.isEmpty())
-      {
-        exportData(name);
-      }
-    });
-  exporting->setEnabled(session_.plan().records()); // without plots no sample is kept
-  file->addSeparator();
-  file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
 }
 
 void Window::makeDeviceMenu()
@@ -238,20 +211,14 @@ void Window::makeDeviceMenu()
     QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
   device->addAction(
-    tr("&Look for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
+    tr("S&can for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
 }
 
 void Window::makeViewMenu()
 {
   QMenu* view = menuBar()->addMenu(tr("&View"));
   view->addAction(
-    tr("Whole &surface"), this,
-    [this]
-    {
-      view_.lookAtSurface();
-      isStale_ = true;
-    },
-    QKeySequence(Qt::Key_Home));
+    tr("&Reset view"), this, [this] { fittedTo_ = std::pair(0, 0); }, QKeySequence(Qt::Key_Home));
   const auto add = [&](const QString& name, Overlay overlay)
   {
     QAction* action = view->addAction(name);

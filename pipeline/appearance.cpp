@@ -128,7 +128,7 @@ void setUpChart(
 {
   chart.SetTitle(title);
   setFont(*chart.GetTitleProperties(), 15, kInk, true);
-  chart.SetHiddenAxisBorder(28); // the title stays off the curves
+  chart.SetHiddenAxisBorder(title.empty() ? 14 : 28); // the title stays off the curves
   for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
   {
     vtkAxis* axis = chart.GetAxis(side);

@@ -41,6 +41,17 @@ std::vector<double> forcesOf(const NamedLaw& law, const std::vector<double>& dep
   return forces;
 }
 
+// color of the first reference
+std::size_t firstReference(const std::vector<NamedLaw>& laws)
+{
+  std::size_t first = laws.size();
+  for (const NamedLaw& law : laws)
+  {
+    first = std::max(first, law.color.value_or(0) + 1);
+  }
+  return first;
+}
+
 } // namespace
 
 std::unique_ptr<Plot> forcePlot(
@@ -55,12 +66,16 @@ std::unique_ptr<Plot> forcePlot(
   std::vector<double> high = first;
   std::for_each(low.begin(), low.end(), [=](double& f) { f = std::max(0.0, f - margin); });
   std::for_each(high.begin(), high.end(), [=](double& f) { f += margin; });
-  plot->addBand("7 % of the largest force", shown, low, high, appearance::curveColor(0));
+  plot->addBand("7 % of the largest force", shown, low, high,
+    appearance::curveColor(laws.front().color.value_or(0)));
   std::size_t color = 0;
   for (const NamedLaw& law : laws)
   {
-    plot->addLine(law.name, shown, forcesOf(law, depths), appearance::curveColor(color++));
+    plot->addLine(
+      law.name, shown, forcesOf(law, depths), appearance::curveColor(law.color.value_or(color)));
+    ++color;
   }
+  color = firstReference(laws);
   for (const ReferenceCurve& reference : references)
   {
     plot->addPoints(
@@ -79,7 +94,7 @@ std::unique_ptr<Plot> forceErrorPlot(
   const std::vector<double> low(shown.size(), -100.0 * kNoticed);
   const std::vector<double> high(shown.size(), 100.0 * kNoticed);
   plot->addBand("just noticed by a hand", shown, low, high, appearance::curveColor(0));
-  std::size_t color = laws.size();
+  std::size_t color = firstReference(laws);
   for (const ReferenceCurve& reference : references)
   {
     const double largest = *std::max_element(reference.y.begin(), reference.y.end());

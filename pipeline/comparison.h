@@ -22,6 +22,8 @@ struct NamedLaw
   ForceLaw law;
   Indentation
     place{}; ///< what the law knows but the depth; by default a half-space pressed straight
+  std::optional<std::size_t>
+    color{}; ///< as curveColor, which then is no reference's; none: the next
 
   [[nodiscard]] double force(double depth) const noexcept
   {

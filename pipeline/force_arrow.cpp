@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <vtkMatrix4x4.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
@@ -19,13 +20,17 @@ using namespace units::literals;
 
 constexpr double kLengthPerForce = 0.015; // [m/N]
 constexpr double kShortest = 12.0_mm;
-constexpr double kLongest = 30.0_mm; // or five tool radii: what a view of the place can hold
+// shares of the body's diagonal, whatever the tool: the body stays seen behind the arrow
+constexpr double kLeast = 0.05;
+constexpr double kLongest = 0.3;
+constexpr double kThickest = 0.008;
 
 } // namespace
 
-double ForceArrow::lengthOf(double force, double baseRadius) noexcept
+double ForceArrow::lengthOf(double force, double diagonal) noexcept
 {
-  return std::clamp(force * kLengthPerForce, kShortest, std::max(kLongest, 5.0 * baseRadius));
+  return std::clamp(
+    force * kLengthPerForce, std::min(kShortest, kLeast * diagonal), kLongest * diagonal);
 }
 
 ForceArrow::ForceArrow(vtkRenderer& renderer)
@@ -51,10 +56,11 @@ ForceArrow::ForceArrow(vtkRenderer& renderer)
 
 void ForceArrow::show(const Moment& moment)
 {
-  const double base = baseRadius(moment.tip);
+  const double diagonal = vtkPolyData::SafeDownCast(moment.press.GetInput())->GetLength();
   const double force = moment.sample.response.force;
-  const double length = lengthOf(force, base);
-  const double thickness = std::min(0.15 * base, 0.12 * length);
+  const double length = lengthOf(force, diagonal);
+  const double thickness =
+    std::min({ 0.15 * baseRadius(moment.tip), 0.12 * length, kThickest * diagonal });
   source_->SetShaftRadius(thickness / length);
   source_->SetTipRadius(2.6 * thickness / length);
   source_->SetTipLength(std::min(0.5, 7.0 * thickness / length));
@@ -65,7 +71,9 @@ void ForceArrow::show(const Moment& moment)
     appearance::placement(start, length * appearance::axesAlong(contact.normal, 0)));
   const Eigen::Vector3d end = start + (length + thickness) * contact.normal;
   label_->GetPositionCoordinate()->SetValue(end.x(), end.y(), end.z());
-  label_->SetInput(appearance::fixedText(force, 2).append(" N").c_str());
+  const bool isCut = force * kLengthPerForce > length;
+  label_->SetInput(
+    appearance::fixedText(force, 2).append(isCut ? " N (arrow cut off)" : " N").c_str());
   arrow_->VisibilityOn();
   label_->VisibilityOn();
 }

@@ -10,16 +10,17 @@
 namespace palp
 {
 
-/// The force on the hand as an arrow, as long as it is large, with its value in newtons.
+/// The force on the hand as an arrow, as long as it is large, up to a share of the body, with its
+/// value in newtons.
 class ForceArrow : public OverlayProps
 {
 public:
   explicit ForceArrow(vtkRenderer& renderer);
 
-  /// @param force       [N]
-  /// @param baseRadius  of the tool [m]
-  /// @return            [m]
-  [[nodiscard]] static double lengthOf(double force, double baseRadius) noexcept;
+  /// @param force     [N]
+  /// @param diagonal  of the body's bounding box [m]
+  /// @return          [m]
+  [[nodiscard]] static double lengthOf(double force, double diagonal) noexcept;
 
   void show(const Moment& moment) override;
   void hide() override;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
-#include <vtkChartLegend.h>
+#include <vtkDataArray.h>
 #include <vtkFloatArray.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
@@ -26,6 +26,12 @@ constexpr double kFirstDepth = 5.0_mm;
 constexpr double kFirstTime = 2.0; // [s]
 constexpr int kLawPoints = 201;
 
+constexpr const char* kOverTime = "force over time";
+constexpr const char* kOverDepth = "force over depth";
+constexpr const char* kTime = "time [s]";
+constexpr const char* kDepth = "depth \u03b4 [mm]";
+constexpr const char* kForce = "force [N]";
+
 void setPen(vtkPen& pen, const appearance::Color& color, float width)
 {
   pen.SetColorF(color[0], color[1], color[2]);
@@ -38,14 +44,6 @@ vtkPlot* addLine(vtkChartXY& chart, const char* name, const appearance::Color& c
   line->SetLabel(name);
   setPen(*line->GetPen(), color, width);
   return line;
-}
-
-void addLegend(vtkChartXY& chart)
-{
-  chart.SetShowLegend(true);
-  chart.GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
-  chart.GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
-  appearance::setFont(*chart.GetLegend()->GetLabelProperties(), 12);
 }
 
 // ranges come from refresh(), not from the plots
@@ -78,14 +76,34 @@ double roomFor(double value, double least)
   return std::max(least, step * std::ceil(1.05 * value / step));
 }
 
+std::vector<double> columnOf(vtkTable& table, vtkIdType column)
+{
+  std::vector<double> values;
+  for (vtkIdType row = 0; row < table.GetNumberOfRows(); ++row)
+  {
+    values.push_back(table.GetValue(row, column).ToDouble());
+  }
+  return values;
+}
+
+// of a column; 0 of an empty one
+double largest(vtkTable& table, vtkIdType column)
+{
+  double range[2]{ 0.0, 0.0 };
+  if (table.GetNumberOfRows() > 0)
+  {
+    vtkDataArray::SafeDownCast(table.GetColumn(column))->GetRange(range);
+  }
+  return range[1];
+}
+
 } // namespace
 
 ForceCharts::ForceCharts(std::optional<double> duration)
   : duration_(duration.value_or(0.0))
   , law_(SphereTip{ .radius = 10.0_mm }, Material{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 })
 {
-  const char* title = duration ? "force over time" : "force over the last minute";
-  appearance::setUpChart(*overTime_, title, "time [s]", "force [N]");
+  appearance::setUpChart(*overTime_, duration ? kOverTime : "", kTime, kForce);
   for (vtkPalpSampleSource* source : { samples_.Get(), rendered_.Get() })
   {
     source->SetSpan(std::max(duration_, vtkPalpSampleSource::Minute));
@@ -93,7 +111,6 @@ ForceCharts::ForceCharts(std::optional<double> duration)
   fixAxes(*overTime_);
   timePlot_ = addLine(*overTime_, "law", appearance::kLaw, 3.0F);
   renderedPlot_ = addLine(*overTime_, "rendered", appearance::kMeasured, 1.0F);
-  addLegend(*overTime_);
 
   for (const char* name : { "depth [mm]", "force [N]" })
   {
@@ -102,7 +119,7 @@ ForceCharts::ForceCharts(std::optional<double> duration)
     column->SetNumberOfValues(kLawPoints);
     lawTable_->AddColumn(column);
   }
-  appearance::setUpChart(*overDepth_, "force over depth", "depth \u03b4 [mm]", "force [N]");
+  appearance::setUpChart(*overDepth_, duration ? kOverDepth : "", kDepth, kForce);
   fixAxes(*overDepth_);
   addLine(*overDepth_, "law", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
   auto* points = vtkPlotPoints::SafeDownCast(overDepth_->AddPlot(vtkChart::POINTS));
@@ -111,7 +128,6 @@ ForceCharts::ForceCharts(std::optional<double> duration)
   points->SetMarkerSize(3.0F);
   setPen(*points->GetPen(), appearance::kMeasured, 1.0F);
   depthPlot_ = points;
-  addLegend(*overDepth_);
   setLaw(law_);
 }
 
@@ -131,11 +147,6 @@ void ForceCharts::add(const Sample& sample)
   Sample sent = sample;
   sent.response.force = sample.force.norm();
   rendered_->AddSample(sent);
-  if (std::isfinite(sample.response.force) && std::isfinite(sample.contact.depth))
-  {
-    largestForce_ = std::max(largestForce_, sample.response.force);
-    largestDepth_ = std::max(largestDepth_, sample.contact.depth);
-  }
 }
 
 void ForceCharts::refresh()
@@ -150,8 +161,10 @@ void ForceCharts::refresh()
   {
     plot->SetVisible(samples_->GetOutput(0)->GetNumberOfRows() > 1); // else VTK complains
   }
+  const double force =
+    std::max(largest(*samples_->GetOutput(0), 1), largest(*rendered_->GetOutput(0), 1));
   const double depthLimit = units::fromMillimetres(
-    roomFor(units::toMillimetres(largestDepth_), units::toMillimetres(kFirstDepth)));
+    roomFor(largest(*samples_->GetOutput(1), 0), units::toMillimetres(kFirstDepth)));
   if (depthLimit != lawLimit_)
   {
     drawLaw(depthLimit);
@@ -163,17 +176,16 @@ void ForceCharts::refresh()
     : last < span                    ? std::min(span, roomFor(last, kFirstTime))
                                      : last;
   setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
-  setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(largestForce_, kFirstForce));
+  setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(force, kFirstForce));
   setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimetres(depthLimit));
-  setRange(*overDepth_, vtkAxis::LEFT, 0.0, roomFor(std::max(largestForce_, law), law));
+  setRange(*overDepth_, vtkAxis::LEFT, 0.0,
+    roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));
 }
 
 void ForceCharts::clear()
 {
   samples_->Clear();
   rendered_->Clear();
-  largestForce_ = 0.0;
-  largestDepth_ = 0.0;
 }
 
 void ForceCharts::setLaw(const ForceLaw& law)
@@ -181,6 +193,22 @@ void ForceCharts::setLaw(const ForceLaw& law)
   law_ = law;
   lawLimit_ = 0.0;
   refresh();
+}
+
+std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
+{
+  std::vector<std::unique_ptr<Plot>> plots;
+  Plot& time = *plots.emplace_back(std::make_unique<Plot>(kOverTime, kTime, kForce));
+  vtkTable& law = *samples_->GetOutput(0);
+  vtkTable& sent = *rendered_->GetOutput(0);
+  time.addLine("law", columnOf(law, 0), columnOf(law, 1), appearance::kLaw, 3.0F);
+  time.addLine("rendered", columnOf(sent, 0), columnOf(sent, 1), appearance::kMeasured, 1.0F);
+  Plot& depth = *plots.emplace_back(std::make_unique<Plot>(kOverDepth, kDepth, kForce));
+  vtkTable& measured = *samples_->GetOutput(1);
+  depth.addLine("law", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
+  depth.addPoints("measured", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
+    Plot::Mark::Circle, 3.0F);
+  return plots;
 }
 
 void ForceCharts::drawLaw(double depthLimit)

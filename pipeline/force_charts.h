@@ -2,10 +2,12 @@
 
 #include "haptics/force/force_law.h"
 #include "haptics/servo/sample.h"
+#include "pipeline/plot.h"
 #include "pipeline/vtkPalpSampleSource.h"
 
+#include <memory>
 #include <optional>
-#include <vtkChartXY.h>
+#include <vector>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
 #include <vtkTable.h>
@@ -23,7 +25,8 @@ namespace palp
 class ForceCharts
 {
 public:
-  /// @param duration  of the whole press [s], from time 0; none: the last minute is shown
+  /// @param duration  of the whole press [s], from time 0; none: the last minute is shown, without
+  ///                  titles, as each chart has those of the panel around it
   explicit ForceCharts(std::optional<double> duration = std::nullopt);
   ForceCharts(const ForceCharts&) = delete;
   ForceCharts& operator=(const ForceCharts&) = delete;
@@ -34,7 +37,8 @@ public:
   /// Takes a sample; the charts follow at the next refresh().
   void add(const Sample& sample);
 
-  /// Brings plots and axes up to the samples; the cost does not depend on their number.
+  /// Brings plots and axes up to the samples that are seen; the cost does not depend on their
+  /// number.
   void refresh();
 
   /// Forgets the samples.
@@ -43,22 +47,23 @@ public:
   /// The law drawn under the measured points.
   void setLaw(const ForceLaw& law);
 
+  /// Both charts as they were last refreshed, to be laid out anew for a file.
+  [[nodiscard]] std::vector<std::unique_ptr<Plot>> plots() const;
+
 private:
   void drawLaw(double depthLimit);
 
   vtkNew<vtkPalpSampleSource> samples_;
   vtkNew<vtkPalpSampleSource> rendered_; // the force that was sent in the place of the law's
   vtkNew<vtkTable> lawTable_;
-  vtkNew<vtkChartXY> overTime_;
-  vtkNew<vtkChartXY> overDepth_;
+  vtkNew<vtkPalpChart> overTime_;
+  vtkNew<vtkPalpChart> overDepth_;
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
   vtkPlot* renderedPlot_ = nullptr;
   vtkPlot* depthPlot_ = nullptr;
   double duration_; // of a press that is known from the start [s]; else 0
   ForceLaw law_;
-  double largestForce_ = 0.0; // measured [N]
-  double largestDepth_ = 0.0; // measured [m]
-  double lawLimit_ = 0.0;     // depth to which the law is drawn [m]
+  double lawLimit_ = 0.0; // depth to which the law is drawn [m]
 };
 
 } // namespace palp

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <vtkAxis.h>
-#include <vtkBoundingBox.h>
 #include <vtkBrush.h>
-#include <vtkChartLegend.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
@@ -62,9 +60,6 @@ Plot::Plot(const std::string& title, const std::string& bottom, const std::strin
   vtkAxis* vertical = chart_->GetAxis(vtkAxis::LEFT);
   vertical->SetLabelOffset(4.0F); // or the labels touch the title
   vertical->SetTickLength(3.0F);
-  chart_->SetShowLegend(true);
-  appearance::setFont(*chart_->GetLegend()->GetLabelProperties(), 12);
-  chart_->GetLegend()->GetBrush()->SetColor(255, 255, 255, 190); // curves below it are still seen
 }
 
 vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
@@ -129,47 +124,6 @@ void Plot::addBand(const std::string& name, std::span<const double> x, std::span
   plot->GetPen()->SetLineType(vtkPen::NO_PEN);
 }
 
-// by the points that each corner holds, in a frame around all of them
-void Plot::placeLegend()
-{
-  vtkBoundingBox frame;
-  std::vector<std::array<double, 3>> points;
-  for (const auto& table : tables_)
-  {
-    for (vtkIdType column = 1; column < table->GetNumberOfColumns(); ++column)
-    {
-      for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
-      {
-        points.push_back(
-          { table->GetValue(row, 0).ToDouble(), table->GetValue(row, column).ToDouble(), 0.0 });
-        frame.AddPoint(points.back().data());
-      }
-    }
-  }
-  constexpr double kWide = 0.4;
-  constexpr double kHigh = 0.3;
-  std::array<int, 4> inside{}; // top left, bottom right, top right, bottom left
-  for (const auto& point : points)
-  {
-    const double x = (point[0] - frame.GetBound(0)) / std::max(1e-300, frame.GetLength(0));
-    const double y = (point[1] - frame.GetBound(2)) / std::max(1e-300, frame.GetLength(1));
-    const bool left = x < kWide;
-    const bool right = x > 1.0 - kWide;
-    const bool top = y > 1.0 - kHigh;
-    const bool bottom = y < kHigh;
-    inside[0] += left && top ? 1 : 0;
-    inside[1] += right && bottom ? 1 : 0;
-    inside[2] += right && top ? 1 : 0;
-    inside[3] += left && bottom ? 1 : 0;
-  }
-  const auto best = std::min_element(inside.begin(), inside.end()) - inside.begin();
-  const bool atLeft = best == 0 || best == 3;
-  const bool atTop = best == 0 || best == 2;
-  chart_->GetLegend()->SetHorizontalAlignment(
-    atLeft ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
-  chart_->GetLegend()->SetVerticalAlignment(atTop ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
-}
-
 void Plot::setDecades(vtkAxis& axis, bool isBottom)
 {
   double low = std::numeric_limits<double>::infinity();
@@ -221,20 +175,17 @@ void Plot::setLogarithmic(bool bottom, bool left)
 
 void Plot::hideLegend()
 {
-  chart_->SetShowLegend(false);
+  chart_->SetKeyed(false);
 }
 
 void Plot::addTo(vtkContextScene& scene)
 {
-  placeLegend();
   scene.AddItem(chart_);
 }
 
 void Plot::addTo(vtkContextScene& scene, const vtkRectf& place)
 {
-  chart_->SetAutoSize(false);
-  chart_->SetLayoutStrategy(vtkChart::FILL_RECT);
-  chart_->SetSize(place);
+  chart_->SetPlace(place);
   addTo(scene);
 }
 

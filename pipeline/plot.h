@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/appearance.h"
+#include "pipeline/vtkPalpChart.h"
 
 #include <filesystem>
 #include <iosfwd>
@@ -8,7 +9,6 @@
 #include <span>
 #include <string>
 #include <vector>
-#include <vtkChartXY.h>
 #include <vtkNew.h>
 #include <vtkRect.h>
 #include <vtkSmartPointer.h>
@@ -55,7 +55,7 @@ public:
 
   void hideLegend();
 
-  /// Puts the chart into a scene, which then draws it, the legend in the emptiest corner.
+  /// Puts the chart into a scene, which then draws it, the legend below.
   void addTo(vtkContextScene& scene);
 
   /// The same in a part of the scene [pixels].
@@ -75,12 +75,10 @@ private:
     std::span<const double> first, std::span<const double> second);
   void setDecades(vtkAxis& axis, bool isBottom);
 
-  void placeLegend();
-
   std::string bottom_;
   std::string left_;
   std::vector<vtkSmartPointer<vtkTable>> tables_;
-  vtkNew<vtkChartXY> chart_;
+  vtkNew<vtkPalpChart> chart_;
 };
 
 /// Puts charts into a window in the place of what it showed, one below the other.

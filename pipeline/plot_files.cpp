@@ -4,14 +4,11 @@
 #include "haptics/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <fcntl.h>
 #include <fstream>
-#include <spawn.h>
+#include <iterator>
 #include <sstream>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <string>
 #include <vtkGL2PSExporter.h>
 #include <vtkImageData.h>
 #include <vtkPNGWriter.h>
@@ -39,36 +36,48 @@ bool uniform(vtkImageData& image)
   return true;
 }
 
-bool isWholeSvg(const std::filesystem::path& file)
+// blanked out, as a PDF counts its bytes; false for a file that does not end as it should
+bool removeDate(const std::filesystem::path& file, std::string_view end)
 {
-  constexpr std::streamoff kTail = 32;
   std::ifstream in(file, std::ios::binary);
-  in.seekg(0, std::ios::end);
-  in.seekg(std::max<std::streamoff>(0, in.tellg() - kTail));
-  const std::string tail{ std::istreambuf_iterator<char>(in), {} };
-  return tail.find("</svg>") != std::string::npos;
+  std::string text{ std::istreambuf_iterator<char>(in), {} };
+  if (text.rfind(end) == text.npos)
+  {
+    return false;
+  }
+  const std::size_t date = std::min(text.find("/CreationDate"), text.find("CreationDate"));
+  if (date != text.npos)
+  {
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(date),
+      std::find(text.begin() + static_cast<std::ptrdiff_t>(date), text.end(), '\n'), ' ');
+  }
+  return static_cast<bool>(std::ofstream(file, std::ios::binary) << text << std::flush);
 }
 
-// whether rsvg-convert made a PDF; it does so in silence
-bool convert(const std::filesystem::path& svg, const std::filesystem::path& pdf)
+// lines and text; the same picture gives the same bytes
+void writeLines(
+  vtkRenderWindow& window, const std::filesystem::path& file, int format, std::string_view end)
 {
-  std::array<std::string, 6> words{ "rsvg-convert", "--format=pdf", "--background-color=white",
-    "--output", pdf.string(), svg.string() };
-  std::array<char*, 7> arguments{};
-  std::transform(
-    words.begin(), words.end(), arguments.begin(), [](std::string& word) { return word.data(); });
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  int status = 1;
-  const bool started =
-    posix_spawnp(&child, words[0].c_str(), &files, nullptr, arguments.data(), environ) == 0;
-  posix_spawn_file_actions_destroy(&files);
-  while (started && waitpid(child, &status, 0) < 0 && errno == EINTR)
-  {
-  }
-  return started && status == 0;
+  window.Render();
+  vtkNew<vtkGL2PSExporter> exporter;
+  exporter->SetRenderWindow(&window);
+  exporter->SetFileFormat(format);
+  exporter->SetTitle("palp");
+  exporter->CompressOff();
+  exporter->SetSortToOff();
+  exporter->SilentOn(); // else it complains of the background, which it cannot embed
+  // a PDF's own fonts have no Greek letters
+  exporter->SetTextAsPath(format == vtkGL2PSExporter::PDF_FILE);
+  replaceFile(file,
+    [&](const std::filesystem::path& fresh)
+    {
+      exporter->SetFilePrefix((fresh.parent_path() / fresh.stem()).c_str());
+      exporter->Write();
+      if (!removeDate(fresh, end)) // it does not tell whether it wrote
+      {
+        refuseFile(fresh, ENOSPC);
+      }
+    });
 }
 
 } // namespace
@@ -109,40 +118,12 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
 
 void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
 {
-  window.Render();
-  vtkNew<vtkGL2PSExporter> exporter;
-  exporter->SetRenderWindow(&window);
-  exporter->SetFileFormatToSVG();
-  exporter->CompressOff();
-  exporter->SetSortToOff();
-  exporter->SilentOn(); // else it complains of the background, which it cannot embed
-  exporter->SetTextAsPath(false);
-  replaceFile(file,
-    [&](const std::filesystem::path& fresh)
-    {
-      exporter->SetFilePrefix((fresh.parent_path() / fresh.stem()).c_str());
-      exporter->Write();
-      if (!isWholeSvg(fresh)) // it does not tell whether it wrote
-      {
-        refuseFile(fresh, ENOSPC);
-      }
-    });
+  writeLines(window, file, vtkGL2PSExporter::SVG_FILE, "</svg>");
 }
 
 void writePdf(vtkRenderWindow& window, const std::filesystem::path& file)
 {
-  const auto make = [&](const std::filesystem::path& fresh)
-  {
-    const std::filesystem::path pdf = std::filesystem::absolute(fresh); // begins with no dash
-    const std::filesystem::path svg = pdf.string() + ".svg";
-    writeSvg(window, svg);
-    if (!convert(svg, pdf))
-    {
-      throw Error(ErrorCode::BadFile,
-        shownName(file) + ": rsvg-convert made no PDF; install librsvg2-bin, or take svg");
-    }
-  };
-  replaceFile(file, make);
+  writeLines(window, file, vtkGL2PSExporter::PDF_FILE, "%%EOF");
 }
 
 } // namespace palp

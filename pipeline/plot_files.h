@@ -15,13 +15,15 @@ void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesyste
 /// @throws Error  BadFile: cannot be written; NoPicture: every pixel is alike
 void writePng(vtkRenderWindow& window, const std::filesystem::path& file);
 
-/// Writes what a window of charts shows as lines and text, not pixels.
+/// Writes what a window of charts shows as lines and text, not pixels; without a date, so that the
+/// same picture gives the same bytes.
 /// @param file    its name ends in .svg
 /// @throws Error  BadFile: cannot be written
 void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file);
 
-/// The same as PDF, by rsvg-convert: the toolkit's own PDF has no Greek letters.
-/// @throws Error  BadFile: cannot be written, or rsvg-convert is not installed
+/// The same as PDF, its text as outlines.
+/// @param file    its name ends in .pdf
+/// @throws Error  BadFile: cannot be written
 void writePdf(vtkRenderWindow& window, const std::filesystem::path& file);
 
 } // namespace palp

@@ -184,8 +184,8 @@ void PressView::show(const Sample& sample)
   placeTool(sample.pose);
   placeDent(moment);
   const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
-  above_ = std::max(toolHeight(tip_),
-    isPushed ? ForceArrow::lengthOf(sample.response.force, baseRadius(tip_)) : 0.0);
+  above_ = std::max(
+    toolHeight(tip_), isPushed ? ForceArrow::lengthOf(sample.response.force, diagonal_) : 0.0);
   readings_->setKeys(isVisible(Overlay::ContactCircle), isVisible(Overlay::ExtentCircle),
     isVisible(Overlay::ValidityColors) ? dent_->rule(moment) : std::string{});
   for (std::size_t i = 0; i < kOverlayCount; ++i)

@@ -66,11 +66,11 @@ void vtkPalpSampleSource::AddSample(const palp::Sample& sample)
   {
     if (this->Depths.size() < Points)
     {
-      this->Depths.push_back({ depth, force });
+      this->Depths.push_back({ depth, force, sample.time });
     }
     else
     {
-      this->Depths[this->NextDepth] = { depth, force };
+      this->Depths[this->NextDepth] = { depth, force, sample.time };
     }
     this->NextDepth = (this->NextDepth + 1) % Points;
   }
@@ -107,8 +107,11 @@ int vtkPalpSampleSource::RequestData(
   const auto answers = column(overDepth, "force [N]", Points);
   for (const Point& point : this->Depths)
   {
-    depths->InsertNextValue(static_cast<float>(palp::units::toMillimetres(point.Depth)));
-    answers->InsertNextValue(static_cast<float>(point.Force));
+    if (point.Time >= this->LastTime - this->Span)
+    {
+      depths->InsertNextValue(static_cast<float>(palp::units::toMillimetres(point.Depth)));
+      answers->InsertNextValue(static_cast<float>(point.Force));
+    }
   }
   return 1;
 }

@@ -5,7 +5,7 @@
  * Output 0, force against time: float columns "time [s]" and "force [N]", two rows for each of
  * Columns intervals of the last seconds, Span of them, the least and the largest force in it.
  * Output 1, force against depth: float columns "depth [mm]" and "force [N]", the last Points
- * samples that differ from the one before by something that can be seen.
+ * samples of the same seconds that differ from the one before by something that can be seen.
  *
  * Adding a sample costs the same however many there were, and so does an update.
  */
@@ -67,6 +67,7 @@ private:
   {
     double Depth; // [m]
     double Force; // [N]
+    double Time;  // [s]
   };
 
   double Span = Minute;

@@ -46,6 +46,28 @@ TEST(Quantity, RefusesABareNumberWithTheFix)
     "--young: '50' has no unit; write 50kPa (kPa, Pa, MPa, GPa)");
 }
 
+TEST(Quantity, ReadsSpacesAndTheSignsThatPeopleWrite)
+{
+  EXPECT_EQ(parseQuantity(" 10 mm ", Quantity::Length, "r"), 0.01);
+  EXPECT_EQ(
+    parseQuantity("45°", Quantity::Angle, "a"), parseQuantity("45deg", Quantity::Angle, "a"));
+  EXPECT_EQ(parseQuantity("2 N·s/m", Quantity::Damping, "b"), 2.0);
+}
+
+TEST(Quantity, TakesTheUsualUnitOnlyWhereNoneIsGiven)
+{
+  EXPECT_EQ(parseQuantity("10", Quantity::Length, "r", "mm"), 0.01);
+  EXPECT_EQ(parseQuantity("10 cm", Quantity::Length, "r", "mm"), 0.1);
+  EXPECT_THROW((void)parseQuantity("10 kPa", Quantity::Length, "r", "mm"), Error);
+  EXPECT_THROW((void)parseQuantity("", Quantity::Length, "r", "mm"), Error);
+}
+
+TEST(Quantity, TellsOfADecimalComma)
+{
+  EXPECT_EQ(messageOf("12,5kPa", Quantity::Pressure),
+    "--young: '12,5kPa' has a comma; write decimals with a point, like 12.5");
+}
+
 TEST(Quantity, RefusesAnotherQuantitysUnit)
 {
   EXPECT_EQ(messageOf("50mm", Quantity::Pressure),

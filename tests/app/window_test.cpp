@@ -12,15 +12,27 @@
 
 #include <QAction>
 #include <QComboBox>
-#include <QDoubleSpinBox>
+#include <QDialog>
 #include <QImage>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QRegularExpression>
+#include <QScreen>
+#include <QStatusBar>
+#include <QTabBar>
 #include <QTest>
 #include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 #include <QWheelEvent>
+#include <vtkActor2DCollection.h>
+#include <vtkCallbackCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkTextActor.h>
 
 #include <algorithm>
 #include <atomic>
@@ -122,6 +134,54 @@ protected:
     closer.start(100);
     work();
     return said;
+  }
+
+  void type(const char* name, const char* text) const
+  {
+    auto* box = window_->findChild<QAbstractSpinBox*>(name);
+    box->selectAll();
+    QTest::keyClicks(box, text);
+    QTest::keyClick(box, Qt::Key_Return);
+  }
+
+  // how often anything is drawn within some time
+  [[nodiscard]] int picturesIn(int milliseconds) const
+  {
+    int drawn = 0;
+    std::vector<std::pair<vtkRenderWindow*, unsigned long>> watched;
+    for (auto* canvas : window_->findChildren<QVTKOpenGLNativeWidget*>())
+    {
+      vtkNew<vtkCallbackCommand> count;
+      count->SetClientData(&drawn);
+      count->SetCallback(
+        [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+      watched.emplace_back(
+        canvas->renderWindow(), canvas->renderWindow()->AddObserver(vtkCommand::EndEvent, count));
+    }
+    QTest::qWait(milliseconds);
+    for (const auto& [window, observer] : watched)
+    {
+      window->RemoveObserver(observer);
+    }
+    return drawn;
+  }
+
+  // what the lines of text in the scene say
+  [[nodiscard]] QString readings() const
+  {
+    QString text;
+    vtkRenderer* renderer = canvas_->renderWindow()->GetRenderers()->GetFirstRenderer();
+    vtkActor2DCollection* actors = renderer->GetActors2D();
+    actors->InitTraversal();
+    while (vtkActor2D* actor = actors->GetNextActor2D())
+    {
+      const auto* line = vtkTextActor::SafeDownCast(actor);
+      if (line != nullptr && actor->GetVisibility() != 0)
+      {
+        text += QString(const_cast<vtkTextActor*>(line)->GetInput()) + '\n';
+      }
+    }
+    return text;
   }
 
   // the largest force that any sample so far has
@@ -254,7 +314,7 @@ TEST_F(WindowTest, AStifferTissuePushesBackHarder)
 {
   press(100);
   const double soft = session_->newest().response.force;
-  window_->findChild<QDoubleSpinBox*>("young")->setValue(100.0);
+  type("young", "100");
   EXPECT_TRUE(QTest::qWaitFor([&]
     { return std::abs(session_->newest().response.force - 2.0 * soft) < 0.01 * soft; },
     kPatience));
@@ -339,7 +399,7 @@ TEST_F(WindowTest, WhatFailsLeavesEverythingAsItWas)
   session_->useDevice("path:" + file);
   const std::string body = session_->body().name;
   std::filesystem::remove(file);
-  EXPECT_THROW(session_->open(PALP_SHARE "/meshes/sphere_50.vtp", "auto"), Error);
+  EXPECT_THROW(session_->open({ .file = PALP_SHARE "/meshes/sphere_50.vtp" }), Error);
   EXPECT_EQ(session_->body().name, body);
   EXPECT_EQ(session_->recording().mesh, body);
   EXPECT_EQ(session_->recording().device, "path:" + file);
@@ -353,7 +413,7 @@ TEST_F(WindowTest, EscapeStopsNoMouse)
   EXPECT_TRUE(window_->findChild<QLabel*>("force")->text().startsWith("Force"));
   release();
   const auto isHint = [this]
-  { return window_->findChild<QLabel*>("force")->text().startsWith("Point at"); };
+  { return window_->findChild<QLabel*>("force")->text().startsWith("Drag down"); };
   EXPECT_TRUE(QTest::qWaitFor(isHint, kPatience));
 }
 
@@ -376,7 +436,7 @@ TEST_F(WindowTest, TheSimulatedHandYieldsToTheForceUntilItIsStopped)
 TEST_F(WindowTest, ShowsThatTheHandFeelsLessThanTheLawAsksForAndWhy)
 {
   window_->findChild<QComboBox*>("device")->setCurrentText("hand");
-  window_->findChild<QDoubleSpinBox*>("young")->setValue(1e6); // 1 GPa
+  type("young", "1GPa");
   const auto* limits = window_->findChild<QLabel*>("limits");
   bool told = false;
   pressWithForce(100);
@@ -384,7 +444,7 @@ TEST_F(WindowTest, ShowsThatTheHandFeelsLessThanTheLawAsksForAndWhy)
     [&] { return told = told || limits->text().contains("stiffness limited"); }, kPatience))
     << limits->text().toStdString();
   const QString force = window_->findChild<QLabel*>("rendered")->text();
-  EXPECT_TRUE(force.contains("law") && force.contains("rendered")) << force.toStdString();
+  EXPECT_TRUE(force.contains("model") && force.contains("sent")) << force.toStdString();
   release();
 }
 
@@ -664,11 +724,199 @@ TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)
 
 TEST_F(WindowTest, OpensAnotherSurface)
 {
-  ASSERT_TRUE(window_->openSurface(PALP_SHARE "/meshes/sphere_50.vtp", "auto"));
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
   EXPECT_EQ(session_->body().name, "sphere_50.vtp");
   EXPECT_TRUE(window_->windowTitle().contains("sphere_50.vtp"));
   press(80);
   EXPECT_NEAR(session_->newest().contact.depth, 5e-3, 0.02e-3);
+  release();
+}
+
+// while the servo thread goes on
+TEST_F(WindowTest, AnUntouchedWindowDrawsAndRecordsNothing)
+{
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  press(60);
+  release();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+  const auto settled = [this] { return picturesIn(300) == 0; };
+  EXPECT_TRUE(QTest::qWaitFor(settled, kPatience));
+  const std::size_t recorded = session_->recording().samples.size();
+  const std::uint64_t ticks = session_->timing().ticks;
+  EXPECT_EQ(picturesIn(1500), 0);
+  EXPECT_EQ(session_->recording().samples.size(), recorded);
+  EXPECT_GT(session_->timing().ticks, ticks + 100);
+  EXPECT_FALSE(std::isnan(session_->newest().time));
+
+  // and wakes up again, with a curve that goes level over the rest
+  press(60);
+  release();
+  const std::vector<Sample>& samples = session_->recording().samples;
+  ASSERT_GT(samples.size(), recorded + 1);
+  EXPECT_GT(samples[recorded].time - samples[recorded - 1].time, 1.0);
+  EXPECT_EQ(samples[recorded].pose.apex, samples[recorded - 1].pose.apex);
+}
+
+TEST_F(WindowTest, AllReadingsAreOfOneSample)
+{
+  const QRegularExpression force("([0-9.]+) N");
+  const QRegularExpression depth("depth ([0-9.]+) mm");
+  const QPoint middle = canvas_->rect().center();
+  QTest::mouseMove(canvas_, middle);
+  QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
+  int compared = 0;
+  for (int pixels = 10; pixels < 200; pixels += 3)
+  {
+    QTest::mouseMove(canvas_, middle + QPoint(0, pixels));
+    QTest::qWait(15);
+    const QString scene = readings();
+    const QString status = window_->findChild<QLabel*>("force")->text();
+    const QString panel = window_->findChild<QLabel*>("rendered")->text();
+    if (scene.contains(depth))
+    {
+      ++compared;
+      EXPECT_EQ(force.match(scene).captured(1), force.match(status).captured(1));
+      EXPECT_EQ(force.match(scene).captured(1), force.match(panel).captured(1));
+      EXPECT_EQ(depth.match(scene).captured(1), depth.match(status).captured(1));
+    }
+  }
+  EXPECT_GT(compared, 10);
+  release();
+}
+
+TEST_F(WindowTest, ThisPressIsNotTheDeepestOfTheRecording)
+{
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  auto* panel = window_->findChild<PlotPanel*>();
+  panel->findChild<QTabBar*>("plotTabs")->setCurrentIndex(1);
+  for (const int pixels : { 160, 40 })
+  {
+    press(pixels);
+    release();
+    EXPECT_TRUE(
+      QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+    QTest::qWait(200);
+  }
+  panel->refresh();
+  const std::filesystem::path file = folder_.path() / "forces.csv";
+  ASSERT_TRUE(window_->savePlots(QString::fromStdString(file.string())));
+  double deepest = 0.0;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+  {
+    if (line.starts_with("\"this press\""))
+    {
+      deepest = std::max(deepest, std::stod(line.substr(line.find(',') + 1)));
+    }
+  }
+  EXPECT_GT(deepest, 2.0);
+  EXPECT_LT(deepest, 4.0);
+}
+
+TEST_F(WindowTest, SavesTheCurvesForPrintAndSaysSo)
+{
+  press(100);
+  release();
+  for (const char* name : { "curves.png", "curves.svg", "curves.pdf", "curves.csv" })
+  {
+    const std::filesystem::path file = folder_.path() / name;
+    ASSERT_TRUE(window_->saveCurves(QString::fromStdString(file.string())));
+    EXPECT_GT(std::filesystem::file_size(file), 4000U) << name;
+    EXPECT_TRUE(window_->statusBar()->currentMessage().contains(name));
+  }
+  const QImage picture(QString::fromStdString((folder_.path() / "curves.png").string()));
+  EXPECT_EQ(picture.size(), QSize(1600, 1500)); // two charts
+}
+
+TEST_F(WindowTest, SaysWhatItDidWhereNothingElseShowsIt)
+{
+  const auto said = [this] { return window_->statusBar()->currentMessage(); };
+  const QString shot = QString::fromStdString((folder_.path() / "shot.png").string());
+  ASSERT_TRUE(window_->saveScreenshot(shot));
+  EXPECT_TRUE(said().contains(shot) && said().contains("pixels")) << said().toStdString();
+  auto* devices = window_->findChild<QComboBox*>("device");
+  devices->setCurrentIndex(devices->count() - 1); // scan
+  EXPECT_TRUE(said().contains("evice")) << said().toStdString();
+  EXPECT_EQ(devices->currentText(), "mouse");
+  EXPECT_TRUE(devices->itemText(devices->count() - 1).contains("Scan")) << "can be asked again";
+}
+
+// a change of the tool ends a recording, and loses nothing
+TEST_F(WindowTest, KeepsAndExportsWhatAChangeEnds)
+{
+  press(100);
+  release();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+  QTest::qWait(200);
+  const double peak = peakForce();
+  window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("kept"));
+  ASSERT_EQ(session_->earlier().size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<SphereTip>(session_->earlier()[0].recording.scene.law.tip()));
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
+  const test::CsvTable samples = test::readCsv(folder_.path() / "earlier-1" / "samples.csv");
+  const auto& force = samples["force_N"];
+  EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peak, 1e-9);
+}
+
+TEST_F(WindowTest, FitsASmallScreenWithItsStatusBar)
+{
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  // 1280 x 720 and 1024 x 768 without a title bar; on a higher screen the panels ask for more
+  const int screen = window_->screen()->availableSize().height();
+  const QSize small(1008, std::max(672, screen * 7 / 10));
+  window_->resize(small);
+  QTest::qWait(200);
+  EXPECT_EQ(window_->size(), small);
+  EXPECT_GE(canvas_->width(), 300);
+  const QRect bar(
+    window_->statusBar()->mapTo(window_.get(), QPoint()), window_->statusBar()->size());
+  EXPECT_TRUE(window_->rect().contains(bar));
+}
+
+// a mask of a ball
+std::string writeMask(const std::filesystem::path& file)
+{
+  constexpr int kSide = 40;
+  std::ofstream out(file, std::ios::binary);
+  out << "ObjectType = Image\nNDims = 3\nDimSize = 40 40 40\nElementSpacing = 2 2 2\n"
+         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+  for (int i = 0; i < kSide * kSide * kSide; ++i)
+  {
+    const Eigen::Vector3d from(
+      i % kSide - 19.5, i / kSide % kSide - 19.5, i / kSide / kSide - 19.5);
+    out.put(from.norm() < 15.0 ? 1 : 0);
+  }
+  return file.string();
+}
+
+TEST_F(WindowTest, AsksForTheLevelOfAnImage)
+{
+  const std::string file = writeMask(folder_.path() / "mask.mha");
+  std::vector<QString> reasons;
+  QStringList levels{ "0,5", "7", "0.5" }; // typed in turn
+  QTimer typist;
+  QObject::connect(&typist, &QTimer::timeout,
+    [&]
+    {
+      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      if (dialog != nullptr && !levels.isEmpty())
+      {
+        reasons.push_back(dialog->findChild<QLabel*>("why")->text());
+        dialog->findChild<QLineEdit*>("level")->setText(levels.takeFirst());
+        dialog->accept();
+      }
+    });
+  typist.start(200);
+  ASSERT_TRUE(window_->openFile(QString::fromStdString(file)));
+  ASSERT_EQ(reasons.size(), 3U);
+  EXPECT_TRUE(reasons[0].contains("level")) << reasons[0].toStdString();
+  EXPECT_TRUE(reasons[1].contains("comma")) << reasons[1].toStdString();
+  EXPECT_TRUE(reasons[2].contains("7")) << reasons[2].toStdString();
+  EXPECT_EQ(session_->body().name, "mask.mha");
+  press(60);
   release();
 }
 

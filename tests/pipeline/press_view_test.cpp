@@ -20,6 +20,7 @@
 #include <vtkCubeSource.h>
 #include <vtkLinearSubdivisionFilter.h>
 #include <vtkMassProperties.h>
+#include <vtkProperty.h>
 #include <vtkSphereSource.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
@@ -338,6 +339,39 @@ TEST(ToolSurface, HasTheToolsVolume)
   mass->SetInputConnection(clean->GetOutputPort());
   const double expected = std::numbers::pi * radius * radius * (2.0 / 3.0 * radius + length);
   EXPECT_NEAR(mass->GetVolume(), expected, 0.01 * expected);
+}
+
+// of the arrow, from its colour
+double lengthOfArrow(vtkRenderer& renderer)
+{
+  vtkActorCollection& actors = *renderer.GetActors();
+  actors.InitTraversal();
+  while (vtkActor* actor = actors.GetNextActor())
+  {
+    const double* color = actor->GetProperty()->GetDiffuseColor();
+    if (std::equal(color, color + 3, appearance::kForce.begin()))
+    {
+      return actor->GetLength();
+    }
+  }
+  return 0.0;
+}
+
+// the same press with a tool that is larger than the body
+TEST(ForceArrow, StaysSmallAgainstTheBodyWhateverTheToolAndTheForce)
+{
+  const Body body = ball();
+  const double diagonal = body.surface->GetLength();
+  for (const double radius : { 1.0_mm, 10.0_mm, 125.0_mm, 1000.0_mm })
+  {
+    View view(body, SphereTip{ radius });
+    for (const double depth : { 0.1_mm, 5.0_mm, 30.0_mm })
+    {
+      view.picture(body, pressed(body, SphereTip{ radius }, depth));
+      EXPECT_LT(lengthOfArrow(*view.renderer), 0.35 * diagonal) << radius << ", " << depth;
+      EXPECT_GT(lengthOfArrow(*view.renderer), 0.04 * diagonal) << radius << ", " << depth;
+    }
+  }
 }
 
 } // namespace
