@@ -1,23 +1,18 @@
-#include "app/coating_spec.h"
+#include "app/calibrate_case.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/pictures.h"
 #include "app/program.h"
-#include "app/quantity.h"
-#include "app/tip_spec.h"
+#include "app/progress_line.h"
 #include "calibration/shipped_tables.h"
 #include "calibration/study.h"
 #include "calibration/study_files.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <fstream>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace palp
 {
@@ -25,143 +20,6 @@ namespace
 {
 
 using namespace fem;
-using Clock = std::chrono::steady_clock;
-
-// a case as text with units, by the name of its option
-struct CaseText
-{
-  std::map<std::string, std::string> values{ { "block", "100x100x50mm" }, { "tip", "sphere:10mm" },
-    { "young", "50kPa" }, { "poisson", "0.33" }, { "material", "neo-hookean" },
-    { "depth", "0.5:10:0.5mm" }, { "threshold", "0.5mm" }, { "cap", "0.3mm" },
-    { "model", "axisymmetric" }, { "element-size", "" }, { "coating", "" } };
-};
-
-// A x B x C; a unit on the last number counts for all
-std::array<double, 3> parseBlock(const std::string& text)
-{
-  const auto digits = text.find_last_of("0123456789.");
-  const std::string unit = digits == std::string::npos ? "" : text.substr(digits + 1);
-  std::array<double, 3> sides{};
-  std::istringstream parts(text);
-  std::string part;
-  for (double& side : sides)
-  {
-    if (!std::getline(parts, part, 'x'))
-    {
-      throw Error(ErrorCode::BadValue,
-        "--block: '" + text + "' has fewer than three sides; give " +
-          "width, length and height, as 100x100x50mm");
-    }
-    const bool bare = part.find_first_not_of("0123456789.") == std::string::npos;
-    side = parseQuantity(bare ? part + unit : part, Quantity::Length, "--block (as 100x100x50mm)");
-  }
-  if (!parts.eof())
-  {
-    throw Error(ErrorCode::BadValue,
-      "--block: '" + text + "' has more than three sides; give three, as 100x100x50mm");
-  }
-  return sides;
-}
-
-Case caseOf(const std::string& name, const CaseText& text)
-{
-  const auto value = [&](const char* key) -> const std::string& { return text.values.at(key); };
-  const auto length = [&](const char* key)
-  { return parseQuantity(value(key), Quantity::Length, "--" + std::string(key)); };
-  const auto energy = energyNamed(value("material"));
-  if (!energy)
-  {
-    throw Error(ErrorCode::BadValue,
-      "--material: '" + value("material") +
-        "' is unknown; give linear, corotated, neo-hookean or neo-hookean-isochoric");
-  }
-  const std::string& model = value("model");
-  if (model != "axisymmetric" && model != "block")
-  {
-    throw Error(
-      ErrorCode::BadValue, "--model: '" + model + "' is unknown; give axisymmetric or block");
-  }
-  const auto [width, depth, height] = parseBlock(value("block"));
-  Case study{ .name = name,
-    .width = width,
-    .length = depth,
-    .height = height,
-    .tip = withCap(parseTip(value("tip")), length("cap")),
-    .material = makeMaterial(parseQuantity(value("young"), Quantity::Pressure, "--young"),
-      parseNumber(value("poisson"), "--poisson")),
-    .coatings = parseCoatings(value("coating")),
-    .energy = *energy,
-    .depths = parseRange(value("depth"), Quantity::Length, "--depth").si,
-    .threshold = length("threshold"),
-    .model = model == "block" ? BodyModel::Block : BodyModel::Axisymmetric,
-    .elementSize = value("element-size").empty() ? 0.0 : length("element-size") };
-  if (study.depths.front() == 0.0)
-  {
-    study.depths.erase(study.depths.begin()); // nothing happens at first touch
-  }
-  check(study);
-  return study;
-}
-
-std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& defaults)
-{
-  std::ifstream in(file);
-  if (!in)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the name");
-  }
-  std::vector<Case> cases;
-  try
-  {
-    const auto list = nlohmann::json::parse(in);
-    for (const auto& entry : list)
-    {
-      CaseText text = defaults;
-      for (const auto& [key, value] : entry.items())
-      {
-        if (key != "name" && !text.values.contains(key))
-        {
-          throw Error(ErrorCode::BadFile,
-            file.string() + ": '" + key +
-              "' is no setting of a case; use the names of the options");
-        }
-        text.values[key] = value.get<std::string>();
-      }
-      cases.push_back(caseOf(entry.at("name").get<std::string>(), text));
-    }
-  }
-  catch (const nlohmann::json::exception& error)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() +
-        ": not a list of cases such as [{\"name\": \"soft\", \"young\": \"5kPa\"}]; " +
-        error.what());
-  }
-  return cases;
-}
-
-// one line that is written over itself, on a terminal only
-class ProgressBar
-{
-public:
-  void operator()(std::size_t done, std::size_t total) const
-  {
-    if (isatty(STDERR_FILENO) == 0)
-    {
-      return;
-    }
-    const std::chrono::duration<double> spent = Clock::now() - start_;
-    const auto left = static_cast<double>(total - done) / static_cast<double>(done);
-    constexpr std::size_t kWidth = 30;
-    const std::size_t filled = kWidth * done / total;
-    std::cerr << "\r[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] "
-              << done << " of " << total << " depths, about " << std::lround(left * spent.count())
-              << " s left   " << (done == total ? "\n" : "") << std::flush;
-  }
-
-private:
-  Clock::time_point start_ = Clock::now();
-};
 
 struct CalibrateOptions
 {
@@ -183,6 +41,21 @@ std::unique_ptr<OutputFolder> openFolder(
     : openOutput(folder, calibrationFiles(), options.overwrite);
 }
 
+constexpr const char* kStopped =
+  "interrupted; what was reached is complete in --out, --resume goes on from here";
+
+constexpr const char* kTablesStopped =
+  "interrupted; the tables that were not finished are as before, start again for them";
+
+// before any picture is drawn
+void refuseWhereStopped(const std::stop_token& stop)
+{
+  if (stop.stop_requested())
+  {
+    throw Error(ErrorCode::NoSolution, kStopped);
+  }
+}
+
 void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
 {
   const auto cases = readSweep(options.sweep, options.text);
@@ -193,12 +66,17 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictu
     folders.push_back(openFolder(options.out / study.name, options));
   }
   std::size_t failed = 0;
+  std::size_t done = 0;
+  ProgressLine progress("cases");
+  progress(0, cases.size());
   sweep(folders, cases, options.resume, options.jobs, stop,
     [&](const std::string& name, const std::string& trouble)
     {
       failed += trouble.empty() ? 0 : 1;
-      std::cerr << "palp: " << name << ": " << (trouble.empty() ? "done" : trouble) << '\n';
+      progress.tell(name + ": " + (trouble.empty() ? "done" : trouble));
+      progress(++done, cases.size());
     });
+  refuseWhereStopped(stop);
   for (std::size_t i = 0; i < cases.size(); ++i)
   {
     if (!options.noPicture && std::filesystem::exists(folders[i]->path() / "table.csv"))
@@ -219,7 +97,13 @@ void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const P
 {
   const Case study = caseOf(options.out.filename().string(), options.text);
   const auto folder = openFolder(options.out, options);
-  const Outcome outcome = calibrateInto(*folder, study, options.resume, stop, ProgressBar());
+  Outcome outcome;
+  {
+    ProgressLine progress("depths");
+    progress(0, study.depths.size());
+    outcome = calibrateInto(*folder, study, options.resume, stop, std::ref(progress));
+  }
+  refuseWhereStopped(stop);
   if (!options.noPicture)
   {
     pictures->drawCalibration(study, outcome.steps, folder->stage());
@@ -254,7 +138,8 @@ void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
   {
     becomeSibling("palp-draw");
   }
-  const Interrupt interrupt;
+  Interrupt interrupt;
+  interrupt.endWhatDoesNotStop(options.tables.empty() ? kStopped : kTablesStopped);
   if (!options.tables.empty())
   {
     const auto folder = openOutput(options.tables,
@@ -263,8 +148,7 @@ void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
       [](const std::string& name) { std::cerr << "palp: " << name << '\n'; });
     if (interrupt.token().stop_requested())
     {
-      throw Error(
-        ErrorCode::NoSolution, "interrupted; " + options.tables.string() + " is as it was");
+      throw Error(ErrorCode::NoSolution, kTablesStopped);
     }
     folder->publish();
   }
@@ -299,6 +183,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   text("depth", "Indentation depths A:B:STEP");
   text("threshold", "Displacement at the edge of the deformed region");
   text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
+  text("base", "Under the block: bonded, or slip for one that slides on its support");
   text("coating", "On the block, its height included: THICKNESS:YOUNG:NU from the surface down");
   text("element-size", "Under the tool; 0.5mm, or a tenth of its radius in the block");
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();

@@ -1,5 +1,7 @@
 #include "app/interrupt.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <pthread.h>
 #include <unistd.h>
 #include <utility>
@@ -10,6 +12,8 @@ namespace
 {
 
 constexpr int kWake = SIGURG; // does nothing by default
+constexpr timespec kPatience{ .tv_sec = 1, .tv_nsec = 500'000'000 };
+constexpr int kNoSolution = 5; // exit code
 
 } // namespace
 
@@ -44,6 +48,11 @@ Interrupt::Interrupt(std::function<void()> last)
         if (!last_)
         {
           source_.request_stop();
+          if (sentence_ != nullptr)
+          {
+            (void)sigtimedwait(&signals_, nullptr, &kPatience);
+            endUnless(finished.stop_requested());
+          }
           continue;
         }
         last_();
@@ -52,6 +61,15 @@ Interrupt::Interrupt(std::function<void()> last)
         pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
       }
     });
+}
+
+void Interrupt::endUnless(bool stopped) const
+{
+  if (!stopped)
+  {
+    std::fprintf(stderr, "\npalp: %s\n", sentence_.load());
+    std::_Exit(kNoSolution);
+  }
 }
 
 Interrupt::~Interrupt()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <csignal>
 #include <functional>
 #include <stop_token>
@@ -24,14 +25,25 @@ public:
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
+  /// Work that does not stop within 1.5 s, or at a second Ctrl-C, ends with the program: for work
+  /// whose files are complete at any time.
+  /// @param sentence  told then, with exit code 5; lives as long as this
+  void endWhatDoesNotStop(const char* sentence) noexcept
+  {
+    sentence_ = sentence;
+  }
+
   [[nodiscard]] std::stop_token token() const
   {
     return source_.get_token();
   }
 
 private:
+  void endUnless(bool stopped) const;
+
   std::stop_source source_;
   std::function<void()> last_;
+  std::atomic<const char*> sentence_ = nullptr;
   sigset_t signals_{};
   sigset_t before_{};
   std::jthread listener_;

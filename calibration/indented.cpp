@@ -1,5 +1,7 @@
 #include "calibration/indenter.h"
 
+#include "haptics/units.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,12 @@
 
 namespace palp::fem
 {
+namespace
+{
+
+constexpr double kHanging = 1e-3; // gap to depth, or pull to force, under the tool [-]
+
+} // namespace
 
 double Indenter::radiusOf(int node) const
 {
@@ -41,6 +49,48 @@ double Indenter::contactRadius() const
   }
   const double r = radiusOf(outside[0]);
   return std::clamp(r - (radiusOf(outside[1]) - r) * near / (far - near), last, r);
+}
+
+// small-strain theory knows the undeformed surface only, which never folds
+std::string Indenter::surfaceFault() const
+{
+  const int d = body_.dimension;
+  const auto at = [](double radius)
+  { return " at " + units::inMillimetres(radius) + " from the axis"; };
+  const auto& line = body_.profile;
+  for (std::size_t i = 1; energy_ != Energy::Linear && i < line.size(); ++i)
+  {
+    if (!(radiusOf(line[i]) > radiusOf(line[i - 1])))
+    {
+      return "the surface folds over" + at(radiusOf(line[i]));
+    }
+  }
+
+  const auto restRadius = [&](int node) { return body_.positions.col(node).head(d - 1).norm(); };
+  double edge = 0.0;
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+  {
+    edge = touching_[i] != 0 ? std::max(edge, restRadius(body_.surface[i])) : edge;
+  }
+  double press = 0.0;
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+  {
+    const int node = body_.surface[i];
+    press -= touching_[i] != 0 ? equilibrium_.forces()[d * node + d - 1] : 0.0;
+    const bool enclosed = restRadius(node) < edge - (d == 2 ? 0.0 : body_.elementSize);
+    const double gap = toolAt(node).height - heightOf(node);
+    if (enclosed && touching_[i] == 0 && gap > kHanging * depth_)
+    {
+      return "the surface hangs " + units::inMillimetres(gap) + " below the tool" +
+        at(radiusOf(node));
+    }
+    // the first node alone, on the axis, bears nothing under an even pressure
+    if (d == 2 && i > 1 && press < -kHanging * force_)
+    {
+      return "the tool would have to pull the surface" + at(radiusOf(node));
+    }
+  }
+  return {};
 }
 
 Indented Indenter::state() const

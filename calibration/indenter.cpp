@@ -108,14 +108,15 @@ bool Indenter::updateContact(double forceScale, bool onlyOne)
 {
   const int d = body_.dimension;
   bool changed = false;
-  for (std::size_t i = 0; i < touching_.size() && !(changed && onlyOne); ++i)
+  for (std::size_t i = touching_.size(); i-- > 0 && !(changed && onlyOne);)
   {
     const int node = body_.surface[i];
     const ToolPoint tool = toolAt(node);
     const bool was = touching_[i] != 0;
+    const bool enclosed = d == 2 && i + 1 < touching_.size() && touching_[i + 1] != 0;
     const double pull = equilibrium_.forces()[d * node + d - 1];
     const bool inside = tool.below && heightOf(node) - tool.height > kInTool * depth_;
-    const bool is = was ? tool.below && pull <= kPulled * forceScale : inside;
+    const bool is = was ? enclosed || (tool.below && pull <= kPulled * forceScale) : inside;
     changed = changed || is != was;
     touching_[i] = is ? 1 : 0;
   }
@@ -142,7 +143,7 @@ Equilibrium::Step Indenter::downhill(std::vector<Sliding> nodes, bool mayTurn)
   return step;
 }
 
-std::string Indenter::settle(double depth)
+std::string Indenter::settle(double depth, const std::stop_token& stop)
 {
   depth_ = depth;
   if (!equilibrium_.assemble(displacement_))
@@ -152,7 +153,7 @@ std::string Indenter::settle(double depth)
   double force = 0.0;
   double residual = 0.0;
   int changes = 0;
-  for (int k = 0; k < kMostIterations; ++k)
+  for (int k = 0; k < kMostIterations && !stop.stop_requested(); ++k)
   {
     // who touches is asked anew once the forces are nearly balanced: sooner, they mislead
     const bool careful = changes > kManyChanges;
@@ -179,7 +180,7 @@ std::string Indenter::settle(double depth)
     if (ask && !changed && k > 0 && residual <= balanced * force && gap <= kInTool * depth)
     {
       force_ = force;
-      return {};
+      return surfaceFault();
     }
     if (step.change.size() == 0)
     {
@@ -233,7 +234,7 @@ bool Indenter::contactReachesRim() const
   return tipSlope(tip_, base) < 1e3 && contactRadius() > base - body_.elementSize;
 }
 
-void Indenter::press(double depth)
+void Indenter::press(double depth, const std::stop_token& stop)
 {
   double step = depth - depth_;
   const double smallest = step / (1 << kMostHalvings);
@@ -245,11 +246,11 @@ void Indenter::press(double depth)
     {
       displacement_ += (to - depth_) / (depth_ - previousDepth_) * (start.displacement - previous_);
     }
-    std::string trouble = settle(to);
+    std::string trouble = settle(to, stop);
     if (!trouble.empty() && start.depth > 0.0)
     {
       restore(start); // without extrapolation
-      trouble = settle(to);
+      trouble = settle(to, stop);
     }
     if (trouble.empty())
     {
@@ -258,6 +259,10 @@ void Indenter::press(double depth)
       continue;
     }
     restore(start);
+    if (stop.stop_requested())
+    {
+      throw Error(ErrorCode::NoSolution, kInterrupted);
+    }
     step *= 0.5;
     if (step < smallest)
     {

@@ -3,6 +3,7 @@
 #include "calibration/equilibrium.h"
 #include "haptics/force/tip.h"
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,16 @@ struct Checkpoint
   Eigen::VectorXd displacement; ///< of all dofs [m]
 };
 
+/// What press says once it is asked to stop.
+constexpr const char* kInterrupted = "interrupted; --resume goes on from here";
+
 /// Presses a rigid, frictionless tool into a body, deeper and deeper.
 ///
 /// Total Lagrangian; the nodes in contact slide on the exact tool surface (their height is
 /// eliminated), which nodes those are is found by an active set: a node that would be pulled is
-/// released, one that would enter the tool is taken.
+/// released, one that would enter the tool is taken. Under a tool of revolution only the edge of
+/// the contact is released: the force at one node of a quadratic element does not tell the
+/// pressure's sign. A state in which the surface folds, is pulled or hangs off the tool is none.
 class Indenter
 {
 public:
@@ -49,10 +55,17 @@ public:
 
   /// Goes from the present depth to a deeper one, in smaller steps where needed.
   /// @param depth   delta [m], more than before
-  /// @throws Error  NoSolution: says at which depth and why; the last solution stays
-  void press(double depth);
+  /// @param stop    asked before every Newton step
+  /// @throws Error  NoSolution: says at which depth and why, or kInterrupted; the last solution
+  ///                stays
+  void press(double depth, const std::stop_token& stop = {});
 
   [[nodiscard]] Indented state() const;
+
+  [[nodiscard]] double force() const noexcept
+  {
+    return force_;
+  } ///< [N], as in state()
 
   [[nodiscard]] Checkpoint checkpoint() const
   {
@@ -78,7 +91,8 @@ private:
   [[nodiscard]] bool updateContact(double force, bool onlyOne);
   [[nodiscard]] Equilibrium::Step downhill(std::vector<Sliding> nodes, bool mayTurn);
   [[nodiscard]] bool walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, bool closed);
-  [[nodiscard]] std::string settle(double depth); // empty, or what went wrong
+  [[nodiscard]] std::string settle(double depth, const std::stop_token& stop = {}); // or trouble
+  [[nodiscard]] std::string surfaceFault() const; // empty, or why no tool presses such a surface
   [[nodiscard]] double contactRadius() const;
   [[nodiscard]] bool contactReachesRim() const;
 

@@ -87,8 +87,8 @@ IntegrationPoint ringPoint(const Eigen::Matrix<double, 2, 8>& corners, double x,
 using Place = std::function<Vector2d(double, double)>; // (u, v) to (r, z)
 
 // nodes at the corners and the middles of the sides of a grid, none in the middle of a cell
-Eigen::MatrixXi addNodes(
-  Body& body, const std::vector<double>& us, const std::vector<double>& vs, const Place& place)
+Eigen::MatrixXi addNodes(Body& body, const std::vector<double>& us, const std::vector<double>& vs,
+  const Place& place, Base base)
 {
   const int columns = 2 * static_cast<int>(us.size()) - 1;
   const int rows = 2 * static_cast<int>(vs.size()) - 1;
@@ -115,7 +115,7 @@ Eigen::MatrixXi addNodes(
         body.base.push_back(count);
         body.heldDofs.push_back(2 * count + 1);
       }
-      if (i == 0 || j == 0)
+      if (i == 0 || (j == 0 && base == Base::Bonded))
       {
         body.heldDofs.push_back(2 * count);
       }
@@ -130,8 +130,24 @@ Eigen::MatrixXi addNodes(
   return number;
 }
 
+struct GaussPoint
+{
+  double at;
+  double weight;
+};
+
+// between -1 and 1
+std::vector<GaussPoint> gaussPoints(Integration integration)
+{
+  if (integration == Integration::Reduced)
+  {
+    return { { -1.0 / std::numbers::sqrt3, 1.0 }, { 1.0 / std::numbers::sqrt3, 1.0 } };
+  }
+  return { { -std::sqrt(0.6), 5.0 / 9.0 }, { 0.0, 8.0 / 9.0 }, { std::sqrt(0.6), 5.0 / 9.0 } };
+}
+
 // the element around the middle (i, j) of a cell
-Element ring(const Body& body, const Eigen::MatrixXi& number, int i, int j)
+Element ring(const Body& body, const Eigen::MatrixXi& number, int i, int j, Integration integration)
 {
   Element element{ .meanDilatation = false };
   Eigen::Matrix<double, 2, 8> corners;
@@ -142,29 +158,30 @@ Element ring(const Body& body, const Eigen::MatrixXi& number, int i, int j)
     corners.col(a) = body.positions.col(node);
     element.dofs.insert(element.dofs.end(), { 2 * node, 2 * node + 1 });
   }
-  const double gauss = 1.0 / std::numbers::sqrt3;
-  for (const double y : { -gauss, gauss })
+  for (const GaussPoint& y : gaussPoints(integration))
   {
-    for (const double x : { -gauss, gauss })
+    for (const GaussPoint& x : gaussPoints(integration))
     {
-      element.points.push_back(ringPoint(corners, x, y));
+      element.points.push_back(ringPoint(corners, x.at, y.at));
+      element.points.back().weight *= x.weight * y.weight;
     }
   }
   return element;
 }
 
 // a body of revolution: u = 0 is the axis, the first v the base, the last the top
-Body revolve(const std::vector<double>& us, const std::vector<double>& vs, const Place& place)
+Body revolve(const std::vector<double>& us, const std::vector<double>& vs, const Place& place,
+  Integration integration = Integration::Reduced, Base base = Base::Bonded)
 {
   Body body{ .dimension = 2 };
-  const Eigen::MatrixXi number = addNodes(body, us, vs, place);
+  const Eigen::MatrixXi number = addNodes(body, us, vs, place, base);
   body.profile = body.surface;
   body.top = body.positions(1, body.surface.front());
   for (int j = 1; j < number.cols(); j += 2)
   {
     for (int i = 1; i < number.rows(); i += 2)
     {
-      body.elements.push_back(ring(body, number, i, j));
+      body.elements.push_back(ring(body, number, i, j, integration));
     }
   }
   return body;
@@ -241,13 +258,14 @@ std::vector<double> gradedSteps(double length, double fineLength, double fine, d
   return steps;
 }
 
-Body cylinderBody(
-  double radius, double height, double fineRadius, double fine, const Coatings& coatings)
+Body cylinderBody(double radius, double height, double fineRadius, double fine,
+  const Coatings& coatings, Integration integration, Base base)
 {
   const std::vector<double> sheets = sheetBounds(height, coatings);
-  Body body = revolve(gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
-    fromTheTop(height, sheetSteps(sheets, fine)),
-    [](double u, double v) { return Vector2d(u, v); });
+  Body body = revolve(
+    gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
+    fromTheTop(height, sheetSteps(sheets, fine)), [](double u, double v) { return Vector2d(u, v); },
+    integration, base);
   for (Element& element : body.elements)
   {
     // the first two nodes are at the bottom, the next two at the top

@@ -2,6 +2,7 @@
 
 #include "calibration/body.h"
 #include "haptics/force/coating.h"
+#include "haptics/force/layer.h"
 
 #include <vector>
 
@@ -14,17 +15,25 @@ namespace palp::fem
 [[nodiscard]] std::vector<double> gradedSteps(
   double length, double fineLength, double fine, double growth);
 
-/// A block as the cylinder of equal area under an axisymmetric tool; base bonded, side free.
+/// Where an eight-node quadrilateral samples its energy.
+enum class Integration
+{
+  Reduced, ///< four points: no locking, no spurious mode
+  Full,    ///< nine points: a surface stretched several times over by a sharp tool does not fold
+};
+
+/// A block as the cylinder of equal area under an axisymmetric tool; side free.
 ///
-/// Eight-node quadrilaterals with four integration points: no locking, no spurious mode.
+/// Eight-node quadrilaterals.
 ///
 /// @param radius      of the cylinder [m]
 /// @param height      [m], that of the coatings included
 /// @param coatings    thinner than the height together
 /// @param fineRadius  elements have the size `fine` up to here [m]
 /// @param fine        element size under the tool [m]
-[[nodiscard]] Body cylinderBody(
-  double radius, double height, double fineRadius, double fine, const Coatings& coatings = {});
+[[nodiscard]] Body cylinderBody(double radius, double height, double fineRadius, double fine,
+  const Coatings& coatings = {}, Integration integration = Integration::Reduced,
+  Base base = Base::Bonded);
 
 /// How an elastic sphere is held.
 enum class SphereSupport

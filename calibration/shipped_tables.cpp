@@ -51,16 +51,17 @@ Case layer(const std::string& name, const Tip& tip, double thickness, double poi
     .elementSize = 0.5_mm };
 }
 
-Outcome with(Energy energy, Case study)
+Outcome with(Energy energy, Case study, const std::stop_token& stop)
 {
   study.energy = energy;
-  return calibrate(study);
+  return calibrate(study, stop);
 }
 
 // the rows that both reached; beyond, the last ratio
-std::vector<double> ratios(const Case& study, const Outcome& large, std::string& notes)
+std::vector<double> ratios(
+  const Case& study, const Outcome& large, std::string& notes, const std::stop_token& stop)
 {
-  const Outcome small = with(Energy::Linear, study);
+  const Outcome small = with(Energy::Linear, study, stop);
   std::vector<double> result;
   for (std::size_t i = 0; i < study.depths.size(); ++i)
   {
@@ -147,8 +148,8 @@ void makeSphereTables(const std::filesystem::path& folder, std::stop_token stop,
       {
         study.depths.push_back(depth * kRadius);
       }
-      const Outcome large = with(Energy::NeoHookean, study);
-      const auto ratioOf = ratios(study, large, notes);
+      const Outcome large = with(Energy::NeoHookean, study, stop);
+      const auto ratioOf = ratios(study, large, notes, stop);
       // the thickest layer also stands for the half-space
       const bool thickest = ratio == kRadiusOverThickness.front();
       for (const double row : thickest ? std::vector{ 0.0, ratio } : std::vector{ ratio })
@@ -169,6 +170,10 @@ void makeSphereTables(const std::filesystem::path& folder, std::stop_token stop,
         surfaces << '\n';
       }
     }
+  }
+  if (stop.stop_requested())
+  {
+    return; // in the last of them
   }
   auto ratioTable =
     table("# Force of a neo-Hookean layer under a sphere over that of the linear one, same mesh.\n"
@@ -213,7 +218,7 @@ void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, co
       {
         study.depths.push_back(depth * kConeThickness);
       }
-      const auto ratioOf = ratios(study, with(Energy::NeoHookean, study), notes);
+      const auto ratioOf = ratios(study, with(Energy::NeoHookean, study, stop), notes, stop);
       forces << "0," << degrees << ',' << poisson << ',' << ratioOf.front() << '\n';
       for (std::size_t i = 0; i < ratioOf.size(); ++i)
       {
@@ -221,6 +226,10 @@ void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, co
                << '\n';
       }
     }
+  }
+  if (stop.stop_requested())
+  {
+    return;
   }
   auto ratioTable =
     table("# Force of a neo-Hookean layer under a cone over that of the linear one, same mesh.\n"

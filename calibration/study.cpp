@@ -1,6 +1,7 @@
 #include "calibration/study.h"
 
 #include "calibration/mesh.h"
+#include "calibration/mesh_check.h"
 #include "calibration/study_files.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -8,8 +9,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <thread>
 
 namespace palp::fem
@@ -46,17 +49,6 @@ double largestElement(const Case& study)
                                          : ofHeight;
 }
 
-double elementSize(const Case& study)
-{
-  if (study.elementSize > 0.0)
-  {
-    return study.elementSize;
-  }
-  return study.model == BodyModel::Block
-    ? std::min(kCoarse * baseRadius(study.tip), largestElement(study))
-    : kElementSize;
-}
-
 // radius at which the tool is as high as it is deep: no contact reaches further
 double reach(const Tip& tip, double depth)
 {
@@ -70,10 +62,29 @@ double reach(const Tip& tip, double depth)
   return high;
 }
 
-Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token stop,
-  const std::function<void(const Outcome&, const Indenter&)>& keep, const Progress& progress)
+bool isRound(const Tip& tip)
 {
-  Outcome outcome{ .steps = std::move(saved.steps), .trouble = {} };
+  return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
+}
+
+std::string refusal(const Case& study, double depth, double change)
+{
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * change);
+  return "indentation: the force at " + units::inMillimetres(depth) + " is refused, " +
+    (std::isfinite(change) ? "halving the elements would change it by " + std::string(percent)
+                           : "a mesh twice as coarse finds none, so that its error is not known") +
+    "; give --element-size " + units::inMillimetres(0.5 * elementSize(study)) + " or begin deeper";
+}
+
+// keep: called after every depth whose force stands
+Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token stop,
+  MeshCheck* coarser, const std::function<void(const Outcome&, const Indenter&)>& keep,
+  const Progress& progress)
+{
+  Outcome outcome{
+    .steps = std::move(saved.steps), .trouble = {}, .refused = std::move(saved.refused)
+  };
   Indenter indenter(body, study.tip, study.energy, study.material);
   double reached = 0.0;
   if (saved.checkpoint)
@@ -81,34 +92,67 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
     indenter.resume(*saved.checkpoint);
     reached = saved.checkpoint->depth * (1.0 + kSameDepth);
   }
-  const auto& depths = study.depths;
-  for (auto depth = std::ranges::upper_bound(depths, reached); depth != depths.end(); ++depth)
+  std::string refused =
+    outcome.refused.empty() ? "" : refusal(study, outcome.refused.front(), HUGE_VAL);
+  try
   {
-    if (stop.stop_requested())
+    for (std::size_t i = 0; i < study.depths.size(); ++i)
     {
-      outcome.trouble = "interrupted; --resume goes on from here";
-      break;
+      const double depth = study.depths[i];
+      if (depth > reached)
+      {
+        indenter.press(depth, stop);
+      }
+      const double change =
+        coarser != nullptr ? coarser->changeOnHalving(indenter.force(), depth, stop) : 0.0;
+      if (depth <= reached)
+      {
+        continue;
+      }
+      if (stop.stop_requested())
+      {
+        throw Error(ErrorCode::NoSolution, kInterrupted);
+      }
+      if (change > kMeshError)
+      {
+        refused = refused.empty() ? refusal(study, depth, change) : refused;
+        outcome.refused.push_back(depth);
+      }
+      else
+      {
+        outcome.steps.push_back(indenter.state());
+        keep(outcome, indenter);
+      }
+      if (progress)
+      {
+        progress(i + 1, study.depths.size());
+      }
     }
-    try
+    outcome.trouble = refused;
+  }
+  catch (const Error& error)
+  {
+    if (error.code() != ErrorCode::NoSolution)
     {
-      indenter.press(*depth);
+      throw;
     }
-    catch (const Error& error)
-    {
-      outcome.trouble = error.what();
-      break;
-    }
-    outcome.steps.push_back(indenter.state());
-    keep(outcome, indenter);
-    if (progress)
-    {
-      progress(static_cast<std::size_t>(depth - depths.begin()) + 1, depths.size());
-    }
+    outcome.trouble = error.what();
   }
   return outcome;
 }
 
 } // namespace
+
+double elementSize(const Case& study)
+{
+  if (study.elementSize > 0.0)
+  {
+    return study.elementSize;
+  }
+  return study.model == BodyModel::Block
+    ? std::min(kCoarse * baseRadius(study.tip), largestElement(study))
+    : kElementSize;
+}
 
 Tip withCap(const Tip& tip, double cap)
 {
@@ -147,6 +191,8 @@ void check(const Case& study)
       " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
+  require(study.base == Base::Bonded || study.model == BodyModel::Axisymmetric,
+    "--base: the volumetric block is bonded; use --model axisymmetric");
   require(study.coatings.empty() || study.model == BodyModel::Axisymmetric,
     "--coating: the volumetric block takes none; use --model axisymmetric");
   require(study.coatings.thickness() < study.height,
@@ -169,7 +215,8 @@ Body bodyOf(const Case& study)
   if (study.model == BodyModel::Axisymmetric)
   {
     const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
-    return cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings);
+    return cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings,
+      isRound(study.tip) ? Integration::Reduced : Integration::Full, study.base);
   }
   return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }
@@ -222,7 +269,7 @@ Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progr
   check(study);
   const Body body = bodyOf(study);
   return press(
-    study, body, {}, stop, [](const Outcome&, const Indenter&) {}, progress);
+    study, body, {}, stop, nullptr, [](const Outcome&, const Indenter&) {}, progress);
 }
 
 Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume, std::stop_token stop,
@@ -231,12 +278,18 @@ Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume, std:
   check(study);
   const Body body = bodyOf(study);
   const StudyFiles files(folder, study, body);
+  // the volumetric block is as coarse as the paper's
+  std::optional<MeshCheck> coarser;
+  if (study.model == BodyModel::Axisymmetric)
+  {
+    coarser.emplace(study);
+  }
   const Outcome outcome = press(
-    study, body, resume ? files.load() : Saved{}, stop,
+    study, body, resume ? files.load() : Saved{}, stop, coarser ? &*coarser : nullptr,
     [&](const Outcome& reached, const Indenter& indenter)
     {
       files.write(reached);
-      files.save(indenter.checkpoint());
+      files.save(indenter.checkpoint(), reached.refused);
     },
     progress);
   if (!outcome.steps.empty()) // else what is there stays
@@ -270,7 +323,9 @@ void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
     }
   };
   std::vector<std::jthread> threads;
-  for (unsigned i = 0; i < std::max(1U, jobs); ++i)
+  const std::size_t most =
+    std::min<std::size_t>(cases.size(), std::max(1U, std::thread::hardware_concurrency()));
+  for (std::size_t i = 0; i < std::clamp<std::size_t>(jobs, 1, std::max<std::size_t>(1, most)); ++i)
   {
     threads.emplace_back(work);
   }

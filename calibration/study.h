@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibration/indenter.h"
+#include "calibration/mesh.h"
 #include "calibration/output_folder.h"
 #include "haptics/force/coating.h"
 
@@ -34,6 +35,7 @@ struct Case
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]
   BodyModel model = BodyModel::Axisymmetric;
+  Base base = Base::Bonded; ///< slipping: axisymmetric only
   /// Under the tool [m], 0.01 mm to height / 5, in the block at most width / 29 as well;
   /// 0: 0.5 mm, in the block a tenth of the tool's radius where that is allowed.
   double elementSize = 0.0;
@@ -45,6 +47,9 @@ struct Case
 
 /// @throws Error  BadValue: a geometry that cannot be computed, before any work is done
 void check(const Case& study);
+
+/// Under the tool, the default included [m].
+[[nodiscard]] double elementSize(const Case& study);
 
 /// The undeformed body of a case.
 [[nodiscard]] Body bodyOf(const Case& study);
@@ -60,12 +65,17 @@ void check(const Case& study);
 /// How a calibration went.
 struct Outcome
 {
-  std::vector<Indented> steps; ///< one for each depth that was reached
-  std::string trouble;         ///< empty, or why the last depths are missing
+  std::vector<Indented> steps;   ///< one for each depth that was reached and not refused
+  std::string trouble;           ///< empty, or why depths are missing
+  std::vector<double> refused{}; ///< depths whose force depends on the mesh [m]
 };
 
 /// The names of all files that a calibration, with its pictures, may leave.
 [[nodiscard]] std::vector<std::string> calibrationFiles();
+
+/// Halving the elements changes no force that is kept by more than this, by the estimate of
+/// MeshCheck, which takes about a quarter of the time.
+constexpr double kMeshError = 0.01;
 
 /// Asked after every depth.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
@@ -75,8 +85,9 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 [[nodiscard]] Outcome calibrate(
   const Case& study, std::stop_token stop = {}, const Progress& progress = {});
 
-/// The same with files: after every depth, table.csv, profiles.csv, fit.json and a checkpoint are
-/// complete in the folder, whatever happens next.
+/// The same with files, and with every force checked by a mesh twice as coarse: after every depth,
+/// table.csv, profiles.csv, fit.json and a checkpoint are complete in the folder, whatever happens
+/// next.
 ///
 /// @param folder  stays locked; an earlier calibration in it goes when the first depth is reached
 /// @param resume  go on from the folder's checkpoint, if there is one; the depths that are in the
@@ -89,7 +100,7 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 /// Several cases at a time, each into its folder; a case that fails leaves the others.
 ///
 /// @param folders  one for each case, see calibrateInto
-/// @param jobs  how many at a time, 1 or more
+/// @param jobs  how many at a time, 1 or more; never more than there are cases or cores
 /// @param tell  called with a case's name and its trouble (empty: none), one call at a time
 void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
   const std::vector<Case>& cases, bool resume, unsigned jobs, std::stop_token stop,

@@ -85,36 +85,7 @@ nlohmann::json json(const Fit& fit)
     { "largest_residual_mm", fit.worst }, { "up_to_depth_mm", fit.upTo } };
 }
 
-constexpr const char* kTable = "table.csv";
-constexpr const char* kProfiles = "profiles.csv";
 constexpr const char* kColumns = "depth_mm,radius_mm,ur_mm,uz_mm"; // of the profiles
-constexpr const char* kCheckpoint = "checkpoint.bin";
-constexpr const char* kMagic = "palp checkpoint 1\n";
-
-bool begins(std::istream& in, const std::string& text)
-{
-  std::string start(text.size(), '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return in && start == text;
-}
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what)
-{
-  throw Error(ErrorCode::BadFile, file.string() + ": " + what + "; start again without --resume");
-}
-
-bool has(const std::vector<Indented>& steps, double depth)
-{
-  return std::ranges::any_of(steps,
-    [depth](const Indented& step) { return std::abs(step.depth - depth) <= kSameDepth * depth; });
-}
-
-void putDoubles(std::ostream& out, const double* values, Eigen::Index count)
-{
-  out.write(
-    reinterpret_cast<const char*>(values), count * static_cast<Eigen::Index>(sizeof(double)));
-}
-
 std::string coatingsText(const Coatings& coatings, int digits)
 {
   std::ostringstream out;
@@ -139,8 +110,9 @@ std::string describe(const Case& study, const Body& body, int digits)
   out << "# palp " << PALP_VERSION << ": " << study.name
       << "\n# tool: " << tipText(study.tip, digits)
       << "; depth counted from its tip\n# block: " << toMillimetres(study.width) << " x "
-      << toMillimetres(study.length) << " x " << toMillimetres(study.height)
-      << " mm, base bonded, sides free, frictionless\n# material: "
+      << toMillimetres(study.length) << " x " << toMillimetres(study.height) << " mm, base "
+      << (study.base == Base::Bonded ? "bonded" : "slipping")
+      << ", sides free, frictionless\n# material: "
       << units::toKilopascals(study.material.youngModulus)
       << " kPa, nu = " << study.material.poissonRatio << ", " << name(study.energy) << ": "
       << formula(study.energy) << coatingsText(study.coatings, digits) << "\n# model: "
@@ -230,71 +202,6 @@ void StudyFiles::write(const Outcome& outcome) const
     { "linear_holds_means", "every residual below 3 percent of the largest radius" } };
   replaceFile(folder_.stage() / "fit.json", fitted.dump(2) + "\n");
   folder_.publish();
-}
-
-void StudyFiles::save(const Checkpoint& checkpoint) const
-{
-  std::ostringstream out(std::ios::binary);
-  out << kMagic << key_ << '\n';
-  const auto steps = static_cast<double>(checkpoint.displacement.size());
-  putDoubles(out, &steps, 1);
-  putDoubles(out, &checkpoint.depth, 1);
-  putDoubles(out, checkpoint.displacement.data(), checkpoint.displacement.size());
-  replaceFile(folder_.stage() / kCheckpoint, out.str());
-  folder_.publish();
-}
-
-Saved StudyFiles::load() const
-{
-  Saved saved;
-  const auto file = folder_.path() / kCheckpoint;
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-  {
-    return saved;
-  }
-  if (!begins(in, kMagic + key_ + '\n'))
-  {
-    refuse(file, "is of another case");
-  }
-  for (const char* name : { kTable, kProfiles })
-  {
-    std::ifstream table(folder_.path() / name, std::ios::binary);
-    if (!begins(table, header_))
-    {
-      refuse(folder_.path() / name, "is of another case than the checkpoint beside it");
-    }
-  }
-  double size = 0.0;
-  Checkpoint checkpoint;
-  const auto get = [&](double* values, Eigen::Index count)
-  { in.read(reinterpret_cast<char*>(values), count * static_cast<Eigen::Index>(sizeof(double))); };
-  get(&size, 1);
-  get(&checkpoint.depth, 1);
-  if (!in || !(size > 0.0 && size < 1e8))
-  {
-    refuse(file, "is damaged");
-  }
-  checkpoint.displacement.resize(static_cast<Eigen::Index>(size));
-  get(checkpoint.displacement.data(), checkpoint.displacement.size());
-
-  // the table may be one depth ahead
-  const double deepest = checkpoint.depth * (1.0 + kSameDepth);
-  saved.steps = readSteps(folder_.path());
-  std::erase_if(saved.steps, [&](const Indented& step) { return step.depth > deepest; });
-  if (!in || !has(saved.steps, checkpoint.depth) ||
-    std::ranges::any_of(saved.steps, [](const Indented& step) { return step.profile.empty(); }))
-  {
-    refuse(file, "does not fit the tables beside it");
-  }
-  const auto missing = std::ranges::find_if(
-    study_.depths, [&](double depth) { return depth < deepest && !has(saved.steps, depth); });
-  if (missing != study_.depths.end())
-  {
-    refuse(file, "is past " + shortest(toMillimetres(*missing)) + " mm, which the table lacks");
-  }
-  saved.checkpoint = std::move(checkpoint);
-  return saved;
 }
 
 } // namespace palp::fem

@@ -10,11 +10,15 @@ namespace palp::fem
 
 constexpr double kSameDepth = 1e-9; ///< of a depth [-], by which the digits of a file may err
 
+constexpr const char* kTable = "table.csv";
+constexpr const char* kProfiles = "profiles.csv";
+
 /// What a folder holds of an earlier run: the steps as readSteps gives them.
 struct Saved
 {
   std::vector<Indented> steps{};
   std::optional<Checkpoint> checkpoint{};
+  std::vector<double> refused{}; ///< depths above it that the table lacks [m]
 };
 
 /// The depths of table.csv with the profiles of profiles.csv. What no file holds is 0: base
@@ -40,11 +44,13 @@ public:
   /// comes last: it says no more than the tables.
   /// @throws Error  BadFile: not writable
   void write(const Outcome& outcome) const;
-  void save(const Checkpoint& checkpoint) const;
+  void save(const Checkpoint& checkpoint, const std::vector<double>& refused) const;
 
+  /// A checksum in the checkpoint covers it and the rows of both tables up to its depth.
+  ///
   /// @return        up to the checkpoint; nothing where there is none
-  /// @throws Error  BadFile: of another case, damaged, or already deeper than a depth that is
-  ///                missing
+  /// @throws Error  BadFile: of another case, damaged, changed since, or already deeper than a
+  ///                depth that is missing
   [[nodiscard]] Saved load() const;
 
 private:

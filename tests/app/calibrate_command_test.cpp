@@ -21,7 +21,7 @@ std::vector<NumberTable::Row> rowsOf(const std::filesystem::path& table)
 
 Finished calibrate(const std::string& arguments)
 {
-  return test::runCommand(PALP_PROGRAM " calibrate --element-size 2mm " + arguments);
+  return test::runCommand(PALP_PROGRAM " calibrate --element-size 1mm " + arguments);
 }
 
 TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
@@ -47,7 +47,7 @@ TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
 {
   const auto folder = test::freshFolder();
   const std::string command =
-    PALP_PROGRAM " calibrate --no-picture --element-size 1mm --out " + folder.string();
+    PALP_PROGRAM " calibrate --no-picture --element-size 0.5mm --out " + folder.string();
   const std::string table = (folder / "table.csv").string();
   const Finished stopped = test::runCommand(command + " & running=$!; until [ -s " + table +
     " ]; do sleep 0.02; done; kill -INT $running; wait $running");
@@ -110,6 +110,47 @@ TEST(CalibrateCommand, SaysHowLargeAToolAndAThresholdMayBe)
   EXPECT_NE(calibrate("--tip sphere:60mm").err.find("below 45 mm"), std::string::npos);
   EXPECT_NE(calibrate("--threshold 12mm").err.find("less than the deepest depth of 10 mm"),
     std::string::npos);
+}
+
+// also where a factorization of minutes has no place to ask
+TEST(CalibrateCommand, EndsSoonAfterATermInTheMiddleOfADepth)
+{
+  const auto folder = test::freshFolder();
+  const Finished stopped = test::runCommand("timeout -k 20 -s TERM 1 " PALP_PROGRAM
+                                            " calibrate --no-picture --element-size 0.05mm --out " +
+    folder.string() + "; code=$?; [ $code = 124 ] || exit $code");
+  EXPECT_EQ(stopped.code, 0); // by the TERM, not by the KILL 20 s later, which is 137
+  EXPECT_NE(stopped.err.find("interrupted"), std::string::npos) << stopped.err;
+}
+
+TEST(CalibrateCommand, SweepsStayBelowOutAndSayWhatIsWrong)
+{
+  const auto folder = test::freshFolder();
+  const auto file = folder / "sweep.json";
+  for (const char* bad : { "{}", "[]", "null", "[3]", "[{", "3", R"([{"name": "../../esc"}])",
+         R"([{"name": "/tmp/esc"}])", R"([{"name": ".."}])", R"([{"name": ""}])",
+         R"([{"name": 3}])", R"([{"young": "5kPa"}])", R"([{"name": "a", "depth": 3}])",
+         R"([{"name": "a", "size": "3"}])", R"([{"name": "a"}, {"name": "a"}])" })
+  {
+    std::ofstream(file) << bad;
+    const Finished finished =
+      calibrate("--sweep " + file.string() + " --out " + (folder / "out").string());
+    EXPECT_EQ(finished.code, 2) << bad;
+    EXPECT_EQ(finished.err.find("exception"), std::string::npos) << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out")) << bad;
+  }
+}
+
+TEST(CalibrateCommand, ManyJobsAreNoMoreThanTheCases)
+{
+  const auto folder = test::freshFolder();
+  const auto file = folder / "sweep.json";
+  std::ofstream(file) << R"([{"name": "a", "depth": "1:1:1mm", "threshold": "0.2mm"}])";
+  const Finished finished = calibrate(
+    "--no-picture --jobs 99999 --sweep " + file.string() + " --out " + (folder / "out").string());
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  EXPECT_EQ(rowsOf(folder / "out" / "a" / "table.csv").size(), 1U);
 }
 
 TEST(CalibrateCommand, RefusesBadInputInOneLine)

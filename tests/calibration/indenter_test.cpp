@@ -299,6 +299,72 @@ TEST(Indenter, CoarseVolumetricBlockAgreesWithTheCylinder)
   EXPECT_NEAR(extentRadius(step.profile, 0.5_mm), rows[1].number("Rd05_def_m"), 0.3_mm);
 }
 
+// without the nine points the surface folds by 0.2 mm here, and finer the apex hangs off the tool
+TEST(Indenter, TheSurfaceNeitherFoldsNorHangsUnderASharpCone)
+{
+  const auto rows = referenceTable("calib_cone45__NH_h0.25");
+  Case study = cone(Energy::NeoHookean, 50.0_mm, 4.0_mm);
+  study.depths = { 1.0_mm, 2.0_mm, 3.0_mm, 4.0_mm };
+  study.elementSize = 0.25_mm;
+  for (const Indented& step : completed(study).steps)
+  {
+    EXPECT_NEAR(step.profile.front().uz, -step.depth, 1e-6 * step.depth);
+    for (std::size_t i = 1; i < step.profile.size(); ++i)
+    {
+      const auto& inner = step.profile[i - 1];
+      const auto& outer = step.profile[i];
+      EXPECT_GT(outer.radius + outer.ur, inner.radius + inner.ur) << step.depth;
+    }
+    const auto& row = rows.at(static_cast<std::size_t>(std::lround(step.depth / 0.5_mm)) - 1);
+    ASSERT_NEAR(row.number("delta_m"), step.depth, 1e-9);
+    EXPECT_NEAR(step.force, row.number("F_N"), 0.005 * step.force) << step.depth;
+  }
+}
+
+// what cannot be solved without a fold is not solved
+TEST(Indenter, StopsWhereTheSurfaceWouldFold)
+{
+  Case study = cone(Energy::NeoHookean, 50.0_mm, 5.0_mm);
+  study.tip = BluntConeTip{ .halfAngle = 15.0_deg, .tipRadius = 0.3_mm, .baseRadius = 10.0_mm };
+  study.depths = { 1.0_mm, 2.0_mm, 3.0_mm, 4.0_mm, 5.0_mm };
+  const Outcome outcome = calibrate(study);
+  for (const Indented& step : outcome.steps)
+  {
+    EXPECT_NEAR(step.profile.front().uz, -step.depth, 1e-6 * step.depth);
+    for (std::size_t i = 1; i < step.profile.size(); ++i)
+    {
+      EXPECT_GT(step.profile[i].radius + step.profile[i].ur,
+        step.profile[i - 1].radius + step.profile[i - 1].ur);
+    }
+  }
+  EXPECT_TRUE(outcome.steps.size() == 5 || outcome.trouble.find("mm") != std::string::npos);
+}
+
+// Lebedev's layer on a slipping base, 1 + (2/pi) m0 chi + (14/3 pi^2) m0^2 chi^2 + ...: m0
+// = 1.16758 and m2 = 1.58153 for every nu
+TEST(Indenter, ASlippingBaseIsSofterAsTheLayerSays)
+{
+  Case study = paperCase(Energy::Linear);
+  study.base = Base::Slip;
+  study.tip = ParaboloidTip{ 10.0_mm };
+  study.width = study.length = 300.0_mm;
+  study.depths = { 1.0_mm, 2.0_mm };
+  study.elementSize = 0.5_mm;
+  for (const Indented& step : completed(study).steps)
+  {
+    const double hertz =
+      4.0 / 3.0 * study.material.contactModulus() * std::sqrt(10.0_mm) * std::pow(step.depth, 1.5);
+    const double chi = std::sqrt(10.0_mm * step.depth) / 50.0_mm;
+    constexpr double m0 = 1.16758;
+    constexpr double m2 = 1.58153;
+    constexpr double pi = std::numbers::pi;
+    const double layer = 1.0 + 2.0 / pi * m0 * chi + 14.0 / (3.0 * pi * pi) * m0 * m0 * chi * chi +
+      (5.0 * std::pow(4.0 / (3.0 * pi), 3) * std::pow(m0, 3) - 8.0 / (15.0 * pi) * m2) *
+        std::pow(chi, 3);
+    EXPECT_NEAR(step.force, layer * hertz, 0.01 * hertz);
+  }
+}
+
 // a cone deeper than it is long: the surface would have to fold around a sharp edge
 TEST(Indenter, SaysThatTheContactReachedTheRim)
 {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace palp
+{
+
+/// How far long work is, on standard error: on a terminal a line that is written over itself every
+/// second, elsewhere a line every ten.
+class ProgressLine
+{
+public:
+  /// @param what  that is counted, as "depths"
+  explicit ProgressLine(std::string what);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// From any thread.
+  void operator()(std::size_t done, std::size_t total);
+
+  /// A line of its own, above the one that is written over. From any thread.
+  void tell(const std::string& line);
+
+private:
+  void print() const;
+
+  const std::string what_;
+  const bool terminal_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  std::condition_variable_any wakeUp_;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
+  std::jthread writer_;
+};
+
+} // namespace palp
