@@ -62,11 +62,6 @@ public:
 
   [[nodiscard]] Indented state() const;
 
-  [[nodiscard]] double force() const noexcept
-  {
-    return force_;
-  } ///< [N], as in state()
-
   [[nodiscard]] Checkpoint checkpoint() const
   {
     return { depth_, displacement_ };

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp::fem
@@ -9,6 +10,8 @@ namespace palp::fem
 namespace
 {
 
+// largest change seen under spheres and cones, times (contact radius / element size)^2 [-]
+constexpr double kAtTheEdge = 0.07;
 constexpr double kNextChange = 1.0 / 3.0; // 1/4 for the second order of a smooth contact [-]
 
 Case withLargerElements(Case study)
@@ -25,14 +28,16 @@ MeshCheck::MeshCheck(const Case& study)
 {
 }
 
-double MeshCheck::changeOnHalving(double force, double depth, const std::stop_token& stop)
+double MeshCheck::changeOnHalving(const Indented& step, const std::stop_token& stop)
 {
   try
   {
     if (!lost_)
     {
-      indenter_.press(depth, stop);
-      return kNextChange * std::abs(indenter_.state().force / force - 1.0);
+      indenter_.press(step.depth, stop);
+      const double seen = kNextChange * std::abs(indenter_.state().force / step.force - 1.0);
+      const double elements = step.contactRadius / body_.elementSize * 2.0;
+      return std::max(seen, kAtTheEdge / (elements * elements));
     }
   }
   catch (const Error&)

@@ -67,13 +67,18 @@ bool isRound(const Tip& tip)
   return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
 }
 
+// change: on halving the elements [-]; infinite or NaN where it is not known
 std::string refusal(const Case& study, double depth, double change)
 {
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * change);
-  return "indentation: the force at " + units::inMillimetres(depth) + " is refused, " +
-    (std::isfinite(change) ? "halving the elements would change it by " + std::string(percent)
-                           : "a mesh twice as coarse finds none, so that its error is not known") +
+  std::string why = "halving the elements may change it by " + std::string(percent);
+  if (!std::isfinite(change))
+  {
+    why = std::isnan(change) ? "it depends on the mesh"
+                             : "no mesh twice as coarse finds one to tell its error";
+  }
+  return "indentation: the force at " + units::inMillimetres(depth) + " is refused, " + why +
     "; give --element-size " + units::inMillimetres(0.5 * elementSize(study)) + " or begin deeper";
 }
 
@@ -92,8 +97,7 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
     indenter.resume(*saved.checkpoint);
     reached = saved.checkpoint->depth * (1.0 + kSameDepth);
   }
-  std::string refused =
-    outcome.refused.empty() ? "" : refusal(study, outcome.refused.front(), HUGE_VAL);
+  std::string refused = outcome.refused.empty() ? "" : refusal(study, outcome.refused.front(), NAN);
   try
   {
     for (std::size_t i = 0; i < study.depths.size(); ++i)
@@ -103,8 +107,9 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
       {
         indenter.press(depth, stop);
       }
-      const double change =
-        coarser != nullptr ? coarser->changeOnHalving(indenter.force(), depth, stop) : 0.0;
+      Indented step = indenter.state();
+      step.depth = depth; // the coarser run goes through those that were there, too
+      const double change = coarser != nullptr ? coarser->changeOnHalving(step, stop) : 0.0;
       if (depth <= reached)
       {
         continue;
@@ -120,7 +125,7 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
       }
       else
       {
-        outcome.steps.push_back(indenter.state());
+        outcome.steps.push_back(std::move(step));
         keep(outcome, indenter);
       }
       if (progress)
