@@ -5,12 +5,12 @@
 #include "app/quantity.h"
 #include "app/report/machine.h"
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -101,12 +101,8 @@ void printTable(const Bench& bench)
 
 nlohmann::json readGate(const std::filesystem::path& file)
 {
-  std::ifstream in(file);
-  if (!in)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the name");
-  }
-  nlohmann::json recorded = nlohmann::json::parse(in, nullptr, false);
+  nlohmann::json recorded =
+    nlohmann::json::parse(readText(file, "the output of palp bench --json"), nullptr, false);
   if (!recorded.is_object() || !recorded.contains("rows"))
   {
     throw Error(ErrorCode::BadFile,

@@ -4,10 +4,10 @@
 #include "app/quantity.h"
 #include "app/tip_spec.h"
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -141,12 +141,8 @@ Case caseOf(const std::string& name, const CaseText& text)
 
 std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& defaults)
 {
-  std::ifstream in(file);
-  if (!in)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check the name");
-  }
-  const auto list = nlohmann::json::parse(in, nullptr, false);
+  const auto list = 
+    nlohmann::json::parse(readText(file, "a list of cases"), nullptr, false);
   if (!list.is_array() || list.empty())
   {
     throw Error(ErrorCode::BadFile,

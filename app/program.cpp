@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 #include "haptics/prefix.h"
 
 #include <CLI/CLI.hpp>
@@ -82,13 +83,6 @@ void refuseEmptyValues(CLI::App& app)
       }
     }
   }
-}
-
-// what a file or a name holds must not command the terminal
-std::string printable(std::string text)
-{
-  std::ranges::replace_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-  return text;
 }
 
 // for a shell; on one line whatever it holds

@@ -2,6 +2,7 @@
 
 #include "calibration/replace_file.h"
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 
 #include <algorithm>
 #include <fstream>
@@ -16,8 +17,7 @@ using Json = nlohmann::ordered_json;
 
 Json read(const std::filesystem::path& file)
 {
-  std::ifstream in(file);
-  Json json = Json::parse(in, nullptr, false);
+  Json json = Json::parse(readText(file, "a report's part"), nullptr, false);
   if (!json.is_object())
   {
     throw Error(

@@ -1,14 +1,13 @@
 #include "haptics/devices/scripted_path.h"
 
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace palp
@@ -175,7 +174,7 @@ private:
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
     {
-      fail(std::string{ '"' }.append(text.substr(0, 40)) +
+      fail(std::string{ '"' }.append(printable(std::string(text.substr(0, 40)))) +
         "\" is not a number; write it as -1.25, below a header " + std::string(kHeader));
     }
     return value;
@@ -259,17 +258,7 @@ ScriptedPath parsePath(std::string_view text, const std::string& name)
 
 ScriptedPath readPath(const std::filesystem::path& file)
 {
-  if (std::filesystem::is_directory(file))
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": a folder; give the CSV file in it");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
-  if (!stream)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check name and permission");
-  }
-  return parsePath(text, file.string());
+  return parsePath(readText(file, "the CSV file"), file.string());
 }
 
 } // namespace palp

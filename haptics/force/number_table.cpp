@@ -1,11 +1,11 @@
 #include "haptics/force/number_table.h"
 
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <sstream>
 #include <string_view>
@@ -29,7 +29,7 @@ std::vector<double> parseLine(std::string_view line, const std::string& header)
     if (error != std::errc{} || stop != cell.data() + cell.size())
     {
       throw Error(
-        ErrorCode::BadFile, "'" + std::string(cell) + "' is not a number; give " + header);
+        ErrorCode::BadFile, inQuotes(cell) + " is not a number; give " + header);
     }
     values.push_back(value);
     begin = end + 1;
@@ -46,11 +46,7 @@ using CheckHeader = std::function<void(const std::string& line)>;
 
 NumberTable readRows(const std::filesystem::path& file, const CheckHeader& check)
 {
-  std::ifstream stream(file);
-  if (!stream)
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check name and permission");
-  }
+  std::istringstream stream(readText(file, "a CSV file"));
   NumberTable table;
   std::string header;
   int number = 0;

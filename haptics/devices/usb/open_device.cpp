@@ -6,9 +6,9 @@
 #include "haptics/devices/usb/hid_transport.h"
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -16,17 +16,6 @@ namespace palp
 {
 namespace
 {
-
-std::string readFile(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{ std::istreambuf_iterator<char>(stream), {} };
-  if (!stream)
-  {
-    throw Error(ErrorCode::BadFile, file + ": cannot be read; check name and permission");
-  }
-  return text;
-}
 
 // kind and what stands behind its colon
 std::pair<std::string, std::string> parts(const std::string& name)
@@ -72,7 +61,7 @@ std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& r
   }
   if (kind == "falcon")
   {
-    const std::string text = rest.empty() ? "" : readFile(rest);
+    const std::string text = rest.empty() ? "" : readText(rest, "the firmware");
     const Bytes bytes = std::as_bytes(std::span(text));
     return std::make_unique<FalconDriver>(
       openFalcon(), std::vector<std::byte>(bytes.begin(), bytes.end()));
@@ -89,7 +78,7 @@ std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& r
   }
   const auto [path, configuration] = boardParts(rest);
   const WoodenArm arm =
-    configuration.empty() ? WoodenArm{} : parseWoodenArm(readFile(configuration), configuration);
+    configuration.empty() ? WoodenArm{} : parseWoodenArm(readText(configuration, "the configuration"), configuration);
   const bool isMbed = boardAt(path).starts_with("1234:0006");
   return std::make_unique<WoodenDriver>(openHid(path), arm, isMbed ? 14 : 64);
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace palp
+{
+
+/// All of a text that somebody names: a file, or a pipe.
+///
+/// @param what    it should be, for the message: "a CSV file"
+/// @throws Error  BadFile: missing, not permitted, a folder or a device, or larger than 512 MB
+[[nodiscard]] std::string readText(const std::filesystem::path& file, const std::string& what);
+
+/// A piece of such a text for a message: in single quotes, cut to 40 bytes, without control
+/// characters.
+[[nodiscard]] std::string inQuotes(std::string_view text);
+
+/// The same text without control characters, which a terminal would obey.
+[[nodiscard]] std::string printable(std::string text);
+
+} // namespace palp
