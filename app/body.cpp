@@ -58,7 +58,7 @@ Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
     const std::filesystem::path file =
       source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
     body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
-    const LoadedSurface loaded = readSurface(file, parseUnit(source.unit), source.level);
+    const LoadedSurface loaded = readSurface(file, parseUnit(source.unit), source.part);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
     if (shown)
@@ -71,7 +71,7 @@ Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
     haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame);
     MeshFile& origin = body.files.emplace_back(describeFile(felt));
     origin.unit = body.unit;
-    origin.level = source.level;
+    origin.part = source.part;
     origin.moved = !source.frame.isApprox(Eigen::Isometry3d::Identity());
   }
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);

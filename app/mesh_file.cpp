@@ -3,6 +3,7 @@
 #include "calibration/csv_text.h"
 #include "haptics/error.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <nettle/sha2.h>
@@ -27,7 +28,7 @@ MeshFile describeFile(const std::filesystem::path& file)
   }
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
   sha256_digest(&hash, digest.size(), digest.data());
-  MeshFile mesh{ .name = file.filename().string(), .sha256 = {}, .unit = {}, .level = {} };
+  MeshFile mesh{ .name = file.filename().string(), .sha256 = {}, .unit = {}, .part = {} };
   for (const unsigned byte : digest)
   {
     constexpr const char* kDigits = "0123456789abcdef";
@@ -38,10 +39,17 @@ MeshFile describeFile(const std::filesystem::path& file)
 
 std::string describe(const MeshFile& mesh)
 {
-  const bool patient = mesh.name.ends_with(".nii") || mesh.name.ends_with(".nii.gz");
+  constexpr std::array kPatient{ ".nii", ".nii.gz", ".mha", ".mhd" };
+  const bool patient = std::ranges::any_of(
+    kPatient, [&](const char* ending) { return mesh.name.ends_with(ending); });
+  std::string part = mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
+  for (const double label : mesh.part.labels)
+  {
+    part += ", label " + shortest(label);
+  }
   return mesh.name + ", SHA-256 " + mesh.sha256 + ", read in " + mesh.unit + ", frame " +
     (patient ? "LPS" : "of the file") + (mesh.moved ? ", moved by the scene" : "") +
-    (mesh.level ? ", level " + shortest(*mesh.level) : "");
+    part;
 }
 
 } // namespace palp

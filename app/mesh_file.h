@@ -1,7 +1,8 @@
 #pragma once
 
+#include "pipeline/file_surface.h"
+
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace palp
@@ -13,7 +14,7 @@ struct MeshFile
   std::string name;            ///< without its folder
   std::string sha256;          ///< of its bytes, hexadecimal
   std::string unit;            ///< that its coordinates were read in
-  std::optional<double> level; ///< the surface's value in an image
+  ImagePart part;              ///< of an image
   bool moved = false;          ///< by the frame that a scene gives it
 };
 

@@ -40,6 +40,11 @@ void PressOptions::addTo(CLI::App& command)
     ->capture_default_str();
   command.add_option(
     "--level", level, "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1");
+  command
+    .add_option(
+      "--label", labels, "Value of a label map whose region is the body: 5, or 1,2 for both")
+    ->delimiter(',')
+    ->excludes("--level");
   tissue.addTo(command);
   command
     .add_option("--contact", contact,
@@ -61,6 +66,20 @@ void PressOptions::addTo(CLI::App& command)
     "Thickness of the tissue that R_d is taken for; five tool radii if none, as the paper's "
     "blocks");
   command.add_option("--threshold", threshold, "Sink of the surface at R_d")->capture_default_str();
+}
+
+ImagePart PressOptions::part() const
+{
+  ImagePart part;
+  if (!level.empty())
+  {
+    part.level = parseNumber(level, "--level");
+  }
+  for (const std::string& label : labels)
+  {
+    part.labels.push_back(parseNumber(label, "--label"));
+  }
+  return part;
 }
 
 ContactRule PressOptions::rule() const

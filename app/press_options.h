@@ -3,9 +3,11 @@
 #include "app/law_options.h"
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
+#include "pipeline/file_surface.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI
 {
@@ -35,6 +37,7 @@ struct PressOptions
   std::filesystem::path file; ///< empty: the bundled liver
   std::string unit = "auto";
   std::string level; ///< value of an image on the surface; empty: none
+  std::vector<std::string> labels; ///< or of the regions of a label map
   TissueOptions tissue;
   std::string contact = "exact";
   std::string damping = "0N*s/m";
@@ -46,6 +49,7 @@ struct PressOptions
   void addTo(CLI::App& command);
 
   /// @throws Error  BadValue
+  [[nodiscard]] ImagePart part() const;
   [[nodiscard]] ContactRule rule() const;
   [[nodiscard]] double dampingSi() const; ///< b [N s/m]
 };

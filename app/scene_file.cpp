@@ -5,14 +5,13 @@
 #include "app/quantity.h"
 #include "app/tip_spec.h"
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 #include "pipeline/length_unit.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <sstream>
 
 namespace palp
 {
@@ -85,6 +84,7 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   mesh.bundled = object.text("bundled", "");
   const std::string file = object.text("file", "");
   const std::string level = object.number("level", "");
+  const std::string label = object.number("label", "");
   mesh.unit = object.text("unit", "auto");
   mesh.frame = readFrame(object.object("frame"));
   object.finish();
@@ -94,7 +94,11 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   }
   if (!level.empty())
   {
-    checkAt(object, "level", [&] { mesh.level = parseNumber(level, "--level"); });
+    checkAt(object, "level", [&] { mesh.part.level = parseNumber(level, "--level"); });
+  }
+  if (!label.empty())
+  {
+    checkAt(object, "label", [&] { mesh.part.labels = { parseNumber(label, "--label") }; });
   }
   checkAt(object, "unit", [&] { (void)parseUnit(mesh.unit); });
   mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();
@@ -300,15 +304,12 @@ ScenePlan readScene(const std::string& name)
   {
     file = dataFile("scenes") / (name + ".json");
   }
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in || text.str().empty())
+  if (!std::filesystem::exists(file))
   {
     throw Error(ErrorCode::BadFile,
       name + ": cannot be read; give a scene file or a shipped scene: " + shippedScenes());
   }
-  return parseScene(text.str(), file);
+  return parseScene(readText(file, "a scene file"), file);
 }
 
 } // namespace palp

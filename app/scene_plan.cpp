@@ -33,16 +33,11 @@ std::vector<MeshSource> meshesOf(const PressOptions& options)
   {
     return { { .bundled = "liver" } };
   }
-  std::optional<double> level;
-  if (!options.level.empty())
-  {
-    level = parseNumber(options.level, "--level");
-  }
   if (!std::filesystem::exists(options.file))
   {
     throw Error(ErrorCode::BadFile, options.file.string() + ": there is no such file; check the path");
   }
-  return { { .file = options.file, .level = level, .unit = options.unit } };
+  return { { .file = options.file, .part = options.part(), .unit = options.unit } };
 }
 
 ImageSize parseSize(const std::string& text, const std::string& what)

@@ -1,13 +1,16 @@
 #include "pipeline/child_process.h"
 
 #include "haptics/error.h"
+#include "pipeline/sandbox.h"
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,11 +24,11 @@ namespace
 constexpr char kResult = 'R';
 constexpr char kError = 'E'; // then the code in one byte, and the message
 
-// sanitizers reserve more than any limit
+// sanitizers reserve more than any limit, and make calls of their own
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitMemory = false;
+constexpr bool kSanitized = true;
 #else
-constexpr bool kLimitMemory = true;
+constexpr bool kSanitized = false;
 #endif
 
 bool writeAll(int pipe, const std::string& bytes)
@@ -78,7 +81,9 @@ std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t signals;
@@ -88,8 +93,9 @@ std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
   posix_spawnattr_setsigdefault(&attributes, &signals);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   pid_t child = -1;
-  const int failure =
-    posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+  char* none[] = { nullptr };
+  const int failure = posix_spawn(
+    &child, arguments[0], &files, &attributes, arguments.data(), kSanitized ? environ : none);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   errno = failure;
@@ -129,19 +135,33 @@ std::optional<std::string> answerOf(const std::vector<std::string>& command)
   return answer.substr(1);
 }
 
-void answer(const std::function<std::string()>& work, ChildLimits limits)
+void answer(const std::function<std::string()>& work, ChildLimits limits,
+  const std::vector<std::filesystem::path>& readable)
 {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  pollfd asker{ .fd = STDOUT_FILENO, .events = 0, .revents = 0 };
+  if (poll(&asker, 1, 0) > 0 && (asker.revents & POLLERR) != 0)
+  {
+    _exit(1); // who asked ended before that
+  }
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.time);
-  if (kLimitMemory)
+  limit(RLIMIT_NOFILE, 16);
+  if (!kSanitized)
   {
     limit(RLIMIT_DATA, limits.memory);
+    limit(RLIMIT_FSIZE, 0);
+    limit(RLIMIT_NPROC, 0);
   }
   // a damaged heap can leave a process waiting for a lock, which takes no processor time
-  constexpr std::uint64_t kPatience = 3; // of the time on the processor, for a busy machine
+  constexpr std::uint64_t kPatience = 6; // of the time on the processor, for a busy machine
   alarm(static_cast<unsigned>(kPatience * limits.time));
   const int output = dup(STDOUT_FILENO);
   dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+  if (!kSanitized)
+  {
+    enterSandbox(output, readable);
+  }
   bool answered = false;
   try
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,7 +30,11 @@ struct ChildLimits
 /// Main function of a program that answers: limits itself, does the work, and writes what that
 /// returns or throws to standard output.
 ///
-/// Whatever else prints, prints nothing, and a crash leaves no core file.
-[[noreturn]] void answer(const std::function<std::string()>& work, ChildLimits limits);
+/// The work runs in a sandbox (sandbox.h) and ends with the program that asked. Whatever else
+/// prints, prints nothing, and a crash leaves no core file.
+///
+/// @param readable  files or folders that the work may read
+[[noreturn]] void answer(const std::function<std::string()>& work, ChildLimits limits,
+  const std::vector<std::filesystem::path>& readable = {});
 
 } // namespace palp

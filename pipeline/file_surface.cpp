@@ -55,6 +55,10 @@ std::string pack(const FileSurface& surface)
   packValues(bytes, surface.points);
   packValues(bytes, surface.triangles);
   packValues(bytes, surface.unit);
+  for (const std::string& note : surface.notes)
+  {
+    packValues(bytes, note);
+  }
   return bytes;
 }
 
@@ -62,8 +66,13 @@ std::optional<FileSurface> unpack(std::string_view bytes)
 {
   FileSurface surface;
   const bool whole = unpackValues(bytes, surface.points) &&
-    unpackValues(bytes, surface.triangles) && unpackValues(bytes, surface.unit) && bytes.empty();
-  return whole && indicesInRange(surface) ? std::optional(std::move(surface)) : std::nullopt;
+    unpackValues(bytes, surface.triangles) && unpackValues(bytes, surface.unit);
+  bool read = whole;
+  while (read && !bytes.empty())
+  {
+    read = unpackValues(bytes, surface.notes.emplace_back());
+  }
+  return read && indicesInRange(surface) ? std::optional(std::move(surface)) : std::nullopt;
 }
 
 } // namespace palp

@@ -10,12 +10,20 @@
 namespace palp
 {
 
+/// What of an image is the surface.
+struct ImagePart
+{
+  std::optional<double> level; ///< its value on the surface
+  std::vector<double> labels;  ///< or the regions of these values of a label map, together
+};
+
 /// What a surface file holds, as it stands there.
 struct FileSurface
 {
   std::vector<Eigen::Vector3d> points; ///< in the unit of the file; finite
   std::vector<Triangle> triangles;     ///< at least one; indices in range
   std::string unit;                    ///< that the file states; empty: none
+  std::vector<std::string> notes;      ///< how it was taken, for people; "warning: ..." as well
 };
 
 /// Name of the field array by which a VTP or VTK file states its unit: "mm", "cm" or "m".

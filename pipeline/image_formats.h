@@ -1,41 +1,43 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <string>
+#include <vector>
 #include <vtkSmartPointer.h>
 
 class vtkImageData;
-class vtkPolyData;
 
 namespace palp
 {
 
-// Images read by VTK, each in the patient's axes: x to the left, y to the back, z to the head
-// (LPS) [mm]. As in vtk_formats.h: a damaged file may crash the reader.
+// Images, each in the patient's axes: x to the left, y to the back, z to the head (LPS), where its
+// format knows them. As in vtk_formats.h: a damaged file may crash a reader of VTK.
 
-/// A volume and what brings its points into the patient's axes.
+/// A volume, what its numbers mean, and what brings its points into the patient's axes.
 struct PatientImage
 {
   vtkSmartPointer<vtkImageData> image;
-  double toPatient[16]; ///< row by row, applied to the image's own points [mm]
+  double toPatient[16];   ///< row by row, applied to the image's own points [unit]
+  double slope = 1.0;     ///< a voxel's value is slope times what is stored, plus intercept
+  double intercept = 0.0;
+  std::string unit{};     ///< "mm"; empty: the format knows none
+  std::vector<std::string> notes{}; ///< how it was taken, for people
 };
 
-/// @throws Error  BadFile: turned axes, or cut off, which VTK would both pass over
+/// MetaImage, whose axes are the patient's as ITK and Slicer write it.
+/// @throws Error  as readMetaHeader and readMetaVolume
 [[nodiscard]] PatientImage readMetaImage(const std::filesystem::path& file);
 
+/// NIfTI, its value scaled and its unit taken by the header.
+/// @throws Error  BadFile: of more bytes than it has; no number to scale by
 [[nodiscard]] PatientImage readNifti(const std::filesystem::path& file);
 
+/// VTI, in its own axes.
 /// @throws Error  BadFile: turned axes
 [[nodiscard]] PatientImage readVti(const std::filesystem::path& file);
 
-/// Surface on which an image has one value: the largest connected piece, with the stairs of the
-/// voxels smoothed away (windowed sinc, which keeps the volume; Taubin 1996).
-///
-/// @param level   value; nothing: refused, with the values that there are
-/// @param name    stands before each message
-/// @return        triangles [mm]; the image's edge cuts the surface open
-/// @throws Error  BadMesh: no level, or none of that value; no volume; several values a voxel
-[[nodiscard]] vtkSmartPointer<vtkPolyData> levelSurface(
-  const PatientImage& volume, std::optional<double> level, const std::string& name);
+/// Bytes of the voxels that the header of an image claims; 0 where it cannot be read.
+[[nodiscard]] std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept;
 
 } // namespace palp

@@ -14,8 +14,8 @@ namespace
 using namespace units::literals;
 
 constexpr std::array kUnits{ LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre };
-constexpr double kSmallestOrgan = 30.0_mm;
-constexpr double kLargestOrgan = 600.0_mm;
+constexpr double kSmallestBody = 5.0_mm;
+constexpr double kLargestBody = 600.0_mm;
 
 // the sides of a body are rounded in the file, so that its limits are as well
 constexpr double kSlack = 1e-6;
@@ -81,7 +81,7 @@ LengthUnit guessUnit(double longestSide, const std::string& file)
     const double side = longestSide * unitLength(unit);
     sizes << (unit == LengthUnit::Millimetre ? "" : ", ") << units::toMillimetres(side) << " mm if "
           << unitName(unit);
-    if (side >= kSmallestOrgan * (1.0 - kSlack) && side <= kLargestOrgan * (1.0 + kSlack))
+    if (side >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack))
     {
       fitting = unit;
       ++fits;
@@ -91,7 +91,7 @@ LengthUnit guessUnit(double longestSide, const std::string& file)
   {
     throw Error(ErrorCode::BadMesh,
       file + ": " + (fits == 0 ? "no unit" : "more than one unit") +
-        " gives the size of an organ (longest side " + sizes.str() + "); give --unit mm, cm or m");
+        " gives the size of an organ or a part of one (longest side " + sizes.str() + "); give --unit mm, cm or m");
   }
   return *fitting;
 }

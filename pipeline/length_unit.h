@@ -31,7 +31,7 @@ using UnitChoice = std::optional<LengthUnit>;
 /// @throws Error  BadValue: anything else
 [[nodiscard]] UnitChoice parseUnit(std::string_view text);
 
-/// The one unit that makes a body the size of an organ, 30 to 600 mm.
+/// The one unit that makes a body the size of an organ or a part of one, 5 to 600 mm.
 ///
 /// @param longestSide  of the bounding box, in the unit that is sought
 /// @param file         stands before the message

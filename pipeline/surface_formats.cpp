@@ -1,9 +1,13 @@
 #include "pipeline/surface_formats.h"
 
 #include "haptics/error.h"
+#include "haptics/input_text.h"
 #include "pipeline/image_formats.h"
+#include "pipeline/image_surface.h"
 #include "pipeline/off_format.h"
 #include "pipeline/poly_data.h"
+#include "pipeline/read_limits.h"
+#include "pipeline/stl_format.h"
 #include "pipeline/vtk_formats.h"
 
 #include <algorithm>
@@ -45,7 +49,8 @@ struct Format
 constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".obj", "OBJ", "", readObj }, Format{ ".ply", "PLY", "ply", readPly },
   Format{ ".off", "OFF", "", readOff }, Format{ ".vtk", "legacy VTK", "# vtk DataFile", readVtk },
-  Format{ ".vtp", "VTP", "<", readVtp }, Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
+  Format{ ".vtp", "VTP", "<", readVtp }, Format{ ".vtu", "VTU", "<", readVtu },
+  Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".nii", "NIfTI", "", nullptr, readNifti },
   Format{ ".nii.gz", "NIfTI", "\x1f\x8b", nullptr, readNifti },
@@ -64,7 +69,7 @@ const Format& formatOf(const std::filesystem::path& file)
     }
   }
   refuse(file,
-    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp) or an "
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu) or an "
     "image (.mha, .mhd, .nii, .nii.gz, .vti)");
 }
 
@@ -142,34 +147,43 @@ void checkContent(const std::filesystem::path& file, vtkPolyData& data)
   }
 }
 
-vtkSmartPointer<vtkPolyData> readAny(
-  const std::filesystem::path& file, const Format& format, std::optional<double> level)
+void checkErrors(const std::filesystem::path& file, const Format& format, const VtkErrors& errors)
 {
-  if (format.read)
-  {
-    return format.read(file);
-  }
-  return levelSurface(format.readImage(file), level, file.string());
-}
-
-} // namespace
-
-FileSurface readFile(const std::filesystem::path& file, std::optional<double> level)
-{
-  const Format& format = formatOf(file);
-  checkFile(file, format);
-  if (level && format.read)
-  {
-    refuse(file, "a surface, not an image; leave the level out");
-  }
-  const VtkErrors errors;
-  const vtkSmartPointer<vtkPolyData> data = readAny(file, format, level);
   if (!errors.first().empty())
   {
     refuse(file,
       std::string("cannot be read as ") + format.name + " (" + errors.first() +
         "); export it again");
   }
+}
+
+} // namespace
+
+FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
+{
+  const Format& format = formatOf(file);
+  checkFile(file, format);
+  if (format.read && (part.level || !part.labels.empty()))
+  {
+    refuse(file, "a surface, not an image; leave the level out");
+  }
+  const VtkErrors errors;
+  FileSurface surface;
+  vtkSmartPointer<vtkPolyData> data;
+  if (format.read)
+  {
+    data = format.read(file);
+  }
+  else
+  {
+    checkFits(file);
+    const PatientImage volume = format.readImage(file);
+    checkErrors(file, format, errors);
+    surface.unit = volume.unit;
+    surface.notes = volume.notes;
+    data = imageSurface(volume, part, file.string(), surface.notes);
+  }
+  checkErrors(file, format, errors);
   checkContent(file, *data);
 
   vtkNew<vtkTriangleFilter> cut;
@@ -177,7 +191,6 @@ FileSurface readFile(const std::filesystem::path& file, std::optional<double> le
   cut->PassLinesOff();
   cut->SetInputData(data);
   cut->Update();
-  FileSurface surface;
   surface.points = pointsOf(*data);
   surface.triangles = trianglesOf(*cut->GetOutput());
   if (surface.triangles.empty())
@@ -189,10 +202,6 @@ FileSurface readFile(const std::filesystem::path& file, std::optional<double> le
   if (unit && unit->GetNumberOfValues() == 1)
   {
     surface.unit = unit->GetValue(0);
-  }
-  if (format.readImage)
-  {
-    surface.unit = "mm"; // by their definition
   }
   return surface;
 }

@@ -63,13 +63,21 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   return text.str();
 }
 
-FileSurface readElsewhere(const std::filesystem::path& file, std::optional<double> level)
+FileSurface readElsewhere(const std::filesystem::path& file, const ImagePart& part)
 {
   std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
-  if (level)
+  const auto add = [&](const char* kind, double value)
   {
     char digits[32];
-    command.emplace_back(digits, std::to_chars(digits, std::end(digits), *level).ptr);
+    command.emplace_back(kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
+  };
+  if (part.level)
+  {
+    add("level=", *part.level);
+  }
+  for (const double label : part.labels)
+  {
+    add("label=", label);
   }
   const auto answer = answerOf(command);
   auto surface = answer ? unpack(*answer) : std::nullopt;
@@ -115,13 +123,14 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 } // namespace
 
 LoadedSurface readSurface(
-  const std::filesystem::path& file, UnitChoice unit, std::optional<double> level)
+  const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
 {
   const std::string name = file.filename().string();
-  const FileSurface read = readElsewhere(file, level);
+  const FileSurface read = readElsewhere(file, part);
   const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
 
   std::string why = "as asked";
+  std::vector<std::string> warnings = repaired.warnings;
   if (!unit)
   {
     unit = unitNamed(read.unit);
@@ -133,18 +142,27 @@ LoadedSurface readSurface(
     repaired.mesh->GetBounds(box);
     unit =
       guessUnit(std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string());
-    why = "the only unit that gives the size of an organ";
+    why = "a guess";
+    warnings.push_back(std::string("the file names no unit; ") + unitName(*unit) +
+      " is the only one that gives the size of an organ or a part of one; --unit " +
+      unitName(*unit) + " confirms it");
   }
   LoadedSurface surface{ .mesh = scaled(*repaired.mesh, unitLength(*unit)),
     .unit = *unit,
     .closed = repaired.closed,
     .notes = {} };
   surface.notes.push_back(summary(name, surface, why));
+  for (const std::string& note : read.notes)
+  {
+    const bool warns = note.starts_with("warning: ");
+    surface.notes.push_back(
+      std::string(warns ? "warning: " : "") + name + ": " + (warns ? note.substr(9) : note));
+  }
   for (const std::string& note : repaired.notes)
   {
     surface.notes.push_back(name + ": " + note);
   }
-  for (const std::string& warning : repaired.warnings)
+  for (const std::string& warning : warnings)
   {
     surface.notes.push_back("warning: " + name + ": " + warning);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/file_surface.h"
 #include "pipeline/length_unit.h"
 
 #include <filesystem>
@@ -25,16 +26,16 @@ struct LoadedSurface
 /// Reads a surface, repairs what can be repaired and finds its unit.
 ///
 /// A file that states its unit (as writeSurface does in VTP) is believed; in any other the one
-/// unit is taken that gives the size of an organ. Coincident points are merged, polygons cut into
+/// unit is taken that gives the size of an organ or a part of one, with a warning. Coincident points are merged, polygons cut into
 /// triangles, triangles turned outwards. An open or non-manifold surface loads with a warning.
 ///
-/// @param file    STL, OBJ, PLY, OFF, legacy VTK or VTP; or an image, in the patient's axes (LPS)
+/// @param file    STL, OBJ, PLY, OFF, VTK, VTP or VTU; or an image, in the patient's axes (LPS)
 /// @param unit    wins over what the file says
-/// @param level   value of an image on its surface, for MetaImage, NIfTI and VTI
+/// @param part    of an image: MetaImage, NIfTI or VTI
 /// @throws Error  BadFile: unreadable, or not of its format; BadMesh: nothing to press, or the
 ///                unit is in doubt
 [[nodiscard]] LoadedSurface readSurface(
-  const std::filesystem::path& file, UnitChoice unit = {}, std::optional<double> level = {});
+  const std::filesystem::path& file, UnitChoice unit = {}, const ImagePart& part = {});
 
 /// Writes a surface in millimetres: VTP with its arrays and the unit, or bare STL, PLY, OBJ.
 ///

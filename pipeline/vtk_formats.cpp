@@ -1,6 +1,7 @@
 #include "pipeline/vtk_formats.h"
 
 #include "haptics/error.h"
+#include "pipeline/whole_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,15 +10,18 @@
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <vtkCellArray.h>
+#include <vtkDataSetReader.h>
+#include <vtkDataSetSurfaceFilter.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkPLYReader.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 namespace palp
 {
@@ -31,6 +35,28 @@ vtkSmartPointer<vtkPolyData> readWith(const std::filesystem::path& file)
   reader->SetFileName(file.c_str());
   reader->Update();
   return reader->GetOutput();
+}
+
+// the faces that belong to one cell only, curved ones in flat pieces
+vtkSmartPointer<vtkPolyData> outerSurface(
+  const std::filesystem::path& file, vtkUnstructuredGrid& grid)
+{
+  vtkCellArray* cells = grid.GetCells();
+  const vtkIdType points = grid.GetNumberOfPoints();
+  vtkDataArray* corners = cells ? cells->GetConnectivityArray() : nullptr;
+  for (vtkIdType i = 0; corners && i < corners->GetNumberOfValues(); ++i)
+  {
+    const double corner = corners->GetComponent(i, 0);
+    if (!(corner >= 0.0 && corner < static_cast<double>(points)))
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": a cell names a point that is not there; export it again");
+    }
+  }
+  vtkNew<vtkDataSetSurfaceFilter> outside;
+  outside->SetInputData(&grid);
+  outside->Update();
+  return outside->GetOutput();
 }
 
 // true when a text begins with so many finite numbers
@@ -52,35 +78,6 @@ bool startsWithNumbers(std::string_view text, int count)
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> readStl(const std::filesystem::path& file)
-{
-  constexpr std::size_t header = 84; // [bytes], the last four are the number of triangles
-  constexpr std::size_t facet = 50;  // [bytes]
-  const std::size_t size = std::filesystem::file_size(file);
-  std::string start(std::min<std::size_t>(size, 512), '\0');
-  std::ifstream(file, std::ios::binary)
-    .read(start.data(), static_cast<std::streamsize>(start.size()));
-  const bool isText = start.starts_with("solid") && start.find('\0') == std::string::npos;
-  if (isText)
-  {
-    return readWith<vtkSTLReader>(file);
-  }
-  if (size < header + facet)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": too short for a binary STL file; export the surface again");
-  }
-  std::uint32_t count = 0;
-  std::memcpy(&count, start.data() + header - sizeof count, sizeof count);
-  if ((size - header) / facet < count)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cut off, it holds " + std::to_string((size - header) / facet) + " of " +
-        std::to_string(count) + " triangles; export or copy it again");
-  }
-  return readWith<vtkSTLReader>(file);
-}
-
 vtkSmartPointer<vtkPolyData> readObj(const std::filesystem::path& file)
 {
   std::ifstream in(file);
@@ -100,17 +97,42 @@ vtkSmartPointer<vtkPolyData> readObj(const std::filesystem::path& file)
 
 vtkSmartPointer<vtkPolyData> readPly(const std::filesystem::path& file)
 {
+  checkPlyEnd(file);
   return readWith<vtkPLYReader>(file);
 }
 
 vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
 {
-  return readWith<vtkPolyDataReader>(file);
+  vtkNew<vtkDataSetReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (vtkUnstructuredGrid* grid = reader->GetUnstructuredGridOutput())
+  {
+    return outerSurface(file, *grid);
+  }
+  if (!reader->GetPolyDataOutput() && reader->GetOutput())
+  {
+    throw Error(ErrorCode::BadMesh,
+      file.string() + ": " + reader->GetOutput()->GetClassName() +
+        ", neither polygons nor an unstructured grid; extract its surface");
+  }
+  vtkSmartPointer<vtkPolyData> polygons = reader->GetPolyDataOutput();
+  return polygons ? polygons : vtkSmartPointer<vtkPolyData>::New(); // errors are told elsewhere
 }
 
 vtkSmartPointer<vtkPolyData> readVtp(const std::filesystem::path& file)
 {
+  checkXmlEnd(file);
   return readWith<vtkXMLPolyDataReader>(file);
+}
+
+vtkSmartPointer<vtkPolyData> readVtu(const std::filesystem::path& file)
+{
+  checkXmlEnd(file);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return outerSurface(file, *reader->GetOutput());
 }
 
 // takes the messages of all objects, those inside a reader included

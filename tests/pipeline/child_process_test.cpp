@@ -3,9 +3,17 @@
 #include "haptics/error.h"
 
 #include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <linux/landlock.h>
 #include <memory>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 
 namespace palp::test
 {
@@ -108,8 +116,61 @@ TEST(ChildProcess, PrintsNothing)
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// sanitizers reserve more address space than any limit
+// sanitizers reserve more address space than any limit, and make calls of their own
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(ChildProcess, CanDoNothingButReadItsFile)
+{
+  const int inherited = open("/etc/passwd", O_RDONLY); // without O_CLOEXEC
+  ASSERT_GE(dup2(inherited, 9), 0);
+  std::string allowed;
+  if (syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) < 1)
+  {
+    allowed = "read another file list a folder "; // an older kernel
+  }
+  EXPECT_EQ(answering("exploit"), allowed);
+  EXPECT_EQ(answering("read"), "read");
+  close(9);
+  close(inherited);
+}
+
+// the reader of a program that is killed must not work on
+TEST(ChildProcess, EndsWithTheProgramThatAsked)
+{
+  const pid_t parent = fork();
+  if (parent == 0)
+  {
+    (void)answering("wait");
+    _exit(0);
+  }
+  const std::string children =
+    "/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children";
+  std::string child;
+  while (child.empty()) // until it was started
+  {
+    std::ifstream(children) >> child;
+  }
+  std::string name;
+  while (name != "answering") // and runs
+  {
+    std::ifstream("/proc/" + child + "/comm") >> name;
+    ASSERT_FALSE(name.empty());
+  }
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  const auto alive = [&]
+  {
+    std::string line;
+    std::ifstream in("/proc/" + child + "/stat");
+    std::getline(in, line);
+    return !line.empty() && line.find(") Z") == line.npos;
+  };
+  for (int i = 0; i < 200 && alive(); ++i) // its own limit comes after six seconds
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_FALSE(alive());
+}
+
 TEST(ChildProcess, EndsWhatWantsTooMuchMemory)
 {
   EXPECT_EQ(answering("greedy"), std::nullopt);

@@ -11,7 +11,8 @@ FileSurface tetrahedron()
 {
   return { .points = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
     .triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 3, 2 } },
-    .unit = "mm" };
+    .unit = "mm",
+    .notes = { "a note", "another" } };
 }
 
 TEST(FileSurface, ComesBackAsItWas)
@@ -21,6 +22,7 @@ TEST(FileSurface, ComesBackAsItWas)
   EXPECT_EQ(back->points, tetrahedron().points);
   EXPECT_EQ(back->triangles, tetrahedron().triangles);
   EXPECT_EQ(back->unit, "mm");
+  EXPECT_EQ(back->notes, tetrahedron().notes);
 }
 
 TEST(FileSurface, IsNothingWhenCutOffAnywhereOrTooLong)

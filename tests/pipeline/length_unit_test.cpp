@@ -26,38 +26,38 @@ std::string refusal(double longestSide)
 TEST(LengthUnit, IsTheOneThatGivesTheSizeOfAnOrgan)
 {
   EXPECT_EQ(guessUnit(230.0, ""), LengthUnit::Millimetre);
-  EXPECT_EQ(guessUnit(23.0, ""), LengthUnit::Centimetre);
+  EXPECT_EQ(guessUnit(3.2, ""), LengthUnit::Centimetre);
   EXPECT_EQ(guessUnit(0.23, ""), LengthUnit::Metre);
 }
 
-TEST(LengthUnit, CountsTheLimitsOf30And600MillimetresIn)
+TEST(LengthUnit, CountsTheLimitsOf5And600MillimetresIn)
 {
   EXPECT_EQ(guessUnit(600.0, ""), LengthUnit::Millimetre);
-  EXPECT_EQ(guessUnit(3.0, ""), LengthUnit::Centimetre);
-  EXPECT_EQ(guessUnit(0.03, ""), LengthUnit::Metre);
-  EXPECT_EQ(guessUnit(0.6, ""), LengthUnit::Metre);
+  EXPECT_EQ(guessUnit(0.61, ""), LengthUnit::Centimetre);
+  EXPECT_EQ(guessUnit(0.005, ""), LengthUnit::Metre);
+  EXPECT_EQ(guessUnit(0.49, ""), LengthUnit::Metre);
 }
 
 TEST(LengthUnit, IsRefusedWhereTwoFit)
 {
-  // 30 to 60 is an organ in millimetres and in centimetres
-  for (const double side : { 30.0, 45.0, 60.0 })
+  // a valve of 25.7 mm would be a liver of 257 mm; a block of 0.55 cm one of 550 mm
+  for (const double side : { 5.0, 6.4, 25.7, 45.0, 60.0, 0.5, 0.55 })
   {
     EXPECT_NE(refusal(side).find("more than one unit"), std::string::npos) << side;
   }
-  EXPECT_EQ(guessUnit(29.9, ""), LengthUnit::Centimetre);
+  EXPECT_EQ(guessUnit(4.9, ""), LengthUnit::Centimetre);
   EXPECT_EQ(guessUnit(60.1, ""), LengthUnit::Millimetre);
 }
 
 TEST(LengthUnit, IsRefusedWhereNoneFitsAndSaysWhatEachWouldGive)
 {
-  for (const double side : { 0.0, 0.02, 1.0, 601.0, 1e9 })
+  for (const double side : { 0.0, 0.0049, 601.0, 1e9 })
   {
     EXPECT_NE(refusal(side).find("no unit"), std::string::npos) << side;
   }
-  EXPECT_EQ(refusal(2.0),
-    "body.stl: no unit gives the size of an organ (longest side 2 mm if mm, 20 mm if cm, "
-    "2000 mm if m); give --unit mm, cm or m");
+  EXPECT_EQ(refusal(2000.0),
+    "body.stl: no unit gives the size of an organ or a part of one (longest side 2000 mm if mm, "
+    "20000 mm if cm, 2e+06 mm if m); give --unit mm, cm or m");
 }
 
 TEST(LengthUnit, IsReadFromTheWordsOfTheOption)

@@ -183,11 +183,12 @@ TEST_P(EveryFormat, GivesTheCornerOfACubeInMetres)
   EXPECT_TRUE(closedAndOriented(mesh));
   EXPECT_EQ(surface.unit, LengthUnit::Millimetre);
   EXPECT_NEAR(volume(mesh), 0.1 * 0.1 * 0.1 / 6.0, 1e-10); // single precision
-  ASSERT_EQ(surface.notes.size(), 1u);
+  ASSERT_EQ(surface.notes.size(), 2u);
   EXPECT_EQ(surface.notes[0],
     std::string(GetParam().name) +
-      ": 4 points, 4 triangles, closed, 100 x 100 x 100 mm; coordinates taken in mm, the only "
-      "unit that gives the size of an organ");
+      ": 4 points, 4 triangles, closed, 100 x 100 x 100 mm; coordinates taken in mm, a guess");
+  EXPECT_TRUE(mentions(surface,
+    std::string("warning: ") + GetParam().name + ": the file names no unit; mm is the only one"));
 }
 
 TEST_P(EveryFormat, IsReadInTheUnitThatIsAsked)
@@ -472,6 +473,65 @@ TEST_F(SurfaceFile, OfAnyShapeIsMadeReadyInTimeThatGrowsAsItsSize)
   EXPECT_NEAR(made.normals()[3].z(), 1.0, 1e-3);
 }
 
+TEST_F(SurfaceFile, OfStlInTheWaysThatProgramsWriteItIsRead)
+{
+  std::string capitals = kStl;
+  std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::string apart = kStl;
+  apart.replace(apart.find("endsolid"), 8, "end solid");
+  std::string returns = kStl;
+  std::ranges::replace(returns, '\n', '\r');
+  for (const std::string& text : { capitals, apart, returns, " \n" + std::string(kStl) })
+  {
+    const LoadedSurface surface = load("corner.stl", text, LengthUnit::Millimetre);
+    EXPECT_TRUE(surface.closed);
+    EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10);
+  }
+  const std::string cut = std::string(kStl).substr(0, 300);
+  try
+  {
+    (void)load("cut.stl", cut);
+    ADD_FAILURE();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("cut off, it ends without endsolid"), std::string::npos);
+  }
+}
+
+// two tetrahedra with one face in common: six faces outside, of the volumes of both
+TEST_F(SurfaceFile, OfAVolumeMeshIsItsOuterSurface)
+{
+  const LoadedSurface legacy = load("tetra.vtk", R"(# vtk DataFile Version 3.0
+two tetrahedra
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 5 float
+0 0 0 100 0 0 0 100 0 0 0 100 100 100 100
+CELLS 2 10
+4 0 1 2 3
+4 1 2 3 4
+CELL_TYPES 2
+10 10
+)");
+  const LoadedSurface xml = load("tetra.vtu", R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
+<Piece NumberOfPoints="5" NumberOfCells="2">
+<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">
+0 0 0 100 0 0 0 100 0 0 0 100 100 100 100</DataArray></Points>
+<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3 1 2 3 4</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">4 8</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10 10</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>
+)");
+  for (const LoadedSurface& surface : { legacy, xml })
+  {
+    EXPECT_TRUE(surface.closed);
+    EXPECT_EQ(meshOf(surface).triangles.size(), 6u);
+    EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0 * 3.0, 1e-9); // by determinants
+  }
+}
+
 // each is refused in one line that starts with the file and ends with what to do
 TEST_F(SurfaceFile, ThatIsBadIsRefusedInOneSentence)
 {
@@ -515,7 +575,7 @@ TEST_F(SurfaceFile, ThatIsBadIsRefusedInOneSentence)
     { "really_stl.vtp", kStl, ErrorCode::BadFile, "not a VTP file" },
     { "really_stl.off", kStl, ErrorCode::BadFile, "expected OFF" },
     { "really_stl.obj", kStl, ErrorCode::BadMesh, "no triangles" },
-    { "really_obj.stl", kObj, ErrorCode::BadFile, "export" },
+    { "really_obj.stl", kObj, ErrorCode::BadFile, "not an STL file" },
     { "html.vtp", "<html><body>not found</body></html>", ErrorCode::BadFile, "VTP" },
   };
   for (const char* kind : { ".stl", ".obj", ".ply", ".off", ".vtk", ".vtp" })

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+class vtkImageData;
+
+namespace palp
+{
+
+/// What values an image has, as they are stored.
+struct ImageValues
+{
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<double> distinct; ///< rising; empty: more than 256
+  bool labels = false; ///< three values or more, all whole, most voxels like those beside them
+};
+
+/// @param image  one number at each voxel
+[[nodiscard]] ImageValues valuesOf(vtkImageData& image);
+
+/// Edges of the grid whose ends are on different sides of a level: about as many as the points of
+/// its surface.
+[[nodiscard]] std::uintmax_t crossings(vtkImageData& image, double level);
+
+/// A voxel is 1 where an image has one of these values, else 0; same grid.
+[[nodiscard]] std::vector<std::uint8_t> indicator(
+  vtkImageData& image, const std::vector<double>& values);
+
+} // namespace palp
