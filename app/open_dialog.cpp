@@ -30,6 +30,7 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
   , open_(std::move(open))
   , why_(new QLabel(why))
   , level_(isImageFile(file) ? new QLineEdit : nullptr)
+  , label_(isImageFile(file) ? new QLineEdit : nullptr)
   , unit_(new QComboBox)
 {
   setWindowTitle(tr("Open %1").arg(QFileInfo(file).fileName()));
@@ -44,6 +45,9 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
     level_->setObjectName("level");
     level_->setPlaceholderText(tr("e.g. 0.5 for a mask of 0 and 1"));
     rows->addRow(tr("Level of the surface"), level_);
+    label_->setObjectName("label");
+    label_->setPlaceholderText(tr("of a label map, e.g. 5, or 1,2 for both"));
+    rows->addRow(tr("or label of the body"), label_);
   }
   unit_->setObjectName("unit");
   unit_->addItems({ "auto", "mm", "cm", "m" });
@@ -57,9 +61,17 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
 MeshSource OpenDialog::source() const
 {
   MeshSource source{ .file = file_, .unit = unit_->currentText().toStdString() };
-  if (level_ != nullptr)
+  if (label_ != nullptr && !label_->text().isEmpty())
   {
-    source.level = parseNumber(level_->text().toStdString(), tr("Level").toStdString());
+    for (const QString& label : label_->text().split(','))
+    {
+      source.part.labels.push_back(
+        parseNumber(label.trimmed().toStdString(), tr("Label").toStdString()));
+    }
+  }
+  else if (level_ != nullptr)
+  {
+    source.part.level = parseNumber(level_->text().toStdString(), tr("Level").toStdString());
   }
   return source;
 }

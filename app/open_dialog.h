@@ -14,7 +14,7 @@ namespace palp
 {
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
-/// the surface. Stays, with the reason, until the file is opened or given up.
+/// the surface or the label of the body. Stays, with the reason, until the file is opened or given up.
 class OpenDialog : public QDialog
 {
   Q_OBJECT
@@ -35,6 +35,7 @@ private:
   std::function<void(const MeshSource&)> open_;
   QLabel* why_;
   QLineEdit* level_; // null: a surface has none
+  QLineEdit* label_; // likewise
   QComboBox* unit_;
 };
 
