@@ -89,7 +89,8 @@ ContactRule PressOptions::rule() const
 
 double PressOptions::dampingSi() const
 {
-  return checkedDamping(parseQuantity(damping, Quantity::Damping, "--damping"));
+  return checkedDamping(
+    parseQuantity(damping, Quantity::Damping, "--damping"), "--damping");
 }
 
 } // namespace palp

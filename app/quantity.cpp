@@ -138,13 +138,13 @@ double parseQuantity(
   return toSi(split.number, unit);
 }
 
-double checkedDamping(double damping)
+double checkedDamping(double damping, std::string_view what)
 {
   constexpr double kMost = 1000.0; // [N s/m], of an oil damper
   if (!(damping >= 0.0 && damping <= kMost))
   {
     std::ostringstream text;
-    text << "damping: " << damping << " N*s/m; give 0 to " << kMost << " N*s/m";
+    text << what << ": " << damping << " N*s/m; give 0 to " << kMost << " N*s/m";
     throw Error(ErrorCode::BadValue, text.str());
   }
   return damping;

@@ -29,8 +29,9 @@ enum class Quantity
   std::string_view text, Quantity kind, std::string_view what, std::string_view usual = {});
 
 /// @param damping  b [N s/m]
+/// @param what     the option's name, for the message
 /// @throws Error   BadValue: not 0 to 1000 N s/m
-[[nodiscard]] double checkedDamping(double damping);
+[[nodiscard]] double checkedDamping(double damping, std::string_view what);
 
 /// Reads a bare number.
 /// @throws Error BadValue

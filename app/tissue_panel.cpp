@@ -66,7 +66,7 @@ void TissuePanel::setScene(const Scene& scene)
 void TissuePanel::check() const
 {
   (void)makeMaterial(modulus_->si(), poisson_->si());
-  (void)checkedDamping(damping_->si());
+  (void)checkedDamping(damping_->si(), "damping");
 }
 
 ForceLaw TissuePanel::law() const

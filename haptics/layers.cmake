@@ -4,6 +4,12 @@
 add_library(palp_flags INTERFACE)
 target_compile_options(palp_flags INTERFACE
   -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${PALP_WERROR}>:-Werror>)
+if(NOT PALP_SANITIZE)
+  # what a damaged file could do to a reader ends the process instead
+  target_compile_options(palp_flags INTERFACE -fstack-protector-strong
+    $<$<CONFIG:Release>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
+  target_link_options(palp_flags INTERFACE -Wl,-z,relro,-z,now)
+endif()
 if(PALP_SANITIZE)
   # gcc 12 sees values unset in instrumented code that are not
   target_compile_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE} -fno-omit-frame-pointer

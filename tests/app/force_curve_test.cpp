@@ -17,7 +17,7 @@ TEST(ForceCurve, IsReadHoweverItsLinesEnd)
     const std::string e = end;
     const ReferenceCurve curve = readForceCurve(
       test::writtenCsv("# mine" + e + "depth_mm,force_N" + e + "1,0.25" + e + "4,2" + e));
-    EXPECT_EQ(curve.name, "IsReadHoweverItsLinesEnd");
+    EXPECT_EQ(curve.name, "table"); // as its file
     EXPECT_EQ(curve.x, (std::vector<double>{ 0.001, 0.004 }));
     EXPECT_EQ(curve.y, (std::vector<double>{ 0.25, 2.0 }));
   }

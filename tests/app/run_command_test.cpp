@@ -438,11 +438,11 @@ TEST_F(RunCommand, CalibratesWithTablesAndPlots)
   const std::string out = (folder_.path() / "calibration").string();
   const Finished finished =
     palp("calibrate --block 100x100x50mm --tip sphere:10mm --material linear "
-         "--depth 0.5:1.5:0.5mm --element-size 2mm --out " +
+         "--depth 1:2:0.5mm --element-size 0.5mm --out " +
       out);
   ASSERT_EQ(finished.code, 0) << finished.err;
   const test::CsvTable table = test::readCsv(folder_.path() / "calibration/table.csv");
-  EXPECT_EQ(table["depth_mm"], (std::vector<double>{ 0.5, 1.0, 1.5 }));
+  EXPECT_EQ(table["depth_mm"], (std::vector<double>{ 1.0, 1.5, 2.0 }));
   for (const char* chart : { "extent.png", "force.png", "profiles.png" })
   {
     EXPECT_GT(colorsOf(folder_.path() / "calibration" / chart, 1000, 600), 10u) << chart;
@@ -511,6 +511,20 @@ TEST_F(RunCommand, ShowsNoControlCharacterOfAFile)
     (folder_.path() / "out").string());
   EXPECT_EQ(finished.code, 2);
   EXPECT_EQ(finished.err.find_first_of("\033\007"), std::string::npos) << finished.err;
+}
+
+TEST(Program, IsHardenedLikeAllBesideIt)
+{
+  for (const char* name : { "palp", "palp-read", "palp-draw", "palp-view", "palp-devices" })
+  {
+    const auto file = std::filesystem::path(PALP_PROGRAM).parent_path() / name;
+    const Finished told = test::runCommand("readelf -hldW --dyn-syms " + file.string());
+    ASSERT_EQ(told.code, 0) << told.err;
+    EXPECT_TRUE(std::regex_search(told.out, std::regex("Type: +DYN"))) << name; // PIE
+    EXPECT_NE(told.out.find("GNU_RELRO"), std::string::npos) << name;
+    EXPECT_NE(told.out.find("BIND_NOW"), std::string::npos) << name;
+    EXPECT_NE(told.out.find("__stack_chk_fail"), std::string::npos) << name;
+  }
 }
 
 TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)

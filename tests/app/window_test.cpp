@@ -685,14 +685,14 @@ TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)
 TEST_F(WindowTest, ExportsWhatWasMeasured)
 {
   press(100);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return peakForce() > 1.0; }, kPatience));
   release();
   QTest::qWait(200);
   ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
   const test::CsvTable samples = test::readCsv(folder_.path() / "samples.csv");
   const auto& force = samples["force_N"];
-  ASSERT_GT(force.size(), 500u);
+  ASSERT_GT(force.size(), 100u); // rest is not recorded
   EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peakForce(), 1e-12);
-  EXPECT_GT(peakForce(), 1.0);
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "deformed.vtp"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
 }
