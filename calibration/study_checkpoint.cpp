@@ -122,7 +122,10 @@ Saved StudyFiles::load() const
     {
       refuse(file, "is damaged");
     }
-    std::memcpy(values, payload.data() + at, bytes);
+    if (bytes > 0) // an empty vector has no address to copy to
+    {
+      std::memcpy(values, payload.data() + at, bytes);
+    }
     at += bytes;
   };
   std::array<double, 3> head{};

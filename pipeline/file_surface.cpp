@@ -18,23 +18,31 @@ void packValues(std::string& bytes, const Values& values)
     reinterpret_cast<const char*>(values.data()), count * sizeof(typename Values::value_type));
 }
 
-template <typename Values>
-bool unpackValues(std::string_view& bytes, Values& values)
+bool unpackCount(std::string_view& bytes, std::size_t& count)
 {
-  constexpr std::size_t size = sizeof(typename Values::value_type);
-  std::size_t count = 0;
   if (bytes.size() < sizeof count)
   {
     return false;
   }
   std::memcpy(&count, bytes.data(), sizeof count);
   bytes.remove_prefix(sizeof count);
-  if (count > bytes.size() / size)
+  return true;
+}
+
+template <typename Values>
+bool unpackValues(std::string_view& bytes, Values& values)
+{
+  constexpr std::size_t size = sizeof(typename Values::value_type);
+  std::size_t count = 0;
+  if (!unpackCount(bytes, count) || count > bytes.size() / size)
   {
     return false;
   }
   values.resize(count);
-  std::memcpy(static_cast<void*>(values.data()), bytes.data(), count * size);
+  if (count > 0) // an empty vector has no address to copy to
+  {
+    std::memcpy(static_cast<void*>(values.data()), bytes.data(), count * size);
+  }
   bytes.remove_prefix(count * size);
   return true;
 }
@@ -55,6 +63,8 @@ std::string pack(const FileSurface& surface)
   packValues(bytes, surface.points);
   packValues(bytes, surface.triangles);
   packValues(bytes, surface.unit);
+  const std::size_t notes = surface.notes.size();
+  bytes.append(reinterpret_cast<const char*>(&notes), sizeof notes);
   for (const std::string& note : surface.notes)
   {
     packValues(bytes, note);
@@ -65,14 +75,14 @@ std::string pack(const FileSurface& surface)
 std::optional<FileSurface> unpack(std::string_view bytes)
 {
   FileSurface surface;
-  const bool whole = unpackValues(bytes, surface.points) &&
-    unpackValues(bytes, surface.triangles) && unpackValues(bytes, surface.unit);
-  bool read = whole;
-  while (read && !bytes.empty())
+  std::size_t notes = 0;
+  bool read = unpackValues(bytes, surface.points) && unpackValues(bytes, surface.triangles) &&
+    unpackValues(bytes, surface.unit) && unpackCount(bytes, notes);
+  while (read && notes-- > 0)
   {
     read = unpackValues(bytes, surface.notes.emplace_back());
   }
-  return read && indicesInRange(surface) ? std::optional(std::move(surface)) : std::nullopt;
+  return read && bytes.empty() && indicesInRange(surface) ? std::optional(std::move(surface)) : std::nullopt;
 }
 
 } // namespace palp
