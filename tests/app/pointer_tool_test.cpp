@@ -190,17 +190,8 @@ TEST_F(PointerToolTest, LetsGoWithoutTheSurface)
 // two bodies beside each other: no event need tell of the gap between them
 TEST(PointerTool, LetsGoInAGapThatNoEventTellsOf)
 {
-  test::Mesh two = test::block(Vector3d(20.0_mm, 20.0_mm, 20.0_mm), 4);
-  const auto size = static_cast<int>(two.first.size());
-  const auto triangles = two.second;
-  for (int i = 0; i < size; ++i)
-  {
-    two.first.push_back(two.first[static_cast<std::size_t>(i)] + Vector3d(60.0_mm, 0, 0));
-  }
-  for (const Triangle& t : triangles)
-  {
-    two.second.push_back({ t[0] + size, t[1] + size, t[2] + size });
-  }
+  test::Mesh two = test::withCopyAt(
+    test::block(Vector3d(20.0_mm, 20.0_mm, 20.0_mm), 4), Vector3d(60.0_mm, 0, 0));
   const Shared surface = shared(std::move(two));
   const auto down = [](double x, double y) // a pixel is 0.1 mm
   {

@@ -121,4 +121,20 @@ inline Mesh ball(double radius, int n)
     });
 }
 
+/// The body and a copy of it beside it.
+inline Mesh withCopyAt(Mesh mesh, const Eigen::Vector3d& shift)
+{
+  const Mesh one = mesh;
+  const int size = static_cast<int>(one.first.size());
+  for (const Eigen::Vector3d& point : one.first)
+  {
+    mesh.first.emplace_back(point + shift);
+  }
+  for (const Triangle& t : one.second)
+  {
+    mesh.second.push_back({ t[0] + size, t[1] + size, t[2] + size });
+  }
+  return mesh;
+}
+
 } // namespace palp::test
