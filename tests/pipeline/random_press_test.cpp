@@ -6,6 +6,7 @@
 #include "haptics/units.h"
 #include "pipeline/poly_data.h"
 #include "pipeline/surface_io.h"
+#include "tests/pipeline/segmented.h"
 #include "tests/pipeline/surfaces.h"
 
 #include <Eigen/Geometry>
@@ -16,15 +17,9 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <random>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkImageStencil.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataToImageStencil.h>
 #include <vtkQuadricDecimation.h>
-#include <vtkWindowedSincPolyDataFilter.h>
 
 namespace palp
 {
@@ -80,33 +75,9 @@ DentedSurface segmented()
     points.SetPoint(i, point.data());
   }
   points.Modified();
-  const double* box = liver->GetBounds();
-  const double voxel = 1.0_mm;
-  vtkNew<vtkImageData> image;
-  image->SetSpacing(voxel, voxel, voxel);
-  image->SetOrigin(box[0] - 3.0 * voxel, box[2] - 3.0 * voxel, box[4] - 3.0 * voxel);
-  const auto cells = [&](int axis)
-  { return static_cast<int>((box[2 * axis + 1] - box[2 * axis]) / voxel) + 7; };
-  image->SetDimensions(cells(0), cells(1), cells(2));
-  image->AllocateScalars(VTK_FLOAT, 1);
-  image->GetPointData()->GetScalars()->Fill(1.0);
-  vtkNew<vtkPolyDataToImageStencil> inside;
-  inside->SetInputData(liver);
-  inside->SetOutputOrigin(image->GetOrigin());
-  inside->SetOutputSpacing(image->GetSpacing());
-  inside->SetOutputWholeExtent(image->GetExtent());
-  vtkNew<vtkImageStencil> mask;
-  mask->SetInputData(image);
-  mask->SetStencilConnection(inside->GetOutputPort());
-  mask->SetBackgroundValue(0.0);
-  vtkNew<vtkFlyingEdges3D> contour;
-  contour->SetInputConnection(mask->GetOutputPort());
-  contour->SetValue(0, 0.5);
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
-  smooth->SetInputConnection(contour->GetOutputPort());
-  smooth->SetNumberOfIterations(15);
+  const auto contoured = test::contouredFromVoxels(*liver, 1.0_mm);
   vtkNew<vtkQuadricDecimation> reduced;
-  reduced->SetInputConnection(smooth->GetOutputPort());
+  reduced->SetInputData(contoured);
   reduced->SetTargetReduction(0.7);
   reduced->Update();
   return dented(*reduced->GetOutput());

@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 #include "pipeline/poly_data.h"
 #include "pipeline/surface_io.h"
+#include "tests/pipeline/segmented.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,14 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkImageStencil.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataToImageStencil.h>
-#include <vtkWindowedSincPolyDataFilter.h>
 
 namespace palp
 {
@@ -144,33 +138,8 @@ TEST(Slide, ChangesTheForceByLessThanAHandNoticesAtEachStep)
 Surface segmented()
 {
   const auto liver = readSurface(PALP_SHARE "/meshes/liver.vtp").mesh;
-  const double* box = liver->GetBounds();
-  const double voxel = 2.0_mm;
-  vtkNew<vtkImageData> image;
-  image->SetSpacing(voxel, voxel, voxel);
-  image->SetOrigin(box[0] - 3.0 * voxel, box[2] - 3.0 * voxel, box[4] - 3.0 * voxel);
-  const auto cells = [&](int axis)
-  { return static_cast<int>((box[2 * axis + 1] - box[2 * axis]) / voxel) + 7; };
-  image->SetDimensions(cells(0), cells(1), cells(2));
-  image->AllocateScalars(VTK_FLOAT, 1);
-  image->GetPointData()->GetScalars()->Fill(1.0);
-  vtkNew<vtkPolyDataToImageStencil> inside;
-  inside->SetInputData(liver);
-  inside->SetOutputOrigin(image->GetOrigin());
-  inside->SetOutputSpacing(image->GetSpacing());
-  inside->SetOutputWholeExtent(image->GetExtent());
-  vtkNew<vtkImageStencil> mask;
-  mask->SetInputData(image);
-  mask->SetStencilConnection(inside->GetOutputPort());
-  mask->SetBackgroundValue(0.0);
-  vtkNew<vtkFlyingEdges3D> contour;
-  contour->SetInputConnection(mask->GetOutputPort());
-  contour->SetValue(0, 0.5);
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
-  smooth->SetInputConnection(contour->GetOutputPort());
-  smooth->SetNumberOfIterations(15);
-  smooth->Update();
-  return { pointsOf(*smooth->GetOutput()), trianglesOf(*smooth->GetOutput()) };
+  const auto contoured = test::contouredFromVoxels(*liver, 2.0_mm);
+  return { pointsOf(*contoured), trianglesOf(*contoured) };
 }
 
 // the depth follows the steps that voxels leave, the corrections must not follow them twice
