@@ -1,7 +1,7 @@
 #include "app/bench.h"
 #include "app/commands.h"
 #include "app/pictures.h"
-#include "app/program.h"
+#include "app/sibling.h"
 #include "app/quantity.h"
 #include "app/report/machine.h"
 #include "haptics/error.h"

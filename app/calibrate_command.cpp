@@ -3,7 +3,7 @@
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/pictures.h"
-#include "app/program.h"
+#include "app/sibling.h"
 #include "app/progress_line.h"
 #include "calibration/shipped_tables.h"
 #include "calibration/study.h"

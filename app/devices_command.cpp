@@ -1,6 +1,6 @@
 #include "app/commands.h"
-#include "app/devices_report.h"
-#include "app/program.h"
+#include "app/devices_options.h"
+#include "app/sibling.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,16 +1,9 @@
 #pragma once
 
-#include <string>
-
 namespace palp
 {
 
-/// The whole of `palp devices`.
-struct DevicesOptions
-{
-  std::string probe; ///< as a user names a device; empty: none
-  bool watch = false;
-};
+struct DevicesOptions;
 
 /// Lists devices on standard output, probes one, or watches them come and go.
 /// @return         exit code: 0 a device can be used, 3 none is there, 6 one is there but cannot be

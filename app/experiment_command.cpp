@@ -2,7 +2,7 @@
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/pictures.h"
-#include "app/program.h"
+#include "app/sibling.h"
 #include "calibration/experiments.h"
 #include "calibration/replace_file.h"
 #include "haptics/error.h"

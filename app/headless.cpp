@@ -6,7 +6,7 @@
 #include "app/ledger.h"
 #include "app/pictures.h"
 #include "app/playback.h"
-#include "app/program.h"
+#include "app/sibling.h"
 #include "app/recording.h"
 #include "calibration/csv_text.h"
 #include "calibration/output_folder.h"

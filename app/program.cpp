@@ -1,29 +1,22 @@
 #include "app/program.h"
 
 #include "app/commands.h"
+#include "app/sibling.h"
 #include "haptics/error.h"
 #include "haptics/input_text.h"
-#include "haptics/prefix.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <unistd.h>
 #include <vector>
 
 namespace palp
 {
 namespace
 {
-
-char** gArguments = nullptr; // of main, for becomeSibling
 
 // help, version, or one of the subcommands
 bool isCommand(const CLI::App& app, const std::string& word)
@@ -85,23 +78,6 @@ void refuseEmptyValues(CLI::App& app)
   }
 }
 
-// for a shell; on one line whatever it holds
-std::string quoted(const std::string& word)
-{
-  constexpr auto isPlain = [](unsigned char c)
-  { return std::isalnum(c) != 0 || std::strchr("_./:=,%@+-", c) != nullptr; };
-  if (!word.empty() && std::ranges::all_of(word, isPlain))
-  {
-    return word;
-  }
-  std::string text = "'";
-  for (const unsigned char c : word)
-  {
-    text += c == '\'' ? "'\\''" : std::string(1, c < ' ' ? '?' : static_cast<char>(c));
-  }
-  return text + "'";
-}
-
 } // namespace
 
 int exitCode(ErrorCode code)
@@ -122,36 +98,9 @@ int exitCode(ErrorCode code)
   return 1;
 }
 
-std::string commandLine()
-{
-  std::string line = gArguments == nullptr ? "" : "palp";
-  for (char** argument = gArguments; argument != nullptr && *++argument != nullptr;)
-  {
-    const std::string word = *argument;
-    if (word == "--out" && argument[1] != nullptr)
-    {
-      ++argument;
-    }
-    else if (word != "--overwrite" && !word.starts_with("--out="))
-    {
-      line += ' ' + quoted(word);
-    }
-  }
-  return line;
-}
-
-void becomeSibling(const char* name)
-{
-  const std::filesystem::path program = prefix() / "bin" / name;
-  execv(program.c_str(), gArguments);
-  throw Error(ErrorCode::NoPicture,
-    program.string() +
-      ": cannot be started; build it, or pass --no-picture where a command has it");
-}
-
 int runProgram(int argc, char** argv, const Parts& parts)
 {
-  gArguments = argv;
+  setArguments(argv);
   std::signal(SIGXFSZ, SIG_IGN); // a limit on files is told as a full disk is
   CLI::App app("Press soft tissue: see the dent, feel the force, keep the data.", "palp");
   app.set_version_flag("--version", "palp " PALP_VERSION);

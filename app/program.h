@@ -35,11 +35,4 @@ struct Parts
 /// @return  exit code: 0, or by kind of error 2 (input), 3 (device), 4 (picture), 5 (no solution)
 [[nodiscard]] int runProgram(int argc, char** argv, const Parts& parts);
 
-/// How this process was started, as for a shell, without --out and --overwrite; empty in a test.
-[[nodiscard]] std::string commandLine();
-
-/// Turns this process into a sibling program with the arguments it was started with.
-/// @throws Error  NoPicture: the sibling is not installed beside this program
-[[noreturn]] void becomeSibling(const char* name);
-
 } // namespace palp

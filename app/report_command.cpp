@@ -3,6 +3,7 @@
 #include "app/output.h"
 #include "app/pictures.h"
 #include "app/program.h"
+#include "app/sibling.h"
 #include "app/report/folder.h"
 #include "app/report/html_page.h"
 #include "app/report/machine.h"

@@ -4,7 +4,7 @@
 #include "app/headless.h"
 #include "app/ledger.h"
 #include "app/output.h"
-#include "app/program.h"
+#include "app/sibling.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>

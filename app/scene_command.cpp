@@ -3,6 +3,7 @@
 #include "app/ledger.h"
 #include "app/output.h"
 #include "app/program.h"
+#include "app/sibling.h"
 #include "app/scene_file.h"
 
 #include <CLI/CLI.hpp>

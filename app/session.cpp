@@ -2,7 +2,7 @@
 
 #include "app/device_words.h"
 #include "app/ledger.h"
-#include "app/program.h"
+#include "app/sibling.h"
 #include "haptics/devices/pointer.h"
 #include "haptics/devices/scripted_device.h"
 #include "haptics/devices/simulated_hand.h"

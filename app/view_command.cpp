@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/program.h"
+#include "app/sibling.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "haptics/force/validity.h"
-#include "pipeline/overlay.h"
+#include "pipeline/overlay_props.h"
 #include "pipeline/vtkPalpPressureFilter.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/overlay.h"
+#include "pipeline/overlay_props.h"
 
 #include <vtkActor.h>
 #include <vtkNew.h>

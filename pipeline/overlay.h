@@ -1,9 +1,6 @@
 #pragma once
 
-#include "haptics/servo/sample.h"
-#include "pipeline/vtkPalpDeformFilter.h"
-
-class vtkRenderer;
+#include <cstddef>
 
 namespace palp
 {
@@ -23,30 +20,5 @@ enum class Overlay
 };
 
 inline constexpr std::size_t kOverlayCount = 9;
-
-/// The moment that an overlay shows.
-struct Moment
-{
-  const Sample& sample;
-  const Tip& tip;
-  double extentRadius;        ///< R_d of the table [m]
-  vtkPalpDeformFilter& press; ///< up to date, with its patch
-};
-
-/// One thing drawn over the surface.
-class OverlayProps
-{
-public:
-  virtual ~OverlayProps() = default;
-  OverlayProps() = default;
-  OverlayProps(const OverlayProps&) = delete;
-  OverlayProps& operator=(const OverlayProps&) = delete;
-
-  /// Takes up a moment of contact.
-  virtual void show(const Moment& moment) = 0;
-
-  /// Draws nothing and computes nothing until the next show().
-  virtual void hide() = 0;
-};
 
 } // namespace palp

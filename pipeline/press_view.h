@@ -4,6 +4,7 @@
 #include "haptics/servo/sample.h"
 #include "pipeline/dent_colors.h"
 #include "pipeline/overlay.h"
+#include "pipeline/overlay_props.h"
 #include "pipeline/press_of.h"
 #include "pipeline/readings.h"
 #include "pipeline/vtkPalpDeformFilter.h"

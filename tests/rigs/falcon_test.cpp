@@ -1,6 +1,7 @@
 // libusb itself, against a Novint Falcon that is made up: umockdev gives it a place in /sys, this
 // program answers the requests of usbfs. A FIFO in the place of the node wakes libusb's poll.
 
+#include "app/devices_options.h"
 #include "app/devices_report.h"
 #include "haptics/devices/falcon_driver.h"
 #include "haptics/devices/falcon_kinematics.h"
