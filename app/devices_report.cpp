@@ -1,6 +1,6 @@
 #include "app/devices_report.h"
 
-#include "app/devices_options.h"
+#include "app/program/devices_options.h"
 #include "haptics/devices/driver.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"

@@ -1,7 +1,7 @@
 // palp-draw: palp with pictures, off screen.
 
-#include "app/draw_pictures.h"
-#include "app/program.h"
+#include "app/draw/draw_pictures.h"
+#include "app/commands/program.h"
 
 int main(int argc, char** argv)
 {

@@ -1,6 +1,6 @@
 // palp: the commands alone; pictures and the window are its siblings'.
 
-#include "app/program.h"
+#include "app/commands/program.h"
 
 int main(int argc, char** argv)
 {

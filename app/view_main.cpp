@@ -1,9 +1,9 @@
 // palp-view: palp with its window.
 
-#include "app/ledger.h"
-#include "app/program.h"
-#include "app/session.h"
-#include "app/window.h"
+#include "app/program/ledger.h"
+#include "app/commands/program.h"
+#include "app/session/session.h"
+#include "app/window/window.h"
 
 #include "haptics/error.h"
 

@@ -5,12 +5,12 @@
 #include "data/liver_mesh.h"
 #include "data/press_path.h"
 #include "data/shapes.h"
-#include "haptics/contact/decimate.h"
-#include "haptics/contact/deviation.h"
+#include "haptics/surface/decimate.h"
+#include "haptics/surface/deviation.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
-#include "pipeline/poly_data.h"
-#include "pipeline/surface_io.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
 
 #include <exception>
 #include <filesystem>

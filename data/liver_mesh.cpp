@@ -3,7 +3,7 @@
 #include "data/liver.h"
 #include "data/remesh.h"
 #include "haptics/units.h"
-#include "pipeline/poly_data.h"
+#include "pipeline/model/poly_data.h"
 
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/devices/scripted_path.h"
+#include "haptics/devices/simulated/scripted_path.h"
 
 #include <vector>
 

@@ -17,6 +17,30 @@ if(PALP_SANITIZE)
   target_link_options(palp_flags INTERFACE -fsanitize=${PALP_SANITIZE})
 endif()
 
+# palp_library(<name> SOURCES <file>... [PUBLIC <library>...] [PRIVATE <library>...])
+#
+# The library of the calling folder, palp::<name>. What its headers include is PUBLIC, what only its
+# sources include PRIVATE; tests/style/tree.py compares both with the includes.
+function(palp_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 palp "" "" "SOURCES;PUBLIC;PRIVATE")
+  set(target palp_${name})
+  add_library(${target} STATIC ${palp_SOURCES})
+  add_library(palp::${name} ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:include/palp>)
+  target_link_libraries(${target}
+    PUBLIC ${palp_PUBLIC}
+    PRIVATE ${palp_PRIVATE} $<BUILD_INTERFACE:palp_flags>)
+endfunction()
+
+# palp_group(<name> <library>...): palp::<name> stands for several libraries.
+function(palp_group name)
+  add_library(palp_${name} INTERFACE)
+  add_library(palp::${name} ALIAS palp_${name})
+  target_link_libraries(palp_${name} INTERFACE ${ARGN})
+endfunction()
+
 # palp_forbid(<target> <regex>): stop the configuration if a target links against a
 # library that its layer must not know.
 function(palp_forbid target pattern)

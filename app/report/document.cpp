@@ -1,6 +1,6 @@
 #include "app/report/document.h"
 
-#include "calibration/csv_text.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "app/bench.h"
-#include "app/bench_work.h"
+#include "app/bench/bench.h"
+#include "app/bench/bench_work.h"
 #include "app/report/force_methods.h"
 #include "app/report/parts.h"
 #include "haptics/units.h"

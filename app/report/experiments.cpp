@@ -1,4 +1,4 @@
-#include "calibration/experiment_parts.h"
+#include "calibration/experiments/experiment_parts.h"
 
 #include "app/report/parts.h"
 #include "haptics/units.h"

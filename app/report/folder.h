@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/report/document.h"
-#include "calibration/output_folder.h"
+#include "haptics/files/output_folder.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "app/bench.h"
+#include "app/bench/bench.h"
 #include "app/report/force_methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"

@@ -1,12 +1,12 @@
 #include "app/report/force_methods.h"
 
-#include "app/bench.h"
-#include "app/data_files.h"
-#include "calibration/extent_table.h"
-#include "calibration/study.h"
+#include "app/bench/bench.h"
+#include "app/program/data_files.h"
+#include "calibration/tables/extent_table.h"
+#include "calibration/study/study.h"
 #include "haptics/error.h"
 #include "haptics/force/force_law.h"
-#include "haptics/force/monotone_cubic.h"
+#include "haptics/numerics/monotone_cubic.h"
 #include "haptics/units.h"
 
 #include <cmath>

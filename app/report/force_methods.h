@@ -2,8 +2,8 @@
 
 #include "app/report/effort.h"
 #include "app/report/references.h"
-#include "calibration/indenter.h"
-#include "calibration/stepper.h"
+#include "calibration/fem/indenter.h"
+#include "calibration/baselines/stepper.h"
 
 namespace palp::report
 {

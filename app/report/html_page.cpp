@@ -1,6 +1,6 @@
 #include "app/report/html_page.h"
 
-#include "calibration/replace_file.h"
+#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
 
 #include <array>

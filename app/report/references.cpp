@@ -1,8 +1,8 @@
 #include "app/report/references.h"
 
-#include "app/data_files.h"
+#include "app/program/data_files.h"
 #include "haptics/error.h"
-#include "haptics/force/number_table.h"
+#include "haptics/files/number_table.h"
 #include "haptics/units.h"
 
 #include <algorithm>

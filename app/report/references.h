@@ -1,7 +1,7 @@
 #pragma once
 
-#include "calibration/constitutive.h"
-#include "haptics/force/tip.h"
+#include "calibration/fem/constitutive.h"
+#include "haptics/tip/tip.h"
 #include "haptics/material.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "app/report/parts.h"
 #include "data/shapes.h"
 #include "haptics/error.h"
-#include "haptics/prefix.h"
+#include "haptics/files/prefix.h"
 
 #include <array>
 #include <cmath>

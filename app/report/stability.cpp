@@ -1,4 +1,4 @@
-#include "app/stability_study.h"
+#include "app/report/stability_study.h"
 
 #include "app/report/parts.h"
 

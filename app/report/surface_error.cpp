@@ -1,9 +1,9 @@
-#include "app/bench.h"
-#include "app/bench_work.h"
+#include "app/bench/bench.h"
+#include "app/bench/bench_work.h"
 #include "app/report/force_methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
-#include "calibration/csv_text.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "haptics/contact/contact.h"
 
-#include "haptics/contact/nearest.h"
+#include "haptics/surface/nearest.h"
 #include "haptics/contact/paper_contact.h"
 #include "haptics/contact/patch.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "haptics/contact/pose.h"
-#include "haptics/contact/surface.h"
-#include "haptics/force/tip.h"
+#include "haptics/pose.h"
+#include "haptics/surface/surface.h"
+#include "haptics/tip/tip.h"
 
 #include <Eigen/Core>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/contact/pose.h"
+#include "haptics/pose.h"
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -34,7 +34,7 @@ struct DeviceStatus
   double age = 0.0;          ///< of the pose, since the hardware sent it [s]
 };
 
-class GuidedTool; // haptics/devices/guided_tool.h
+class GuidedTool; // haptics/devices/simulated/guided_tool.h
 
 /// One thing that holds the tool: a hand, an arm, a recorded path.
 ///

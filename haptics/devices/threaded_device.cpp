@@ -1,7 +1,7 @@
 #include "haptics/devices/threaded_device.h"
 
 #include "haptics/error.h"
-#include "haptics/servo/realtime.h"
+#include "haptics/threads/realtime.h"
 
 #include <exception>
 #include <utility>

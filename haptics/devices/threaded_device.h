@@ -2,7 +2,7 @@
 
 #include "haptics/devices/driver.h"
 #include "haptics/devices/velocity_estimator.h"
-#include "haptics/servo/latest.h"
+#include "haptics/threads/latest.h"
 
 #include <atomic>
 #include <chrono>

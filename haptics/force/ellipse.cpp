@@ -1,6 +1,6 @@
 #include "haptics/force/ellipse.h"
 
-#include "haptics/force/monotone_cubic.h"
+#include "haptics/numerics/monotone_cubic.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "haptics/force/ellipse.h"
 #include "haptics/force/inclination.h"
-#include "haptics/force/layer_contact.h"
+#include "haptics/force/linear/layer_contact.h"
 #include "haptics/units.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "haptics/force/coating.h"
-#include "haptics/force/half_space.h"
+#include "haptics/force/linear/coating.h"
+#include "haptics/force/linear/half_space.h"
 #include "haptics/force/large_strain.h"
-#include "haptics/force/layer.h"
-#include "haptics/force/tip.h"
+#include "haptics/force/linear/layer.h"
+#include "haptics/tip/tip.h"
 #include "haptics/material.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "haptics/force/inclination.h"
 
-#include "haptics/force/monotone_cubic.h"
+#include "haptics/numerics/monotone_cubic.h"
 #include "haptics/units.h"
 
 #include <algorithm>

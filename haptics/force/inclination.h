@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/force/tip.h"
+#include "haptics/tip/tip.h"
 
 namespace palp
 {

@@ -1,10 +1,10 @@
 #include "haptics/force/validity.h"
 
-#include "haptics/force/coated_body.h"
+#include "haptics/force/linear/coated_body.h"
 #include "haptics/force/ellipse.h"
 #include "haptics/force/inclination.h"
-#include "haptics/force/layer_contact.h"
-#include "haptics/force/on_tip.h"
+#include "haptics/force/linear/layer_contact.h"
+#include "haptics/tip/on_tip.h"
 #include "haptics/units.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "haptics/servo/servo.h"
 
-#include "haptics/servo/realtime.h"
+#include "haptics/threads/realtime.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
 

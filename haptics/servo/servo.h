@@ -1,8 +1,8 @@
 #pragma once
 
 #include "haptics/devices/device.h"
-#include "haptics/servo/latest.h"
-#include "haptics/servo/ring.h"
+#include "haptics/threads/latest.h"
+#include "haptics/threads/ring.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/study.h"
+#include "calibration/study/study.h"
 #include "haptics/units.h"
 #include "tests/haptics/force/reference_table.h"
 

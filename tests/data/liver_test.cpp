@@ -3,11 +3,11 @@
 #include "data/implicit.h"
 #include "data/liver_mesh.h"
 #include "data/press_path.h"
-#include "haptics/contact/deviation.h"
-#include "haptics/contact/nearest.h"
+#include "haptics/surface/deviation.h"
+#include "haptics/surface/nearest.h"
 #include "haptics/units.h"
-#include "pipeline/poly_data.h"
-#include "pipeline/surface_io.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
 #include "tests/data/topology.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "haptics/units.h"
-#include "pipeline/press_view.h"
+#include "pipeline/view/press_view.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include "haptics/contact/contact.h"
 #include "haptics/contact/indentation_of.h"
-#include "haptics/contact/nearest.h"
+#include "haptics/surface/nearest.h"
 #include "haptics/units.h"
-#include "pipeline/poly_data.h"
-#include "pipeline/surface_io.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/segmented.h"
 
 #include <Eigen/Geometry>

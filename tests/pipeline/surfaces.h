@@ -1,7 +1,7 @@
 #pragma once
 
 #include "data/shapes.h"
-#include "pipeline/dent.h"
+#include "pipeline/deform/dent.h"
 
 #include <Eigen/Core>
 #include <cmath>

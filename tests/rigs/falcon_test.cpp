@@ -1,10 +1,10 @@
 // libusb itself, against a Novint Falcon that is made up: umockdev gives it a place in /sys, this
 // program answers the requests of usbfs. A FIFO in the place of the node wakes libusb's poll.
 
-#include "app/devices_options.h"
+#include "app/program/devices_options.h"
 #include "app/devices_report.h"
-#include "haptics/devices/falcon_driver.h"
-#include "haptics/devices/falcon_kinematics.h"
+#include "haptics/devices/falcon/falcon_driver.h"
+#include "haptics/devices/falcon/falcon_kinematics.h"
 #include "haptics/devices/threaded_device.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/usb_transport.h"

@@ -4,7 +4,7 @@
 // the program gives it a file descriptor, one end of a socket pair that keeps reports apart. For
 // one source file of a program only: it defines what hidapi calls.
 
-#include "haptics/devices/hid_drivers.h"
+#include "haptics/devices/hid/hid_drivers.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/hid_transport.h"
 #include "tests/rigs/wooden_board.h"

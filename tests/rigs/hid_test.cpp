@@ -1,4 +1,4 @@
-#include "app/devices_options.h"
+#include "app/program/devices_options.h"
 #include "app/devices_report.h"
 #include "haptics/devices/threaded_device.h"
 #include "haptics/error.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/contact/surface.h"
+#include "haptics/surface/surface.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "haptics/devices/usb/usb_module.h"
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
-#include "haptics/prefix.h"
+#include "haptics/files/prefix.h"
 
 #include <dlfcn.h>
 #include <filesystem>

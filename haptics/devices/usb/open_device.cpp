@@ -1,12 +1,12 @@
 #include "haptics/devices/usb/open_device.h"
 
-#include "haptics/devices/falcon_driver.h"
-#include "haptics/devices/hid_drivers.h"
+#include "haptics/devices/falcon/falcon_driver.h"
+#include "haptics/devices/hid/hid_drivers.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/hid_transport.h"
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
-#include "haptics/input_text.h"
+#include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <iterator>

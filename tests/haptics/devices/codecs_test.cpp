@@ -1,8 +1,8 @@
-#include "haptics/devices/phd1.h"
-#include "haptics/devices/spacemouse.h"
-#include "haptics/devices/wooden_haptics.h"
+#include "haptics/devices/hid/phd1.h"
+#include "haptics/devices/hid/spacemouse.h"
+#include "haptics/devices/hid/wooden_haptics.h"
 
-#include "haptics/devices/falcon.h"
+#include "haptics/devices/falcon/falcon.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/support/wooden_reference.h"

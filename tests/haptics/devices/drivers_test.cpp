@@ -1,5 +1,5 @@
-#include "haptics/devices/falcon_driver.h"
-#include "haptics/devices/hid_drivers.h"
+#include "haptics/devices/falcon/falcon_driver.h"
+#include "haptics/devices/hid/hid_drivers.h"
 #include "haptics/devices/threaded_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/force/profile.h"
-#include "haptics/force/tip.h"
+#include "haptics/tip/profile.h"
+#include "haptics/tip/tip.h"
 #include "haptics/units.h"
 
 #include <memory>

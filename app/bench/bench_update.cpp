@@ -1,0 +1,76 @@
+#include "app/bench/bench.h"
+#include "app/bench/bench_dome.h"
+#include "app/bench/bench_work.h"
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr int kFrames = 1000;
+constexpr int kSteps = 20; // frames of the tool's way to one side
+
+// the times of a frame, once what it needs has been seen
+template <typename Frame>
+BenchRow benchFrames(const char* work, std::size_t vertices, const char* mode, Frame frame)
+{
+  for (int i = 0; i < kSteps; ++i)
+  {
+    frame(i);
+  }
+  return benchRow(work, vertices, mode,
+    timed(
+      kFrames, [](int) {}, frame));
+}
+
+// the dent alone: as many displaced points as wanted, a twentieth of its radius on from frame to
+// frame or, on a jump, anywhere
+BenchRow benchDent(
+  DrawnSurface& drawn, const BenchDome& dome, double touched, const char* mode, bool jump = false)
+{
+  const double outer = dome.radiusOf(touched);
+  const double step = jump ? dome.size / 40.0 : outer / 20.0;
+  const auto frame = [&](int i)
+  { drawn.press(dome.press(outer, step * ((jump ? 7 * i : i) % kSteps - kSteps / 2))); };
+  return benchFrames("dent", drawn.zone.size(), mode, frame);
+}
+
+} // namespace
+
+std::vector<BenchRow> benchUpdate(std::size_t most)
+{
+  std::vector<BenchRow> rows;
+  const auto vertices = [](int n)
+  { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n); };
+  for (const int n : { 40, 50, 60, 70, 80, 90, 100 })
+  {
+    if (vertices(n) <= most)
+    {
+      VisualUpdate update(n);
+      // 2 mm from frame to frame
+      rows.push_back(benchFrames(
+        "update", vertices(n), "moving", [&](int i) { update(benchPose(20.0_ms * i)); }));
+    }
+  }
+  for (const int n : { 100, 1000 })
+  {
+    if (vertices(n) <= most)
+    {
+      const BenchDome dome{ n, kBenchSide };
+      DrawnSurface drawn(dome.mesh());
+      rows.push_back(benchDent(drawn, dome, 500, "500"));
+      rows.push_back(benchDent(drawn, dome, 2300, "2300"));
+      if (n == 1000)
+      {
+        rows.push_back(benchDent(drawn, dome, 500, "jump", true));
+        rows.push_back(benchDent(drawn, dome, 22'800, "22800"));
+        rows.push_back(benchDent(drawn, dome, 126'000, "126000"));
+      }
+    }
+  }
+  return rows;
+}
+
+} // namespace palp

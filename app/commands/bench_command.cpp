@@ -1,0 +1,224 @@
+#include "app/bench/bench.h"
+#include "app/commands/commands.h"
+#include "app/commands/pictures.h"
+#include "app/program/sibling.h"
+#include "app/input/quantity.h"
+#include "app/program/machine.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kShortestServo = 1.0;    // [s]
+constexpr double kLongestServo = 86400.0; // [s]
+
+struct BenchOptions
+{
+  bool json = false;
+  bool accuracy = false;
+  bool baselines = false;
+  bool frames = false;
+  bool quick = false;
+  std::string servo;
+  std::filesystem::path gate;
+  double slack = 1.5;
+  std::size_t most = 1'000'000;
+};
+
+struct Bench
+{
+  double sweep = 0.0; // S [us]
+  std::vector<BenchRow> rows;
+};
+
+// S before, between and after, for other work on the machine comes and goes
+Bench measure(const BenchOptions& options, const Pictures* pictures)
+{
+  std::vector<double> sweeps{ benchSweep() };
+  Bench bench;
+  bench.rows = options.baselines ? benchBaselines()
+    : options.frames             ? pictures->benchFrames(options.most)
+                                 : benchServo(options.most, options.quick ? 400 : 4000);
+  sweeps.push_back(benchSweep());
+  if (!options.baselines && !options.frames)
+  {
+    const std::vector<BenchRow> update = benchUpdate(options.most);
+    bench.rows.insert(bench.rows.end(), update.begin(), update.end());
+  }
+  sweeps.push_back(benchSweep());
+  std::sort(sweeps.begin(), sweeps.end());
+  bench.sweep = sweeps[1];
+  return bench;
+}
+
+nlohmann::ordered_json toJson(const Bench& bench)
+{
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const BenchRow& row : bench.rows)
+  {
+    nlohmann::ordered_json entry{ { "work", row.work }, { "vertices", row.vertices },
+      { "case", row.mode }, { "median_us", row.median }, { "mean_us", row.mean },
+      { "sd_us", row.deviation }, { "p99_us", row.p99 }, { "per_S", row.median / bench.sweep } };
+    if (!row.variant.empty())
+    {
+      entry["variant"] = row.variant;
+    }
+    rows.push_back(entry);
+  }
+  return { { "machine", processorName() }, { "S_us", bench.sweep }, { "rows", rows } };
+}
+
+void printTable(const Bench& bench)
+{
+  std::cout
+    << processorName() << ", S = " << std::fixed << std::setprecision(2) << bench.sweep << " us\n\n"
+    << "work         vertices  case     median us    mean us      sd us     p99 us       x S\n";
+  for (const BenchRow& row : bench.rows)
+  {
+    std::cout << std::left << std::setw(12) << row.work << std::right << std::setw(9)
+              << row.vertices << "  " << std::left << std::setw(7) << row.mode << std::right
+              << std::setprecision(3);
+    for (const double value :
+      { row.median, row.mean, row.deviation, row.p99, row.median / bench.sweep })
+    {
+      std::cout << std::setw(11) << value;
+    }
+    std::cout << (row.variant.empty() ? "" : "  ") << row.variant << '\n';
+  }
+  std::cout << std::defaultfloat;
+}
+
+nlohmann::json readGate(const std::filesystem::path& file)
+{
+  nlohmann::json recorded =
+    nlohmann::json::parse(readText(file, "the output of palp bench --json"), nullptr, false);
+  if (!recorded.is_object() || !recorded.contains("rows"))
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not the output of palp bench --json; record one with it");
+  }
+  return recorded;
+}
+
+// rows that take more of S than recorded, beyond the slack
+void checkGate(const Bench& bench, const nlohmann::json& recorded, double slack)
+{
+  std::string slower;
+  std::size_t compared = 0;
+  for (const nlohmann::json& old : recorded["rows"])
+  {
+    for (const BenchRow& row : bench.rows)
+    {
+      if (old.value("work", "") != row.work || old.value("case", "") != row.mode ||
+        old.value("variant", "") != row.variant ||
+        old.value("vertices", std::size_t{ 0 }) != row.vertices)
+      {
+        continue;
+      }
+      ++compared;
+      const double now = row.median / bench.sweep;
+      const double before = old.value("per_S", 0.0);
+      if (now > slack * before)
+      {
+        slower += " " + row.work + " " + std::to_string(row.vertices) + " " + row.mode + " (" +
+          std::to_string(now) + " S, recorded " + std::to_string(before) + ")";
+      }
+    }
+  }
+  if (compared == 0)
+  {
+    throw Error(ErrorCode::BadFile, "--gate: no row in common with this run; record a new one");
+  }
+  if (!slower.empty())
+  {
+    throw Error(ErrorCode::BadValue, "--gate: slower than recorded:" + slower + "; find out why");
+  }
+}
+
+void runBench(const BenchOptions& options, const Pictures* pictures)
+{
+  if (!(options.slack >= 1.0)) // CLI11's range lets nan pass
+  {
+    throw Error(ErrorCode::BadValue, "--slack: not a number; give 1 to 100");
+  }
+  if (options.frames && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
+  if (options.accuracy)
+  {
+    reportAccuracy(std::cout);
+    return;
+  }
+  if (!options.servo.empty())
+  {
+    const double time = parseQuantity(options.servo, Quantity::Time, "--servo");
+    if (!(time >= kShortestServo && time <= kLongestServo))
+    {
+      throw Error(
+        ErrorCode::BadValue, "--servo: '" + options.servo + "' is out of range; give 1s to 86400s");
+    }
+    reportServo(std::cout, std::chrono::duration<double>(time));
+    return;
+  }
+  const nlohmann::json recorded = options.gate.empty() ? nullptr : readGate(options.gate);
+  const Bench bench = measure(options, pictures);
+  if (options.json)
+  {
+    std::cout << toJson(bench).dump(1) << '\n';
+  }
+  else
+  {
+    printTable(bench);
+  }
+  if (!recorded.is_null())
+  {
+    checkGate(bench, recorded, options.slack);
+  }
+}
+
+} // namespace
+
+void addBenchCommand(CLI::App& app, const Pictures* pictures)
+{
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* command = app.add_subcommand("bench", "Measure speed and accuracy on this machine");
+  command->add_flag("--json", options->json, "Print JSON and nothing else");
+  command->add_option("--gate", options->gate,
+    "JSON of an earlier run: fail where a figure takes more of S than recorded there");
+  command->add_option("--slack", options->slack, "How many times more --gate lets pass")
+    ->check(CLI::Range(1.0, 100.0))
+    ->capture_default_str();
+  command->add_option("--most", options->most, "Vertices of the largest surface")
+    ->check(CLI::Range(0, 10'000'000))
+    ->capture_default_str();
+  command->add_flag("--quick", options->quick, "A tenth of the repetitions");
+  command->add_flag("--baselines", options->baselines,
+    "Instead: one step of springs and of finite elements beside ours, as Fig. 12");
+  command->add_flag("--frames", options->frames,
+    "Instead: what a moved dent costs a picture beyond drawing the same scene again");
+  command->add_flag("--accuracy", options->accuracy,
+    "Instead: force error from the mesh, and smoothness, for each rule of contact");
+  command->add_option("--servo", options->servo,
+    "Instead: how well a servo thread keeps 1 kHz for so long, like 60s");
+  command->footer("S is a scalar sweep over 10,000 points in the same run, by which machines "
+                  "compare; x S is the median as a multiple of it.\n"
+                  "Examples:\n"
+                  "  palp bench\n"
+                  "  palp bench --json > before.json && palp bench --gate before.json\n"
+                  "  palp bench --servo 60s");
+  command->callback([options, pictures] { runBench(*options, pictures); });
+}
+
+} // namespace palp

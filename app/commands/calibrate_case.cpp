@@ -1,0 +1,161 @@
+#include "app/commands/calibrate_case.h"
+
+#include "app/input/coating_spec.h"
+#include "app/input/quantity.h"
+#include "app/input/tip_spec.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace palp
+{
+
+using namespace fem;
+
+namespace
+{
+
+// A x B x C; a unit on the last number counts for all
+std::array<double, 3> parseBlock(const std::string& text)
+{
+  const auto digits = text.find_last_of("0123456789.");
+  const std::string unit = digits == std::string::npos ? "" : text.substr(digits + 1);
+  std::array<double, 3> sides{};
+  std::istringstream parts(text);
+  std::string part;
+  for (double& side : sides)
+  {
+    if (!std::getline(parts, part, 'x'))
+    {
+      throw Error(ErrorCode::BadValue,
+        "--block: '" + text + "' has fewer than three sides; give " +
+          "width, length and height, as 100x100x50mm");
+    }
+    const bool bare = part.find_first_not_of("0123456789.") == std::string::npos;
+    side = parseQuantity(bare ? part + unit : part, Quantity::Length, "--block (as 100x100x50mm)");
+  }
+  if (!parts.eof())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--block: '" + text + "' has more than three sides; give three, as 100x100x50mm");
+  }
+  return sides;
+}
+
+// a folder of its own below --out, whatever the system
+bool isFolderName(const std::string& name)
+{
+  const bool plain = std::ranges::none_of(name,
+    [](char c)
+    { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
+  return plain && !name.empty() && name.size() <= 100 && name != "." && name != "..";
+}
+
+// one entry of a sweep, number `count`
+Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string& file,
+  const CaseText& defaults, std::set<std::string>& names)
+{
+  const auto refuse = [&](const std::string& what)
+  { throw Error(ErrorCode::BadFile, file + ": case " + std::to_string(count) + ' ' + what); };
+  if (!entry.is_object() || !entry.contains("name"))
+  {
+    refuse("has no name; give each as {\"name\": \"soft\", \"young\": \"5kPa\"}");
+  }
+  CaseText text = defaults;
+  std::string name;
+  for (const auto& [key, value] : entry.items())
+  {
+    if (key != "name" && !text.values.contains(key))
+    {
+      refuse("has '" + key + "', which is no setting of a case; use the names of the options");
+    }
+    if (!value.is_string())
+    {
+      refuse("has a '" + key + "' that is no text; put it in quotes, with its unit");
+    }
+    (key == "name" ? name : text.values[key]) = value.get<std::string>();
+  }
+  if (!isFolderName(name))
+  {
+    refuse("has a name that no folder can have; give a short one without / and \\");
+  }
+  if (!names.insert(name).second)
+  {
+    refuse("is called '" + name + "' as another is; give each a name of its own");
+  }
+  return caseOf(name, text);
+}
+
+} // namespace
+
+Case caseOf(const std::string& name, const CaseText& text)
+{
+  const auto value = [&](const char* key) -> const std::string& { return text.values.at(key); };
+  const auto length = [&](const char* key)
+  { return parseQuantity(value(key), Quantity::Length, "--" + std::string(key)); };
+  const auto energy = energyNamed(value("material"));
+  if (!energy)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--material: '" + value("material") +
+        "' is unknown; give linear, corotated, neo-hookean or neo-hookean-isochoric");
+  }
+  const std::string& model = value("model");
+  if (model != "axisymmetric" && model != "block")
+  {
+    throw Error(
+      ErrorCode::BadValue, "--model: '" + model + "' is unknown; give axisymmetric or block");
+  }
+  const std::string& base = value("base");
+  if (base != "bonded" && base != "slip")
+  {
+    throw Error(ErrorCode::BadValue, "--base: '" + base + "' is unknown; give bonded or slip");
+  }
+  const auto [width, depth, height] = parseBlock(value("block"));
+  Case study{ .name = name,
+    .width = width,
+    .length = depth,
+    .height = height,
+    .tip = withCap(parseTip(value("tip")), length("cap")),
+    .material = makeMaterial(parseQuantity(value("young"), Quantity::Pressure, "--young"),
+      parseNumber(value("poisson"), "--poisson")),
+    .coatings = parseCoatings(value("coating")),
+    .energy = *energy,
+    .depths = parseRange(value("depth"), Quantity::Length, "--depth").si,
+    .threshold = length("threshold"),
+    .model = model == "block" ? BodyModel::Block : BodyModel::Axisymmetric,
+    .base = base == "slip" ? Base::Slip : Base::Bonded,
+    .elementSize = value("element-size").empty() ? 0.0 : length("element-size") };
+  if (study.depths.front() == 0.0)
+  {
+    study.depths.erase(study.depths.begin()); // nothing happens at first touch
+  }
+  check(study);
+  return study;
+}
+
+std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& defaults)
+{
+  const auto list = 
+    nlohmann::json::parse(readText(file, "a list of cases"), nullptr, false);
+  if (!list.is_array() || list.empty())
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not a list of cases in JSON; give one or more, as " +
+        "[{\"name\": \"soft\", \"young\": \"5kPa\"}]");
+  }
+  std::vector<Case> cases;
+  std::set<std::string> names;
+  for (const auto& entry : list)
+  {
+    cases.push_back(sweepCase(entry, cases.size() + 1, file.string(), defaults, names));
+  }
+  return cases;
+}
+
+} // namespace palp

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "calibration/study/study.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// A case of palp calibrate as text with units, by the name of its option.
+struct CaseText
+{
+  std::map<std::string, std::string> values{ { "block", "100x100x50mm" }, { "tip", "sphere:10mm" },
+    { "young", "50kPa" }, { "poisson", "0.33" }, { "material", "neo-hookean" },
+    { "depth", "0.5:10:0.5mm" }, { "threshold", "0.5mm" }, { "cap", "0.3mm" },
+    { "model", "axisymmetric" }, { "base", "bonded" }, { "element-size", "" }, { "coating", "" } };
+};
+
+/// @throws Error  BadValue: names the option and what to give
+[[nodiscard]] fem::Case caseOf(const std::string& name, const CaseText& text);
+
+/// The cases of a sweep, each with a name of its own that a folder below --out can have.
+/// @param defaults  what an entry does not say
+/// @throws Error    BadFile: which case and why; BadValue: see caseOf
+[[nodiscard]] std::vector<fem::Case> readSweep(
+  const std::filesystem::path& file, const CaseText& defaults);
+
+} // namespace palp

@@ -1,0 +1,207 @@
+#include "app/commands/calibrate_case.h"
+#include "app/commands/commands.h"
+#include "app/program/interrupt.h"
+#include "app/program/output.h"
+#include "app/commands/pictures.h"
+#include "app/program/sibling.h"
+#include "app/program/progress_line.h"
+#include "calibration/study/shipped_tables.h"
+#include "calibration/study/study.h"
+#include "calibration/study/study_files.h"
+#include "haptics/error.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+using namespace fem;
+
+struct CalibrateOptions
+{
+  CaseText text;
+  std::filesystem::path out = "calibration";
+  std::filesystem::path sweep;
+  std::filesystem::path tables;
+  unsigned jobs = 1;
+  bool resume = false;
+  bool overwrite = false;
+  bool noPicture = false;
+};
+
+std::unique_ptr<OutputFolder> openFolder(
+  const std::filesystem::path& folder, const CalibrateOptions& options)
+{
+  return options.resume
+    ? std::make_unique<OutputFolder>(folder, calibrationFiles(), OutputFolder::Earlier::Keep)
+    : openOutput(folder, calibrationFiles(), options.overwrite);
+}
+
+constexpr const char* kStopped =
+  "interrupted; what was reached is complete in --out, --resume goes on from here";
+
+constexpr const char* kTablesStopped =
+  "interrupted; the tables that were not finished are as before, start again for them";
+
+// before any picture is drawn
+void refuseWhereStopped(const std::stop_token& stop)
+{
+  if (stop.stop_requested())
+  {
+    throw Error(ErrorCode::NoSolution, kStopped);
+  }
+}
+
+void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
+{
+  const auto cases = readSweep(options.sweep, options.text);
+  const OutputFolder whole(options.out, {}, OutputFolder::Earlier::Keep); // one sweep in a folder
+  std::vector<std::unique_ptr<OutputFolder>> folders;
+  for (const Case& study : cases)
+  {
+    folders.push_back(openFolder(options.out / study.name, options));
+  }
+  std::size_t failed = 0;
+  std::size_t done = 0;
+  ProgressLine progress("cases");
+  progress(0, cases.size());
+  sweep(folders, cases, options.resume, options.jobs, stop,
+    [&](const std::string& name, const std::string& trouble)
+    {
+      failed += trouble.empty() ? 0 : 1;
+      progress.tell(name + ": " + (trouble.empty() ? "done" : trouble));
+      progress(++done, cases.size());
+    });
+  refuseWhereStopped(stop);
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    if (!options.noPicture && std::filesystem::exists(folders[i]->path() / "table.csv"))
+    {
+      pictures->drawCalibration(cases[i], readSteps(folders[i]->path()), folders[i]->stage());
+      folders[i]->publish();
+    }
+  }
+  if (failed > 0)
+  {
+    throw Error(ErrorCode::NoSolution,
+      std::to_string(failed) + " of " + std::to_string(cases.size()) +
+        " cases are incomplete; the depths that were reached are in " + options.out.string());
+  }
+}
+
+void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
+{
+  const Case study = caseOf(options.out.filename().string(), options.text);
+  const auto folder = openFolder(options.out, options);
+  Outcome outcome;
+  {
+    ProgressLine progress("depths");
+    progress(0, study.depths.size());
+    outcome = calibrateInto(*folder, study, options.resume, stop, std::ref(progress));
+  }
+  refuseWhereStopped(stop);
+  if (!options.noPicture)
+  {
+    pictures->drawCalibration(study, outcome.steps, folder->stage());
+    folder->publish();
+  }
+  if (!outcome.trouble.empty())
+  {
+    throw Error(ErrorCode::NoSolution,
+      outcome.trouble + " (" + std::to_string(outcome.steps.size()) + " of " +
+        std::to_string(study.depths.size()) + " depths are in " + options.out.string() + ")");
+  }
+  std::cerr << "palp: tables, fit and pictures are in " << options.out.string() << '\n';
+}
+
+std::vector<std::string> tablesIn(const std::filesystem::path& folder)
+{
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+  {
+    if (entry.path().extension() == ".csv")
+    {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  return names;
+}
+
+void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
+{
+  if (options.tables.empty() && !options.noPicture && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
+  Interrupt interrupt;
+  interrupt.endWhatDoesNotStop(options.tables.empty() ? kStopped : kTablesStopped);
+  if (!options.tables.empty())
+  {
+    const auto folder = openOutput(options.tables,
+      options.overwrite ? std::vector<std::string>{} : tablesIn(options.tables), options.overwrite);
+    makeShippedTables(folder->stage(), interrupt.token(),
+      [](const std::string& name) { std::cerr << "palp: " << name << '\n'; });
+    if (interrupt.token().stop_requested())
+    {
+      throw Error(ErrorCode::NoSolution, kTablesStopped);
+    }
+    folder->publish();
+  }
+  else if (!options.sweep.empty())
+  {
+    runSweep(options, interrupt.token(), pictures);
+  }
+  else
+  {
+    calibrateOne(options, interrupt.token(), pictures);
+  }
+}
+
+} // namespace
+
+void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
+{
+  auto options = std::make_shared<CalibrateOptions>();
+  CLI::App* command = app.add_subcommand(
+    "calibrate", "Find R_d(depth) and the force by finite elements, for any tool and block");
+  const auto text = [&](const char* name, const char* what)
+  {
+    command->add_option("--" + std::string(name), options->text.values.at(name), what)
+      ->capture_default_str();
+  };
+  text("block", "Width x length x height of the block");
+  text("tip", "Tool, as for palp force");
+  text("cap", "Radius of the spherical cap that a sharp cone gets, 0mm for none");
+  text("young", "Young's modulus; without coatings it scales the force and leaves R_d alone");
+  text("poisson", "Poisson's ratio, less than 0.5");
+  text("material", "linear, corotated, neo-hookean or neo-hookean-isochoric");
+  text("depth", "Indentation depths A:B:STEP");
+  text("threshold", "Displacement at the edge of the deformed region");
+  text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
+  text("base", "Under the block: bonded, or slip for one that slides on its support");
+  text("coating", "On the block, its height included: THICKNESS:YOUNG:NU from the surface down");
+  text("element-size", "Under the tool; 0.5mm, or a tenth of its radius in the block");
+  command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
+  command->add_flag("--resume", options->resume, "Go on from what --out holds");
+  addOverwrite(*command, options->overwrite);
+  command->add_option("--sweep", options->sweep,
+    "A list of cases in JSON: the names above with their values, and a \"name\" each");
+  command->add_option("--jobs", options->jobs, "Cases of a sweep at a time")->capture_default_str();
+  command->add_option("--tables", options->tables, "Make the shipped tables in this folder");
+  command->footer(
+    "Examples:\n"
+    "  palp calibrate --tip sphere:10mm --block 100x100x50mm --out sphere\n"
+    "  palp calibrate --tip cone:45deg:10mm --material corotated --depth 0.5:6:0.5mm --out cone\n"
+    "  palp calibrate --young 5kPa --coating 2mm:50kPa:0.45 --out skin\n"
+    "  palp calibrate --sweep cases.json --jobs 2 --out sweep --resume\n"
+    "  palp calibrate --tables data/tables --overwrite   make the shipped tables again");
+  command->add_flag("--no-picture", options->noPicture, "Write the data only");
+  command->callback([options, pictures] { runCalibration(*options, pictures); });
+}
+
+} // namespace palp

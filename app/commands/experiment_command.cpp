@@ -1,0 +1,128 @@
+#include "app/commands/commands.h"
+#include "app/program/interrupt.h"
+#include "app/program/output.h"
+#include "app/commands/pictures.h"
+#include "app/program/sibling.h"
+#include "calibration/experiments/experiments.h"
+#include "haptics/files/replace_file.h"
+#include "haptics/error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <string_view>
+
+namespace palp
+{
+namespace
+{
+
+struct Named
+{
+  const char* name;
+  const char* what;
+  fem::Experiment (*run)(fem::Resolution, std::stop_token);
+};
+
+constexpr std::array kExperiments{
+  Named{ "curvature", "Fig. 3: elastic spheres against the block", fem::curvature },
+  Named{ "inclination", "Eq. (7): angles at which inclination is felt",
+    [](fem::Resolution, std::stop_token) { return fem::inclination(); } },
+  Named{ "extents", "Fig. 8: R_d over the depth", fem::extents },
+  Named{ "profiles", "Fig. 7: surface profiles", fem::profiles },
+  Named{ "forces", "Figs. 15 and 16: laws against finite elements", fem::forces },
+};
+
+struct ExperimentOptions
+{
+  std::vector<std::string> names;
+  std::filesystem::path out = "experiments";
+  bool quick = false;
+  bool overwrite = false;
+  bool noPicture = false;
+};
+
+std::vector<Named> wantedOf(const std::vector<std::string>& names)
+{
+  std::vector<Named> wanted;
+  std::ranges::copy_if(kExperiments, std::back_inserter(wanted),
+    [&](const Named& named)
+    { return names.empty() || std::ranges::find(names, named.name) != names.end(); });
+  return wanted;
+}
+
+// what is finished; where earlier files would be replaced by some of the new ones only, nothing
+void endEarly(const char* name, OutputFolder& output)
+{
+  const bool fresh = output.found().empty();
+  if (fresh)
+  {
+    output.publish();
+  }
+  throw Error(ErrorCode::NoSolution,
+    std::string(name) + ": interrupted; " + output.path().string() +
+      (fresh ? " holds what was finished before it" : " is as it was"));
+}
+
+void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
+{
+  if (!options.noPicture && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
+  const std::vector<Named> wanted = wantedOf(options.names);
+  std::vector<std::string> tables;
+  for (const Named& named : wanted)
+  {
+    tables.push_back(std::string(named.name) + ".csv");
+  }
+  const auto output = openOutput(options.out, tables, options.overwrite);
+  const Interrupt interrupt;
+  for (const Named& named : wanted)
+  {
+    std::cerr << "palp: " << named.what << '\n';
+    const fem::Experiment experiment =
+      named.run(options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
+    if (interrupt.token().stop_requested())
+    {
+      endEarly(named.name, *output);
+    }
+    replaceFile(output->stage() / (experiment.name + ".csv"), fem::csv(experiment));
+    if (!options.noPicture)
+    {
+      pictures->drawExperiment(experiment, output->stage());
+    }
+    std::cerr << experiment.finding << '\n';
+  }
+  output->publish();
+}
+
+} // namespace
+
+void addExperimentCommand(CLI::App& app, const Pictures* pictures)
+{
+  auto options = std::make_shared<ExperimentOptions>();
+  CLI::App* command =
+    app.add_subcommand("experiment", "Do an experiment of the paper again, and say what came out");
+  std::vector<std::string> names;
+  std::string list;
+  for (const Named& named : kExperiments)
+  {
+    names.emplace_back(named.name);
+    list.append("  ").append(named.name).append(": ").append(named.what).append("\n");
+  }
+  command->add_option("NAME", options->names, "Which; all if none")->check(CLI::IsMember(names));
+  command->add_option("--out", options->out, "Folder for a CSV and a plot of each")
+    ->capture_default_str();
+  addOverwrite(*command, options->overwrite);
+  command->add_flag("--quick", options->quick, "Coarser, in seconds, for a first look");
+  command->add_flag("--no-picture", options->noPicture, "Write the data only");
+  command->footer(list + "Example:\n  palp experiment inclination forces --out experiments");
+  command->callback([options, pictures] { runExperiments(*options, pictures); });
+}
+
+} // namespace palp

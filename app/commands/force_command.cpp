@@ -1,0 +1,155 @@
+#include "app/commands/commands.h"
+#include "app/input/law_options.h"
+#include "app/input/press_options.h"
+#include "app/input/quantity.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/error.h"
+#include "haptics/force/inclination.h"
+#include "haptics/force/validity.h"
+#include "haptics/units.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kLargestDepth = 1.0; // [m]; no organ is deeper
+
+struct ForceOptions
+{
+  TissueOptions tissue;
+  PlaceOptions place;
+  std::string depth = "0:10:0.5mm";
+  bool validity = false;
+};
+
+// which factors act, for people, on standard error
+void tellFactors(const ForceLaw& law, const Indentation& deepest)
+{
+  std::string acting;
+  for (const Factor& factor : law.factors(deepest))
+  {
+    if (factor.value != 1.0)
+    {
+      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" +
+        shortest(std::round(factor.value * 1e4) / 1e4);
+    }
+  }
+  std::cerr << "palp: factors at the largest depth: " << (acting.empty() ? "none acts" : acting)
+            << '\n';
+  const bool bare = law.settings().mode == LawMode::Corrected &&
+    law.settings().constitution == Constitution::NeoHookean && !law.largeStrain(deepest).inside;
+  if (bare)
+  {
+    std::cerr << (law.settings().coatings.empty()
+        ? "palp: no table of large strain covers this tool and place; linear there\n"
+        : "palp: coated tissue counts as linear at large strain\n");
+  }
+}
+
+// that of coatings only where there are some
+std::span<const Factor> factorsOf(const ForceLaw& law, const Factors& factors)
+{
+  return std::span(factors).first(factors.size() - (law.settings().coatings.empty() ? 1 : 0));
+}
+
+void printForces(const ForceOptions& options)
+{
+  const ForceLaw law = options.tissue.law();
+  const Range depths = parseRange(options.depth, Quantity::Length, "--depth");
+  if (depths.si.front() < 0.0 || depths.si.back() > kLargestDepth)
+  {
+    throw Error(
+      ErrorCode::BadValue, "--depth: '" + options.depth + "' is out of range; give 0mm to 1m");
+  }
+  const bool paper = law.settings().mode == LawMode::Paper;
+  Indentation place = options.place.place();
+  const Validity validity(law, { .deepest = depths.si.back() });
+
+  std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
+  if (!paper)
+  {
+    for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
+    {
+      header += ",factor_" + std::string(factor.name);
+    }
+    header += ",axial_force_N,lateral_force_N";
+  }
+  if (options.validity)
+  {
+    for (const Rule& rule : validity(place))
+    {
+      std::cout << "# " << rule.name << "_of_limit: " << rule.why << '\n';
+      header += "," + std::string(rule.name) + "_of_limit";
+    }
+  }
+  std::cout << header << '\n';
+
+  std::vector<double> row;
+  for (std::size_t i = 0; i < depths.si.size(); ++i)
+  {
+    place.depth = depths.si[i];
+    const Response response = law(place);
+    row = { depths.given[i] * units::toMillimetres(depths.unit), response.force,
+      units::toMillimetres(response.contactRadius),
+      units::toNewtonsPerMillimetre(response.stiffness) };
+    if (!paper)
+    {
+      for (const Factors factors = law.factors(place);
+           const Factor& factor : factorsOf(law, factors))
+      {
+        row.push_back(factor.value);
+      }
+      const InclinedForce felt = inclinedForce(response.force, place.tilt);
+      row.insert(row.end(), { felt.axial, felt.lateral });
+    }
+    if (options.validity)
+    {
+      for (const Rule& rule : validity(place))
+      {
+        row.push_back(rule.share());
+      }
+    }
+    writeCsvRow(std::cout, row);
+  }
+  if (!paper)
+  {
+    tellFactors(law, place);
+  }
+  if (const std::string broken = brokenNames(validity(place)); !broken.empty())
+  {
+    std::cerr << "palp: warning: at the largest depth the law is outside its limits (" << broken
+              << "); --validity tells how far at each\n";
+  }
+  if (options.place.given() && law.settings().mode != LawMode::Corrected)
+  {
+    std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
+  }
+}
+
+} // namespace
+
+void addForceCommand(CLI::App& app)
+{
+  auto options = std::make_shared<ForceOptions>();
+  CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
+  options->tissue.addTo(*command);
+  options->place.addTo(*command);
+  command->add_option("--depth", options->depth, "Indentation depths A:B:STEP, both ends included")
+    ->capture_default_str();
+  command->add_flag("--validity", options->validity,
+    "Append for each condition of the law how much of its limit is used; above 1 it is broken");
+  command->footer(
+    "Examples:\n"
+    "  palp force --tip cone:45deg:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm\n"
+    "  palp force --tip sphere:6mm --law corrected --thickness 30mm --surface-radius 50mm\n"
+    "  palp force --tip profile:tip.csv --law exact --validity\n"
+    "  palp force --young 5kPa --poisson 0.45 --law corrected --coating 2mm:50kPa:0.45");
+  command->callback([options] { printForces(*options); });
+}
+
+} // namespace palp

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "app/bench/bench.h"
+#include "app/press/body.h"
+#include "app/press/recording.h"
+#include "app/report/document.h"
+#include "calibration/experiments/experiments.h"
+#include "calibration/study/study.h"
+
+#include <filesystem>
+
+namespace palp
+{
+
+/// What the program that carries rendering can draw. Commands ask through this, so that they
+/// are the same code in every program.
+struct Pictures
+{
+  virtual ~Pictures() = default;
+
+  /// Draws what the plan asks for of press.png (the deepest moment), force_time.png and
+  /// force_depth.png.
+  ///
+  /// @param calibration  null only where the plan has no press.png
+  /// @throws Error  NoPicture: no context, or a picture that came out empty
+  virtual void drawPress(const Body& body, const Recording& recording,
+    const Calibration* calibration, const ScenePlan& plan,
+    const std::filesystem::path& directory) const = 0;
+
+  /// Draws extent.png, force.png and profiles.png of a calibration.
+  ///
+  /// @param steps   fewer than two: nothing is drawn
+  /// @throws Error  as drawPress
+  virtual void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+    const std::filesystem::path& directory) const = 0;
+
+  /// Draws a picture of every figure of an experiment.
+  ///
+  /// @throws Error  as drawPress
+  virtual void drawExperiment(
+    const fem::Experiment& experiment, const std::filesystem::path& directory) const = 0;
+
+  /// Draws NAME.svg of every chart of a part of the report.
+  ///
+  /// @throws Error  as drawPress
+  virtual void drawReport(
+    const report::Section& section, const std::filesystem::path& directory) const = 0;
+
+  /// What a moved dent costs a picture beyond drawing the same scene again, upload included.
+  ///
+  /// @param most    points of the largest surface
+  /// @throws Error  as drawPress
+  [[nodiscard]] virtual std::vector<BenchRow> benchFrames(std::size_t most) const = 0;
+};
+
+} // namespace palp

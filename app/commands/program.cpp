@@ -1,0 +1,171 @@
+#include "app/commands/program.h"
+
+#include "app/commands/commands.h"
+#include "app/program/sibling.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+// help, version, or one of the subcommands
+bool isCommand(const CLI::App& app, const std::string& word)
+{
+  const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
+  return word == "help" || word == "-h" || word == "--help" || word == "--version" ||
+    !app.get_subcommands(named).empty();
+}
+
+// a word that nobody would give to a file, so that a slip is not sought on the disk
+void refuseUnknownCommand(const CLI::App& app, const std::string& word)
+{
+  if (word.empty() || word.find_first_of("-./") != word.npos || std::filesystem::exists(word))
+  {
+    return;
+  }
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands({}))
+  {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw Error(ErrorCode::BadValue,
+    "'" + word + "' is neither a command nor a file here; the commands are " + names);
+}
+
+// `palp liver.stl` is `palp view liver.stl`, `palp help run` is `palp run --help`
+std::vector<std::string> withCommand(const CLI::App& app, int argc, char** argv)
+{
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words[0] == "help")
+  {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  if (words.empty() || !isCommand(app, words[0]))
+  {
+    refuseUnknownCommand(app, words.empty() ? "" : words[0]);
+    words.insert(words.begin(), "view");
+  }
+  return { words.rbegin(), words.rend() }; // the order in which CLI11 consumes them
+}
+
+// an unset variable of the shell must not stand for a default
+void refuseEmptyValues(CLI::App& app)
+{
+  const CLI::Validator notEmpty(
+    [](const std::string& text)
+    { return std::string(text.empty() ? "is empty; give a value, or leave it out" : ""); },
+    "");
+  for (CLI::App* command : app.get_subcommands({}))
+  {
+    for (CLI::Option* option : command->get_options())
+    {
+      if (option->get_expected_max() > 0 && option->get_type_size() > 0)
+      {
+        option->check(notEmpty);
+      }
+    }
+  }
+}
+
+} // namespace
+
+int exitCode(ErrorCode code)
+{
+  switch (code)
+  {
+    case ErrorCode::BadFile:
+    case ErrorCode::BadMesh:
+    case ErrorCode::BadValue:
+      return 2;
+    case ErrorCode::NoDevice:
+      return 3;
+    case ErrorCode::NoPicture:
+      return 4;
+    case ErrorCode::NoSolution:
+      return 5;
+  }
+  return 1;
+}
+
+int runProgram(int argc, char** argv, const Parts& parts)
+{
+  setArguments(argv);
+  std::signal(SIGXFSZ, SIG_IGN); // a limit on files is told as a full disk is
+  CLI::App app("Press soft tissue: see the dent, feel the force, keep the data.", "palp");
+  app.set_version_flag("--version", "palp " PALP_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+    "Examples:\n"
+    "  palp                                         press the bundled liver with the mouse\n"
+    "  palp liver.stl --tip cone:45deg:10mm         your own surface, a conical tool\n"
+    "  palp run liver.stl --path press.csv --out out --young 20kPa\n"
+    "  palp force --tip sphere:10mm --depth 0:10:0.5mm > law.csv");
+  addViewCommand(app, parts.view);
+  addRunCommand(app, parts.pictures);
+  addSceneCommand(app, parts.pictures, parts.view);
+  addForceCommand(app);
+  addCalibrateCommand(app, parts.pictures);
+  addExperimentCommand(app, parts.pictures);
+  addReportCommand(app, parts.pictures);
+  addStabilityCommand(app);
+  addBenchCommand(app, parts.pictures);
+  addDevicesCommand(app, parts.devices);
+  refuseEmptyValues(app);
+
+  // for the start script: is this word a command of ours?
+  if (argc == 3 && std::string_view(argv[1]) == "--is-command")
+  {
+    return isCommand(app, argv[2]) ? 0 : 1;
+  }
+
+  try
+  {
+    int code = 0;
+    try
+    {
+      app.parse(withCommand(app, argc, argv));
+    }
+    catch (const CLI::RuntimeError& error) // a command that has its own exit codes
+    {
+      code = error.get_exit_code();
+    }
+    if (!std::cout.flush())
+    {
+      throw Error(
+        ErrorCode::BadFile, "standard output: cannot be written in full; check the space");
+    }
+    return code;
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  catch (const Error& error)
+  {
+    std::cerr << "palp: " << printable(error.what()) << '\n';
+    return exitCode(error.code());
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << "palp: not enough memory for this; try a smaller input\n";
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "palp: internal error, please report it: " << printable(error.what()) << '\n';
+    return 1;
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "app/input/scene_plan.h"
+#include "haptics/error.h"
+
+namespace palp
+{
+
+struct DevicesOptions;
+struct Pictures;
+
+/// The whole of `palp view`.
+struct ViewOptions
+{
+  ScenePlan plan;
+  bool explain = false; ///< tell what was built once the first picture stands, and end
+};
+
+/// What one of the sibling programs carries beyond the common commands.
+///
+/// palp itself carries neither. A command that needs one becomes, by exec, the sibling that has
+/// it: same arguments, same process, same exit code. So the plain program never maps a graphics
+/// or window library, and nothing has to be loaded or unloaded at run time.
+struct Parts
+{
+  const Pictures* pictures = nullptr;              ///< palp-draw
+  int (*view)(const ViewOptions&) = nullptr;       ///< palp-view
+  int (*devices)(const DevicesOptions&) = nullptr; ///< palp-devices
+};
+
+/// What the program ends with after an error of this kind, 2 to 5.
+[[nodiscard]] int exitCode(ErrorCode code);
+
+/// The main function of palp and its siblings.
+/// @return  exit code: 0, or by kind of error 2 (input), 3 (device), 4 (picture), 5 (no solution)
+[[nodiscard]] int runProgram(int argc, char** argv, const Parts& parts);
+
+} // namespace palp

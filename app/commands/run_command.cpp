@@ -1,0 +1,122 @@
+#include "app/commands/commands.h"
+#include "app/program/data_files.h"
+#include "app/input/force_curve.h"
+#include "app/commands/headless.h"
+#include "app/program/ledger.h"
+#include "app/program/output.h"
+#include "app/program/sibling.h"
+#include "haptics/error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+struct RunOptions
+{
+  PressOptions press;
+  std::filesystem::path path;
+  std::filesystem::path out;
+  std::string size = "1280x960";
+  std::vector<std::string> plots{ "force-time", "force-depth" };
+  std::vector<std::string> plotFiles{ "png" };
+  std::vector<std::filesystem::path> references;
+  bool refined = false;
+  bool noPicture = false;
+  bool chain = false;
+  bool overwrite = false;
+};
+
+void run(const RunOptions& options, const Pictures* pictures)
+{
+  if (!options.noPicture && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
+  const ImageSize size = parseSize(options.size, "--size");
+  const std::vector<MeshSource> meshes = meshesOf(options.press);
+  const bool bundled = options.press.file.empty();
+  if (options.path.empty() && !bundled)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--path: missing; give a CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az] in the frame of the surface");
+  }
+  const std::filesystem::path path =
+    options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
+  ScenePlan plan{ .meshes = meshes,
+    .press = options.press,
+    .device = "path:" + path.string(),
+    .window = false,
+    .curves = {},
+    .plotFiles = options.plotFiles,
+    .refined = options.refined,
+    .picture = !options.noPicture,
+    .size = size };
+  std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
+  for (const std::string& name : options.plots)
+  {
+    const auto found = std::find(kCurveNames.begin(), kCurveNames.end(), name);
+    if (!options.noPicture)
+    {
+      plan.curves.push_back(static_cast<Curve>(found - kCurveNames.begin()));
+    }
+  }
+  Ledger silent(false);
+  const auto output = openOutput(options.out, pressFiles(), options.overwrite);
+  playPlan(plan, options.chain, *output, pictures, silent);
+}
+
+} // namespace
+
+void addRunCommand(CLI::App& app, const Pictures* pictures)
+{
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand(
+    "run", "Press along a recorded path, without a display: data, picture and curves");
+  options->press.addTo(*command);
+  command->add_option("--path", options->path,
+    "CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az]: the tool's apex in the coordinates of FILE (LPS for "
+    "NIfTI: x and y of a RAS viewer change sign), and the unit vector from handle to apex (the "
+    "inward surface normal where it is missing); or a samples.csv that was exported");
+  command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
+    ->required();
+  addOverwrite(*command, options->overwrite);
+  command->add_option("--size", options->size, "Size of press.png")->capture_default_str();
+  command
+    ->add_option("--plots", options->plots,
+      "Curves to draw, like section,comparison: force-time and force-depth; section (a cut through "
+      "the deepest contact); comparison (force over depth of the laws, this press, finite elements "
+      "and --reference); extent (R_d over depth)")
+    ->delimiter(',')
+    ->check(CLI::IsMember(kCurveNames))
+    ->capture_default_str();
+  command
+    ->add_option("--plot-files", options->plotFiles,
+      "Kinds of files for section, comparison and extent: png, svg, pdf, csv")
+    ->delimiter(',')
+    ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }))
+    ->capture_default_str();
+  command->add_option("--reference", options->references,
+    "CSV with columns depth_mm and force_N for the comparison, from elsewhere or Palp's own (palp "
+    "force, samples.csv); several are allowed");
+  command->add_flag("--chain", options->chain,
+    "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
+  command->add_flag("--refined", options->refined,
+    "Divide the triangles of the dent in deformed.vtp as in the picture, so that none cuts the "
+    "tool");
+  command->add_flag("--no-picture", options->noPicture, "Write the data only");
+  command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
+                  "Examples:\n"
+                  "  palp run --out out                                  the bundled liver\n"
+                  "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm\n"
+                  "  palp run --out out --plots section,comparison --plot-files png,csv");
+  command->callback([options, pictures] { run(*options, pictures); });
+}
+
+} // namespace palp

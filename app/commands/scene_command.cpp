@@ -1,0 +1,73 @@
+#include "app/commands/commands.h"
+#include "app/commands/headless.h"
+#include "app/program/ledger.h"
+#include "app/program/output.h"
+#include "app/commands/program.h"
+#include "app/program/sibling.h"
+#include "app/input/scene_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+struct SceneOptions
+{
+  std::string file;
+  std::filesystem::path out = "out";
+  bool explain = false;
+  bool overwrite = false;
+};
+
+void run(const SceneOptions& options, const Pictures* pictures, int (*view)(const ViewOptions&))
+{
+  const ScenePlan plan = readScene(options.file);
+  if (plan.window)
+  {
+    if (!view)
+    {
+      becomeSibling("palp-view");
+    }
+    throw CLI::RuntimeError(view({ plan, options.explain }));
+  }
+  if (plan.draws() && !pictures)
+  {
+    becomeSibling("palp-draw");
+  }
+  Ledger ledger(options.explain);
+  const auto output = openOutput(options.out, pressFiles(), options.overwrite);
+  playPlan(plan, false, *output, pictures, ledger);
+  if (options.explain)
+  {
+    ledger.write(std::cout);
+  }
+}
+
+} // namespace
+
+void addSceneCommand(CLI::App& app, const Pictures* pictures, int (*view)(const ViewOptions&))
+{
+  auto options = std::make_shared<SceneOptions>();
+  CLI::App* command =
+    app.add_subcommand("scene", "A press described by one file, built of what the file names");
+  command->add_option("FILE", options->file, "Scene (JSON), or the name of a shipped one")
+    ->required();
+  command->add_option("--out", options->out, "Directory for the exports of a scene without window")
+    ->capture_default_str();
+  addOverwrite(*command, options->overwrite);
+  command->add_flag("--explain", options->explain,
+    "Build it, tell what was built and what left out, with cost and reason, and end");
+  command->footer("data/scenes/scene.schema.json describes the file.\n"
+                  "Examples:\n"
+                  "  palp scene liver_mouse\n"
+                  "  palp scene paper_block --out block\n"
+                  "  palp scene my_scene.json --explain");
+  command->callback([options, pictures, view] { run(*options, pictures, view); });
+}
+
+} // namespace palp

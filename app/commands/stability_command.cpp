@@ -1,0 +1,63 @@
+#include "app/commands/commands.h"
+#include "app/program/interrupt.h"
+#include "app/program/output.h"
+#include "app/report/stability_map.h"
+#include "app/report/stability_study.h"
+#include "haptics/files/replace_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+struct StabilityOptions
+{
+  std::filesystem::path out;
+  bool quick = false;
+  bool overwrite = false;
+};
+
+void studyStability(const StabilityOptions& options)
+{
+  const auto output =
+    openOutput(options.out, { "stability.csv", "stability.svg" }, options.overwrite);
+  const Interrupt interrupt([&output] { output->discard(); });
+  const std::vector<JudgedCase> cases = judgeAll(options.quick);
+  std::ostringstream map;
+  drawStabilityMap(map, cases);
+  replaceFile(output->stage() / "stability.csv", report::csv(stabilityTable(cases)));
+  replaceFile(output->stage() / "stability.svg", map.str());
+  output->publish();
+  std::cout << stabilitySummary(cases);
+}
+
+} // namespace
+
+void addStabilityCommand(CLI::App& app)
+{
+  auto options = std::make_shared<StabilityOptions>();
+  CLI::App* command = app.add_subcommand(
+    "stability", "Simulate hand, device and tissue in closed loop, from soft to rigid");
+  command->add_option("--out", options->out, "Directory for stability.csv and stability.svg")
+    ->required();
+  addOverwrite(*command, options->overwrite);
+  command->add_flag("--quick", options->quick, "A tenth of the cases: seconds, not minutes");
+  command->footer(
+    "unstable: the loop gave energy to the hand (energy_uJ below -1), or the hand did not come\n"
+    "to rest (late speed above a tenth of the early one), or it hummed at an encoder of 48 um\n"
+    "(hum_m_per_s above 0.025). refused: no force was given, or a fault ended it. limited_by\n"
+    "names the stages of the chain that acted.\n"
+    "Example:\n"
+    "  palp stability --out out --quick");
+  command->callback([options] { studyStability(*options); });
+}
+
+} // namespace palp

@@ -1,0 +1,43 @@
+#include "app/commands/commands.h"
+#include "app/commands/program.h"
+#include "app/program/sibling.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace palp
+{
+
+void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
+{
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* command = app.add_subcommand("view", "Open the window and press; the default command");
+  options->plan.press.addTo(*command);
+  command
+    ->add_option("--device", options->plan.device,
+      "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
+      "replay:FILE (a samples.csv that was exported); spacemouse; falcon[:FIRMWARE]; "
+      "wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
+    ->capture_default_str();
+  command->add_flag(
+    "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
+  command->footer("Examples:\n"
+                  "  palp                                       the bundled liver\n"
+                  "  palp liver.obj --unit cm --tip sphere:6mm  your own surface");
+  command->callback(
+    [options, view]
+    {
+      // a wrong value is told before a missing display
+      (void)options->plan.press.tissue.law();
+      (void)options->plan.press.dampingSi();
+      options->plan.meshes = meshesOf(options->plan.press);
+      if (!view)
+      {
+        becomeSibling("palp-view");
+      }
+      throw CLI::RuntimeError(view(*options));
+    });
+}
+
+} // namespace palp

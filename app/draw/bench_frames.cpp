@@ -1,0 +1,183 @@
+#include "app/bench/bench_dome.h"
+#include "app/draw/draw_pictures.h"
+#include "app/draw/offscreen.h"
+#include "haptics/units.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/view/press_view.h"
+#include "pipeline/deform/vtkPalpDeformFilter.h"
+#include "pipeline/view/vtkPalpPatchMapper.h"
+
+#include <algorithm>
+#include <functional>
+#include <vtkActor.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLIndexBufferObject.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtk_glew.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr int kFrames = 200;
+constexpr int kSteps = 20; // frames of the tool's way to one side
+
+// Draws some of the triangles, of all the points that it keeps in graphics memory. Software takes
+// 100 ms to draw a million, and what differs between two such pictures is not to be seen beside it.
+class SomeTriangles : public vtkPalpPatchMapper
+{
+public:
+  static SomeTriangles* New();
+  vtkTypeMacro(SomeTriangles, vtkPalpPatchMapper);
+
+protected:
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override
+  {
+    constexpr std::size_t kMost = 3 * 10'000;
+    std::size_t& count = Primitives[PrimitiveTris].IBO->IndexCount;
+    const std::size_t all = count;
+    count = std::min(count, kMost);
+    vtkPalpPatchMapper::RenderPieceDraw(renderer, actor);
+    count = all;
+  }
+};
+vtkStandardNewMacro(SomeTriangles);
+
+struct Frames
+{
+  std::vector<double> still; ///< a picture drawn again [us]
+  std::vector<double> above; ///< how much longer one with a moved dent takes [us]
+};
+
+// in turns, for other work on the machine comes and goes
+Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
+{
+  const auto draw = [&]
+  {
+    window.Render();
+    glFinish();
+  };
+  const auto drawMoved = [&](int i)
+  {
+    move(i);
+    draw();
+  };
+  for (int i = 0; i < kSteps; ++i)
+  {
+    drawMoved(i);
+  }
+  Frames frames;
+  const auto redraw = [&](int)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    draw();
+    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
+    frames.still.push_back(time.count());
+  };
+  frames.above = timed(kFrames, redraw, drawMoved);
+  std::transform(frames.above.begin(), frames.above.end(), frames.still.begin(),
+    frames.above.begin(), std::minus<>());
+  return frames;
+}
+
+// where the tool is in a frame, to and fro [m]
+double wayOf(int frame, double outer)
+{
+  return 0.05 * outer * (frame % kSteps - kSteps / 2);
+}
+
+// the surface alone
+std::vector<BenchRow> benchSurface(
+  const OffscreenContext& context, const BenchDome& dome, double touched, const char* mode)
+{
+  const Mesh mesh = dome.mesh();
+  const double outer = dome.radiusOf(touched);
+  vtkNew<vtkPalpDeformFilter> press;
+  press->SetInputDataObject(makePolyData(mesh.points, mesh.triangles));
+  vtkNew<SomeTriangles> mapper;
+  mapper->SetInputConnection(press->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddActor(actor);
+  const auto window = context.makeWindow(160, 120);
+  window->AddRenderer(renderer);
+  const Frames frames =
+    measure(*window, [&](int i) { press->SetPress(dome.press(outer, wayOf(i, outer))); });
+  return { benchRow("frame", mesh.points.size(), "still", frames.still),
+    benchRow("frame", mesh.points.size(), mode, frames.above) };
+}
+
+// the whole view of a dent of 500 points with one overlay
+BenchRow benchOverlay(
+  const OffscreenContext& context, const char* name, const std::vector<Overlay>& overlays)
+{
+  const BenchDome dome{ 100, 100.0_mm };
+  const Mesh mesh = dome.mesh();
+  const double outer = dome.radiusOf(500);
+  vtkNew<vtkRenderer> renderer;
+  PressView view(*renderer);
+  view.setSurface(makePolyData(mesh.points, mesh.triangles));
+  const Press middle = dome.press(outer, 0.0);
+  view.setTip(middle.tip);
+  view.setExtents(ExtentTable({ { 0.5 * middle.contact.depth, 0.5 * outer, 0.0, 0.0 },
+    { middle.contact.depth, outer, 0.0, 0.0 } }));
+  view.setVisible(overlays);
+  view.lookAtSurface();
+  const auto window = context.makeWindow(160, 120);
+  window->AddRenderer(renderer);
+  const Frames frames = measure(*window,
+    [&](int i)
+    {
+      const Press press = dome.press(outer, wayOf(i, outer));
+      Sample sample;
+      sample.pose = press.pose;
+      sample.contact = press.contact;
+      sample.response.contactRadius = press.contactRadius;
+      sample.response.force = 1.0;
+      view.show(sample);
+    });
+  return benchRow("overlay", mesh.points.size(), name, frames.above);
+}
+
+} // namespace
+
+std::vector<BenchRow> DrawPictures::benchFrames(std::size_t most) const
+{
+  const OffscreenContext context;
+  std::vector<BenchRow> rows;
+  for (const int n : { 40, 100, 316, 1000 })
+  {
+    const BenchDome dome{ n, 100.0_mm };
+    for (const auto& [touched, mode] : { std::pair(500, "500"), std::pair(22'800, "22800") })
+    {
+      const auto count = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+      if (count <= most && (touched == 500 || n == 1000))
+      {
+        const auto two = benchSurface(context, dome, touched, mode);
+        rows.insert(rows.end(), two.begin(), two.end());
+      }
+    }
+  }
+  const std::vector<Overlay> usual{ Overlay::ForceArrow, Overlay::ContactCircle,
+    Overlay::ExtentCircle, Overlay::DisplacementColors, Overlay::Readings };
+  rows.push_back(benchOverlay(context, "none", {}));
+  rows.push_back(benchOverlay(context, "arrow", { Overlay::ForceArrow }));
+  rows.push_back(benchOverlay(context, "circle", { Overlay::ContactCircle }));
+  rows.push_back(benchOverlay(context, "extent", { Overlay::ExtentCircle }));
+  rows.push_back(benchOverlay(context, "colours", { Overlay::DisplacementColors }));
+  rows.push_back(benchOverlay(context, "readings", { Overlay::Readings }));
+  rows.push_back(benchOverlay(context, "pressure", { Overlay::PressureColors }));
+  rows.push_back(benchOverlay(context, "net", { Overlay::ControlNet }));
+  rows.push_back(benchOverlay(context, "ghost", { Overlay::Ghost }));
+  rows.push_back(benchOverlay(context, "usual", usual));
+  return rows;
+}
+
+} // namespace palp

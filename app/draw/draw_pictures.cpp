@@ -1,0 +1,259 @@
+#include "app/draw/draw_pictures.h"
+
+#include "app/press/export.h"
+#include "app/draw/offscreen.h"
+#include "app/plots/press_plots.h"
+#include "app/press/surface_point.h"
+#include "haptics/surface/nearest.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+#include "pipeline/charts/force_charts.h"
+#include "pipeline/charts/plot_files.h"
+#include "pipeline/view/press_view.h"
+
+#include <vtkContextScene.h>
+#include <vtkContextView.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+constexpr ImageSize kChart{ .width = 1000, .height = 600 };
+
+// where the camera looks: the deepest place, or where the tool came closest
+SurfacePoint subject(const Recording& recording, const Sample& shown)
+{
+  if (shown.contact.touching())
+  {
+    return { shown.contact.center, shown.contact.normal };
+  }
+  const Surface& surface = *recording.scene.surface;
+  const Nearest nearest =
+    findNearest(surface, shown.pose.apex, std::numeric_limits<double>::infinity());
+  return surfacePoint(surface, nearest.triangle, nearest.point);
+}
+
+void drawScene(const OffscreenContext& context, const Body& body, const Recording& recording,
+  const Calibration& calibration, const ScenePlan& plan, const std::filesystem::path& file)
+{
+  const auto window = context.makeWindow(plan.size.width, plan.size.height);
+  vtkNew<vtkRenderer> renderer;
+  window->AddRenderer(renderer);
+  PressView view(*renderer);
+  view.setSurface(body.display);
+  view.setTip(recording.scene.law.tip());
+  view.setExtents(calibration.extents);
+  view.setStyle(calibration.style);
+  view.setLaw(recording.scene.law);
+  if (plan.overlays)
+  {
+    view.setVisible(*plan.overlays);
+  }
+  const Sample* deepest = recording.deepest();
+  const Sample& shown = deepest ? *deepest : recording.samples.back();
+  const SurfacePoint place = subject(recording, shown);
+  view.show(shown);
+  view.lookAtWhole(place.position, place.normal);
+  view.show(shown); // labels take their place from the camera
+  writePng(*window, file);
+}
+
+template <typename Add>
+void drawChart(const OffscreenContext& context, const std::filesystem::path& file, Add add)
+{
+  const auto window = context.makeWindow(kChart.width, kChart.height);
+  vtkNew<vtkContextView> view;
+  view->SetRenderWindow(window);
+  view->GetRenderer()->SetBackground(1.0, 1.0, 1.0);
+  add(*view->GetScene());
+  writePng(*window, file);
+}
+
+void drawForce(const OffscreenContext& context, const Recording& recording, const ScenePlan& plan,
+  const std::filesystem::path& directory)
+{
+  const double start = recording.samples.front().time;
+  ForceCharts charts(recording.samples.back().time - start);
+  charts.setLaw(recording.scene.law);
+  for (Sample sample : recording.samples)
+  {
+    sample.time -= start; // a clock may have counted from long ago
+    charts.add(sample);
+  }
+  charts.refresh();
+  if (plan.has(Curve::ForceOverTime))
+  {
+    drawChart(context, directory / "force_time.png",
+      [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
+  }
+  if (plan.has(Curve::ForceOverDepth))
+  {
+    drawChart(context, directory / "force_depth.png",
+      [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
+  }
+}
+
+Plots deepestSection(const Body& body, const Recording& recording, const Calibration& calibration)
+{
+  const Sample* deepest = recording.deepest();
+  if (!deepest)
+  {
+    return {};
+  }
+  vtkNew<vtkPalpDeformFilter> press;
+  press->SetInputData(body.display);
+  press->GeneratePatchOn();
+  press->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
+  press->Update();
+  return sectionOf(*press, calibration);
+}
+
+// first, as the band is about it; elements take sheets that are too thin or too stiff for the law
+void addCoatedLaw(std::vector<NamedLaw>& laws, const fem::Case& study)
+{
+  if (study.coatings.empty())
+  {
+    return;
+  }
+  try
+  {
+    const LawSettings settings{ .mode = LawMode::Corrected, .coatings = study.coatings };
+    laws.insert(laws.begin(),
+      { "corrected, linear", ForceLaw(study.tip, study.material, settings),
+        { .thickness = study.height } });
+  }
+  catch (const Error&)
+  {
+  }
+}
+
+} // namespace
+
+void DrawPictures::drawPress(const Body& body, const Recording& recording,
+  const Calibration* calibration, const ScenePlan& plan,
+  const std::filesystem::path& directory) const
+{
+  const OffscreenContext context;
+  if (plan.picture)
+  {
+    drawScene(context, body, recording, *calibration, plan, directory / "press.png");
+  }
+  drawForce(context, recording, plan, directory);
+  const auto draw = [&](Curve curve, const char* name, const std::function<Plots()>& make)
+  {
+    const Plots plots = plan.has(curve) ? make() : Plots{};
+    if (plots.empty())
+    {
+      return;
+    }
+    const auto window =
+      context.makeWindow(kChart.width, kChart.height * (plots.size() > 1 ? 3 : 2) / 2);
+    showPlots(*window, plots);
+    for (const std::string& ending : plan.plotFiles)
+    {
+      writePlots(plots, *window, directory / (name + ("." + ending)));
+    }
+  };
+  draw(Curve::Comparison, "comparison",
+    [&] {
+      return forceComparison(recording.scene.law, recording.samples, calibration, plan.references);
+    });
+  if (calibration)
+  {
+    draw(Curve::Section, "section", [&] { return deepestSection(body, recording, *calibration); });
+    draw(Curve::Extent, "extent", [&] { return extentComparison(*calibration); });
+  }
+}
+
+void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+  const std::filesystem::path& directory) const
+{
+  if (steps.size() < 2)
+  {
+    return; // a curve needs two points
+  }
+  const OffscreenContext context;
+  const auto draw = [&](const char* name, Plot& plot)
+  { drawChart(context, directory / name, [&](vtkContextScene& scene) { plot.addTo(scene); }); };
+
+  std::vector<ExtentTable::Row> rows;
+  ReferenceCurve force{
+    .name = "elements, " + std::string(fem::name(study.energy)), .x = {}, .y = {}
+  };
+  Plot profiles("surface at each depth", "distance from the axis [mm]", "height [mm]");
+  for (const fem::Indented& step : steps)
+  {
+    rows.push_back({ .depth = step.depth,
+      .extentRadius = fem::extentRadius(step.profile, study.threshold),
+      .force = step.force,
+      .contactRadius = step.contactRadius });
+    force.x.push_back(step.depth);
+    force.y.push_back(step.force);
+    std::vector<double> radiusMm;
+    std::vector<double> heightMm;
+    for (const fem::Indented::Point& point : step.profile)
+    {
+      radiusMm.push_back(units::toMillimetres(point.radius + point.ur));
+      heightMm.push_back(units::toMillimetres(point.uz));
+    }
+    profiles.addLine({}, radiusMm, heightMm, appearance::kMeasured, 1.5F);
+  }
+  // the paper's cone is sharp
+  const auto* blunt = std::get_if<BluntConeTip>(&study.tip);
+  const Tip papers = blunt != nullptr
+    ? Tip{ ConeTip{ .halfAngle = blunt->halfAngle, .baseRadius = blunt->baseRadius } }
+    : study.tip;
+  const std::string of = study.coatings.empty() ? "" : ", without coatings";
+  std::vector<NamedLaw> laws{ { (blunt != nullptr ? "paper, sharp" : "paper") + of,
+                                ForceLaw(papers, study.material) },
+    { "exact half-space" + of,
+      ForceLaw(study.tip, study.material, LawSettings{ .mode = LawMode::Exact }) } };
+  addCoatedLaw(laws, study);
+  draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
+  draw("extent.png", *extentPlot(ExtentTable(rows), {}));
+  draw("profiles.png", profiles);
+}
+
+void DrawPictures::drawExperiment(
+  const fem::Experiment& experiment, const std::filesystem::path& directory) const
+{
+  constexpr double kNoticed = 7.0; // [%] of a force, Sec. 3.2
+  const OffscreenContext context;
+  for (const fem::Figure& figure : experiment.figures)
+  {
+    Plot plot(figure.title, figure.bottom, figure.left);
+    if (figure.noticed && !figure.curves.empty() && !figure.curves.front().x.empty())
+    {
+      const std::vector<double>& x = figure.curves.front().x;
+      plot.addBand("less than a hand notices, 7 %", x, std::vector(x.size(), -kNoticed),
+        std::vector(x.size(), kNoticed), appearance::kGround);
+    }
+    for (const fem::Curve& curve : figure.curves)
+    {
+      const auto& color =
+        appearance::kCurves[static_cast<std::size_t>(curve.color) % appearance::kCurves.size()];
+      if (curve.style == fem::Curve::Style::Points)
+      {
+        plot.addPoints(curve.name, curve.x, curve.y, color);
+      }
+      else
+      {
+        plot.addLine(
+          curve.name, curve.x, curve.y, color, 2.0F, curve.style == fem::Curve::Style::Dashed);
+      }
+    }
+    drawChart(context, directory / (figure.name + ".png"),
+      [&](vtkContextScene& scene) { plot.addTo(scene); });
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "app/commands/pictures.h"
+
+namespace palp
+{
+
+/// Draws off screen, without any display server.
+class DrawPictures final : public Pictures
+{
+public:
+  void drawPress(const Body& body, const Recording& recording, const Calibration* calibration,
+    const ScenePlan& plan, const std::filesystem::path& directory) const override;
+  void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+    const std::filesystem::path& directory) const override;
+  void drawExperiment(
+    const fem::Experiment& experiment, const std::filesystem::path& directory) const override;
+  void drawReport(
+    const report::Section& section, const std::filesystem::path& directory) const override;
+  [[nodiscard]] std::vector<BenchRow> benchFrames(std::size_t most) const override;
+};
+
+} // namespace palp

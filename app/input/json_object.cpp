@@ -1,0 +1,150 @@
+#include "app/input/json_object.h"
+
+#include "haptics/files/csv_text.h"
+#include "haptics/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+const nlohmann::json kEmpty = nlohmann::json::object();
+
+std::string joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+  {
+    text.append(text.empty() ? "" : ", ").append(word);
+  }
+  return text;
+}
+
+} // namespace
+
+JsonObject::JsonObject(const nlohmann::json& value, std::string file, std::string path)
+  : value_(value)
+  , file_(std::move(file))
+  , path_(std::move(path))
+{
+  if (!value_.is_object())
+  {
+    throw Error(ErrorCode::BadFile,
+      file_ + ": " + (path_.empty() ? "/" : path_) + ": must be an object, { ... }");
+  }
+}
+
+void JsonObject::refuse(const std::string& key, const std::string& what) const
+{
+  throw Error(ErrorCode::BadFile, file_ + ": " + path_ + "/" + key + ": " + what);
+}
+
+const nlohmann::json* JsonObject::find(const char* key)
+{
+  if (std::find(known_.begin(), known_.end(), key) == known_.end())
+  {
+    known_.emplace_back(key);
+  }
+  const auto found = value_.find(key);
+  return found == value_.end() ? nullptr : &*found;
+}
+
+bool JsonObject::has(const char* key)
+{
+  return find(key) != nullptr;
+}
+
+std::string JsonObject::text(const char* key, const std::string& fallback)
+{
+  const nlohmann::json* value = find(key);
+  if (value && !value->is_string())
+  {
+    refuse(key, "must be a text, \"...\"");
+  }
+  return value ? value->get<std::string>() : fallback;
+}
+
+bool JsonObject::flag(const char* key, bool fallback)
+{
+  const nlohmann::json* value = find(key);
+  if (value && !value->is_boolean())
+  {
+    refuse(key, "must be true or false");
+  }
+  return value ? value->get<bool>() : fallback;
+}
+
+std::string JsonObject::number(const char* key, const std::string& fallback)
+{
+  const nlohmann::json* value = find(key);
+  if (value && value->is_number())
+  {
+    return shortest(value->get<double>());
+  }
+  return text(key, fallback);
+}
+
+std::vector<std::string> JsonObject::texts(
+  const char* key, const std::vector<std::string>& fallback)
+{
+  const nlohmann::json* value = find(key);
+  if (!value)
+  {
+    return fallback;
+  }
+  const auto isText = [](const nlohmann::json& entry) { return entry.is_string(); };
+  if (!value->is_array() || !std::all_of(value->begin(), value->end(), isText))
+  {
+    refuse(key, "must be a list of texts, [\"...\", ...]");
+  }
+  return value->get<std::vector<std::string>>();
+}
+
+std::vector<JsonObject> JsonObject::objects(const char* key)
+{
+  const nlohmann::json* value = find(key);
+  std::vector<JsonObject> list;
+  if (value && !value->is_array())
+  {
+    refuse(key, "must be a list of objects, [{ ... }, ...]");
+  }
+  for (std::size_t i = 0; value && i < value->size(); ++i)
+  {
+    list.emplace_back((*value)[i], file_, path_ + "/" + key + "/" + std::to_string(i));
+  }
+  return list;
+}
+
+JsonObject JsonObject::object(const char* key)
+{
+  const nlohmann::json* value = find(key);
+  return { value ? *value : kEmpty, file_, path_ + "/" + key };
+}
+
+void JsonObject::finish() const
+{
+  for (const auto& [key, value] : value_.items())
+  {
+    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+    {
+      refuse(key, "unknown key; known here: " + joined(known_));
+    }
+  }
+}
+
+std::size_t JsonObject::choice(
+  const std::string& key, const std::string& word, const std::vector<std::string>& words) const
+{
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end())
+  {
+    refuse(key, "'" + word + "' is not known; give " + joined(words));
+  }
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+} // namespace palp

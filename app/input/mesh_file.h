@@ -1,0 +1,28 @@
+#pragma once
+
+#include "pipeline/process/file_surface.h"
+
+#include <filesystem>
+#include <string>
+
+namespace palp
+{
+
+/// Where a surface came from, so that the same one can be found again.
+struct MeshFile
+{
+  std::string name;            ///< without its folder
+  std::string sha256;          ///< of its bytes, hexadecimal
+  std::string unit;            ///< that its coordinates were read in
+  ImagePart part;              ///< of an image
+  bool moved = false;          ///< by the frame that a scene gives it
+};
+
+/// @param file    as named by the user
+/// @throws Error  BadFile: cannot be read
+[[nodiscard]] MeshFile describeFile(const std::filesystem::path& file);
+
+/// One line for people and programs: name, hash, unit, frame and level.
+[[nodiscard]] std::string describe(const MeshFile& mesh);
+
+} // namespace palp

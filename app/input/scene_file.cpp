@@ -1,0 +1,315 @@
+#include "app/input/scene_file.h"
+
+#include "app/program/data_files.h"
+#include "app/input/json_object.h"
+#include "app/input/quantity.h"
+#include "app/input/tip_spec.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/surface_io/length_unit.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace palp
+{
+namespace
+{
+
+const std::vector<std::string> kOverlays{ "force-arrow", "contact-circle", "extent-circle",
+  "displacement-colors", "readings", "pressure-colors", "validity-colors", "control-net",
+  "ghost" }; // in the order of Overlay
+static_assert(kOverlayCount == 9);
+const std::vector<std::string> kExports{ "samples", "deformed", "picture", "refined" };
+
+// the message of an option, "--young: what", told of a place in the document instead; a place that
+// ends in a slash goes on with the option's name
+template <typename Check>
+void checkAt(const JsonObject& object, std::string place, Check check)
+{
+  try
+  {
+    check();
+  }
+  catch (const Error& error)
+  {
+    const std::string message = error.what();
+    const std::size_t end = message.starts_with("--") ? message.find(": ") : 0;
+    if (place.ends_with('/'))
+    {
+      place = end > 0 ? place + message.substr(2, end - 2) : place.substr(0, place.size() - 1);
+    }
+    object.refuse(place, message.substr(end > 0 ? end + 2 : 0));
+  }
+}
+
+Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity)
+{
+  const std::vector<std::string> words = object.texts(key, {});
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  if (words.empty())
+  {
+    return value;
+  }
+  if (words.size() != 3)
+  {
+    object.refuse(key, "must be three quantities, along or about x, y and z");
+  }
+  checkAt(object, key,
+    [&]
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        value[i] = parseQuantity(words[static_cast<std::size_t>(i)], quantity, "--entry");
+      }
+    });
+  return value;
+}
+
+Eigen::Isometry3d readFrame(JsonObject object)
+{
+  const Eigen::Vector3d origin = triple(object, "origin", Quantity::Length);
+  const Eigen::Vector3d angles = triple(object, "rotation", Quantity::Angle);
+  object.finish();
+  using Turn = Eigen::AngleAxisd;
+  return Eigen::Translation3d(origin) * Turn(angles.z(), Eigen::Vector3d::UnitZ()) *
+    Turn(angles.y(), Eigen::Vector3d::UnitY()) * Turn(angles.x(), Eigen::Vector3d::UnitX());
+}
+
+MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
+{
+  MeshSource mesh;
+  mesh.bundled = object.text("bundled", "");
+  const std::string file = object.text("file", "");
+  const std::string level = object.number("level", "");
+  const std::string label = object.number("label", "");
+  mesh.unit = object.text("unit", "auto");
+  mesh.frame = readFrame(object.object("frame"));
+  object.finish();
+  if (mesh.bundled.empty() == file.empty())
+  {
+    object.refuse("file", "give either a file or the name of a bundled surface");
+  }
+  if (!level.empty())
+  {
+    checkAt(object, "level", [&] { mesh.part.level = parseNumber(level, "--level"); });
+  }
+  if (!label.empty())
+  {
+    checkAt(object, "label", [&] { mesh.part.labels = { parseNumber(label, "--label") }; });
+  }
+  checkAt(object, "unit", [&] { (void)parseUnit(mesh.unit); });
+  mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();
+  return mesh;
+}
+
+void readTissue(JsonObject object, PressOptions& press)
+{
+  press.tissue.options.coating = object.text("coating", press.tissue.options.coating);
+  press.tissue.young = object.text("young", press.tissue.young);
+  press.tissue.poisson = object.number("poisson", press.tissue.poisson);
+  press.damping = object.text("damping", press.damping);
+  object.finish();
+}
+
+void readLaw(JsonObject object, ScenePlan& plan)
+{
+  LawOptions& law = plan.press.tissue.options;
+  law.mode = object.text("mode", law.mode);
+  law.base = object.text("base", law.base);
+  law.constitution = object.text("material", law.constitution);
+  plan.press.contact = object.text("contact", plan.press.contact);
+  plan.validity = object.flag("validity", plan.window);
+  object.finish();
+  (void)object.choice("mode", law.mode, { "paper", "exact", "corrected" });
+  (void)object.choice("base", law.base, { "bonded", "slip" });
+  (void)object.choice("material", law.constitution, { "linear", "neo-hookean" });
+  (void)object.choice("contact", plan.press.contact, { "exact", "paper" });
+}
+
+void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  plan.press.surface = object.text("surface", plan.press.surface);
+  const std::string table = object.text("table", "");
+  plan.press.layer = object.text("layer", "");
+  plan.press.threshold = object.text("threshold", plan.press.threshold);
+  object.finish();
+  if (!plan.press.layer.empty())
+  {
+    checkAt(
+      object, "layer", [&] { (void)parseQuantity(plan.press.layer, Quantity::Length, "--layer"); });
+  }
+  checkAt(object, "threshold",
+    [&] { (void)parseQuantity(plan.press.threshold, Quantity::Length, "--threshold"); });
+  constexpr int kNone = 3;
+  plan.dent = object.choice("surface", plan.press.surface,
+                { "paper", "paper-literal", "fitted", "none" }) != kNone;
+  plan.press.table = table.empty() ? std::filesystem::path{} : (folder / table).lexically_normal();
+}
+
+// words of a list as what they stand for
+template <typename Kind>
+std::vector<Kind> kinds(JsonObject& object, const char* key, const std::vector<std::string>& words)
+{
+  std::vector<Kind> list;
+  for (const std::string& word : object.texts(key, {}))
+  {
+    list.push_back(static_cast<Kind>(object.choice(key, word, words)));
+  }
+  return list;
+}
+
+void readExports(JsonObject& object, ScenePlan& plan)
+{
+  const auto wanted = kinds<int>(object, "exports", kExports);
+  const auto has = [&](int which)
+  { return std::find(wanted.begin(), wanted.end(), which) != wanted.end(); };
+  plan.samples = has(0);
+  plan.refined = has(3);
+  plan.deformed = has(1) || plan.refined;
+  plan.picture = has(2);
+  const std::string size = object.text("size", "1280x960");
+  checkAt(object, "size", [&] { plan.size = parseSize(size, "--size"); });
+}
+
+void readDevice(JsonObject& object, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  plan.device = object.text("device", "mouse");
+  const bool scripted = isScripted(plan.device);
+  if (scripted)
+  {
+    plan.device = plan.device.substr(0, plan.device.find(':') + 1) +
+      (folder / scriptFile(plan.device)).lexically_normal().string();
+  }
+  plan.deadMan = object.flag("dead_man", false);
+  plan.window = object.flag("window", !scripted);
+  if (!plan.window && !scripted)
+  {
+    object.refuse("window", "'" + plan.device + "' moves in a window only; give true");
+  }
+}
+
+// what stands in one part and is needed by another
+void checkTogether(const JsonObject& object, const ScenePlan& plan)
+{
+  if (!plan.dent && (plan.window || plan.deformed || plan.picture))
+  {
+    object.refuse("dent",
+      "'none' leaves nothing to see; leave the window and the exports deformed and picture out");
+  }
+  if (!plan.dent && (plan.has(Curve::Section) || plan.has(Curve::Extent)))
+  {
+    object.refuse("plots", "section and extent show the dent; leave them out, or name a surface");
+  }
+  if (plan.window && (plan.samples || plan.deformed || plan.picture))
+  {
+    object.refuse("exports", "a window exports when asked, from its File menu; leave this out");
+  }
+  if (!plan.window && !plan.samples && !plan.deformed && !plan.draws())
+  {
+    object.refuse("exports", "nothing would be left of the press; give samples, for one");
+  }
+}
+
+ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
+{
+  ScenePlan plan;
+  if (object.number("palp_scene", "") != "1")
+  {
+    object.refuse("palp_scene", "must be 1, the version of scenes that this program reads");
+  }
+  (void)object.text("$schema", "");
+  plan.name = object.text("title", "");
+  std::vector<MeshSource> meshes;
+  for (const JsonObject& mesh : object.objects("meshes"))
+  {
+    meshes.push_back(readMesh(mesh, folder));
+  }
+  plan.meshes = meshes;
+  readDevice(object, plan, folder); // first: what follows depends on the window
+  readTissue(object.object("tissue"), plan.press);
+  plan.press.tissue.tip = object.text("tool", plan.press.tissue.tip);
+  readLaw(object.object("law"), plan);
+  readDent(object.object("dent"), plan, folder);
+  if (object.has("overlays"))
+  {
+    plan.overlays = kinds<Overlay>(object, "overlays", kOverlays);
+  }
+  plan.curves = kinds<Curve>(object, "plots", kCurveNames);
+  readExports(object, plan);
+  object.finish();
+  if (meshes.empty())
+  {
+    object.refuse("meshes", "give at least one surface, as in [{\"bundled\": \"liver\"}]");
+  }
+
+  plan.press.tissue.options.rated = plan.validity;
+  checkAt(object, "tool", [&] { (void)parseTip(plan.press.tissue.tip); });
+  checkAt(object, "tissue/", [&] { (void)plan.press.tissue.law(); });
+  checkAt(object, "tissue/", [&] { (void)plan.press.dampingSi(); });
+  checkTogether(object, plan);
+  return plan;
+}
+
+std::string shippedScenes()
+{
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(dataFile("scenes")))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".json") && !name.ends_with(".schema.json"))
+    {
+      names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names)
+  {
+    text.append(text.empty() ? "" : ", ").append(name);
+  }
+  return text;
+}
+
+} // namespace
+
+ScenePlan parseScene(const std::string& text, const std::filesystem::path& file)
+{
+  const std::string name = file.filename().string();
+  nlohmann::json document;
+  try
+  {
+    document = nlohmann::json::parse(text);
+  }
+  catch (const nlohmann::json::parse_error& error)
+  {
+    // its text names line, column and what was expected, after a code in brackets
+    const std::string what = error.what();
+    throw Error(ErrorCode::BadFile, name + ": " + what.substr(what.find("] ") + 2));
+  }
+  ScenePlan plan = readPlan({ document, name }, file.parent_path());
+  if (plan.name.empty())
+  {
+    plan.name = name;
+  }
+  return plan;
+}
+
+ScenePlan readScene(const std::string& name)
+{
+  std::filesystem::path file = name;
+  if (!std::filesystem::exists(file) && !name.ends_with(".json"))
+  {
+    file = dataFile("scenes") / (name + ".json");
+  }
+  if (!std::filesystem::exists(file))
+  {
+    throw Error(ErrorCode::BadFile,
+      name + ": cannot be read; give a scene file or a shipped scene: " + shippedScenes());
+  }
+  return parseScene(readText(file, "a scene file"), file);
+}
+
+} // namespace palp

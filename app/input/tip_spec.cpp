@@ -1,0 +1,172 @@
+#include "app/input/tip_spec.h"
+
+#include "app/input/quantity.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/error.h"
+#include "haptics/tip/profile.h"
+#include "haptics/units.h"
+
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+std::vector<std::string_view> split(std::string_view text)
+{
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;)
+  {
+    const std::size_t colon = text.find(':', begin);
+    parts.push_back(text.substr(begin, colon - begin));
+    if (colon == text.npos)
+    {
+      return parts;
+    }
+    begin = colon + 1;
+  }
+}
+
+// reads the numbers of one tool in turn
+class Reader
+{
+public:
+  Reader(std::string_view text, std::size_t expected, const char* form)
+    : text_(text)
+    , parts_(split(text))
+  {
+    if (parts_.size() != expected + 1)
+    {
+      throw Error(ErrorCode::BadValue,
+        "--tip: '" + std::string(text) + "' has not the form " + form + "; write it like that");
+    }
+  }
+
+  double length()
+  {
+    return parseQuantity(next(), Quantity::Length, where());
+  }
+  double angle()
+  {
+    return parseQuantity(next(), Quantity::Angle, where());
+  }
+
+private:
+  std::string_view next()
+  {
+    return parts_[++index_];
+  }
+  [[nodiscard]] std::string where() const
+  {
+    return "--tip " + std::string(text_);
+  }
+
+  std::string_view text_;
+  std::vector<std::string_view> parts_;
+  std::size_t index_ = 0;
+};
+
+Tip parseShape(std::string_view text)
+{
+  const std::string_view kind = text.substr(0, text.find(':'));
+  if (kind == "sphere")
+  {
+    Reader in(text, 1, "sphere:10mm");
+    return SphereTip{ .radius = in.length() };
+  }
+  if (kind == "cone")
+  {
+    Reader in(text, 2, "cone:45deg:10mm");
+    return ConeTip{ .halfAngle = in.angle(), .baseRadius = in.length() };
+  }
+  if (kind == "punch")
+  {
+    Reader in(text, 1, "punch:5mm");
+    return PunchTip{ .radius = in.length() };
+  }
+  if (kind == "truncated-cone")
+  {
+    Reader in(text, 3, "truncated-cone:45deg:2mm:10mm");
+    return TruncatedConeTip{
+      .halfAngle = in.angle(), .flatRadius = in.length(), .baseRadius = in.length()
+    };
+  }
+  if (kind == "blunt-cone")
+  {
+    Reader in(text, 3, "blunt-cone:45deg:0.3mm:10mm");
+    return BluntConeTip{
+      .halfAngle = in.angle(), .tipRadius = in.length(), .baseRadius = in.length()
+    };
+  }
+  if (kind == "paraboloid")
+  {
+    Reader in(text, 1, "paraboloid:10mm");
+    return ParaboloidTip{ .radius = in.length() };
+  }
+  if (kind == "profile" && text.size() > kind.size() + 1)
+  {
+    return ProfileTip{ std::make_shared<const Profile>(
+      Profile::read(std::string(text.substr(kind.size() + 1)))) };
+  }
+  throw Error(ErrorCode::BadValue,
+    "--tip: '" + std::string(text) +
+      "' is no tool; give sphere:10mm, cone:45deg:10mm, punch:5mm, truncated-cone:45deg:2mm:10mm, "
+      "blunt-cone:45deg:0.3mm:10mm, paraboloid:10mm or profile:FILE.csv");
+}
+
+std::string mm(double metres)
+{
+  return std::string(":").append(shortest(units::toMillimetres(metres))).append("mm");
+}
+
+std::string deg(double radians)
+{
+  return std::string(":").append(shortest(units::toDegrees(radians))).append("deg");
+}
+
+struct Describe
+{
+  std::string operator()(const SphereTip& tip) const
+  {
+    return "sphere" + mm(tip.radius);
+  }
+  std::string operator()(const ConeTip& tip) const
+  {
+    return "cone" + deg(tip.halfAngle) + mm(tip.baseRadius);
+  }
+  std::string operator()(const PunchTip& tip) const
+  {
+    return "punch" + mm(tip.radius);
+  }
+  std::string operator()(const TruncatedConeTip& tip) const
+  {
+    return "truncated-cone" + deg(tip.halfAngle) + mm(tip.flatRadius) + mm(tip.baseRadius);
+  }
+  std::string operator()(const BluntConeTip& tip) const
+  {
+    return "blunt-cone" + deg(tip.halfAngle) + mm(tip.tipRadius) + mm(tip.baseRadius);
+  }
+  std::string operator()(const ParaboloidTip& tip) const
+  {
+    return "paraboloid" + mm(tip.radius);
+  }
+  std::string operator()(const ProfileTip& tip) const
+  {
+    return "profile:" + tip.profile->name();
+  }
+};
+
+} // namespace
+
+Tip parseTip(std::string_view text)
+{
+  return checkedTip(parseShape(text));
+}
+
+std::string describeTip(const Tip& tip)
+{
+  return std::visit(Describe{}, tip);
+}
+
+} // namespace palp

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "haptics/tip/tip.h"
+
+#include <string>
+#include <string_view>
+
+namespace palp
+{
+
+/// Reads a tool, as in `sphere:10mm` or `cone:45deg:10mm`.
+///
+/// sphere:R, cone:ALPHA:BASE, punch:R, truncated-cone:ALPHA:FLAT:BASE, blunt-cone:ALPHA:TIP:BASE,
+/// paraboloid:R, profile:FILE. Radii with unit; ALPHA between axis and flank.
+///
+/// @throws Error  BadValue: unknown kind, wrong number of parts, a dimension out of range
+[[nodiscard]] Tip parseTip(std::string_view text);
+
+/// The same text back, in mm and degrees.
+[[nodiscard]] std::string describeTip(const Tip& tip);
+
+} // namespace palp

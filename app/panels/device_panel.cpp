@@ -1,0 +1,138 @@
+#include "app/panels/device_panel.h"
+
+#include "app/session/device_words.h"
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+
+#include <QColor>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+QLabel* addLabel(QFormLayout* form, const QString& title, const char* name)
+{
+  auto* label = new QLabel;
+  label->setObjectName(name);
+  label->setWordWrap(true);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
+  label->setTextFormat(Qt::RichText);
+  form->addRow(title, label);
+  return label;
+}
+
+QString colored(const appearance::Color& color, const QString& text)
+{
+  return QStringLiteral("<span style='color:%1'>%2</span>")
+    .arg(QColor::fromRgbF(color[0], color[1], color[2]).name(), text);
+}
+
+// a dot as in traffic: may a hand feel something?
+QString stateText(const Sample& sample)
+{
+  constexpr appearance::Color kOff{ 0.5, 0.5, 0.5 };
+  const bool off = sample.state == DeviceState::Ready || sample.state == DeviceState::Opening;
+  const appearance::Color& color = isFault(sample.state, sample.flags) ? appearance::kBad
+    : sample.state == DeviceState::Active                              ? appearance::kGood
+    : off                                                              ? kOff
+                                                                       : appearance::kDoubtful;
+  QString text = colored(color, QStringLiteral("●")) + " <b>" + describe(sample.state) + "</b>";
+  if (isFault(sample.state, sample.flags))
+  {
+    text += "<br>" + QString::fromStdString(describeFlags(sample.flags));
+  }
+  const QString advice = advise(sample.state, sample.flags);
+  return advice.isEmpty() ? text : text + "<br>" + advice;
+}
+
+} // namespace
+
+DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
+  : QWidget(parent)
+  , device_(new QComboBox)
+  , arm_(new QPushButton(tr("Turn force on")))
+  , stop_(new QPushButton(tr("STOP (Esc)")))
+{
+  auto* form = new QFormLayout(this);
+  form->setContentsMargins(8, 2, 8, 2);
+  form->setVerticalSpacing(4);
+  device_->setObjectName("device");
+  device_->addItems(devices);
+  form->addRow(tr("Input device"), device_);
+
+  arm_->setObjectName("arm");
+  arm_->setCheckable(true);
+  arm_->setToolTip(tr("Off until you turn it on"));
+  stop_->setObjectName("stop");
+  stop_->setToolTip(tr("Stops the force at once; turn it on again to continue"));
+  stop_->setStyleSheet("QPushButton:enabled { background: #b3261e; color: white; "
+                       "font-weight: bold; padding: 4px }");
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(arm_, 1);
+  buttons->addWidget(stop_);
+  form->addRow(buttons);
+
+  state_ = addLabel(form, tr("State"), "state");
+  force_ = addLabel(form, tr("Force"), "rendered");
+  limits_ = addLabel(form, tr("Limits"), "limits");
+  connect(arm_, &QPushButton::clicked, this, &DevicePanel::armAsked);
+  connect(stop_, &QPushButton::clicked, this, &DevicePanel::stopAsked);
+  connect(device_, &QComboBox::currentTextChanged, this, &DevicePanel::deviceChanged);
+}
+
+void DevicePanel::offer(const QStringList& devices)
+{
+  const QSignalBlocker quiet(device_);
+  const QString current = device_->currentText();
+  device_->clear();
+  device_->addItems(devices);
+  device_->setCurrentText(current);
+}
+
+void DevicePanel::choose(const QString& device)
+{
+  const QSignalBlocker quiet(device_);
+  if (device_->findText(device) < 0)
+  {
+    device_->addItem(device);
+  }
+  device_->setCurrentText(device);
+}
+
+void DevicePanel::show(const Session& session, const Sample& sample, std::uint32_t acting)
+{
+  const bool renders = session.rendersForce();
+  arm_->setEnabled(renders);
+  arm_->setChecked(renders && session.armed());
+  arm_->setText(renders && session.armed() ? tr("Turn force off") : tr("Turn force on"));
+  stop_->setEnabled(renders);
+  state_->setText(renders ? stateText(sample) : tr("Display only: no force feedback"));
+  const QString model = tr("model %1 N").arg(sample.response.force, 0, 'f', 2);
+  force_->setText(
+    renders ? tr("%1, <b>sent %2 N</b>").arg(model).arg(sample.force.norm(), 0, 'f', 2) : model);
+
+  QString text = tr("%1 N").arg(session.largestForce(), 0, 'g', 3);
+  if (renders)
+  {
+    const double stiffest = units::toNewtonsPerMillimetre(session.stableStiffness());
+    text += tr(" and %1 N/mm").arg(stiffest, 0, 'g', 3);
+  }
+  if (!isFault(sample.state, sample.flags))
+  {
+    const std::string names = describeFlags(acting);
+    text += names.empty() ? QString()
+                          : "<br>" + colored(appearance::kDoubtful, QString::fromStdString(names));
+  }
+  limits_->setText(text);
+}
+
+} // namespace palp

@@ -1,0 +1,92 @@
+#include "app/panels/open_dialog.h"
+
+#include "app/input/quantity.h"
+#include "haptics/error.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+
+#include <utility>
+
+namespace palp
+{
+
+const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.vti";
+
+bool isImageFile(const QString& file)
+{
+  return QDir::match(QString(kImageFiles).split(' '), QFileInfo(file).fileName());
+}
+
+OpenDialog::OpenDialog(const QString& file, const QString& why,
+  std::function<void(const MeshSource&)> open, QWidget* parent)
+  : QDialog(parent)
+  , file_(file.toStdString())
+  , open_(std::move(open))
+  , why_(new QLabel(why))
+  , level_(isImageFile(file) ? new QLineEdit : nullptr)
+  , label_(isImageFile(file) ? new QLineEdit : nullptr)
+  , unit_(new QComboBox)
+{
+  setWindowTitle(tr("Open %1").arg(QFileInfo(file).fileName()));
+  auto* rows = new QFormLayout(this);
+  why_->setObjectName("why");
+  why_->setWordWrap(true);
+  why_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  why_->setMinimumWidth(why_->fontMetrics().averageCharWidth() * 60);
+  rows->addRow(why_);
+  if (level_ != nullptr)
+  {
+    level_->setObjectName("level");
+    level_->setPlaceholderText(tr("e.g. 0.5 for a mask of 0 and 1"));
+    rows->addRow(tr("Level of the surface"), level_);
+    label_->setObjectName("label");
+    label_->setPlaceholderText(tr("of a label map, e.g. 5, or 1,2 for both"));
+    rows->addRow(tr("or label of the body"), label_);
+  }
+  unit_->setObjectName("unit");
+  unit_->addItems({ "auto", "mm", "cm", "m" });
+  rows->addRow(tr("Unit of the coordinates"), unit_);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
+  connect(buttons, &QDialogButtonBox::accepted, this, &OpenDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &OpenDialog::reject);
+  rows->addRow(buttons);
+}
+
+MeshSource OpenDialog::source() const
+{
+  MeshSource source{ .file = file_, .unit = unit_->currentText().toStdString() };
+  if (label_ != nullptr && !label_->text().isEmpty())
+  {
+    for (const QString& label : label_->text().split(','))
+    {
+      source.part.labels.push_back(
+        parseNumber(label.trimmed().toStdString(), tr("Label").toStdString()));
+    }
+  }
+  else if (level_ != nullptr)
+  {
+    source.part.level = parseNumber(level_->text().toStdString(), tr("Level").toStdString());
+  }
+  return source;
+}
+
+void OpenDialog::accept()
+{
+  try
+  {
+    open_(source());
+    QDialog::accept();
+  }
+  catch (const std::exception& error)
+  {
+    why_->setText(QString::fromStdString(error.what()));
+  }
+}
+
+} // namespace palp

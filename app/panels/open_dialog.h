@@ -1,0 +1,47 @@
+#pragma once
+
+#include "app/input/scene_plan.h"
+
+#include <QDialog>
+
+#include <functional>
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+
+namespace palp
+{
+
+/// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
+/// the surface or the label of the body. Stays, with the reason, until the file is opened or given up.
+class OpenDialog : public QDialog
+{
+  Q_OBJECT
+
+public:
+  /// @param file  a surface or an image
+  /// @param why   it was not opened as it is
+  /// @param open  opens it; throws Error
+  OpenDialog(const QString& file, const QString& why, std::function<void(const MeshSource&)> open,
+    QWidget* parent = nullptr);
+
+  void accept() override;
+
+private:
+  [[nodiscard]] MeshSource source() const;
+
+  std::filesystem::path file_;
+  std::function<void(const MeshSource&)> open_;
+  QLabel* why_;
+  QLineEdit* level_; // null: a surface has none
+  QLineEdit* label_; // likewise
+  QComboBox* unit_;
+};
+
+/// The endings of files that hold an image, as in `*.mha *.nii.gz`.
+extern const char* const kImageFiles;
+
+[[nodiscard]] bool isImageFile(const QString& file);
+
+} // namespace palp

@@ -1,0 +1,111 @@
+#include "app/panels/reliance_panel.h"
+
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+
+#include <QColor>
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <string_view>
+
+namespace palp
+{
+namespace
+{
+
+QString colorOf(double share)
+{
+  const appearance::Color& color = share > 1.0 ? appearance::kBad
+    : share > Rule::kDoubtful                  ? appearance::kDoubtful
+                                               : appearance::kGood;
+  return QColor::fromRgbF(color[0], color[1], color[2]).name();
+}
+
+QString number(const Rule& rule, double value)
+{
+  const std::string_view unit = rule.unit;
+  return unit == "rad" ? QString::number(units::toDegrees(value), 'g', 3) + QStringLiteral("°")
+    : unit == "N/m"
+    ? QString::number(units::toNewtonsPerMillimetre(value), 'g', 3) + QStringLiteral(" N/mm")
+    : QString::number(value, 'g', 3);
+}
+
+QString microseconds(Histogram::Duration duration)
+{
+  using Micro = std::chrono::duration<double, std::micro>;
+  return QString::number(Micro(duration).count(), 'f', 1);
+}
+
+QString timingRow(const QString& name, const Histogram& histogram)
+{
+  QString row = "<tr><td>" + name + "</td>";
+  for (const double share : { 0.5, 0.99, 0.999 })
+  {
+    row += "<td align=right>&nbsp;" + microseconds(histogram.quantile(share)) + "</td>";
+  }
+  return row + "<td align=right>&nbsp;" + microseconds(histogram.longest()) + "</td></tr>";
+}
+
+} // namespace
+
+ReliancePanel::ReliancePanel(QWidget* parent)
+  : QWidget(parent)
+  , rules_(new QLabel)
+  , timing_(new QLabel)
+{
+  rules_->setObjectName("rules");
+  timing_->setObjectName("timing");
+  auto* column = new QVBoxLayout(this);
+  for (QLabel* label : { rules_, timing_ })
+  {
+    label->setWordWrap(true);
+    label->setTextFormat(Qt::RichText);
+    label->setAlignment(Qt::AlignTop);
+    column->addWidget(label);
+  }
+  column->addStretch();
+  rules_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
+  showNoContact();
+}
+
+void ReliancePanel::showNoContact()
+{
+  rules_->setText(tr("no contact"));
+}
+
+void ReliancePanel::showRules(const Rules& rules)
+{
+  Rules sorted = rules;
+  std::stable_sort(sorted.begin(), sorted.end(),
+    [](const Rule& a, const Rule& b) { return a.share() > b.share(); });
+  QString text;
+  for (const Rule& rule : sorted)
+  {
+    if (rule.share() == 0.0)
+    {
+      continue; // nothing to say of a rule that does not bear on this place
+    }
+    text +=
+      QStringLiteral("<span style='color:%1'>&#9679;</span> %2: %3 % of its limit (%4 of %5)<br>")
+        .arg(colorOf(rule.share()), QString(rule.name).replace('_', ' '))
+        .arg(100.0 * rule.share(), 0, 'f', 0)
+        .arg(number(rule, rule.value), number(rule, rule.limit));
+    if (!rule.holds())
+    {
+      text += QStringLiteral("&nbsp;&nbsp;<i>%1</i><br>").arg(rule.why);
+    }
+  }
+  rules_->setText(text);
+}
+
+void ReliancePanel::showTiming(const Timing& timing, const std::string& schedule)
+{
+  timing_->setText(tr("<b>Servo</b> [µs]<table><tr><td></td><td>&nbsp;p50</td><td>&nbsp;p99</td>"
+                      "<td>&nbsp;p99.9</td><td>&nbsp;max</td></tr>") +
+    timingRow(tr("late by"), timing.lateness) + timingRow(tr("step"), timing.step) + "</table>" +
+    QString::fromStdString(schedule));
+}
+
+} // namespace palp

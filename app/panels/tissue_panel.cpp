@@ -1,0 +1,87 @@
+#include "app/panels/tissue_panel.h"
+
+#include "app/panels/law_panel.h"
+#include "app/panels/panel_boxes.h"
+#include "app/input/quantity.h"
+#include "app/panels/tool_panel.h"
+
+#include <QGridLayout>
+#include <QGroupBox>
+#include <QVBoxLayout>
+
+namespace palp
+{
+
+TissuePanel::TissuePanel(const Scene& scene, const LawOptions& options, QWidget* parent)
+  : QWidget(parent)
+  , tool_(new ToolPanel(scene.law.tip()))
+  , law_(new LawPanel(scene.law.settings(), options))
+  , modulus_(new QuantityBox("young", ShownUnit::kilopascals()))
+  , poisson_(new QuantityBox("poisson", ShownUnit::none()))
+  , damping_(new QuantityBox("damping", ShownUnit::damping()))
+  , rule_(new ChoiceBox("rule", { tr("Exact, on triangles"), tr("Paper, on mesh points") }))
+{
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(6, 2, 6, 2);
+  column->setSpacing(2);
+  column->addWidget(tool_);
+  column->addWidget(makeTissue());
+  column->addWidget(law_);
+  column->addStretch();
+  setScene(scene);
+
+  connect(tool_, &ToolPanel::toolChanged, this, &TissuePanel::tissueChanged);
+  connect(law_, &LawPanel::lawChanged, this, &TissuePanel::tissueChanged);
+  law_->setCheck([this] { (void)law(); });
+  for (QuantityBox* box : { modulus_, poisson_, damping_ })
+  {
+    box->setCheck([this] { check(); });
+    connect(box, &QuantityBox::changed, this, &TissuePanel::tissueChanged);
+  }
+  connect(
+    rule_, qOverload<int>(&QComboBox::currentIndexChanged), this, &TissuePanel::tissueChanged);
+}
+
+QGroupBox* TissuePanel::makeTissue()
+{
+  auto* group = new QGroupBox(tr("Tissue"));
+  QGridLayout& rows = *makeRows(*group);
+  addRow(rows, tr("Young's modulus E"), modulus_);
+  addRow(rows, tr("Poisson's ratio ν"), poisson_);
+  addRow(rows, tr("Damping"), damping_);
+  addRow(rows, tr("Contact depth"), rule_);
+  return group;
+}
+
+void TissuePanel::setScene(const Scene& scene)
+{
+  tool_->setTip(scene.law.tip());
+  law_->setSettings(scene.law.settings());
+  modulus_->setSi(scene.law.material().youngModulus);
+  poisson_->setSi(scene.law.material().poissonRatio);
+  damping_->setSi(scene.damping);
+  rule_->show(scene.rule == ContactRule::Paper ? 1 : 0);
+}
+
+void TissuePanel::check() const
+{
+  (void)makeMaterial(modulus_->si(), poisson_->si());
+  (void)checkedDamping(damping_->si(), "damping");
+}
+
+ForceLaw TissuePanel::law() const
+{
+  return { tool_->tip(), makeMaterial(modulus_->si(), poisson_->si()), law_->settings() };
+}
+
+ContactRule TissuePanel::rule() const
+{
+  return rule_->currentIndex() == 1 ? ContactRule::Paper : ContactRule::Exact;
+}
+
+double TissuePanel::damping() const
+{
+  return damping_->si();
+}
+
+} // namespace palp

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "app/input/law_options.h"
+#include "haptics/servo/scene.h"
+
+#include <QWidget>
+
+class QGroupBox;
+
+namespace palp
+{
+
+class ChoiceBox;
+class LawPanel;
+class QuantityBox;
+class ToolPanel;
+
+/// Tool, tissue and law with their units; says when any of them changed.
+class TissuePanel : public QWidget
+{
+  Q_OBJECT
+
+public:
+  /// @param options  of the scene's law
+  TissuePanel(const Scene& scene, const LawOptions& options, QWidget* parent = nullptr);
+
+  /// As the fields say.
+  /// @throws Error  as ToolPanel::tip, LawPanel::settings, ForceLaw
+  [[nodiscard]] ForceLaw law() const;
+  [[nodiscard]] ContactRule rule() const;
+  [[nodiscard]] double damping() const; ///< b [N s/m]
+
+  /// Shows what is in use, without a signal.
+  void setScene(const Scene& scene);
+
+Q_SIGNALS:
+  void tissueChanged();
+
+private:
+  QGroupBox* makeTissue();
+  void check() const;
+
+  ToolPanel* tool_;
+  LawPanel* law_;
+  QuantityBox* modulus_;
+  QuantityBox* poisson_;
+  QuantityBox* damping_;
+  ChoiceBox* rule_;
+};
+
+} // namespace palp

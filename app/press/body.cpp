@@ -1,0 +1,90 @@
+#include "app/press/body.h"
+
+#include "app/program/data_files.h"
+#include "haptics/surface/deviation.h"
+#include "haptics/units.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+
+#include <vtkPolyData.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace palp
+{
+namespace
+{
+
+// points and triangles of all surfaces so far
+struct Union
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Triangle> triangles;
+
+  void add(vtkPolyData& mesh, const Eigen::Isometry3d& frame)
+  {
+    const int first = static_cast<int>(points.size());
+    for (const Eigen::Vector3d& point : pointsOf(mesh))
+    {
+      points.push_back(frame * point);
+    }
+    for (const Triangle& triangle : trianglesOf(mesh))
+    {
+      triangles.push_back({ triangle[0] + first, triangle[1] + first, triangle[2] + first });
+    }
+  }
+};
+
+std::string describe(const Deviation& apart, std::size_t points)
+{
+  std::ostringstream note;
+  note << "the force comes from " << points << " points, at most " << std::setprecision(2)
+       << units::toMillimetres(apart.largest) << " mm (RMS "
+       << units::toMillimetres(apart.rootMeanSquare) << " mm) from the surface shown";
+  return note.str();
+}
+
+} // namespace
+
+Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
+{
+  Body body;
+  Union display;
+  Union haptic;
+  bool coarser = false;
+  for (const MeshSource& source : meshes)
+  {
+    const std::filesystem::path file =
+      source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
+    body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
+    const LoadedSurface loaded = readSurface(file, parseUnit(source.unit), source.part);
+    body.unit = unitName(loaded.unit);
+    body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
+    if (shown)
+    {
+      display.add(*loaded.mesh, source.frame);
+    }
+    const bool liver = source.bundled == "liver";
+    coarser = coarser || liver;
+    const std::filesystem::path felt = liver ? dataFile("meshes/liver_haptic.vtp") : file;
+    haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame);
+    MeshFile& origin = body.files.emplace_back(describeFile(felt));
+    origin.unit = body.unit;
+    origin.part = source.part;
+    origin.moved = !source.frame.isApprox(Eigen::Isometry3d::Identity());
+  }
+  body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
+  if (shown)
+  {
+    body.display = makePolyData(display.points, display.triangles);
+  }
+  if (shown && coarser)
+  {
+    const Surface fine(display.points, display.triangles);
+    body.notes.push_back(describe(deviation(fine, *body.haptic), body.haptic->points().size()));
+  }
+  return body;
+}
+
+} // namespace palp

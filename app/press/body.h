@@ -1,0 +1,36 @@
+#pragma once
+
+#include "app/input/mesh_file.h"
+#include "app/input/scene_plan.h"
+#include "haptics/surface/surface.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+namespace palp
+{
+
+/// What is pressed, in two levels of detail: one to look at, one to feel.
+struct Body
+{
+  std::string name;                      ///< file name, for people
+  std::string unit;                      ///< that the file's coordinates were read in
+  std::vector<MeshFile> files;           ///< that are felt
+  vtkSmartPointer<vtkPolyData> display;  ///< [m]; null where nobody looks
+  std::shared_ptr<const Surface> haptic; ///< [m]
+  std::vector<std::string> notes;        ///< what was taken, and warnings; a line each
+};
+
+/// Loads surfaces into one body; what is felt is what is shown, but for the bundled liver, which
+/// has a coarser surface to feel.
+///
+/// @param meshes   one or more
+/// @param shown    whether a surface to look at is needed, too
+/// @throws Error   BadFile, BadMesh, BadValue
+[[nodiscard]] Body loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
+
+} // namespace palp

@@ -1,0 +1,222 @@
+#include "app/press/calibration.h"
+
+#include "app/input/coating_spec.h"
+#include "app/program/data_files.h"
+#include "app/input/quantity.h"
+#include "calibration/tables/surface_table.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kThreshold = 0.5_mm; // Sec. 3.3.2
+constexpr double kPoisson = 0.33;
+constexpr double kYoung = 50.0_kPa;
+constexpr double kDeepest = 50.0_mm; // that the window asks for
+constexpr double kTableTip = 0.3_mm; // of the cones' tables
+constexpr double kLayer = 5.0;       // thickness over radius of the paper's blocks, 10 and 6 mm
+
+bool same(double a, double b)
+{
+  return std::abs(a - b) <= 1e-9 * b;
+}
+
+bool isCone(const Tip& tip)
+{
+  return std::holds_alternative<ConeTip>(tip) || std::holds_alternative<BluntConeTip>(tip);
+}
+
+// the nearer of the two radii that tables are shipped for
+std::string bundledTable(const Tip& tip)
+{
+  const bool small = baseRadius(tip) < 8.0_mm;
+  return std::string(isCone(tip) ? "tables/cone45_" : "tables/sphere_") +
+    (small ? "r6_h30" : "r10_h50");
+}
+
+struct Layer
+{
+  double thickness; // [m]
+  double threshold; // [m]
+};
+
+Layer layerOf(const PressOptions& options, double radius)
+{
+  const auto length = [](const std::string& text, const char* option, const char* example)
+  {
+    const double value = parseQuantity(text, Quantity::Length, option);
+    if (!(value > 0.0))
+    {
+      throw Error(ErrorCode::BadValue,
+        std::string(option) + ": '" + text + "' is not positive; give " + example + ", say");
+    }
+    return value;
+  };
+  return { options.layer.empty() ? kLayer * radius : length(options.layer, "--layer", "40mm"),
+    length(options.threshold, "--threshold", "0.5mm") };
+}
+
+// whether finite elements of a tool of this shape were computed, whatever its size
+bool hasElements(const Tip& tip)
+{
+  const auto* sharp = std::get_if<ConeTip>(&tip);
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
+  return std::holds_alternative<SphereTip>(tip) || (sharp && same(sharp->halfAngle, 45.0_deg)) ||
+    (blunt && same(blunt->halfAngle, 45.0_deg));
+}
+
+Calibration ofTable(const std::filesystem::path& file, double young)
+{
+  ExtentTable extents = ExtentTable::read(file);
+  const double reach = extents.rows().back().depth;
+  return { .extents = std::move(extents),
+    .style = {},
+    .reach = reach,
+    .note = {},
+    .elements = std::nullopt,
+    .young = young };
+}
+
+// of a cone there is one table for each of the paper's blocks
+Calibration ofCone(const PressOptions& options, const ForceLaw& law)
+{
+  const auto& tip = law.tip();
+  const auto* sharp = std::get_if<ConeTip>(&tip);
+  const double angle = sharp != nullptr ? sharp->halfAngle : std::get<BluntConeTip>(tip).halfAngle;
+  const Layer layer = layerOf(options, baseRadius(tip));
+  if (!options.layer.empty() || !same(layer.threshold, kThreshold))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--layer, --threshold: for a cone, make its own table with palp calibrate and give --table");
+  }
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
+  const bool known = same(angle, 45.0_deg) && same(law.material().poissonRatio, kPoisson) &&
+    (same(baseRadius(tip), 6.0_mm) || same(baseRadius(tip), 10.0_mm)) &&
+    (!blunt || same(blunt->tipRadius, kTableTip));
+  Calibration calibration = ofTable(dataFile(bundledTable(tip) + ".csv"), kYoung);
+  if (!known)
+  {
+    calibration.reach = 0.0;
+    calibration.young.reset();
+    calibration.note = "R_d is that of the nearest cone with a table (45 degrees, tip of 0.3 mm, "
+                       "nu = 0.33) and may be wrong by half; palp calibrate makes its own for "
+                       "--table";
+  }
+  return calibration;
+}
+
+Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
+{
+  const double radius = baseRadius(law.tip());
+  const double poisson = law.material().poissonRatio;
+  const Layer layer = layerOf(options, radius);
+  const bool asPaper = (same(radius, 10.0_mm) || same(radius, 6.0_mm)) && same(poisson, kPoisson) &&
+    same(layer.thickness, kLayer * radius) && same(layer.threshold, kThreshold) &&
+    std::holds_alternative<SphereTip>(law.tip());
+  if (asPaper)
+  {
+    return ofTable(dataFile(bundledTable(law.tip()) + ".csv"), kYoung);
+  }
+  const SurfaceTable table = SurfaceTable::read(dataFile("tables/surface_sphere.csv"));
+  SurfaceTable::Place place{
+    .depth = radius, .tipRadius = radius, .thickness = layer.thickness, .poissonRatio = poisson
+  };
+  const bool covered = table.covers(place);
+  const bool sphere = std::holds_alternative<SphereTip>(law.tip());
+  place.depth = std::max(radius, kDeepest);
+  return { .extents = table.extents(place, layer.threshold),
+    .style = {},
+    .reach = sphere && covered ? radius : 0.0,
+    .note = !sphere ? "R_d is that of a sphere of the same radius and may be wrong by half; palp "
+                      "calibrate makes its own for --table"
+      : covered     ? ""
+                : "R_d is clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)",
+    .elements = std::nullopt,
+    .young = std::nullopt };
+}
+
+// the shape, layer and tissue that the fitted surfaces were computed for, whatever the size
+bool isOfTheseElements(const PressOptions& options, const ForceLaw& law)
+{
+  const auto* blunt = std::get_if<BluntConeTip>(&law.tip());
+  const double radius = baseRadius(law.tip());
+  return same(law.material().poissonRatio, kPoisson) &&
+    same(layerOf(options, radius).thickness, kLayer * radius) &&
+    (!blunt || blunt->tipRadius <= 2.0 * kTableTip);
+}
+
+void add(std::string& notes, const std::string& note)
+{
+  notes += (notes.empty() ? "" : "; ") + note;
+}
+
+// shipped tables are of tissue without any, the user's of the tissue that was asked for at first
+bool isOfTheseCoatings(const PressOptions& options, const LawSettings& settings)
+{
+  if (options.table.empty() || settings.mode != LawMode::Corrected)
+  {
+    return settings.coatings.empty();
+  }
+  return describeCoatings(settings.coatings) ==
+    describeCoatings(parseCoatings(options.tissue.options.coating));
+}
+
+} // namespace
+
+Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
+{
+  const Tip& tip = law.tip();
+  // a table of the user's is made of the tissue that is pressed
+  Calibration calibration = !options.table.empty()
+    ? ofTable(options.table, law.material().youngModulus)
+    : isCone(tip) ? ofCone(options, law)
+                  : ofSphere(options, law);
+  if (hasElements(tip))
+  {
+    const std::string bundled = bundledTable(tip);
+    const double shipped = bundled.ends_with("r6_h30") ? 6.0_mm : 10.0_mm;
+    // the same picture for a layer as many radii thick
+    calibration.elements = FittedSurfaces::read(
+      dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped, baseRadius(tip));
+  }
+  if (!isOfTheseCoatings(options, law.settings()))
+  {
+    calibration.reach = 0.0;
+    calibration.elements.reset();
+    calibration.young.reset();
+    add(calibration.note,
+      "R_d is that of tissue with other coatings or none; palp calibrate --coating makes its own");
+  }
+  calibration.style.isLiteral = options.surface == "paper-literal";
+  if (options.surface == "fitted")
+  {
+    calibration.style.fitted = calibration.elements;
+    if (!calibration.elements)
+    {
+      add(calibration.note, "the surface is the paper's, as none is fitted to this tool");
+    }
+    else if (!isOfTheseElements(options, law))
+    {
+      calibration.reach = 0.0;
+      calibration.elements.reset(); // not those of this press
+      add(calibration.note,
+        "the surface is fitted to a layer of five tool radii, nu = 0.33 and a sharp tip; here it "
+        "may "
+        "be wrong by more than 3 % of the depth");
+    }
+    else
+    {
+      calibration.reach = std::min(calibration.reach, calibration.elements->deepest());
+    }
+  }
+  return calibration;
+}
+
+} // namespace palp

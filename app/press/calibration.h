@@ -1,0 +1,37 @@
+#pragma once
+
+#include "app/input/press_options.h"
+#include "calibration/tables/extent_table.h"
+#include "pipeline/deform/press_of.h"
+
+#include <optional>
+#include <string>
+
+namespace palp
+{
+
+/// How the surface gives way around a tool, as found by finite elements.
+struct Calibration
+{
+  ExtentTable extents; ///< R_d(depth), for the paper's ring
+  DentStyle style;     ///< of the picture
+  double reach = 0.0;  ///< depth to which R_d is computed, not estimated [m]
+  std::string note;    ///< what stands in for what, for the user; or empty
+
+  // to compare with
+  std::optional<FittedSurfaces> elements; ///< of a tool of this shape, scaled; none: not computed
+  std::optional<double> young;            ///< E of the table's forces [Pa]; none: of another tool
+
+  [[nodiscard]] bool covers(double depth) const noexcept
+  {
+    return depth <= reach;
+  }
+};
+
+/// The table that the options name, the paper's two spheres and cones as they are, any other sphere
+/// from its dimensionless surface.
+///
+/// @throws Error  BadFile; BadValue: --layer or --threshold with a tool whose table has them fixed
+[[nodiscard]] Calibration loadCalibration(const PressOptions& options, const ForceLaw& law);
+
+} // namespace palp

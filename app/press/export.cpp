@@ -1,0 +1,99 @@
+#include "app/press/export.h"
+
+#include "haptics/files/csv_text.h"
+#include "haptics/files/output_folder.h"
+#include "haptics/files/replace_file.h"
+#include "haptics/units.h"
+#include "pipeline/deform/press_of.h"
+#include "pipeline/deform/refined_surface.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "pipeline/deform/vtkPalpDeformFilter.h"
+
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <array>
+#include <chrono>
+#include <sstream>
+
+namespace palp
+{
+
+Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
+{
+  const double extent = calibration.extents.extentRadius(sample.contact.depth);
+  return pressOf(sample, tip, extent, calibration.style);
+}
+
+void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
+  const Calibration& calibration, bool refined)
+{
+  vtkNew<vtkPalpDeformFilter> filter;
+  filter->SetInputData(body.display);
+  filter->SetGeneratePatch(refined);
+  if (const Sample* deepest = recording.deepest())
+  {
+    filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
+  }
+  filter->Update();
+
+  // the writer turns the points into millimetres, the displacement is ours to turn
+  vtkNew<vtkPolyData> mesh;
+  mesh->ShallowCopy(refined ? refinedSurface(*filter).Get() : filter->GetOutput());
+  vtkNew<vtkFloatArray> displacement;
+  displacement->DeepCopy(mesh->GetPointData()->GetArray("Displacement"));
+  for (vtkIdType i = 0; i < displacement->GetNumberOfValues(); ++i)
+  {
+    displacement->SetValue(
+      i, static_cast<float>(units::toMillimetres(static_cast<double>(displacement->GetValue(i)))));
+  }
+  displacement->SetName("Displacement");
+  mesh->GetPointData()->AddArray(displacement);
+  writeSurface(file, *mesh);
+}
+
+void writeSamples(
+  const std::filesystem::path& file, const Recording& recording, const Calibration* calibration)
+{
+  std::ostringstream out;
+  writeSamples(out, recording, calibration);
+  replaceFile(file, out.view());
+}
+
+void writeTiming(const std::filesystem::path& file, const Timing& timing)
+{
+  using Micro = std::chrono::duration<double, std::micro>;
+  std::ostringstream out;
+  out << "quantity,p50_us,p99_us,p999_us,max_us,ticks,skipped\n";
+  for (const auto& [name, histogram] :
+    { std::pair("lateness", &timing.lateness), std::pair("step", &timing.step) })
+  {
+    out << name << ',';
+    writeCsvRow(out,
+      std::array{ Micro(histogram->quantile(0.5)).count(), Micro(histogram->quantile(0.99)).count(),
+        Micro(histogram->quantile(0.999)).count(), Micro(histogram->longest()).count(),
+        static_cast<double>(timing.ticks.load()), static_cast<double>(timing.skipped.load()) });
+  }
+  replaceFile(file, out.view());
+}
+
+bool exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const Calibration& calibration, const Timing& timing,
+  const std::function<bool(const std::string& found)>& mayReplace)
+{
+  OutputFolder output(
+    directory, { "samples.csv", "deformed.vtp", "servo.csv" }, OutputFolder::Earlier::Replace);
+  if (!output.found().empty() && !mayReplace(output.found()))
+  {
+    return false;
+  }
+  writeSamples(output.stage() / "samples.csv", recording, &calibration);
+  writeDeformed(output.stage() / "deformed.vtp", body, recording, calibration);
+  writeTiming(output.stage() / "servo.csv", timing);
+  output.publish();
+  return true;
+}
+
+} // namespace palp

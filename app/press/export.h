@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/press/body.h"
+#include "app/press/recording.h"
+#include "haptics/servo/timing.h"
+#include "pipeline/deform/dent.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace palp
+{
+
+/// What the deformation filter needs of a sample.
+[[nodiscard]] Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration);
+
+/// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
+/// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.
+///
+/// @param refined  with the triangles of the dent divided as in the picture: between the points of
+///                 the body's own triangles the tool shows through
+/// @throws Error  BadFile: cannot be written
+void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
+  const Calibration& calibration, bool refined = false);
+
+/// Writes the samples into a file; see the other writeSamples.
+/// @throws Error  BadFile: cannot be written
+void writeSamples(
+  const std::filesystem::path& file, const Recording& recording, const Calibration* calibration);
+
+/// Writes how punctual a servo thread was: quantiles of lateness and step time [us], ticks,
+/// skipped.
+///
+/// @throws Error  BadFile: cannot be written
+void writeTiming(const std::filesystem::path& file, const Timing& timing);
+
+/// Writes samples.csv, deformed.vtp and servo.csv into a directory, which is made when it is
+/// missing: all of them or none.
+///
+/// @param mayReplace  asked with their names, as words, where some are there already
+/// @return            false where they may not be replaced
+/// @throws Error      as OutputFolder
+[[nodiscard]] bool exportRecording(const std::filesystem::path& directory, const Body& body,
+  const Recording& recording, const Calibration& calibration, const Timing& timing,
+  const std::function<bool(const std::string& found)>& mayReplace);
+
+} // namespace palp

@@ -1,0 +1,100 @@
+#include "app/press/playback.h"
+
+#include "app/press/surface_point.h"
+#include "haptics/surface/nearest.h"
+#include "haptics/devices/hid/paper_arm.h"
+#include "haptics/error.h"
+#include "haptics/servo/safety.h"
+#include "haptics/servo/servo_step.h"
+
+#include <cmath>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kTicksPerSecond = 1000.0;
+constexpr double kLongest = 3600.0; // [s]
+
+// times of the samples: the millisecond grid from the start, and the end where the grid misses it
+std::vector<double> sampleTimes(const ScriptedPath& path)
+{
+  if (path.duration() > kLongest)
+  {
+    throw Error(ErrorCode::BadValue,
+      "path: it lasts longer than an hour, which is the most, since a sample is kept for each "
+      "millisecond; cut it, or check that its times are seconds");
+  }
+  const double ticks = path.duration() * kTicksPerSecond;
+  const double whole = std::floor(ticks + 1e-6);
+  std::vector<double> times;
+  for (double k = 0.0; k <= whole; ++k)
+  {
+    times.push_back(path.startTime() + k / kTicksPerSecond);
+  }
+  if (ticks - whole > 1e-6)
+  {
+    times.push_back(path.startTime() + path.duration());
+  }
+  return times;
+}
+
+// inward normal where the apex first touches, or comes closest
+Eigen::Vector3d pressingAxis(
+  const Surface& surface, const ScriptedPath& path, const std::vector<double>& times)
+{
+  Nearest best;
+  double closest = std::numeric_limits<double>::infinity();
+  for (const double time : times)
+  {
+    const Eigen::Vector3d apex = path.poseAt(time, -Eigen::Vector3d::UnitZ()).apex;
+    const Nearest nearest = findNearest(surface, apex, std::numeric_limits<double>::infinity());
+    if (nearest.triangle >= 0 && nearest.distance < closest)
+    {
+      best = nearest;
+      closest = nearest.distance;
+    }
+    if (closest <= 0.0)
+    {
+      break;
+    }
+  }
+  return best.triangle >= 0
+    ? Eigen::Vector3d(-surfacePoint(surface, best.triangle, best.point).normal)
+    : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
+}
+
+Sample chainedStep(SafetyChain& chain, const Scene& scene, const ToolPose& pose, double elapsed)
+{
+  const auto admitted = chain.admit(pose, {}, { .armed = true }, elapsed);
+  Sample sample = touch(scene, *admitted); // the pose of a path is finite
+  const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
+  chain.limit(sample, law, scene);
+  return sample;
+}
+
+} // namespace
+
+std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chained)
+{
+  const std::vector<double> times = sampleTimes(path);
+  const Eigen::Vector3d axis = path.hasAxes() || !scene.surface
+    ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ())
+    : pressingAxis(*scene.surface, path, times);
+  std::vector<Sample> samples;
+  samples.reserve(times.size());
+  SafetyChain chain(paperArm());
+  double last = times.front() - 1.0 / kTicksPerSecond;
+  for (const double time : times)
+  {
+    const ToolPose pose = path.poseAt(time, axis);
+    samples.push_back(chained ? chainedStep(chain, scene, pose, time - last) : step(scene, pose));
+    samples.back().time = time;
+    last = time;
+  }
+  return samples;
+}
+
+} // namespace palp

@@ -1,0 +1,135 @@
+#include "app/press/recording.h"
+
+#include "app/input/law_options.h"
+#include "app/input/tip_spec.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/contact/indentation_of.h"
+#include "haptics/force/validity.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <optional>
+#include <ostream>
+
+namespace palp
+{
+
+namespace
+{
+
+void describeRules(std::ostream& out, const Validity& validity)
+{
+  out << "# broken_rules: a sum of the conditions that the place does not meet\n";
+  std::uint32_t bit = 1;
+  for (const Rule& rule : validity(Indentation{}))
+  {
+    out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
+    bit *= 2;
+  }
+}
+
+std::string origin(const Recording& recording)
+{
+  std::string lines = recording.command.empty() ? "" : "# command: " + recording.command + '\n';
+  for (const MeshFile& file : recording.files)
+  {
+    lines += "# felt: " + describe(file) + '\n';
+  }
+  return lines;
+}
+
+} // namespace
+
+const Sample* Recording::deepest() const noexcept
+{
+  return deepestOf(samples);
+}
+
+std::span<const Sample> Recording::lastPress() const noexcept
+{
+  const auto touches = [](const Sample& sample) { return sample.contact.touching(); };
+  const auto end = std::find_if(samples.rbegin(), samples.rend(), touches);
+  const auto begin = std::find_if_not(end, samples.rend(), touches);
+  return { begin.base(), end.base() };
+}
+
+const Sample* deepestOf(std::span<const Sample> samples) noexcept
+{
+  const Sample* deepest = nullptr;
+  for (const Sample& sample : samples)
+  {
+    if (sample.contact.depth > (deepest ? deepest->contact.depth : 0.0))
+    {
+      deepest = &sample;
+    }
+  }
+  return deepest;
+}
+
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration)
+{
+  using units::toMillimetres;
+  const ForceLaw& law = recording.scene.law;
+  out << "# palp " << PALP_VERSION << '\n'
+      << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
+      << origin(recording) << "# device: " << recording.device << '\n'
+      << "# tool: " << describeTip(law.tip()) << '\n'
+      << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
+      << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
+      << "# law: " << describeLaw(law.settings()) << '\n'
+      << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
+      << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
+      << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
+         "and limits; force_x/y/z_N: sent to the device\n"
+      << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
+         "all factors\n";
+  const std::optional<Validity> validity =
+    recording.rated ? std::optional<Validity>(law) : std::nullopt;
+  if (validity)
+  {
+    describeRules(out, *validity);
+  }
+  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
+         "contact_radius_mm,"
+      << (calibration ? "extent_radius_mm," : "")
+      << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
+      << (validity ? ",broken_rules" : "")
+      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
+  for (const Factor& factor : law.factors({}))
+  {
+    out << ",factor_" << factor.name;
+  }
+  out << '\n';
+  std::vector<double> row;
+  for (const Sample& sample : recording.samples)
+  {
+    const Eigen::Vector3d& apex = sample.pose.apex;
+    const Eigen::Vector3d& axis = sample.pose.axis;
+    const Contact& contact = sample.contact;
+    row = { sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()), toMillimetres(apex.z()),
+      toMillimetres(contact.depth), sample.response.force, sample.force.x(), sample.force.y(),
+      sample.force.z(), toMillimetres(sample.response.contactRadius) };
+    if (calibration)
+    {
+      row.push_back(toMillimetres(calibration->extents.extentRadius(contact.depth)));
+    }
+    row.insert(row.end(),
+      { units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
+        contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
+        static_cast<double>(sample.flags) });
+    if (validity)
+    {
+      row.push_back(static_cast<double>(
+        brokenRules((*validity)(indentationOf(contact), contact.edgeDistance))));
+    }
+    row.insert(row.end(),
+      { toMillimetres(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
+    for (const Factor& factor : law.factors(indentationOf(contact)))
+    {
+      row.push_back(factor.value);
+    }
+    writeCsvRow(out, row);
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "app/press/calibration.h"
+#include "app/input/mesh_file.h"
+#include "haptics/servo/sample.h"
+#include "haptics/servo/scene.h"
+
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// Who pressed what, and everything that was measured. Of a tool that rests away from the surface
+/// only the first and the last sample are kept.
+struct Recording
+{
+  std::string mesh;              ///< file name, for people
+  std::string unit;              ///< that its coordinates were read in
+  std::string device;            ///< hand, mouse, path:NAME
+  std::vector<MeshFile> files{}; ///< that were felt
+  std::string command{};         ///< see commandLine
+  Scene scene;
+  std::vector<Sample> samples;
+  bool rated = true; ///< how far each sample may be believed is told, too
+
+  /// The first sample of the largest depth; nothing when the tool never touched.
+  [[nodiscard]] const Sample* deepest() const noexcept;
+
+  /// The samples of the last contact without a gap; the present one, where the tool touches.
+  [[nodiscard]] std::span<const Sample> lastPress() const noexcept;
+};
+
+/// The first sample of the largest depth; null where none touches.
+[[nodiscard]] const Sample* deepestOf(std::span<const Sample> samples) noexcept;
+
+/// Writes samples.csv: a header of comment lines, the column names with units, one row per sample.
+///
+/// Each row tells what its force was computed from: the place (thickness, infinite where there is
+/// none below; mean curvature, convex positive, and half the difference of the principal ones) and
+/// the factors of the law there, by which force_N is the product of the paper's force and theirs.
+/// A tip without a paper's law begins with its exact one.
+///
+/// The same recording gives the same bytes: no date, no host.
+///
+/// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when apart; null: no such
+/// column
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration);
+
+} // namespace palp

@@ -1,0 +1,83 @@
+#include "app/program/interrupt.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <pthread.h>
+#include <unistd.h>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kWake = SIGURG; // does nothing by default
+constexpr timespec kPatience{ .tv_sec = 1, .tv_nsec = 500'000'000 };
+constexpr int kNoSolution = 5; // exit code
+
+} // namespace
+
+Interrupt::Interrupt()
+  : Interrupt(nullptr)
+{
+}
+
+Interrupt::Interrupt(std::function<void()> last)
+  : last_(std::move(last))
+{
+  sigemptyset(&signals_);
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  sigaddset(&signals_, kWake);
+  struct sigaction hangup = {};
+  if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN)
+  {
+    sigaddset(&signals_, SIGHUP); // else nohup
+  }
+  pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  listener_ = std::jthread(
+    [this](const std::stop_token& finished)
+    {
+      while (!finished.stop_requested())
+      {
+        const int signal = sigwaitinfo(&signals_, nullptr);
+        if (signal <= 0 || signal == kWake)
+        {
+          continue;
+        }
+        if (!last_)
+        {
+          source_.request_stop();
+          if (sentence_ != nullptr)
+          {
+            (void)sigtimedwait(&signals_, nullptr, &kPatience);
+            endUnless(finished.stop_requested());
+          }
+          continue;
+        }
+        last_();
+        std::signal(signal, SIG_DFL); // a shell ignores Ctrl-C for what runs in the background
+        kill(getpid(), signal);
+        pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); // ends the program
+      }
+    });
+}
+
+void Interrupt::endUnless(bool stopped) const
+{
+  if (!stopped)
+  {
+    std::fprintf(stderr, "\npalp: %s\n", sentence_.load());
+    std::_Exit(kNoSolution);
+  }
+}
+
+Interrupt::~Interrupt()
+{
+  listener_.request_stop();
+  pthread_kill(listener_.native_handle(), kWake);
+  listener_.join(); // before the signals act again
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+} // namespace palp

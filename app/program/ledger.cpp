@@ -1,0 +1,206 @@
+#include "app/program/ledger.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <string_view>
+#include <unistd.h>
+
+namespace palp
+{
+namespace
+{
+
+double steadyTime()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// since boot, as the kernel counts the start of a process
+double sinceStart()
+{
+  std::ifstream file("/proc/self/stat");
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  std::string field;
+  constexpr int kStartTime = 20; // field 22 of the line, counted after the name in brackets
+  for (int i = 0; i < kStartTime; ++i)
+  {
+    fields >> field;
+  }
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  const double ticks = std::strtod(field.c_str(), nullptr);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) -
+    ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+void readStatus(Footprint& print)
+{
+  constexpr double kKib = 1024.0;
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);)
+  {
+    const auto value = [&] { return std::strtod(line.c_str() + line.find(':') + 1, nullptr); };
+    if (line.starts_with("VmHWM:"))
+    {
+      print.peak = kKib * value();
+    }
+    else if (line.starts_with("VmRSS:"))
+    {
+      print.memory = kKib * value();
+    }
+    else if (line.starts_with("Threads:"))
+    {
+      print.threads = static_cast<int>(value());
+    }
+  }
+}
+
+void readMaps(Footprint& print)
+{
+  std::ifstream file("/proc/self/maps");
+  for (std::string line; std::getline(file, line);)
+  {
+    const std::string name = line.substr(std::min(line.rfind('/') + 1, line.size()));
+    if (name.find(".so") != std::string::npos)
+    {
+      print.libraries.push_back(name);
+    }
+  }
+  std::sort(print.libraries.begin(), print.libraries.end());
+  print.libraries.erase(
+    std::unique(print.libraries.begin(), print.libraries.end()), print.libraries.end());
+}
+
+struct Family
+{
+  const char* name;
+  std::vector<std::string_view> parts; // of file names
+};
+
+const std::array<Family, 4> kFamilies{
+  Family{ "Qt", { "libQt" } },
+  Family{ "X11/GL", { "libX11", "libxcb", "libGL", "libEGL", "libOpenGL", "libgallium" } },
+  Family{ "USB", { "libusb", "libhidapi" } },
+  Family{ "VTK", { "libvtk" } },
+};
+
+std::string families(const std::vector<std::string>& libraries)
+{
+  std::ostringstream text;
+  for (const Family& family : kFamilies)
+  {
+    const auto belongs = [&](const std::string& library)
+    {
+      return std::any_of(family.parts.begin(), family.parts.end(),
+        [&](std::string_view part) { return library.starts_with(part); });
+    };
+    text << (text.tellp() == 0 ? "" : ", ") << family.name << ' '
+         << std::count_if(libraries.begin(), libraries.end(), belongs);
+  }
+  return text.str();
+}
+
+double megabytes(double bytes)
+{
+  return bytes / 1e6;
+}
+
+double milliseconds(double seconds)
+{
+  return 1e3 * seconds;
+}
+
+} // namespace
+
+Footprint footprint()
+{
+  Footprint print;
+  print.sinceStart = sinceStart();
+  readStatus(print);
+  readMaps(print);
+  return print;
+}
+
+Ledger::Ledger(bool told)
+  : told_(told)
+{
+  if (told_)
+  {
+    const Footprint now = footprint();
+    built_.push_back({ "program", "every scene needs it", now.sinceStart, now.memory, now.threads,
+      now.libraries.size() });
+  }
+}
+
+Ledger::Booking::Booking(Ledger& ledger, const char* part, const char* why)
+  : ledger_(ledger)
+  , entry_{ .part = part, .why = why }
+{
+  if (ledger_.told_)
+  {
+    before_ = footprint();
+    begin_ = steadyTime();
+  }
+}
+
+Ledger::Booking::~Booking()
+{
+  if (ledger_.told_)
+  {
+    entry_.time = steadyTime() - begin_;
+    const Footprint after = footprint();
+    entry_.memory = after.memory - before_.memory;
+    entry_.threads = after.threads - before_.threads;
+    entry_.libraries = after.libraries.size() - before_.libraries.size();
+    ledger_.built_.push_back(entry_);
+  }
+}
+
+void Ledger::leaveOut(const char* part, const char* why, bool leftOut)
+{
+  if (leftOut)
+  {
+    leftOut_.emplace_back(part, why);
+  }
+}
+
+void Ledger::write(std::ostream& out) const
+{
+  constexpr int kName = 22;
+  constexpr int kNumber = 11;
+  std::ostringstream text;
+  text << std::fixed << std::left << std::setw(kName) << "built" << std::right;
+  for (const char* column : { "time_ms", "memory_MB", "threads", "libraries" })
+  {
+    text << std::setw(kNumber) << column;
+  }
+  text << "  why\n";
+  for (const Entry& entry : built_)
+  {
+    text << std::left << std::setw(kName) << entry.part << std::right << std::setprecision(1)
+         << std::setw(kNumber) << milliseconds(entry.time) << std::setw(kNumber)
+         << megabytes(entry.memory) << std::setw(kNumber) << entry.threads << std::setw(kNumber)
+         << entry.libraries << "  " << entry.why << '\n';
+  }
+  text << '\n'
+       << std::left << std::setw(kName) << "left out"
+       << "why\n";
+  for (const auto& [part, why] : leftOut_)
+  {
+    text << std::left << std::setw(kName) << part << why << '\n';
+  }
+  const Footprint now = footprint();
+  text << "\ntotal: " << milliseconds(now.sinceStart) << " ms, peak memory " << megabytes(now.peak)
+       << " MB, threads " << now.threads << ", libraries " << now.libraries.size() << " ("
+       << families(now.libraries) << ")\n";
+  out << text.str();
+}
+
+} // namespace palp

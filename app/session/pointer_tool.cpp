@@ -1,0 +1,152 @@
+#include "app/session/pointer_tool.h"
+
+#include "haptics/surface/nearest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palp
+{
+
+PointerTool::PointerTool(std::function<SightLine(double, double)> view)
+  : view_(std::move(view))
+{
+}
+
+void PointerTool::setSurface(std::shared_ptr<const Surface> surface)
+{
+  surface_ = std::move(surface);
+  letGo();
+  place_.reset();
+  last_.reset();
+}
+
+std::optional<SurfacePoint> PointerTool::below(const Pixel& pixel) const
+{
+  if (!surface_)
+  {
+    return std::nullopt;
+  }
+  const SightLine line = view_(pixel.x, pixel.y);
+  return pick(*surface_, line.origin, line.direction);
+}
+
+// between two events: motion comes merged, the more so the slower the machine
+bool PointerTool::leftSurface(const Pixel& to) const
+{
+  constexpr double kStep = 4.0;   // [pixels]
+  constexpr double kMost = 500.0; // steps
+  const Pixel from = last_.value_or(to);
+  const double steps =
+    std::clamp(std::ceil(std::hypot(to.x - from.x, to.y - from.y) / kStep), 1.0, kMost);
+  for (double i = 1.0; i <= steps; ++i)
+  {
+    const double share = i / steps;
+    if (!below({ from.x + share * (to.x - from.x), from.y + share * (to.y - from.y) }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void PointerTool::moveTo(const SurfacePoint& place)
+{
+  place_ = place;
+  deepest_ = std::min(kDeepest, 0.5 * distanceToFarSide(*surface_, place.position, -place.normal));
+}
+
+void PointerTool::hover(int x, int y)
+{
+  const Pixel pixel{ static_cast<double>(x), static_cast<double>(y) };
+  if (held_ > 0.0 && leftSurface(pixel))
+  {
+    letGo();
+  }
+  last_ = pixel;
+  const bool isClick = pressed_ > 0.0; // still shown, at its own place
+  if (const auto place = below(pixel); place && !isClick)
+  {
+    moveTo(*place);
+  }
+}
+
+void PointerTool::press(int x, int y, double time)
+{
+  pressed_ = 0.0;
+  hover(x, y);
+  if (below(*last_))
+  {
+    pressing_ = true;
+    pressedAt_ = time;
+    from_ = std::max(held_, kTouch);
+    pressed_ = from_;
+  }
+}
+
+void PointerTool::drag(int pixelsDown)
+{
+  if (pressing_)
+  {
+    pressed_ = std::max(0.0, from_ + pixelsDown * kDepthPerPixel);
+  }
+}
+
+void PointerTool::release(double time)
+{
+  if (pressed_ != from_)
+  {
+    pressed_ = 0.0;
+  }
+  pressing_ = false;
+  last_.reset(); // the drag was no way over the surface
+  update(time);
+}
+
+void PointerTool::wheel(int notches)
+{
+  if (!place_)
+  {
+    return;
+  }
+  double& depth = pressing_ ? pressed_ : held_;
+  const double before = std::min(depth, deepest_);
+  depth = std::clamp(before + notches * kDepthPerNotch, 0.0, deepest_);
+  from_ += depth - before; // of a drag that goes on
+}
+
+void PointerTool::turnView()
+{
+  last_.reset();
+}
+
+void PointerTool::letGo()
+{
+  pressing_ = false;
+  held_ = 0.0;
+  pressed_ = 0.0;
+  last_.reset();
+}
+
+void PointerTool::update(double time)
+{
+  if (!pressing_ && time - pressedAt_ >= kShortest)
+  {
+    pressed_ = 0.0;
+  }
+}
+
+std::optional<PressTarget> PointerTool::target() const
+{
+  if (!place_)
+  {
+    return std::nullopt;
+  }
+  const double wanted = pressing_ || pressed_ > 0.0 ? pressed_ : held_;
+  return PressTarget{
+    .place = place_->position, .normal = place_->normal, .depth = std::min(wanted, deepest_)
+  };
+}
+
+} // namespace palp

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "app/press/surface_point.h"
+#include "haptics/devices/simulated/guided_tool.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace palp
+{
+
+/// A line of sight through a pixel.
+struct SightLine
+{
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();     ///< [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit vector
+};
+
+/// The mouse pointer as a tool: what its events ask of the tool, without a screen.
+///
+/// The tool hovers where the pointer is. The left button presses there, at first visibly but
+/// lightly; dragging down goes deeper. A click is shown for a moment after its button is up. The
+/// wheel holds a depth while the pointer slides over the surface. A pointer that leaves the surface
+/// lets go of it, also where no event tells of the gap between two places. No depth is beyond half
+/// of the body's thickness below the place.
+class PointerTool
+{
+public:
+  static constexpr double kTouch = 1e-3;            ///< of a button that went down [m]
+  static constexpr double kDepthPerPixel = 0.05e-3; ///< of a drag [m]
+  static constexpr double kDepthPerNotch = 0.5e-3;  ///< of the wheel [m]
+  static constexpr double kDeepest = 0.05;          ///< that is ever asked for [m]
+  static constexpr double kShortest = 0.3;          ///< that a press is asked for [s]
+
+  /// @param view  the line of sight through a pixel, as the camera is now
+  explicit PointerTool(std::function<SightLine(double x, double y)> view);
+
+  /// Another body: the tool stays where it is until the pointer is over it.
+  void setSurface(std::shared_ptr<const Surface> surface);
+
+  // Events; x, y in pixels, time in seconds since any moment.
+
+  void hover(int x, int y);
+  void press(int x, int y, double time);
+  void drag(int pixelsDown);
+  void release(double time);
+  void wheel(int notches);
+
+  /// The view turned below the pointer: nothing is known of the way to its next place.
+  void turnView();
+
+  /// Ends each press: Escape, another window, a pointer that is no longer in the view.
+  void letGo();
+
+  /// Ends a click that was shown long enough.
+  void update(double time);
+
+  /// Nothing until the pointer has been over the body.
+  [[nodiscard]] std::optional<PressTarget> target() const;
+
+private:
+  struct Pixel
+  {
+    double x;
+    double y;
+  };
+
+  [[nodiscard]] std::optional<SurfacePoint> below(const Pixel& pixel) const;
+  [[nodiscard]] bool leftSurface(const Pixel& to) const;
+  void moveTo(const SurfacePoint& place);
+
+  std::function<SightLine(double, double)> view_;
+  std::shared_ptr<const Surface> surface_;
+  std::optional<SurfacePoint> place_; // of the tool
+  std::optional<Pixel> last_;         // of a pointer that moved with no button down
+  double deepest_ = kDeepest;         // at the place [m]
+  double held_ = 0.0;                 // by the wheel [m]
+  double pressed_ = 0.0;              // by the button [m]
+  double from_ = 0.0;                 // depth that the drag started from [m]
+  bool pressing_ = false;             // the button is down
+  double pressedAt_ = 0.0;            // [s]
+};
+
+} // namespace palp

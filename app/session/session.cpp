@@ -1,0 +1,314 @@
+#include "app/session/session.h"
+
+#include "app/session/device_words.h"
+#include "app/program/ledger.h"
+#include "app/program/sibling.h"
+#include "haptics/devices/simulated/pointer.h"
+#include "haptics/devices/simulated/scripted_device.h"
+#include "haptics/devices/simulated/simulated_hand.h"
+#include "haptics/devices/usb/found_device.h"
+#include "haptics/devices/usb/open_device.h"
+#include "haptics/error.h"
+#include "haptics/servo/safety.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vtkPolyData.h>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::size_t kKept = 600'000; // samples, ten minutes
+constexpr double kForgiving = 0.05;    // until the servo has heard of an order, at the latest [s]
+
+// a tool that nobody moves, away from the surface
+bool restsAt(const Sample& before, const Sample& now)
+{
+  constexpr double kLength = 1e-7; // [m], less than any device tells
+  constexpr double kAngle = 1e-6;  // [rad]
+  const bool touches = before.contact.touching() || now.contact.touching();
+  return !touches && before.force.isZero() && now.force.isZero() && before.flags == now.flags &&
+    before.state == now.state && (before.pose.apex - now.pose.apex).norm() < kLength &&
+    (before.pose.axis - now.pose.axis).norm() < kAngle;
+}
+
+// what is recorded of a press that has not begun
+Recording startOf(const ScenePlan& plan, const Body& body, Ledger& ledger)
+{
+  Recording recording;
+  recording.mesh = body.name;
+  recording.unit = body.unit;
+  recording.files = body.files;
+  recording.command = commandLine();
+  recording.rated = plan.validity;
+  recording.scene.surface = body.haptic;
+  recording.scene.rule = plan.press.rule();
+  recording.scene.damping = plan.press.dampingSi();
+  recording.scene.law =
+    ledger.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
+  return recording;
+}
+
+} // namespace
+
+Session::Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop)
+  : plan_(std::move(plan))
+  , servoOptions_{ .history = plan_.records(), .deadMan = plan_.deadMan, .stop = stop }
+  , body_(ledger.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
+  , recording_(startOf(plan_, body_, ledger))
+  , calibration_(ledger.build("calibration", "how far the surface gives way",
+      [&] { return loadCalibration(plan_.press, recording_.scene.law); }))
+{
+  ledger.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
+}
+
+void Session::open(const MeshSource& source)
+{
+  Body old = std::exchange(body_, loadBody({ source }));
+  const std::string device = recording_.device;
+  std::unique_ptr<Device> holder;
+  try
+  {
+    holder = makeDevice(device);
+  }
+  catch (...)
+  {
+    body_ = std::move(old);
+    keepHolding();
+    throw;
+  }
+  endRecording(old);
+  recording_.mesh = body_.name;
+  recording_.unit = body_.unit;
+  recording_.files = body_.files;
+  recording_.scene.surface = body_.haptic;
+  ++recording_.scene.version;
+  useDevice(device, std::move(holder));
+}
+
+void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
+{
+  Calibration calibration = loadCalibration(plan_.press, law); // may throw
+  endRecording(body_);
+  calibration_ = std::move(calibration);
+  recording_.scene.law = law;
+  recording_.scene.rule = rule;
+  recording_.scene.damping = damping;
+  ++recording_.scene.version;
+  if (guided_ != nullptr)
+  {
+    guided_->setScene(recording_.scene);
+  }
+  servo_->setScene(recording_.scene);
+  recordedFrom_ = servo_->newest().time + kForgiving;
+}
+
+ToolPose Session::restingPlace() const
+{
+  // above the highest point of the body, pointing down
+  const auto points = body_.haptic->points();
+  const auto highest = std::max_element(points.begin(), points.end(),
+    [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); });
+  return { .apex = *highest + kClearance * Eigen::Vector3d::UnitZ(),
+    .axis = -Eigen::Vector3d::UnitZ() };
+}
+
+std::unique_ptr<Device> Session::makeDevice(const std::string& name)
+{
+  if (name == "mouse")
+  {
+    return std::make_unique<Pointer>(restingPlace());
+  }
+  if (name == "hand")
+  {
+    return std::make_unique<SimulatedHand>(restingPlace());
+  }
+  if (isScripted(name))
+  {
+    return std::make_unique<ScriptedDevice>(readScript(name));
+  }
+  if (namesHardware(name))
+  {
+    if (name == recording_.device)
+    {
+      servo_.reset();
+      device_.reset();
+    }
+    return openDevice(name, { .origin = restingPlace().apex });
+  }
+  throw Error(ErrorCode::BadValue,
+    "--device: '" + name +
+      "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, spacemouse, "
+      "falcon, wooden:PATH or phd1:PATH");
+}
+
+void Session::useDevice(const std::string& name)
+{
+  try
+  {
+    useDevice(name, makeDevice(name));
+  }
+  catch (...)
+  {
+    keepHolding();
+    throw;
+  }
+}
+
+// hardware can be opened once only: what is open must be let go of before it is opened again, and
+// where that fails the mouse takes the tool
+void Session::keepHolding()
+{
+  if (!device_)
+  {
+    useDevice("mouse");
+  }
+}
+
+void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
+{
+  endRecording(body_);
+  servo_.reset(); // stops before its device goes
+  device_ = std::move(device);
+  guided_ = device_->guided();
+  recording_.device = name;
+  recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
+  armedAt_ = 0.0;
+  recordedFrom_ = 0.0;
+  if (guided_ != nullptr)
+  {
+    guided_->setScene(recording_.scene);
+  }
+  servo_ = std::make_unique<Servo>(*device_, recording_.scene, servoOptions_);
+}
+
+std::vector<std::string> Session::devices()
+{
+  std::vector<std::string> names{ "mouse", "hand" };
+  for (const FoundDevice& found : findDevices())
+  {
+    if (found.hurdle.empty())
+    {
+      std::ranges::copy(namesOf(found), std::back_inserter(names));
+    }
+  }
+  return names;
+}
+
+void Session::arm(bool armed)
+{
+  recording_.scene.armed = armed;
+  armedAt_ = servo_->newest().time + kForgiving;
+  servo_->setScene(recording_.scene);
+}
+
+double Session::stableStiffness() const
+{
+  return rendersForce() ? SafetyChain(device_->limits()).stiffnessLimit(recording_.scene.damping)
+                        : std::numeric_limits<double>::infinity();
+}
+
+double Session::largestForce() const
+{
+  return rendersForce() ? std::min(recording_.scene.forceLimit, device_->limits().maxForce)
+                        : recording_.scene.forceLimit;
+}
+
+void Session::stop(bool stopped)
+{
+  if (!rendersForce())
+  {
+    return; // nothing to stop, and nobody could take it back
+  }
+  servo_->setEmergencyStop(stopped);
+  if (stopped)
+  {
+    arm(false);
+  }
+}
+
+void Session::aim(const PressTarget& target)
+{
+  if (guided_ != nullptr)
+  {
+    guided_->moveTo(target);
+  }
+}
+
+void Session::update(const std::function<void(const Sample&)>& each)
+{
+  servo_->history().drain(
+    [&](const Sample& sample)
+    {
+      if (sample.time >= recordedFrom_)
+      {
+        record(sample, each);
+      }
+    });
+  if (armed() && newest().time > armedAt_ && isFault(newest().state, newest().flags))
+  {
+    arm(false);
+  }
+  // a minute at a time, so that moving the rest is rare
+  constexpr std::size_t kMinute = kKept / 10;
+  std::vector<Sample>& kept = recording_.samples;
+  if (kept.size() > kKept + kMinute)
+  {
+    kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(kKept));
+  }
+  boundEarlier();
+}
+
+// of a rest the first sample and the last, so that curves go level between them
+void Session::record(const Sample& sample, const std::function<void(const Sample&)>& each)
+{
+  std::vector<Sample>& kept = recording_.samples;
+  if (!kept.empty() && restsAt(kept.back(), sample))
+  {
+    resting_ = sample;
+    return;
+  }
+  if (resting_)
+  {
+    kept.push_back(*resting_);
+    each(kept.back());
+    resting_.reset();
+  }
+  kept.push_back(sample);
+  each(sample);
+}
+
+void Session::endRecording(const Body& body)
+{
+  if (servo_)
+  {
+    update([](const Sample&) {});
+  }
+  if (recording_.deepest())
+  {
+    std::vector<Sample> samples = std::exchange(recording_.samples, {});
+    earlier_.push_back({ body, recording_, calibration_ });
+    earlier_.back().recording.samples = std::move(samples);
+  }
+  recording_.samples.clear();
+  resting_.reset();
+}
+
+void Session::boundEarlier()
+{
+  const auto samples = [this]
+  {
+    return std::accumulate(earlier_.begin(), earlier_.end(), recording_.samples.size(),
+      [](std::size_t sum, const Take& take) { return sum + take.recording.samples.size(); });
+  };
+  while (!earlier_.empty() && samples() > kKept)
+  {
+    earlier_.erase(earlier_.begin());
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,152 @@
+#pragma once
+
+#include "app/press/body.h"
+#include "app/press/calibration.h"
+#include "app/press/recording.h"
+#include "app/input/scene_plan.h"
+#include "haptics/devices/device.h"
+#include "haptics/devices/simulated/guided_tool.h"
+#include "haptics/servo/servo.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+class Ledger;
+
+/// A live press: body, tissue, the device that holds the tool, the servo thread, the recording.
+///
+/// The only writer of the scene. Main thread only.
+class Session
+{
+public:
+  static constexpr double kClearance = 0.015; ///< of a hovering tool above the surface [m]
+
+  /// @param stop    an emergency stop for signal handlers; outlives this object, or null
+  /// @throws Error  as loadBody, loadCalibration, useDevice
+  Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop = nullptr);
+
+  /// What it was made of at the start.
+  [[nodiscard]] const ScenePlan& plan() const noexcept
+  {
+    return plan_;
+  }
+
+  /// Replaces the body; tissue and device stay.
+  /// @throws Error  BadFile, BadMesh, or as useDevice; the old body then stays
+  void open(const MeshSource& source);
+
+  /// A recording begins, as its header tells of one tool and tissue; see earlier().
+  /// @throws Error  as loadCalibration; everything then stays
+  void setTissue(const ForceLaw& law, ContactRule rule, double damping);
+
+  /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; a recording begins.
+  /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays, or, where it was asked
+  ///                for again and is gone, the mouse takes its place
+  void useDevice(const std::string& name);
+
+  /// The same with a device of the caller's.
+  void useDevice(const std::string& name, std::unique_ptr<Device> device);
+
+  /// Names that useDevice takes: of the devices that move by themselves only those that are there
+  /// and may be used.
+  [[nodiscard]] static std::vector<std::string> devices();
+
+  /// Whether the user wants to feel force; off for every device but a simulated hand until asked.
+  /// A fault takes the wish back.
+  void arm(bool armed);
+
+  /// Zero force at once and until taken back; then the device must be armed again.
+  void stop(bool stopped);
+
+  /// False for devices that no hand can feel.
+  [[nodiscard]] bool rendersForce() const
+  {
+    return device_->limits().rendersForce;
+  }
+  /// What the device can render without trembling [N/m]; infinite where no hand can feel it.
+  [[nodiscard]] double stableStiffness() const;
+  /// Beyond it a force is shortened [N].
+  [[nodiscard]] double largestForce() const;
+  [[nodiscard]] bool armed() const noexcept
+  {
+    return recording_.scene.armed;
+  }
+
+  /// Moves the tool of mouse and hand; other devices move themselves.
+  void aim(const PressTarget& target);
+
+  /// Fetches what the servo thread did since the last call.
+  /// @param each  called for each new sample, in order
+  void update(const std::function<void(const Sample&)>& each);
+
+  [[nodiscard]] const Sample& newest() noexcept
+  {
+    return servo_->newest();
+  }
+  [[nodiscard]] const Timing& timing() const noexcept
+  {
+    return servo_->timing();
+  }
+  [[nodiscard]] const std::string& schedule() const noexcept
+  {
+    return servo_->schedule();
+  }
+  [[nodiscard]] const Body& body() const noexcept
+  {
+    return body_;
+  }
+  [[nodiscard]] const Calibration& calibration() const noexcept
+  {
+    return calibration_;
+  }
+
+  /// The last ten minutes; without samples where the plan has no curves to draw of them.
+  [[nodiscard]] const Recording& recording() const noexcept
+  {
+    return recording_;
+  }
+
+  /// A recording that another body, tool, tissue or device ended, with what it was made on.
+  struct Take
+  {
+    Body body;
+    Recording recording;
+    Calibration calibration;
+  };
+
+  /// Those with a press in them, oldest first; of all samples kept the newest ten minutes.
+  [[nodiscard]] const std::vector<Take>& earlier() const noexcept
+  {
+    return earlier_;
+  }
+
+private:
+  void record(const Sample& sample, const std::function<void(const Sample&)>& each);
+  void endRecording(const Body& body);
+  void boundEarlier();
+  [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);
+  void keepHolding();
+  [[nodiscard]] ToolPose restingPlace() const;
+
+  ScenePlan plan_;
+  ServoOptions servoOptions_;
+  Body body_;
+  Recording recording_; // its scene is the one that the servo thread has
+  Calibration calibration_;
+  double armedAt_ = 0.0;          // time of the servo from which on a fault is a new one [s]
+  double recordedFrom_ = 0.0;     // and from which on a sample is of the tool and tissue in use [s]
+  std::optional<Sample> resting_; // the last that was like the one recorded before it
+  std::vector<Take> earlier_;
+  std::unique_ptr<Device> device_;
+  GuidedTool* guided_ = nullptr; // of the device; null where it moves by itself
+  std::unique_ptr<Servo> servo_; // last: it uses the device
+};
+
+} // namespace palp

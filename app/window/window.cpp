@@ -1,0 +1,296 @@
+#include "app/window/window.h"
+
+#include "app/panels/device_panel.h"
+#include "app/program/ledger.h"
+#include "app/panels/plot_panel.h"
+#include "app/panels/reliance_panel.h"
+#include "app/panels/tissue_panel.h"
+#include "app/window/vtkPalpPressStyle.h"
+#include "haptics/contact/indentation_of.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkContextScene.h>
+#include <vtkContextView.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <QLabel>
+#include <QMessageBox>
+#include <QScreen>
+#include <QStatusBar>
+#include <QTimer>
+
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kFrameMs = 16;    // the picture
+constexpr int kPlotMs = 100;    // the curves, which cost more and need less
+constexpr int kTimingMs = 1000; // what always changes a little, and draws the window anew
+
+// whether nobody could tell their pictures apart
+bool looksAlike(const Sample& a, const Sample& b)
+{
+  constexpr double kLength = 1e-6; // [m]
+  constexpr double kAngle = 1e-4;  // [rad]
+  constexpr double kForce = 1e-3;  // [N]
+  const bool near = (a.pose.apex - b.pose.apex).norm() < kLength &&
+    (a.pose.axis - b.pose.axis).norm() < kAngle &&
+    (a.contact.normal - b.contact.normal).norm() < kAngle;
+  return near && std::abs(a.contact.depth - b.contact.depth) < kLength &&
+    std::abs(a.response.force - b.response.force) < kForce && (a.force - b.force).norm() < kForce;
+}
+
+} // namespace
+
+Window::Window(Session& session, Ledger& ledger)
+  : session_(session)
+  , view_(*renderer_)
+  , pointer_([this](double x, double y) { return sightLine(x, y); })
+  , validity_(session.recording().scene.law)
+{
+  constexpr QSize kFrame{ 16, 48 }; // about what a title bar and borders take
+  resize(QSize(1440, 860).boundedTo(screen()->availableSize() - kFrame));
+  ledger.build("3-D view", "the window shows the surface", [&] { makeView(); });
+  ledger.build("panels, menus", "tool, tissue and device can be changed",
+    [&]
+    {
+      makeDocks();
+      makeFileMenu();
+      makeDeviceMenu();
+      makeViewMenu();
+    });
+  if (session_.plan().records())
+  {
+    ledger.build("plots", "named in the scene", [&] { makeCharts(); });
+  }
+  showBody();
+  applyTissue();
+
+  auto* frames = new QTimer(this);
+  connect(frames, &QTimer::timeout, this, &Window::refresh);
+  frames->start(kFrameMs);
+  auto* plots = new QTimer(this);
+  connect(plots, &QTimer::timeout, this, &Window::refreshPanels);
+  plots->start(kPlotMs);
+  auto* timing = new QTimer(this);
+  connect(timing, &QTimer::timeout, this, &Window::refreshTiming);
+  timing->start(kTimingMs);
+}
+
+Window::~Window() = default;
+
+void Window::showBody()
+{
+  setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
+  view_.setSurface(session_.body().display);
+  pointer_.setSurface(session_.body().haptic);
+  fittedTo_ = std::pair(0, 0);
+  isStale_ = true;
+}
+
+void Window::takeSamples()
+{
+  session_.update(
+    [this](const Sample& sample)
+    {
+      acting_ |= sample.flags;
+      chartsAreStale_ = true;
+      if (charts_)
+      {
+        charts_->add(sample);
+      }
+    });
+}
+
+void Window::clearCharts()
+{
+  if (charts_)
+  {
+    charts_->clear();
+  }
+  chartsAreStale_ = true;
+}
+
+void Window::refresh()
+{
+  takeSamples();
+  aim(); // a click ends by itself
+  fitView();
+  const Sample& sample = session_.newest();
+  shown_.flags = sample.flags;
+  shown_.state = sample.state;
+  if (isStale_ || !looksAlike(sample, shown_))
+  {
+    shown_ = sample;
+    isStale_ = false;
+    chartsAreStale_ = true; // the section
+    view_.show(shown_);
+    renderWindow_->Render();
+    showReadings();
+  }
+}
+
+// all of the body, until the user looks at it in another way
+void Window::fitView()
+{
+  const int* size = renderWindow_->GetSize();
+  if (fittedTo_ && *fittedTo_ != std::pair(size[0], size[1]))
+  {
+    fittedTo_ = std::pair(size[0], size[1]);
+    view_.lookAtSurface();
+    isStale_ = true;
+  }
+}
+
+void Window::keepView()
+{
+  fittedTo_.reset();
+}
+
+// all that tells of the press is of the one sample that the picture shows
+void Window::showReadings()
+{
+  devicePanel_->show(session_, shown_, acted_ | shown_.flags);
+  if (reliance_)
+  {
+    showReliance(shown_);
+  }
+  const Contact& contact = shown_.contact;
+  forceLabel_->setText(!contact.touching()
+      ? tr(kHint)
+      : tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
+          .arg(shown_.response.force, 0, 'f', 2)
+          .arg(units::toMillimetres(contact.depth), 0, 'f', 1)
+          .arg(units::toNewtonsPerMillimetre(shown_.response.stiffness), 0, 'f', 2) +
+        (session_.calibration().covers(contact.depth) ? QString() : tr("    R_d estimated")));
+}
+
+void Window::refreshPanels()
+{
+  acted_ = std::exchange(acting_, 0);
+  showReadings();
+  if (std::exchange(chartsAreStale_, false))
+  {
+    refreshCharts();
+  }
+}
+
+void Window::refreshTiming()
+{
+  const Timing& timing = session_.timing();
+  if (reliance_)
+  {
+    reliance_->showTiming(timing, session_.schedule());
+  }
+  const auto ticks = timing.ticks.load();
+  const auto late = timing.skipped.load();
+  const double elapsed = static_cast<double>(ticks + late);
+  servoLabel_->setText(
+    tr("servo %1 Hz    late ticks %2")
+      .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
+      .arg(late));
+}
+
+void Window::refreshCharts()
+{
+  if (charts_)
+  {
+    charts_->refresh();
+    for (vtkContextView* view : { timeView_.Get(), depthView_.Get() })
+    {
+      if (view->GetScene()->GetNumberOfItems() > 0)
+      {
+        view->GetRenderWindow()->Render();
+      }
+    }
+  }
+  if (plots_)
+  {
+    plots_->refresh();
+  }
+}
+
+void Window::showReliance(const Sample& sample)
+{
+  const Contact& contact = sample.contact;
+  if (contact.touching())
+  {
+    reliance_->showRules(validity_(indentationOf(contact), contact.edgeDistance));
+  }
+  else
+  {
+    reliance_->showNoContact();
+  }
+}
+
+void Window::applyTissue()
+{
+  attempt(
+    [this]
+    {
+      const ForceLaw law = panel_->law();
+      takeSamples();
+      session_.setTissue(law, panel_->rule(), panel_->damping());
+      validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
+      view_.setTip(law.tip());
+      view_.setLaw(law);
+      view_.setExtents(session_.calibration().extents);
+      view_.setStyle(session_.calibration().style);
+      if (charts_)
+      {
+        charts_->setLaw(law);
+      }
+      clearCharts(); // as the recording
+      sayWhatIsKept();
+      isStale_ = true;
+      forceLabel_->setToolTip(QString::fromStdString(session_.calibration().note));
+    });
+  panel_->setScene(session_.recording().scene); // what was refused is not in use
+}
+
+// a change ends a recording
+void Window::sayWhatIsKept()
+{
+  const std::size_t takes = session_.earlier().size();
+  if (takes > takesKept_)
+  {
+    const std::vector<Sample>& samples = session_.earlier().back().recording.samples;
+    say(tr("A new recording begins. The one before, %1 s, is kept: Export data writes it, too")
+          .arg(samples.back().time - samples.front().time, 0, 'f', 1));
+  }
+  takesKept_ = takes;
+}
+
+void Window::applyDevice(const QString& name)
+{
+  if (name == tr(kScan))
+  {
+    offerDevices();
+    return;
+  }
+  attempt([&] { session_.useDevice(name.toStdString()); });
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  applyTissue(); // what is stable depends on the device
+}
+
+bool Window::attempt(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+    return true;
+  }
+  catch (const std::exception& error)
+  {
+    QMessageBox::warning(this, tr("Palp"), QString::fromStdString(error.what()));
+    return false;
+  }
+}
+
+} // namespace palp

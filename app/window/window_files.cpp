@@ -1,0 +1,184 @@
+// What the window reads and writes, and says of it.
+
+#include "app/panels/device_panel.h"
+#include "app/press/export.h"
+#include "app/panels/open_dialog.h"
+#include "app/panels/plot_panel.h"
+#include "app/window/window.h"
+#include "haptics/files/replace_file.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+
+#include <QFileDialog>
+#include <QImage>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QStatusBar>
+
+namespace palp
+{
+
+void Window::makeFileMenu()
+{
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  file->addAction(
+    tr("&Open…"), this,
+    [this]
+    {
+      const QString name = QFileDialog::getOpenFileName(this, tr("Open surface or image"), {},
+        tr("Surfaces and images (*.stl *.obj *.ply *.off *.vtk *.vtp %1);;All files (*)")
+          .arg(kImageFiles));
+      if (!name.isEmpty())
+      {
+        openFile(name);
+      }
+    },
+    QKeySequence::Open);
+  const auto addSave = [&](const QString& entry, const QString& title, const char* suggested,
+                         const QString& kinds, bool (Window::*save)(const QString&))
+  {
+    return file->addAction(entry, this,
+      [=, this]
+      {
+        const QString name = QFileDialog::getSaveFileName(this, title, suggested, kinds);
+        if (!name.isEmpty())
+        {
+          (this->*save)(name);
+        }
+      });
+  };
+  addSave(tr("Save &screenshot…"), tr("Save screenshot"), "palp.png", tr("PNG (*.png)"),
+    &Window::saveScreenshot)
+    ->setShortcut(QKeySequence::Save);
+  QAction* curves = addSave(tr("Save &curves…"), tr("Save curves"), "curves.png",
+    tr("Plots (*.png *.svg *.pdf *.csv)"), &Window::saveCurves);
+  QAction* exporting = file->addAction(tr("&Export data…"), this,
+    [this]
+    {
+      const QString name = QFileDialog::getExistingDirectory(this, tr("Export data into"));
+      if (!name.isEmpty())
+      {
+        exportData(name);
+      }
+    });
+  for (QAction* action : { curves, exporting })
+  {
+    action->setEnabled(session_.plan().records()); // without plots no sample is kept
+  }
+  file->addSeparator();
+  file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
+}
+
+void Window::say(const QString& what)
+{
+  constexpr int kLong = 15'000; // [ms], to be read
+  statusBar()->showMessage(what, kLong);
+}
+
+bool Window::openFile(const QString& file)
+{
+  const auto open = [this](const MeshSource& source)
+  {
+    takeSamples();
+    session_.open(source);
+    clearCharts();
+    showBody();
+  };
+  bool opened = false;
+  try
+  {
+    open({ .file = file.toStdString() });
+    opened = true;
+  }
+  catch (const std::exception& error)
+  {
+    OpenDialog dialog(file, QString::fromStdString(error.what()), open, this);
+    opened = dialog.exec() == QDialog::Accepted;
+  }
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  if (opened)
+  {
+    QStringList notes;
+    for (const std::string& note : session_.body().notes)
+    {
+      notes << QString::fromStdString(note);
+    }
+    say(tr("Opened %1. %2").arg(QString::fromStdString(session_.body().name), notes.join("; ")));
+  }
+  return opened;
+}
+
+bool Window::saveScreenshot(const QString& file)
+{
+  return attempt(
+    [&]
+    {
+      renderWindow_->Render();
+      const QImage picture = canvas_->grabFramebuffer();
+      replaceFile(file.toStdString(),
+        [&](const std::filesystem::path& fresh)
+        {
+          if (!picture.save(QString::fromStdString(fresh.string())))
+          {
+            throw Error(ErrorCode::BadFile,
+              file.toStdString() + ": cannot be written; choose another folder or a name in .png");
+          }
+        });
+      say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(picture.width()).arg(picture.height()));
+    });
+}
+
+bool Window::savePlots(const QString& file)
+{
+  return attempt([&] { say(tr("Written to %1: %2").arg(file, plots_->save(file.toStdString()))); });
+}
+
+bool Window::saveCurves(const QString& file)
+{
+  return attempt(
+    [&]
+    {
+      charts_->refresh();
+      say(tr("Written to %1: %2").arg(file, palp::savePlots(charts_->plots(), file.toStdString())));
+    });
+}
+
+bool Window::exportData(const QString& directory)
+{
+  return attempt(
+    [&]
+    {
+      takeSamples();
+      const std::filesystem::path folder = directory.toStdString();
+      const auto ask = [&](const std::string& found)
+      {
+        const QString text = tr("%1 holds %2 already. Replace?");
+        return QMessageBox::question(this, tr("Palp"),
+                 text.arg(directory, QString::fromStdString(found))) == QMessageBox::Yes;
+      };
+      if (!exportRecording(folder, session_.body(), session_.recording(), session_.calibration(),
+            session_.timing(), ask))
+      {
+        return;
+      }
+      QString more;
+      int count = 0;
+      for (const Session::Take& take : session_.earlier())
+      {
+        const std::string name = "earlier-" + std::to_string(++count);
+        std::filesystem::create_directories(folder / name);
+        writeSamples(folder / name / "samples.csv", take.recording, &take.calibration);
+        writeDeformed(folder / name / "deformed.vtp", take.body, take.recording, take.calibration);
+        more += ", " + QString::fromStdString(name);
+      }
+      say(tr("Written to %1: samples.csv (%2 samples), deformed.vtp, servo.csv%3")
+            .arg(directory)
+            .arg(session_.recording().samples.size())
+            .arg(more));
+    });
+}
+
+} // namespace palp

@@ -1,0 +1,257 @@
+// What the window is made of; what it does is in window.cpp.
+
+#include "app/panels/device_panel.h"
+#include "app/panels/panel_area.h"
+#include "app/panels/plot_panel.h"
+#include "app/panels/reliance_panel.h"
+#include "app/panels/tissue_panel.h"
+#include "app/window/vtkPalpPressStyle.h"
+#include "app/window/window.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkCommand.h>
+#include <vtkContextScene.h>
+#include <vtkContextView.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include <QAction>
+#include <QActionGroup>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QLabel>
+#include <QMenuBar>
+#include <QScreen>
+#include <QScrollArea>
+#include <QStatusBar>
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+QDockWidget* addDock(
+  QMainWindow* window, Qt::DockWidgetArea area, const QString& title, QWidget* content)
+{
+  auto* dock = new QDockWidget(title, window);
+  dock->setObjectName(title);
+  dock->setWidget(content);
+  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
+  window->addDockWidget(area, dock);
+  return dock;
+}
+
+// for a screen that is too low for all panels
+QScrollArea* scrolled(QWidget* content)
+{
+  auto* area = new QScrollArea;
+  scrollDownOnly(*area, content);
+  return area;
+}
+
+// the one in use first
+QStringList deviceNames(const Session& session, const std::vector<std::string>& others)
+{
+  QStringList names{ QString::fromStdString(session.recording().device) };
+  for (const std::string& name : others)
+  {
+    names << QString::fromStdString(name);
+  }
+  names.removeDuplicates();
+  return names;
+}
+
+QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
+{
+  auto* canvas = new QVTKOpenGLNativeWidget;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  canvas->setRenderWindow(window);
+  canvas->setMinimumSize(260, 120);
+  view.SetRenderWindow(window);
+  view.GetRenderer()->SetBackground(1.0, 1.0, 1.0);
+  return canvas;
+}
+
+} // namespace
+
+void Window::makeView()
+{
+  canvas_ = new QVTKOpenGLNativeWidget(this);
+  canvas_->setObjectName("canvas");
+  canvas_->setRenderWindow(renderWindow_);
+  renderWindow_->SetMultiSamples(0);
+  renderWindow_->AddRenderer(renderer_);
+  setCentralWidget(canvas_);
+  if (session_.plan().overlays)
+  {
+    view_.setVisible(*session_.plan().overlays);
+  }
+
+  makePointer();
+  style_->AddObserver(vtkCommand::StartInteractionEvent, this, &Window::keepView);
+}
+
+void Window::makeDocks()
+{
+  panel_ = new TissuePanel(session_.recording().scene, session_.plan().press.tissue.options);
+  connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
+  addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), new PanelArea(panel_));
+  makeDevicePanel();
+  QScrollArea* device = scrolled(devicePanel_);
+  const int usual = devicePanel_->sizeHint().height();
+  constexpr int kMore = 4; // lines, to tell of a fault or a limit
+  device->setMinimumHeight(std::min(usual, screen()->availableGeometry().height() / 6));
+  device->setMaximumHeight(usual + kMore * devicePanel_->fontMetrics().lineSpacing());
+  addDock(this, Qt::LeftDockWidgetArea, tr("Device"), device);
+  if (session_.plan().validity)
+  {
+    reliance_ = new ReliancePanel;
+    addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(reliance_));
+  }
+
+  forceLabel_ = new QLabel;
+  forceLabel_->setObjectName("force");
+  forceLabel_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // cut, not the window's
+  servoLabel_ = new QLabel;
+  servoLabel_->setObjectName("servo");
+  statusBar()->addWidget(forceLabel_, 1);
+  statusBar()->addPermanentWidget(servoLabel_);
+}
+
+void Window::makeCharts()
+{
+  charts_ = std::make_unique<ForceCharts>();
+  for (const Curve curve : session_.plan().curves)
+  {
+    if (curve == Curve::ForceOverTime)
+    {
+      addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
+      charts_->addForceOverTime(*timeView_->GetScene());
+    }
+    else if (curve == Curve::ForceOverDepth)
+    {
+      addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
+      charts_->addForceOverDepth(*depthView_->GetScene());
+    }
+  }
+}
+
+// made when it is first shown
+void Window::makePlots(bool shown)
+{
+  if (plots_)
+  {
+    plots_->parentWidget()->setVisible(shown);
+    chartsAreStale_ = true;
+    return;
+  }
+  const auto forces = [this]
+  {
+    const Recording& recording = session_.recording();
+    return forceComparison(recording.scene.law, recording.lastPress(), &session_.calibration());
+  };
+  plots_ = new PlotPanel(
+    { { tr("Section"), [this] { return sectionOf(view_.press(), session_.calibration()); } },
+      { tr("Forces"), forces },
+      { tr("Extent"), [this] { return extentComparison(session_.calibration()); } } });
+  connect(plots_, &PlotPanel::saveAsked, this,
+    [this]
+    {
+      const QString name = QFileDialog::getSaveFileName(
+        this, tr("Save plots"), "plots.png", tr("Plots (*.png *.svg *.pdf *.csv)"));
+      if (!name.isEmpty())
+      {
+        savePlots(name);
+      }
+    });
+  addDock(this, Qt::RightDockWidgetArea, tr("Section and comparison"), plots_);
+}
+
+void Window::offerDevices()
+{
+  const std::vector<std::string> found = Session::devices();
+  const QStringList names = deviceNames(session_, found);
+  devicePanel_->offer(names + QStringList(tr(kScan)));
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  QStringList others = names;
+  others.removeAll("mouse");
+  others.removeAll("hand");
+  say(others.isEmpty() ? tr("No device found that can be used; palp devices tells why")
+                       : tr("Devices: %1").arg(others.join(", ")));
+}
+
+void Window::makeDevicePanel()
+{
+  // nobody looks at the USB until the user wants a device from there
+  devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kScan));
+  connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
+  connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });
+  connect(devicePanel_, &DevicePanel::armAsked, this,
+    [this](bool armed)
+    {
+      session_.stop(false);
+      session_.arm(armed);
+    });
+}
+
+void Window::makeDeviceMenu()
+{
+  QMenu* device = menuBar()->addMenu(tr("&Device"));
+  QAction* stop = device->addAction(
+    tr("&Stop the force"), this,
+    [this]
+    {
+      letGo();
+      session_.stop(true);
+    },
+    QKeySequence(Qt::Key_Escape));
+  stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
+  device->addAction(
+    tr("S&can for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
+}
+
+void Window::makeViewMenu()
+{
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  view->addAction(
+    tr("&Reset view"), this, [this] { fittedTo_ = std::pair(0, 0); }, QKeySequence(Qt::Key_Home));
+  const auto add = [&](const QString& name, Overlay overlay)
+  {
+    QAction* action = view->addAction(name);
+    action->setCheckable(true);
+    action->setChecked(view_.isVisible(overlay));
+    connect(action, &QAction::toggled, this,
+      [this, overlay](bool on)
+      {
+        view_.setVisible(overlay, on);
+        isStale_ = true;
+      });
+    return action;
+  };
+  add(tr("&Force arrow"), Overlay::ForceArrow);
+  add(tr("&Contact circle"), Overlay::ContactCircle);
+  add(tr("&Extent circle"), Overlay::ExtentCircle);
+  add(tr("&Readings"), Overlay::Readings);
+  add(tr("Bézier control &net"), Overlay::ControlNet);
+  add(tr("&Undeformed surface"), Overlay::Ghost);
+  view->addSeparator();
+  auto* colors = new QActionGroup(this); // the surface has one at a time, or its own
+  colors->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+  colors->addAction(add(tr("&Displacement colours"), Overlay::DisplacementColors));
+  colors->addAction(add(tr("&Pressure colours"), Overlay::PressureColors));
+  colors->addAction(add(tr("&Validity colours"), Overlay::ValidityColors));
+  view->addSeparator();
+  QAction* plots = view->addAction(tr("Section and comparison &plots"));
+  plots->setObjectName("plotsAction");
+  plots->setCheckable(true);
+  connect(plots, &QAction::toggled, this, &Window::makePlots);
+  const ScenePlan& plan = session_.plan();
+  plots->setChecked(
+    plan.has(Curve::Section) || plan.has(Curve::Comparison) || plan.has(Curve::Extent));
+}
+
+} // namespace palp

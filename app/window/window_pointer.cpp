@@ -1,0 +1,100 @@
+// The mouse pointer in the view of the window, as a tool.
+
+#include "app/window/vtkPalpPressStyle.h"
+#include "app/window/window.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include <QEvent>
+
+#include <chrono>
+
+namespace palp
+{
+namespace
+{
+
+// since some moment [s]
+double now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// a place of the picture, 0 at the near plane and 1 at the far one
+Eigen::Vector3d worldPoint(vtkRenderer& renderer, double x, double y, double depth)
+{
+  renderer.SetDisplayPoint(x, y, depth);
+  renderer.DisplayToWorld();
+  const double* world = renderer.GetWorldPoint();
+  return Eigen::Vector3d(world[0], world[1], world[2]) / world[3];
+}
+
+} // namespace
+
+SightLine Window::sightLine(double x, double y)
+{
+  const Eigen::Vector3d near = worldPoint(*renderer_, x, y, 0.0);
+  const Eigen::Vector3d far = worldPoint(*renderer_, x, y, 1.0);
+  return { .origin = near, .direction = (far - near).normalized() };
+}
+
+void Window::makePointer()
+{
+  style_->Hover = [this](int x, int y)
+  {
+    pointer_.hover(x, y);
+    aim();
+  };
+  style_->Press = [this](int x, int y)
+  {
+    pointer_.press(x, y, now());
+    aim();
+  };
+  style_->Drag = [this](int pixelsDown)
+  {
+    pointer_.drag(pixelsDown);
+    aim();
+  };
+  style_->Release = [this]
+  {
+    pointer_.release(now());
+    aim();
+  };
+  style_->Wheel = [this](int notches)
+  {
+    pointer_.wheel(notches);
+    aim();
+  };
+  style_->Turn = [this] { pointer_.turnView(); };
+  style_->Leave = [this] { letGo(); };
+  canvas_->interactor()->SetInteractorStyle(style_);
+}
+
+void Window::aim()
+{
+  pointer_.update(now());
+  if (const auto target = pointer_.target())
+  {
+    session_.aim(*target);
+  }
+}
+
+void Window::letGo()
+{
+  pointer_.letGo();
+  aim();
+}
+
+// whoever works in another window holds nothing here
+void Window::changeEvent(QEvent* event)
+{
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::ActivationChange && !isActiveWindow())
+  {
+    letGo();
+  }
+}
+
+} // namespace palp

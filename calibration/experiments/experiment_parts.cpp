@@ -1,0 +1,192 @@
+#include "calibration/experiments/experiment_parts.h"
+
+#include "calibration/fem/mesh.h"
+#include "haptics/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace palp::fem
+{
+
+std::string csv(const Experiment& experiment)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(7);
+  out << "# " << experiment.finding << '\n';
+  for (std::size_t i = 0; i < experiment.columns.size(); ++i)
+  {
+    out << (i == 0 ? "" : ",") << experiment.columns[i];
+  }
+  out << '\n';
+  for (const auto& row : experiment.rows)
+  {
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      out << (i == 0 ? "" : ",");
+      if (!std::isnan(row[i]))
+      {
+        out << row[i];
+      }
+    }
+    out << '\n';
+  }
+  return out.str();
+}
+
+namespace parts
+{
+
+using namespace units::literals;
+using units::toMillimetres;
+
+std::vector<double> depthSteps(double step, double last, Resolution resolution)
+{
+  const double width = resolution == Resolution::Quick ? 2.0 * step : step;
+  std::vector<double> depths;
+  for (int i = 1; i * width < last + 0.5 * step; ++i)
+  {
+    depths.push_back(i * width);
+  }
+  return depths;
+}
+
+Tip tool(bool sphere, double radius)
+{
+  return sphere ? Tip{ SphereTip{ radius } }
+                : withCap(ConeTip{ .halfAngle = 45.0_deg, .baseRadius = radius }, 0.3_mm);
+}
+
+double elementSize(const Tip& tip, Resolution resolution)
+{
+  const double full = std::holds_alternative<SphereTip>(tip) ? 0.1 * baseRadius(tip) : 0.5_mm;
+  return resolution == Resolution::Quick ? 2.0 * full : full;
+}
+
+Case paperBlock(
+  const Tip& tip, double height, Energy energy, std::vector<double> depths, Resolution resolution)
+{
+  return { .name = "block",
+    .height = height,
+    .tip = tip,
+    .material = kTissue,
+    .energy = energy,
+    .depths = std::move(depths),
+    .elementSize = elementSize(tip, resolution) };
+}
+
+std::vector<double> forcesOn(const Body& body, const Tip& tip, Energy energy,
+  const std::vector<double>& depths, const std::stop_token& stop)
+{
+  Indenter indenter(body, tip, energy, kTissue);
+  std::vector<double> result(depths.size(), kMissing);
+  for (std::size_t i = 0; i < depths.size() && !stop.stop_requested(); ++i)
+  {
+    try
+    {
+      indenter.press(depths[i]);
+    }
+    catch (const Error&)
+    {
+      break;
+    }
+    result[i] = indenter.state().force;
+  }
+  return result;
+}
+
+double largest(const std::vector<double>& values)
+{
+  double most = 0.0;
+  for (const double value : values)
+  {
+    most = value > most ? value : most;
+  }
+  return most;
+}
+
+double passing(const std::vector<double>& depths, const std::vector<double>& errors, double limit)
+{
+  double last = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < depths.size() && !std::isnan(errors[i]); ++i)
+  {
+    const double error = std::abs(errors[i]);
+    if (error > limit)
+    {
+      return last + (depths[i] - last) * (limit - before) / (error - before);
+    }
+    last = depths[i];
+    before = error;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::string passesAt(const std::vector<double>& depths, const std::vector<double>& errors)
+{
+  const double at = passing(depths, errors, kJnd);
+  if (std::isfinite(at))
+  {
+    return "at " + fixed(toMillimetres(at), 1) + " mm";
+  }
+  const auto known = std::ranges::find_if(errors, [](double error) { return std::isnan(error); });
+  const double last =
+    known == errors.begin() ? 0.0 : depths[static_cast<std::size_t>(known - errors.begin()) - 1];
+  return "nowhere to " + fixed(toMillimetres(last), 1) + " mm";
+}
+
+std::string fixed(double value, int digits)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+Experiment overDepth(std::string name, const std::vector<double>& depths)
+{
+  Experiment experiment{
+    .name = std::move(name), .columns = { "depth_mm" }, .rows = {}, .figures = {}, .finding = {}
+  };
+  for (const double depth : depths)
+  {
+    experiment.rows.push_back({ toMillimetres(depth) });
+  }
+  return experiment;
+}
+
+void addColumn(Experiment& experiment, std::string name, const std::vector<double>& values)
+{
+  experiment.columns.push_back(std::move(name));
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    experiment.rows[i].push_back(values[i]);
+  }
+}
+
+Curve curve(const Experiment& experiment, const std::string& column, std::string name, int color,
+  Curve::Style style)
+{
+  const auto& columns = experiment.columns;
+  const auto at =
+    static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+  Curve result{ .name = std::move(name), .x = {}, .y = {}, .color = color, .style = style };
+  if (columns.front() == "depth_mm")
+  {
+    result.x.push_back(0.0);
+    result.y.push_back(0.0);
+  }
+  for (const auto& row : experiment.rows)
+  {
+    if (!std::isnan(row[at]))
+    {
+      result.x.push_back(row.front());
+      result.y.push_back(row[at]);
+    }
+  }
+  return result;
+}
+
+} // namespace parts
+} // namespace palp::fem

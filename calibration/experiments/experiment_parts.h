@@ -1,0 +1,59 @@
+#pragma once
+
+#include "calibration/experiments/experiments.h"
+#include "calibration/fem/indenter.h"
+#include "calibration/study/study.h"
+#include "haptics/units.h"
+
+#include <limits>
+
+// what the experiments share
+
+namespace palp::fem::parts
+{
+
+inline constexpr Material kTissue{ .youngModulus = 50e3, .poissonRatio = 0.33 }; // Sec. 3.2
+inline constexpr double kJnd = 0.07; // just noticeable difference of force, Sec. 3.2 [29]
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+/// step, 2 step, ... to last [m]; half as many where it is to be quick
+[[nodiscard]] std::vector<double> depthSteps(double step, double last, Resolution resolution);
+
+/// The sphere, or the 45 degree cone with a tangent cap of 0.3 mm.
+[[nodiscard]] Tip tool(bool sphere, double radius);
+
+/// The paper's block of 100 x 100 mm.
+[[nodiscard]] Case paperBlock(
+  const Tip& tip, double height, Energy energy, std::vector<double> depths, Resolution resolution);
+
+/// Element size under a tool [m].
+[[nodiscard]] double elementSize(const Tip& tip, Resolution resolution);
+
+/// Presses a body as deep as solutions go; kMissing beyond [N].
+[[nodiscard]] std::vector<double> forcesOn(const Body& body, const Tip& tip, Energy energy,
+  const std::vector<double>& depths, const std::stop_token& stop);
+
+/// The largest value that is there; 0 where none is.
+[[nodiscard]] double largest(const std::vector<double>& values);
+
+/// Where errors first pass a limit, on straight lines from (0, 0); infinite where they never do, or
+/// not before the first that is not there.
+[[nodiscard]] double passing(
+  const std::vector<double>& depths, const std::vector<double>& errors, double limit);
+
+/// Where errors first pass 7 %, in words: "at 4.1 mm", or "nowhere to 8 mm".
+[[nodiscard]] std::string passesAt(
+  const std::vector<double>& depths, const std::vector<double>& errors);
+
+[[nodiscard]] std::string fixed(double value, int digits);
+
+/// An experiment whose abscissa is the depth.
+[[nodiscard]] Experiment overDepth(std::string name, const std::vector<double>& depths);
+
+void addColumn(Experiment& experiment, std::string name, const std::vector<double>& values);
+
+/// A column over the first one, where there are values; over the depth from (0, 0).
+[[nodiscard]] Curve curve(const Experiment& experiment, const std::string& column, std::string name,
+  int color, Curve::Style style = Curve::Style::Line);
+
+} // namespace palp::fem::parts

@@ -1,0 +1,199 @@
+#include "calibration/study/curve_fit.h"
+#include "calibration/experiments/experiment_parts.h"
+#include "calibration/study/surface_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Figs. 7 and 8
+
+namespace palp::fem
+{
+namespace
+{
+
+using namespace parts;
+using namespace units::literals;
+using units::toMillimetres;
+
+// R_d [mm] at every depth that was reached
+std::vector<double> extentsOf(const Case& study, const std::stop_token& stop)
+{
+  std::vector<double> radii(study.depths.size(), kMissing);
+  const Outcome outcome = calibrate(study, stop);
+  for (std::size_t i = 0; i < outcome.steps.size(); ++i)
+  {
+    radii[i] = toMillimetres(extentRadius(outcome.steps[i].profile, study.threshold));
+  }
+  return radii;
+}
+
+Curve polynomial(const Fit& fit, std::string name, int color)
+{
+  constexpr int kPoints = 100;
+  Curve result{ .name = std::move(name), .x = {}, .y = {}, .color = color };
+  for (int i = 0; i <= kPoints; ++i)
+  {
+    const double x = fit.upTo * i / kPoints;
+    double y = 0.0;
+    for (auto c = fit.coefficients.rbegin(); c != fit.coefficients.rend(); ++c)
+    {
+      y = y * x + *c;
+    }
+    if (y >= 0.0)
+    {
+      result.x.push_back(x);
+      result.y.push_back(y);
+    }
+  }
+  return result;
+}
+
+// one tool of Fig. 8; returns the largest difference of the two moduli [mm]
+double addExtents(Experiment& result, bool sphere, const std::vector<double>& depths,
+  Resolution resolution, const std::stop_token& stop)
+{
+  const std::string name = sphere ? "sphere" : "cone";
+  Case study = paperBlock(tool(sphere, 10.0_mm), 50.0_mm, Energy::NeoHookean, depths, resolution);
+  const auto soft = extentsOf(study, stop);
+  study.material.youngModulus = 1.5_MPa;
+  const auto stiff = extentsOf(study, stop);
+  addColumn(result, name + "_50kPa_mm", soft);
+  addColumn(result, name + "_1500kPa_mm", stiff);
+
+  double apart = 0.0;
+  std::vector<double> reached;
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < depths.size() && !std::isnan(soft[i]); ++i)
+  {
+    apart = std::max(apart, std::abs(stiff[i] - soft[i]));
+    reached.push_back(toMillimetres(depths[i]));
+    radii.push_back(soft[i]);
+  }
+  const ExtentFits fits = fitExtent(reached, radii);
+  const int color = sphere ? 0 : 3;
+  auto& curves = result.figures.front().curves;
+  curves.push_back(
+    curve(result, name + "_50kPa_mm", name + ", 50 kPa and 1.5 MPa", color, Curve::Style::Points));
+  if (fits.linearHoldsTo > 0.0)
+  {
+    curves.push_back(polynomial(
+      fits.linear, name + ", line to " + fixed(fits.linearHoldsTo, 1) + " mm", color + 1));
+  }
+  curves.push_back(polynomial(fits.quadratic, name + ", parabola", color + 2));
+  result.finding += (sphere ? "Sphere: R_d = " : "Cone: R_d = ") + fixed(largest(radii), 1) +
+    " mm at the last depth; " +
+    (fits.linearHoldsTo > 0.0 ? "a line holds to " + fixed(fits.linearHoldsTo, 1) + " mm"
+                              : std::string("no line holds from the start")) +
+    (sphere ? " (paper: about 7 mm)" : "") + ", a parabola leaves " +
+    fixed(fits.quadratic.worst, 2) + " mm. ";
+  return apart;
+}
+
+struct Shares
+{
+  double paper = 0.0; // largest rms over depth [-]
+  double fitted = 0.0;
+};
+
+// one depth of Fig. 7
+void addProfile(
+  Experiment& result, Figure& figure, const Case& study, const Indented& step, Shares& shares)
+{
+  const double extent = extentRadius(step.profile, study.threshold);
+  const SurfaceProfile fit = fitSurface(step, study.tip);
+  const auto paper = [&](double radius)
+  { return paperSink(study.tip, step.depth, step.contactRadius, extent, radius); };
+  const auto fitted = [&](double radius) { return fit.sinkAt(radius); };
+  shares.paper = std::max(shares.paper, surfaceError(step, fit.outer, paper).rms / step.depth);
+  shares.fitted = std::max(shares.fitted, surfaceError(step, fit.outer, fitted).rms / step.depth);
+
+  // one entry in the legend for all depths
+  const auto name = [&](const char* text) { return figure.curves.size() < 3 ? text : ""; };
+  Curve elements{ .name = name("finite elements"), .x = {}, .y = {}, .color = 0 };
+  Curve drawn{ .name = name("paper, Eq. (8)"), .x = {}, .y = {}, .color = 1 };
+  Curve closer{ .name = name("fitted"), .x = {}, .y = {}, .color = 2 };
+  const double sphere = std::holds_alternative<SphereTip>(study.tip) ? 0.0 : 1.0;
+  for (const auto& point : step.profile)
+  {
+    const double radius = point.radius + point.ur;
+    const bool outside = radius > step.contactRadius;
+    const double x = toMillimetres(radius);
+    const double height = toMillimetres(point.uz);
+    const double ring = outside ? -toMillimetres(paper(radius)) : kMissing;
+    const double curve = outside ? -toMillimetres(fitted(radius)) : kMissing;
+    result.rows.push_back({ x, sphere, toMillimetres(step.depth), height, ring, curve });
+    elements.x.push_back(x);
+    elements.y.push_back(height);
+    if (outside)
+    {
+      drawn.x.push_back(x);
+      drawn.y.push_back(ring);
+      closer.x.push_back(x);
+      closer.y.push_back(curve);
+    }
+  }
+  figure.curves.push_back(std::move(elements));
+  figure.curves.push_back(std::move(drawn));
+  figure.curves.push_back(std::move(closer));
+}
+
+} // namespace
+
+Experiment extents(Resolution resolution, std::stop_token stop)
+{
+  const auto depths = depthSteps(0.5_mm, 10.0_mm, resolution);
+  Experiment result = overDepth("extents", depths);
+  result.figures.push_back({ .name = "extents",
+    .title = "Fig. 8: radius of the deformed region, R = 10 mm, block of 50 mm",
+    .bottom = "depth \u03b4 [mm]",
+    .left = "R_d [mm]",
+    .curves = {} });
+  const double sphere = addExtents(result, true, depths, resolution, stop);
+  const double cone = addExtents(result, false, depths, resolution, stop);
+  result.finding += "The cone's is smaller, as the paper says. 50 kPa and 1.5 MPa give the same "
+                    "R_d (" +
+    fixed(std::max(sphere, cone), 3) +
+    " mm apart), as statics demands; the different curves of the paper's Figs. 7 and 8 cannot come "
+    "from "
+    "elasticity.";
+  return result;
+}
+
+Experiment profiles(Resolution resolution, std::stop_token stop)
+{
+  Experiment result{ .name = "profiles",
+    .columns = { "radius_mm", "tool", "depth_mm", "finite_elements_mm", "paper_mm", "fitted_mm" },
+    .rows = {},
+    .figures = {},
+    .finding = {} };
+  for (const bool sphere : { true, false })
+  {
+    // the same depths however quick: they are the paper's four pictures
+    Case study = paperBlock(tool(sphere, 10.0_mm), 50.0_mm, Energy::NeoHookean,
+      depthSteps(2.5_mm, 10.0_mm, Resolution::Full), resolution);
+    Figure figure{ .name = sphere ? "profiles_sphere" : "profiles_cone",
+      .title = std::string("Fig. 7: surface under the ") + (sphere ? "sphere" : "cone") +
+        ", R = 10 mm, at 2.5, 5, 7.5 and 10 mm",
+      .bottom = "distance from the axis [mm]",
+      .left = "height [mm]",
+      .curves = {} };
+    Shares shares;
+    for (const Indented& step : calibrate(study, stop).steps)
+    {
+      addProfile(result, figure, study, step, shares);
+    }
+    result.figures.push_back(std::move(figure));
+    result.finding += std::string(sphere ? "Sphere (tool 0)" : "Cone (tool 1)") +
+      ": the paper's quadratic curve, which ends at R_d where the surface is still 0.5 mm deep, "
+      "lies up to " +
+      fixed(100.0 * shares.paper, 1) +
+      " % of the depth (rms over the radius) off the finite elements, the fitted curve " +
+      fixed(100.0 * shares.fitted, 1) + " %. ";
+  }
+  result.finding += "The paper's Fig. 7 shows other surfaces for 50 kPa and 1.5 MPa; in statics "
+                    "they are the same.";
+  return result;
+}
+
+} // namespace palp::fem

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "calibration/fem/body.h"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace palp::fem
+{
+
+/// A node of the surface that slides on the tool: its height follows from where it is.
+struct Sliding
+{
+  int node;
+  double gap;                ///< height of the tool above the node [m]; the step closes it
+  Eigen::Vector2d slope;     ///< of the tool to the node's horizontal coordinates [-]
+  Eigen::Matrix2d curvature; ///< [1/m]
+};
+
+/// Sparse linear systems of a body, whose pattern is analysed once.
+class Equilibrium
+{
+public:
+  /// @throws Error  BadValue: nu outside [0, 0.5)
+  Equilibrium(const Body& body, Energy energy, const Material& material);
+
+  /// Internal forces dW/du [N] and their derivative at a displacement of all dofs [m].
+  /// @return  false where an element is turned inside out
+  [[nodiscard]] bool assemble(const Eigen::VectorXd& displacement);
+
+  [[nodiscard]] double energy() const noexcept
+  {
+    return storedEnergy_;
+  } ///< [J]
+  [[nodiscard]] int invertedElements() const noexcept;
+  [[nodiscard]] const Eigen::VectorXd& forces() const noexcept
+  {
+    return forces_;
+  }
+
+  /// Residual and Newton step with held dofs at rest and sliding nodes on the tool.
+  /// @param added  part of the diagonal that is added to it, for a shorter and safer step [-]
+  struct Step
+  {
+    double residual = 0.0;    ///< largest unbalanced force after the gaps are closed [N]
+    bool stable = false;      ///< the energy is convex here
+    Eigen::VectorXd change{}; ///< of all dofs [m]; empty where the system is singular
+  };
+  [[nodiscard]] Step solve(const std::vector<Sliding>& sliding, double added = 0.0);
+
+  /// Largest unbalanced force where the sliding nodes are [N], at the assembled displacement.
+  [[nodiscard]] double imbalance(const std::vector<Sliding>& sliding) const;
+
+private:
+  void scatter(std::size_t element, const std::vector<int>& slidingOf,
+    const std::vector<Sliding>& sliding, Eigen::VectorXd& residual);
+
+  const Body& body_;
+  Energy energy_;
+  Material material_;
+  std::vector<char> held_;                 // per dof
+  std::vector<ElementResponse> responses_; // per element
+  std::vector<std::vector<int>> places_;   // per element: lower triangle into the matrix's values
+  std::vector<int> diagonal_;              // per dof: into the matrix's values
+  double storedEnergy_ = 0.0;
+  Eigen::VectorXd forces_;
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver_;
+};
+
+} // namespace palp::fem

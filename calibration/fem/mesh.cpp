@@ -1,0 +1,299 @@
+#include "calibration/fem/mesh.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace palp::fem
+{
+namespace
+{
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Gradient = Eigen::Matrix<double, 9, Eigen::Dynamic>;
+
+// vec(F) holds F(i, j) at i + 3 j; the axes are r, theta, z
+constexpr int kRR = 0;
+constexpr int kZR = 2;
+constexpr int kTT = 4;
+constexpr int kRZ = 6;
+constexpr int kZZ = 8;
+
+constexpr std::array<std::array<int, 2>, 8> kLocal{ { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 },
+  { 0, -1 }, { 1, 0 }, { 0, 1 }, { -1, 0 } } };
+
+struct Shape
+{
+  Eigen::Matrix<double, 8, 1> value;
+  Eigen::Matrix<double, 8, 2> slope; // to (xi, eta)
+};
+
+// serendipity functions of the eight-node quadrilateral
+Shape shape(double x, double y)
+{
+  Shape s;
+  for (int a = 0; a < 8; ++a)
+  {
+    const double i = kLocal[static_cast<std::size_t>(a)][0];
+    const double j = kLocal[static_cast<std::size_t>(a)][1];
+    const double p = 1.0 + i * x;
+    const double q = 1.0 + j * y;
+    if (a < 4)
+    {
+      s.value[a] = 0.25 * p * q * (i * x + j * y - 1.0);
+      s.slope(a, 0) = 0.25 * i * q * (2.0 * i * x + j * y);
+      s.slope(a, 1) = 0.25 * j * p * (i * x + 2.0 * j * y);
+    }
+    else if (j != 0.0)
+    {
+      s.value[a] = 0.5 * (1.0 - x * x) * q;
+      s.slope(a, 0) = -x * q;
+      s.slope(a, 1) = 0.5 * (1.0 - x * x) * j;
+    }
+    else
+    {
+      s.value[a] = 0.5 * p * (1.0 - y * y);
+      s.slope(a, 0) = 0.5 * i * (1.0 - y * y);
+      s.slope(a, 1) = -y * p;
+    }
+  }
+  return s;
+}
+
+IntegrationPoint ringPoint(const Eigen::Matrix<double, 2, 8>& corners, double x, double y)
+{
+  const Shape s = shape(x, y);
+  const Matrix2d jacobian = corners * s.slope;
+  const Eigen::Matrix<double, 8, 2> slope = s.slope * jacobian.inverse();
+  const double radius = (corners * s.value)[0];
+  IntegrationPoint point;
+  point.weight = 2.0 * std::numbers::pi * radius * jacobian.determinant();
+  point.gradient = Gradient::Zero(9, 16);
+  for (int a = 0; a < 8; ++a)
+  {
+    point.gradient(kRR, 2 * a) = slope(a, 0);
+    point.gradient(kRZ, 2 * a) = slope(a, 1);
+    point.gradient(kTT, 2 * a) = s.value[a] / radius;
+    point.gradient(kZR, 2 * a + 1) = slope(a, 0);
+    point.gradient(kZZ, 2 * a + 1) = slope(a, 1);
+  }
+  return point;
+}
+
+using Place = std::function<Vector2d(double, double)>; // (u, v) to (r, z)
+
+// nodes at the corners and the middles of the sides of a grid, none in the middle of a cell
+Eigen::MatrixXi addNodes(Body& body, const std::vector<double>& us, const std::vector<double>& vs,
+  const Place& place, Base base)
+{
+  const int columns = 2 * static_cast<int>(us.size()) - 1;
+  const int rows = 2 * static_cast<int>(vs.size()) - 1;
+  const auto halfway = [](const std::vector<double>& steps, int i)
+  {
+    const auto k = static_cast<std::size_t>(i / 2);
+    return i % 2 == 0 ? steps[k] : 0.5 * (steps[k] + steps[k + 1]);
+  };
+  Eigen::MatrixXi number = Eigen::MatrixXi::Constant(columns, rows, -1);
+  body.positions.resize(2, columns * rows);
+  int count = 0;
+  for (int j = 0; j < rows; ++j)
+  {
+    for (int i = 0; i < columns; ++i)
+    {
+      if (i % 2 == 1 && j % 2 == 1)
+      {
+        continue;
+      }
+      number(i, j) = count;
+      body.positions.col(count) = place(halfway(us, i), halfway(vs, j));
+      if (j == 0)
+      {
+        body.base.push_back(count);
+        body.heldDofs.push_back(2 * count + 1);
+      }
+      if (i == 0 || (j == 0 && base == Base::Bonded))
+      {
+        body.heldDofs.push_back(2 * count);
+      }
+      if (j == rows - 1)
+      {
+        body.surface.push_back(count);
+      }
+      ++count;
+    }
+  }
+  body.positions.conservativeResize(2, count);
+  return number;
+}
+
+struct GaussPoint
+{
+  double at;
+  double weight;
+};
+
+// between -1 and 1
+std::vector<GaussPoint> gaussPoints(Integration integration)
+{
+  if (integration == Integration::Reduced)
+  {
+    return { { -1.0 / std::numbers::sqrt3, 1.0 }, { 1.0 / std::numbers::sqrt3, 1.0 } };
+  }
+  return { { -std::sqrt(0.6), 5.0 / 9.0 }, { 0.0, 8.0 / 9.0 }, { std::sqrt(0.6), 5.0 / 9.0 } };
+}
+
+// the element around the middle (i, j) of a cell
+Element ring(const Body& body, const Eigen::MatrixXi& number, int i, int j, Integration integration)
+{
+  Element element{ .meanDilatation = false };
+  Eigen::Matrix<double, 2, 8> corners;
+  for (int a = 0; a < 8; ++a)
+  {
+    const auto& local = kLocal[static_cast<std::size_t>(a)];
+    const int node = number(i + local[0], j + local[1]);
+    corners.col(a) = body.positions.col(node);
+    element.dofs.insert(element.dofs.end(), { 2 * node, 2 * node + 1 });
+  }
+  for (const GaussPoint& y : gaussPoints(integration))
+  {
+    for (const GaussPoint& x : gaussPoints(integration))
+    {
+      element.points.push_back(ringPoint(corners, x.at, y.at));
+      element.points.back().weight *= x.weight * y.weight;
+    }
+  }
+  return element;
+}
+
+// a body of revolution: u = 0 is the axis, the first v the base, the last the top
+Body revolve(const std::vector<double>& us, const std::vector<double>& vs, const Place& place,
+  Integration integration = Integration::Reduced, Base base = Base::Bonded)
+{
+  Body body{ .dimension = 2 };
+  const Eigen::MatrixXi number = addNodes(body, us, vs, place, base);
+  body.profile = body.surface;
+  body.top = body.positions(1, body.surface.front());
+  for (int j = 1; j < number.cols(); j += 2)
+  {
+    for (int i = 1; i < number.rows(); i += 2)
+    {
+      body.elements.push_back(ring(body, number, i, j, integration));
+    }
+  }
+  return body;
+}
+
+// steps measured from the top, as coordinates that end at the top
+std::vector<double> fromTheTop(double top, std::vector<double> depths)
+{
+  for (double& depth : depths)
+  {
+    depth = top - depth;
+  }
+  return { depths.rbegin(), depths.rend() };
+}
+
+constexpr double kOutwardGrowth = 1.15; // changes R_d of the paper's block by less than 0.02 mm
+constexpr double kDownwardGrowth = 1.1;
+
+// depths at which the sheets of a coated body begin, and its own end
+std::vector<double> sheetBounds(double height, const Coatings& coatings)
+{
+  std::vector<double> bounds{ 0.0 };
+  for (const Coating& coating : coatings.all())
+  {
+    bounds.push_back(bounds.back() + coating.thickness);
+  }
+  bounds.push_back(height);
+  return bounds;
+}
+
+// steps that grow with the depth and meet every bound; two at least in every sheet
+std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine)
+{
+  std::vector<double> steps{ 0.0 };
+  double first = fine;
+  for (std::size_t i = 1; i < bounds.size(); ++i)
+  {
+    const double thickness = bounds[i] - bounds[i - 1];
+    for (const double step :
+      gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), kDownwardGrowth))
+    {
+      if (step > 0.0)
+      {
+        steps.push_back(bounds[i - 1] + step);
+      }
+    }
+    steps.back() = bounds[i];
+    first = std::max(fine, bounds[i] - steps[steps.size() - 2]);
+  }
+  return steps;
+}
+
+} // namespace
+
+std::vector<double> gradedSteps(double length, double fineLength, double fine, double growth)
+{
+  const int uniform = std::max(1, static_cast<int>(std::ceil(std::min(fineLength, length) / fine)));
+  std::vector<double> steps{ 0.0 };
+  for (int i = 1; i <= uniform; ++i)
+  {
+    steps.push_back(i * fine);
+  }
+  for (double step = growth * fine; steps.back() < length; step *= growth)
+  {
+    steps.push_back(steps.back() + step);
+  }
+  // the last step may overshoot: squeeze the growing part, or everything if nothing grows
+  const auto from = steps.back() > uniform * fine ? static_cast<std::size_t>(uniform) : 0;
+  const double scale = (length - steps[from]) / (steps.back() - steps[from]);
+  for (std::size_t i = from + 1; i < steps.size(); ++i)
+  {
+    steps[i] = steps[from] + scale * (steps[i] - steps[from]);
+  }
+  return steps;
+}
+
+Body cylinderBody(double radius, double height, double fineRadius, double fine,
+  const Coatings& coatings, Integration integration, Base base)
+{
+  const std::vector<double> sheets = sheetBounds(height, coatings);
+  Body body = revolve(
+    gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
+    fromTheTop(height, sheetSteps(sheets, fine)), [](double u, double v) { return Vector2d(u, v); },
+    integration, base);
+  for (Element& element : body.elements)
+  {
+    // the first two nodes are at the bottom, the next two at the top
+    const double depth = height -
+      0.5 * (body.positions(1, element.dofs[0] / 2) + body.positions(1, element.dofs[4] / 2));
+    const auto sheet = static_cast<std::size_t>(
+      std::upper_bound(sheets.begin(), sheets.end(), depth) - sheets.begin() - 1);
+    if (sheet < coatings.all().size())
+    {
+      element.material = coatings.all()[sheet].material;
+    }
+  }
+  body.elementSize = fine;
+  return body;
+}
+
+Body sphereBody(double radius, SphereSupport support, double fineRadius, double fine)
+{
+  // the square [0, 1] x [-1, 1] becomes the half disc, its bottom side the arc below 45 degrees
+  const double size = fine * std::numbers::sqrt2 / radius;
+  const double bottom = support == SphereSupport::LowerHalf ? 0.0 : -1.0;
+  return revolve(gradedSteps(1.0, fineRadius * std::numbers::sqrt2 / radius, size, kOutwardGrowth),
+    fromTheTop(1.0, gradedSteps(1.0 - bottom, 0.0, fine / radius, kDownwardGrowth)),
+    [radius](double u, double v)
+    {
+      return Vector2d(
+        radius * u * std::sqrt(1.0 - 0.5 * v * v), radius * v * std::sqrt(1.0 - 0.5 * u * u));
+    });
+}
+
+} // namespace palp::fem

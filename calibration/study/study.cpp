@@ -1,0 +1,339 @@
+#include "calibration/study/study.h"
+
+#include "calibration/fem/mesh.h"
+#include "calibration/study/mesh_check.h"
+#include "calibration/study/study_files.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+namespace palp::fem
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kElementSize = 0.5_mm;
+constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
+constexpr int kPaperLayers = 10;
+constexpr double kCoarse = 0.1; // distance of nodes under the tool, over its radius
+
+void require(bool good, const std::string& what)
+{
+  if (!good)
+  {
+    throw Error(ErrorCode::BadValue, what);
+  }
+}
+
+double equalAreaRadius(const Case& study)
+{
+  return std::sqrt(study.width * study.length / std::numbers::pi);
+}
+
+// in the volumetric block, whose number of elements is given, wider ones than evenly spaced under
+// the tool would overshoot its side
+double largestElement(const Case& study)
+{
+  const double ofHeight = 0.2 * study.height;
+  return study.model == BodyModel::Block ? std::min(ofHeight, study.width / (kPaperNodes - 1))
+                                         : ofHeight;
+}
+
+// radius at which the tool is as high as it is deep: no contact reaches further
+double reach(const Tip& tip, double depth)
+{
+  double low = 0.0;
+  double high = baseRadius(tip);
+  for (int i = 0; i < 60; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    (tipHeight(tip, middle) < depth ? low : high) = middle;
+  }
+  return high;
+}
+
+bool isRound(const Tip& tip)
+{
+  return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
+}
+
+// change: on halving the elements [-]; infinite or NaN where it is not known
+std::string refusal(const Case& study, double depth, double change)
+{
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * change);
+  std::string why = "halving the elements may change it by " + std::string(percent);
+  if (!std::isfinite(change))
+  {
+    why = std::isnan(change) ? "it depends on the mesh"
+                             : "no mesh twice as coarse finds one to tell its error";
+  }
+  return "indentation: the force at " + units::inMillimetres(depth) + " is refused, " + why +
+    "; give --element-size " + units::inMillimetres(0.5 * elementSize(study)) + " or begin deeper";
+}
+
+// keep: called after every depth whose force stands
+Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token stop,
+  MeshCheck* coarser, const std::function<void(const Outcome&, const Indenter&)>& keep,
+  const Progress& progress)
+{
+  Outcome outcome{
+    .steps = std::move(saved.steps), .trouble = {}, .refused = std::move(saved.refused)
+  };
+  Indenter indenter(body, study.tip, study.energy, study.material);
+  double reached = 0.0;
+  if (saved.checkpoint)
+  {
+    indenter.resume(*saved.checkpoint);
+    reached = saved.checkpoint->depth * (1.0 + kSameDepth);
+  }
+  std::string refused = outcome.refused.empty() ? "" : refusal(study, outcome.refused.front(), NAN);
+  try
+  {
+    for (std::size_t i = 0; i < study.depths.size(); ++i)
+    {
+      const double depth = study.depths[i];
+      if (depth > reached)
+      {
+        indenter.press(depth, stop);
+      }
+      Indented step = indenter.state();
+      step.depth = depth; // the coarser run goes through those that were there, too
+      const double change = coarser != nullptr ? coarser->changeOnHalving(step, stop) : 0.0;
+      if (depth <= reached)
+      {
+        continue;
+      }
+      if (stop.stop_requested())
+      {
+        throw Error(ErrorCode::NoSolution, kInterrupted);
+      }
+      if (change > kMeshError)
+      {
+        refused = refused.empty() ? refusal(study, depth, change) : refused;
+        outcome.refused.push_back(depth);
+      }
+      else
+      {
+        outcome.steps.push_back(std::move(step));
+        keep(outcome, indenter);
+      }
+      if (progress)
+      {
+        progress(i + 1, study.depths.size());
+      }
+    }
+    outcome.trouble = refused;
+  }
+  catch (const Error& error)
+  {
+    if (error.code() != ErrorCode::NoSolution)
+    {
+      throw;
+    }
+    outcome.trouble = error.what();
+  }
+  return outcome;
+}
+
+} // namespace
+
+double elementSize(const Case& study)
+{
+  if (study.elementSize > 0.0)
+  {
+    return study.elementSize;
+  }
+  return study.model == BodyModel::Block
+    ? std::min(kCoarse * baseRadius(study.tip), largestElement(study))
+    : kElementSize;
+}
+
+Tip withCap(const Tip& tip, double cap)
+{
+  const auto* cone = std::get_if<ConeTip>(&tip);
+  if (cone == nullptr || cap == 0.0)
+  {
+    return tip;
+  }
+  return checkedTip(
+    BluntConeTip{ .halfAngle = cone->halfAngle, .tipRadius = cap, .baseRadius = cone->baseRadius });
+}
+
+void check(const Case& study)
+{
+  (void)checkedTip(study.tip);
+  (void)makeMaterial(study.material.youngModulus, study.material.poissonRatio);
+  require(study.width > 0.0 && study.length > 0.0 && study.height > 0.0,
+    "--block: a side of the block is not positive; give it as 100x100x50mm");
+  require(!study.depths.empty() && study.depths.front() > 0.0 &&
+      std::adjacent_find(study.depths.begin(), study.depths.end(),
+        [](double a, double b) { return !(b > a); }) == study.depths.end(),
+    "--depth: the depths must be positive and increase; give them as 0.5:10:0.5mm");
+  const double deepest = study.depths.back();
+  require(baseRadius(study.tip) < 0.45 * std::min(study.width, study.length),
+    "--tip: the tool is larger than the block; its radius must stay below " +
+      units::inMillimetres(0.45 * std::min(study.width, study.length)));
+  require(deepest < 0.8 * study.height,
+    "--depth: " + units::inMillimetres(deepest) + " goes through the block; stay below " +
+      units::inMillimetres(0.8 * study.height));
+  require(study.threshold > 0.0 && study.threshold < deepest,
+    "--threshold: must be positive and less than the deepest depth of " +
+      units::inMillimetres(deepest));
+  require(study.elementSize == 0.0 ||
+      (study.elementSize >= 0.01_mm && study.elementSize <= largestElement(study)),
+    "--element-size: must be between 0.01 mm and " + units::inMillimetres(largestElement(study)) +
+      " in this block");
+  require(study.model == BodyModel::Axisymmetric || study.width == study.length,
+    "--model: the volumetric block must be square; use --model axisymmetric");
+  require(study.base == Base::Bonded || study.model == BodyModel::Axisymmetric,
+    "--base: the volumetric block is bonded; use --model axisymmetric");
+  require(study.coatings.empty() || study.model == BodyModel::Axisymmetric,
+    "--coating: the volumetric block takes none; use --model axisymmetric");
+  require(study.coatings.thickness() < study.height,
+    "--coating: as thick as the block of " + units::inMillimetres(study.height) + "; give less");
+  for (const Coating& coating : study.coatings.all())
+  {
+    require(coating.material.poissonRatio < 0.5,
+      "--coating: finite elements need a Poisson's ratio of less than 0.5; give 0.49");
+    require(coating.thickness >= elementSize(study),
+      "--coating: thinner than an element; give --element-size " +
+        units::inMillimetres(coating.thickness) + " or less");
+  }
+  require(
+    study.material.poissonRatio < 0.5, "--poisson: finite elements need less than 0.5; give 0.49");
+}
+
+Body bodyOf(const Case& study)
+{
+  const double size = elementSize(study);
+  if (study.model == BodyModel::Axisymmetric)
+  {
+    const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
+    return cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings,
+      isRound(study.tip) ? Integration::Reduced : Integration::Full, study.base);
+  }
+  return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
+}
+
+double extentRadius(const std::vector<Indented::Point>& profile, double threshold)
+{
+  for (std::size_t i = 0; i < profile.size(); ++i)
+  {
+    const double sunk = -profile[i].uz;
+    if (sunk > threshold * (1.0 + 1e-9))
+    {
+      continue;
+    }
+    if (i == 0)
+    {
+      return 0.0;
+    }
+    const double before = -profile[i - 1].uz;
+    const double inner = profile[i - 1].radius + profile[i - 1].ur;
+    const double outer = profile[i].radius + profile[i].ur;
+    return inner + (before - threshold) / (before - sunk) * (outer - inner);
+  }
+  return profile.empty() ? 0.0 : profile.back().radius + profile.back().ur;
+}
+
+double sinkOf(const Indented& pressed, double radius)
+{
+  const auto& profile = pressed.profile;
+  for (std::size_t i = 1; i < profile.size(); ++i)
+  {
+    const double outer = profile[i].radius + profile[i].ur;
+    if (radius <= outer)
+    {
+      const double inner = profile[i - 1].radius + profile[i - 1].ur;
+      const double t = (radius - inner) / (outer - inner);
+      return -(1.0 - t) * profile[i - 1].uz - t * profile[i].uz;
+    }
+  }
+  return -profile.back().uz;
+}
+
+std::vector<std::string> calibrationFiles()
+{
+  return { "table.csv", "profiles.csv", "fit.json", "checkpoint.bin", "extent.png", "force.png",
+    "profiles.png" };
+}
+
+Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progress)
+{
+  check(study);
+  const Body body = bodyOf(study);
+  return press(
+    study, body, {}, stop, nullptr, [](const Outcome&, const Indenter&) {}, progress);
+}
+
+Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume, std::stop_token stop,
+  const Progress& progress)
+{
+  check(study);
+  const Body body = bodyOf(study);
+  const StudyFiles files(folder, study, body);
+  // the volumetric block is as coarse as the paper's
+  std::optional<MeshCheck> coarser;
+  if (study.model == BodyModel::Axisymmetric)
+  {
+    coarser.emplace(study);
+  }
+  const Outcome outcome = press(
+    study, body, resume ? files.load() : Saved{}, stop, coarser ? &*coarser : nullptr,
+    [&](const Outcome& reached, const Indenter& indenter)
+    {
+      files.write(reached);
+      files.save(indenter.checkpoint(), reached.refused);
+    },
+    progress);
+  if (!outcome.steps.empty()) // else what is there stays
+  {
+    files.write(outcome);
+  }
+  return outcome;
+}
+
+void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
+  const std::vector<Case>& cases, bool resume, unsigned jobs, std::stop_token stop,
+  const std::function<void(const std::string& name, const std::string& trouble)>& tell)
+{
+  std::atomic<std::size_t> next{ 0 };
+  std::mutex telling;
+  const auto work = [&]
+  {
+    for (std::size_t i = next++; i < cases.size(); i = next++)
+    {
+      std::string trouble;
+      try
+      {
+        trouble = calibrateInto(*folders[i], cases[i], resume, stop).trouble;
+      }
+      catch (const std::exception& error)
+      {
+        trouble = error.what();
+      }
+      const std::lock_guard lock(telling);
+      tell(cases[i].name, trouble);
+    }
+  };
+  std::vector<std::jthread> threads;
+  const std::size_t most =
+    std::min<std::size_t>(cases.size(), std::max(1U, std::thread::hardware_concurrency()));
+  for (std::size_t i = 0; i < std::clamp<std::size_t>(jobs, 1, std::max<std::size_t>(1, most)); ++i)
+  {
+    threads.emplace_back(work);
+  }
+}
+
+} // namespace palp::fem

@@ -1,0 +1,207 @@
+#include "calibration/study/study_files.h"
+
+#include "haptics/files/csv_text.h"
+#include "calibration/study/curve_fit.h"
+#include "calibration/tables/extent_table.h"
+#include "haptics/files/replace_file.h"
+#include "haptics/error.h"
+#include "haptics/force/linear/half_space.h"
+#include "haptics/files/number_table.h"
+#include "haptics/tip/profile.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace palp::fem
+{
+namespace
+{
+
+using units::toMillimetres;
+
+std::string tipText(const Tip& tip, int digits)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  const double base = toMillimetres(baseRadius(tip));
+  if (std::holds_alternative<SphereTip>(tip))
+  {
+    out << "sphere, R = " << base << " mm";
+  }
+  else if (const auto* cone = std::get_if<ConeTip>(&tip))
+  {
+    out << "cone, " << units::toDegrees(cone->halfAngle) << " deg, base " << base << " mm";
+  }
+  else if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
+  {
+    out << "cone, " << units::toDegrees(blunt->halfAngle) << " deg, tangent cap "
+        << toMillimetres(blunt->tipRadius) << " mm, base " << base << " mm";
+  }
+  else if (const auto* truncated = std::get_if<TruncatedConeTip>(&tip))
+  {
+    out << "truncated cone, " << units::toDegrees(truncated->halfAngle) << " deg, flat "
+        << toMillimetres(truncated->flatRadius) << " mm, base " << base << " mm";
+  }
+  else if (const auto* profile = std::get_if<ProfileTip>(&tip))
+  {
+    // every point has its part in the depth at which the whole of it is in contact
+    const auto file = std::filesystem::path(profile->profile->name()).filename();
+    out << "profile of revolution " << file.string() << (file.empty() ? "" : ", ") << "base "
+        << base << " mm, height " << toMillimetres(tipHeight(tip, baseRadius(tip)))
+        << " mm, all in contact with a half-space at "
+        << toMillimetres(contactDepth(tip, baseRadius(tip))) << " mm";
+  }
+  else
+  {
+    out << (std::holds_alternative<PunchTip>(tip) ? "flat punch" : "paraboloid") << ", R = " << base
+        << " mm";
+  }
+  return out.str();
+}
+
+std::ostringstream text(const std::string& header, const char* columns)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(12);
+  out << header << columns << '\n';
+  return out;
+}
+
+std::string noteOf(const Outcome& outcome)
+{
+  return outcome.trouble.empty() ? "" : "# incomplete: " + outcome.trouble + "\n";
+}
+
+nlohmann::json json(const Fit& fit)
+{
+  return { { "coefficients_mm", fit.coefficients }, { "rms_mm", fit.rms },
+    { "largest_residual_mm", fit.worst }, { "up_to_depth_mm", fit.upTo } };
+}
+
+constexpr const char* kColumns = "depth_mm,radius_mm,ur_mm,uz_mm"; // of the profiles
+std::string coatingsText(const Coatings& coatings, int digits)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  for (const Coating& coating : coatings.all())
+  {
+    out << "\n# under the tool first: " << toMillimetres(coating.thickness) << " mm of "
+        << units::toKilopascals(coating.material.youngModulus)
+        << " kPa, nu = " << coating.material.poissonRatio << ", bonded to what is below";
+  }
+  return out.str();
+}
+
+} // namespace
+
+std::string describe(const Case& study, const Body& body, int digits)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  out << "# palp " << PALP_VERSION << ": " << study.name
+      << "\n# tool: " << tipText(study.tip, digits)
+      << "; depth counted from its tip\n# block: " << toMillimetres(study.width) << " x "
+      << toMillimetres(study.length) << " x " << toMillimetres(study.height) << " mm, base "
+      << (study.base == Base::Bonded ? "bonded" : "slipping")
+      << ", sides free, frictionless\n# material: "
+      << units::toKilopascals(study.material.youngModulus)
+      << " kPa, nu = " << study.material.poissonRatio << ", " << name(study.energy) << ": "
+      << formula(study.energy) << coatingsText(study.coatings, digits) << "\n# model: "
+      << (study.model == BodyModel::Axisymmetric
+             ? "axisymmetric, cylinder of equal area, eight-node quadrilaterals"
+             : "volumetric block, eight-node bricks, one quarter")
+      << ", " << body.elements.size() << " elements, " << body.nodeCount() << " nodes"
+      << "\n# element size under the tool: " << toMillimetres(body.elementSize)
+      << " mm\n# extent_radius_mm: deformed radius at which the surface sinks by "
+      << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus"
+      << (study.coatings.empty() ? "" : ", only on its ratios") << '\n';
+  return out.str();
+}
+
+std::string tableText(const Case& study, const std::string& header, const Outcome& outcome)
+{
+  auto table = text(header + noteOf(outcome), ExtentTable::kHeader);
+  for (const Indented& step : outcome.steps)
+  {
+    table << toMillimetres(step.depth) << ','
+          << toMillimetres(extentRadius(step.profile, study.threshold)) << ',' << step.force << ','
+          << toMillimetres(step.contactRadius) << '\n';
+  }
+  return table.str();
+}
+
+std::vector<Indented> readSteps(const std::filesystem::path& folder)
+{
+  std::vector<Indented> steps;
+  for (const auto& [row, line] :
+    NumberTable::readFinite(folder / kTable, ExtentTable::kHeader).rows)
+  {
+    Indented step;
+    step.depth = units::fromMillimetres(row[0]);
+    step.force = row[2];
+    step.contactRadius = units::fromMillimetres(row[3]);
+    steps.push_back(step);
+  }
+  std::size_t at = 0;
+  for (const auto& [row, line] : NumberTable::readFinite(folder / kProfiles, kColumns).rows)
+  {
+    const double depth = units::fromMillimetres(row[0]);
+    while (at < steps.size() && steps[at].depth < depth)
+    {
+      ++at;
+    }
+    if (at < steps.size() && steps[at].depth == depth)
+    {
+      steps[at].profile.push_back({ units::fromMillimetres(row[1]), units::fromMillimetres(row[2]),
+        units::fromMillimetres(row[3]) });
+    }
+  }
+  return steps;
+}
+
+StudyFiles::StudyFiles(OutputFolder& folder, const Case& study, const Body& body)
+  : folder_(folder)
+  , study_(study)
+  , header_(describe(study, body))
+  , key_(describe(study, body, std::numeric_limits<double>::max_digits10) +
+      "# squared distances of the nodes: " + shortest(body.positions.squaredNorm()))
+{
+}
+
+void StudyFiles::write(const Outcome& outcome) const
+{
+  auto profiles = text(header_ + noteOf(outcome), kColumns);
+  std::vector<double> depths;
+  std::vector<double> extents;
+  for (const Indented& step : outcome.steps)
+  {
+    depths.push_back(toMillimetres(step.depth));
+    extents.push_back(toMillimetres(extentRadius(step.profile, study_.threshold)));
+    for (const auto& point : step.profile)
+    {
+      profiles << depths.back() << ',' << toMillimetres(point.radius) << ','
+               << toMillimetres(point.ur) << ',' << toMillimetres(point.uz) << '\n';
+    }
+  }
+  replaceFile(folder_.stage() / kProfiles, profiles.str());
+  replaceFile(folder_.stage() / kTable, tableText(study_, header_, outcome));
+
+  const ExtentFits fits = fitExtent(depths, extents);
+  const nlohmann::json fitted{ { "of", "extent_radius_mm over depth_mm, lowest power first" },
+    { "linear", json(fits.linear) }, { "quadratic", json(fits.quadratic) },
+    { "linear_holds_to_depth_mm", fits.linearHoldsTo },
+    { "linear_holds_means", "every residual below 3 percent of the largest radius" } };
+  replaceFile(folder_.stage() / "fit.json", fitted.dump(2) + "\n");
+  folder_.publish();
+}
+
+} // namespace palp::fem

@@ -1,0 +1,60 @@
+#include "calibration/tables/extent_table.h"
+
+#include "haptics/error.h"
+#include "haptics/files/number_table.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+
+namespace palp
+{
+ExtentTable ExtentTable::read(const std::filesystem::path& file)
+{
+  std::vector<Row> rows;
+  for (const auto& [values, line] : NumberTable::readFinite(file, kHeader).rows)
+  {
+    rows.push_back({ .depth = units::fromMillimetres(values[0]),
+      .extentRadius = units::fromMillimetres(values[1]),
+      .force = values[2],
+      .contactRadius = units::fromMillimetres(values[3]) });
+  }
+  try
+  {
+    return ExtentTable(std::move(rows));
+  }
+  catch (const Error& error)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": " + error.what());
+  }
+}
+
+ExtentTable::ExtentTable(std::vector<Row> rows)
+  : rows_(std::move(rows))
+{
+  const auto notIncreasing = [](const Row& a, const Row& b) { return !(a.depth < b.depth); };
+  if (rows_.size() < 2 || !(rows_.front().depth > 0.0) ||
+    std::adjacent_find(rows_.begin(), rows_.end(), notIncreasing) != rows_.end())
+  {
+    throw Error(ErrorCode::BadValue,
+      "an R_d table needs two rows or more with increasing depths; calibrate again");
+  }
+}
+
+double ExtentTable::extentRadius(double depth) const noexcept
+{
+  if (!(depth > 0.0))
+  {
+    return 0.0;
+  }
+  const auto above = std::lower_bound(rows_.begin(), rows_.end(), depth,
+    [](const Row& row, double value) { return row.depth < value; });
+  if (above == rows_.end())
+  {
+    return rows_.back().extentRadius;
+  }
+  const Row below = above == rows_.begin() ? Row{} : *(above - 1);
+  const double t = (depth - below.depth) / (above->depth - below.depth);
+  return below.extentRadius + t * (above->extentRadius - below.extentRadius);
+}
+
+} // namespace palp

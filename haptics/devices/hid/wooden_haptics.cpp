@@ -1,0 +1,187 @@
+#include "haptics/devices/hid/wooden_haptics.h"
+
+#include "haptics/error.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::size_t kReport = 14;
+constexpr double kMilliampere = 0.001; // [A]
+
+struct Key
+{
+  std::string_view name;
+  std::span<double> values;
+  bool positive;
+};
+
+std::string_view nextWord(std::string_view& text)
+{
+  constexpr std::string_view kSpace = " \t\r";
+  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+bool readValues(std::string_view text, const Key& key)
+{
+  for (double& value : key.values)
+  {
+    const std::string_view word = nextWord(text);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value) ||
+      (key.positive && !(value > 0.0)))
+    {
+      return false;
+    }
+  }
+  return nextWord(text).empty();
+}
+
+} // namespace
+
+WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
+{
+  WoodenArm arm;
+  const std::array keys{ Key{ "capstan", arm.capstan, true }, Key{ "length", arm.length, true },
+    Key{ "body", arm.body, true }, Key{ "origin", arm.origin, false },
+    Key{ "torque", arm.torque, true }, Key{ "counts", arm.counts, true },
+    Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false },
+    Key{ "radius", { &arm.radius, 1 }, true }, Key{ "max_force", { &arm.maxForce, 1 }, true },
+    Key{ "max_current", { &arm.maxCurrent, 1 }, true },
+    Key{ "damping", { &arm.damping, 1 }, true } };
+  for (int line = 1; !text.empty(); ++line)
+  {
+    std::string_view row = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), row.size() + 1));
+    row = row.substr(0, row.find('#'));
+    const std::string_view word = nextWord(row);
+    if (word.empty())
+    {
+      continue;
+    }
+    const auto key = std::ranges::find(keys, word, &Key::name);
+    if (key == keys.end() || nextWord(row) != "=" || !readValues(row, *key))
+    {
+      throw Error(ErrorCode::BadFile,
+        name + ":" + std::to_string(line) +
+          ": not a known key with its numbers; write as in: length = 0.080 0.205 0.245");
+    }
+  }
+  for (const double sign : arm.sign)
+  {
+    if (std::abs(sign) != 1.0)
+    {
+      throw Error(ErrorCode::BadFile, name + ": a sign is neither 1 nor -1; give one of them");
+    }
+  }
+  for (const double count : arm.rest)
+  {
+    if (nearestInt<std::int16_t>(count) != count)
+    {
+      throw Error(ErrorCode::BadFile,
+        name + ": rest is no whole number of counts from -32768 to 32767; give one");
+    }
+  }
+  return arm;
+}
+
+std::optional<WoodenReport> decodeWooden(Bytes report) noexcept
+{
+  if (report.size() < kReport)
+  {
+    return std::nullopt;
+  }
+  WoodenReport decoded;
+  for (std::size_t i = 0; i < decoded.encoders.size(); ++i)
+  {
+    decoded.encoders[i] = readInt<std::int16_t>(report, 2 * i);
+  }
+  decoded.calibrate = readInt<std::int16_t>(report, 12) == 1;
+  return decoded;
+}
+
+void encodeWooden(const std::array<double, 3>& currents, MutableBytes report) noexcept
+{
+  std::ranges::fill(report, std::byte{ 0 }); // command 0: run the currents
+  for (std::size_t i = 0; i < currents.size(); ++i)
+  {
+    writeInt(report, 2 * i, nearestInt<std::int16_t>(currents[i] / kMilliampere));
+  }
+}
+
+void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
+{
+  constexpr std::int16_t kSetCounters = 1;
+  std::ranges::fill(report, std::byte{ 0 }); // the counters of a wrist, too
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    writeInt(report, 8 + 2 * i, nearestInt<std::int16_t>(arm.rest[i]));
+  }
+  writeInt(report, 6, kSetCounters);
+}
+
+Eigen::Vector3d bodyAngles(
+  const WoodenArm& arm, const std::array<std::int16_t, 6>& encoders) noexcept
+{
+  Eigen::Vector3d angles;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double motor = 2.0 * std::numbers::pi * encoders[i] / arm.counts[i];
+    angles[static_cast<int>(i)] = arm.sign[i] * motor * arm.capstan[i] / arm.body[i];
+  }
+  return angles;
+}
+
+Eigen::Vector3d placeOf(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept
+{
+  const auto& [shoulder, upper, fore] = arm.length;
+  const double reach = upper * std::sin(angles[1]) + fore * std::sin(angles[2]);
+  return { std::cos(angles[0]) * reach - arm.origin[0], std::sin(angles[0]) * reach - arm.origin[1],
+    shoulder + upper * std::cos(angles[1]) - fore * std::cos(angles[2]) - arm.origin[2] };
+}
+
+Eigen::Matrix3d placeJacobian(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept
+{
+  const double upper = arm.length[1];
+  const double fore = arm.length[2];
+  const Eigen::Vector3d s = angles.array().sin();
+  const Eigen::Vector3d c = angles.array().cos();
+  const double reach = upper * s[1] + fore * s[2];
+  Eigen::Matrix3d jacobian;
+  jacobian.col(0) << -s[0] * reach, c[0] * reach, 0.0;
+  jacobian.col(1) << upper * c[0] * c[1], upper * s[0] * c[1], -upper * s[1];
+  jacobian.col(2) << fore * c[0] * c[2], fore * s[0] * c[2], fore * s[2];
+  return jacobian;
+}
+
+std::array<double, 3> currentsFor(
+  const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept
+{
+  const Eigen::Vector3d torques = placeJacobian(arm, angles).transpose() * force;
+  std::array<double, 3> currents{};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double motor = torques[static_cast<int>(i)] * arm.sign[i] * arm.capstan[i] / arm.body[i];
+    currents[i] = motor / arm.torque[i];
+    largest = std::fmax(largest, std::abs(currents[i]));
+  }
+  const bool finite = torques.allFinite() && std::isfinite(largest);
+  const double share = !finite ? 0.0 : largest > arm.maxCurrent ? arm.maxCurrent / largest : 1.0;
+  for (double& current : currents)
+  {
+    current = share > 0.0 ? current * share : 0.0;
+  }
+  return currents;
+}
+
+} // namespace palp

@@ -1,0 +1,264 @@
+#include "haptics/devices/simulated/scripted_path.h"
+
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kShortestPiece = 1e-6; // [s]
+constexpr double kFarthest = 10.0;      // [m]
+constexpr double kAxisTolerance = 0.01;
+
+constexpr std::string_view kHeader = "time_s,x_mm,y_mm,z_mm";
+constexpr std::string_view kHeaderWithAxis = "time_s,x_mm,y_mm,z_mm,ax,ay,az";
+
+constexpr std::size_t kShortRow = 4;
+constexpr std::size_t kLongRow = 7;
+
+using Names = std::array<std::string_view, kLongRow>;
+constexpr Names kOfPaths{ "time_s", "x_mm", "y_mm", "z_mm", "ax", "ay", "az" };
+constexpr Names kOfRecordings{ "time_s", "tool_x_mm", "tool_y_mm", "tool_z_mm", "axis_x", "axis_y",
+  "axis_z" };
+
+// what is wrong with a knot that follows another; empty when nothing is
+std::string fault(const PathKnot* previous, const PathKnot& knot)
+{
+  if (!std::isfinite(knot.time))
+  {
+    return "the time is not a finite number";
+  }
+  if (previous != nullptr && knot.time < previous->time + kShortestPiece)
+  {
+    return "the time does not increase; give each row a later time than the row before";
+  }
+  if (!knot.apex.allFinite() || knot.apex.cwiseAbs().maxCoeff() > kFarthest)
+  {
+    return "the position is farther than 10 m from the origin; give millimetres in the mesh's "
+           "frame";
+  }
+  if (knot.axis && !(std::abs(knot.axis->norm() - 1.0) <= kAxisTolerance))
+  {
+    return "the axis is not of length one; give the unit vector from handle to apex";
+  }
+  return {};
+}
+
+std::string_view trimmed(std::string_view text)
+{
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == text.npos ? std::string_view{}
+                            : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+// takes what stands before the separator, and shortens the text by both
+std::string_view cut(std::string_view& text, char separator)
+{
+  const std::string_view piece = text.substr(0, text.find(separator));
+  text.remove_prefix(std::min(text.size(), piece.size() + 1));
+  return piece;
+}
+
+class Reader
+{
+public:
+  explicit Reader(std::string name)
+    : name_(std::move(name))
+  {
+  }
+
+  std::vector<PathKnot> read(std::string_view text)
+  {
+    std::vector<PathKnot> knots;
+    bool mayBeHeader = true;
+    while (!text.empty())
+    {
+      ++line_;
+      const std::string_view row = trimmed(cut(text, '\n'));
+      if (row.empty() || row.front() == '#' ||
+        (std::exchange(mayBeHeader, false) && readHeader(cellsOf(row))))
+      {
+        continue;
+      }
+      knots.push_back(knot(cellsOf(row)));
+      const PathKnot* previous = knots.size() > 1 ? &knots[knots.size() - 2] : nullptr;
+      if (const std::string what = fault(previous, knots.back()); !what.empty())
+      {
+        fail(what);
+      }
+    }
+    if (knots.empty())
+    {
+      throw Error(ErrorCode::BadFile,
+        name_ + ": no row; give rows of " + std::string(kHeader) + ", with ,ax,ay,az if known");
+    }
+    return knots;
+  }
+
+private:
+  using Cells = std::vector<std::string_view>;
+
+  static Cells cellsOf(std::string_view row)
+  {
+    Cells cells;
+    while (!row.empty())
+    {
+      cells.push_back(trimmed(cut(row, ',')));
+    }
+    return cells;
+  }
+
+  // finds the columns of a path, or of a recording among its others; false: a row of numbers
+  bool readHeader(const Cells& cells)
+  {
+    const auto has = [&](std::string_view name) { return std::ranges::count(cells, name) > 0; };
+    if (!has(kOfPaths[0]))
+    {
+      return false;
+    }
+    const Names& names = has(kOfRecordings[1]) ? kOfRecordings : kOfPaths;
+    const bool turned = has(names[kShortRow]);
+    columns_.resize(turned ? kLongRow : kShortRow);
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+    {
+      if (!has(names[i]))
+      {
+        fail("no column " + std::string(names[i]) + "; give " + std::string(kHeaderWithAxis) +
+          ", or a samples.csv that Palp has exported");
+      }
+      columns_[i] = static_cast<std::size_t>(std::ranges::find(cells, names[i]) - cells.begin());
+    }
+    width_ = cells.size();
+    return true;
+  }
+
+  [[nodiscard]] PathKnot knot(const Cells& cells) const
+  {
+    if (width_ != 0 && cells.size() != width_)
+    {
+      fail("a row of " + std::to_string(cells.size()) + " columns below a header of " +
+        std::to_string(width_));
+    }
+    const std::size_t count = width_ != 0 ? columns_.size() : cells.size();
+    std::array<double, kLongRow> values{};
+    for (std::size_t i = 0; i < std::min(count, values.size()); ++i)
+    {
+      values[i] = number(cells[width_ != 0 ? columns_[i] : i]);
+    }
+    if (count != kShortRow && count != kLongRow)
+    {
+      fail("a row has 4 or 7 columns; give " + std::string(kHeaderWithAxis));
+    }
+    PathKnot knot;
+    knot.time = values[0];
+    std::transform(&values[1], &values[kShortRow], knot.apex.data(), units::fromMillimetres);
+    if (count == kLongRow)
+    {
+      knot.axis = Eigen::Vector3d::Map(&values[kShortRow]);
+    }
+    return knot;
+  }
+
+  double number(std::string_view text) const
+  {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    {
+      fail(std::string{ '"' }.append(printable(std::string(text.substr(0, 40)))) +
+        "\" is not a number; write it as -1.25, below a header " + std::string(kHeader));
+    }
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const
+  {
+    throw Error(ErrorCode::BadFile, name_ + ":" + std::to_string(line_) + ": " + what);
+  }
+
+  std::string name_;
+  int line_ = 0;
+  std::vector<std::size_t> columns_; // of time, position and axis below a header
+  std::size_t width_ = 0;            // of the header; 0 without one
+};
+
+} // namespace
+
+ScriptedPath::ScriptedPath(std::vector<PathKnot> knots)
+  : knots_(std::move(knots))
+{
+  if (knots_.empty())
+  {
+    throw Error(ErrorCode::BadValue, "path: no knot; give at least one");
+  }
+  const PathKnot* previous = nullptr;
+  for (PathKnot& knot : knots_)
+  {
+    if (const std::string what = fault(previous, knot); !what.empty())
+    {
+      throw Error(
+        ErrorCode::BadValue, "path: knot " + std::to_string(&knot - knots_.data()) + ": " + what);
+    }
+    if (knot.axis)
+    {
+      knot.axis->normalize();
+    }
+    previous = &knot;
+  }
+}
+
+bool ScriptedPath::hasAxes() const noexcept
+{
+  return std::ranges::all_of(knots_, [](const PathKnot& knot) { return knot.axis.has_value(); });
+}
+
+ToolPose ScriptedPath::poseAt(double time, const Eigen::Vector3d& missingAxis) const noexcept
+{
+  const auto later = std::ranges::upper_bound(knots_, time, {}, &PathKnot::time);
+  const bool atEnd = later == knots_.end() && time == knots_.back().time && knots_.size() > 1;
+  if (later == knots_.begin() || (later == knots_.end() && !atEnd))
+  {
+    const PathKnot& knot = later == knots_.begin() ? knots_.front() : knots_.back();
+    return { .apex = knot.apex, .axis = knot.axis.value_or(missingAxis) };
+  }
+
+  const PathKnot& to = atEnd ? knots_.back() : *later;
+  const PathKnot& from = *(&to - 1);
+  const double length = to.time - from.time;
+  const double share = (time - from.time) / length;
+  ToolPose pose;
+  pose.apex = from.apex + share * (to.apex - from.apex);
+  pose.velocity = (to.apex - from.apex) / length;
+
+  // the chord between two unit vectors, made a unit vector again; opposite ones have no middle
+  const Eigen::Vector3d start = from.axis.value_or(missingAxis);
+  const Eigen::Vector3d chord = start + share * (to.axis.value_or(missingAxis) - start);
+  pose.axis = chord.norm() > kAxisTolerance ? chord.normalized() : start;
+  return pose;
+}
+
+ScriptedPath parsePath(std::string_view text, const std::string& name)
+{
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark))
+  {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  return ScriptedPath(Reader(name).read(text));
+}
+
+ScriptedPath readPath(const std::filesystem::path& file)
+{
+  return parsePath(readText(file, "the CSV file"), file.string());
+}
+
+} // namespace palp

@@ -1,0 +1,160 @@
+#include "haptics/force/linear/contact_table.h"
+
+#include "haptics/force/linear/half_space.h"
+#include "haptics/numerics/monotone_cubic.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kRows = 512;
+constexpr double kShallowest = 1e-9; // of the base depth; below, the power law of the first row
+constexpr double kEquator = 1e-9;    // of R, left out of a sphere, whose base depth is infinite
+
+// radius at which g reaches a depth, known to lie between low and high: Illinois' false position
+double contactRadius(const Tip& tip, double depth, double low, double high)
+{
+  double below = contactDepth(tip, low) - depth;
+  double above = contactDepth(tip, high) - depth;
+  if (!(above > 0.0))
+  {
+    return high; // rounding at a wall, which rises by more than one row between two numbers
+  }
+  for (int i = 0; i < 60 && high - low > 1e-14 * high; ++i)
+  {
+    const double middle =
+      below < 0.0 ? std::clamp((low * above - high * below) / (above - below), low, high) : low;
+    const double value = contactDepth(tip, middle) - depth;
+    if (value == 0.0 || below >= 0.0)
+    {
+      return middle;
+    }
+    if (value < 0.0)
+    {
+      low = middle;
+      below = value;
+      above *= 0.5;
+    }
+    else
+    {
+      high = middle;
+      above = value;
+      below *= 0.5;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+} // namespace
+
+ContactTable::ContactTable(const Tip& tip)
+{
+  const bool sphere = std::holds_alternative<SphereTip>(tip);
+  base_.radius = baseRadius(tip) * (sphere ? 1.0 - kEquator : 1.0);
+  baseDepth_ = contactDepth(tip, base_.radius);
+  if (!(baseDepth_ > 0.0))
+  {
+    baseDepth_ = 0.0;
+    return;
+  }
+  firstLog_ = std::log(kShallowest * baseDepth_);
+  step_ = -std::log(kShallowest) / (kRows - 1);
+
+  // radii from the base down; g(a)/a never decreases in a, which brackets each next radius
+  std::vector<double> logs(kRows);
+  std::vector<double> radii(kRows, base_.radius);
+  for (int i = kRows - 1; i-- > 0;)
+  {
+    const auto row = static_cast<std::size_t>(i);
+    logs[row] = firstLog_ + i * step_;
+    radii[row] = contactRadius(tip, std::exp(logs[row]),
+      std::max(flatRadius(tip), radii[row + 1] * std::exp(-step_)), radii[row + 1]);
+  }
+  logs.back() = firstLog_ + (kRows - 1) * step_;
+  const std::vector<double> slopes = monotoneSlopes(logs, radii);
+
+  // integrals of g s^(2k): below the first row a ~ depth^p in closed form, then Gauss
+  std::array<double, kMoments> sums{};
+  const double power = slopes[0] / radii[0];
+  for (std::size_t k = 0; k < kMoments; ++k)
+  {
+    const double order = 2.0 * static_cast<double>(k) + 1.0;
+    sums[k] = std::exp(firstLog_) * std::pow(radii[0], order) * power / (1.0 + order * power);
+  }
+  rows_.resize(kRows);
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+  {
+    const double from = i > 0 ? radii[i - 1] : radii[0];
+    for (const double node : { -std::sqrt(0.6), 0.0, std::sqrt(0.6) })
+    {
+      const double s = from + 0.5 * (1.0 + node) * (radii[i] - from);
+      double integrand = (node == 0.0 ? 4.0 : 2.5) / 9.0 * (radii[i] - from) * contactDepth(tip, s);
+      for (double& sum : sums)
+      {
+        sum += integrand;
+        integrand *= s * s;
+      }
+    }
+    const double depth = std::exp(logs[i]);
+    Row& row = rows_[i];
+    row.value.radius = radii[i];
+    row.slope.radius = slopes[i];
+    row.value.force = 2.0 * (depth * radii[i] - sums[0]);
+    row.slope.force = 2.0 * depth * radii[i];
+    double scale = 1.0;
+    for (std::size_t k = 0; k < kMoments; ++k)
+    {
+      const double moment = sums[k] / scale;
+      row.value.moments[k] = moment;
+      row.slope.moments[k] = (depth - 2.0 * static_cast<double>(k) * moment / radii[i]) * slopes[i];
+      scale *= radii[i] * radii[i];
+    }
+  }
+  base_ = rows_.back().value;
+}
+
+ContactTable::Entry ContactTable::operator()(double depth) const noexcept
+{
+  if (depth >= baseDepth_)
+  {
+    return base_;
+  }
+  const double log = std::log(depth);
+  const double along = (log - firstLog_) / step_;
+  Entry entry;
+  if (along < 0.0)
+  {
+    // a ~ depth^p
+    const Row& first = rows_.front();
+    const double exponent = first.slope.radius / first.value.radius;
+    const double shrink = std::exp(exponent * (log - firstLog_));
+    entry.radius = first.value.radius * shrink;
+    const double scale = shrink * depth / std::exp(firstLog_);
+    entry.force = first.value.force * scale;
+    for (std::size_t k = 0; k < kMoments; ++k)
+    {
+      entry.moments[k] = first.value.moments[k] * scale;
+    }
+    return entry;
+  }
+  const std::size_t i = std::min(static_cast<std::size_t>(along), rows_.size() - 2);
+  const double place = std::min(1.0, along - static_cast<double>(i));
+  const Row& low = rows_[i];
+  const Row& high = rows_[i + 1];
+  const auto read = [&](double y0, double y1, double slope0, double slope1)
+  { return hermite(place, step_, y0, y1, slope0, slope1).value; };
+  entry.force = read(low.value.force, high.value.force, low.slope.force, high.slope.force);
+  entry.radius = read(low.value.radius, high.value.radius, low.slope.radius, high.slope.radius);
+  for (std::size_t k = 0; k < kMoments; ++k)
+  {
+    entry.moments[k] = read(
+      low.value.moments[k], high.value.moments[k], low.slope.moments[k], high.slope.moments[k]);
+  }
+  return entry;
+}
+
+} // namespace palp

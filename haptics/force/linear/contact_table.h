@@ -1,0 +1,56 @@
+#pragma once
+
+#include "haptics/tip/tip.h"
+
+#include <array>
+#include <vector>
+
+namespace palp
+{
+
+/// Contact of a tip with a half-space against the depth, baked for reading in constant time.
+///
+/// With it come the moments of the depth function g(s) over the contact, of which the force on
+/// a half-space and on a layer are made.
+class ContactTable
+{
+public:
+  static constexpr int kMoments = 4;
+
+  struct Entry
+  {
+    double force = 0.0;                        ///< F / E* on a half-space [m^2]
+    double radius = 0.0;                       ///< a [m]
+    std::array<double, kMoments> moments = {}; ///< k: int_0^a g(s) (s/a)^(2k) ds [m^2]
+  };
+
+  /// @param tip  checked
+  explicit ContactTable(const Tip& tip);
+
+  /// @param depth  [m], more than 0; at most baseDepth() is read
+  /// @return       smooth and monotone in depth, relative error of the force below 1e-6, within
+  ///               4 % of the depth at which a corner of a profile is reached below 6e-5
+  /// @realtime     pure; no allocation, no lock, no exception
+  [[nodiscard]] Entry operator()(double depth) const noexcept;
+
+  /// Depth at which the whole base is in contact; for a sphere where a is R but for 1e-9.
+  [[nodiscard]] double baseDepth() const noexcept
+  {
+    return baseDepth_;
+  } ///< [m]
+
+private:
+  struct Row
+  {
+    Entry value;
+    Entry slope; // d value / d log(depth)
+  };
+
+  double baseDepth_;
+  double firstLog_ = 0.0; // log of the first row's depth
+  double step_ = 0.0;     // in log(depth)
+  std::vector<Row> rows_; // none where the base touches at once
+  Entry base_;            // at baseDepth()
+};
+
+} // namespace palp

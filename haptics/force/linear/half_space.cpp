@@ -1,0 +1,216 @@
+#include "haptics/force/linear/half_space.h"
+
+#include "haptics/tip/on_tip.h"
+#include "haptics/tip/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kMostSteps = 20; // of Newton's method; three to five are usual
+
+// Newton's method where it is known to converge from the given start
+template <typename Function>
+double newton(double x, Function stepAt) noexcept
+{
+  for (int i = 0; i < kMostSteps; ++i)
+  {
+    const double step = stepAt(x);
+    x -= step;
+    // the error of the next step is about the square of this one
+    if (!(std::abs(step) > 1e-9 * std::abs(x)))
+    {
+      break;
+    }
+  }
+  return x;
+}
+
+// a cone whose tip is a cap: the lengths that its formulas share
+struct CappedCone
+{
+  explicit CappedCone(const BluntConeTip& tip) noexcept
+    : rho(tip.tipRadius)
+    , b(rho * std::cos(tip.halfAngle))
+    , n(rho * std::sin(tip.halfAngle))
+  {
+  }
+
+  // sqrt(a^2 - b^2)
+  [[nodiscard]] double m(double a) const noexcept
+  {
+    return std::sqrt(std::max(0.0, (a - b) * (a + b)));
+  }
+
+  // depth / a beyond the cap
+  [[nodiscard]] double steepness(double a) const noexcept
+  {
+    return std::log((a + rho) / (m(a) + n)) + b / n * std::acos(std::min(1.0, b / a));
+  }
+
+  double rho; // of the cap [m]
+  double b;   // radius where cap and flank meet [m]
+  double n;   // height of the cap's centre over that circle [m]; b / n = cot(alpha)
+};
+
+// g(a): depth at which the radius of contact is a
+
+double contactDepth(const SphereTip& tip, double a) noexcept
+{
+  return a * std::atanh(a / tip.radius);
+}
+
+double contactDepth(const ConeTip& tip, double a) noexcept
+{
+  return 0.5 * std::numbers::pi * a * cot(tip.halfAngle);
+}
+
+double contactDepth(const PunchTip&, double) noexcept
+{
+  return 0.0;
+}
+
+double contactDepth(const TruncatedConeTip& tip, double a) noexcept
+{
+  return a > tip.flatRadius ? a * cot(tip.halfAngle) * std::acos(tip.flatRadius / a) : 0.0;
+}
+
+double contactDepth(const BluntConeTip& tip, double a) noexcept
+{
+  const CappedCone cone(tip);
+  return a > cone.b ? a * cone.steepness(a) : contactDepth(SphereTip{ cone.rho }, a);
+}
+
+double contactDepth(const ParaboloidTip& tip, double a) noexcept
+{
+  return a * a / tip.radius;
+}
+
+double contactDepth(const ProfileTip& tip, double a) noexcept
+{
+  return tip.profile->contactDepth(a);
+}
+
+// the answer before the base is in contact
+
+LinearContact respond(const SphereTip& tip, double depth) noexcept
+{
+  // a = R tanh(p), depth = R p tanh(p); small p by the series, where the difference loses digits
+  const double ratio = depth / tip.radius;
+  const double p = newton(ratio + std::sqrt(ratio) / (1.0 + ratio),
+    [ratio](double q)
+    {
+      const double t = std::tanh(q);
+      return (q * t - ratio) / (t + q * (1.0 - t * t));
+    });
+  const double t = std::tanh(p);
+  const double p2 = p * p;
+  const double area = p < 0.03
+    ? p * p2 * (4.0 / 3.0 - p2 * (4.0 / 5.0 - p2 * (136.0 / 315.0 - p2 * (124.0 / 567.0))))
+    : (1.0 + t * t) * p - t;
+  return { tip.radius * tip.radius * area, tip.radius * t };
+}
+
+LinearContact respond(const ConeTip& tip, double depth) noexcept
+{
+  const double a = 2.0 / std::numbers::pi * depth * std::tan(tip.halfAngle);
+  return { a * depth, a };
+}
+
+LinearContact respond(const PunchTip& tip, double depth) noexcept
+{
+  return { 2.0 * tip.radius * depth, tip.radius };
+}
+
+LinearContact respond(const TruncatedConeTip& tip, double depth) noexcept
+{
+  // a = b / sin(q), where q + k sin(q) = pi / 2; concave, so it converges from below
+  const double k = depth / (tip.flatRadius * cot(tip.halfAngle));
+  constexpr double right = 0.5 * std::numbers::pi;
+  const double q = newton(right / (1.0 + k),
+    [k](double x) { return (x + k * std::sin(x) - right) / (1.0 + k * std::cos(x)); });
+  const double a = tip.flatRadius / std::sin(q);
+  return { cot(tip.halfAngle) * (a * a * (right - q) + tip.flatRadius * a * std::cos(q)), a };
+}
+
+LinearContact respond(const BluntConeTip& tip, double depth) noexcept
+{
+  const CappedCone cone(tip);
+  const auto& [rho, b, n] = cone;
+  if (depth <= contactDepth(SphereTip{ rho }, b))
+  {
+    return respond(SphereTip{ rho }, depth);
+  }
+  // g is concave beyond the cap and below its asymptote, so it converges from the left
+  const double lift = rho * rho / n - rho; // of the tip over the apex of the sharp cone
+  const double start = std::max(b, 2.0 / std::numbers::pi * (depth + lift) * n / b);
+  const double a = newton(start,
+    [&](double x)
+    {
+      const double g = cone.steepness(x);
+      const double m = cone.m(x);
+      return (x * g - depth) / (g + x / (x + rho) + (b * b - n * m) / (n * (m + n)));
+    });
+  // F / E* with the logarithm and the angle of the steepness, whose sum is depth / a
+  const double m = cone.m(a);
+  const double log = std::log((a + rho) / (m + n));
+  return { a * depth + rho * rho * log - a * rho + m * n + b * b * m / n, a };
+}
+
+// Hertz
+LinearContact respond(const ParaboloidTip& tip, double depth) noexcept
+{
+  const double a = std::sqrt(tip.radius * depth);
+  return { 4.0 / 3.0 * a * depth, a };
+}
+
+LinearContact respond(const ProfileTip&, double) noexcept
+{
+  return {}; // from its table
+}
+
+LinearContact respond(const ContactTable& table, double depth) noexcept
+{
+  const ContactTable::Entry entry = table(depth);
+  return { entry.force, entry.radius };
+}
+
+} // namespace
+
+double contactDepth(const Tip& tip, double radius) noexcept
+{
+  return onTip(tip, [radius](const auto& shape) { return contactDepth(shape, radius); });
+}
+
+HalfSpace::HalfSpace(const Tip& tip)
+  : tip_(tip)
+  , baseRadius_(baseRadius(tip))
+  , baseDepth_(palp::contactDepth(tip, baseRadius_))
+{
+  if (std::holds_alternative<ProfileTip>(tip))
+  {
+    table_ = std::make_shared<const ContactTable>(tip);
+  }
+}
+
+LinearContact HalfSpace::operator()(double depth) const noexcept
+{
+  const double before = std::min(depth, baseDepth_);
+  LinearContact contact = table_ != nullptr
+    ? respond(*table_, before)
+    : onTip(tip_, [before](const auto& shape) { return respond(shape, before); });
+  if (depth >= baseDepth_)
+  {
+    contact.radius = baseRadius_;
+    contact.force += 2.0 * baseRadius_ * (depth - baseDepth_);
+  }
+  contact.stiffness = 2.0 * contact.radius;
+  return contact;
+}
+
+} // namespace palp

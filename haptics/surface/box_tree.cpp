@@ -1,0 +1,148 @@
+#include "haptics/surface/box_tree.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kLeaf = 2; // facets: smaller leaves reject more of them, larger ones take fewer bytes
+constexpr double kFlattest = 1e-12; // [-], area over squared longest edge of a usable triangle
+
+struct Box
+{
+  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array3f high = -low;
+
+  void add(const Box& other)
+  {
+    low = low.min(other.low);
+    high = high.max(other.high);
+  }
+};
+
+// a triangle waiting for its place in the tree
+struct Entry
+{
+  Box box;
+  int triangle;
+
+  [[nodiscard]] float middle(int axis) const
+  {
+    return box.low[axis] + box.high[axis];
+  }
+};
+
+float roundedDown(double value)
+{
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) <= value
+    ? nearest
+    : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+
+Box boxOf(const Facet& facet)
+{
+  Box box;
+  for (const Eigen::Vector3d& corner : facet.corners)
+  {
+    const Eigen::Array3d x = corner.array();
+    box.low = box.low.min(x.unaryExpr([](double v) { return roundedDown(v); }));
+    box.high = box.high.max(x.unaryExpr([](double v) { return -roundedDown(-v); }));
+  }
+  return box;
+}
+
+// nothing when the triangle has no area
+bool makeFacet(std::span<const Eigen::Vector3d> points, const Triangle& triangle, Facet& facet)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    facet.corners[k] = points[static_cast<std::size_t>(triangle[k])];
+  }
+  facet.normal = unitNormal(points, triangle);
+  return !facet.normal.isZero(0.0);
+}
+
+// median split along the longest side of the box of the middles
+void split(std::vector<BoxTree::Node>& nodes, std::span<Entry> entries, int first)
+{
+  Box box;
+  Box middles;
+  for (const Entry& entry : entries)
+  {
+    box.add(entry.box);
+    const Eigen::Array3f middle = entry.box.low + entry.box.high;
+    middles.low = middles.low.min(middle);
+    middles.high = middles.high.max(middle);
+  }
+  const std::size_t self = nodes.size();
+  nodes.push_back({ .low = { box.low[0], box.low[1], box.low[2] },
+    .first = first,
+    .high = { box.high[0], box.high[1], box.high[2] },
+    .count = static_cast<std::int32_t>(entries.size()) });
+  if (entries.size() <= static_cast<std::size_t>(kLeaf))
+  {
+    return;
+  }
+
+  int axis = 0;
+  (middles.high - middles.low).maxCoeff(&axis);
+  const std::size_t half = entries.size() / 2;
+  std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half),
+    entries.end(),
+    [axis](const Entry& a, const Entry& b) { return a.middle(axis) < b.middle(axis); });
+  nodes[self].count = 0;
+  split(nodes, entries.first(half), first);
+  nodes[self].first = static_cast<std::int32_t>(nodes.size());
+  split(nodes, entries.subspan(half), first + static_cast<int>(half));
+}
+
+} // namespace
+
+Eigen::Vector3d unitNormal(
+  std::span<const Eigen::Vector3d> points, const Triangle& triangle) noexcept
+{
+  const Eigen::Vector3d& a = points[static_cast<std::size_t>(triangle[0])];
+  const Eigen::Vector3d u = points[static_cast<std::size_t>(triangle[1])] - a;
+  const Eigen::Vector3d v = points[static_cast<std::size_t>(triangle[2])] - a;
+  const Eigen::Vector3d cross = u.cross(v);
+  const double longest = std::max({ u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm() });
+  const double area = cross.norm();
+  return area > kFlattest * longest ? cross / area : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+BoxTree::BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
+{
+  std::vector<Entry> entries;
+  entries.reserve(triangles.size());
+  Facet facet;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    if (makeFacet(points, triangles[i], facet))
+    {
+      entries.push_back({ boxOf(facet), static_cast<int>(i) });
+    }
+  }
+  if (entries.empty())
+  {
+    return;
+  }
+  nodes_.reserve(entries.size());
+  split(nodes_, entries, 0);
+
+  facets_.reserve(entries.size());
+  order_.reserve(entries.size());
+  for (const Entry& entry : entries)
+  {
+    (void)makeFacet(points, triangles[static_cast<std::size_t>(entry.triangle)], facet);
+    facets_.push_back(facet);
+    order_.push_back(entry.triangle);
+  }
+}
+
+} // namespace palp

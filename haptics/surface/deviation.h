@@ -1,0 +1,19 @@
+#pragma once
+
+#include "haptics/surface/surface.h"
+
+namespace palp
+{
+
+/// How far two surfaces lie apart.
+struct Deviation
+{
+  double largest = 0.0;        ///< [m]
+  double rootMeanSquare = 0.0; ///< [m]
+};
+
+/// Distance between two surfaces, from the points of each to the triangles of the other.
+/// @param a, b  of one shape; points without a triangle do not count
+[[nodiscard]] Deviation deviation(const Surface& a, const Surface& b);
+
+} // namespace palp

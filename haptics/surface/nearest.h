@@ -1,0 +1,37 @@
+#pragma once
+
+#include "haptics/surface/surface.h"
+
+#include <Eigen/Core>
+
+namespace palp
+{
+
+/// Point of a surface that is nearest to a place.
+struct Nearest
+{
+  int triangle = -1;                               ///< -1: none within reach
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< on the triangles [m]
+  double distance = 0.0;                           ///< [m], negative inside the body
+};
+
+/// The nearest point of the triangles, and on which side of them a place is.
+///
+/// Beside an open edge the inside ends gradually: behind the plane of the sheet, the distance
+/// past its edge counts against the depth.
+///
+/// @param reach   farthest distance of interest [m]; infinity to find always
+/// @source        Ericson, Real-Time Collision Detection, 5.1.5; Baerentzen and Aanaes 2005
+/// @realtime      pure; no allocation, no lock, no exception
+[[nodiscard]] Nearest findNearest(
+  const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept;
+
+/// Distance along a ray to the first triangle that it leaves the body through.
+///
+/// @param direction  unit vector
+/// @return           [m]; infinity where it leaves through none
+/// @realtime         pure; no allocation, no lock, no exception
+[[nodiscard]] double distanceToFarSide(
+  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
+
+} // namespace palp

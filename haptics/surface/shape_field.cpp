@@ -1,0 +1,367 @@
+#include "haptics/surface/shape_field.h"
+
+#include "haptics/surface/nearest.h"
+#include "haptics/surface/surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kFinest = 1.0 / 50.0;   // of the diagonal: least radius of an average
+constexpr double kEdges = 2.0;           // edges of the mesh there; fewer come through one by one
+constexpr double kWidest = 1.0 / 6.0;    // of the diagonal: the least radius, however coarse the mesh
+constexpr double kFine = 0.5;            // cells in the least radius, the reciprocal
+constexpr double kCoarse = 0.25;         // the same where edges of the mesh set that radius
+constexpr double kMostPieces = 100000.0; // of the triangles, beyond one each
+constexpr double kTurn = 3.0;            // cells to each side of an edge within which it turns
+constexpr double kSharp = 0.8;           // [rad] that a sharp one turns there: 55 degrees
+constexpr float kOneSide = 0.8F;         // length of the mean normal of one side of the surface
+
+// diagonal of the box about all triangles
+double diagonal(const BoxTree::Node& box)
+{
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double side = static_cast<double>(box.high[k]) - static_cast<double>(box.low[k]);
+    sum += side * side;
+  }
+  return std::sqrt(sum);
+}
+
+double longestEdge(const std::array<Eigen::Vector3d, 3>& p)
+{
+  return std::sqrt(std::max(
+    { (p[0] - p[1]).squaredNorm(), (p[1] - p[2]).squaredNorm(), (p[2] - p[0]).squaredNorm() }));
+}
+
+// so large that the triangles are not cut into too many pieces
+double leastCell(const BoxTree& tree)
+{
+  double area = 0.0;
+  double length = 0.0;
+  for (const Facet& facet : tree.facets())
+  {
+    const auto& [a, b, c] = facet.corners;
+    area += 0.5 * (b - a).cross(c - a).norm();
+    length += longestEdge(facet.corners);
+  }
+  const double pieces = kMostPieces + 4.0 * static_cast<double>(tree.facets().size());
+  return std::max(std::sqrt(4.0 * area / kMostPieces), 2.0 * length / pieces);
+}
+
+// one triangle, or a part of it, and how its sides turn the surface
+struct Part
+{
+  std::array<Eigen::Vector3d, 3> corners;
+  std::array<int, 3> sides; // of the triangle, from corner k to k + 1; -1 within it
+};
+
+// halves the longest side until none is longer than a cell
+template <typename Use>
+void cut(const Part& piece, double cell, Use use)
+{
+  const auto& p = piece.corners;
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+  {
+    k = (p[(i + 1) % 3] - p[i]).squaredNorm() > (p[(k + 1) % 3] - p[k]).squaredNorm() ? i : k;
+  }
+  const std::size_t next = (k + 1) % 3;
+  const std::size_t last = (k + 2) % 3;
+  if (!((p[next] - p[k]).squaredNorm() > cell * cell))
+  {
+    use(piece);
+    return;
+  }
+  const Eigen::Vector3d middle = 0.5 * (p[k] + p[next]);
+  cut(Part{ { p[k], middle, p[last] }, { piece.sides[k], -1, piece.sides[last] } }, cell, use);
+  cut(Part{ { middle, p[next], p[last] }, { piece.sides[k], piece.sides[next], -1 } }, cell, use);
+}
+
+// by half of what the surface turns at each side of a triangle, across that side, per length
+std::array<Eigen::Matrix3d, 3> bends(const Surface& surface, const Facet& facet, int triangle)
+{
+  std::array<Eigen::Matrix3d, 3> result;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    result[k].setZero();
+    const int other = surface.across(triangle, static_cast<int>(k));
+    if (other < 0)
+    {
+      continue;
+    }
+    const Eigen::Vector3d beyond =
+      unitNormal(surface.points(), surface.triangles()[static_cast<std::size_t>(other)]);
+    const Eigen::Vector3d along = (facet.corners[(k + 1) % 3] - facet.corners[k]).normalized();
+    const Eigen::Vector3d across = along.cross(facet.normal + beyond).normalized();
+    const double turn = std::atan2(facet.normal.cross(beyond).dot(along), facet.normal.dot(beyond));
+    result[k] = 0.5 * turn * across * across.transpose();
+  }
+  return result;
+}
+
+} // namespace
+
+ShapeField::ShapeField(const Surface& surface)
+{
+  const BoxTree& tree = surface.tree();
+  const BoxTree::Node& box = tree.nodes()[0];
+  const double size = diagonal(box);
+  const double scale = std::min(kEdges * surface.edgeLength(), kWidest * size);
+  cell_ = std::max({ kFine * kFinest * size, kCoarse * scale, leastCell(tree) });
+  finest_ = std::max(scale, cell_ / kFine);
+  for (Eigen::Index k = 0; k < 3; ++k)
+  {
+    const auto i = static_cast<std::size_t>(k);
+    origin_[k] = 0.5 * (static_cast<double>(box.low[i]) + static_cast<double>(box.high[i]));
+  }
+
+  std::vector<Piece> pieces;
+  pieces.reserve(tree.facets().size());
+  for (std::size_t i = 0; i < tree.facets().size(); ++i)
+  {
+    const Facet& facet = tree.facets()[i];
+    const auto turns = bends(surface, facet, tree.triangle(static_cast<int>(i)));
+    cut(Part{ facet.corners, { 0, 1, 2 } }, cell_,
+      [&](const Part& part)
+      {
+        const auto& p = part.corners;
+        Piece piece{ ((p[0] + p[1] + p[2]) / 3.0 - origin_).cast<float>(), {} };
+        piece.sums.area = (0.5 * (p[1] - p[0]).cross(p[2] - p[0])).cast<float>();
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          if (part.sides[k] >= 0)
+          {
+            const double length = (p[(k + 1) % 3] - p[k]).norm();
+            piece.sums.bend +=
+              (length * turns[static_cast<std::size_t>(part.sides[k])]).cast<float>();
+          }
+        }
+        pieces.push_back(piece);
+      });
+  }
+  build(pieces, static_cast<float>(cell_));
+  measureLeaves(surface);
+  addUp();
+}
+
+// splits at the median of the widest of place and normal until both fit a cell
+void ShapeField::build(std::span<Piece> pieces, float cell)
+{
+  using Place = Eigen::Array<float, 6, 1>;
+  const auto placeOf = [cell](const Piece& piece)
+  {
+    Place place;
+    place << piece.center.array(), cell * piece.sums.area.normalized().array();
+    return place;
+  };
+  Place low = Place::Constant(std::numeric_limits<float>::infinity());
+  Place high = -low;
+  Node node;
+  Sums sums;
+  float area = 0.0F;
+  for (const Piece& piece : pieces)
+  {
+    const Place place = placeOf(piece);
+    low = low.min(place);
+    high = high.max(place);
+    const float weight = piece.sums.area.norm();
+    area += weight;
+    node.center += weight * piece.center;
+    sums.area += piece.sums.area;
+    sums.bend += piece.sums.bend;
+  }
+  node.center = area > 0.0F ? Eigen::Vector3f(node.center / area) : pieces.front().center;
+  for (const Piece& piece : pieces)
+  {
+    node.radius = std::max(node.radius, (piece.center - node.center).norm());
+  }
+  int widest = 0;
+  const bool leaf = (high - low).maxCoeff(&widest) <= cell || pieces.size() < 2;
+  const bool oneSide = sums.area.norm() > kOneSide * area;
+  node.grain = leaf ? 0.0F : oneSide ? node.radius : std::numeric_limits<float>::infinity();
+  const std::size_t self = nodes_.size();
+  nodes_.push_back(node);
+  sums_.push_back(sums);
+  if (leaf)
+  {
+    return;
+  }
+  const std::size_t half = pieces.size() / 2;
+  std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(),
+    [&](const Piece& a, const Piece& b) { return placeOf(a)[widest] < placeOf(b)[widest]; });
+  build(pieces.first(half), cell);
+  nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
+  build(pieces.subspan(half), cell);
+}
+
+// visit(index, weight) for the parts in a ball; the weight falls smoothly to its rim
+template <typename Visit>
+void ShapeField::search(
+  const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept
+{
+  const Eigen::Vector3f from = (center - origin_).cast<float>();
+  const auto reach = static_cast<float>(radius);
+  const auto coarse = static_cast<float>(grain);
+  const float scale = 1.0F / (reach * reach);
+  std::array<std::int32_t, BoxTree::kDepth> stack;
+  std::size_t waiting = 0;
+  std::int32_t current = nodes_.empty() ? -1 : 0;
+  while (current >= 0)
+  {
+    const auto i = static_cast<std::size_t>(current);
+    const Node& node = nodes_[i];
+    const float squared = (node.center - from).squaredNorm();
+    const float farthest = reach + node.radius;
+    const bool near = squared < farthest * farthest;
+    if (near && node.grain > coarse)
+    {
+      stack[waiting++] = node.right;
+      ++current;
+      continue;
+    }
+    if (const float part = 1.0F - scale * squared; near && part > 0.0F)
+    {
+      visit(i, part * part);
+    }
+    current = waiting > 0 ? stack[--waiting] : -1;
+  }
+}
+
+LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
+  const Eigen::Vector3d& normal, double grain) const noexcept
+{
+  const Eigen::Vector3f toward = normal.cast<float>();
+  Sums sum;
+  float area = 0.0F;
+  search(center, radius, grain,
+    [&](std::size_t i, float weight)
+    {
+      const Sums& part = sums_[i];
+      const float across = toward.dot(part.area);
+      if (across > 0.0F)
+      {
+        const float facing = weight * across / part.area.norm();
+        area += weight * across;
+        sum.bend += facing * part.bend;
+        sum.slenderness += facing * part.slenderness;
+        sum.edge += facing * part.edge;
+      }
+    });
+  if (!(area > 0.0F))
+  {
+    return {};
+  }
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  const Eigen::Matrix3d tensor = (sum.bend / area).cast<double>();
+  const double uu = u.dot(tensor * u);
+  const double vv = v.dot(tensor * v);
+  const double root = static_cast<double>(area) / static_cast<double>(sum.slenderness);
+  LocalShape shape;
+  shape.meanCurvature = 0.5 * (uu + vv);
+  shape.curvatureSpread = std::hypot(0.5 * (uu - vv), u.dot(tensor * v));
+  shape.thickness = root * root;
+  if (hasEdges_)
+  {
+    shape.edgeDistance = static_cast<double>(sum.edge) / static_cast<double>(area);
+  }
+  return shape;
+}
+
+// thickness and sharpness of the leaves, from what is about them
+void ShapeField::measureLeaves(const Surface& surface)
+{
+  const double around = kTurn * cell_;
+  sharp_.assign(nodes_.size(), 0);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    Sums& leaf = sums_[i];
+    if (nodes_[i].right != 0 || leaf.area.isZero(0.0F))
+    {
+      continue;
+    }
+    const Eigen::Vector3d place = origin_ + nodes_[i].center.cast<double>();
+    Sums sum;
+    float area = 0.0F;
+    search(place, around, 0.0,
+      [&](std::size_t k, float weight)
+      {
+        const Sums& part = sums_[k];
+        const float across = leaf.area.dot(part.area);
+        if (across > 0.0F)
+        {
+          const float facing = weight * across / part.area.norm();
+          area += weight * across;
+          sum.area += facing * part.area;
+          sum.bend += facing * part.bend;
+        }
+      });
+    const Eigen::Vector3d inward = -sum.area.normalized().cast<double>();
+    const double thickness = distanceToFarSide(surface, place, inward);
+    leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(thickness));
+    const float curvature = sum.bend.trace() / area;
+    const bool bends = leaf.bend.trace() > 0.25F * curvature * leaf.area.norm(); // not one beside it
+    sharp_[i] = bends && static_cast<double>(curvature) * around > kSharp ? 1 : 0;
+    hasEdges_ = hasEdges_ || sharp_[i] != 0;
+  }
+}
+
+// what the leaves measured, for every node
+void ShapeField::addUp()
+{
+  const auto fromBelow = [this](auto&& atLeaf, auto&& above)
+  {
+    for (std::size_t i = nodes_.size(); i-- > 0;)
+    {
+      const std::int32_t right = nodes_[i].right;
+      right == 0 ? atLeaf(i) : above(i, i + 1, static_cast<std::size_t>(right));
+    }
+  };
+  fromBelow([](std::size_t) {}, [this](std::size_t i, std::size_t left, std::size_t right)
+    { sharp_[i] = sharp_[left] | sharp_[right]; });
+  fromBelow(
+    [this](std::size_t i)
+    {
+      constexpr float far = std::numeric_limits<float>::infinity();
+      sums_[i].edge =
+        hasEdges_ ? sums_[i].area.norm() * toSharpEdge(0, nodes_[i].center, far) : 0.0F;
+    },
+    [this](std::size_t i, std::size_t left, std::size_t right)
+    {
+      sums_[i].slenderness = sums_[left].slenderness + sums_[right].slenderness;
+      sums_[i].edge = sums_[left].edge + sums_[right].edge;
+    });
+  sharp_ = {};
+}
+
+// the nearest leaf that holds some of a sharp edge, if nearer than the best so far
+float ShapeField::toSharpEdge(std::size_t at, const Eigen::Vector3f& from, float best) const
+{
+  const Node& node = nodes_[at];
+  const float distance = (node.center - from).norm();
+  if (sharp_[at] == 0 || distance - node.radius >= best)
+  {
+    return best;
+  }
+  if (node.right == 0)
+  {
+    return std::min(best, distance);
+  }
+  std::array<std::size_t, 2> children = { at + 1, static_cast<std::size_t>(node.right) };
+  const auto far = [&](std::size_t child) { return (nodes_[child].center - from).squaredNorm(); };
+  if (far(children[1]) < far(children[0]))
+  {
+    std::swap(children[0], children[1]);
+  }
+  return toSharpEdge(children[1], from, toSharpEdge(children[0], from, best));
+}
+
+} // namespace palp

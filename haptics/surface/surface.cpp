@@ -1,0 +1,220 @@
+#include "haptics/surface/surface.h"
+
+#include "haptics/surface/sides.h"
+#include "haptics/error.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <string>
+
+namespace palp
+{
+namespace
+{
+
+std::size_t at(int index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+void check(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
+{
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (!points[i].allFinite())
+    {
+      throw Error(ErrorCode::BadMesh,
+        "surface: point " + std::to_string(i) + " is not finite; repair or export the mesh again");
+    }
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    for (const int point : triangles[i])
+    {
+      if (point < 0 || at(point) >= points.size())
+      {
+        throw Error(ErrorCode::BadMesh,
+          "surface: triangle " + std::to_string(i) +
+            " names a point that does not exist; export the mesh again");
+      }
+    }
+  }
+}
+
+std::vector<Eigen::Vector3d> angleWeightedNormals(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
+{
+  std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
+  for (const Triangle& t : triangles)
+  {
+    const Eigen::Vector3d normal = unitNormal(points, t);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3d u = points[at(t[(k + 1) % 3])] - points[at(t[k])];
+      const Eigen::Vector3d v = points[at(t[(k + 2) % 3])] - points[at(t[k])];
+      normals[at(t[k])] += std::atan2(u.cross(v).norm(), u.dot(v)) * normal;
+    }
+  }
+  for (Eigen::Vector3d& normal : normals)
+  {
+    normal.normalize();
+  }
+  return normals;
+}
+
+double distanceToSegment(
+  const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept
+{
+  const Eigen::Vector3d along = b - a;
+  const double t = std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (x - a - t * along).norm();
+}
+
+} // namespace
+
+Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> triangles)
+  : points_(std::move(points))
+  , triangles_(std::move(triangles))
+{
+  check(points_, triangles_);
+  tree_ = BoxTree(points_, triangles_);
+  if (tree_.empty())
+  {
+    throw Error(ErrorCode::BadMesh, "surface: no triangle with an area; choose another file");
+  }
+  normals_ = angleWeightedNormals(points_, triangles_);
+  firstTriangle_.assign(points_.size(), -1);
+  for (int facet = static_cast<int>(tree_.facets().size()) - 1; facet >= 0; --facet)
+  {
+    for (const int point : triangles_[at(tree_.triangle(facet))])
+    {
+      firstTriangle_[at(point)] = tree_.triangle(facet);
+    }
+  }
+  linkEdges();
+  if (!closed())
+  {
+    spreadOpenEdges();
+  }
+  shape_ = ShapeField(*this);
+}
+
+void Surface::linkEdges()
+{
+  const Sides sides = sidesByPoint(points_.size(), triangles_);
+  across_.assign(triangles_.size(), { -1, -1, -1 });
+  std::vector<std::array<int, 2>> edges;
+  edges.reserve(sides.all.size() / 2);
+  double sum = 0.0;
+  forEachEdge(sides,
+    [&](int point, std::span<const Side> edge)
+    {
+      const int other = edge.front().other;
+      edges.push_back({ point, other });
+      sum += (points_[at(point)] - points_[at(other)]).squaredNorm();
+      if (edge.size() == 2)
+      {
+        across_[at(edge[0].triangle)][at(edge[0].k)] = edge[1].triangle;
+        across_[at(edge[1].triangle)][at(edge[1].k)] = edge[0].triangle;
+      }
+      else
+      {
+        openEdges_.push_back(edges.back());
+      }
+    });
+  edgeLength_ = std::sqrt(sum / static_cast<double>(edges.size()));
+
+  firstNeighbour_.assign(points_.size() + 1, 0);
+  for (const auto& [a, b] : edges)
+  {
+    ++firstNeighbour_[at(a) + 1];
+    ++firstNeighbour_[at(b) + 1];
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    firstNeighbour_[i + 1] += firstNeighbour_[i];
+  }
+  neighbours_.resize(2 * edges.size());
+  std::vector<int> next = firstNeighbour_;
+  for (const auto& [a, b] : edges)
+  {
+    neighbours_[at(next[at(a)]++)] = b;
+    neighbours_[at(next[at(b)]++)] = a;
+  }
+}
+
+// each point takes over the nearest open edge that one of its neighbours knows, nearest first
+void Surface::spreadOpenEdges()
+{
+  struct Offer
+  {
+    double distance;
+    int point;
+    int edge;
+    bool operator<(const Offer& other) const
+    {
+      return distance > other.distance;
+    }
+  };
+  nearestOpenEdge_.assign(points_.size(), -1);
+  std::priority_queue<Offer> offers;
+  for (std::size_t edge = 0; edge < openEdges_.size(); ++edge)
+  {
+    for (const int point : openEdges_[edge])
+    {
+      offers.push({ 0.0, point, static_cast<int>(edge) });
+    }
+  }
+  while (!offers.empty())
+  {
+    const Offer offer = offers.top();
+    offers.pop();
+    if (nearestOpenEdge_[at(offer.point)] >= 0)
+    {
+      continue;
+    }
+    nearestOpenEdge_[at(offer.point)] = offer.edge;
+    const auto& [a, b] = openEdges_[at(offer.edge)];
+    for (const int neighbour : neighbours(offer.point))
+    {
+      const double distance =
+        distanceToSegment(points_[at(neighbour)], points_[at(a)], points_[at(b)]);
+      offers.push({ distance, neighbour, offer.edge });
+    }
+  }
+}
+
+std::span<const int> Surface::neighbours(int point) const noexcept
+{
+  const int first = firstNeighbour_[at(point)];
+  return { neighbours_.data() + first, at(firstNeighbour_[at(point) + 1] - first) };
+}
+
+bool Surface::onOpenEdge(int point) const noexcept
+{
+  if (closed() || nearestOpenEdge_[at(point)] < 0)
+  {
+    return false;
+  }
+  const auto& [a, b] = openEdges_[at(nearestOpenEdge_[at(point)])];
+  return a == point || b == point;
+}
+
+double Surface::edgeDistance(const Eigen::Vector3d& position, int triangle) const noexcept
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int point : triangles_[at(triangle)])
+  {
+    if (!closed() && nearestOpenEdge_[at(point)] >= 0)
+    {
+      const auto& [a, b] = openEdges_[at(nearestOpenEdge_[at(point)])];
+      nearest = std::min(nearest, distanceToSegment(position, points_[at(a)], points_[at(b)]));
+    }
+  }
+  return nearest;
+}
+
+} // namespace palp

@@ -1,0 +1,157 @@
+#include "pipeline/charts/comparison.h"
+
+#include "haptics/units.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kNoticed = 0.07; // [-] of a force, Sec. 3.2
+constexpr int kSteps = 200;
+
+std::vector<double> inMillimetres(std::vector<double> metres)
+{
+  std::transform(metres.begin(), metres.end(), metres.begin(), &units::toMillimetres);
+  return metres;
+}
+
+std::vector<double> depthsTo(double deepest)
+{
+  std::vector<double> depths;
+  for (int i = 0; i <= kSteps; ++i)
+  {
+    depths.push_back(deepest * i / kSteps);
+  }
+  return depths;
+}
+
+std::vector<double> forcesOf(const NamedLaw& law, const std::vector<double>& depths)
+{
+  std::vector<double> forces;
+  for (const double depth : depths)
+  {
+    forces.push_back(law.force(depth));
+  }
+  return forces;
+}
+
+// color of the first reference
+std::size_t firstReference(const std::vector<NamedLaw>& laws)
+{
+  std::size_t first = laws.size();
+  for (const NamedLaw& law : laws)
+  {
+    first = std::max(first, law.color.value_or(0) + 1);
+  }
+  return first;
+}
+
+} // namespace
+
+std::unique_ptr<Plot> forcePlot(
+  const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references)
+{
+  auto plot = std::make_unique<Plot>("force over depth", "depth \u03b4 [mm]", "force [N]");
+  const std::vector<double> depths = depthsTo(deepest);
+  const std::vector<double> shown = inMillimetres(depths);
+  const std::vector<double> first = forcesOf(laws.front(), depths);
+  const double margin = kNoticed * first.back();
+  std::vector<double> low = first;
+  std::vector<double> high = first;
+  std::for_each(low.begin(), low.end(), [=](double& f) { f = std::max(0.0, f - margin); });
+  std::for_each(high.begin(), high.end(), [=](double& f) { f += margin; });
+  plot->addBand("7 % of the largest force", shown, low, high,
+    appearance::curveColor(laws.front().color.value_or(0)));
+  std::size_t color = 0;
+  for (const NamedLaw& law : laws)
+  {
+    plot->addLine(
+      law.name, shown, forcesOf(law, depths), appearance::curveColor(law.color.value_or(color)));
+    ++color;
+  }
+  color = firstReference(laws);
+  for (const ReferenceCurve& reference : references)
+  {
+    plot->addPoints(
+      reference.name, inMillimetres(reference.x), reference.y, appearance::curveColor(color++));
+  }
+  return plot;
+}
+
+std::unique_ptr<Plot> forceErrorPlot(
+  const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references)
+{
+  const NamedLaw& law = laws.front();
+  auto plot = std::make_unique<Plot>(
+    law.name + " against the references", "depth \u03b4 [mm]", "difference [% of the largest]");
+  const std::vector<double> shown = inMillimetres(depthsTo(deepest));
+  const std::vector<double> low(shown.size(), -100.0 * kNoticed);
+  const std::vector<double> high(shown.size(), 100.0 * kNoticed);
+  plot->addBand("just noticed by a hand", shown, low, high, appearance::curveColor(0));
+  std::size_t color = firstReference(laws);
+  for (const ReferenceCurve& reference : references)
+  {
+    const double largest = *std::max_element(reference.y.begin(), reference.y.end());
+    std::vector<double> error;
+    for (std::size_t i = 0; i < reference.x.size(); ++i)
+    {
+      const double ours = law.force(reference.x[i]);
+      error.push_back(100.0 * (ours - reference.y[i]) / largest);
+    }
+    plot->addLine(
+      reference.name, inMillimetres(reference.x), error, appearance::curveColor(color++));
+  }
+  return plot;
+}
+
+std::unique_ptr<Plot> extentPlot(
+  const ExtentTable& table, const std::vector<ReferenceCurve>& references)
+{
+  auto plot = std::make_unique<Plot>("extent over depth", "depth \u03b4 [mm]", "R_d [mm]");
+  std::vector<double> depths;
+  std::vector<double> radii;
+  for (const ExtentTable::Row& row : table.rows())
+  {
+    depths.push_back(units::toMillimetres(row.depth));
+    radii.push_back(units::toMillimetres(row.extentRadius));
+  }
+  // R_d = c1 depth + c2 depth^2 + c0 over the rows where there is one
+  Eigen::Matrix3d sums = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < depths.size(); ++i)
+  {
+    const Eigen::Vector3d terms(1.0, depths[i], depths[i] * depths[i]);
+    if (radii[i] > 0.0)
+    {
+      sums += terms * terms.transpose();
+      right += radii[i] * terms;
+    }
+  }
+  const Eigen::Vector3d fit = sums.completeOrthogonalDecomposition().solve(right);
+  const std::vector<double> shown = inMillimetres(depthsTo(table.rows().back().depth));
+  std::vector<double> line;
+  std::vector<double> curve;
+  for (const double depth : shown)
+  {
+    line.push_back(units::toMillimetres(table.extentRadius(units::fromMillimetres(depth))));
+    curve.push_back(std::max(0.0, fit.dot(Eigen::Vector3d(1.0, depth, depth * depth))));
+  }
+  plot->addLine("table, linear in between", shown, line, appearance::curveColor(0));
+  plot->addLine("quadratic fit", shown, curve, appearance::curveColor(1));
+  plot->addPoints("table", depths, radii, appearance::curveColor(0));
+  std::size_t color = 2;
+  for (const ReferenceCurve& reference : references)
+  {
+    plot->addPoints(reference.name, inMillimetres(reference.x), inMillimetres(reference.y),
+      appearance::curveColor(color++));
+  }
+  return plot;
+}
+
+} // namespace palp

@@ -1,0 +1,228 @@
+#include "pipeline/charts/force_charts.h"
+
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkDataArray.h>
+#include <vtkFloatArray.h>
+#include <vtkPen.h>
+#include <vtkPlot.h>
+#include <vtkPlotPoints.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kFirstForce = 1.0; // [N], of the empty chart
+constexpr double kFirstDepth = 5.0_mm;
+constexpr double kFirstTime = 2.0; // [s]
+constexpr int kLawPoints = 201;
+
+constexpr const char* kOverTime = "force over time";
+constexpr const char* kOverDepth = "force over depth";
+constexpr const char* kTime = "time [s]";
+constexpr const char* kDepth = "depth \u03b4 [mm]";
+constexpr const char* kForce = "force [N]";
+
+void setPen(vtkPen& pen, const appearance::Color& color, float width)
+{
+  pen.SetColorF(color[0], color[1], color[2]);
+  pen.SetWidth(width);
+}
+
+vtkPlot* addLine(vtkChartXY& chart, const char* name, const appearance::Color& color, float width)
+{
+  vtkPlot* line = chart.AddPlot(vtkChart::LINE);
+  line->SetLabel(name);
+  setPen(*line->GetPen(), color, width);
+  return line;
+}
+
+// ranges come from refresh(), not from the plots
+void fixAxes(vtkChartXY& chart)
+{
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    chart.GetAxis(side)->SetBehavior(vtkAxis::FIXED);
+  }
+}
+
+void setRange(vtkChartXY& chart, int side, double from, double to)
+{
+  vtkAxis* axis = chart.GetAxis(side);
+  if (axis->GetMinimum() != from || axis->GetMaximum() != to)
+  {
+    axis->SetRange(from, to);
+    axis->SetNumberOfTicks(-1);
+    axis->AutoScale();
+    axis->SetRange(from, to);
+  }
+}
+
+// room above the largest value, in steps that do not change from frame to frame
+double roomFor(double value, double least)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9) / 4.0)));
+  const double mantissa = value / 4.0 / power;
+  const double step = power * (mantissa <= 2.0 ? 2.0 : mantissa <= 5.0 ? 5.0 : 10.0);
+  return std::max(least, step * std::ceil(1.05 * value / step));
+}
+
+std::vector<double> columnOf(vtkTable& table, vtkIdType column)
+{
+  std::vector<double> values;
+  for (vtkIdType row = 0; row < table.GetNumberOfRows(); ++row)
+  {
+    values.push_back(table.GetValue(row, column).ToDouble());
+  }
+  return values;
+}
+
+// of a column; 0 of an empty one
+double largest(vtkTable& table, vtkIdType column)
+{
+  double range[2]{ 0.0, 0.0 };
+  if (table.GetNumberOfRows() > 0)
+  {
+    vtkDataArray::SafeDownCast(table.GetColumn(column))->GetRange(range);
+  }
+  return range[1];
+}
+
+} // namespace
+
+ForceCharts::ForceCharts(std::optional<double> duration)
+  : duration_(duration.value_or(0.0))
+  , law_(SphereTip{ .radius = 10.0_mm }, Material{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 })
+{
+  appearance::setUpChart(*overTime_, duration ? kOverTime : "", kTime, kForce);
+  for (vtkPalpSampleSource* source : { samples_.Get(), rendered_.Get() })
+  {
+    source->SetSpan(std::max(duration_, vtkPalpSampleSource::Minute));
+  }
+  fixAxes(*overTime_);
+  timePlot_ = addLine(*overTime_, "law", appearance::kLaw, 3.0F);
+  renderedPlot_ = addLine(*overTime_, "rendered", appearance::kMeasured, 1.0F);
+
+  for (const char* name : { "depth [mm]", "force [N]" })
+  {
+    vtkNew<vtkFloatArray> column;
+    column->SetName(name);
+    column->SetNumberOfValues(kLawPoints);
+    lawTable_->AddColumn(column);
+  }
+  appearance::setUpChart(*overDepth_, duration ? kOverDepth : "", kDepth, kForce);
+  fixAxes(*overDepth_);
+  addLine(*overDepth_, "law", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
+  auto* points = vtkPlotPoints::SafeDownCast(overDepth_->AddPlot(vtkChart::POINTS));
+  points->SetLabel("measured");
+  points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  points->SetMarkerSize(3.0F);
+  setPen(*points->GetPen(), appearance::kMeasured, 1.0F);
+  depthPlot_ = points;
+  setLaw(law_);
+}
+
+void ForceCharts::addForceOverTime(vtkContextScene& scene)
+{
+  scene.AddItem(overTime_);
+}
+
+void ForceCharts::addForceOverDepth(vtkContextScene& scene)
+{
+  scene.AddItem(overDepth_);
+}
+
+void ForceCharts::add(const Sample& sample)
+{
+  samples_->AddSample(sample);
+  Sample sent = sample;
+  sent.response.force = sample.force.norm();
+  rendered_->AddSample(sent);
+}
+
+void ForceCharts::refresh()
+{
+  // a plot knows tables, not connections
+  samples_->Update();
+  rendered_->Update();
+  timePlot_->SetInputData(samples_->GetOutput(0), 0, 1);
+  depthPlot_->SetInputData(samples_->GetOutput(1), 0, 1);
+  renderedPlot_->SetInputData(rendered_->GetOutput(0), 0, 1);
+  for (vtkPlot* plot : { timePlot_, renderedPlot_ })
+  {
+    plot->SetVisible(samples_->GetOutput(0)->GetNumberOfRows() > 1); // else VTK complains
+  }
+  const double force =
+    std::max(largest(*samples_->GetOutput(0), 1), largest(*rendered_->GetOutput(0), 1));
+  const double depthLimit = units::fromMillimetres(
+    roomFor(largest(*samples_->GetOutput(1), 0), units::toMillimetres(kFirstDepth)));
+  if (depthLimit != lawLimit_)
+  {
+    drawLaw(depthLimit);
+  }
+  const double law = law_({ .depth = depthLimit }).force;
+  const double last = samples_->GetLastTime();
+  const double span = samples_->GetSpan();
+  const double end = duration_ > 0.0 ? duration_
+    : last < span                    ? std::min(span, roomFor(last, kFirstTime))
+                                     : last;
+  setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
+  setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(force, kFirstForce));
+  setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimetres(depthLimit));
+  setRange(*overDepth_, vtkAxis::LEFT, 0.0,
+    roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));
+}
+
+void ForceCharts::clear()
+{
+  samples_->Clear();
+  rendered_->Clear();
+}
+
+void ForceCharts::setLaw(const ForceLaw& law)
+{
+  law_ = law;
+  lawLimit_ = 0.0;
+  refresh();
+}
+
+std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
+{
+  std::vector<std::unique_ptr<Plot>> plots;
+  Plot& time = *plots.emplace_back(std::make_unique<Plot>(kOverTime, kTime, kForce));
+  vtkTable& law = *samples_->GetOutput(0);
+  vtkTable& sent = *rendered_->GetOutput(0);
+  time.addLine("law", columnOf(law, 0), columnOf(law, 1), appearance::kLaw, 3.0F);
+  time.addLine("rendered", columnOf(sent, 0), columnOf(sent, 1), appearance::kMeasured, 1.0F);
+  Plot& depth = *plots.emplace_back(std::make_unique<Plot>(kOverDepth, kDepth, kForce));
+  vtkTable& measured = *samples_->GetOutput(1);
+  depth.addLine("law", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
+  depth.addPoints("measured", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
+    Plot::Mark::Circle, 3.0F);
+  return plots;
+}
+
+void ForceCharts::drawLaw(double depthLimit)
+{
+  lawLimit_ = depthLimit;
+  for (vtkIdType i = 0; i < kLawPoints; ++i)
+  {
+    const double depth = depthLimit * static_cast<double>(i) / (kLawPoints - 1);
+    lawTable_->SetValue(i, 0, units::toMillimetres(depth));
+    lawTable_->SetValue(i, 1, law_({ .depth = depth }).force);
+  }
+  lawTable_->GetColumn(0)->Modified();
+  lawTable_->GetColumn(1)->Modified();
+  lawTable_->Modified();
+}
+
+} // namespace palp

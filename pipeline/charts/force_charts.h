@@ -1,0 +1,69 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+#include "haptics/servo/sample.h"
+#include "pipeline/charts/plot.h"
+#include "pipeline/charts/vtkPalpSampleSource.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+#include <vtkContextScene.h>
+#include <vtkNew.h>
+#include <vtkTable.h>
+
+class vtkPlot;
+
+namespace palp
+{
+
+/// The live curves: force over the last minute, of the law and as it was sent to the hand, and
+/// force over depth with the law under it.
+///
+/// Each chart is put into a scene of the caller, so that both may share a window or not.
+/// Main thread only.
+class ForceCharts
+{
+public:
+  /// @param duration  of the whole press [s], from time 0; none: the last minute is shown, without
+  ///                  titles, as each chart has those of the panel around it
+  explicit ForceCharts(std::optional<double> duration = std::nullopt);
+  ForceCharts(const ForceCharts&) = delete;
+  ForceCharts& operator=(const ForceCharts&) = delete;
+
+  void addForceOverTime(vtkContextScene& scene);
+  void addForceOverDepth(vtkContextScene& scene);
+
+  /// Takes a sample; the charts follow at the next refresh().
+  void add(const Sample& sample);
+
+  /// Brings plots and axes up to the samples that are seen; the cost does not depend on their
+  /// number.
+  void refresh();
+
+  /// Forgets the samples.
+  void clear();
+
+  /// The law drawn under the measured points.
+  void setLaw(const ForceLaw& law);
+
+  /// Both charts as they were last refreshed, to be laid out anew for a file.
+  [[nodiscard]] std::vector<std::unique_ptr<Plot>> plots() const;
+
+private:
+  void drawLaw(double depthLimit);
+
+  vtkNew<vtkPalpSampleSource> samples_;
+  vtkNew<vtkPalpSampleSource> rendered_; // the force that was sent in the place of the law's
+  vtkNew<vtkTable> lawTable_;
+  vtkNew<vtkPalpChart> overTime_;
+  vtkNew<vtkPalpChart> overDepth_;
+  vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
+  vtkPlot* renderedPlot_ = nullptr;
+  vtkPlot* depthPlot_ = nullptr;
+  double duration_; // of a press that is known from the start [s]; else 0
+  ForceLaw law_;
+  double lawLimit_ = 0.0; // depth to which the law is drawn [m]
+};
+
+} // namespace palp

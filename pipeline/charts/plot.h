@@ -1,0 +1,87 @@
+#pragma once
+
+#include "pipeline/view/appearance.h"
+#include "pipeline/charts/vtkPalpChart.h"
+
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+#include <vtkNew.h>
+#include <vtkRect.h>
+#include <vtkSmartPointer.h>
+#include <vtkTable.h>
+
+class vtkAxis;
+class vtkContextScene;
+class vtkRenderWindow;
+
+namespace palp
+{
+
+/// One chart of curves, each a vtkTable, for the screen and for files.
+class Plot
+{
+public:
+  /// @param title   what is shown
+  /// @param bottom  title of the horizontal axis, with its unit
+  /// @param left    title of the vertical axis, with its unit
+  Plot(const std::string& title, const std::string& bottom, const std::string& left);
+  Plot(const Plot&) = delete;
+  Plot& operator=(const Plot&) = delete;
+
+  enum class Mark
+  {
+    Circle,
+    Square,
+    Diamond,
+  };
+
+  /// A line through points, in the units of the axes.
+  void addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
+    const appearance::Color& color, float width = 2.0F, bool dashed = false);
+
+  void addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
+    const appearance::Color& color, Mark mark = Mark::Circle, float size = 6.0F);
+
+  /// The area between two curves.
+  void addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
+    std::span<const double> high, const appearance::Color& color);
+
+  /// Logarithmic axes over whole decades, once all curves are in; all numbers positive there.
+  void setLogarithmic(bool bottom, bool left);
+
+  void hideLegend();
+
+  /// Puts the chart into a scene, which then draws it, the legend below.
+  void addTo(vtkContextScene& scene);
+
+  /// The same in a part of the scene [pixels].
+  void addTo(vtkContextScene& scene, const vtkRectf& place);
+
+  /// The curves in the order in which they were added; the first column is x.
+  [[nodiscard]] const std::vector<vtkSmartPointer<vtkTable>>& tables() const
+  {
+    return tables_;
+  }
+
+  /// Writes all curves: curve,<x>,<y>; a band has two curves, its lower and its upper one.
+  void writeCsv(std::ostream& out) const;
+
+private:
+  vtkTable* addTable(const std::string& name, std::span<const double> x,
+    std::span<const double> first, std::span<const double> second);
+  void setDecades(vtkAxis& axis, bool isBottom);
+
+  std::string bottom_;
+  std::string left_;
+  std::vector<vtkSmartPointer<vtkTable>> tables_;
+  vtkNew<vtkPalpChart> chart_;
+};
+
+/// Puts charts into a window in the place of what it showed, one below the other.
+void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots);
+
+} // namespace palp

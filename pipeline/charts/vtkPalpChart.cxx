@@ -1,0 +1,101 @@
+#include "pipeline/charts/vtkPalpChart.h"
+
+#include "pipeline/view/appearance.h"
+
+#include <string>
+#include <vtkAxis.h>
+#include <vtkContext2D.h>
+#include <vtkContextScene.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPlot.h>
+#include <vtkTextProperty.h>
+
+vtkStandardNewMacro(vtkPalpChart);
+
+vtkPalpChart::vtkPalpChart()
+{
+  this->Place.Set(0.0F, 0.0F, 0.0F, 0.0F); // its own constructor leaves it undefined
+  this->SetShowLegend(false);
+  this->SetAutoSize(false);
+}
+
+void vtkPalpChart::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Place: " << this->Place[0] << ' ' << this->Place[1] << ' ' << this->Place[2]
+     << ' ' << this->Place[3] << " pixels\n"
+     << indent << "Keyed: " << this->Keyed << '\n';
+}
+
+void vtkPalpChart::SetPlace(const vtkRectf& place)
+{
+  this->Place = place;
+  this->Modified();
+}
+
+bool vtkPalpChart::Paint(vtkContext2D* painter)
+{
+  vtkRectf place = this->Place;
+  if (!(place.GetWidth() > 0.0F))
+  {
+    place = vtkRectf(0.0F, 0.0F, static_cast<float>(this->Scene->GetSceneWidth()),
+      static_cast<float>(this->Scene->GetSceneHeight()));
+  }
+  const float legend = this->Keyed ? this->PaintLegend(painter, place, false) : 0.0F;
+  const vtkRectf chart(
+    place.GetX(), place.GetY() + legend, place.GetWidth(), place.GetHeight() - legend);
+  if (this->GetSize() != chart)
+  {
+    this->SetSize(chart);
+    this->GetAxis(vtkAxis::LEFT)->Modified(); // else the chart keeps its old layout
+  }
+  const bool painted = this->Superclass::Paint(painter);
+  if (this->Keyed)
+  {
+    this->PaintLegend(painter, place, true);
+  }
+  return painted;
+}
+
+// its height, whether it is drawn or not
+float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& place, bool draw)
+{
+  vtkNew<vtkTextProperty> text;
+  palp::appearance::setFont(*text, 12);
+  text->SetVerticalJustificationToCentered();
+  painter->ApplyTextProp(text);
+  float bounds[4];
+  painter->ComputeStringBounds(std::string("Mg"), bounds);
+  const float line = 1.25F * bounds[3];
+  const float mark = 1.6F * bounds[3];
+  const float gap = 0.5F * bounds[3];
+
+  float x = gap;
+  float row = 1.0F;
+  for (vtkIdType i = 0; i < this->GetNumberOfPlots(); ++i)
+  {
+    const std::string label = this->GetPlot(i)->GetLabel();
+    if (label.empty())
+    {
+      continue;
+    }
+    painter->ComputeStringBounds(label, bounds);
+    const float width = mark + gap + bounds[2];
+    if (x > gap && x + width > place.GetWidth())
+    {
+      x = gap;
+      row += 1.0F;
+    }
+    if (draw)
+    {
+      const float y = this->GetSize().GetY() - (row - 0.5F) * line; // down from the chart
+      this->GetPlot(i)->PaintLegend(
+        painter, vtkRectf(place.GetX() + x, y - 0.3F * line, mark, 0.6F * line), 0);
+      painter->ApplyTextProp(text);
+      painter->DrawString(place.GetX() + x + mark + gap, y, label);
+    }
+    x += width + 2.0F * gap;
+  }
+  return x > gap ? row * line + gap : 0.0F;
+}

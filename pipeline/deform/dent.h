@@ -1,0 +1,104 @@
+#pragma once
+
+#include "haptics/contact/contact.h"
+#include "pipeline/deform/press_field.h"
+#include "pipeline/deform/press_region.h"
+#include "pipeline/deform/tool_body.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace palp
+{
+
+/// A tool pressed into a surface, and how far around it the surface gives way.
+struct Press
+{
+  Contact contact;
+  ToolPose pose;
+  Tip tip{ SphereTip{ .radius = 0.01 } };
+  double contactRadius = 0.0; ///< r [m]
+  double extentRadius = 0.0;  ///< R_d of the table [m]
+
+  /// The surface of finite elements at this depth, in place of the paper's ring and its radii.
+  std::optional<SurfaceProfile> fitted{};
+};
+
+/// The arrays of a surface as drawn, three floats a point, one byte a zone.
+struct DentArrays
+{
+  float* points;       ///< [m]
+  float* normals;      ///< unit, outward
+  float* displacement; ///< from rest [m]
+  unsigned char* zone; ///< of Zone
+};
+
+/// The dent of a press in the points of a surface, at a cost that follows the dent.
+///
+/// The topology is that of the rest state, and so is every point outside the ring.
+///
+/// @source Sec. 3.3
+class Dent
+{
+public:
+  Dent() = default;
+
+  /// @param rest       three floats a point [m], borrowed
+  /// @param triangles  outward oriented
+  Dent(std::span<const float> rest, std::span<const Triangle> triangles);
+
+  /// Everything at rest; O(points).
+  void reset(const DentArrays& arrays);
+
+  /// Replaces the last press by this one; a press that does not touch leaves the exact rest state.
+  ///
+  /// No allocation once a dent of this size has been seen.
+  ///
+  /// @param arrays  as reset() or the last update() left them
+  void update(const Press& press, const DentArrays& arrays);
+
+  /// The points of the dent, which differ from rest, and their neighbours, whose normals do.
+  [[nodiscard]] const PressRegion& region() const noexcept
+  {
+    return region_;
+  }
+
+  /// How far the surface gives way at a place of the last press; continuous along the surface,
+  /// but for the wall that a tool sunk beyond its base cuts.
+  [[nodiscard]] PressField::Sink sinkAt(
+    const Place& place, const Eigen::Vector3d& rest) const noexcept;
+
+  [[nodiscard]] bool isInsideTool(const Eigen::Vector3d& point) const noexcept
+  {
+    return body_->inside(point) > 0.0;
+  }
+
+  [[nodiscard]] const PressField& field() const noexcept
+  {
+    return field_;
+  }
+
+  /// Memory that grows with the mesh, the caller's arrays aside [bytes].
+  [[nodiscard]] std::size_t bytes() const noexcept
+  {
+    return region_.bytes();
+  }
+
+private:
+  void lay(const Press& press, double outer);
+  void forgetPress(const DentArrays& arrays);
+  void displace(std::size_t from, std::size_t to, const DentArrays& arrays) const noexcept;
+  void keepSidesUpright(const DentArrays& arrays);
+  bool keepUpright(const Triangle& corners, const DentArrays& arrays);
+  void computeNormal(std::int32_t point, const DentArrays& arrays) const noexcept;
+
+  std::span<const float> rest_;
+  PressRegion region_;
+  PressField field_;
+  std::optional<ToolBody> body_;
+  std::vector<std::int32_t> before_; // points of the last press
+};
+
+} // namespace palp

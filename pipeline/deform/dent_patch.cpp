@@ -1,0 +1,193 @@
+#include "pipeline/deform/dent_patch.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's centre to its circle
+constexpr int kMaxLevel = 4;
+constexpr int kWhole = -1;                   // stands for the middle of an edge that is not halved
+constexpr std::size_t kMaxTriangles = 24000; // as many as a picture is quick with
+
+} // namespace
+
+int DentPatch::levelFor(const Dent& dent)
+{
+  const PressRegion& region = dent.region();
+  if (region.points().empty())
+  {
+    return 0;
+  }
+  int level = 0;
+  double edge = region.edgeLength();
+  std::size_t count = 2 * region.points().size();
+  while (level < kMaxLevel && edge * kEdgesOnRadius > region.inner() && 4 * count <= kMaxTriangles)
+  {
+    ++level;
+    edge *= 0.5;
+    count *= 4;
+  }
+  return level;
+}
+
+void DentPatch::build(const Dent& dent, int level)
+{
+  takeCorners(dent);
+  for (int i = 0; i < level; ++i)
+  {
+    halveEdges(dent);
+  }
+  displace(dent);
+  turnNormals();
+}
+
+void DentPatch::takeCorners(const Dent& dent)
+{
+  const PressRegion& region = dent.region();
+  corners_.clear();
+  for (std::size_t i = 0; i < region.points().size(); ++i)
+  {
+    const std::int32_t point = region.points()[i];
+    const Eigen::Vector3f normal = region.areaAround(point).normalized().cast<float>();
+    corners_.push_back({ region.rest(point), normal, region.places()[i] });
+  }
+  triangles.clear();
+  region.forEachTriangle([&](const Triangle& triangle) { triangles.push_back(triangle); });
+}
+
+// an edge between two points at rest stays whole: the surface beside the patch has it whole
+void DentPatch::halveEdges(const Dent& dent)
+{
+  coarse_.swap(triangles);
+  triangles.clear();
+  middles_.assign(
+    std::bit_ceil(4 * coarse_.size() + 1), Middle{}); // there are fewer edges than that
+  for (const Triangle& corners : coarse_)
+  {
+    std::array<int, 3> middle{}; // of the edge after each corner
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      middle[k] = middleOf(corners[k], corners[(k + 1) % 3], dent);
+    }
+    const auto whole = std::find(middle.begin(), middle.end(), kWhole) - middle.begin();
+    if (whole == 3)
+    {
+      const auto& [a, b, c] = corners;
+      const auto& [ab, bc, ca] = middle;
+      triangles.insert(
+        triangles.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+      continue;
+    }
+    // two corners at rest share the one whole edge; with three at rest all edges are whole
+    const auto first = static_cast<std::size_t>(whole);
+    const int a = corners[first];
+    const int b = corners[(first + 1) % 3];
+    const int c = corners[(first + 2) % 3];
+    const int bc = middle[(first + 1) % 3];
+    const int ca = middle[(first + 2) % 3];
+    if (bc == kWhole || ca == kWhole)
+    {
+      triangles.push_back(corners);
+      continue;
+    }
+    triangles.insert(triangles.end(), { { a, b, bc }, { a, bc, ca }, { ca, bc, c } });
+  }
+}
+
+int DentPatch::middleOf(int a, int b, const Dent& dent)
+{
+  if (rests(a, dent) && rests(b, dent))
+  {
+    return kWhole;
+  }
+  const auto [low, high] = std::minmax(a, b);
+  Middle& middle = entryOf(low, high);
+  if (middle.corner < 0)
+  {
+    const Corner& first = corners_[static_cast<std::size_t>(a)];
+    const Corner& second = corners_[static_cast<std::size_t>(b)];
+    const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
+    Place place = dent.region().placeBetween(first.place, second.place, 0.5, rest);
+    place.within = dent.isInsideTool(rest);
+    const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
+    middle = { low, high, static_cast<int>(corners_.size()) };
+    corners_.push_back({ rest, normal, place });
+  }
+  return middle.corner;
+}
+
+// where an edge is, or is to be put
+DentPatch::Middle& DentPatch::entryOf(int low, int high)
+{
+  constexpr std::size_t kScatter = 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
+  const std::size_t mask = middles_.size() - 1;
+  const std::size_t key = static_cast<std::size_t>(low) << 32U | static_cast<std::size_t>(high);
+  std::size_t at = (key * kScatter) >> 40U & mask;
+  while (middles_[at].corner >= 0 && (middles_[at].low != low || middles_[at].high != high))
+  {
+    at = (at + 1) & mask;
+  }
+  return middles_[at];
+}
+
+bool DentPatch::rests(int corner, const Dent& dent) const noexcept
+{
+  const Place& place = corners_[static_cast<std::size_t>(corner)].place;
+  return !place.within && !(place.distance < dent.region().outer()) && !place.isBetween();
+}
+
+void DentPatch::displace(const Dent& dent)
+{
+  const Eigen::Vector3d normal = dent.region().normal();
+  points.clear();
+  sink.clear();
+  distance.clear();
+  zone.clear();
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+  {
+    const Corner& corner = corners_[i];
+    const PressField::Sink down = rests(static_cast<int>(i), dent)
+      ? PressField::Sink{ 0.0, Zone::Rest }
+      : dent.sinkAt(corner.place, corner.rest);
+    points.emplace_back((corner.rest - down.depth * normal).cast<float>());
+    sink.push_back(static_cast<float>(down.depth));
+    distance.push_back(static_cast<float>(corner.place.distance));
+    zone.push_back(down.zone);
+  }
+}
+
+// the change of the triangles' mean normal, on top of the smooth normal at rest
+void DentPatch::turnNormals()
+{
+  std::vector<Eigen::Vector3f>& turned = normals;
+  turned.assign(corners_.size(), Eigen::Vector3f::Zero());
+  normalsAtRest_.assign(corners_.size(), Eigen::Vector3f::Zero());
+  for (const Triangle& triangle : triangles)
+  {
+    const auto a = static_cast<std::size_t>(triangle[0]);
+    const auto b = static_cast<std::size_t>(triangle[1]);
+    const auto c = static_cast<std::size_t>(triangle[2]);
+    const Eigen::Vector3f now = (points[b] - points[a]).cross(points[c] - points[a]);
+    const Eigen::Vector3f before = (corners_[b].rest - corners_[a].rest)
+                                     .cross(corners_[c].rest - corners_[a].rest)
+                                     .cast<float>();
+    for (const std::size_t corner : { a, b, c })
+    {
+      turned[corner] += now;
+      normalsAtRest_[corner] += before;
+    }
+  }
+  for (std::size_t i = 0; i < turned.size(); ++i)
+  {
+    const Eigen::Vector3f change = turned[i].normalized() - normalsAtRest_[i].normalized();
+    turned[i] = (corners_[i].normal + change).normalized();
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,387 @@
+#include "pipeline/deform/press_region.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kFront = 0.5;   // [-] cosine to the contact normal: steeper surface is unrolled
+constexpr double kSharp = 0.966; // [-] cosine of 15 degrees, half of what kFront leaves to a side
+constexpr double kSeedFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
+constexpr double kShorter = 0.999;  // [-] of the distance: ends the search for still shorter ways
+constexpr double kTurn = 10.0;      // [-] inner radii to the one where lengths are true, inverted
+constexpr double kTiny = 1e-12;     // [m]
+
+// of a triangle by two of its edges in the frame of the contact; scalars, for a vector would go
+// through memory
+inline bool facesTool(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept
+{
+  const double x = a.y() * b.z() - a.z() * b.y();
+  const double y = a.z() * b.x() - a.x() * b.z();
+  const double z = a.x() * b.y() - a.y() * b.x();
+  return z > 0.0 && z * z > kFront * kFront * (x * x + y * y + z * z);
+}
+
+} // namespace
+
+PressRegion::PressRegion(std::span<const float> rest, std::span<const Triangle> triangles)
+  : rest_(rest)
+  , umbrella_(rest.size() / 3, triangles)
+  , slot_(rest.size() / 3, kNowhere)
+{
+  for (std::size_t i = 0; i < slot_.size(); ++i)
+  {
+    slot_[i] |= isSharpAt(static_cast<std::int32_t>(i)) ? kSharpBit : 0;
+    longestEdge_ = std::max(longestEdge_, longestEdge(static_cast<std::int32_t>(i)));
+  }
+}
+
+// whether one triangle of a point may face the tool as kFront asks and another may not at all
+bool PressRegion::isSharpAt(std::int32_t point) const noexcept
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  forEachAreaAround(point, [&](const Eigen::Vector3d& area) { mean += area.normalized(); });
+  bool isSharp = false;
+  forEachAreaAround(point,
+    [&](const Eigen::Vector3d& area)
+    { isSharp = isSharp || !(area.normalized().dot(mean) > kSharp * mean.norm()); });
+  return isSharp;
+}
+
+double PressRegion::longestEdge(std::int32_t point) const noexcept
+{
+  double square = 0.0;
+  for (const std::int32_t next : umbrella_.around(point))
+  {
+    if (next != Umbrella::kEnd)
+    {
+      square = std::max(square, (rest(next) - rest(point)).squaredNorm());
+    }
+  }
+  return std::sqrt(square);
+}
+
+// whether a triangle of a point may meet the tool
+bool PressRegion::isNear(std::int32_t point, const ToolBody& body) const noexcept
+{
+  constexpr double kUnits = 2.0; // [-] of the depth in the tool over the distance from it
+  const double outside = -body.inside(rest(point));
+  return outside < kUnits * longestEdge_ && outside < kUnits * longestEdge(point);
+}
+
+std::size_t PressRegion::bytes() const noexcept
+{
+  return umbrella_.bytes() + slot_.capacity() * sizeof(slot_[0]);
+}
+
+void PressRegion::clear() noexcept
+{
+  for (const std::int32_t point : points_)
+  {
+    std::int32_t& slot = slot_[static_cast<std::size_t>(point)];
+    slot = kNowhere | (slot & kSharpBit);
+  }
+  points_.clear();
+  places_.clear();
+  hasSides_ = false;
+  outer_ = 0.0;
+}
+
+double PressRegion::edgeLength() const noexcept
+{
+  double sum = 0.0;
+  int count = 0;
+  for (const std::int32_t next : umbrella_.around(seed_))
+  {
+    if (next != Umbrella::kEnd)
+    {
+      sum += (rest(next) - rest(seed_)).norm();
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+Eigen::Vector3d PressRegion::areaAround(std::int32_t point) const noexcept
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  forEachAreaAround(point, [&](const Eigen::Vector3d& area) { sum += area; });
+  return sum;
+}
+
+bool PressRegion::faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept
+{
+  const Eigen::Vector3d area = areaAround(point);
+  return area.dot(normal) > kSeedFacing * area.norm();
+}
+
+// the nearest point that faces the tool: downhill from the last one, or, where that ends on
+// another sheet or the tool has jumped, from the nearest of a few, or else through all points
+std::int32_t PressRegion::findSeed(const Contact& contact) const noexcept
+{
+  const auto few = static_cast<std::size_t>(std::sqrt(static_cast<double>(slot_.size())));
+  std::int32_t best = downhill(seed_, contact);
+  if (best < 0)
+  {
+    best = downhill(findNearest(contact, few), contact);
+  }
+  return best < 0 ? findNearest(contact, 1) : best;
+}
+
+// to the nearest point that a way of ever nearer points leads to; -1 when the contact is not there
+std::int32_t PressRegion::downhill(std::int32_t start, const Contact& contact) const noexcept
+{
+  if (start < 0)
+  {
+    return -1;
+  }
+  std::int32_t best = start;
+  double square = (rest(best) - contact.center).squaredNorm();
+  double longestEdge = 0.0;
+  for (bool better = true; better;)
+  {
+    better = false;
+    longestEdge = 0.0;
+    const std::int32_t from = best;
+    for (const std::int32_t next : umbrella_.around(from))
+    {
+      if (next == Umbrella::kEnd)
+      {
+        continue;
+      }
+      longestEdge = std::max(longestEdge, (rest(next) - rest(from)).squaredNorm());
+      if (const double candidate = (rest(next) - contact.center).squaredNorm(); candidate < square)
+      {
+        square = candidate;
+        best = next;
+        better = true;
+      }
+    }
+  }
+  return square <= longestEdge && faces(best, contact.normal) ? best : -1;
+}
+
+// of every so many points the nearest one that faces the tool; -1 when none does
+std::int32_t PressRegion::findNearest(const Contact& contact, std::size_t every) const noexcept
+{
+  std::int32_t best = -1;
+  double square = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < slot_.size(); i += every)
+  {
+    const auto point = static_cast<std::int32_t>(i);
+    if (const double candidate = (rest(point) - contact.center).squaredNorm();
+        candidate < square && faces(point, contact.normal))
+    {
+      square = candidate;
+      best = point;
+    }
+  }
+  return best;
+}
+
+void PressRegion::grow(const Contact& contact, const ToolBody& body, double inner, double outer)
+{
+  clear();
+  const Eigen::Vector3d tangent = contact.normal.unitOrthogonal();
+  axes_ << tangent.transpose(), contact.normal.cross(tangent).transpose(),
+    contact.normal.transpose();
+  center_ = contact.center;
+  inner_ = inner;
+  outer_ = outer;
+  perWidth_ = 1.0 / (outer - inner);
+  perTurn_ = kTurn / inner;
+  const std::int32_t seed = findSeed(contact);
+  if (seed < 0)
+  {
+    return;
+  }
+  seed_ = seed;
+  queue_.clear();
+  settle(seed, toLocal(rest(seed)), body);
+  if (!places_.front().within)
+  {
+    // a tool between the points of a coarse mesh: a finer patch can still show its dent
+    places_.front().within = true;
+    queue_.push_back(0);
+  }
+  for (std::size_t i = 0; i < queue_.size(); ++i)
+  {
+    const auto from = static_cast<std::size_t>(queue_[i]);
+    std::int32_t before = Umbrella::kEnd;
+    bool isOpen = false; // what was before has no settled place
+    for (const std::int32_t next : umbrella_.around(points_[from]))
+    {
+      const bool wasOpen = isOpen;
+      isOpen = next != Umbrella::kEnd && !isSettled(next);
+      if (before != Umbrella::kEnd && next != Umbrella::kEnd && (wasOpen || isOpen))
+      {
+        expand(from, before, next, body);
+        isOpen = !isSettled(next);
+      }
+      before = next;
+    }
+  }
+}
+
+// meets the corners of a triangle that has one within the dent
+void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body)
+{
+  if (places_[from].isFront())
+  {
+    const Eigen::Vector3d p = places_[from].local;
+    const Eigen::Vector3d atA = toLocal(rest(a));
+    const Eigen::Vector3d atB = toLocal(rest(b));
+    if (facesTool(atA - p, atB - p))
+    {
+      settle(a, atA, body);
+      settle(b, atB, body);
+      return;
+    }
+  }
+  hasSides_ = true;
+  meetAround(a, points_[from], b, body);
+  meetAround(b, points_[from], a, body);
+}
+
+// takes a point that faces the tool; inlined, for most of the time of growing is spent here
+[[gnu::always_inline]] inline void PressRegion::settle(
+  std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body)
+{
+  if (isSettled(point))
+  {
+    return;
+  }
+  const std::size_t index = indexOf(point);
+  slot_[static_cast<std::size_t>(point)] |= kSettledBit;
+  hasSides_ = hasSides_ || (slot_[static_cast<std::size_t>(point)] & kSharpBit) != 0;
+  Place& place = places_[index];
+  place.local = local;
+  place.turns = quarterTurns(local.x(), local.y());
+  place.distance = distanceInFront(local);
+  place.facing = 1.0F;
+  place.within = place.distance < outer_ || body.contains(rest(point));
+  if (place.within || isNear(point, body))
+  {
+    queue_.push_back(static_cast<std::int32_t>(index));
+  }
+}
+
+// takes a point beyond an edge, or a shorter way to one that was met before
+void PressRegion::meetAround(
+  std::int32_t point, std::int32_t from, std::int32_t beside, const ToolBody& body)
+{
+  if (isSettled(point))
+  {
+    return;
+  }
+  const bool isNew = find(point) < 0;
+  Place place = placeAround(from, beside, point);
+  const std::size_t index = indexOf(point);
+  if (!isNew && !(place.distance < kShorter * places_[index].distance))
+  {
+    return;
+  }
+  place.within = place.distance < outer_ || body.contains(rest(point));
+  places_[index] = place;
+  if (place.within || isNear(point, body))
+  {
+    queue_.push_back(static_cast<std::int32_t>(index));
+  }
+}
+
+// of a point in points(), where it is put if it was not there
+[[gnu::always_inline]] inline std::size_t PressRegion::indexOf(std::int32_t point)
+{
+  std::int32_t& slot = slot_[static_cast<std::size_t>(point)];
+  if (slot < 0)
+  {
+    slot = static_cast<std::int32_t>(points_.size()) << kBits | (slot & kSharpBit);
+    points_.push_back(point);
+    places_.emplace_back();
+  }
+  return static_cast<std::size_t>(slot >> kBits);
+}
+
+inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const noexcept
+{
+  const double square = local.head<2>().squaredNorm();
+  const double seen = std::sqrt(square);
+  if (!(seen > inner_))
+  {
+    return seen;
+  }
+  const double straight = std::sqrt(square + local.z() * local.z());
+  const double t = std::min(1.0, (straight - inner_) * perWidth_);
+  const double s = std::min(1.0, perTurn_ * (seen - inner_));
+  return seen + t * t * s * (straight - seen);
+}
+
+Place PressRegion::placeInFront(const Eigen::Vector3d& point) const noexcept
+{
+  const Eigen::Vector3d local = toLocal(point);
+  return { .local = local,
+    .distance = distanceInFront(local),
+    .turns = quarterTurns(local.x(), local.y()),
+    .facing = 1.0F,
+    .within = false };
+}
+
+Place PressRegion::placeBetween(
+  const Place& a, const Place& b, double share, const Eigen::Vector3d& point) const noexcept
+{
+  Place place = placeInFront(point);
+  if (!a.isFront() || !b.isFront())
+  {
+    const Eigen::Vector2d way = a.way() + share * (b.way() - a.way());
+    place.turns = quarterTurns(way.x(), way.y());
+    place.distance = a.distance + share * (b.distance - a.distance);
+    place.facing = a.facing + static_cast<float>(share) * (b.facing - a.facing);
+  }
+  place.extra = a.extra + static_cast<float>(share) * (b.extra - a.extra);
+  return place;
+}
+
+// the way to a point across the edge between two others, straight where their triangle is laid into
+// the plane of their own ways; along an edge where it is not seen through the first
+Place PressRegion::placeAround(
+  std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept
+{
+  const Place& first = places_[static_cast<std::size_t>(find(from))];
+  const Eigen::Vector3d arm = rest(point) - rest(from);
+  double distance = first.distance + arm.norm();
+  float turns = first.turns;
+  if (const std::int32_t slot = find(beside); slot >= 0)
+  {
+    // the edge on the x axis, the contact's centre below it, the point above
+    const Place& second = places_[static_cast<std::size_t>(slot)];
+    const Eigen::Vector3d edge = rest(beside) - rest(from);
+    const double length = std::max(edge.norm(), kTiny);
+    const double x = edge.dot(arm) / length;
+    const double y = edge.cross(arm).norm() / length;
+    const double centerX =
+      (first.distance * first.distance - second.distance * second.distance + length * length) /
+      (2.0 * length);
+    const double below =
+      std::sqrt(std::max(0.0, first.distance * first.distance - centerX * centerX));
+    const double crossing = centerX + (x - centerX) * below / std::max(below + y, kTiny);
+    if (crossing >= 0.0 && crossing <= length)
+    {
+      distance = std::sqrt((x - centerX) * (x - centerX) + (y + below) * (y + below));
+      const Eigen::Vector2d towards = (length - crossing) * first.way() + crossing * second.way();
+      turns = quarterTurns(towards.x(), towards.y());
+    }
+  }
+  const Eigen::Vector3d local = axes_ * (rest(point) - center_);
+  return { .local = local,
+    .distance = std::max(distance, local.norm()),
+    .turns = turns,
+    .facing = 0.0F,
+    .within = false };
+}
+
+} // namespace palp

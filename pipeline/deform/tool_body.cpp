@@ -1,0 +1,106 @@
+#include "pipeline/deform/tool_body.h"
+
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kMiss = std::numeric_limits<double>::infinity();
+constexpr double kParallel = 1e-9;   // [-] sine of the angle between line and axis
+constexpr double kTolerance = 1e-10; // [m]
+constexpr int kIterations = 40;
+
+} // namespace
+
+ToolBody::ToolBody(const Tip& tip, const ToolPose& pose)
+  : tip_(tip)
+  , apex_(pose.apex)
+  , handle_(-pose.axis)
+  , base_(baseRadius(tip))
+  , flat_(flatRadius(tip))
+  , sphere_(std::holds_alternative<SphereTip>(tip) ? std::get<SphereTip>(tip).radius : 0.0)
+  , flank_(std::holds_alternative<ConeTip>(tip) ? tipSlope(tip, 0.0) : 0.0)
+{
+}
+
+double ToolBody::inside(const Eigen::Vector3d& point) const noexcept
+{
+  const Eigen::Vector3d fromApex = point - apex_;
+  const double height = fromApex.dot(handle_);
+  const double radius = (fromApex - height * handle_).norm();
+  return std::min(height - heightAt(radius), base_ - radius);
+}
+
+double ToolBody::lowest(const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept
+{
+  const Eigen::Vector3d fromApex = origin - apex_;
+  const double height = fromApex.dot(handle_);
+  const double climb = up.dot(handle_);
+  if (!(climb > kParallel))
+  {
+    return kMiss;
+  }
+  if (sphere_ > 0.0)
+  {
+    // the lower half of the sphere in closed form; the shaft is left to the march
+    const Eigen::Vector3d fromCenter = fromApex - sphere_ * handle_;
+    const double along = fromCenter.dot(up);
+    const double square = along * along - fromCenter.squaredNorm() + sphere_ * sphere_;
+    const double t = -along - std::sqrt(std::max(0.0, square));
+    if (square >= 0.0 && height + t * climb <= sphere_)
+    {
+      return t;
+    }
+  }
+
+  const Eigen::Vector3d radial = fromApex - height * handle_;
+  const Eigen::Vector3d drift = up - climb * handle_;
+  const double slant = drift.squaredNorm();
+  double start = -height / climb; // nothing of the tool is below its apex
+  if (slant < kParallel * kParallel)
+  {
+    const double radius = radial.norm();
+    return radius < base_ ? start + heightAt(radius) / climb : kMiss;
+  }
+  const double along = radial.dot(drift) / slant;
+  const double square = along * along - (radial.squaredNorm() - base_ * base_) / slant;
+  if (square < 0.0)
+  {
+    return kMiss;
+  }
+  start = std::max(start, -along - std::sqrt(square)); // nor outside its shaft
+  return march(start, height, climb, radial, drift);
+}
+
+// Newton's method on a concave function from its negative side: it never steps over the root,
+// so that the point it ends at is outside, if only by the tolerance
+double ToolBody::march(double start, double height, double climb, const Eigen::Vector3d& radial,
+  const Eigen::Vector3d& drift) const noexcept
+{
+  double t = start;
+  for (int i = 0; i < kIterations; ++i)
+  {
+    const Eigen::Vector3d across = radial + t * drift;
+    const double radius = across.norm();
+    const double widening = radius > 0.0 ? across.dot(drift) / radius : 0.0;
+    const double overTip = height + t * climb - heightAt(radius);
+    const double inShaft = base_ - radius;
+    const double value = std::min(overTip, inShaft);
+    if (value > -kTolerance)
+    {
+      return t;
+    }
+    const double growth =
+      overTip <= inShaft ? climb - tipSlope(tip_, radius) * widening : -widening;
+    if (!(growth > 0.0))
+    {
+      return kMiss;
+    }
+    t -= value / growth;
+  }
+  return t;
+}
+
+} // namespace palp

@@ -1,0 +1,250 @@
+#include "pipeline/formats/image_formats.h"
+
+#include "haptics/error.h"
+#include "pipeline/process/file_surface.h"
+#include "pipeline/formats/meta_image.h"
+#include "pipeline/formats/whole_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNIFTIImageHeader.h>
+#include <vtkNIFTIImageReader.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLImageDataReader.h>
+#include <zlib.h>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::array kIdentity{ 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0,
+  0.0, 0.0, 1.0 };
+
+constexpr const char* kPatientAxes = "in the patient's axes to left, back and head (LPS)";
+
+[[noreturn]] void refuseTurned(const std::filesystem::path& file)
+{
+  throw Error(ErrorCode::BadFile,
+    file.string() + ": its axes are turned, which is read from NIfTI only; save it as .nii.gz");
+}
+
+PatientImage straight(vtkSmartPointer<vtkImageData> image)
+{
+  PatientImage result{ .image = std::move(image), .toPatient = {} };
+  std::copy(kIdentity.begin(), kIdentity.end(), result.toPatient);
+  return result;
+}
+
+// NIfTI's factor from its unit to mm; 0: it names none
+double niftiUnit(int code)
+{
+  constexpr int spatial = 7; // the other bits are of time
+  switch (code & spatial)
+  {
+    case 1:
+      return 1e3; // m
+    case 2:
+      return 1.0;
+    case 3:
+      return 1e-3; // um
+    default:
+      return 0.0;
+  }
+}
+
+// 348 bytes, packed or not
+bool readNiftiStart(const std::filesystem::path& file, std::array<unsigned char, 348>& start)
+{
+  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> in(gzopen(file.c_str(), "rb"), &gzclose_r);
+  constexpr auto size = static_cast<unsigned>(std::tuple_size_v<std::array<unsigned char, 348>>);
+  return in && gzread(in.get(), start.data(), size) == static_cast<int>(size);
+}
+
+struct NiftiClaim
+{
+  std::uintmax_t bytes = 0; // of the voxels; 0: no such header
+  unsigned type = 0;        // of a voxel, as NIfTI numbers them
+};
+
+NiftiClaim niftiClaim(const std::filesystem::path& file)
+{
+  std::array<unsigned char, 348> start{};
+  if (!readNiftiStart(file, start))
+  {
+    return {};
+  }
+  const auto number = [&](std::size_t at, bool swapped)
+  {
+    const unsigned low = start[swapped ? at + 1 : at];
+    const unsigned high = start[swapped ? at : at + 1];
+    return low + 256 * high;
+  };
+  const bool swapped = number(40, false) < 1 || number(40, false) > 7; // dim[0]
+  NiftiClaim claim{ .bytes = (number(72, swapped) + 7) / 8, .type = number(70, swapped) };
+  const unsigned dimensions = number(40, swapped);
+  for (unsigned i = 1; i <= dimensions && dimensions <= 7; ++i)
+  {
+    claim.bytes *= std::max(1U, number(40 + 2 * i, swapped));
+  }
+  return claim;
+}
+
+// of WholeExtent="0 9 0 9 0 9", with the largest number that a voxel may be
+std::uintmax_t vtiBytes(const std::filesystem::path& file)
+{
+  std::string start(4096, '\0');
+  std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(4096));
+  const std::string key = "WholeExtent=\"";
+  const std::size_t at = start.find(key);
+  std::istringstream words(at == start.npos ? "" : start.substr(at + key.size(), 200));
+  std::uintmax_t bytes = sizeof(double);
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(words >> low >> high) || high < low || high - low > 100'000)
+    {
+      return 0;
+    }
+    bytes *= static_cast<std::uintmax_t>(high - low + 1);
+  }
+  return bytes;
+}
+
+} // namespace
+
+PatientImage readMetaImage(const std::filesystem::path& file)
+{
+  const MetaHeader header = readMetaHeader(file);
+  PatientImage result = straight(readMetaVolume(file, header));
+  result.unit = "mm";
+  const double factor = header.unit == "um" ? 1e-3 : header.unit == "cm" ? 10.0 : 1.0;
+  for (int i = 0; i < 12; ++i)
+  {
+    result.toPatient[i] *= factor;
+  }
+  result.notes.emplace_back(kPatientAxes);
+  return result;
+}
+
+PatientImage readNifti(const std::filesystem::path& file)
+{
+  constexpr std::uintmax_t ratio = 1032; // the most that deflate can pack into a byte
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  const auto [claimed, type] = niftiClaim(file);
+  constexpr std::array<unsigned, 12> kTypes{ 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024, 1280 };
+  if (claimed == 0 || std::ranges::find(kTypes, type) == kTypes.end())
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + (claimed == 0 ? ": not a NIfTI file, or cut off in its header"
+                                    : ": its datatype is " + std::to_string(type) +
+                                        ", which is none of NIfTI's") +
+        "; export or copy it again");
+  }
+  const bool packed = file.string().ends_with("z") || file.string().ends_with("Z");
+  if (claimed > (packed ? ratio * size : size))
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": cut off, its header claims " + std::to_string(claimed) +
+        " bytes of voxels; export or copy it again");
+  }
+  vtkNew<vtkNIFTIImageReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  PatientImage result = straight(reader->GetOutput());
+  // the better of the two forms a header may have; both lead to right, front, head
+  vtkMatrix4x4* form =
+    reader->GetSFormMatrix() ? reader->GetSFormMatrix() : reader->GetQFormMatrix();
+  if (form)
+  {
+    std::copy_n(form->GetData(), 16, result.toPatient);
+    for (int i = 0; i < 8; ++i) // x and y
+    {
+      result.toPatient[i] = -result.toPatient[i];
+    }
+  }
+  result.notes.emplace_back(form
+      ? std::string(kPatientAxes) + ", turned from NIfTI's to right, front and head (RAS)"
+      : "the header tells no place in the patient; axes and corner of the voxels are taken");
+  result.slope = reader->GetRescaleSlope();
+  result.intercept = reader->GetRescaleIntercept();
+  if (!std::isfinite(result.slope) || !std::isfinite(result.intercept))
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": scl_slope or scl_inter is not a number; export it again");
+  }
+  if (result.slope == 0.0) // values as they are stored
+  {
+    result.slope = 1.0;
+    result.intercept = 0.0;
+  }
+  result.unit = "mm";
+  if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
+  {
+    const double factor = niftiUnit(header->GetXYZTUnits());
+    for (int i = 0; i < 12; ++i)
+    {
+      result.toPatient[i] *= factor > 0.0 ? factor : 1.0;
+    }
+    if (factor == 0.0)
+    {
+      result.notes.emplace_back("warning: the header names no unit; mm are taken, as is the custom");
+    }
+    if (header->GetDim(0) > 3 && header->GetDim(4) > 1)
+    {
+      result.notes.emplace_back("warning: the first of " + std::to_string(header->GetDim(4)) +
+        " volumes is taken");
+    }
+  }
+  return result;
+}
+
+PatientImage readVti(const std::filesystem::path& file)
+{
+  checkXmlEnd(file);
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (!reader->GetOutput()->GetDirectionMatrix()->IsIdentity())
+  {
+    refuseTurned(file);
+  }
+  PatientImage result = straight(reader->GetOutput());
+  if (auto* unit = vtkStringArray::SafeDownCast(
+        result.image->GetFieldData()->GetAbstractArray(kUnitArray)))
+  {
+    result.unit = unit->GetNumberOfValues() == 1 ? unit->GetValue(0) : vtkStdString();
+  }
+  return result;
+}
+
+std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept
+{
+  try
+  {
+    const std::string name = file.filename().string();
+    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+    return ends(".mha") || ends(".mhd") ? readMetaHeader(file).bytes
+      : ends(".nii") || ends(".nii.gz") ? niftiClaim(file).bytes
+      : ends(".vti")                    ? vtiBytes(file)
+                                        : 0;
+  }
+  catch (const std::exception&)
+  {
+    return 0;
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,185 @@
+#include "pipeline/formats/image_surface.h"
+
+#include "haptics/error.h"
+#include "pipeline/formats/image_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataConnectivityFilter.h>
+#include <vtkSynchronizedTemplates3D.h>
+#include <vtkWindowedSincPolyDataFilter.h>
+
+namespace palp
+{
+namespace
+{
+
+std::string inWords(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string listed(const std::vector<double>& values, const PatientImage& volume)
+{
+  constexpr std::size_t most = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(values.size(), most); ++i)
+  {
+    text += (i > 0 ? ", " : "") + inWords(volume.slope * values[i] + volume.intercept);
+  }
+  return text + (values.size() > most ? ", ..." : "");
+}
+
+void flip(vtkPolyData& surface)
+{
+  surface.BuildCells();
+  for (vtkIdType i = 0; i < surface.GetNumberOfCells(); ++i)
+  {
+    surface.ReverseCell(i);
+  }
+}
+
+// the part as a level of what is stored, and the image that has it
+struct Contour
+{
+  vtkSmartPointer<vtkImageData> image;
+  double level;
+};
+
+Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::string& name,
+  std::vector<std::string>& notes)
+{
+  const auto refuse = [&](const std::string& what)
+  { throw Error(ErrorCode::BadMesh, name + ": " + what); };
+  const ImageValues values = valuesOf(*volume.image);
+  const auto scaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
+  const double low = std::min(scaled(values.low), scaled(values.high));
+  const double high = std::max(scaled(values.low), scaled(values.high));
+  const std::string known = values.distinct.size() > 2 && values.labels
+    ? "its labels are " + listed(values.distinct, volume)
+    : "its values go from " + inWords(low) + " to " + inWords(high);
+  if (!part.labels.empty())
+  {
+    std::vector<double> stored;
+    for (const double label : part.labels)
+    {
+      const auto same = std::ranges::find_if(values.distinct,
+        [&](double value) { return std::abs(scaled(value) - label) < 1e-6 * (high - low); });
+      if (same == values.distinct.end())
+      {
+        refuse("no label " + inWords(label) + " in it; " + known);
+      }
+      stored.push_back(*same);
+    }
+    const std::vector<std::uint8_t> inside = indicator(*volume.image, stored);
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->CopyStructure(volume.image);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+    std::ranges::copy(inside, static_cast<unsigned char*>(image->GetScalarPointer()));
+    return { image, 0.5 };
+  }
+  if (values.labels)
+  {
+    refuse("a label map, whose values have no order (" + known +
+      "); name one with --label, or several with commas, not a level");
+  }
+  if (!part.level)
+  {
+    refuse("an image; name the value of the surface with a level, " + known);
+  }
+  if (!(*part.level > low && *part.level < high))
+  {
+    refuse("no surface at level " + inWords(*part.level) + "; " + known);
+  }
+  double level = (*part.level - volume.intercept) / volume.slope;
+  if (values.distinct.size() == 2)
+  {
+    const double middle = 0.5 * (values.low + values.high);
+    if (std::abs(level - middle) > 1e-6 * (values.high - values.low))
+    {
+      notes.push_back("a mask of " + listed(values.distinct, volume) + "; its surface is taken at " +
+        inWords(scaled(middle)) + ", their middle");
+    }
+    level = middle;
+  }
+  return { volume.image, level };
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const ImagePart& part,
+  const std::string& name, std::vector<std::string>& notes)
+{
+  const auto refuse = [&](const std::string& what)
+  { throw Error(ErrorCode::BadMesh, name + ": " + what); };
+  const int* size = volume.image->GetDimensions();
+  vtkDataArray* voxels = volume.image->GetPointData()->GetScalars();
+  if (!voxels || std::min({ size[0], size[1], size[2] }) < 2)
+  {
+    refuse("no volume in it; give an image of two slices or more");
+  }
+  if (voxels->GetNumberOfComponents() != 1)
+  {
+    refuse("several values at each voxel; give an image of one");
+  }
+  const Contour contour = contourOf(volume, part, name, notes);
+  constexpr std::uintmax_t most = 10'000'000;
+  if (const std::uintmax_t triangles = 2 * crossings(*contour.image, contour.level);
+      triangles > most)
+  {
+    refuse("its surface would have " + std::to_string(triangles / 1'000'000) +
+      " million triangles, noise at that level; smooth the image, or take fewer voxels");
+  }
+
+  vtkNew<vtkSynchronizedTemplates3D> templates; // starts no thread, unlike its newer kin
+  templates->SetInputData(contour.image);
+  templates->SetValue(0, contour.level);
+  templates->ComputeNormalsOff();
+  templates->ComputeScalarsOff();
+  vtkNew<vtkPolyDataConnectivityFilter> largest;
+  largest->SetInputConnection(templates->GetOutputPort());
+  largest->SetExtractionModeToLargestRegion();
+  largest->Update();
+  if (largest->GetNumberOfExtractedRegions() > 1)
+  {
+    notes.push_back("the largest of its " +
+      std::to_string(largest->GetNumberOfExtractedRegions()) + " pieces is taken");
+  }
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
+  smooth->SetInputConnection(largest->GetOutputPort());
+  smooth->SetNumberOfIterations(20);
+  smooth->SetPassBand(0.1); // a stair of one voxel goes, what is larger stays
+  smooth->NormalizeCoordinatesOn();
+  smooth->BoundarySmoothingOff();
+  smooth->Update();
+
+  vtkSmartPointer<vtkPolyData> surface = smooth->GetOutput();
+  vtkNew<vtkMatrix4x4> toPatient;
+  toPatient->DeepCopy(volume.toPatient);
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    const double* p = surface->GetPoint(i);
+    const double from[4] = { p[0], p[1], p[2], 1.0 };
+    double to[4];
+    toPatient->MultiplyPoint(from, to);
+    surface->GetPoints()->SetPoint(i, to);
+  }
+  // towards lower values, also in a mirror and of a negative slope
+  if ((toPatient->Determinant() < 0.0) != (part.labels.empty() && volume.slope < 0.0))
+  {
+    flip(*surface);
+  }
+  return surface;
+}
+
+} // namespace palp

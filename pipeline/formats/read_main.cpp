@@ -1,0 +1,32 @@
+// palp-read FILE [level=VALUE | label=VALUE...]: reads a surface for the program that started it.
+// Readers of other people's files may crash or run away, and here they do it alone.
+#include "pipeline/process/child_process.h"
+#include "pipeline/formats/read_limits.h"
+#include "pipeline/formats/surface_formats.h"
+
+#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
+#include <cstdlib>
+#include <string_view>
+
+int main(int argc, char** argv)
+{
+  // the limit of time counts all threads, and one reads as fast
+  vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
+  const std::filesystem::path file = argc > 1 ? argv[1] : "";
+  palp::ImagePart part;
+  for (int i = 2; i < argc; ++i)
+  {
+    const std::string_view word = argv[i];
+    const double value = std::strtod(argv[i] + std::min<std::size_t>(6, word.size()), nullptr);
+    if (word.starts_with("level="))
+    {
+      part.level = value;
+    }
+    else
+    {
+      part.labels.push_back(value);
+    }
+  }
+  palp::answer([&] { return pack(palp::readFile(file, part)); }, palp::readLimits(file),
+    palp::neededFiles(file));
+}

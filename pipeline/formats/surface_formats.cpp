@@ -1,0 +1,209 @@
+#include "pipeline/formats/surface_formats.h"
+
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/image_formats.h"
+#include "pipeline/formats/image_surface.h"
+#include "pipeline/formats/off_format.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/formats/read_limits.h"
+#include "pipeline/formats/stl_format.h"
+#include "pipeline/formats/vtk_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <string_view>
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkTriangleFilter.h>
+
+namespace palp
+{
+namespace
+{
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& message)
+{
+  throw Error(ErrorCode::BadFile, file.string() + ": " + message);
+}
+
+struct Format
+{
+  const char* ending;
+  const char* name;
+  const char* signature; // how such a file begins; empty: in many ways
+  vtkSmartPointer<vtkPolyData> (*read)(const std::filesystem::path&); // null: an image
+  PatientImage (*readImage)(const std::filesystem::path&) = nullptr;
+};
+
+constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
+  Format{ ".obj", "OBJ", "", readObj }, Format{ ".ply", "PLY", "ply", readPly },
+  Format{ ".off", "OFF", "", readOff }, Format{ ".vtk", "legacy VTK", "# vtk DataFile", readVtk },
+  Format{ ".vtp", "VTP", "<", readVtp }, Format{ ".vtu", "VTU", "<", readVtu },
+  Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
+  Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
+  Format{ ".nii", "NIfTI", "", nullptr, readNifti },
+  Format{ ".nii.gz", "NIfTI", "\x1f\x8b", nullptr, readNifti },
+  Format{ ".vti", "VTI", "<", nullptr, readVti } };
+
+const Format& formatOf(const std::filesystem::path& file)
+{
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Format& format : kFormats)
+  {
+    if (name.ends_with(format.ending))
+    {
+      return format;
+    }
+  }
+  refuse(file,
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu) or an "
+    "image (.mha, .mhd, .nii, .nii.gz, .vti)");
+}
+
+void checkFile(const std::filesystem::path& file, const Format& format)
+{
+  std::error_code failure;
+  const auto status = std::filesystem::status(file, failure);
+  if (!std::filesystem::exists(status))
+  {
+    refuse(file, "not found; check the name");
+  }
+  if (!std::filesystem::is_regular_file(status))
+  {
+    refuse(file, "not a file; name a surface file");
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+  {
+    refuse(file, "cannot be opened; check its permissions");
+  }
+  const std::uintmax_t size = std::filesystem::file_size(file, failure);
+  if (size == 0)
+  {
+    refuse(file, "empty; export the surface again");
+  }
+  std::string start(std::strlen(format.signature), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != format.signature)
+  {
+    refuse(
+      file, std::string("not a ") + format.name + " file, whatever its name; rename or convert it");
+  }
+}
+
+// a reader passes on whatever indices the file holds
+bool indicesInRange(vtkCellArray& cells, vtkIdType points)
+{
+  if (!cells.IsValid())
+  {
+    return false;
+  }
+  vtkDataArray& indices = *cells.GetConnectivityArray();
+  for (vtkIdType i = 0; i < indices.GetNumberOfValues(); ++i)
+  {
+    const double index = indices.GetComponent(i, 0);
+    if (!(index >= 0.0 && index < static_cast<double>(points)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void checkContent(const std::filesystem::path& file, vtkPolyData& data)
+{
+  const vtkIdType points = data.GetNumberOfPoints();
+  if (points > std::numeric_limits<int>::max())
+  {
+    throw Error(ErrorCode::BadMesh, file.string() + ": too many points; export a coarser surface");
+  }
+  if (!indicesInRange(*data.GetPolys(), points) || !indicesInRange(*data.GetStrips(), points))
+  {
+    refuse(file, "a triangle names a point that is not there; export it again");
+  }
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    const double* p = data.GetPoint(i);
+    constexpr double most = 1e12; // keeps every product of coordinates finite
+    if (!(std::abs(p[0]) < most && std::abs(p[1]) < most && std::abs(p[2]) < most))
+    {
+      throw Error(ErrorCode::BadMesh,
+        file.string() + ": point " + std::to_string(i + 1) +
+          " has a coordinate that is not a usable number; repair the surface");
+    }
+  }
+}
+
+void checkErrors(const std::filesystem::path& file, const Format& format, const VtkErrors& errors)
+{
+  if (!errors.first().empty())
+  {
+    refuse(file,
+      std::string("cannot be read as ") + format.name + " (" + errors.first() +
+        "); export it again");
+  }
+}
+
+} // namespace
+
+FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
+{
+  const Format& format = formatOf(file);
+  checkFile(file, format);
+  if (format.read && (part.level || !part.labels.empty()))
+  {
+    refuse(file, "a surface, not an image; leave the level out");
+  }
+  const VtkErrors errors;
+  FileSurface surface;
+  vtkSmartPointer<vtkPolyData> data;
+  if (format.read)
+  {
+    data = format.read(file);
+  }
+  else
+  {
+    checkFits(file);
+    const PatientImage volume = format.readImage(file);
+    checkErrors(file, format, errors);
+    surface.unit = volume.unit;
+    surface.notes = volume.notes;
+    data = imageSurface(volume, part, file.string(), surface.notes);
+  }
+  checkErrors(file, format, errors);
+  checkContent(file, *data);
+
+  vtkNew<vtkTriangleFilter> cut;
+  cut->PassVertsOff();
+  cut->PassLinesOff();
+  cut->SetInputData(data);
+  cut->Update();
+  surface.points = pointsOf(*data);
+  surface.triangles = trianglesOf(*cut->GetOutput());
+  if (surface.triangles.empty())
+  {
+    throw Error(ErrorCode::BadMesh,
+      file.string() + ": no triangles in it; export a surface, not points or a volume");
+  }
+  auto* unit = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kUnitArray));
+  if (unit && unit->GetNumberOfValues() == 1)
+  {
+    surface.unit = unit->GetValue(0);
+  }
+  return surface;
+}
+
+} // namespace palp

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "pipeline/process/file_surface.h"
+
+#include <filesystem>
+
+namespace palp
+{
+
+/// Reads STL, OBJ, PLY, OFF, legacy VTK, VTP or VTU, by the ending of the name, of a volume mesh
+/// its outer surface; or a surface in an image: MetaImage, NIfTI or VTI.
+///
+/// Polygons and strips are cut into triangles. For palp-read only: a damaged file may crash the
+/// reader or take all memory, and VTK reads numbers by the locale.
+///
+/// @param part    of an image; none for a file that is a surface itself
+/// @throws Error  BadFile: missing, not a file, empty, cut off, not of the format its name says;
+///                BadMesh: no triangles, a coordinate that is not a number; as imageSurface
+[[nodiscard]] FileSurface readFile(
+  const std::filesystem::path& file, const ImagePart& part = {});
+
+} // namespace palp

@@ -1,0 +1,181 @@
+#include "pipeline/process/child_process.h"
+
+#include "haptics/error.h"
+#include "pipeline/process/sandbox.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace palp
+{
+namespace
+{
+
+// the first byte tells what follows
+constexpr char kResult = 'R';
+constexpr char kError = 'E'; // then the code in one byte, and the message
+
+// sanitizers reserve more than any limit, and make calls of their own
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+bool writeAll(int pipe, const std::string& bytes)
+{
+  for (std::size_t done = 0; done < bytes.size();)
+  {
+    const ssize_t n = write(pipe, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno != EINTR)
+    {
+      return false; // the parent is gone
+    }
+    done += n > 0 ? static_cast<std::size_t>(n) : 0;
+  }
+  return true;
+}
+
+std::string readAll(int pipe)
+{
+  std::string bytes;
+  char buffer[1 << 16];
+  for (;;)
+  {
+    const ssize_t n = read(pipe, buffer, sizeof buffer);
+    if (n > 0)
+    {
+      bytes.append(buffer, static_cast<std::size_t>(n));
+    }
+    else if (n == 0 || errno != EINTR)
+    {
+      return bytes;
+    }
+  }
+}
+
+void limit(int resource, std::uint64_t most)
+{
+  const rlimit limits{ .rlim_cur = most, .rlim_max = most };
+  setrlimit(resource, &limits);
+}
+
+// @return  the child, or nothing with errno
+std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
+{
+  std::vector<char*> arguments;
+  for (const std::string& argument : command)
+  {
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  }
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigfillset(&signals);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  pid_t child = -1;
+  char* none[] = { nullptr };
+  const int failure = posix_spawn(
+    &child, arguments[0], &files, &attributes, arguments.data(), kSanitized ? environ : none);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  errno = failure;
+  return failure == 0 ? std::optional(child) : std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> answerOf(const std::vector<std::string>& command)
+{
+  int ends[2] = { -1, -1 };
+  const bool piped = pipe2(ends, O_CLOEXEC) == 0;
+  const std::optional<pid_t> child = piped ? spawn(command, ends[1]) : std::nullopt;
+  const int why = errno;
+  close(ends[1]);
+  if (!child)
+  {
+    close(ends[0]);
+    throw Error(ErrorCode::BadFile,
+      command[0] + ": cannot be started (" + std::strerror(why) + "); " +
+        (why == ENOENT || why == EACCES ? "build or install it" : "close some programs"));
+  }
+  const std::string answer = readAll(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(*child, &status, 0) < 0 && errno == EINTR)
+  {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty())
+  {
+    return std::nullopt;
+  }
+  if (answer[0] == kError)
+  {
+    throw Error(static_cast<ErrorCode>(answer[1]), answer.substr(2));
+  }
+  return answer.substr(1);
+}
+
+void answer(const std::function<std::string()>& work, ChildLimits limits,
+  const std::vector<std::filesystem::path>& readable)
+{
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  pollfd asker{ .fd = STDOUT_FILENO, .events = 0, .revents = 0 };
+  if (poll(&asker, 1, 0) > 0 && (asker.revents & POLLERR) != 0)
+  {
+    _exit(1); // who asked ended before that
+  }
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.time);
+  limit(RLIMIT_NOFILE, 16);
+  if (!kSanitized)
+  {
+    limit(RLIMIT_DATA, limits.memory);
+    limit(RLIMIT_FSIZE, 0);
+    limit(RLIMIT_NPROC, 0);
+  }
+  // a damaged heap can leave a process waiting for a lock, which takes no processor time
+  constexpr std::uint64_t kPatience = 6; // of the time on the processor, for a busy machine
+  alarm(static_cast<unsigned>(kPatience * limits.time));
+  const int output = dup(STDOUT_FILENO);
+  dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+  if (!kSanitized)
+  {
+    enterSandbox(output, readable);
+  }
+  bool answered = false;
+  try
+  {
+    answered = writeAll(output, kResult + work());
+  }
+  catch (const Error& error)
+  {
+    answered =
+      writeAll(output, std::string{ kError, static_cast<char>(error.code()) } + error.what());
+  }
+  catch (const std::exception&) // out of memory
+  {
+  }
+  _exit(answered ? 0 : 1); // a damaged heap is not taken down in order
+}
+
+} // namespace palp

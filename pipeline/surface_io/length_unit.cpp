@@ -1,0 +1,99 @@
+#include "pipeline/surface_io/length_unit.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <array>
+#include <sstream>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr std::array kUnits{ LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre };
+constexpr double kSmallestBody = 5.0_mm;
+constexpr double kLargestBody = 600.0_mm;
+
+// the sides of a body are rounded in the file, so that its limits are as well
+constexpr double kSlack = 1e-6;
+
+} // namespace
+
+const char* unitName(LengthUnit unit) noexcept
+{
+  switch (unit)
+  {
+    case LengthUnit::Millimetre:
+      return "mm";
+    case LengthUnit::Centimetre:
+      return "cm";
+    default:
+      return "m";
+  }
+}
+
+double unitLength(LengthUnit unit) noexcept
+{
+  switch (unit)
+  {
+    case LengthUnit::Millimetre:
+      return 1.0_mm;
+    case LengthUnit::Centimetre:
+      return 10.0_mm;
+    default:
+      return 1.0;
+  }
+}
+
+std::optional<LengthUnit> unitNamed(std::string_view name) noexcept
+{
+  for (const LengthUnit unit : kUnits)
+  {
+    if (name == unitName(unit))
+    {
+      return unit;
+    }
+  }
+  return std::nullopt;
+}
+
+UnitChoice parseUnit(std::string_view text)
+{
+  const UnitChoice unit = unitNamed(text);
+  if (!unit && text != "auto")
+  {
+    throw Error(ErrorCode::BadValue,
+      "--unit: '" + std::string(text) + "' is no unit of length here; give mm, cm, m or auto");
+  }
+  return unit;
+}
+
+LengthUnit guessUnit(double longestSide, const std::string& file)
+{
+  std::ostringstream sizes;
+  UnitChoice fitting;
+  int fits = 0;
+  for (const LengthUnit unit : kUnits)
+  {
+    const double side = longestSide * unitLength(unit);
+    sizes << (unit == LengthUnit::Millimetre ? "" : ", ") << units::toMillimetres(side) << " mm if "
+          << unitName(unit);
+    if (side >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack))
+    {
+      fitting = unit;
+      ++fits;
+    }
+  }
+  if (fits != 1)
+  {
+    throw Error(ErrorCode::BadMesh,
+      file + ": " + (fits == 0 ? "no unit" : "more than one unit") +
+        " gives the size of an organ or a part of one (longest side " + sizes.str() + "); give --unit mm, cm or m");
+  }
+  return *fitting;
+}
+
+} // namespace palp

@@ -1,0 +1,193 @@
+#include "pipeline/surface_io/surface_io.h"
+
+#include "haptics/files/replace_file.h"
+#include "haptics/error.h"
+#include "haptics/files/prefix.h"
+#include "haptics/units.h"
+#include "pipeline/process/child_process.h"
+#include "pipeline/process/file_surface.h"
+#include "pipeline/surface_io/surface_repair.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkOBJWriter.h>
+#include <vtkPLYWriter.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSTLWriter.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
+namespace palp
+{
+namespace
+{
+
+// factor: from the unit of the points to that of the result
+vtkSmartPointer<vtkPolyData> scaled(vtkPolyData& mesh, double factor)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(mesh.GetPoints()->GetDataType());
+  points->SetNumberOfPoints(mesh.GetNumberOfPoints());
+  for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i)
+  {
+    const double* p = mesh.GetPoint(i);
+    points->SetPoint(i, factor * p[0], factor * p[1], factor * p[2]);
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(&mesh);
+  result->SetPoints(points);
+  return result;
+}
+
+std::string summary(const std::string& name, const LoadedSurface& surface, const std::string& why)
+{
+  double box[6];
+  surface.mesh->GetBounds(box);
+  std::ostringstream text;
+  text << name << ": " << surface.mesh->GetNumberOfPoints() << " points, "
+       << surface.mesh->GetNumberOfPolys() << " triangles, " << (surface.closed ? "closed, " : "");
+  text.precision(3);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = units::toMillimetres(box[2 * axis + 1] - box[2 * axis]);
+    text << (axis > 0 ? " x " : "") << (side < 100.0 ? side : std::round(side));
+  }
+  text << " mm; coordinates taken in " << unitName(surface.unit) << ", " << why;
+  return text.str();
+}
+
+FileSurface readElsewhere(const std::filesystem::path& file, const ImagePart& part)
+{
+  std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
+  const auto add = [&](const char* kind, double value)
+  {
+    char digits[32];
+    command.emplace_back(kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
+  };
+  if (part.level)
+  {
+    add("level=", *part.level);
+  }
+  for (const double label : part.labels)
+  {
+    add("label=", label);
+  }
+  const auto answer = answerOf(command);
+  auto surface = answer ? unpack(*answer) : std::nullopt;
+  if (!surface)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() +
+        ": damaged or cut off, its reader does not get through it; export or copy it again");
+  }
+  return *std::move(surface);
+}
+
+// by way of memory, as VTK would tell of a full disk in its own words
+void writeVtp(const std::filesystem::path& file, vtkPolyData& data)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(&data);
+  writer->Write();
+  replaceFile(file, writer->GetOutputString());
+}
+
+template <typename Writer>
+void writeWith(const std::filesystem::path& file, vtkPolyData& data)
+{
+  vtkNew<Writer> writer;
+  if constexpr (std::is_same_v<Writer, vtkSTLWriter>)
+  {
+    writer->SetFileTypeToBinary(); // the others are binary where they can be
+  }
+  writer->SetInputData(&data);
+  replaceFile(file,
+    [&](const std::filesystem::path& fresh)
+    {
+      writer->SetFileName(fresh.c_str());
+      if (writer->Write() != 1 || writer->GetErrorCode() != 0)
+      {
+        refuseFile(fresh, EIO);
+      }
+    });
+}
+
+} // namespace
+
+LoadedSurface readSurface(
+  const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
+{
+  const std::string name = file.filename().string();
+  const FileSurface read = readElsewhere(file, part);
+  const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
+
+  std::string why = "as asked";
+  std::vector<std::string> warnings = repaired.warnings;
+  if (!unit)
+  {
+    unit = unitNamed(read.unit);
+    why = "as the file says";
+  }
+  if (!unit)
+  {
+    double box[6];
+    repaired.mesh->GetBounds(box);
+    unit =
+      guessUnit(std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string());
+    why = "a guess";
+    warnings.push_back(std::string("the file names no unit; ") + unitName(*unit) +
+      " is the only one that gives the size of an organ or a part of one; --unit " +
+      unitName(*unit) + " confirms it");
+  }
+  LoadedSurface surface{ .mesh = scaled(*repaired.mesh, unitLength(*unit)),
+    .unit = *unit,
+    .closed = repaired.closed,
+    .notes = {} };
+  surface.notes.push_back(summary(name, surface, why));
+  for (const std::string& note : read.notes)
+  {
+    const bool warns = note.starts_with("warning: ");
+    surface.notes.push_back(
+      std::string(warns ? "warning: " : "") + name + ": " + (warns ? note.substr(9) : note));
+  }
+  for (const std::string& note : repaired.notes)
+  {
+    surface.notes.push_back(name + ": " + note);
+  }
+  for (const std::string& warning : warnings)
+  {
+    surface.notes.push_back("warning: " + name + ": " + warning);
+  }
+  return surface;
+}
+
+void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
+{
+  using Writer = void (*)(const std::filesystem::path&, vtkPolyData&);
+  const std::map<std::string, Writer> writers{ { ".vtp", writeVtp },
+    { ".stl", writeWith<vtkSTLWriter> }, { ".ply", writeWith<vtkPLYWriter> },
+    { ".obj", writeWith<vtkOBJWriter> } };
+  const auto writer = writers.find(file.extension().string());
+  if (writer == writers.end())
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
+  }
+  const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimetre));
+  vtkNew<vtkStringArray> unit; // that only VTP has a place for
+  unit->SetName(kUnitArray);
+  unit->InsertNextValue(unitName(LengthUnit::Millimetre));
+  data->SetFieldData(vtkNew<vtkFieldData>());
+  data->GetFieldData()->AddArray(unit);
+  writer->second(file, *data);
+}
+
+} // namespace palp

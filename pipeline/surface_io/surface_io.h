@@ -1,0 +1,46 @@
+#pragma once
+
+#include "pipeline/process/file_surface.h"
+#include "pipeline/surface_io/length_unit.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+namespace palp
+{
+
+/// A surface that can be pressed, and what people should know of it.
+struct LoadedSurface
+{
+  vtkSmartPointer<vtkPolyData>
+    mesh; ///< [m], triangles only; pointsOf() and trianglesOf() give a Surface
+  LengthUnit unit = LengthUnit::Millimetre; ///< that the coordinates of the file were taken in
+  bool closed = false;                      ///< every edge has exactly two triangles
+  std::vector<std::string> notes; ///< a line each; the first says size and unit, warnings come last
+};
+
+/// Reads a surface, repairs what can be repaired and finds its unit.
+///
+/// A file that states its unit (as writeSurface does in VTP) is believed; in any other the one
+/// unit is taken that gives the size of an organ or a part of one, with a warning. Coincident points are merged, polygons cut into
+/// triangles, triangles turned outwards. An open or non-manifold surface loads with a warning.
+///
+/// @param file    STL, OBJ, PLY, OFF, VTK, VTP or VTU; or an image, in the patient's axes (LPS)
+/// @param unit    wins over what the file says
+/// @param part    of an image: MetaImage, NIfTI or VTI
+/// @throws Error  BadFile: unreadable, or not of its format; BadMesh: nothing to press, or the
+///                unit is in doubt
+[[nodiscard]] LoadedSurface readSurface(
+  const std::filesystem::path& file, UnitChoice unit = {}, const ImagePart& part = {});
+
+/// Writes a surface in millimetres: VTP with its arrays and the unit, or bare STL, PLY, OBJ.
+///
+/// @param mesh    [m], triangles
+/// @throws Error  BadFile: unknown ending, or the file cannot be written
+void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh);
+
+} // namespace palp

@@ -1,0 +1,131 @@
+#include "pipeline/view/dent_colors.h"
+
+#include "haptics/contact/indentation_of.h"
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+
+#include <algorithm>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
+  : map_(appearance::viridisOn(appearance::kLiver))
+  , plain_(property)
+{
+  pressure_->SetInputConnection(press.GetOutputPort(1));
+  mapper_->SetInputConnection(press.GetOutputPort(1));
+  mapper_->SetScalarModeToUsePointFieldData();
+  mapper_->SetLookupTable(map_);
+  mapper_->UseLookupTableScalarRangeOn();
+  mapper_->InterpolateScalarsBeforeMappingOn();
+  actor_->SetMapper(mapper_);
+  renderer.AddActor(actor_);
+
+  legend_->SetLookupTable(map_);
+  legend_->SetNumberOfLabels(6);
+  legend_->SetLabelFormat("%.3g");
+  legend_->SetUnconstrainedFontSize(true);
+  legend_->SetBarRatio(0.25);
+  legend_->SetWidth(0.10);
+  legend_->SetHeight(0.5);
+  legend_->SetPosition(0.82, 0.30);
+  legend_->SetVerticalTitleSeparation(10);
+  appearance::setFont(*legend_->GetTitleTextProperty(), 14, appearance::kInk, true);
+  appearance::setFont(*legend_->GetLabelTextProperty(), 14);
+  for (vtkTextProperty* text : { legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty() })
+  {
+    text->SetBackgroundColor(1.0, 1.0, 1.0);
+    text->SetBackgroundOpacity(0.6);
+  }
+  renderer.AddActor2D(legend_);
+  hide();
+}
+
+void DentColors::hide()
+{
+  actor_->VisibilityOff();
+  legend_->VisibilityOff();
+}
+
+void DentColors::setLaw(const ForceLaw& law)
+{
+  validity_.emplace(law);
+}
+
+void DentColors::show(const Moment& moment, By by)
+{
+  const Contact& contact = moment.sample.contact;
+  mapper_->SetInputConnection(moment.press.GetOutputPort(1));
+  mapper_->ScalarVisibilityOff();
+  actor_->SetProperty(plain_);
+  actor_->VisibilityOn();
+  legend_->VisibilityOff();
+  if (by == By::Displacement)
+  {
+    colorBy("Displacement [mm]", "displacement\n[mm]", units::toMillimetres(contact.depth));
+  }
+  else if (by == By::Pressure)
+  {
+    const Response& response = moment.sample.response;
+    const ContactPressure pressure(
+      moment.tip, contact.depth, response.contactRadius, response.force);
+    pressure_->SetPressure(pressure);
+    mapper_->SetInputConnection(pressure_->GetOutputPort());
+    // a sharp apex and a flat edge have no largest value: twice the one half way says enough
+    const double half = pressure.at(0.5 * response.contactRadius);
+    colorBy("Pressure [kPa]", "contact\npressure\n[kPa]",
+      units::toKilopascals(std::min(std::max(pressure.at(0.0), half), 2.0 * half)));
+  }
+  else if (const auto worst = worstRule(moment); by == By::Validity && worst)
+  {
+    const appearance::Color& color = !worst->holds() ? appearance::kBad
+      : worst->share() > Rule::kDoubtful             ? appearance::kDoubtful
+                                                     : appearance::kGood;
+    vtkNew<vtkProperty> property;
+    property->DeepCopy(plain_);
+    appearance::setColor(*property, color);
+    actor_->SetProperty(property);
+  }
+}
+
+void DentColors::colorBy(const char* array, const char* title, double top)
+{
+  mapper_->SelectColorArray(array);
+  mapper_->ScalarVisibilityOn();
+  map_->SetTableRange(0.0, fixedTop_ > 0.0 ? fixedTop_ : appearance::roundUp(top));
+  legend_->SetTitle(title);
+  legend_->VisibilityOn();
+}
+
+std::optional<Rule> DentColors::worstRule(const Moment& moment) const
+{
+  if (!validity_)
+  {
+    return std::nullopt;
+  }
+  const Contact& contact = moment.sample.contact;
+  const Rules rules = (*validity_)(indentationOf(contact), contact.edgeDistance);
+  return *std::max_element(
+    rules.begin(), rules.end(), [](const Rule& a, const Rule& b) { return a.share() < b.share(); });
+}
+
+std::string DentColors::rule(const Moment& moment) const
+{
+  const auto worst = worstRule(moment);
+  if (!worst)
+  {
+    return {};
+  }
+  std::string name = worst->name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const char* verdict = !worst->holds() ? "not valid: "
+    : worst->share() > Rule::kDoubtful  ? "doubtful: "
+                                        : "valid: ";
+  return verdict + name + " uses " + appearance::fixedText(100.0 * worst->share(), 0) +
+    " % of its limit";
+}
+
+} // namespace palp

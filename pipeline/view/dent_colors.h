@@ -1,0 +1,63 @@
+#pragma once
+
+#include "haptics/force/validity.h"
+#include "pipeline/view/overlay_props.h"
+#include "pipeline/view/vtkPalpPressureFilter.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vtkActor.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkScalarBarActor.h>
+
+namespace palp
+{
+
+/// The dent drawn by itself, plain or in colours, with their legend.
+class DentColors
+{
+public:
+  enum class By
+  {
+    Nothing,
+    Displacement,
+    Pressure,
+    Validity
+  };
+
+  /// @param property  of the surface around it
+  DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property);
+
+  void show(const Moment& moment, By by);
+  void hide();
+
+  /// The law whose rules are shown; without one there are none.
+  void setLaw(const ForceLaw& law);
+
+  /// Upper end of the colours of displacement [mm] or pressure [kPa]; 0 lets it follow the press.
+  void setRange(double top)
+  {
+    fixedTop_ = top;
+  }
+
+  /// The rule nearest to its limit, with the share of it that is used; empty without a law.
+  [[nodiscard]] std::string rule(const Moment& moment) const;
+
+private:
+  [[nodiscard]] std::optional<Rule> worstRule(const Moment& moment) const;
+  void colorBy(const char* array, const char* title, double top);
+
+  std::optional<Validity> validity_;
+  double fixedTop_ = 0.0;
+  vtkNew<vtkPalpPressureFilter> pressure_;
+  vtkSmartPointer<vtkLookupTable> map_;
+  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkSmartPointer<vtkProperty> plain_;
+  vtkNew<vtkScalarBarActor> legend_;
+};
+
+} // namespace palp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "pipeline/view/overlay_props.h"
+
+#include <vtkActor.h>
+#include <vtkArrowSource.h>
+#include <vtkNew.h>
+#include <vtkTextActor.h>
+
+namespace palp
+{
+
+/// The force on the hand as an arrow, as long as it is large, up to a share of the body, with its
+/// value in newtons.
+class ForceArrow : public OverlayProps
+{
+public:
+  explicit ForceArrow(vtkRenderer& renderer);
+
+  /// @param force     [N]
+  /// @param diagonal  of the body's bounding box [m]
+  /// @return          [m]
+  [[nodiscard]] static double lengthOf(double force, double diagonal) noexcept;
+
+  void show(const Moment& moment) override;
+  void hide() override;
+
+private:
+  vtkNew<vtkArrowSource> source_;
+  vtkNew<vtkActor> arrow_;
+  vtkNew<vtkTextActor> label_;
+};
+
+} // namespace palp

@@ -1,0 +1,276 @@
+#include "pipeline/view/press_view.h"
+
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+#include "pipeline/view/control_net.h"
+#include "pipeline/view/force_arrow.h"
+#include "pipeline/view/ghost.h"
+#include "pipeline/deform/press_of.h"
+#include "pipeline/view/surface_circle.h"
+#include "pipeline/view/tool_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vtkCamera.h>
+#include <vtkLightKit.h>
+#include <vtkMatrix4x4.h>
+#include <vtkProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kViewAngle = 30.0_deg;
+
+// that is drawn of a tool, from its apex [m]
+double toolHeight(const Tip& tip)
+{
+  return std::max(2.2 * baseRadius(tip), 20.0_mm);
+}
+
+constexpr std::size_t indexOf(Overlay overlay)
+{
+  return static_cast<std::size_t>(overlay);
+}
+
+} // namespace
+
+PressView::PressView(vtkRenderer& renderer)
+  : renderer_(renderer)
+{
+  const auto& ground = appearance::kGround;
+  const auto& sky = appearance::kSky;
+  renderer_.SetBackground(ground[0], ground[1], ground[2]);
+  renderer_.SetBackground2(sky[0], sky[1], sky[2]);
+  renderer_.GradientBackgroundOn();
+  vtkNew<vtkLightKit> lights;
+  lights->SetKeyLightIntensity(0.85);
+  lights->SetKeyToFillRatio(2.0);
+  lights->SetKeyToHeadRatio(2.5);
+  lights->AddLightsToRenderer(&renderer_);
+  renderer_.GetActiveCamera()->SetViewAngle(units::toDegrees(kViewAngle));
+
+  // what is translucent comes last
+  addSurface();
+  addOverlays();
+  addTool();
+  for (const Overlay overlay : { Overlay::ForceArrow, Overlay::ContactCircle, Overlay::ExtentCircle,
+         Overlay::DisplacementColors, Overlay::Readings })
+  {
+    setVisible(overlay, true);
+  }
+}
+
+PressView::~PressView() = default;
+
+void PressView::addSurface()
+{
+  surface_->SetMapper(surfaceMapper_);
+  appearance::setColor(*surface_->GetProperty(), appearance::kLiver);
+  surface_->GetProperty()->SetSpecular(0.25);
+  surface_->GetProperty()->SetSpecularPower(25.0);
+  renderer_.AddActor(surface_);
+  dent_.emplace(renderer_, *deform_, surface_->GetProperty());
+}
+
+void PressView::addTool()
+{
+  // behind the surface that lies on it
+  toolMapper_->SetResolveCoincidentTopologyToPolygonOffset();
+  toolMapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 8.0);
+  tool_->SetMapper(toolMapper_);
+  appearance::setColor(*tool_->GetProperty(), appearance::kTool);
+  tool_->GetProperty()->SetOpacity(0.4);
+  tool_->GetProperty()->BackfaceCullingOn();
+  tool_->GetProperty()->SetSpecular(0.6);
+  tool_->GetProperty()->SetSpecularPower(40.0);
+  tool_->VisibilityOff();
+  renderer_.AddActor(tool_);
+  setTip(tip_);
+}
+
+void PressView::addOverlays()
+{
+  const auto put = [this](Overlay overlay, std::unique_ptr<OverlayProps> props)
+  { overlays_[indexOf(overlay)] = std::move(props); };
+  put(Overlay::ForceArrow, std::make_unique<ForceArrow>(renderer_));
+  put(Overlay::ContactCircle,
+    std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Contact));
+  put(Overlay::ExtentCircle,
+    std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Extent));
+  put(Overlay::ControlNet, std::make_unique<ControlNet>(renderer_));
+  put(Overlay::Ghost, std::make_unique<Ghost>(renderer_, *deform_));
+  auto readings = std::make_unique<Readings>(renderer_);
+  readings_ = readings.get();
+  put(Overlay::Readings, std::move(readings));
+}
+
+void PressView::setSurface(vtkPolyData* surface)
+{
+  deform_->SetInputDataObject(surface);
+  surfaceMapper_->SetInputConnection(deform_->GetOutputPort());
+  diagonal_ = surface->GetLength();
+  show(Sample{});
+}
+
+void PressView::setTip(const Tip& tip)
+{
+  tip_ = tip;
+  toolMapper_->SetInputData(toolSurface(tip, toolHeight(tip)));
+}
+
+void PressView::setExtents(const ExtentTable& extents)
+{
+  extents_ = extents;
+}
+
+void PressView::setStyle(DentStyle style)
+{
+  style_ = std::move(style);
+}
+
+void PressView::setLaw(const ForceLaw& law)
+{
+  dent_->setLaw(law);
+}
+
+void PressView::setColorRange(double top)
+{
+  dent_->setRange(top);
+}
+
+double PressView::extentRadius(double depth) const noexcept
+{
+  return extents_ ? extents_->extentRadius(depth) : 0.0;
+}
+
+vtkPolyData* PressView::deformed()
+{
+  deform_->Update();
+  return deform_->GetOutput();
+}
+
+void PressView::setVisible(Overlay overlay, bool visible)
+{
+  visible_[indexOf(overlay)] = visible;
+}
+
+void PressView::setVisible(const std::vector<Overlay>& overlays)
+{
+  visible_.fill(false);
+  for (const Overlay overlay : overlays)
+  {
+    setVisible(overlay, true);
+  }
+}
+
+bool PressView::isVisible(Overlay overlay) const
+{
+  return visible_[indexOf(overlay)];
+}
+
+void PressView::show(const Sample& sample)
+{
+  const double extent = extentRadius(sample.contact.depth);
+  deform_->SetPress(pressOf(sample, tip_, extent, style_));
+  deform_->SetGeneratePatch(sample.contact.touching());
+  deform_->Update();
+  const Moment moment{ sample, tip_, extent, *deform_ };
+  placeTool(sample.pose);
+  placeDent(moment);
+  const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
+  above_ = std::max(
+    toolHeight(tip_), isPushed ? ForceArrow::lengthOf(sample.response.force, diagonal_) : 0.0);
+  readings_->setKeys(isVisible(Overlay::ContactCircle), isVisible(Overlay::ExtentCircle),
+    isVisible(Overlay::ValidityColors) ? dent_->rule(moment) : std::string{});
+  for (std::size_t i = 0; i < kOverlayCount; ++i)
+  {
+    if (overlays_[i])
+    {
+      visible_[i] && sample.contact.touching() ? overlays_[i]->show(moment) : overlays_[i]->hide();
+    }
+  }
+}
+
+void PressView::placeTool(const ToolPose& pose)
+{
+  const bool known = pose.apex.allFinite() && pose.axis.allFinite();
+  tool_->SetVisibility(known);
+  if (known)
+  {
+    tool_->SetUserMatrix(appearance::placement(pose.apex, appearance::axesAlong(-pose.axis, 2)));
+  }
+}
+
+DentColors::By PressView::colors() const
+{
+  return isVisible(Overlay::ValidityColors)  ? DentColors::By::Validity
+    : isVisible(Overlay::PressureColors)     ? DentColors::By::Pressure
+    : isVisible(Overlay::DisplacementColors) ? DentColors::By::Displacement
+                                             : DentColors::By::Nothing;
+}
+
+// the dent is drawn by itself where it is finer than the mesh or has colours
+void PressView::placeDent(const Moment& moment)
+{
+  const DentColors::By by = colors();
+  const bool apart = moment.sample.contact.touching() &&
+    (by != DentColors::By::Nothing || deform_->GetUsedPatchLevel() > 0);
+  surfaceMapper_->SetHideDent(apart);
+  if (apart)
+  {
+    dent_->show(moment, by);
+  }
+  else
+  {
+    dent_->hide();
+  }
+}
+
+void PressView::lookAtSurface()
+{
+  vtkCamera& camera = *renderer_.GetActiveCamera();
+  camera.SetFocalPoint(0.0, 0.0, 0.0);
+  camera.SetPosition(-0.35, -1.0, 0.75);
+  camera.SetViewUp(0.0, 0.0, 1.0);
+  double bounds[6];
+  surfaceMapper_->GetBounds(bounds);
+  renderer_.ResetCamera(bounds);
+}
+
+void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
+{
+  constexpr double kObliquity = 40.0_deg;
+  // a place on top is seen from the front, any other from above
+  const bool onTop = std::abs(normal.z()) > 0.7;
+  const Eigen::Vector3d up = onTop ? normal : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d aside = onTop ? Eigen::Vector3d(-Eigen::Vector3d::UnitY()) : up;
+  const Eigen::Vector3d side = (aside - aside.dot(normal) * normal).normalized();
+  const Eigen::Vector3d towards = std::cos(kObliquity) * normal + std::sin(kObliquity) * side;
+
+  double bounds[6];
+  surfaceMapper_->GetBounds(bounds);
+  const Eigen::Vector3d middle =
+    0.5 * Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+  const Eigen::Vector3d focus = 0.6 * middle + 0.4 * place;
+  const double spread = std::tan(0.5 * kViewAngle);
+  // tool and arrow may be larger than the surface, and are nearer
+  const Eigen::Vector3d top = place + above_ * normal - focus;
+  const double nearer = top.dot(towards);
+  const double across = (top - nearer * towards).norm();
+  const double away = std::max(0.45 * diagonal_ / spread, nearer + 1.2 * across / spread);
+  const Eigen::Vector3d eye = focus + away * towards;
+  vtkCamera& camera = *renderer_.GetActiveCamera();
+  camera.SetFocalPoint(focus.data());
+  camera.SetPosition(eye.data());
+  camera.SetViewUp(up.data());
+  camera.SetWindowCenter(0.15, 0.0); // the legend has the right side
+  renderer_.ResetCameraClippingRange();
+}
+
+} // namespace palp

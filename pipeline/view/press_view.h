@@ -1,0 +1,113 @@
+#pragma once
+
+#include "calibration/tables/extent_table.h"
+#include "haptics/servo/sample.h"
+#include "pipeline/view/dent_colors.h"
+#include "pipeline/model/overlay.h"
+#include "pipeline/view/overlay_props.h"
+#include "pipeline/deform/press_of.h"
+#include "pipeline/view/readings.h"
+#include "pipeline/deform/vtkPalpDeformFilter.h"
+#include "pipeline/view/vtkPalpPatchMapper.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkRenderer.h>
+
+namespace palp
+{
+
+/// The pressed surface, the tool and the overlays in one renderer.
+///
+/// Both front ends, the picture and the window, show samples through it. Main thread only.
+class PressView
+{
+public:
+  /// Adds its props, lights and background to a renderer.
+  explicit PressView(vtkRenderer& renderer);
+  ~PressView();
+  PressView(const PressView&) = delete;
+  PressView& operator=(const PressView&) = delete;
+
+  /// @param surface  at rest [m], triangles only; shared, not copied
+  void setSurface(vtkPolyData* surface);
+
+  /// @param tip  checked
+  void setTip(const Tip& tip);
+
+  /// R_d for every depth; without a table the ring ends close to the contact.
+  void setExtents(const ExtentTable& extents);
+
+  /// What the surface around the tool is drawn as; the paper's ring at first.
+  void setStyle(DentStyle style);
+
+  /// The law whose rules the validity colours and readings name.
+  void setLaw(const ForceLaw& law);
+
+  /// Moves the tool, presses the surface, and sets the overlays. Does not render.
+  void show(const Sample& sample);
+
+  /// At first: arrow, circles, colours of the displacement and readings. Takes effect in show().
+  void setVisible(Overlay overlay, bool visible);
+  [[nodiscard]] bool isVisible(Overlay overlay) const;
+
+  /// Shows these overlays and no others.
+  void setVisible(const std::vector<Overlay>& overlays);
+
+  /// Upper end of the colours [mm or kPa]; 0, the default, lets it follow the press.
+  void setColorRange(double top);
+
+  /// The whole surface, from the front and above.
+  void lookAtSurface();
+
+  /// The whole surface with a place on it, head up where it is pressed from a side.
+  ///
+  /// @param place   on the surface [m]
+  /// @param normal  unit, outward
+  void lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
+
+  /// R_d of the table for a depth [m]; 0 without a table.
+  [[nodiscard]] double extentRadius(double depth) const noexcept;
+
+  /// The surface as last shown [m], with the arrays of vtkPalpDeformFilter.
+  [[nodiscard]] vtkPolyData* deformed();
+
+  /// The filter that presses the surface, for what else is made of it.
+  [[nodiscard]] vtkPalpDeformFilter& press()
+  {
+    return *deform_;
+  }
+
+private:
+  void addSurface();
+  void addTool();
+  void addOverlays();
+  void placeTool(const ToolPose& pose);
+  void placeDent(const Moment& moment);
+  [[nodiscard]] DentColors::By colors() const;
+
+  vtkRenderer& renderer_;
+  Tip tip_{ SphereTip{ .radius = 0.01 } };
+  std::optional<ExtentTable> extents_;
+  DentStyle style_;
+  double diagonal_ = 0.0; // of the surface's box [m]
+  double above_ = 0.0;    // the surface reach tool and arrow [m]
+
+  vtkNew<vtkPalpDeformFilter> deform_;
+  vtkNew<vtkPalpPatchMapper> surfaceMapper_;
+  vtkNew<vtkActor> surface_;
+  vtkNew<vtkPolyDataMapper> toolMapper_;
+  vtkNew<vtkActor> tool_;
+  std::optional<DentColors> dent_;
+  std::array<bool, kOverlayCount> visible_{};
+  std::array<std::unique_ptr<OverlayProps>, kOverlayCount> overlays_; // null: part of dent_
+  Readings* readings_ = nullptr;                                      // one of overlays_
+};
+
+} // namespace palp

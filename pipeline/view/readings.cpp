@@ -1,0 +1,80 @@
+#include "pipeline/view/readings.h"
+
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+
+#include <utility>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+std::string millimetres(double metres)
+{
+  return appearance::fixedText(units::toMillimetres(metres), 1) + " mm ";
+}
+
+} // namespace
+
+Readings::Readings(vtkRenderer& renderer)
+{
+  const std::array<appearance::Color, kLines> inks{ appearance::kPaper, appearance::kContact,
+    appearance::kExtent, appearance::kPaper };
+  for (std::size_t i = 0; i < kLines; ++i)
+  {
+    vtkTextProperty& text = *lines_[i]->GetTextProperty();
+    appearance::setFont(text, 16, inks[i], i == 0);
+    text.SetBackgroundColor(0.13, 0.15, 0.18);
+    text.SetBackgroundOpacity(0.8);
+    renderer.AddActor2D(lines_[i]);
+  }
+  Readings::hide();
+}
+
+void Readings::setKeys(bool contactCircle, bool extentCircle, std::string validity)
+{
+  contactCircle_ = contactCircle;
+  extentCircle_ = extentCircle;
+  validity_ = std::move(validity);
+}
+
+void Readings::show(const Moment& moment)
+{
+  const Response& response = moment.sample.response;
+  std::array<std::string, kLines> texts;
+  texts[0] = " force " + appearance::fixedText(response.force, 2) + " N   depth " +
+    millimetres(moment.sample.contact.depth);
+  if (contactCircle_)
+  {
+    texts[1] = " \u25cb contact circle r = " + millimetres(moment.press.GetPress().contactRadius);
+  }
+  if (extentCircle_ && moment.extentRadius > 0.0)
+  {
+    texts[2] = " \u25cb extent circle R_d = " + millimetres(moment.extentRadius);
+  }
+  texts[3] = validity_.empty() ? std::string{} : " " + validity_ + " ";
+
+  constexpr double kMargin = 16.0; // [pixels]
+  constexpr double kLine = 28.0;   // [pixels]
+  double height = kMargin;
+  for (std::size_t i = kLines; i-- > 0;)
+  {
+    lines_[i]->SetVisibility(!texts[i].empty());
+    lines_[i]->SetInput(texts[i].c_str());
+    lines_[i]->SetPosition(kMargin, height);
+    height += texts[i].empty() ? 0.0 : kLine;
+  }
+}
+
+void Readings::hide()
+{
+  for (const auto& line : lines_)
+  {
+    line->VisibilityOff();
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,106 @@
+#include "pipeline/view/surface_circle.h"
+
+#include "pipeline/view/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kSame = 0.01; // [-] of the radius: the point faces the tool, its way is straight
+
+} // namespace
+
+SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, Of of)
+  : of_(of)
+{
+  contour_->SetInputConnection(press.GetOutputPort(1));
+  contour_->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Distance");
+  contour_->ComputeScalarsOff();
+  contour_->ComputeNormalsOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(line_);
+  mapper->ScalarVisibilityOff();
+  appearance::drawInFront(*mapper);
+  actor_->SetMapper(mapper);
+  appearance::setColor(
+    *actor_->GetProperty(), of == Of::Contact ? appearance::kContact : appearance::kExtent);
+  actor_->GetProperty()->SetLineWidth(3.0F);
+  actor_->GetProperty()->LightingOff();
+  renderer.AddActor(actor_);
+  SurfaceCircle::hide();
+}
+
+void SurfaceCircle::show(const Moment& moment)
+{
+  const double radius =
+    of_ == Of::Contact ? moment.press.GetPress().contactRadius : moment.extentRadius;
+  contour_->SetValue(0, radius);
+  contour_->Update();
+  line_->ShallowCopy(contour_->GetOutput());
+  putOnField(moment.press.GetDent(), radius);
+  actor_->SetVisibility(radius > 0.0);
+}
+
+// the line crosses triangles, and at a steep wall those are far from the field between their
+// corners; around a ridge the contact has no line, for there the tool does not follow the surface
+void SurfaceCircle::putOnField(const Dent& dent, double radius)
+{
+  const auto* moved = vtkFloatArray::SafeDownCast(line_->GetPointData()->GetArray("Displacement"));
+  if (!moved)
+  {
+    return;
+  }
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(line_->GetPoints());
+  std::vector<bool> isInFront(static_cast<std::size_t>(points->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d rest(points->GetPoint(i));
+    for (int k = 0; k < 3; ++k)
+    {
+      rest[k] -= moved->GetTypedComponent(i, k);
+    }
+    const Place place = dent.region().placeInFront(rest);
+    if (std::abs(place.distance - radius) < kSame * radius)
+    {
+      isInFront[static_cast<std::size_t>(i)] = true;
+      rest -= dent.sinkAt(place, rest).depth * dent.region().normal();
+      points->SetPoint(i, rest.data());
+    }
+  }
+  line_->SetPoints(points);
+  if (of_ == Of::Contact)
+  {
+    vtkNew<vtkCellArray> kept;
+    vtkNew<vtkIdList> ends;
+    for (vtkIdType i = 0; i < line_->GetNumberOfLines(); ++i)
+    {
+      line_->GetLines()->GetCellAtId(i, ends);
+      const auto isFront = [&](vtkIdType point)
+      { return isInFront[static_cast<std::size_t>(point)]; };
+      if (std::all_of(ends->begin(), ends->end(), isFront))
+      {
+        kept->InsertNextCell(ends);
+      }
+    }
+    line_->SetLines(kept);
+  }
+}
+
+void SurfaceCircle::hide()
+{
+  actor_->VisibilityOff();
+}
+
+} // namespace palp

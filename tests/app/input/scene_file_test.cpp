@@ -1,0 +1,178 @@
+#include "app/input/scene_file.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+#include "tests/support/process.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using nlohmann::json;
+
+json least()
+{
+  return { { "palp_scene", 1 }, { "meshes", json::array({ { { "bundled", "block_30" } } }) } };
+}
+
+ScenePlan parse(const json& document)
+{
+  return parseScene(document.dump(), "/scenes/mine.json");
+}
+
+std::string refusal(const std::string& text)
+{
+  try
+  {
+    (void)parseScene(text, "/scenes/mine.json");
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadFile);
+    return error.what();
+  }
+  return "accepted";
+}
+
+class SceneFile : public ::testing::Test
+{
+protected:
+  SceneFile()
+  {
+    setenv("PALP_DATA", PALP_SHARE, 1);
+  }
+};
+
+TEST_F(SceneFile, BuildsNothingThatIsNotNamed)
+{
+  json document = least();
+  document["device"] = "path:press.csv";
+  document["exports"] = { "samples" };
+  document["dent"] = { { "surface", "none" } };
+  const ScenePlan plan = parse(document);
+  EXPECT_FALSE(plan.window || plan.dent || plan.validity || plan.deformed || plan.picture);
+  EXPECT_TRUE(plan.curves.empty());
+  EXPECT_FALSE(plan.press.tissue.options.rated);
+  EXPECT_EQ(plan.device, "path:/scenes/press.csv");
+}
+
+TEST_F(SceneFile, PlacesASurfaceByTurnsAboutFixedAxesAndAShift)
+{
+  json document = least();
+  document["meshes"][0]["frame"] = { { "origin", { "10mm", "0mm", "-2cm" } },
+    { "rotation", { "90deg", "0deg", "90deg" } } };
+  const Eigen::Isometry3d frame = parse(document).meshes[0].frame;
+  // y goes to z about x, and stays there about z; x goes to y about z
+  EXPECT_TRUE((frame * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d(0.01, 0.0, 0.98), 1e-12));
+  EXPECT_TRUE(
+    (frame * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0.01, 1.0, -0.02), 1e-12));
+}
+
+TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
+{
+  const auto with = [](const char* patch)
+  {
+    json document = least();
+    document.merge_patch(json::parse(patch));
+    return refusal(document.dump());
+  };
+  const std::pair<const char*, const char*> cases[] = {
+    { R"({"palp_scene": 2})", "mine.json: /palp_scene: must be 1" },
+    { R"({"tisue": {}})", "mine.json: /tisue: unknown key" },
+    { R"({"tissue": {"youngs": "1kPa"}})", "mine.json: /tissue/youngs: unknown key" },
+    { R"({"tissue": {"young": "50"}})", "mine.json: /tissue/young: " },
+    { R"({"tissue": {"young": 50}})", "mine.json: /tissue/young: must be a text" },
+    { R"({"tissue": {"poisson": 0.7}})", "mine.json: /tissue" },
+    { R"({"tissue": {"damping": "-1N*s/m"}})", "mine.json: /tissue/damping: " },
+    { R"({"tissue": {"coating": "2mm:50kPa:0.45"}})", "mine.json: /tissue/" },
+    { R"({"tissue": {"coating": "2mm"}, "law": {"mode": "corrected"}})", "mine.json: /tissue/" },
+    { R"({"tissue": []})", "mine.json: /tissue: must be an object" },
+    { R"({"tool": "hammer:1mm"})", "mine.json: /tool: " },
+    { R"({"law": {"mode": "guess"}})", "mine.json: /law/mode: 'guess' is not known; give paper" },
+    { R"({"law": {"validity": 1}})", "mine.json: /law/validity: must be true or false" },
+    { R"({"meshes": []})", "mine.json: /meshes: give at least one" },
+    { R"({"meshes": [{}]})", "mine.json: /meshes/0/file: give either" },
+    { R"({"meshes": [{"file": "a.stl", "unit": "inch"}]})", "mine.json: /meshes/0/unit: " },
+    { R"({"meshes": [{"file": "a.mha", "level": "high"}]})", "mine.json: /meshes/0/level: " },
+    { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1mm"]}}]})",
+      "mine.json: /meshes/0/frame/origin: must be three" },
+    { R"({"dent": {"layer": "thick"}})", "mine.json: /dent/layer: " },
+    { R"({"overlays": ["halo"]})", "mine.json: /overlays: 'halo' is not known" },
+    { R"({"plots": "force-time"})", "mine.json: /plots: must be a list" },
+    { R"({"window": false})", "mine.json: /window: 'mouse' moves in a window only" },
+    { R"({"dent": {"surface": "none"}})", "mine.json: /dent: 'none' leaves nothing to see" },
+    { R"({"device": "path:a.csv"})", "mine.json: /exports: nothing would be left" },
+    { R"({"exports": ["samples"]})", "mine.json: /exports: a window exports when asked" },
+    { R"({"size": "10"})", "mine.json: /size: " },
+  };
+  for (const auto& [patch, message] : cases)
+  {
+    EXPECT_EQ(with(patch).substr(0, std::string(message).size()), message) << patch;
+  }
+  EXPECT_NE(refusal("{\n  \"palp_scene\": 1,\n}").find("mine.json: parse error at line 3"),
+    std::string::npos);
+  EXPECT_NE(refusal("[]").find("mine.json: /: must be an object"), std::string::npos);
+}
+
+// every key that the schema describes is one that the reader knows, at every level
+void expectKnown(const json& properties, const json& base, const json::json_pointer& place)
+{
+  for (const auto& [key, schema] : properties.items())
+  {
+    json document = base;
+    document[place / key] = json::array({ 7 }); // never right
+    EXPECT_EQ(refusal(document.dump()).find("unknown key"), std::string::npos) << place / key;
+    if (schema.contains("properties"))
+    {
+      json within = base;
+      within[place / key] = json::object();
+      expectKnown(schema["properties"], within, place / key);
+    }
+  }
+}
+
+TEST_F(SceneFile, ReaderKnowsWhatTheSchemaDescribes)
+{
+  const json schema = json::parse(test::readAll(PALP_SHARE "/scenes/scene.schema.json"));
+  expectKnown(schema["properties"], least(), json::json_pointer());
+  json mesh = least();
+  expectKnown(
+    schema["properties"]["meshes"]["items"]["properties"], mesh, json::json_pointer("/meshes/0"));
+}
+
+TEST_F(SceneFile, EveryShippedSceneIsWhole)
+{
+  for (const char* name : { "block_force", "paper_block", "paper_spheres", "liver_mouse",
+         "liver_device", "liver_coated", "thin_lobe" })
+  {
+    const ScenePlan plan = readScene(name);
+    EXPECT_FALSE(plan.name.empty());
+    if (plan.device.starts_with("path:"))
+    {
+      EXPECT_TRUE(std::filesystem::exists(plan.device.substr(5))) << plan.device;
+    }
+  }
+}
+
+TEST_F(SceneFile, AMissingSceneNamesTheShippedOnes)
+{
+  try
+  {
+    (void)readScene("nowhere");
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("liver_mouse"), std::string::npos) << error.what();
+  }
+}
+
+} // namespace
+} // namespace palp

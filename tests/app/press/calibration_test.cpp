@@ -1,0 +1,139 @@
+#include "app/press/calibration.h"
+
+#include "app/program/data_files.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+Calibration load(const Tip& tip, const PressOptions& options = {}, double poisson = 0.33)
+{
+  return loadCalibration(options, ForceLaw(tip, Material{ 50.0_kPa, poisson }));
+}
+
+TEST(LoadCalibration, ThePapersToolsUseItsTwentyRows)
+{
+  const Calibration sphere = load(SphereTip{ 10.0_mm });
+  EXPECT_EQ(sphere.extents.rows().size(), 20U);
+  EXPECT_EQ(sphere.note, "");
+  EXPECT_EQ(load(ConeTip{ 45.0_deg, 10.0_mm }).extents.rows().size(), 20U);
+}
+
+// one shape at every size: all lengths and the threshold doubled double R_d
+TEST(LoadCalibration, ASphereOfAnotherSizeIsTheSameShape)
+{
+  PressOptions small;
+  small.threshold = "0.35mm";
+  PressOptions large;
+  large.threshold = "0.7mm";
+  const auto a = load(SphereTip{ 7.0_mm }, small).extents;
+  const auto b = load(SphereTip{ 14.0_mm }, large).extents;
+  for (const double depth : { 1.0_mm, 3.0_mm, 6.5_mm })
+  {
+    EXPECT_NEAR(b.extentRadius(2.0 * depth), 2.0 * a.extentRadius(depth), 0.1_mm);
+  }
+}
+
+// a bonded base holds the surface, and a smaller threshold reaches further
+TEST(LoadCalibration, LayerAndThresholdActAsTheyMust)
+{
+  PressOptions thin;
+  thin.layer = "20mm";
+  PressOptions fine;
+  fine.threshold = "0.2mm";
+  const double depth = 5.0_mm;
+  const double usual = load(SphereTip{ 8.0_mm }).extents.extentRadius(depth);
+  EXPECT_LT(load(SphereTip{ 8.0_mm }, thin).extents.extentRadius(depth), 0.9 * usual);
+  EXPECT_GT(load(SphereTip{ 8.0_mm }, fine).extents.extentRadius(depth), 1.1 * usual);
+}
+
+TEST(LoadCalibration, SaysWhatStandsInForWhat)
+{
+  EXPECT_EQ(load(SphereTip{ 8.0_mm }).note, "");
+  PressOptions thick;
+  thick.layer = "1m";
+  EXPECT_NE(load(SphereTip{ 8.0_mm }, thick).note.find("clamped"), std::string::npos);
+  EXPECT_FALSE(load(SphereTip{ 8.0_mm }, thick).covers(1.0_mm));
+  EXPECT_NE(load(SphereTip{ 8.0_mm }, {}, 0.5).note.find("clamped"), std::string::npos);
+  EXPECT_NE(load(PunchTip{ 8.0_mm }).note.find("sphere"), std::string::npos);
+  EXPECT_NE(load(ConeTip{ 30.0_deg, 10.0_mm }).note.find("cone"), std::string::npos);
+  const Calibration sphere = load(SphereTip{ 8.0_mm });
+  EXPECT_TRUE(sphere.covers(8.0_mm));
+  EXPECT_FALSE(sphere.covers(8.1_mm));
+  EXPECT_FALSE(load(PunchTip{ 8.0_mm }).covers(1.0_mm));
+}
+
+// the tip of the tables' cones has a radius of 0.3 mm
+TEST(LoadCalibration, SaysThatABluntConeHasATableOfAnother)
+{
+  EXPECT_EQ(load(BluntConeTip{ 45.0_deg, 0.3_mm, 10.0_mm }).note, "");
+  const Calibration blunt = load(BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm });
+  EXPECT_NE(blunt.note.find("nearest cone"), std::string::npos);
+  EXPECT_FALSE(blunt.covers(1.0_mm));
+}
+
+TEST(LoadCalibration, SaysWhereAFittedSurfaceIsOfAnotherBody)
+{
+  PressOptions options;
+  options.surface = "fitted";
+  const Calibration same = load(SphereTip{ 10.0_mm }, options);
+  EXPECT_EQ(same.note, "");
+  EXPECT_TRUE(same.covers(10.0_mm));
+  EXPECT_FALSE(same.covers(10.1_mm));
+  const Calibration softer = load(SphereTip{ 8.0_mm }, options, 0.45);
+  EXPECT_NE(softer.note.find("3 %"), std::string::npos);
+  EXPECT_FALSE(softer.covers(1.0_mm));
+  options.layer = "20mm";
+  EXPECT_NE(load(SphereTip{ 8.0_mm }, options).note.find("3 %"), std::string::npos);
+}
+
+TEST(LoadCalibration, KnowsNothingOfCoatedTissueButByItsOwnTable)
+{
+  LawSettings settings{ .mode = LawMode::Corrected };
+  settings.coatings.add({ 2.0_mm, { 200.0_kPa, 0.4 } });
+  const ForceLaw law(SphereTip{ 10.0_mm }, Material{ 50.0_kPa, 0.33 }, settings);
+  const Calibration shipped = loadCalibration({}, law);
+  EXPECT_EQ(shipped.reach, 0.0);
+  EXPECT_NE(shipped.note.find("coatings"), std::string::npos);
+  EXPECT_FALSE(shipped.young || shipped.elements);
+
+  PressOptions own;
+  own.table = dataFile("tables/sphere_r10_h50.csv");
+  own.tissue.options.coating = "2mm:200kPa:0.4";
+  EXPECT_EQ(loadCalibration(own, law).note, "");
+  EXPECT_GT(loadCalibration(own, law).reach, 0.0);
+  own.tissue.options.coating = "3mm:200kPa:0.4";
+  EXPECT_EQ(loadCalibration(own, law).reach, 0.0);
+}
+
+TEST(LoadCalibration, RefusesALayerForAConeAndBadLengths)
+{
+  PressOptions options;
+  options.layer = "40mm";
+  EXPECT_THROW((void)load(ConeTip{ 45.0_deg, 10.0_mm }, options), Error);
+  options.layer = "-1mm";
+  EXPECT_THROW((void)load(SphereTip{ 8.0_mm }, options), Error);
+  options.layer = "40";
+  EXPECT_THROW((void)load(SphereTip{ 8.0_mm }, options), Error);
+}
+
+// the fitted curves of R = 10 mm, half the size
+TEST(LoadCalibration, FittedSurfacesScaleWithTheTool)
+{
+  PressOptions options;
+  options.surface = "fitted";
+  const auto whole = load(SphereTip{ 10.0_mm }, options).style.fitted;
+  const auto more = load(SphereTip{ 12.0_mm }, options).style.fitted;
+  ASSERT_TRUE(whole && more);
+  EXPECT_NEAR(more->at(6.0_mm)->sinkAt(12.0_mm), 1.2 * whole->at(5.0_mm)->sinkAt(10.0_mm), 1e-9);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,169 @@
+#include "calibration/fem/body.h"
+
+#include "calibration/fem/equilibrium.h"
+#include "calibration/fem/mesh.h"
+#include "haptics/units.h"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace palp::fem
+{
+namespace
+{
+
+using namespace units::literals;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Material kTissue{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
+
+Body bodyNamed(const std::string& kind)
+{
+  if (kind == "cylinder")
+  {
+    return cylinderBody(20.0_mm, 10.0_mm, 4.0_mm, 2.0_mm);
+  }
+  if (kind == "sphere")
+  {
+    return sphereBody(30.0_mm, SphereSupport::BottomCap, 9.0_mm, 3.0_mm);
+  }
+  return blockBody(20.0_mm, 10.0_mm, kind == "even block" ? 6 : 7, 4, 2.0_mm);
+}
+
+class AnyBody : public testing::TestWithParam<const char*>
+{
+};
+INSTANTIATE_TEST_SUITE_P(
+  Body, AnyBody, testing::Values("cylinder", "sphere", "even block", "odd block"));
+
+// the element's displacements under a field that is linear in the coordinates
+VectorXd linearField(const Body& body, double outward, double upward)
+{
+  VectorXd u(body.dofCount());
+  for (int n = 0; n < body.nodeCount(); ++n)
+  {
+    u.segment(body.dimension * n, body.dimension) = outward * body.positions.col(n);
+    u[body.dimension * (n + 1) - 1] = upward * body.positions(body.dimension - 1, n);
+  }
+  return u;
+}
+
+// patch test: under a linear field every point has the same gradient and inner forces balance
+TEST_P(AnyBody, LinearFieldGivesAConstantStressInBalance)
+{
+  const Body body = bodyNamed(GetParam());
+  for (const Energy energy :
+    { Energy::Linear, Energy::Corotated, Energy::NeoHookean, Energy::NeoHookeanIsochoric })
+  {
+    const VectorXd u = linearField(body, 0.05, -0.1);
+    VectorXd forces = VectorXd::Zero(u.size());
+    double energySum = 0.0;
+    double volume = 0.0;
+    for (const Element& element : body.elements)
+    {
+      const auto response = respond(element, energy, kTissue, u(element.dofs));
+      ASSERT_TRUE(response);
+      forces(element.dofs) += response->force;
+      energySum += response->energy;
+      for (const IntegrationPoint& point : element.points)
+      {
+        volume += point.weight;
+      }
+    }
+    const Eigen::Matrix3d f = Eigen::Vector3d(1.05, 1.05, 0.9).asDiagonal();
+    const StressResponse exact = respond(energy, kTissue, f);
+    EXPECT_NEAR(energySum, exact.energy * volume, 1e-8 * exact.energy * volume);
+
+    if (std::string(GetParam()) == "sphere")
+    {
+      continue; // with curved edges inner forces balance only as the mesh is refined
+    }
+    const double scale = forces.lpNorm<Eigen::Infinity>();
+    const double side = body.positions.row(0).maxCoeff();
+    for (int n = 0; n < body.nodeCount(); ++n)
+    {
+      const auto at = body.positions.col(n);
+      const double z = at[body.dimension - 1];
+      const bool inner =
+        z > 1e-6 && z < body.top - 1e-6 && at.head(body.dimension - 1).maxCoeff() < side - 1e-6;
+      for (int c = 0; inner && c < body.dimension; ++c)
+      {
+        const bool held = at[c] == 0.0 && c < body.dimension - 1; // on a plane of symmetry
+        EXPECT_TRUE(held || std::abs(forces[body.dimension * n + c]) < 1e-8 * scale)
+          << name(energy) << ' ' << n;
+      }
+    }
+  }
+}
+
+TEST_P(AnyBody, VolumeIsThatOfTheWholeBody)
+{
+  const std::string kind = GetParam();
+  const Body body = bodyNamed(kind);
+  double volume = 0.0;
+  for (const Element& element : body.elements)
+  {
+    for (const IntegrationPoint& point : element.points)
+    {
+      volume += point.weight;
+    }
+  }
+  const double exact = kind == "cylinder" ? M_PI * 20.0_mm * 20.0_mm * 10.0_mm
+    : kind == "sphere"                    ? 4.0 / 3.0 * M_PI * std::pow(30.0_mm, 3)
+                                          : 20.0_mm * 20.0_mm * 10.0_mm;
+  EXPECT_NEAR(volume, exact, (kind == "sphere" ? 1e-2 : 1e-10) * exact);
+}
+
+// fourth-order central differences of the energy and of the force
+TEST_P(AnyBody, StiffnessIsTheDerivativeOfTheForce)
+{
+  const Body body = bodyNamed(GetParam());
+  const Element& element = body.elements[body.elements.size() / 2];
+  std::mt19937 random(1);
+  const double size = body.top / 100.0;
+  std::uniform_real_distribution<double> shift(-size, size);
+  VectorXd u(static_cast<Eigen::Index>(element.dofs.size()));
+  for (double& value : u)
+  {
+    value = shift(random);
+  }
+  for (const Energy energy :
+    { Energy::Linear, Energy::Corotated, Energy::NeoHookean, Energy::NeoHookeanIsochoric })
+  {
+    const auto at = respond(element, energy, kTissue, u);
+    ASSERT_TRUE(at);
+    const double step = 0.03 * size;
+    for (Eigen::Index i = 0; i < u.size(); ++i)
+    {
+      const auto moved = [&](double by)
+      {
+        VectorXd v = u;
+        v[i] += by;
+        return *respond(element, energy, kTissue, v);
+      };
+      const auto a = moved(step);
+      const auto b = moved(-step);
+      const auto c = moved(2 * step);
+      const auto d = moved(-2 * step);
+      const VectorXd slope = (8.0 * (a.force - b.force) - (c.force - d.force)) / (12.0 * step);
+      EXPECT_LT((slope - at->stiffness.col(i)).norm(), 1e-8 * at->stiffness.norm()) << name(energy);
+      const double force = (8.0 * (a.energy - b.energy) - (c.energy - d.energy)) / (12.0 * step);
+      EXPECT_NEAR(force, at->force[i], 1e-8 * at->stiffness.norm() * size) << name(energy);
+    }
+  }
+}
+
+TEST(Body, ElementTurnedInsideOutIsDetected)
+{
+  const Body body = bodyNamed("cylinder");
+  const VectorXd through = linearField(body, 0.0, -1.5);
+  const Element& element = body.elements.front();
+  EXPECT_FALSE(respond(element, Energy::NeoHookean, kTissue, through(element.dofs)));
+  EXPECT_FALSE(respond(element, Energy::NeoHookeanIsochoric, kTissue, through(element.dofs)));
+  EXPECT_TRUE(respond(element, Energy::Corotated, kTissue, through(element.dofs))->inverted);
+}
+
+} // namespace
+} // namespace palp::fem

@@ -1,0 +1,317 @@
+#include "haptics/files/output_folder.h"
+
+#include "haptics/files/replace_file.h"
+#include "haptics/error.h"
+#include "tests/support/process.h"
+
+#include <csignal>
+#include <functional>
+#include <gtest/gtest.h>
+#include <set>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace palp
+{
+namespace
+{
+
+using Earlier = OutputFolder::Earlier;
+using Names = std::set<std::string>;
+
+Names namesIn(const std::filesystem::path& folder)
+{
+  Names names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+std::string refusal(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadFile);
+    return error.what();
+  }
+  ADD_FAILURE() << "not refused";
+  return {};
+}
+
+// no file may grow beyond that many bytes, as on a full disk
+class SmallDisk
+{
+public:
+  explicit SmallDisk(rlim_t bytes)
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{ .rlim_cur = bytes, .rlim_max = before_.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk()
+  {
+    setrlimit(RLIMIT_FSIZE, &before_);
+  }
+
+private:
+  rlimit before_{};
+};
+
+class Output : public testing::Test
+{
+protected:
+  // a run that leaves a.csv and b.csv
+  void write(const std::string& text, Earlier earlier = Earlier::Refuse)
+  {
+    OutputFolder output(out_, kOwn, earlier);
+    replaceFile(output.stage() / "a.csv", text);
+    replaceFile(output.stage() / "b.csv", text);
+    output.publish();
+  }
+
+  void expectBoth(const std::string& text) const
+  {
+    EXPECT_EQ(test::readAll(out_ / "a.csv"), text);
+    EXPECT_EQ(test::readAll(out_ / "b.csv"), text);
+  }
+
+  const std::vector<std::string> kOwn{ "a.csv", "b.csv", "plot.png" };
+  test::TemporaryFolder folder_;
+  std::filesystem::path out_ = folder_.path() / "some" / "out";
+};
+
+TEST_F(Output, ReplacesAFileWhole)
+{
+  const auto file = folder_.path() / "a.csv";
+  std::ofstream(file) << "a longer text than the next";
+  replaceFile(file, "short");
+  EXPECT_EQ(test::readAll(file), "short");
+  EXPECT_EQ(namesIn(folder_.path()), Names{ "a.csv" });
+}
+
+TEST_F(Output, KeepsTheFileThatCannotBeReplaced)
+{
+  const auto file = folder_.path() / "a.csv";
+  replaceFile(file, "before");
+  std::filesystem::create_directories(folder_.path() / "b.csv" / "full");
+  {
+    const SmallDisk disk(50'000);
+    const auto words = refusal([&] { replaceFile(file, std::string(100'000, 'x')); });
+    EXPECT_NE(words.find("File too large"), std::string::npos) << words;
+    EXPECT_TRUE(words.starts_with(file.string())) << words;
+  }
+  (void)refusal([&] { replaceFile(folder_.path() / "b.csv", "text"); });
+  (void)refusal([&] { replaceFile(folder_.path() / "none" / "a.csv", "text"); });
+  EXPECT_EQ(test::readAll(file), "before");
+  EXPECT_EQ(namesIn(folder_.path()), (Names{ "a.csv", "b.csv" }));
+}
+
+TEST_F(Output, FollowsNoLink)
+{
+  std::ofstream(folder_.path() / "precious") << "mine";
+  std::filesystem::create_symlink("precious", folder_.path() / "a.csv");
+  replaceFile(folder_.path() / "a.csv", "new");
+  EXPECT_EQ(test::readAll(folder_.path() / "precious"), "mine");
+  EXPECT_EQ(test::readAll(folder_.path() / "a.csv"), "new");
+}
+
+TEST_F(Output, AppearsAtTheEndOnly)
+{
+  {
+    OutputFolder output(out_, kOwn, Earlier::Refuse);
+    replaceFile(output.stage() / "a.csv", "1");
+    EXPECT_FALSE(std::filesystem::exists(out_ / "a.csv"));
+  }
+  EXPECT_EQ(namesIn(folder_.path()), Names{}); // nor the folders made for it
+  write("1");
+  expectBoth("1");
+  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv" }));
+  EXPECT_EQ(namesIn(out_.parent_path()), Names{ "out" });
+}
+
+TEST_F(Output, RefusesOrReplacesWhatAnEarlierRunLeft)
+{
+  write("1");
+  std::ofstream(out_ / "plot.png") << "1"; // which this run does not make
+  EXPECT_NE(refusal([&] { write("2"); }).find("--overwrite"), std::string::npos);
+  expectBoth("1");
+  write("2", Earlier::Replace);
+  expectBoth("2");
+  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv" }));
+  write("3", Earlier::Keep);
+  expectBoth("3");
+}
+
+TEST_F(Output, LeavesTheFilesOfOthers)
+{
+  write("1");
+  std::ofstream(out_ / "notes.txt") << "mine";
+  std::filesystem::create_directories(out_ / "more" / "of" / "mine");
+  write("2", Earlier::Replace);
+  expectBoth("2");
+  EXPECT_EQ(test::readAll(out_ / "notes.txt"), "mine");
+  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv", "notes.txt", "more" }));
+}
+
+TEST_F(Output, LetsOneRunIn)
+{
+  OutputFolder first(out_, kOwn, Earlier::Replace);
+  const auto second = [&] { write("2", Earlier::Replace); };
+  EXPECT_NE(refusal(second).find("another palp"), std::string::npos);
+  replaceFile(first.stage() / "a.csv", "1");
+  first.publish();
+  EXPECT_NE(refusal(second).find("another palp"), std::string::npos); // though it was exchanged
+  replaceFile(first.stage() / "b.csv", "1");
+  first.publish();
+  expectBoth("1");
+}
+
+TEST_F(Output, KeepsModeAndWorksWhereItStands)
+{
+  write("1");
+  chmod(out_.c_str(), 0750);
+  write("2", Earlier::Replace);
+  struct stat is = {};
+  stat(out_.c_str(), &is);
+  EXPECT_EQ(is.st_mode & 07777U, 0750U);
+  stat((out_ / "a.csv").c_str(), &is);
+  EXPECT_EQ(is.st_mode & 0444U, 0444U); // others may read it, as of any program
+
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(out_);
+  out_ = ".";
+  write("3", Earlier::Replace);
+  expectBoth("3"); // the folder did not go away under the feet of the shell
+  EXPECT_EQ(std::filesystem::current_path().filename(), "out");
+  std::filesystem::current_path(before);
+}
+
+TEST_F(Output, ALinkToAFolderStaysALink)
+{
+  const auto link = folder_.path() / "link";
+  std::filesystem::create_directories(out_);
+  std::filesystem::create_directory_symlink(out_, link);
+  std::swap(out_, const_cast<std::filesystem::path&>(link));
+  write("1");
+  EXPECT_TRUE(std::filesystem::is_symlink(out_));
+  expectBoth("1");
+}
+
+TEST_F(Output, ClearsWhatAKilledRunLeft)
+{
+  write("1");
+  std::filesystem::create_directories(out_ / ".palp-abcdef");
+  std::ofstream(out_ / ".palp-abcdef" / "a.csv") << "half";
+  std::filesystem::create_directories(out_.parent_path() / ".out.palp-abcdef");
+  std::filesystem::create_directories(out_.parent_path() / ".other.palp-abcdef"); // not its own
+  std::ofstream(out_ / ".palp-notes") << "of the user";
+  write("2", Earlier::Replace);
+  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv", ".palp-notes" }));
+  EXPECT_EQ(namesIn(out_.parent_path()), (Names{ "out", ".other.palp-abcdef" }));
+}
+
+// lets a child go on for so many stops at system calls, then kills it
+// @return  whether it had ended before
+bool endsWithin(pid_t child, int stops)
+{
+  int status = 0;
+  waitpid(child, &status, 0);
+  for (int i = 0; i < stops && WIFSTOPPED(status); ++i)
+  {
+    ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
+    waitpid(child, &status, 0);
+  }
+  const bool ended = WIFEXITED(status);
+  EXPECT_TRUE(ended ? WEXITSTATUS(status) == 0 : WIFSTOPPED(status));
+  if (!ended)
+  {
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+  }
+  return ended;
+}
+
+TEST_F(Output, KilledAtAnySystemCallTheFolderIsOldOrNew)
+{
+  for (const bool shared : { false, true })
+  {
+    const Names files = shared ? Names{ "notes.txt" } : Names{};
+    int seenOld = 0;
+    int seenNew = 0;
+    bool ended = false;
+    for (int stops = 0; !ended; ++stops)
+    {
+      std::filesystem::remove_all(out_);
+      write("old");
+      std::ofstream(out_ / "plot.png") << "old";
+      if (shared)
+      {
+        std::ofstream(out_ / "notes.txt") << "mine";
+      }
+      const pid_t child = fork();
+      if (child == 0)
+      {
+        ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+        raise(SIGSTOP);
+        write("new", Earlier::Replace);
+        _exit(0);
+      }
+      ended = endsWithin(child, stops);
+      std::set<std::string> texts;
+      int count = 0;
+      for (const char* name : { "a.csv", "b.csv", "plot.png" })
+      {
+        const bool there = std::filesystem::exists(out_ / name);
+        count += there ? 1 : 0;
+        texts.insert(there ? test::readAll(out_ / name) : "");
+      }
+      texts.erase("");
+      ASSERT_LE(texts.size(), 1U) << "two runs are mixed after " << stops;
+      const std::string text = texts.empty() ? "" : *texts.begin();
+      if (!shared)
+      {
+        ASSERT_EQ(count, text == "old" ? 3 : 2) << "some are missing after " << stops;
+      }
+      else
+      {
+        ASSERT_EQ(test::readAll(out_ / "notes.txt"), "mine");
+      }
+      seenOld += text == "old" ? 1 : 0;
+      seenNew += text == "new" ? 1 : 0;
+    }
+    EXPECT_GT(seenOld, 20);
+    EXPECT_GT(seenNew, 5);
+    write("last", Earlier::Replace);
+    expectBoth("last");
+    Names all = files;
+    all.insert({ "a.csv", "b.csv" });
+    EXPECT_EQ(namesIn(out_), all);
+    EXPECT_EQ(namesIn(out_.parent_path()), Names{ "out" });
+  }
+}
+
+TEST_F(Output, SaysWhatStandsInTheWay)
+{
+  std::ofstream(folder_.path() / "file") << "x";
+  out_ = folder_.path() / "file" / "out";
+  EXPECT_NE(refusal([&] { write("1"); }).find("Not a directory"), std::string::npos);
+  out_ = folder_.path() / "file";
+  EXPECT_NE(refusal([&] { write("1"); }).find("Not a directory"), std::string::npos);
+  out_ = folder_.path() / "out";
+  std::filesystem::create_directories(out_ / "a.csv");
+  EXPECT_NE(
+    refusal([&] { write("1", Earlier::Replace); }).find("Is a directory"), std::string::npos);
+}
+
+} // namespace
+} // namespace palp

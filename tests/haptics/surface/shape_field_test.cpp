@@ -1,0 +1,194 @@
+#include "haptics/surface/shape_field.h"
+
+#include "haptics/surface/surface.h"
+#include "haptics/units.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+LocalShape shapeAt(const Surface& surface, const Eigen::Vector3d& place, double radius,
+  const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ())
+{
+  return surface.shape()(place, std::max(radius, surface.shape().finest()), normal, 0.0);
+}
+
+TEST(ShapeField, OfASphereIsOneOverItsRadius)
+{
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (const double radius : { 30.0_mm, 100.0_mm })
+  {
+    for (const int n : { 8, 30 })
+    {
+      const Surface ball = test::makeSurface(test::ball(radius, n));
+      for (int i = 0; i < 100; ++i)
+      {
+        const Eigen::Vector3d out =
+          Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+        const LocalShape shape = shapeAt(ball, radius * out, 0.3 * radius, out);
+        EXPECT_NEAR(shape.meanCurvature, 1.0 / radius, 0.08 / radius);
+        EXPECT_LT(shape.curvatureSpread, 0.08 / radius);
+        EXPECT_NEAR(shape.thickness, 2.0 * radius, 0.06 * radius);
+        EXPECT_EQ(shape.edgeDistance, std::numeric_limits<double>::infinity());
+      }
+    }
+  }
+}
+
+TEST(ShapeField, OfAFaceIsFlatHoweverItIsCut)
+{
+  for (const int n : { 1, 2, 7, 30 })
+  {
+    const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, n));
+    const LocalShape shape = shapeAt(block, { 4.0_mm, 3.0_mm, 0.0 }, 8.0_mm);
+    EXPECT_NEAR(shape.meanCurvature, 0.0, 1e-6) << n;
+    EXPECT_NEAR(shape.curvatureSpread, 0.0, 1e-6) << n;
+    EXPECT_NEAR(shape.thickness, 50.0_mm, 0.5_mm) << n;
+  }
+}
+
+// z = -(a x^2 + b y^2) / 2 has the principal curvatures a and b at its middle
+TEST(ShapeField, OfAQuadricIsThatOfItsAxes)
+{
+  for (const auto& [a, b] :
+    { std::pair(20.0, 0.0), std::pair(20.0, 10.0), std::pair(15.0, -15.0), std::pair(-12.0, -6.0) })
+  {
+    const Surface sheet = test::makeSurface(test::sheet(
+      0.02, 41, [a = a, b = b](double x, double y) { return -0.5 * (a * x * x + b * y * y); }));
+    const LocalShape shape = shapeAt(sheet, { 0.3_mm, 0.2_mm, 0.0 }, 3.0_mm);
+    EXPECT_NEAR(shape.meanCurvature, 0.5 * (a + b), 0.3);
+    EXPECT_NEAR(shape.curvatureSpread, 0.5 * std::abs(a - b), 0.3);
+    EXPECT_EQ(shape.thickness, std::numeric_limits<double>::infinity());
+  }
+}
+
+// a crease turns the surface by its angle: the mean over a disc of radius r with the weight
+// (1 - t^2)^2 is angle (16 / 15) r / (pi r^2 / 3), across the crease
+TEST(ShapeField, OfACreaseIsItsAngleOverTheContact)
+{
+  for (const double angle : { -30.0_deg, 20.0_deg })
+  {
+    const double slope = std::tan(0.5 * angle);
+    const Surface roof = test::makeSurface(test::sheet(
+      0.1, 81, [slope](double x, double) { return -slope * std::abs(x); }));
+    const double radius = 10.0_mm;
+    const LocalShape shape = shapeAt(roof, Eigen::Vector3d::Zero(), radius);
+    const double across = angle * 16.0 / 15.0 / (M_PI / 3.0 * radius);
+    EXPECT_NEAR(shape.meanCurvature, 0.5 * across, 0.05 * std::abs(across));
+    EXPECT_NEAR(shape.curvatureSpread, 0.5 * std::abs(across), 0.05 * std::abs(across));
+  }
+}
+
+// along a cut over each kind of body everything changes with the way, never at once
+TEST(ShapeField, ChangesContinuously)
+{
+  const double step = 1.0_um;
+  const auto wavy = [](double x, double y)
+  { return 3.0_mm * std::sin(200.0 * x) * std::cos(150.0 * y); };
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  for (const auto& [surface, top] :
+    { std::pair(test::makeSurface(test::block({ 60.0_mm, 40.0_mm, 20.0_mm }, 1)), 0.0),
+      std::pair(test::makeSurface(test::block({ 60.0_mm, 40.0_mm, 20.0_mm }, 9)), 0.0),
+      std::pair(test::makeSurface(test::ball(30.0_mm, 6)), 30.0_mm),
+      std::pair(test::makeSurface(test::sheet(60.0_mm, 12, wavy)), 0.0) })
+  {
+    for (int i = 0; i < 10; ++i)
+    {
+      Eigen::Vector3d at(12.0_mm * part(random), 12.0_mm * part(random), top);
+      const Eigen::Vector3d way = Eigen::Vector3d(part(random), part(random), 0.0).normalized();
+      const double radius = surface.shape().finest();
+      const double most = 60.0 * step / radius; // [rad] within the radius
+      LocalShape last = shapeAt(surface, at, 0.0);
+      for (int k = 0; k < 1000; ++k)
+      {
+        at += step * way;
+        const LocalShape now = shapeAt(surface, at, 0.0);
+        ASSERT_LE(std::abs(now.meanCurvature - last.meanCurvature), most / radius);
+        ASSERT_LE(std::abs(now.curvatureSpread - last.curvatureSpread), most / radius);
+        ASSERT_LE(std::abs(radius / now.thickness - radius / last.thickness), most);
+        if (std::isfinite(now.edgeDistance))
+        {
+          ASSERT_LE(std::abs(now.edgeDistance - last.edgeDistance), 20.0 * step);
+        }
+        last = now;
+      }
+    }
+  }
+}
+
+// an edge is found on closed bodies, however they are cut, from the face beside it
+TEST(ShapeField, MeasuresTheDistanceToASharpEdge)
+{
+  for (const int n : { 1, 3, 10, 40 })
+  {
+    const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, n));
+    ASSERT_TRUE(block.closed());
+    for (const double distance : { 8.0_mm, 12.0_mm, 20.0_mm, 35.0_mm })
+    {
+      const LocalShape shape = shapeAt(block, { 50.0_mm - distance, 2.0_mm, 0.0 }, 6.0_mm);
+      EXPECT_NEAR(shape.edgeDistance, distance, std::max(2.5_mm, 0.15 * distance)) << n;
+    }
+  }
+}
+
+// rounded by less than the body is fine, a dihedral of 60 degrees or more, is sharp; 20 is not
+TEST(ShapeField, CallsSharpWhatTurnsWithinAFewCells)
+{
+  const auto roof = [](double angle)
+  {
+    return test::makeSurface(test::cubeMap(20,
+      [angle](const Eigen::Vector3d& p)
+      {
+        return Eigen::Vector3d(50.0_mm * p.x(), 50.0_mm * p.y(),
+          20.0_mm * (p.z() - 1.0) -
+            (p.z() > 0.0 ? p.z() * std::tan(0.5 * angle) * std::abs(50.0_mm * p.x()) : 0.0));
+      }));
+  };
+  EXPECT_LT(shapeAt(roof(80.0_deg), { 10.0_mm, 2.0_mm, -8.0_mm }, 6.0_mm).edgeDistance, 20.0_mm);
+  EXPECT_GT(shapeAt(roof(20.0_deg), { 10.0_mm, 2.0_mm, -2.0_mm }, 6.0_mm).edgeDistance, 25.0_mm);
+}
+
+// two levels of the back, 15 and 40 mm below: the thickness passes from one to the other over the
+// width of the contact
+TEST(ShapeField, ThicknessPassesOverAStepOfTheBackSmoothly)
+{
+  const Surface stepped = test::makeSurface(test::cubeMap(40,
+    [](const Eigen::Vector3d& p)
+    {
+      const double deep = p.x() > 0.0 ? 40.0_mm : 15.0_mm;
+      return Eigen::Vector3d(60.0_mm * p.x(), 40.0_mm * p.y(), 0.5 * deep * (p.z() - 1.0));
+    }));
+  double last = shapeAt(stepped, { -20.0_mm, 0.0, 0.0 }, 8.0_mm).thickness;
+  EXPECT_NEAR(last, 15.0_mm, 0.5_mm);
+  for (double x = -20.0_mm; x < 20.0_mm; x += 0.02_mm)
+  {
+    const double now = shapeAt(stepped, { x, 0.0, 0.0 }, 8.0_mm).thickness;
+    EXPECT_LE(std::abs(now - last), 0.1_mm);
+    last = now;
+  }
+  EXPECT_NEAR(last, 40.0_mm, 1.0_mm);
+}
+
+TEST(ShapeField, DoesNotAllocate)
+{
+  const Surface ball = test::makeSurface(test::ball(30.0_mm, 10));
+  const test::AllocationGuard guard;
+  const LocalShape shape = shapeAt(ball, { 0.0, 0.0, 30.0_mm }, 8.0_mm);
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_GT(shape.meanCurvature, 0.0);
+}
+
+} // namespace
+} // namespace palp

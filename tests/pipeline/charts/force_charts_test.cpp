@@ -1,0 +1,97 @@
+#include "pipeline/charts/force_charts.h"
+
+#include "haptics/units.h"
+
+#include <gtest/gtest.h>
+#include <vtkAxis.h>
+#include <vtkContextView.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkVariant.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+class Charts : public ::testing::Test
+{
+protected:
+  Charts()
+  {
+    view_->GetRenderWindow()->SetOffScreenRendering(1);
+    view_->GetRenderWindow()->SetSize(320, 200);
+    charts_.addForceOverTime(*view_->GetScene());
+    charts_.addForceOverDepth(*depthView_->GetScene());
+  }
+
+  // a second of a steady force
+  void add(double force, double depth)
+  {
+    for (int i = 0; i < 100; ++i, time_ += 0.01)
+    {
+      Sample sample;
+      sample.time = time_;
+      sample.contact.depth = depth + 1e-6 * (i % 50);
+      sample.response.force = force;
+      sample.force = force * Eigen::Vector3d::UnitZ();
+      charts_.add(sample);
+    }
+    charts_.refresh();
+  }
+
+  [[nodiscard]] static double top(vtkContextView& view, int side)
+  {
+    return vtkChartXY::SafeDownCast(view.GetScene()->GetItem(0))->GetAxis(side)->GetMaximum();
+  }
+
+  ForceCharts charts_;
+  vtkNew<vtkContextView> view_;
+  vtkNew<vtkContextView> depthView_;
+  double time_ = 0.0;
+};
+
+TEST_F(Charts, ShrinkOnceASpikeIsNoLongerSeen)
+{
+  add(42.0, 38.0_mm);
+  EXPECT_GE(top(*view_, vtkAxis::LEFT), 42.0);
+  EXPECT_GE(top(*depthView_, vtkAxis::BOTTOM), 38.0);
+  for (int second = 0; second < 70; ++second)
+  {
+    add(2.0, 4.0_mm);
+  }
+  EXPECT_GE(top(*view_, vtkAxis::LEFT), 2.0);
+  EXPECT_LE(top(*view_, vtkAxis::LEFT), 4.0);
+  EXPECT_GE(top(*depthView_, vtkAxis::BOTTOM), 4.0);
+  EXPECT_LE(top(*depthView_, vtkAxis::BOTTOM), 8.0);
+}
+
+// the legend stands below, the curves above
+TEST_F(Charts, KeepTheLegendOffTheCurves)
+{
+  add(2.0, 4.0_mm);
+  view_->GetRenderWindow()->Render();
+  auto* chart = vtkPalpChart::SafeDownCast(view_->GetScene()->GetItem(0));
+  const float legend = chart->GetSize().GetY();
+  EXPECT_GT(legend, 10.0F);
+  EXPECT_GT(static_cast<float>(chart->GetPoint1()[1]), legend);
+  EXPECT_LE(chart->GetPoint2()[1], 200);
+  EXPECT_GT(chart->GetPoint2()[1] - chart->GetPoint1()[1], 80) << "room for the curves";
+}
+
+TEST_F(Charts, CanBeLaidOutAnewWithAllTheirCurves)
+{
+  add(2.0, 4.0_mm);
+  const auto plots = charts_.plots();
+  ASSERT_EQ(plots.size(), 2U);
+  EXPECT_EQ(plots[0]->tables().size(), 2U);
+  vtkTable& time = *plots[0]->tables()[0];
+  EXPECT_NEAR(time.GetValue(time.GetNumberOfRows() - 1, 1).ToDouble(), 2.0, 1e-6);
+  vtkTable& measured = *plots[1]->tables()[1];
+  EXPECT_NEAR(measured.GetValue(0, 0).ToDouble(), 4.0, 1e-5);
+}
+
+} // namespace
+} // namespace palp

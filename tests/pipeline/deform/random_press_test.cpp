@@ -1,0 +1,352 @@
+#include "pipeline/deform/dent.h"
+#include "pipeline/deform/dent_patch.h"
+
+#include "haptics/contact/contact.h"
+#include "haptics/force/force_law.h"
+#include "haptics/units.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "tests/pipeline/segmented.h"
+#include "tests/pipeline/surfaces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkQuadricDecimation.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using test::DentedSurface;
+
+DentedSurface dented(vtkPolyData& mesh)
+{
+  return test::dented({ pointsOf(mesh), trianglesOf(mesh) });
+}
+
+DentedSurface read(const std::filesystem::path& file)
+{
+  return dented(*readSurface(file).mesh);
+}
+
+DentedSurface bundled(const char* name)
+{
+  return read(std::filesystem::path(PALP_SHARE "/meshes") / name);
+}
+
+// every point moved by up to a third of an edge
+DentedSurface shaken(DentedSurface regular, double edge)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> by(-edge / 3.0, edge / 3.0);
+  DentedSurface surface;
+  for (std::size_t i = 0; i < regular.count(); ++i)
+  {
+    const Eigen::Vector3d point = DentedSurface::at(regular.rest, i);
+    const Eigen::Vector3d normal = DentedSurface::at(regular.normals, i);
+    const Eigen::Vector3d shift(by(random), by(random), by(random));
+    surface.add(point + shift - 0.9 * shift.dot(normal) * normal);
+  }
+  surface.triangles = regular.triangles;
+  surface.finish();
+  return surface;
+}
+
+// The bundled liver as a scanner would give it, 70 mm long: voxels of 1 mm, contoured, smoothed
+// and reduced, which leaves ridges sharper than the tools and triangles of all shapes.
+DentedSurface segmented()
+{
+  const auto liver = readSurface(PALP_SHARE "/meshes/liver.vtp").mesh;
+  vtkPoints& points = *liver->GetPoints();
+  for (vtkIdType i = 0; i < points.GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d point(points.GetPoint(i));
+    point *= 0.3;
+    points.SetPoint(i, point.data());
+  }
+  points.Modified();
+  const auto contoured = test::contouredFromVoxels(*liver, 1.0_mm);
+  vtkNew<vtkQuadricDecimation> reduced;
+  reduced->SetInputData(contoured);
+  reduced->SetTargetReduction(0.7);
+  reduced->Update();
+  return dented(*reduced->GetOutput());
+}
+
+struct Case
+{
+  std::string name;
+  std::function<DentedSurface()> make;
+  const char* haptic = nullptr; ///< bundled mesh to feel; else the surface itself
+};
+
+void PrintTo(const Case& with, std::ostream* out)
+{
+  *out << with.name;
+}
+
+// those made here, and every mesh in the folder of PALP_TEST_MESHES
+std::vector<Case> cases()
+{
+  std::vector<Case> all{
+    { "liver", [] { return bundled("liver.vtp"); }, "liver_haptic.vtp" },
+    { "lobe",
+      [] {
+        return test::ellipsoid(6, { 60.0_mm, 40.0_mm, 6.0_mm });
+      } },
+    { "irregular",
+      [] {
+        return shaken(test::ellipsoid(5, { 80.0_mm, 60.0_mm, 35.0_mm }), 2.0_mm);
+      } },
+    { "sheet", [] { return shaken(test::plane(60, 1.5_mm), 1.5_mm); } },
+    { "segmented", segmented },
+  };
+  if (const char* folder = std::getenv("PALP_TEST_MESHES"))
+  {
+    std::error_code failure; // of a folder that is not there
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
+    {
+      if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
+      {
+        std::string name = "file_" + entry.path().stem().string();
+        std::replace_if(
+          name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+        all.push_back({ name, [file = entry.path()] { return read(file); } });
+      }
+    }
+  }
+  return all;
+}
+
+Surface hapticOf(const DentedSurface& surface)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < surface.count(); ++i)
+  {
+    points.push_back(DentedSurface::at(surface.rest, i));
+  }
+  return { points, surface.triangles };
+}
+
+class RandomPress : public ::testing::TestWithParam<Case>
+{
+protected:
+  DentedSurface surface = GetParam().make();
+  Surface haptic = hapticOf(GetParam().haptic ? bundled(GetParam().haptic) : surface);
+  std::vector<float> restNormals = surface.normals;
+  std::mt19937 random{ 2024 };
+
+  // a press at a random point: the tool tilted a little, at most 40 % of the local thickness deep
+  Press next(int i)
+  {
+    const std::array<Tip, 4> tips{ SphereTip{ 10.0_mm }, SphereTip{ 3.0_mm },
+      ConeTip{ 45.0_deg, 10.0_mm }, ConeTip{ 60.0_deg, 6.0_mm } };
+    std::uniform_int_distribution<std::size_t> vertex(0, surface.count() - 1);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (;;)
+    {
+      const std::size_t at = vertex(random);
+      const Tip& tip = tips[static_cast<std::size_t>(i) % tips.size()];
+      const Eigen::Vector3d normal = DentedSurface::at(restNormals, at);
+      const double wanted = (0.1 + 0.5 * unit(random)) * baseRadius(tip);
+      const Eigen::AngleAxisd tilt(0.25 * unit(random), normal.unitOrthogonal());
+      const ToolPose pose{ .apex = DentedSurface::at(surface.rest, at) - wanted * normal,
+        .axis = -(tilt * normal) };
+      const Contact contact = findContact(haptic, tip, pose, ContactRule::Exact);
+      if (!contact.touching() || contact.depth > 0.4 * contact.thickness ||
+        contact.depth > 0.8 * baseRadius(tip) || contact.tilt > 30.0_deg)
+      {
+        continue;
+      }
+      const ForceLaw law(tip, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 });
+      const double r = law({ .depth = contact.depth }).contactRadius;
+      return { .contact = contact,
+        .pose = pose,
+        .tip = tip,
+        .contactRadius = r,
+        .extentRadius = 3.7 * contact.depth };
+    }
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Dent, RandomPress, ::testing::ValuesIn(cases()),
+  [](const auto& with) { return with.param.name; });
+
+TEST_P(RandomPress, LeavesNoPointInsideTheToolAndTurnsNoTriangleOver)
+{
+  DentPatch patch;
+  int presses = 0;
+  double deepest = -1.0;
+  std::size_t turned = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const Press press = next(i);
+    surface.press(press);
+    const PressRegion& region = surface.dent.region();
+    ASSERT_FALSE(region.points().empty()) << "press " << i;
+    ++presses;
+    const ToolBody body(press.tip, press.pose);
+    for (std::size_t k = 0; k < region.points().size(); ++k)
+    {
+      const auto at = static_cast<std::size_t>(region.points()[k]);
+      deepest = std::max(deepest, body.inside(DentedSurface::at(surface.points, at)));
+    }
+    patch.build(surface.dent, DentPatch::levelFor(surface.dent));
+    const auto isFinite = [](float x) { return std::isfinite(x); };
+    ASSERT_TRUE(std::all_of(surface.points.begin(), surface.points.end(), isFinite));
+    ASSERT_TRUE(std::all_of(surface.normals.begin(), surface.normals.end(), isFinite));
+    ASSERT_TRUE(std::all_of(patch.points.begin(), patch.points.end(),
+      [](const Eigen::Vector3f& point) { return point.allFinite(); }));
+    for (const Eigen::Vector3f& point : patch.points)
+    {
+      deepest = std::max(deepest, body.inside(point.cast<double>()));
+    }
+    region.forEachTriangle(
+      [&](const Triangle& triangle)
+      {
+        const auto area = [&](const std::vector<float>& of)
+        {
+          const auto corner = [&](int k)
+          {
+            return DentedSurface::at(
+              of, static_cast<std::size_t>(region.points()[static_cast<std::size_t>(k)]));
+          };
+          const auto& [a, b, c] = triangle;
+          return Eigen::Vector3d((corner(b) - corner(a)).cross(corner(c) - corner(a)));
+        };
+        // what faces the tool is kept facing it, a side is kept from turning over, if it does not
+        // hang from a point at rest
+        const bool isSide = area(surface.rest).dot(region.normal()) <= 0.0;
+        const bool hangs = !std::all_of(triangle.begin(), triangle.end(),
+          [&](int k) { return region.places()[static_cast<std::size_t>(k)].within; });
+        const bool isTurned = isSide ? area(surface.points).dot(area(surface.rest)) <= 0.0
+                                     : area(surface.points).dot(region.normal()) <= 0.0;
+        turned += isTurned && !(isSide && hangs) ? 1 : 0;
+      });
+  }
+  RecordProperty("deepest_um", std::to_string(deepest / 1.0_um));
+  EXPECT_EQ(presses, 200);
+  EXPECT_LE(deepest, 1.0_um);
+  EXPECT_EQ(turned, 0U);
+}
+
+// the displacement field itself, on the surface that was fitted around the contact
+TEST_P(RandomPress, IsSmoothAtTheContact)
+{
+  double kink = 0.0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const Press press = next(i);
+    surface.press(press);
+    const PressRegion& region = surface.dent.region();
+    const PressField& field = surface.dent.field();
+    for (int k = 0; k < PressField::kDirections; ++k)
+    {
+      const auto [p0, p1, p2] = field.controlPoints(k, region);
+      const Eigen::Vector3d center = region.toSurface(Eigen::Vector3d::Zero());
+      const Eigen::Vector3d across = p2 - center;
+      const Eigen::Vector3d outwards =
+        (across - across.dot(region.normal()) * region.normal()).normalized();
+      const double inner =
+        (p0 - center - (p0 - center).dot(region.normal()) * region.normal()).norm();
+      const auto sinkAt = [&](double radius)
+      {
+        const Eigen::Vector3d foot = region.placeInFront(center + radius * outwards).local;
+        const Eigen::Vector3d point =
+          region.toSurface({ foot.x(), foot.y(), field.surface().height(foot.x(), foot.y()) });
+        const Place place = region.placeInFront(point);
+        return place.distance < region.outer() ? surface.dent.sinkAt(place, point).depth : 0.0;
+      };
+      const double h = 3e-5 * inner; // the ring turns sharply where P1 is close to P0
+      const double inside = (sinkAt(inner - h) - sinkAt(inner - 2.0 * h)) / h;
+      const double outside = (sinkAt(inner + 2.0 * h) - sinkAt(inner + h)) / h;
+      kink = std::max(kink, std::abs(std::atan(inside) - std::atan(outside)));
+    }
+  }
+  RecordProperty("kink_deg", std::to_string(units::toDegrees(kink)));
+  EXPECT_LE(kink, 2.0_deg);
+}
+
+// The displacement along every edge of the pressed mesh, sides and ridges included: the largest
+// step over a nanometre of its length. Only where a tool is sunk beyond its base its shaft cuts a
+// wall.
+TEST_P(RandomPress, IsContinuousAlongEveryEdge)
+{
+  double step = 0.0;
+  double stepAtRd = 0.0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const Press press = next(i);
+    surface.press(press);
+    const PressRegion& region = surface.dent.region();
+    const ToolBody body(press.tip, press.pose);
+    const auto lookAt = [&](const Place& a, const Place& b)
+    {
+      const Eigen::Vector3d start = region.toSurface(a.local);
+      const Eigen::Vector3d edge = region.toSurface(b.local) - start;
+      const auto placeAt = [&](double share)
+      { return region.placeBetween(a, b, share, start + share * edge); };
+      const auto sinkAt = [&](double share)
+      { return surface.dent.sinkAt(placeAt(share), start + share * edge).depth; };
+      double low = 0.0;
+      double width = 1.0;
+      double largest = 0.0;
+      while (width * edge.norm() > 1e-9)
+      {
+        constexpr int kParts = 8;
+        largest = -1.0;
+        width /= kParts;
+        const double from = low;
+        for (int k = 0; k < kParts; ++k)
+        {
+          const double share = from + k * width;
+          if (const double change = std::abs(sinkAt(share + width) - sinkAt(share));
+              change > largest)
+          {
+            largest = change;
+            low = share;
+          }
+        }
+      }
+      const auto toTool = [&](double share)
+      { return body.lowest(start + share * edge, region.normal()); };
+      const double sink = std::min(sinkAt(low), sinkAt(low + width));
+      const Eigen::Vector3d fromApex =
+        start + low * edge - sink * region.normal() - press.pose.apex;
+      const double fromAxis = fromApex.cross(press.pose.axis).norm();
+      const bool isWall = std::abs(fromAxis - baseRadius(press.tip)) < 1.0_um ||
+        (std::isfinite(toTool(low)) != std::isfinite(toTool(low + width)));
+      if (!isWall)
+      {
+        step = std::max(step, largest);
+        const bool isRim = placeAt(low).distance > 0.99 * region.outer();
+        stepAtRd = std::max(stepAtRd, isRim ? largest : 0.0);
+      }
+    };
+    region.forEachTriangle(
+      [&](const Triangle& triangle)
+      {
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          lookAt(region.places()[static_cast<std::size_t>(triangle[k])],
+            region.places()[static_cast<std::size_t>(triangle[(k + 1) % 3])]);
+        }
+      });
+  }
+  RecordProperty("step_um", std::to_string(step / 1.0_um));
+  RecordProperty("step_at_rd_um", std::to_string(stepAtRd / 1.0_um));
+  EXPECT_LE(stepAtRd, 1.0_um);
+  EXPECT_LE(step, 3.0_um);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,75 @@
+#include "pipeline/deform/umbrella.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+std::vector<std::int32_t> around(const Umbrella& umbrella, int point)
+{
+  const auto chains = umbrella.around(point);
+  return { chains.begin(), chains.end() };
+}
+
+// four triangles about point 0
+const std::vector<Triangle> kFan{ { 0, 1, 2 }, { 3, 0, 2 }, { 4, 0, 3 }, { 0, 4, 1 } };
+
+TEST(Umbrella, ClosesAroundAnInnerPoint)
+{
+  const Umbrella umbrella(5, kFan);
+  auto chain = around(umbrella, 0);
+  ASSERT_EQ(chain.size(), 5U);
+  EXPECT_EQ(chain.front(), chain.back());
+  chain.pop_back();
+  std::rotate(chain.begin(), std::find(chain.begin(), chain.end(), 1), chain.end());
+  EXPECT_EQ(chain, (std::vector<std::int32_t>{ 1, 2, 3, 4 }));
+}
+
+TEST(Umbrella, EndsAtTheRimOfAnOpenSurface)
+{
+  const Umbrella umbrella(5, kFan);
+  EXPECT_EQ(around(umbrella, 2), (std::vector<std::int32_t>{ 3, 0, 1 }));
+}
+
+TEST(Umbrella, SeparatesSheetsThatShareAPoint)
+{
+  const Umbrella umbrella(5, std::vector<Triangle>{ { 0, 1, 2 }, { 0, 3, 4 } });
+  EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2, Umbrella::kEnd, 3, 4 }));
+}
+
+// a book of pages, and a fan, each with more triangles than their squares could be looked at
+TEST(Umbrella, TakesAnyNumberOfTrianglesAtAPoint)
+{
+  constexpr int count = 200'000;
+  std::vector<Triangle> fan;
+  std::vector<Triangle> book;
+  for (int i = 0; i < count; ++i)
+  {
+    fan.push_back({ 0, 1 + i, 1 + (i + 1) % count });
+    book.push_back({ 0, 1, 2 + i });
+  }
+  const Umbrella around(count + 2, fan);
+  EXPECT_EQ(around.around(0).size(), count + 1U);
+  EXPECT_EQ(around.around(0).front(), around.around(0).back());
+  const Umbrella pages(count + 2, book);
+  EXPECT_EQ(std::ranges::count(pages.around(0), 1), count);
+  EXPECT_EQ(std::ranges::count(pages.around(0), Umbrella::kEnd), count - 1);
+}
+
+TEST(Umbrella, LeavesOutTrianglesThatNameAPointTwice)
+{
+  const Umbrella umbrella(3, std::vector<Triangle>{ { 0, 0, 1 }, { 0, 1, 2 } });
+  EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2 }));
+}
+
+TEST(Umbrella, HasNothingAroundALonePoint)
+{
+  const Umbrella umbrella(4, std::vector<Triangle>{ { 0, 1, 2 } });
+  EXPECT_TRUE(umbrella.around(3).empty());
+}
+
+} // namespace
+} // namespace palp

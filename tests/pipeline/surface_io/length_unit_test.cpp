@@ -1,0 +1,76 @@
+#include "pipeline/surface_io/length_unit.h"
+
+#include "haptics/error.h"
+
+#include <gtest/gtest.h>
+
+namespace palp::test
+{
+namespace
+{
+
+std::string refusal(double longestSide)
+{
+  try
+  {
+    const LengthUnit unit = guessUnit(longestSide, "body.stl");
+    return std::string("taken in ") + unitName(unit);
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadMesh);
+    return error.what();
+  }
+}
+
+TEST(LengthUnit, IsTheOneThatGivesTheSizeOfAnOrgan)
+{
+  EXPECT_EQ(guessUnit(230.0, ""), LengthUnit::Millimetre);
+  EXPECT_EQ(guessUnit(3.2, ""), LengthUnit::Centimetre);
+  EXPECT_EQ(guessUnit(0.23, ""), LengthUnit::Metre);
+}
+
+TEST(LengthUnit, CountsTheLimitsOf5And600MillimetresIn)
+{
+  EXPECT_EQ(guessUnit(600.0, ""), LengthUnit::Millimetre);
+  EXPECT_EQ(guessUnit(0.61, ""), LengthUnit::Centimetre);
+  EXPECT_EQ(guessUnit(0.005, ""), LengthUnit::Metre);
+  EXPECT_EQ(guessUnit(0.49, ""), LengthUnit::Metre);
+}
+
+TEST(LengthUnit, IsRefusedWhereTwoFit)
+{
+  // a valve of 25.7 mm would be a liver of 257 mm; a block of 0.55 cm one of 550 mm
+  for (const double side : { 5.0, 6.4, 25.7, 45.0, 60.0, 0.5, 0.55 })
+  {
+    EXPECT_NE(refusal(side).find("more than one unit"), std::string::npos) << side;
+  }
+  EXPECT_EQ(guessUnit(4.9, ""), LengthUnit::Centimetre);
+  EXPECT_EQ(guessUnit(60.1, ""), LengthUnit::Millimetre);
+}
+
+TEST(LengthUnit, IsRefusedWhereNoneFitsAndSaysWhatEachWouldGive)
+{
+  for (const double side : { 0.0, 0.0049, 601.0, 1e9 })
+  {
+    EXPECT_NE(refusal(side).find("no unit"), std::string::npos) << side;
+  }
+  EXPECT_EQ(refusal(2000.0),
+    "body.stl: no unit gives the size of an organ or a part of one (longest side 2000 mm if mm, "
+    "20000 mm if cm, 2e+06 mm if m); give --unit mm, cm or m");
+}
+
+TEST(LengthUnit, IsReadFromTheWordsOfTheOption)
+{
+  EXPECT_EQ(parseUnit("mm"), LengthUnit::Millimetre);
+  EXPECT_EQ(parseUnit("cm"), LengthUnit::Centimetre);
+  EXPECT_EQ(parseUnit("m"), LengthUnit::Metre);
+  EXPECT_EQ(parseUnit("auto"), std::nullopt);
+  for (const char* text : { "", "MM", "inch", "mm ", "km" })
+  {
+    EXPECT_THROW((void)parseUnit(text), Error) << text;
+  }
+}
+
+} // namespace
+} // namespace palp::test

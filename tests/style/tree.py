@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Prints the figures of the source tree and fails where one is beyond its limit.
+
+A folder is one library (palp_library in its CMakeLists.txt). It includes what it links and links what
+it includes: PUBLIC what its headers include, PRIVATE what only its sources do. Folders form no circle,
+and no layer includes one above it.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LAYERS = ["haptics", "calibration", "pipeline", "data", "app"]  # each may include those before it
+SUFFIXES = {".h", ".cpp", ".cxx"}
+MOST_FILES = 25  # of production code in a folder
+MOST_LINES = 350  # of a file
+MOST_BODY = 60  # lines of a function's body
+MOST_README = 120  # lines
+# of calibration, what pictures may know; the finite elements stay off line
+RUN_TIME_CALIBRATION = {"calibration/tables", "calibration/figures"}
+
+
+def sources(*roots):
+    for root in roots:
+        for path in sorted((ROOT / root).rglob("*")):
+            if path.suffix in SUFFIXES:
+                yield path
+
+
+def folder(path):
+    return path.parent.relative_to(ROOT).as_posix()
+
+
+def included(path):
+    return re.findall(r'^#include "([^"]+)"', path.read_text(), re.M)
+
+
+def calls(text, function):
+    """The words of every call of a CMake function, variables of the same file put in."""
+    text = re.sub(r"#.*", "", text)
+    for name, value in re.findall(r"\bset\((\w+) ([^)]*)\)", text):
+        text = text.replace("${" + name + "}", value)
+    for match in re.finditer(rf"\b{function}\(([^)]*)\)", text):
+        yield re.split(r"[\s,<>]+", match[1])
+
+
+def section(words, keyword):
+    """What follows a keyword, up to the next one."""
+    found, inside = set(), False
+    for word in words:
+        if word in ("SOURCES", "PUBLIC", "PRIVATE"):
+            inside = word == keyword
+        elif inside and word.startswith("palp::"):
+            found.add(word.removeprefix("palp::"))
+    return found
+
+
+def libraries():
+    """(name, folder, files or None, public, private) of each palp_library."""
+    for path in sorted(ROOT.rglob("CMakeLists.txt")):
+        if ".build" in path.parts or folder(path).split("/")[0] not in LAYERS:
+            continue
+        for words in calls(path.read_text(), "palp_library"):
+            files = [path.parent / word for word in words if pathlib.Path(word).suffix in SUFFIXES]
+            yield words[0], folder(path), files, section(words, "PUBLIC"), section(words, "PRIVATE")
+
+
+def check_links(found):
+    """What libraries include against what they link."""
+    home = {}
+    for name, where, files, _, _ in found:
+        for file in files:
+            home.setdefault(file.relative_to(ROOT).as_posix(), set()).add(name)
+    everywhere = {where for _, where, _, _, _ in found}
+    errors = []
+    for name, where, files, public, private in found:
+        used = {True: set(), False: set()}
+        for file in files:
+            for target in included(file):
+                if target not in home:
+                    if str(pathlib.Path(target).parent) not in everywhere | {"app"}:
+                        errors.append(f"{file.relative_to(ROOT)}: includes {target}, of no library")
+                elif name not in home[target]:
+                    used[file.suffix == ".h"].add(frozenset(home[target]))
+        for header, linked, word in ((True, public, "PUBLIC"), (False, private, "PRIVATE")):
+            needed = used[header] if header else used[False] - used[True]
+            for homes in needed:
+                if not homes & linked and homes != {name}:
+                    errors.append(f"{where}: palp::{name} includes {'|'.join(sorted(homes))}; "
+                                  f"it must be {word} there")
+            for library in linked:
+                if not any(library in homes for homes in needed):
+                    errors.append(f"{where}: palp::{name} links palp::{library} as {word} but "
+                                  f"{'no header' if header else 'no source alone'} includes it")
+    return errors
+
+
+def graph():
+    """Which folder includes which, with a file that does."""
+    arrows = {}
+    for path in sources(*LAYERS):
+        for target in included(path):
+            to = pathlib.PurePosixPath(target).parent.as_posix()
+            if to != folder(path):
+                arrows.setdefault(folder(path), {}).setdefault(to, path.relative_to(ROOT).as_posix())
+    return arrows
+
+
+def circles(arrows):
+    """Folders that reach themselves."""
+    def reached(start):
+        seen, todo = set(), list(arrows.get(start, ()))
+        while todo:
+            here = todo.pop()
+            if here not in seen:
+                seen.add(here)
+                todo += arrows.get(here, ())
+        return seen
+    return [name for name in arrows if name in reached(name)]
+
+
+def upward(arrows):
+    found = []
+    for start, ends in arrows.items():
+        for end, file in ends.items():
+            low, high = start.split("/")[0], end.split("/")[0]
+            forbidden = low == "pipeline" and high == "calibration" and end not in RUN_TIME_CALIBRATION
+            if forbidden or LAYERS.index(high) > LAYERS.index(low):
+                found.append(f"{file} includes {end}")
+    return found
+
+
+def bodies(path):
+    """Lines of each function's body, by its first line; functions begin with a brace of their own."""
+    start = None
+    lines = path.read_text().splitlines()
+    for number, line in enumerate(lines):
+        indent = re.match(r"( {0,2})\{$", line)
+        if indent and start is None:
+            head = lines[number - 1]
+            first = number - 1
+            while first > 0 and lines[first - 1].strip() and not lines[first - 1].rstrip().endswith((";", "}", "{", ":", ">")):
+                first -= 1
+            opening = " ".join(lines[first:number])
+            if "(" in opening and not re.match(r"\s*(namespace|struct|class|enum|union)\b", opening):
+                start = (number, indent[1], first)
+        elif start and re.match(rf"{start[1]}\}};?$", line):
+            yield number - start[0] - 1, f"{path.relative_to(ROOT)}:{start[2] + 1}"
+            start = None
+
+
+def main():
+    found = list(libraries())
+    arrows = graph()
+    sizes = {}
+    for path in sources(*LAYERS):
+        sizes.setdefault(folder(path), []).append(path)
+    largest = max(sizes, key=lambda name: len(sizes[name]))
+    everything = list(sources(*LAYERS, "tests"))
+    long = max(everything, key=lambda path: len(path.read_text().splitlines()))
+    body = max(body for path in everything for body in bodies(path))
+    readme = len((ROOT / "README.md").read_text().splitlines())
+    lines = len(long.read_text().splitlines())
+    loops, up, links = circles(arrows), upward(arrows), check_links(found)
+
+    rows = [
+        ("folders", len(sizes), None, ""),
+        ("files in the largest folder", len(sizes[largest]), MOST_FILES, largest),
+        ("folders in a circle", len(loops), 0, ", ".join(loops)),
+        ("includes that point up", len(up), 0, "; ".join(up)),
+        ("includes across a wall", len(links), 0, "\n  ".join([""] + links)),
+        ("lines of the longest function", body[0], MOST_BODY, body[1]),
+        ("lines of the longest file", lines, MOST_LINES, long.relative_to(ROOT).as_posix()),
+        ("lines of README.md", readme, MOST_README, ""),
+    ]
+    failed = False
+    for name, value, limit, where in rows:
+        beyond = limit is not None and value > limit
+        failed |= beyond
+        print(f"{name:32}{value:6}" + ("" if limit is None else f"  of {limit}") +
+              (f"  {where}" if where else "") + ("  BEYOND ITS LIMIT" if beyond else ""))
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())
