@@ -38,7 +38,7 @@ def included(path):
 def calls(text, function):
     """The words of every call of a CMake function, variables of the same file put in."""
     text = re.sub(r"#.*", "", text)
-    for name, value in re.findall(r"\bset\((\w+) ([^)]*)\)", text):
+    for name, value in re.findall(r"\bset\((\w+)\s+([^)]*)\)", text):
         text = text.replace("${" + name + "}", value)
     for match in re.finditer(rf"\b{function}\(([^)]*)\)", text):
         yield re.split(r"[\s,<>]+", match[1])
