@@ -2,9 +2,9 @@
 
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
-#include "reference_table.h"
+#include "tests/haptics/force/reference_table.h"
 #include "tests/support/allocation_guard.h"
-#include "tips.h"
+#include "tests/haptics/force/tips.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

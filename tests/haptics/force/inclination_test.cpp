@@ -1,7 +1,7 @@
 #include "haptics/force/inclination.h"
 
 #include "haptics/units.h"
-#include "reference_table.h"
+#include "tests/haptics/force/reference_table.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
-#include "tips.h"
+#include "tests/haptics/force/tips.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

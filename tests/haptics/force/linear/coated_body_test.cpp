@@ -6,7 +6,7 @@
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 #include "tests/support/allocation_guard.h"
-#include "tips.h"
+#include "tests/haptics/force/tips.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "haptics/force/linear/half_space.h"
 
 #include "haptics/units.h"
-#include "reference_table.h"
-#include "tips.h"
+#include "tests/haptics/force/reference_table.h"
+#include "tests/haptics/force/tips.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "haptics/force/linear/layer_contact.h"
 #include "haptics/units.h"
-#include "reference_table.h"
-#include "tips.h"
+#include "tests/haptics/force/reference_table.h"
+#include "tests/haptics/force/tips.h"
 
 #include <algorithm>
 #include <cmath>
