@@ -41,6 +41,21 @@ function(palp_group name)
   target_link_libraries(palp_${name} INTERFACE ${ARGN})
 endfunction()
 
+# palp_install(<component> <library>...): libraries and headers that others find as a component of the
+# package Palp; palp::<component> is a group. The folder of the headers has the component's name.
+function(palp_install component)
+  list(TRANSFORM ARGN REPLACE "^palp::" "palp_")
+  foreach(target palp_${component} ${ARGN})
+    string(REPLACE "palp_" "" name ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  endforeach()
+  install(TARGETS palp_${component} ${ARGN} EXPORT palp_${component} ARCHIVE DESTINATION lib/palp)
+  install(EXPORT palp_${component} NAMESPACE palp:: FILE Palp_${component}.cmake
+    DESTINATION lib/cmake/Palp)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${component} DESTINATION include/palp
+    FILES_MATCHING PATTERN "*.h")
+endfunction()
+
 # palp_forbid(<target> <regex>): stop the configuration if a target links against a
 # library that its layer must not know.
 function(palp_forbid target pattern)
