@@ -12,6 +12,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -64,26 +65,23 @@ double niftiUnit(int code)
   }
 }
 
-// 348 bytes, packed or not
-bool readNiftiStart(const std::filesystem::path& file, std::array<unsigned char, 348>& start)
-{
-  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> in(gzopen(file.c_str(), "rb"), &gzclose_r);
-  constexpr auto size = static_cast<unsigned>(std::tuple_size_v<std::array<unsigned char, 348>>);
-  return in && gzread(in.get(), start.data(), size) == static_cast<int>(size);
-}
-
 struct NiftiClaim
 {
-  std::uintmax_t bytes = 0; // of the voxels; 0: no such header
-  unsigned type = 0;        // of a voxel, as NIfTI numbers them
+  std::uintmax_t bytes = 0; // of the voxels
+  std::string fault{};      // of the header, and what to do; empty: none
 };
+
+constexpr std::size_t kNiftiHeader = 348; // [bytes]
 
 NiftiClaim niftiClaim(const std::filesystem::path& file)
 {
-  std::array<unsigned char, 348> start{};
-  if (!readNiftiStart(file, start))
+  std::array<unsigned char, kNiftiHeader> start{};
+  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> in(gzopen(file.c_str(), "rb"), &gzclose_r);
+  const int got = in ? gzread(in.get(), start.data(), kNiftiHeader) : 0; // packed or not
+  int state = Z_OK;
+  if (in && (static_cast<void>(gzerror(in.get(), &state)), state == Z_DATA_ERROR))
   {
-    return {};
+    return { .fault = "its compressed data are damaged, by their checksum; export or copy it again" };
   }
   const auto number = [&](std::size_t at, bool swapped)
   {
@@ -91,14 +89,77 @@ NiftiClaim niftiClaim(const std::filesystem::path& file)
     const unsigned high = start[swapped ? at : at + 1];
     return low + 256 * high;
   };
-  const bool swapped = number(40, false) < 1 || number(40, false) > 7; // dim[0]
-  NiftiClaim claim{ .bytes = (number(72, swapped) + 7) / 8, .type = number(70, swapped) };
+  const bool swapped = start[0] == 0;
+  const unsigned size = number(swapped ? 2 : 0, swapped);
+  constexpr unsigned second = 540; // [bytes], the header of NIfTI-2
+  if (got > 4 && size == second)
+  {
+    return { .fault = "a file of NIfTI-2, which is not read here; save it as NIfTI-1" };
+  }
+  if (got < static_cast<int>(kNiftiHeader))
+  {
+    return { .fault = "not a NIfTI file, or cut off in its header; export or copy it again" };
+  }
+  const std::string_view magic(reinterpret_cast<const char*>(start.data()) + 344, 3);
+  if (size != kNiftiHeader || (magic != "n+1" && magic != "ni1"))
+  {
+    return { .fault = "not a NIfTI file, whatever its name; rename or convert it" };
+  }
+  if (magic == "ni1")
+  {
+    return { .fault = "a NIfTI header whose voxels are in a file of their own; save it as one .nii" };
+  }
+  constexpr std::array<unsigned, 12> kTypes{ 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024, 1280 };
+  const unsigned type = number(70, swapped);
+  if (std::ranges::find(kTypes, type) == kTypes.end())
+  {
+    return { .fault = "its datatype is " + std::to_string(type) + ", which is none of NIfTI's; export it again" };
+  }
+  NiftiClaim claim{ .bytes = (number(72, swapped) + 7) / 8 };
   const unsigned dimensions = number(40, swapped);
-  for (unsigned i = 1; i <= dimensions && dimensions <= 7; ++i)
+  if (dimensions < 1 || dimensions > 7)
+  {
+    return { .fault = "its header is damaged, it has " + std::to_string(dimensions) + " dimensions; export it again" };
+  }
+  for (unsigned i = 1; i <= dimensions; ++i)
   {
     claim.bytes *= std::max(1U, number(40 + 2 * i, swapped));
   }
   return claim;
+}
+
+// voxels' cells in extents: each after a key, as Extent="0 9 0 9 0 9"
+std::uintmax_t cellsIn(std::string_view text, std::string_view key)
+{
+  std::uintmax_t cells = 0;
+  for (std::size_t at = text.find(key); at != text.npos; at = text.find(key, at + 1))
+  {
+    std::istringstream words(std::string(text.substr(at + key.size(), 100)));
+    words.ignore(2, '"');
+    std::uintmax_t product = 1;
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+    for (int axis = 0; axis < 3 && words >> low >> high; ++axis)
+    {
+      product *= high > low ? static_cast<std::uintmax_t>(high - low) : 0;
+    }
+    cells += product;
+  }
+  return cells;
+}
+
+// VTK leaves voxels that no piece has as they come
+void checkPieces(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text(std::filesystem::file_size(file), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(std::min(text.size(), text.find("<AppendedData")));
+  if (cellsIn(text, "<Piece Extent=") != cellsIn(text, "WholeExtent="))
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": damaged, its pieces do not fill its WholeExtent; export it again");
+  }
 }
 
 // of WholeExtent="0 9 0 9 0 9", with the largest number that a voxel may be
@@ -141,23 +202,18 @@ PatientImage readMetaImage(const std::filesystem::path& file)
 
 PatientImage readNifti(const std::filesystem::path& file)
 {
+  const NiftiClaim claim = niftiClaim(file);
+  if (!claim.fault.empty())
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": " + claim.fault);
+  }
   constexpr std::uintmax_t ratio = 1032; // the most that deflate can pack into a byte
   const std::uintmax_t size = std::filesystem::file_size(file);
-  const auto [claimed, type] = niftiClaim(file);
-  constexpr std::array<unsigned, 12> kTypes{ 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024, 1280 };
-  if (claimed == 0 || std::ranges::find(kTypes, type) == kTypes.end())
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + (claimed == 0 ? ": not a NIfTI file, or cut off in its header"
-                                    : ": its datatype is " + std::to_string(type) +
-                                        ", which is none of NIfTI's") +
-        "; export or copy it again");
-  }
   const bool packed = file.string().ends_with("z") || file.string().ends_with("Z");
-  if (claimed > (packed ? ratio * size : size))
+  if (claim.bytes > (packed ? ratio * size : size))
   {
     throw Error(ErrorCode::BadFile,
-      file.string() + ": cut off, its header claims " + std::to_string(claimed) +
+      file.string() + ": cut off, its header claims " + std::to_string(claim.bytes) +
         " bytes of voxels; export or copy it again");
   }
   vtkNew<vtkNIFTIImageReader> reader;
@@ -214,6 +270,7 @@ PatientImage readNifti(const std::filesystem::path& file)
 PatientImage readVti(const std::filesystem::path& file)
 {
   checkXmlEnd(file);
+  checkPieces(file);
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();

@@ -1,9 +1,11 @@
 #include "pipeline/formats/off_format.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/text_lines.h"
 
-#include <charconv>
-#include <fstream>
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <vtkCellArray.h>
@@ -16,101 +18,59 @@ namespace palp
 namespace
 {
 
-// lines that hold something, and the numbers in them
-class OffLines
+// the keyword, which may share its line with the counts; texture, colours and normals of points are
+// skipped
+void readKeyword(TextLines& lines)
 {
-public:
-  explicit OffLines(const std::filesystem::path& file)
-    : file_(file.string())
-    , in_(file)
+  std::string word(lines.word());
+  std::ranges::transform(
+    word, word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string_view kind = word;
+  for (const std::string_view prefix : { "ST", "C", "N" })
   {
+    kind.remove_prefix(kind.starts_with(prefix) ? prefix.size() : 0);
   }
-
-  // what: the line that is expected, for the message
-  void next(const char* what)
+  if (kind == "4OFF" || kind == "NOFF" || kind == "4NOFF")
   {
-    do
-    {
-      if (!std::getline(in_, line_))
-      {
-        throw Error(ErrorCode::BadFile,
-          file_ + ": ends after line " + std::to_string(number_) + ", before " + what +
-            "; export or copy it again");
-      }
-      ++number_;
-      rest_ = std::string_view(line_).substr(0, line_.find('#'));
-      skipBlanks();
-    } while (rest_.empty());
+    lines.refuse("expected points of three coordinates, not of other dimensions");
   }
-
-  template <typename Number>
-  Number number(const char* what)
+  if (kind != "OFF")
   {
-    Number value{};
-    skipBlanks();
-    const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (failure != std::errc{})
-    {
-      refuse(what);
-    }
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    return value;
+    lines.refuse("expected OFF, COFF, NOFF, STOFF or what is made of these");
   }
-
-  // the keyword OFF may share its line with the counts
-  void keyword()
+  if (lines.rest().starts_with("BINARY"))
   {
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r"));
-    if (word != "OFF" && word != "COFF" && word != "NOFF" && word != "CNOFF")
-    {
-      refuse("OFF, COFF, NOFF or CNOFF");
-    }
-    rest_.remove_prefix(word.size());
-    skipBlanks();
-    if (rest_.starts_with("BINARY"))
-    {
-      refuse("an OFF file in text form");
-    }
-    if (rest_.empty())
-    {
-      next("the numbers of points and faces");
-    }
+    lines.refuse("expected an OFF file in text form");
   }
-
-  [[noreturn]] void refuse(const char* what) const
-  {
-    throw Error(ErrorCode::BadFile,
-      file_ + ":" + std::to_string(number_) + ": expected " + what + "; export it again");
-  }
-
-private:
-  void skipBlanks()
-  {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r"), rest_.size()));
-  }
-
-  std::string file_;
-  std::ifstream in_;
-  std::string line_;
-  std::string_view rest_;
-  int number_ = 0;
-};
+}
 
 } // namespace
 
 vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
 {
-  OffLines lines(file);
-  lines.next("the word OFF");
-  lines.keyword();
+  TextLines lines(file, '#');
+  const auto next = [&](const char* before)
+  {
+    if (!lines.next())
+    {
+      lines.refuseEnd(before);
+    }
+  };
+  next("the word OFF");
+  readKeyword(lines);
+  if (lines.rest().empty())
+  {
+    next("the numbers of points and faces");
+  }
   const int pointCount = lines.number<int>("the number of points");
   const int faceCount = lines.number<int>("the number of faces");
 
   // nothing is reserved: the counts may be wrong
   vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
   for (int i = 0; i < pointCount; ++i)
   {
-    lines.next("the last point");
+    next("the last point; each stands in a line of its own");
     double p[3];
     for (double& coordinate : p)
     {
@@ -121,17 +81,24 @@ vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
   vtkNew<vtkCellArray> faces;
   for (int i = 0; i < faceCount; ++i)
   {
-    lines.next("the last face");
+    next("the last face; each stands in a line of its own");
     const int corners = lines.number<int>("the number of corners of a face");
     if (corners < 3)
     {
       continue; // a point or a line
     }
-    faces->InsertNextCell(corners);
+    faces->InsertNextCell(0);
     for (int k = 0; k < corners; ++k)
     {
-      faces->InsertCellPoint(lines.number<int>("the corners of a face"));
+      const int corner = lines.number<int>("the corners of a face");
+      if (corner < 0 || corner >= pointCount)
+      {
+        lines.refuse("a face refers to point " + std::to_string(corner) + ", out of range (0 to " +
+          std::to_string(pointCount - 1) + ")");
+      }
+      faces->InsertCellPoint(corner);
     }
+    faces->UpdateCellCount(corners);
   }
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);

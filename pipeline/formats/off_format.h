@@ -10,9 +10,11 @@ namespace palp
 
 /// Polygons of an OFF file in text form, which VTK does not read.
 ///
-/// Normals and colours (NOFF, COFF, numbers behind a face) are skipped.
+/// Normals, colours and texture (NOFF, COFF, STOFF, numbers behind a face) are skipped. Each point
+/// and each face stands in a line of its own.
 ///
-/// @throws Error  BadFile: names the line, what is wrong with it and what it should be
+/// @throws Error  BadFile: names the line, what is wrong with it and what it should be; BadMesh: a
+///                coordinate that is not finite
 [[nodiscard]] vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file);
 
 } // namespace palp

@@ -5,10 +5,12 @@
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
 #include "pipeline/formats/off_format.h"
-#include "pipeline/model/poly_data.h"
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/stl_format.h"
 #include "pipeline/formats/vtk_formats.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/formats/obj_format.h"
+#include "pipeline/formats/ply_format.h"
 
 #include <algorithm>
 #include <array>
@@ -147,13 +149,27 @@ void checkContent(const std::filesystem::path& file, vtkPolyData& data)
   }
 }
 
-void checkErrors(const std::filesystem::path& file, const Format& format, const VtkErrors& errors)
+// a surface as it is read, or that of an image
+vtkSmartPointer<vtkPolyData> readData(const std::filesystem::path& file, const Format& format,
+  const ImagePart& part, FileSurface& surface)
 {
-  if (!errors.first().empty())
+  throwVtkErrors();
+  try
+  {
+    if (format.read)
+    {
+      return format.read(file);
+    }
+    checkFits(file);
+    const PatientImage volume = format.readImage(file);
+    surface.unit = volume.unit;
+    surface.notes = volume.notes;
+    return imageSurface(volume, part, file.string(), surface.notes);
+  }
+  catch (const VtkError& error)
   {
     refuse(file,
-      std::string("cannot be read as ") + format.name + " (" + errors.first() +
-        "); export it again");
+      std::string("cannot be read as ") + format.name + " (" + error.text + "); export it again");
   }
 }
 
@@ -167,23 +183,8 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
   {
     refuse(file, "a surface, not an image; leave the level out");
   }
-  const VtkErrors errors;
   FileSurface surface;
-  vtkSmartPointer<vtkPolyData> data;
-  if (format.read)
-  {
-    data = format.read(file);
-  }
-  else
-  {
-    checkFits(file);
-    const PatientImage volume = format.readImage(file);
-    checkErrors(file, format, errors);
-    surface.unit = volume.unit;
-    surface.notes = volume.notes;
-    data = imageSurface(volume, part, file.string(), surface.notes);
-  }
-  checkErrors(file, format, errors);
+  const vtkSmartPointer<vtkPolyData> data = readData(file, format, part, surface);
   checkContent(file, *data);
 
   vtkNew<vtkTriangleFilter> cut;

@@ -4,9 +4,8 @@
 #include "pipeline/formats/whole_file.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
+#include <array>
+#include <regex>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -14,10 +13,8 @@
 #include <vtkDataSetReader.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
-#include <vtkPLYReader.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
@@ -59,52 +56,17 @@ vtkSmartPointer<vtkPolyData> outerSurface(
   return outside->GetOutput();
 }
 
-// true when a text begins with so many finite numbers
-bool startsWithNumbers(std::string_view text, int count)
-{
-  for (int i = 0; i < count; ++i)
-  {
-    text.remove_prefix(std::min(text.find_first_not_of(" \t+"), text.size()));
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (failure != std::errc{} || !std::isfinite(value))
-    {
-      return false;
-    }
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  }
-  return true;
-}
-
 } // namespace
-
-vtkSmartPointer<vtkPolyData> readObj(const std::filesystem::path& file)
-{
-  std::ifstream in(file);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number)
-  {
-    if ((line.starts_with("v ") || line.starts_with("v\t")) &&
-      !startsWithNumbers(std::string_view(line).substr(1), 3))
-    {
-      throw Error(ErrorCode::BadMesh,
-        file.string() + ":" + std::to_string(number) +
-          ": expected three coordinates, each a usable number; repair the surface");
-    }
-  }
-  return readWith<vtkOBJReader>(file);
-}
-
-vtkSmartPointer<vtkPolyData> readPly(const std::filesystem::path& file)
-{
-  checkPlyEnd(file);
-  return readWith<vtkPLYReader>(file);
-}
 
 vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
 {
   vtkNew<vtkDataSetReader> reader;
   reader->SetFileName(file.c_str());
+  if (reader->ReadOutputType() < 0)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": cut off or damaged in its header, it names no known DATASET; export it again");
+  }
   reader->Update();
   if (vtkUnstructuredGrid* grid = reader->GetUnstructuredGridOutput())
   {
@@ -117,7 +79,7 @@ vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
         ", neither polygons nor an unstructured grid; extract its surface");
   }
   vtkSmartPointer<vtkPolyData> polygons = reader->GetPolyDataOutput();
-  return polygons ? polygons : vtkSmartPointer<vtkPolyData>::New(); // errors are told elsewhere
+  return polygons ? polygons : vtkSmartPointer<vtkPolyData>::New();
 }
 
 vtkSmartPointer<vtkPolyData> readVtp(const std::filesystem::path& file)
@@ -135,28 +97,39 @@ vtkSmartPointer<vtkPolyData> readVtu(const std::filesystem::path& file)
   return outerSurface(file, *reader->GetOutput());
 }
 
+namespace
+{
+
+// what VTK says of files that end too early, in words for people; other messages as they are
+std::string inWords(std::string text)
+{
+  constexpr std::array kShort{ "may be too short", "not long enough", "Error reading ascii",
+    "Error reading binary", "file is truncated", "Data cannot be read", "Error in binary read" };
+  const auto says = [&](const char* words) { return text.find(words) != text.npos; };
+  return std::ranges::any_of(kShort, says)
+    ? "cut off, or it counts more than it holds"
+    : std::regex_replace(text, std::regex("\\(0x[0-9a-f]+\\)"), ""); // addresses
+}
+
 // takes the messages of all objects, those inside a reader included
-class VtkErrors::Log : public vtkOutputWindow
+class Thrower : public vtkOutputWindow
 {
 public:
-  static Log* New();
-  vtkTypeMacro(Log, vtkOutputWindow);
+  static Thrower* New();
+  vtkTypeMacro(Thrower, vtkOutputWindow);
 
   void DisplayErrorText(const char* text) override
   {
-    if (!this->First.empty())
-    {
-      return;
-    }
     // "ERROR: In file, line n\nvtkClass (0x..): what happened"; a warning names no class
     std::string_view what(text);
     what.remove_prefix(what.find('\n') + 1);
     what = what.substr(0, what.find_first_of("\r\n"));
     const std::size_t name = what.find("): ");
     constexpr std::size_t most = 200; // it may quote the file
-    this->First = what.substr(name == what.npos ? 0 : name + 3, most);
+    std::string line(what.substr(name == what.npos ? 0 : name + 3, most));
     std::replace_if(
-      this->First.begin(), this->First.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw VtkError{ inWords(line) };
   }
 
   // data that end too early are but a warning to VTK
@@ -168,19 +141,17 @@ public:
     }
   }
 
-  std::string First;
+  void DisplayWarningText(const char*) override
+  {
+  }
 };
-vtkStandardNewMacro(VtkErrors::Log);
+vtkStandardNewMacro(Thrower);
 
-VtkErrors::VtkErrors()
-  : log_(vtkSmartPointer<Log>::New())
-{
-  vtkOutputWindow::SetInstance(log_);
-}
+} // namespace
 
-const std::string& VtkErrors::first() const noexcept
+void throwVtkErrors()
 {
-  return log_->First;
+  vtkOutputWindow::SetInstance(vtkSmartPointer<Thrower>::New());
 }
 
 } // namespace palp

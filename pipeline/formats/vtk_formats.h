@@ -9,13 +9,8 @@ class vtkPolyData;
 namespace palp
 {
 
-// What a file holds, read by VTK; see what it says with VtkErrors. The content is not checked
+// What a file holds, read by VTK; what it complains of it throws as VtkError. The content is not checked
 // beyond what VTK's readers pass over in silence. A damaged file may crash them.
-
-/// @throws Error  BadMesh: a coordinate that is not a number, which VTK would take for 0
-[[nodiscard]] vtkSmartPointer<vtkPolyData> readObj(const std::filesystem::path& file);
-
-[[nodiscard]] vtkSmartPointer<vtkPolyData> readPly(const std::filesystem::path& file);
 
 /// Polygons, or the outer surface of an unstructured grid.
 /// @throws Error  BadMesh: another kind of data
@@ -25,18 +20,15 @@ namespace palp
 /// The outer surface.
 [[nodiscard]] vtkSmartPointer<vtkPolyData> readVtu(const std::filesystem::path& file);
 
-/// From now on VTK prints nothing in this process; gives what it would have printed.
-class VtkErrors
+/// What VTK reports, in one line of printable text.
+struct VtkError
 {
-public:
-  VtkErrors();
-
-  /// The first error, in one line of printable text; empty when all went well.
-  [[nodiscard]] const std::string& first() const noexcept;
-
-private:
-  class Log;
-  vtkSmartPointer<Log> log_;
+  std::string text;
 };
+
+/// From now on VTK prints nothing in this process: its first error, in any object, is thrown. What
+/// VTK does after an error may crash, and the objects at work are lost, so this is for a process
+/// that ends soon.
+void throwVtkErrors();
 
 } // namespace palp

@@ -11,7 +11,4 @@ namespace palp
 /// @throws Error  BadFile: an XML file of VTK without its last tag
 void checkXmlEnd(const std::filesystem::path& file);
 
-/// @throws Error  BadFile: no header, or fewer bytes or lines than the header counts
-void checkPlyEnd(const std::filesystem::path& file);
-
 } // namespace palp

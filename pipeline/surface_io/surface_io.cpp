@@ -125,8 +125,13 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 LoadedSurface readSurface(
   const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
 {
+  return madeReady(readElsewhere(file, part), file, unit);
+}
+
+LoadedSurface madeReady(
+  const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)
+{
   const std::string name = file.filename().string();
-  const FileSurface read = readElsewhere(file, part);
   const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
 
   std::string why = "as asked";

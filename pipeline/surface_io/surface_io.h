@@ -37,6 +37,12 @@ struct LoadedSurface
 [[nodiscard]] LoadedSurface readSurface(
   const std::filesystem::path& file, UnitChoice unit = {}, const ImagePart& part = {});
 
+/// What readSurface makes of what a file holds.
+/// @param file    its name, for messages
+/// @throws Error  BadMesh: as readSurface
+[[nodiscard]] LoadedSurface madeReady(
+  const FileSurface& read, const std::filesystem::path& file, UnitChoice unit = {});
+
 /// Writes a surface in millimetres: VTP with its arrays and the unit, or bare STL, PLY, OBJ.
 ///
 /// @param mesh    [m], triangles

@@ -1,5 +1,6 @@
 #include "pipeline/surface_io/surface_repair.h"
 
+#include "haptics/surface/box_tree.h"
 #include "haptics/surface/sides.h"
 #include "haptics/error.h"
 #include "pipeline/model/poly_data.h"
@@ -86,11 +87,6 @@ Merged merged(std::span<const Eigen::Vector3d> points, std::span<const Triangle>
     result.triangles.push_back(t);
   }
   return result;
-}
-
-double area(const std::vector<Eigen::Vector3d>& points, const Triangle& t)
-{
-  return 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
 }
 
 struct Edges
@@ -188,7 +184,7 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
       " dropped");
   }
   if (std::ranges::none_of(
-        mesh.triangles, [&](const Triangle& t) { return area(mesh.points, t) > 0.0; }))
+        mesh.triangles, [&](const Triangle& t) { return !unitNormal(mesh.points, t).isZero(); }))
   {
     throw Error(ErrorCode::BadMesh, name + ": no triangle has an area; export the surface again");
   }

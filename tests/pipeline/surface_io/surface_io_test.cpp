@@ -8,6 +8,7 @@
 #include "tests/support/process.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -499,6 +500,104 @@ TEST_F(SurfaceFile, OfStlInTheWaysThatProgramsWriteItIsRead)
   }
 }
 
+TEST_F(SurfaceFile, OfObjInTheWaysThatProgramsWriteItIsRead)
+{
+  const auto with = [](std::string text, const std::string& from, const std::string& to)
+  {
+    for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+    {
+      text.replace(at, from.size(), to);
+    }
+    return text;
+  };
+  std::string returns = kObj;
+  std::ranges::replace(returns, '\n', '\r');
+  for (const std::string& text :
+    { "\xEF\xBB\xBF" + std::string(kObj), with(kObj, "\n", " # a remark\n"),
+      with(kObj, "\n", "\r\n"), returns, with(kObj, "f 1 3 2", "f -4 -2 -3"),
+      with(kObj, "f 1 3 2", "f 1/7 3//9 2/7/9"), with(kObj, "f 1 3 2", "f 1 3 \\\n2"),
+      with(kObj, "v ", "v\t"), with(kObj, "100", "+1.0E2"), "f 4 3 2\n" + with(kObj, "f 2 3 4", "g x"),
+      with(kObj, " 0\n", " 0 1.0\n"), "o s\ns off\nvt 0 0\nl 1 2\n" + std::string(kObj) })
+  {
+    const LoadedSurface surface = load("corner.obj", text, LengthUnit::Millimetre);
+    EXPECT_TRUE(surface.closed) << text;
+    EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10) << text;
+  }
+}
+
+TEST_F(SurfaceFile, OfOffInTheWaysThatProgramsWriteItIsRead)
+{
+  const std::string numbers = "4 4 6\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n";
+  const std::string faces = "3 0 2 1 255 0 0\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  std::string returns = "OFF\n" + numbers + faces;
+  std::ranges::replace(returns, '\n', '\r');
+  for (const std::string& text : { "\xEF\xBB\xBFOFF\n" + numbers + faces, "off\n" + numbers + faces,
+         "OFF " + numbers + faces, "# first\n\nOFF # kind\n" + numbers + faces, returns,
+         "STOFF\n4 4 6\n0 0 0 .1 .2\n100 0 0 0 0\n0 100 0 1 1\n0 0 100 0 1\n" + faces,
+         "STCNOFF\n4 4\n0 0 0 0 0 1 9 9 9 1 0 0\n100 0 0 0 0 1 9 9 9 1 0 0\n"
+         "0 100 0 0 0 1 9 9 9 1 0 0\n0 0 100 0 0 1 9 9 9 1 0 0\n" + faces })
+  {
+    const LoadedSurface surface = load("corner.off", text, LengthUnit::Millimetre);
+    EXPECT_TRUE(surface.closed) << text;
+    EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10) << text;
+  }
+  for (const auto& [text, words] :
+    { std::pair{ std::string("4OFF\n") + numbers + faces, "three coordinates, not of other dimensions" },
+      { std::string("OFF BINARY\n\1\2"), "an OFF file in text form" },
+      { std::string("OFF\n4 4 6\n0 0 0 100 0 0\n0 100 0 0 0 100\n") + faces,
+        "each stands in a line of its own" } })
+  {
+    try
+    {
+      (void)load("bad.off", text, LengthUnit::Millimetre);
+      ADD_FAILURE() << text;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+}
+
+// of either byte order, among elements and properties that nobody needs
+TEST_F(SurfaceFile, OfBinaryPlyIsReadWhateverElseItHolds)
+{
+  for (const bool big : { false, true })
+  {
+    std::string text = std::string("ply\r\nformat binary_") + (big ? "big" : "little") +
+      "_endian 1.0\r\nelement camera 1\r\nproperty double f\r\n"
+      "element vertex 4\r\nproperty uchar red\r\nproperty double z\r\nproperty float x\r\n"
+      "property int16 y\r\nelement face 4\r\nproperty list uchar float texcoord\r\n"
+      "property list uint8 uint16 vertex_index\r\nend_header\r\n";
+    const auto put = [&](auto value)
+    {
+      std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+      text += big ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+    };
+    put(1.0);
+    for (const std::array<int, 3>& p : { std::array{ 0, 0, 0 }, { 100, 0, 0 }, { 0, 100, 0 }, { 0, 0, 100 } })
+    {
+      put(std::uint8_t{ 7 });
+      put(double(p[2]));
+      put(float(p[0]));
+      put(std::int16_t(p[1]));
+    }
+    for (const std::array<int, 3>& t : { std::array{ 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } })
+    {
+      put(std::uint8_t{ 1 });
+      put(0.5F);
+      put(std::uint8_t{ 3 });
+      for (const int corner : t)
+      {
+        put(std::uint16_t(corner));
+      }
+    }
+    const LoadedSurface surface = load("corner.ply", text, LengthUnit::Millimetre);
+    EXPECT_TRUE(surface.closed);
+    EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10);
+  }
+}
+
 // two tetrahedra with one face in common: six faces outside, of the volumes of both
 TEST_F(SurfaceFile, OfAVolumeMeshIsItsOuterSurface)
 {
@@ -560,8 +659,8 @@ TEST_F(SurfaceFile, ThatIsBadIsRefusedInOneSentence)
   std::vector<Case> cases = {
     { "empty.stl", "", ErrorCode::BadFile, "empty" },
     { "nan.stl", notANumber, ErrorCode::BadMesh, "not a usable number" },
-    { "inf.obj", infinite, ErrorCode::BadMesh, "inf.obj:3: expected three coordinates" },
-    { "range.off", outOfRange, ErrorCode::BadFile, "a point that is not there" },
+    { "inf.obj", infinite, ErrorCode::BadMesh, "inf.obj:3: 'inf' is not a usable number" },
+    { "range.off", outOfRange, ErrorCode::BadFile, "range.off:12: a face refers to point 9, out of range (0 to 3)" },
     { "negative.ply", negative, ErrorCode::BadFile, "export" },
     { "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ErrorCode::BadMesh, "no triangles" },
     { "zero.off", "OFF\n0 0 0\n", ErrorCode::BadMesh, "no triangles" },
@@ -574,7 +673,7 @@ TEST_F(SurfaceFile, ThatIsBadIsRefusedInOneSentence)
     { "really_stl.vtk", kStl, ErrorCode::BadFile, "not a legacy VTK file" },
     { "really_stl.vtp", kStl, ErrorCode::BadFile, "not a VTP file" },
     { "really_stl.off", kStl, ErrorCode::BadFile, "expected OFF" },
-    { "really_stl.obj", kStl, ErrorCode::BadMesh, "no triangles" },
+    { "really_stl.obj", kStl, ErrorCode::BadFile, "not an OBJ file" },
     { "really_obj.stl", kObj, ErrorCode::BadFile, "not an STL file" },
     { "html.vtp", "<html><body>not found</body></html>", ErrorCode::BadFile, "VTP" },
   };
