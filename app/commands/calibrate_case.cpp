@@ -33,7 +33,7 @@ std::array<double, 3> parseBlock(const std::string& text)
     if (!std::getline(parts, part, 'x'))
     {
       throw Error(ErrorCode::BadValue,
-        "--block: '" + text + "' has fewer than three sides; give " +
+        "--block: " + inQuotes(text) + " has fewer than three sides; give " +
           "width, length and height, as 100x100x50mm");
     }
     const bool bare = part.find_first_not_of("0123456789.") == std::string::npos;
@@ -42,7 +42,7 @@ std::array<double, 3> parseBlock(const std::string& text)
   if (!parts.eof())
   {
     throw Error(ErrorCode::BadValue,
-      "--block: '" + text + "' has more than three sides; give three, as 100x100x50mm");
+      "--block: " + inQuotes(text) + " has more than three sides; give three, as 100x100x50mm");
   }
   return sides;
 }
@@ -72,11 +72,11 @@ Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string
   {
     if (key != "name" && !text.values.contains(key))
     {
-      refuse("has '" + key + "', which is no setting of a case; use the names of the options");
+      refuse("has " + inQuotes(key) + ", which is no setting of a case; use the names of the options");
     }
     if (!value.is_string())
     {
-      refuse("has a '" + key + "' that is no text; put it in quotes, with its unit");
+      refuse("has a " + inQuotes(key) + " that is no text; put it in quotes, with its unit");
     }
     (key == "name" ? name : text.values[key]) = value.get<std::string>();
   }
@@ -86,9 +86,17 @@ Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string
   }
   if (!names.insert(name).second)
   {
-    refuse("is called '" + name + "' as another is; give each a name of its own");
+    refuse("is called " + inQuotes(name) + " as another is; give each a name of its own");
   }
-  return caseOf(name, text);
+  try
+  {
+    return caseOf(name, text);
+  }
+  catch (const Error& error)
+  {
+    throw Error(
+      ErrorCode::BadFile, file + ": case " + std::to_string(count) + ": " + error.what());
+  }
 }
 
 } // namespace
@@ -102,19 +110,19 @@ Case caseOf(const std::string& name, const CaseText& text)
   if (!energy)
   {
     throw Error(ErrorCode::BadValue,
-      "--material: '" + value("material") +
-        "' is unknown; give linear, corotated, neo-hookean or neo-hookean-isochoric");
+      "--material: " + inQuotes(value("material")) +
+        " is unknown; give linear, corotated, neo-hookean or neo-hookean-isochoric");
   }
   const std::string& model = value("model");
   if (model != "axisymmetric" && model != "block")
   {
     throw Error(
-      ErrorCode::BadValue, "--model: '" + model + "' is unknown; give axisymmetric or block");
+      ErrorCode::BadValue, "--model: " + inQuotes(model) + " is unknown; give axisymmetric or block");
   }
   const std::string& base = value("base");
   if (base != "bonded" && base != "slip")
   {
-    throw Error(ErrorCode::BadValue, "--base: '" + base + "' is unknown; give bonded or slip");
+    throw Error(ErrorCode::BadValue, "--base: " + inQuotes(base) + " is unknown; give bonded or slip");
   }
   const auto [width, depth, height] = parseBlock(value("block"));
   Case study{ .name = name,

@@ -3,6 +3,7 @@
 #include "app/input/quantity.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ Coatings parseCoatings(std::string_view text, std::string_view what)
     if (std::count(one.begin(), one.end(), ':') != 2)
     {
       throw Error(ErrorCode::BadValue,
-        std::string(what) + ": '" + std::string(one) +
+        std::string(what) + ": " + inQuotes(one) +
           "' has not the form 2mm:200kPa:0.45 (thickness, Young's modulus, Poisson's ratio); write "
           "it like that");
     }

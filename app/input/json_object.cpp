@@ -2,6 +2,7 @@
 
 #include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -40,7 +41,7 @@ JsonObject::JsonObject(const nlohmann::json& value, std::string file, std::strin
 
 void JsonObject::refuse(const std::string& key, const std::string& what) const
 {
-  throw Error(ErrorCode::BadFile, file_ + ": " + path_ + "/" + key + ": " + what);
+  throw Error(ErrorCode::BadFile, file_ + ": " + path_ + "/" + shortened(key) + ": " + what);
 }
 
 const nlohmann::json* JsonObject::find(const char* key)
@@ -142,7 +143,7 @@ std::size_t JsonObject::choice(
   const auto found = std::find(words.begin(), words.end(), word);
   if (found == words.end())
   {
-    refuse(key, "'" + word + "' is not known; give " + joined(words));
+    refuse(key, inQuotes(word) + " is not known; give " + joined(words));
   }
   return static_cast<std::size_t>(found - words.begin());
 }

@@ -4,6 +4,7 @@
 #include "app/program/data_files.h"
 #include "app/input/quantity.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
@@ -22,7 +23,7 @@ double checked(
   if (!inRange)
   {
     throw Error(
-      ErrorCode::BadValue, std::string(option) + ": '" + text + "' is out of range; give " + range);
+      ErrorCode::BadValue, std::string(option) + ": " + inQuotes(text) + " is out of range; give " + range);
   }
   return value;
 }

@@ -1,6 +1,7 @@
 #include "app/input/quantity.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
@@ -59,7 +60,7 @@ std::span<const Unit> unitsOf(Quantity kind)
 
 [[noreturn]] void refuse(std::string_view what, std::string_view text, const std::string& why)
 {
-  throw Error(ErrorCode::BadValue, std::string(what) + ": '" + std::string(text) + "' " + why);
+  throw Error(ErrorCode::BadValue, shortened(std::string(what)) + ": " + inQuotes(text) + " " + why);
 }
 
 struct Split
@@ -120,7 +121,7 @@ const Unit& unitNamed(std::string_view name, Quantity kind, std::string_view wha
       "has no unit; write " + std::string(number) + std::string(units.front().name) + " (" +
         listOf(units) + ")");
   }
-  refuse(what, text, "has the unit '" + std::string(name) + "'; use one of " + listOf(units));
+  refuse(what, text, "has the unit " + inQuotes(name) + "; use one of " + listOf(units));
 }
 
 double toSi(double number, const Unit& unit)

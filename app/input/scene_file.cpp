@@ -187,7 +187,7 @@ void readDevice(JsonObject& object, ScenePlan& plan, const std::filesystem::path
   plan.window = object.flag("window", !scripted);
   if (!plan.window && !scripted)
   {
-    object.refuse("window", "'" + plan.device + "' moves in a window only; give true");
+    object.refuse("window", inQuotes(plan.device) + " moves in a window only; give true");
   }
 }
 
@@ -283,11 +283,11 @@ ScenePlan parseScene(const std::string& text, const std::filesystem::path& file)
   {
     document = nlohmann::json::parse(text);
   }
-  catch (const nlohmann::json::parse_error& error)
+  catch (const nlohmann::json::exception& error)
   {
     // its text names line, column and what was expected, after a code in brackets
     const std::string what = error.what();
-    throw Error(ErrorCode::BadFile, name + ": " + what.substr(what.find("] ") + 2));
+    throw Error(ErrorCode::BadFile, name + ": " + shortened(what.substr(what.find("] ") + 2)));
   }
   ScenePlan plan = readPlan({ document, name }, file.parent_path());
   if (plan.name.empty())

@@ -3,6 +3,7 @@
 #include "app/input/quantity.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 
@@ -39,7 +40,7 @@ public:
     if (parts_.size() != expected + 1)
     {
       throw Error(ErrorCode::BadValue,
-        "--tip: '" + std::string(text) + "' has not the form " + form + "; write it like that");
+        "--tip: " + inQuotes(text) + " has not the form " + form + "; write it like that");
     }
   }
 
@@ -110,8 +111,8 @@ Tip parseShape(std::string_view text)
       Profile::read(std::string(text.substr(kind.size() + 1)))) };
   }
   throw Error(ErrorCode::BadValue,
-    "--tip: '" + std::string(text) +
-      "' is no tool; give sphere:10mm, cone:45deg:10mm, punch:5mm, truncated-cone:45deg:2mm:10mm, "
+    "--tip: " + inQuotes(text) +
+      " is no tool; give sphere:10mm, cone:45deg:10mm, punch:5mm, truncated-cone:45deg:2mm:10mm, "
       "blunt-cone:45deg:0.3mm:10mm, paraboloid:10mm or profile:FILE.csv");
 }
 

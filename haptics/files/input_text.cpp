@@ -45,6 +45,12 @@ std::string readText(const std::filesystem::path& file, const std::string& what)
   return text;
 }
 
+std::string shortened(std::string text)
+{
+  constexpr std::size_t most = 200; // [bytes]
+  return printable(text.size() <= most ? text : text.substr(0, most).append("..."));
+}
+
 std::string inQuotes(std::string_view text)
 {
   constexpr std::size_t most = 40; // [bytes]

@@ -13,6 +13,9 @@ namespace palp
 /// @throws Error  BadFile: missing, not permitted, a folder or a device, or larger than 512 MB
 [[nodiscard]] std::string readText(const std::filesystem::path& file, const std::string& what);
 
+/// The first 200 bytes of a text for a message, printable, and dots where it goes on.
+[[nodiscard]] std::string shortened(std::string text);
+
 /// A piece of such a text for a message: in single quotes, cut to 40 bytes, without control
 /// characters.
 [[nodiscard]] std::string inQuotes(std::string_view text);

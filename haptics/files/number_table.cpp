@@ -29,14 +29,14 @@ std::vector<double> parseLine(std::string_view line, const std::string& header)
     if (error != std::errc{} || stop != cell.data() + cell.size())
     {
       throw Error(
-        ErrorCode::BadFile, inQuotes(cell) + " is not a number; give " + header);
+        ErrorCode::BadFile, inQuotes(cell) + " is not a number; give " + shortened(header));
     }
     values.push_back(value);
     begin = end + 1;
   }
   if (std::count(header.begin(), header.end(), ',') + 1 != std::ssize(values))
   {
-    throw Error(ErrorCode::BadFile, std::to_string(values.size()) + " columns; give " + header);
+    throw Error(ErrorCode::BadFile, std::to_string(values.size()) + " columns; give " + shortened(header));
   }
   return values;
 }

@@ -45,7 +45,14 @@ FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double sc
       rows.pop_back();
     }
   }
-  return FittedSurfaces(rows);
+  try
+  {
+    return FittedSurfaces(rows);
+  }
+  catch (const Error& error)
+  {
+    throw Error(ErrorCode::BadFile, file.string() + ": " + error.what());
+  }
 }
 
 FittedSurfaces::FittedSurfaces(const std::vector<std::vector<double>>& rows)

@@ -56,6 +56,12 @@ public:
     return !word.empty();
   }
 
+  // the file ends with the last word, which may not be whole
+  [[nodiscard]] bool atEnd() const
+  {
+    return in_.eof();
+  }
+
   [[nodiscard]] std::string place(const std::filesystem::path& file) const
   {
     return file.string() + ":" + std::to_string(line_);
@@ -95,7 +101,7 @@ vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
         const bool more = words.next(word);
         const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
         const auto [end, failure] = std::from_chars(begin, word.data() + word.size(), x);
-        if (more && (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
+        if (more && !words.atEnd() && (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
         {
           throw Error(ErrorCode::BadMesh,
             words.place(file) + ": " + inQuotes(word) +

@@ -1,6 +1,7 @@
 #include "pipeline/surface_io/length_unit.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
 #include <array>
@@ -66,7 +67,7 @@ UnitChoice parseUnit(std::string_view text)
   if (!unit && text != "auto")
   {
     throw Error(ErrorCode::BadValue,
-      "--unit: '" + std::string(text) + "' is no unit of length here; give mm, cm, m or auto");
+      "--unit: " + inQuotes(text) + " is no unit of length here; give mm, cm, m or auto");
   }
   return unit;
 }
