@@ -1,9 +1,9 @@
 #include "pipeline/formats/image_formats.h"
 
 #include "haptics/error.h"
-#include "pipeline/process/file_surface.h"
 #include "pipeline/formats/meta_image.h"
-#include "pipeline/formats/whole_file.h"
+#include "pipeline/formats/vtk_formats.h"
+#include "pipeline/process/file_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +81,8 @@ NiftiClaim niftiClaim(const std::filesystem::path& file)
   int state = Z_OK;
   if (in && (static_cast<void>(gzerror(in.get(), &state)), state == Z_DATA_ERROR))
   {
-    return { .fault = "its compressed data are damaged, by their checksum; export or copy it again" };
+    return { .fault =
+               "its compressed data are damaged, by their checksum; export or copy it again" };
   }
   const auto number = [&](std::size_t at, bool swapped)
   {
@@ -107,19 +108,22 @@ NiftiClaim niftiClaim(const std::filesystem::path& file)
   }
   if (magic == "ni1")
   {
-    return { .fault = "a NIfTI header whose voxels are in a file of their own; save it as one .nii" };
+    return { .fault =
+               "a NIfTI header whose voxels are in a file of their own; save it as one .nii" };
   }
   constexpr std::array<unsigned, 12> kTypes{ 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024, 1280 };
   const unsigned type = number(70, swapped);
   if (std::ranges::find(kTypes, type) == kTypes.end())
   {
-    return { .fault = "its datatype is " + std::to_string(type) + ", which is none of NIfTI's; export it again" };
+    return { .fault = "its datatype is " + std::to_string(type) +
+        ", which is none of NIfTI's; export it again" };
   }
   NiftiClaim claim{ .bytes = (number(72, swapped) + 7) / 8 };
   const unsigned dimensions = number(40, swapped);
   if (dimensions < 1 || dimensions > 7)
   {
-    return { .fault = "its header is damaged, it has " + std::to_string(dimensions) + " dimensions; export it again" };
+    return { .fault = "its header is damaged, it has " + std::to_string(dimensions) +
+        " dimensions; export it again" };
   }
   for (unsigned i = 1; i <= dimensions; ++i)
   {
@@ -256,12 +260,13 @@ PatientImage readNifti(const std::filesystem::path& file)
     }
     if (factor == 0.0)
     {
-      result.notes.emplace_back("warning: the header names no unit; mm are taken, as is the custom");
+      result.notes.emplace_back(
+        "warning: the header names no unit; mm are taken, as is the custom");
     }
     if (header->GetDim(0) > 3 && header->GetDim(4) > 1)
     {
-      result.notes.emplace_back("warning: the first of " + std::to_string(header->GetDim(4)) +
-        " volumes is taken");
+      result.notes.emplace_back(
+        "warning: the first of " + std::to_string(header->GetDim(4)) + " volumes is taken");
     }
   }
   return result;
@@ -279,8 +284,8 @@ PatientImage readVti(const std::filesystem::path& file)
     refuseTurned(file);
   }
   PatientImage result = straight(reader->GetOutput());
-  if (auto* unit = vtkStringArray::SafeDownCast(
-        result.image->GetFieldData()->GetAbstractArray(kUnitArray)))
+  if (auto* unit =
+        vtkStringArray::SafeDownCast(result.image->GetFieldData()->GetAbstractArray(kUnitArray)))
   {
     result.unit = unit->GetNumberOfValues() == 1 ? unit->GetValue(0) : vtkStdString();
   }

@@ -18,10 +18,10 @@ namespace palp
 struct PatientImage
 {
   vtkSmartPointer<vtkImageData> image;
-  double toPatient[16];   ///< row by row, applied to the image's own points [unit]
-  double slope = 1.0;     ///< a voxel's value is slope times what is stored, plus intercept
+  double toPatient[16]; ///< row by row, applied to the image's own points [unit]
+  double slope = 1.0;   ///< a voxel's value is slope times what is stored, plus intercept
   double intercept = 0.0;
-  std::string unit{};     ///< "mm"; empty: the format knows none
+  std::string unit{};               ///< "mm"; empty: the format knows none
   std::vector<std::string> notes{}; ///< how it was taken, for people
 };
 

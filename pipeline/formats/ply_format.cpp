@@ -43,8 +43,7 @@ constexpr std::array kTypes{ Type{ "char", "int8", 1, valueOf<std::int8_t> },
   Type{ "ushort", "uint16", 2, valueOf<std::uint16_t> },
   Type{ "int", "int32", 4, valueOf<std::int32_t> },
   Type{ "uint", "uint32", 4, valueOf<std::uint32_t> },
-  Type{ "float", "float32", 4, valueOf<float> },
-  Type{ "double", "float64", 8, valueOf<double> } };
+  Type{ "float", "float32", 4, valueOf<float> }, Type{ "double", "float64", 8, valueOf<double> } };
 
 struct Property
 {
@@ -145,7 +144,7 @@ private:
     {
       refuseHeader("its header names an unknown format, " + inQuotes(word));
     }
-    coding_ = word == "ascii"           ? Coding::Text
+    coding_ = word == "ascii"          ? Coding::Text
       : word == "binary_little_endian" ? Coding::LittleEndian
                                        : Coding::BigEndian;
     formatted_ = true;
@@ -221,7 +220,8 @@ private:
       count * static_cast<double>(property.type->size) > static_cast<double>(body_.size()))
     {
       refuseHere(element,
-        "counts " + inWords(count) + " corners, more than the file holds: cut off, or damaged there");
+        "counts " + inWords(count) +
+          " corners, more than the file holds: cut off, or damaged there");
     }
     if (isCorners)
     {
@@ -310,7 +310,7 @@ private:
   std::vector<Element> elements_;
   Coding coding_ = Coding::Text;
   bool formatted_ = false;
-  std::uint64_t at_ = 0; // number of the element that is read, from 1
+  std::uint64_t at_ = 0;   // number of the element that is read, from 1
   double farthest_ = -1.0; // vertex that a face refers to
   std::uint64_t farthestFace_ = 0;
   vtkNew<vtkPoints> points_;

@@ -4,8 +4,8 @@
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -101,7 +101,8 @@ vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
         const bool more = words.next(word);
         const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
         const auto [end, failure] = std::from_chars(begin, word.data() + word.size(), x);
-        if (more && !words.atEnd() && (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
+        if (more && !words.atEnd() &&
+          (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
         {
           throw Error(ErrorCode::BadMesh,
             words.place(file) + ": " + inQuotes(word) +
@@ -128,8 +129,8 @@ vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
   if (!ended)
   {
     refuse(file,
-      "cut off, it ends without endsolid behind " +
-        std::to_string(triangles->GetNumberOfCells()) + " triangles; export or copy it again");
+      "cut off, it ends without endsolid behind " + std::to_string(triangles->GetNumberOfCells()) +
+        " triangles; export or copy it again");
   }
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
@@ -174,7 +175,8 @@ bool beginsSolid(std::string_view start)
   constexpr std::string_view solid = "solid";
   return start.size() >= solid.size() &&
     std::equal(solid.begin(), solid.end(), start.begin(),
-      [](char a, char b) { return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b))); });
+      [](char a, char b)
+      { return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b))); });
 }
 
 } // namespace
@@ -196,8 +198,8 @@ vtkSmartPointer<vtkPolyData> readStl(const std::filesystem::path& file)
   }
   // a binary header may say solid as well: its count tells
   const bool fits = size >= kHeader && size - kHeader == kFacet * static_cast<std::size_t>(count);
-  const bool text = std::ranges::all_of(
-    start, [](unsigned char c) { return c >= ' ' || std::isspace(c) != 0; });
+  const bool text =
+    std::ranges::all_of(start, [](unsigned char c) { return c >= ' ' || std::isspace(c) != 0; });
   if (!fits && (text || (beginsSolid(start) && start.find('\0') == start.npos)))
   {
     return readText(file);

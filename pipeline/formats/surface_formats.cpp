@@ -4,13 +4,13 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
+#include "pipeline/formats/obj_format.h"
 #include "pipeline/formats/off_format.h"
+#include "pipeline/formats/ply_format.h"
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/stl_format.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
-#include "pipeline/formats/obj_format.h"
-#include "pipeline/formats/ply_format.h"
 
 #include <algorithm>
 #include <array>
@@ -71,7 +71,8 @@ const Format& formatOf(const std::filesystem::path& file)
     }
   }
   refuse(file,
-    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu) or an "
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu) or "
+    "an "
     "image (.mha, .mhd, .nii, .nii.gz, .vti)");
 }
 

@@ -16,7 +16,6 @@ namespace palp
 /// @param part    of an image; none for a file that is a surface itself
 /// @throws Error  BadFile: missing, not a file, empty, cut off, not of the format its name says;
 ///                BadMesh: no triangles, a coordinate that is not a number; as imageSurface
-[[nodiscard]] FileSurface readFile(
-  const std::filesystem::path& file, const ImagePart& part = {});
+[[nodiscard]] FileSurface readFile(const std::filesystem::path& file, const ImagePart& part = {});
 
 } // namespace palp

@@ -26,8 +26,8 @@ TextLines::TextLines(const std::filesystem::path& file, char comment)
   text_ = whole_;
   if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
   {
-    throw Error(ErrorCode::BadFile,
-      file_ + ": text in UTF-16; save it as UTF-8 or export the surface again");
+    throw Error(
+      ErrorCode::BadFile, file_ + ": text in UTF-16; save it as UTF-8 or export the surface again");
   }
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   text_.remove_prefix(text_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);

@@ -1,13 +1,14 @@
 #include "pipeline/formats/vtk_formats.h"
 
 #include "haptics/error.h"
-#include "pipeline/formats/whole_file.h"
 
 #include <algorithm>
 #include <array>
-#include <regex>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <regex>
+#include <string>
 #include <string_view>
 #include <vtkCellArray.h>
 #include <vtkDataSetReader.h>
@@ -58,6 +59,28 @@ vtkSmartPointer<vtkPolyData> outerSurface(
 
 } // namespace
 
+void checkXmlEnd(const std::filesystem::path& file)
+{
+  constexpr std::uintmax_t enough = 1024; // [bytes], for a tag and remarks or blank lines about it
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  std::string tail(static_cast<std::size_t>(std::min(size, enough)), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  constexpr std::uintmax_t shortest = 32; // that a file cut off later can be
+  if (size >= shortest && tail.find("<VTKFile") == tail.npos)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": not a VTP, VTU or VTI file, whatever its name; rename or convert it");
+  }
+  in.seekg(static_cast<std::streamoff>(size - tail.size()));
+  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  if (tail.find("</VTKFile") == tail.npos)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": cut off, its last tag </VTKFile> is missing; export or copy it again");
+  }
+}
+
 vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
 {
   vtkNew<vtkDataSetReader> reader;
@@ -65,7 +88,8 @@ vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
   if (reader->ReadOutputType() < 0)
   {
     throw Error(ErrorCode::BadFile,
-      file.string() + ": cut off or damaged in its header, it names no known DATASET; export it again");
+      file.string() +
+        ": cut off or damaged in its header, it names no known DATASET; export it again");
   }
   reader->Update();
   if (vtkUnstructuredGrid* grid = reader->GetUnstructuredGridOutput())

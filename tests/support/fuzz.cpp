@@ -55,7 +55,8 @@ void changeNumber(std::string& text, std::size_t at, Random& random)
   if (begin != text.npos)
   {
     const std::size_t end = text.find_first_not_of("0123456789.eE+-", begin);
-    text.replace(begin, std::min(end, text.size()) - begin, kNumbers[below(random, kNumbers.size())]);
+    text.replace(
+      begin, std::min(end, text.size()) - begin, kNumbers[below(random, kNumbers.size())]);
   }
 }
 
@@ -192,7 +193,8 @@ double peakGigabytes()
 void allow(double time)
 {
   const auto whole = static_cast<time_t>(time);
-  const itimerval timer{ {}, { whole, static_cast<suseconds_t>(1e6 * (time - static_cast<double>(whole))) } };
+  const itimerval timer{ {},
+    { whole, static_cast<suseconds_t>(1e6 * (time - static_cast<double>(whole))) } };
   setitimer(ITIMER_PROF, &timer, nullptr);
   alarm(60); // a damaged heap can leave a process waiting
 }
@@ -204,8 +206,8 @@ public:
     : kind_(kind)
     , memory_(memory)
     , time_(time)
-    , shared_(static_cast<Shared*>(mmap(
-        nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)))
+    , shared_(static_cast<Shared*>(
+        mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)))
   {
   }
 
@@ -309,8 +311,8 @@ private:
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status))
     {
-      std::snprintf(shared_->result.message, sizeof shared_->result.message, "%s",
-        strsignal(WTERMSIG(status)));
+      std::snprintf(
+        shared_->result.message, sizeof shared_->result.message, "%s", strsignal(WTERMSIG(status)));
       shared_->result.refused = false;
     }
     return shared_->result;
@@ -423,7 +425,8 @@ private:
       constexpr std::size_t most = 400;
       if (!isNamed && fates_.unnamed.size() < most)
       {
-        fates_.unnamed.push_back(std::string(fault->name) + ": " + std::to_string(number) + ": " + message);
+        fates_.unnamed.push_back(
+          std::string(fault->name) + ": " + std::to_string(number) + ": " + message);
       }
     }
   }
@@ -458,8 +461,9 @@ Fates fuzz(const Fuzzed& kind, int count, std::size_t memory, double time)
 void expectGoodFates(const Fuzzed& kind, const Fates& fates)
 {
   const double share = fates.known == 0 ? 1.0 : 1.0 * fates.named / fates.known;
-  std::printf("%-12s %6d files: %d read, %d refused, %d readers crashed; of %d known faults %.2f %% "
-              "named; at most %.2f s, %.3f GB\n",
+  std::printf(
+    "%-12s %6d files: %d read, %d refused, %d readers crashed; of %d known faults %.2f %% "
+    "named; at most %.2f s, %.3f GB\n",
     kind.file.c_str(), fates.count, fates.read, fates.refused, fates.crashed, fates.known,
     100.0 * share, fates.longest, fates.peak);
   EXPECT_LE(fates.longest, 5.0);
@@ -493,8 +497,7 @@ Fault cutOff(std::string words, std::size_t shortest, bool refused)
     [shortest](const std::string& whole, Random& random) -> std::optional<std::string>
     {
       // a number that lost its last digits is one still
-      const std::size_t last =
-        whole.find_last_of(" \t\r\n", whole.find_last_not_of(" \t\r\n"));
+      const std::size_t last = whole.find_last_of(" \t\r\n", whole.find_last_not_of(" \t\r\n"));
       if (last <= shortest)
       {
         return std::nullopt;

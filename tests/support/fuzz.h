@@ -18,9 +18,9 @@ struct Fault
   const char* name;
   /// @return  the damaged file; nothing where this file has no place for such a fault
   std::function<std::optional<std::string>(const std::string& whole, Random&)> make;
-  std::string words;     ///< regular expression; a sentence that names the cause has a match of it
-  bool refused = true;   ///< whether such a file must be refused
-  bool packed = false;   ///< done to the file as it is stored, not to what it holds
+  std::string words;   ///< regular expression; a sentence that names the cause has a match of it
+  bool refused = true; ///< whether such a file must be refused
+  bool packed = false; ///< done to the file as it is stored, not to what it holds
 };
 
 /// A kind of file, how it is read, and what may be wrong with it.
@@ -42,12 +42,12 @@ struct Fates
   int count = 0;
   int read = 0;
   int refused = 0;
-  int crashed = 0;               ///< the reader; told as a refusal
-  int known = 0;                 ///< refused files whose one fault is known
-  int named = 0;                 ///< of these, those whose sentence names it
-  double longest = 0.0;          ///< [s] of processor time
-  double peak = 0.0;             ///< [GB] of memory
-  std::vector<std::string> wrong; ///< what must not be, a line each
+  int crashed = 0;                  ///< the reader; told as a refusal
+  int known = 0;                    ///< refused files whose one fault is known
+  int named = 0;                    ///< of these, those whose sentence names it
+  double longest = 0.0;             ///< [s] of processor time
+  double peak = 0.0;                ///< [GB] of memory
+  std::vector<std::string> wrong;   ///< what must not be, a line each
   std::vector<std::string> unnamed; ///< known faults with another sentence, some of them
 };
 

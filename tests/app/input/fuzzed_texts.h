@@ -90,8 +90,7 @@ inline std::vector<Fuzzed> fuzzedTexts()
   const std::string number = "not a number|not numbers|not finite|finite number";
   const std::string columns = "columns|column";
   const std::string header = "header|column|not a number";
-  const std::vector<Fault> ofTables{
-    replaced("word", "(\n)[0-9.]+(,)", "$01one$2", number),
+  const std::vector<Fault> ofTables{ replaced("word", "(\n)[0-9.]+(,)", "$01one$2", number),
     replaced("NaN", "(\n[0-9.]+,)[-0-9.e]+", "$01nan", number),
     replaced("infinite", "(\n[0-9.]+,)[-0-9.e]+", "$01inf", number),
     replaced("row too short", "(\n[-0-9.e]+),[-0-9.e]+", "$1", columns + "|" + header),
@@ -111,7 +110,8 @@ inline std::vector<Fuzzed> fuzzedTexts()
     replaced("comma", "\",(\\s)", "\";$1", "line [0-9]+, column|not a list"),
     foreign("time_s,x_mm\n0,1\n", "line [0-9]+, column|not a list") };
   std::vector<Fault> ofScenes = ofJson;
-  ofScenes.push_back(replaced("key", "\"(tool|law|dent|device|meshes|tissue)\"", "\"x$1\"", "unknown key|at least one"));
+  ofScenes.push_back(replaced(
+    "key", "\"(tool|law|dent|device|meshes|tissue)\"", "\"x$1\"", "unknown key|at least one"));
   ofScenes.push_back(replaced("type", "(\"tool\": )\"[^\"]*\"", "$1[1]", "must be a text"));
   ofScenes.push_back(replaced("version", "(\"palp_scene\": )1", "$012", "palp_scene"));
   ofScenes.push_back(replaced("unit", "kPa\"", "kPq\"", "/tissue"));
@@ -123,26 +123,50 @@ inline std::vector<Fuzzed> fuzzedTexts()
   ofSweeps.push_back(replaced("name", "\"hard\"", "\"../hard\"", "no folder can have"));
   ofSweeps.push_back(replaced("twice", "\"hard\"", "\"soft\"", "another"));
   ofSweeps.push_back(replaced("type", "\"5kPa\"", "5", "no text"));
-  const std::string recording = "# palp\ntime_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z,depth_mm,force_N\n"
-                                "0,0,0,2,0,0,-1,0,0\n0.5,0,0,0,0,0,-1,1,0.5\n1,0,0,-2,0,0,-1,2,1.4\n";
-  const Fault order = replaced("order", "\n(0\\.5|1|1\\.0|2\\.4),", "\n-3,", "increase|order|ascend");
+  const std::string recording =
+    "# palp\ntime_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z,depth_mm,force_N\n"
+    "0,0,0,2,0,0,-1,0,0\n0.5,0,0,0,0,0,-1,1,0.5\n1,0,0,-2,0,0,-1,2,1.4\n";
+  const Fault order =
+    replaced("order", "\n(0\\.5|1|1\\.0|2\\.4),", "\n-3,", "increase|order|ascend");
   const std::string profile = "radius_mm,height_mm\n0,0\n1,0.05\n2,0.21\n3,0.5\n4,0.9\n5,1.5\n";
   return {
     { .file = "path.csv",
       .whole = { readAll(data + "paths/block_press.csv"), "0,0,0,2\n1,0,0,-1\n2,0,0,1\n" },
-      .faults = with(order), .read = {}, .take = takePath },
-    { .file = "samples.csv", .whole = { recording }, .faults = with(order), .read = {}, .take = takePath },
-    { .file = "curve.csv", .whole = { recording, "depth_mm,force_N\n0,0\n1,0.5\n2,1.4\n" },
-      .faults = ofCurves, .read = {}, .take = takeCurve },
-    { .file = "profile.csv", .whole = { profile }, .faults = with(
-        replaced("order", "\n2,", "\n9,", "increase|order|turns inward")), .read = {}, .take = takeProfile },
-    { .file = "extents.csv", .whole = { readAll(data + "tables/sphere_r10_h50.csv") },
-      .faults = ofTables, .read = {}, .take = takeExtents },
-    { .file = "surface.csv", .whole = { readAll(data + "tables/sphere_r10_h50_surface.csv") },
-      .faults = ofTables, .read = {}, .take = takeSurfaces },
-    { .file = "scene.json", .whole = { scene, readAll(data + "scenes/thin_lobe.json") },
-      .faults = ofScenes, .read = {}, .take = takeScene },
-    { .file = "sweep.json", .whole = { sweep }, .faults = ofSweeps, .read = {}, .take = takeSweep } };
+      .faults = with(order),
+      .read = {},
+      .take = takePath },
+    { .file = "samples.csv",
+      .whole = { recording },
+      .faults = with(order),
+      .read = {},
+      .take = takePath },
+    { .file = "curve.csv",
+      .whole = { recording, "depth_mm,force_N\n0,0\n1,0.5\n2,1.4\n" },
+      .faults = ofCurves,
+      .read = {},
+      .take = takeCurve },
+    { .file = "profile.csv",
+      .whole = { profile },
+      .faults = with(replaced("order", "\n2,", "\n9,", "increase|order|turns inward")),
+      .read = {},
+      .take = takeProfile },
+    { .file = "extents.csv",
+      .whole = { readAll(data + "tables/sphere_r10_h50.csv") },
+      .faults = ofTables,
+      .read = {},
+      .take = takeExtents },
+    { .file = "surface.csv",
+      .whole = { readAll(data + "tables/sphere_r10_h50_surface.csv") },
+      .faults = ofTables,
+      .read = {},
+      .take = takeSurfaces },
+    { .file = "scene.json",
+      .whole = { scene, readAll(data + "scenes/thin_lobe.json") },
+      .faults = ofScenes,
+      .read = {},
+      .take = takeScene },
+    { .file = "sweep.json", .whole = { sweep }, .faults = ofSweeps, .read = {}, .take = takeSweep }
+  };
 }
 
 constexpr std::size_t kFuzzedTexts = 8;

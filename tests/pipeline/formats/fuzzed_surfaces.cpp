@@ -4,8 +4,8 @@
 #include "haptics/contact/contact.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
-#include "pipeline/model/poly_data.h"
 #include "pipeline/formats/surface_formats.h"
+#include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/support/process.h"
 
@@ -67,8 +67,8 @@ vtkSmartPointer<vtkPolyData> ballData()
 }
 
 // in text, one point and one triangle in a line
-std::string ballText(const std::string& head, const std::string& point,
-  const std::string& corner, int first)
+std::string ballText(
+  const std::string& head, const std::string& point, const std::string& corner, int first)
 {
   std::ostringstream text;
   text << head;
@@ -152,7 +152,8 @@ std::string zipped(const std::string& bytes)
 
 std::string metaHeader(const std::string& more, const std::string& data)
 {
-  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n" + more +
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n" +
+    more +
     "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 5 5 6\n"
     "DimSize = 10 10 10\nElementType = MET_FLOAT\nElementDataFile = " +
     data + "\n";
@@ -188,8 +189,7 @@ void press(const std::string& bytes, const std::string& name)
   {
     const Eigen::Vector3d normal = surface.normals()[i];
     const Contact contact = findContact(surface, SphereTip{ 5.0_mm },
-      { .apex = surface.points()[i] - 1.0_mm * normal, .axis = -normal },
-      ContactRule::Exact);
+      { .apex = surface.points()[i] - 1.0_mm * normal, .axis = -normal }, ContactRule::Exact);
     if (!std::isfinite(contact.depth) || !contact.normal.allFinite() || !contact.center.allFinite())
     {
       throw std::runtime_error("a contact that is not finite");
@@ -243,24 +243,23 @@ std::vector<Fuzzed> stlKinds()
 std::vector<Fuzzed> textKinds()
 {
   const std::string obj = ballText("# a ball\n", "v ", "f ", 1);
-  return {
-    surface("ball.obj", { obj },
-      { replaced("NaN", "(v )[^ ]*", "$1nan", kNumber),
-        replaced("a word", "(v [^ ]* )[^ ]*", "$1x1", kNumber),
-        replaced("index", "(f )[0-9]+", "$019999", kIndex),
-        replaced("index zero", "(f )[0-9]+", "$010", kIndex + "|counts from 1"),
-        replaced("index below", "(f )[0-9]+", "$01-9999", kIndex),
-        replaced("a word for a corner", "(f )[0-9]+", "$01x", "corner"),
-        foreign(offText(), kKind) }),
+  return { surface("ball.obj", { obj },
+             { replaced("NaN", "(v )[^ ]*", "$1nan", kNumber),
+               replaced("a word", "(v [^ ]* )[^ ]*", "$1x1", kNumber),
+               replaced("index", "(f )[0-9]+", "$019999", kIndex),
+               replaced("index zero", "(f )[0-9]+", "$010", kIndex + "|counts from 1"),
+               replaced("index below", "(f )[0-9]+", "$01-9999", kIndex),
+               replaced("a word for a corner", "(f )[0-9]+", "$01x", "corner"),
+               foreign(offText(), kKind) }),
     surface("ball.off", { offText() },
-      { cutOff(kCut, 20), replaced("NaN", "(\n)[^ ]*( [^ ]* [^ ]*\n)", "$1nan$2", kNumber + "|expected"),
+      { cutOff(kCut, 20),
+        replaced("NaN", "(\n)[^ ]*( [^ ]* [^ ]*\n)", "$1nan$2", kNumber + "|expected"),
         replaced("index", "(\n3 )[0-9]+", "$019999", kIndex),
         replaced("index below", "(\n3 )[0-9]+", "$01-1", kIndex),
         replaced("count", "^(OFF\n)[0-9]+", "$019999", kCount + "|expected"),
         replaced("few points", "^(OFF\n)[0-9]+", "$0140", kIndex + "|expected"),
         replaced("corners", "(\n)3( [0-9]+ [0-9]+ [0-9]+)", "$019$2", "corners"),
-        foreign(obj, kKind) })
-  };
+        foreign(obj, kKind) }) };
 }
 
 std::vector<Fuzzed> plyKinds()
@@ -275,7 +274,7 @@ std::vector<Fuzzed> plyKinds()
   const std::vector<Fault> header{ cutOff(kCut, 10),
     replaced("count of points", "(element vertex )[0-9]+", "$019999", kCount),
     replaced("count of faces", "(element face )[0-9]+", "$019999", kCount),
-    replaced("type", "(property )float", "$1flaot", "property|type|header"),
+    replaced("type", "(property )float", "$1real", "property|type|header"),
     replaced("format", "(format )[a-z_]+", "$1asci", "format|header"), foreign(offText(), kKind) };
   std::vector<Fault> ofText = header;
   ofText.push_back(replaced("NaN", "(\n)-?[0-9.]+( -?[0-9.]+ -?[0-9.]+ ?\n)", "$1nan$2", kNumber));
@@ -296,8 +295,8 @@ std::vector<Fuzzed> vtkKinds()
   const std::string legacy = written<vtkPolyDataWriter>("a.vtk", *data, [](auto&) {});
   const std::string legacyBinary =
     written<vtkPolyDataWriter>("a.vtk", *data, [](auto& w) { w.SetFileTypeToBinary(); });
-  const std::string older = ballText("# vtk DataFile Version 3.0\nball\nASCII\nDATASET POLYDATA\nPOINTS 42 float\n",
-                              "", "3 ", 0);
+  const std::string older = ballText(
+    "# vtk DataFile Version 3.0\nball\nASCII\nDATASET POLYDATA\nPOINTS 42 float\n", "", "3 ", 0);
   const std::size_t after = older.find("\n3 ") + 1; // no point begins so
   const std::string old = std::string(older).insert(after, "POLYGONS 80 320\n");
   const auto xml = [&](auto set) { return written<vtkXMLPolyDataWriter>("a.vtp", *data, set); };
@@ -307,27 +306,32 @@ std::vector<Fuzzed> vtkKinds()
              { cutOff(kCut, 60), replaced("count of points", "(POINTS )[0-9]+", "$019999", kCount),
                replaced("keyword", "DATASET [A-Z]+", "DATASET POLYDOTO", "[Dd]ata ?set|DATASET"),
                replaced("version", "^# vtk", "# vkt", kKind),
-               replaced("type", "(POINTS [0-9]+ )[a-z]+", "$1flaot", "type|flaot"),
+               replaced("type", "(POINTS [0-9]+ )[a-z]+", "$1real", "type|real"),
                foreign(offText(), kKind) }),
     surface("ball.vtp",
       { ascii, xml([](auto& w) { w.SetDataModeToBinary(); }),
         xml([](auto& w) { w.SetDataModeToAppended(); }),
         xml([](auto& w) { w.SetCompressorTypeToNone(); }) },
-      { cutOff(kCut, 40), replaced("count of points", "(NumberOfPoints=\")[0-9]+", "$019999", kCount),
+      { cutOff(kCut, 40),
+        replaced("count of points", "(NumberOfPoints=\")[0-9]+", "$019999", kCount),
         replaced("count of polygons", "(NumberOfPolys=\")[0-9]+", "$019999", kCount),
         replaced("tag", "</Points>", "</Pints>", "tag|XML|mismatch"),
-        replaced("kind", "type=\"PolyData\"", "type=\"UnstructuredGrid\"", "PolyData|not a VTP", false),
+        replaced(
+          "kind", "type=\"PolyData\"", "type=\"UnstructuredGrid\"", "PolyData|not a VTP", false),
         foreign(offText(), kKind) }),
     surface("text.vtp", { ascii },
       { replaced("index", "( )[0-9]+( [0-9]+ [0-9]+ [0-9]+ [0-9]+ [0-9]+\n *[0-9]+ [0-9]+ )",
           "$019999$2", index),
         replaced("NaN", R"((NumberOfComponents="3"[^>]*>\s*)[^ ]+)", "$1nan", kNumber) }),
     surface("tetra.vtu", { vtuText() },
-      { cutOff(kCut, 40), replaced("count of points", "(NumberOfPoints=\")[0-9]+", "$019999", kCount),
+      { cutOff(kCut, 40),
+        replaced("count of points", "(NumberOfPoints=\")[0-9]+", "$019999", kCount),
         replaced("count of cells", "(NumberOfCells=\")[0-9]+", "$019999", kCount),
-        replaced("index", "2 3 4<", "2 3 9<", index), replaced("index below", "2 3 4<", "2 3 -1<", index),
+        replaced("index", "2 3 4<", "2 3 9<", index),
+        replaced("index below", "2 3 4<", "2 3 -1<", index),
         replaced("NaN", "100 0 0", "100 nan 0", kNumber),
-        replaced("tag", "</Points>", "</Pints>", "tag|XML|mismatch"), foreign(offText(), kKind) }) };
+        replaced("tag", "</Points>", "</Pints>", "tag|XML|mismatch"),
+        foreign(offText(), kKind) }) };
 }
 
 std::vector<Fuzzed> metaKinds()
@@ -335,14 +339,15 @@ std::vector<Fuzzed> metaKinds()
   const std::string raw = metaHeader("CompressedData = False\n", "LOCAL") + voxelBytes();
   const std::string packed = deflated(voxelBytes(), MAX_WBITS);
   const std::string compressed =
-    metaHeader("CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size()) + "\n",
+    metaHeader(
+      "CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size()) + "\n",
       "LOCAL") +
     packed;
   const std::vector<Fault> header{ cutOff(kCut, 60),
     replaced("size", "(DimSize = )[0-9]+", "$01999", kCount),
     replaced("no size", "(DimSize = )[0-9]+", "$01-1", "DimSize"),
     replaced("size in words", "(DimSize = )[0-9]+", "$01ten", "DimSize"),
-    replaced("type", "MET_FLOAT", "MET_FLAOT", "ElementType"),
+    replaced("type", "MET_FLOAT", "MET_REAL", "ElementType"),
     replaced("spacing", "(ElementSpacing = )[0-9]+", "$010", "ElementSpacing"),
     replaced("turned", "(TransformMatrix = )1 0", "$010 1", "turned"),
     replaced("dimensions", "(NDims = )3", "$012", "dimensions"),
@@ -372,8 +377,7 @@ std::vector<Fuzzed> metaKinds()
     }
     return readImageBytes(file);
   };
-  beside.faults.push_back(
-    replaced("name", "(ElementDataFile = )voxels", "$1pixels", "beside"));
+  beside.faults.push_back(replaced("name", "(ElementDataFile = )voxels", "$1pixels", "beside"));
   return { image("ball.mha", { raw, compressed }, ofData), beside };
 }
 
@@ -405,7 +409,7 @@ std::vector<Fuzzed> otherImages()
       { vti([](auto& w) { w.SetDataModeToAscii(); }), vti([](auto& w) { w.SetDataModeToBinary(); }),
         vti([](auto& w) { w.SetDataModeToAppended(); }) },
       { cutOff(kCut, 40), replaced("extent", "(WholeExtent=\"0 )9", "$0199", "xtent"),
-        replaced("type", "type=\"Float32\"", "type=\"Flaot32\"", "type|Flaot"),
+        replaced("type", "type=\"Float32\"", "type=\"Real32\"", "type|Real"),
         replaced("tag", "</PointData>", "</PintData>", "tag|XML|mismatch"),
         replaced("kind", "type=\"ImageData\"", "type=\"PolyData\"", "ImageData|not a VTI", false),
         foreign(offText(), kKind) }) };
