@@ -72,13 +72,13 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
   rows.push_back(benchRow("servo_step", vertices, "paced", timed(ticks / 4, wait, move)));
 
   // the same integrals over all triangles
-  double area = 0.0;
+  double weight = 0.0;
   const auto all = [&](int i)
   {
     const Eigen::Vector3d center = poseAtTick(i).apex + 10.0_mm * Eigen::Vector3d::UnitZ();
     for (const Facet& facet : surface->tree().facets())
     {
-      area += integrate(facet, center, 1e-4).area;
+      weight += integrate(facet, center, 1e-4).weight;
     }
   };
   const int repetitions = std::min(vertices > 20'000 ? 20 : 200, ticks / 20);

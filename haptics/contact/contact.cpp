@@ -12,7 +12,7 @@ namespace palp
 namespace
 {
 
-constexpr double kSmoothing = 1.5; // [-] edge lengths; below 1.2 the facets come through
+constexpr double kSmoothing = 1.8; // [-] edge lengths; below 1.5 the facets come through
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear vote
 constexpr double kRounding = 1e-9; // [-]
@@ -53,12 +53,12 @@ double contactRadius(const Tip& tip, double nose, double distance) noexcept
 // Distance to the surface that the facets stand for.
 //
 // On a plane, and on a sphere of any radius, the area within a distance sqrt(q) grows evenly with
-// q - h^2, so that its mean q lies midway between h^2 and the ball's Q, whatever the curvature:
-// h^2 = Q - 2 weight / area.
+// q - h^2, so that w = Q - q has the means 1/2 and 1/3 of Q - h^2 and of its square, whatever the
+// curvature: h^2 = Q - 3/2 square / weight, which has no corner where a triangle leaves the ball.
 double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
 {
   const double excess =
-    squaredBall - 2.0 * patch.weight / patch.area - distance * distance; // h^2 - distance^2
+    squaredBall - 1.5 * patch.square / patch.weight - distance * distance; // h^2 - distance^2
   // close to the surface the square says little: the correction fades there
   const double scale = std::max(distance * distance, radius * radius / 16.0);
   return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));

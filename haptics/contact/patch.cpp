@@ -11,6 +11,43 @@ namespace palp
 namespace
 {
 
+// of the disc's squared radius over the squared side from which on its rim is straight, and sectors
+// so much larger than their difference that rounding would be all of it
+constexpr double kStraight = 1e4;
+
+// A triangle within the ball, given w at its corners and the squared sides opposite to them: with
+// barycentric coordinates l, w = sum of l_i w_i and of l_i l_j times the square of side ij.
+DiscIntegral integrateInside(
+  double area, const Eigen::Array3d& w, const Eigen::Array3d& sides) noexcept
+{
+  const double sumW = w.sum();
+  const double sumSides = sides.sum();
+  const double squares = (w * w).sum() + sumW * sumW;
+  const double mixed = 2.0 * sumW * sumSides - (sides * w).sum();
+  const double bulge = sumSides * sumSides + (sides * sides).sum();
+  return { .weight = area * (sumW / 3.0 + sumSides / 12.0),
+    .square = area * (squares / 12.0 + mixed / 30.0 + bulge / 180.0) };
+}
+
+// The part with w > 0 of a triangle over which w is as good as linear.
+DiscIntegral integratePositive(double area, const Eigen::Array3d& w) noexcept
+{
+  const auto positive = (w > 0.0).count();
+  if (positive == 0)
+  {
+    return {};
+  }
+  if (positive > 1) // all less what is negative
+  {
+    const DiscIntegral all = integrateInside(area, w, Eigen::Array3d::Zero());
+    const DiscIntegral rest = integratePositive(area, -w);
+    return { .weight = all.weight + rest.weight, .square = all.square - rest.square };
+  }
+  const double top = w.maxCoeff();
+  const double reached = area * (top / (top - w)).min(1.0).prod();
+  return { .weight = reached * top / 3.0, .square = reached * top * top / 6.0 };
+}
+
 // One side of a triangle, seen from the middle of the disc that the ball cuts from its plane.
 struct Side
 {
@@ -73,7 +110,7 @@ public:
   [[nodiscard]] DiscIntegral close(bool middleInside) const noexcept
   {
     // the turns were multiplied as complex numbers: one arctangent, known up to a full turn
-    double turn = std::atan2(sine_, cosine_);
+    double turn = sine_ == 0.0 && cosine_ > 0.0 ? 0.0 : std::atan2(sine_, cosine_);
     if (!middleInside)
     {
       turn = std::max(0.0, turn);
@@ -86,20 +123,21 @@ public:
     {
       turn += 2.0 * std::numbers::pi;
     }
-    return { .area = area_ + 0.5 * turn * squaredRadius_,
-      .weight = weight_ + 0.25 * turn * squaredRadius_ * squaredRadius_ };
+    const double sector = turn * squaredRadius_ * squaredRadius_;
+    return { .weight = weight_ + sector / 4.0, .square = square_ + sector * squaredRadius_ / 6.0 };
   }
 
 private:
   static constexpr double kRounding = 1e-9; // [rad]
 
-  // a part of a side within the disc, given the squared distances of its ends
+  // the triangle from the middle to a part of a side, given the squared distances of its ends
   void line(const Side& side, double part, double begin, double end) noexcept
   {
-    const double area = 0.5 * side.cross * part;
-    const double meanSquare = 0.25 * (begin + end) - part * part * side.squared / 12.0;
-    area_ += area;
-    weight_ += area * (squaredRadius_ - meanSquare);
+    const DiscIntegral triangle = integrateInside(0.5 * side.cross * part,
+      { squaredRadius_, squaredRadius_ - begin, squaredRadius_ - end },
+      { part * part * side.squared, end, begin });
+    weight_ += triangle.weight;
+    square_ += triangle.square;
     crossed_ = true;
   }
 
@@ -113,8 +151,8 @@ private:
 
   double squaredRadius_;
   double scale_;
-  double area_ = 0.0;
   double weight_ = 0.0;
+  double square_ = 0.0;
   double cosine_ = 1.0;
   double sine_ = 0.0;
   bool crossed_ = false;
@@ -134,11 +172,14 @@ DiscIntegral integrate(
     return {};
   }
   const std::array<double, 3> q = { p[0].squaredNorm(), p[1].squaredNorm(), p[2].squaredNorm() };
-  if (std::max({ q[0], q[1], q[2] }) <= squaredRadius)
+  const Eigen::Array3d w(squaredRadius - q[0], squaredRadius - q[1], squaredRadius - q[2]);
+  const Eigen::Array3d sides(
+    (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm(), (p[1] - p[0]).squaredNorm());
+  const bool whole = w.minCoeff() >= 0.0;
+  if (whole || disc > kStraight * sides.maxCoeff())
   {
     const double area = 0.5 * facet.normal.dot((p[1] - p[0]).cross(p[2] - p[0]));
-    const double meanSquare = (q[0] + q[1] + q[2] + (p[0] + p[1] + p[2]).squaredNorm()) / 12.0;
-    return { .area = area, .weight = area * (squaredRadius - meanSquare) };
+    return whole ? integrateInside(area, w, sides) : integratePositive(area, w);
   }
 
   Boundary boundary(disc);
@@ -148,8 +189,12 @@ DiscIntegral integrate(
     const std::size_t next = (k + 1) % 3;
     const Side side{ .fromSquared = q[k] - height * height,
       .toSquared = q[next] - height * height,
-      .squared = (p[next] - p[k]).squaredNorm(),
+      .squared = sides[static_cast<Eigen::Index>((k + 2) % 3)],
       .cross = facet.normal.dot(p[k].cross(p[next])) };
+    if (side.cross < 0.0 && side.cross * side.cross >= disc * side.squared)
+    {
+      return {}; // the whole disc lies beyond this side
+    }
     boundary.add(side);
     middleInside = middleInside && side.cross > 0.0;
   }
@@ -167,12 +212,16 @@ Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center, double 
   const auto add = [&](int i)
   {
     const Facet& facet = tree.facets()[static_cast<std::size_t>(i)];
+    const DiscIntegral inside = integrate(facet, center, squaredRadius);
+    if (!(inside.weight > 0.0))
+    {
+      return;
+    }
     const double height = facet.normal.dot(center - facet.corners[0]);
     const double part = std::max(0.0, 1.0 + std::min(0.0, side * height) / fade);
-    const DiscIntegral inside = integrate(facet, center, squaredRadius);
     const Eigen::Vector3d normal = inside.weight * facet.normal;
-    patch.area += part * inside.area;
     patch.weight += part * inside.weight;
+    patch.square += part * inside.square;
     patch.normal += part * normal;
     patch.vote += normal;
     patch.voters += inside.weight;

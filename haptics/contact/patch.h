@@ -9,11 +9,11 @@ namespace palp
 
 /// The part of a surface within a ball, summed up by integrals over its triangles.
 ///
-/// Each changes continuously with the ball, for a triangle comes in with no area at all.
+/// Each changes smoothly with the ball, for what comes in at its rim weighs nothing there.
 struct Patch
 {
-  double area = 0.0;                                ///< [m^2]
   double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
+  double square = 0.0;                              ///< of w^2 [m^6]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
   Eigen::Vector3d vote = Eigen::Vector3d::Zero();   ///< as normal, with all triangles in full
   double voters = 0.0;                              ///< as weight, with all triangles in full
@@ -22,15 +22,15 @@ struct Patch
 /// The part of a triangle within a ball.
 struct DiscIntegral
 {
-  double area = 0.0;   ///< [m^2]
   double weight = 0.0; ///< [m^4]
+  double square = 0.0; ///< [m^6]
 };
 
-/// Area and weight of one triangle within a ball, in closed form.
+/// Weight of one triangle within a ball, and that of its square, in closed form.
 ///
-/// With q the squared distance to the centre and Q the squared radius, the weight is the integral
-/// of Q - q. In the plane of the triangle the ball is a disc, and Green's theorem leaves straight
-/// pieces and arcs.
+/// With q the squared distance to the centre and Q the squared radius, they are the integrals of
+/// w = Q - q and of w^2. In the plane of the triangle the ball is a disc, and Green's theorem
+/// leaves straight pieces and arcs.
 ///
 /// @param facet          with its unit normal
 /// @param center         of the ball [m]

@@ -2,6 +2,8 @@
 
 #include "tests/support/surfaces.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -25,7 +27,8 @@ DiscIntegral subdivided(
   {
     const double area = 0.5 * (b - a).cross(c - a).norm();
     const double value = squaredRadius - ((a + b + c) / 3.0 - center).squaredNorm();
-    return { .area = value > 0.0 ? area : 0.0, .weight = value > 0.0 ? area * value : 0.0 };
+    const double inside = std::max(0.0, value);
+    return { .weight = area * inside, .square = area * inside * inside };
   }
   const Eigen::Vector3d ab = 0.5 * (a + b);
   const Eigen::Vector3d bc = 0.5 * (b + c);
@@ -36,8 +39,8 @@ DiscIntegral subdivided(
       Facet{ { ca, bc, c }, facet.normal }, Facet{ { ab, bc, ca }, facet.normal } })
   {
     const DiscIntegral value = subdivided(part, center, squaredRadius, levels - 1);
-    sum.area += value.area;
     sum.weight += value.weight;
+    sum.square += value.square;
   }
   return sum;
 }
@@ -54,8 +57,24 @@ TEST(Patch, TriangleAndBallAgreeWithSubdivision)
     const double squaredRadius = 0.05 + std::abs(place(random));
     const DiscIntegral exact = integrate(facet, center, squaredRadius);
     const DiscIntegral sum = subdivided(facet, center, squaredRadius, 7);
-    EXPECT_NEAR(exact.area, sum.area, 5e-3);
     EXPECT_NEAR(exact.weight, sum.weight, 5e-4);
+    EXPECT_NEAR(exact.square, sum.square, 5e-4);
+  }
+}
+
+// a tool a thousand times as large as the triangles: sums over its disc would be all rounding
+TEST(Patch, ATriangleAndAFarLargerBallAgreeWithSubdivision)
+{
+  const Facet facet = facetOf({ 0.0, 0.0, 0.0 }, { 1e-3, 0.0, 2e-4 }, { 3e-4, 1e-3, 0.0 });
+  const Eigen::Vector3d center(0.2, -0.1, 1.0);
+  const double nearest = (facet.corners[1] - center).norm();
+  for (const double reach : { 1e-5, 5e-5, 1e-4, 1.5e-4, 2e-4, 1e-3 })
+  {
+    const double squaredRadius = (nearest + reach) * (nearest + reach);
+    const DiscIntegral exact = integrate(facet, center, squaredRadius);
+    const DiscIntegral sum = subdivided(facet, center, squaredRadius, 9);
+    EXPECT_NEAR(exact.weight, sum.weight, 3e-3 * sum.weight);
+    EXPECT_NEAR(exact.square, sum.square, 3e-3 * sum.square);
   }
 }
 
@@ -63,8 +82,8 @@ TEST(Patch, WholeDiscInsideATriangle)
 {
   const Facet facet = facetOf({ -9.0, -9.0, 0.0 }, { 9.0, -9.0, 0.0 }, { 0.0, 9.0, 0.0 });
   const DiscIntegral disc = integrate(facet, { 0.1, 0.2, 0.6 }, 1.0);
-  EXPECT_NEAR(disc.area, std::numbers::pi * 0.64, 1e-14);
-  EXPECT_NEAR(disc.weight, 0.5 * std::numbers::pi * 0.64 * 0.64, 1e-14);
+  EXPECT_NEAR(disc.weight, std::numbers::pi * std::pow(0.64, 2) / 2.0, 1e-14);
+  EXPECT_NEAR(disc.square, std::numbers::pi * std::pow(0.64, 3) / 3.0, 1e-14);
 }
 
 // however a plane is cut into triangles, the parts add up to the disc
@@ -78,15 +97,15 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
     {
       const double disc = 1.21 - center.z() * center.z();
       const Patch patch = patchWithin(plane, center, 1.1, std::copysign(1.0, center.z()), 1.0);
-      EXPECT_NEAR(patch.area, std::numbers::pi * disc, 1e-12);
-      EXPECT_NEAR(patch.weight, 0.5 * std::numbers::pi * disc * disc, 1e-12);
+      EXPECT_NEAR(patch.weight, std::numbers::pi * disc * disc / 2.0, 1e-12);
+      EXPECT_NEAR(patch.square, std::numbers::pi * disc * disc * disc / 3.0, 1e-12);
       EXPECT_NEAR(patch.normal.z(), patch.weight, 1e-12);
     }
   }
 }
 
-// the claim the depth rests on: h^2 = Q - 2 weight / area on a sphere of any radius, either side
-TEST(Patch, DistanceToASphereFollowsFromAreaAndWeight)
+// the claim the depth rests on: h^2 = Q - 3/2 square / weight on a sphere of any radius
+TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
 {
   const double height = 0.3;
   for (const double bodyRadius : { 0.7, 2.0, 50.0 })
@@ -96,8 +115,21 @@ TEST(Patch, DistanceToASphereFollowsFromAreaAndWeight)
       (bodyRadius + height) * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
     const double radius = bodyRadius < 1.0 ? 0.6 : 1.0;
     const Patch patch = patchWithin(body, center, radius, 1.0, 1.0);
-    const double h = std::sqrt(radius * radius - 2.0 * patch.weight / patch.area);
+    const double h = std::sqrt(radius * radius - 1.5 * patch.square / patch.weight);
     EXPECT_NEAR(h, height, 2e-3 * (bodyRadius > 10.0 ? 3.0 : 1.0));
+  }
+}
+
+// both are gentle where a triangle leaves the ball: what is left of one that faces the centre
+// shrinks as the square and the cube of what the ball still reaches beyond it
+TEST(Patch, ATriangleLeavesTheBallGently)
+{
+  const Facet facet = facetOf({ -9.0, -9.0, 0.0 }, { 9.0, -9.0, 0.0 }, { 0.0, 9.0, 0.0 });
+  for (const double reach : { 1e-2, 1e-4, 1e-6 })
+  {
+    const DiscIntegral last = integrate(facet, { 0.0, 0.0, 1.0 }, 1.0 + reach);
+    EXPECT_NEAR(last.weight, std::numbers::pi * reach * reach / 2.0, 1e-9 * reach);
+    EXPECT_NEAR(last.square, std::numbers::pi * std::pow(reach, 3) / 3.0, 1e-9 * reach * reach);
   }
 }
 
