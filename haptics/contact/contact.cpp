@@ -38,7 +38,8 @@ double noseRadius(const Tip& tip) noexcept
   return 0.0;
 }
 
-// radius of the contact, as the undeformed surface cuts it out of the tool
+// radius of the contact, as the undeformed surface cuts it out of the tool; a sharp or flat end is
+// inside the body, where a wider ball would reach a second wall long before the tool does
 double contactRadius(const Tip& tip, double nose, double distance) noexcept
 {
   if (nose > 0.0)
@@ -46,8 +47,14 @@ double contactRadius(const Tip& tip, double nose, double distance) noexcept
     const double outside = std::max(0.0, distance);
     return std::sqrt(std::max(0.0, nose * nose - outside * outside));
   }
-  const double flat = flatRadius(tip);
-  return flat > 0.0 ? flat : std::min(2.0 * std::abs(distance), baseRadius(tip));
+  const double depth = std::abs(distance);
+  if (const double flat = flatRadius(tip); flat > 0.0)
+  {
+    return std::min(flat, std::max(0.5 * depth, 0.25 * flat));
+  }
+  const auto* cone = std::get_if<ConeTip>(&tip);
+  const double slope = cone != nullptr ? std::tan(cone->halfAngle) : 1.0;
+  return std::min(std::min(slope, 1.0) * depth, baseRadius(tip));
 }
 
 // Distance to the surface that the facets stand for.
@@ -55,10 +62,11 @@ double contactRadius(const Tip& tip, double nose, double distance) noexcept
 // On a plane, and on a sphere of any radius, the area within a distance sqrt(q) grows evenly with
 // q - h^2, so that w = Q - q has the means 1/2 and 1/3 of Q - h^2 and of its square, whatever the
 // curvature: h^2 = Q - 3/2 square / weight, which has no corner where a triangle leaves the ball.
+// Both are taken along the mean normal, so that a wall behind does not count as more of the same.
 double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
 {
-  const double excess =
-    squaredBall - 1.5 * patch.square / patch.weight - distance * distance; // h^2 - distance^2
+  const double reached = 1.5 * patch.square.dot(patch.normal) / patch.normal.squaredNorm();
+  const double excess = squaredBall - std::max(0.0, reached) - distance * distance; // h^2 - distance^2
   // close to the surface the square says little: the correction fades there
   const double scale = std::max(distance * distance, radius * radius / 16.0);
   return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));

@@ -221,8 +221,8 @@ Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center, double 
     const double part = std::max(0.0, 1.0 + std::min(0.0, side * height) / fade);
     const Eigen::Vector3d normal = inside.weight * facet.normal;
     patch.weight += part * inside.weight;
-    patch.square += part * inside.square;
     patch.normal += part * normal;
+    patch.square += part * inside.square * facet.normal;
     patch.vote += normal;
     patch.voters += inside.weight;
   };

@@ -13,8 +13,8 @@ namespace palp
 struct Patch
 {
   double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
-  double square = 0.0;                              ///< of w^2 [m^6]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
+  Eigen::Vector3d square = Eigen::Vector3d::Zero(); ///< of w^2 times the outward normal [m^6]
   Eigen::Vector3d vote = Eigen::Vector3d::Zero();   ///< as normal, with all triangles in full
   double voters = 0.0;                              ///< as weight, with all triangles in full
 };

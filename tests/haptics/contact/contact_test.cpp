@@ -152,5 +152,37 @@ TEST(Contact, PaperRuleSeesOnlyMeshPoints)
   EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }
 
+// a second wall, across from the first or beside it, does not make a tool deeper than its apex is,
+// and up to four fifths of the way to the middle it does not make it less deep either
+TEST(Contact, ASecondWallAddsNothingToTheDepth)
+{
+  const double half = 4.0_mm;
+  const Surface slab = test::makeSurface(test::block({ 120.0_mm, 120.0_mm, 2.0 * half }, 24));
+  for (const Tip& tip : { Tip{ ConeTip{ 15.0_deg, 10.0_mm } }, Tip{ ConeTip{ 30.0_deg, 10.0_mm } },
+         Tip{ ConeTip{ 60.0_deg, 10.0_mm } }, Tip{ PunchTip{ 4.0_mm } }, Tip{ PunchTip{ 10.0_mm } } })
+  {
+    for (const double inward : { 30.0_mm, 4.0_mm, 3.0_mm, 2.2_mm, 1.0_mm, 0.5_mm })
+    {
+      if (flatRadius(tip) > 0.0 && inward < 30.0_mm)
+      {
+        break; // the rim of a flat end that tilts is deeper
+      }
+      for (double depth = 0.1_mm; depth <= half; depth += 0.1_mm)
+      {
+        const Eigen::Vector3d apex(60.0_mm - inward, 1.3_mm, -depth);
+        const double reached = findContact(slab, tip,
+          { .apex = apex, .axis = -Eigen::Vector3d::UnitZ() }, ContactRule::Exact)
+                                 .depth;
+        const double nearest = std::min(depth, inward);
+        EXPECT_LE(reached, 1.03 * nearest) << tip.index() << " at " << apex.transpose();
+        if (nearest < 0.8 * std::min(half, std::max(depth, inward)))
+        {
+          EXPECT_GE(reached, 0.97 * nearest) << tip.index() << " at " << apex.transpose();
+        }
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace palp

@@ -98,13 +98,14 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
       const double disc = 1.21 - center.z() * center.z();
       const Patch patch = patchWithin(plane, center, 1.1, std::copysign(1.0, center.z()), 1.0);
       EXPECT_NEAR(patch.weight, std::numbers::pi * disc * disc / 2.0, 1e-12);
-      EXPECT_NEAR(patch.square, std::numbers::pi * disc * disc * disc / 3.0, 1e-12);
+      EXPECT_NEAR(patch.square.z(), std::numbers::pi * disc * disc * disc / 3.0, 1e-12);
       EXPECT_NEAR(patch.normal.z(), patch.weight, 1e-12);
     }
   }
 }
 
-// the claim the depth rests on: h^2 = Q - 3/2 square / weight on a sphere of any radius
+// The claim the depth rests on: h^2 = Q - 3/2 square / weight on a sphere of any radius. Along the
+// mean normal, a ball about a body's whole side (0.6 about one of radius 0.7) is no such part of it.
 TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
 {
   const double height = 0.3;
@@ -113,9 +114,9 @@ TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
     const Surface body = test::makeSurface(test::ball(bodyRadius, 300));
     const Eigen::Vector3d center =
       (bodyRadius + height) * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
-    const double radius = bodyRadius < 1.0 ? 0.6 : 1.0;
+    const double radius = bodyRadius < 1.0 ? 0.4 : bodyRadius < 10.0 ? 0.6 : 1.0;
     const Patch patch = patchWithin(body, center, radius, 1.0, 1.0);
-    const double h = std::sqrt(radius * radius - 1.5 * patch.square / patch.weight);
+    const double h = std::sqrt(radius * radius - 1.5 * patch.square.norm() / patch.normal.norm());
     EXPECT_NEAR(h, height, 2e-3 * (bodyRadius > 10.0 ? 3.0 : 1.0));
   }
 }
