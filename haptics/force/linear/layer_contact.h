@@ -55,7 +55,8 @@ public:
   /// flat one and a ball, by the share of a ball, take it in proportion.
   ///
   /// @param thickness  [m], more than 0; infinite for a half-space
-  /// @source           Tatara 1991 (ball)
+  /// @source           Boussinesq, u_z on the axis 2 R0 below the load, which Tatara 1991 takes for
+  ///                   the opposite pole of a ball between plates
   /// @realtime         pure; no allocation, no lock, no exception
   [[nodiscard]] double layerThickness(double thickness, double curvature) const noexcept;
 
