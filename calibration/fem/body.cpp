@@ -114,8 +114,8 @@ bool respondWithMeanVolume(const Element& element, Energy energy, const Material
 
 } // namespace
 
-std::optional<ElementResponse> respond(
-  const Element& element, Energy energy, const Material& material, const VectorXd& displacement)
+std::optional<ElementResponse> respond(const Element& element, Energy energy,
+  const Material& material, const VectorXd& displacement, const VectorXd* guess)
 {
   ElementResponse out;
   out.force = VectorXd::Zero(displacement.size());
@@ -123,10 +123,17 @@ std::optional<ElementResponse> respond(
   if (element.meanDilatation && energy != Energy::Linear)
   {
     const bool valid = respondWithMeanVolume(element, energy, material, displacement, out);
+    out.pressureSlope.resize(0, displacement.size());
+    out.guessedForce = out.force;
     return valid ? std::optional(std::move(out)) : std::nullopt;
   }
-  for (const IntegrationPoint& point : element.points)
+  const auto points = static_cast<Eigen::Index>(element.points.size());
+  out.guessedForce = out.force;
+  out.pressure.resize(points);
+  out.pressureSlope.resize(points, displacement.size());
+  for (Eigen::Index i = 0; i < points; ++i)
   {
+    const IntegrationPoint& point = element.points[static_cast<std::size_t>(i)];
     const Gradient b =
       element.meanDilatation ? withMeanTrace(element, point.gradient) : point.gradient;
     const Matrix3d f = deformation(b, displacement);
@@ -136,8 +143,18 @@ std::optional<ElementResponse> respond(
     {
       return std::nullopt;
     }
-    add(out, point.weight, b, respond(energy, material, f));
+    StressResponse local = respond(energy, material, f);
+    out.pressure[i] = local.pressure;
+    out.pressureSlope.row(i) = local.bulk * local.volumeSlope.transpose() * b;
+    if (guess != nullptr)
+    {
+      const double other = (*guess)[i] - local.pressure;
+      local.tangent += other * local.volumeBend;
+      out.guessedForce += point.weight * other * (b.transpose() * local.volumeSlope);
+    }
+    add(out, point.weight, b, local);
   }
+  out.guessedForce += out.force;
   return out;
 }
 

@@ -56,13 +56,21 @@ struct ElementResponse
   Eigen::VectorXd force;     ///< dW/du [N]
   Eigen::MatrixXd stiffness; ///< d2W/du2 [N/m], symmetric
   bool inverted = false;     ///< turned inside out, which a corotated material survives
+
+  // of elements without mean dilatation, per integration point
+  Eigen::VectorXd pressure;      ///< of the displacement [Pa]
+  Eigen::MatrixXd pressureSlope; ///< its derivative, points x dofs [Pa/m]
+  Eigen::VectorXd guessedForce;  ///< force [N] with the guessed pressures
 };
 
 /// @param displacement  of the element's dofs [m]
+/// @param guess         null, or the pressures by which the stiffness counts how the volume bends;
+///                      energy and force are those of the displacement
 /// @return              nothing where the element is turned inside out
 /// @source              mean dilatation: Nagtegaal, Parks and Rice 1974, as an energy of
 ///                      (Jmean / J)^(1/3) F
 [[nodiscard]] std::optional<ElementResponse> respond(const Element& element, Energy energy,
-  const Material& material, const Eigen::VectorXd& displacement);
+  const Material& material, const Eigen::VectorXd& displacement,
+  const Eigen::VectorXd* guess = nullptr);
 
 } // namespace palp::fem

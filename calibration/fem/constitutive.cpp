@@ -67,8 +67,13 @@ StressResponse neoHookean(const Lame& m, const Matrix3d& gradient)
   out.energy =
     0.5 * m.mu * (gradient.squaredNorm() - 3.0) - m.mu * logJ + 0.5 * m.lambda * logJ * logJ;
   out.stress = m.mu * gradient + (m.lambda * logJ - m.mu) * g;
+  const Matrix9d bend = inverseTransposeDerivative(g);
   out.tangent = m.mu * Matrix9d::Identity() + m.lambda * vec(g) * vec(g).transpose() +
-    (m.lambda * logJ - m.mu) * inverseTransposeDerivative(g);
+    (m.lambda * logJ - m.mu) * bend;
+  out.pressure = m.lambda * logJ; // theta = ln J
+  out.bulk = m.lambda;
+  out.volumeSlope = vec(g);
+  out.volumeBend = bend;
   return out;
 }
 
@@ -88,6 +93,10 @@ StressResponse neoHookeanIsochoric(const Lame& m, const Matrix3d& gradient)
       (Matrix9d::Identity() - 2.0 / 3.0 * vec(deviator) * vec(g).transpose() -
         2.0 / 3.0 * vec(g) * vec(gradient).transpose() - i1 / 3.0 * dg) +
     bulk * j * ((2.0 * j - 1.0) * vec(g) * vec(g).transpose() + (j - 1.0) * dg);
+  out.pressure = bulk * (j - 1.0); // theta = J
+  out.bulk = bulk;
+  out.volumeSlope = j * vec(g);
+  out.volumeBend = j * (vec(g) * vec(g).transpose() + dg);
   return out;
 }
 

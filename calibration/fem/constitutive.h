@@ -38,11 +38,20 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 }
 
 /// First Piola-Kirchhoff stress P = dW/dF, and its derivative.
+///
+/// W holds U(theta), the energy of the change of volume theta(F); p = U' is its part of P per
+/// d theta/dF. Under large strain theta is not linear in F: near nu = 0.5 its curvature times p is
+/// what a Newton step goes wrong by.
 struct StressResponse
 {
   double energy;          ///< W [J/m^3]
   Eigen::Matrix3d stress; ///< P [Pa]
   Matrix9d tangent;       ///< dP/dF [Pa] over column-major vec(P), vec(F); symmetric
+
+  double pressure = 0.0; ///< p [Pa], of tension
+  double bulk = 0.0;     ///< dp/dtheta [Pa]
+  Vector9d volumeSlope = Vector9d::Zero(); ///< dtheta/dF
+  Matrix9d volumeBend = Matrix9d::Zero();  ///< d2theta/dF2
 };
 
 /// @param gradient  F = I + grad u, det F > 0 (any F for Linear)

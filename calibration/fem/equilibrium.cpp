@@ -34,6 +34,9 @@ Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& materi
   , material_(material)
   , held_(static_cast<std::size_t>(body.dofCount()), 0)
   , responses_(body.elements.size())
+  , pressures_(body.elements.size())
+  , before_(body.elements.size())
+  , after_(body.elements.size())
 {
   for (const Element& element : body.elements)
   {
@@ -89,13 +92,36 @@ Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& materi
 
 bool Equilibrium::assemble(const VectorXd& displacement)
 {
+  if (!assembleAll(displacement, false))
+  {
+    return false;
+  }
+  for (std::size_t e = 0; e < responses_.size(); ++e)
+  {
+    pressures_[e] = responses_[e].pressure;
+  }
+  return true;
+}
+
+bool Equilibrium::follow(const VectorXd& displacement, double part)
+{
+  for (std::size_t e = 0; e < pressures_.size() && part > 0.0; ++e)
+  {
+    pressures_[e] = before_[e] + part * (after_[e] - before_[e]);
+  }
+  return assembleAll(displacement, true);
+}
+
+bool Equilibrium::assembleAll(const VectorXd& displacement, bool guessed)
+{
   forces_ = VectorXd::Zero(displacement.size());
+  guessed_ = forces_;
   storedEnergy_ = 0.0;
   for (std::size_t e = 0; e < body_.elements.size(); ++e)
   {
     const Element& element = body_.elements[e];
-    auto response = respond(
-      element, energy_, element.material.value_or(material_), gather(element, displacement));
+    auto response = respond(element, energy_, element.material.value_or(material_),
+      gather(element, displacement), guessed ? &pressures_[e] : nullptr);
     if (!response)
     {
       return false;
@@ -103,8 +129,20 @@ bool Equilibrium::assemble(const VectorXd& displacement)
     responses_[e] = std::move(*response);
     storedEnergy_ += responses_[e].energy;
     forces_(element.dofs) += responses_[e].force;
+    guessed_(element.dofs) += responses_[e].guessedForce;
   }
   return forces_.allFinite();
+}
+
+// the pressures at the end of a step, by the slope of those of the displacement
+void Equilibrium::predict(const VectorXd& change)
+{
+  before_ = pressures_;
+  for (std::size_t e = 0; e < responses_.size(); ++e)
+  {
+    const ElementResponse& at = responses_[e];
+    after_[e] = at.pressure + at.pressureSlope * gather(body_.elements[e], change);
+  }
 }
 
 Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double added)
@@ -153,7 +191,8 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
     }
   }
 
-  Step step{ .residual = residual.lpNorm<Eigen::Infinity>() };
+  Step step{ .residual = residual.lpNorm<Eigen::Infinity>(),
+    .imbalance = (residual + onTheTool(guessed_ - forces_, sliding)).lpNorm<Eigen::Infinity>() };
   solver_.factorize(matrix_);
   if (solver_.info() != Eigen::Success)
   {
@@ -169,7 +208,9 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
   if (!step.change.allFinite())
   {
     step.change.resize(0);
+    return step;
   }
+  predict(step.change);
   return step;
 }
 
@@ -181,18 +222,24 @@ int Equilibrium::invertedElements() const noexcept
 
 double Equilibrium::imbalance(const std::vector<Sliding>& sliding) const
 {
+  return onTheTool(guessed_, sliding).lpNorm<Eigen::Infinity>();
+}
+
+// what forces do to the dofs that are free while nodes slide
+VectorXd Equilibrium::onTheTool(VectorXd forces, const std::vector<Sliding>& sliding) const
+{
   const int d = body_.dimension;
-  VectorXd free = forces_;
   for (const Sliding& s : sliding)
   {
-    free.segment(d * s.node, d - 1) += s.slope.head(d - 1) * forces_[d * s.node + d - 1];
-    free[d * s.node + d - 1] = 0.0;
+    const double press = forces[d * s.node + d - 1];
+    forces.segment(d * s.node, d - 1) += s.slope.head(d - 1) * press;
+    forces[d * s.node + d - 1] = 0.0;
   }
   for (const int dof : body_.heldDofs)
   {
-    free[dof] = 0.0;
+    forces[dof] = 0.0;
   }
-  return free.lpNorm<Eigen::Infinity>();
+  return forces;
 }
 
 // the heights of sliding nodes are eliminated: height = gap + slope * horizontal

@@ -29,6 +29,12 @@ public:
   /// @return  false where an element is turned inside out
   [[nodiscard]] bool assemble(const Eigen::VectorXd& displacement);
 
+  /// The same after a part of the last step, or of none. The stiffness counts how the volume
+  /// bends by pressures that go with the step, not by those of the displacement, which near nu =
+  /// 0.5 follow from what the step left of the volume and mislead the next one.
+  /// @source  Magisano, Leonetti and Garcea 2017: mixed integration points
+  [[nodiscard]] bool follow(const Eigen::VectorXd& displacement, double part);
+
   [[nodiscard]] double energy() const noexcept
   {
     return storedEnergy_;
@@ -38,21 +44,32 @@ public:
   {
     return forces_;
   }
+  /// With the pressures of the steps.
+  [[nodiscard]] const Eigen::VectorXd& guessedForces() const noexcept
+  {
+    return guessed_;
+  }
 
   /// Residual and Newton step with held dofs at rest and sliding nodes on the tool.
   /// @param added  part of the diagonal that is added to it, for a shorter and safer step [-]
   struct Step
   {
     double residual = 0.0;    ///< largest unbalanced force after the gaps are closed [N]
+    double imbalance = 0.0;   ///< the same with the pressures of the steps [N]
     bool stable = false;      ///< the energy is convex here
     Eigen::VectorXd change{}; ///< of all dofs [m]; empty where the system is singular
   };
   [[nodiscard]] Step solve(const std::vector<Sliding>& sliding, double added = 0.0);
 
-  /// Largest unbalanced force where the sliding nodes are [N], at the assembled displacement.
+  /// Largest unbalanced force where the sliding nodes are [N], at the assembled displacement and
+  /// with the pressures of the steps.
   [[nodiscard]] double imbalance(const std::vector<Sliding>& sliding) const;
 
 private:
+  [[nodiscard]] bool assembleAll(const Eigen::VectorXd& displacement, bool guessed);
+  [[nodiscard]] Eigen::VectorXd onTheTool(
+    Eigen::VectorXd forces, const std::vector<Sliding>& sliding) const;
+  void predict(const Eigen::VectorXd& change);
   void scatter(std::size_t element, const std::vector<int>& slidingOf,
     const std::vector<Sliding>& sliding, Eigen::VectorXd& residual);
 
@@ -65,6 +82,10 @@ private:
   std::vector<int> diagonal_;              // per dof: into the matrix's values
   double storedEnergy_ = 0.0;
   Eigen::VectorXd forces_;
+  Eigen::VectorXd guessed_;                 // forces with the pressures of the steps
+  std::vector<Eigen::VectorXd> pressures_;  // per element and integration point, of the steps
+  std::vector<Eigen::VectorXd> before_;     // the same when the last step was found
+  std::vector<Eigen::VectorXd> after_;      // and at its end
   Eigen::SparseMatrix<double> matrix_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver_;
 };

@@ -18,6 +18,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr int kMostIterations = 40;
+constexpr int kExtrapolated = 12; // iterations, before it begins again without extrapolation
 constexpr int kMostHalvings = 6;
 constexpr double kBalanced = 1e-8; // unbalanced force to contact force [-]
 constexpr double kShiver = 1e-4;   // the same, for a node that shivers on an edge of the tool [-]
@@ -46,6 +47,7 @@ Indenter::Indenter(const Body& body, const Tip& tip, Energy energy, const Materi
   , touching_(body.surface.size(), 0)
   , previous_(displacement_)
 {
+  (void)equilibrium_.assemble(displacement_);
 }
 
 double Indenter::heightOf(int node) const
@@ -114,7 +116,7 @@ bool Indenter::updateContact(double forceScale, bool onlyOne)
     const ToolPoint tool = toolAt(node);
     const bool was = touching_[i] != 0;
     const bool enclosed = d == 2 && i + 1 < touching_.size() && touching_[i + 1] != 0;
-    const double pull = equilibrium_.forces()[d * node + d - 1];
+    const double pull = equilibrium_.guessedForces()[d * node + d - 1];
     const bool inside = tool.below && heightOf(node) - tool.height > kInTool * depth_;
     const bool is = was ? enclosed || (tool.below && pull <= kPulled * forceScale) : inside;
     changed = changed || is != was;
@@ -143,21 +145,21 @@ Equilibrium::Step Indenter::downhill(std::vector<Sliding> nodes, bool mayTurn)
   return step;
 }
 
-std::string Indenter::settle(double depth, const std::stop_token& stop)
+std::string Indenter::settle(double depth, const std::stop_token& stop, int iterations)
 {
   depth_ = depth;
-  if (!equilibrium_.assemble(displacement_))
+  if (!equilibrium_.follow(displacement_, 0.0))
   {
     return "an element was turned inside out";
   }
   double force = 0.0;
-  double residual = 0.0;
+  double imbalance = 0.0;
   int changes = 0;
-  for (int k = 0; k < kMostIterations && !stop.stop_requested(); ++k)
+  for (int k = 0; k < iterations && !stop.stop_requested(); ++k)
   {
     // who touches is asked anew once the forces are nearly balanced: sooner, they mislead
     const bool careful = changes > kManyChanges;
-    const bool ask = k == 0 ? force_ == 0.0 : residual <= (careful ? 0.01 : 1.0) * force;
+    const bool ask = k == 0 ? force_ == 0.0 : imbalance <= (careful ? 0.01 : 1.0) * force;
     const bool changed = ask && updateContact(force, careful);
     changes += changed ? 1 : 0;
     k = changed && careful ? std::min(k, kPatience / 2) : k;
@@ -173,11 +175,11 @@ std::string Indenter::settle(double depth, const std::stop_token& stop)
     for (const Sliding& s : nodes)
     {
       gap = std::max(gap, std::abs(s.gap));
-      force += std::abs(equilibrium_.forces()[body_.dimension * (s.node + 1) - 1]);
+      force += std::abs(equilibrium_.guessedForces()[body_.dimension * (s.node + 1) - 1]);
     }
-    residual = step.residual;
+    imbalance = step.imbalance;
     const double balanced = k < kPatience ? kBalanced : kShiver;
-    if (ask && !changed && k > 0 && residual <= balanced * force && gap <= kInTool * depth)
+    if (ask && !changed && k > 0 && step.residual <= balanced * force && gap <= kInTool * depth)
     {
       force_ = force;
       return surfaceFault();
@@ -212,13 +214,13 @@ bool Indenter::walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, b
         displacement_[height] = tool.height - body_.positions(body_.dimension - 1, s.node);
       }
     }
-    if (equilibrium_.assemble(displacement_))
+    if (equilibrium_.follow(displacement_, length))
     {
       const double imbalance = equilibrium_.imbalance(nodes);
       const bool better = closed
-        ? equilibrium_.energy() < energy || imbalance <= kDecrease * step.residual
-        : imbalance <= kNoWorse * step.residual;
-      if (better || length < 4.0 * kShortest)
+        ? equilibrium_.energy() < energy || imbalance <= (step.stable ? kNoWorse : kDecrease) * step.imbalance
+        : imbalance <= kNoWorse * step.imbalance;
+        if (better || length < 4.0 * kShortest)
       {
         return true;
       }
@@ -246,11 +248,11 @@ void Indenter::press(double depth, const std::stop_token& stop)
     {
       displacement_ += (to - depth_) / (depth_ - previousDepth_) * (start.displacement - previous_);
     }
-    std::string trouble = settle(to, stop);
+    std::string trouble = settle(to, stop, start.depth > 0.0 ? kExtrapolated : kMostIterations);
     if (!trouble.empty() && start.depth > 0.0)
     {
       restore(start); // without extrapolation
-      trouble = settle(to, stop);
+      trouble = settle(to, stop, kMostIterations);
     }
     if (trouble.empty())
     {
@@ -267,7 +269,6 @@ void Indenter::press(double depth, const std::stop_token& stop)
     if (step < smallest)
     {
       trouble = contactReachesRim() ? "the contact reaches the edge of the tool's rim" : trouble;
-      (void)equilibrium_.assemble(displacement_);
       char reached[32];
       std::snprintf(reached, sizeof reached, "%.3f mm", units::toMillimetres(depth_));
       throw Error(ErrorCode::NoSolution,
@@ -283,6 +284,7 @@ void Indenter::restore(const Held& held)
   touching_ = held.touching;
   depth_ = held.depth;
   force_ = held.force;
+  (void)equilibrium_.assemble(displacement_);
 }
 
 void Indenter::resume(const Checkpoint& checkpoint)
@@ -299,7 +301,7 @@ void Indenter::resume(const Checkpoint& checkpoint)
       const ToolPoint tool = toolAt(body_.surface[i]);
       touching_[i] = tool.below && heightOf(body_.surface[i]) >= tool.height - kInTool * depth_;
     }
-    if (settle(checkpoint.depth).empty())
+    if (equilibrium_.assemble(displacement_) && settle(checkpoint.depth, {}, kMostIterations).empty())
     {
       return;
     }

@@ -86,7 +86,8 @@ private:
   [[nodiscard]] bool updateContact(double force, bool onlyOne);
   [[nodiscard]] Equilibrium::Step downhill(std::vector<Sliding> nodes, bool mayTurn);
   [[nodiscard]] bool walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, bool closed);
-  [[nodiscard]] std::string settle(double depth, const std::stop_token& stop = {}); // or trouble
+  [[nodiscard]] std::string settle(
+    double depth, const std::stop_token& stop, int iterations); // empty, or trouble
   [[nodiscard]] std::string surfaceFault() const; // empty, or why no tool presses such a surface
   [[nodiscard]] double contactRadius() const;
   [[nodiscard]] bool contactReachesRim() const;

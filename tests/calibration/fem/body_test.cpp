@@ -155,6 +155,34 @@ TEST_P(AnyBody, StiffnessIsTheDerivativeOfTheForce)
   }
 }
 
+// a guess of the pressures changes how the volume bends, neither forces nor energy
+TEST(Body, GuessedPressuresChangeTheStiffnessAlone)
+{
+  const Body body = bodyNamed("cylinder");
+  const Element& element = body.elements.front();
+  const VectorXd u = linearField(body, 0.02, -0.05)(element.dofs);
+  for (const Energy energy : { Energy::NeoHookean, Energy::NeoHookeanIsochoric })
+  {
+    const auto plain = respond(element, energy, kTissue, u);
+    const VectorXd own = plain->pressure;
+    const VectorXd other = 2.0 * own;
+    const auto same = respond(element, energy, kTissue, u, &own);
+    const auto guessed = respond(element, energy, kTissue, u, &other);
+    EXPECT_LT((same->stiffness - plain->stiffness).norm(), 1e-12 * plain->stiffness.norm());
+    EXPECT_LT((same->guessedForce - plain->force).norm(), 1e-12 * plain->force.norm());
+    EXPECT_EQ(guessed->force, plain->force);
+    EXPECT_EQ(guessed->energy, plain->energy);
+    EXPECT_GT((guessed->stiffness - plain->stiffness).norm(), 1e-3 * plain->stiffness.norm());
+
+    // the slope of the pressures is their derivative
+    const VectorXd step = 1e-7 * VectorXd::LinSpaced(u.size(), -1.0, 1.0);
+    const auto a = respond(element, energy, kTissue, u + step);
+    const auto b = respond(element, energy, kTissue, u - step);
+    EXPECT_LT((0.5 * (a->pressure - b->pressure) - plain->pressureSlope * step).norm(),
+      1e-6 * (plain->pressureSlope * step).norm());
+  }
+}
+
 TEST(Body, ElementTurnedInsideOutIsDetected)
 {
   const Body body = bodyNamed("cylinder");

@@ -3,6 +3,7 @@
 #include "calibration/fem/mesh.h"
 #include "tests/calibration/indentation_case.h"
 
+#include <array>
 #include <numbers>
 
 namespace palp::fem
@@ -240,6 +241,29 @@ TEST(Indenter, NearlyIncompressibleTissueDoesNotLock)
       (5.0 * std::pow(4.0 / (3.0 * pi), 3) * std::pow(m0, 3) - 8.0 / (15.0 * pi) * m2) *
         std::pow(chi, 3);
     EXPECT_NEAR(step.force, layer * hertz, 0.02 * hertz);
+  }
+}
+
+// of a neo-Hookean half-space by an independent program at nu = 0.495, which scatters by 1.5 %; the
+// base at ten times the depth of the contact adds 1 %
+TEST(Indenter, TissueLikeWaterIsTheIncompressibleHalfSpace)
+{
+  const Case study{ .name = "water",
+    .width = 500.0_mm,
+    .length = 500.0_mm,
+    .height = 500.0_mm,
+    .tip = SphereTip{ 10.0_mm },
+    .material = { 50.0_kPa, 0.4999 },
+    .depths = { 1.0_mm, 3.0_mm },
+    .elementSize = 1.0_mm };
+  const auto steps = completed(study).steps;
+  constexpr std::array kOfHertz{ 0.2727286 / 0.2792391, 1.359243 / 1.450969 };
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const double hertz = 4.0 / 3.0 * study.material.contactModulus() * std::sqrt(10.0_mm) *
+      std::pow(steps[i].depth, 1.5);
+    EXPECT_NEAR(steps[i].force / hertz, kOfHertz[i], 0.02) << steps[i].depth;
+    EXPECT_NEAR(steps[i].baseReaction, steps[i].force, 1e-6 * steps[i].force);
   }
 }
 
