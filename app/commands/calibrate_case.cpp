@@ -124,12 +124,15 @@ Case caseOf(const std::string& name, const CaseText& text)
   {
     throw Error(ErrorCode::BadValue, "--base: " + inQuotes(base) + " is unknown; give bonded or slip");
   }
+  const Tip tip = parseTip(value("tip"));
+  // small-strain theory knows the undeformed surface, which meets the edge of a flat at a node
+  const bool sharp = *energy == Energy::Linear && flatRadius(tip) > 0.0;
   const auto [width, depth, height] = parseBlock(value("block"));
   Case study{ .name = name,
     .width = width,
     .length = depth,
     .height = height,
-    .tip = withCap(parseTip(value("tip")), length("cap")),
+    .tip = sharp ? tip : withCap(tip, length("cap")),
     .material = makeMaterial(parseQuantity(value("young"), Quantity::Pressure, "--young"),
       parseNumber(value("poisson"), "--poisson")),
     .coatings = parseCoatings(value("coating")),

@@ -176,7 +176,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   };
   text("block", "Width x length x height of the block");
   text("tip", "Tool, as for palp force");
-  text("cap", "Radius of the spherical cap that a sharp cone gets, 0mm for none");
+  text("cap", "Radius of the cap of a sharp cone and of the edge of a flat, 0mm for none");
   text("young", "Young's modulus; without coatings it scales the force and leaves R_d alone");
   text("poisson", "Poisson's ratio, less than 0.5");
   text("material", "linear, corotated, neo-hookean or neo-hookean-isochoric");

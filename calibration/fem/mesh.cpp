@@ -199,6 +199,52 @@ std::vector<double> fromTheTop(double top, std::vector<double> depths)
 
 constexpr double kOutwardGrowth = 1.15; // changes R_d of the paper's block by less than 0.02 mm
 constexpr double kDownwardGrowth = 1.1;
+constexpr double kRefinedGrowth = 1.2; // towards a refined place
+
+// steps from 0 to length that grow from the first to the largest; an overshoot squeezes them
+std::vector<double> cappedSteps(double length, double first, double largest)
+{
+  std::vector<double> steps{ 0.0 };
+  for (double step = first; steps.back() < length * (1.0 - 1e-9); step *= kRefinedGrowth)
+  {
+    steps.push_back(steps.back() + std::min(step, largest));
+  }
+  for (double& step : steps)
+  {
+    step *= length / steps.back();
+  }
+  return steps;
+}
+
+// smallest around one radius, at most `fine` up to fineRadius, then growing
+std::vector<double> refinedSteps(
+  double radius, double fineRadius, double fine, const Refinement& refinement)
+{
+  std::vector<double> steps;
+  if (refinement.radius > 0.0)
+  {
+    for (const double inwards : cappedSteps(refinement.radius, refinement.size, fine))
+    {
+      steps.insert(steps.begin(), refinement.radius - inwards);
+    }
+    steps.pop_back();
+  }
+  for (const double outwards :
+    cappedSteps(fineRadius - refinement.radius, refinement.size, fine))
+  {
+    steps.push_back(refinement.radius + outwards);
+  }
+  const double last = steps.back() - steps[steps.size() - 2];
+  for (const double beyond :
+    gradedSteps(radius - fineRadius, 0.0, kOutwardGrowth * last, kOutwardGrowth))
+  {
+    if (beyond > 0.0)
+    {
+      steps.push_back(fineRadius + beyond);
+    }
+  }
+  return steps;
+}
 
 // depths at which the sheets of a coated body begin, and its own end
 std::vector<double> sheetBounds(double height, const Coatings& coatings)
@@ -213,7 +259,7 @@ std::vector<double> sheetBounds(double height, const Coatings& coatings)
 }
 
 // steps that grow with the depth and meet every bound; two at least in every sheet
-std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine)
+std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine, double growth)
 {
   std::vector<double> steps{ 0.0 };
   double first = fine;
@@ -221,7 +267,7 @@ std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine)
   {
     const double thickness = bounds[i] - bounds[i - 1];
     for (const double step :
-      gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), kDownwardGrowth))
+      gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), growth))
     {
       if (step > 0.0)
       {
@@ -259,13 +305,16 @@ std::vector<double> gradedSteps(double length, double fineLength, double fine, d
 }
 
 Body cylinderBody(double radius, double height, double fineRadius, double fine,
-  const Coatings& coatings, Integration integration, Base base)
+  const Coatings& coatings, Integration integration, Base base, const Refinement& refinement)
 {
   const std::vector<double> sheets = sheetBounds(height, coatings);
-  Body body = revolve(
-    gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
-    fromTheTop(height, sheetSteps(sheets, fine)), [](double u, double v) { return Vector2d(u, v); },
-    integration, base);
+  const bool refined = refinement.size > 0.0;
+  Body body = revolve(refined ? refinedSteps(radius, fineRadius, fine, refinement)
+                              : gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
+    fromTheTop(height,
+      refined ? sheetSteps(sheets, refinement.size, kOutwardGrowth)
+              : sheetSteps(sheets, fine, kDownwardGrowth)),
+    [](double u, double v) { return Vector2d(u, v); }, integration, base);
   for (Element& element : body.elements)
   {
     // the first two nodes are at the bottom, the next two at the top

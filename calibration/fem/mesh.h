@@ -22,6 +22,13 @@ enum class Integration
   Full,    ///< nine points: a surface stretched several times over by a sharp tool does not fold
 };
 
+/// Smaller elements around one radius: a tool's point, or the edge of its flat.
+struct Refinement
+{
+  double radius = 0.0; ///< where the smallest are [m]
+  double size = 0.0;   ///< of the smallest [m]; 0: none
+};
+
 /// A block as the cylinder of equal area under an axisymmetric tool; side free.
 ///
 /// Eight-node quadrilaterals.
@@ -30,10 +37,10 @@ enum class Integration
 /// @param height      [m], that of the coatings included
 /// @param coatings    thinner than the height together
 /// @param fineRadius  elements have the size `fine` up to here [m]
-/// @param fine        element size under the tool [m]
+/// @param fine        largest element under the tool [m]
 [[nodiscard]] Body cylinderBody(double radius, double height, double fineRadius, double fine,
   const Coatings& coatings = {}, Integration integration = Integration::Reduced,
-  Base base = Base::Bonded);
+  Base base = Base::Bonded, const Refinement& refinement = {});
 
 /// How an elastic sphere is held.
 enum class SphereSupport

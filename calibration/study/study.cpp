@@ -4,6 +4,7 @@
 #include "calibration/study/mesh_check.h"
 #include "calibration/study/study_files.h"
 #include "haptics/error.h"
+#include "haptics/force/profile.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -25,6 +26,11 @@ using namespace units::literals;
 constexpr double kElementSize = 0.5_mm;
 constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
 constexpr int kPaperLayers = 10;
+constexpr double kSmallestElement = 0.01_mm;
+constexpr double kFinest = 0.1; // elements for a shallow contact, over those of the case
+constexpr double kRefined = 0.2; // smallest element to the largest under the tool
+constexpr double kRounding = 0.06; // of the edge of a flat, at most, over its radius
+constexpr double kDraft = 5.0_deg;  // of a punch's side, so that its height follows from the radius
 constexpr double kCoarse = 0.1; // distance of nodes under the tool, over its radius
 
 void require(bool good, const std::string& what)
@@ -67,6 +73,35 @@ bool isRound(const Tip& tip)
   return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
 }
 
+// at the edge of a flat the pressure has no bound
+Refinement refinementOf(const Case& study)
+{
+  if (flatRadius(study.tip) == 0.0)
+  {
+    return {};
+  }
+  return { .radius = flatRadius(study.tip), .size = kRefined * elementSize(study) };
+}
+
+// a flat, a round edge and a straight flank up to a height
+Tip rounded(const std::string& name, double flat, double rounding, double halfAngle, double height)
+{
+  constexpr int kPoints = 30; // on the edge
+  const double turn = 90.0_deg - halfAngle;
+  std::vector<Profile::Point> points{ { .radius = 0.0, .height = 0.0 } };
+  for (int i = 0; i <= kPoints; ++i)
+  {
+    const double angle = turn * i / kPoints;
+    points.push_back({ .radius = flat + rounding * std::sin(angle),
+      .height = rounding * (1.0 - std::cos(angle)) });
+  }
+  const Profile::Point end = points.back();
+  points.push_back(
+    { .radius = end.radius + (height - end.height) * std::tan(halfAngle), .height = height });
+  return ProfileTip{ std::make_shared<const Profile>(
+    std::move(points), name + ", edge rounded by " + units::inMillimetres(rounding)) };
+}
+
 // change: on halving the elements [-]; infinite or NaN where it is not known
 std::string refusal(const Case& study, double depth, double change)
 {
@@ -80,6 +115,43 @@ std::string refusal(const Case& study, double depth, double change)
   }
   return "indentation: the force at " + units::inMillimetres(depth) + " is refused, " + why +
     "; give --element-size " + units::inMillimetres(0.5 * elementSize(study)) + " or begin deeper";
+}
+
+// smaller elements for a contact that spans too few; empty where they do not suffice
+std::optional<Indented> onFinerElements(
+  const Case& study, double depth, const std::stop_token& stop)
+{
+  constexpr int kSteps = 4;
+  Case finer = study;
+  finer.depths = { depth };
+  for (finer.elementSize = 0.5 * elementSize(study);
+       finer.elementSize >= std::max(kSmallestElement, kFinest * elementSize(study));
+       finer.elementSize *= 0.5)
+  {
+    try
+    {
+      const Body body = bodyOf(finer);
+      Indenter indenter(body, finer.tip, finer.energy, finer.material);
+      MeshCheck coarser(finer);
+      for (int i = 1; i <= kSteps; ++i)
+      {
+        indenter.press(depth * i / kSteps, stop);
+      }
+      Indented found = indenter.state();
+      if (coarser.changeOnHalving(found, stop) <= kMeshError)
+      {
+        return found;
+      }
+    }
+    catch (const Error&)
+    {
+      if (stop.stop_requested())
+      {
+        break;
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 // keep: called after every depth whose force stands
@@ -109,10 +181,18 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
       }
       Indented step = indenter.state();
       step.depth = depth; // the coarser run goes through those that were there, too
-      const double change = coarser != nullptr ? coarser->changeOnHalving(step, stop) : 0.0;
+      double change = coarser != nullptr ? coarser->changeOnHalving(step, stop) : 0.0;
       if (depth <= reached)
       {
         continue;
+      }
+      if (change > kMeshError)
+      {
+        if (auto finer = onFinerElements(study, depth, stop))
+        {
+          step = std::move(*finer);
+          change = 0.0;
+        }
       }
       if (stop.stop_requested())
       {
@@ -161,13 +241,31 @@ double elementSize(const Case& study)
 
 Tip withCap(const Tip& tip, double cap)
 {
-  const auto* cone = std::get_if<ConeTip>(&tip);
-  if (cone == nullptr || cap == 0.0)
+  if (cap == 0.0)
   {
     return tip;
   }
-  return checkedTip(
-    BluntConeTip{ .halfAngle = cone->halfAngle, .tipRadius = cap, .baseRadius = cone->baseRadius });
+  if (const auto* cone = std::get_if<ConeTip>(&tip))
+  {
+    return checkedTip(BluntConeTip{
+      .halfAngle = cone->halfAngle, .tipRadius = cap, .baseRadius = cone->baseRadius });
+  }
+  if (const auto* punch = std::get_if<PunchTip>(&tip))
+  {
+    const double rounding = std::min(cap, kRounding * punch->radius);
+    return rounded(
+      "flat punch of " + units::inMillimetres(punch->radius) + ", sides inclined by 5 degrees",
+      punch->radius - rounding, rounding, kDraft, 2.0 * punch->radius);
+  }
+  if (const auto* cone = std::get_if<TruncatedConeTip>(&tip))
+  {
+    const double rounding = std::min(cap, kRounding * cone->flatRadius);
+    const double tangent = rounding * std::tan(0.5 * (90.0_deg - cone->halfAngle));
+    return rounded("cone cut off at " + units::inMillimetres(cone->flatRadius),
+      cone->flatRadius - tangent, rounding, cone->halfAngle,
+      (cone->baseRadius - cone->flatRadius) / std::tan(cone->halfAngle));
+  }
+  return tip;
 }
 
 void check(const Case& study)
@@ -191,7 +289,7 @@ void check(const Case& study)
     "--threshold: must be positive and less than the deepest depth of " +
       units::inMillimetres(deepest));
   require(study.elementSize == 0.0 ||
-      (study.elementSize >= 0.01_mm && study.elementSize <= largestElement(study)),
+      (study.elementSize >= kSmallestElement && study.elementSize <= largestElement(study)),
     "--element-size: must be between 0.01 mm and " + units::inMillimetres(largestElement(study)) +
       " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
@@ -221,7 +319,8 @@ Body bodyOf(const Case& study)
   {
     const double fine = 1.05 * reach(study.tip, study.depths.back()) + 2.0 * size;
     return cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings,
-      isRound(study.tip) ? Integration::Reduced : Integration::Full, study.base);
+      isRound(study.tip) ? Integration::Reduced : Integration::Full, study.base,
+      refinementOf(study));
   }
   return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }

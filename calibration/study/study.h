@@ -41,8 +41,9 @@ struct Case
   double elementSize = 0.0;
 };
 
-/// A cone gets a tangent spherical cap, as no mesh follows a sharp apex; other tools stay.
-/// @param cap  radius [m]; 0 keeps the cone sharp
+/// A cone gets a tangent spherical cap, as no mesh follows a sharp apex; the edge of a flat is
+/// rounded, and the sides of a punch are inclined by 5 degrees. Other tools stay.
+/// @param cap  radius of cap or edge [m], of an edge at most 6 % of the flat; 0: all stay
 [[nodiscard]] Tip withCap(const Tip& tip, double cap);
 
 /// @throws Error  BadValue: a geometry that cannot be computed, before any work is done
@@ -85,7 +86,8 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 [[nodiscard]] Outcome calibrate(
   const Case& study, std::stop_token stop = {}, const Progress& progress = {});
 
-/// The same with files, and with every force checked by a mesh twice as coarse: after every depth,
+/// The same with files, and with every force checked by a mesh twice as coarse; a depth that fails
+/// is pressed again on elements of a half to an eighth of the size. After every depth,
 /// table.csv, profiles.csv, fit.json and a checkpoint are complete in the folder, whatever happens
 /// next.
 ///

@@ -121,7 +121,7 @@ std::string describe(const Case& study, const Body& body, int digits)
              : "volumetric block, eight-node bricks, one quarter")
       << ", " << body.elements.size() << " elements, " << body.nodeCount() << " nodes"
       << "\n# element size under the tool: " << toMillimetres(body.elementSize)
-      << " mm\n# extent_radius_mm: deformed radius at which the surface sinks by "
+      << " mm, smaller where a shallow contact needs it\n# extent_radius_mm: deformed radius at which the surface sinks by "
       << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus"
       << (study.coatings.empty() ? "" : ", only on its ratios") << '\n';
   return out.str();
