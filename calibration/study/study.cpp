@@ -28,6 +28,7 @@ constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
 constexpr int kPaperLayers = 10;
 constexpr double kSmallestElement = 0.01_mm;
 constexpr double kFinest = 0.1; // elements for a shallow contact, over those of the case
+constexpr double kFewest = 2.0; // elements across a contact, before its force is looked at
 constexpr double kRefined = 0.2; // smallest element to the largest under the tool
 constexpr double kRounding = 0.06; // of the edge of a flat, at most, over its radius
 constexpr double kDraft = 5.0_deg;  // of a punch's side, so that its height follows from the radius
@@ -128,6 +129,10 @@ std::optional<Indented> onFinerElements(
        finer.elementSize >= std::max(kSmallestElement, kFinest * elementSize(study));
        finer.elementSize *= 0.5)
   {
+    if (reach(study.tip, depth) < kFewest * finer.elementSize)
+    {
+      continue;
+    }
     try
     {
       const Body body = bodyOf(finer);

@@ -389,17 +389,54 @@ TEST(Indenter, ASlippingBaseIsSofterAsTheLayerSays)
   }
 }
 
+// 2 E* a d, and the layer's series 1 + 2 m0 a / (pi h) + ...: m0 = 1.41177 at nu = 0.33
+TEST(Indenter, AFlatPunchIsTheExactOne)
+{
+  Case study = paperCase(Energy::Linear);
+  study.tip = PunchTip{ 5.0_mm };
+  study.depths = depthRange(1.0_mm, 5.0_mm, 1.0_mm);
+  study.width = study.length = 150.0_mm;
+  study.elementSize = 0.5_mm;
+  const double layer = 1.0 / (1.0 - 2.0 / std::numbers::pi * 1.41177 * 5.0 / 50.0);
+  for (const Indented& step : completed(study).steps)
+  {
+    const double exact = 2.0 * study.material.contactModulus() * 5.0_mm * step.depth * layer;
+    EXPECT_NEAR(step.force, exact, 0.02 * exact) << step.depth;
+  }
+}
+
+// large strain, with a round edge: the pressure on it is finite and all depths are found. At small
+// strain it is the linear punch less what the edge takes
+TEST(Indenter, AFlatPunchGoesAsDeepAsItIsWide)
+{
+  Case study = paperCase();
+  study.tip = withCap(PunchTip{ 5.0_mm }, 0.3_mm);
+  study.depths = { 0.3_mm, 2.5_mm, 5.0_mm };
+  study.elementSize = 0.5_mm;
+  const auto steps = completed(study).steps;
+  const double layer = 1.0 / (1.0 - 2.0 / std::numbers::pi * 1.41177 * 4.7 / 50.0);
+  const double smallest = 2.0 * study.material.contactModulus() * 4.7_mm * 0.3_mm * layer;
+  EXPECT_GT(steps[0].force, 0.97 * smallest);
+  EXPECT_LT(steps[0].force, 1.03 * smallest * 5.0 / 4.7);
+  for (const Indented& step : steps)
+  {
+    EXPECT_NEAR(step.baseReaction, step.force, 1e-4 * step.force);
+    EXPECT_LE(step.penetration, 1e-3 * step.depth);
+    EXPECT_NEAR(step.contactRadius, 5.0_mm, 0.5_mm);
+  }
+}
+
 // a cone deeper than it is long: the surface would have to fold around a sharp edge
 TEST(Indenter, SaysThatTheContactReachedTheRim)
 {
-  Case study = paperCase();
-  study.tip = BluntConeTip{ .halfAngle = 45.0_deg, .tipRadius = 0.3_mm, .baseRadius = 2.0_mm };
+  Case study = paperCase(Energy::NeoHookeanIsochoric);
+  study.tip = BluntConeTip{ .halfAngle = 60.0_deg, .tipRadius = 0.3_mm, .baseRadius = 2.0_mm };
   study.width = study.length = 20.0_mm;
   study.height = 8.0_mm;
   study.elementSize = 0.5_mm;
-  study.depths = { 1.0_mm, 2.0_mm, 3.0_mm, 3.5_mm };
+  study.depths = { 1.0_mm, 3.0_mm };
   const Outcome outcome = calibrate(study);
-  EXPECT_GE(outcome.steps.size(), 2U);
+  EXPECT_EQ(outcome.steps.size(), 1U);
   EXPECT_NE(outcome.trouble.find("rim"), std::string::npos) << outcome.trouble;
 }
 
