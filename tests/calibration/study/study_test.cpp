@@ -87,6 +87,11 @@ TEST(Study, RefusesAbsurdGeometryBeforeAnyWork)
   study.model = BodyModel::Block;
   study.length = 80.0_mm;
   EXPECT_NE(refusal(study).find("--model"), std::string::npos);
+  study = quick();
+  study.tip = withCap(ConeTip{ .halfAngle = 24.0_deg, .baseRadius = 10.0_mm }, 0.3_mm);
+  EXPECT_NE(refusal(study).find("give 25 degrees or more"), std::string::npos);
+  study.energy = Energy::Linear;
+  EXPECT_EQ(refusal(study), "");
 }
 
 // elements wider than evenly spaced ones do not fill the block, but overshoot it
@@ -146,6 +151,20 @@ TEST(Study, AConeGetsATangentCap)
   const Tip capped = withCap(ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm }, 0.3_mm);
   EXPECT_DOUBLE_EQ(std::get<BluntConeTip>(capped).tipRadius, 0.3_mm);
   EXPECT_TRUE(std::holds_alternative<SphereTip>(withCap(SphereTip{ 10.0_mm }, 0.3_mm)));
+}
+
+// the flank stays where it is, the flat loses what the edge takes: rounding tan(turn / 2)
+TEST(Study, AFlatGetsARoundEdge)
+{
+  const Tip sharp = TruncatedConeTip{ 45.0_deg, 5.0_mm, 10.0_mm };
+  const Tip round = withCap(sharp, 0.3_mm);
+  EXPECT_NEAR(flatRadius(round), 5.0_mm - 0.3_mm * std::tan(22.5_deg), 1e-9);
+  for (const double radius : { 6.0_mm, 8.0_mm, 10.0_mm })
+  {
+    EXPECT_NEAR(tipHeight(round, radius), tipHeight(sharp, radius), 1e-6);
+  }
+  EXPECT_NEAR(flatRadius(withCap(PunchTip{ 1.0_mm }, 0.3_mm)), 0.94_mm, 1e-9);
+  EXPECT_TRUE(std::holds_alternative<PunchTip>(withCap(PunchTip{ 1.0_mm }, 0.0)));
 }
 
 TEST(Study, FilesSayWhatWasComputed)
