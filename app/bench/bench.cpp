@@ -1,9 +1,10 @@
 #include "app/bench/bench.h"
 
+#include "haptics/numerics/statistics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <span>
 
 namespace palp
@@ -36,21 +37,14 @@ namespace
 BenchRow benchRow(
   std::string work, std::size_t vertices, std::string mode, std::vector<double> microseconds)
 {
-  std::sort(microseconds.begin(), microseconds.end());
-  const auto count = static_cast<double>(microseconds.size());
-  const double mean = std::accumulate(microseconds.begin(), microseconds.end(), 0.0) / count;
-  double squares = 0.0;
-  for (const double value : microseconds)
-  {
-    squares += (value - mean) * (value - mean);
-  }
+  const Statistics times = statisticsOf(std::move(microseconds));
   return { .work = std::move(work),
     .vertices = vertices,
     .mode = std::move(mode),
-    .median = microseconds[microseconds.size() / 2],
-    .mean = mean,
-    .deviation = std::sqrt(squares / count),
-    .p99 = microseconds[static_cast<std::size_t>(0.99 * (count - 1.0))] };
+    .median = times.median,
+    .mean = times.mean,
+    .deviation = times.deviation,
+    .p99 = times.p99 };
 }
 
 double benchSweep()

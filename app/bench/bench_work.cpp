@@ -55,11 +55,7 @@ ServoTick::ServoTick(std::shared_ptr<const Surface> surface)
 
 Sample ServoTick::operator()(const ToolPose& pose)
 {
-  const auto admitted = chain_.admit(pose, {}, { .armed = true }, 1.0_ms);
-  Sample sample = admitted ? touch(scene_, *admitted) : Sample{};
-  const auto law = [&](double depth) noexcept { return respond(scene_, sample.contact, depth); };
-  chain_.limit(sample, law, scene_);
-  return sample;
+  return step(scene_, chain_, pose, {}, { .armed = true }, 1.0_ms);
 }
 
 DrawnSurface::DrawnSurface(const Mesh& mesh)

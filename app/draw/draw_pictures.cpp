@@ -1,9 +1,10 @@
 #include "app/draw/draw_pictures.h"
 
+#include "haptics/force/validity.h"
 #include "app/press/export.h"
 #include "app/draw/offscreen.h"
 #include "app/plots/press_plots.h"
-#include "app/press/surface_point.h"
+#include "haptics/surface/surface_point.h"
 #include "haptics/surface/nearest.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -226,7 +227,7 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
 void DrawPictures::drawExperiment(
   const fem::Experiment& experiment, const std::filesystem::path& directory) const
 {
-  constexpr double kNoticed = 7.0; // [%] of a force, Sec. 3.2
+  constexpr double kNoticed = 100.0 * Validity::kJustNoticeable; // [%] of a force
   const OffscreenContext context;
   for (const fem::Figure& figure : experiment.figures)
   {

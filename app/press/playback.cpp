@@ -1,6 +1,6 @@
 #include "app/press/playback.h"
 
-#include "app/press/surface_point.h"
+#include "haptics/surface/surface_point.h"
 #include "haptics/surface/nearest.h"
 #include "haptics/devices/hid/paper_arm.h"
 #include "haptics/error.h"
@@ -66,15 +66,6 @@ Eigen::Vector3d pressingAxis(
     : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
 }
 
-Sample chainedStep(SafetyChain& chain, const Scene& scene, const ToolPose& pose, double elapsed)
-{
-  const auto admitted = chain.admit(pose, {}, { .armed = true }, elapsed);
-  Sample sample = touch(scene, *admitted); // the pose of a path is finite
-  const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
-  chain.limit(sample, law, scene);
-  return sample;
-}
-
 } // namespace
 
 std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chained)
@@ -90,7 +81,8 @@ std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chai
   for (const double time : times)
   {
     const ToolPose pose = path.poseAt(time, axis);
-    samples.push_back(chained ? chainedStep(chain, scene, pose, time - last) : step(scene, pose));
+    samples.push_back(chained ? step(scene, chain, pose, {}, { .armed = true }, time - last)
+                              : step(scene, pose));
     samples.back().time = time;
     last = time;
   }

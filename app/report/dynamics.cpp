@@ -3,6 +3,7 @@
 #include "app/report/force_methods.h"
 #include "app/report/parts.h"
 #include "haptics/units.h"
+#include "haptics/numerics/statistics.h"
 
 #include <cmath>
 
@@ -33,7 +34,7 @@ std::vector<Cell> summaryRow(const std::string& method, const std::vector<double
   double iterations, double force, double folded)
 {
   const BenchRow row = benchRow("step", 0, "", times);
-  const Spread spread = spreadOf(times);
+  const Statistics spread = statisticsOf(times);
   return { method, static_cast<double>(times.size()), row.mean, row.deviation, row.median,
     spread.low, spread.high, iterations, force, folded };
 }

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <stop_token>
-#include <vector>
 
 namespace palp::report
 {
@@ -42,20 +40,5 @@ struct Effort
     return quick ? 3 : 5;
   }
 };
-
-/// Repeated measurements of one figure.
-struct Spread
-{
-  double median = 0.0;
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// @param values  at least one, in any order
-[[nodiscard]] inline Spread spreadOf(std::vector<double> values)
-{
-  std::ranges::sort(values);
-  return { values[values.size() / 2], values.front(), values.back() };
-}
 
 } // namespace palp::report

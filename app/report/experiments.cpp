@@ -1,5 +1,6 @@
 #include "calibration/experiments/experiment_parts.h"
 
+#include "haptics/force/validity.h"
 #include "app/report/parts.h"
 #include "haptics/units.h"
 
@@ -17,7 +18,7 @@ using fem::Experiment;
 using fem::parts::largest;
 using fem::parts::passing;
 
-constexpr double kJnd = 7.0; // [%] of a force that a hand just notices, Sec. 3.2
+constexpr double kNoticed = 100.0 * Validity::kJustNoticeable; // [%] of a force
 
 fem::Resolution resolutionOf(const Effort& effort)
 {
@@ -74,7 +75,7 @@ void addFigure(Section& section, const fem::Figure& figure)
   if (figure.noticed && !figure.curves.empty() && !figure.curves.front().x.empty())
   {
     const std::vector<double>& x = figure.curves.front().x;
-    for (const double side : { kJnd, -kJnd })
+    for (const double side : { kNoticed, -kNoticed })
     {
       add({ .name = side > 0.0 ? "7 %, just noticed by a hand" : "",
             .x = { x.front(), x.back() },
@@ -152,7 +153,7 @@ double firstToDepart(const Experiment& experiment, const std::string& tool, cons
   {
     first = std::min(first,
       passing(columnOf(experiment, "depth_mm"),
-        columnOf(experiment, tool + "_R0_" + radius + "mm_" + support + "_percent"), kJnd));
+        columnOf(experiment, tool + "_R0_" + radius + "mm_" + support + "_percent"), kNoticed));
   }
   return first;
 }
@@ -199,12 +200,12 @@ Section inclination(const Effort& effort)
   const auto change = columnOf(found, "cone_force_change_percent");
   section.claims = { { .of = "Eq. (7)",
                        .paper = "a sphere may tilt by 22 degrees, arccos(1 - 0.07)",
-                       .here = shown(units::toDegrees(std::acos(1.0 - 0.01 * kJnd))) + " degrees",
+                       .here = shown(units::toDegrees(std::acos(1.0 - 0.01 * kNoticed))) + " degrees",
                        .verdict = "agrees, rounded up" },
     { .of = "Eq. (7), cone",
       .paper = "a cone of 45 degrees may tilt by 9 degrees",
       .here = percentage(change[9]) + " at 9 degrees; 7 % at " +
-        shown(passing(tilts, change, kJnd)) + " degrees",
+        shown(passing(tilts, change, kNoticed)) + " degrees",
       .verdict = "plausible: boundary elements on a linear half-space here, finite elements on a "
                  "block there" } };
   return section;
@@ -277,7 +278,7 @@ Section forces(const Effort& effort)
   const auto limit = [&](const char* material)
   {
     return millimetres(passing(
-      depths, columnOf(found, "sphere_" + std::string(material) + "_difference_percent"), kJnd));
+      depths, columnOf(found, "sphere_" + std::string(material) + "_difference_percent"), kNoticed));
   };
   section.claims = { { .of = "Fig. 15(a)",
                        .paper = "Eq. (4) lies above linear elements when deep and below "

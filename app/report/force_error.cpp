@@ -3,6 +3,7 @@
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
 #include "haptics/units.h"
+#include "haptics/numerics/statistics.h"
 
 #include <cmath>
 #include <map>
@@ -70,7 +71,7 @@ struct Tables
       "error_local_pct" },
     .shown = false };
   Table spread{ .name = "time_spread",
-    .caption = "Spread of the times: median, lowest and highest of the evaluations of a regime.",
+    .caption = "Statistics of the times: median, lowest and highest of the evaluations of a regime.",
     .columns = { "method", "setting", "regime", "evaluations", "time_us", "low_us", "high_us",
       "time_per_S" },
     .shown = false };
@@ -99,7 +100,7 @@ void addTrial(Tables& tables, const BlockPress& press, const Trial& trial)
       line.emplace_back(known ? error.rms : std::nan(""));
       if (known)
       {
-        const Spread spread = spreadOf(times);
+        const Statistics spread = statisticsOf(times);
         tables.errors.rows.push_back({ trial.method, setting, regime.name, spread.median,
           error.largest, error.rms, error.local });
         tables.spread.rows.push_back(
@@ -109,7 +110,7 @@ void addTrial(Tables& tables, const BlockPress& press, const Trial& trial)
     }
     if (against == Energy::NeoHookean)
     {
-      line.insert(line.begin() + 3, all.empty() ? std::nan("") : spreadOf(all).median);
+      line.insert(line.begin() + 3, all.empty() ? std::nan("") : statisticsOf(all).median);
       line.emplace_back(trial.leavesOut);
       tables.summary.rows.push_back(std::move(line));
     }

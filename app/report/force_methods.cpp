@@ -8,6 +8,7 @@
 #include "haptics/force/force_law.h"
 #include "haptics/numerics/monotone_cubic.h"
 #include "haptics/units.h"
+#include "haptics/numerics/statistics.h"
 
 #include <cmath>
 #include <limits>
@@ -39,7 +40,7 @@ void measure(Trial& trial, std::span<const double> depths, const Effort& effort,
           sum += forceAt(depth + 1e-12 * (call + k));
         }
       });
-    trial.times.push_back({ sum > 0.0 ? spreadOf(measured).median / kCalls : 0.0 });
+    trial.times.push_back({ sum > 0.0 ? statisticsOf(measured).median / kCalls : 0.0 });
   }
 }
 

@@ -2,11 +2,11 @@
 #include "data/shapes.h"
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
+#include "haptics/numerics/statistics.h"
+#include "pipeline/process/child_process.h"
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <malloc.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -56,10 +56,10 @@ Table timesTable(const std::map<Key, Repeated>& all, double sweep)
   for (const auto& [key, repeated] : all)
   {
     const auto& [work, mode, vertices] = key;
-    const Spread median = spreadOf(repeated.medians);
+    const Statistics median = statisticsOf(repeated.medians);
     table.rows.push_back({ work, mode, static_cast<double>(vertices), median.median, median.low,
-      median.high, spreadOf(repeated.means).median, spreadOf(repeated.deviations).median,
-      spreadOf(repeated.tails).median, median.median / sweep });
+      median.high, statisticsOf(repeated.means).median, statisticsOf(repeated.deviations).median,
+      statisticsOf(repeated.tails).median, median.median / sweep });
   }
   return table;
 }
@@ -81,7 +81,7 @@ Table tableOne(const std::map<Key, Repeated>& all)
     const Repeated& step = all.at({ "update", "moving", vertices });
     const Repeated& servo = all.at({ "servo_step", "moving", vertices });
     const auto ms = [](const std::vector<double>& values)
-    { return inMilliseconds(spreadOf(values).median); };
+    { return inMilliseconds(statisticsOf(values).median); };
     table.rows.push_back({ ++model, static_cast<double>(vertices), row.edges, row.triangles,
       2.0 * (row.side - 1) * (row.side - 1), row.mean, row.deviation, ms(step.means),
       ms(step.deviations), ms(servo.means), ms(servo.deviations) });
@@ -197,21 +197,18 @@ Curve curve(const char* label, const char* work, const char* mode, Curve::Style 
 // palp bench in a process of its own, for where the loader puts a program changes its speed
 nlohmann::json runBench(const Effort& effort)
 {
-  const auto program = prefix() / "bin/palp";
-  std::string command = "'";
-  command.append(program.string())
-    .append("' bench --json --most ")
-    .append(effort.quick ? "100000 --quick" : "1000000");
-  std::FILE* pipe = popen(command.c_str(), "r");
-  std::string text;
-  for (int c = pipe ? std::fgetc(pipe) : EOF; c != EOF; c = std::fgetc(pipe))
+  const std::string program = (prefix() / "bin/palp").string();
+  std::vector<std::string> command{ program, "bench", "--json", "--most" };
+  command.emplace_back(effort.quick ? "100000" : "1000000");
+  if (effort.quick)
   {
-    text += static_cast<char>(c);
+    command.emplace_back("--quick");
   }
-  auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!pipe || pclose(pipe) != 0 || !json.is_object())
+  auto json = nlohmann::json::parse(outputOf(command).value_or(""), nullptr, false);
+  if (!json.is_object())
   {
-    throw Error(ErrorCode::BadFile, command + ": gave no figures; build palp beside this program");
+    throw Error(
+      ErrorCode::BadFile, program + " bench: gave no figures; build palp beside this program");
   }
   return json;
 }
@@ -242,7 +239,7 @@ Section scaling(const Effort& effort)
     }
     effort.reached((run + 1.0) / runs);
   }
-  const double sweep = spreadOf(sweeps).median;
+  const double sweep = statisticsOf(sweeps).median;
 
   Section section;
   section.tables = { tableOne(all),

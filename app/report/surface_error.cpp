@@ -5,6 +5,7 @@
 #include "app/report/parts.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
+#include "haptics/numerics/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,7 @@ SurfaceTrial tryDent(const BlockPress& press, std::span<const ReferenceSurface> 
         [&](int k) {
           step(straightDown({ 2.0_mm * (k % 20 - 10), 0.0, -reference.depth }));
         });
-      times.push_back(spreadOf(measured).median);
+      times.push_back(statisticsOf(measured).median);
     }
     step(straightDown({ 0.0, 0.0, -reference.depth }));
     Drawn drawn;
@@ -168,11 +169,11 @@ void addTrial(Section& section, const BlockPress& press,
     if (!times.empty())
     {
       section.tables[1].rows.push_back({ trial.method, press.name + "; " + trial.setting,
-        regime.name, spreadOf(times).median, toMillimetres(off.largest), rms });
+        regime.name, statisticsOf(times).median, toMillimetres(off.largest), rms });
       all.insert(all.end(), times.begin(), times.end());
     }
   }
-  line.insert(line.begin() + 3, spreadOf(all).median);
+  line.insert(line.begin() + 3, statisticsOf(all).median);
   line.emplace_back(trial.leavesOut);
   section.tables[0].rows.push_back(std::move(line));
 }

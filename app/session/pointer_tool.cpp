@@ -1,6 +1,6 @@
 #include "app/session/pointer_tool.h"
 
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/ray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ bool PointerTool::leftSurface(const Pixel& to) const
 void PointerTool::moveTo(const SurfacePoint& place)
 {
   place_ = place;
-  deepest_ = std::min(kDeepest, 0.5 * distanceToFarSide(*surface_, place.position, -place.normal));
+  deepest_ = std::min(kDeepest, 0.5 * rayExit(*surface_, place.position, -place.normal).distance);
 }
 
 void PointerTool::hover(int x, int y)

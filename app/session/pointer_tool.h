@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/press/surface_point.h"
+#include "haptics/surface/surface_point.h"
 #include "haptics/devices/simulated/guided_tool.h"
 
 #include <functional>

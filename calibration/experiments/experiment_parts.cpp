@@ -1,5 +1,6 @@
 #include "calibration/experiments/experiment_parts.h"
 
+#include "haptics/force/validity.h"
 #include "calibration/fem/mesh.h"
 #include "haptics/error.h"
 
@@ -126,7 +127,7 @@ double passing(const std::vector<double>& depths, const std::vector<double>& err
 
 std::string passesAt(const std::vector<double>& depths, const std::vector<double>& errors)
 {
-  const double at = passing(depths, errors, kJnd);
+  const double at = passing(depths, errors, Validity::kJustNoticeable);
   if (std::isfinite(at))
   {
     return "at " + fixed(toMillimetres(at), 1) + " mm";

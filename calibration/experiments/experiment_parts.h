@@ -13,7 +13,6 @@ namespace palp::fem::parts
 {
 
 inline constexpr Material kTissue{ .youngModulus = 50e3, .poissonRatio = 0.33 }; // Sec. 3.2
-inline constexpr double kJnd = 0.07; // just noticeable difference of force, Sec. 3.2 [29]
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// step, 2 step, ... to last [m]; half as many where it is to be quick

@@ -1,4 +1,5 @@
 #include "calibration/experiments/experiment_parts.h"
+#include "haptics/force/validity.h"
 #include "calibration/fem/mesh.h"
 #include "haptics/force/force_law.h"
 #include "haptics/force/inclination.h"
@@ -106,7 +107,7 @@ Experiment inclination()
     result.rows.push_back({ static_cast<double>(degree), 100.0 * loss, 100.0 * change(degree) });
   }
   double limit = 0.0;
-  while (change(limit) < kJnd)
+  while (change(limit) < Validity::kJustNoticeable)
   {
     limit += 0.01;
   }
@@ -117,7 +118,7 @@ Experiment inclination()
     .curves = { curve(result, "sphere_normal_loss_percent", "sphere, 1 - cos(tilt)", 0),
       curve(result, "cone_force_change_percent", "cone of 45\u00b0, boundary elements", 1) },
     .noticed = true });
-  result.finding = "Sphere: " + fixed(units::toDegrees(tiltOfShare(kJnd)), 2) +
+  result.finding = "Sphere: " + fixed(units::toDegrees(tiltOfShare(Validity::kJustNoticeable)), 2) +
     " degrees by Eq. (7), which the paper rounds to 22. Cone of 45 degrees: boundary elements on "
     "the linear half-space reach 7 % at " +
     fixed(limit, 1) + " degrees and " + fixed(100.0 * change(9.0), 1) +

@@ -1,10 +1,9 @@
 #include "calibration/baselines/stepper.h"
 #include "haptics/error.h"
+#include "haptics/numerics/statistics.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numeric>
 
 // many steps of a stepper
 
@@ -30,16 +29,10 @@ StepTimes timeSteps(Stepper& stepper, std::span<const Eigen::Vector3d> apexes, d
   }
   const auto count = static_cast<double>(apexes.size());
   times.iterations /= count;
-  times.mean = std::accumulate(times.milliseconds.begin(), times.milliseconds.end(), 0.0) / count;
-  double squares = 0.0;
-  for (const double value : times.milliseconds)
-  {
-    squares += (value - times.mean) * (value - times.mean);
-  }
-  times.deviation = std::sqrt(squares / count);
-  std::vector<double> sorted = times.milliseconds;
-  std::sort(sorted.begin(), sorted.end());
-  times.median = sorted[sorted.size() / 2];
+  const Statistics spread = statisticsOf(times.milliseconds);
+  times.mean = spread.mean;
+  times.deviation = spread.deviation;
+  times.median = spread.median;
   return times;
 }
 

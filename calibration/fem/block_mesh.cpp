@@ -1,5 +1,7 @@
 #include "calibration/fem/mesh.h"
 
+#include "haptics/numerics/roots.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -58,14 +60,8 @@ std::vector<double> growingSteps(double length, std::size_t count, double first,
     }
     return boundaries;
   };
-  double low = 0.1;
-  double high = 10.0;
-  for (int i = 0; i < 60; ++i)
-  {
-    const double middle = 0.5 * (low + high);
-    (steps(middle).back() < length ? low : high) = middle;
-  }
-  return steps(low);
+  const auto isShort = [&](double ratio) { return steps(ratio).back() < length; };
+  return steps(bisect(isShort, { 0.1, 10.0 }, 60).low);
 }
 
 // half of a row of n nodes, from the middle outwards; where n is even, node -1 is the image of node

@@ -1,5 +1,6 @@
 #include "calibration/study/study.h"
 
+#include "haptics/numerics/roots.h"
 #include "calibration/fem/mesh.h"
 #include "calibration/study/mesh_check.h"
 #include "calibration/study/study_files.h"
@@ -61,14 +62,8 @@ double largestElement(const Case& study)
 // radius at which the tool is as high as it is deep: no contact reaches further
 double reach(const Tip& tip, double depth)
 {
-  double low = 0.0;
-  double high = baseRadius(tip);
-  for (int i = 0; i < 60; ++i)
-  {
-    const double middle = 0.5 * (low + high);
-    (tipHeight(tip, middle) < depth ? low : high) = middle;
-  }
-  return high;
+  const auto isLower = [&](double radius) { return tipHeight(tip, radius) < depth; };
+  return bisect(isLower, { 0.0, baseRadius(tip) }, 60).high;
 }
 
 bool isRound(const Tip& tip)

@@ -1,5 +1,6 @@
 #include "calibration/tables/surface_table.h"
 
+#include "haptics/numerics/roots.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/error.h"
 #include "haptics/numerics/monotone_cubic.h"
@@ -140,18 +141,13 @@ double SurfaceTable::extentRadius(const Place& place, double threshold) const
   {
     return 0.0;
   }
-  double inside = 0.0;
-  double outside = kRadii.back() * place.tipRadius;
+  const double outside = kRadii.back() * place.tipRadius;
   if (curve.at(kRadii.back()) > threshold)
   {
     return outside;
   }
-  for (int i = 0; i < 50; ++i)
-  {
-    const double middle = 0.5 * (inside + outside);
-    (curve.at(middle / place.tipRadius) > threshold ? inside : outside) = middle;
-  }
-  return inside;
+  const auto sinks = [&](double radius) { return curve.at(radius / place.tipRadius) > threshold; };
+  return bisect(sinks, { 0.0, outside }, 50).low;
 }
 
 ExtentTable SurfaceTable::extents(const Place& deepest, double threshold) const

@@ -1,5 +1,7 @@
 #include "haptics/servo/coupling.h"
 
+#include "haptics/numerics/roots.h"
+
 #include <cmath>
 
 namespace palp
@@ -13,14 +15,7 @@ constexpr int kHalvings = 32; // relative 2e-10; the force depends on its square
 template <typename Holds>
 double lastWhere(const Holds& holds, double from, double upTo) noexcept
 {
-  double low = from;
-  double high = upTo;
-  for (int i = 0; i < kHalvings; ++i)
-  {
-    const double middle = 0.5 * (low + high);
-    (holds(middle) ? low : high) = middle;
-  }
-  return low;
+  return bisect(holds, { from, upTo }, kHalvings).low;
 }
 
 struct Knee

@@ -62,19 +62,17 @@ Sample Servo::answer(
   const SafetyOrders orders{ .armed = scene.armed,
     .stop = stopped,
     .silence = seconds(Clock::now() - looked_.load(std::memory_order_relaxed)) };
-  const std::optional<ToolPose> used =
-    chain_ ? chain_->admit(pose, device_.status(), orders, elapsed) : pose;
-  held_ = used.value_or(ToolPose{ .apex = held_.apex, .axis = held_.axis });
-
-  Sample sample = !used ? Sample{} : chain_ ? touch(scene, held_) : step(scene, held_);
-  sample.pose = held_;
   if (chain_)
   {
-    const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
-    chain_->limit(sample, law, scene);
+    const ToolPose held{ .apex = held_.apex, .axis = held_.axis };
+    const Sample sample = step(scene, *chain_, pose, device_.status(), orders, elapsed, held);
+    held_ = sample.pose;
     return sample;
   }
-  sample.flags |= used ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
+  held_ = pose.value_or(ToolPose{ .apex = held_.apex, .axis = held_.axis });
+  Sample sample = pose ? step(scene, held_) : Sample{};
+  sample.pose = held_;
+  sample.flags |= pose ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
   if (stopped)
   {
     sample.force.setZero();

@@ -70,4 +70,14 @@ Sample step(const Scene& scene, const ToolPose& pose) noexcept
   return sample;
 }
 
+Sample step(const Scene& scene, SafetyChain& chain, const std::optional<ToolPose>& pose,
+  const DeviceStatus& status, const SafetyOrders& orders, double dt, const ToolPose& held) noexcept
+{
+  const std::optional<ToolPose> admitted = chain.admit(pose, status, orders, dt);
+  Sample sample = admitted ? touch(scene, *admitted) : Sample{ .pose = held };
+  const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
+  chain.limit(sample, law, scene);
+  return sample;
+}
+
 } // namespace palp

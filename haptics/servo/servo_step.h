@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/servo/safety.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
@@ -25,5 +26,15 @@ namespace palp
 /// @source    Fig. 9(b)
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Sample step(const Scene& scene, const ToolPose& pose) noexcept;
+
+/// A tick through a safety chain: admit the pose, contact and law there, limit the force.
+///
+/// @param pose     of Device::exchange; nothing: the device gave none
+/// @param held     pose of the sample where none is admitted
+/// @param dt       since the last tick [s]
+/// @realtime       no allocation, no lock, no exception
+[[nodiscard]] Sample step(const Scene& scene, SafetyChain& chain,
+  const std::optional<ToolPose>& pose, const DeviceStatus& status, const SafetyOrders& orders,
+  double dt, const ToolPose& held = {}) noexcept;
 
 } // namespace palp

@@ -11,8 +11,6 @@ namespace palp
 namespace
 {
 
-constexpr double kOverlap = 1e-9; // of triangles under a ray, by their height [-]
-
 // what of a triangle is nearest: its face, the edge from corner k to k + 1, or corner k
 enum class Feature
 {
@@ -176,51 +174,6 @@ Nearest findNearest(const Surface& surface, const Eigen::Vector3d& place, double
   }
   const double beside = open ? std::sqrt(std::max(0.0, best.squared - height * height)) : 0.0;
   return { triangle, hit.point, open ? beside + height : -distance };
-}
-
-double distanceToFarSide(
-  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept
-{
-  double nearest = std::numeric_limits<double>::infinity();
-  const Eigen::Array3d inverse = direction.array().inverse(); // infinite along an axis: as wanted
-  const auto crosses = [&](const BoxTree::Node& box)
-  {
-    double enter = 0.0;
-    double leave = nearest;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const auto axis = static_cast<Eigen::Index>(k);
-      const double t0 = (static_cast<double>(box.low[k]) - origin[axis]) * inverse[axis];
-      const double t1 = (static_cast<double>(box.high[k]) - origin[axis]) * inverse[axis];
-      // comparisons with NaN, from a ray within a side of the box, leave the interval as it is
-      enter = std::min(t0, t1) > enter ? std::min(t0, t1) : enter;
-      leave = std::max(t0, t1) < leave ? std::max(t0, t1) : leave;
-    }
-    return enter <= leave;
-  };
-  const auto visit = [&](int i)
-  {
-    const Facet& facet = surface.tree().facets()[static_cast<std::size_t>(i)];
-    const double outward = facet.normal.dot(direction);
-    if (!(outward > 0.0))
-    {
-      return;
-    }
-    const auto& [a, b, c] = facet.corners;
-    const double t = facet.normal.dot(a - origin) / outward;
-    const Eigen::Vector3d x = origin + t * direction;
-    // a little beyond its edges, so that rounding opens no gap between it and its neighbours
-    const double slack = -kOverlap * (b - a).cross(c - a).norm();
-    const bool within = (b - a).cross(x - a).dot(facet.normal) >= slack &&
-      (c - b).cross(x - b).dot(facet.normal) >= slack &&
-      (a - c).cross(x - c).dot(facet.normal) >= slack;
-    if (within && t > 0.0 && t < nearest)
-    {
-      nearest = t;
-    }
-  };
-  surface.tree().search(crosses, visit);
-  return nearest;
 }
 
 } // namespace palp

@@ -26,12 +26,4 @@ struct Nearest
 [[nodiscard]] Nearest findNearest(
   const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept;
 
-/// Distance along a ray to the first triangle that it leaves the body through.
-///
-/// @param direction  unit vector
-/// @return           [m]; infinity where it leaves through none
-/// @realtime         pure; no allocation, no lock, no exception
-[[nodiscard]] double distanceToFarSide(
-  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
-
 } // namespace palp

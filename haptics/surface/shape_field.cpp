@@ -1,6 +1,6 @@
 #include "haptics/surface/shape_field.h"
 
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/ray.h"
 #include "haptics/surface/surface.h"
 
 #include <Eigen/Geometry>
@@ -305,7 +305,7 @@ void ShapeField::measureLeaves(const Surface& surface)
         }
       });
     const Eigen::Vector3d inward = -sum.area.normalized().cast<double>();
-    const double thickness = distanceToFarSide(surface, place, inward);
+    const double thickness = rayExit(surface, place, inward).distance;
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(thickness));
     const float curvature = sum.bend.trace() / area;
     const bool bends = leaf.bend.trace() > 0.25F * curvature * leaf.area.norm(); // not one beside it

@@ -1,5 +1,6 @@
 #include "pipeline/charts/comparison.h"
 
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 
 #include <Eigen/Dense>
@@ -12,7 +13,6 @@ namespace palp
 namespace
 {
 
-constexpr double kNoticed = 0.07; // [-] of a force, Sec. 3.2
 constexpr int kSteps = 200;
 
 std::vector<double> inMillimetres(std::vector<double> metres)
@@ -61,7 +61,7 @@ std::unique_ptr<Plot> forcePlot(
   const std::vector<double> depths = depthsTo(deepest);
   const std::vector<double> shown = inMillimetres(depths);
   const std::vector<double> first = forcesOf(laws.front(), depths);
-  const double margin = kNoticed * first.back();
+  const double margin = Validity::kJustNoticeable * first.back();
   std::vector<double> low = first;
   std::vector<double> high = first;
   std::for_each(low.begin(), low.end(), [=](double& f) { f = std::max(0.0, f - margin); });
@@ -91,8 +91,8 @@ std::unique_ptr<Plot> forceErrorPlot(
   auto plot = std::make_unique<Plot>(
     law.name + " against the references", "depth \u03b4 [mm]", "difference [% of the largest]");
   const std::vector<double> shown = inMillimetres(depthsTo(deepest));
-  const std::vector<double> low(shown.size(), -100.0 * kNoticed);
-  const std::vector<double> high(shown.size(), 100.0 * kNoticed);
+  const std::vector<double> low(shown.size(), -100.0 * Validity::kJustNoticeable);
+  const std::vector<double> high(shown.size(), 100.0 * Validity::kJustNoticeable);
   plot->addBand("just noticed by a hand", shown, low, high, appearance::curveColor(0));
   std::size_t color = firstReference(laws);
   for (const ReferenceCurve& reference : references)

@@ -1,5 +1,7 @@
 #include "pipeline/deform/press_field.h"
 
+#include "haptics/numerics/roots.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,32 +29,12 @@ double smoothStep(double t) noexcept
   return within * within * (3.0 - 2.0 * within);
 }
 
-// root of a function that is negative at 0 and positive at the end, by the Illinois rule
+// root of a function that is negative at 0 and positive at the end
 template <typename Function>
 double rootBefore(double end, double atZero, double atEnd, Function function) noexcept
 {
-  double low = 0.0;
-  double high = end;
-  double atLow = atZero;
-  double atHigh = std::min(atEnd, end);
-  for (int i = 0; i < 40 && high - low > 1e-6 * end; ++i)
-  {
-    const double middle = low + (high - low) * atLow / (atLow - atHigh);
-    const double value = std::min(function(middle), end);
-    if (value < 0.0)
-    {
-      low = middle;
-      atLow = value;
-      atHigh *= 0.5;
-    }
-    else
-    {
-      high = middle;
-      atHigh = value;
-      atLow *= 0.5;
-    }
-  }
-  return low;
+  const auto limited = [&](double at) noexcept { return std::min(function(at), end); };
+  return falsePosition(limited, { 0.0, end }, atZero, std::min(atEnd, end), 1e-6 * end, 40).low;
 }
 
 // how far the tool is above the undeformed surface at a distance from the contact's centre, less

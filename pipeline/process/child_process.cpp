@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 namespace palp
 {
@@ -70,7 +71,8 @@ void limit(int resource, std::uint64_t most)
 }
 
 // @return  the child, or nothing with errno
-std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
+std::optional<pid_t> spawn(
+  const std::vector<std::string>& command, int output, bool keepsEnvironment)
 {
   std::vector<char*> arguments;
   for (const std::string& argument : command)
@@ -95,20 +97,19 @@ std::optional<pid_t> spawn(const std::vector<std::string>& command, int output)
   pid_t child = -1;
   char* none[] = { nullptr };
   const int failure = posix_spawn(
-    &child, arguments[0], &files, &attributes, arguments.data(), kSanitized ? environ : none);
+    &child, arguments[0], &files, &attributes, arguments.data(), keepsEnvironment ? environ : none);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   errno = failure;
   return failure == 0 ? std::optional(child) : std::nullopt;
 }
 
-} // namespace
-
-std::optional<std::string> answerOf(const std::vector<std::string>& command)
+// standard output of a program that ended well, else nothing
+std::optional<std::string> run(const std::vector<std::string>& command, bool keepsEnvironment)
 {
   int ends[2] = { -1, -1 };
   const bool piped = pipe2(ends, O_CLOEXEC) == 0;
-  const std::optional<pid_t> child = piped ? spawn(command, ends[1]) : std::nullopt;
+  const std::optional<pid_t> child = piped ? spawn(command, ends[1], keepsEnvironment) : std::nullopt;
   const int why = errno;
   close(ends[1]);
   if (!child)
@@ -118,21 +119,35 @@ std::optional<std::string> answerOf(const std::vector<std::string>& command)
       command[0] + ": cannot be started (" + std::strerror(why) + "); " +
         (why == ENOENT || why == EACCES ? "build or install it" : "close some programs"));
   }
-  const std::string answer = readAll(ends[0]);
+  std::string output = readAll(ends[0]);
   close(ends[0]);
   int status = 0;
   while (waitpid(*child, &status, 0) < 0 && errno == EINTR)
   {
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty())
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? std::optional(std::move(output))
+                                                       : std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> outputOf(const std::vector<std::string>& command)
+{
+  return run(command, true);
+}
+
+std::optional<std::string> answerOf(const std::vector<std::string>& command)
+{
+  const std::optional<std::string> answer = run(command, kSanitized);
+  if (!answer || answer->empty())
   {
     return std::nullopt;
   }
-  if (answer[0] == kError)
+  if (answer->front() == kError)
   {
-    throw Error(static_cast<ErrorCode>(answer[1]), answer.substr(2));
+    throw Error(static_cast<ErrorCode>((*answer)[1]), answer->substr(2));
   }
-  return answer.substr(1);
+  return answer->substr(1);
 }
 
 void answer(const std::function<std::string()>& work, ChildLimits limits,

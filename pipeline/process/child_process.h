@@ -10,7 +10,15 @@
 namespace palp
 {
 
+/// Runs a program; its standard error goes nowhere.
+///
+/// @param command  path of the program, and its arguments; no shell reads them
+/// @return         what it wrote to standard output; nothing when it failed or crashed
+/// @throws Error   BadFile: it cannot be started
+[[nodiscard]] std::optional<std::string> outputOf(const std::vector<std::string>& command);
+
 /// Runs a program that answers, so that a crash there is an answer here.
+/// It gets no environment.
 ///
 /// A program rather than a fork of this one: that would hold for ever the locks that other threads
 /// hold at that moment.

@@ -1,6 +1,6 @@
 #include "haptics/devices/simulated/guided_tool.h"
 
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/ray.h"
 #include "haptics/devices/turn.h"
 #include "haptics/error.h"
 
@@ -153,7 +153,7 @@ double GuidedTool::deepest(const Contact& contact) const noexcept
   {
     return goal_->depth;
   }
-  const double thickness = distanceToFarSide(*world_->surface, contact.center, -contact.normal);
+  const double thickness = rayExit(*world_->surface, contact.center, -contact.normal).distance;
   return std::min(goal_->depth, 0.5 * thickness);
 }
 

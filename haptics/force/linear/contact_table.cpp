@@ -2,6 +2,7 @@
 
 #include "haptics/force/linear/half_space.h"
 #include "haptics/numerics/monotone_cubic.h"
+#include "haptics/numerics/roots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,38 +16,22 @@ constexpr int kRows = 512;
 constexpr double kShallowest = 1e-9; // of the base depth; below, the power law of the first row
 constexpr double kEquator = 1e-9;    // of R, left out of a sphere, whose base depth is infinite
 
-// radius at which g reaches a depth, known to lie between low and high: Illinois' false position
+// radius at which g reaches a depth, known to lie between low and high
 double contactRadius(const Tip& tip, double depth, double low, double high)
 {
-  double below = contactDepth(tip, low) - depth;
-  double above = contactDepth(tip, high) - depth;
+  const auto excess = [&](double radius) noexcept { return contactDepth(tip, radius) - depth; };
+  const double below = excess(low);
+  const double above = excess(high);
   if (!(above > 0.0))
   {
     return high; // rounding at a wall, which rises by more than one row between two numbers
   }
-  for (int i = 0; i < 60 && high - low > 1e-14 * high; ++i)
+  if (below >= 0.0)
   {
-    const double middle =
-      below < 0.0 ? std::clamp((low * above - high * below) / (above - below), low, high) : low;
-    const double value = contactDepth(tip, middle) - depth;
-    if (value == 0.0 || below >= 0.0)
-    {
-      return middle;
-    }
-    if (value < 0.0)
-    {
-      low = middle;
-      below = value;
-      above *= 0.5;
-    }
-    else
-    {
-      high = middle;
-      above = value;
-      below *= 0.5;
-    }
+    return low;
   }
-  return 0.5 * (low + high);
+  const Bracket found = falsePosition(excess, { low, high }, below, above, 1e-14 * high, 60);
+  return 0.5 * (found.low + found.high);
 }
 
 } // namespace

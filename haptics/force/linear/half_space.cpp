@@ -1,6 +1,7 @@
 #include "haptics/force/linear/half_space.h"
 
 #include "haptics/tip/on_tip.h"
+#include "haptics/numerics/roots.h"
 #include "haptics/tip/profile.h"
 
 #include <algorithm>
@@ -11,25 +12,6 @@ namespace palp
 {
 namespace
 {
-
-constexpr int kMostSteps = 20; // of Newton's method; three to five are usual
-
-// Newton's method where it is known to converge from the given start
-template <typename Function>
-double newton(double x, Function stepAt) noexcept
-{
-  for (int i = 0; i < kMostSteps; ++i)
-  {
-    const double step = stepAt(x);
-    x -= step;
-    // the error of the next step is about the square of this one
-    if (!(std::abs(step) > 1e-9 * std::abs(x)))
-    {
-      break;
-    }
-  }
-  return x;
-}
 
 // a cone whose tip is a cap: the lengths that its formulas share
 struct CappedCone

@@ -1,6 +1,7 @@
 #include "haptics/surface/surface.h"
 
 #include "haptics/surface/nearest.h"
+#include "haptics/surface/ray.h"
 #include "haptics/error.h"
 #include "tests/support/surfaces.h"
 
@@ -90,8 +91,8 @@ TEST(Surface, FarSideOfABlockIsItsThickness)
 {
   const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.03 }, 9));
   EXPECT_NEAR(
-    distanceToFarSide(block, { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()), 0.03, 1e-12);
-  EXPECT_EQ(distanceToFarSide(block, { 0.0, 0.2, 0.0 }, -Eigen::Vector3d::UnitZ()),
+    rayExit(block, { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()).distance, 0.03, 1e-12);
+  EXPECT_EQ(rayExit(block, { 0.0, 0.2, 0.0 }, -Eigen::Vector3d::UnitZ()).distance,
     std::numeric_limits<double>::infinity());
 }
 
@@ -131,8 +132,8 @@ TEST(Surface, FarSideHasNoGapsBetweenItsTriangles)
           if (!grazes) // no ray within a side of the block
           {
             const double thickness = (below - above).norm();
-            const double found = distanceToFarSide(
-              surface, placed(above), (placed(below) - placed(above)).normalized());
+            const double found = rayExit(
+              surface, placed(above), (placed(below) - placed(above)).normalized()).distance;
             missed += std::abs(found - thickness) < 1e-9 ? 0 : 1;
           }
         }
