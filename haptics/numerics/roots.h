@@ -7,7 +7,7 @@ namespace palp
 {
 
 /// Where something changes: it is still so at low, and no longer at high.
-struct Bracket
+struct RootBracket
 {
   double low;
   double high;
@@ -19,7 +19,7 @@ struct Bracket
 /// @param halvings  each gains a factor of two; 60 exhaust a double
 /// @realtime        as holds
 template <typename Holds>
-[[nodiscard]] Bracket bisect(const Holds& holds, Bracket bracket, int halvings) noexcept
+[[nodiscard]] RootBracket bisect(const Holds& holds, RootBracket bracket, int halvings) noexcept
 {
   for (int i = 0; i < halvings; ++i)
   {
@@ -39,7 +39,7 @@ template <typename Holds>
 /// @source           Dowell and Jarratt 1971
 /// @realtime         as function
 template <typename Function>
-[[nodiscard]] Bracket falsePosition(const Function& function, Bracket bracket, double atLow,
+[[nodiscard]] RootBracket falsePosition(const Function& function, RootBracket bracket, double atLow,
   double atHigh, double tolerance, int mostSteps) noexcept
 {
   auto& [low, high] = bracket;

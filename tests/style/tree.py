@@ -141,7 +141,7 @@ def bodies(path):
             first = number - 1
             while first > 0 and lines[first - 1].strip() and not lines[first - 1].rstrip().endswith((";", "}", "{", ":", ">")):
                 first -= 1
-            opening = " ".join(lines[first:number])
+            opening = " ".join(re.sub(r"^\s*(///?|\*).*|//.*", "", line) for line in lines[first:number])
             if "(" in opening and not re.match(r"\s*(namespace|struct|class|enum|union)\b", opening):
                 start = (number, indent[1], first)
         elif start and re.match(rf"{start[1]}\}};?$", line):

@@ -30,7 +30,7 @@ double contactRadius(const Tip& tip, double depth, double low, double high)
   {
     return low;
   }
-  const Bracket found = falsePosition(excess, { low, high }, below, above, 1e-14 * high, 60);
+  const RootBracket found = falsePosition(excess, { low, high }, below, above, 1e-14 * high, 60);
   return 0.5 * (found.low + found.high);
 }
 
