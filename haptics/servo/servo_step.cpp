@@ -74,7 +74,12 @@ Sample step(const Scene& scene, SafetyChain& chain, const std::optional<ToolPose
   const DeviceStatus& status, const SafetyOrders& orders, double dt, const ToolPose& held) noexcept
 {
   const std::optional<ToolPose> admitted = chain.admit(pose, status, orders, dt);
-  Sample sample = admitted ? touch(scene, *admitted) : Sample{ .pose = held };
+  Sample sample;
+  sample.pose = held;
+  if (admitted)
+  {
+    sample = touch(scene, *admitted);
+  }
   const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
   chain.limit(sample, law, scene);
   return sample;
