@@ -1,8 +1,8 @@
 // libusb itself, against a Novint Falcon that is made up: umockdev gives it a place in /sys, this
 // program answers the requests of usbfs. A FIFO in the place of the node wakes libusb's poll.
 
-#include "app/program/devices_options.h"
 #include "app/devices_report.h"
+#include "app/program/devices_options.h"
 #include "haptics/devices/falcon/falcon_driver.h"
 #include "haptics/devices/falcon/falcon_kinematics.h"
 #include "haptics/devices/threaded_device.h"
@@ -10,25 +10,15 @@
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/rigs/made_up_falcon.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <condition_variable>
-#include <cstdarg>
-#include <deque>
-#include <dlfcn.h>
-#include <fcntl.h>
+#include <chrono>
 #include <gtest/gtest.h>
-#include <linux/usbdevice_fs.h>
-#include <list>
-#include <mutex>
+#include <memory>
 #include <stdexcept>
-#include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <thread>
 #include <umockdev.h>
-#include <unistd.h>
 #include <vector>
 
 namespace palp
@@ -36,9 +26,8 @@ namespace palp
 namespace
 {
 
+using namespace test;
 using namespace units::literals;
-using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
 using Eigen::Vector3d;
 using Packet = std::vector<std::byte>;
 
@@ -52,348 +41,6 @@ constexpr const char* kRecord =
   "A: idVendor=0403\\n\nA: idProduct=cb48\\n\n"
   "H: descriptors=1201000200000040030448CB000600000001"
   "0902200001010080320904000002FFFFFF000705810240000007050202400000\n\n";
-
-enum class Mood
-{
-  Good,
-  Split,   // a reply in two packets
-  Garbage, // before each reply
-  Silent,
-  Stalled, // the endpoint refuses each transfer
-};
-
-// chip, boot loader and firmware of a Falcon, behind the requests of usbfs
-class MadeUpFalcon
-{
-public:
-  ~MadeUpFalcon()
-  {
-    {
-      const std::lock_guard lock(mutex_);
-      stop_ = true;
-    }
-    changed_.notify_all();
-    if (timer_.joinable())
-    {
-      timer_.join();
-    }
-    if (bell_ >= 0)
-    {
-      close(bell_);
-    }
-  }
-
-  void ringAt(const std::string& node)
-  {
-    unlink(node.c_str());
-    ASSERT_EQ(mkfifo(node.c_str(), 0600), 0);
-    bell_ = open(node.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    ASSERT_GE(bell_, 0);
-    ASSERT_EQ(fcntl(bell_, F_SETPIPE_SZ, kPage), kPage);
-    ring(false);
-    timer_ = std::thread([this] { expire(); });
-  }
-
-  void unplug()
-  {
-    const std::lock_guard lock(mutex_);
-    gone_ = true;
-    for (const Urb& urb : waiting_)
-    {
-      finish(urb, -ESHUTDOWN, 0);
-    }
-    waiting_.clear();
-  }
-
-  int answer(unsigned long request, void* argument);
-
-  std::atomic<Mood> mood = Mood::Good;
-  std::atomic<bool> homed = false;
-  std::atomic<bool> loaded = false;  // runs firmware
-  std::atomic<bool> claimed = false; // by a driver that is open
-  std::atomic<int> packets = 0;
-  std::atomic<int> tooEarly = 0;             // torques before homing
-  std::atomic<int> torque = 0;               // sum of the sizes of the last
-  std::array<std::atomic<int>, 3> torques{}; // the last
-  std::vector<std::byte> firmware;
-
-private:
-  struct Urb
-  {
-    usbdevfs_urb* urb;
-    Clock::time_point deadline;
-  };
-
-  static constexpr int kPage = 4096;
-
-  void ring(bool on)
-  {
-    static std::array<char, kPage> page{};
-    if (on)
-    {
-      while (read(bell_, page.data(), page.size()) > 0)
-      {
-      }
-    }
-    else
-    {
-      (void)!write(bell_, page.data(), page.size());
-    }
-  }
-
-  void finish(const Urb& urb, int status, int size)
-  {
-    urb.urb->status = status;
-    urb.urb->actual_length = size;
-    done_.push_back(urb.urb);
-    ring(true);
-  }
-
-  // one packet of the chip: two status bytes, then data
-  void give(const Urb& urb)
-  {
-    auto* out = static_cast<unsigned char*>(urb.urb->buffer);
-    int size = 0;
-    out[size++] = 0x01;
-    out[size++] = 0x60;
-    const std::size_t most = mood == Mood::Split ? 9 : 62;
-    for (std::size_t i = 0; i < most && !data_.empty(); ++i)
-    {
-      out[size++] = std::to_integer<unsigned char>(data_.front());
-      data_.pop_front();
-    }
-    finish(urb, 0, size);
-  }
-
-  void serve()
-  {
-    while (!waiting_.empty() && !data_.empty() && mood != Mood::Silent)
-    {
-      const Urb urb = waiting_.front();
-      waiting_.pop_front();
-      give(urb);
-    }
-  }
-
-  // the latency timer of the chip sends packets without data
-  void expire()
-  {
-    std::unique_lock lock(mutex_);
-    while (!stop_)
-    {
-      const auto now = Clock::now();
-      while (!waiting_.empty() && waiting_.front().deadline <= now && mood != Mood::Silent)
-      {
-        const Urb urb = waiting_.front();
-        waiting_.pop_front();
-        give(urb);
-      }
-      changed_.wait_for(lock, 1ms);
-    }
-  }
-
-  void push(Bytes bytes)
-  {
-    data_.insert(data_.end(), bytes.begin(), bytes.end());
-  }
-
-  void hear(Bytes bytes);
-  void run(std::byte byte);
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::thread timer_;
-  std::list<Urb> waiting_;
-  std::deque<usbdevfs_urb*> done_;
-  std::deque<std::byte> data_;
-  std::vector<std::byte> heard_;
-  bool loading_ = false;
-  bool stop_ = false;
-  bool gone_ = false;
-  int bell_ = -1;
-  int divisor_ = 0;
-};
-
-void MadeUpFalcon::hear(Bytes bytes)
-{
-  for (const std::byte byte : bytes)
-  {
-    if (loaded && divisor_ == 0x2)
-    {
-      run(byte);
-    }
-    else if (loading_ && divisor_ == 0x15)
-    {
-      firmware.push_back(byte);
-      data_.push_back(byte);
-    }
-    else
-    {
-      heard_.push_back(byte);
-      const std::string text(reinterpret_cast<const char*>(heard_.data()), heard_.size());
-      if (divisor_ == 0x4138 && text.ends_with("\x0a\x43\x0d"))
-      {
-        push(std::as_bytes(std::span("\x0a\x44\x2c\x0d", 4)));
-      }
-      else if (divisor_ == 0x15 && byte == std::byte{ 0x41 })
-      {
-        data_.push_back(byte);
-        loading_ = true;
-      }
-    }
-  }
-  serve();
-}
-
-void MadeUpFalcon::run(std::byte byte)
-{
-  if (byte == std::byte{ '<' })
-  {
-    heard_.clear();
-  }
-  heard_.push_back(byte);
-  if (heard_.size() != kFalconPacket || byte != std::byte{ '>' })
-  {
-    return;
-  }
-  ++packets;
-  int sum = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    unsigned word = 0;
-    for (std::size_t nibble = 0; nibble < 4; ++nibble)
-    {
-      word |= ((std::to_integer<unsigned>(heard_[1 + 4 * i + nibble]) - 'A') & 0xFU)
-        << (4 * nibble);
-    }
-    torques[i] = static_cast<std::int16_t>(word);
-    sum += std::abs(torques[i]);
-  }
-  torque = sum;
-  tooEarly += !homed && sum != 0 ? 1 : 0;
-  if (mood == Mood::Garbage)
-  {
-    push(std::as_bytes(std::span("<AAxy>>z", 8)));
-  }
-  auto reply = encode(FalconCommand{}); // encoders at zero
-  reply[13] = static_cast<std::byte>('A' + (homed ? 0x75 : 0x05));
-  push(reply);
-  heard_.clear();
-}
-
-int MadeUpFalcon::answer(unsigned long request, void* argument)
-{
-  const auto fail = [](int error)
-  {
-    errno = error;
-    return -1;
-  };
-  const std::lock_guard lock(mutex_);
-  switch (request)
-  {
-    case USBDEVFS_GET_CAPABILITIES:
-      *static_cast<std::uint32_t*>(argument) = USBDEVFS_CAP_BULK_CONTINUATION |
-        USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
-      return 0;
-    case USBDEVFS_GETDRIVER:
-    case USBDEVFS_IOCTL: // no driver of the kernel's holds it
-      return fail(ENODATA);
-    case USBDEVFS_CLAIMINTERFACE:
-    case USBDEVFS_RELEASEINTERFACE:
-      claimed = request == USBDEVFS_CLAIMINTERFACE;
-      return gone_ ? fail(ENODEV) : 0;
-    case USBDEVFS_SUBMITURB:
-    {
-      if (gone_)
-      {
-        return fail(ENODEV);
-      }
-      auto* urb = static_cast<usbdevfs_urb*>(argument);
-      const Bytes bytes(
-        static_cast<const std::byte*>(urb->buffer), static_cast<std::size_t>(urb->buffer_length));
-      if (urb->type == USBDEVFS_URB_TYPE_CONTROL)
-      {
-        if (bytes[1] == std::byte{ 3 })
-        {
-          divisor_ = readInt<std::uint16_t>(bytes, 2);
-          loaded = loaded || (divisor_ == 0x2 && !firmware.empty());
-        }
-        else if (bytes[1] == std::byte{ 0 } && readInt<std::uint16_t>(bytes, 2) != 1)
-        {
-          data_.clear(); // 0 resets, 2 is SIO_TCIFLUSH of libftdi; 1 spares what waits for the host
-        }
-        finish({ urb, {} }, 0, 0);
-      }
-      else if (urb->endpoint == 0x02)
-      {
-        finish({ urb, {} }, 0, urb->buffer_length);
-        hear(bytes);
-      }
-      else
-      {
-        if (mood == Mood::Stalled)
-        {
-          finish({ urb, {} }, -EPIPE, 0);
-          return 0;
-        }
-        waiting_.push_back({ urb, Clock::now() + 1ms });
-        serve();
-      }
-      return 0;
-    }
-    case USBDEVFS_REAPURB:
-    case USBDEVFS_REAPURBNDELAY:
-      if (done_.empty())
-      {
-        ring(false);
-        return fail(gone_ ? ENODEV : EAGAIN);
-      }
-      *static_cast<void**>(argument) = done_.front();
-      done_.pop_front();
-      return 0;
-    case USBDEVFS_DISCARDURB:
-      for (auto urb = waiting_.begin(); urb != waiting_.end(); ++urb)
-      {
-        if (urb->urb == argument)
-        {
-          const Urb discarded = *urb;
-          waiting_.erase(urb);
-          finish(discarded, -ENOENT, 0);
-          return 0;
-        }
-      }
-      return fail(EINVAL);
-    default:
-      return fail(ENOTTY);
-  }
-}
-
-std::atomic<MadeUpFalcon*> gFalcon = nullptr;
-
-} // namespace
-} // namespace palp
-
-// what libusb calls; everything that is not usbfs goes on to the C library
-extern "C" int ioctl(int file, unsigned long request, ...) noexcept
-{
-  va_list arguments;
-  va_start(arguments, request);
-  void* argument = va_arg(arguments, void*);
-  va_end(arguments);
-  palp::MadeUpFalcon* falcon = palp::gFalcon.load();
-  if (falcon != nullptr && _IOC_TYPE(request) == 'U')
-  {
-    return falcon->answer(request, argument);
-  }
-  static const auto real =
-    reinterpret_cast<int (*)(int, unsigned long, ...)>(dlsym(RTLD_NEXT, "ioctl"));
-  return real(file, request, argument);
-}
-
-namespace palp
-{
-namespace
-{
 
 class FalconRig : public ::testing::Test
 {
