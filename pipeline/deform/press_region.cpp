@@ -3,19 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace palp
 {
 namespace
 {
 
-constexpr double kFront = 0.5;   // [-] cosine to the contact normal: steeper surface is unrolled
-constexpr double kSharp = 0.966; // [-] cosine of 15 degrees, half of what kFront leaves to a side
-constexpr double kSeedFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
-constexpr double kShorter = 0.999;  // [-] of the distance: ends the search for still shorter ways
-constexpr double kTurn = 10.0;      // [-] inner radii to the one where lengths are true, inverted
-constexpr double kTiny = 1e-12;     // [m]
+constexpr double kFront = 0.5;     // [-] cosine to the contact normal: steeper surface is unrolled
+constexpr double kSharp = 0.966;   // [-] cosine of 15 degrees, half of what kFront leaves to a side
+constexpr double kShorter = 0.999; // [-] of the distance: ends the search for still shorter ways
+constexpr double kTurn = 10.0;     // [-] inner radii to the one where lengths are true, inverted
+constexpr double kTiny = 1e-12;    // [m]
 
 // of a triangle by two of its edges in the frame of the contact; scalars, for a vector would go
 // through memory
@@ -112,76 +110,6 @@ Eigen::Vector3d PressRegion::areaAround(std::int32_t point) const noexcept
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   forEachAreaAround(point, [&](const Eigen::Vector3d& area) { sum += area; });
   return sum;
-}
-
-bool PressRegion::faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept
-{
-  const Eigen::Vector3d area = areaAround(point);
-  return area.dot(normal) > kSeedFacing * area.norm();
-}
-
-// the nearest point that faces the tool: downhill from the last one, or, where that ends on
-// another sheet or the tool has jumped, from the nearest of a few, or else through all points
-std::int32_t PressRegion::findSeed(const Contact& contact) const noexcept
-{
-  const auto few = static_cast<std::size_t>(std::sqrt(static_cast<double>(slot_.size())));
-  std::int32_t best = downhill(seed_, contact);
-  if (best < 0)
-  {
-    best = downhill(findNearest(contact, few), contact);
-  }
-  return best < 0 ? findNearest(contact, 1) : best;
-}
-
-// to the nearest point that a way of ever nearer points leads to; -1 when the contact is not there
-std::int32_t PressRegion::downhill(std::int32_t start, const Contact& contact) const noexcept
-{
-  if (start < 0)
-  {
-    return -1;
-  }
-  std::int32_t best = start;
-  double square = (rest(best) - contact.center).squaredNorm();
-  double longestEdge = 0.0;
-  for (bool better = true; better;)
-  {
-    better = false;
-    longestEdge = 0.0;
-    const std::int32_t from = best;
-    for (const std::int32_t next : umbrella_.around(from))
-    {
-      if (next == Umbrella::kEnd)
-      {
-        continue;
-      }
-      longestEdge = std::max(longestEdge, (rest(next) - rest(from)).squaredNorm());
-      if (const double candidate = (rest(next) - contact.center).squaredNorm(); candidate < square)
-      {
-        square = candidate;
-        best = next;
-        better = true;
-      }
-    }
-  }
-  return square <= longestEdge && faces(best, contact.normal) ? best : -1;
-}
-
-// of every so many points the nearest one that faces the tool; -1 when none does
-std::int32_t PressRegion::findNearest(const Contact& contact, std::size_t every) const noexcept
-{
-  std::int32_t best = -1;
-  double square = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < slot_.size(); i += every)
-  {
-    const auto point = static_cast<std::int32_t>(i);
-    if (const double candidate = (rest(point) - contact.center).squaredNorm();
-        candidate < square && faces(point, contact.normal))
-    {
-      square = candidate;
-      best = point;
-    }
-  }
-  return best;
 }
 
 void PressRegion::grow(const Contact& contact, const ToolBody& body, double inner, double outer)
