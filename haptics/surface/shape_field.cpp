@@ -1,5 +1,6 @@
 #include "haptics/surface/shape_field.h"
 
+#include "haptics/surface/facet_part.h"
 #include "haptics/surface/ray.h"
 #include "haptics/surface/surface.h"
 
@@ -13,11 +14,11 @@ namespace palp
 namespace
 {
 
-constexpr double kFinest = 1.0 / 50.0;   // of the diagonal: least radius of an average
-constexpr double kEdges = 2.0;           // edges of the mesh there; fewer come through one by one
-constexpr double kWidest = 1.0 / 6.0;    // of the diagonal: the least radius, however coarse the mesh
-constexpr double kFine = 0.5;            // cells in the least radius, the reciprocal
-constexpr double kCoarse = 0.25;         // the same where edges of the mesh set that radius
+constexpr double kFinest = 1.0 / 50.0; // of the diagonal: least radius of an average
+constexpr double kEdges = 2.0;         // edges of the mesh there; fewer come through one by one
+constexpr double kWidest = 1.0 / 6.0;  // of the diagonal: the least radius, however coarse the mesh
+constexpr double kFine = 0.5;          // cells in the least radius, the reciprocal
+constexpr double kCoarse = 0.25;       // the same where edges of the mesh set that radius
 constexpr double kMostPieces = 100000.0; // of the triangles, beyond one each
 constexpr double kTurn = 3.0;            // cells to each side of an edge within which it turns
 constexpr double kSharp = 0.8;           // [rad] that a sharp one turns there: 55 degrees
@@ -56,57 +57,6 @@ double leastCell(const BoxTree& tree)
   return std::max(std::sqrt(4.0 * area / kMostPieces), 2.0 * length / pieces);
 }
 
-// one triangle, or a part of it, and how its sides turn the surface
-struct Part
-{
-  std::array<Eigen::Vector3d, 3> corners;
-  std::array<int, 3> sides; // of the triangle, from corner k to k + 1; -1 within it
-};
-
-// halves the longest side until none is longer than a cell
-template <typename Use>
-void cut(const Part& piece, double cell, Use use)
-{
-  const auto& p = piece.corners;
-  std::size_t k = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-  {
-    k = (p[(i + 1) % 3] - p[i]).squaredNorm() > (p[(k + 1) % 3] - p[k]).squaredNorm() ? i : k;
-  }
-  const std::size_t next = (k + 1) % 3;
-  const std::size_t last = (k + 2) % 3;
-  if (!((p[next] - p[k]).squaredNorm() > cell * cell))
-  {
-    use(piece);
-    return;
-  }
-  const Eigen::Vector3d middle = 0.5 * (p[k] + p[next]);
-  cut(Part{ { p[k], middle, p[last] }, { piece.sides[k], -1, piece.sides[last] } }, cell, use);
-  cut(Part{ { middle, p[next], p[last] }, { piece.sides[k], piece.sides[next], -1 } }, cell, use);
-}
-
-// by half of what the surface turns at each side of a triangle, across that side, per length
-std::array<Eigen::Matrix3d, 3> bends(const Surface& surface, const Facet& facet, int triangle)
-{
-  std::array<Eigen::Matrix3d, 3> result;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    result[k].setZero();
-    const int other = surface.across(triangle, static_cast<int>(k));
-    if (other < 0)
-    {
-      continue;
-    }
-    const Eigen::Vector3d beyond =
-      unitNormal(surface.points(), surface.triangles()[static_cast<std::size_t>(other)]);
-    const Eigen::Vector3d along = (facet.corners[(k + 1) % 3] - facet.corners[k]).normalized();
-    const Eigen::Vector3d across = along.cross(facet.normal + beyond).normalized();
-    const double turn = std::atan2(facet.normal.cross(beyond).dot(along), facet.normal.dot(beyond));
-    result[k] = 0.5 * turn * across * across.transpose();
-  }
-  return result;
-}
-
 } // namespace
 
 ShapeField::ShapeField(const Surface& surface)
@@ -128,9 +78,9 @@ ShapeField::ShapeField(const Surface& surface)
   for (std::size_t i = 0; i < tree.facets().size(); ++i)
   {
     const Facet& facet = tree.facets()[i];
-    const auto turns = bends(surface, facet, tree.triangle(static_cast<int>(i)));
-    cut(Part{ facet.corners, { 0, 1, 2 } }, cell_,
-      [&](const Part& part)
+    const auto turns = bendsOf(surface, facet, tree.triangle(static_cast<int>(i)));
+    cut(FacetPart{ facet.corners, { 0, 1, 2 } }, cell_,
+      [&](const FacetPart& part)
       {
         const auto& p = part.corners;
         Piece piece{ ((p[0] + p[1] + p[2]) / 3.0 - origin_).cast<float>(), {} };
@@ -308,7 +258,8 @@ void ShapeField::measureLeaves(const Surface& surface)
     const double thickness = rayExit(surface, place, inward).distance;
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(thickness));
     const float curvature = sum.bend.trace() / area;
-    const bool bends = leaf.bend.trace() > 0.25F * curvature * leaf.area.norm(); // not one beside it
+    const bool bends =
+      leaf.bend.trace() > 0.25F * curvature * leaf.area.norm(); // not one beside it
     sharp_[i] = bends && static_cast<double>(curvature) * around > kSharp ? 1 : 0;
     hasEdges_ = hasEdges_ || sharp_[i] != 0;
   }
@@ -325,7 +276,8 @@ void ShapeField::addUp()
       right == 0 ? atLeaf(i) : above(i, i + 1, static_cast<std::size_t>(right));
     }
   };
-  fromBelow([](std::size_t) {}, [this](std::size_t i, std::size_t left, std::size_t right)
+  fromBelow([](std::size_t) {},
+    [this](std::size_t i, std::size_t left, std::size_t right)
     { sharp_[i] = sharp_[left] | sharp_[right]; });
   fromBelow(
     [this](std::size_t i)

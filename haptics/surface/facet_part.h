@@ -1,0 +1,49 @@
+#pragma once
+
+#include "haptics/surface/surface.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+namespace palp
+{
+
+/// A triangle, or a part of it.
+struct FacetPart
+{
+  std::array<Eigen::Vector3d, 3> corners; ///< [m]
+  std::array<int, 3> sides;               ///< of the triangle, from corner k to k + 1; -1 within it
+};
+
+/// Halves the longest side until none is longer than a cell [m]; use(part) for each.
+template <typename Use>
+void cut(const FacetPart& piece, double cell, Use use)
+{
+  const auto& p = piece.corners;
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+  {
+    k = (p[(i + 1) % 3] - p[i]).squaredNorm() > (p[(k + 1) % 3] - p[k]).squaredNorm() ? i : k;
+  }
+  const std::size_t next = (k + 1) % 3;
+  const std::size_t last = (k + 2) % 3;
+  if (!((p[next] - p[k]).squaredNorm() > cell * cell))
+  {
+    use(piece);
+    return;
+  }
+  const Eigen::Vector3d middle = 0.5 * (p[k] + p[next]);
+  cut(FacetPart{ { p[k], middle, p[last] }, { piece.sides[k], -1, piece.sides[last] } }, cell, use);
+  cut(FacetPart{ { middle, p[next], p[last] }, { piece.sides[k], piece.sides[next], -1 } }, cell,
+    use);
+}
+
+/// By half of what the surface turns at each side of a triangle, across that side, per length.
+///
+/// @param triangle  the facet's, among those of the surface
+/// @return          one symmetric tensor a side [rad], zero at an open one
+[[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(
+  const Surface& surface, const Facet& facet, int triangle);
+
+} // namespace palp
