@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace palp
 {
@@ -34,6 +35,34 @@ double contactRadius(const Tip& tip, double depth, double low, double high)
   return 0.5 * (found.low + found.high);
 }
 
+// radii at depths from the base down; g(a)/a never decreases in a, which brackets each next one
+std::vector<double> contactRadii(
+  const Tip& tip, const std::vector<double>& logs, double step, double base)
+{
+  std::vector<double> radii(logs.size(), base);
+  for (std::size_t row = logs.size() - 1; row-- > 0;)
+  {
+    radii[row] = contactRadius(tip, std::exp(logs[row]),
+      std::max(flatRadius(tip), radii[row + 1] * std::exp(-step)), radii[row + 1]);
+  }
+  return radii;
+}
+
+// integrals of g s^(2k) between two radii, by Gauss
+void addMoments(const Tip& tip, double from, double to, std::span<double> sums)
+{
+  for (const double node : { -std::sqrt(0.6), 0.0, std::sqrt(0.6) })
+  {
+    const double s = from + 0.5 * (1.0 + node) * (to - from);
+    double integrand = (node == 0.0 ? 4.0 : 2.5) / 9.0 * (to - from) * contactDepth(tip, s);
+    for (double& sum : sums)
+    {
+      sum += integrand;
+      integrand *= s * s;
+    }
+  }
+}
+
 } // namespace
 
 ContactTable::ContactTable(const Tip& tip)
@@ -49,17 +78,12 @@ ContactTable::ContactTable(const Tip& tip)
   firstLog_ = std::log(kShallowest * baseDepth_);
   step_ = -std::log(kShallowest) / (kRows - 1);
 
-  // radii from the base down; g(a)/a never decreases in a, which brackets each next radius
   std::vector<double> logs(kRows);
-  std::vector<double> radii(kRows, base_.radius);
-  for (int i = kRows - 1; i-- > 0;)
+  for (int i = 0; i < kRows; ++i)
   {
-    const auto row = static_cast<std::size_t>(i);
-    logs[row] = firstLog_ + i * step_;
-    radii[row] = contactRadius(tip, std::exp(logs[row]),
-      std::max(flatRadius(tip), radii[row + 1] * std::exp(-step_)), radii[row + 1]);
+    logs[static_cast<std::size_t>(i)] = firstLog_ + i * step_;
   }
-  logs.back() = firstLog_ + (kRows - 1) * step_;
+  const std::vector<double> radii = contactRadii(tip, logs, step_, base_.radius);
   const std::vector<double> slopes = monotoneSlopes(logs, radii);
 
   // integrals of g s^(2k): below the first row a ~ depth^p in closed form, then Gauss
@@ -73,17 +97,7 @@ ContactTable::ContactTable(const Tip& tip)
   rows_.resize(kRows);
   for (std::size_t i = 0; i < rows_.size(); ++i)
   {
-    const double from = i > 0 ? radii[i - 1] : radii[0];
-    for (const double node : { -std::sqrt(0.6), 0.0, std::sqrt(0.6) })
-    {
-      const double s = from + 0.5 * (1.0 + node) * (radii[i] - from);
-      double integrand = (node == 0.0 ? 4.0 : 2.5) / 9.0 * (radii[i] - from) * contactDepth(tip, s);
-      for (double& sum : sums)
-      {
-        sum += integrand;
-        integrand *= s * s;
-      }
-    }
+    addMoments(tip, i > 0 ? radii[i - 1] : radii[0], radii[i], sums);
     const double depth = std::exp(logs[i]);
     Row& row = rows_[i];
     row.value.radius = radii[i];
