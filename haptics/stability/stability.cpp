@@ -49,14 +49,23 @@ StabilityCase make(std::string name, const Tip& tip, double modulus, double rati
   return made;
 }
 
-// tissue against everything that a loop, a device or a hand may do
-void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double modulus)
+// appends a case of a tissue with something changed in its loop
+struct Vary
 {
-  const auto vary = [&](const std::string& name, const auto& change)
+  std::vector<StabilityCase>& cases;
+  const Tip& tip;
+  double modulus;
+
+  template <typename Change>
+  void operator()(const std::string& name, const Change& change) const
   {
     cases.push_back(make(name, tip, modulus));
     change(cases.back().loop);
-  };
+  }
+};
+
+void addTimings(const Vary& vary)
+{
   for (const double jitter : { 0.2, 0.5 })
   {
     vary(
@@ -81,6 +90,10 @@ void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double mod
     vary("delay of " + std::to_string(delay) + (delay == 1 ? " tick" : " ticks"),
       [&](LoopCase& loop) { loop.plant.delay = delay; });
   }
+}
+
+void addDevices(const Vary& vary)
+{
   for (const int damping : { 2, 5, 20, 50 })
   {
     vary("virtual damping of " + std::to_string(damping) + " N s/m",
@@ -109,11 +122,20 @@ void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double mod
   vary("damping half of stated",
     [](LoopCase& loop) { loop.plant.statedDamping = 2.0 * loop.plant.damping; });
   vary("damping not stated", [](LoopCase& loop) { loop.plant.statedDamping = 0.0; });
+}
+
+void addHands(const Vary& vary)
+{
   vary("first touch", [](LoopCase& loop) { loop.plant.startSpeed = loop.plant.handForce = 0.01; });
   vary("tap at 1 m/s", [](LoopCase& loop) { loop.plant.startSpeed = 1.0; });
   vary("lean with 3.5 N", [](LoopCase& loop) { loop.plant.handForce = 3.5; });
-  vary("tissue softens", [&](LoopCase& loop) { loop.swapped = lawOf(tip, 5.0_kPa, 0.33); });
-  vary("tissue stiffens", [&](LoopCase& loop) { loop.swapped = lawOf(tip, 10.0_MPa, 0.33); });
+}
+
+// of the tissue under the tool
+void addChanges(const Vary& vary)
+{
+  vary("tissue softens", [&](LoopCase& loop) { loop.swapped = lawOf(vary.tip, 5.0_kPa, 0.33); });
+  vary("tissue stiffens", [&](LoopCase& loop) { loop.swapped = lawOf(vary.tip, 10.0_MPa, 0.33); });
   for (const double rise : { -2.0_mm, 2.0_mm })
   {
     vary(rise < 0.0 ? "surface sinks 2 mm" : "surface rises 2 mm",
@@ -123,6 +145,15 @@ void addVariations(std::vector<StabilityCase>& cases, const Tip& tip, double mod
         loop.swapRise = rise;
       });
   }
+}
+
+// tissue against everything that a loop, a device or a hand may do
+void addVariations(const Vary& vary)
+{
+  addTimings(vary);
+  addDevices(vary);
+  addHands(vary);
+  addChanges(vary);
 }
 
 struct Stage
@@ -175,7 +206,7 @@ std::vector<StabilityCase> stabilityCases(bool quick)
     {
       if (!quick || (tip.index() == 0 && modulus != 5.0_kPa && modulus != 1.5_MPa))
       {
-        addVariations(cases, tip, modulus);
+        addVariations({ cases, tip, modulus });
       }
     }
   }
