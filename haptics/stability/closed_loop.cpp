@@ -14,7 +14,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kSettling = 0.2; // before the hand moves, so that a force may start [s]
+constexpr double kSettling = 0.2; // before the hand moves [s]
 
 // exact motion of m x'' + b x' = u over a time, u constant
 struct Motion
@@ -149,16 +149,35 @@ private:
   double drop_;
 };
 
+// the hand rests, so that a force may start
+void settle(Controller& controller, const LoopCase& loop)
+{
+  for (double time = 0.0; time < kSettling; time += loop.period)
+  {
+    (void)controller(loop.plant.startDepth, loop.period, false);
+  }
+}
+
+// speed early on, and where the loop still hums at the end
+void seeSpeed(LoopResult& result, double share, double speed, double force)
+{
+  if (share > 0.125 && share <= 0.25)
+  {
+    result.earlySpeed = std::max(result.earlySpeed, speed);
+  }
+  if (share > 0.875 && force > 0.0)
+  {
+    result.hum = std::max(result.hum, speed);
+  }
+}
+
 } // namespace
 
 LoopResult simulate(const LoopCase& loop)
 {
   const Plant& plant = loop.plant;
   Controller controller(loop);
-  for (double time = 0.0; time < kSettling; time += loop.period)
-  {
-    (void)controller(plant.startDepth, loop.period, false);
-  }
+  settle(controller, loop);
 
   LoopResult result;
   Clock clock(loop);
@@ -192,18 +211,11 @@ LoopResult simulate(const LoopCase& loop)
     result.peakStep = std::max(result.peakStep, std::abs(force - last));
     last = force;
     const double share = time / loop.duration;
-    if (share > 0.125 && share <= 0.25)
-    {
-      result.earlySpeed = std::max(result.earlySpeed, speed);
-    }
+    seeSpeed(result, share, speed, force);
     if (share > 0.75)
     {
       tail += speed * speed * dt;
       tailTime += dt;
-    }
-    if (share > 0.875 && force > 0.0)
-    {
-      result.hum = std::max(result.hum, speed);
     }
   }
   result.portEnd = port;
