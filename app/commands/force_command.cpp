@@ -2,8 +2,8 @@
 #include "app/input/law_options.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/force/inclination.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
@@ -57,21 +57,26 @@ std::span<const Factor> factorsOf(const ForceLaw& law, const Factors& factors)
   return std::span(factors).first(factors.size() - (law.settings().coatings.empty() ? 1 : 0));
 }
 
-void printForces(const ForceOptions& options)
+Range depthsOf(const std::string& text)
 {
-  const ForceLaw law = options.tissue.law();
-  const Range depths = parseRange(options.depth, Quantity::Length, "--depth");
+  Range depths = parseRange(text, Quantity::Length, "--depth");
   if (depths.si.front() < 0.0 || depths.si.back() > kLargestDepth)
   {
-    throw Error(
-      ErrorCode::BadValue, "--depth: '" + options.depth + "' is out of range; give 0mm to 1m");
+    throw Error(ErrorCode::BadValue, "--depth: '" + text + "' is out of range; give 0mm to 1m");
   }
-  const bool paper = law.settings().mode == LawMode::Paper;
-  Indentation place = options.place.place();
-  const Validity validity(law, { .deepest = depths.si.back() });
+  return depths;
+}
 
+bool isPaper(const ForceLaw& law)
+{
+  return law.settings().mode == LawMode::Paper;
+}
+
+// what the columns are
+void printHead(const ForceLaw& law, const Indentation& place, std::span<const Rule> rules)
+{
   std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
-  if (!paper)
+  if (!isPaper(law))
   {
     for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
     {
@@ -79,34 +84,47 @@ void printForces(const ForceOptions& options)
     }
     header += ",axial_force_N,lateral_force_N";
   }
-  if (options.validity)
+  for (const Rule& rule : rules)
   {
-    for (const Rule& rule : validity(place))
-    {
-      std::cout << "# " << rule.name << "_of_limit: " << rule.why << '\n';
-      header += "," + std::string(rule.name) + "_of_limit";
-    }
+    std::cout << "# " << rule.name << "_of_limit: " << rule.why << '\n';
+    header += "," + std::string(rule.name) + "_of_limit";
   }
   std::cout << header << '\n';
+}
+
+// after the depth
+void addForces(std::vector<double>& row, const ForceLaw& law, const Indentation& place)
+{
+  const Response response = law(place);
+  row.insert(row.end(),
+    { response.force, units::toMillimetres(response.contactRadius),
+      units::toNewtonsPerMillimetre(response.stiffness) });
+  if (!isPaper(law))
+  {
+    for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
+    {
+      row.push_back(factor.value);
+    }
+    const InclinedForce felt = inclinedForce(response.force, place.tilt);
+    row.insert(row.end(), { felt.axial, felt.lateral });
+  }
+}
+
+void printForces(const ForceOptions& options)
+{
+  const ForceLaw law = options.tissue.law();
+  const Range depths = depthsOf(options.depth);
+  Indentation place = options.place.place();
+  const Validity validity(law, { .deepest = depths.si.back() });
+  const Rules rules = validity(place);
+  printHead(law, place, std::span(rules).first(options.validity ? rules.size() : 0));
 
   std::vector<double> row;
   for (std::size_t i = 0; i < depths.si.size(); ++i)
   {
     place.depth = depths.si[i];
-    const Response response = law(place);
-    row = { depths.given[i] * units::toMillimetres(depths.unit), response.force,
-      units::toMillimetres(response.contactRadius),
-      units::toNewtonsPerMillimetre(response.stiffness) };
-    if (!paper)
-    {
-      for (const Factors factors = law.factors(place);
-           const Factor& factor : factorsOf(law, factors))
-      {
-        row.push_back(factor.value);
-      }
-      const InclinedForce felt = inclinedForce(response.force, place.tilt);
-      row.insert(row.end(), { felt.axial, felt.lateral });
-    }
+    row = { depths.given[i] * units::toMillimetres(depths.unit) };
+    addForces(row, law, place);
     if (options.validity)
     {
       for (const Rule& rule : validity(place))
@@ -116,7 +134,7 @@ void printForces(const ForceOptions& options)
     }
     writeCsvRow(std::cout, row);
   }
-  if (!paper)
+  if (!isPaper(law))
   {
     tellFactors(law, place);
   }
