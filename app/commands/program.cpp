@@ -62,8 +62,7 @@ std::vector<std::string> withCommand(const CLI::App& app, int argc, char** argv)
 // an unset variable of the shell must not stand for a default
 void refuseEmptyValues(CLI::App& app)
 {
-  const CLI::Validator notEmpty(
-    [](const std::string& text)
+  const CLI::Validator notEmpty([](const std::string& text)
     { return std::string(text.empty() ? "is empty; give a value, or leave it out" : ""); },
     "");
   for (CLI::App* command : app.get_subcommands({}))
@@ -76,6 +75,21 @@ void refuseEmptyValues(CLI::App& app)
       }
     }
   }
+}
+
+void addCommands(CLI::App& app, const Parts& parts)
+{
+  addViewCommand(app, parts.view);
+  addRunCommand(app, parts.pictures);
+  addSceneCommand(app, parts.pictures, parts.view);
+  addForceCommand(app);
+  addCalibrateCommand(app, parts.pictures);
+  addExperimentCommand(app, parts.pictures);
+  addReportCommand(app, parts.pictures);
+  addStabilityCommand(app);
+  addBenchCommand(app, parts.pictures);
+  addDevicesCommand(app, parts.devices);
+  refuseEmptyValues(app);
 }
 
 } // namespace
@@ -111,17 +125,7 @@ int runProgram(int argc, char** argv, const Parts& parts)
     "  palp liver.stl --tip cone:45deg:10mm         your own surface, a conical tool\n"
     "  palp run liver.stl --path press.csv --out out --young 20kPa\n"
     "  palp force --tip sphere:10mm --depth 0:10:0.5mm > law.csv");
-  addViewCommand(app, parts.view);
-  addRunCommand(app, parts.pictures);
-  addSceneCommand(app, parts.pictures, parts.view);
-  addForceCommand(app);
-  addCalibrateCommand(app, parts.pictures);
-  addExperimentCommand(app, parts.pictures);
-  addReportCommand(app, parts.pictures);
-  addStabilityCommand(app);
-  addBenchCommand(app, parts.pictures);
-  addDevicesCommand(app, parts.devices);
-  refuseEmptyValues(app);
+  addCommands(app, parts);
 
   // for the start script: is this word a command of ours?
   if (argc == 3 && std::string_view(argv[1]) == "--is-command")
