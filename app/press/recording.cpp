@@ -2,14 +2,15 @@
 
 #include "app/input/law_options.h"
 #include "app/input/tip_spec.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/contact/indentation_of.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
 #include <algorithm>
 #include <optional>
 #include <ostream>
+#include <vector>
 
 namespace palp
 {
@@ -36,6 +37,72 @@ std::string origin(const Recording& recording)
     lines += "# felt: " + describe(file) + '\n';
   }
   return lines;
+}
+
+// where the samples come from, and what they are of
+void describeRecording(std::ostream& out, const Recording& recording)
+{
+  const ForceLaw& law = recording.scene.law;
+  out << "# palp " << PALP_VERSION << '\n'
+      << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
+      << origin(recording) << "# device: " << recording.device << '\n'
+      << "# tool: " << describeTip(law.tip()) << '\n'
+      << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
+      << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
+      << "# law: " << describeLaw(law.settings()) << '\n'
+      << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
+      << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
+      << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
+         "and limits; force_x/y/z_N: sent to the device\n"
+      << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
+         "all factors\n";
+}
+
+void writeColumns(std::ostream& out, const ForceLaw& law, bool hasExtents, bool hasRules)
+{
+  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
+         "contact_radius_mm,"
+      << (hasExtents ? "extent_radius_mm," : "")
+      << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
+      << (hasRules ? ",broken_rules" : "")
+      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
+  for (const Factor& factor : law.factors({}))
+  {
+    out << ",factor_" << factor.name;
+  }
+  out << '\n';
+}
+
+std::vector<double> rowOf(const Sample& sample, const ForceLaw& law, const Calibration* calibration,
+  const std::optional<Validity>& validity)
+{
+  using units::toMillimetres;
+  const Eigen::Vector3d& apex = sample.pose.apex;
+  const Eigen::Vector3d& axis = sample.pose.axis;
+  const Contact& contact = sample.contact;
+  std::vector<double> row{ sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()),
+    toMillimetres(apex.z()), toMillimetres(contact.depth), sample.response.force, sample.force.x(),
+    sample.force.y(), sample.force.z(), toMillimetres(sample.response.contactRadius) };
+  if (calibration)
+  {
+    row.push_back(toMillimetres(calibration->extents.extentRadius(contact.depth)));
+  }
+  row.insert(row.end(),
+    { units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
+      contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
+      static_cast<double>(sample.flags) });
+  if (validity)
+  {
+    row.push_back(
+      static_cast<double>(brokenRules((*validity)(indentationOf(contact), contact.edgeDistance))));
+  }
+  row.insert(row.end(),
+    { toMillimetres(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
+  for (const Factor& factor : law.factors(indentationOf(contact)))
+  {
+    row.push_back(factor.value);
+  }
+  return row;
 }
 
 } // namespace
@@ -68,67 +135,18 @@ const Sample* deepestOf(std::span<const Sample> samples) noexcept
 
 void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration)
 {
-  using units::toMillimetres;
+  describeRecording(out, recording);
   const ForceLaw& law = recording.scene.law;
-  out << "# palp " << PALP_VERSION << '\n'
-      << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
-      << origin(recording) << "# device: " << recording.device << '\n'
-      << "# tool: " << describeTip(law.tip()) << '\n'
-      << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
-      << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
-      << "# law: " << describeLaw(law.settings()) << '\n'
-      << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
-      << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
-      << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
-         "and limits; force_x/y/z_N: sent to the device\n"
-      << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
-         "all factors\n";
   const std::optional<Validity> validity =
     recording.rated ? std::optional<Validity>(law) : std::nullopt;
   if (validity)
   {
     describeRules(out, *validity);
   }
-  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
-         "contact_radius_mm,"
-      << (calibration ? "extent_radius_mm," : "")
-      << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
-      << (validity ? ",broken_rules" : "")
-      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
-  for (const Factor& factor : law.factors({}))
-  {
-    out << ",factor_" << factor.name;
-  }
-  out << '\n';
-  std::vector<double> row;
+  writeColumns(out, law, calibration != nullptr, validity.has_value());
   for (const Sample& sample : recording.samples)
   {
-    const Eigen::Vector3d& apex = sample.pose.apex;
-    const Eigen::Vector3d& axis = sample.pose.axis;
-    const Contact& contact = sample.contact;
-    row = { sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()), toMillimetres(apex.z()),
-      toMillimetres(contact.depth), sample.response.force, sample.force.x(), sample.force.y(),
-      sample.force.z(), toMillimetres(sample.response.contactRadius) };
-    if (calibration)
-    {
-      row.push_back(toMillimetres(calibration->extents.extentRadius(contact.depth)));
-    }
-    row.insert(row.end(),
-      { units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
-        contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
-        static_cast<double>(sample.flags) });
-    if (validity)
-    {
-      row.push_back(static_cast<double>(
-        brokenRules((*validity)(indentationOf(contact), contact.edgeDistance))));
-    }
-    row.insert(row.end(),
-      { toMillimetres(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
-    for (const Factor& factor : law.factors(indentationOf(contact)))
-    {
-      row.push_back(factor.value);
-    }
-    writeCsvRow(out, row);
+    writeCsvRow(out, rowOf(sample, law, calibration, validity));
   }
 }
 
