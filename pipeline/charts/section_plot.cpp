@@ -5,16 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCleanPolyData.h>
 #include <vtkCutter.h>
+#include <vtkIdList.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStripper.h>
 
 namespace palp
 {
 namespace
 {
+
+using namespace units::literals;
 
 constexpr int kSteps = 200;
 constexpr appearance::Color kToolLine{ 0.45, 0.47, 0.50 };
@@ -37,14 +46,78 @@ struct Frame
   Eigen::Vector3d center;
   Eigen::Vector3d along;
   Eigen::Vector3d up;
+
+  [[nodiscard]] Eigen::Vector2d inPlane(const Eigen::Vector3d& point) const
+  {
+    return { (point - center).dot(along), (point - center).dot(up) };
+  }
 };
 
-// what is drawn, and where it was at rest, from left to right
+// what is drawn, and where it was at rest, from left to right along the surface
 struct Cut
 {
   Line drawn;
   Line rest;
+  std::size_t middle = 0; // the point at the contact's center
 };
+
+// a point of the cut, in the frame's plane [m]
+struct CutPoint
+{
+  Eigen::Vector2d drawn;
+  Eigen::Vector2d rest;
+};
+
+std::size_t middleOf(const std::vector<CutPoint>& line)
+{
+  const auto nearer = [](const CutPoint& a, const CutPoint& b)
+  { return a.rest.squaredNorm() < b.rest.squaredNorm(); };
+  return static_cast<std::size_t>(
+    std::min_element(line.begin(), line.end(), nearer) - line.begin());
+}
+
+// Near an edge the plane meets the surface several times above one place: the line has to follow
+// the surface, not the plane's axis. Of several lines the one through the contact.
+std::vector<CutPoint> followSurface(vtkPolyData* segments, const Frame& frame)
+{
+  // a plane through a corner cuts the triangles there a rounding error apart
+  vtkNew<vtkCleanPolyData> merged;
+  merged->SetInputData(segments);
+  merged->ToleranceIsAbsoluteOn();
+  merged->SetAbsoluteTolerance(0.1_um);
+  merged->ConvertLinesToPointsOff();
+  vtkNew<vtkStripper> joined;
+  joined->SetInputConnection(merged->GetOutputPort());
+  joined->SetMaximumLength(std::numeric_limits<int>::max());
+  joined->JoinContiguousSegmentsOn();
+  joined->Update();
+  vtkPolyData* lines = joined->GetOutput();
+  vtkDataArray* moved = lines->GetPointData()->GetArray("Displacement");
+  std::vector<CutPoint> nearest;
+  double least = std::numeric_limits<double>::infinity(); // [m]
+  const auto cells = vtk::TakeSmartPointer(lines->GetLines()->NewIterator());
+  for (cells->GoToFirstCell(); moved && !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdList* ids = cells->GetCurrentCell();
+    std::vector<CutPoint> line;
+    for (const vtkIdType id : *ids)
+    {
+      Eigen::Vector3d point;
+      Eigen::Vector3d displacement;
+      lines->GetPoint(id, point.data());
+      moved->GetTuple(id, displacement.data());
+      const Eigen::Vector3d rest = point - displacement;
+      line.push_back({ frame.inPlane(point), frame.inPlane(rest) });
+    }
+    const double distance = line[middleOf(line)].rest.norm();
+    if (distance < least)
+    {
+      least = distance;
+      nearest = std::move(line);
+    }
+  }
+  return nearest;
+}
 
 Cut cutDent(vtkPalpDeformFilter& press, const Frame& frame)
 {
@@ -55,30 +128,32 @@ Cut cutDent(vtkPalpDeformFilter& press, const Frame& frame)
   cutter->SetCutFunction(plane);
   cutter->SetInputConnection(press.GetOutputPort(1));
   cutter->Update();
-  vtkPolyData* lines = cutter->GetOutput();
-  vtkDataArray* moved = lines->GetPointData()->GetArray("Displacement");
-  struct Point
-  {
-    double along, drawn, rest; // [m]
-  };
-  std::vector<Point> points;
-  for (vtkIdType i = 0; moved && i < lines->GetNumberOfPoints(); ++i)
-  {
-    Eigen::Vector3d point;
-    Eigen::Vector3d displacement;
-    lines->GetPoint(i, point.data());
-    moved->GetTuple(i, displacement.data());
-    point -= frame.center;
-    points.push_back(
-      { point.dot(frame.along), point.dot(frame.up), (point - displacement).dot(frame.up) });
-  }
-  std::sort(
-    points.begin(), points.end(), [](const Point& a, const Point& b) { return a.along < b.along; });
+  std::vector<CutPoint> points = followSurface(cutter->GetOutput(), frame);
   Cut cut;
-  for (const Point& point : points)
+  if (points.empty())
   {
-    cut.drawn.add(point.along, point.drawn);
-    cut.rest.add(point.along, point.rest);
+    return cut;
+  }
+  // a closed line begins and ends behind the contact
+  if (points.size() > 2 && points.front().drawn == points.back().drawn)
+  {
+    points.pop_back();
+    const auto count = static_cast<std::ptrdiff_t>(points.size());
+    const auto behind = (static_cast<std::ptrdiff_t>(middleOf(points)) + count / 2) % count;
+    std::rotate(points.begin(), points.begin() + behind, points.end());
+  }
+  cut.middle = middleOf(points);
+  const std::size_t before = cut.middle == 0 ? 0 : cut.middle - 1;
+  const std::size_t after = std::min(cut.middle + 1, points.size() - 1);
+  if (points[before].rest.x() > points[after].rest.x())
+  {
+    std::reverse(points.begin(), points.end());
+    cut.middle = points.size() - 1 - cut.middle;
+  }
+  for (const CutPoint& point : points)
+  {
+    cut.drawn.add(point.drawn.x(), point.drawn.y());
+    cut.rest.add(point.rest.x(), point.rest.y());
   }
   return cut;
 }
@@ -102,25 +177,22 @@ Line cutTool(const Press& press, const Frame& frame)
 
 // the curve of a patch's edge on one side, laid as it is over the surface at rest
 void addBezier(Plot& plot, const Dent& dent, int direction, double side, const Frame& frame,
-  const Line& rest, Line& control)
+  const Cut& cut, Line& control)
 {
+  const Line& rest = cut.rest;
   const RingCurve& ring = dent.field().curve(direction);
   const std::array<std::pair<double, double>, 3> sinks{ std::pair(ring.inner, ring.sink),
     std::pair(ring.meet, 0.0), std::pair(ring.outer, 0.0) };
   Line curve;
-  const std::size_t count = rest.x.size();
+  const std::size_t count = side > 0.0 ? rest.x.size() - cut.middle : cut.middle + 1;
   double last = 0.0; // distance [m] of the point before
   std::size_t next = 0;
   for (std::size_t i = 0; i < count && next < sinks.size(); ++i)
   {
-    const std::size_t at = side > 0.0 ? i : count - 1 - i; // outwards
+    const std::size_t at = side > 0.0 ? cut.middle + i : cut.middle - i; // outwards
     const std::size_t before = i == 0 ? at : (side > 0.0 ? at - 1 : at + 1);
     const double along = units::fromMillimetres(rest.x[at]);
     const double up = units::fromMillimetres(rest.y[at]);
-    if (side * along < 0.0)
-    {
-      continue;
-    }
     const double distance =
       dent.region().placeInFront(frame.center + along * frame.along + up * frame.up).distance;
     for (; next < sinks.size() && distance >= sinks[next].first; ++next)
@@ -187,9 +259,9 @@ std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vecto
   {
     constexpr int kOpposite = PressField::kDirections / 2;
     Line control;
-    addBezier(*plot, press.GetDent(), direction, 1.0, frame, cut.rest, control);
+    addBezier(*plot, press.GetDent(), direction, 1.0, frame, cut, control);
     const int back = (direction + kOpposite) % PressField::kDirections;
-    addBezier(*plot, press.GetDent(), back, -1.0, frame, cut.rest, control);
+    addBezier(*plot, press.GetDent(), back, -1.0, frame, cut, control);
     plot->addPoints("its control points", control.x, control.y, appearance::curveColor(0));
   }
   if (elements)

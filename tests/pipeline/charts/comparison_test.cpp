@@ -20,6 +20,9 @@
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
 #include <vtkRenderWindow.h>
+#include <vtkSphereSource.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
 #include <vtkTriangleFilter.h>
 
 namespace palp
@@ -158,6 +161,51 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
       EXPECT_NEAR(units::fromMillimetres(height[i]), -elements.sinkAt(at), 1.0_um);
     }
   }
+}
+
+// Near the rim of a thin lobe the plane meets the body above and below the same place.
+TEST(SectionPlot, RunsAroundTheRimOfALobe)
+{
+  constexpr double kWide = 20.0_mm;
+  constexpr double kHalf = 4.0_mm;
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(1.0);
+  ball->SetThetaResolution(121);
+  ball->SetPhiResolution(121);
+  vtkNew<vtkTransform> flat;
+  flat->Scale(kWide, kWide, kHalf);
+  vtkNew<vtkTransformPolyDataFilter> lobe;
+  lobe->SetTransform(flat);
+  lobe->SetInputConnection(ball->GetOutputPort());
+  const double side = 15.0_mm;
+  const Eigen::Vector3d place(side, 0.0, kHalf * std::sqrt(1.0 - std::pow(side / kWide, 2)));
+  const Eigen::Vector3d up =
+    Eigen::Vector3d(place.x() / (kWide * kWide), 0.0, place.z() / (kHalf * kHalf)).normalized();
+  vtkNew<vtkPalpDeformFilter> filter;
+  filter->SetInputConnection(lobe->GetOutputPort());
+  filter->GeneratePatchOn();
+  filter->SetPress(test::pressAt(place, up, SphereTip{ 6.0_mm }, 2.0_mm, 14.0_mm));
+  filter->Update();
+
+  const Eigen::Vector3d along = Eigen::Vector3d::UnitY().cross(up);
+  const auto plot = sectionPlot(*filter, along);
+  vtkTable& rest = *plot->tables()[1];
+  const auto x = column(rest, 0);
+  const auto z = column(rest, 1);
+  ASSERT_GT(x.size(), 50U);
+  double least = kWide; // [m]
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    const Eigen::Vector3d at =
+      place + units::fromMillimetres(x[i]) * along + units::fromMillimetres(z[i]) * up;
+    EXPECT_NEAR(std::hypot(at.x() / kWide, at.z() / kHalf), 1.0, 0.01) << at.transpose();
+    least = std::min(least, at.z());
+    if (i > 0)
+    {
+      EXPECT_LT(std::hypot(x[i] - x[i - 1], z[i] - z[i - 1]), 2.0) << x[i]; // mm, as its triangles
+    }
+  }
+  EXPECT_LT(least, 0.0); // the lower side is in the cut, too
 }
 
 class Files : public ::testing::Test
