@@ -1,9 +1,9 @@
 #include "app/bench/bench.h"
 #include "app/commands/commands.h"
 #include "app/commands/pictures.h"
-#include "app/program/sibling.h"
 #include "app/input/quantity.h"
 #include "app/program/machine.h"
+#include "app/program/sibling.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -20,8 +20,7 @@ namespace palp
 namespace
 {
 
-constexpr double kShortestServo = 1.0;    // [s]
-constexpr double kLongestServo = 86400.0; // [s]
+constexpr Bounds kServoTimes{ 1.0, 86400.0, "1s to 86400s" };
 
 struct BenchOptions
 {
@@ -163,12 +162,7 @@ void runBench(const BenchOptions& options, const Pictures* pictures)
   }
   if (!options.servo.empty())
   {
-    const double time = parseQuantity(options.servo, Quantity::Time, "--servo");
-    if (!(time >= kShortestServo && time <= kLongestServo))
-    {
-      throw Error(
-        ErrorCode::BadValue, "--servo: '" + options.servo + "' is out of range; give 1s to 86400s");
-    }
+    const double time = parseWithin(options.servo, Quantity::Time, kServoTimes, "--servo");
     reportServo(std::cout, std::chrono::duration<double>(time));
     return;
   }

@@ -1,6 +1,7 @@
 #include "app/commands/calibrate_case.h"
 
 #include "app/input/coating_spec.h"
+#include "app/input/json_object.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_spec.h"
 #include "haptics/error.h"
@@ -152,8 +153,7 @@ Case caseOf(const std::string& name, const CaseText& text)
 
 std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& defaults)
 {
-  const auto list = 
-    nlohmann::json::parse(readText(file, "a list of cases"), nullptr, false);
+  const nlohmann::json list = parseJson(readText(file, "a list of cases"), file.string());
   if (!list.is_array() || list.empty())
   {
     throw Error(ErrorCode::BadFile,

@@ -1,10 +1,10 @@
 #include "app/commands/calibrate_case.h"
 #include "app/commands/commands.h"
+#include "app/commands/pictures.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
-#include "app/commands/pictures.h"
-#include "app/program/sibling.h"
 #include "app/program/progress_line.h"
+#include "app/program/sibling.h"
 #include "calibration/study/shipped_tables.h"
 #include "calibration/study/study.h"
 #include "calibration/study/study_files.h"
@@ -191,7 +191,10 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   addOverwrite(*command, options->overwrite);
   command->add_option("--sweep", options->sweep,
     "A list of cases in JSON: the names above with their values, and a \"name\" each");
-  command->add_option("--jobs", options->jobs, "Cases of a sweep at a time")->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Cases of a sweep at a time")
+    ->check(CLI::PositiveNumber)
+    ->needs("--sweep")
+    ->capture_default_str();
   command->add_option("--tables", options->tables, "Make the shipped tables in this folder");
   command->footer(
     "Examples:\n"

@@ -1,16 +1,16 @@
 #include "app/commands/headless.h"
 
+#include "app/commands/pictures.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
+#include "app/press/playback.h"
+#include "app/press/recording.h"
 #include "app/program/interrupt.h"
 #include "app/program/ledger.h"
-#include "app/commands/pictures.h"
-#include "app/press/playback.h"
 #include "app/program/sibling.h"
-#include "app/press/recording.h"
+#include "haptics/contact/indentation_of.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/output_folder.h"
-#include "haptics/contact/indentation_of.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
@@ -53,9 +53,12 @@ void tell(const Recording& recording, const Calibration* calibration)
     return;
   }
   std::cerr << "palp: deepest " << toMillimetres(deepest->contact.depth) << " mm, force "
-            << deepest->response.force << " N"
-            << (isWhole(*deepest) ? "" : " (cut to " + shortest(deepest->force.norm()) + " N)")
-            << ", contact radius " << toMillimetres(deepest->response.contactRadius) << " mm";
+            << deepest->response.force << " N";
+  if (!isWhole(*deepest)) // damped or limited
+  {
+    std::cerr << " (" << deepest->force.norm() << " N to the device)";
+  }
+  std::cerr << ", contact radius " << toMillimetres(deepest->response.contactRadius) << " mm";
   if (calibration)
   {
     std::cerr << ", extent radius "

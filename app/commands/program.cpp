@@ -92,6 +92,22 @@ void addCommands(CLI::App& app, const Parts& parts)
   refuseEmptyValues(app);
 }
 
+// what the parser of the options says: help, or a refusal in our form
+int tell(const CLI::ParseError& error, const CLI::App& app)
+{
+  if (error.get_exit_code() == 0)
+  {
+    return app.exit(error);
+  }
+  std::string what = error.what();
+  if (const std::size_t more = what.find(": At Most 1 required"); more != what.npos)
+  {
+    what.replace(more, what.npos, ": given more than once; give it once");
+  }
+  std::cerr << "palp: " << printable(what) << "; --help tells what may be given\n";
+  return 2;
+}
+
 } // namespace
 
 int exitCode(ErrorCode code)
@@ -153,12 +169,18 @@ int runProgram(int argc, char** argv, const Parts& parts)
   }
   catch (const CLI::ParseError& error)
   {
-    return app.exit(error) == 0 ? 0 : 2;
+    return tell(error, app);
   }
   catch (const Error& error)
   {
     std::cerr << "palp: " << printable(error.what()) << '\n';
     return exitCode(error.code());
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    std::cerr << "palp: " << printable(error.path1().string()) << ": cannot be used ("
+              << error.code().message() << "); choose another file or folder\n";
+    return 2;
   }
   catch (const std::bad_alloc&)
   {

@@ -1,7 +1,7 @@
 #include "app/commands/commands.h"
-#include "app/program/data_files.h"
-#include "app/input/force_curve.h"
 #include "app/commands/headless.h"
+#include "app/input/force_curve.h"
+#include "app/program/data_files.h"
 #include "app/program/ledger.h"
 #include "app/program/output.h"
 #include "app/program/sibling.h"
@@ -25,13 +25,30 @@ struct RunOptions
   std::filesystem::path out;
   std::string size = "1280x960";
   std::vector<std::string> plots{ "force-time", "force-depth" };
-  std::vector<std::string> plotFiles{ "png" };
+  std::vector<std::string> plotFiles; // png where none is named
   std::vector<std::filesystem::path> references;
   bool refined = false;
   bool noPicture = false;
   bool chain = false;
   bool overwrite = false;
 };
+
+// an option without effect is a mistake that nobody would see
+void checkUsed(const RunOptions& options, const ScenePlan& plan)
+{
+  if (!options.references.empty() && !plan.has(Curve::Comparison))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--reference: stands in the comparison only; add --plots comparison, or leave it out");
+  }
+  if (!options.plotFiles.empty() && !plan.has(Curve::Comparison) && !plan.has(Curve::Section) &&
+    !plan.has(Curve::Extent))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--plot-files: says how section, comparison and extent are written; add one to --plots, or "
+      "leave it out");
+  }
+}
 
 void run(const RunOptions& options, const Pictures* pictures)
 {
@@ -54,7 +71,7 @@ void run(const RunOptions& options, const Pictures* pictures)
     .device = "path:" + path.string(),
     .window = false,
     .curves = {},
-    .plotFiles = options.plotFiles,
+    .plotFiles = options.plotFiles.empty() ? std::vector<std::string>{ "png" } : options.plotFiles,
     .refined = options.refined,
     .picture = !options.noPicture,
     .size = size };
@@ -67,6 +84,7 @@ void run(const RunOptions& options, const Pictures* pictures)
       plan.curves.push_back(static_cast<Curve>(found - kCurveNames.begin()));
     }
   }
+  checkUsed(options, plan);
   Ledger silent(false);
   const auto output = openOutput(options.out, pressFiles(), options.overwrite);
   playPlan(plan, options.chain, *output, pictures, silent);
@@ -98,10 +116,9 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
     ->capture_default_str();
   command
     ->add_option("--plot-files", options->plotFiles,
-      "Kinds of files for section, comparison and extent: png, svg, pdf, csv")
+      "Kinds of files for section, comparison and extent: png, svg, pdf, csv; png if none")
     ->delimiter(',')
-    ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }))
-    ->capture_default_str();
+    ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }));
   command->add_option("--reference", options->references,
     "CSV with columns depth_mm and force_N for the comparison, from elsewhere or Palp's own (palp "
     "force, samples.csv); several are allowed");
@@ -110,7 +127,7 @@ void addRunCommand(CLI::App& app, const Pictures* pictures)
   command->add_flag("--refined", options->refined,
     "Divide the triangles of the dent in deformed.vtp as in the picture, so that none cuts the "
     "tool");
-  command->add_flag("--no-picture", options->noPicture, "Write the data only");
+  command->add_flag("--no-picture", options->noPicture, "Write the data only")->excludes("--plots");
   command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
                   "Examples:\n"
                   "  palp run --out out                                  the bundled liver\n"

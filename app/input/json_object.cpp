@@ -1,12 +1,13 @@
 #include "app/input/json_object.h"
 
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace palp
 {
@@ -26,6 +27,40 @@ std::string joined(const std::vector<std::string>& words)
 }
 
 } // namespace
+
+nlohmann::json parseJson(const std::string& text, const std::string& file)
+{
+  using Event = nlohmann::json::parse_event_t;
+  std::vector<std::set<std::string>> keys; // of the objects that are open
+  const auto watch = [&](int, Event event, nlohmann::json& value)
+  {
+    if (event == Event::object_start)
+    {
+      keys.emplace_back();
+    }
+    else if (event == Event::object_end)
+    {
+      keys.pop_back();
+    }
+    else if (event == Event::key && !keys.back().insert(value.get<std::string>()).second)
+    {
+      throw Error(ErrorCode::BadFile,
+        file + ": the key " + inQuotes(value.get<std::string>()) +
+          " stands twice in one object; keep one");
+    }
+    return true;
+  };
+  try
+  {
+    return nlohmann::json::parse(text, watch);
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    // its text names line, column and what was expected, after a code in brackets
+    const std::string what = error.what();
+    throw Error(ErrorCode::BadFile, file + ": " + shortened(what.substr(what.find("] ") + 2)));
+  }
+}
 
 JsonObject::JsonObject(const nlohmann::json& value, std::string file, std::string path)
   : value_(value)

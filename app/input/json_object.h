@@ -8,6 +8,13 @@
 namespace palp
 {
 
+/// The JSON that a person wrote, in which no key stands twice in an object: else one of the two
+/// values would count in silence.
+///
+/// @param file    stands before each message
+/// @throws Error  BadFile: names line and column, or the key
+[[nodiscard]] nlohmann::json parseJson(const std::string& text, const std::string& file);
+
 /// A JSON object that a person wrote, read strictly: a key of another type, or one that nobody
 /// asked for, is an error that names file, path and key.
 ///

@@ -1,8 +1,8 @@
 #include "app/input/law_options.h"
 
 #include "app/input/coating_spec.h"
-#include "app/program/data_files.h"
 #include "app/input/quantity.h"
+#include "app/program/data_files.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
@@ -17,24 +17,13 @@ namespace
 
 using namespace units::literals;
 
-double checked(
-  double value, bool inRange, const char* option, const std::string& text, const char* range)
-{
-  if (!inRange)
-  {
-    throw Error(
-      ErrorCode::BadValue, std::string(option) + ": " + inQuotes(text) + " is out of range; give " + range);
-  }
-  return value;
-}
-
 // 1 / R0; negative for a hollow surface
 double curvature(const std::string& text)
 {
-  const double radius = parseQuantity(text, Quantity::Length, "--surface-radius");
-  return 1.0 /
-    checked(radius, std::abs(radius) >= 1.0_mm && std::abs(radius) <= 1e3, "--surface-radius", text,
-      "1mm or more, less than -1mm for a hollow surface");
+  const bool hollow = text.starts_with('-');
+  const Bounds bounds{ hollow ? -1e3 : 1.0_mm, hollow ? -1.0_mm : 1e3,
+    "1mm to 1000m, -1mm to -1000m where it is hollow" };
+  return 1.0 / parseWithin(text, Quantity::Length, bounds, "--surface-radius");
 }
 
 // the other laws need the table only to tell how far they are off, and do without
@@ -134,9 +123,8 @@ Indentation PlaceOptions::place() const
   Indentation place;
   if (!thickness.empty())
   {
-    const double value = parseQuantity(thickness, Quantity::Length, "--thickness");
     place.thickness =
-      checked(value, value >= 0.1_mm && value <= 1e3, "--thickness", thickness, "0.1mm to 1000m");
+      parseWithin(thickness, Quantity::Length, { 0.1_mm, 1e3, "0.1mm to 1000m" }, "--thickness");
   }
   if (!surfaceRadius.empty())
   {
@@ -149,8 +137,7 @@ Indentation PlaceOptions::place() const
   }
   if (!tilt.empty())
   {
-    const double value = parseQuantity(tilt, Quantity::Angle, "--tilt");
-    place.tilt = checked(value, value >= 0.0 && value <= 89.0_deg, "--tilt", tilt, "0deg to 89deg");
+    place.tilt = parseWithin(tilt, Quantity::Angle, { 0.0, 89.0_deg, "0deg to 89deg" }, "--tilt");
   }
   return place;
 }

@@ -3,11 +3,14 @@
 #include "app/input/quantity.h"
 #include "app/input/tip_spec.h"
 #include "haptics/error.h"
+#include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
 
 namespace palp
 {
+
+using namespace units::literals;
 
 void TissueOptions::addTo(CLI::App& command)
 {
@@ -87,10 +90,20 @@ ContactRule PressOptions::rule() const
   return contact == "paper" ? ContactRule::Paper : ContactRule::Exact;
 }
 
+double PressOptions::layerSi() const
+{
+  return parseWithin(layer, Quantity::Length, { 0.1_mm, 1e3, "0.1mm to 1000m" }, "--layer");
+}
+
+double PressOptions::thresholdSi() const
+{
+  return parseWithin(
+    threshold, Quantity::Length, { 1.0_um, 100.0_mm, "0.001mm to 100mm" }, "--threshold");
+}
+
 double PressOptions::dampingSi() const
 {
-  return checkedDamping(
-    parseQuantity(damping, Quantity::Damping, "--damping"), "--damping");
+  return checkedDamping(parseQuantity(damping, Quantity::Damping, "--damping"), "--damping");
 }
 
 } // namespace palp

@@ -36,7 +36,7 @@ struct PressOptions
 {
   std::filesystem::path file; ///< empty: the bundled liver
   std::string unit = "auto";
-  std::string level; ///< value of an image on the surface; empty: none
+  std::string level;               ///< value of an image on the surface; empty: none
   std::vector<std::string> labels; ///< or of the regions of a label map
   TissueOptions tissue;
   std::string contact = "exact";
@@ -51,7 +51,9 @@ struct PressOptions
   /// @throws Error  BadValue
   [[nodiscard]] ImagePart part() const;
   [[nodiscard]] ContactRule rule() const;
-  [[nodiscard]] double dampingSi() const; ///< b [N s/m]
+  [[nodiscard]] double dampingSi() const;   ///< b [N s/m]
+  [[nodiscard]] double layerSi() const;     ///< [m]; where one is given
+  [[nodiscard]] double thresholdSi() const; ///< [m]
 };
 
 } // namespace palp

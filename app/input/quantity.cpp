@@ -139,6 +139,17 @@ double parseQuantity(
   return toSi(split.number, unit);
 }
 
+double parseWithin(
+  std::string_view text, Quantity kind, const Bounds& bounds, std::string_view what)
+{
+  const double value = parseQuantity(text, kind, what);
+  if (!(value >= bounds.least && value <= bounds.most))
+  {
+    refuse(what, text, "is out of range; give " + std::string(bounds.inWords));
+  }
+  return value;
+}
+
 double checkedDamping(double damping, std::string_view what)
 {
   constexpr double kMost = 1000.0; // [N s/m], of an oil damper

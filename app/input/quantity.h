@@ -28,6 +28,19 @@ enum class Quantity
 [[nodiscard]] double parseQuantity(
   std::string_view text, Quantity kind, std::string_view what, std::string_view usual = {});
 
+/// What an option takes.
+struct Bounds
+{
+  double least;             ///< SI
+  double most;              ///< SI
+  std::string_view inWords; ///< as in `0.1mm to 1000m`
+};
+
+/// Reads a number with its unit within bounds.
+/// @throws Error BadValue: as parseQuantity(), or out of range
+[[nodiscard]] double parseWithin(
+  std::string_view text, Quantity kind, const Bounds& bounds, std::string_view what);
+
 /// @param damping  b [N s/m]
 /// @param what     the option's name, for the message
 /// @throws Error   BadValue: not 0 to 1000 N s/m

@@ -1,11 +1,12 @@
 #include "app/input/scene_file.h"
 
-#include "app/program/data_files.h"
 #include "app/input/json_object.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_spec.h"
+#include "app/program/data_files.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/units.h"
 #include "pipeline/surface_io/length_unit.h"
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,8 @@ namespace palp
 {
 namespace
 {
+
+using namespace units::literals;
 
 const std::vector<std::string> kOverlays{ "force-arrow", "contact-circle", "extent-circle",
   "displacement-colors", "readings", "pressure-colors", "validity-colors", "control-net",
@@ -45,7 +48,7 @@ void checkAt(const JsonObject& object, std::string place, Check check)
   }
 }
 
-Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity)
+Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity, const Bounds& bounds)
 {
   const std::vector<std::string> words = object.texts(key, {});
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
@@ -62,7 +65,7 @@ Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity)
     {
       for (int i = 0; i < 3; ++i)
       {
-        value[i] = parseQuantity(words[static_cast<std::size_t>(i)], quantity, "--entry");
+        value[i] = parseWithin(words[static_cast<std::size_t>(i)], quantity, bounds, "--entry");
       }
     });
   return value;
@@ -70,8 +73,10 @@ Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity)
 
 Eigen::Isometry3d readFrame(JsonObject object)
 {
-  const Eigen::Vector3d origin = triple(object, "origin", Quantity::Length);
-  const Eigen::Vector3d angles = triple(object, "rotation", Quantity::Angle);
+  const Eigen::Vector3d origin =
+    triple(object, "origin", Quantity::Length, { -10.0, 10.0, "-10m to 10m" }); // as far as a path
+  const Eigen::Vector3d angles =
+    triple(object, "rotation", Quantity::Angle, { -360.0_deg, 360.0_deg, "-360deg to 360deg" });
   object.finish();
   using Turn = Eigen::AngleAxisd;
   return Eigen::Translation3d(origin) * Turn(angles.z(), Eigen::Vector3d::UnitZ()) *
@@ -138,11 +143,9 @@ void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& f
   object.finish();
   if (!plan.press.layer.empty())
   {
-    checkAt(
-      object, "layer", [&] { (void)parseQuantity(plan.press.layer, Quantity::Length, "--layer"); });
+    checkAt(object, "layer", [&] { (void)plan.press.layerSi(); });
   }
-  checkAt(object, "threshold",
-    [&] { (void)parseQuantity(plan.press.threshold, Quantity::Length, "--threshold"); });
+  checkAt(object, "threshold", [&] { (void)plan.press.thresholdSi(); });
   constexpr int kNone = 3;
   plan.dent = object.choice("surface", plan.press.surface,
                 { "paper", "paper-literal", "fitted", "none" }) != kNone;
@@ -278,17 +281,7 @@ std::string shippedScenes()
 ScenePlan parseScene(const std::string& text, const std::filesystem::path& file)
 {
   const std::string name = file.filename().string();
-  nlohmann::json document;
-  try
-  {
-    document = nlohmann::json::parse(text);
-  }
-  catch (const nlohmann::json::exception& error)
-  {
-    // its text names line, column and what was expected, after a code in brackets
-    const std::string what = error.what();
-    throw Error(ErrorCode::BadFile, name + ": " + shortened(what.substr(what.find("] ") + 2)));
-  }
+  const nlohmann::json document = parseJson(text, name);
   ScenePlan plan = readPlan({ document, name }, file.parent_path());
   if (plan.name.empty())
   {

@@ -1,8 +1,8 @@
 #include "app/press/calibration.h"
 
 #include "app/input/coating_spec.h"
-#include "app/program/data_files.h"
 #include "app/input/quantity.h"
+#include "app/program/data_files.h"
 #include "calibration/tables/surface_table.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -49,18 +49,7 @@ struct Layer
 
 Layer layerOf(const PressOptions& options, double radius)
 {
-  const auto length = [](const std::string& text, const char* option, const char* example)
-  {
-    const double value = parseQuantity(text, Quantity::Length, option);
-    if (!(value > 0.0))
-    {
-      throw Error(ErrorCode::BadValue,
-        std::string(option) + ": '" + text + "' is not positive; give " + example + ", say");
-    }
-    return value;
-  };
-  return { options.layer.empty() ? kLayer * radius : length(options.layer, "--layer", "40mm"),
-    length(options.threshold, "--threshold", "0.5mm") };
+  return { options.layer.empty() ? kLayer * radius : options.layerSi(), options.thresholdSi() };
 }
 
 // whether finite elements of a tool of this shape were computed, whatever its size

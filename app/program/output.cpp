@@ -20,7 +20,7 @@ std::unique_ptr<OutputFolder> openOutput(
     folder, std::move(own), overwrite ? Earlier::Replace : Earlier::Refuse);
   if (!output->found().empty())
   {
-    std::cerr << "palp: " << folder.string() << ": replaces " << output->found()
+    std::cerr << "palp: " << folder.string() << ": will replace " << output->found()
               << " of an earlier run\n";
   }
   return output;

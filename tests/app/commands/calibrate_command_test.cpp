@@ -101,7 +101,7 @@ TEST(CalibrateCommand, ReplacesAnEarlierCalibrationOnlyWhenAsked)
   EXPECT_EQ(test::readAll(folder / "table.csv"), before);
   const Finished replaced = calibrate(command + " --young 5kPa --overwrite");
   EXPECT_EQ(replaced.code, 0);
-  EXPECT_NE(replaced.err.find("replaces"), std::string::npos) << replaced.err;
+  EXPECT_NE(replaced.err.find("will replace"), std::string::npos) << replaced.err;
   EXPECT_NE(test::readAll(folder / "table.csv"), before);
 }
 
@@ -127,10 +127,12 @@ TEST(CalibrateCommand, SweepsStayBelowOutAndSayWhatIsWrong)
 {
   const auto folder = test::freshFolder();
   const auto file = folder / "sweep.json";
-  for (const char* bad : { "{}", "[]", "null", "[3]", "[{", "3", R"([{"name": "../../esc"}])",
-         R"([{"name": "/tmp/esc"}])", R"([{"name": ".."}])", R"([{"name": ""}])",
-         R"([{"name": 3}])", R"([{"young": "5kPa"}])", R"([{"name": "a", "depth": 3}])",
-         R"([{"name": "a", "size": "3"}])", R"([{"name": "a"}, {"name": "a"}])" })
+  for (const char* bad :
+    { "{}", "[]", "null", "[3]", "[{", "3", R"([{"name": "../../esc"}])",
+      R"([{"name": "/tmp/esc"}])", R"([{"name": ".."}])", R"([{"name": ""}])", R"([{"name": 3}])",
+      R"([{"young": "5kPa"}])", R"([{"name": "a", "depth": 3}])", R"([{"name": "a", "size": "3"}])",
+      R"([{"name": "a"}, {"name": "a"}])", R"([{"name": "a", "young": "5kPa", "young": "9kPa"}])",
+      R"([{"name": "a", "young": 1e999}])" })
   {
     std::ofstream(file) << bad;
     const Finished finished =
@@ -157,7 +159,8 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine)
 {
   for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--threshold 10mm",
          "--block 100x100mm", "--block 100x100x50", "--material rubber", "--poisson 0.5",
-         "--depth 0:90:1mm", "--model cube", "--sweep /no/such/file.json" })
+         "--depth 0:90:1mm", "--model cube", "--sweep /no/such/file.json", "--jobs 2",
+         "--sweep /no/such/file.json --jobs 0" })
   {
     const Finished finished = calibrate(bad);
     EXPECT_EQ(finished.code, 2) << bad;

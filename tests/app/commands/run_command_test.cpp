@@ -238,7 +238,8 @@ TEST_F(RunCommand, ReplacesWhatIsThereOnlyWhenAsked)
   std::ofstream(folder_.path() / "out/section.svg") << "of the run before";
   const Finished replaced = press("--no-picture --young 5kPa --overwrite", "out");
   EXPECT_EQ(replaced.code, 0);
-  EXPECT_NE(replaced.err.find("replaces deformed.vtp, samples.csv, section.svg"), std::string::npos)
+  EXPECT_NE(
+    replaced.err.find("will replace deformed.vtp, samples.csv, section.svg"), std::string::npos)
     << replaced.err;
   EXPECT_NE(test::readAll(file), before);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/section.svg"));
@@ -417,6 +418,54 @@ TEST_F(RunCommand, RefusesWhatWouldBeInVainBeforeTheWork)
   refused(press + out + " --reference " + press.substr(8), "no column depth_mm");
 }
 
+// an option without effect is a mistake that nobody would see
+TEST_F(RunCommand, RefusesWhatWouldHaveNoEffect)
+{
+  const auto reference = folder_.path() / "law.csv";
+  std::ofstream(reference) << "depth_mm,force_N\n0,0\n1,1\n";
+  for (const std::string& bad :
+    { std::string("--no-picture --plots section"), "--no-picture --reference " + reference.string(),
+      "--plots section --reference " + reference.string(),
+      std::string("--plots force-time --plot-files svg"), std::string("--law paper --law exact"),
+      std::string("--layer 1e300mm"), std::string("--layer 0.001mm"),
+      std::string("--threshold 1000m") })
+  {
+    const Finished finished = press(bad, "none");
+    EXPECT_EQ(finished.code, 2) << bad;
+    EXPECT_EQ(finished.err.rfind("palp: --", 0), 0U) << bad << '\n' << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_EQ(finished.err.find("Most 1 required"), std::string::npos) << finished.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "none")) << bad;
+  }
+}
+
+// damping adds to the law's force: nothing is cut then
+TEST_F(RunCommand, TellsTheForceThatTheDeviceGets)
+{
+  const Finished finished = press("--no-picture --damping 20N*s/m", "out");
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NE(finished.err.find(" N to the device)"), std::string::npos) << finished.err;
+  EXPECT_EQ(finished.err.find("cut"), std::string::npos) << finished.err;
+}
+
+TEST(Program, TellsOfARemovedFolderInOneSentence)
+{
+  const test::TemporaryFolder folder;
+  const std::string gone = (folder.path() / "gone").string();
+  const Finished finished = test::runCommand("mkdir " + gone + " && cd " + gone + " && rmdir " +
+    gone + " && " PALP_PROGRAM " run --no-picture --out k");
+  EXPECT_EQ(finished.code, 2) << finished.err;
+  EXPECT_EQ(finished.err.find("internal error"), std::string::npos) << finished.err;
+}
+
+TEST(Program, ShowsNoControlCharacterOfAnOption)
+{
+  const Finished finished = palp("force --law \"$(printf '\\033[31m')\"");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_EQ(finished.err.find('\033'), std::string::npos) << finished.err;
+  EXPECT_EQ(finished.err.rfind("palp: --law", 0), 0U) << finished.err;
+}
+
 TEST_F(RunCommand, TellsWhereTheLawIsOutsideItsLimits)
 {
   const auto namesDepth = [](const Finished& finished)
@@ -507,8 +556,8 @@ TEST(Program, HelpsByWordAndNamesTheCommands)
 TEST_F(RunCommand, ShowsNoControlCharacterOfAFile)
 {
   const auto path = writePath(folder_.path(), "\033]0;owned\007,1,2,3\n");
-  const Finished finished = palp("run --no-picture --path " + path.string() + " --out " +
-    (folder_.path() / "out").string());
+  const Finished finished = palp(
+    "run --no-picture --path " + path.string() + " --out " + (folder_.path() / "out").string());
   EXPECT_EQ(finished.code, 2);
   EXPECT_EQ(finished.err.find_first_of("\033\007"), std::string::npos) << finished.err;
 }

@@ -104,6 +104,12 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1mm"]}}]})",
       "mine.json: /meshes/0/frame/origin: must be three" },
     { R"({"dent": {"layer": "thick"}})", "mine.json: /dent/layer: " },
+    { R"({"dent": {"layer": "-5mm"}})", "mine.json: /dent/layer: '-5mm' is out of range" },
+    { R"({"dent": {"threshold": "0mm"}})", "mine.json: /dent/threshold: '0mm' is out of range" },
+    { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1e300mm", "0m", "0m"]}}]})",
+      "mine.json: /meshes/0/frame/origin: '1e300mm' is out of range" },
+    { R"({"meshes": [{"bundled": "liver", "frame": {"rotation": ["1e9deg", "0deg", "0deg"]}}]})",
+      "mine.json: /meshes/0/frame/rotation: '1e9deg' is out of range" },
     { R"({"overlays": ["halo"]})", "mine.json: /overlays: 'halo' is not known" },
     { R"({"plots": "force-time"})", "mine.json: /plots: must be a list" },
     { R"({"window": false})", "mine.json: /window: 'mouse' moves in a window only" },
@@ -118,6 +124,12 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
   }
   EXPECT_NE(refusal("{\n  \"palp_scene\": 1,\n}").find("mine.json: parse error at line 3"),
     std::string::npos);
+  EXPECT_EQ(refusal(R"({"palp_scene": 1, "tool": "sphere:10mm", "tool": "sphere:3mm"})"),
+    "mine.json: the key 'tool' stands twice in one object; keep one");
+  const std::string huge = refusal(R"({"palp_scene": 1, "tissue": {"poisson": 1e999}})");
+  EXPECT_EQ(huge.rfind("mine.json: number overflow", 0), 0U) << huge;
+  EXPECT_EQ(refusal(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 1}]})").find("twice"),
+    std::string::npos); // one in each object
   EXPECT_NE(refusal("[]").find("mine.json: /: must be an object"), std::string::npos);
 }
 
