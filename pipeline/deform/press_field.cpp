@@ -197,7 +197,9 @@ double PressField::fittedSink(const RingCurve& curve, double radius) const noexc
 inline double PressField::smoothSink(double distance, const RingCurve& curve) const noexcept
 {
   const bool isFitted = fittedCurve_ && curve.sink > 0.0 && curve.meet > curve.inner;
-  return std::min(isFitted ? fittedSink(curve, distance) : curve.sinkAt(distance), deepest_);
+  // no deeper than the tool, which on a rough surface is deeper at the circle than the contact says
+  const double deepest = std::max(deepest_, curve.sink);
+  return std::min(isFitted ? fittedSink(curve, distance) : curve.sinkAt(distance), deepest);
 }
 
 // a side below the tool goes down with the surface above it, less and less with its own depth, so
