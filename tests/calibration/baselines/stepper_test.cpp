@@ -265,20 +265,22 @@ TEST_P(AnyBaseline, HalvingTheTimeStepHalvesTheError)
   EXPECT_LT(ratio, 2.4);
 }
 
+template <typename Work>
+std::string refusal(const Work& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
 TEST(Stepper, BadInputIsRefusedInOneSentence)
 {
-  const auto refusal = [](const auto& work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const Error& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   Stepper stepper = smallBlock(Baseline::Corotational, kTissue, {}, 5);
   for (const double dt : { 0.0, -1.0_ms, 2.0, static_cast<double>(NAN) })
   {
