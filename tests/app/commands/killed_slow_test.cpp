@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <memory>
+#include <poll.h>
 #include <random>
 #include <spawn.h>
+#include <sys/inotify.h>
 #include <thread>
+#include <unistd.h>
 
 // every command that writes, killed at 1,000 random moments each
 
@@ -50,26 +57,129 @@ void restore(const std::filesystem::path& folder, const Files& files)
   }
 }
 
-// starts a program in a group of its own and kills it with its children after a while
-void killAfter(const std::string& command, std::chrono::duration<double> wait)
+// a program in a group of its own, killed with its children
+class Victim
 {
-  std::string exec = "exec " + command + " >/dev/null 2>&1";
-  std::string shell = "/bin/sh";
-  std::string option = "-c";
-  char* arguments[] = { shell.data(), option.data(), exec.data(), nullptr };
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  pid_t child = 0;
-  ASSERT_EQ(posix_spawn(&child, shell.c_str(), nullptr, &attributes, arguments, environ), 0);
-  posix_spawnattr_destroy(&attributes);
-  std::this_thread::sleep_for(wait);
-  kill(-child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
+public:
+  explicit Victim(const std::string& command)
+  {
+    std::string exec = "exec " + command + " >/dev/null 2>&1";
+    std::string shell = "/bin/sh";
+    std::string option = "-c";
+    char* arguments[] = { shell.data(), option.data(), exec.data(), nullptr };
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    EXPECT_EQ(posix_spawn(&child_, shell.c_str(), nullptr, &attributes, arguments, environ), 0);
+    posix_spawnattr_destroy(&attributes);
+  }
+
+  ~Victim()
+  {
+    kill(-child_, SIGKILL);
+    int status = 0;
+    waitpid(child_, &status, 0);
+  }
+  Victim(const Victim&) = delete;
+  Victim& operator=(const Victim&) = delete;
+
+  [[nodiscard]] bool ended() const
+  {
+    siginfo_t state{};
+    return waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      state.si_pid != 0;
+  }
+
+private:
+  pid_t child_ = 0;
+};
+
+// what happens to files in a folder and in those that are made there
+class FileEvents
+{
+public:
+  explicit FileEvents(const std::filesystem::path& folder)
+    : queue_(inotify_init1(IN_CLOEXEC))
+  {
+    watch(folder);
+  }
+
+  ~FileEvents()
+  {
+    close(queue_);
+  }
+  FileEvents(const FileEvents&) = delete;
+  FileEvents& operator=(const FileEvents&) = delete;
+
+  // waits for so many; fewer when the victim ends before
+  int wait(int most, const Victim& victim)
+  {
+    int seen = 0;
+    while (seen < most)
+    {
+      pollfd ready{ .fd = queue_, .events = POLLIN, .revents = 0 };
+      constexpr int pause = 20; // [ms]
+      if (poll(&ready, 1, pause) > 0)
+      {
+        seen += read();
+      }
+      else if (victim.ended())
+      {
+        break;
+      }
+    }
+    return seen;
+  }
+
+private:
+  void watch(const std::filesystem::path& folder)
+  {
+    const int number = inotify_add_watch(queue_, folder.c_str(),
+      IN_CREATE | IN_MOVE | IN_DELETE | IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB);
+    if (number >= 0)
+    {
+      folders_[number] = folder;
+    }
+    std::error_code gone;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, gone))
+    {
+      if (entry.is_directory(gone) && !entry.is_symlink(gone))
+      {
+        watch(entry.path());
+      }
+    }
+  }
+
+  int read()
+  {
+    alignas(inotify_event) char bytes[4096];
+    const ssize_t size = ::read(queue_, bytes, sizeof bytes);
+    int count = 0;
+    for (ssize_t at = 0; at < size; ++count)
+    {
+      inotify_event event{};
+      std::memcpy(&event, bytes + at, sizeof event);
+      const bool isFolder = (event.mask & IN_ISDIR) != 0;
+      if (isFolder && (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0)
+      {
+        watch(folders_[event.wd] / (bytes + at + sizeof event));
+      }
+      at += static_cast<ssize_t>(sizeof event + event.len);
+    }
+    return count;
+  }
+
+  int queue_;
+  std::map<int, std::filesystem::path> folders_;
+};
+
+// PALP_KILLS sets another number
+int kills()
+{
+  const char* asked = std::getenv("PALP_KILLS");
+  return asked ? std::atoi(asked) : 1000;
 }
 
-constexpr int kKills = 1000;
 constexpr const char* kBefore = "\nof the run before"; // ends each file of that
 
 class Killed : public testing::Test
@@ -81,34 +191,54 @@ protected:
     const std::function<bool(const Files&)>& isWhole = [](const Files&) { return false; })
   {
     const std::string full = PALP_PROGRAM " " + command + " --overwrite --out " + out_.string();
-    const auto start = Clock::now();
     ASSERT_EQ(test::runCommand(full).code, 0);
-    const std::chrono::duration<double> duration = Clock::now() - start;
     const Files fresh = filesIn(out_);
     Files old = fresh;
     for (auto& [name, text] : old)
     {
       text += kBefore;
     }
-    std::mt19937 random(1); // NOLINT: the same moments each time
-    std::uniform_real_distribution<double> share(0.0, 1.2);
     restore(out_, old);
-    for (int i = 0; i < kKills; ++i)
+    const auto start = Clock::now();
+    int events = 0;
     {
-      killAfter(full, share(random) * duration);
-      const Files now = filesIn(out_);
-      ASSERT_TRUE(now == old || now == fresh || isWhole(now)) << "after kill " << i;
-      if (now != old)
-      {
-        restore(out_, old);
-      }
+      FileEvents files(folder_.path());
+      const Victim victim(full);
+      events = files.wait(100'000, victim);
     }
+    const std::chrono::duration<double> duration = Clock::now() - start;
+    std::mt19937 random(1); // NOLINT: the same moments each time
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    int news = 0;
+    for (int i = 0; i < kills(); ++i)
+    {
+      restore(out_, old);
+      FileEvents files(folder_.path());
+      auto victim = std::make_unique<Victim>(full);
+      if (i % 2 == 0)
+      {
+        std::this_thread::sleep_for(1.2 * share(random) * duration);
+      }
+      else // where files change is where a kill tells most
+      {
+        files.wait(static_cast<int>(share(random) * events), *victim);
+        std::this_thread::sleep_for(share(random) * std::chrono::milliseconds(2));
+      }
+      victim.reset();
+      const Files now = filesIn(out_);
+      news += now != old;
+      ASSERT_TRUE(now == old || now == fresh || isWhole(now)) << "after kill " << i;
+    }
+    std::printf(
+      "%d kills of a run of %.2f s and %d file events: %d left the files before, %d new ones\n",
+      kills(), duration.count(), events, kills() - news, news);
     ASSERT_EQ(test::runCommand(full).code, 0);
     EXPECT_EQ(filesIn(out_), fresh);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
   }
 
   test::TemporaryFolder folder_;
+  test::TemporaryFolder cases_;
   std::filesystem::path out_ = folder_.path() / "out";
 };
 
@@ -138,15 +268,97 @@ TEST_F(Killed, Experiment)
 }
 
 // the depths so far, all of the new case
+bool isNewCase(const Files& files)
+{
+  return std::ranges::none_of(
+           files, [](const auto& file) { return file.second.ends_with(kBefore); }) &&
+    files.contains("table.csv") && files.contains("profiles.csv") && files.contains("fit.json");
+}
+
 TEST_F(Killed, Calibration)
 {
-  const auto isNew = [](const Files& files)
+  killOften("calibrate --no-picture --element-size 1mm --depth 1:3:0.5mm", isNewCase);
+}
+
+// each case of its own
+TEST_F(Killed, Sweep)
+{
+  const std::filesystem::path cases = cases_.path() / "cases.json";
+  std::ofstream(cases) << R"([{"name": "soft", "young": "5kPa"}, {"name": "hard"}])";
+  const auto isWhole = [](const Files& files)
   {
-    return std::ranges::none_of(
-             files, [](const auto& file) { return file.second.ends_with(kBefore); }) &&
-      files.contains("table.csv") && files.contains("profiles.csv") && files.contains("fit.json");
+    std::map<std::string, Files> folders;
+    for (const auto& [name, text] : files)
+    {
+      const std::size_t slash = name.find('/');
+      folders[name.substr(0, slash)][name.substr(slash + 1)] = text;
+    }
+    return std::ranges::all_of(folders,
+      [](const auto& folder)
+      {
+        const auto isOld = [](const auto& file) { return file.second.ends_with(kBefore); };
+        return isNewCase(folder.second) || std::ranges::all_of(folder.second, isOld);
+      });
   };
-  killOften("calibrate --element-size 2mm --depth 0.5:3:0.5mm", isNew);
+  killOften("calibrate --no-picture --element-size 1mm --depth 1:3:0.5mm --sweep " + cases.string(),
+    isWhole);
+}
+
+// minutes each, of which the last moment alone writes: what was there stays
+TEST_F(Killed, Tables)
+{
+  const Files old{ { "sphere_r10_h50.csv", "mine" }, { "other.txt", "mine" } };
+  restore(out_, old);
+  std::mt19937 random(1); // NOLINT: the same moments each time
+  std::uniform_real_distribution<double> wait(0.0, 2.0);
+  for (int i = 0; i < kills(); ++i)
+  {
+    {
+      const Victim victim(PALP_PROGRAM " calibrate --overwrite --tables " + out_.string());
+      std::this_thread::sleep_for(std::chrono::duration<double>(wait(random)));
+    }
+    ASSERT_EQ(filesIn(out_), old) << "after kill " << i;
+  }
+}
+
+// goes on after each kill, and anew when it is finished
+TEST_F(Killed, Report)
+{
+  const Files old{ { "machine.json", std::string("{}") + kBefore },
+    { "report.html", std::string("<html>") + kBefore } };
+  restore(out_, old);
+  const auto isOld = [](const auto& file) { return file.second.ends_with(kBefore); };
+  const auto isCut = [](const auto& file)
+  {
+    return file.second.empty() ||
+      (file.first.ends_with(".json") && !file.second.ends_with("}\n")) ||
+      (file.first.ends_with(".csv") && !file.second.ends_with('\n'));
+  };
+  std::mt19937 random(1);                          // NOLINT: the same moments each time
+  std::exponential_distribution<double> wait(0.5); // [1/s]
+  std::string how = " --overwrite";
+  int reports = 0;
+  for (int i = 0; i < kills(); ++i)
+  {
+    bool ended = false;
+    {
+      FileEvents events(folder_.path());
+      const Victim victim(PALP_PROGRAM " report --quick --out " + out_.string() + how);
+      std::this_thread::sleep_for(std::chrono::duration<double>(wait(random)));
+      if (i % 2 == 1)
+      {
+        events.wait(static_cast<int>(random() % 40), victim);
+      }
+      ended = victim.ended();
+    }
+    const Files files = filesIn(out_);
+    const bool before = std::ranges::all_of(files, isOld);
+    ASSERT_TRUE(before || std::ranges::none_of(files, isOld)) << "after kill " << i;
+    ASSERT_TRUE(before || std::ranges::none_of(files, isCut)) << "after kill " << i;
+    reports += ended;
+    how = ended || before ? " --overwrite" : " --resume";
+  }
+  std::printf("%d kills, %d reports finished\n", kills(), reports);
 }
 
 } // namespace
