@@ -1,7 +1,7 @@
 #include "app/input/mesh_file.h"
 
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,12 @@
 namespace palp
 {
 
-MeshFile describeFile(const std::filesystem::path& file)
+namespace
+{
+
+void addBytes(sha256_ctx& hash, const std::filesystem::path& file)
 {
   std::ifstream in(file, std::ios::binary);
-  sha256_ctx hash;
-  sha256_init(&hash);
   std::array<char, 1 << 16> bytes{};
   while (in.read(bytes.data(), bytes.size()), in.gcount() > 0)
   {
@@ -25,6 +26,38 @@ MeshFile describeFile(const std::filesystem::path& file)
   if (!in.eof())
   {
     throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check name and permission");
+  }
+}
+
+// where the voxels of a MetaImage are; empty: in the file itself
+std::filesystem::path dataBeside(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  for (std::string line; file.extension() == ".mhd" && std::getline(in, line);)
+  {
+    constexpr std::string_view blanks = " \t\r";
+    const std::size_t equals = line.find('=');
+    if (line.starts_with("ElementDataFile") && equals != line.npos)
+    {
+      const std::size_t begin = line.find_first_not_of(blanks, equals + 1);
+      const std::size_t end = line.find_last_not_of(blanks) + 1;
+      const std::string name = begin < end ? line.substr(begin, end - begin) : "";
+      return name == "LOCAL" || name.empty() ? "" : file.parent_path() / name;
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+MeshFile describeFile(const std::filesystem::path& file)
+{
+  sha256_ctx hash;
+  sha256_init(&hash);
+  addBytes(hash, file);
+  if (const auto data = dataBeside(file); !data.empty())
+  {
+    addBytes(hash, data);
   }
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
   sha256_digest(&hash, digest.size(), digest.data());
@@ -37,19 +70,24 @@ MeshFile describeFile(const std::filesystem::path& file)
   return mesh;
 }
 
-std::string describe(const MeshFile& mesh)
+std::string frameOf(const MeshFile& mesh)
 {
   constexpr std::array kPatient{ ".nii", ".nii.gz", ".mha", ".mhd" };
-  const bool patient = std::ranges::any_of(
-    kPatient, [&](const char* ending) { return mesh.name.ends_with(ending); });
+  const bool patient =
+    std::ranges::any_of(kPatient, [&](const char* ending) { return mesh.name.ends_with(ending); });
+  return patient ? "LPS" : "";
+}
+
+std::string describe(const MeshFile& mesh)
+{
+  const std::string frame = frameOf(mesh);
   std::string part = mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
   for (const double label : mesh.part.labels)
   {
     part += ", label " + shortest(label);
   }
   return mesh.name + ", SHA-256 " + mesh.sha256 + ", read in " + mesh.unit + ", frame " +
-    (patient ? "LPS" : "of the file") + (mesh.moved ? ", moved by the scene" : "") +
-    part;
+    (frame.empty() ? "of the file" : frame) + (mesh.moved ? ", moved by the scene" : "") + part;
 }
 
 } // namespace palp

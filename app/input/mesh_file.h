@@ -12,7 +12,7 @@ namespace palp
 struct MeshFile
 {
   std::string name;            ///< without its folder
-  std::string sha256;          ///< of its bytes, hexadecimal
+  std::string sha256;          ///< of its bytes, hexadecimal; of MHD with those of its data behind
   std::string unit;            ///< that its coordinates were read in
   ImagePart part;              ///< of an image
   bool moved = false;          ///< by the frame that a scene gives it
@@ -21,6 +21,9 @@ struct MeshFile
 /// @param file    as named by the user
 /// @throws Error  BadFile: cannot be read
 [[nodiscard]] MeshFile describeFile(const std::filesystem::path& file);
+
+/// Axes of its coordinates, for people and programs: "LPS" of a patient's image, else empty.
+[[nodiscard]] std::string frameOf(const MeshFile& mesh);
 
 /// One line for people and programs: name, hash, unit, frame and level.
 [[nodiscard]] std::string describe(const MeshFile& mesh);

@@ -6,14 +6,15 @@
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"
 #include "pipeline/deform/refined_surface.h"
-#include "pipeline/surface_io/surface_io.h"
 #include "pipeline/deform/vtkPalpDeformFilter.h"
+#include "pipeline/surface_io/surface_io.h"
 
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <sstream>
@@ -27,6 +28,34 @@ Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibrati
   return pressOf(sample, tip, extent, calibration.style);
 }
 
+namespace
+{
+
+// halves the edges of the dent further than a picture needs, so that they hardly cut the tool
+void refine(vtkPalpDeformFilter& filter)
+{
+  constexpr int finest = 4;
+  constexpr vtkIdType most = 500'000; // triangles
+  filter.Update();
+  int level = filter.GetUsedPatchLevel();
+  auto* patch = vtkPolyData::SafeDownCast(filter.GetOutputDataObject(1));
+  for (vtkIdType count = 4 * patch->GetNumberOfPolys(); level < finest && count <= most; count *= 4)
+  {
+    ++level;
+  }
+  filter.SetPatchLevel(level);
+}
+
+// axes that all bodies have in common; empty: unknown
+std::string spaceOf(const Recording& recording)
+{
+  const auto isLps = [](const MeshFile& file) { return frameOf(file) == "LPS" && !file.moved; };
+  const bool all = !recording.files.empty() && std::ranges::all_of(recording.files, isLps);
+  return all ? "LPS" : "";
+}
+
+} // namespace
+
 void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
   const Calibration& calibration, bool refined)
 {
@@ -36,6 +65,10 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   if (const Sample* deepest = recording.deepest())
   {
     filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
+  }
+  if (refined)
+  {
+    refine(*filter);
   }
   filter->Update();
 
@@ -51,7 +84,7 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   }
   displacement->SetName("Displacement");
   mesh->GetPointData()->AddArray(displacement);
-  writeSurface(file, *mesh);
+  writeSurface(file, *mesh, spaceOf(recording));
 }
 
 void writeSamples(

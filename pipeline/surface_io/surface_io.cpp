@@ -174,7 +174,8 @@ LoadedSurface madeReady(
   return surface;
 }
 
-void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
+void writeSurface(
+  const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space)
 {
   using Writer = void (*)(const std::filesystem::path&, vtkPolyData&);
   const std::map<std::string, Writer> writers{ { ".vtp", writeVtp },
@@ -187,11 +188,19 @@ void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh)
       file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
   }
   const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimetre));
-  vtkNew<vtkStringArray> unit; // that only VTP has a place for
-  unit->SetName(kUnitArray);
-  unit->InsertNextValue(unitName(LengthUnit::Millimetre));
   data->SetFieldData(vtkNew<vtkFieldData>());
-  data->GetFieldData()->AddArray(unit);
+  const auto add = [&](const char* name, const std::string& value) // only VTP has a place for it
+  {
+    vtkNew<vtkStringArray> words;
+    words->SetName(name);
+    words->InsertNextValue(value);
+    data->GetFieldData()->AddArray(words);
+  };
+  add(kUnitArray, unitName(LengthUnit::Millimetre));
+  if (!space.empty())
+  {
+    add("SPACE", space);
+  }
   writer->second(file, *data);
 }
 

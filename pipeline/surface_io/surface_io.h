@@ -43,10 +43,13 @@ struct LoadedSurface
 [[nodiscard]] LoadedSurface madeReady(
   const FileSurface& read, const std::filesystem::path& file, UnitChoice unit = {});
 
-/// Writes a surface in millimetres: VTP with its arrays and the unit, or bare STL, PLY, OBJ.
+/// Writes a surface in millimetres: VTP with its arrays, unit and axes, or bare STL, PLY, OBJ.
 ///
 /// @param mesh    [m], triangles
+/// @param space   of the axes, as "LPS", which VTP holds in its field array SPACE as 3D Slicer does;
+///                empty: unknown
 /// @throws Error  BadFile: unknown ending, or the file cannot be written
-void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh);
+void writeSurface(
+  const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space = "");
 
 } // namespace palp
