@@ -14,7 +14,11 @@
 #include <numbers>
 #include <random>
 #include <sstream>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
 
 namespace palp::test
 {
@@ -322,6 +326,24 @@ TEST_F(SurfaceFile, ThatSaysItsUnitIsBelieved)
   EXPECT_THROW((void)readSurface(write("sphere.stl", sphere)), Error);
   EXPECT_EQ(
     readSurface(write("sphere.vtp", sphere), LengthUnit::Centimetre).unit, LengthUnit::Centimetre);
+}
+
+TEST_F(SurfaceFile, SaysItsAxesWhereTheyAreKnown)
+{
+  const Mesh sphere = makeSphere(30.0_mm, 1);
+  const auto written = [&](const char* space)
+  {
+    const std::filesystem::path file = folder_.path() / "axes.vtp";
+    writeSurface(file, *makePolyData(sphere.points, sphere.triangles), space);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    auto* array =
+      vtkStringArray::SafeDownCast(reader->GetOutput()->GetFieldData()->GetAbstractArray("SPACE"));
+    return array ? std::string(array->GetValue(0)) : "none";
+  };
+  EXPECT_EQ(written("LPS"), "LPS");
+  EXPECT_EQ(written(""), "none");
 }
 
 TEST_F(SurfaceFile, WithSeamsIsClosedOnceCoincidentPointsAreMerged)
