@@ -308,9 +308,14 @@ private:
       _exit(0);
     }
     int status = 0;
-    waitpid(child, &status, 0);
-    if (WIFSIGNALED(status))
+    rusage used{};
+    wait4(child, &status, 0, &used);
+    if (WIFSIGNALED(status)) // of its time and memory nothing else tells
     {
+      const auto seconds = [](const timeval& time)
+      { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+      shared_->result.time = seconds(used.ru_utime) + seconds(used.ru_stime);
+      shared_->result.peak = 1e-6 * static_cast<double>(used.ru_maxrss); // of kilobytes
       std::snprintf(
         shared_->result.message, sizeof shared_->result.message, "%s", strsignal(WTERMSIG(status)));
       shared_->result.refused = false;
