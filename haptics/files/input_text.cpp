@@ -45,10 +45,10 @@ std::string readText(const std::filesystem::path& file, const std::string& what)
   return text;
 }
 
-std::string shortened(std::string text)
+std::string shortened(const std::string& text)
 {
   constexpr std::size_t most = 200; // [bytes]
-  return printable(text.size() <= most ? text : text.substr(0, most).append("..."));
+  return printable(text.size() <= most ? text : text.substr(0, most) + "...");
 }
 
 std::string inQuotes(std::string_view text)

@@ -14,7 +14,7 @@ namespace palp
 [[nodiscard]] std::string readText(const std::filesystem::path& file, const std::string& what);
 
 /// The first 200 bytes of a text for a message, printable, and dots where it goes on.
-[[nodiscard]] std::string shortened(std::string text);
+[[nodiscard]] std::string shortened(const std::string& text);
 
 /// A piece of such a text for a message: in single quotes, cut to 40 bytes, without control
 /// characters.

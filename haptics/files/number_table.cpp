@@ -156,6 +156,7 @@ NumberTable NumberTable::readColumns(
   for (Row& row : table.rows)
   {
     std::vector<double> picked;
+    picked.reserve(positions.size());
     for (const std::size_t position : positions)
     {
       picked.push_back(row.values[position]);

@@ -125,7 +125,7 @@ ForceLaw ForceLaw::corrected() const
   all.curvature = all.thickness = all.inclination = true;
   if (corrections_ == nullptr)
   {
-    return ForceLaw(tip_, material_, all);
+    return { tip_, material_, all };
   }
   ForceLaw law = *this;
   law.settings_ = all;

@@ -35,7 +35,7 @@ std::optional<SafetyChain> makeChain(const Device& device, const ServoOptions& o
 Servo::Servo(Device& device, Scene scene, const ServoOptions& options)
   : device_(device)
   , options_(options)
-  , scene_(scene)
+  , scene_(std::move(scene))
   , chain_(makeChain(device, options))
   , history_(options.history ? kKept : 1)
   , thread_([this](const std::stop_token& stop) { run(stop); })
@@ -65,7 +65,7 @@ Sample Servo::answer(
   if (chain_)
   {
     const ToolPose held{ .apex = held_.apex, .axis = held_.axis };
-    const Sample sample = step(scene, *chain_, pose, device_.status(), orders, elapsed, held);
+    Sample sample = step(scene, *chain_, pose, device_.status(), orders, elapsed, held);
     held_ = sample.pose;
     return sample;
   }
@@ -81,7 +81,7 @@ Sample Servo::answer(
   return sample;
 }
 
-void Servo::run(std::stop_token stop) noexcept
+void Servo::run(const std::stop_token& stop) noexcept
 {
   const Clock::time_point start = Clock::now();
   Clock::time_point due = start;

@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  void run(std::stop_token stop) noexcept;
+  void run(const std::stop_token& stop) noexcept;
   [[nodiscard]] Sample answer(
     const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept;
   void waitUntil(Clock::time_point due) noexcept;

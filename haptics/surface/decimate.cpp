@@ -90,7 +90,7 @@ Surface decimated(const Surface& surface, std::size_t points)
       triangle[k++] = vertex.idx();
     }
   }
-  return Surface(std::move(kept), std::move(triangles));
+  return { std::move(kept), std::move(triangles) };
 }
 
 } // namespace palp

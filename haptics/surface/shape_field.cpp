@@ -278,7 +278,7 @@ void ShapeField::addUp()
   };
   fromBelow([](std::size_t) {},
     [this](std::size_t i, std::size_t left, std::size_t right)
-    { sharp_[i] = sharp_[left] | sharp_[right]; });
+    { sharp_[i] = sharp_[left] != 0 || sharp_[right] != 0 ? 1 : 0; });
   fromBelow(
     [this](std::size_t i)
     {

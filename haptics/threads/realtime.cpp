@@ -1,9 +1,9 @@
 #include "haptics/threads/realtime.h"
 
-#include <cstring>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace palp
@@ -30,7 +30,7 @@ std::string makeRealtime(pthread_t thread, bool locked)
   const int refused = pthread_setschedparam(thread, SCHED_FIFO, &wanted);
   const std::string words = refused == 0
     ? "real-time priority (SCHED_FIFO " + std::to_string(kPriority) + ")"
-    : std::string("normal priority: SCHED_FIFO refused (") + std::strerror(refused) +
+    : "normal priority: SCHED_FIFO refused (" + std::generic_category().message(refused) +
       "); raise rtprio to " + std::to_string(kPriority) + " in /etc/security/limits.d";
 
   if (!locked)

@@ -168,7 +168,7 @@ private:
     return knot;
   }
 
-  double number(std::string_view text) const
+  [[nodiscard]] double number(std::string_view text) const
   {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

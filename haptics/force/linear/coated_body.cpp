@@ -126,9 +126,9 @@ void check(const Coatings& coatings, const Material& body, double widest)
   }
   constexpr double rounding = 1.0 + 1e-9;
   double softest = body.contactModulus(); // of what is below
-  for (auto coating = all.rbegin(); coating != all.rend(); ++coating)
+  for (std::size_t i = all.size(); i-- > 0;)
   {
-    const double modulus = coating->material.contactModulus();
+    const double modulus = all[i].material.contactModulus();
     if (!(modulus <= CoatedBody::kStiffest * rounding * softest &&
           modulus * rounding >= CoatedBody::kSoftest * softest))
     {
@@ -160,9 +160,9 @@ double surfaceCompliance(double wavenumber, std::span<const Coating> coatings, c
   {
     states = stacked(states, thickness, body);
   }
-  for (auto coating = coatings.rbegin(); coating != coatings.rend(); ++coating)
+  for (std::size_t i = coatings.size(); i-- > 0;)
   {
-    states = stacked(states, coating->thickness, coating->material);
+    states = stacked(states, coatings[i].thickness, coatings[i].material);
   }
   // the sum without traction along the surface
   const Vector2d sum(states.traction(0, 1), -states.traction(0, 0));
@@ -176,7 +176,7 @@ CoatedBody::CoatedBody(const Coatings& coatings, const Material& body, Base base
   , uppermost_(coatings.all().front().thickness)
   , radiusStep_(std::asinh(widest / uppermost_) / (kRadii - 1))
   , thicknessStep_(std::asinh(kNarrowest) / (kThicknesses - 1))
-  , rows_(kRadii * kThicknesses)
+  , rows_(static_cast<std::size_t>(kRadii) * kThicknesses)
 {
   check(coatings, body, widest);
   PunchEquation equation(
@@ -198,7 +198,7 @@ CoatedBody::CoatedBody(const Coatings& coatings, const Material& body, Base base
     const Eigen::MatrixXd endless = equation.kernel(deficits.col(0));
     for (int i = 0; i < kThicknesses; ++i)
     {
-      auto& value = rows_[static_cast<std::size_t>(radius * kThicknesses + i)].value;
+      auto& value = rows_[indexOf(radius, i)].value;
       value = equation.solve(endless + equation.kernel(differences.col(i)));
       std::transform(
         value.begin(), value.end(), value.begin(), [&](double term) { return relative * term; });
@@ -226,8 +226,8 @@ PunchSolution CoatedBody::operator()(double radius, double thickness) const noex
     {
       weight *= other == j ? 1.0 : (along - other) / (j - other);
     }
-    add(low, weight, rows_[static_cast<std::size_t>(i * kThicknesses + j)]);
-    add(high, weight, rows_[static_cast<std::size_t>((i + 1) * kThicknesses + j)]);
+    add(low, weight, rows_[indexOf(i, j)]);
+    add(high, weight, rows_[indexOf(i + 1, j)]);
   }
 
   PunchSolution solution = between(low, high, radiusStep_, alongRadius - i);

@@ -51,6 +51,10 @@ public:
 private:
   static constexpr int kRadii = 81;
   static constexpr int kThicknesses = 21; // of the body alone, the first without end
+  [[nodiscard]] static std::size_t indexOf(int radius, int thickness) noexcept
+  {
+    return static_cast<std::size_t>(radius) * kThicknesses + static_cast<std::size_t>(thickness);
+  }
 
   double coatings_;                 // thickness of all [m]
   double widest_;                   // [m]

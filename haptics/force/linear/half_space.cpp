@@ -123,7 +123,9 @@ LinearContact respond(const TruncatedConeTip& tip, double depth) noexcept
 LinearContact respond(const BluntConeTip& tip, double depth) noexcept
 {
   const CappedCone cone(tip);
-  const auto& [rho, b, n] = cone;
+  const double rho = cone.rho;
+  const double b = cone.b;
+  const double n = cone.n;
   if (depth <= contactDepth(SphereTip{ rho }, b))
   {
     return respond(SphereTip{ rho }, depth);
