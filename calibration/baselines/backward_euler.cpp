@@ -5,8 +5,8 @@ namespace palp::fem
 
 using Eigen::Matrix3Xd;
 
-BackwardEuler::BackwardEuler(Eigen::VectorXd masses, std::vector<int> bonded)
-  : masses_(std::move(masses))
+BackwardEuler::BackwardEuler(const Eigen::VectorXd& masses, std::vector<int> bonded)
+  : masses_(masses)
   , bonded_(std::move(bonded))
 {
   for (Matrix3Xd* m :

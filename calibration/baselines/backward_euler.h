@@ -27,7 +27,7 @@ class BackwardEuler
 public:
   /// @param masses  of the nodes [kg]
   /// @param bonded  nodes that stay
-  BackwardEuler(Eigen::VectorXd masses, std::vector<int> bonded);
+  BackwardEuler(const Eigen::VectorXd& masses, std::vector<int> bonded);
 
   struct System
   {

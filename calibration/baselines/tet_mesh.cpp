@@ -173,7 +173,7 @@ TetMesh blockTets(double width, double height, int n, int layers)
 
   const Nodes nodes{ n, layers };
   TetMesh mesh;
-  mesh.positions.resize(3, n * n * layers);
+  mesh.positions.resize(3, static_cast<Eigen::Index>(n) * n * layers);
   placeNodes(mesh, nodes, width, height);
   for (int i = 0; i < n * n; ++i)
   {

@@ -163,7 +163,7 @@ Element brick(const Grid& grid, int i, int j, int k)
       nodes.push_back(number);
       element.dofs.insert(element.dofs.end(), { 3 * number, 3 * number + 1, 3 * number + 2 });
     }
-    image.block<3, 3>(3 * a, column).diagonal() << (x < 0 ? -1.0 : 1.0), (y < 0 ? -1.0 : 1.0), 1.0;
+    image.block<3, 3>(static_cast<Eigen::Index>(3) * a, column).diagonal() << (x < 0 ? -1.0 : 1.0), (y < 0 ? -1.0 : 1.0), 1.0;
   }
   image.conservativeResize(Eigen::NoChange, 3 * static_cast<Eigen::Index>(nodes.size()));
 
@@ -199,7 +199,7 @@ Body blockBody(double width, double height, int n, int layers, double fine)
 
   const int count = grid.row.count();
   Body body{ .dimension = 3, .top = height, .elementSize = fine };
-  body.positions.resize(3, count * count * layers);
+  body.positions.resize(3, static_cast<Eigen::Index>(count) * count * layers);
   for (int k = 0; k < layers; ++k)
   {
     for (int j = 0; j < count; ++j)

@@ -39,6 +39,12 @@ struct Body
   double top = 0.0;            ///< height at which the tool first touches [m]
   double elementSize = 0.0;    ///< under the tool [m]
 
+  /// First dof of a node.
+  [[nodiscard]] Eigen::Index dofOf(int node) const noexcept
+  {
+    return static_cast<Eigen::Index>(dimension) * node;
+  }
+
   [[nodiscard]] int nodeCount() const
   {
     return static_cast<int>(positions.cols());

@@ -171,7 +171,7 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
       for (int j = 0; j <= i; ++j)
       {
         // the two horizontal dofs of a node are neighbours in the column
-        const int at = diagonal_[static_cast<std::size_t>(d * s.node + j)] + (i - j);
+        const int at = diagonal_[static_cast<std::size_t>(body_.dofOf(s.node) + j)] + (i - j);
         matrix_.valuePtr()[at] += press * s.curvature(i, j);
       }
     }
@@ -203,7 +203,7 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
   for (const Sliding& s : sliding)
   {
     step.change[d * s.node + d - 1] =
-      s.gap + s.slope.head(d - 1).dot(step.change.segment(d * s.node, d - 1));
+      s.gap + s.slope.head(d - 1).dot(step.change.segment(body_.dofOf(s.node), d - 1));
   }
   if (!step.change.allFinite())
   {
@@ -232,7 +232,7 @@ VectorXd Equilibrium::onTheTool(VectorXd forces, const std::vector<Sliding>& sli
   for (const Sliding& s : sliding)
   {
     const double press = forces[d * s.node + d - 1];
-    forces.segment(d * s.node, d - 1) += s.slope.head(d - 1) * press;
+    forces.segment(body_.dofOf(s.node), d - 1) += s.slope.head(d - 1) * press;
     forces[d * s.node + d - 1] = 0.0;
   }
   for (const int dof : body_.heldDofs)
@@ -260,7 +260,7 @@ void Equilibrium::scatter(std::size_t e, const std::vector<int>& slidingOf,
   std::vector<std::pair<int, const Sliding*>> touching;
   for (int a = 0; a < nodes; ++a)
   {
-    const int node = dofs[static_cast<std::size_t>(d * a)] / d;
+    const int node = dofs[static_cast<std::size_t>(d) * static_cast<std::size_t>(a)] / d;
     if (const int s = slidingOf[static_cast<std::size_t>(node)]; s >= 0)
     {
       touching.emplace_back(d * a, &sliding[static_cast<std::size_t>(s)]);

@@ -20,7 +20,7 @@ double Indenter::radiusOf(int node) const
 {
   const int horizontal = body_.dimension - 1;
   return (body_.positions.col(node).head(horizontal) +
-    displacement_.segment(body_.dimension * node, horizontal))
+    displacement_.segment(body_.dofOf(node), horizontal))
     .norm();
 }
 
@@ -113,7 +113,7 @@ Indented Indenter::state() const
   for (const int node : body_.profile)
   {
     const Eigen::VectorXd at = body_.positions.col(node).head(d - 1);
-    const Eigen::VectorXd moved = at + displacement_.segment(d * node, d - 1);
+    const Eigen::VectorXd moved = at + displacement_.segment(body_.dofOf(node), d - 1);
     out.profile.push_back({ at.norm(), moved.norm() - at.norm(), displacement_[d * node + d - 1] });
   }
   return out;

@@ -64,7 +64,7 @@ Indenter::ToolPoint Indenter::toolAt(int node) const
   at.head(horizontal) = body_.positions.col(node).head(horizontal);
   if (energy_ != Energy::Linear)
   {
-    at.head(horizontal) += displacement_.segment(body_.dimension * node, horizontal);
+    at.head(horizontal) += displacement_.segment(body_.dofOf(node), horizontal);
   }
   const double radius = at.norm();
   const double base = baseRadius(tip_);
@@ -299,7 +299,9 @@ void Indenter::resume(const Checkpoint& checkpoint)
     for (std::size_t i = 0; i < touching_.size(); ++i)
     {
       const ToolPoint tool = toolAt(body_.surface[i]);
-      touching_[i] = tool.below && heightOf(body_.surface[i]) >= tool.height - kInTool * depth_;
+      const bool touches =
+        tool.below && heightOf(body_.surface[i]) >= tool.height - kInTool * depth_;
+      touching_[i] = touches ? 1 : 0;
     }
     if (equilibrium_.assemble(displacement_) && settle(checkpoint.depth, {}, kMostIterations).empty())
     {

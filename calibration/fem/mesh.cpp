@@ -73,7 +73,7 @@ IntegrationPoint ringPoint(const Eigen::Matrix<double, 2, 8>& corners, double x,
   IntegrationPoint point;
   point.weight = 2.0 * std::numbers::pi * radius * jacobian.determinant();
   point.gradient = Gradient::Zero(9, 16);
-  for (int a = 0; a < 8; ++a)
+  for (Eigen::Index a = 0; a < 8; ++a)
   {
     point.gradient(kRR, 2 * a) = slope(a, 0);
     point.gradient(kRZ, 2 * a) = slope(a, 1);
@@ -98,7 +98,7 @@ Eigen::MatrixXi addNodes(Body& body, const std::vector<double>& us, const std::v
     return i % 2 == 0 ? steps[k] : 0.5 * (steps[k] + steps[k + 1]);
   };
   Eigen::MatrixXi number = Eigen::MatrixXi::Constant(columns, rows, -1);
-  body.positions.resize(2, columns * rows);
+  body.positions.resize(2, number.size());
   int count = 0;
   for (int j = 0; j < rows; ++j)
   {
