@@ -1,132 +1,23 @@
 #include "pipeline/deform/dent.h"
-#include "pipeline/deform/dent_patch.h"
 
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
-#include "haptics/units.h"
-#include "pipeline/model/poly_data.h"
-#include "pipeline/surface_io/surface_io.h"
-#include "tests/pipeline/segmented.h"
-#include "tests/pipeline/surfaces.h"
+#include "pipeline/deform/dent_patch.h"
+#include "tests/pipeline/deform/press_cases.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <functional>
 #include <gtest/gtest.h>
 #include <random>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkQuadricDecimation.h>
 
 namespace palp
 {
 namespace
 {
 
+using namespace test;
 using namespace units::literals;
-using test::DentedSurface;
-
-DentedSurface dented(vtkPolyData& mesh)
-{
-  return test::dented({ pointsOf(mesh), trianglesOf(mesh) });
-}
-
-DentedSurface read(const std::filesystem::path& file)
-{
-  return dented(*readSurface(file).mesh);
-}
-
-DentedSurface bundled(const char* name)
-{
-  return read(std::filesystem::path(PALP_SHARE "/meshes") / name);
-}
-
-// every point moved by up to a third of an edge
-DentedSurface shaken(DentedSurface regular, double edge)
-{
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> by(-edge / 3.0, edge / 3.0);
-  DentedSurface surface;
-  for (std::size_t i = 0; i < regular.count(); ++i)
-  {
-    const Eigen::Vector3d point = DentedSurface::at(regular.rest, i);
-    const Eigen::Vector3d normal = DentedSurface::at(regular.normals, i);
-    const Eigen::Vector3d shift(by(random), by(random), by(random));
-    surface.add(point + shift - 0.9 * shift.dot(normal) * normal);
-  }
-  surface.triangles = regular.triangles;
-  surface.finish();
-  return surface;
-}
-
-// The bundled liver as a scanner would give it, 70 mm long: voxels of 1 mm, contoured, smoothed
-// and reduced, which leaves ridges sharper than the tools and triangles of all shapes.
-DentedSurface segmented()
-{
-  const auto liver = readSurface(PALP_SHARE "/meshes/liver.vtp").mesh;
-  vtkPoints& points = *liver->GetPoints();
-  for (vtkIdType i = 0; i < points.GetNumberOfPoints(); ++i)
-  {
-    Eigen::Vector3d point(points.GetPoint(i));
-    point *= 0.3;
-    points.SetPoint(i, point.data());
-  }
-  points.Modified();
-  const auto contoured = test::contouredFromVoxels(*liver, 1.0_mm);
-  vtkNew<vtkQuadricDecimation> reduced;
-  reduced->SetInputData(contoured);
-  reduced->SetTargetReduction(0.7);
-  reduced->Update();
-  return dented(*reduced->GetOutput());
-}
-
-struct Case
-{
-  std::string name;
-  std::function<DentedSurface()> make;
-  const char* haptic = nullptr; ///< bundled mesh to feel; else the surface itself
-};
-
-void PrintTo(const Case& with, std::ostream* out)
-{
-  *out << with.name;
-}
-
-// those made here, and every mesh in the folder of PALP_TEST_MESHES
-std::vector<Case> cases()
-{
-  std::vector<Case> all{
-    { "liver", [] { return bundled("liver.vtp"); }, "liver_haptic.vtp" },
-    { "lobe",
-      [] {
-        return test::ellipsoid(6, { 60.0_mm, 40.0_mm, 6.0_mm });
-      } },
-    { "irregular",
-      [] {
-        return shaken(test::ellipsoid(5, { 80.0_mm, 60.0_mm, 35.0_mm }), 2.0_mm);
-      } },
-    { "sheet", [] { return shaken(test::plane(60, 1.5_mm), 1.5_mm); } },
-    { "segmented", segmented },
-  };
-  if (const char* folder = std::getenv("PALP_TEST_MESHES"))
-  {
-    std::error_code failure; // of a folder that is not there
-    for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
-    {
-      if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
-      {
-        std::string name = "file_" + entry.path().stem().string();
-        std::replace_if(
-          name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-        all.push_back({ name, [file = entry.path()] { return read(file); } });
-      }
-    }
-  }
-  return all;
-}
 
 Surface hapticOf(const DentedSurface& surface)
 {
@@ -276,9 +167,76 @@ TEST_P(RandomPress, IsSmoothAtTheContact)
   EXPECT_LE(kink, 2.0_deg);
 }
 
+struct Step
+{
+  double size; ///< of the displacement [m]
+  double at;   ///< share of the edge where it begins
+  double width;
+};
+
+// the largest of a function of the share of an edge, over a nanometre of its length
+template <typename Function>
+Step largestStep(const Function& sinkAt, double length)
+{
+  constexpr int kParts = 8;
+  Step step{ .size = 0.0, .at = 0.0, .width = 1.0 };
+  while (step.width * length > 1e-9)
+  {
+    step.size = -1.0;
+    step.width /= kParts;
+    const double from = step.at;
+    for (int k = 0; k < kParts; ++k)
+    {
+      const double share = from + k * step.width;
+      if (const double change = std::abs(sinkAt(share + step.width) - sinkAt(share));
+          change > step.size)
+      {
+        step.size = change;
+        step.at = share;
+      }
+    }
+  }
+  return step;
+}
+
+// where a tool is sunk beyond its base its shaft cuts a wall
+bool isWall(const Press& press, const Eigen::Vector3d& sunk, bool overEdgeOfTool)
+{
+  const Eigen::Vector3d fromApex = sunk - press.pose.apex;
+  const double fromAxis = fromApex.cross(press.pose.axis).norm();
+  return std::abs(fromAxis - baseRadius(press.tip)) < 1.0_um || overEdgeOfTool;
+}
+
+struct EdgeStep
+{
+  double size;
+  bool isRim; ///< at R_d
+};
+
+EdgeStep stepOnEdge(const Dent& dent, const Press& press, const Place& a, const Place& b)
+{
+  const PressRegion& region = dent.region();
+  const ToolBody body(press.tip, press.pose);
+  const Eigen::Vector3d start = region.toSurface(a.local);
+  const Eigen::Vector3d edge = region.toSurface(b.local) - start;
+  const auto placeAt = [&](double share)
+  { return region.placeBetween(a, b, share, start + share * edge); };
+  const auto sinkAt = [&](double share)
+  { return dent.sinkAt(placeAt(share), start + share * edge).depth; };
+  const auto [size, low, width] = largestStep(sinkAt, edge.norm());
+  const auto isOverTool = [&](double share)
+  { return std::isfinite(body.lowest(start + share * edge, region.normal())); };
+  const double sink = std::min(sinkAt(low), sinkAt(low + width));
+  if (isWall(press, start + low * edge - sink * region.normal(),
+        isOverTool(low) != isOverTool(low + width)))
+  {
+    return { .size = 0.0, .isRim = false };
+  }
+  return { .size = size, .isRim = placeAt(low).distance > 0.99 * region.outer() };
+}
+
 // The displacement along every edge of the pressed mesh, sides and ridges included: the largest
-// step over a nanometre of its length. Only where a tool is sunk beyond its base its shaft cuts a
-// wall.
+// step over a nanometre of its length.
 TEST_P(RandomPress, IsContinuousAlongEveryEdge)
 {
   double step = 0.0;
@@ -288,57 +246,17 @@ TEST_P(RandomPress, IsContinuousAlongEveryEdge)
     const Press press = next(i);
     surface.press(press);
     const PressRegion& region = surface.dent.region();
-    const ToolBody body(press.tip, press.pose);
-    const auto lookAt = [&](const Place& a, const Place& b)
-    {
-      const Eigen::Vector3d start = region.toSurface(a.local);
-      const Eigen::Vector3d edge = region.toSurface(b.local) - start;
-      const auto placeAt = [&](double share)
-      { return region.placeBetween(a, b, share, start + share * edge); };
-      const auto sinkAt = [&](double share)
-      { return surface.dent.sinkAt(placeAt(share), start + share * edge).depth; };
-      double low = 0.0;
-      double width = 1.0;
-      double largest = 0.0;
-      while (width * edge.norm() > 1e-9)
-      {
-        constexpr int kParts = 8;
-        largest = -1.0;
-        width /= kParts;
-        const double from = low;
-        for (int k = 0; k < kParts; ++k)
-        {
-          const double share = from + k * width;
-          if (const double change = std::abs(sinkAt(share + width) - sinkAt(share));
-              change > largest)
-          {
-            largest = change;
-            low = share;
-          }
-        }
-      }
-      const auto toTool = [&](double share)
-      { return body.lowest(start + share * edge, region.normal()); };
-      const double sink = std::min(sinkAt(low), sinkAt(low + width));
-      const Eigen::Vector3d fromApex =
-        start + low * edge - sink * region.normal() - press.pose.apex;
-      const double fromAxis = fromApex.cross(press.pose.axis).norm();
-      const bool isWall = std::abs(fromAxis - baseRadius(press.tip)) < 1.0_um ||
-        (std::isfinite(toTool(low)) != std::isfinite(toTool(low + width)));
-      if (!isWall)
-      {
-        step = std::max(step, largest);
-        const bool isRim = placeAt(low).distance > 0.99 * region.outer();
-        stepAtRd = std::max(stepAtRd, isRim ? largest : 0.0);
-      }
-    };
+    const auto placeOf = [&](int corner)
+    { return region.places()[static_cast<std::size_t>(corner)]; };
     region.forEachTriangle(
       [&](const Triangle& triangle)
       {
         for (std::size_t k = 0; k < 3; ++k)
         {
-          lookAt(region.places()[static_cast<std::size_t>(triangle[k])],
-            region.places()[static_cast<std::size_t>(triangle[(k + 1) % 3])]);
+          const EdgeStep found =
+            stepOnEdge(surface.dent, press, placeOf(triangle[k]), placeOf(triangle[(k + 1) % 3]));
+          step = std::max(step, found.size);
+          stepAtRd = std::max(stepAtRd, found.isRim ? found.size : 0.0);
         }
       });
   }

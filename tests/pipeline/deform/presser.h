@@ -1,0 +1,272 @@
+#pragma once
+
+#include "calibration/tables/extent_table.h"
+#include "haptics/contact/indentation_of.h"
+#include "haptics/tip/profile.h"
+#include "haptics/units.h"
+#include "pipeline/deform/press_of.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "tests/pipeline/surfaces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+#include <vtkPolyData.h>
+
+namespace palp::test
+{
+
+using namespace units::literals;
+
+/// Something to press, where, and which way is out.
+struct PressedBody
+{
+  std::string name;
+  DentedSurface surface;
+  Surface haptic;
+  Eigen::Vector3d place;
+  Eigen::Vector3d outward;
+};
+
+inline PressedBody pressedBody(
+  const std::string& name, const Mesh& mesh, const Eigen::Vector3d& place, Eigen::Vector3d outward)
+{
+  return { name, dented(mesh), Surface(mesh.points, mesh.triangles), place, outward.normalized() };
+}
+
+inline PressedBody madeBody(const std::string& name)
+{
+  if (name == "block")
+  {
+    return pressedBody(
+      name, makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.0_mm), { 0.3_mm, 0.2_mm, 0.0 }, { 0, 0, 1 });
+  }
+  if (name == "liver")
+  {
+    const auto read = readSurface(PALP_SHARE "/meshes/liver.vtp").mesh;
+    // where data/paths/liver_press.csv begins
+    return pressedBody(name, { pointsOf(*read), trianglesOf(*read) },
+      { -45.57_mm, -47.3_mm, 5.2_mm }, { -0.132335, -0.986613, 0.095300 });
+  }
+  const Eigen::Vector3d outward = Eigen::Vector3d(0.3, 0.2, 1.0).normalized();
+  return pressedBody(
+    name, makeSphere(50.0_mm, name == "coarse" ? 3 : 5), 50.0_mm * outward, outward);
+}
+
+/// A body by its name, made once.
+inline PressedBody& bodyOf(const std::string& name)
+{
+  static std::map<std::string, std::unique_ptr<PressedBody>> made;
+  std::unique_ptr<PressedBody>& body = made[name];
+  if (!body)
+  {
+    body = std::make_unique<PressedBody>(madeBody(name));
+  }
+  return *body;
+}
+
+/// The worst that a press, or a row of presses, showed.
+struct Worst
+{
+  double value = -1.0;
+  std::string where;
+
+  void see(double other, const std::string& place)
+  {
+    if (other > value)
+    {
+      value = other;
+      where = place;
+    }
+  }
+};
+
+struct Findings
+{
+  Worst rise;   ///< of a place outside the contact while the tool goes down [m]
+  Worst jump;   ///< of a place from one press to the next, over what the motion explains [m]
+  Worst inside; ///< of the drawn surface in the tool [m]
+  Worst wall;   ///< slope of the drawn surface over the steepest of the tool in contact [-]
+};
+
+/// One tool, law and picture on one body.
+class Presser
+{
+public:
+  Presser(PressedBody& body, const Tip& tip, const std::string& law, const std::string& surface)
+    : body_(body)
+    , law_(tip, { 50.0_kPa, 0.33 },
+        { .mode = law == "paper" ? LawMode::Paper
+            : law == "exact"     ? LawMode::Exact
+                                 : LawMode::Corrected })
+    , extents_(ExtentTable::read(tableOf(tip) + ".csv"))
+    , base_(baseRadius(tip))
+  {
+    if (surface == "fitted")
+    {
+      style_.fitted = FittedSurfaces::read(
+        tableOf(tip) + "_surface.csv", base_ / (base_ < 8.0_mm ? 6.0_mm : 10.0_mm), base_);
+    }
+  }
+
+  /// Presses along the way in, the axis as at the start.
+  void press(double depth, double aside, Findings& findings)
+  {
+    const Eigen::Vector3d tangent = body_.outward.unitOrthogonal();
+    const ToolPose pose{ .apex = body_.place + aside * tangent - depth * body_.outward,
+      .axis = -body_.outward };
+    press({ pose }, findings,
+      "depth " + std::to_string(depth / base_) + " R, aside " + std::to_string(aside / 1.0_mm) +
+        " mm");
+  }
+
+  [[nodiscard]] const std::optional<Press>& last() const
+  {
+    return last_;
+  }
+
+private:
+  // the shipped table that is nearest to the tool
+  static std::string tableOf(const Tip& tip)
+  {
+    const bool isCone =
+      std::holds_alternative<ConeTip>(tip) || std::holds_alternative<BluntConeTip>(tip);
+    return std::string(PALP_SOURCE_DIR "/data/tables/") + (isCone ? "cone45_" : "sphere_") +
+      (baseRadius(tip) < 8.0_mm ? "r6_h30" : "r10_h50");
+  }
+
+  void press(const ToolPose& pose, Findings& findings, const std::string& where)
+  {
+    Sample sample;
+    sample.pose = pose;
+    sample.contact = findContact(body_.haptic, law_.tip(), pose, ContactRule::Exact);
+    sample.response = law_(indentationOf(sample.contact));
+    const Press now =
+      pressOf(sample, law_.tip(), extents_.extentRadius(sample.contact.depth), style_);
+    body_.surface.press(now);
+    std::vector<double> sinks(body_.surface.count());
+    for (std::size_t i = 0; i < sinks.size(); ++i)
+    {
+      sinks[i] = DentedSurface::at(body_.surface.displacement, i).norm();
+      findings.inside.see(insideOf(pose, DentedSurface::at(body_.surface.points, i)), where);
+    }
+    if (last_)
+    {
+      compare(now, sinks, findings, where);
+    }
+    lookForWalls(now, findings, where);
+    last_ = now;
+    sinks_ = sinks;
+    zones_ = body_.surface.zone;
+  }
+
+  // by the profile of the tip, not by what the dent uses
+  [[nodiscard]] double insideOf(const ToolPose& pose, const Eigen::Vector3d& point) const
+  {
+    const Eigen::Vector3d from = point - pose.apex;
+    const double height = -from.dot(pose.axis);
+    const double radius = (from + height * pose.axis).norm();
+    return std::min(base_ - radius, height - tipHeight(law_.tip(), radius));
+  }
+
+  [[nodiscard]] double fromAxis(const ToolPose& pose, const Eigen::Vector3d& point) const
+  {
+    return (point - pose.apex).cross(pose.axis).norm();
+  }
+
+  // how far the contact went: its frame and its depth
+  void compare(const Press& now, const std::vector<double>& sinks, Findings& findings,
+    const std::string& where) const
+  {
+    const Contact& a = last_->contact;
+    const Contact& b = now.contact;
+    const double deeper = b.depth - a.depth;
+    const double turn = (b.normal - a.normal).norm();
+    const Eigen::Vector3d went = b.center - a.center;
+    const double aside =
+      (went - went.dot(b.normal) * b.normal).norm() + fromAxis(last_->pose, now.pose.apex);
+    for (std::size_t i = 0; i < sinks.size(); ++i)
+    {
+      const Eigen::Vector3d rest = DentedSurface::at(body_.surface.rest, i);
+      const double change = sinks[i] - sinks_[i];
+      const double lever = turn * std::min((rest - b.center).norm(), 3.0 * base_);
+      const double motion = 1.5 * std::abs(deeper) + kSteepest * aside + kSteepest * lever;
+      const std::string here =
+        where + ", " + std::to_string((rest - b.center).norm() / 1.0_mm) + " mm away";
+      const bool isContact = body_.surface.zone[i] == 2 || zones_[i] == 2;
+      if (deeper > 0.0 && !isContact)
+      {
+        findings.rise.see(-change - kSteepest * (aside + lever), here);
+      }
+      if (!isShaft(now, rest, aside))
+      {
+        findings.jump.see(std::abs(change) - motion, here);
+      }
+    }
+  }
+
+  // where the wall that a shaft cuts passes over a point, its whole height may come at once
+  [[nodiscard]] bool isShaft(const Press& now, const Eigen::Vector3d& rest, double aside) const
+  {
+    const double beside = fromAxis(now.pose, rest) - base_;
+    const double blurred = std::sqrt(std::max(0.0, now.contact.tilt)) * now.contact.depth;
+    return now.contactRadius > 0.999 * base_ && beside > -0.2_mm - aside - blurred &&
+      beside < 1.0_mm + aside + blurred;
+  }
+
+  void lookForWalls(const Press& now, Findings& findings, const std::string& where) const
+  {
+    const Dent& dent = body_.surface.dent;
+    const PressRegion& region = dent.region();
+    if (region.points().empty())
+    {
+      return;
+    }
+    const double inner = now.fitted ? now.fitted->inner : now.contactRadius;
+    const bool isSurface =
+      std::abs(dent.field().surface().height(0.0, 0.0)) < 0.1 * now.contact.depth;
+    if (inner > 0.999 * base_ || !isSurface)
+    {
+      return; // a shaft cuts, or the mesh is too coarse to know the surface
+    }
+    const double steepest = std::max(1.0, tipSlope(law_.tip(), inner)) + std::tan(now.contact.tilt);
+    const double h = base_ / 400.0;
+    for (const double turns : { 0.1, 0.9, 2.3, 3.4 })
+    {
+      const Eigen::Vector2d to = directionOf(turns);
+      double before = -1.0;
+      for (double r = h; r < region.outer() + 5.0 * h; r += h)
+      {
+        const Eigen::Vector3d point = region.toSurface(
+          { r * to.x(), r * to.y(), dent.field().surface().height(r * to.x(), r * to.y()) });
+        const Place place = region.placeInFront(point);
+        const double sink = place.distance < region.outer() ? dent.sinkAt(place, point).depth : 0.0;
+        if (before >= 0.0 && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
+        {
+          findings.wall.see(
+            std::abs(sink - before) / h / steepest, where + ", r " + std::to_string(r / 1.0_mm));
+        }
+        before = sink;
+      }
+    }
+  }
+
+  static constexpr double kSteepest = 5.0; // [-] of a sphere of 2 R depth: 3.9
+
+  PressedBody& body_;
+  ForceLaw law_;
+  ExtentTable extents_;
+  DentStyle style_;
+  double base_;
+  std::optional<Press> last_;
+  std::vector<double> sinks_;
+  std::vector<unsigned char> zones_;
+};
+
+} // namespace palp::test
