@@ -1,0 +1,135 @@
+#include "pipeline/charts/comparison.h"
+#include "pipeline/view/control_net.h"
+#include "tests/pipeline/picture.h"
+#include "tests/pipeline/view/press_pictures.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+#include <vtkProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace test;
+using namespace units::literals;
+
+// each overlay alone
+class EachOverlay : public ::testing::TestWithParam<std::pair<Overlay, const char*>>
+{
+};
+INSTANTIATE_TEST_SUITE_P(PressView, EachOverlay,
+  ::testing::Values(std::pair{ Overlay::ForceArrow, "arrow" },
+    std::pair{ Overlay::ContactCircle, "contact_circle" },
+    std::pair{ Overlay::ExtentCircle, "extent_circle" },
+    std::pair{ Overlay::DisplacementColors, "displacement" },
+    std::pair{ Overlay::Readings, "readings" }, std::pair{ Overlay::PressureColors, "pressure" },
+    std::pair{ Overlay::ValidityColors, "validity" }, std::pair{ Overlay::ControlNet, "net" },
+    std::pair{ Overlay::Ghost, "ghost" }));
+
+TEST_P(EachOverlay, IsDrawnWhenWantedAndNotOtherwise)
+{
+  const Body body = ball();
+  View view(body, kSphere);
+  for (std::size_t i = 0; i < kOverlayCount; ++i)
+  {
+    view.view.setVisible(static_cast<Overlay>(i), false);
+  }
+  const Sample sample = pressed(body, kSphere, 5.0_mm);
+  const auto plain = view.picture(body, sample);
+  view.view.setVisible(GetParam().first, true);
+  const auto with = view.picture(body, sample);
+  EXPECT_GT(test::differenceOf(*with, *plain).changed, 0.0005);
+  expectBaseline(*with, std::string("overlay_") + GetParam().second);
+  view.view.setVisible(GetParam().first, false);
+  EXPECT_EQ(test::differenceOf(*view.picture(body, sample), *plain).mean, 0.0);
+}
+
+TEST(PressView, NamesTheRuleThatColoursTheDent)
+{
+  const Body body = ball();
+  View view(body, kSphere);
+  view.view.setVisible(std::vector{ Overlay::ValidityColors, Overlay::Readings });
+  expectBaseline(*view.picture(body, pressed(body, kSphere, 5.0_mm)), "validity_rule");
+}
+
+TEST(SectionPlot, ShowsFig5OnABall)
+{
+  const Body body = ball();
+  View view(body, kSphere);
+  view.view.show(pressed(body, kSphere, 5.0_mm));
+  std::vector<std::unique_ptr<Plot>> plots;
+  plots.push_back(sectionPlot(view.view.press(), Eigen::Vector3d::UnitX(),
+    FittedSurfaces::read(PALP_SHARE "/tables/sphere_r10_h50_surface.csv").at(5.0_mm)));
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(480, 360);
+  showPlots(*window, plots);
+  expectBaseline(*test::imageOf(*window), "section");
+}
+
+TEST(ControlNet, LiesOnTheToolAndOnTheSurface)
+{
+  const Body body = block();
+  View view(body, kSphere);
+  view.view.show(pressed(body, kSphere, 5.0_mm));
+  vtkNew<vtkPolyData> net;
+  fillControlNet(view.view.press().GetDent(), *net);
+  ASSERT_EQ(net->GetNumberOfPoints(), 3 * PressField::kDirections);
+  const Eigen::Vector3d center(0.0, 0.0, 30.0_mm); // of the sphere
+  for (vtkIdType i = 0; i < net->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d point;
+    net->GetPoint(i, point.data());
+    if (i % 3 == 0)
+    {
+      EXPECT_NEAR((point - center).norm(), 10.0_mm, 0.5_um); // P0 on the tool
+    }
+    else
+    {
+      EXPECT_NEAR(point.z(), 25.0_mm, 0.5_um); // P1 and P2 on the tangent L1
+    }
+  }
+}
+
+// of the arrow, from its colour
+double lengthOfArrow(vtkRenderer& renderer)
+{
+  vtkActorCollection& actors = *renderer.GetActors();
+  actors.InitTraversal();
+  while (vtkActor* actor = actors.GetNextActor())
+  {
+    const double* color = actor->GetProperty()->GetDiffuseColor();
+    if (std::equal(color, color + 3, appearance::kForce.begin()))
+    {
+      return actor->GetLength();
+    }
+  }
+  return 0.0;
+}
+
+// the same press with a tool that is larger than the body
+TEST(ForceArrow, StaysSmallAgainstTheBodyWhateverTheToolAndTheForce)
+{
+  const Body body = ball();
+  const double diagonal = body.surface->GetLength();
+  for (const double radius : { 1.0_mm, 10.0_mm, 125.0_mm, 1000.0_mm })
+  {
+    View view(body, SphereTip{ radius });
+    for (const double depth : { 0.1_mm, 5.0_mm, 30.0_mm })
+    {
+      view.picture(body, pressed(body, SphereTip{ radius }, depth));
+      EXPECT_LT(lengthOfArrow(*view.renderer), 0.35 * diagonal) << radius << ", " << depth;
+      EXPECT_GT(lengthOfArrow(*view.renderer), 0.04 * diagonal) << radius << ", " << depth;
+    }
+  }
+}
+
+} // namespace
+} // namespace palp
