@@ -1,0 +1,209 @@
+#include "tests/app/window/window_rig.h"
+
+#include <QAction>
+#include <QLabel>
+#include <QRegularExpression>
+#include <QWheelEvent>
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+TEST_F(WindowTest, PressesAsDeepAsTheDrag)
+{
+  press(100);
+  const Contact contact = session_->newest().contact;
+  EXPECT_NEAR(contact.depth, 6e-3, 0.02e-3); // a button's millimetre, 0.05 mm a pixel
+  EXPECT_NEAR(session_->newest().response.force,
+    session_->recording().scene.law({ .depth = contact.depth }).force, 1e-9);
+  const QString status = window_->findChild<QLabel*>("force")->text();
+  EXPECT_TRUE(status.contains("N") && status.contains("mm")) << status.toStdString();
+  release();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+}
+
+// by the wheel, and by whatever takes the pointer away
+TEST_F(WindowTest, LetsGoOfAHeldPress)
+{
+  const QPoint middle = canvas_->rect().center();
+  const auto hold = [&]
+  {
+    QTest::mouseMove(canvas_, middle + QPoint(1, 0));
+    QTest::mouseMove(canvas_, middle);
+    for (int i = 0; i < 4; ++i)
+    {
+      QWheelEvent notch(middle, canvas_->mapToGlobal(middle), {}, QPoint(0, -120), Qt::NoButton,
+        Qt::NoModifier, Qt::NoScrollPhase, false);
+      QApplication::sendEvent(canvas_, &notch);
+    }
+    EXPECT_TRUE(QTest::qWaitFor(
+      [this] { return std::abs(session_->newest().contact.depth - 2e-3) < 0.02e-3; }, kPatience));
+  };
+  const auto lets = [this]
+  { return QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience); };
+  hold();
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  EXPECT_TRUE(lets()) << "Escape";
+  hold();
+  QTest::mouseMove(canvas_, QPoint(3, 3)); // beside the liver
+  EXPECT_TRUE(lets()) << "left the surface";
+  hold();
+  QEvent leave(QEvent::Leave);
+  QApplication::sendEvent(canvas_, &leave);
+  EXPECT_TRUE(lets()) << "left the view";
+  hold();
+  QWidget other;
+  other.show();
+  QApplication::setActiveWindow(&other);
+  EXPECT_TRUE(lets()) << "lost the focus";
+}
+
+// held at 4 mm, the pointer jumps over the liver; the depth is what was asked for
+TEST_F(WindowTest, AHeldPressThatMovesIsNoDeeper)
+{
+  const QPoint middle = canvas_->rect().center();
+  QTest::mouseMove(canvas_, middle);
+  for (int i = 0; i < 8; ++i)
+  {
+    QWheelEvent notch(middle, canvas_->mapToGlobal(middle), {}, QPoint(0, -120), Qt::NoButton,
+      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(canvas_, &notch);
+  }
+  for (const QPoint place : { QPoint(-80, 0), QPoint(80, -20), QPoint(-40, -30), QPoint(60, 10) })
+  {
+    QTest::qWait(300);
+    QTest::mouseMove(canvas_, middle + place);
+  }
+  QTest::qWait(300);
+  ASSERT_NE(session_->recording().deepest(), nullptr);
+  EXPECT_NEAR(session_->recording().deepest()->contact.depth, 4e-3, 0.1e-3);
+}
+
+TEST_F(WindowTest, HoveringNeverTouches)
+{
+  for (const QPoint place : { QPoint(-150, 0), QPoint(120, -30), QPoint(0, 60), QPoint(-60, -60) })
+  {
+    QTest::mouseMove(canvas_, canvas_->rect().center() + place);
+    QTest::qWait(150);
+  }
+  EXPECT_EQ(peakForce(), 0.0);
+}
+
+// the straight way to another place would lead through the liver
+TEST_F(WindowTest, GoesToAnotherPlaceOverTheSurface)
+{
+  press(60);
+  const QPoint middle = canvas_->rect().center();
+  for (const QPoint place : { QPoint(-150, 0), QPoint(120, -30), QPoint(-60, -60) })
+  {
+    release();
+    QTest::mouseMove(canvas_, middle + place);
+    QTest::mousePress(canvas_, Qt::LeftButton, {}, middle + place);
+    QTest::mouseMove(canvas_, middle + place + QPoint(0, 60));
+    const auto there = [this]
+    {
+      const Sample sample = session_->newest();
+      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5;
+    };
+    QTest::qWait(100);
+    EXPECT_TRUE(QTest::qWaitFor(there, kPatience));
+  }
+  release();
+  ASSERT_NE(session_->recording().deepest(), nullptr);
+  EXPECT_LT(session_->recording().deepest()->contact.depth, 4e-3 + 0.1e-3);
+}
+
+TEST_F(WindowTest, AStifferTissuePushesBackHarder)
+{
+  press(100);
+  const double soft = session_->newest().response.force;
+  type("young", "100");
+  EXPECT_TRUE(QTest::qWaitFor([&]
+    { return std::abs(session_->newest().response.force - 2.0 * soft) < 0.01 * soft; },
+    kPatience));
+  release();
+}
+
+TEST_F(WindowTest, EscapeStopsNoMouse)
+{
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  press(100);
+  EXPECT_GT(session_->newest().force.norm(), 1.0);
+  EXPECT_TRUE(window_->findChild<QLabel*>("force")->text().startsWith("Force"));
+  release();
+  const auto isHint = [this]
+  { return window_->findChild<QLabel*>("force")->text().startsWith("Drag down"); };
+  EXPECT_TRUE(QTest::qWaitFor(isHint, kPatience));
+}
+
+TEST_F(WindowTest, NamesTheRulesThatADeepPressBreaks)
+{
+  press(160); // 9 mm with a tool of 10 mm radius
+  const auto* rules = window_->findChild<QLabel*>("rules");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rules->text().contains("depth"); }, kPatience))
+    << rules->text().toStdString();
+  release();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rules->text().contains("no contact"); }, kPatience));
+}
+
+TEST_F(WindowTest, AllReadingsAreOfOneSample)
+{
+  const QRegularExpression force("([0-9.]+) N");
+  const QRegularExpression depth("depth ([0-9.]+) mm");
+  const QPoint middle = canvas_->rect().center();
+  QTest::mouseMove(canvas_, middle);
+  QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
+  int compared = 0;
+  for (int pixels = 10; pixels < 200; pixels += 3)
+  {
+    QTest::mouseMove(canvas_, middle + QPoint(0, pixels));
+    QTest::qWait(15);
+    const QString scene = readings();
+    const QString status = window_->findChild<QLabel*>("force")->text();
+    const QString panel = window_->findChild<QLabel*>("rendered")->text();
+    if (scene.contains(depth))
+    {
+      ++compared;
+      EXPECT_EQ(force.match(scene).captured(1), force.match(status).captured(1));
+      EXPECT_EQ(force.match(scene).captured(1), force.match(panel).captured(1));
+      EXPECT_EQ(depth.match(scene).captured(1), depth.match(status).captured(1));
+    }
+  }
+  EXPECT_GT(compared, 10);
+  release();
+}
+
+// while the servo thread goes on
+TEST_F(WindowTest, AnUntouchedWindowDrawsAndRecordsNothing)
+{
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  press(60);
+  release();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+  const auto settled = [this] { return picturesIn(300) == 0; };
+  EXPECT_TRUE(QTest::qWaitFor(settled, kPatience));
+  const std::size_t recorded = session_->recording().samples.size();
+  const std::uint64_t ticks = session_->timing().ticks;
+  EXPECT_EQ(picturesIn(1500), 0);
+  EXPECT_EQ(session_->recording().samples.size(), recorded);
+  EXPECT_GT(session_->timing().ticks, ticks + 100);
+  EXPECT_FALSE(std::isnan(session_->newest().time));
+
+  // and wakes up again, with a curve that goes level over the rest
+  press(60);
+  release();
+  const std::vector<Sample>& samples = session_->recording().samples;
+  ASSERT_GT(samples.size(), recorded + 1);
+  EXPECT_GT(samples[recorded].time - samples[recorded - 1].time, 1.0);
+  EXPECT_EQ(samples[recorded].pose.apex, samples[recorded - 1].pose.apex);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,177 @@
+#include "app/panels/plot_panel.h"
+#include "tests/app/window/window_rig.h"
+#include "tests/support/csv_table.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QImage>
+#include <QStatusBar>
+#include <QTabBar>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+TEST_F(WindowTest, SavesAScreenshotOfTheDent)
+{
+  const QString file = QString::fromStdString((folder_.path() / "shot.png").string());
+  press(160);
+  ASSERT_TRUE(window_->saveScreenshot(file));
+  release();
+  const QImage image(file);
+  ASSERT_FALSE(image.isNull());
+  std::set<QRgb> colors;
+  for (int y = 0; y < image.height(); y += 2)
+  {
+    for (int x = 0; x < image.width(); x += 2)
+    {
+      colors.insert(image.pixel(x, y));
+    }
+  }
+  EXPECT_GT(colors.size(), 500u);
+}
+
+// made when it is asked for; what it saves is what the press shows
+TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)
+{
+  EXPECT_EQ(window_->findChild<PlotPanel*>(), nullptr);
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  auto* panel = window_->findChild<PlotPanel*>();
+  ASSERT_NE(panel, nullptr);
+  press(80); // 5 mm
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "section.csv";
+  const auto lowest = [&] // [mm], of what is saved now
+  {
+    panel->refresh();
+    double found = 0.0;
+    EXPECT_TRUE(window_->savePlots(QString::fromStdString(file.string())));
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);)
+    {
+      if (line.starts_with("\"surface as drawn\""))
+      {
+        found = std::min(found, std::stod(line.substr(line.rfind(',') + 1)));
+      }
+    }
+    return found;
+  };
+  EXPECT_TRUE(QTest::qWaitFor([&] { return std::abs(lowest() + 5.0) < 0.5; }, kPatience));
+  window_->findChild<QAction*>("plotsAction")->setChecked(false);
+  EXPECT_FALSE(panel->isVisible());
+}
+
+TEST_F(WindowTest, ThisPressIsNotTheDeepestOfTheRecording)
+{
+  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  auto* panel = window_->findChild<PlotPanel*>();
+  panel->findChild<QTabBar*>("plotTabs")->setCurrentIndex(1);
+  for (const int pixels : { 160, 40 })
+  {
+    press(pixels);
+    release();
+    EXPECT_TRUE(
+      QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+    QTest::qWait(200);
+  }
+  panel->refresh();
+  const std::filesystem::path file = folder_.path() / "forces.csv";
+  ASSERT_TRUE(window_->savePlots(QString::fromStdString(file.string())));
+  double deepest = 0.0;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+  {
+    if (line.starts_with("\"this press\""))
+    {
+      deepest = std::max(deepest, std::stod(line.substr(line.find(',') + 1)));
+    }
+  }
+  EXPECT_GT(deepest, 2.0);
+  EXPECT_LT(deepest, 4.0);
+}
+
+TEST_F(WindowTest, SavesTheCurvesForPrintAndSaysSo)
+{
+  press(100);
+  release();
+  for (const char* name : { "curves.png", "curves.svg", "curves.pdf", "curves.csv" })
+  {
+    const std::filesystem::path file = folder_.path() / name;
+    ASSERT_TRUE(window_->saveCurves(QString::fromStdString(file.string())));
+    EXPECT_GT(std::filesystem::file_size(file), 4000U) << name;
+    EXPECT_TRUE(window_->statusBar()->currentMessage().contains(name));
+  }
+  const QImage picture(QString::fromStdString((folder_.path() / "curves.png").string()));
+  EXPECT_EQ(picture.size(), QSize(1600, 1500)); // two charts
+}
+
+TEST_F(WindowTest, ExportsWhatWasMeasured)
+{
+  press(100);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return peakForce() > 1.0; }, kPatience));
+  release();
+  QTest::qWait(200);
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
+  const test::CsvTable samples = test::readCsv(folder_.path() / "samples.csv");
+  const auto& force = samples["force_N"];
+  ASSERT_GT(force.size(), 100u); // rest is not recorded
+  EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peakForce(), 1e-12);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "deformed.vtp"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
+}
+
+TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)
+{
+  const auto file = folder_.path() / "samples.csv";
+  std::ofstream(file) << "mine";
+  const auto exporting = [&]
+  { EXPECT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string()))); };
+  EXPECT_TRUE(whatIsSaidOf(exporting).contains("samples.csv")); // and closed without a yes
+  EXPECT_EQ(test::readAll(file), "mine");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+
+  QTimer yes;
+  QObject::connect(&yes, &QTimer::timeout,
+    []
+    {
+      if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+      {
+        message->button(QMessageBox::Yes)->click();
+      }
+    });
+  yes.start(100);
+  exporting();
+  EXPECT_TRUE(test::readAll(file).starts_with("# palp"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
+}
+
+// a change of the tool ends a recording, and loses nothing
+TEST_F(WindowTest, KeepsAndExportsWhatAChangeEnds)
+{
+  press(100);
+  release();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+  QTest::qWait(200);
+  const double peak = peakForce();
+  window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("kept"));
+  ASSERT_EQ(session_->earlier().size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<SphereTip>(session_->earlier()[0].recording.scene.law.tip()));
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
+  const test::CsvTable samples = test::readCsv(folder_.path() / "earlier-1" / "samples.csv");
+  const auto& force = samples["force_N"];
+  EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peak, 1e-9);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,187 @@
+#pragma once
+
+#include "app/program/ledger.h"
+#include "app/window/window.h"
+#include "tests/app/application.h"
+#include "tests/support/process.h"
+
+#include <QAbstractSpinBox>
+#include <QMessageBox>
+#include <QTest>
+#include <QTimer>
+#include <QVTKOpenGLNativeWidget.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <gtest/gtest.h>
+#include <vtkActor2DCollection.h>
+#include <vtkCallbackCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkTextActor.h>
+
+namespace palp::test
+{
+
+inline bool has(const Sample& sample, Flag flag)
+{
+  return (sample.flags & static_cast<std::uint32_t>(flag)) != 0;
+}
+
+/// The window of a session with the bundled liver, and a hand on its mouse.
+class WindowTest : public ::testing::Test
+{
+protected:
+  WindowTest()
+  {
+    setenv("PALP_DATA", PALP_SHARE, 1);
+    test::application();
+    session_ = std::make_unique<Session>(ScenePlan{}, silent_);
+    window_ = std::make_unique<Window>(*session_, silent_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get()); // no window manager does it here
+    canvas_ = window_->findChild<QVTKOpenGLNativeWidget*>("canvas");
+    EXPECT_TRUE(canvas_->isValid()) << "no OpenGL context";
+    QTest::qWait(500);
+  }
+
+  // the pointer goes down in the middle of the liver and drags, until the tool rests
+  void press(int pixelsDown)
+  {
+    const QPoint middle = canvas_->rect().center();
+    QTest::mouseMove(canvas_, middle);
+    QTest::qWait(100);
+    QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
+    QTest::mouseMove(canvas_, middle + QPoint(0, pixelsDown));
+    const double told = session_->newest().time;
+    const auto rests = [this, told] // and not since before the drag
+    {
+      const Sample sample = session_->newest();
+      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5 &&
+        sample.time > told + 0.1;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(rests, kPatience));
+  }
+
+  void release()
+  {
+    QTest::mouseRelease(canvas_, Qt::LeftButton);
+  }
+
+  // by the simulated hand, which a machine under load deprives of its force until it is asked for
+  // again, and felt whole once the tool has lifted
+  void pressWithForce(int pixelsDown)
+  {
+    press(pixelsDown);
+    for (int again = 0; again < kAttempts && !isFelt(session_->newest()); ++again)
+    {
+      release();
+      EXPECT_TRUE(
+        QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+      session_->arm(false);
+      const double now = session_->newest().time;
+      EXPECT_TRUE(
+        QTest::qWaitFor([this, now] { return session_->newest().time > now + 0.05; }, kPatience));
+      session_->arm(true);
+      press(pixelsDown);
+    }
+  }
+
+  [[nodiscard]] static bool isFelt(const Sample& sample)
+  {
+    return sample.state == DeviceState::Active && !has(sample, Flag::Reseated);
+  }
+
+  // of the message that work ends in, which is closed
+  [[nodiscard]] static QString whatIsSaidOf(const std::function<void()>& work)
+  {
+    QString said;
+    QTimer closer;
+    QObject::connect(&closer, &QTimer::timeout,
+      [&]
+      {
+        if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+        {
+          said = message->text();
+          message->accept();
+        }
+      });
+    closer.start(100);
+    work();
+    return said;
+  }
+
+  void type(const char* name, const char* text) const
+  {
+    auto* box = window_->findChild<QAbstractSpinBox*>(name);
+    box->selectAll();
+    QTest::keyClicks(box, text);
+    QTest::keyClick(box, Qt::Key_Return);
+  }
+
+  // how often anything is drawn within some time
+  [[nodiscard]] int picturesIn(int milliseconds) const
+  {
+    int drawn = 0;
+    std::vector<std::pair<vtkRenderWindow*, unsigned long>> watched;
+    for (auto* canvas : window_->findChildren<QVTKOpenGLNativeWidget*>())
+    {
+      vtkNew<vtkCallbackCommand> count;
+      count->SetClientData(&drawn);
+      count->SetCallback(
+        [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+      watched.emplace_back(
+        canvas->renderWindow(), canvas->renderWindow()->AddObserver(vtkCommand::EndEvent, count));
+    }
+    QTest::qWait(milliseconds);
+    for (const auto& [window, observer] : watched)
+    {
+      window->RemoveObserver(observer);
+    }
+    return drawn;
+  }
+
+  // what the lines of text in the scene say
+  [[nodiscard]] QString readings() const
+  {
+    QString text;
+    vtkRenderer* renderer = canvas_->renderWindow()->GetRenderers()->GetFirstRenderer();
+    vtkActor2DCollection* actors = renderer->GetActors2D();
+    actors->InitTraversal();
+    while (vtkActor2D* actor = actors->GetNextActor2D())
+    {
+      const auto* line = vtkTextActor::SafeDownCast(actor);
+      if (line != nullptr && actor->GetVisibility() != 0)
+      {
+        text += QString(const_cast<vtkTextActor*>(line)->GetInput()) + '\n';
+      }
+    }
+    return text;
+  }
+
+  // the largest force that any sample so far has
+  [[nodiscard]] double peakForce()
+  {
+    double peak = 0.0;
+    for (const Sample& sample : session_->recording().samples)
+    {
+      peak = std::max(peak, sample.response.force);
+    }
+    return peak;
+  }
+
+  static constexpr int kPatience = 10'000; // [ms], for a machine that does much else
+  static constexpr int kAttempts = 10;
+
+  test::TemporaryFolder folder_;
+  Ledger silent_{ false };
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<Window> window_;
+  QVTKOpenGLNativeWidget* canvas_ = nullptr;
+};
+
+} // namespace palp::test
