@@ -1,0 +1,75 @@
+#include "tests/app/commands/run_rig.h"
+
+#include <gtest/gtest.h>
+#include <regex>
+
+namespace palp
+{
+namespace
+{
+
+using namespace test;
+
+TEST(Program, HelpsByWordAndNamesTheCommands)
+{
+  for (const char* arguments : { "help", "--help", "help run", "run --help" })
+  {
+    const Finished finished = palp(arguments);
+    EXPECT_EQ(finished.code, 0) << arguments;
+    EXPECT_NE(finished.out.find(std::string(arguments).find("run") < 9 ? "--path" : "calibrate"),
+      std::string::npos)
+      << arguments;
+  }
+  const Finished slip = palp("runn");
+  EXPECT_EQ(slip.code, 2);
+  EXPECT_NE(slip.err.find("'runn' is neither a command nor a file here"), std::string::npos);
+  EXPECT_NE(slip.err.find("calibrate"), std::string::npos) << slip.err;
+  // what is wrong with the file comes before the missing display
+  EXPECT_NE(palp("view /nonexistent.stl").err.find("/nonexistent.stl"), std::string::npos);
+}
+
+TEST(Program, TellsOfARemovedFolderInOneSentence)
+{
+  const test::TemporaryFolder folder;
+  const std::string gone = (folder.path() / "gone").string();
+  const Finished finished = test::runCommand("mkdir " + gone + " && cd " + gone + " && rmdir " +
+    gone + " && " PALP_PROGRAM " run --no-picture --out k");
+  EXPECT_EQ(finished.code, 2) << finished.err;
+  EXPECT_EQ(finished.err.find("internal error"), std::string::npos) << finished.err;
+}
+
+TEST(Program, ShowsNoControlCharacterOfAnOption)
+{
+  const Finished finished = palp("force --law \"$(printf '\\033[31m')\"");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_EQ(finished.err.find('\033'), std::string::npos) << finished.err;
+  EXPECT_EQ(finished.err.rfind("palp: --law", 0), 0U) << finished.err;
+}
+
+TEST(Program, IsHardenedLikeAllBesideIt)
+{
+  for (const char* name : { "palp", "palp-read", "palp-draw", "palp-view", "palp-devices" })
+  {
+    const auto file = std::filesystem::path(PALP_PROGRAM).parent_path() / name;
+    const Finished told = test::runCommand("readelf -hldW --dyn-syms " + file.string());
+    ASSERT_EQ(told.code, 0) << told.err;
+    EXPECT_TRUE(std::regex_search(told.out, std::regex("Type: +DYN"))) << name; // PIE
+    EXPECT_NE(told.out.find("GNU_RELRO"), std::string::npos) << name;
+    EXPECT_NE(told.out.find("BIND_NOW"), std::string::npos) << name;
+    EXPECT_NE(told.out.find("__stack_chk_fail"), std::string::npos) << name;
+  }
+}
+
+TEST(Program, MapsNoWindowGraphicsOrDeviceLibrary)
+{
+  const Finished finished = test::runCommand("ldd " PALP_PROGRAM);
+  ASSERT_EQ(finished.code, 0);
+  for (const char* library :
+    { "Qt5", "libGL", "libEGL", "libX11", "hidapi", "libusb", "RenderingOpenGL" })
+  {
+    EXPECT_EQ(finished.out.find(library), std::string::npos) << library;
+  }
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,180 @@
+#include "tests/app/commands/run_rig.h"
+
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace test;
+
+TEST_F(RunCommand, GivesTheSameBytesTwice)
+{
+  ASSERT_EQ(press("--no-picture", "a").code, 0);
+  ASSERT_EQ(press("--no-picture", "b").code, 0);
+  const std::string first = test::readAll(folder_.path() / "a/samples.csv");
+  EXPECT_GT(first.size(), 1000u);
+  EXPECT_EQ(first, test::readAll(folder_.path() / "b/samples.csv"));
+}
+
+TEST_F(RunCommand, TellsWhichMeshAndHow)
+{
+  ASSERT_EQ(press("--no-picture --young 20kPa", "out").code, 0);
+  const std::string text = test::readAll(folder_.path() / "out/samples.csv");
+  const Finished sum = test::runCommand("sha256sum " + block()); // of other hands
+  EXPECT_NE(text.find("# felt: block_50.vtp, SHA-256 " + sum.out.substr(0, 64) +
+              ", read in mm, frame of the file\n"),
+    std::string::npos)
+    << text.substr(0, 2000);
+  EXPECT_NE(text.find("# command: palp run " + block() + " --path " + folder_.path().string() +
+              "/press.csv --no-picture --young 20kPa\n"),
+    std::string::npos)
+    << text.substr(0, 2000);
+}
+
+TEST_F(RunCommand, ReplacesWhatIsThereOnlyWhenAsked)
+{
+  ASSERT_EQ(press("--no-picture", "out").code, 0);
+  const auto file = folder_.path() / "out/samples.csv";
+  const std::string before = test::readAll(file);
+  const Finished refused = press("--no-picture --young 5kPa", "out");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("of an earlier run; pass --overwrite"), std::string::npos);
+  EXPECT_EQ(refused.err.find("deepest"), std::string::npos) << "after the press";
+  EXPECT_EQ(test::readAll(file), before);
+  std::ofstream(folder_.path() / "out/section.svg") << "of the run before";
+  const Finished replaced = press("--no-picture --young 5kPa --overwrite", "out");
+  EXPECT_EQ(replaced.code, 0);
+  EXPECT_NE(
+    replaced.err.find("will replace deformed.vtp, samples.csv, section.svg"), std::string::npos)
+    << replaced.err;
+  EXPECT_NE(test::readAll(file), before);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/section.svg"));
+}
+
+// a limit on the size of files stands for a full disk
+TEST_F(RunCommand, AFullDiskLeavesTheEarlierFilesAndOneSentence)
+{
+  ASSERT_EQ(press("", "out").code, 0);
+  const auto out = folder_.path() / "out";
+  const std::string samples = test::readAll(out / "samples.csv");
+  const std::string picture = test::readAll(out / "press.png");
+  for (const char* blocks : { "8", "64" }) // of 512 bytes: samples.csv, then press.png
+  {
+    const Finished full = test::runCommand("ulimit -f " + std::string(blocks) +
+      "; " PALP_PROGRAM " run --overwrite --out " + out.string() + " " +
+      (blocks[0] == '6' ? block() : "") +
+      (blocks[0] == '6' ? " --path " + writePath(folder_.path(), "0,0,0,20\n0.05,0,0,20\n").string()
+                        : ""));
+    EXPECT_EQ(full.code, 2);
+    EXPECT_NE(full.err.find("cannot be written (File too large)"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("\x1b"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("libpng"), std::string::npos) << full.err;
+    EXPECT_EQ(test::readAll(out / "samples.csv"), samples);
+    EXPECT_EQ(test::readAll(out / "press.png"), picture);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 5);
+  }
+}
+
+TEST_F(RunCommand, ASignalLeavesNothingBehind)
+{
+  const auto out = folder_.path() / "out";
+  for (const char* signal : { "INT", "TERM", "HUP" })
+  {
+    const Finished ended = test::runCommand(PALP_PROGRAM " run --out " + out.string() +
+      " 2>/dev/null & running=$!; until [ -e " + out.string() +
+      "/.palp-* ]; do sleep 0.01; done; kill -" + signal + " $running; wait $running");
+    EXPECT_GT(ended.code, 128) << signal; // as a shell tells it
+    EXPECT_FALSE(std::filesystem::exists(out)) << signal;
+  }
+}
+
+TEST_F(RunCommand, TwoAtOnceDoNotMix)
+{
+  const std::string out = (folder_.path() / "out").string();
+  const std::string run = PALP_PROGRAM " run --out " + out;
+  const Finished both = test::runCommand(run + " >/dev/null 2>&1 & running=$!; until [ -e " + out +
+    "/.palp-* ]; do sleep 0.01; done; " + run + "; echo $?; wait $running; echo $?");
+  EXPECT_EQ(both.out, "2\n0\n") << both.err;
+  EXPECT_NE(both.err.find("another palp is writing there"), std::string::npos) << both.err;
+}
+
+// what palp writes it reads again: a law's table and a recording as references, and a recording as
+// a path, which gives the same forces
+TEST_F(RunCommand, TakesItsOwnTablesAndRecordings)
+{
+  ASSERT_EQ(press("--no-picture", "first").code, 0);
+  const auto samples = folder_.path() / "first/samples.csv";
+  const auto law = folder_.path() / "law.csv";
+  ASSERT_EQ(palp("force --depth 0:6:1mm > " + law.string()).code, 0);
+  const auto again = folder_.path() / "again";
+  const Finished finished = palp("run " + block() + " --path " + samples.string() +
+    " --plots comparison --plot-files csv --reference " + law.string() + " --reference " +
+    samples.string() + " --out " + again.string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NE(test::readAll(again / "comparison.csv").find("\"law\",6,"), std::string::npos);
+  EXPECT_NE(test::readAll(again / "comparison.csv").find("\"samples\",5,"), std::string::npos);
+  const test::CsvTable before = test::readCsv(samples);
+  const test::CsvTable after = test::readCsv(again / "samples.csv");
+  ASSERT_EQ(after["force_N"].size(), before["force_N"].size());
+  for (std::size_t i = 0; i < before["force_N"].size(); ++i)
+  {
+    EXPECT_NEAR(after["force_N"][i], before["force_N"][i], 1e-9) << i;
+  }
+}
+
+TEST_F(RunCommand, DrawsPicturesWithoutADisplay)
+{
+  const Finished finished = press("--size 800x600", "out");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_GT(colorsOf(folder_.path() / "out/press.png", 800, 600), 500u);
+  for (const char* chart : { "out/force_time.png", "out/force_depth.png" })
+  {
+    EXPECT_TRUE(std::filesystem::file_size(folder_.path() / chart) > 5000) << chart;
+  }
+}
+
+// every plot in every kind of file, the user's own curve among them
+TEST_F(RunCommand, WritesThePlotsThatAreAskedFor)
+{
+  const auto reference = folder_.path() / "mine.csv";
+  std::ofstream(reference) << "depth_mm,force_N\n1,0.25\n4,2.0\n";
+  const Finished finished = press(
+    "--plots section,comparison,extent --plot-files png,svg,csv --reference " + reference.string(),
+    "plots");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const auto out = folder_.path() / "plots";
+  for (const std::string name : { "section", "comparison", "extent" })
+  {
+    for (const char* ending : { ".png", ".svg", ".csv" })
+    {
+      EXPECT_TRUE(std::filesystem::exists(out / (name + ending))) << name << ending;
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(out / "force_time.png"));
+  const std::string forces = test::readAll(out / "comparison.csv");
+  EXPECT_NE(forces.find("\"mine\",4,2\n"), std::string::npos);
+  EXPECT_NE(forces.find("\"finite elements\",1,0.252384048021\n"), std::string::npos); // the table
+  EXPECT_EQ(press("--plots sections", "none").code, 2);
+}
+
+TEST_F(RunCommand, CalibratesWithTablesAndPlots)
+{
+  const std::string out = (folder_.path() / "calibration").string();
+  const Finished finished =
+    palp("calibrate --block 100x100x50mm --tip sphere:10mm --material linear "
+         "--depth 1:2:0.5mm --element-size 0.5mm --out " +
+      out);
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const test::CsvTable table = test::readCsv(folder_.path() / "calibration/table.csv");
+  EXPECT_EQ(table["depth_mm"], (std::vector<double>{ 1.0, 1.5, 2.0 }));
+  for (const char* chart : { "extent.png", "force.png", "profiles.png" })
+  {
+    EXPECT_GT(colorsOf(folder_.path() / "calibration" / chart, 1000, 600), 10u) << chart;
+  }
+}
+
+} // namespace
+} // namespace palp
