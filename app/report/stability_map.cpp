@@ -10,6 +10,7 @@
 #include <ostream>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace palp
 {
@@ -90,6 +91,51 @@ Cells worstOf(std::span<const JudgedCase> cases, bool chain)
   return cells;
 }
 
+// the cells of one loop, under the names of their columns
+void drawCells(std::ostream& out, int left, const std::vector<std::string>& rows,
+  const std::set<double>& moduli, const Cells& cells)
+{
+  int x = left;
+  for (const double modulus : moduli)
+  {
+    out << "<text transform=\"translate(" << x + kCell / 2 + 4 << "," << kHead - 6
+        << ") rotate(-40)\">" << columnName(modulus) << "</text>\n";
+    int y = kHead;
+    for (const std::string& row : rows)
+    {
+      const auto cell = cells.find({ row, modulus });
+      if (cell != cells.end())
+      {
+        out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
+            << kRow - 2 << "\" fill=\"" << colourOf(cell->second) << "\"/>\n";
+      }
+      y += kRow;
+    }
+    x += kCell;
+  }
+}
+
+// what rows, columns and colors are
+void drawLegend(std::ostream& out, const std::vector<std::string>& rows)
+{
+  int y = kHead;
+  for (const std::string& row : rows)
+  {
+    text(out, kLabels - 8, y + kRow - 7, row, "text-anchor=\"end\"");
+    y += kRow;
+  }
+  text(out, kLabels, y + 18, "Young's modulus; rows: loop period, then what was varied at 1 ms");
+  int x = kLabels;
+  for (const StabilityOutcome outcome : { StabilityOutcome::Stable, StabilityOutcome::Limited,
+         StabilityOutcome::Refused, StabilityOutcome::Unstable })
+  {
+    out << "<rect x=\"" << x << "\" y=\"" << y + 32 << "\" width=\"14\" height=\"14\" fill=\""
+        << colourOf(outcome) << "\"/>\n";
+    text(out, x + 20, y + 44, nameOf(outcome));
+    x += 90;
+  }
+}
+
 } // namespace
 
 const char* nameOf(StabilityOutcome outcome)
@@ -135,42 +181,9 @@ void drawStabilityMap(std::ostream& out, std::span<const JudgedCase> cases)
     const Cells cells = worstOf(cases, chain);
     text(out, left, 46, chain ? "through the safety chain" : "the law alone, cut at 7.9 N",
       "font-size=\"13\"");
-    int x = left;
-    for (const double modulus : moduli)
-    {
-      out << "<text transform=\"translate(" << x + kCell / 2 + 4 << "," << kHead - 6
-          << ") rotate(-40)\">" << columnName(modulus) << "</text>\n";
-      int y = kHead;
-      for (const std::string& row : rows)
-      {
-        const auto cell = cells.find({ row, modulus });
-        if (cell != cells.end())
-        {
-          out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
-              << kRow - 2 << "\" fill=\"" << colourOf(cell->second) << "\"/>\n";
-        }
-        y += kRow;
-      }
-      x += kCell;
-    }
+    drawCells(out, left, rows, moduli, cells);
   }
-
-  int y = kHead;
-  for (const std::string& row : rows)
-  {
-    text(out, kLabels - 8, y + kRow - 7, row, "text-anchor=\"end\"");
-    y += kRow;
-  }
-  text(out, kLabels, y + 18, "Young's modulus; rows: loop period, then what was varied at 1 ms");
-  int x = kLabels;
-  for (const StabilityOutcome outcome : { StabilityOutcome::Stable, StabilityOutcome::Limited,
-         StabilityOutcome::Refused, StabilityOutcome::Unstable })
-  {
-    out << "<rect x=\"" << x << "\" y=\"" << y + 32 << "\" width=\"14\" height=\"14\" fill=\""
-        << colourOf(outcome) << "\"/>\n";
-    text(out, x + 20, y + 44, nameOf(outcome));
-    x += 90;
-  }
+  drawLegend(out, rows);
   out << "</svg>\n";
 }
 
