@@ -1,7 +1,7 @@
 // palp-devices: palp with hidapi and libusb.
 
-#include "app/devices_report.h"
 #include "app/commands/program.h"
+#include "app/devices_report.h"
 
 int main(int argc, char** argv)
 {

@@ -46,13 +46,13 @@ constexpr std::array kFamilies{
 void print(const FoundDevice& device)
 {
   std::cout << "  " << device.name << " (" << device.ids << ") at " << device.path << ": "
-            << (device.hurdle.empty() ? "can be used" : device.hurdle) << '\n';
+            << (device.unusableReason.empty() ? "can be used" : device.unusableReason) << '\n';
 }
 
 // a Falcon that can be opened may still lack its firmware: only its answer tells
 void probeFirmware(FoundDevice& device)
 {
-  if (device.kind == DeviceKind::Falcon && device.hurdle.empty())
+  if (device.kind == DeviceKind::Falcon && device.unusableReason.empty())
   {
     try
     {
@@ -61,7 +61,7 @@ void probeFirmware(FoundDevice& device)
     catch (const Error& error)
     {
       const std::string what = error.what(); // begins with the name
-      device.hurdle = what.substr(what.find(": ") + 2);
+      device.unusableReason = what.substr(what.find(": ") + 2);
     }
   }
 }
@@ -101,7 +101,8 @@ int list(std::vector<FoundDevice> all)
   {
     return kNoneThere;
   }
-  const bool usable = std::ranges::any_of(all, [](const auto& one) { return one.hurdle.empty(); });
+  const bool usable =
+    std::ranges::any_of(all, [](const auto& one) { return one.unusableReason.empty(); });
   return usable ? 0 : kNoneUsable;
 }
 

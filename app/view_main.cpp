@@ -1,7 +1,7 @@
 // palp-view: palp with its window.
 
-#include "app/program/ledger.h"
 #include "app/commands/program.h"
+#include "app/program/build_trace.h"
 #include "app/session/session.h"
 #include "app/window/window.h"
 
@@ -46,16 +46,15 @@ void endOnSignals(QApplication& application)
   timer->start(kCheckEvery);
 }
 
-void explainOmissions(const palp::ScenePlan& plan, palp::Ledger& ledger)
+void explainOmissions(const palp::ScenePlan& plan, palp::BuildTrace& trace)
 {
   const bool simulated =
     plan.device == "mouse" || plan.device == "hand" || palp::isScripted(plan.device);
-  ledger.leaveOut("USB libraries", "come when a device there is looked for", simulated);
-  ledger.leaveOut("plots, sample ring", "no plot is named", !plan.records());
-  ledger.leaveOut("reliance panel", "\"validity\" is false", !plan.validity);
-  ledger.leaveOut(
-    "other overlays", "computed when the View menu shows them", plan.overlays.has_value());
-  ledger.leaveOut("fitted surfaces", "\"dent\" is the paper's", plan.press.surface != "fitted");
+  trace.skip("USB libraries", "come when a device there is looked for", simulated);
+  trace.skip("plots, sample ring", "no plot is named", !plan.records());
+  trace.skip("reliance panel", "\"validity\" is false", !plan.validity);
+  trace.skip("other overlays", "computed when the View menu shows them", plan.overlays.has_value());
+  trace.skip("fitted surfaces", "\"dent\" is the paper's", plan.press.surface != "fitted");
 }
 
 // Qt aborts where it finds no display
@@ -77,7 +76,7 @@ int view(const palp::ViewOptions& options)
     throw palp::Error(palp::ErrorCode::NoPicture,
       "window: there is no display here; use palp run, which needs none");
   }
-  palp::Ledger ledger(options.explain);
+  palp::BuildTrace trace(options.explain);
   QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
   format.setSamples(0); // several times slower without a graphics card
   QSurfaceFormat::setDefaultFormat(format);
@@ -90,14 +89,14 @@ int view(const palp::ViewOptions& options)
   qInstallMessageHandler(before);
   std::setlocale(LC_NUMERIC, "C"); // Qt takes the user's; files and VTK want a decimal point
 
-  palp::Session session(options.plan, ledger, &gEnded);
+  palp::Session session(options.plan, trace, &gEnded);
   for (const std::string& note : session.body().notes)
   {
     std::cerr << "palp: " << note << '\n';
   }
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
-  palp::Window window(session, ledger);
-  ledger.build("first picture", "drawn on the display",
+  palp::Window window(session, trace);
+  trace.build("first picture", "drawn on the display",
     [&]
     {
       window.show();
@@ -105,8 +104,8 @@ int view(const palp::ViewOptions& options)
     });
   if (options.explain)
   {
-    explainOmissions(options.plan, ledger);
-    ledger.write(std::cout);
+    explainOmissions(options.plan, trace);
+    trace.write(std::cout);
     return 0;
   }
   endOnSignals(application);

@@ -5,9 +5,9 @@
 #include "data/liver_mesh.h"
 #include "data/press_path.h"
 #include "data/shapes.h"
+#include "haptics/error.h"
 #include "haptics/surface/decimate.h"
 #include "haptics/surface/deviation.h"
-#include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
@@ -51,8 +51,8 @@ void generate(const std::filesystem::path& directory)
   write(directory / "liver.vtp", liver);
   write(directory / "liver_haptic.vtp", haptic);
   const Deviation apart = deviation(liver, haptic);
-  std::cout << "liver_haptic.vtp: " << units::toMillimetres(apart.largest)
-            << " mm from liver.vtp at most, " << units::toMillimetres(apart.rootMeanSquare)
+  std::cout << "liver_haptic.vtp: " << units::toMillimeters(apart.largest)
+            << " mm from liver.vtp at most, " << units::toMillimeters(apart.rootMeanSquare)
             << " mm root mean square\n";
 
   const auto writeMesh = [&](const std::string& name, Mesh mesh)
@@ -79,9 +79,9 @@ void writePath(const std::filesystem::path& file)
   for (const PathKnot& knot : liverPressPath())
   {
     out << std::setprecision(2) << knot.time << std::setprecision(4);
-    for (const double metres : knot.apex)
+    for (const double meters : knot.apex)
     {
-      out << ',' << units::toMillimetres(metres);
+      out << ',' << units::toMillimeters(meters);
     }
     out << std::setprecision(6);
     for (const double component : *knot.axis)

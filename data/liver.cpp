@@ -70,7 +70,7 @@ double smoothStep(double from, double to, double x) noexcept
 
 Vector3d mm(double x, double y, double z)
 {
-  return { units::fromMillimetres(x), units::fromMillimetres(y), units::fromMillimetres(z) };
+  return { units::fromMillimeters(x), units::fromMillimeters(y), units::fromMillimeters(z) };
 }
 
 const Ellipsoid kRightLobe{ mm(-39, 3, -24), mm(77, 46, 104), 0.14 };

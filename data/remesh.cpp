@@ -41,9 +41,9 @@ bool mayCollapse(HalfEdges& mesh, OpenMesh::HalfedgeHandle half, double longest)
   }
   const auto from = mesh.from_vertex_handle(half);
   const auto to = mesh.to_vertex_handle(half);
-  for (const auto neighbour : mesh.vv_range(from))
+  for (const auto neighbor : mesh.vv_range(from))
   {
-    if ((mesh.point(neighbour) - mesh.point(to)).squaredNorm() > longest * longest)
+    if ((mesh.point(neighbor) - mesh.point(to)).squaredNorm() > longest * longest)
     {
       return false;
     }
@@ -87,7 +87,7 @@ void collapseShortEdges(HalfEdges& mesh, double shortest, double longest)
   mesh.garbage_collection();
 }
 
-// brings the number of neighbours towards six
+// brings the number of neighbors towards six
 void flipEdges(HalfEdges& mesh)
 {
   const auto excess = [&](OpenMesh::VertexHandle v, int change)
@@ -111,16 +111,16 @@ void flipEdges(HalfEdges& mesh)
   }
 }
 
-// every point towards the centre of its neighbours, along the surface, then back onto it
+// every point towards the center of its neighbors, along the surface, then back onto it
 void relax(HalfEdges& mesh, const Distance& distance)
 {
   std::vector<Vector3d> moved;
   for (const auto v : mesh.vertices())
   {
     Vector3d center = Vector3d::Zero();
-    for (const auto neighbour : mesh.vv_range(v))
+    for (const auto neighbor : mesh.vv_range(v))
     {
-      center += mesh.point(neighbour) / mesh.valence(v);
+      center += mesh.point(neighbor) / mesh.valence(v);
     }
     const Vector3d p = mesh.point(v);
     const Vector3d normal = levelNormal(distance, p);

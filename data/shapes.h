@@ -15,7 +15,7 @@ struct Mesh
   std::vector<Triangle> triangles;
 };
 
-/// The paper's regular surface: n x n points in the plane z = 0, centred, facing +z.
+/// The paper's regular surface: n x n points in the plane z = 0, centered, facing +z.
 ///
 /// n^2 points, (3 n - 1)(n - 1) edges, 2 (n - 1)^2 triangles.
 ///
@@ -24,10 +24,10 @@ struct Mesh
 /// @source        Sec. 4.2, Table 1
 [[nodiscard]] Mesh makeGrid(int n, double size);
 
-/// Closed block whose top is centred at the origin, facing +z.
+/// Closed block whose top is centered at the origin, facing +z.
 ///
 /// @param size     along x, y and z [m]
-/// @param spacing  largest distance of neighbours along an axis [m]
+/// @param spacing  largest distance of neighbors along an axis [m]
 [[nodiscard]] Mesh makeBox(const Eigen::Vector3d& size, double spacing);
 
 /// Geodesic sphere about the origin: an icosahedron split k times, 10 4^k + 2 points.

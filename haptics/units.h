@@ -1,7 +1,7 @@
 #pragma once
 
 // Every double in this code base is SI: m, N, Pa, s, rad.
-// Millimetres, kilopascals and degrees live at the edges, and reach the inside through here.
+// Millimeters, kilopascals and degrees live at the edges, and reach the inside through here.
 
 #include <cstdio>
 #include <numbers>
@@ -10,22 +10,22 @@
 namespace palp::units
 {
 
-constexpr double toMillimetres(double metres) noexcept
+constexpr double toMillimeters(double meters) noexcept
 {
-  return metres * 1e3;
+  return meters * 1e3;
 }
 
 /// For messages, as in `0.5 mm`.
-inline std::string inMillimetres(double metres)
+inline std::string inMillimeters(double meters)
 {
   char text[32];
-  std::snprintf(text, sizeof text, "%g mm", toMillimetres(metres));
+  std::snprintf(text, sizeof text, "%g mm", toMillimeters(meters));
   return text;
 }
 
-constexpr double fromMillimetres(double millimetres) noexcept
+constexpr double fromMillimeters(double millimeters) noexcept
 {
-  return millimetres / 1e3;
+  return millimeters / 1e3;
 }
 
 constexpr double toKilopascals(double pascals) noexcept
@@ -49,9 +49,9 @@ constexpr double fromDegrees(double degrees) noexcept
 }
 
 /// [N/m] to [N/mm]
-constexpr double toNewtonsPerMillimetre(double newtonsPerMetre) noexcept
+constexpr double toNewtonsPerMillimeter(double newtonsPerMeter) noexcept
 {
-  return newtonsPerMetre / 1e3;
+  return newtonsPerMeter / 1e3;
 }
 
 constexpr double toMilliseconds(double seconds) noexcept

@@ -1,7 +1,7 @@
 #include "app/bench/bench.h"
 #include "data/shapes.h"
 #include "haptics/contact/contact.h"
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/units.h"
 
 #include <Eigen/Geometry>
@@ -48,7 +48,7 @@ Contact press(const Surface& surface, const Eigen::Vector3d& apex, const Eigen::
     { .apex = apex, .axis = -outward, .velocity = Eigen::Vector3d::Zero() }, rule);
 }
 
-// error of the force against the distance of the tool's centre to the fine mesh
+// error of the force against the distance of the tool's center to the fine mesh
 void reportErrors(
   std::ostream& out, const Surface& coarse, const Surface& fine, double depth, ContactRule rule)
 {
@@ -60,13 +60,14 @@ void reportErrors(
     const std::size_t point = random() % fine.points().size();
     const Eigen::Vector3d outward = fine.normals()[point];
     const Eigen::Vector3d apex = fine.points()[point] - depth * outward;
-    const double truth = hertz(kTool - findNearest(fine, apex + kTool * outward, 1.0).distance);
+    const double truth =
+      hertz(kTool - findClosestPoint(fine, apex + kTool * outward, 1.0).distance);
     const double force = hertz(press(coarse, apex, outward, rule).depth);
     percent.push_back(100.0 * std::abs(force / truth - 1.0));
   }
   std::sort(percent.begin(), percent.end());
   out << std::setw(7) << coarse.points().size() << " points, " << std::setw(4)
-      << units::toMillimetres(depth) << " mm deep, "
+      << units::toMillimeters(depth) << " mm deep, "
       << (rule == ContactRule::Exact ? "exact" : "paper") << ": p50 " << percent[kPresses / 2]
       << " %, p99 " << percent[kPresses * 99 / 100] << " %\n";
 }
@@ -123,7 +124,7 @@ void reportAccuracy(std::ostream& out)
   const Mesh mesh = makeSphere(50.0_mm, 4);
   const Surface ball(mesh.points, mesh.triangles);
   out << "Sliding 3 mm deep over a sphere of 50 mm with edges of "
-      << units::toMillimetres(ball.edgeLength()) << " mm:\n";
+      << units::toMillimeters(ball.edgeLength()) << " mm:\n";
   reportSlide(out, "exact  ",
     [&](const Eigen::Vector3d& apex, const Eigen::Vector3d& outward)
     {
@@ -134,7 +135,7 @@ void reportAccuracy(std::ostream& out)
     [&](const Eigen::Vector3d& apex, const Eigen::Vector3d& outward)
     {
       const Eigen::Vector3d center = apex + kTool * outward;
-      const Nearest nearest = findNearest(ball, center, 1.0);
+      const ClosestPoint nearest = findClosestPoint(ball, center, 1.0);
       return Eigen::Vector3d(
         hertz(kTool - nearest.distance) * (center - nearest.point).normalized());
     });

@@ -12,7 +12,7 @@ struct BenchDome
   int n;
   double size; ///< of its side [m], and the radius of its curvature
 
-  /// Centred on the apex, which faces +z.
+  /// Centered on the apex, which faces +z.
   [[nodiscard]] Mesh mesh() const;
 
   /// Radius of a dent of so many points [m].
@@ -21,7 +21,7 @@ struct BenchDome
   /// A sphere pressed by half its radius.
   ///
   /// @param outer  radius of the dent [m]
-  /// @param x      distance of its centre from the apex [m]
+  /// @param x      distance of its center from the apex [m]
   [[nodiscard]] Press press(double outer, double x) const;
 };
 

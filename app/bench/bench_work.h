@@ -18,8 +18,8 @@
 namespace palp
 {
 
-constexpr double kBenchSide = units::fromMillimetres(100.0);
-constexpr double kBenchDepth = units::fromMillimetres(5.0);
+constexpr double kBenchSide = units::fromMillimeters(100.0);
+constexpr double kBenchDepth = units::fromMillimeters(5.0);
 
 /// A tool that goes round and round at constant depth, 0.1 m/s.
 [[nodiscard]] ToolPose benchPose(double time);

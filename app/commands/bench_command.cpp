@@ -1,9 +1,9 @@
 #include "app/bench/bench.h"
 #include "app/commands/commands.h"
-#include "app/commands/pictures.h"
+#include "app/commands/renderer.h"
 #include "app/input/quantity.h"
+#include "app/program/exec_program.h"
 #include "app/program/machine.h"
-#include "app/program/sibling.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -42,7 +42,7 @@ struct Bench
 };
 
 // S before, between and after, for other work on the machine comes and goes
-Bench measure(const BenchOptions& options, const Pictures* pictures)
+Bench measure(const BenchOptions& options, const Renderer* pictures)
 {
   std::vector<double> sweeps{ benchSweep() };
   Bench bench;
@@ -145,7 +145,7 @@ void checkGate(const Bench& bench, const nlohmann::json& recorded, double slack)
   }
 }
 
-void runBench(const BenchOptions& options, const Pictures* pictures)
+void runBench(const BenchOptions& options, const Renderer* pictures)
 {
   if (!(options.slack >= 1.0)) // CLI11's range lets nan pass
   {
@@ -153,7 +153,7 @@ void runBench(const BenchOptions& options, const Pictures* pictures)
   }
   if (options.frames && !pictures)
   {
-    becomeSibling("palp-draw");
+    execProgram("palp-draw");
   }
   if (options.accuracy)
   {
@@ -184,7 +184,7 @@ void runBench(const BenchOptions& options, const Pictures* pictures)
 
 } // namespace
 
-void addBenchCommand(CLI::App& app, const Pictures* pictures)
+void addBenchCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Measure speed and accuracy on this machine");

@@ -1,9 +1,9 @@
 #include "app/commands/calibrate_case.h"
 
-#include "app/input/coating_spec.h"
+#include "app/input/coating_text.h"
 #include "app/input/json_object.h"
 #include "app/input/quantity.h"
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -73,7 +73,8 @@ Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string
   {
     if (key != "name" && !text.values.contains(key))
     {
-      refuse("has " + inQuotes(key) + ", which is no setting of a case; use the names of the options");
+      refuse(
+        "has " + inQuotes(key) + ", which is no setting of a case; use the names of the options");
     }
     if (!value.is_string())
     {
@@ -95,8 +96,7 @@ Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string
   }
   catch (const Error& error)
   {
-    throw Error(
-      ErrorCode::BadFile, file + ": case " + std::to_string(count) + ": " + error.what());
+    throw Error(ErrorCode::BadFile, file + ": case " + std::to_string(count) + ": " + error.what());
   }
 }
 
@@ -117,13 +117,14 @@ Case caseOf(const std::string& name, const CaseText& text)
   const std::string& model = value("model");
   if (model != "axisymmetric" && model != "block")
   {
-    throw Error(
-      ErrorCode::BadValue, "--model: " + inQuotes(model) + " is unknown; give axisymmetric or block");
+    throw Error(ErrorCode::BadValue,
+      "--model: " + inQuotes(model) + " is unknown; give axisymmetric or block");
   }
   const std::string& base = value("base");
   if (base != "bonded" && base != "slip")
   {
-    throw Error(ErrorCode::BadValue, "--base: " + inQuotes(base) + " is unknown; give bonded or slip");
+    throw Error(
+      ErrorCode::BadValue, "--base: " + inQuotes(base) + " is unknown; give bonded or slip");
   }
   const Tip tip = parseTip(value("tip"));
   // small-strain theory knows the undeformed surface, which meets the edge of a flat at a node

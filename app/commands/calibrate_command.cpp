@@ -1,10 +1,10 @@
 #include "app/commands/calibrate_case.h"
 #include "app/commands/commands.h"
-#include "app/commands/pictures.h"
+#include "app/commands/renderer.h"
+#include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
-#include "app/program/sibling.h"
 #include "calibration/study/shipped_tables.h"
 #include "calibration/study/study.h"
 #include "calibration/study/study_files.h"
@@ -56,7 +56,7 @@ void refuseWhereStopped(const std::stop_token& stop)
   }
 }
 
-void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
+void runSweep(const CalibrateOptions& options, std::stop_token stop, const Renderer* pictures)
 {
   const auto cases = readSweep(options.sweep, options.text);
   const OutputFolder whole(options.out, {}, OutputFolder::Earlier::Keep); // one sweep in a folder
@@ -70,10 +70,10 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictu
   ProgressLine progress("cases");
   progress(0, cases.size());
   sweep(folders, cases, options.resume, options.jobs, stop,
-    [&](const std::string& name, const std::string& trouble)
+    [&](const std::string& name, const std::string& failure)
     {
-      failed += trouble.empty() ? 0 : 1;
-      progress.tell(name + ": " + (trouble.empty() ? "done" : trouble));
+      failed += failure.empty() ? 0 : 1;
+      progress.tell(name + ": " + (failure.empty() ? "done" : failure));
       progress(++done, cases.size());
     });
   refuseWhereStopped(stop);
@@ -93,7 +93,7 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop, const Pictu
   }
 }
 
-void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const Pictures* pictures)
+void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const Renderer* pictures)
 {
   const Case study = caseOf(options.out.filename().string(), options.text);
   const auto folder = openFolder(options.out, options);
@@ -109,10 +109,10 @@ void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const P
     pictures->drawCalibration(study, outcome.steps, folder->stage());
     folder->publish();
   }
-  if (!outcome.trouble.empty())
+  if (!outcome.error.empty())
   {
     throw Error(ErrorCode::NoSolution,
-      outcome.trouble + " (" + std::to_string(outcome.steps.size()) + " of " +
+      outcome.error + " (" + std::to_string(outcome.steps.size()) + " of " +
         std::to_string(study.depths.size()) + " depths are in " + options.out.string() + ")");
   }
   std::cerr << "palp: tables, fit and pictures are in " << options.out.string() << '\n';
@@ -132,11 +132,11 @@ std::vector<std::string> tablesIn(const std::filesystem::path& folder)
   return names;
 }
 
-void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
+void runCalibration(const CalibrateOptions& options, const Renderer* pictures)
 {
   if (options.tables.empty() && !options.noPicture && !pictures)
   {
-    becomeSibling("palp-draw");
+    execProgram("palp-draw");
   }
   Interrupt interrupt;
   interrupt.endWhatDoesNotStop(options.tables.empty() ? kStopped : kTablesStopped);
@@ -164,7 +164,7 @@ void runCalibration(const CalibrateOptions& options, const Pictures* pictures)
 
 } // namespace
 
-void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
+void addCalibrateCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
@@ -180,7 +180,7 @@ void addCalibrateCommand(CLI::App& app, const Pictures* pictures)
   text("young", "Young's modulus; without coatings it scales the force and leaves R_d alone");
   text("poisson", "Poisson's ratio, less than 0.5");
   text("material", "linear, corotated, neo-hookean or neo-hookean-isochoric");
-  text("depth", "Indentation depths A:B:STEP");
+  text("depth", "ContactGeometry depths A:B:STEP");
   text("threshold", "Displacement at the edge of the deformed region");
   text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
   text("base", "Under the block: bonded, or slip for one that slides on its support");

@@ -9,21 +9,21 @@ namespace palp
 {
 
 struct DevicesOptions;
-struct Pictures;
+struct Renderer;
 struct ViewOptions;
 
 // Each adds one subcommand with its options and help; the command runs when the line is parsed.
 // A null part means that this program does not carry it and becomes the sibling that does.
 
 void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
-void addRunCommand(CLI::App& app, const Pictures* pictures);
-void addSceneCommand(CLI::App& app, const Pictures* pictures, int (*view)(const ViewOptions&));
+void addRunCommand(CLI::App& app, const Renderer* pictures);
+void addSceneCommand(CLI::App& app, const Renderer* pictures, int (*view)(const ViewOptions&));
 void addForceCommand(CLI::App& app);
-void addCalibrateCommand(CLI::App& app, const Pictures* pictures);
-void addExperimentCommand(CLI::App& app, const Pictures* pictures);
-void addReportCommand(CLI::App& app, const Pictures* pictures);
+void addCalibrateCommand(CLI::App& app, const Renderer* pictures);
+void addExperimentCommand(CLI::App& app, const Renderer* pictures);
+void addReportCommand(CLI::App& app, const Renderer* pictures);
 void addStabilityCommand(CLI::App& app);
-void addBenchCommand(CLI::App& app, const Pictures* pictures);
+void addBenchCommand(CLI::App& app, const Renderer* pictures);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));
 
 } // namespace palp

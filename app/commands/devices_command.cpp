@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/program/devices_options.h"
-#include "app/program/sibling.h"
+#include "app/program/exec_program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -25,7 +25,7 @@ void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&))
     {
       if (!show)
       {
-        becomeSibling("palp-devices");
+        execProgram("palp-devices");
       }
       throw CLI::RuntimeError(show(*options));
     });

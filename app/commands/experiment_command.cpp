@@ -1,11 +1,11 @@
 #include "app/commands/commands.h"
+#include "app/commands/renderer.h"
+#include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
-#include "app/commands/pictures.h"
-#include "app/program/sibling.h"
 #include "calibration/experiments/experiments.h"
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
+#include "haptics/files/replace_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -25,13 +25,13 @@ struct Named
 {
   const char* name;
   const char* what;
-  fem::Experiment (*run)(fem::Resolution, std::stop_token);
+  fem::Experiment (*run)(fem::Resolution, const std::stop_token&);
 };
 
 constexpr std::array kExperiments{
   Named{ "curvature", "Fig. 3: elastic spheres against the block", fem::curvature },
   Named{ "inclination", "Eq. (7): angles at which inclination is felt",
-    [](fem::Resolution, std::stop_token) { return fem::inclination(); } },
+    [](fem::Resolution, const std::stop_token&) { return fem::inclination(); } },
   Named{ "extents", "Fig. 8: R_d over the depth", fem::extents },
   Named{ "profiles", "Fig. 7: surface profiles", fem::profiles },
   Named{ "forces", "Figs. 15 and 16: laws against finite elements", fem::forces },
@@ -68,11 +68,11 @@ void endEarly(const char* name, OutputFolder& output)
       (fresh ? " holds what was finished before it" : " is as it was"));
 }
 
-void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
+void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
 {
   if (!options.noPicture && !pictures)
   {
-    becomeSibling("palp-draw");
+    execProgram("palp-draw");
   }
   const std::vector<Named> wanted = wantedOf(options.names);
   std::vector<std::string> tables;
@@ -103,7 +103,7 @@ void runExperiments(const ExperimentOptions& options, const Pictures* pictures)
 
 } // namespace
 
-void addExperimentCommand(CLI::App& app, const Pictures* pictures)
+void addExperimentCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<ExperimentOptions>();
   CLI::App* command =

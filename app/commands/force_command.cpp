@@ -28,7 +28,7 @@ struct ForceOptions
 };
 
 // which factors act, for people, on standard error
-void tellFactors(const ForceLaw& law, const Indentation& deepest)
+void tellFactors(const ForceLaw& law, const ContactGeometry& deepest)
 {
   std::string acting;
   for (const Factor& factor : law.factors(deepest))
@@ -42,7 +42,8 @@ void tellFactors(const ForceLaw& law, const Indentation& deepest)
   std::cerr << "palp: factors at the largest depth: " << (acting.empty() ? "none acts" : acting)
             << '\n';
   const bool bare = law.settings().mode == LawMode::Corrected &&
-    law.settings().constitution == Constitution::NeoHookean && !law.largeStrain(deepest).inside;
+    law.settings().constitution == ConstitutiveModel::NeoHookean &&
+    !law.largeStrain(deepest).inside;
   if (bare)
   {
     std::cerr << (law.settings().coatings.empty()
@@ -73,7 +74,7 @@ bool isPaper(const ForceLaw& law)
 }
 
 // what the columns are
-void printHead(const ForceLaw& law, const Indentation& place, std::span<const Rule> rules)
+void printHead(const ForceLaw& law, const ContactGeometry& place, std::span<const Rule> rules)
 {
   std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
   if (!isPaper(law))
@@ -93,12 +94,12 @@ void printHead(const ForceLaw& law, const Indentation& place, std::span<const Ru
 }
 
 // after the depth
-void addForces(std::vector<double>& row, const ForceLaw& law, const Indentation& place)
+void addForces(std::vector<double>& row, const ForceLaw& law, const ContactGeometry& place)
 {
   const Response response = law(place);
   row.insert(row.end(),
-    { response.force, units::toMillimetres(response.contactRadius),
-      units::toNewtonsPerMillimetre(response.stiffness) });
+    { response.force, units::toMillimeters(response.contactRadius),
+      units::toNewtonsPerMillimeter(response.stiffness) });
   if (!isPaper(law))
   {
     for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
@@ -114,7 +115,7 @@ void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
   const Range depths = depthsOf(options.depth);
-  Indentation place = options.place.place();
+  ContactGeometry place = options.place.place();
   const Validity validity(law, { .deepest = depths.si.back() });
   const Rules rules = validity(place);
   printHead(law, place, std::span(rules).first(options.validity ? rules.size() : 0));
@@ -123,7 +124,7 @@ void printForces(const ForceOptions& options)
   for (std::size_t i = 0; i < depths.si.size(); ++i)
   {
     place.depth = depths.si[i];
-    row = { depths.given[i] * units::toMillimetres(depths.unit) };
+    row = { depths.given[i] * units::toMillimeters(depths.unit) };
     addForces(row, law, place);
     if (options.validity)
     {
@@ -157,7 +158,8 @@ void addForceCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
   options->tissue.addTo(*command);
   options->place.addTo(*command);
-  command->add_option("--depth", options->depth, "Indentation depths A:B:STEP, both ends included")
+  command
+    ->add_option("--depth", options->depth, "ContactGeometry depths A:B:STEP, both ends included")
     ->capture_default_str();
   command->add_flag("--validity", options->validity,
     "Append for each condition of the law how much of its limit is used; above 1 it is broken");

@@ -1,14 +1,14 @@
 #include "app/commands/headless.h"
 
-#include "app/commands/pictures.h"
+#include "app/commands/renderer.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
 #include "app/press/playback.h"
 #include "app/press/recording.h"
+#include "app/program/build_trace.h"
+#include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
-#include "app/program/ledger.h"
-#include "app/program/sibling.h"
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/output_folder.h"
 #include "haptics/force/validity.h"
@@ -34,7 +34,7 @@ bool isWhole(const Sample& sample)
 void tellLimits(const ForceLaw& law, const Contact& contact)
 {
   const std::string broken =
-    brokenNames(Validity(law)(indentationOf(contact), contact.edgeDistance));
+    brokenNames(Validity(law)(contactGeometryOf(contact), contact.edgeDistance));
   if (!broken.empty())
   {
     std::cerr << "palp: warning: there the law is outside its limits (" << broken
@@ -44,7 +44,7 @@ void tellLimits(const ForceLaw& law, const Contact& contact)
 
 void tell(const Recording& recording, const Calibration* calibration)
 {
-  using units::toMillimetres;
+  using units::toMillimeters;
   const Sample* deepest = recording.deepest();
   if (!deepest)
   {
@@ -52,17 +52,17 @@ void tell(const Recording& recording, const Calibration* calibration)
                  "frame or unit\n";
     return;
   }
-  std::cerr << "palp: deepest " << toMillimetres(deepest->contact.depth) << " mm, force "
+  std::cerr << "palp: deepest " << toMillimeters(deepest->contact.depth) << " mm, force "
             << deepest->response.force << " N";
   if (!isWhole(*deepest)) // damped or limited
   {
     std::cerr << " (" << deepest->force.norm() << " N to the device)";
   }
-  std::cerr << ", contact radius " << toMillimetres(deepest->response.contactRadius) << " mm";
+  std::cerr << ", contact radius " << toMillimeters(deepest->response.contactRadius) << " mm";
   if (calibration)
   {
     std::cerr << ", extent radius "
-              << toMillimetres(calibration->extents.extentRadius(deepest->contact.depth)) << " mm"
+              << toMillimeters(calibration->extents.extentRadius(deepest->contact.depth)) << " mm"
               << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
@@ -82,18 +82,18 @@ Scene sceneOf(const ScenePlan& plan, bool chained)
   return scene;
 }
 
-void explainOmissions(const ScenePlan& plan, Ledger& ledger)
+void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
 {
   const bool corrected = plan.press.tissue.options.mode == "corrected";
-  ledger.leaveOut("window, Qt", "\"window\" is false");
-  ledger.leaveOut("device, USB", "the tool follows a path");
-  ledger.leaveOut("servo thread", "a path without a window is pressed in simulated time");
-  ledger.leaveOut("live sample ring", "no servo thread fills it");
-  ledger.leaveOut("OpenGL", "no picture and no plot is asked for", !plan.draws());
-  ledger.leaveOut("overlays", "no picture shows them", !plan.picture);
-  ledger.leaveOut("plots", "none is named", plan.curves.empty());
-  ledger.leaveOut("calibration, dent", "\"dent\" is none", !plan.dent);
-  ledger.leaveOut("large-strain table", "the law is not corrected and no sample is rated",
+  trace.skip("window, Qt", "\"window\" is false");
+  trace.skip("device, USB", "the tool follows a path");
+  trace.skip("servo thread", "a path without a window is pressed in simulated time");
+  trace.skip("live sample ring", "no servo thread fills it");
+  trace.skip("OpenGL", "no picture and no plot is asked for", !plan.draws());
+  trace.skip("overlays", "no picture shows them", !plan.picture);
+  trace.skip("plots", "none is named", plan.curves.empty());
+  trace.skip("calibration, dent", "\"dent\" is none", !plan.dent);
+  trace.skip("large-strain table", "the law is not corrected and no sample is rated",
     !plan.validity && !corrected);
 }
 
@@ -113,26 +113,26 @@ std::vector<std::string> pressFiles()
   return names;
 }
 
-void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Pictures* pictures,
-  Ledger& ledger)
+void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Renderer* pictures,
+  BuildTrace& trace)
 {
   const Interrupt interrupt([&output] { output.discard(); });
   const std::filesystem::path out = output.stage();
   Recording recording;
   recording.rated = plan.validity;
-  recording.scene = ledger.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
+  recording.scene = trace.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
   const ScriptedPath path =
-    ledger.build("path", "moves the tool", [&] { return readScript(plan.device); });
+    trace.build("path", "moves the tool", [&] { return readScript(plan.device); });
   recording.device =
     plan.device.substr(0, plan.device.find(':') + 1) + scriptFile(plan.device).filename().string();
   std::optional<Calibration> calibration;
   if (plan.dent)
   {
-    calibration = ledger.build("calibration", "how far the surface gives way",
+    calibration = trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
   const bool shown = plan.deformed || plan.picture || plan.has(Curve::Section);
-  const Body body = ledger.build("surface", shown ? "felt and shown" : "felt, not shown",
+  const Body body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
     [&] { return loadBody(plan.meshes, shown); });
   for (const std::string& note : body.notes)
   {
@@ -148,27 +148,27 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const P
   recording.command = commandLine();
   recording.scene.surface = body.haptic;
 
-  recording.samples = ledger.build(
+  recording.samples = trace.build(
     "press", "force at every millisecond", [&] { return play(path, recording.scene, chained); });
   const Calibration* known = calibration ? &*calibration : nullptr;
   tell(recording, known);
   if (plan.samples)
   {
-    ledger.build(
+    trace.build(
       "samples.csv", "exported", [&] { writeSamples(out / "samples.csv", recording, known); });
   }
   if (plan.deformed)
   {
-    ledger.build("deformed.vtp", "exported",
+    trace.build("deformed.vtp", "exported",
       [&] { writeDeformed(out / "deformed.vtp", body, recording, *known, plan.refined); });
   }
   if (plan.draws())
   {
-    ledger.build(
+    trace.build(
       "pictures", "exported", [&] { pictures->drawPress(body, recording, known, plan, out); });
   }
   output.publish();
-  explainOmissions(plan, ledger);
+  explainOmissions(plan, trace);
 }
 
 } // namespace palp

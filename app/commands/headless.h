@@ -5,9 +5,9 @@
 namespace palp
 {
 
-class Ledger;
+class BuildTrace;
 class OutputFolder;
-struct Pictures;
+struct Renderer;
 
 /// The names of all files that playPlan may leave.
 [[nodiscard]] std::vector<std::string> pressFiles();
@@ -19,8 +19,8 @@ struct Pictures;
 /// @param plan      its device is scripted
 /// @param chained   the force goes through the safety chain of the paper's device, armed
 /// @param pictures  null only where the plan draws nothing
-/// @throws Error    as loadBody, readPath, loadCalibration, writeDeformed, Pictures, OutputFolder
-void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Pictures* pictures,
-  Ledger& ledger);
+/// @throws Error    as loadBody, readPath, loadCalibration, writeDeformed, Renderer, OutputFolder
+void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Renderer* pictures,
+  BuildTrace& trace);
 
 } // namespace palp

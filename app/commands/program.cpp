@@ -1,7 +1,7 @@
 #include "app/commands/program.h"
 
 #include "app/commands/commands.h"
-#include "app/program/sibling.h"
+#include "app/program/exec_program.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -77,7 +77,7 @@ void refuseEmptyValues(CLI::App& app)
   }
 }
 
-void addCommands(CLI::App& app, const Parts& parts)
+void addCommands(CLI::App& app, const ProgramFeatures& parts)
 {
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
@@ -128,7 +128,7 @@ int exitCode(ErrorCode code)
   return 1;
 }
 
-int runProgram(int argc, char** argv, const Parts& parts)
+int runProgram(int argc, char** argv, const ProgramFeatures& parts)
 {
   setArguments(argv);
   std::signal(SIGXFSZ, SIG_IGN); // a limit on files is told as a full disk is

@@ -7,7 +7,7 @@ namespace palp
 {
 
 struct DevicesOptions;
-struct Pictures;
+struct Renderer;
 
 /// The whole of `palp view`.
 struct ViewOptions
@@ -21,9 +21,9 @@ struct ViewOptions
 /// palp itself carries neither. A command that needs one becomes, by exec, the sibling that has
 /// it: same arguments, same process, same exit code. So the plain program never maps a graphics
 /// or window library, and nothing has to be loaded or unloaded at run time.
-struct Parts
+struct ProgramFeatures
 {
-  const Pictures* pictures = nullptr;              ///< palp-draw
+  const Renderer* pictures = nullptr;              ///< palp-draw
   int (*view)(const ViewOptions&) = nullptr;       ///< palp-view
   int (*devices)(const DevicesOptions&) = nullptr; ///< palp-devices
 };
@@ -33,6 +33,6 @@ struct Parts
 
 /// The main function of palp and its siblings.
 /// @return  exit code: 0, or by kind of error 2 (input), 3 (device), 4 (picture), 5 (no solution)
-[[nodiscard]] int runProgram(int argc, char** argv, const Parts& parts);
+[[nodiscard]] int runProgram(int argc, char** argv, const ProgramFeatures& parts);
 
 } // namespace palp

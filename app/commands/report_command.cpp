@@ -1,12 +1,12 @@
 #include "app/commands/commands.h"
-#include "app/program/interrupt.h"
-#include "app/program/output.h"
-#include "app/commands/pictures.h"
 #include "app/commands/program.h"
-#include "app/program/sibling.h"
+#include "app/commands/renderer.h"
+#include "app/program/exec_program.h"
+#include "app/program/interrupt.h"
+#include "app/program/machine.h"
+#include "app/program/output.h"
 #include "app/report/folder.h"
 #include "app/report/html_page.h"
-#include "app/program/machine.h"
 #include "app/report/parts.h"
 #include "haptics/error.h"
 
@@ -158,11 +158,11 @@ std::vector<std::string> unfinishedOf(const std::vector<Section>& sections)
   return titles;
 }
 
-void makeReport(const ReportOptions& options, const Pictures* pictures)
+void makeReport(const ReportOptions& options, const Renderer* pictures)
 {
   if (!pictures)
   {
-    becomeSibling("palp-draw");
+    execProgram("palp-draw");
   }
   const Interrupt interrupt;
   Folder folder(options.out, options.quick, describeMachine(),
@@ -200,7 +200,7 @@ void makeReport(const ReportOptions& options, const Pictures* pictures)
 
 } // namespace
 
-void addReportCommand(CLI::App& app, const Pictures* pictures)
+void addReportCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand("report",

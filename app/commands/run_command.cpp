@@ -1,10 +1,10 @@
 #include "app/commands/commands.h"
 #include "app/commands/headless.h"
 #include "app/input/force_curve.h"
+#include "app/program/build_trace.h"
 #include "app/program/data_files.h"
-#include "app/program/ledger.h"
+#include "app/program/exec_program.h"
 #include "app/program/output.h"
-#include "app/program/sibling.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
@@ -50,11 +50,11 @@ void checkUsed(const RunOptions& options, const ScenePlan& plan)
   }
 }
 
-void run(const RunOptions& options, const Pictures* pictures)
+void run(const RunOptions& options, const Renderer* pictures)
 {
   if (!options.noPicture && !pictures)
   {
-    becomeSibling("palp-draw");
+    execProgram("palp-draw");
   }
   const ImageSize size = parseSize(options.size, "--size");
   const std::vector<MeshSource> meshes = meshesOf(options.press);
@@ -85,14 +85,14 @@ void run(const RunOptions& options, const Pictures* pictures)
     }
   }
   checkUsed(options, plan);
-  Ledger silent(false);
+  BuildTrace silent(false);
   const auto output = openOutput(options.out, pressFiles(), options.overwrite);
   playPlan(plan, options.chain, *output, pictures, silent);
 }
 
 } // namespace
 
-void addRunCommand(CLI::App& app, const Pictures* pictures)
+void addRunCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand(

@@ -1,10 +1,10 @@
 #include "app/commands/commands.h"
 #include "app/commands/headless.h"
-#include "app/program/ledger.h"
-#include "app/program/output.h"
 #include "app/commands/program.h"
-#include "app/program/sibling.h"
 #include "app/input/scene_file.h"
+#include "app/program/build_trace.h"
+#include "app/program/exec_program.h"
+#include "app/program/output.h"
 
 #include <CLI/CLI.hpp>
 
@@ -24,33 +24,33 @@ struct SceneOptions
   bool overwrite = false;
 };
 
-void run(const SceneOptions& options, const Pictures* pictures, int (*view)(const ViewOptions&))
+void run(const SceneOptions& options, const Renderer* pictures, int (*view)(const ViewOptions&))
 {
   const ScenePlan plan = readScene(options.file);
   if (plan.window)
   {
     if (!view)
     {
-      becomeSibling("palp-view");
+      execProgram("palp-view");
     }
     throw CLI::RuntimeError(view({ plan, options.explain }));
   }
   if (plan.draws() && !pictures)
   {
-    becomeSibling("palp-draw");
+    execProgram("palp-draw");
   }
-  Ledger ledger(options.explain);
+  BuildTrace trace(options.explain);
   const auto output = openOutput(options.out, pressFiles(), options.overwrite);
-  playPlan(plan, false, *output, pictures, ledger);
+  playPlan(plan, false, *output, pictures, trace);
   if (options.explain)
   {
-    ledger.write(std::cout);
+    trace.write(std::cout);
   }
 }
 
 } // namespace
 
-void addSceneCommand(CLI::App& app, const Pictures* pictures, int (*view)(const ViewOptions&))
+void addSceneCommand(CLI::App& app, const Renderer* pictures, int (*view)(const ViewOptions&))
 {
   auto options = std::make_shared<SceneOptions>();
   CLI::App* command =

@@ -53,7 +53,8 @@ void addStabilityCommand(CLI::App& app)
   command->footer(
     "unstable: the loop gave energy to the hand (energy_uJ below -1), or the hand did not come\n"
     "to rest (late speed above a tenth of the early one), or it hummed at an encoder of 48 um\n"
-    "(hum_m_per_s above 0.025). refused: no force was given, or a fault ended it. limited_by\n"
+    "(limit_cycle_speed_m_per_s above 0.025). refused: no force was given, or a fault ended it. "
+    "limited_by\n"
     "names the stages of the chain that acted.\n"
     "Example:\n"
     "  palp stability --out out --quick");

@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/commands/program.h"
-#include "app/program/sibling.h"
+#include "app/program/exec_program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -34,7 +34,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
       options->plan.meshes = meshesOf(options->plan.press);
       if (!view)
       {
-        becomeSibling("palp-view");
+        execProgram("palp-view");
       }
       throw CLI::RuntimeError(view(*options));
     });

@@ -1,10 +1,10 @@
 #include "app/bench/bench_dome.h"
-#include "app/draw/draw_pictures.h"
 #include "app/draw/offscreen.h"
+#include "app/draw/offscreen_renderer.h"
 #include "haptics/units.h"
+#include "pipeline/deform/vtkPalpDeformFilter.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/view/press_view.h"
-#include "pipeline/deform/vtkPalpDeformFilter.h"
 #include "pipeline/view/vtkPalpPatchMapper.h"
 
 #include <algorithm>
@@ -86,7 +86,7 @@ Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
   return frames;
 }
 
-// where the tool is in a frame, to and fro [m]
+// where the tool is in a frame, there and back [m]
 double wayOf(int frame, double outer)
 {
   return 0.05 * outer * (frame % kSteps - kSteps / 2);
@@ -148,7 +148,7 @@ BenchRow benchOverlay(
 
 } // namespace
 
-std::vector<BenchRow> DrawPictures::benchFrames(std::size_t most) const
+std::vector<BenchRow> OffscreenRenderer::benchFrames(std::size_t most) const
 {
   const OffscreenContext context;
   std::vector<BenchRow> rows;
@@ -171,7 +171,7 @@ std::vector<BenchRow> DrawPictures::benchFrames(std::size_t most) const
   rows.push_back(benchOverlay(context, "arrow", { Overlay::ForceArrow }));
   rows.push_back(benchOverlay(context, "circle", { Overlay::ContactCircle }));
   rows.push_back(benchOverlay(context, "extent", { Overlay::ExtentCircle }));
-  rows.push_back(benchOverlay(context, "colours", { Overlay::DisplacementColors }));
+  rows.push_back(benchOverlay(context, "colors", { Overlay::DisplacementColors }));
   rows.push_back(benchOverlay(context, "readings", { Overlay::Readings }));
   rows.push_back(benchOverlay(context, "pressure", { Overlay::PressureColors }));
   rows.push_back(benchOverlay(context, "net", { Overlay::ControlNet }));

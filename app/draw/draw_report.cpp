@@ -1,5 +1,5 @@
-#include "app/draw/draw_pictures.h"
 #include "app/draw/offscreen.h"
+#include "app/draw/offscreen_renderer.h"
 #include "app/report/html_page.h"
 #include "pipeline/charts/plot_files.h"
 
@@ -54,7 +54,7 @@ void addCurve(Plot& plot, const report::Section& section, const report::Curve& c
 
 } // namespace
 
-void DrawPictures::drawReport(
+void OffscreenRenderer::drawReport(
   const report::Section& section, const std::filesystem::path& directory) const
 {
   if (section.charts.empty())

@@ -21,7 +21,7 @@ ReferenceCurve readForceCurve(const std::filesystem::path& file)
   ReferenceCurve curve{ .name = file.stem().string(), .x = {}, .y = {} };
   for (const auto& [values, line] : table.rows)
   {
-    const double depth = units::fromMillimetres(values[0]);
+    const double depth = units::fromMillimeters(values[0]);
     if (!recorded || curve.x.empty() || depth > curve.x.back())
     {
       curve.x.push_back(depth);

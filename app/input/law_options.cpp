@@ -1,6 +1,6 @@
 #include "app/input/law_options.h"
 
-#include "app/input/coating_spec.h"
+#include "app/input/coating_text.h"
 #include "app/input/quantity.h"
 #include "app/program/data_files.h"
 #include "haptics/error.h"
@@ -68,12 +68,12 @@ void LawOptions::addTo(CLI::App& command)
 
 LawSettings LawOptions::settings() const
 {
-  const Constitution material =
-    constitution == "linear" ? Constitution::Linear : Constitution::NeoHookean;
+  const ConstitutiveModel material =
+    constitution == "linear" ? ConstitutiveModel::Linear : ConstitutiveModel::NeoHookean;
   const LawMode law = mode == "paper" ? LawMode::Paper
     : mode == "exact"                 ? LawMode::Exact
                                       : LawMode::Corrected;
-  const bool needed = material != Constitution::Linear && (rated || law == LawMode::Corrected);
+  const bool needed = material != ConstitutiveModel::Linear && (rated || law == LawMode::Corrected);
   if (!coating.empty() && law != LawMode::Corrected)
   {
     throw Error(ErrorCode::BadValue,
@@ -93,7 +93,7 @@ std::string describeLaw(const LawSettings& settings)
     return settings.mode == LawMode::Paper ? "paper" : "exact";
   }
   return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") +
-    " base, " + (settings.constitution == Constitution::Linear ? "linear" : "neo-hookean") +
+    " base, " + (settings.constitution == ConstitutiveModel::Linear ? "linear" : "neo-hookean") +
     (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings));
 }
 
@@ -118,9 +118,9 @@ void PlaceOptions::addTo(CLI::App& command)
   command.add_option("--tilt", tilt, "Tool axis to surface normal, as in 9deg");
 }
 
-Indentation PlaceOptions::place() const
+ContactGeometry PlaceOptions::place() const
 {
-  Indentation place;
+  ContactGeometry place;
   if (!thickness.empty())
   {
     place.thickness =

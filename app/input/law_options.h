@@ -43,7 +43,7 @@ struct PlaceOptions
 
   /// @return         the place at a depth of 0
   /// @throws Error  BadValue: names the option, what is wrong and how to write it
-  [[nodiscard]] Indentation place() const;
+  [[nodiscard]] ContactGeometry place() const;
 
   [[nodiscard]] bool given() const noexcept
   {

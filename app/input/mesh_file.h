@@ -11,11 +11,11 @@ namespace palp
 /// Where a surface came from, so that the same one can be found again.
 struct MeshFile
 {
-  std::string name;            ///< without its folder
-  std::string sha256;          ///< of its bytes, hexadecimal; of MHD with those of its data behind
-  std::string unit;            ///< that its coordinates were read in
-  ImagePart part;              ///< of an image
-  bool moved = false;          ///< by the frame that a scene gives it
+  std::string name;   ///< without its folder
+  std::string sha256; ///< of its bytes, hexadecimal; of MHD with those of its data behind
+  std::string unit;   ///< that its coordinates were read in
+  ImagePart part;     ///< of an image
+  bool moved = false; ///< by the frame that a scene gives it
 };
 
 /// @param file    as named by the user

@@ -1,7 +1,7 @@
 #include "app/input/press_options.h"
 
 #include "app/input/quantity.h"
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 

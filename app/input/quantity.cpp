@@ -60,7 +60,8 @@ std::span<const Unit> unitsOf(Quantity kind)
 
 [[noreturn]] void refuse(std::string_view what, std::string_view text, const std::string& why)
 {
-  throw Error(ErrorCode::BadValue, shortened(std::string(what)) + ": " + inQuotes(text) + " " + why);
+  throw Error(
+    ErrorCode::BadValue, shortened(std::string(what)) + ": " + inQuotes(text) + " " + why);
 }
 
 struct Split

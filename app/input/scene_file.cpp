@@ -2,7 +2,7 @@
 
 #include "app/input/json_object.h"
 #include "app/input/quantity.h"
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 #include "app/program/data_files.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"

@@ -35,7 +35,8 @@ std::vector<MeshSource> meshesOf(const PressOptions& options)
   }
   if (!std::filesystem::exists(options.file))
   {
-    throw Error(ErrorCode::BadFile, options.file.string() + ": there is no such file; check the path");
+    throw Error(
+      ErrorCode::BadFile, options.file.string() + ": there is no such file; check the path");
   }
   return { { .file = options.file, .part = options.part(), .unit = options.unit } };
 }

@@ -20,8 +20,8 @@ struct MeshSource
 {
   std::string bundled{}; ///< name of a shipped surface, as in liver; empty: file
   std::filesystem::path file{};
-  ImagePart part{};              ///< that is the surface, where the file is an image
-  std::string unit = "auto";     ///< of the file's coordinates
+  ImagePart part{};          ///< that is the surface, where the file is an image
+  std::string unit = "auto"; ///< of the file's coordinates
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity(); ///< from the file's to the scene's [m]
 };
 

@@ -123,7 +123,7 @@ void DevicePanel::show(const Session& session, const Sample& sample, std::uint32
   QString text = tr("%1 N").arg(session.largestForce(), 0, 'g', 3);
   if (renders)
   {
-    const double stiffest = units::toNewtonsPerMillimetre(session.stableStiffness());
+    const double stiffest = units::toNewtonsPerMillimeter(session.stableStiffness());
     text += tr(" and %1 N/mm").arg(stiffest, 0, 'g', 3);
   }
   if (!isFault(sample.state, sample.flags))

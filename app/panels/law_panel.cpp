@@ -1,6 +1,6 @@
 #include "app/panels/law_panel.h"
 
-#include "app/input/coating_spec.h"
+#include "app/input/coating_text.h"
 #include "app/panels/panel_boxes.h"
 #include "haptics/error.h"
 
@@ -23,7 +23,7 @@ constexpr const char* kConstitutions[]{ "linear", "neo-hookean" };
 
 static_assert(static_cast<int>(LawMode::Corrected) == 2);
 static_assert(static_cast<int>(Base::Slip) == 1);
-static_assert(static_cast<int>(Constitution::NeoHookean) == 1);
+static_assert(static_cast<int>(ConstitutiveModel::NeoHookean) == 1);
 
 } // namespace
 

@@ -44,9 +44,9 @@ QLabel* labelOf(const QGridLayout& rows, const QWidget* field)
 
 } // namespace
 
-ShownUnit ShownUnit::millimetres()
+ShownUnit ShownUnit::millimeters()
 {
-  return { "mm", Quantity::Length, units::toMillimetres };
+  return { "mm", Quantity::Length, units::toMillimeters };
 }
 
 ShownUnit ShownUnit::degrees()

@@ -22,7 +22,7 @@ struct ShownUnit
   std::optional<Quantity> kind;
   double (*fromSi)(double);
 
-  [[nodiscard]] static ShownUnit millimetres();
+  [[nodiscard]] static ShownUnit millimeters();
   [[nodiscard]] static ShownUnit degrees();
   [[nodiscard]] static ShownUnit kilopascals();
   [[nodiscard]] static ShownUnit damping();

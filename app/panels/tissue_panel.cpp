@@ -1,8 +1,8 @@
 #include "app/panels/tissue_panel.h"
 
+#include "app/input/quantity.h"
 #include "app/panels/law_panel.h"
 #include "app/panels/panel_boxes.h"
-#include "app/input/quantity.h"
 #include "app/panels/tool_panel.h"
 
 #include <QGridLayout>

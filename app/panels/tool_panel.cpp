@@ -33,7 +33,7 @@ bool isConical(int kind)
 
 QuantityBox* makeLength(const char* name)
 {
-  return new QuantityBox(name, ShownUnit::millimetres());
+  return new QuantityBox(name, ShownUnit::millimeters());
 }
 
 } // namespace

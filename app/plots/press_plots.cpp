@@ -1,6 +1,6 @@
 #include "app/plots/press_plots.h"
 
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/charts/plot_files.h"
@@ -30,7 +30,7 @@ const char* nameOf(LawMode mode)
 }
 
 // the one in use first: the band is about it
-std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const Indentation& place)
+std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const ContactGeometry& place)
 {
   const LawMode used = law.settings().mode;
   const char* of = law.settings().coatings.empty() ? "" : ", without coatings";
@@ -106,7 +106,7 @@ Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
     depth = std::max(depth, *std::max_element(curve.x.begin(), curve.x.end()));
   }
   const std::vector<NamedLaw> laws =
-    lawsToCompare(law, deepest ? indentationOf(deepest->contact) : Indentation{});
+    lawsToCompare(law, deepest ? contactGeometryOf(deepest->contact) : ContactGeometry{});
   Plots plots;
   plots.push_back(forcePlot(laws, depth, references));
   plots.push_back(forceErrorPlot(laws, depth, references));

@@ -40,8 +40,8 @@ std::string describe(const Deviation& apart, std::size_t points)
 {
   std::ostringstream note;
   note << "the force comes from " << points << " points, at most " << std::setprecision(2)
-       << units::toMillimetres(apart.largest) << " mm (RMS "
-       << units::toMillimetres(apart.rootMeanSquare) << " mm) from the surface shown";
+       << units::toMillimeters(apart.largest) << " mm (RMS "
+       << units::toMillimeters(apart.rootMeanSquare) << " mm) from the surface shown";
   return note.str();
 }
 

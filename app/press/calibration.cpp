@@ -1,6 +1,6 @@
 #include "app/press/calibration.h"
 
-#include "app/input/coating_spec.h"
+#include "app/input/coating_text.h"
 #include "app/input/quantity.h"
 #include "app/program/data_files.h"
 #include "calibration/tables/surface_table.h"
@@ -19,9 +19,9 @@ using namespace units::literals;
 constexpr double kThreshold = 0.5_mm; // Sec. 3.3.2
 constexpr double kPoisson = 0.33;
 constexpr double kYoung = 50.0_kPa;
-constexpr double kDeepest = 50.0_mm; // that the window asks for
-constexpr double kTableTip = 0.3_mm; // of the cones' tables
-constexpr double kLayer = 5.0;       // thickness over radius of the paper's blocks, 10 and 6 mm
+constexpr double kMaxDepth = 50.0_mm; // that the window asks for
+constexpr double kTableTip = 0.3_mm;  // of the cones' tables
+constexpr double kLayer = 5.0;        // thickness over radius of the paper's blocks, 10 and 6 mm
 
 bool same(double a, double b)
 {
@@ -119,7 +119,7 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
   };
   const bool covered = table.covers(place);
   const bool sphere = std::holds_alternative<SphereTip>(law.tip());
-  place.depth = std::max(radius, kDeepest);
+  place.depth = std::max(radius, kMaxDepth);
   return { .extents = table.extents(place, layer.threshold),
     .style = {},
     .reach = sphere && covered ? radius : 0.0,

@@ -72,7 +72,7 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   }
   filter->Update();
 
-  // the writer turns the points into millimetres, the displacement is ours to turn
+  // the writer turns the points into millimeters, the displacement is ours to turn
   vtkNew<vtkPolyData> mesh;
   mesh->ShallowCopy(refined ? refinedSurface(*filter).Get() : filter->GetOutput());
   vtkNew<vtkFloatArray> displacement;
@@ -80,7 +80,7 @@ void writeDeformed(const std::filesystem::path& file, const Body& body, const Re
   for (vtkIdType i = 0; i < displacement->GetNumberOfValues(); ++i)
   {
     displacement->SetValue(
-      i, static_cast<float>(units::toMillimetres(static_cast<double>(displacement->GetValue(i)))));
+      i, static_cast<float>(units::toMillimeters(static_cast<double>(displacement->GetValue(i)))));
   }
   displacement->SetName("Displacement");
   mesh->GetPointData()->AddArray(displacement);

@@ -1,11 +1,11 @@
 #include "app/press/playback.h"
 
-#include "haptics/surface/surface_point.h"
-#include "haptics/surface/nearest.h"
 #include "haptics/devices/hid/paper_arm.h"
 #include "haptics/error.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/surface_point.h"
 
 #include <cmath>
 #include <limits>
@@ -45,12 +45,13 @@ std::vector<double> sampleTimes(const ScriptedPath& path)
 Eigen::Vector3d pressingAxis(
   const Surface& surface, const ScriptedPath& path, const std::vector<double>& times)
 {
-  Nearest best;
+  ClosestPoint best;
   double closest = std::numeric_limits<double>::infinity();
   for (const double time : times)
   {
     const Eigen::Vector3d apex = path.poseAt(time, -Eigen::Vector3d::UnitZ()).apex;
-    const Nearest nearest = findNearest(surface, apex, std::numeric_limits<double>::infinity());
+    const ClosestPoint nearest =
+      findClosestPoint(surface, apex, std::numeric_limits<double>::infinity());
     if (nearest.triangle >= 0 && nearest.distance < closest)
     {
       best = nearest;
@@ -81,8 +82,8 @@ std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chai
   for (const double time : times)
   {
     const ToolPose pose = path.poseAt(time, axis);
-    samples.push_back(chained ? step(scene, chain, pose, {}, { .armed = true }, time - last)
-                              : step(scene, pose));
+    samples.push_back(
+      chained ? step(scene, chain, pose, {}, { .armed = true }, time - last) : step(scene, pose));
     samples.back().time = time;
     last = time;
   }

@@ -1,8 +1,8 @@
 #include "app/press/recording.h"
 
 #include "app/input/law_options.h"
-#include "app/input/tip_spec.h"
-#include "haptics/contact/indentation_of.h"
+#include "app/input/tip_text.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
@@ -22,7 +22,7 @@ void describeRules(std::ostream& out, const Validity& validity)
 {
   out << "# broken_rules: a sum of the conditions that the place does not meet\n";
   std::uint32_t bit = 1;
-  for (const Rule& rule : validity(Indentation{}))
+  for (const Rule& rule : validity(ContactGeometry{}))
   {
     out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
     bit *= 2;
@@ -76,29 +76,29 @@ void writeColumns(std::ostream& out, const ForceLaw& law, bool hasExtents, bool 
 std::vector<double> rowOf(const Sample& sample, const ForceLaw& law, const Calibration* calibration,
   const std::optional<Validity>& validity)
 {
-  using units::toMillimetres;
+  using units::toMillimeters;
   const Eigen::Vector3d& apex = sample.pose.apex;
   const Eigen::Vector3d& axis = sample.pose.axis;
   const Contact& contact = sample.contact;
-  std::vector<double> row{ sample.time, toMillimetres(apex.x()), toMillimetres(apex.y()),
-    toMillimetres(apex.z()), toMillimetres(contact.depth), sample.response.force, sample.force.x(),
-    sample.force.y(), sample.force.z(), toMillimetres(sample.response.contactRadius) };
+  std::vector<double> row{ sample.time, toMillimeters(apex.x()), toMillimeters(apex.y()),
+    toMillimeters(apex.z()), toMillimeters(contact.depth), sample.response.force, sample.force.x(),
+    sample.force.y(), sample.force.z(), toMillimeters(sample.response.contactRadius) };
   if (calibration)
   {
-    row.push_back(toMillimetres(calibration->extents.extentRadius(contact.depth)));
+    row.push_back(toMillimeters(calibration->extents.extentRadius(contact.depth)));
   }
   row.insert(row.end(),
-    { units::toNewtonsPerMillimetre(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
+    { units::toNewtonsPerMillimeter(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
       contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
       static_cast<double>(sample.flags) });
   if (validity)
   {
-    row.push_back(
-      static_cast<double>(brokenRules((*validity)(indentationOf(contact), contact.edgeDistance))));
+    row.push_back(static_cast<double>(
+      brokenRules((*validity)(contactGeometryOf(contact), contact.edgeDistance))));
   }
   row.insert(row.end(),
-    { toMillimetres(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
-  for (const Factor& factor : law.factors(indentationOf(contact)))
+    { toMillimeters(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
+  for (const Factor& factor : law.factors(contactGeometryOf(contact)))
   {
     row.push_back(factor.value);
   }

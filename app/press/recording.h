@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/press/calibration.h"
 #include "app/input/mesh_file.h"
+#include "app/press/calibration.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 

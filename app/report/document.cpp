@@ -1,7 +1,7 @@
 #include "app/report/document.h"
 
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 
 #include <algorithm>
 #include <cctype>

@@ -2,8 +2,8 @@
 #include "app/bench/bench_work.h"
 #include "app/report/force_methods.h"
 #include "app/report/parts.h"
-#include "haptics/units.h"
 #include "haptics/numerics/statistics.h"
+#include "haptics/units.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "calibration/experiments/experiment_parts.h"
 
-#include "haptics/force/validity.h"
 #include "app/report/parts.h"
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 
 #include <cmath>
@@ -131,7 +131,7 @@ std::vector<double> columnOf(const Experiment& experiment, const std::string& na
   return values;
 }
 
-std::string millimetres(double value)
+std::string millimeters(double value)
 {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f mm", value);
@@ -172,9 +172,9 @@ Section curvature(const Effort& effort)
     const double half = firstToDepart(found, tool, "half");
     const double cap = firstToDepart(found, tool, "cap");
     return Claim{ .of = of,
-      .paper = std::string(tool) + ": no curved body departs by 7 % before " + millimetres(limit),
-      .here = "the first departs at " + millimetres(half) + " (lower half held), " +
-        millimetres(cap) + " (glued cap)",
+      .paper = std::string(tool) + ": no curved body departs by 7 % before " + millimeters(limit),
+      .here = "the first departs at " + millimeters(half) + " (lower half held), " +
+        millimeters(cap) + " (glued cap)",
       .verdict = std::min(half, cap) >= limit
         ? "agrees"
         : "differs: how the body is held matters more than its curvature, and the paper does not "
@@ -200,7 +200,8 @@ Section inclination(const Effort& effort)
   const auto change = columnOf(found, "cone_force_change_percent");
   section.claims = { { .of = "Eq. (7)",
                        .paper = "a sphere may tilt by 22 degrees, arccos(1 - 0.07)",
-                       .here = shown(units::toDegrees(std::acos(1.0 - 0.01 * kNoticed))) + " degrees",
+                       .here =
+                         shown(units::toDegrees(std::acos(1.0 - 0.01 * kNoticed))) + " degrees",
                        .verdict = "agrees, rounded up" },
     { .of = "Eq. (7), cone",
       .paper = "a cone of 45 degrees may tilt by 9 degrees",
@@ -244,8 +245,8 @@ Section extents(const Effort& effort)
                        .verdict = "differs, as Fig. 7" },
     { .of = "Fig. 8(b)",
       .paper = "the cone deforms a smaller region than the sphere",
-      .here = millimetres(largest(columnOf(found, "cone_50kPa_mm"))) + " against " +
-        millimetres(largest(soft)) + " at 10 mm",
+      .here = millimeters(largest(columnOf(found, "cone_50kPa_mm"))) + " against " +
+        millimeters(largest(soft)) + " at 10 mm",
       .verdict = "agrees" } };
   return section;
 }
@@ -269,7 +270,7 @@ Section forces(const Effort& effort)
     const double corotated = at(tool + "_corotated_N", kDeep);
     const double law = at(tool + "_paper_N", kDeep);
     const double neoHookean = at(tool + "_neo-hookean_N", kDeep);
-    return std::pair{ "at " + millimetres(kDeep) + ": corotated " + shown(corotated) + " N, law " +
+    return std::pair{ "at " + millimeters(kDeep) + ": corotated " + shown(corotated) + " N, law " +
         shown(law) + " N, neo-Hookean " + shown(neoHookean) + " N",
       corotated < law && law < neoHookean };
   };
@@ -277,8 +278,8 @@ Section forces(const Effort& effort)
   const auto [cone, coneAgrees] = threeOf("cone");
   const auto limit = [&](const char* material)
   {
-    return millimetres(passing(
-      depths, columnOf(found, "sphere_" + std::string(material) + "_difference_percent"), kNoticed));
+    return millimeters(passing(depths,
+      columnOf(found, "sphere_" + std::string(material) + "_difference_percent"), kNoticed));
   };
   section.claims = { { .of = "Fig. 15(a)",
                        .paper = "Eq. (4) lies above linear elements when deep and below "

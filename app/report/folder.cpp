@@ -1,8 +1,8 @@
 #include "app/report/folder.h"
 
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/files/replace_file.h"
 
 #include <algorithm>
 #include <fstream>

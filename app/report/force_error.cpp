@@ -2,8 +2,8 @@
 #include "app/report/force_methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
-#include "haptics/units.h"
 #include "haptics/numerics/statistics.h"
+#include "haptics/units.h"
 
 #include <cmath>
 #include <map>
@@ -71,7 +71,8 @@ struct Tables
       "error_local_pct" },
     .shown = false };
   Table spread{ .name = "time_spread",
-    .caption = "Statistics of the times: median, lowest and highest of the evaluations of a regime.",
+    .caption =
+      "Statistics of the times: median, lowest and highest of the evaluations of a regime.",
     .columns = { "method", "setting", "regime", "evaluations", "time_us", "low_us", "high_us",
       "time_per_S" },
     .shown = false };
@@ -219,7 +220,7 @@ std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& refere
   tried();
   const auto wanted = [&](double depth)
   {
-    const double depthMm = units::toMillimetres(depth);
+    const double depthMm = units::toMillimeters(depth);
     return isBorder(reference, depth, press.size) ||
       (!effort.quick && std::abs(depthMm - std::round(depthMm)) < 1e-6);
   };
@@ -290,8 +291,8 @@ Section forceAgainstTime(const Effort& effort)
     "per cent of its largest reference force, as in Eq. (9); local is the largest error relative "
     "to the reference force at the same depth, which is what a hand judges by.",
     "Time is that of one more force: for a law one evaluation; for finite elements the step from "
-    "the depth half a millimetre before; for the steppers one step of their time integration, at "
-    "the ends of each regime and, in a full report, whole millimetres. "
+    "the depth half a millimeter before; for the steppers one step of their time integration, at "
+    "the ends of each regime and, in a full report, whole millimeters. "
     "Medians of " +
       std::to_string(effort.repeats()) +
       " runs, one for elements below R/4 in a quick report; their spread is in time_spread.csv."

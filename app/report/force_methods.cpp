@@ -2,13 +2,13 @@
 
 #include "app/bench/bench.h"
 #include "app/program/data_files.h"
-#include "calibration/tables/extent_table.h"
 #include "calibration/study/study.h"
+#include "calibration/tables/extent_table.h"
 #include "haptics/error.h"
 #include "haptics/force/force_law.h"
 #include "haptics/numerics/monotone_cubic.h"
-#include "haptics/units.h"
 #include "haptics/numerics/statistics.h"
+#include "haptics/units.h"
 
 #include <cmath>
 #include <limits>
@@ -139,7 +139,7 @@ std::vector<Trial> tryLaws(
 }
 
 Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
-  std::span<const double> depths, const Effort& effort, std::vector<fem::Indented>* surfaces)
+  std::span<const double> depths, const Effort& effort, std::vector<fem::IndentationStep>* surfaces)
 {
   Trial trial = start("", omissionsOf(energy), energy);
   trial.method = "finite elements " + std::string(fem::name(energy));
@@ -167,7 +167,7 @@ Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
     {
       break; // no equilibrium so deep: the rows of this regime are left out
     }
-    const fem::Indented state = indenter.state();
+    const fem::IndentationStep state = indenter.state();
     trial.forces[i] = state.force;
     if (surfaces)
     {
@@ -188,7 +188,7 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
   const std::function<bool(double)>& wanted, const Effort& effort)
 {
   constexpr double kStill = 1e-3; // change of the force in a step [-]
-  constexpr int kMostSteps = 100;
+  constexpr int kMaxSteps = 100;
   constexpr int kTimed = 5;
   const bool elements = baseline == fem::Baseline::Corotational;
   Trial trial =
@@ -209,7 +209,7 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
     stepper.placeTool(apex);
     try
     {
-      trial.forces[i] = fem::settle(stepper, kGraphicsStep, kStill, kMostSteps).force;
+      trial.forces[i] = fem::settle(stepper, kGraphicsStep, kStill, kMaxSteps).force;
     }
     catch (const Error&)
     {

@@ -2,8 +2,8 @@
 
 #include "app/report/effort.h"
 #include "app/report/references.h"
-#include "calibration/fem/indenter.h"
 #include "calibration/baselines/stepper.h"
+#include "calibration/fem/indenter.h"
 
 namespace palp::report
 {
@@ -36,7 +36,7 @@ inline constexpr std::array kResolutions{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 
 /// @throws Interrupted
 [[nodiscard]] Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
   std::span<const double> depths, const Effort& effort,
-  std::vector<fem::Indented>* surfaces = nullptr);
+  std::vector<fem::IndentationStep>* surfaces = nullptr);
 
 /// Bodies of tetrahedra and of springs stepped in time, Fig. 12, each held at a depth until its
 /// force stands still; an evaluation is one step.

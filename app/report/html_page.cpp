@@ -1,7 +1,7 @@
 #include "app/report/html_page.h"
 
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
+#include "haptics/files/replace_file.h"
 
 #include <array>
 #include <fstream>

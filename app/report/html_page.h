@@ -8,7 +8,7 @@
 namespace palp::report
 {
 
-/// A colour that figures and legends share, as #rrggbb; apart for every kind of colour vision.
+/// A color that figures and legends share, as #rrggbb; apart for every kind of color vision.
 /// @source  Okabe and Ito 2008
 [[nodiscard]] const char* paletteColor(int index) noexcept;
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "calibration/fem/constitutive.h"
-#include "haptics/tip/tip.h"
 #include "haptics/material.h"
+#include "haptics/tip/tip.h"
 
 #include <array>
 #include <span>

@@ -135,7 +135,7 @@ double heapInUse()
 Table memory(const std::vector<int>& sides, const Effort& effort)
 {
   Table table{ .name = "memory",
-    .caption = "Memory of a surface with its tree, normals and neighbours.",
+    .caption = "Memory of a surface with its tree, normals and neighbors.",
     .columns = { "vertices", "triangles", "MiB", "bytes_per_triangle" } };
   for (const int side : sides)
   {
@@ -246,7 +246,7 @@ Section scaling(const Effort& effort)
     memory(effort.quick ? std::vector{ 40, 100, 316 } : std::vector{ 40, 100, 316, 1000 }, effort),
     timesTable(all, sweep), paperLine() };
   section.claims = claimsOf(section.tables.front());
-  section.text = { "The normaliser S of this run, a scalar sweep over 10,000 points, took " +
+  section.text = { "The normalizer S of this run, a scalar sweep over 10,000 points, took " +
     shown(sweep) +
     " \u00b5s; column median_per_S states times as multiples of it, by which "
     "machines compare. Every figure is the median of " +

@@ -23,8 +23,8 @@ constexpr int kLabels = 215; // width of the names of the rows [px]
 constexpr int kHead = 92;    // above the cells [px]
 constexpr int kFoot = 76;    // below them [px]
 
-// the colours differ in lightness too, for those who see few of them
-const char* colourOf(StabilityOutcome outcome)
+// the colors differ in lightness too, for those who see few of them
+const char* colorOf(StabilityOutcome outcome)
 {
   switch (outcome)
   {
@@ -107,7 +107,7 @@ void drawCells(std::ostream& out, int left, const std::vector<std::string>& rows
       if (cell != cells.end())
       {
         out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
-            << kRow - 2 << "\" fill=\"" << colourOf(cell->second) << "\"/>\n";
+            << kRow - 2 << "\" fill=\"" << colorOf(cell->second) << "\"/>\n";
       }
       y += kRow;
     }
@@ -130,7 +130,7 @@ void drawLegend(std::ostream& out, const std::vector<std::string>& rows)
          StabilityOutcome::Refused, StabilityOutcome::Unstable })
   {
     out << "<rect x=\"" << x << "\" y=\"" << y + 32 << "\" width=\"14\" height=\"14\" fill=\""
-        << colourOf(outcome) << "\"/>\n";
+        << colorOf(outcome) << "\"/>\n";
     text(out, x + 20, y + 44, nameOf(outcome));
     x += 90;
   }

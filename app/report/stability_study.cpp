@@ -1,6 +1,6 @@
 #include "app/report/stability_study.h"
 
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
 
@@ -22,7 +22,7 @@ std::vector<report::Cell> rowOf(const StabilityCase& what, const StabilityRow& r
     what.material ? what.material->youngModulus : std::numeric_limits<double>::infinity(),
     what.material ? what.material->poissonRatio : std::nan(""), describeTip(what.tip),
     units::toMilliseconds(what.loop.period), chain ? "on" : "off", nameOf(row.outcome),
-    row.limitedBy, row.peakForce, row.hum, units::toMicrojoules(row.energy) };
+    row.limitedBy, row.peakForce, row.limitCycleSpeed, units::toMicrojoules(row.energy) };
 }
 
 std::ptrdiff_t count(
@@ -66,7 +66,7 @@ report::Table stabilityTable(const std::vector<JudgedCase>& cases)
   report::Table table{ .name = "stability",
     .caption = "Every case, through the safety chain and without.",
     .columns = { "case", "young_Pa", "poisson", "tool", "period_ms", "chain", "outcome",
-      "limited_by", "peak_force_N", "hum_m_per_s", "energy_uJ" },
+      "limited_by", "peak_force_N", "limit_cycle_speed_m_per_s", "energy_uJ" },
     .shown = false };
   for (const JudgedCase& one : cases)
   {

@@ -4,8 +4,8 @@
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
 #include "haptics/files/csv_text.h"
-#include "haptics/units.h"
 #include "haptics/numerics/statistics.h"
+#include "haptics/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace
 {
 
 using namespace units::literals;
-using units::toMillimetres;
+using units::toMillimeters;
 
 constexpr int kPoints = 101;          // along a side of the plane that is drawn
 constexpr double kFarthest = 45.0_mm; // from the axis; the block ends at 50 mm
@@ -41,7 +41,7 @@ struct Off
   double length = 0.0;
 };
 
-// each point counts for half the way to its neighbours
+// each point counts for half the way to its neighbors
 void add(Off& off, Drawn drawn, const ReferenceSurface& reference)
 {
   std::ranges::sort(drawn);
@@ -106,7 +106,7 @@ SurfaceTrial tryElementSurface(const BlockPress& press,
   {
     depths.push_back(i * 0.5_mm);
   }
-  std::vector<fem::Indented> steps;
+  std::vector<fem::IndentationStep> steps;
   const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, effort, &steps);
   SurfaceTrial trial{ .method = "finite elements",
     .setting = forces.setting,
@@ -115,8 +115,8 @@ SurfaceTrial tryElementSurface(const BlockPress& press,
     .times = {} };
   for (const ReferenceSurface& reference : references)
   {
-    const auto found = std::ranges::min_element(
-      steps, {}, [&](const fem::Indented& step) { return std::abs(step.depth - reference.depth); });
+    const auto found = std::ranges::min_element(steps, {},
+      [&](const fem::IndentationStep& step) { return std::abs(step.depth - reference.depth); });
     Drawn drawn;
     for (const auto& point : found->profile)
     {
@@ -164,12 +164,12 @@ void addTrial(Section& section, const BlockPress& press,
         times.insert(times.end(), trial.times[i].begin(), trial.times[i].end());
       }
     }
-    const double rms = toMillimetres(std::sqrt(off.squares / off.length));
+    const double rms = toMillimeters(std::sqrt(off.squares / off.length));
     line.emplace_back(rms); // no number where there is no reference
     if (!times.empty())
     {
       section.tables[1].rows.push_back({ trial.method, press.name + "; " + trial.setting,
-        regime.name, statisticsOf(times).median, toMillimetres(off.largest), rms });
+        regime.name, statisticsOf(times).median, toMillimeters(off.largest), rms });
       all.insert(all.end(), times.begin(), times.end());
     }
   }
@@ -186,7 +186,7 @@ void addProfile(Table& table, const BlockPress& press, const std::string& method
     if (radius <= kFarthest)
     {
       table.rows.push_back(
-        { press.name, method, toMillimetres(depth), toMillimetres(radius), -toMillimetres(sink) });
+        { press.name, method, toMillimeters(depth), toMillimeters(radius), -toMillimeters(sink) });
     }
   }
 }
@@ -252,7 +252,7 @@ void addCharts(Section& section, const BlockPress& press)
   }
   for (const double depth : profileDepths(press))
   {
-    const std::string depthMm = shortest(toMillimetres(depth)); // as the table's cells
+    const std::string depthMm = shortest(toMillimeters(depth)); // as the table's cells
     Chart profile{ .name =
                      "surface_profiles_" + fileWord(press.name) + "_" + fileWord(depthMm) + "mm",
       .caption = depthMm + " mm deep",
@@ -333,7 +333,7 @@ Section surfaceAgainstTime(const Effort& effort)
     "sphere has none in the shallow regime.",
     "Time is that of one picture: for the Bezier surfaces contact, force, dent and normals of " +
       std::to_string(kPoints * kPoints) +
-      " vertices; for finite elements the step from the depth half a millimetre before."
+      " vertices; for finite elements the step from the depth half a millimeter before."
   };
   const std::span all(presses());
   const auto wanted = effort.quick ? all.subspan(1, 1) : all.first(2);

@@ -28,8 +28,8 @@ constexpr std::array kWords{
   Words{ Flag::Limited, "largest force" },
   Words{ Flag::SlewLimited, "rate limited" },
   Words{ Flag::Workspace, "end of workspace" },
-  Words{ Flag::Unwatched, "window too slow" },
-  Words{ Flag::Reseated, "felt from below the surface until lifted" },
+  Words{ Flag::WatchdogExpired, "window too slow" },
+  Words{ Flag::Rebased, "felt from below the surface until lifted" },
 };
 
 } // namespace

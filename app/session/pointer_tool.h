@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/surface/surface_point.h"
 #include "haptics/devices/simulated/guided_tool.h"
+#include "haptics/surface/surface_point.h"
 
 #include <functional>
 #include <memory>
@@ -30,7 +30,7 @@ public:
   static constexpr double kTouch = 1e-3;            ///< of a button that went down [m]
   static constexpr double kDepthPerPixel = 0.05e-3; ///< of a drag [m]
   static constexpr double kDepthPerNotch = 0.5e-3;  ///< of the wheel [m]
-  static constexpr double kDeepest = 0.05;          ///< that is ever asked for [m]
+  static constexpr double kMaxDepth = 0.05;         ///< that is ever asked for [m]
   static constexpr double kShortest = 0.3;          ///< that a press is asked for [s]
 
   /// @param view  the line of sight through a pixel, as the camera is now
@@ -74,7 +74,7 @@ private:
   std::shared_ptr<const Surface> surface_;
   std::optional<SurfacePoint> place_; // of the tool
   std::optional<Pixel> last_;         // of a pointer that moved with no button down
-  double deepest_ = kDeepest;         // at the place [m]
+  double deepest_ = kMaxDepth;        // at the place [m]
   double held_ = 0.0;                 // by the wheel [m]
   double pressed_ = 0.0;              // by the button [m]
   double from_ = 0.0;                 // depth that the drag started from [m]

@@ -1,8 +1,8 @@
 #include "app/session/session.h"
 
+#include "app/program/build_trace.h"
+#include "app/program/exec_program.h"
 #include "app/session/device_words.h"
-#include "app/program/ledger.h"
-#include "app/program/sibling.h"
 #include "haptics/devices/simulated/pointer.h"
 #include "haptics/devices/simulated/scripted_device.h"
 #include "haptics/devices/simulated/simulated_hand.h"
@@ -37,7 +37,7 @@ bool restsAt(const Sample& before, const Sample& now)
 }
 
 // what is recorded of a press that has not begun
-Recording startOf(const ScenePlan& plan, const Body& body, Ledger& ledger)
+Recording startOf(const ScenePlan& plan, const Body& body, BuildTrace& trace)
 {
   Recording recording;
   recording.mesh = body.name;
@@ -49,21 +49,21 @@ Recording startOf(const ScenePlan& plan, const Body& body, Ledger& ledger)
   recording.scene.rule = plan.press.rule();
   recording.scene.damping = plan.press.dampingSi();
   recording.scene.law =
-    ledger.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
+    trace.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
   return recording;
 }
 
 } // namespace
 
-Session::Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop)
+Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* stop)
   : plan_(std::move(plan))
   , servoOptions_{ .history = plan_.records(), .deadMan = plan_.deadMan, .stop = stop }
-  , body_(ledger.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
-  , recording_(startOf(plan_, body_, ledger))
-  , calibration_(ledger.build("calibration", "how far the surface gives way",
+  , body_(trace.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
+  , recording_(startOf(plan_, body_, trace))
+  , calibration_(trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan_.press, recording_.scene.law); }))
 {
-  ledger.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
+  trace.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
 void Session::open(const MeshSource& source)
@@ -191,7 +191,7 @@ std::vector<std::string> Session::devices()
   std::vector<std::string> names{ "mouse", "hand" };
   for (const FoundDevice& found : findDevices())
   {
-    if (found.hurdle.empty())
+    if (found.unusableReason.empty())
     {
       std::ranges::copy(namesOf(found), std::back_inserter(names));
     }

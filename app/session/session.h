@@ -1,9 +1,9 @@
 #pragma once
 
+#include "app/input/scene_plan.h"
 #include "app/press/body.h"
 #include "app/press/calibration.h"
 #include "app/press/recording.h"
-#include "app/input/scene_plan.h"
 #include "haptics/devices/device.h"
 #include "haptics/devices/simulated/guided_tool.h"
 #include "haptics/servo/servo.h"
@@ -18,7 +18,7 @@
 namespace palp
 {
 
-class Ledger;
+class BuildTrace;
 
 /// A live press: body, tissue, the device that holds the tool, the servo thread, the recording.
 ///
@@ -30,7 +30,7 @@ public:
 
   /// @param stop    an emergency stop for signal handlers; outlives this object, or null
   /// @throws Error  as loadBody, loadCalibration, useDevice
-  Session(ScenePlan plan, Ledger& ledger, const std::atomic<bool>* stop = nullptr);
+  Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* stop = nullptr);
 
   /// What it was made of at the start.
   [[nodiscard]] const ScenePlan& plan() const noexcept

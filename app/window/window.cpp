@@ -1,12 +1,12 @@
 #include "app/window/window.h"
 
 #include "app/panels/device_panel.h"
-#include "app/program/ledger.h"
 #include "app/panels/plot_panel.h"
-#include "app/panels/reliance_panel.h"
 #include "app/panels/tissue_panel.h"
+#include "app/panels/validity_panel.h"
+#include "app/program/build_trace.h"
 #include "app/window/vtkPalpPressStyle.h"
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -48,7 +48,7 @@ bool looksAlike(const Sample& a, const Sample& b)
 
 } // namespace
 
-Window::Window(Session& session, Ledger& ledger)
+Window::Window(Session& session, BuildTrace& trace)
   : session_(session)
   , view_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
@@ -56,8 +56,8 @@ Window::Window(Session& session, Ledger& ledger)
 {
   constexpr QSize kFrame{ 16, 48 }; // about what a title bar and borders take
   resize(QSize(1440, 860).boundedTo(screen()->availableSize() - kFrame));
-  ledger.build("3-D view", "the window shows the surface", [&] { makeView(); });
-  ledger.build("panels, menus", "tool, tissue and device can be changed",
+  trace.build("3-D view", "the window shows the surface", [&] { makeView(); });
+  trace.build("panels, menus", "tool, tissue and device can be changed",
     [&]
     {
       makeDocks();
@@ -67,7 +67,7 @@ Window::Window(Session& session, Ledger& ledger)
     });
   if (session_.plan().records())
   {
-    ledger.build("plots", "named in the scene", [&] { makeCharts(); });
+    trace.build("plots", "named in the scene", [&] { makeCharts(); });
   }
   showBody();
   applyTissue();
@@ -166,8 +166,8 @@ void Window::showReadings()
       ? tr(kHint)
       : tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
           .arg(shown_.response.force, 0, 'f', 2)
-          .arg(units::toMillimetres(contact.depth), 0, 'f', 1)
-          .arg(units::toNewtonsPerMillimetre(shown_.response.stiffness), 0, 'f', 2) +
+          .arg(units::toMillimeters(contact.depth), 0, 'f', 1)
+          .arg(units::toNewtonsPerMillimeter(shown_.response.stiffness), 0, 'f', 2) +
         (session_.calibration().covers(contact.depth) ? QString() : tr("    R_d estimated")));
 }
 
@@ -221,7 +221,7 @@ void Window::showReliance(const Sample& sample)
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    reliance_->showRules(validity_(indentationOf(contact), contact.edgeDistance));
+    reliance_->showRules(validity_(contactGeometryOf(contact), contact.edgeDistance));
   }
   else
   {

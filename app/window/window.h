@@ -26,9 +26,9 @@ namespace palp
 {
 
 class DevicePanel;
-class Ledger;
+class BuildTrace;
 class PlotPanel;
-class ReliancePanel;
+class ValidityPanel;
 class TissuePanel;
 
 /// The window: the body in 3-D, tool and tissue at the left, live curves at the right.
@@ -40,7 +40,7 @@ class Window : public QMainWindow
 
 public:
   /// @param session  outlives the window
-  Window(Session& session, Ledger& ledger);
+  Window(Session& session, BuildTrace& trace);
   ~Window() override;
 
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
@@ -116,7 +116,7 @@ private:
   vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;
-  ReliancePanel* reliance_ = nullptr; // null: the plan rates no sample
+  ValidityPanel* reliance_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;        // null: never shown
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;

@@ -1,12 +1,12 @@
 // What the window reads and writes, and says of it.
 
 #include "app/panels/device_panel.h"
-#include "app/press/export.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/plot_panel.h"
+#include "app/press/export.h"
 #include "app/window/window.h"
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
+#include "haptics/files/replace_file.h"
 #include "haptics/units.h"
 
 #include <QVTKOpenGLNativeWidget.h>

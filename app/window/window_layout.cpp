@@ -3,8 +3,8 @@
 #include "app/panels/device_panel.h"
 #include "app/panels/panel_area.h"
 #include "app/panels/plot_panel.h"
-#include "app/panels/reliance_panel.h"
 #include "app/panels/tissue_panel.h"
+#include "app/panels/validity_panel.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
 
@@ -109,7 +109,7 @@ void Window::makeDocks()
   addDock(this, Qt::LeftDockWidgetArea, tr("Device"), device);
   if (session_.plan().validity)
   {
-    reliance_ = new ReliancePanel;
+    reliance_ = new ValidityPanel;
     addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(reliance_));
   }
 
@@ -241,9 +241,9 @@ void Window::makeViewMenu()
   view->addSeparator();
   auto* colors = new QActionGroup(this); // the surface has one at a time, or its own
   colors->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
-  colors->addAction(add(tr("&Displacement colours"), Overlay::DisplacementColors));
-  colors->addAction(add(tr("&Pressure colours"), Overlay::PressureColors));
-  colors->addAction(add(tr("&Validity colours"), Overlay::ValidityColors));
+  colors->addAction(add(tr("&Displacement colors"), Overlay::DisplacementColors));
+  colors->addAction(add(tr("&Pressure colors"), Overlay::PressureColors));
+  colors->addAction(add(tr("&Validity colors"), Overlay::ValidityColors));
   view->addSeparator();
   QAction* plots = view->addAction(tr("Section and comparison &plots"));
   plots->setObjectName("plotsAction");

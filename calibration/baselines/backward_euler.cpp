@@ -32,7 +32,7 @@ void BackwardEuler::restrict(const System& system, Matrix3Xd& v) const
   {
     v.col(i).setZero();
   }
-  for (const GivenSpeed& g : system.given)
+  for (const VelocityConstraint& g : system.given)
   {
     v.col(g.node) -= g.normal.dot(v.col(g.node)) * g.normal;
   }
@@ -52,7 +52,7 @@ BackwardEuler::Solution BackwardEuler::solve(const System& system, Matrix3Xd& ve
   }
 
   restrict(system, velocity);
-  for (const GivenSpeed& g : system.given)
+  for (const VelocityConstraint& g : system.given)
   {
     velocity.col(g.node) += g.speed * g.normal;
   }

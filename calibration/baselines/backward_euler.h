@@ -9,7 +9,7 @@ namespace palp::fem
 {
 
 /// A node whose speed along a direction is given.
-struct GivenSpeed
+struct VelocityConstraint
 {
   int node;
   Eigen::Vector3d normal; ///< unit
@@ -33,7 +33,7 @@ public:
   {
     const BlockMatrix& stiffness;   // [N/m]
     const Eigen::Matrix3Xd& forces; // [N]
-    const std::vector<GivenSpeed>& given;
+    const std::vector<VelocityConstraint>& given;
     double dt;    // [s]
     double alpha; // [1/s]
     double beta;  // [s]

@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr int kMostTurns = 8;    // of Newton's method for a rotation
+constexpr int kMaxTurns = 8;     // of Newton's method for a rotation
 constexpr double kTurned = 3e-5; // angle after which the next one is below 1e-9 [rad]
 constexpr double kFarTurn = 0.5; // angle beyond which Newton's method is not trusted [rad]
 
@@ -36,7 +36,7 @@ Quaterniond rotationBySvd(const Matrix3d& gradient)
 Quaterniond nearestRotation(const Matrix3d& gradient, const Quaterniond& from)
 {
   Quaterniond turn = from;
-  for (int k = 0; k < kMostTurns; ++k)
+  for (int k = 0; k < kMaxTurns; ++k)
   {
     const Matrix3d s = turn.toRotationMatrix().transpose() * gradient;
     const Vector3d skew(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));

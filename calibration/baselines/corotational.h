@@ -1,7 +1,7 @@
 #pragma once
 
-#include "calibration/fem/elasticity.h"
 #include "calibration/baselines/tet_mesh.h"
+#include "calibration/fem/elasticity.h"
 #include "haptics/material.h"
 
 #include <Eigen/Geometry>

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr double kNearBase = 1 - 1e-6; // a node on the rim of the tool is off it [-]
 constexpr double kLongestStep = 1.0;   // [s]
 constexpr double kPulled = 0.25; // of the push of a tool that presses; beyond, it is lifted [-]
-constexpr int kMostSolves = 3;   // in a step
+constexpr int kMaxSolves = 3;    // in a step
 
 void require(bool good, const std::string& message)
 {
@@ -109,7 +109,7 @@ struct Stepper::State
   }
 
   void findContacts(double dt);
-  [[nodiscard]] double push(const GivenSpeed& contact) const; // of the tool on a node [N]
+  [[nodiscard]] double push(const VelocityConstraint& contact) const; // of the tool on a node [N]
   [[nodiscard]] bool dropPulled();
   BackwardEuler::Solution solve(double dt);
   StepOutcome step(double dt);
@@ -126,9 +126,9 @@ struct Stepper::State
   Matrix3Xd before;     // velocities at the start of a step [m/s]
   Matrix3Xd forces;     // of elasticity [N]
   std::optional<Vector3d> apex;
-  std::vector<char> touching;        // per node of the surface, as the last step left it
-  std::vector<GivenSpeed> contacts;  // in this step
-  std::vector<std::size_t> touchers; // the same, into mesh.surface
+  std::vector<char> touching;               // per node of the surface, as the last step left it
+  std::vector<VelocityConstraint> contacts; // in this step
+  std::vector<std::size_t> touchers;        // the same, into mesh.surface
 };
 
 // nodes in the tool, or on it since the last step, are put on its surface by the end of this one
@@ -166,7 +166,7 @@ void Stepper::State::findContacts(double dt)
   }
 }
 
-double Stepper::State::push(const GivenSpeed& contact) const
+double Stepper::State::push(const VelocityConstraint& contact) const
 {
   return contact.normal.dot(euler.reactions().col(contact.node));
 }
@@ -176,7 +176,7 @@ bool Stepper::State::dropPulled()
 {
   double pushed = 0.0;
   double pulled = 0.0;
-  for (const GivenSpeed& contact : contacts)
+  for (const VelocityConstraint& contact : contacts)
   {
     (push(contact) >= 0.0 ? pushed : pulled) += std::abs(push(contact));
   }
@@ -202,7 +202,7 @@ BackwardEuler::Solution Stepper::State::solve(double dt)
 {
   before = velocities;
   BackwardEuler::Solution all{};
-  for (int k = 0; k < kMostSolves; ++k)
+  for (int k = 0; k < kMaxSolves; ++k)
   {
     velocities = before;
     const auto solution = euler.solve({ .stiffness = stiffness,
@@ -216,7 +216,7 @@ BackwardEuler::Solution Stepper::State::solve(double dt)
       velocities);
     all.iterations += solution.iterations;
     all.residual = solution.residual;
-    if (k + 1 == kMostSolves || !dropPulled())
+    if (k + 1 == kMaxSolves || !dropPulled())
     {
       break;
     }

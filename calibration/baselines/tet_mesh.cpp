@@ -22,7 +22,7 @@ void require(bool good, ErrorCode code, const std::string& message)
   }
 }
 
-// ratio of neighbouring layers so that `count` of them, the first of thickness `top`, fill height
+// ratio of neighboring layers so that `count` of them, the first of thickness `top`, fill height
 double layerGrowth(double height, double top, int count)
 {
   double low = 1e-3;

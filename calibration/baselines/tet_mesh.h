@@ -17,10 +17,10 @@ struct TetMesh
   std::vector<int> bonded{};                   ///< nodes held in place
 };
 
-/// A block whose top lies in z = 0, centred, facing +z; its bottom is bonded.
+/// A block whose top lies in z = 0, centered, facing +z; its bottom is bonded.
 ///
 /// The top has n^2 nodes, (3 n - 1)(n - 1) edges and 2 (n - 1)^2 triangles, as the paper's surfaces
-/// have. Every cell becomes six tetrahedra, neighbours being mirror images. Layers are as thick as
+/// have. Every cell becomes six tetrahedra, neighbors being mirror images. Layers are as thick as
 /// the nodes are apart at the top and grow downwards, where the strains are small.
 ///
 /// @param width   of the square top [m]

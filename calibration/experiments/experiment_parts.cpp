@@ -1,8 +1,8 @@
 #include "calibration/experiments/experiment_parts.h"
 
-#include "haptics/force/validity.h"
 #include "calibration/fem/mesh.h"
 #include "haptics/error.h"
+#include "haptics/force/validity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ namespace parts
 {
 
 using namespace units::literals;
-using units::toMillimetres;
+using units::toMillimeters;
 
 std::vector<double> depthSteps(double step, double last, Resolution resolution)
 {
@@ -130,12 +130,12 @@ std::string passesAt(const std::vector<double>& depths, const std::vector<double
   const double at = passing(depths, errors, Validity::kJustNoticeable);
   if (std::isfinite(at))
   {
-    return "at " + fixed(toMillimetres(at), 1) + " mm";
+    return "at " + fixed(toMillimeters(at), 1) + " mm";
   }
   const auto known = std::ranges::find_if(errors, [](double error) { return std::isnan(error); });
   const double last =
     known == errors.begin() ? 0.0 : depths[static_cast<std::size_t>(known - errors.begin()) - 1];
-  return "nowhere to " + fixed(toMillimetres(last), 1) + " mm";
+  return "nowhere to " + fixed(toMillimeters(last), 1) + " mm";
 }
 
 std::string fixed(double value, int digits)
@@ -152,7 +152,7 @@ Experiment overDepth(std::string name, const std::vector<double>& depths)
   };
   for (const double depth : depths)
   {
-    experiment.rows.push_back({ toMillimetres(depth) });
+    experiment.rows.push_back({ toMillimeters(depth) });
   }
   return experiment;
 }

@@ -55,7 +55,7 @@ enum class Resolution
 
 /// Force on elastic spheres of 30, 50 and 100 mm against the block, two supports, both tools.
 /// @source Sec. 3.2, Eq. (6), Fig. 3
-[[nodiscard]] Experiment curvature(Resolution resolution, std::stop_token stop = {});
+[[nodiscard]] Experiment curvature(Resolution resolution, const std::stop_token& stop = {});
 
 /// Angles at which inclination is felt.
 /// @source Sec. 3.2, Eq. (7)
@@ -63,16 +63,16 @@ enum class Resolution
 
 /// R_d over depth of sphere and cone, two Young's moduli.
 /// @source Sec. 3.3.2, Fig. 8
-[[nodiscard]] Experiment extents(Resolution resolution, std::stop_token stop = {});
+[[nodiscard]] Experiment extents(Resolution resolution, const std::stop_token& stop = {});
 
 /// Surface profiles of sphere and cone at 2.5, 5, 7.5 and 10 mm, with the paper's and the fitted
 /// curve.
 /// @source Sec. 3.3.2, Fig. 7
-[[nodiscard]] Experiment profiles(Resolution resolution, std::stop_token stop = {});
+[[nodiscard]] Experiment profiles(Resolution resolution, const std::stop_token& stop = {});
 
 /// Eqs. (4) and (5) against linear, corotated and neo-Hookean finite elements, and the depths at
 /// which they part by 7 %.
 /// @source Sec. 4.3, Eq. (9), Figs. 15 and 16
-[[nodiscard]] Experiment forces(Resolution resolution, std::stop_token stop = {});
+[[nodiscard]] Experiment forces(Resolution resolution, const std::stop_token& stop = {});
 
 } // namespace palp::fem

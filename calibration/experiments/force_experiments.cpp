@@ -1,8 +1,8 @@
 #include "calibration/experiments/experiment_parts.h"
-#include "haptics/force/validity.h"
 #include "calibration/fem/mesh.h"
 #include "haptics/force/force_law.h"
 #include "haptics/force/inclination.h"
+#include "haptics/force/validity.h"
 
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace
 
 using namespace parts;
 using namespace units::literals;
-using units::toMillimetres;
+using units::toMillimeters;
 
 constexpr char kDepth[] = "depth \u03b4 [mm]";
 
@@ -58,14 +58,14 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
       {
         error[i] = (error[i] - flat[i]) / most;
       }
-      const std::string size = fixed(toMillimetres(radius), 0) + " mm";
+      const std::string size = fixed(toMillimeters(radius), 0) + " mm";
       found += (color > 0 ? ", " : " ") + size + ' ' + passesAt(depths, error);
       for (double& e : error)
       {
         e *= 100.0;
       }
       const std::string column =
-        name + "_R0_" + fixed(toMillimetres(radius), 0) + "mm_" + support.column + "_percent";
+        name + "_R0_" + fixed(toMillimeters(radius), 0) + "mm_" + support.column + "_percent";
       addColumn(result, column, error);
       figure.curves.push_back(curve(result, column, "R0 = " + size + ", " + support.words, color++,
         support.kind == SphereSupport::BottomCap ? Curve::Style::Dashed : Curve::Style::Line));
@@ -79,7 +79,7 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
 
 } // namespace
 
-Experiment curvature(Resolution resolution, std::stop_token stop)
+Experiment curvature(Resolution resolution, const std::stop_token& stop)
 {
   const auto depths = depthSteps(1.0_mm, 10.0_mm, resolution);
   Experiment result = overDepth("curvature", depths);
@@ -168,7 +168,7 @@ Forces addForces(Experiment& result, bool sphere, const std::vector<double>& dep
   Forces forces;
   for (const double depth : depths)
   {
-    forces.paper.push_back(law(Indentation{ .depth = depth }).force);
+    forces.paper.push_back(law(ContactGeometry{ .depth = depth }).force);
   }
   addColumn(result, name + "paper_N", forces.paper);
   Figure figure{ .name = sphere ? "forces_sphere" : "forces_cone",
@@ -232,7 +232,7 @@ double closeTo(const std::vector<double>& depths, const Forces& forces, std::siz
     }
     last = depths[i];
   }
-  return toMillimetres(last);
+  return toMillimeters(last);
 }
 
 // whether the law exceeds the elements at every depth beyond one that both reached
@@ -253,13 +253,13 @@ std::string order(const std::vector<double>& depths, const Forces& forces, doubl
   const auto above = [&](std::size_t e)
   { return exceeds(depths, forces, e, beyond) ? "above " : "not above "; };
   return " is within 5 % of the corotated force to " + fixed(closeTo(depths, forces, 1), 1) +
-    " mm; beyond " + fixed(toMillimetres(beyond), 1) + " mm it is " + above(1) + "that and " +
+    " mm; beyond " + fixed(toMillimeters(beyond), 1) + " mm it is " + above(1) + "that and " +
     above(2) + "the neo-Hookean one";
 }
 
 } // namespace
 
-Experiment forces(Resolution resolution, std::stop_token stop)
+Experiment forces(Resolution resolution, const std::stop_token& stop)
 {
   const auto depths = depthSteps(0.5_mm, 8.0_mm, resolution);
   Experiment result = overDepth("forces", depths);

@@ -1,5 +1,5 @@
-#include "calibration/study/curve_fit.h"
 #include "calibration/experiments/experiment_parts.h"
+#include "calibration/study/curve_fit.h"
 #include "calibration/study/surface_fit.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace
 
 using namespace parts;
 using namespace units::literals;
-using units::toMillimetres;
+using units::toMillimeters;
 
 // R_d [mm] at every depth that was reached
 std::vector<double> extentsOf(const Case& study, const std::stop_token& stop)
@@ -23,7 +23,7 @@ std::vector<double> extentsOf(const Case& study, const std::stop_token& stop)
   const Outcome outcome = calibrate(study, stop);
   for (std::size_t i = 0; i < outcome.steps.size(); ++i)
   {
-    radii[i] = toMillimetres(extentRadius(outcome.steps[i].profile, study.threshold));
+    radii[i] = toMillimeters(extentRadius(outcome.steps[i].profile, study.threshold));
   }
   return radii;
 }
@@ -36,9 +36,9 @@ Curve polynomial(const Fit& fit, std::string name, int color)
   {
     const double x = fit.upTo * i / kPoints;
     double y = 0.0;
-    for (auto c = fit.coefficients.rbegin(); c != fit.coefficients.rend(); ++c)
+    for (std::size_t k = fit.coefficients.size(); k-- > 0;)
     {
-      y = y * x + *c;
+      y = y * x + fit.coefficients[k];
     }
     if (y >= 0.0)
     {
@@ -67,7 +67,7 @@ double addExtents(Experiment& result, bool sphere, const std::vector<double>& de
   for (std::size_t i = 0; i < depths.size() && !std::isnan(soft[i]); ++i)
   {
     apart = std::max(apart, std::abs(stiff[i] - soft[i]));
-    reached.push_back(toMillimetres(depths[i]));
+    reached.push_back(toMillimeters(depths[i]));
     radii.push_back(soft[i]);
   }
   const ExtentFits fits = fitExtent(reached, radii);
@@ -97,8 +97,8 @@ struct Shares
 };
 
 // one depth of Fig. 7
-void addProfile(
-  Experiment& result, Figure& figure, const Case& study, const Indented& step, Shares& shares)
+void addProfile(Experiment& result, Figure& figure, const Case& study, const IndentationStep& step,
+  Shares& shares)
 {
   const double extent = extentRadius(step.profile, study.threshold);
   const SurfaceProfile fit = fitSurface(step, study.tip);
@@ -118,11 +118,11 @@ void addProfile(
   {
     const double radius = point.radius + point.ur;
     const bool outside = radius > step.contactRadius;
-    const double x = toMillimetres(radius);
-    const double height = toMillimetres(point.uz);
-    const double ring = outside ? -toMillimetres(paper(radius)) : kMissing;
-    const double curve = outside ? -toMillimetres(fitted(radius)) : kMissing;
-    result.rows.push_back({ x, sphere, toMillimetres(step.depth), height, ring, curve });
+    const double x = toMillimeters(radius);
+    const double height = toMillimeters(point.uz);
+    const double ring = outside ? -toMillimeters(paper(radius)) : kMissing;
+    const double curve = outside ? -toMillimeters(fitted(radius)) : kMissing;
+    result.rows.push_back({ x, sphere, toMillimeters(step.depth), height, ring, curve });
     elements.x.push_back(x);
     elements.y.push_back(height);
     if (outside)
@@ -140,7 +140,7 @@ void addProfile(
 
 } // namespace
 
-Experiment extents(Resolution resolution, std::stop_token stop)
+Experiment extents(Resolution resolution, const std::stop_token& stop)
 {
   const auto depths = depthSteps(0.5_mm, 10.0_mm, resolution);
   Experiment result = overDepth("extents", depths);
@@ -160,7 +160,7 @@ Experiment extents(Resolution resolution, std::stop_token stop)
   return result;
 }
 
-Experiment profiles(Resolution resolution, std::stop_token stop)
+Experiment profiles(Resolution resolution, const std::stop_token& stop)
 {
   Experiment result{ .name = "profiles",
     .columns = { "radius_mm", "tool", "depth_mm", "finite_elements_mm", "paper_mm", "fitted_mm" },
@@ -179,7 +179,7 @@ Experiment profiles(Resolution resolution, std::stop_token stop)
       .left = "height [mm]",
       .curves = {} };
     Shares shares;
-    for (const Indented& step : calibrate(study, stop).steps)
+    for (const IndentationStep& step : calibrate(study, stop).steps)
     {
       addProfile(result, figure, study, step, shares);
     }

@@ -163,7 +163,8 @@ Element brick(const Grid& grid, int i, int j, int k)
       nodes.push_back(number);
       element.dofs.insert(element.dofs.end(), { 3 * number, 3 * number + 1, 3 * number + 2 });
     }
-    image.block<3, 3>(static_cast<Eigen::Index>(3) * a, column).diagonal() << (x < 0 ? -1.0 : 1.0), (y < 0 ? -1.0 : 1.0), 1.0;
+    image.block<3, 3>(static_cast<Eigen::Index>(3) * a, column).diagonal() << (x < 0 ? -1.0 : 1.0),
+      (y < 0 ? -1.0 : 1.0), 1.0;
   }
   image.conservativeResize(Eigen::NoChange, 3 * static_cast<Eigen::Index>(nodes.size()));
 

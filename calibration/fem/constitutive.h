@@ -48,8 +48,8 @@ struct StressResponse
   Eigen::Matrix3d stress; ///< P [Pa]
   Matrix9d tangent;       ///< dP/dF [Pa] over column-major vec(P), vec(F); symmetric
 
-  double pressure = 0.0; ///< p [Pa], of tension
-  double bulk = 0.0;     ///< dp/dtheta [Pa]
+  double pressure = 0.0;                   ///< p [Pa], of tension
+  double bulk = 0.0;                       ///< dp/dtheta [Pa]
   Vector9d volumeSlope = Vector9d::Zero(); ///< dtheta/dF
   Matrix9d volumeBend = Matrix9d::Zero();  ///< d2theta/dF2
 };

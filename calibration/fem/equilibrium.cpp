@@ -145,7 +145,7 @@ void Equilibrium::predict(const VectorXd& change)
   }
 }
 
-Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double added)
+Equilibrium::Step Equilibrium::solve(const std::vector<ContactConstraint>& sliding, double added)
 {
   std::vector<int> slidingOf(static_cast<std::size_t>(body_.nodeCount()), -1);
   for (std::size_t s = 0; s < sliding.size(); ++s)
@@ -162,7 +162,7 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
   // a held or sliding dof keeps a row of its own, so that the pattern never changes
   const int d = body_.dimension;
   std::vector<char> removed = held_;
-  for (const Sliding& s : sliding)
+  for (const ContactConstraint& s : sliding)
   {
     removed[static_cast<std::size_t>(d * s.node + d - 1)] = 1;
     const double press = forces_[d * s.node + d - 1];
@@ -170,7 +170,7 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
     {
       for (int j = 0; j <= i; ++j)
       {
-        // the two horizontal dofs of a node are neighbours in the column
+        // the two horizontal dofs of a node are neighbors in the column
         const int at = diagonal_[static_cast<std::size_t>(body_.dofOf(s.node) + j)] + (i - j);
         matrix_.valuePtr()[at] += press * s.curvature(i, j);
       }
@@ -200,7 +200,7 @@ Equilibrium::Step Equilibrium::solve(const std::vector<Sliding>& sliding, double
   }
   step.stable = solver_.vectorD().minCoeff() > 0.0;
   step.change = solver_.solve(-residual);
-  for (const Sliding& s : sliding)
+  for (const ContactConstraint& s : sliding)
   {
     step.change[d * s.node + d - 1] =
       s.gap + s.slope.head(d - 1).dot(step.change.segment(body_.dofOf(s.node), d - 1));
@@ -220,16 +220,17 @@ int Equilibrium::invertedElements() const noexcept
     [](const ElementResponse& response) { return response.inverted; }));
 }
 
-double Equilibrium::imbalance(const std::vector<Sliding>& sliding) const
+double Equilibrium::imbalance(const std::vector<ContactConstraint>& sliding) const
 {
   return onTheTool(guessed_, sliding).lpNorm<Eigen::Infinity>();
 }
 
 // what forces do to the dofs that are free while nodes slide
-VectorXd Equilibrium::onTheTool(VectorXd forces, const std::vector<Sliding>& sliding) const
+VectorXd Equilibrium::onTheTool(
+  VectorXd forces, const std::vector<ContactConstraint>& sliding) const
 {
   const int d = body_.dimension;
-  for (const Sliding& s : sliding)
+  for (const ContactConstraint& s : sliding)
   {
     const double press = forces[d * s.node + d - 1];
     forces.segment(body_.dofOf(s.node), d - 1) += s.slope.head(d - 1) * press;
@@ -244,7 +245,7 @@ VectorXd Equilibrium::onTheTool(VectorXd forces, const std::vector<Sliding>& sli
 
 // the heights of sliding nodes are eliminated: height = gap + slope * horizontal
 void Equilibrium::scatter(std::size_t e, const std::vector<int>& slidingOf,
-  const std::vector<Sliding>& sliding, VectorXd& residual)
+  const std::vector<ContactConstraint>& sliding, VectorXd& residual)
 {
   const std::vector<int>& dofs = body_.elements[e].dofs;
   const int d = body_.dimension;
@@ -257,7 +258,7 @@ void Equilibrium::scatter(std::size_t e, const std::vector<int>& slidingOf,
 
   MatrixXd stiffness = responses_[e].stiffness;
   VectorXd force = responses_[e].force;
-  std::vector<std::pair<int, const Sliding*>> touching;
+  std::vector<std::pair<int, const ContactConstraint*>> touching;
   for (int a = 0; a < nodes; ++a)
   {
     const int node = dofs[static_cast<std::size_t>(d) * static_cast<std::size_t>(a)] / d;

@@ -10,7 +10,7 @@ namespace palp::fem
 {
 
 /// A node of the surface that slides on the tool: its height follows from where it is.
-struct Sliding
+struct ContactConstraint
 {
   int node;
   double gap;                ///< height of the tool above the node [m]; the step closes it
@@ -18,7 +18,7 @@ struct Sliding
   Eigen::Matrix2d curvature; ///< [1/m]
 };
 
-/// Sparse linear systems of a body, whose pattern is analysed once.
+/// Sparse linear systems of a body, whose pattern is analyzed once.
 class Equilibrium
 {
 public:
@@ -59,19 +59,19 @@ public:
     bool stable = false;      ///< the energy is convex here
     Eigen::VectorXd change{}; ///< of all dofs [m]; empty where the system is singular
   };
-  [[nodiscard]] Step solve(const std::vector<Sliding>& sliding, double added = 0.0);
+  [[nodiscard]] Step solve(const std::vector<ContactConstraint>& sliding, double added = 0.0);
 
   /// Largest unbalanced force where the sliding nodes are [N], at the assembled displacement and
   /// with the pressures of the steps.
-  [[nodiscard]] double imbalance(const std::vector<Sliding>& sliding) const;
+  [[nodiscard]] double imbalance(const std::vector<ContactConstraint>& sliding) const;
 
 private:
   [[nodiscard]] bool assembleAll(const Eigen::VectorXd& displacement, bool guessed);
   [[nodiscard]] Eigen::VectorXd onTheTool(
-    Eigen::VectorXd forces, const std::vector<Sliding>& sliding) const;
+    Eigen::VectorXd forces, const std::vector<ContactConstraint>& sliding) const;
   void predict(const Eigen::VectorXd& change);
   void scatter(std::size_t element, const std::vector<int>& slidingOf,
-    const std::vector<Sliding>& sliding, Eigen::VectorXd& residual);
+    const std::vector<ContactConstraint>& sliding, Eigen::VectorXd& residual);
 
   const Body& body_;
   Energy energy_;
@@ -82,10 +82,10 @@ private:
   std::vector<int> diagonal_;              // per dof: into the matrix's values
   double storedEnergy_ = 0.0;
   Eigen::VectorXd forces_;
-  Eigen::VectorXd guessed_;                 // forces with the pressures of the steps
-  std::vector<Eigen::VectorXd> pressures_;  // per element and integration point, of the steps
-  std::vector<Eigen::VectorXd> before_;     // the same when the last step was found
-  std::vector<Eigen::VectorXd> after_;      // and at its end
+  Eigen::VectorXd guessed_;                // forces with the pressures of the steps
+  std::vector<Eigen::VectorXd> pressures_; // per element and integration point, of the steps
+  std::vector<Eigen::VectorXd> before_;    // the same when the last step was found
+  std::vector<Eigen::VectorXd> after_;     // and at its end
   Eigen::SparseMatrix<double> matrix_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver_;
 };

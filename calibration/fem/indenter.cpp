@@ -17,19 +17,20 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 40;
+constexpr int kMaxIterations = 40;
 constexpr int kExtrapolated = 12; // iterations, before it begins again without extrapolation
-constexpr int kMostHalvings = 6;
+constexpr int kMaxHalvings = 6;
 constexpr double kBalanced = 1e-8; // unbalanced force to contact force [-]
-constexpr double kShiver = 1e-4;   // the same, for a node that shivers on an edge of the tool [-]
-constexpr int kPatience = 20;      // iterations before shivering is let pass
-constexpr double kClosed = 1e-4;   // gap to depth below which nodes are put on the tool exactly [-]
+constexpr double kChatterTolerance =
+  1e-4; // the same, for a node that shivers on an edge of the tool [-]
+constexpr int kMaxTightIterations = 20; // iterations before shivering is let pass
+constexpr double kClosed = 1e-4; // gap to depth below which nodes are put on the tool exactly [-]
 
 constexpr double kInTool = 1e-6;       // penetration to depth that is let pass [-]
 constexpr double kPulled = 1e-7;       // pull at a node to contact force that is let pass [-]
 constexpr double kNearBase = 1 - 1e-6; // a node on the rim of the tool is off it [-]
 constexpr int kManyChanges = 8;        // of the contact, before nodes change one at a time
-constexpr int kMostChanges = 60;
+constexpr int kMaxChanges = 60;
 
 constexpr double kShortest = 1e-2; // part of a Newton step that is still tried [-]
 constexpr double kNoWorse = 1.5;   // growth of the imbalance that a step may cause [-]
@@ -87,9 +88,9 @@ Indenter::ToolPoint Indenter::toolAt(int node) const
   return point;
 }
 
-std::vector<Sliding> Indenter::sliding() const
+std::vector<ContactConstraint> Indenter::sliding() const
 {
-  std::vector<Sliding> result;
+  std::vector<ContactConstraint> result;
   for (std::size_t i = 0; i < touching_.size(); ++i)
   {
     if (touching_[i] != 0)
@@ -125,9 +126,9 @@ bool Indenter::updateContact(double forceScale, bool onlyOne)
   return changed;
 }
 
-// a step that goes downhill also where the energy is not convex, as where a node slips around an
+// a step that goes descentStep also where the energy is not convex, as where a node slips around an
 // edge of the tool or a material softens: first without the tool's curvature, then stiffened
-Equilibrium::Step Indenter::downhill(std::vector<Sliding> nodes, bool mayTurn)
+Equilibrium::Step Indenter::descentStep(std::vector<ContactConstraint> nodes, bool mayTurn)
 {
   Equilibrium::Step step = equilibrium_.solve(nodes);
   for (const double added : kAddedStiffness)
@@ -136,7 +137,7 @@ Equilibrium::Step Indenter::downhill(std::vector<Sliding> nodes, bool mayTurn)
     {
       break;
     }
-    for (Sliding& s : nodes)
+    for (ContactConstraint& s : nodes)
     {
       s.curvature.setZero();
     }
@@ -145,7 +146,7 @@ Equilibrium::Step Indenter::downhill(std::vector<Sliding> nodes, bool mayTurn)
   return step;
 }
 
-std::string Indenter::settle(double depth, const std::stop_token& stop, int iterations)
+std::string Indenter::solveEquilibrium(double depth, const std::stop_token& stop, int iterations)
 {
   depth_ = depth;
   if (!equilibrium_.follow(displacement_, 0.0))
@@ -162,23 +163,23 @@ std::string Indenter::settle(double depth, const std::stop_token& stop, int iter
     const bool ask = k == 0 ? force_ == 0.0 : imbalance <= (careful ? 0.01 : 1.0) * force;
     const bool changed = ask && updateContact(force, careful);
     changes += changed ? 1 : 0;
-    k = changed && careful ? std::min(k, kPatience / 2) : k;
-    if (changes > kMostChanges)
+    k = changed && careful ? std::min(k, kMaxTightIterations / 2) : k;
+    if (changes > kMaxChanges)
     {
       return "the contact kept changing";
     }
 
     const auto nodes = sliding();
-    const auto step = downhill(nodes, k > 0);
+    const auto step = descentStep(nodes, k > 0);
     double gap = 0.0;
     force = 0.0;
-    for (const Sliding& s : nodes)
+    for (const ContactConstraint& s : nodes)
     {
       gap = std::max(gap, std::abs(s.gap));
       force += std::abs(equilibrium_.guessedForces()[body_.dimension * (s.node + 1) - 1]);
     }
     imbalance = step.imbalance;
-    const double balanced = k < kPatience ? kBalanced : kShiver;
+    const double balanced = k < kMaxTightIterations ? kBalanced : kChatterTolerance;
     if (ask && !changed && k > 0 && step.residual <= balanced * force && gap <= kInTool * depth)
     {
       force_ = force;
@@ -188,7 +189,7 @@ std::string Indenter::settle(double depth, const std::stop_token& stop, int iter
     {
       return "the equations became singular";
     }
-    if (!walk(step, nodes, gap <= kClosed * depth))
+    if (!lineSearch(step, nodes, gap <= kClosed * depth))
     {
       return "an element was turned inside out";
     }
@@ -197,14 +198,15 @@ std::string Indenter::settle(double depth, const std::stop_token& stop, int iter
 }
 
 // along a Newton step, as far as elements stay valid and the forces or the energy get no worse
-bool Indenter::walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, bool closed)
+bool Indenter::lineSearch(
+  const Equilibrium::Step& step, std::vector<ContactConstraint> nodes, bool closed)
 {
   const VectorXd before = displacement_;
   const double energy = equilibrium_.energy();
   for (double length = 1.0; length > kShortest; length *= 0.5)
   {
     displacement_ = before + length * step.change;
-    for (Sliding& s : nodes)
+    for (ContactConstraint& s : nodes)
     {
       const ToolPoint tool = toolAt(s.node);
       s.slope = tool.slope;
@@ -217,10 +219,10 @@ bool Indenter::walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, b
     if (equilibrium_.follow(displacement_, length))
     {
       const double imbalance = equilibrium_.imbalance(nodes);
-      const bool better = closed
-        ? equilibrium_.energy() < energy || imbalance <= (step.stable ? kNoWorse : kDecrease) * step.imbalance
-        : imbalance <= kNoWorse * step.imbalance;
-        if (better || length < 4.0 * kShortest)
+      const bool better = closed ? equilibrium_.energy() < energy ||
+          imbalance <= (step.stable ? kNoWorse : kDecrease) * step.imbalance
+                                 : imbalance <= kNoWorse * step.imbalance;
+      if (better || length < 4.0 * kShortest)
       {
         return true;
       }
@@ -239,7 +241,7 @@ bool Indenter::contactReachesRim() const
 void Indenter::press(double depth, const std::stop_token& stop)
 {
   double step = depth - depth_;
-  const double smallest = step / (1 << kMostHalvings);
+  const double smallest = step / (1 << kMaxHalvings);
   while (depth_ < depth)
   {
     const Held start{ displacement_, touching_, depth_, force_ };
@@ -248,13 +250,14 @@ void Indenter::press(double depth, const std::stop_token& stop)
     {
       displacement_ += (to - depth_) / (depth_ - previousDepth_) * (start.displacement - previous_);
     }
-    std::string trouble = settle(to, stop, start.depth > 0.0 ? kExtrapolated : kMostIterations);
-    if (!trouble.empty() && start.depth > 0.0)
+    std::string failure =
+      solveEquilibrium(to, stop, start.depth > 0.0 ? kExtrapolated : kMaxIterations);
+    if (!failure.empty() && start.depth > 0.0)
     {
       restore(start); // without extrapolation
-      trouble = settle(to, stop, kMostIterations);
+      failure = solveEquilibrium(to, stop, kMaxIterations);
     }
-    if (trouble.empty())
+    if (failure.empty())
     {
       previous_ = start.displacement;
       previousDepth_ = start.depth;
@@ -268,11 +271,11 @@ void Indenter::press(double depth, const std::stop_token& stop)
     step *= 0.5;
     if (step < smallest)
     {
-      trouble = contactReachesRim() ? "the contact reaches the edge of the tool's rim" : trouble;
+      failure = contactReachesRim() ? "the contact reaches the edge of the tool's rim" : failure;
       char reached[32];
-      std::snprintf(reached, sizeof reached, "%.3f mm", units::toMillimetres(depth_));
+      std::snprintf(reached, sizeof reached, "%.3f mm", units::toMillimeters(depth_));
       throw Error(ErrorCode::NoSolution,
-        "indentation: beyond " + std::string(reached) + " " + trouble +
+        "indentation: beyond " + std::string(reached) + " " + failure +
           "; stop there, or try another element size");
     }
   }
@@ -303,7 +306,8 @@ void Indenter::resume(const Checkpoint& checkpoint)
         tool.below && heightOf(body_.surface[i]) >= tool.height - kInTool * depth_;
       touching_[i] = touches ? 1 : 0;
     }
-    if (equilibrium_.assemble(displacement_) && settle(checkpoint.depth, {}, kMostIterations).empty())
+    if (equilibrium_.assemble(displacement_) &&
+      solveEquilibrium(checkpoint.depth, {}, kMaxIterations).empty())
     {
       return;
     }

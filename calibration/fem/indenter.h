@@ -11,7 +11,7 @@ namespace palp::fem
 {
 
 /// The pressed body at one depth.
-struct Indented
+struct IndentationStep
 {
   double depth = 0.0;         ///< delta [m]
   double force = 0.0;         ///< pressed by the tool, from the contact [N]
@@ -60,7 +60,7 @@ public:
   ///                stays
   void press(double depth, const std::stop_token& stop = {});
 
-  [[nodiscard]] Indented state() const;
+  [[nodiscard]] IndentationStep state() const;
 
   [[nodiscard]] Checkpoint checkpoint() const
   {
@@ -82,12 +82,13 @@ private:
   [[nodiscard]] ToolPoint toolAt(int node) const;
   [[nodiscard]] double heightOf(int node) const;
   [[nodiscard]] double radiusOf(int node) const;
-  [[nodiscard]] std::vector<Sliding> sliding() const;
+  [[nodiscard]] std::vector<ContactConstraint> sliding() const;
   [[nodiscard]] bool updateContact(double force, bool onlyOne);
-  [[nodiscard]] Equilibrium::Step downhill(std::vector<Sliding> nodes, bool mayTurn);
-  [[nodiscard]] bool walk(const Equilibrium::Step& step, std::vector<Sliding> nodes, bool closed);
-  [[nodiscard]] std::string settle(
-    double depth, const std::stop_token& stop, int iterations); // empty, or trouble
+  [[nodiscard]] Equilibrium::Step descentStep(std::vector<ContactConstraint> nodes, bool mayTurn);
+  [[nodiscard]] bool lineSearch(
+    const Equilibrium::Step& step, std::vector<ContactConstraint> nodes, bool closed);
+  [[nodiscard]] std::string solveEquilibrium(
+    double depth, const std::stop_token& stop, int iterations); // empty, or failure
   [[nodiscard]] std::string surfaceFault() const; // empty, or why no tool presses such a surface
   [[nodiscard]] double contactRadius() const;
   [[nodiscard]] bool contactReachesRim() const;

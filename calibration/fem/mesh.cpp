@@ -229,8 +229,7 @@ std::vector<double> refinedSteps(
     }
     steps.pop_back();
   }
-  for (const double outwards :
-    cappedSteps(fineRadius - refinement.radius, refinement.size, fine))
+  for (const double outwards : cappedSteps(fineRadius - refinement.radius, refinement.size, fine))
   {
     steps.push_back(refinement.radius + outwards);
   }
@@ -266,8 +265,7 @@ std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine, d
   for (std::size_t i = 1; i < bounds.size(); ++i)
   {
     const double thickness = bounds[i] - bounds[i - 1];
-    for (const double step :
-      gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), growth))
+    for (const double step : gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), growth))
     {
       if (step > 0.0)
       {
@@ -309,8 +307,9 @@ Body cylinderBody(double radius, double height, double fineRadius, double fine,
 {
   const std::vector<double> sheets = sheetBounds(height, coatings);
   const bool refined = refinement.size > 0.0;
-  Body body = revolve(refined ? refinedSteps(radius, fineRadius, fine, refinement)
-                              : gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
+  Body body = revolve(
+    refined ? refinedSteps(radius, fineRadius, fine, refinement)
+            : gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
     fromTheTop(height,
       refined ? sheetSteps(sheets, refinement.size, kOutwardGrowth)
               : sheetSteps(sheets, fine, kDownwardGrowth)),

@@ -11,7 +11,7 @@ namespace palp::fem
 
 /// Element boundaries from 0 to length: steps of `fine` up to fineLength, then growing.
 ///
-/// @param growth  ratio of neighbouring steps beyond fineLength, 1 or more
+/// @param growth  ratio of neighboring steps beyond fineLength, 1 or more
 [[nodiscard]] std::vector<double> gradedSteps(
   double length, double fineLength, double fine, double growth);
 

@@ -28,7 +28,7 @@ MeshCheck::MeshCheck(const Case& study)
 {
 }
 
-double MeshCheck::changeOnHalving(const Indented& step, const std::stop_token& stop)
+double MeshCheck::changeOnHalving(const IndentationStep& step, const std::stop_token& stop)
 {
   try
   {

@@ -19,7 +19,7 @@ public:
   ///
   /// @param step  of the case itself, deeper than before
   /// @return      [-]; infinite where the larger elements have no solution, and from there on
-  [[nodiscard]] double changeOnHalving(const Indented& step, const std::stop_token& stop);
+  [[nodiscard]] double changeOnHalving(const IndentationStep& step, const std::stop_token& stop);
 
 private:
   Body body_;

@@ -1,9 +1,9 @@
 #include "calibration/study/shipped_tables.h"
 
-#include "haptics/files/replace_file.h"
 #include "calibration/study/study_files.h"
 #include "calibration/study/surface_fit.h"
 #include "calibration/tables/surface_table.h"
+#include "haptics/files/replace_file.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace
 {
 
 using namespace units::literals;
-using units::toMillimetres;
+using units::toMillimeters;
 using Tell = std::function<void(const std::string&)>;
 
 constexpr double kRadius = 10.0_mm; // of the sphere that stands for all
@@ -69,7 +69,7 @@ std::vector<double> ratios(
     if (!reached && i == std::min(large.steps.size(), small.steps.size()))
     {
       notes += "# " + study.name + ": constant beyond " +
-        std::to_string(toMillimetres(study.depths[i - 1])) + " mm, where the finite elements end\n";
+        std::to_string(toMillimeters(study.depths[i - 1])) + " mm, where the finite elements end\n";
     }
     result.push_back(reached ? large.steps[i].force / small.steps[i].force
         : result.empty()     ? 1.0
@@ -78,7 +78,8 @@ std::vector<double> ratios(
   return result;
 }
 
-void makeExtentTables(const std::filesystem::path& folder, std::stop_token stop, const Tell& tell)
+void makeExtentTables(
+  const std::filesystem::path& folder, const std::stop_token& stop, const Tell& tell)
 {
   struct Shipped
   {
@@ -111,21 +112,23 @@ void makeExtentTables(const std::filesystem::path& folder, std::stop_token stop,
     replaceFile(folder / (std::string(shipped.name) + ".csv"), extents.view());
 
     auto curves = table(header +
-      "# fitted surface: Bezier curve of degree 5 over 1/radius, calibration/tables/surface_profile.h\n"
+      "# fitted surface: Bezier curve of degree 5 over 1/radius, "
+      "calibration/tables/surface_profile.h\n"
       "depth_mm,inner_mm,outer_mm,sink_mm,slope,control_outer_mm,control_inner_mm\n");
-    for (const Indented& step : outcome.steps)
+    for (const IndentationStep& step : outcome.steps)
     {
       const SurfaceProfile curve = fitSurface(step, study.tip);
-      curves << toMillimetres(step.depth) << ',' << toMillimetres(curve.inner) << ','
-             << toMillimetres(curve.outer) << ',' << toMillimetres(curve.sink) << ',' << curve.slope
-             << ',' << toMillimetres(curve.control[0]) << ',' << toMillimetres(curve.control[1])
+      curves << toMillimeters(step.depth) << ',' << toMillimeters(curve.inner) << ','
+             << toMillimeters(curve.outer) << ',' << toMillimeters(curve.sink) << ',' << curve.slope
+             << ',' << toMillimeters(curve.control[0]) << ',' << toMillimeters(curve.control[1])
              << '\n';
     }
     replaceFile(folder / (std::string(shipped.name) + "_surface.csv"), curves.view());
   }
 }
 
-void makeSphereTables(const std::filesystem::path& folder, std::stop_token stop, const Tell& tell)
+void makeSphereTables(
+  const std::filesystem::path& folder, const std::stop_token& stop, const Tell& tell)
 {
   std::string notes;
   std::ostringstream forces;
@@ -192,7 +195,8 @@ void makeSphereTables(const std::filesystem::path& folder, std::stop_token stop,
 }
 
 // a cone has no length of its own: the ratio follows depth / thickness; the cap is felt near 0 only
-void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, const Tell& tell)
+void makeConeTable(
+  const std::filesystem::path& folder, const std::stop_token& stop, const Tell& tell)
 {
   constexpr std::array kDepthOverThickness{ 0.04, 0.08, 0.12, 0.16, 0.2, 0.24 };
   std::string notes;
@@ -243,7 +247,8 @@ void makeConeTable(const std::filesystem::path& folder, std::stop_token stop, co
 
 } // namespace
 
-void makeShippedTables(const std::filesystem::path& folder, std::stop_token stop, const Tell& tell)
+void makeShippedTables(
+  const std::filesystem::path& folder, const std::stop_token& stop, const Tell& tell)
 {
   makeExtentTables(folder, stop, tell);
   makeSphereTables(folder, stop, tell);

@@ -21,7 +21,7 @@ namespace palp::fem
 /// @param folder  exists
 /// @param tell    called before each case with its name
 /// @throws Error  BadFile: not writable
-void makeShippedTables(const std::filesystem::path& folder, std::stop_token stop,
+void makeShippedTables(const std::filesystem::path& folder, const std::stop_token& stop,
   const std::function<void(const std::string&)>& tell);
 
 } // namespace palp::fem

@@ -1,10 +1,10 @@
 #include "calibration/study/study.h"
 
-#include "haptics/numerics/roots.h"
 #include "calibration/fem/mesh.h"
 #include "calibration/study/mesh_check.h"
 #include "calibration/study/study_files.h"
 #include "haptics/error.h"
+#include "haptics/numerics/roots.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 
@@ -27,15 +27,16 @@ using namespace units::literals;
 constexpr double kElementSize = 0.5_mm;
 constexpr int kPaperNodes = 30; // along a side, Sec. 4.3
 constexpr int kPaperLayers = 10;
-// halving the elements changes the force at 1 to 5 mm by 0.5 % at 25 degrees, 1.5 % at 20, 6 % at 15
+// halving the elements changes the force at 1 to 5 mm by 0.5 % at 25 degrees, 1.5 % at 20, 6 % at
+// 15
 constexpr double kSharpest = 25.0_deg - 1e-9;
 constexpr double kSmallestElement = 0.01_mm;
-constexpr double kFinest = 0.1; // elements for a shallow contact, over those of the case
-constexpr double kFewest = 2.0; // elements across a contact, before its force is looked at
-constexpr double kRefined = 0.2; // smallest element to the largest under the tool
+constexpr double kFinest = 0.1;    // elements for a shallow contact, over those of the case
+constexpr double kFewest = 2.0;    // elements across a contact, before its force is looked at
+constexpr double kRefined = 0.2;   // smallest element to the largest under the tool
 constexpr double kRounding = 0.06; // of the edge of a flat, at most, over its radius
-constexpr double kDraft = 5.0_deg;  // of a punch's side, so that its height follows from the radius
-constexpr double kCoarse = 0.1; // distance of nodes under the tool, over its radius
+constexpr double kDraft = 5.0_deg; // of a punch's side, so that its height follows from the radius
+constexpr double kCoarse = 0.1;    // distance of nodes under the tool, over its radius
 
 void require(bool good, const std::string& what)
 {
@@ -101,7 +102,7 @@ Tip rounded(const std::string& name, double flat, double rounding, double halfAn
       { .radius = end.radius + rise * std::tan(halfAngle), .height = end.height + rise });
   }
   return ProfileTip{ std::make_shared<const Profile>(
-    std::move(points), name + ", edge rounded by " + units::inMillimetres(rounding)) };
+    std::move(points), name + ", edge rounded by " + units::inMillimeters(rounding)) };
 }
 
 // change: on halving the elements [-]; infinite or NaN where it is not known
@@ -115,12 +116,12 @@ std::string refusal(const Case& study, double depth, double change)
     why = std::isnan(change) ? "it depends on the mesh"
                              : "no mesh twice as coarse finds one to tell its error";
   }
-  return "indentation: the force at " + units::inMillimetres(depth) + " is refused, " + why +
-    "; give --element-size " + units::inMillimetres(0.5 * elementSize(study)) + " or begin deeper";
+  return "indentation: the force at " + units::inMillimeters(depth) + " is refused, " + why +
+    "; give --element-size " + units::inMillimeters(0.5 * elementSize(study)) + " or begin deeper";
 }
 
 // smaller elements for a contact that spans too few; empty where they do not suffice
-std::optional<Indented> onFinerElements(
+std::optional<IndentationStep> onFinerElements(
   const Case& study, double depth, const std::stop_token& stop)
 {
   constexpr int kSteps = 4;
@@ -143,7 +144,7 @@ std::optional<Indented> onFinerElements(
       {
         indenter.press(depth * i / kSteps, stop);
       }
-      Indented found = indenter.state();
+      IndentationStep found = indenter.state();
       if (coarser.changeOnHalving(found, stop) <= kMeshError)
       {
         return found;
@@ -161,12 +162,12 @@ std::optional<Indented> onFinerElements(
 }
 
 // keep: called after every depth whose force stands
-Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token stop,
+Outcome press(const Case& study, const Body& body, Saved saved, const std::stop_token& stop,
   MeshCheck* coarser, const std::function<void(const Outcome&, const Indenter&)>& keep,
   const Progress& progress)
 {
   Outcome outcome{
-    .steps = std::move(saved.steps), .trouble = {}, .refused = std::move(saved.refused)
+    .steps = std::move(saved.steps), .error = {}, .refused = std::move(saved.refused)
   };
   Indenter indenter(body, study.tip, study.energy, study.material);
   double reached = 0.0;
@@ -185,7 +186,7 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
       {
         indenter.press(depth, stop);
       }
-      Indented step = indenter.state();
+      IndentationStep step = indenter.state();
       step.depth = depth; // the coarser run goes through those that were there, too
       double change = coarser != nullptr ? coarser->changeOnHalving(step, stop) : 0.0;
       if (depth <= reached)
@@ -219,7 +220,7 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
         progress(i + 1, study.depths.size());
       }
     }
-    outcome.trouble = refused;
+    outcome.error = refused;
   }
   catch (const Error& error)
   {
@@ -227,7 +228,7 @@ Outcome press(const Case& study, const Body& body, Saved saved, std::stop_token 
     {
       throw;
     }
-    outcome.trouble = error.what();
+    outcome.error = error.what();
   }
   return outcome;
 }
@@ -260,14 +261,14 @@ Tip withCap(const Tip& tip, double cap)
   {
     const double rounding = std::min(cap, kRounding * punch->radius);
     return rounded(
-      "flat punch of " + units::inMillimetres(punch->radius) + ", sides inclined by 5 degrees",
+      "flat punch of " + units::inMillimeters(punch->radius) + ", sides inclined by 5 degrees",
       punch->radius - rounding, rounding, kDraft, 2.0 * punch->radius);
   }
   if (const auto* cone = std::get_if<TruncatedConeTip>(&tip))
   {
     const double rounding = std::min(cap, kRounding * cone->flatRadius);
     const double tangent = rounding * std::tan(0.5 * (90.0_deg - cone->halfAngle));
-    return rounded("cone cut off at " + units::inMillimetres(cone->flatRadius),
+    return rounded("cone cut off at " + units::inMillimeters(cone->flatRadius),
       cone->flatRadius - tangent, rounding, cone->halfAngle,
       (cone->baseRadius - cone->flatRadius) / std::tan(cone->halfAngle));
   }
@@ -293,16 +294,16 @@ void check(const Case& study)
   const double deepest = study.depths.back();
   require(baseRadius(study.tip) < 0.45 * std::min(study.width, study.length),
     "--tip: the tool is larger than the block; its radius must stay below " +
-      units::inMillimetres(0.45 * std::min(study.width, study.length)));
+      units::inMillimeters(0.45 * std::min(study.width, study.length)));
   require(deepest < 0.8 * study.height,
-    "--depth: " + units::inMillimetres(deepest) + " goes through the block; stay below " +
-      units::inMillimetres(0.8 * study.height));
+    "--depth: " + units::inMillimeters(deepest) + " goes through the block; stay below " +
+      units::inMillimeters(0.8 * study.height));
   require(study.threshold > 0.0 && study.threshold < deepest,
     "--threshold: must be positive and less than the deepest depth of " +
-      units::inMillimetres(deepest));
+      units::inMillimeters(deepest));
   require(study.elementSize == 0.0 ||
       (study.elementSize >= kSmallestElement && study.elementSize <= largestElement(study)),
-    "--element-size: must be between 0.01 mm and " + units::inMillimetres(largestElement(study)) +
+    "--element-size: must be between 0.01 mm and " + units::inMillimeters(largestElement(study)) +
       " in this block");
   require(study.model == BodyModel::Axisymmetric || study.width == study.length,
     "--model: the volumetric block must be square; use --model axisymmetric");
@@ -311,14 +312,14 @@ void check(const Case& study)
   require(study.coatings.empty() || study.model == BodyModel::Axisymmetric,
     "--coating: the volumetric block takes none; use --model axisymmetric");
   require(study.coatings.thickness() < study.height,
-    "--coating: as thick as the block of " + units::inMillimetres(study.height) + "; give less");
+    "--coating: as thick as the block of " + units::inMillimeters(study.height) + "; give less");
   for (const Coating& coating : study.coatings.all())
   {
     require(coating.material.poissonRatio < 0.5,
       "--coating: finite elements need a Poisson's ratio of less than 0.5; give 0.49");
     require(coating.thickness >= elementSize(study),
       "--coating: thinner than an element; give --element-size " +
-        units::inMillimetres(coating.thickness) + " or less");
+        units::inMillimeters(coating.thickness) + " or less");
   }
   require(
     study.material.poissonRatio < 0.5, "--poisson: finite elements need less than 0.5; give 0.49");
@@ -337,7 +338,7 @@ Body bodyOf(const Case& study)
   return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }
 
-double extentRadius(const std::vector<Indented::Point>& profile, double threshold)
+double extentRadius(const std::vector<IndentationStep::Point>& profile, double threshold)
 {
   for (std::size_t i = 0; i < profile.size(); ++i)
   {
@@ -358,7 +359,7 @@ double extentRadius(const std::vector<Indented::Point>& profile, double threshol
   return profile.empty() ? 0.0 : profile.back().radius + profile.back().ur;
 }
 
-double sinkOf(const Indented& pressed, double radius)
+double sinkOf(const IndentationStep& pressed, double radius)
 {
   const auto& profile = pressed.profile;
   for (std::size_t i = 1; i < profile.size(); ++i)
@@ -380,7 +381,7 @@ std::vector<std::string> calibrationFiles()
     "profiles.png" };
 }
 
-Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progress)
+Outcome calibrate(const Case& study, const std::stop_token& stop, const Progress& progress)
 {
   check(study);
   const Body body = bodyOf(study);
@@ -388,8 +389,8 @@ Outcome calibrate(const Case& study, std::stop_token stop, const Progress& progr
     study, body, {}, stop, nullptr, [](const Outcome&, const Indenter&) {}, progress);
 }
 
-Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume, std::stop_token stop,
-  const Progress& progress)
+Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume,
+  const std::stop_token& stop, const Progress& progress)
 {
   check(study);
   const Body body = bodyOf(study);
@@ -416,8 +417,8 @@ Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume, std:
 }
 
 void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
-  const std::vector<Case>& cases, bool resume, unsigned jobs, std::stop_token stop,
-  const std::function<void(const std::string& name, const std::string& trouble)>& tell)
+  const std::vector<Case>& cases, bool resume, unsigned jobs, const std::stop_token& stop,
+  const std::function<void(const std::string& name, const std::string& failure)>& tell)
 {
   std::atomic<std::size_t> next{ 0 };
   std::mutex telling;
@@ -425,17 +426,17 @@ void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
   {
     for (std::size_t i = next++; i < cases.size(); i = next++)
     {
-      std::string trouble;
+      std::string failure;
       try
       {
-        trouble = calibrateInto(*folders[i], cases[i], resume, stop).trouble;
+        failure = calibrateInto(*folders[i], cases[i], resume, stop).error;
       }
       catch (const std::exception& error)
       {
-        trouble = error.what();
+        failure = error.what();
       }
       const std::lock_guard lock(telling);
-      tell(cases[i].name, trouble);
+      tell(cases[i].name, failure);
     }
   };
   std::vector<std::jthread> threads;

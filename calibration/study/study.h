@@ -58,17 +58,18 @@ void check(const Case& study);
 /// R_d at the deformed position [m]: where the surface is lowered by the threshold; 0 where
 /// nothing sinks that far, the outermost radius where everything does.
 /// @source  Sec. 3.3.2
-[[nodiscard]] double extentRadius(const std::vector<Indented::Point>& profile, double threshold);
+[[nodiscard]] double extentRadius(
+  const std::vector<IndentationStep::Point>& profile, double threshold);
 
 /// Depth of the surface below rest at a deformed radius, straight between points [m].
-[[nodiscard]] double sinkOf(const Indented& pressed, double radius);
+[[nodiscard]] double sinkOf(const IndentationStep& pressed, double radius);
 
 /// How a calibration went.
 struct Outcome
 {
-  std::vector<Indented> steps;   ///< one for each depth that was reached and not refused
-  std::string trouble;           ///< empty, or why depths are missing
-  std::vector<double> refused{}; ///< depths whose force depends on the mesh [m]
+  std::vector<IndentationStep> steps; ///< one for each depth that was reached and not refused
+  std::string error;                  ///< empty, or why depths are missing
+  std::vector<double> refused{};      ///< depths whose force depends on the mesh [m]
 };
 
 /// The names of all files that a calibration, with its pictures, may leave.
@@ -84,7 +85,7 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 /// Presses through all depths; where no solution is found, the depths so far remain.
 /// @throws Error  BadValue: see check
 [[nodiscard]] Outcome calibrate(
-  const Case& study, std::stop_token stop = {}, const Progress& progress = {});
+  const Case& study, const std::stop_token& stop = {}, const Progress& progress = {});
 
 /// The same with files, and with every force checked by a mesh twice as coarse; a depth that fails
 /// is pressed again on elements of a half to an eighth of the size. After every depth,
@@ -97,15 +98,15 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 /// @throws Error  BadFile: not writable, or the checkpoint is of another case, or past a depth that
 ///                is asked for and not in the table
 [[nodiscard]] Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume,
-  std::stop_token stop = {}, const Progress& progress = {});
+  const std::stop_token& stop = {}, const Progress& progress = {});
 
 /// Several cases at a time, each into its folder; a case that fails leaves the others.
 ///
 /// @param folders  one for each case, see calibrateInto
 /// @param jobs  how many at a time, 1 or more; never more than there are cases or cores
-/// @param tell  called with a case's name and its trouble (empty: none), one call at a time
+/// @param tell  called with a case's name and its failure (empty: none), one call at a time
 void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
-  const std::vector<Case>& cases, bool resume, unsigned jobs, std::stop_token stop,
-  const std::function<void(const std::string& name, const std::string& trouble)>& tell);
+  const std::vector<Case>& cases, bool resume, unsigned jobs, const std::stop_token& stop,
+  const std::function<void(const std::string& name, const std::string& failure)>& tell);
 
 } // namespace palp::fem

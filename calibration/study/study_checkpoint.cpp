@@ -1,8 +1,8 @@
 #include "calibration/study/study_files.h"
 
+#include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/replace_file.h"
-#include "haptics/error.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -36,10 +36,11 @@ bool begins(std::istream& in, const std::string& text)
   throw Error(ErrorCode::BadFile, file.string() + ": " + what + "; start again without --resume");
 }
 
-bool has(const std::vector<Indented>& steps, double depth)
+bool has(const std::vector<IndentationStep>& steps, double depth)
 {
   return std::ranges::any_of(steps,
-    [depth](const Indented& step) { return std::abs(step.depth - depth) <= kSameDepth * depth; });
+    [depth](const IndentationStep& step)
+    { return std::abs(step.depth - depth) <= kSameDepth * depth; });
 }
 
 // the numbers of both tables down to a depth [m], as they stand in the files
@@ -53,7 +54,7 @@ std::string rowsTo(const std::filesystem::path& folder, double depth)
     {
       char* end = nullptr;
       const double first = std::strtod(line.c_str(), &end); // [mm]
-      if (*end == ',' && units::fromMillimetres(first) <= depth * (1.0 + kSameDepth))
+      if (*end == ',' && units::fromMillimeters(first) <= depth * (1.0 + kSameDepth))
       {
         rows += line + '\n';
       }
@@ -151,9 +152,10 @@ Saved StudyFiles::load() const
   // the table may be one depth ahead
   const double deepest = checkpoint.depth * (1.0 + kSameDepth);
   saved.steps = readSteps(folder_.path());
-  std::erase_if(saved.steps, [&](const Indented& step) { return step.depth > deepest; });
+  std::erase_if(saved.steps, [&](const IndentationStep& step) { return step.depth > deepest; });
   if (!has(saved.steps, checkpoint.depth) ||
-    std::ranges::any_of(saved.steps, [](const Indented& step) { return step.profile.empty(); }))
+    std::ranges::any_of(
+      saved.steps, [](const IndentationStep& step) { return step.profile.empty(); }))
   {
     refuse(file, "does not fit the tables beside it");
   }
@@ -166,7 +168,7 @@ Saved StudyFiles::load() const
   if (missing != study_.depths.end())
   {
     refuse(
-      file, "is past " + shortest(units::toMillimetres(*missing)) + " mm, which the table lacks");
+      file, "is past " + shortest(units::toMillimeters(*missing)) + " mm, which the table lacks");
   }
   saved.checkpoint = std::move(checkpoint);
   return saved;

@@ -1,12 +1,12 @@
 #include "calibration/study/study_files.h"
 
-#include "haptics/files/csv_text.h"
 #include "calibration/study/curve_fit.h"
 #include "calibration/tables/extent_table.h"
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
-#include "haptics/force/linear/half_space.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/number_table.h"
+#include "haptics/files/replace_file.h"
+#include "haptics/force/linear/half_space.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 
@@ -22,14 +22,14 @@ namespace palp::fem
 namespace
 {
 
-using units::toMillimetres;
+using units::toMillimeters;
 
 std::string tipText(const Tip& tip, int digits)
 {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(digits);
-  const double base = toMillimetres(baseRadius(tip));
+  const double base = toMillimeters(baseRadius(tip));
   if (std::holds_alternative<SphereTip>(tip))
   {
     out << "sphere, R = " << base << " mm";
@@ -41,21 +41,21 @@ std::string tipText(const Tip& tip, int digits)
   else if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
   {
     out << "cone, " << units::toDegrees(blunt->halfAngle) << " deg, tangent cap "
-        << toMillimetres(blunt->tipRadius) << " mm, base " << base << " mm";
+        << toMillimeters(blunt->tipRadius) << " mm, base " << base << " mm";
   }
   else if (const auto* truncated = std::get_if<TruncatedConeTip>(&tip))
   {
     out << "truncated cone, " << units::toDegrees(truncated->halfAngle) << " deg, flat "
-        << toMillimetres(truncated->flatRadius) << " mm, base " << base << " mm";
+        << toMillimeters(truncated->flatRadius) << " mm, base " << base << " mm";
   }
   else if (const auto* profile = std::get_if<ProfileTip>(&tip))
   {
     // every point has its part in the depth at which the whole of it is in contact
     const auto file = std::filesystem::path(profile->profile->name()).filename();
     out << "profile of revolution " << file.string() << (file.empty() ? "" : ", ") << "base "
-        << base << " mm, height " << toMillimetres(tipHeight(tip, baseRadius(tip)))
+        << base << " mm, height " << toMillimeters(tipHeight(tip, baseRadius(tip)))
         << " mm, all in contact with a half-space at "
-        << toMillimetres(contactDepth(tip, baseRadius(tip))) << " mm";
+        << toMillimeters(contactDepth(tip, baseRadius(tip))) << " mm";
   }
   else
   {
@@ -76,7 +76,7 @@ std::ostringstream text(const std::string& header, const char* columns)
 
 std::string noteOf(const Outcome& outcome)
 {
-  return outcome.trouble.empty() ? "" : "# incomplete: " + outcome.trouble + "\n";
+  return outcome.error.empty() ? "" : "# incomplete: " + outcome.error + "\n";
 }
 
 nlohmann::json json(const Fit& fit)
@@ -93,7 +93,7 @@ std::string coatingsText(const Coatings& coatings, int digits)
   out.precision(digits);
   for (const Coating& coating : coatings.all())
   {
-    out << "\n# under the tool first: " << toMillimetres(coating.thickness) << " mm of "
+    out << "\n# under the tool first: " << toMillimeters(coating.thickness) << " mm of "
         << units::toKilopascals(coating.material.youngModulus)
         << " kPa, nu = " << coating.material.poissonRatio << ", bonded to what is below";
   }
@@ -109,8 +109,8 @@ std::string describe(const Case& study, const Body& body, int digits)
   out.precision(digits);
   out << "# palp " << PALP_VERSION << ": " << study.name
       << "\n# tool: " << tipText(study.tip, digits)
-      << "; depth counted from its tip\n# block: " << toMillimetres(study.width) << " x "
-      << toMillimetres(study.length) << " x " << toMillimetres(study.height) << " mm, base "
+      << "; depth counted from its tip\n# block: " << toMillimeters(study.width) << " x "
+      << toMillimeters(study.length) << " x " << toMillimeters(study.height) << " mm, base "
       << (study.base == Base::Bonded ? "bonded" : "slipping")
       << ", sides free, frictionless\n# material: "
       << units::toKilopascals(study.material.youngModulus)
@@ -120,9 +120,10 @@ std::string describe(const Case& study, const Body& body, int digits)
              ? "axisymmetric, cylinder of equal area, eight-node quadrilaterals"
              : "volumetric block, eight-node bricks, one quarter")
       << ", " << body.elements.size() << " elements, " << body.nodeCount() << " nodes"
-      << "\n# element size under the tool: " << toMillimetres(body.elementSize)
-      << " mm, smaller where a shallow contact needs it\n# extent_radius_mm: deformed radius at which the surface sinks by "
-      << toMillimetres(study.threshold) << " mm; it does not depend on Young's modulus"
+      << "\n# element size under the tool: " << toMillimeters(body.elementSize)
+      << " mm, smaller where a shallow contact needs it\n# extent_radius_mm: deformed radius at "
+         "which the surface sinks by "
+      << toMillimeters(study.threshold) << " mm; it does not depend on Young's modulus"
       << (study.coatings.empty() ? "" : ", only on its ratios") << '\n';
   return out.str();
 }
@@ -130,39 +131,39 @@ std::string describe(const Case& study, const Body& body, int digits)
 std::string tableText(const Case& study, const std::string& header, const Outcome& outcome)
 {
   auto table = text(header + noteOf(outcome), ExtentTable::kHeader);
-  for (const Indented& step : outcome.steps)
+  for (const IndentationStep& step : outcome.steps)
   {
-    table << toMillimetres(step.depth) << ','
-          << toMillimetres(extentRadius(step.profile, study.threshold)) << ',' << step.force << ','
-          << toMillimetres(step.contactRadius) << '\n';
+    table << toMillimeters(step.depth) << ','
+          << toMillimeters(extentRadius(step.profile, study.threshold)) << ',' << step.force << ','
+          << toMillimeters(step.contactRadius) << '\n';
   }
   return table.str();
 }
 
-std::vector<Indented> readSteps(const std::filesystem::path& folder)
+std::vector<IndentationStep> readSteps(const std::filesystem::path& folder)
 {
-  std::vector<Indented> steps;
+  std::vector<IndentationStep> steps;
   for (const auto& [row, line] :
     NumberTable::readFinite(folder / kTable, ExtentTable::kHeader).rows)
   {
-    Indented step;
-    step.depth = units::fromMillimetres(row[0]);
+    IndentationStep step;
+    step.depth = units::fromMillimeters(row[0]);
     step.force = row[2];
-    step.contactRadius = units::fromMillimetres(row[3]);
+    step.contactRadius = units::fromMillimeters(row[3]);
     steps.push_back(step);
   }
   std::size_t at = 0;
   for (const auto& [row, line] : NumberTable::readFinite(folder / kProfiles, kColumns).rows)
   {
-    const double depth = units::fromMillimetres(row[0]);
+    const double depth = units::fromMillimeters(row[0]);
     while (at < steps.size() && steps[at].depth < depth)
     {
       ++at;
     }
     if (at < steps.size() && steps[at].depth == depth)
     {
-      steps[at].profile.push_back({ units::fromMillimetres(row[1]), units::fromMillimetres(row[2]),
-        units::fromMillimetres(row[3]) });
+      steps[at].profile.push_back({ units::fromMillimeters(row[1]), units::fromMillimeters(row[2]),
+        units::fromMillimeters(row[3]) });
     }
   }
   return steps;
@@ -182,14 +183,14 @@ void StudyFiles::write(const Outcome& outcome) const
   auto profiles = text(header_ + noteOf(outcome), kColumns);
   std::vector<double> depths;
   std::vector<double> extents;
-  for (const Indented& step : outcome.steps)
+  for (const IndentationStep& step : outcome.steps)
   {
-    depths.push_back(toMillimetres(step.depth));
-    extents.push_back(toMillimetres(extentRadius(step.profile, study_.threshold)));
+    depths.push_back(toMillimeters(step.depth));
+    extents.push_back(toMillimeters(extentRadius(step.profile, study_.threshold)));
     for (const auto& point : step.profile)
     {
-      profiles << depths.back() << ',' << toMillimetres(point.radius) << ','
-               << toMillimetres(point.ur) << ',' << toMillimetres(point.uz) << '\n';
+      profiles << depths.back() << ',' << toMillimeters(point.radius) << ','
+               << toMillimeters(point.ur) << ',' << toMillimeters(point.uz) << '\n';
     }
   }
   replaceFile(folder_.stage() / kProfiles, profiles.str());

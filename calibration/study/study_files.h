@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/files/output_folder.h"
 #include "calibration/study/study.h"
+#include "haptics/files/output_folder.h"
 
 #include <optional>
 
@@ -16,7 +16,7 @@ constexpr const char* kProfiles = "profiles.csv";
 /// What a folder holds of an earlier run: the steps as readSteps gives them.
 struct Saved
 {
-  std::vector<Indented> steps{};
+  std::vector<IndentationStep> steps{};
   std::optional<Checkpoint> checkpoint{};
   std::vector<double> refused{}; ///< depths above it that the table lacks [m]
 };
@@ -24,7 +24,7 @@ struct Saved
 /// The depths of table.csv with the profiles of profiles.csv. What no file holds is 0: base
 /// reaction, penetration and inverted elements.
 /// @throws Error  BadFile
-[[nodiscard]] std::vector<Indented> readSteps(const std::filesystem::path& folder);
+[[nodiscard]] std::vector<IndentationStep> readSteps(const std::filesystem::path& folder);
 
 /// Lines with # that name all inputs but the depths, the energy, the mesh and the version.
 /// @param digits  of each number; 17 tell any two cases apart

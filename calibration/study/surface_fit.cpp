@@ -7,7 +7,7 @@
 namespace palp::fem
 {
 
-SurfaceProfile fitSurface(const Indented& pressed, const Tip& tip)
+SurfaceProfile fitSurface(const IndentationStep& pressed, const Tip& tip)
 {
   const auto& points = pressed.profile;
   SurfaceProfile curve;

@@ -18,13 +18,13 @@ struct SurfaceError
 /// The curve nearest to the surface of a pressed body, which ends at the body's edge; its control
 /// values by least squares over the radius.
 /// @throws Error  BadValue: fewer than eight surface points outside the contact
-[[nodiscard]] SurfaceProfile fitSurface(const Indented& pressed, const Tip& tip);
+[[nodiscard]] SurfaceProfile fitSurface(const IndentationStep& pressed, const Tip& tip);
 
 /// @param sinkAt  radius [m] to sink [m]
 /// @param upTo    largest radius compared [m]
 template <typename Function>
 [[nodiscard]] SurfaceError surfaceError(
-  const Indented& pressed, double upTo, const Function& sinkAt)
+  const IndentationStep& pressed, double upTo, const Function& sinkAt)
 {
   SurfaceError error;
   double sum = 0.0;

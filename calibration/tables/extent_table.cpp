@@ -13,10 +13,10 @@ ExtentTable ExtentTable::read(const std::filesystem::path& file)
   std::vector<Row> rows;
   for (const auto& [values, line] : NumberTable::readFinite(file, kHeader).rows)
   {
-    rows.push_back({ .depth = units::fromMillimetres(values[0]),
-      .extentRadius = units::fromMillimetres(values[1]),
+    rows.push_back({ .depth = units::fromMillimeters(values[0]),
+      .extentRadius = units::fromMillimeters(values[1]),
       .force = values[2],
-      .contactRadius = units::fromMillimetres(values[3]) });
+      .contactRadius = units::fromMillimeters(values[3]) });
   }
   try
   {

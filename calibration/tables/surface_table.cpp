@@ -1,10 +1,10 @@
 #include "calibration/tables/surface_table.h"
 
-#include "haptics/numerics/roots.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
-#include "haptics/numerics/monotone_cubic.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/number_table.h"
+#include "haptics/numerics/monotone_cubic.h"
+#include "haptics/numerics/roots.h"
 
 #include <algorithm>
 

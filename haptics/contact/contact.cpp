@@ -1,8 +1,8 @@
 #include "haptics/contact/contact.h"
 
-#include "haptics/surface/nearest.h"
 #include "haptics/contact/paper_contact.h"
 #include "haptics/contact/patch.h"
+#include "haptics/surface/closest_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace
 
 constexpr double kSmoothing = 1.8; // [-] edge lengths; below 1.5 the facets come through
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
-constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear vote
+constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear orientationSum
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
@@ -66,14 +66,15 @@ double contactRadius(const Tip& tip, double nose, double distance) noexcept
 double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
 {
   const double reached = 1.5 * patch.square.dot(patch.normal) / patch.normal.squaredNorm();
-  const double excess = squaredBall - std::max(0.0, reached) - distance * distance; // h^2 - distance^2
+  const double excess =
+    squaredBall - std::max(0.0, reached) - distance * distance; // h^2 - distance^2
   // close to the surface the square says little: the correction fades there
   const double scale = std::max(distance * distance, radius * radius / 16.0);
   return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));
 }
 
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
-struct Neighbourhood
+struct Neighborhood
 {
   double distance;    // of the nearest point [m], negative inside the body
   double radius;      // of smoothing [m]
@@ -81,12 +82,12 @@ struct Neighbourhood
   Patch patch;
 };
 
-Neighbourhood look(
+Neighborhood look(
   const Surface& surface, const Tip& tip, const Eigen::Vector3d& place, double distance) noexcept
 {
   // facets are smoothed out over the scale of the mesh, within the contact
-  const double radius = std::min(
-    kSmoothing * surface.edgeLength(), contactRadius(tip, noseRadius(tip), distance));
+  const double radius =
+    std::min(kSmoothing * surface.edgeLength(), contactRadius(tip, noseRadius(tip), distance));
   const double squaredBall = distance * distance + radius * radius;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
   return { distance, radius, squaredBall,
@@ -94,10 +95,10 @@ Neighbourhood look(
 }
 
 // whether the one nearest triangle, a fold perhaps, says inside while those about it say outside
-bool outvoted(const Neighbourhood& here, const Eigen::Vector3d& outward) noexcept
+bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outward) noexcept
 {
-  return here.distance < 0.0 && here.patch.vote.dot(outward) > 0.0 &&
-    here.patch.vote.norm() > kMajority * here.patch.voters;
+  return here.distance < 0.0 && here.patch.orientationSum.dot(outward) > 0.0 &&
+    here.patch.orientationSum.norm() > kMajority * here.patch.orientationWeight;
 }
 
 Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
@@ -109,13 +110,14 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   {
     return {}; // quickly; behind an open sheet, contact may reach beyond its box
   }
-  const Nearest nearest = findNearest(surface, place, std::numeric_limits<double>::infinity());
+  const ClosestPoint nearest =
+    findClosestPoint(surface, place, std::numeric_limits<double>::infinity());
   if (nearest.triangle < 0 || nearest.distance >= reach)
   {
     return {};
   }
-  Neighbourhood here = look(surface, tip, place, nearest.distance);
-  if (outvoted(here, place - nearest.point))
+  Neighborhood here = look(surface, tip, place, nearest.distance);
+  if (isOrientationFlipped(here, place - nearest.point))
   {
     here = look(surface, tip, place, -nearest.distance);
     if (here.distance >= reach)
@@ -143,8 +145,8 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.center = place - height * contact.normal;
   contact.triangle = nearest.triangle;
   const double grain = kGrain * (nose + flatRadius(tip));
-  const double span = std::max(
-    { contactRadius(tip, nose, distance), surface.shape().finest(), kFinest * grain });
+  const double span =
+    std::max({ contactRadius(tip, nose, distance), surface.shape().finest(), kFinest * grain });
   const LocalShape shape =
     surface.shape()(place, std::hypot(distance, span), contact.normal, grain);
   contact.surfaceCurvature = shape.meanCurvature;

@@ -14,7 +14,7 @@ namespace palp
 enum class ContactRule
 {
   Exact, ///< to the triangles: contact starts at depth > 0 whatever the mesh
-  Paper, ///< Sec. 4.1: mesh points inside the tool, depth from their centre
+  Paper, ///< Sec. 4.1: mesh points inside the tool, depth from their center
 };
 
 /// Contact of a tool with the undeformed surface.
@@ -24,7 +24,7 @@ struct Contact
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< outward unit normal; zero when apart
   Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< on the undeformed surface [m]
   double tilt = 0.0;                                ///< tool axis to -normal [rad]
-  int triangle = -1;                                ///< below the centre; -1 when apart
+  int triangle = -1;                                ///< below the center; -1 when apart
   double surfaceCurvature = 0.0;                    ///< mean, 1/R0 [1/m], convex positive
   double curvatureSpread = 0.0;                     ///< half the difference [1/m]
   double thickness = std::numeric_limits<double>::infinity();    ///< of the body below [m]
@@ -39,7 +39,7 @@ struct Contact
 /// Where and how deep the tool is in the undeformed surface.
 ///
 /// depth is how far the tool's deepest point along the contact normal lies below the surface
-/// (sphere: R minus the distance from its centre to the surface; cone: its apex). Exact: the
+/// (sphere: R minus the distance from its center to the surface; cone: its apex). Exact: the
 /// distance to the triangles, from which the facets are smoothed out over 1.8 edge lengths, but
 /// never beyond the contact itself. So it is a continuous function of the pose, starts where the
 /// tool touches a triangle, and is that of the true plane or sphere under a mesh of one.

@@ -5,7 +5,7 @@
 namespace palp
 {
 
-/// The paper's rule: mesh points inside the tool, depth from their centre along their mean normal.
+/// The paper's rule: mesh points inside the tool, depth from their center along their mean normal.
 ///
 /// Points that face away from the tool, on the far side of a thin lobe, do not count; nor does
 /// what is above the base by more than four base radii. No point inside is no contact.

@@ -223,8 +223,8 @@ Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center, double 
     patch.weight += part * inside.weight;
     patch.normal += part * normal;
     patch.square += part * inside.square * facet.normal;
-    patch.vote += normal;
-    patch.voters += inside.weight;
+    patch.orientationSum += normal;
+    patch.orientationWeight += inside.weight;
   };
   tree.search(near, add);
   return patch;

@@ -15,8 +15,9 @@ struct Patch
   double weight = 0.0;                              ///< of w = Q - q over the area [m^4]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< of w times the outward normal [m^4]
   Eigen::Vector3d square = Eigen::Vector3d::Zero(); ///< of w^2 times the outward normal [m^6]
-  Eigen::Vector3d vote = Eigen::Vector3d::Zero();   ///< as normal, with all triangles in full
-  double voters = 0.0;                              ///< as weight, with all triangles in full
+  Eigen::Vector3d orientationSum =
+    Eigen::Vector3d::Zero();      ///< as normal, with all triangles in full
+  double orientationWeight = 0.0; ///< as weight, with all triangles in full
 };
 
 /// The part of a triangle within a ball.
@@ -28,7 +29,7 @@ struct DiscIntegral
 
 /// Weight of one triangle within a ball, and that of its square, in closed form.
 ///
-/// With q the squared distance to the centre and Q the squared radius, they are the integrals of
+/// With q the squared distance to the center and Q the squared radius, they are the integrals of
 /// w = Q - q and of w^2. In the plane of the triangle the ball is a disc, and Green's theorem
 /// leaves straight pieces and arcs.
 ///
@@ -39,13 +40,13 @@ struct DiscIntegral
 [[nodiscard]] DiscIntegral integrate(
   const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept;
 
-/// Sums the triangles within a ball, those that face its centre in full.
+/// Sums the triangles within a ball, those that face its center in full.
 ///
-/// Triangles that turn their back fade out with the distance of the centre behind their plane, so
+/// Triangles that turn their back fade out with the distance of the center behind their plane, so
 /// that the far side of a thin lobe does not count.
 ///
 /// @param radius  of the ball [m], above 0
-/// @param side    1: the centre is well outside the body, -1: well inside; between, both sides
+/// @param side    1: the center is well outside the body, -1: well inside; between, both sides
 /// count
 /// @param fade    height behind a plane at which a triangle no longer counts [m], above 0
 /// @realtime      pure; no allocation, no lock, no exception

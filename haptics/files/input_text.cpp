@@ -55,7 +55,9 @@ std::string inQuotes(std::string_view text)
 {
   constexpr std::size_t most = 40; // [bytes]
   const bool whole = text.size() <= most;
-  return std::string("'").append(printable(std::string(text.substr(0, most)))).append(whole ? "'" : "...'");
+  return std::string("'")
+    .append(printable(std::string(text.substr(0, most))))
+    .append(whole ? "'" : "...'");
 }
 
 std::string printable(std::string text)

@@ -36,7 +36,8 @@ std::vector<double> parseLine(std::string_view line, const std::string& header)
   }
   if (std::count(header.begin(), header.end(), ',') + 1 != std::ssize(values))
   {
-    throw Error(ErrorCode::BadFile, std::to_string(values.size()) + " columns; give " + shortened(header));
+    throw Error(
+      ErrorCode::BadFile, std::to_string(values.size()) + " columns; give " + shortened(header));
   }
   return values;
 }
@@ -140,8 +141,8 @@ NumberTable NumberTable::readColumns(
       const auto found = std::ranges::find(names, column);
       if (found == names.end())
       {
-        throw Error(
-          ErrorCode::BadFile, "no column " + std::string(column) + "; begin with a line that names it");
+        throw Error(ErrorCode::BadFile,
+          "no column " + std::string(column) + "; begin with a line that names it");
       }
       positions.push_back(static_cast<std::size_t>(found - names.begin()));
     }

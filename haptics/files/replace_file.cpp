@@ -1,7 +1,7 @@
 #include "haptics/files/replace_file.h"
 
-#include "haptics/files/descriptor.h"
 #include "haptics/error.h"
+#include "haptics/files/descriptor.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -19,8 +19,8 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kDeepest = 1000.0_mm; // deeper is answered as this, so that nothing overflows
-constexpr double kThinnest = 0.1_mm;   // thinner bodies are answered as this
+constexpr double kMaxDepth = 1000.0_mm;  // deeper is answered as this, so that nothing overflows
+constexpr double kMinThickness = 0.1_mm; // thinner bodies are answered as this
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Eqs. (2)-(4): F = 8 G sqrt(R) delta^(3/2) / (3 (1 - nu)), r = sqrt(R delta)
@@ -45,10 +45,10 @@ Response respond(const ConeTip& tip, const Material& m, double depth) noexcept
 }
 
 // a place without values that are not finite, and without what is switched off
-Indentation sanitized(const Indentation& local, const LawSettings& settings) noexcept
+ContactGeometry sanitized(const ContactGeometry& local, const LawSettings& settings) noexcept
 {
-  Indentation clean;
-  clean.depth = std::min(local.depth, kDeepest);
+  ContactGeometry clean;
+  clean.depth = std::min(local.depth, kMaxDepth);
   if (settings.mode != LawMode::Corrected)
   {
     return clean;
@@ -59,7 +59,7 @@ Indentation sanitized(const Indentation& local, const LawSettings& settings) noe
   }
   if (settings.thickness && local.thickness > 0.0)
   {
-    clean.thickness = std::max(local.thickness, kThinnest);
+    clean.thickness = std::max(local.thickness, kMinThickness);
   }
   if (settings.curvature && std::isfinite(local.surfaceCurvature))
   {
@@ -132,14 +132,14 @@ ForceLaw ForceLaw::corrected() const
   return law;
 }
 
-Response ForceLaw::operator()(const Indentation& local) const noexcept
+Response ForceLaw::operator()(const ContactGeometry& local) const noexcept
 {
   // written so that NaN, too, means no contact
   if (!(local.depth > 0.0 && std::isfinite(local.depth)))
   {
     return {};
   }
-  const Indentation place = sanitized(local, settings_);
+  const ContactGeometry place = sanitized(local, settings_);
   if (settings_.mode == LawMode::Paper)
   {
     return paper(place.depth);
@@ -168,19 +168,19 @@ Response ForceLaw::paper(double depth) const noexcept
     .stiffness = material_.contactModulus() * contact.stiffness };
 }
 
-double ForceLaw::layerThickness(const Indentation& local) const noexcept
+double ForceLaw::layerThickness(const ContactGeometry& local) const noexcept
 {
   return corrections_->layer.layerThickness(local.thickness, local.surfaceCurvature);
 }
 
-LinearContact ForceLaw::linear(const Indentation& local) const noexcept
+LinearContact ForceLaw::linear(const ContactGeometry& local) const noexcept
 {
   return corrections_ != nullptr && corrections_->coated
     ? (*corrections_->coated)(local.depth, layerThickness(local), local.surfaceCurvature)
     : uncoated(local);
 }
 
-LinearContact ForceLaw::uncoated(const Indentation& local) const noexcept
+LinearContact ForceLaw::uncoated(const ContactGeometry& local) const noexcept
 {
   const bool plain = local.thickness == kInfinite && local.surfaceCurvature == 0.0;
   return plain || corrections_ == nullptr
@@ -188,11 +188,11 @@ LinearContact ForceLaw::uncoated(const Indentation& local) const noexcept
     : corrections_->layer(local.depth, layerThickness(local), local.surfaceCurvature);
 }
 
-double ForceLaw::gapSpread(const Indentation& local) const noexcept
+double ForceLaw::gapSpread(const ContactGeometry& local) const noexcept
 {
   const bool round =
     std::holds_alternative<SphereTip>(tip_) || std::holds_alternative<ParaboloidTip>(tip_);
-  const Indentation place = sanitized(local, settings_);
+  const ContactGeometry place = sanitized(local, settings_);
   if (!round || place.curvatureSpread == 0.0 || corrections_ == nullptr)
   {
     return 0.0;
@@ -202,19 +202,19 @@ double ForceLaw::gapSpread(const Indentation& local) const noexcept
   return place.curvatureSpread / mean;
 }
 
-double ForceLaw::ellipse(const Indentation& local) const noexcept
+double ForceLaw::ellipse(const ContactGeometry& local) const noexcept
 {
   return corrections_ != nullptr ? corrections_->ellipse(gapSpread(local)) : 1.0;
 }
 
-LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noexcept
+LargeStrainGrid::Ratio ForceLaw::largeStrain(const ContactGeometry& local) const noexcept
 {
-  if (settings_.mode != LawMode::Corrected || settings_.constitution == Constitution::Linear ||
+  if (settings_.mode != LawMode::Corrected || settings_.constitution == ConstitutiveModel::Linear ||
     settings_.largeStrain == nullptr || !settings_.coatings.empty() || !(local.depth > 0.0))
   {
     return {};
   }
-  const Indentation place = sanitized(local, settings_);
+  const ContactGeometry place = sanitized(local, settings_);
   const LargeStrain& table = *settings_.largeStrain;
   const double nu = material_.poissonRatio;
   LargeStrainGrid::Ratio ratio;
@@ -231,7 +231,7 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const Indentation& local) const noe
   return ratio;
 }
 
-Factors ForceLaw::factors(const Indentation& local) const noexcept
+Factors ForceLaw::factors(const ContactGeometry& local) const noexcept
 {
   Factors result{ { { "shape", 1.0 }, { "curvature", 1.0 }, { "ellipse", 1.0 },
     { "thickness", 1.0 }, { "large_strain", 1.0 }, { "inclination", 1.0 }, { "coatings", 1.0 } } };
@@ -239,8 +239,8 @@ Factors ForceLaw::factors(const Indentation& local) const noexcept
   {
     return result;
   }
-  const Indentation place = sanitized(local, settings_);
-  Indentation flat = place; // without what acts later
+  const ContactGeometry place = sanitized(local, settings_);
+  ContactGeometry flat = place; // without what acts later
   flat.thickness = kInfinite;
   const double curved = uncoated(flat).force;
   flat.surfaceCurvature = 0.0;

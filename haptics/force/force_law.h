@@ -1,11 +1,11 @@
 #pragma once
 
+#include "haptics/force/large_strain.h"
 #include "haptics/force/linear/coating.h"
 #include "haptics/force/linear/half_space.h"
-#include "haptics/force/large_strain.h"
 #include "haptics/force/linear/layer.h"
-#include "haptics/tip/tip.h"
 #include "haptics/material.h"
+#include "haptics/tip/tip.h"
 
 #include <array>
 #include <limits>
@@ -16,7 +16,7 @@ namespace palp
 
 /// What the law may know of the place that is pressed. Everything but the depth has a
 /// neutral default, under which the body is a half-space pressed straight.
-struct Indentation
+struct ContactGeometry
 {
   double depth = 0.0;                                         ///< delta [m]
   double tilt = 0.0;                                          ///< tool axis to inward normal [rad]
@@ -42,7 +42,7 @@ enum class LawMode
 };
 
 /// What the tissue is made of, under large strain.
-enum class Constitution
+enum class ConstitutiveModel
 {
   Linear,
   NeoHookean, ///< by the ratio of LawSettings::largeStrain; as linear where there is none
@@ -53,7 +53,7 @@ struct LawSettings
 {
   LawMode mode = LawMode::Paper;
   Base base = Base::Bonded;
-  Constitution constitution = Constitution::NeoHookean;
+  ConstitutiveModel constitution = ConstitutiveModel::NeoHookean;
   LargeStrainTable largeStrain{}; ///< null: the ratio is 1; of a body without coatings
   Coatings coatings{};            ///< on the body, whose thickness counts theirs
   bool curvature = true;
@@ -85,22 +85,22 @@ public:
   /// @param local  where and how deep; depth of 0 or less, or not finite, is no contact
   /// @source       Eqs. (2)-(5)
   /// @realtime     pure; no allocation, no lock, no exception
-  [[nodiscard]] Response operator()(const Indentation& local) const noexcept;
+  [[nodiscard]] Response operator()(const ContactGeometry& local) const noexcept;
 
   /// The law at one place, taken apart: shape, curvature, ellipse, thickness, large_strain,
   /// inclination, coatings; 1 where nothing acts.
   ///
   /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] Factors factors(const Indentation& local) const noexcept;
+  [[nodiscard]] Factors factors(const ContactGeometry& local) const noexcept;
 
   /// The ratio of large strain at one place, with whether the table covers it.
   /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] LargeStrainGrid::Ratio largeStrain(const Indentation& local) const noexcept;
+  [[nodiscard]] LargeStrainGrid::Ratio largeStrain(const ContactGeometry& local) const noexcept;
 
   /// Half the difference of the principal curvatures of the gap over their mean; 0 where no ellipse
   /// is formed.
   /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] double gapSpread(const Indentation& local) const noexcept;
+  [[nodiscard]] double gapSpread(const ContactGeometry& local) const noexcept;
 
   /// The best law known here for the same tip and tissue: every correction switched on.
   [[nodiscard]] ForceLaw corrected() const;
@@ -122,10 +122,10 @@ private:
   struct Corrections;
 
   [[nodiscard]] Response paper(double depth) const noexcept;
-  [[nodiscard]] LinearContact uncoated(const Indentation& local) const noexcept;
-  [[nodiscard]] LinearContact linear(const Indentation& local) const noexcept;
-  [[nodiscard]] double layerThickness(const Indentation& local) const noexcept;
-  [[nodiscard]] double ellipse(const Indentation& local) const noexcept;
+  [[nodiscard]] LinearContact uncoated(const ContactGeometry& local) const noexcept;
+  [[nodiscard]] LinearContact linear(const ContactGeometry& local) const noexcept;
+  [[nodiscard]] double layerThickness(const ContactGeometry& local) const noexcept;
+  [[nodiscard]] double ellipse(const ContactGeometry& local) const noexcept;
 
   Tip tip_;
   Material material_;

@@ -14,7 +14,7 @@ namespace
 
 using namespace units::literals;
 
-// F / F upright of a cone of 45 degrees; slopes [1/rad] from the parabola through neighbours
+// F / F upright of a cone of 45 degrees; slopes [1/rad] from the parabola through neighbors
 constexpr std::array kTilts{ 0.0, 3.0_deg, 6.0_deg, 9.0_deg, 12.0_deg, 15.0_deg, 20.0_deg, 25.0_deg,
   30.0_deg };
 constexpr std::array kForces{ 1.0, 1.00465, 1.01936, 1.04452, 1.08136, 1.13222, 1.25745, 1.44984,

@@ -1,8 +1,8 @@
 #include "haptics/force/large_strain.h"
 
 #include "haptics/error.h"
-#include "haptics/numerics/monotone_cubic.h"
 #include "haptics/files/number_table.h"
+#include "haptics/numerics/monotone_cubic.h"
 #include "haptics/units.h"
 
 #include <algorithm>

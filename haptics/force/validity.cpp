@@ -1,8 +1,8 @@
 #include "haptics/force/validity.h"
 
-#include "haptics/force/linear/coated_body.h"
 #include "haptics/force/ellipse.h"
 #include "haptics/force/inclination.h"
+#include "haptics/force/linear/coated_body.h"
 #include "haptics/force/linear/layer_contact.h"
 #include "haptics/tip/on_tip.h"
 #include "haptics/units.h"
@@ -23,7 +23,7 @@ constexpr double kHollow = 0.5;               // R / R0 to which a hollow surfac
 constexpr double kVerifiedWidth = 0.6;        // a / thickness to which the layer is verified
 constexpr double kEdge = 0.2;                 // a / distance, at 90 degrees: 7 % (elements)
 constexpr double kSupport = 0.08;             // a / R0 of a ball: 5 % from support to support
-constexpr double kDeepest = 0.5;              // depth / thickness that was compared
+constexpr double kMaxDepth = 0.5;             // depth / thickness that was compared
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
 constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
 
@@ -62,7 +62,10 @@ double strainOfCone(const ForceLaw& law)
   const auto* sharp = std::get_if<ConeTip>(&tip);
   const auto* blunt = std::get_if<BluntConeTip>(&tip);
   const auto* truncated = std::get_if<TruncatedConeTip>(&tip);
-  const double slope = sharp ? cotOf(*sharp) : blunt ? cotOf(*blunt) : truncated ? cotOf(*truncated) : 0.0;
+  const double slope = sharp ? cotOf(*sharp)
+    : blunt                  ? cotOf(*blunt)
+    : truncated              ? cotOf(*truncated)
+                             : 0.0;
   return slope * (0.6 * std::abs(0.38 - law.material().poissonRatio) + 0.04) /
     Validity::kJustNoticeable;
 }
@@ -139,7 +142,7 @@ Validity::Validity(const ForceLaw& law, const Limits& limits)
   }
 }
 
-Rules Validity::operator()(const Indentation& local, double edgeDistance) const noexcept
+Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) const noexcept
 {
   const Tip& tip = law_.tip();
   const LawSettings& settings = law_.settings();
@@ -147,7 +150,7 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
   const Response response = law_(local);
   const double truth = best_(local).force;
   const double base = baseRadius(tip);
-  Indentation deepest = local; // the experiment of Eq. (9), at this place
+  ContactGeometry deepest = local; // the experiment of Eq. (9), at this place
   deepest.depth = limits_.deepest > 0.0 ? limits_.deepest : base;
   const double maximum = std::max(best_(deepest).force, truth);
   const double depth = std::max(0.0, local.depth);
@@ -173,8 +176,8 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
       corrected ? "deeper than the tip's radius nothing was compared with finite elements"
                 : "deeper, the law departs from neo-Hookean finite elements by 7 % (Sec. 4.3)" },
     { "large_strain", "-", ratio.inside ? 0.0 : shown(std::max(depth / base, strain * linear_)),
-      settings.constitution == Constitution::Linear ? std::numeric_limits<double>::infinity()
-                                                    : linear_,
+      settings.constitution == ConstitutiveModel::Linear ? std::numeric_limits<double>::infinity()
+                                                         : linear_,
       "at large strain and outside the table of finite elements the tissue counts as linear" },
     { "thickness", "-", shown(radius / local.thickness),
       local.thickness < thinnest_ ? 0.0 : thickness_,
@@ -191,7 +194,7 @@ Rules Validity::operator()(const Indentation& local, double edgeDistance) const 
       "a contact more than 2.6 times as long as wide leaves the place whose curvature is known" },
     { "support", "-", shown(radius * local.surfaceCurvature * ball), kSupport,
       "how a convex body is held changes the force by more than 5 % either way" },
-    { "penetration", "-", shown(depth / local.thickness), kDeepest,
+    { "penetration", "-", shown(depth / local.thickness), kMaxDepth,
       "deeper than half the body nothing was compared with finite elements" },
   } };
 }

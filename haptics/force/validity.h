@@ -56,10 +56,11 @@ public:
   explicit Validity(const ForceLaw& law);
   Validity(const ForceLaw& law, const Limits& limits);
 
-  /// @param edgeDistance  from the contact to an open or sharp edge [m]; infinite where there is none
+  /// @param edgeDistance  from the contact to an open or sharp edge [m]; infinite where there is
+  /// none
   /// @source              Eqs. (7), (9), Secs. 3.2, 4.3
   /// @realtime            pure; no allocation, no lock, no exception
-  [[nodiscard]] Rules operator()(const Indentation& local,
+  [[nodiscard]] Rules operator()(const ContactGeometry& local,
     double edgeDistance = std::numeric_limits<double>::infinity()) const noexcept;
 
 private:

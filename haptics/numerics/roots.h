@@ -45,8 +45,7 @@ template <typename Function>
   auto& [low, high] = bracket;
   for (int i = 0; i < mostSteps && high - low > tolerance; ++i)
   {
-    const double middle =
-      std::clamp((low * atHigh - high * atLow) / (atHigh - atLow), low, high);
+    const double middle = std::clamp((low * atHigh - high * atLow) / (atHigh - atLow), low, high);
     const double value = function(middle);
     if (value == 0.0)
     {
@@ -62,13 +61,14 @@ template <typename Function>
 /// Newton's method where it is known to converge from the given start.
 ///
 /// @param stepAt  value over slope at a number
-/// @return        to about 1e-18 of itself, since the error of a step is the square of the one before
+/// @return        to about 1e-18 of itself, since the error of a step is the square of the one
+/// before
 /// @realtime      as stepAt
 template <typename Function>
 [[nodiscard]] double newton(double x, const Function& stepAt) noexcept
 {
-  constexpr int kMostSteps = 20; // three to five are usual
-  for (int i = 0; i < kMostSteps; ++i)
+  constexpr int kMaxSteps = 20; // three to five are usual
+  for (int i = 0; i < kMaxSteps; ++i)
   {
     const double step = stepAt(x);
     x -= step;

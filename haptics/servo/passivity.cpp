@@ -5,7 +5,7 @@ namespace palp
 namespace
 {
 
-// a coarse encoder makes the ledger too pessimistic without end
+// a coarse encoder makes the observed energy too pessimistic without end
 constexpr double kLargestDebt = 1e-3; // [J]
 
 } // namespace

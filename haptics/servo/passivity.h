@@ -9,8 +9,8 @@ namespace palp
 /// Time-domain passivity control: books the energy that the loop has given to the hand, and damps
 /// the hand while it has given more than it took.
 ///
-/// The ledger counts the force that really went to the device, held over the tick, times the way
-/// the device then went: this is the exact energy at the port, also between the samples.
+/// The observed energy counts the force that really went to the device, held over the tick, times
+/// the way the device then went: this is the exact energy at the port, also between the samples.
 ///
 /// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 2002
 class PassivityController

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double kFreeSpace = 0.050;     // [s] without contact end a soft start
-constexpr double kMostDamping = 2.0;     // of the law, by that of the device [-]
+constexpr double kMaxDamping = 2.0;      // of the law, by that of the device [-]
 constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
 constexpr double kWallDamping = 2.0;     // [N s/m]
 constexpr double kWallForce = 2.0;       // [N]
@@ -50,10 +50,10 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
 }
 
 // in simulated loops, from three times that of the device on, damping that comes a tick late makes
-// a hand hum
+// a hand limitCycleSpeed
 double SafetyChain::renderedDamping(double wanted) const noexcept
 {
-  return std::min(wanted, kMostDamping * device_.damping);
+  return std::min(wanted, kMaxDamping * device_.damping);
 }
 
 double SafetyChain::stiffnessLimit(double damping) const noexcept
@@ -92,7 +92,7 @@ void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene)
     force += workspaceForce(last_);
     shaped_ = bounded(force, largestForce(scene));
     fade();
-    sample.force = share_ * shaped_ + trust_ * fading_;
+    sample.force = share_ * shaped_ + watchdogGain_ * fading_;
     ramp(sample.contact.touching());
   }
   else
@@ -116,7 +116,7 @@ Eigen::Vector3d SafetyChain::rendered(
 {
   const double depth = sample.contact.depth;
   const double stiffest = stiffnessLimit(scene.damping);
-  reseat(law, depth, stiffest, scene.version);
+  rebase(law, depth, stiffest, scene.version);
   resumeShare();
   sample.response = depth > 0.0 ? law(depth) : Response{};
   Rendered felt = couple(law, depth - seat_, stiffest);
@@ -130,7 +130,7 @@ Eigen::Vector3d SafetyChain::rendered(
   }
   if (seat_ > 0.0) // also where the law is not yet felt
   {
-    raise(Flag::Reseated);
+    raise(Flag::Rebased);
   }
   normalForce_ = felt.force;
   sample.proxyDepth = felt.proxyDepth;
@@ -143,7 +143,7 @@ Eigen::Vector3d SafetyChain::rendered(
 }
 
 // where contact is felt to begin, so that no force jumps
-void SafetyChain::reseat(
+void SafetyChain::rebase(
   const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept
 {
   const bool changed = std::exchange(version_, version) != version;
@@ -161,7 +161,7 @@ void SafetyChain::reseat(
 // of the force that is sent; a share that grows goes on from the force that was
 void SafetyChain::resumeShare() noexcept
 {
-  const double share = trust_ * (state_ == DeviceState::Decay ? gain_ : 1.0);
+  const double share = watchdogGain_ * (state_ == DeviceState::Decay ? gain_ : 1.0);
   if (share > share_)
   {
     normalForce_ *= share_ / share;

@@ -32,8 +32,8 @@ struct SafetyOrders
   bool armed = false; ///< a fault is forgiven when this becomes true anew, without a stop
   bool stop = false;  ///< emergency stop
   /// Of the main thread [s]. What it knows of the world is trusted for 0.2 s and not at all after
-  /// 0.3 s; after 2 s, when no stop button can work, its silence is an emergency stop.
-  double silence = 0.0;
+  /// 0.3 s; after 2 s, when no stop button can work, its heartbeatAge is an emergency stop.
+  double heartbeatAge = 0.0;
 };
 
 /// Everything between a force law and a hand, in a fixed order, unconditional.
@@ -43,7 +43,7 @@ struct SafetyOrders
 /// is admit, then contact and law by the caller, then limit. Belongs to the servo thread.
 ///
 /// Whenever the law or the surface changes under the tool, or the force has to start in contact,
-/// the contact is reseated: felt from a depth at which no force jumps, until the tool has lifted.
+/// the contact is rebased: felt from a depth at which no force jumps, until the tool has lifted.
 /// So a change cannot give energy to the hand.
 class SafetyChain
 {
@@ -91,7 +91,7 @@ private:
   void forceOff(DeviceState state) noexcept;
   [[nodiscard]] Eigen::Vector3d rendered(
     Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
-  void reseat(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
+  void rebase(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
   void resumeShare() noexcept;
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
@@ -124,7 +124,7 @@ private:
   double dt_ = 0.0;           // of this tick, bounded [s]
   double gain_ = 0.0;         // share of the largest force that may be, of the force in decay
   double share_ = 0.0;        // of the force that is sent while it decays or the device is silent
-  double trust_ = 0.0;        // less than 1 while the device is silent
+  double watchdogGain_ = 0.0; // less than 1 while the device is silent
   double apart_ = 0.0;        // time without contact [s]
   int restarts_ = 0;          // after late ticks, since the force was last whole
 

@@ -11,18 +11,18 @@ namespace
 {
 
 constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
-constexpr int kMostDropped = 3;         // poses in a row that may be implausible
+constexpr int kMaxDropped = 3;          // poses in a row that may be implausible
 constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
 constexpr double kLatestTicks = 5.0;
-constexpr int kMostRestarts = 5; // of a force that late ticks let never become whole
+constexpr int kMaxRestarts = 5; // of a force that late ticks let never become whole
 
-// a silence that is borne at first, then lets the force fade, then ends it [s]
+// a heartbeatAge that is borne at first, then lets the force fade, then ends it [s]
 struct Silence
 {
   double borne;
   double ends;
 
-  [[nodiscard]] double trust(double age) const noexcept
+  [[nodiscard]] double watchdogGain(double age) const noexcept
   {
     return age < ends ? std::min(1.0, (ends - age) / (ends - borne)) : 0.0;
   }
@@ -41,7 +41,7 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
   sinceLast_ += std::max(elapsed, dt_);
   period_.record(elapsed);
-  const bool stopped = orders.stop || status.stopped || !(orders.silence <= kMainThreadGone);
+  const bool stopped = orders.stop || status.stopped || !(orders.heartbeatAge <= kMainThreadGone);
   if (orders.armed && !wasArmed_ && !stopped) // a new wish forgives
   {
     latched_ = 0;
@@ -85,7 +85,7 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
     raise(Flag::Late);
     forceOff(DeviceState::SoftStart);
     fading_ = sent_;
-    if (++restarts_ > kMostRestarts)
+    if (++restarts_ > kMaxRestarts)
     {
       fault(Flag::Late);
     }
@@ -105,7 +105,7 @@ bool SafetyChain::plausible(const ToolPose& pose, double age) noexcept
   }
   raise(Flag::Jump);
   last_.velocity.setZero();
-  if (++dropped_ <= kMostDropped)
+  if (++dropped_ <= kMaxDropped)
   {
     return false;
   }
@@ -117,15 +117,16 @@ bool SafetyChain::plausible(const ToolPose& pose, double age) noexcept
 
 void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept
 {
-  trust_ = std::min(kDeviceSilence.trust(status.age), kMainThreadSilence.trust(orders.silence));
+  watchdogGain_ = std::min(
+    kDeviceSilence.watchdogGain(status.age), kMainThreadSilence.watchdogGain(orders.heartbeatAge));
   if (!(status.age < kDeviceSilence.ends))
   {
     fault(Flag::Stale);
   }
-  const bool watched = orders.silence < kMainThreadSilence.ends;
-  if (!(orders.silence < kMainThreadSilence.borne))
+  const bool watched = orders.heartbeatAge < kMainThreadSilence.ends;
+  if (!(orders.heartbeatAge < kMainThreadSilence.borne))
   {
-    raise(Flag::Unwatched);
+    raise(Flag::WatchdogExpired);
   }
   if (!watched && forceOn())
   {

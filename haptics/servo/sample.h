@@ -18,17 +18,17 @@ enum class Flag : std::uint32_t
   Disarmed = 4,      ///< force off until the user arms the device
   EmergencyStop = 8, ///< force off until the user takes the stop back and arms again
   DeviceLost = 16,
-  Jump = 32,              ///< the pose moved faster than a hand can
-  Stale = 64,             ///< the device has been silent too long
-  NotHomed = 128,         ///< its positions mean nothing yet
-  Late = 256,             ///< ticks come so late that the force starts again, or ends
-  StiffnessLimited = 512, ///< the law is stiffer here than the device can render
-  Passivity = 1024,       ///< damped, because the loop had given out energy
-  SlewLimited = 2048,     ///< the force rises or falls more slowly than asked
-  Workspace = 4096,       ///< pushed back from the end of the device's reach
-  Reseated = 8192,        ///< contact is felt from a depth below the surface, until the tool lifts
-  Unwatched = 16384,      ///< the main thread is silent: the force fades until it is back
-  DampingLimited = 32768, ///< the law damps more than the device can render
+  Jump = 32,               ///< the pose moved faster than a hand can
+  Stale = 64,              ///< the device has been silent too long
+  NotHomed = 128,          ///< its positions mean nothing yet
+  Late = 256,              ///< ticks come so late that the force starts again, or ends
+  StiffnessLimited = 512,  ///< the law is stiffer here than the device can render
+  Passivity = 1024,        ///< damped, because the loop had given out energy
+  SlewLimited = 2048,      ///< the force rises or falls more slowly than asked
+  Workspace = 4096,        ///< pushed back from the end of the device's reach
+  Rebased = 8192,          ///< contact is felt from a depth below the surface, until the tool lifts
+  WatchdogExpired = 16384, ///< the main thread is silent: the force fades until it is back
+  DampingLimited = 32768,  ///< the law damps more than the device can render
 };
 
 /// Where a device stands between closed and felt.

@@ -1,8 +1,8 @@
 #include "haptics/servo/servo.h"
 
-#include "haptics/threads/realtime.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
+#include "haptics/threads/realtime.h"
 
 #include <Eigen/Core>
 #include <optional>
@@ -54,14 +54,14 @@ void Servo::waitUntil(Clock::time_point due) noexcept
   }
 }
 
-Sample Servo::answer(
+Sample Servo::computeSample(
   const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept
 {
   const bool stopped = stopped_.load(std::memory_order_relaxed) ||
     (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed));
   const SafetyOrders orders{ .armed = scene.armed,
     .stop = stopped,
-    .silence = seconds(Clock::now() - looked_.load(std::memory_order_relaxed)) };
+    .heartbeatAge = seconds(Clock::now() - looked_.load(std::memory_order_relaxed)) };
   if (chain_)
   {
     const ToolPose held{ .apex = held_.apex, .axis = held_.axis };
@@ -97,7 +97,7 @@ void Servo::run(const std::stop_token& stop) noexcept
     const std::optional<ToolPose> pose = device_.exchange(force, elapsed);
     last = awake;
     const Clock::time_point begin = Clock::now();
-    Sample sample = answer(scene_.read(), pose, elapsed);
+    Sample sample = computeSample(scene_.read(), pose, elapsed);
     sample.time = seconds(awake - start);
     force = sample.force;
     timing_.step.record(Clock::now() - begin);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "haptics/devices/device.h"
-#include "haptics/threads/latest.h"
-#include "haptics/threads/ring.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 #include "haptics/servo/timing.h"
+#include "haptics/threads/latest.h"
+#include "haptics/threads/ring.h"
 
 #include <atomic>
 #include <chrono>
@@ -59,7 +59,7 @@ public:
   /// For the picture. Main thread only; the reference stays valid until the next call.
   ///
   /// Whoever renders force must look ten times a second: the force of a main thread that is silent
-  /// fades, and after two seconds its silence is an emergency stop.
+  /// fades, and after two seconds its heartbeatAge is an emergency stop.
   [[nodiscard]] const Sample& newest() noexcept
   {
     looked_.store(Clock::now(), std::memory_order_relaxed);
@@ -92,7 +92,7 @@ public:
 
 private:
   void run(const std::stop_token& stop) noexcept;
-  [[nodiscard]] Sample answer(
+  [[nodiscard]] Sample computeSample(
     const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept;
   void waitUntil(Clock::time_point due) noexcept;
 

@@ -1,6 +1,6 @@
 #include "haptics/servo/servo_step.h"
 
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +17,14 @@ void raise(Sample& sample, Flag flag) noexcept
 
 } // namespace
 
-Response respond(const Scene& scene, const Contact& contact, double depth) noexcept
+Response evaluateLaw(const Scene& scene, const Contact& contact, double depth) noexcept
 {
-  Indentation place = indentationOf(contact);
+  ContactGeometry place = contactGeometryOf(contact);
   place.depth = depth;
   return scene.law(place);
 }
 
-Sample touch(const Scene& scene, const ToolPose& pose) noexcept
+Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept
 {
   Sample sample;
   sample.pose = pose;
@@ -40,7 +40,7 @@ Sample touch(const Scene& scene, const ToolPose& pose) noexcept
   sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
   if (sample.contact.touching())
   {
-    sample.response = respond(scene, sample.contact, sample.contact.depth);
+    sample.response = evaluateLaw(scene, sample.contact, sample.contact.depth);
     sample.proxyDepth = sample.contact.depth;
   }
   return sample;
@@ -48,7 +48,7 @@ Sample touch(const Scene& scene, const ToolPose& pose) noexcept
 
 Sample step(const Scene& scene, const ToolPose& pose) noexcept
 {
-  Sample sample = touch(scene, pose);
+  Sample sample = evaluateContact(scene, pose);
   if (!sample.contact.touching())
   {
     return sample;
@@ -78,9 +78,9 @@ Sample step(const Scene& scene, SafetyChain& chain, const std::optional<ToolPose
   sample.pose = held;
   if (admitted)
   {
-    sample = touch(scene, *admitted);
+    sample = evaluateContact(scene, *admitted);
   }
-  const auto law = [&](double depth) noexcept { return respond(scene, sample.contact, depth); };
+  const auto law = [&](double depth) noexcept { return evaluateLaw(scene, sample.contact, depth); };
   chain.limit(sample, law, scene);
   return sample;
 }

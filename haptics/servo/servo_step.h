@@ -11,11 +11,12 @@ namespace palp
 ///
 /// @return    flagged, and without contact, where the pose is not finite
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Sample touch(const Scene& scene, const ToolPose& pose) noexcept;
+[[nodiscard]] Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept;
 
 /// The law of a scene at a contact, as if it were another depth there.
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Response respond(const Scene& scene, const Contact& contact, double depth) noexcept;
+[[nodiscard]] Response evaluateLaw(
+  const Scene& scene, const Contact& contact, double depth) noexcept;
 
 /// Tool pose in, force out: contact, analytical law, damping, limit.
 ///

@@ -104,7 +104,7 @@ public:
     return chain_ && chain_->state() == DeviceState::Ready; // though it is armed
   }
 
-  [[nodiscard]] double ledger() const
+  [[nodiscard]] double observedEnergy() const
   {
     return chain_ ? chain_->energy() : 0.0;
   }
@@ -167,7 +167,7 @@ void seeSpeed(LoopResult& result, double share, double speed, double force)
   }
   if (share > 0.875 && force > 0.0)
   {
-    result.hum = std::max(result.hum, speed);
+    result.limitCycleSpeed = std::max(result.limitCycleSpeed, speed);
   }
 }
 
@@ -220,7 +220,7 @@ LoopResult simulate(const LoopCase& loop)
   }
   result.portEnd = port;
   result.tailSpeed = tailTime > 0.0 ? std::sqrt(tail / tailTime) : 0.0;
-  result.ledgerEnd = controller.ledger();
+  result.observedEnergyEnd = controller.observedEnergy();
   result.ended = controller.ended();
   result.flags = controller.flags();
   result.endDepth = motion.depth;

@@ -48,16 +48,16 @@ struct LoopResult
   double energy = 0.0;     ///< least of port energy + integral of b v^2 [J]; passive: 0 or more
   double portEnergy = 0.0; ///< least energy taken from the hand by the force [J]
   double portEnd = 0.0;    ///< the same at the end [J]
-  double ledgerEnd = 0.0;  ///< what the chain believes it is [J]
-  double peakForce = 0.0;  ///< [N]
-  double peakStep = 0.0;   ///< largest change of force between two ticks [N]
-  double earlySpeed = 0.0; ///< largest between 1/8 and 1/4 of the duration [m/s]
-  double hum = 0.0;        ///< largest under a force in the last eighth [m/s]
-  double tailSpeed = 0.0;  ///< root mean square in the last quarter [m/s]
-  double endDepth = 0.0;   ///< [m]
-  double endForce = 0.0;   ///< [N]
-  bool ended = false;      ///< a fault of the chain ended the force for good
-  std::uint32_t flags = 0; ///< of Flag, raised at least once
+  double observedEnergyEnd = 0.0; ///< what the chain believes it is [J]
+  double peakForce = 0.0;         ///< [N]
+  double peakStep = 0.0;          ///< largest change of force between two ticks [N]
+  double earlySpeed = 0.0;        ///< largest between 1/8 and 1/4 of the duration [m/s]
+  double limitCycleSpeed = 0.0;   ///< largest under a force in the last eighth [m/s]
+  double tailSpeed = 0.0;         ///< root mean square in the last quarter [m/s]
+  double endDepth = 0.0;          ///< [m]
+  double endForce = 0.0;          ///< [N]
+  bool ended = false;             ///< a fault of the chain ended the force for good
+  std::uint32_t flags = 0;        ///< of Flag, raised at least once
 };
 
 /// Plays a case. The plant moves exactly under a force that is held over each tick; its energy is

@@ -164,7 +164,7 @@ struct Stage
 
 // in the order of the chain
 constexpr Stage kStages[] = { { Flag::Late, "late" }, { Flag::StiffnessLimited, "stiffness" },
-  { Flag::Reseated, "reseat" }, { Flag::DampingLimited, "damping" },
+  { Flag::Rebased, "rebase" }, { Flag::DampingLimited, "damping" },
   { Flag::Passivity, "passivity" }, { Flag::Limited, "force" }, { Flag::SlewLimited, "slew" } };
 
 std::string stagesIn(std::uint32_t flags)
@@ -221,16 +221,17 @@ StabilityRow judge(const StabilityCase& which, bool chain)
     loop.chain = SafetySettings{};
   }
   const LoopResult exact = simulate(loop);
-  loop.plant.quantum = StabilityLimits::kHumQuantum;
+  loop.plant.quantum = StabilityLimits::kLimitCycleQuantum;
   const LoopResult coarse = simulate(loop);
 
   StabilityRow row{ .limitedBy = stagesIn(exact.flags | coarse.flags),
     .peakForce = std::max(exact.peakForce, coarse.peakForce),
-    .hum = coarse.hum,
+    .limitCycleSpeed = coarse.limitCycleSpeed,
     .energy = exact.energy };
   const double early = std::max(exact.earlySpeed, StabilityLimits::kAtRest);
-  if (row.energy < StabilityLimits::kEnergy || exact.hum > StabilityLimits::kEnvelope * early ||
-    row.hum > StabilityLimits::kHum)
+  if (row.energy < StabilityLimits::kEnergy ||
+    exact.limitCycleSpeed > StabilityLimits::kEnvelope * early ||
+    row.limitCycleSpeed > StabilityLimits::kLimitCycleSpeed)
   {
     row.outcome = StabilityOutcome::Unstable;
   }

@@ -31,21 +31,22 @@ enum class StabilityOutcome
 struct StabilityRow
 {
   StabilityOutcome outcome = StabilityOutcome::Stable;
-  std::string limitedBy;  ///< stages that acted, joined by +; "none"
-  double peakForce = 0.0; ///< [N]
-  double hum = 0.0;       ///< late speed with an encoder of kHumQuantum [m/s]
-  double energy = 0.0;    ///< least of port energy + integral of b v^2, exact encoder [J]
+  std::string limitedBy;        ///< stages that acted, joined by +; "none"
+  double peakForce = 0.0;       ///< [N]
+  double limitCycleSpeed = 0.0; ///< late speed with an encoder of kLimitCycleQuantum [m/s]
+  double energy = 0.0;          ///< least of port energy + integral of b v^2, exact encoder [J]
 };
 
 /// What counts as unstable.
-/// @source  energy and envelope: the rest of a held press; hum: the smallest that fingers notice
+/// @source  energy and envelope: the rest of a held press; limitCycleSpeed: the smallest that
+/// fingers notice
 struct StabilityLimits
 {
-  static constexpr double kEnergy = -1e-6;     ///< [J]
-  static constexpr double kEnvelope = 0.1;     ///< late by early speed [-]
-  static constexpr double kHum = 0.025;        ///< [m/s]
-  static constexpr double kHumQuantum = 48e-6; ///< [m], that of a Novint Falcon
-  static constexpr double kAtRest = 1e-4;      ///< speed below which nothing grows [m/s]
+  static constexpr double kEnergy = -1e-6;            ///< [J]
+  static constexpr double kEnvelope = 0.1;            ///< late by early speed [-]
+  static constexpr double kLimitCycleSpeed = 0.025;   ///< [m/s]
+  static constexpr double kLimitCycleQuantum = 48e-6; ///< [m], that of a Novint Falcon
+  static constexpr double kAtRest = 1e-4;             ///< speed below which nothing grows [m/s]
 };
 
 /// The cases: soft to rigid, compressible to nearly not, first touch to deeper than the tool,

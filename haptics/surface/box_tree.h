@@ -26,7 +26,7 @@ struct Facet
 /// Flat tree of boxes over triangles, nodes and facets in depth-first order.
 ///
 /// Boxes are single precision, rounded outwards: half the bytes, never too small. A triangle
-/// without area has no normal and is left out; its edges belong to its neighbours as well.
+/// without area has no normal and is left out; its edges belong to its neighbors as well.
 class BoxTree
 {
 public:

@@ -46,7 +46,7 @@ HalfEdges halfEdgesOf(const Surface& surface)
     {
       throw Error(ErrorCode::BadMesh,
         "surface: triangle " + std::to_string(i) +
-          " does not fit its neighbours; repair the mesh, or press it undecimated");
+          " does not fit its neighbors; repair the mesh, or press it undecimated");
     }
   }
   return mesh;

@@ -1,6 +1,6 @@
 #include "haptics/surface/deviation.h"
 
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/closest_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ Deviation deviation(const Surface& a, const Surface& b)
         continue;
       }
       const double distance =
-        findNearest(to, from.points()[i], std::numeric_limits<double>::infinity()).distance;
+        findClosestPoint(to, from.points()[i], std::numeric_limits<double>::infinity()).distance;
       largest = std::max(largest, std::abs(distance));
       sum += distance * distance;
       ++count;

@@ -11,7 +11,7 @@ namespace palp
 /// Where a ray meets a surface.
 struct RayHit
 {
-  int triangle = -1; ///< -1: nowhere
+  int triangle = -1;                                         ///< -1: nowhere
   double distance = std::numeric_limits<double>::infinity(); ///< along the ray [m], more than 0
 };
 

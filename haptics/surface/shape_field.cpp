@@ -19,10 +19,10 @@ constexpr double kEdges = 2.0;         // edges of the mesh there; fewer come th
 constexpr double kWidest = 1.0 / 6.0;  // of the diagonal: the least radius, however coarse the mesh
 constexpr double kFine = 0.5;          // cells in the least radius, the reciprocal
 constexpr double kCoarse = 0.25;       // the same where edges of the mesh set that radius
-constexpr double kMostPieces = 100000.0; // of the triangles, beyond one each
-constexpr double kTurn = 3.0;            // cells to each side of an edge within which it turns
-constexpr double kSharp = 0.8;           // [rad] that a sharp one turns there: 55 degrees
-constexpr float kOneSide = 0.8F;         // length of the mean normal of one side of the surface
+constexpr double kMaxPieces = 100000.0; // of the triangles, beyond one each
+constexpr double kTurn = 3.0;           // cells to each side of an edge within which it turns
+constexpr double kSharp = 0.8;          // [rad] that a sharp one turns there: 55 degrees
+constexpr float kOneSide = 0.8F;        // length of the mean normal of one side of the surface
 
 // diagonal of the box about all triangles
 double diagonal(const BoxTree::Node& box)
@@ -53,8 +53,8 @@ double leastCell(const BoxTree& tree)
     area += 0.5 * (b - a).cross(c - a).norm();
     length += longestEdge(facet.corners);
   }
-  const double pieces = kMostPieces + 4.0 * static_cast<double>(tree.facets().size());
-  return std::max(std::sqrt(4.0 * area / kMostPieces), 2.0 * length / pieces);
+  const double pieces = kMaxPieces + 4.0 * static_cast<double>(tree.facets().size());
+  return std::max(std::sqrt(4.0 * area / kMaxPieces), 2.0 * length / pieces);
 }
 
 } // namespace

@@ -37,7 +37,7 @@ class ShapeField
 public:
   ShapeField() = default;
 
-  /// @param surface  with its tree and neighbours
+  /// @param surface  with its tree and neighbors
   explicit ShapeField(const Surface& surface);
 
   /// Averages over the part of the surface in a ball that faces along a normal.
@@ -84,7 +84,8 @@ private:
   };
 
   template <typename Visit>
-  void search(const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
+  void search(
+    const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
   void build(std::span<Piece> pieces, float cell);
   void measureLeaves(const Surface& surface);
   void addUp();
@@ -94,7 +95,7 @@ private:
   std::vector<Node> nodes_; // depth first
   std::vector<Sums> sums_;
   std::vector<char> sharp_; // nodes that hold some of a sharp edge; while setting up
-  double cell_ = 0.0; // longest side of a leaf [m]
+  double cell_ = 0.0;       // longest side of a leaf [m]
   double finest_ = 0.0;
   bool hasEdges_ = false;
 };

@@ -1,7 +1,7 @@
 #include "haptics/surface/surface.h"
 
-#include "haptics/surface/sides.h"
 #include "haptics/error.h"
+#include "haptics/surface/sides.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -127,26 +127,26 @@ void Surface::linkEdges()
     });
   edgeLength_ = std::sqrt(sum / static_cast<double>(edges.size()));
 
-  firstNeighbour_.assign(points_.size() + 1, 0);
+  firstNeighbor_.assign(points_.size() + 1, 0);
   for (const auto& [a, b] : edges)
   {
-    ++firstNeighbour_[at(a) + 1];
-    ++firstNeighbour_[at(b) + 1];
+    ++firstNeighbor_[at(a) + 1];
+    ++firstNeighbor_[at(b) + 1];
   }
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    firstNeighbour_[i + 1] += firstNeighbour_[i];
+    firstNeighbor_[i + 1] += firstNeighbor_[i];
   }
-  neighbours_.resize(2 * edges.size());
-  std::vector<int> next = firstNeighbour_;
+  neighbors_.resize(2 * edges.size());
+  std::vector<int> next = firstNeighbor_;
   for (const auto& [a, b] : edges)
   {
-    neighbours_[at(next[at(a)]++)] = b;
-    neighbours_[at(next[at(b)]++)] = a;
+    neighbors_[at(next[at(a)]++)] = b;
+    neighbors_[at(next[at(b)]++)] = a;
   }
 }
 
-// each point takes over the nearest open edge that one of its neighbours knows, nearest first
+// each point takes over the nearest open edge that one of its neighbors knows, nearest first
 void Surface::spreadOpenEdges()
 {
   struct Offer
@@ -178,19 +178,19 @@ void Surface::spreadOpenEdges()
     }
     nearestOpenEdge_[at(offer.point)] = offer.edge;
     const auto& [a, b] = openEdges_[at(offer.edge)];
-    for (const int neighbour : neighbours(offer.point))
+    for (const int neighbor : neighbors(offer.point))
     {
       const double distance =
-        distanceToSegment(points_[at(neighbour)], points_[at(a)], points_[at(b)]);
-      offers.push({ distance, neighbour, offer.edge });
+        distanceToSegment(points_[at(neighbor)], points_[at(a)], points_[at(b)]);
+      offers.push({ distance, neighbor, offer.edge });
     }
   }
 }
 
-std::span<const int> Surface::neighbours(int point) const noexcept
+std::span<const int> Surface::neighbors(int point) const noexcept
 {
-  const int first = firstNeighbour_[at(point)];
-  return { neighbours_.data() + first, at(firstNeighbour_[at(point) + 1] - first) };
+  const int first = firstNeighbor_[at(point)];
+  return { neighbors_.data() + first, at(firstNeighbor_[at(point) + 1] - first) };
 }
 
 bool Surface::onOpenEdge(int point) const noexcept

@@ -15,7 +15,7 @@ namespace palp
 class Surface
 {
 public:
-  /// Checks the triangles, computes normals and neighbours, builds the box tree.
+  /// Checks the triangles, computes normals and neighbors, builds the box tree.
   ///
   /// Degenerate triangles and points without a triangle are allowed and ignored by the search.
   ///
@@ -43,7 +43,7 @@ public:
   }
 
   /// Points that share an edge with a point.
-  [[nodiscard]] std::span<const int> neighbours(int point) const noexcept;
+  [[nodiscard]] std::span<const int> neighbors(int point) const noexcept;
 
   /// Triangle across the edge from corner k to corner k + 1; -1 where there is none, or no one.
   [[nodiscard]] int across(int triangle, int k) const noexcept
@@ -97,8 +97,8 @@ private:
   std::vector<Eigen::Vector3d> points_;
   std::vector<Triangle> triangles_;
   std::vector<Eigen::Vector3d> normals_;
-  std::vector<int> firstNeighbour_; // CSR, #points + 1
-  std::vector<int> neighbours_;
+  std::vector<int> firstNeighbor_; // CSR, #points + 1
+  std::vector<int> neighbors_;
   std::vector<int> firstTriangle_;
   std::vector<std::array<int, 3>> across_;
   std::vector<std::array<int, 2>> openEdges_;

@@ -14,8 +14,8 @@ namespace palp
 namespace
 {
 
-constexpr std::size_t kMostPoints = 10'000; // bounds the time to bake a table
-constexpr double kRounding = 1e-4;          // [-], slope that the rounding of a file may take back
+constexpr std::size_t kMaxPoints = 10'000; // bounds the time to bake a table
+constexpr double kRounding = 1e-4;         // [-], slope that the rounding of a file may take back
 
 using Point = Profile::Point;
 
@@ -72,7 +72,7 @@ bool isCorner(const std::vector<Point>& p, std::size_t i)
 }
 
 // slope at a point that is no corner: the middle one of the parabolas before, around and after
-// it, so that a jump of the curvature here spoils none of the neighbouring pieces
+// it, so that a jump of the curvature here spoils none of the neighboring pieces
 double smoothSlope(const std::vector<Point>& p, const std::vector<char>& corner, std::size_t i)
 {
   const double around = parabolaSlope(p, i, i - 1, i + 1);
@@ -94,7 +94,7 @@ Profile Profile::read(const std::filesystem::path& file)
   for (const NumberTable::Row& row : table.rows)
   {
     points.push_back(
-      { units::fromMillimetres(row.values[0]), units::fromMillimetres(row.values[1]) });
+      { units::fromMillimeters(row.values[0]), units::fromMillimeters(row.values[1]) });
     if (const auto wrong = fault(points, points.size() - 1))
     {
       throw Error(ErrorCode::BadFile, where(file, row.line) + *wrong);
@@ -114,11 +114,11 @@ Profile Profile::read(const std::filesystem::path& file)
 Profile::Profile(std::vector<Point> points, std::string name)
   : name_(std::move(name))
 {
-  if (points.size() < 3 || points.size() > kMostPoints)
+  if (points.size() < 3 || points.size() > kMaxPoints)
   {
     throw Error(ErrorCode::BadValue,
       "profile: " + std::to_string(points.size()) + " points; give 3 to " +
-        std::to_string(kMostPoints));
+        std::to_string(kMaxPoints));
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {

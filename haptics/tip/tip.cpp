@@ -138,7 +138,7 @@ void checkRange(double value, double lowest, double highest, const char* what,
 
 void checkLength(double value, double lowest, double highest, const char* what)
 {
-  checkRange(value, lowest, highest, what, units::toMillimetres, " mm");
+  checkRange(value, lowest, highest, what, units::toMillimeters, " mm");
 }
 
 void checkRadius(double value, const char* what)

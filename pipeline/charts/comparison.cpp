@@ -15,10 +15,10 @@ namespace
 
 constexpr int kSteps = 200;
 
-std::vector<double> inMillimetres(std::vector<double> metres)
+std::vector<double> inMillimeters(std::vector<double> meters)
 {
-  std::transform(metres.begin(), metres.end(), metres.begin(), &units::toMillimetres);
-  return metres;
+  std::transform(meters.begin(), meters.end(), meters.begin(), &units::toMillimeters);
+  return meters;
 }
 
 std::vector<double> depthsTo(double deepest)
@@ -59,7 +59,7 @@ std::unique_ptr<Plot> forcePlot(
 {
   auto plot = std::make_unique<Plot>("force over depth", "depth \u03b4 [mm]", "force [N]");
   const std::vector<double> depths = depthsTo(deepest);
-  const std::vector<double> shown = inMillimetres(depths);
+  const std::vector<double> shown = inMillimeters(depths);
   const std::vector<double> first = forcesOf(laws.front(), depths);
   const double margin = Validity::kJustNoticeable * first.back();
   std::vector<double> low = first;
@@ -79,7 +79,7 @@ std::unique_ptr<Plot> forcePlot(
   for (const ReferenceCurve& reference : references)
   {
     plot->addPoints(
-      reference.name, inMillimetres(reference.x), reference.y, appearance::curveColor(color++));
+      reference.name, inMillimeters(reference.x), reference.y, appearance::curveColor(color++));
   }
   return plot;
 }
@@ -90,7 +90,7 @@ std::unique_ptr<Plot> forceErrorPlot(
   const NamedLaw& law = laws.front();
   auto plot = std::make_unique<Plot>(
     law.name + " against the references", "depth \u03b4 [mm]", "difference [% of the largest]");
-  const std::vector<double> shown = inMillimetres(depthsTo(deepest));
+  const std::vector<double> shown = inMillimeters(depthsTo(deepest));
   const std::vector<double> low(shown.size(), -100.0 * Validity::kJustNoticeable);
   const std::vector<double> high(shown.size(), 100.0 * Validity::kJustNoticeable);
   plot->addBand("just noticed by a hand", shown, low, high, appearance::curveColor(0));
@@ -105,7 +105,7 @@ std::unique_ptr<Plot> forceErrorPlot(
       error.push_back(100.0 * (ours - reference.y[i]) / largest);
     }
     plot->addLine(
-      reference.name, inMillimetres(reference.x), error, appearance::curveColor(color++));
+      reference.name, inMillimeters(reference.x), error, appearance::curveColor(color++));
   }
   return plot;
 }
@@ -118,8 +118,8 @@ std::unique_ptr<Plot> extentPlot(
   std::vector<double> radii;
   for (const ExtentTable::Row& row : table.rows())
   {
-    depths.push_back(units::toMillimetres(row.depth));
-    radii.push_back(units::toMillimetres(row.extentRadius));
+    depths.push_back(units::toMillimeters(row.depth));
+    radii.push_back(units::toMillimeters(row.extentRadius));
   }
   // R_d = c1 depth + c2 depth^2 + c0 over the rows where there is one
   Eigen::Matrix3d sums = Eigen::Matrix3d::Zero();
@@ -134,12 +134,12 @@ std::unique_ptr<Plot> extentPlot(
     }
   }
   const Eigen::Vector3d fit = sums.completeOrthogonalDecomposition().solve(right);
-  const std::vector<double> shown = inMillimetres(depthsTo(table.rows().back().depth));
+  const std::vector<double> shown = inMillimeters(depthsTo(table.rows().back().depth));
   std::vector<double> line;
   std::vector<double> curve;
   for (const double depth : shown)
   {
-    line.push_back(units::toMillimetres(table.extentRadius(units::fromMillimetres(depth))));
+    line.push_back(units::toMillimeters(table.extentRadius(units::fromMillimeters(depth))));
     curve.push_back(std::max(0.0, fit.dot(Eigen::Vector3d(1.0, depth, depth * depth))));
   }
   plot->addLine("table, linear in between", shown, line, appearance::curveColor(0));
@@ -148,7 +148,7 @@ std::unique_ptr<Plot> extentPlot(
   std::size_t color = 2;
   for (const ReferenceCurve& reference : references)
   {
-    plot->addPoints(reference.name, inMillimetres(reference.x), inMillimetres(reference.y),
+    plot->addPoints(reference.name, inMillimeters(reference.x), inMillimeters(reference.y),
       appearance::curveColor(color++));
   }
   return plot;

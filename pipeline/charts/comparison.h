@@ -3,8 +3,8 @@
 #include "calibration/tables/extent_table.h"
 #include "haptics/force/force_law.h"
 #include "pipeline/charts/plot.h"
-#include "pipeline/model/reference_curve.h"
 #include "pipeline/deform/vtkPalpDeformFilter.h"
+#include "pipeline/model/reference_curve.h"
 
 #include <Eigen/Core>
 #include <memory>
@@ -20,14 +20,14 @@ struct NamedLaw
 {
   std::string name;
   ForceLaw law;
-  Indentation
+  ContactGeometry
     place{}; ///< what the law knows but the depth; by default a half-space pressed straight
   std::optional<std::size_t>
     color{}; ///< as curveColor, which then is no reference's; none: the next
 
   [[nodiscard]] double force(double depth) const noexcept
   {
-    Indentation at = place;
+    ContactGeometry at = place;
     at.depth = depth;
     return law(at).force;
   }
@@ -43,7 +43,7 @@ struct NamedLaw
   const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references);
 
 /// Difference of the references from the first law, in per cent of the largest reference force; in
-/// the colours of forcePlot().
+/// the colors of forcePlot().
 /// @source Eq. (9)
 [[nodiscard]] std::unique_ptr<Plot> forceErrorPlot(
   const std::vector<NamedLaw>& laws, double deepest, const std::vector<ReferenceCurve>& references);

@@ -163,8 +163,8 @@ void ForceCharts::refresh()
   }
   const double force =
     std::max(largest(*samples_->GetOutput(0), 1), largest(*rendered_->GetOutput(0), 1));
-  const double depthLimit = units::fromMillimetres(
-    roomFor(largest(*samples_->GetOutput(1), 0), units::toMillimetres(kFirstDepth)));
+  const double depthLimit = units::fromMillimeters(
+    roomFor(largest(*samples_->GetOutput(1), 0), units::toMillimeters(kFirstDepth)));
   if (depthLimit != lawLimit_)
   {
     drawLaw(depthLimit);
@@ -177,7 +177,7 @@ void ForceCharts::refresh()
                                      : last;
   setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
   setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(force, kFirstForce));
-  setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimetres(depthLimit));
+  setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimeters(depthLimit));
   setRange(*overDepth_, vtkAxis::LEFT, 0.0,
     roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));
 }
@@ -217,7 +217,7 @@ void ForceCharts::drawLaw(double depthLimit)
   for (vtkIdType i = 0; i < kLawPoints; ++i)
   {
     const double depth = depthLimit * static_cast<double>(i) / (kLawPoints - 1);
-    lawTable_->SetValue(i, 0, units::toMillimetres(depth));
+    lawTable_->SetValue(i, 0, units::toMillimeters(depth));
     lawTable_->SetValue(i, 1, law_({ .depth = depth }).force);
   }
   lawTable_->GetColumn(0)->Modified();

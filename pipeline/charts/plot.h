@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/view/appearance.h"
 #include "pipeline/charts/vtkPalpChart.h"
+#include "pipeline/view/appearance.h"
 
 #include <filesystem>
 #include <iosfwd>

@@ -1,7 +1,7 @@
 #include "pipeline/charts/plot_files.h"
 
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
+#include "haptics/files/replace_file.h"
 
 #include <algorithm>
 #include <cerrno>

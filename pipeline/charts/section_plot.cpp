@@ -30,13 +30,13 @@ constexpr appearance::Color kToolLine{ 0.45, 0.47, 0.50 };
 
 struct Line
 {
-  std::vector<double> x; // [mm] from the contact's centre
+  std::vector<double> x; // [mm] from the contact's center
   std::vector<double> y; // [mm] along the normal
 
   void add(double along, double up)
   {
-    x.push_back(units::toMillimetres(along));
-    y.push_back(units::toMillimetres(up));
+    x.push_back(units::toMillimeters(along));
+    y.push_back(units::toMillimeters(up));
   }
 };
 
@@ -191,8 +191,8 @@ void addBezier(Plot& plot, const Dent& dent, int direction, double side, const F
   {
     const std::size_t at = side > 0.0 ? cut.middle + i : cut.middle - i; // outwards
     const std::size_t before = i == 0 ? at : (side > 0.0 ? at - 1 : at + 1);
-    const double along = units::fromMillimetres(rest.x[at]);
-    const double up = units::fromMillimetres(rest.y[at]);
+    const double along = units::fromMillimeters(rest.x[at]);
+    const double up = units::fromMillimeters(rest.y[at]);
     const double distance =
       dent.region().placeInFront(frame.center + along * frame.along + up * frame.up).distance;
     for (; next < sinks.size() && distance >= sinks[next].first; ++next)
@@ -200,7 +200,7 @@ void addBezier(Plot& plot, const Dent& dent, int direction, double side, const F
       const double t = (sinks[next].first - last) / std::max(distance - last, 1e-12);
       control.x.push_back(rest.x[before] + t * (rest.x[at] - rest.x[before]));
       control.y.push_back(rest.y[before] + t * (rest.y[at] - rest.y[before]) -
-        units::toMillimetres(sinks[next].second));
+        units::toMillimeters(sinks[next].second));
     }
     if (distance >= ring.inner && distance <= ring.outer)
     {
@@ -221,10 +221,10 @@ void addElements(Plot& plot, const SurfaceProfile& elements, const Line& rest)
     Line line;
     for (std::size_t i = 0; i < rest.x.size(); ++i)
     {
-      const double radius = side * units::fromMillimetres(rest.x[i]);
+      const double radius = side * units::fromMillimeters(rest.x[i]);
       if (radius >= elements.inner)
       {
-        line.add(side * radius, units::fromMillimetres(rest.y[i]) - elements.sinkAt(radius));
+        line.add(side * radius, units::fromMillimeters(rest.y[i]) - elements.sinkAt(radius));
       }
     }
     plot.addLine(side < 0.0 ? "finite elements, on a plane" : "", line.x, line.y,
@@ -243,7 +243,7 @@ std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vecto
   const Eigen::Vector3d center = region.toSurface(Eigen::Vector3d::Zero());
   const Eigen::Vector3d local = region.toLocal(center + towards);
   const int direction = static_cast<int>(std::lround(
-                          quarterTurns(local.x(), local.y()) * PressField::kDirections / 4.0)) %
+                          diamondAngle(local.x(), local.y()) * PressField::kDirections / 4.0)) %
     PressField::kDirections;
   const Eigen::Vector2d edge = directionOf(4.0 * direction / PressField::kDirections);
   const Frame frame{ .center = center,

@@ -109,7 +109,7 @@ int vtkPalpSampleSource::RequestData(
   {
     if (point.Time >= this->LastTime - this->Span)
     {
-      depths->InsertNextValue(static_cast<float>(palp::units::toMillimetres(point.Depth)));
+      depths->InsertNextValue(static_cast<float>(palp::units::toMillimeters(point.Depth)));
       answers->InsertNextValue(static_cast<float>(point.Force));
     }
   }

@@ -43,7 +43,7 @@ struct RingCurve
 
   /// Depth of the ring below the undeformed surface.
   ///
-  /// @param radius  distance from the contact's centre [m]; inside the inner circle on L2
+  /// @param radius  distance from the contact's center [m]; inside the inner circle on L2
   /// @return        [m], 0 beyond the outer circle
   [[nodiscard]] double sinkAt(double radius) const noexcept
   {
@@ -101,7 +101,7 @@ struct RingCurve
   return std::lerp(lawRadius, most, t * t * (3.0 - 2.0 * t));
 }
 
-/// Least outer radius of a ring whose tangents L1 and L2 meet at a distance from its centre.
+/// Least outer radius of a ring whose tangents L1 and L2 meet at a distance from its center.
 ///
 /// Just outside: within that circle an undisturbed surface would be inside the tool. Where flanks
 /// are almost level three contact radii are enough.

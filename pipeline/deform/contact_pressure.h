@@ -26,7 +26,7 @@ public:
   /// @param force          F [N]
   ContactPressure(const Tip& tip, double depth, double contactRadius, double force);
 
-  /// @param radius  distance from the contact's centre [m], 0 or more
+  /// @param radius  distance from the contact's center [m], 0 or more
   /// @return        p [Pa], 0 outside the contact; where the theory is infinite, at a sharp apex
   /// and
   ///                at the edge of a flat base, the value of a small distance from there

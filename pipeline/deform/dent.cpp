@@ -214,7 +214,7 @@ void Dent::computeNormal(std::int32_t point, const DentArrays& arrays) const noe
   Lanes last{};
   for (const std::int32_t next : region_.umbrella().around(point))
   {
-    const Lanes edge = next == Umbrella::kEnd ? Lanes{} : position(next) - center;
+    const Lanes edge = next == VertexRings::kEnd ? Lanes{} : position(next) - center;
     sum += last * turned(edge) - turned(last) * edge;
     last = edge;
   }

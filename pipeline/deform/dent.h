@@ -59,7 +59,7 @@ public:
   /// @param arrays  as reset() or the last update() left them
   void update(const Press& press, const DentArrays& arrays);
 
-  /// The points of the dent, which differ from rest, and their neighbours, whose normals do.
+  /// The points of the dent, which differ from rest, and their neighbors, whose normals do.
   [[nodiscard]] const PressRegion& region() const noexcept
   {
     return region_;

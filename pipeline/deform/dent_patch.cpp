@@ -10,7 +10,7 @@ namespace palp
 namespace
 {
 
-constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's centre to its circle
+constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's center to its circle
 constexpr int kMaxLevel = 4;
 constexpr int kWhole = -1;                   // stands for the middle of an edge that is not halved
 constexpr std::size_t kMaxTriangles = 24000; // as many as a picture is quick with

@@ -25,7 +25,7 @@ public:
   std::vector<Eigen::Vector3f> points;  ///< [m]
   std::vector<Eigen::Vector3f> normals; ///< unit
   std::vector<float> sink;              ///< along the contact normal [m]
-  std::vector<float> distance;          ///< from the contact's centre along the surface at rest [m]
+  std::vector<float> distance;          ///< from the contact's center along the surface at rest [m]
   std::vector<Zone> zone;
   std::vector<Triangle> triangles;
 

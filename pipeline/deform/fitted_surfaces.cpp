@@ -40,7 +40,7 @@ FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double sc
     {
       rows.back()[i] *= i == kSlope ? 1.0 : scale;
     }
-    if (units::fromMillimetres(rows.back().front()) > (1.0 + kRounding) * deepest)
+    if (units::fromMillimeters(rows.back().front()) > (1.0 + kRounding) * deepest)
     {
       rows.pop_back();
     }
@@ -57,22 +57,22 @@ FittedSurfaces FittedSurfaces::read(const std::filesystem::path& file, double sc
 
 FittedSurfaces::FittedSurfaces(const std::vector<std::vector<double>>& rows)
 {
-  const auto metres = &units::fromMillimetres;
+  const auto meters = &units::fromMillimeters;
   for (const std::vector<double>& row : rows)
   {
     const bool isNext =
-      row.size() == kColumns && metres(row[0]) > (rows_.empty() ? 0.0 : rows_.back().depth);
+      row.size() == kColumns && meters(row[0]) > (rows_.empty() ? 0.0 : rows_.back().depth);
     if (!isNext)
     {
       throw Error(ErrorCode::BadValue,
         "fitted surfaces: needs seven columns and increasing depths; make the tables again");
     }
-    rows_.push_back({ metres(row[0]),
-      { .inner = metres(row[1]),
-        .outer = metres(row[2]),
-        .sink = metres(row[3]),
+    rows_.push_back({ meters(row[0]),
+      { .inner = meters(row[1]),
+        .outer = meters(row[2]),
+        .sink = meters(row[3]),
         .slope = row[4],
-        .control = { metres(row[5]), metres(row[6]) } } });
+        .control = { meters(row[5]), meters(row[6]) } } });
   }
   if (rows_.size() < 2)
   {

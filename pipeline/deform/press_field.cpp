@@ -37,7 +37,7 @@ double rootBefore(double end, double atZero, double atEnd, Function function) no
   return falsePosition(limited, { 0.0, end }, atZero, std::min(atEnd, end), 1e-6 * end, 40).low;
 }
 
-// how far the tool is above the undeformed surface at a distance from the contact's centre, less
+// how far the tool is above the undeformed surface at a distance from the contact's center, less
 // than zero where it is pressed in
 class Gap
 {

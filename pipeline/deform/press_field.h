@@ -49,7 +49,7 @@ public:
   void lay(const PressRegion& region, const ToolBody& body, double depth,
     const std::optional<SurfaceProfile>& fitted = std::nullopt);
 
-  /// How far from the centre the tool's tangents at the contact circle meet the surface, at most.
+  /// How far from the center the tool's tangents at the contact circle meet the surface, at most.
   ///
   /// Where it is more than the outer radius, the surface that is drawn lies higher, or is more
   /// hollow, than the one the contact was found on, and the ring ought to be wider.

@@ -56,7 +56,7 @@ double PressRegion::longestEdge(std::int32_t point) const noexcept
   double square = 0.0;
   for (const std::int32_t next : umbrella_.around(point))
   {
-    if (next != Umbrella::kEnd)
+    if (next != VertexRings::kEnd)
     {
       square = std::max(square, (rest(next) - rest(point)).squaredNorm());
     }
@@ -96,7 +96,7 @@ double PressRegion::edgeLength() const noexcept
   int count = 0;
   for (const std::int32_t next : umbrella_.around(seed_))
   {
-    if (next != Umbrella::kEnd)
+    if (next != VertexRings::kEnd)
     {
       sum += (rest(next) - rest(seed_)).norm();
       ++count;
@@ -140,13 +140,13 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   for (std::size_t i = 0; i < queue_.size(); ++i)
   {
     const auto from = static_cast<std::size_t>(queue_[i]);
-    std::int32_t before = Umbrella::kEnd;
+    std::int32_t before = VertexRings::kEnd;
     bool isOpen = false; // what was before has no settled place
     for (const std::int32_t next : umbrella_.around(points_[from]))
     {
       const bool wasOpen = isOpen;
-      isOpen = next != Umbrella::kEnd && !isSettled(next);
-      if (before != Umbrella::kEnd && next != Umbrella::kEnd && (wasOpen || isOpen))
+      isOpen = next != VertexRings::kEnd && !isSettled(next);
+      if (before != VertexRings::kEnd && next != VertexRings::kEnd && (wasOpen || isOpen))
       {
         expand(from, before, next, body);
         isOpen = !isSettled(next);
@@ -189,7 +189,7 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
   hasSides_ = hasSides_ || (slot_[static_cast<std::size_t>(point)] & kSharpBit) != 0;
   Place& place = places_[index];
   place.local = local;
-  place.turns = quarterTurns(local.x(), local.y());
+  place.turns = diamondAngle(local.x(), local.y());
   place.distance = distanceInFront(local);
   place.facing = 1.0F;
   place.within = place.distance < outer_ || body.contains(rest(point));
@@ -254,7 +254,7 @@ Place PressRegion::placeInFront(const Eigen::Vector3d& point) const noexcept
   const Eigen::Vector3d local = toLocal(point);
   return { .local = local,
     .distance = distanceInFront(local),
-    .turns = quarterTurns(local.x(), local.y()),
+    .turns = diamondAngle(local.x(), local.y()),
     .facing = 1.0F,
     .within = false };
 }
@@ -266,7 +266,7 @@ Place PressRegion::placeBetween(
   if (!a.isFront() || !b.isFront())
   {
     const Eigen::Vector2d way = a.way() + share * (b.way() - a.way());
-    place.turns = quarterTurns(way.x(), way.y());
+    place.turns = diamondAngle(way.x(), way.y());
     place.distance = a.distance + share * (b.distance - a.distance);
     place.facing = a.facing + static_cast<float>(share) * (b.facing - a.facing);
   }
@@ -285,7 +285,7 @@ Place PressRegion::placeAround(
   float turns = first.turns;
   if (const std::int32_t slot = find(beside); slot >= 0)
   {
-    // the edge on the x axis, the contact's centre below it, the point above
+    // the edge on the x axis, the contact's center below it, the point above
     const Place& second = places_[static_cast<std::size_t>(slot)];
     const Eigen::Vector3d edge = rest(beside) - rest(from);
     const double length = std::max(edge.norm(), kTiny);
@@ -301,7 +301,7 @@ Place PressRegion::placeAround(
     {
       distance = std::sqrt((x - centerX) * (x - centerX) + (y + below) * (y + below));
       const Eigen::Vector2d towards = (length - crossing) * first.way() + crossing * second.way();
-      turns = quarterTurns(towards.x(), towards.y());
+      turns = diamondAngle(towards.x(), towards.y());
     }
   }
   const Eigen::Vector3d local = axes_ * (rest(point) - center_);

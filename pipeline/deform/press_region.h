@@ -2,7 +2,7 @@
 
 #include "haptics/contact/contact.h"
 #include "pipeline/deform/tool_body.h"
-#include "pipeline/deform/umbrella.h"
+#include "pipeline/deform/vertex_rings.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,13 +17,13 @@ namespace palp
 /// Position of a direction of a plane among evenly spaced ones, without trigonometry or a branch.
 ///
 /// @return  0 to 4 quarter turns from x over y; 0 for no direction
-[[nodiscard]] inline float quarterTurns(double x, double y) noexcept
+[[nodiscard]] inline float diamondAngle(double x, double y) noexcept
 {
   const double sum = std::abs(x) + std::abs(y);
   return sum > 0.0 ? static_cast<float>(2.0 - std::copysign(1.0 + x / sum, y)) : 0.0F;
 }
 
-/// The unit vector of quarterTurns().
+/// The unit vector of diamondAngle().
 [[nodiscard]] inline Eigen::Vector2d directionOf(double turns) noexcept
 {
   const double x = turns < 2.0 ? 1.0 - turns : turns - 3.0;
@@ -33,9 +33,9 @@ namespace palp
 /// A place of a pressed surface, seen from the contact.
 struct Place
 {
-  Eigen::Vector3d local; ///< rest position from the contact's centre [m], z along its normal
+  Eigen::Vector3d local; ///< rest position from the contact's center [m], z along its normal
   double distance;       ///< length of the way along the surface [m]
-  float turns;           ///< where in the tangent plane the way there begins, see quarterTurns()
+  float turns;           ///< where in the tangent plane the way there begins, see diamondAngle()
   float facing;          ///< 1 where the surface faces the tool all along the way, 0 where it does
                          ///< not, between on an edge from the one to the other
   float extra = 0.0F;    ///< sinks further than the field by this, so that no side turns over [m]
@@ -57,7 +57,7 @@ struct Place
   }
 };
 
-/// The part of a surface around a contact, grown over mesh neighbours.
+/// The part of a surface around a contact, grown over mesh neighbors.
 ///
 /// Where the surface faces the tool, a way is the straight line to the point: as seen along the
 /// normal at the contact circle, as r is, and as long as the distance in space at the outer circle.
@@ -73,7 +73,7 @@ public:
   PressRegion(std::span<const float> rest, std::span<const Triangle> triangles);
 
   /// Finds the points nearer than the outer radius, those inside the tool, the one nearest to the
-  /// contact, and the neighbours of all these. Where edges are longer than the contact is wide, the
+  /// contact, and the neighbors of all these. Where edges are longer than the contact is wide, the
   /// way to a point inside the tool leads over points that stay where they are, next to the tool.
   ///
   /// Its cost follows their number as long as the contact moves by small steps; a jump to another
@@ -169,7 +169,7 @@ public:
   {
     return slot_.size();
   }
-  [[nodiscard]] const Umbrella& umbrella() const noexcept
+  [[nodiscard]] const VertexRings& umbrella() const noexcept
   {
     return umbrella_;
   }
@@ -182,8 +182,9 @@ private:
   static constexpr std::int32_t kNowhere = -1 << kBits;
 
   [[nodiscard]] std::int32_t findSeed(const Contact& contact) const noexcept;
-  [[nodiscard]] std::int32_t downhill(std::int32_t start, const Contact& contact) const noexcept;
-  [[nodiscard]] std::int32_t findNearest(const Contact& contact, std::size_t every) const noexcept;
+  [[nodiscard]] std::int32_t descentStep(std::int32_t start, const Contact& contact) const noexcept;
+  [[nodiscard]] std::int32_t findClosestPoint(
+    const Contact& contact, std::size_t every) const noexcept;
   [[nodiscard]] bool faces(std::int32_t point, const Eigen::Vector3d& normal) const noexcept;
   [[nodiscard]] bool isSettled(std::int32_t point) const noexcept
   {
@@ -203,7 +204,7 @@ private:
     std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;
 
   std::span<const float> rest_;
-  Umbrella umbrella_;
+  VertexRings umbrella_;
   std::vector<std::int32_t> slot_; // of every point its index in points_, above kBits
 
   // of one press; capacity is kept from frame to frame
@@ -226,10 +227,10 @@ template <typename Function>
 void PressRegion::forEachAreaAround(std::int32_t point, Function function) const
 {
   const Eigen::Vector3d p = rest(point);
-  std::int32_t before = Umbrella::kEnd;
+  std::int32_t before = VertexRings::kEnd;
   for (const std::int32_t next : umbrella_.around(point))
   {
-    if (before != Umbrella::kEnd && next != Umbrella::kEnd)
+    if (before != VertexRings::kEnd && next != VertexRings::kEnd)
     {
       function(Eigen::Vector3d((rest(before) - p).cross(rest(next) - p)));
     }
@@ -248,10 +249,10 @@ void PressRegion::forEachTriangle(Function function) const
     {
       continue;
     }
-    std::int32_t before = Umbrella::kEnd;
+    std::int32_t before = VertexRings::kEnd;
     for (const std::int32_t next : umbrella_.around(points_[static_cast<std::size_t>(owner)]))
     {
-      if (before != Umbrella::kEnd && next != Umbrella::kEnd)
+      if (before != VertexRings::kEnd && next != VertexRings::kEnd)
       {
         // a triangle belongs to the first of its corners within the dent
         const std::int32_t a = find(before);

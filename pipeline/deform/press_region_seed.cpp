@@ -21,21 +21,21 @@ bool PressRegion::faces(std::int32_t point, const Eigen::Vector3d& normal) const
   return area.dot(normal) > kFacing * area.norm();
 }
 
-// the nearest point that faces the tool: downhill from the last one, or, where that ends on
+// the nearest point that faces the tool: descentStep from the last one, or, where that ends on
 // another sheet or the tool has jumped, from the nearest of a few, or else through all points
 std::int32_t PressRegion::findSeed(const Contact& contact) const noexcept
 {
   const auto few = static_cast<std::size_t>(std::sqrt(static_cast<double>(slot_.size())));
-  std::int32_t best = downhill(seed_, contact);
+  std::int32_t best = descentStep(seed_, contact);
   if (best < 0)
   {
-    best = downhill(findNearest(contact, few), contact);
+    best = descentStep(findClosestPoint(contact, few), contact);
   }
-  return best < 0 ? findNearest(contact, 1) : best;
+  return best < 0 ? findClosestPoint(contact, 1) : best;
 }
 
 // to the nearest point that a way of ever nearer points leads to; -1 when the contact is not there
-std::int32_t PressRegion::downhill(std::int32_t start, const Contact& contact) const noexcept
+std::int32_t PressRegion::descentStep(std::int32_t start, const Contact& contact) const noexcept
 {
   if (start < 0)
   {
@@ -51,7 +51,7 @@ std::int32_t PressRegion::downhill(std::int32_t start, const Contact& contact) c
     const std::int32_t from = best;
     for (const std::int32_t next : umbrella_.around(from))
     {
-      if (next == Umbrella::kEnd)
+      if (next == VertexRings::kEnd)
       {
         continue;
       }
@@ -68,7 +68,7 @@ std::int32_t PressRegion::downhill(std::int32_t start, const Contact& contact) c
 }
 
 // of every so many points the nearest one that faces the tool; -1 when none does
-std::int32_t PressRegion::findNearest(const Contact& contact, std::size_t every) const noexcept
+std::int32_t PressRegion::findClosestPoint(const Contact& contact, std::size_t every) const noexcept
 {
   std::int32_t best = -1;
   double square = std::numeric_limits<double>::infinity();

@@ -198,8 +198,8 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
     this->PatchNormals->SetTypedTuple(i, this->Patch.normals[at].data());
     const Eigen::Vector3f displacement = -this->Patch.sink[at] * normal;
     this->PatchDisplacement->SetTypedTuple(i, displacement.data());
-    const double millimetres = palp::units::toMillimetres(this->Patch.sink[at]);
-    this->PatchLength->SetValue(i, static_cast<float>(millimetres));
+    const double millimeters = palp::units::toMillimeters(this->Patch.sink[at]);
+    this->PatchLength->SetValue(i, static_cast<float>(millimeters));
     this->PatchDistance->SetValue(i, this->Patch.distance[at]);
     this->PatchZone->SetValue(i, static_cast<unsigned char>(this->Patch.zone[at]));
   }

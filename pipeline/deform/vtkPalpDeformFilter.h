@@ -12,7 +12,7 @@
  * triangles with a displaced corner, divided PatchLevel times, and the point arrays "Normals", and
  *   "Displacement"       float x 3 [m], from rest
  *   "Displacement [mm]"  float, length of the displacement
- *   "Distance"           float [m], from the contact's centre along the undeformed surface
+ *   "Distance"           float [m], from the contact's center along the undeformed surface
  *   "Zone"               as above
  * It costs nothing until GeneratePatch is on; its arrays are changed in place, too.
  *

@@ -107,8 +107,8 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
     const double middle = 0.5 * (values.low + values.high);
     if (std::abs(level - middle) > 1e-6 * (values.high - values.low))
     {
-      notes.push_back("a mask of " + listed(values.distinct, volume) + "; its surface is taken at " +
-        inWords(scaled(middle)) + ", their middle");
+      notes.push_back("a mask of " + listed(values.distinct, volume) +
+        "; its surface is taken at " + inWords(scaled(middle)) + ", their middle");
     }
     level = middle;
   }
@@ -152,8 +152,8 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
   largest->Update();
   if (largest->GetNumberOfExtractedRegions() > 1)
   {
-    notes.push_back("the largest of its " +
-      std::to_string(largest->GetNumberOfExtractedRegions()) + " pieces is taken");
+    notes.push_back("the largest of its " + std::to_string(largest->GetNumberOfExtractedRegions()) +
+      " pieces is taken");
   }
   vtkNew<vtkWindowedSincPolyDataFilter> smooth;
   smooth->SetInputConnection(largest->GetOutputPort());

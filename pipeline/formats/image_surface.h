@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/process/file_surface.h"
 #include "pipeline/formats/image_formats.h"
+#include "pipeline/process/file_surface.h"
 
 class vtkPolyData;
 

@@ -54,19 +54,19 @@ std::map<Voxel, vtkIdType> histogram(const Voxel* voxels, vtkIdType count)
   return often;
 }
 
-// labels fill regions: of the neighbours that are not both background, most are equal
+// labels fill regions: of the neighbors that are not both background, most are equal
 template <typename Voxel>
 bool fillsRegions(
   const Voxel* voxels, vtkIdType count, vtkIdType row, const std::map<Voxel, vtkIdType>& often)
 {
-  const Voxel background = std::ranges::max_element(
-    often, {}, [](const auto& entry) { return entry.second; })->first;
+  const Voxel background =
+    std::ranges::max_element(often, {}, [](const auto& entry) { return entry.second; })->first;
   vtkIdType pairs = 0;
   vtkIdType equal = 0;
   for (vtkIdType i = 0; i + 1 < count; ++i)
   {
-    const bool inside = (i + 1) % row != 0 &&
-      (voxels[i] != background || voxels[i + 1] != background);
+    const bool inside =
+      (i + 1) % row != 0 && (voxels[i] != background || voxels[i + 1] != background);
     pairs += inside;
     equal += inside && voxels[i] == voxels[i + 1];
   }

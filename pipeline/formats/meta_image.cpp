@@ -147,7 +147,8 @@ int typeOf(const std::filesystem::path& file, const Fields& fields)
   if (type == kTypes.end())
   {
     refuse(file,
-      "its ElementType is " + (field == fields.end() ? std::string("missing") : inQuotes(field->second)) +
+      "its ElementType is " +
+        (field == fields.end() ? std::string("missing") : inQuotes(field->second)) +
         "; give an image of one number at each voxel");
   }
   return type->second;

@@ -18,7 +18,7 @@ namespace palp
 namespace
 {
 
-// the keyword, which may share its line with the counts; texture, colours and normals of points are
+// the keyword, which may share its line with the counts; texture, colors and normals of points are
 // skipped
 void readKeyword(TextLines& lines)
 {

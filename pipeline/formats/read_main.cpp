@@ -1,8 +1,8 @@
 // palp-read FILE [level=VALUE | label=VALUE...]: reads a surface for the program that started it.
 // Readers of other people's files may crash or run away, and here they do it alone.
-#include "pipeline/process/child_process.h"
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
+#include "pipeline/process/child_process.h"
 
 #include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
 #include <cstdlib>

@@ -109,7 +109,8 @@ std::optional<std::string> run(const std::vector<std::string>& command, bool kee
 {
   int ends[2] = { -1, -1 };
   const bool piped = pipe2(ends, O_CLOEXEC) == 0;
-  const std::optional<pid_t> child = piped ? spawn(command, ends[1], keepsEnvironment) : std::nullopt;
+  const std::optional<pid_t> child =
+    piped ? spawn(command, ends[1], keepsEnvironment) : std::nullopt;
   const int why = errno;
   close(ends[1]);
   if (!child)

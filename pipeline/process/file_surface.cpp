@@ -82,7 +82,8 @@ std::optional<FileSurface> unpack(std::string_view bytes)
   {
     read = unpackValues(bytes, surface.notes.emplace_back());
   }
-  return read && bytes.empty() && indicesInRange(surface) ? std::optional(std::move(surface)) : std::nullopt;
+  return read && bytes.empty() && indicesInRange(surface) ? std::optional(std::move(surface))
+                                                          : std::nullopt;
 }
 
 } // namespace palp

@@ -14,7 +14,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr std::array kUnits{ LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre };
+constexpr std::array kUnits{ LengthUnit::Millimeter, LengthUnit::Centimeter, LengthUnit::Meter };
 constexpr double kSmallestBody = 5.0_mm;
 constexpr double kLargestBody = 600.0_mm;
 
@@ -27,9 +27,9 @@ const char* unitName(LengthUnit unit) noexcept
 {
   switch (unit)
   {
-    case LengthUnit::Millimetre:
+    case LengthUnit::Millimeter:
       return "mm";
-    case LengthUnit::Centimetre:
+    case LengthUnit::Centimeter:
       return "cm";
     default:
       return "m";
@@ -40,9 +40,9 @@ double unitLength(LengthUnit unit) noexcept
 {
   switch (unit)
   {
-    case LengthUnit::Millimetre:
+    case LengthUnit::Millimeter:
       return 1.0_mm;
-    case LengthUnit::Centimetre:
+    case LengthUnit::Centimeter:
       return 10.0_mm;
     default:
       return 1.0;
@@ -80,7 +80,7 @@ LengthUnit guessUnit(double longestSide, const std::string& file)
   for (const LengthUnit unit : kUnits)
   {
     const double side = longestSide * unitLength(unit);
-    sizes << (unit == LengthUnit::Millimetre ? "" : ", ") << units::toMillimetres(side) << " mm if "
+    sizes << (unit == LengthUnit::Millimeter ? "" : ", ") << units::toMillimeters(side) << " mm if "
           << unitName(unit);
     if (side >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack))
     {
@@ -92,7 +92,8 @@ LengthUnit guessUnit(double longestSide, const std::string& file)
   {
     throw Error(ErrorCode::BadMesh,
       file + ": " + (fits == 0 ? "no unit" : "more than one unit") +
-        " gives the size of an organ or a part of one (longest side " + sizes.str() + "); give --unit mm, cm or m");
+        " gives the size of an organ or a part of one (longest side " + sizes.str() +
+        "); give --unit mm, cm or m");
   }
   return *fitting;
 }

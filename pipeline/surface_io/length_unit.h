@@ -10,9 +10,9 @@ namespace palp
 /// In what the coordinates of a file are written.
 enum class LengthUnit
 {
-  Millimetre,
-  Centimetre,
-  Metre,
+  Millimeter,
+  Centimeter,
+  Meter,
 };
 
 /// A unit that somebody named; nothing: to be found from the size.

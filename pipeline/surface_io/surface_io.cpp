@@ -1,8 +1,8 @@
 #include "pipeline/surface_io/surface_io.h"
 
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
+#include "haptics/files/replace_file.h"
 #include "haptics/units.h"
 #include "pipeline/process/child_process.h"
 #include "pipeline/process/file_surface.h"
@@ -56,7 +56,7 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   text.precision(3);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double side = units::toMillimetres(box[2 * axis + 1] - box[2 * axis]);
+    const double side = units::toMillimeters(box[2 * axis + 1] - box[2 * axis]);
     text << (axis > 0 ? " x " : "") << (side < 100.0 ? side : std::round(side));
   }
   text << " mm; coordinates taken in " << unitName(surface.unit) << ", " << why;
@@ -69,7 +69,8 @@ FileSurface readElsewhere(const std::filesystem::path& file, const ImagePart& pa
   const auto add = [&](const char* kind, double value)
   {
     char digits[32];
-    command.emplace_back(kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
+    command.emplace_back(
+      kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
   };
   if (part.level)
   {
@@ -122,14 +123,12 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 
 } // namespace
 
-LoadedSurface readSurface(
-  const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
+LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
 {
   return madeReady(readElsewhere(file, part), file, unit);
 }
 
-LoadedSurface madeReady(
-  const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)
+LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)
 {
   const std::string name = file.filename().string();
   const RepairedSurface repaired = repair(read.points, read.triangles, file.string());
@@ -174,8 +173,7 @@ LoadedSurface madeReady(
   return surface;
 }
 
-void writeSurface(
-  const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space)
+void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space)
 {
   using Writer = void (*)(const std::filesystem::path&, vtkPolyData&);
   const std::map<std::string, Writer> writers{ { ".vtp", writeVtp },
@@ -187,7 +185,7 @@ void writeSurface(
     throw Error(ErrorCode::BadFile,
       file.string() + ": not a kind of file written here; give .vtp, .stl, .ply or .obj");
   }
-  const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimetre));
+  const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimeter));
   data->SetFieldData(vtkNew<vtkFieldData>());
   const auto add = [&](const char* name, const std::string& value) // only VTP has a place for it
   {
@@ -196,7 +194,7 @@ void writeSurface(
     words->InsertNextValue(value);
     data->GetFieldData()->AddArray(words);
   };
-  add(kUnitArray, unitName(LengthUnit::Millimetre));
+  add(kUnitArray, unitName(LengthUnit::Millimeter));
   if (!space.empty())
   {
     add("SPACE", space);

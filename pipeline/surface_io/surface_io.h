@@ -18,7 +18,7 @@ struct LoadedSurface
 {
   vtkSmartPointer<vtkPolyData>
     mesh; ///< [m], triangles only; pointsOf() and trianglesOf() give a Surface
-  LengthUnit unit = LengthUnit::Millimetre; ///< that the coordinates of the file were taken in
+  LengthUnit unit = LengthUnit::Millimeter; ///< that the coordinates of the file were taken in
   bool closed = false;                      ///< every edge has exactly two triangles
   std::vector<std::string> notes; ///< a line each; the first says size and unit, warnings come last
 };
@@ -26,8 +26,9 @@ struct LoadedSurface
 /// Reads a surface, repairs what can be repaired and finds its unit.
 ///
 /// A file that states its unit (as writeSurface does in VTP) is believed; in any other the one
-/// unit is taken that gives the size of an organ or a part of one, with a warning. Coincident points are merged, polygons cut into
-/// triangles, triangles turned outwards. An open or non-manifold surface loads with a warning.
+/// unit is taken that gives the size of an organ or a part of one, with a warning. Coincident
+/// points are merged, polygons cut into triangles, triangles turned outwards. An open or
+/// non-manifold surface loads with a warning.
 ///
 /// @param file    STL, OBJ, PLY, OFF, VTK, VTP or VTU; or an image, in the patient's axes (LPS)
 /// @param unit    wins over what the file says
@@ -43,10 +44,11 @@ struct LoadedSurface
 [[nodiscard]] LoadedSurface madeReady(
   const FileSurface& read, const std::filesystem::path& file, UnitChoice unit = {});
 
-/// Writes a surface in millimetres: VTP with its arrays, unit and axes, or bare STL, PLY, OBJ.
+/// Writes a surface in millimeters: VTP with its arrays, unit and axes, or bare STL, PLY, OBJ.
 ///
 /// @param mesh    [m], triangles
-/// @param space   of the axes, as "LPS", which VTP holds in its field array SPACE as 3D Slicer does;
+/// @param space   of the axes, as "LPS", which VTP holds in its field array SPACE as 3D Slicer
+/// does;
 ///                empty: unknown
 /// @throws Error  BadFile: unknown ending, or the file cannot be written
 void writeSurface(

@@ -1,8 +1,8 @@
 #include "pipeline/surface_io/surface_repair.h"
 
+#include "haptics/error.h"
 #include "haptics/surface/box_tree.h"
 #include "haptics/surface/sides.h"
-#include "haptics/error.h"
 #include "pipeline/model/poly_data.h"
 
 #include <Eigen/Geometry>
@@ -121,11 +121,10 @@ bool goes(const Triangle& t, int from, int to)
 }
 
 // six times the volume below triangles, seen from a point
-double volumeSeen(std::span<const Eigen::Vector3d> points, const Triangle& t,
-  const Eigen::Vector3d& from)
+double volumeSeen(
+  std::span<const Eigen::Vector3d> points, const Triangle& t, const Eigen::Vector3d& from)
 {
-  return (points[at(t[0])] - from)
-    .dot((points[at(t[1])] - from).cross(points[at(t[2])] - from));
+  return (points[at(t[0])] - from).dot((points[at(t[1])] - from).cross(points[at(t[2])] - from));
 }
 
 // which triangles to turn, so that those across an edge agree, with the first of each piece or,
@@ -179,8 +178,8 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   Merged mesh = merged(filePoints, fileTriangles);
   if (mesh.dropped > 0)
   {
-    result.notes.push_back(counted(mesh.dropped, "triangle whose corners coincide",
-                             "triangles whose corners coincide") +
+    result.notes.push_back(
+      counted(mesh.dropped, "triangle whose corners coincide", "triangles whose corners coincide") +
       " dropped");
   }
   if (std::ranges::none_of(
@@ -216,7 +215,7 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   if (changed > 0)
   {
     result.notes.push_back(counted(changed, "triangle", "triangles") +
-      (result.closed ? " turned to face outwards" : " turned to face as their neighbours"));
+      (result.closed ? " turned to face outwards" : " turned to face as their neighbors"));
   }
   result.mesh = makePolyData(mesh.points, mesh.triangles);
   return result;

@@ -25,7 +25,7 @@ inline constexpr Color kExtent{ 0.35, 0.85, 1.0 };
 inline constexpr Color kNet{ 1.0, 0.85, 0.2 };
 inline constexpr Color kGhost{ 0.75, 0.85, 0.95 };
 
-// apart for every kind of colour vision (Okabe and Ito 2008)
+// apart for every kind of color vision (Okabe and Ito 2008)
 inline constexpr Color kGood{ 0.00, 0.62, 0.45 };
 inline constexpr Color kDoubtful{ 0.90, 0.62, 0.00 };
 inline constexpr Color kBad{ 0.84, 0.37, 0.00 };
@@ -53,9 +53,9 @@ inline constexpr Color kLaw{ 0.85, 0.37, 0.01 };
 /// @param size  [points]
 void setFont(vtkTextProperty& text, int size, const Color& color = kInk, bool bold = false);
 
-/// The map "viridis": perceptually uniform, and readable without colour vision.
+/// The map "viridis": perceptually uniform, and readable without color vision.
 ///
-/// Begins with the colour of what it is drawn on, so that a colouring ends there without an edge.
+/// Begins with the color of what it is drawn on, so that a coloring ends there without an edge.
 /// @source Smith, van der Walt and Firing 2015, matplotlib's default map
 [[nodiscard]] vtkSmartPointer<vtkLookupTable> viridisOn(const Color& base);
 

@@ -25,7 +25,7 @@ ControlNet::ControlNet(vtkRenderer& renderer)
   ControlNet::hide();
 }
 
-void ControlNet::show(const Moment& moment)
+void ControlNet::show(const OverlayState& moment)
 {
   fillControlNet(moment.press.GetDent(), *net_);
   actor_->VisibilityOn();

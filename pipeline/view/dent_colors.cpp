@@ -1,6 +1,6 @@
 #include "pipeline/view/dent_colors.h"
 
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
 
@@ -55,7 +55,7 @@ void DentColors::setLaw(const ForceLaw& law)
   validity_.emplace(law);
 }
 
-void DentColors::show(const Moment& moment, By by)
+void DentColors::show(const OverlayState& moment, By by)
 {
   const Contact& contact = moment.sample.contact;
   mapper_->SetInputConnection(moment.press.GetOutputPort(1));
@@ -65,7 +65,7 @@ void DentColors::show(const Moment& moment, By by)
   legend_->VisibilityOff();
   if (by == By::Displacement)
   {
-    colorBy("Displacement [mm]", "displacement\n[mm]", units::toMillimetres(contact.depth));
+    colorBy("Displacement [mm]", "displacement\n[mm]", units::toMillimeters(contact.depth));
   }
   else if (by == By::Pressure)
   {
@@ -100,19 +100,19 @@ void DentColors::colorBy(const char* array, const char* title, double top)
   legend_->VisibilityOn();
 }
 
-std::optional<Rule> DentColors::worstRule(const Moment& moment) const
+std::optional<Rule> DentColors::worstRule(const OverlayState& moment) const
 {
   if (!validity_)
   {
     return std::nullopt;
   }
   const Contact& contact = moment.sample.contact;
-  const Rules rules = (*validity_)(indentationOf(contact), contact.edgeDistance);
+  const Rules rules = (*validity_)(contactGeometryOf(contact), contact.edgeDistance);
   return *std::max_element(
     rules.begin(), rules.end(), [](const Rule& a, const Rule& b) { return a.share() < b.share(); });
 }
 
-std::string DentColors::rule(const Moment& moment) const
+std::string DentColors::rule(const OverlayState& moment) const
 {
   const auto worst = worstRule(moment);
   if (!worst)

@@ -16,7 +16,7 @@
 namespace palp
 {
 
-/// The dent drawn by itself, plain or in colours, with their legend.
+/// The dent drawn by itself, plain or in colors, with their legend.
 class DentColors
 {
 public:
@@ -31,23 +31,23 @@ public:
   /// @param property  of the surface around it
   DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property);
 
-  void show(const Moment& moment, By by);
+  void show(const OverlayState& moment, By by);
   void hide();
 
   /// The law whose rules are shown; without one there are none.
   void setLaw(const ForceLaw& law);
 
-  /// Upper end of the colours of displacement [mm] or pressure [kPa]; 0 lets it follow the press.
+  /// Upper end of the colors of displacement [mm] or pressure [kPa]; 0 lets it follow the press.
   void setRange(double top)
   {
     fixedTop_ = top;
   }
 
   /// The rule nearest to its limit, with the share of it that is used; empty without a law.
-  [[nodiscard]] std::string rule(const Moment& moment) const;
+  [[nodiscard]] std::string rule(const OverlayState& moment) const;
 
 private:
-  [[nodiscard]] std::optional<Rule> worstRule(const Moment& moment) const;
+  [[nodiscard]] std::optional<Rule> worstRule(const OverlayState& moment) const;
   void colorBy(const char* array, const char* title, double top);
 
   std::optional<Validity> validity_;

@@ -23,7 +23,7 @@ constexpr double kShortest = 12.0_mm;
 // shares of the body's diagonal, whatever the tool: the body stays seen behind the arrow
 constexpr double kLeast = 0.05;
 constexpr double kLongest = 0.3;
-constexpr double kThickest = 0.008;
+constexpr double kMaxThickness = 0.008;
 
 } // namespace
 
@@ -54,13 +54,13 @@ ForceArrow::ForceArrow(vtkRenderer& renderer)
   ForceArrow::hide();
 }
 
-void ForceArrow::show(const Moment& moment)
+void ForceArrow::show(const OverlayState& moment)
 {
   const double diagonal = vtkPolyData::SafeDownCast(moment.press.GetInput())->GetLength();
   const double force = moment.sample.response.force;
   const double length = lengthOf(force, diagonal);
   const double thickness =
-    std::min({ 0.15 * baseRadius(moment.tip), 0.12 * length, kThickest * diagonal });
+    std::min({ 0.15 * baseRadius(moment.tip), 0.12 * length, kMaxThickness * diagonal });
   source_->SetShaftRadius(thickness / length);
   source_->SetTipRadius(2.6 * thickness / length);
   source_->SetTipLength(std::min(0.5, 7.0 * thickness / length));

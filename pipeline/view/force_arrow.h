@@ -22,7 +22,7 @@ public:
   /// @return          [m]
   [[nodiscard]] static double lengthOf(double force, double diagonal) noexcept;
 
-  void show(const Moment& moment) override;
+  void show(const OverlayState& moment) override;
   void hide() override;
 
 private:

@@ -26,7 +26,7 @@ Ghost::Ghost(vtkRenderer& renderer, vtkPalpDeformFilter& press)
   Ghost::hide();
 }
 
-void Ghost::show(const Moment&)
+void Ghost::show(const OverlayState&)
 {
   actor_->VisibilityOn();
 }

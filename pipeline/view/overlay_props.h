@@ -9,7 +9,7 @@ namespace palp
 {
 
 /// The moment that an overlay shows.
-struct Moment
+struct OverlayState
 {
   const Sample& sample;
   const Tip& tip;
@@ -27,7 +27,7 @@ public:
   OverlayProps& operator=(const OverlayProps&) = delete;
 
   /// Takes up a moment of contact.
-  virtual void show(const Moment& moment) = 0;
+  virtual void show(const OverlayState& moment) = 0;
 
   /// Draws nothing and computes nothing until the next show().
   virtual void hide() = 0;

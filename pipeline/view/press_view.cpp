@@ -1,11 +1,11 @@
 #include "pipeline/view/press_view.h"
 
 #include "haptics/units.h"
+#include "pipeline/deform/press_of.h"
 #include "pipeline/view/appearance.h"
 #include "pipeline/view/control_net.h"
 #include "pipeline/view/force_arrow.h"
 #include "pipeline/view/ghost.h"
-#include "pipeline/deform/press_of.h"
 #include "pipeline/view/surface_circle.h"
 #include "pipeline/view/tool_surface.h"
 
@@ -180,7 +180,7 @@ void PressView::show(const Sample& sample)
   deform_->SetPress(pressOf(sample, tip_, extent, style_));
   deform_->SetGeneratePatch(sample.contact.touching());
   deform_->Update();
-  const Moment moment{ sample, tip_, extent, *deform_ };
+  const OverlayState moment{ sample, tip_, extent, *deform_ };
   placeTool(sample.pose);
   placeDent(moment);
   const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
@@ -215,8 +215,8 @@ DentColors::By PressView::colors() const
                                              : DentColors::By::Nothing;
 }
 
-// the dent is drawn by itself where it is finer than the mesh or has colours
-void PressView::placeDent(const Moment& moment)
+// the dent is drawn by itself where it is finer than the mesh or has colors
+void PressView::placeDent(const OverlayState& moment)
 {
   const DentColors::By by = colors();
   const bool apart = moment.sample.contact.touching() &&

@@ -2,12 +2,12 @@
 
 #include "calibration/tables/extent_table.h"
 #include "haptics/servo/sample.h"
-#include "pipeline/view/dent_colors.h"
-#include "pipeline/model/overlay.h"
-#include "pipeline/view/overlay_props.h"
 #include "pipeline/deform/press_of.h"
-#include "pipeline/view/readings.h"
 #include "pipeline/deform/vtkPalpDeformFilter.h"
+#include "pipeline/model/overlay.h"
+#include "pipeline/view/dent_colors.h"
+#include "pipeline/view/overlay_props.h"
+#include "pipeline/view/readings.h"
 #include "pipeline/view/vtkPalpPatchMapper.h"
 
 #include <Eigen/Core>
@@ -47,20 +47,20 @@ public:
   /// What the surface around the tool is drawn as; the paper's ring at first.
   void setStyle(DentStyle style);
 
-  /// The law whose rules the validity colours and readings name.
+  /// The law whose rules the validity colors and readings name.
   void setLaw(const ForceLaw& law);
 
   /// Moves the tool, presses the surface, and sets the overlays. Does not render.
   void show(const Sample& sample);
 
-  /// At first: arrow, circles, colours of the displacement and readings. Takes effect in show().
+  /// At first: arrow, circles, colors of the displacement and readings. Takes effect in show().
   void setVisible(Overlay overlay, bool visible);
   [[nodiscard]] bool isVisible(Overlay overlay) const;
 
   /// Shows these overlays and no others.
   void setVisible(const std::vector<Overlay>& overlays);
 
-  /// Upper end of the colours [mm or kPa]; 0, the default, lets it follow the press.
+  /// Upper end of the colors [mm or kPa]; 0, the default, lets it follow the press.
   void setColorRange(double top);
 
   /// The whole surface, from the front and above.
@@ -89,7 +89,7 @@ private:
   void addTool();
   void addOverlays();
   void placeTool(const ToolPose& pose);
-  void placeDent(const Moment& moment);
+  void placeDent(const OverlayState& moment);
   [[nodiscard]] DentColors::By colors() const;
 
   vtkRenderer& renderer_;

@@ -12,9 +12,9 @@ namespace palp
 namespace
 {
 
-std::string millimetres(double metres)
+std::string millimeters(double meters)
 {
-  return appearance::fixedText(units::toMillimetres(metres), 1) + " mm ";
+  return appearance::fixedText(units::toMillimeters(meters), 1) + " mm ";
 }
 
 } // namespace
@@ -41,19 +41,19 @@ void Readings::setKeys(bool contactCircle, bool extentCircle, std::string validi
   validity_ = std::move(validity);
 }
 
-void Readings::show(const Moment& moment)
+void Readings::show(const OverlayState& moment)
 {
   const Response& response = moment.sample.response;
   std::array<std::string, kLines> texts;
   texts[0] = " force " + appearance::fixedText(response.force, 2) + " N   depth " +
-    millimetres(moment.sample.contact.depth);
+    millimeters(moment.sample.contact.depth);
   if (contactCircle_)
   {
-    texts[1] = " \u25cb contact circle r = " + millimetres(moment.press.GetPress().contactRadius);
+    texts[1] = " \u25cb contact circle r = " + millimeters(moment.press.GetPress().contactRadius);
   }
   if (extentCircle_ && moment.extentRadius > 0.0)
   {
-    texts[2] = " \u25cb extent circle R_d = " + millimetres(moment.extentRadius);
+    texts[2] = " \u25cb extent circle R_d = " + millimeters(moment.extentRadius);
   }
   texts[3] = validity_.empty() ? std::string{} : " " + validity_ + " ";
 

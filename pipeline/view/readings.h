@@ -15,7 +15,7 @@ class Readings : public OverlayProps
 {
 public:
   explicit Readings(vtkRenderer& renderer);
-  void show(const Moment& moment) override;
+  void show(const OverlayState& moment) override;
   void hide() override;
 
   /// Which keys are wanted, and a line about the law's validity; empty for none.

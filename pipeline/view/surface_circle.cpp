@@ -41,7 +41,7 @@ SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, 
   SurfaceCircle::hide();
 }
 
-void SurfaceCircle::show(const Moment& moment)
+void SurfaceCircle::show(const OverlayState& moment)
 {
   const double radius =
     of_ == Of::Contact ? moment.press.GetPress().contactRadius : moment.extentRadius;

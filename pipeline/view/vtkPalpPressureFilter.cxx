@@ -15,7 +15,7 @@ vtkStandardNewMacro(vtkPalpPressureFilter);
 void vtkPalpPressureFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Pressure at the centre: " << this->Pressure.at(0.0) << " Pa\n";
+  os << indent << "Pressure at the center: " << this->Pressure.at(0.0) << " Pa\n";
 }
 
 void vtkPalpPressureFilter::SetPressure(const palp::ContactPressure& pressure)

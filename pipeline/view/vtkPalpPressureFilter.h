@@ -20,7 +20,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The pressure over the distance from the contact's centre. Default: none.
+   * The pressure over the distance from the contact's center. Default: none.
    */
   void SetPressure(const palp::ContactPressure& pressure);
 

@@ -40,7 +40,7 @@ inline Tip cappedCone()
 inline Outcome completed(const Case& study)
 {
   Outcome outcome = calibrate(study);
-  EXPECT_EQ(outcome.trouble, "");
+  EXPECT_EQ(outcome.error, "");
   EXPECT_EQ(outcome.steps.size(), study.depths.size());
   return outcome;
 }

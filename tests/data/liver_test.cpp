@@ -3,8 +3,8 @@
 #include "data/implicit.h"
 #include "data/liver_mesh.h"
 #include "data/press_path.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/surface/deviation.h"
-#include "haptics/surface/nearest.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
@@ -205,10 +205,11 @@ TEST(Liver, KeepsItsShapeInTheHapticLevel)
 double depthAt(const Surface& surface, const PathKnot& knot)
 {
   const Vector3d center = knot.apex - 10.0_mm * *knot.axis;
-  return 10.0_mm - findNearest(surface, center, std::numeric_limits<double>::infinity()).distance;
+  return 10.0_mm -
+    findClosestPoint(surface, center, std::numeric_limits<double>::infinity()).distance;
 }
 
-TEST(PressPath, PressesEightMillimetresDeepSlidesAndLifts)
+TEST(PressPath, PressesEightMillimetersDeepSlidesAndLifts)
 {
   const Surface surface(liver().points, liver().triangles);
   const ScriptedPath path = readPath(PALP_SOURCE_DIR "/data/paths/liver_press.csv");

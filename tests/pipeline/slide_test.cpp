@@ -1,7 +1,7 @@
 #include "haptics/contact/contact.h"
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/surface/decimate.h"
-#include "haptics/contact/indentation_of.h"
-#include "haptics/surface/nearest.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
@@ -65,8 +65,8 @@ struct Pose
 };
 
 // moves the tool's middle within the cut until it is as near to the surface as it is held
-void settle(const Surface& surface, const Tool& tool, const Eigen::Vector3d& across, Held held,
-  Pose& pose)
+void settle(
+  const Surface& surface, const Tool& tool, const Eigen::Vector3d& across, Held held, Pose& pose)
 {
   const auto inCut = [&](const Eigen::Vector3d& v)
   { return Eigen::Vector3d((v - v.dot(across) * across).normalized()); };
@@ -77,7 +77,7 @@ void settle(const Surface& surface, const Tool& tool, const Eigen::Vector3d& acr
   };
   for (int i = 0; i < 60; ++i)
   {
-    const Nearest nearest = findNearest(surface, pose.middle, 10.0);
+    const ClosestPoint nearest = findClosestPoint(surface, pose.middle, 10.0);
     pose.away = inCut((pose.middle - nearest.point) * (nearest.distance < 0.0 ? -1.0 : 1.0));
     double excess = nearest.distance - (tool.radius - tool.depth);
     if (held == Held::Depth && excess < 0.9 * tool.depth)
@@ -166,7 +166,7 @@ Changes changes(const Surface& surface, const Tool& tool, const Eigen::Vector3d&
     double last = 0.0;
     for (std::size_t i = 0; i < poses.size(); ++i)
     {
-      const double force = law(indentationOf(poses[i].contact)).force;
+      const double force = law(contactGeometryOf(poses[i].contact)).force;
       if (i > 0 && !folded[i] && !folded[i - 1])
       {
         const double step = std::max(kStep, poses[i].along - poses[i - 1].along);
@@ -197,7 +197,8 @@ Changes changes(const Surface& surface, const Tool& tool, const Eigen::Vector3d&
 const std::vector<Eigen::Vector3d>& cuts()
 {
   static const std::vector<Eigen::Vector3d> all = { Eigen::Vector3d::UnitX(),
-    Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(), Eigen::Vector3d(1.0, -2.0, 0.7).normalized() };
+    Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+    Eigen::Vector3d(1.0, -2.0, 0.7).normalized() };
   return all;
 }
 
@@ -256,9 +257,9 @@ TEST(Slide, DoesNotFollowTheNearestPointAsItLeaps)
     };
     const ToolPose pose{ .apex = 1.0_mm * between(apex), .axis = between(axis).normalized() };
     const Contact contact = findContact(liver, law.tip(), pose, ContactRule::Exact);
-    const double force = law(indentationOf(contact)).force;
+    const double force = law(contactGeometryOf(contact)).force;
     const Eigen::Vector3d nearest =
-      findNearest(liver, pose.apex - 10.0_mm * pose.axis, 1.0).point;
+      findClosestPoint(liver, pose.apex - 10.0_mm * pose.axis, 1.0).point;
     ASSERT_GT(force, 1.0);
     if (i > 0)
     {

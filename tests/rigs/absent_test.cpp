@@ -1,5 +1,5 @@
-#include "app/program/devices_options.h"
 #include "app/devices_report.h"
+#include "app/program/devices_options.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
 

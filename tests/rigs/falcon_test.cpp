@@ -120,7 +120,7 @@ TEST_F(FalconRig, IsFound)
   const auto found = listUsb();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].kind, DeviceKind::Falcon);
-  EXPECT_EQ(found[0].hurdle, "");
+  EXPECT_EQ(found[0].unusableReason, "");
 }
 
 TEST_F(FalconRig, LoadsTheFirmwareByteForByteOnlyWhereNoneRuns)
@@ -225,7 +225,7 @@ TEST_F(FalconRig, MotorsGetTheTorquesOfTheForce)
   FalconDriver driver(openFalcon(), {});
   DriverSample sample;
   untilAnswered(driver, Vector3d::Zero(), sample);
-  const Vector3d place = sample.position + falconCentre(); // all encoders at zero
+  const Vector3d place = sample.position + falconCenter(); // all encoders at zero
   for (const Vector3d& force : { Vector3d(0, 0, -8), Vector3d(5, 0, 2), Vector3d(-2, 6, -3) })
   {
     untilAnswered(driver, force, sample); // so that it has been taken up
@@ -235,7 +235,7 @@ TEST_F(FalconRig, MotorsGetTheTorquesOfTheForce)
       const Vector3d step = 1.0_um * Vector3d::Unit(axis);
       const Vector3d way = *falconAngles(place + step) - *falconAngles(place - step);
       const Vector3d torques(falcon_->torques[0], falcon_->torques[1], falcon_->torques[2]);
-      felt[axis] = -torques.dot(way) / 2.0_um / 2300.0; // counts in a newton metre
+      felt[axis] = -torques.dot(way) / 2.0_um / 2300.0; // counts in a newton meter
     }
     EXPECT_NEAR(felt.norm(), force.norm(), 0.01 * force.norm());
     EXPECT_LT(std::acos(std::min(1.0, felt.normalized().dot(force.normalized()))), 0.5_deg);

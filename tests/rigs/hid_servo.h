@@ -224,7 +224,7 @@ protected:
       }
       board_->reach = reachFor(9.0_mm);
       waitFor([](const Sample& sample) { return sample.contact.depth > 3.9_mm; });
-    } while (board_->last == 0 || has(servo_->newest(), Flag::Reseated));
+    } while (board_->last == 0 || has(servo_->newest(), Flag::Rebased));
   }
 
   [[nodiscard]] std::unique_ptr<ThreadedDevice> openCounted()

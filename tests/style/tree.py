@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the figures of the source tree and fails where one is beyond its limit.
+"""Prints the figures of the source tree and fails where its folders are beyond their limits.
 
 A folder is one library (palp_library in its CMakeLists.txt). It includes what it links and links what
 it includes: PUBLIC what its headers include, PRIVATE what only its sources do. Folders form no circle,
@@ -16,6 +16,7 @@ MOST_FILES = 25  # of production code in a folder
 MOST_LINES = 350  # of a file
 MOST_BODY = 60  # lines of a function's body
 MOST_README = 120  # lines
+LAST_OF_FOLDERS = 4  # number of the last row below that a run fails at; lengths are told
 # of calibration, what pictures may know; the finite elements stay off line
 RUN_TIME_CALIBRATION = {"calibration/tables", "calibration/figures"}
 
@@ -174,9 +175,9 @@ def main():
         ("lines of README.md", readme, MOST_README, ""),
     ]
     failed = False
-    for name, value, limit, where in rows:
+    for number, (name, value, limit, where) in enumerate(rows):
         beyond = limit is not None and value > limit
-        failed |= beyond
+        failed |= beyond and number <= LAST_OF_FOLDERS
         print(f"{name:32}{value:6}" + ("" if limit is None else f"  of {limit}") +
               (f"  {where}" if where else "") + ("  BEYOND ITS LIMIT" if beyond else ""))
     return failed

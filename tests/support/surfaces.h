@@ -99,7 +99,7 @@ inline Mesh cubeMap(int n, const std::function<Eigen::Vector3d(const Eigen::Vect
   return mesh;
 }
 
-/// Block centred in x and y whose top is z = 0.
+/// Block centered in x and y whose top is z = 0.
 inline Mesh block(const Eigen::Vector3d& size, int n)
 {
   return cubeMap(n,

@@ -16,14 +16,14 @@ struct FalconCommand
 {
   std::array<std::int16_t, 3> torque{}; ///< of motors 1 to 3, -4096 to 4096
   bool homing = false;                  ///< asks it to say which axes are homed
-  std::uint8_t lights = 0;              ///< bits 1 to 3; their colours differ between sources
+  std::uint8_t lights = 0;              ///< bits 1 to 3; their colors differ between sources
 };
 
 /// From a Novint Falcon.
 struct FalconState
 {
   std::array<std::int16_t, 3> encoder{}; ///< of legs 1 to 3 [counts]
-  std::uint8_t buttons = 0;              ///< plus, forward, centre, minus
+  std::uint8_t buttons = 0;              ///< plus, forward, center, minus
   bool homed = false;                    ///< all three axes; only told while homing is asked
 };
 

@@ -230,10 +230,10 @@ IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
   const Eigen::Vector3d angles{ falconAngle(state->encoder[0]), falconAngle(state->encoder[1]),
     falconAngle(state->encoder[2]) };
   auto place = falconPlace(angles, place_);
-  place = place ? place : falconPlace(angles, falconCentre());
+  place = place ? place : falconPlace(angles, falconCenter());
   homed_ = state->homed && place;
   place_ = place.value_or(place_);
-  sample = { .position = place_ - falconCentre(), .buttons = state->buttons, .homed = homed_ };
+  sample = { .position = place_ - falconCenter(), .buttons = state->buttons, .homed = homed_ };
   return IoCode::Ok;
 }
 

@@ -27,7 +27,7 @@ constexpr std::array<double, 3> kDirections{ 105.0_deg, -15.0_deg, -135.0_deg };
 
 constexpr double kSingular = 1e-6;
 constexpr double kFound = 1e-11; // [m]
-constexpr int kMostSteps = 10;
+constexpr int kMaxSteps = 10;
 
 struct Leg
 {
@@ -104,7 +104,7 @@ std::optional<Matrix3d> falconJacobian(const Vector3d& place) noexcept
 std::optional<Vector3d> falconPlace(const Vector3d& angles, const Vector3d& near) noexcept
 {
   Vector3d place = near;
-  for (int step = 0; step < kMostSteps; ++step)
+  for (int step = 0; step < kMaxSteps; ++step)
   {
     const auto reached = falconAngles(place);
     const auto jacobian = falconJacobian(place);
@@ -135,7 +135,7 @@ double falconAngle(double counts) noexcept
   return units::fromDegrees(35.0 + counts * kDegreesPerCount);
 }
 
-Vector3d falconCentre() noexcept
+Vector3d falconCenter() noexcept
 {
   return { 0.0, 0.0, 0.125 };
 }

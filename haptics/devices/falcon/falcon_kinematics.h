@@ -29,7 +29,7 @@ namespace palp
 
 /// Leg angle [rad] of an encoder, and where a search for the first place starts.
 [[nodiscard]] double falconAngle(double counts) noexcept;
-[[nodiscard]] Eigen::Vector3d falconCentre() noexcept;
+[[nodiscard]] Eigen::Vector3d falconCenter() noexcept;
 
 /// Torques of the legs [N m] that push the hand with a force [N].
 /// @return    nothing: out of reach, singular, or not finite

@@ -113,7 +113,7 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
   }
   else
   {
-    encodeWooden(homed_ ? currentsFor(arm_, angles_, force) : std::array<double, 3>{}, payload);
+    encodeWooden(homed_ ? motorCurrents(arm_, angles_, force) : std::array<double, 3>{}, payload);
   }
   if (writeReport(*transport_, payload) == IoCode::Gone)
   {
@@ -125,7 +125,7 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
       const auto heard = decodeWooden(report);
       if (heard)
       {
-        angles_ = bodyAngles(arm_, heard->encoders);
+        angles_ = jointAngles(arm_, heard->encoders);
         calibrate_ = heard->calibrate;
         homed_ = told_ && !calibrate_;
       }
@@ -133,7 +133,7 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
     });
   if (code == IoCode::Ok)
   {
-    sample = { .position = placeOf(arm_, angles_), .homed = homed_ };
+    sample = { .position = forwardKinematics(arm_, angles_), .homed = homed_ };
   }
   return code;
 }

@@ -10,7 +10,7 @@ namespace
 constexpr std::uint8_t kVersion = 1;
 constexpr std::size_t kStateCrc = 33;
 constexpr std::size_t kCommandCrc = 14;
-constexpr double kMicrometre = 1e-6; // [m]
+constexpr double kMicrometer = 1e-6; // [m]
 constexpr double kMilli = 0.001;     // [N], [N s/m]
 constexpr double kUnit = 32767.0;    // of an orientation
 
@@ -46,7 +46,7 @@ std::optional<Phd1State> decodePhd1State(Bytes report) noexcept
   state.microseconds = readInt<std::uint32_t>(report, 6);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    state.position[static_cast<int>(i)] = readInt<std::int32_t>(report, 10 + 4 * i) * kMicrometre;
+    state.position[static_cast<int>(i)] = readInt<std::int32_t>(report, 10 + 4 * i) * kMicrometer;
   }
   double norm = 0.0;
   for (std::size_t i = 0; i < 4; ++i)
@@ -89,7 +89,7 @@ std::array<std::byte, kPhd1Report> encode(const Phd1State& state) noexcept
   for (std::size_t i = 0; i < 3; ++i)
   {
     writeInt(report, 10 + 4 * i,
-      nearestInt<std::int32_t>(state.position[static_cast<int>(i)] / kMicrometre));
+      nearestInt<std::int32_t>(state.position[static_cast<int>(i)] / kMicrometer));
   }
   for (std::size_t i = 0; i < 4; ++i)
   {

@@ -129,7 +129,7 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
   writeInt(report, 6, kSetCounters);
 }
 
-Eigen::Vector3d bodyAngles(
+Eigen::Vector3d jointAngles(
   const WoodenArm& arm, const std::array<std::int16_t, 6>& encoders) noexcept
 {
   Eigen::Vector3d angles;
@@ -141,7 +141,7 @@ Eigen::Vector3d bodyAngles(
   return angles;
 }
 
-Eigen::Vector3d placeOf(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept
+Eigen::Vector3d forwardKinematics(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept
 {
   const auto& [shoulder, upper, fore] = arm.length;
   const double reach = upper * std::sin(angles[1]) + fore * std::sin(angles[2]);
@@ -163,7 +163,7 @@ Eigen::Matrix3d placeJacobian(const WoodenArm& arm, const Eigen::Vector3d& angle
   return jacobian;
 }
 
-std::array<double, 3> currentsFor(
+std::array<double, 3> motorCurrents(
   const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept
 {
   const Eigen::Vector3d torques = placeJacobian(arm, angles).transpose() * force;

@@ -57,12 +57,13 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 
 /// Angles of the three bodies [rad].
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Eigen::Vector3d bodyAngles(
+[[nodiscard]] Eigen::Vector3d jointAngles(
   const WoodenArm& arm, const std::array<std::int16_t, 6>& encoders) noexcept;
 
 /// Place of the handle in the frame of its workspace [m].
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Eigen::Vector3d placeOf(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
+[[nodiscard]] Eigen::Vector3d forwardKinematics(
+  const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
 
 /// Derivative of the place by the angles of the bodies [m/rad].
 /// @realtime  pure; no allocation, no lock, no exception
@@ -72,7 +73,7 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 /// Currents that push the hand with a force, all shortened alike where one exceeds its largest.
 /// @return    [A], finite
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] std::array<double, 3> currentsFor(
+[[nodiscard]] std::array<double, 3> motorCurrents(
   const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept;
 
 } // namespace palp

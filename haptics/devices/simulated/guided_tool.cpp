@@ -1,8 +1,8 @@
 #include "haptics/devices/simulated/guided_tool.h"
 
-#include "haptics/surface/ray.h"
 #include "haptics/devices/turn.h"
 #include "haptics/error.h"
+#include "haptics/surface/ray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ GuidedTool::GuidedTool(const ToolPose& start)
 {
   if (!start.apex.allFinite() || !start.axis.allFinite())
   {
-    throw Error(ErrorCode::BadValue, "tool: its start is not finite; give a place in metres");
+    throw Error(ErrorCode::BadValue, "tool: its start is not finite; give a place in meters");
   }
 }
 

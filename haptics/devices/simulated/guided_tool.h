@@ -1,8 +1,8 @@
 #pragma once
 
 #include "haptics/contact/contact.h"
-#include "haptics/threads/latest.h"
 #include "haptics/servo/scene.h"
+#include "haptics/threads/latest.h"
 
 #include <cstdint>
 #include <optional>

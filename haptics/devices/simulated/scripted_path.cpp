@@ -43,7 +43,7 @@ std::string fault(const PathKnot* previous, const PathKnot& knot)
   }
   if (!knot.apex.allFinite() || knot.apex.cwiseAbs().maxCoeff() > kFarthest)
   {
-    return "the position is farther than 10 m from the origin; give millimetres in the mesh's "
+    return "the position is farther than 10 m from the origin; give millimeters in the mesh's "
            "frame";
   }
   if (knot.axis && !(std::abs(knot.axis->norm() - 1.0) <= kAxisTolerance))
@@ -160,7 +160,7 @@ private:
     }
     PathKnot knot;
     knot.time = values[0];
-    std::transform(&values[1], &values[kShortRow], knot.apex.data(), units::fromMillimetres);
+    std::transform(&values[1], &values[kShortRow], knot.apex.data(), units::fromMillimeters);
     if (count == kLongRow)
     {
       knot.axis = Eigen::Vector3d::Map(&values[kShortRow]);

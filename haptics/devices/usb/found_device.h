@@ -18,10 +18,10 @@ enum class DeviceKind
 struct FoundDevice
 {
   DeviceKind kind = DeviceKind::RawHid;
-  std::string name;   ///< for people
-  std::string ids;    ///< vendor:product
-  std::string path;   ///< how to open it
-  std::string hurdle; ///< why it cannot be used, and what to do; empty when it can
+  std::string name;           ///< for people
+  std::string ids;            ///< vendor:product
+  std::string path;           ///< how to open it
+  std::string unusableReason; ///< why it cannot be used, and what to do; empty when it can
 };
 
 /// Why no such device can be found whatever is plugged in, and what to do; empty where it can.

@@ -94,7 +94,7 @@ const Known* find(const hid_device_info& info) noexcept
   return known == kKnown.end() ? nullptr : &*known;
 }
 
-std::string hurdleOf(const char* path)
+std::string unusableReasonOf(const char* path)
 {
   if (access(path, R_OK | W_OK) == 0)
   {
@@ -108,7 +108,9 @@ std::string hurdleOf(const char* path)
 // hidapi 0.13 uses a device that it has freed where a path is none (libusb/hidapi issue 542)
 void checkIsHid(const std::string& path)
 {
-  struct stat status{};
+  struct stat status
+  {
+  };
   int size = 0;
   const int file = open(path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   bool isOther = file < 0 && errno == EISDIR;
@@ -162,7 +164,7 @@ std::vector<FoundDevice> listHid()
       .name = product.empty() ? known->name : product,
       .ids = ids.data(),
       .path = info->path,
-      .hurdle = hurdleOf(info->path) });
+      .unusableReason = unusableReasonOf(info->path) });
   }
   return found;
 }
@@ -174,9 +176,10 @@ std::unique_ptr<Transport> openHid(const std::string& path)
   hid_device* device = hid_open_path(path.c_str());
   if (device == nullptr)
   {
-    const std::string hurdle = hurdleOf(path.c_str());
+    const std::string unusableReason = unusableReasonOf(path.c_str());
     throw Error(ErrorCode::NoDevice,
-      path + ": " + (hurdle.empty() ? "is used by another program; close it" : hurdle));
+      path + ": " +
+        (unusableReason.empty() ? "is used by another program; close it" : unusableReason));
   }
   return std::make_unique<HidTransport>(device);
 }

@@ -29,7 +29,7 @@ std::string onlySpaceMouse()
   const std::vector<FoundDevice> all = listHid();
   const auto mouse = std::ranges::find_if(all,
     [](const FoundDevice& one)
-    { return one.kind == DeviceKind::SpaceMouse && one.hurdle.empty(); });
+    { return one.kind == DeviceKind::SpaceMouse && one.unusableReason.empty(); });
   if (mouse == all.end())
   {
     throw Error(ErrorCode::NoDevice,
@@ -77,8 +77,9 @@ std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& r
     return std::make_unique<Phd1Driver>(openHid(rest));
   }
   const auto [path, configuration] = boardParts(rest);
-  const WoodenArm arm =
-    configuration.empty() ? WoodenArm{} : parseWoodenArm(readText(configuration, "the configuration"), configuration);
+  const WoodenArm arm = configuration.empty()
+    ? WoodenArm{}
+    : parseWoodenArm(readText(configuration, "the configuration"), configuration);
   const bool isMbed = boardAt(path).starts_with("1234:0006");
   return std::make_unique<WoodenDriver>(openHid(path), arm, isMbed ? 14 : 64);
 }

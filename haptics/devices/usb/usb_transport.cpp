@@ -40,7 +40,7 @@ Context makeContext()
   return context;
 }
 
-std::string hurdleOf(int error)
+std::string unusableReasonOf(int error)
 {
   switch (error)
   {
@@ -145,7 +145,7 @@ std::vector<FoundDevice> listUsb()
       .ids = "0403:cb48",
       .path = "usb:" + std::to_string(libusb_get_bus_number(devices[i])) + ":" +
         std::to_string(libusb_get_device_address(devices[i])),
-      .hurdle = hurdleOf(error) });
+      .unusableReason = unusableReasonOf(error) });
   }
   if (count >= 0)
   {
@@ -164,10 +164,10 @@ std::unique_ptr<SerialTransport> openFalcon()
       "Novint Falcon: not found, or no permission; plug it in, and see palp devices");
   }
   (void)libusb_set_auto_detach_kernel_driver(handle.get(), 1); // a serial driver may hold it
-  const std::string hurdle = hurdleOf(libusb_claim_interface(handle.get(), 0));
-  if (!hurdle.empty())
+  const std::string unusableReason = unusableReasonOf(libusb_claim_interface(handle.get(), 0));
+  if (!unusableReason.empty())
   {
-    throw Error(ErrorCode::NoDevice, "Novint Falcon: " + hurdle);
+    throw Error(ErrorCode::NoDevice, "Novint Falcon: " + unusableReason);
   }
   return std::make_unique<UsbTransport>(std::move(context), std::move(handle));
 }

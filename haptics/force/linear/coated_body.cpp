@@ -117,12 +117,12 @@ void add(PunchSolution& sum, double weight, const PunchSolution& part) noexcept
 void check(const Coatings& coatings, const Material& body, double widest)
 {
   const auto all = coatings.all();
-  if (all.front().thickness < CoatedBody::kThinnest * widest)
+  if (all.front().thickness < CoatedBody::kMinThickness * widest)
   {
     throw Error(ErrorCode::BadValue,
-      "coatings: " + units::inMillimetres(all.front().thickness) +
+      "coatings: " + units::inMillimeters(all.front().thickness) +
         " are too thin under this tool to be computed; give " +
-        units::inMillimetres(CoatedBody::kThinnest * widest) + " or more, or leave it out");
+        units::inMillimeters(CoatedBody::kMinThickness * widest) + " or more, or leave it out");
   }
   constexpr double rounding = 1.0 + 1e-9;
   double softest = body.contactModulus(); // of what is below

@@ -29,15 +29,15 @@ namespace palp
 class CoatedBody
 {
 public:
-  static constexpr double kThinnest = 0.05;    ///< uppermost coating, over the widest contact
-  static constexpr double kThinnestBody = 0.2; ///< below the coatings, as well
+  static constexpr double kMinThickness = 0.05; ///< uppermost coating, over the widest contact
+  static constexpr double kThinnestBody = 0.2;  ///< below the coatings, as well
   static constexpr double kStiffest = 20.0; ///< E* of a coating, over that of the softest below it;
                                             ///< stiffer, the contact is no longer a single circle
   static constexpr double kSoftest = 0.001;
 
   /// @param coatings  at least one
   /// @param widest    radius of the widest contact, the tip's base [m]
-  /// @throws Error    BadValue: the uppermost coating is thinner than kThinnest of the widest
+  /// @throws Error    BadValue: the uppermost coating is thinner than kMinThickness of the widest
   ///                  contact, or one is stiffer than kStiffest or softer than kSoftest
   CoatedBody(const Coatings& coatings, const Material& body, Base base, double widest);
 

@@ -1,7 +1,7 @@
 #include "haptics/force/linear/half_space.h"
 
-#include "haptics/tip/on_tip.h"
 #include "haptics/numerics/roots.h"
+#include "haptics/tip/on_tip.h"
 #include "haptics/tip/profile.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct CappedCone
 
   double rho; // of the cap [m]
   double b;   // radius where cap and flank meet [m]
-  double n;   // height of the cap's centre over that circle [m]; b / n = cot(alpha)
+  double n;   // height of the cap's center over that circle [m]; b / n = cot(alpha)
 };
 
 // g(a): depth at which the radius of contact is a

@@ -10,7 +10,7 @@ namespace
 
 constexpr int kRows = 61;                              // from half-space to the widest contact
 constexpr double kStep = Layer::kWidest / (kRows - 1); // in a / thickness
-constexpr double kDeepest = 20.0;                      // 1 - L falls as exp(-2 y), to 1e-15 here
+constexpr double kMaxDepth = 20.0;                     // 1 - L falls as exp(-2 y), to 1e-15 here
 
 // 1 - L(y) of the layer's kernel, scaled by exp(-2 y) so that nothing overflows
 double deficit(double y, double nu, Base base)
@@ -30,7 +30,7 @@ double deficit(double y, double nu, Base base)
 Layer::Layer(double poissonRatio, Base base)
   : rows_(kRows)
 {
-  PunchEquation equation(gaussLegendre(80, 0.0, kDeepest), 16);
+  PunchEquation equation(gaussLegendre(80, 0.0, kMaxDepth), 16);
   const std::vector<double>& y = equation.wavenumbers();
   Eigen::VectorXd deficits(static_cast<Eigen::Index>(y.size()));
   std::transform(y.begin(), y.end(), deficits.begin(),

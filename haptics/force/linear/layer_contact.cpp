@@ -10,7 +10,7 @@ namespace palp
 namespace
 {
 
-constexpr int kMostSteps = 30;       // of the secant method; three or four are usual
+constexpr int kMaxSteps = 30;        // of the secant method; three or four are usual
 constexpr double kClose = 1e-8;      // of the depth; the force errs by its square
 constexpr double kLongestStep = 4.0; // factor by which a step may change the depth
 constexpr int kHollowSamples = 700;  // down to a thousandth of the base
@@ -113,7 +113,7 @@ LinearContact LayerContact::operator()(
   double place = std::min(depth, base);
   Trial now = trial(place, thickness, kappa);
   double nextPlace = place * depth / now.depth;
-  for (int i = 0; i < kMostSteps && std::abs(now.depth - depth) > kClose * depth; ++i)
+  for (int i = 0; i < kMaxSteps && std::abs(now.depth - depth) > kClose * depth; ++i)
   {
     (now.depth < depth ? shallow : deep) = place;
     nextPlace = std::clamp(nextPlace, place / kLongestStep, place * kLongestStep);

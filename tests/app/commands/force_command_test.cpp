@@ -70,10 +70,11 @@ TEST(ForceCommand, RefusesABareModulusInOneLine)
 
 TEST(ForceCommand, RefusesWhatIsOutOfRange)
 {
-  for (const char* arguments : { "--young 0.5Pa", "--young 11GPa", "--poisson 0.51",
-         "--poisson -0.1", "--tip sphere:0.05mm", "--tip sphere:1.1m", "--tip cone:0.5deg:10mm",
-         "--tip cone:90deg:10mm", "--tip egg:3mm", "--tip sphere", "--depth 3:1:1mm", "--depth 0:1e300:1e299mm", "--depth 1e300:1e300:1mm",
-         "--depth -1:3:1mm", "--law corrected --tilt -10deg" })
+  for (const char* arguments :
+    { "--young 0.5Pa", "--young 11GPa", "--poisson 0.51", "--poisson -0.1", "--tip sphere:0.05mm",
+      "--tip sphere:1.1m", "--tip cone:0.5deg:10mm", "--tip cone:90deg:10mm", "--tip egg:3mm",
+      "--tip sphere", "--depth 3:1:1mm", "--depth 0:1e300:1e299mm", "--depth 1e300:1e300:1mm",
+      "--depth -1:3:1mm", "--law corrected --tilt -10deg" })
   {
     const Finished finished = palp(std::string("force ") + arguments);
     EXPECT_EQ(finished.code, 2) << arguments;

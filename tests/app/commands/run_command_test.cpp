@@ -199,7 +199,7 @@ TEST_F(RunCommand, TellsWhereTheLawIsOutsideItsLimits)
   EXPECT_TRUE(namesDepth(deep)) << deep.err;
 }
 
-TEST_F(RunCommand, WritesTheDeepestMomentInMillimetres)
+TEST_F(RunCommand, WritesTheDeepestMomentInMillimeters)
 {
   ASSERT_EQ(press("--no-picture", "out").code, 0);
   vtkNew<vtkXMLPolyDataReader> reader;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <regex>
 #include <map>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -67,7 +67,8 @@ Study read(const std::filesystem::path& file)
 void expectKnownColumns(const Study& study)
 {
   EXPECT_EQ(study.header,
-    "case,young_Pa,poisson,tool,period_ms,chain,outcome,limited_by,peak_force_N,hum_m_per_s,"
+    "case,young_Pa,poisson,tool,period_ms,chain,outcome,limited_by,peak_force_N,limit_cycle_speed_"
+    "m_per_s,"
     "energy_uJ");
   ASSERT_GT(study.rows.size(), 100u);
   std::map<std::string, int> walls;

@@ -3,7 +3,7 @@
 #include "app/commands/calibrate_case.h"
 #include "app/input/force_curve.h"
 #include "app/input/scene_file.h"
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 #include "calibration/tables/extent_table.h"
 #include "calibration/tables/surface_table.h"
 #include "haptics/devices/simulated/scripted_path.h"

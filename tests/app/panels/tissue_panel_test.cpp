@@ -129,14 +129,14 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesItsTableOnlyForNeoHookeanTissue)
 {
   list("law").setCurrentIndex(2);
   LawSettings settings = panel_->law().settings();
-  EXPECT_EQ(settings.constitution, Constitution::NeoHookean);
+  EXPECT_EQ(settings.constitution, ConstitutiveModel::NeoHookean);
   EXPECT_EQ(settings.base, Base::Bonded);
   EXPECT_NE(settings.largeStrain, nullptr);
 
   list("material").setCurrentText("Linear");
   list("base").setCurrentText("Slip");
   settings = panel_->law().settings();
-  EXPECT_EQ(settings.constitution, Constitution::Linear);
+  EXPECT_EQ(settings.constitution, ConstitutiveModel::Linear);
   EXPECT_EQ(settings.base, Base::Slip);
   EXPECT_EQ(settings.largeStrain, nullptr);
 }

@@ -1,6 +1,6 @@
 #include "app/panels/tool_panel.h"
 
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 #include "app/press/calibration.h"
 #include "haptics/error.h"
 #include "tests/app/panels/panel_rig.h"

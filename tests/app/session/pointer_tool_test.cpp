@@ -48,7 +48,7 @@ TEST_F(PointerToolTest, PressesBesideTheBodyTouchNothing)
   EXPECT_EQ(asked(), 0.0);
 }
 
-// at once a millimetre, and 0.05 mm more with each pixel
+// at once a millimeter, and 0.05 mm more with each pixel
 TEST_F(PointerToolTest, AButtonPressesAndADragGoesDeeper)
 {
   pointer.press(400, 400, 0.0);

@@ -18,7 +18,7 @@ TEST_F(WindowTest, PressesAsDeepAsTheDrag)
 {
   press(100);
   const Contact contact = session_->newest().contact;
-  EXPECT_NEAR(contact.depth, 6e-3, 0.02e-3); // a button's millimetre, 0.05 mm a pixel
+  EXPECT_NEAR(contact.depth, 6e-3, 0.02e-3); // a button's millimeter, 0.05 mm a pixel
   EXPECT_NEAR(session_->newest().response.force,
     session_->recording().scene.law({ .depth = contact.depth }).force, 1e-9);
   const QString status = window_->findChild<QLabel*>("force")->text();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/program/ledger.h"
+#include "app/program/build_trace.h"
 #include "app/window/window.h"
 #include "tests/app/application.h"
 #include "tests/support/process.h"
@@ -93,7 +93,7 @@ protected:
 
   [[nodiscard]] static bool isFelt(const Sample& sample)
   {
-    return sample.state == DeviceState::Active && !has(sample, Flag::Reseated);
+    return sample.state == DeviceState::Active && !has(sample, Flag::Rebased);
   }
 
   // of the message that work ends in, which is closed
@@ -178,7 +178,7 @@ protected:
   static constexpr int kAttempts = 10;
 
   test::TemporaryFolder folder_;
-  Ledger silent_{ false };
+  BuildTrace silent_{ false };
   std::unique_ptr<Session> session_;
   std::unique_ptr<Window> window_;
   QVTKOpenGLNativeWidget* canvas_ = nullptr;

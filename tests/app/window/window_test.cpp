@@ -1,5 +1,5 @@
 #include "app/panels/tool_panel.h"
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
 #include "tests/app/window/window_rig.h"
 
@@ -59,11 +59,11 @@ TEST_F(WindowTest, TheCorrectedLawAnswersAHeldPress)
   const auto answers = [&]
   {
     const Sample sample = session_->newest();
-    return std::abs(sample.response.force - law(indentationOf(sample.contact)).force) < 1e-9;
+    return std::abs(sample.response.force - law(contactGeometryOf(sample.contact)).force) < 1e-9;
   };
   EXPECT_TRUE(QTest::qWaitFor(answers, kPatience));
   const Sample sample = session_->newest();
-  EXPECT_GT(std::abs(sample.response.force - paper(indentationOf(sample.contact)).force), 0.02);
+  EXPECT_GT(std::abs(sample.response.force - paper(contactGeometryOf(sample.contact)).force), 0.02);
   release();
 }
 

@@ -52,7 +52,7 @@ MatrixXd denseSystem(const BlockMatrix& stiffness, const VectorXd& masses)
 
 // by elimination: speeds, then multipliers of the bonded nodes and of the given speeds
 VectorXd denseSolution(const MatrixXd& a, const VectorXd& load, const std::vector<int>& bonded,
-  const std::vector<GivenSpeed>& given)
+  const std::vector<VelocityConstraint>& given)
 {
   const Eigen::Index size = a.rows();
   const auto constraints = static_cast<Eigen::Index>(3 * bonded.size() + given.size());
@@ -74,7 +74,7 @@ VectorXd denseSolution(const MatrixXd& a, const VectorXd& load, const std::vecto
       hold(i, Vector3d::Unit(c), 0.0);
     }
   }
-  for (const GivenSpeed& g : given)
+  for (const VelocityConstraint& g : given)
   {
     hold(g.node, g.normal, g.speed);
   }
@@ -101,7 +101,7 @@ TEST(BackwardEuler, SolvesTheConstrainedSystem)
   const Matrix3Xd forces = randomField();
   const Matrix3Xd before = randomField();
   const VectorXd masses = VectorXd::LinSpaced(nodes, 0.5, 1.5);
-  const std::vector<GivenSpeed> given{ { 20, Vector3d(1, 2, -1).normalized(), 0.7 },
+  const std::vector<VelocityConstraint> given{ { 20, Vector3d(1, 2, -1).normalized(), 0.7 },
     { 26, Vector3d(0, 0, -1), -0.3 } };
 
   BackwardEuler euler(masses, mesh.bonded);

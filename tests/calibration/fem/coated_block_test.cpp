@@ -61,9 +61,11 @@ TEST_P(CoatedBlock, LinearElementsMeetTheLaw)
 {
   const Case study = coatedCase(GetParam());
   const ForceLaw law(study.tip, study.material,
-    { .mode = LawMode::Corrected, .constitution = Constitution::Linear, .coatings = GetParam() });
+    { .mode = LawMode::Corrected,
+      .constitution = ConstitutiveModel::Linear,
+      .coatings = GetParam() });
   double worst = 0.0;
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     const Response expected = law({ .depth = step.depth, .thickness = study.height });
     EXPECT_NEAR(step.force, expected.force, 0.005 * expected.force) << step.depth;

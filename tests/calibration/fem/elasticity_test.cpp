@@ -1,6 +1,6 @@
-#include "calibration/fem/constitutive.h"
 #include "calibration/baselines/corotational.h"
 #include "calibration/baselines/mass_spring.h"
+#include "calibration/fem/constitutive.h"
 #include "haptics/units.h"
 
 #include <Eigen/Geometry>

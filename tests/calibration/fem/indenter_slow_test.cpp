@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Block, SlowBlock,
     Compared{ "calib_sphere_R10__COROT_h1", Energy::Corotated, 10.0_mm, 50.0_mm, 10.0_mm },
     Compared{ "calib_sphere_R10__LINS_h0.25", Energy::Linear, 10.0_mm, 50.0_mm, 10.0_mm }));
 
-TEST_P(SlowBlock, ForceIsWithinEightPercentFromOneMillimetreOn)
+TEST_P(SlowBlock, ForceIsWithinEightPercentFromOneMillimeterOn)
 {
   const Compared& what = GetParam();
   const Case study{ .name = "block",
@@ -41,7 +41,7 @@ TEST_P(SlowBlock, ForceIsWithinEightPercentFromOneMillimetreOn)
   const auto rows = referenceTable(what.reference);
   double worstForce = 0.0;
   double worstExtent = 0.0;
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     const auto& row = rows.at(static_cast<std::size_t>(std::lround(step.depth / 0.5_mm)) - 1);
     ASSERT_NEAR(row.number("delta_m"), step.depth, 1e-9);
@@ -56,7 +56,7 @@ TEST_P(SlowBlock, ForceIsWithinEightPercentFromOneMillimetreOn)
     worstExtent = std::max(worstExtent, std::abs(found - extent));
   }
   RecordProperty("worst_force_percent", std::to_string(100.0 * worstForce));
-  RecordProperty("worst_extent_mm", std::to_string(units::toMillimetres(worstExtent)));
+  RecordProperty("worst_extent_mm", std::to_string(units::toMillimeters(worstExtent)));
 }
 
 // from where the contact spans four elements

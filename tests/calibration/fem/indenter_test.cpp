@@ -89,7 +89,7 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
   double worstPenetration = 0.0;
   for (std::size_t i = 0; i < outcome.steps.size(); ++i)
   {
-    const Indented& step = outcome.steps[i];
+    const IndentationStep& step = outcome.steps[i];
     ASSERT_NEAR(rows[i].number("delta_m"), step.depth, 1e-9);
 
     // the reaction of the base carries what the contact presses; no node is in the tool
@@ -111,7 +111,7 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
     worstExtent = std::max(worstExtent, std::abs(found - extent));
   }
   RecordProperty("worst_force_percent", std::to_string(100.0 * worstForce));
-  RecordProperty("worst_extent_mm", std::to_string(units::toMillimetres(worstExtent)));
+  RecordProperty("worst_extent_mm", std::to_string(units::toMillimeters(worstExtent)));
   RecordProperty("worst_reaction_ppm", std::to_string(1e6 * worstReaction));
   RecordProperty("worst_penetration_ppm", std::to_string(1e6 * worstPenetration));
 }
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Indenter, SurfaceAgainstReference,
     Compared{ "calib_cone45__NH_h0.5__profiles", cone(Energy::NeoHookean, 50.0_mm, 10.0_mm) }));
 
 // height of the deformed surface at a radius, straight between points
-double heightAt(const std::vector<Indented::Point>& profile, double radius)
+double heightAt(const std::vector<IndentationStep::Point>& profile, double radius)
 {
   for (std::size_t i = 1; i < profile.size(); ++i)
   {
@@ -152,7 +152,7 @@ TEST_P(SurfaceAgainstReference, ProfilesAgree)
   for (const auto& row : referenceTable(GetParam().reference))
   {
     const double depth = row.number("delta_m");
-    for (const Indented& step : outcome.steps)
+    for (const IndentationStep& step : outcome.steps)
     {
       if (std::abs(step.depth - depth) < 1e-9)
       {
@@ -178,7 +178,7 @@ TEST(Indenter, LargeLinearBlockIsHertzsHalfSpace)
     .energy = Energy::Linear,
     .depths = { 0.5_mm, 1.0_mm, 2.0_mm },
     .elementSize = 0.25_mm };
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     const double hertz =
       4.0 / 3.0 * study.material.contactModulus() * std::sqrt(10.0_mm) * std::pow(step.depth, 1.5);
@@ -229,7 +229,7 @@ TEST(Indenter, NearlyIncompressibleTissueDoesNotLock)
   study.width = study.length = 300.0_mm;
   study.depths = { 1.0_mm, 2.0_mm };
   study.elementSize = 0.5_mm;
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     // Hertz and the layer's series with m0 = 1.73745, m2 = 3.72071
     const double hertz =
@@ -297,7 +297,7 @@ TEST(Indenter, ElasticSpheresAgreeWithReference)
     for (const auto& row : rows)
     {
       indenter.press(row.number("delta_m"));
-      const Indented found = indenter.state();
+      const IndentationStep found = indenter.state();
       const double force = row.number("F_N");
       EXPECT_NEAR(found.force, force, (found.depth < 1.0001_mm ? 0.05 : 0.035) * force)
         << one.reference << ' ' << found.depth;
@@ -317,7 +317,7 @@ TEST(Indenter, CoarseVolumetricBlockAgreesWithTheCylinder)
   EXPECT_EQ(bodyOf(study).nodeCount(), 15 * 15 * 10); // a quarter
   const auto rows = referenceTable("fig15_sphere_R6__NH_h0.25");
   ASSERT_NEAR(rows.at(1).number("delta_m"), 1.0_mm, 1e-9);
-  const Indented step = completed(study).steps.at(0);
+  const IndentationStep step = completed(study).steps.at(0);
   EXPECT_NEAR(step.force, rows[1].number("F_N"), 0.08 * step.force);
   EXPECT_NEAR(step.baseReaction, step.force, 1e-4 * step.force);
   EXPECT_LE(step.penetration, 1e-3 * step.depth);
@@ -331,7 +331,7 @@ TEST(Indenter, TheSurfaceNeitherFoldsNorHangsUnderASharpCone)
   Case study = cone(Energy::NeoHookean, 50.0_mm, 4.0_mm);
   study.depths = { 1.0_mm, 2.0_mm, 3.0_mm, 4.0_mm };
   study.elementSize = 0.25_mm;
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     EXPECT_NEAR(step.profile.front().uz, -step.depth, 1e-6 * step.depth);
     for (std::size_t i = 1; i < step.profile.size(); ++i)
@@ -383,7 +383,7 @@ TEST(Indenter, ASlippingBaseIsSofterAsTheLayerSays)
   study.width = study.length = 300.0_mm;
   study.depths = { 1.0_mm, 2.0_mm };
   study.elementSize = 0.5_mm;
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     const double hertz =
       4.0 / 3.0 * study.material.contactModulus() * std::sqrt(10.0_mm) * std::pow(step.depth, 1.5);
@@ -407,7 +407,7 @@ TEST(Indenter, AFlatPunchIsTheExactOne)
   study.width = study.length = 150.0_mm;
   study.elementSize = 0.5_mm;
   const double layer = 1.0 / (1.0 - 2.0 / std::numbers::pi * 1.41177 * 5.0 / 50.0);
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     const double exact = 2.0 * study.material.contactModulus() * 5.0_mm * step.depth * layer;
     EXPECT_NEAR(step.force, exact, 0.02 * exact) << step.depth;
@@ -427,7 +427,7 @@ TEST(Indenter, AFlatPunchGoesAsDeepAsItIsWide)
   const double smallest = 2.0 * study.material.contactModulus() * 4.7_mm * 0.3_mm * layer;
   EXPECT_GT(steps[0].force, 0.97 * smallest);
   EXPECT_LT(steps[0].force, 1.03 * smallest * 5.0 / 4.7);
-  for (const Indented& step : steps)
+  for (const IndentationStep& step : steps)
   {
     EXPECT_NEAR(step.baseReaction, step.force, 1e-4 * step.force);
     EXPECT_LE(step.penetration, 1e-3 * step.depth);
@@ -446,7 +446,7 @@ TEST(Indenter, SaysThatTheContactReachedTheRim)
   study.depths = { 1.0_mm, 3.0_mm };
   const Outcome outcome = calibrate(study);
   EXPECT_EQ(outcome.steps.size(), 1U);
-  EXPECT_NE(outcome.trouble.find("rim"), std::string::npos) << outcome.trouble;
+  EXPECT_NE(outcome.error.find("rim"), std::string::npos) << outcome.error;
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 #include "calibration/study/study.h"
 
 #include "calibration/study/curve_fit.h"
-#include "calibration/tables/extent_table.h"
 #include "calibration/study/study_files.h"
+#include "calibration/tables/extent_table.h"
 #include "haptics/error.h"
 #include "haptics/files/number_table.h"
 #include "haptics/tip/profile.h"
@@ -139,8 +139,8 @@ TEST_P(BlockOf, HasTheSizeThatWasAskedFor)
 
 TEST(Study, ExtentIsWhereTheDeformedSurfaceCrossesTheThreshold)
 {
-  const std::vector<Indented::Point> profile{ { 0.0, 0.0, -3.0_mm }, { 10.0_mm, 1.0_mm, -1.0_mm },
-    { 20.0_mm, 0.0, 0.0 } };
+  const std::vector<IndentationStep::Point> profile{ { 0.0, 0.0, -3.0_mm },
+    { 10.0_mm, 1.0_mm, -1.0_mm }, { 20.0_mm, 0.0, 0.0 } };
   EXPECT_DOUBLE_EQ(extentRadius(profile, 0.5_mm), 15.5_mm); // halfway from 11 to 20 mm
   EXPECT_EQ(extentRadius(profile, 3.0_mm), 0.0);
   EXPECT_DOUBLE_EQ(extentRadius({ profile[0], profile[1] }, 0.5_mm), 11.0_mm);
@@ -202,7 +202,7 @@ TEST(Study, InterruptedAndResumedEqualsUninterrupted)
       }
     });
   EXPECT_EQ(first.steps.size(), 2U);
-  EXPECT_NE(first.trouble, "");
+  EXPECT_NE(first.error, "");
   EXPECT_EQ(ExtentTable::read(folder / "table.csv").rows().size(), 2U); // usable as it is
 
   std::size_t computed = 0;
@@ -223,7 +223,7 @@ void expectWhole(const Outcome& outcome)
   ASSERT_EQ(outcome.steps.size(), kWhole.steps.size());
   for (std::size_t i = 0; i < outcome.steps.size(); ++i)
   {
-    const Indented& step = outcome.steps[i];
+    const IndentationStep& step = outcome.steps[i];
     EXPECT_NEAR(step.depth, kWhole.steps[i].depth, 1e-9 * step.depth);
     EXPECT_NEAR(step.force, kWhole.steps[i].force, 1e-6 * step.force);
     EXPECT_EQ(step.profile.size(), kWhole.steps[i].profile.size());
@@ -270,7 +270,7 @@ TEST(Study, AnEarlierCalibrationGoesWithTheFirstDepth)
   source.request_stop();
   Case other = quick();
   other.material.youngModulus = 40.0_kPa;
-  EXPECT_NE(calibrateInto(folder, other, false, source.get_token()).trouble, "");
+  EXPECT_NE(calibrateInto(folder, other, false, source.get_token()).error, "");
   EXPECT_EQ(resumeRefusal(folder, quick()), ""); // what is there stays, before any depth
   EXPECT_TRUE(std::filesystem::exists(folder / "extent.png"));
   (void)calibrateInto(folder, other, false);
@@ -434,7 +434,7 @@ TEST(Study, RefusesTheForcesThatDependOnTheMesh)
   study.depths = { 10.0e-9, 2.0_mm };
   const Outcome outcome = calibrateInto(folder, study, false);
   ASSERT_EQ(outcome.refused, std::vector{ 10.0e-9 });
-  EXPECT_NE(outcome.trouble.find("--element-size 0.5 mm"), std::string::npos) << outcome.trouble;
+  EXPECT_NE(outcome.error.find("--element-size 0.5 mm"), std::string::npos) << outcome.error;
   ASSERT_EQ(outcome.steps.size(), 1U);
   EXPECT_EQ(resumeRefusal(folder, study), "");
 }
@@ -446,10 +446,10 @@ TEST(Study, PressesShallowDepthsOnSmallerElements)
   Case study = quick();
   study.depths = { 0.1_mm, 0.5_mm, 2.5_mm };
   const Outcome outcome = calibrateInto(folder, study, false);
-  EXPECT_EQ(outcome.trouble, "");
+  EXPECT_EQ(outcome.error, "");
   ASSERT_EQ(outcome.steps.size(), 3U);
   // a sphere so shallow is Hertz's, on a layer of many contact radii
-  for (const Indented& step : { outcome.steps[0], outcome.steps[1] })
+  for (const IndentationStep& step : { outcome.steps[0], outcome.steps[1] })
   {
     const double radius = baseRadius(study.tip);
     const double a = std::sqrt(radius * step.depth);
@@ -490,7 +490,7 @@ TEST(Study, SweepKeepsWhatWorksAndReportsWhatDoesNot)
       folder / study.name, calibrationFiles(), OutputFolder::Earlier::Refuse));
   }
   sweep(folders, { bad, good }, false, 2, {},
-    [&](const std::string& name, const std::string& trouble) { told[name] = trouble; });
+    [&](const std::string& name, const std::string& failure) { told[name] = failure; });
   EXPECT_NE(told.at("too large"), "");
   EXPECT_EQ(told.at("good"), "");
   EXPECT_EQ(ExtentTable::read(folder / "good" / "table.csv").rows().size(), 3U);

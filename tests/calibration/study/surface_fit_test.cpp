@@ -30,7 +30,7 @@ TEST_P(AnyTool, FittedCurveIsWithinThreePercentOfTheDepthAndThePapersIsNot)
 {
   const Case what = study();
   double worstPaper = 0.0;
-  for (const Indented& step : completed(what).steps)
+  for (const IndentationStep& step : completed(what).steps)
   {
     const SurfaceProfile curve = fitSurface(step, what.tip);
     const auto fitted =
@@ -68,7 +68,7 @@ TEST(SurfaceProfile, JoinsToolAndRestSurfaceSmoothly)
 // a surface that is such a curve is found again
 TEST(SurfaceFit, RecoversItsOwnCurve)
 {
-  Indented pressed{ .depth = 5.0_mm, .contactRadius = 5.0_mm };
+  IndentationStep pressed{ .depth = 5.0_mm, .contactRadius = 5.0_mm };
   const Tip tip = SphereTip{ 10.0_mm };
   SurfaceProfile exact = kCurve;
   exact.sink = pressed.depth - tipHeight(tip, exact.inner);
@@ -86,7 +86,7 @@ TEST(SurfaceFit, RecoversItsOwnCurve)
 
 TEST(SurfaceFit, RefusesASurfaceWithTooFewPoints)
 {
-  const Indented pressed{ .depth = 1.0_mm, .contactRadius = 3.0_mm, .profile = { {}, {} } };
+  const IndentationStep pressed{ .depth = 1.0_mm, .contactRadius = 3.0_mm, .profile = { {}, {} } };
   EXPECT_THROW((void)fitSurface(pressed, SphereTip{ 10.0_mm }), Error);
 }
 

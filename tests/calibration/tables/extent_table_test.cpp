@@ -35,7 +35,7 @@ std::string refusal(const std::string& text)
 
 constexpr auto kHeader = "# how it was made\ndepth_mm,extent_radius_mm,force_N,contact_radius_mm\n";
 
-TEST(ExtentTable, ReadsMillimetresAsMetres)
+TEST(ExtentTable, ReadsMillimetersAsMeters)
 {
   const auto table =
     ExtentTable::read(test::writtenCsv(kHeader + std::string("1,3,0.25,2\n2,7,0.5,4\n")));

@@ -23,15 +23,15 @@ TEST(SlowSurfaceTable, ExtentOfAnotherSphereIsThatOfFreshElements)
   {
     const ExtentTable extents = table.extents({ 8.0_mm, 8.0_mm, study.height, 0.33 }, threshold);
     double worst = 0.0;
-    for (const Indented& step : completed(study).steps)
+    for (const IndentationStep& step : completed(study).steps)
     {
       const double fresh = extentRadius(step.profile, threshold);
       const double found = extents.extentRadius(step.depth);
       EXPECT_NEAR(found, fresh, std::max(0.3_mm, 0.06 * fresh)) << threshold << ' ' << step.depth;
       worst = std::max(worst, std::abs(found - fresh));
     }
-    RecordProperty("worst_mm_at_" + std::to_string(units::toMillimetres(threshold)),
-      std::to_string(units::toMillimetres(worst)));
+    RecordProperty("worst_mm_at_" + std::to_string(units::toMillimeters(threshold)),
+      std::to_string(units::toMillimeters(worst)));
   }
 }
 

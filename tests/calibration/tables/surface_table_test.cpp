@@ -32,7 +32,7 @@ TEST(SurfaceTable, InterpolatesBetweenItsPlaces)
     .material = { 5.0_kPa, 0.27 },
     .depths = { 2.0_mm, 5.2_mm },
     .elementSize = 0.4_mm };
-  for (const Indented& step : completed(study).steps)
+  for (const IndentationStep& step : completed(study).steps)
   {
     const SurfaceTable::Place place{ step.depth, radius, study.height, 0.27 };
     EXPECT_TRUE(table.covers(place));

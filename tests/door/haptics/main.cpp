@@ -6,8 +6,7 @@
 
 int main()
 {
-  const palp::ForceLaw law(
-    palp::SphereTip{ .radius = 10e-3 }, palp::makeMaterial(50e3, 0.33));
+  const palp::ForceLaw law(palp::SphereTip{ .radius = 10e-3 }, palp::makeMaterial(50e3, 0.33));
   const double force = law({ .depth = 5e-3 }).force;
   std::printf("%.6f N\n", force);
   return std::abs(force - 2.645071) < 1e-5 ? 0 : 1;

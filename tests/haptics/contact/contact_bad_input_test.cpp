@@ -150,7 +150,7 @@ TEST(ContactBadInput, TwoLobesAtOnce)
 
   const Surface groove =
     test::makeSurface(test::sheet(0.08, 81, [](double x, double) { return std::abs(x); }));
-  const double inside = 2.0_mm; // R minus the distance of the centre to both walls
+  const double inside = 2.0_mm; // R minus the distance of the center to both walls
   const Contact contact =
     press(groove, kSphere, { 0.0, 0.0, std::numbers::sqrt2 * (10.0_mm - inside) - 10.0_mm });
   EXPECT_NEAR(contact.depth, inside, 1e-6);

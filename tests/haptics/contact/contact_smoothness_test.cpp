@@ -1,5 +1,5 @@
 #include "haptics/contact/contact.h"
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 

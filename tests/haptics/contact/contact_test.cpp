@@ -1,6 +1,6 @@
 #include "haptics/contact/contact.h"
 
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
@@ -61,7 +61,7 @@ TEST(Contact, ApartIsNoContact)
   }
 }
 
-// Sphere on a sphere: R minus the distance of the centres beyond R0, whatever the side it comes
+// Sphere on a sphere: R minus the distance of the centers beyond R0, whatever the side it comes
 // from. An inscribed mesh lies below by at most its sagitta.
 TEST(Contact, OnASphereTheDepthIsThatOfTheSphere)
 {
@@ -109,13 +109,13 @@ TEST(Contact, BeginsWhereTheMeshIsTouched)
   {
     const Eigen::Vector3d out =
       Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
-    // bring the sphere in along `out` until its centre is R from the mesh
+    // bring the sphere in along `out` until its center is R from the mesh
     double far = 70.0_mm;
     double near = 50.0_mm;
     while (far - near > 1e-12)
     {
       const double middle = 0.5 * (far + near);
-      (findNearest(ball, middle * out, 1.0).distance < 10.0_mm ? near : far) = middle;
+      (findClosestPoint(ball, middle * out, 1.0).distance < 10.0_mm ? near : far) = middle;
     }
     const auto depthAt = [&](double inward)
     {
@@ -158,8 +158,9 @@ TEST(Contact, ASecondWallAddsNothingToTheDepth)
 {
   const double half = 4.0_mm;
   const Surface slab = test::makeSurface(test::block({ 120.0_mm, 120.0_mm, 2.0 * half }, 24));
-  for (const Tip& tip : { Tip{ ConeTip{ 15.0_deg, 10.0_mm } }, Tip{ ConeTip{ 30.0_deg, 10.0_mm } },
-         Tip{ ConeTip{ 60.0_deg, 10.0_mm } }, Tip{ PunchTip{ 4.0_mm } }, Tip{ PunchTip{ 10.0_mm } } })
+  for (const Tip& tip :
+    { Tip{ ConeTip{ 15.0_deg, 10.0_mm } }, Tip{ ConeTip{ 30.0_deg, 10.0_mm } },
+      Tip{ ConeTip{ 60.0_deg, 10.0_mm } }, Tip{ PunchTip{ 4.0_mm } }, Tip{ PunchTip{ 10.0_mm } } })
   {
     for (const double inward : { 30.0_mm, 4.0_mm, 3.0_mm, 2.2_mm, 1.0_mm, 0.5_mm })
     {
@@ -170,8 +171,8 @@ TEST(Contact, ASecondWallAddsNothingToTheDepth)
       for (double depth = 0.1_mm; depth <= half; depth += 0.1_mm)
       {
         const Eigen::Vector3d apex(60.0_mm - inward, 1.3_mm, -depth);
-        const double reached = findContact(slab, tip,
-          { .apex = apex, .axis = -Eigen::Vector3d::UnitZ() }, ContactRule::Exact)
+        const double reached = findContact(
+          slab, tip, { .apex = apex, .axis = -Eigen::Vector3d::UnitZ() }, ContactRule::Exact)
                                  .depth;
         const double nearest = std::min(depth, inward);
         EXPECT_LE(reached, 1.03 * nearest) << tip.index() << " at " << apex.transpose();

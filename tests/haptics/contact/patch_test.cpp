@@ -105,7 +105,8 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
 }
 
 // The claim the depth rests on: h^2 = Q - 3/2 square / weight on a sphere of any radius. Along the
-// mean normal, a ball about a body's whole side (0.6 about one of radius 0.7) is no such part of it.
+// mean normal, a ball about a body's whole side (0.6 about one of radius 0.7) is no such part of
+// it.
 TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
 {
   const double height = 0.3;
@@ -121,7 +122,7 @@ TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
   }
 }
 
-// both are gentle where a triangle leaves the ball: what is left of one that faces the centre
+// both are gentle where a triangle leaves the ball: what is left of one that faces the center
 // shrinks as the square and the cube of what the ball still reaches beyond it
 TEST(Patch, ATriangleLeavesTheBallGently)
 {

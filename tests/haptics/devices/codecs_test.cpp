@@ -148,10 +148,10 @@ TEST(WoodenHaptics, ReadsCountsAndWritesMilliamperes)
 TEST(WoodenHaptics, StandsWhereTheDrawingSays)
 {
   const WoodenArm arm; // at rest: upper arm straight up, forearm straight out
-  const Vector3d place = placeOf(arm, bodyAngles(arm, { 0, 0, 6000, 0, 0, 0 }));
+  const Vector3d place = forwardKinematics(arm, jointAngles(arm, { 0, 0, 6000, 0, 0, 0 }));
   EXPECT_TRUE(place.isApprox(Vector3d(0.245 - 0.220, 0.0, 0.080 + 0.205 - 0.080), 1e-12));
   // a count of the second encoder is 54 um at the end of the upper arm
-  const Vector3d angles = bodyAngles(arm, { 0, 1, 0, 0, 0, 0 });
+  const Vector3d angles = jointAngles(arm, { 0, 1, 0, 0, 0, 0 });
   EXPECT_NEAR(angles[1] * 0.205, 54.0_um, 0.5_um);
 }
 
@@ -167,7 +167,8 @@ TEST(WoodenHaptics, JacobianIsTheDerivative)
     for (int axis = 0; axis < 3; ++axis)
     {
       const Vector3d step = 1e-5 * Vector3d::Unit(axis);
-      const Vector3d slope = (placeOf(arm, angles + step) - placeOf(arm, angles - step)) / 2e-5;
+      const Vector3d slope =
+        (forwardKinematics(arm, angles + step) - forwardKinematics(arm, angles - step)) / 2e-5;
       EXPECT_LT((jacobian.col(axis) - slope).norm(), 1e-6 * jacobian.norm());
     }
   }
@@ -186,17 +187,17 @@ TEST(WoodenHaptics, ForceArrivesThroughTheWire)
     const std::array<std::int16_t, 6> counts{ count(0, 2000), count(760, 1140), count(5300, 1140),
       0, 0, 0 };
     const test::WoodenCounts at{ counts[0], counts[1], counts[2] };
-    const Vector3d angles = bodyAngles(arm, counts);
-    EXPECT_LT((placeOf(arm, angles) - test::woodenTool(at)).norm(), 1e-9);
+    const Vector3d angles = jointAngles(arm, counts);
+    EXPECT_LT((forwardKinematics(arm, angles) - test::woodenTool(at)).norm(), 1e-9);
     const Vector3d force = 3.0 * Vector3d(share(random), share(random), share(random)).normalized();
     std::array<std::byte, 14> wire{};
-    encodeWooden(currentsFor(arm, angles, force), wire);
+    encodeWooden(motorCurrents(arm, angles, force), wire);
     const auto current = [&](std::size_t motor) { return readInt<std::int16_t>(wire, 2 * motor); };
     const Vector3d felt = test::woodenForce(at, { current(0), current(1), current(2) });
     // a larger force than the motors bear is shorter but has the same direction
     EXPECT_LT(std::acos(std::min(1.0, felt.normalized().dot(force.normalized()))), 0.5_deg);
     EXPECT_LE(felt.norm(), 3.0 * 1.01);
-    const auto currents = currentsFor(arm, angles, force);
+    const auto currents = motorCurrents(arm, angles, force);
     if (std::max({ std::abs(currents[0]), std::abs(currents[1]), std::abs(currents[2]) }) < 1.99)
     {
       EXPECT_NEAR(felt.norm(), 3.0, 0.01 * 3.0);
@@ -210,7 +211,7 @@ TEST(WoodenHaptics, CurrentsAreBoundedAndFinite)
   for (const Vector3d& force :
     { Vector3d(1e6, 0, 0), Vector3d(kNaN, 0, 0), Vector3d(0, HUGE_VAL, 0) })
   {
-    for (const double current : currentsFor(arm, Vector3d(0.1, 0.2, 1.4), force))
+    for (const double current : motorCurrents(arm, Vector3d(0.1, 0.2, 1.4), force))
     {
       EXPECT_LE(std::abs(current), arm.maxCurrent);
     }

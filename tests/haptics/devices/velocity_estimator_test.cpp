@@ -22,7 +22,7 @@ double seen(double x)
   return std::floor(x / kQuantum) * kQuantum;
 }
 
-TEST(VelocityEstimator, NoiseOfACoarseEncoderStaysBelowFiveMillimetresPerSecond)
+TEST(VelocityEstimator, NoiseOfACoarseEncoderStaysBelowFiveMillimetersPerSecond)
 {
   for (double speed = 1.0_mm; speed < 0.5; speed *= 1.37)
   {

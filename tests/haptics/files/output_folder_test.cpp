@@ -1,7 +1,7 @@
 #include "haptics/files/output_folder.h"
 
-#include "haptics/files/replace_file.h"
 #include "haptics/error.h"
+#include "haptics/files/replace_file.h"
 #include "tests/support/process.h"
 
 #include <csignal>

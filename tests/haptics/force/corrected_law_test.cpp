@@ -3,8 +3,8 @@
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 #include "tests/haptics/force/reference_table.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/haptics/force/tips.h"
+#include "tests/support/allocation_guard.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST_P(AnyTip, IsExactWhereNothingActs)
 
 TEST_P(AnyTip, FactorsMultiplyThePapersForce)
 {
-  const Indentation place{ .depth = 3.0_mm,
+  const ContactGeometry place{ .depth = 3.0_mm,
     .tilt = 9.0_deg,
     .thickness = 20.0_mm,
     .surfaceCurvature = 1.0 / 50.0_mm,
@@ -95,12 +95,12 @@ TEST_P(AnyTip, FactorsMultiplyThePapersForce)
 
 TEST_P(AnyTip, EachFactorCanBeSwitchedOff)
 {
-  const Indentation place{
+  const ContactGeometry place{
     .depth = 3.0_mm, .tilt = 9.0_deg, .thickness = 20.0_mm, .surfaceCurvature = 1.0 / 50.0_mm
   };
   const ForceLaw law(GetParam(), kLiver,
     { .mode = LawMode::Corrected,
-      .constitution = Constitution::Linear,
+      .constitution = ConstitutiveModel::Linear,
       .largeStrain = madeUpRatios(),
       .curvature = false,
       .thickness = false,
@@ -142,11 +142,11 @@ TEST_P(AnyTip, ReturnsNoNaN)
     GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
   for (const double odd : { nan, infinite, -infinite, 0.0, -1.0, 1e-300, 1e300 })
   {
-    for (const Indentation& place : { Indentation{ .depth = odd, .thickness = 10.0_mm },
-           Indentation{ .depth = 1.0_mm, .tilt = odd },
-           Indentation{ .depth = 1.0_mm, .thickness = odd },
-           Indentation{ .depth = 1.0_mm, .surfaceCurvature = odd },
-           Indentation{ .depth = 1.0_mm, .curvatureSpread = odd } })
+    for (const ContactGeometry& place : { ContactGeometry{ .depth = odd, .thickness = 10.0_mm },
+           ContactGeometry{ .depth = 1.0_mm, .tilt = odd },
+           ContactGeometry{ .depth = 1.0_mm, .thickness = odd },
+           ContactGeometry{ .depth = 1.0_mm, .surfaceCurvature = odd },
+           ContactGeometry{ .depth = 1.0_mm, .curvatureSpread = odd } })
     {
       const Response response = law(place);
       EXPECT_TRUE(std::isfinite(response.force) && response.force >= 0.0) << odd;
@@ -204,7 +204,8 @@ TEST_P(NeoHookeanBlock, IsMetWithin3PercentWherePapersLawIsOffBy10)
   double worstPaper = 0.0;
   for (const auto& row : rows)
   {
-    const Indentation place{ .depth = row.number("delta_m"), .thickness = GetParam().thickness };
+    const ContactGeometry place{ .depth = row.number("delta_m"),
+      .thickness = GetParam().thickness };
     const bool compared = place.depth > 0.99_mm && place.depth < 10.01_mm &&
       (std::holds_alternative<BluntConeTip>(GetParam().tip) ||
         place.depth < baseRadius(GetParam().tip) * 1.001);
@@ -257,9 +258,11 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
   int believed = 0;
   for (const bool cone : { false, true })
   {
-    for (const Constitution tissue : { Constitution::Linear, Constitution::NeoHookean })
+    for (const ConstitutiveModel tissue :
+      { ConstitutiveModel::Linear, ConstitutiveModel::NeoHookean })
     {
-      const Tip tip = cone ? Tip{ BluntConeTip{ 45.0_deg, 0.3_mm, 20.0_mm } } : SphereTip{ 10.0_mm };
+      const Tip tip =
+        cone ? Tip{ BluntConeTip{ 45.0_deg, 0.3_mm, 20.0_mm } } : SphereTip{ 10.0_mm };
       const ForceLaw law(tip, kLiver,
         { .mode = LawMode::Corrected, .constitution = tissue, .largeStrain = shippedRatios() });
       const Validity validity(law);
@@ -268,14 +271,15 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
         for (const std::string support : { "_cap45__", "_hemi__" })
         {
           const std::string name = "fig3_" + (cone ? angle : round) + std::to_string(ball) +
-            support + (tissue == Constitution::Linear ? "LINS" : "NH") + (cone ? "_h0.5" : "_h1");
+            support + (tissue == ConstitutiveModel::Linear ? "LINS" : "NH") +
+            (cone ? "_h0.5" : "_h1");
           const auto rows = test::referenceTable(name);
           ASSERT_EQ(rows.size(), 10U) << name;
           for (const auto& row : rows)
           {
-            const Indentation place{ .depth = row.number("delta_m"),
-              .thickness = 2.0 * units::fromMillimetres(ball),
-              .surfaceCurvature = 1.0 / units::fromMillimetres(ball) };
+            const ContactGeometry place{ .depth = row.number("delta_m"),
+              .thickness = 2.0 * units::fromMillimeters(ball),
+              .surfaceCurvature = 1.0 / units::fromMillimeters(ball) };
             if (brokenRules(validity(place)) == 0)
             {
               EXPECT_NEAR(law(place).force / row.number("F_N"), 1.0, 0.05)
@@ -295,7 +299,7 @@ TEST(CorrectedLaw, DoesNotAllocate)
   const ForceLaw law(
     SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
   const Validity validity(law);
-  const Indentation place{ .depth = 3.0_mm,
+  const ContactGeometry place{ .depth = 3.0_mm,
     .tilt = 9.0_deg,
     .thickness = 20.0_mm,
     .surfaceCurvature = 1.0 / 50.0_mm,

@@ -1,7 +1,7 @@
 #include "haptics/force/validity.h"
 
 #include "haptics/contact/contact.h"
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
@@ -36,7 +36,7 @@ TEST(Validity, LimitsTheTiltAsThePaperDoes)
 {
   const Validity sphere(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
   const Validity cone(ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kLiver));
-  const auto at = [](double tilt) { return Indentation{ .depth = 1.0_mm, .tilt = tilt }; };
+  const auto at = [](double tilt) { return ContactGeometry{ .depth = 1.0_mm, .tilt = tilt }; };
   EXPECT_TRUE(rule(sphere(at(21.5_deg)), "inclination").holds());
   EXPECT_FALSE(rule(sphere(at(21.6_deg)), "inclination").holds());
   EXPECT_TRUE(rule(cone(at(8.9_deg)), "inclination").holds());
@@ -70,7 +70,7 @@ TEST(Validity, ChangesWithTheMaximumOfTheExperiment)
   const ForceLaw law(SphereTip{ 10.0_mm }, kLiver);
   const Validity shallow(law, { .deepest = 4.0_mm });
   const Validity deep(law, { .deepest = 8.0_mm });
-  const Indentation place{ .depth = 4.0_mm };
+  const ContactGeometry place{ .depth = 4.0_mm };
   EXPECT_NEAR(rule(shallow(place), "force_of_maximum").value,
     rule(shallow(place), "force_of_itself").value, 1e-12);
   EXPECT_LT(
@@ -93,9 +93,9 @@ TEST(Validity, LimitsDepthCurvatureEdgeAndStiffness)
   const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kLiver), { .stableStiffness = 500.0 });
   EXPECT_TRUE(rule(paper({ .depth = 3.2_mm }), "depth").holds());
   EXPECT_FALSE(rule(paper({ .depth = 3.4_mm }), "depth").holds());
-  const Indentation flat{ .depth = 0.1_mm, .surfaceCurvature = 1.0 / 19.0_mm };
+  const ContactGeometry flat{ .depth = 0.1_mm, .surfaceCurvature = 1.0 / 19.0_mm };
   EXPECT_TRUE(rule(paper(flat), "curvature").holds());
-  const Indentation bent{ .depth = 0.1_mm, .surfaceCurvature = -1.0 / 17.0_mm };
+  const ContactGeometry bent{ .depth = 0.1_mm, .surfaceCurvature = -1.0 / 17.0_mm };
   EXPECT_FALSE(rule(paper(bent), "curvature").holds());
   EXPECT_TRUE(rule(paper({ .depth = 1.5_mm }, 15.1_mm), "edge").holds());
   EXPECT_FALSE(rule(paper({ .depth = 1.5_mm }, 14.9_mm), "edge").holds());
@@ -152,14 +152,16 @@ TEST(Validity, SeesTheEdgeOfAClosedBodyWhereverTheForceErrsBy7Percent)
           block, tip, { .apex = { 50.0_mm - row.distance, 1.0_mm, -row.depth } }, contactRule);
         if (contact.touching() && row.overCenter < 0.93)
         {
-          EXPECT_FALSE(rule(validity(indentationOf(contact), contact.edgeDistance), "edge").holds())
+          EXPECT_FALSE(
+            rule(validity(contactGeometryOf(contact), contact.edgeDistance), "edge").holds())
             << n << ": " << row.distance << " " << row.depth;
         }
       }
     }
-    const Contact middle = findContact(block, tip, { .apex = { 1.0_mm, 2.0_mm, -4.0_mm } },
-      ContactRule::Exact);
-    EXPECT_TRUE(rule(validity(indentationOf(middle), middle.edgeDistance), "edge").holds()) << n;
+    const Contact middle =
+      findContact(block, tip, { .apex = { 1.0_mm, 2.0_mm, -4.0_mm } }, ContactRule::Exact);
+    EXPECT_TRUE(rule(validity(contactGeometryOf(middle), middle.edgeDistance), "edge").holds())
+      << n;
   }
 }
 
@@ -223,7 +225,7 @@ TEST(Validity, SeesAnEllipseThatIsTooSlender)
 {
   const ForceLaw law(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
   const auto place = [](double spread)
-  { return Indentation{ .depth = 1.0_mm, .curvatureSpread = spread }; };
+  { return ContactGeometry{ .depth = 1.0_mm, .curvatureSpread = spread }; };
   EXPECT_TRUE(rule(Validity(law)(place(59.0)), "ellipse").holds());
   EXPECT_FALSE(rule(Validity(law)(place(61.0)), "ellipse").holds());
   EXPECT_LT(law(place(1e6)).force, 1.17 * law(place(0.0)).force);
@@ -233,8 +235,9 @@ TEST(Validity, EveryRuleHasWordsAndNoNaN)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Validity validity(ForceLaw(PunchTip{ 5.0_mm }, kLiver));
-  for (const Indentation& place : { Indentation{}, Indentation{ .depth = nan, .tilt = nan },
-         Indentation{ .depth = 1.0_mm, .thickness = nan, .surfaceCurvature = nan } })
+  for (const ContactGeometry& place :
+    { ContactGeometry{}, ContactGeometry{ .depth = nan, .tilt = nan },
+      ContactGeometry{ .depth = 1.0_mm, .thickness = nan, .surfaceCurvature = nan } })
   {
     for (const Rule& one : validity(place, nan))
     {

@@ -48,10 +48,10 @@ TEST(PassivityController, BooksTheLeakOfASampledSpring)
 // a device at a wall that is too stiff for it, pushed by 1 N; integrated fifty times finer
 struct Tap
 {
-  double energy = 0.0; // least at the port, in the plant [J]
-  double end = 0.0;    // the same at the end [J]
-  double ledger = 0.0; // [J]
-  double tail = 0.0;   // root mean square speed in the last quarter [m/s]
+  double energy = 0.0;         // least at the port, in the plant [J]
+  double end = 0.0;            // the same at the end [J]
+  double observedEnergy = 0.0; // [J]
+  double tail = 0.0;           // root mean square speed in the last quarter [m/s]
 };
 
 Tap tap(double damping, double stiffness, double maxDamping, double duration = 8.0)
@@ -89,7 +89,7 @@ Tap tap(double damping, double stiffness, double maxDamping, double duration = 8
   (void)controller.damp(along(x), along(0.0), 1.0_ms);
   result.tail = std::sqrt(result.tail);
   result.end = port;
-  result.ledger = controller.energy();
+  result.observedEnergy = controller.energy();
   return result;
 }
 
@@ -97,7 +97,7 @@ TEST(PassivityController, LedgerIsTheEnergyAtThePortOfThePlant)
 {
   const Tap stable = tap(0.5, 500.0, 30.0, 1.0);
   EXPECT_GT(stable.end, 0.0);
-  EXPECT_NEAR(stable.ledger, stable.end, 1e-9);
+  EXPECT_NEAR(stable.observedEnergy, stable.end, 1e-9);
 }
 
 class TooStiff : public ::testing::TestWithParam<double> // times the stable stiffness

@@ -239,13 +239,13 @@ TEST(SafetyChain, AMainThreadThatIsSilentLosesTheForceAndGetsItBackSoftly)
   const double full = bench.press(5.0_mm).force.z();
   for (int silent = 0; silent <= 1000; ++silent)
   {
-    bench.orders.silence = silent * kTick;
+    bench.orders.heartbeatAge = silent * kTick;
     const Sample sample = bench.at(5.0_mm);
     const double left = std::clamp((300.0 - silent) / 100.0, 0.0, 1.0);
     ASSERT_NEAR(sample.force.z(), full * left, 1e-9) << silent;
-    ASSERT_EQ(has(sample, Flag::Unwatched), silent >= 200) << silent;
+    ASSERT_EQ(has(sample, Flag::WatchdogExpired), silent >= 200) << silent;
   }
-  bench.orders.silence = 0.0;
+  bench.orders.heartbeatAge = 0.0;
   Vector3d before = Vector3d::Zero();
   for (int i = 0; i < 600; ++i)
   {
@@ -261,11 +261,11 @@ TEST(SafetyChain, AMainThreadThatIsDeadIsAnEmergencyStop)
 {
   Bench bench;
   bench.activate();
-  for (const double silence : { 2.1, kNaN })
+  for (const double heartbeatAge : { 2.1, kNaN })
   {
-    bench.orders = { .armed = true, .silence = silence };
+    bench.orders = { .armed = true, .heartbeatAge = heartbeatAge };
     EXPECT_TRUE(has(bench.at(-5.0_mm), Flag::EmergencyStop));
-    bench.orders.silence = 0.0;
+    bench.orders.heartbeatAge = 0.0;
     EXPECT_EQ(bench.at(-5.0_mm).state, DeviceState::Ready); // latched
     bench.orders.armed = false;
     (void)bench.at(-5.0_mm);

@@ -51,12 +51,12 @@ TEST(SafetyChain, SaysThatContactIsFeltFromBelowTheSurfaceUntilTheToolHasLifted)
   bench.orders.armed = true;
   for (int i = 0; i < 700; ++i)
   {
-    ASSERT_TRUE(has(bench.at(5.0_mm), Flag::Reseated)) << "tick " << i;
+    ASSERT_TRUE(has(bench.at(5.0_mm), Flag::Rebased)) << "tick " << i;
   }
   EXPECT_EQ(bench.force, Vector3d::Zero());
-  EXPECT_TRUE(has(bench.press(8.0_mm), Flag::Reseated));
-  EXPECT_FALSE(has(bench.press(-1.0_mm), Flag::Reseated));
-  EXPECT_FALSE(has(bench.press(5.0_mm), Flag::Reseated));
+  EXPECT_TRUE(has(bench.press(8.0_mm), Flag::Rebased));
+  EXPECT_FALSE(has(bench.press(-1.0_mm), Flag::Rebased));
+  EXPECT_FALSE(has(bench.press(5.0_mm), Flag::Rebased));
   EXPECT_GT(bench.force.z(), 0.0);
 }
 

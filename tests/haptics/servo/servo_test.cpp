@@ -152,7 +152,8 @@ TEST(Servo, TheForceOfAMainThreadThatHangsFadesAndThenStops)
       [&](const Sample& sample)
       {
         stopped = stopped || has(sample, Flag::EmergencyStop);
-        faded = faded || (has(sample, Flag::Unwatched) && !stopped && sample.force.isZero(0.0));
+        faded =
+          faded || (has(sample, Flag::WatchdogExpired) && !stopped && sample.force.isZero(0.0));
         EXPECT_TRUE(!stopped || sample.force.isZero(0.0));
       });
   }

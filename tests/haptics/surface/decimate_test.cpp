@@ -1,7 +1,7 @@
 #include "haptics/surface/decimate.h"
 
-#include "haptics/surface/deviation.h"
 #include "haptics/error.h"
+#include "haptics/surface/deviation.h"
 #include "tests/support/surfaces.h"
 
 #include <gtest/gtest.h>

@@ -80,8 +80,8 @@ TEST(ShapeField, OfACreaseIsItsAngleOverTheContact)
   for (const double angle : { -30.0_deg, 20.0_deg })
   {
     const double slope = std::tan(0.5 * angle);
-    const Surface roof = test::makeSurface(test::sheet(
-      0.1, 81, [slope](double x, double) { return -slope * std::abs(x); }));
+    const Surface roof = test::makeSurface(
+      test::sheet(0.1, 81, [slope](double x, double) { return -slope * std::abs(x); }));
     const double radius = 10.0_mm;
     const LocalShape shape = shapeAt(roof, Eigen::Vector3d::Zero(), radius);
     const double across = angle * 16.0 / 15.0 / (M_PI / 3.0 * radius);

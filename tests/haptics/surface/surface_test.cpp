@@ -1,8 +1,8 @@
 #include "haptics/surface/surface.h"
 
-#include "haptics/surface/nearest.h"
-#include "haptics/surface/ray.h"
 #include "haptics/error.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/ray.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ TEST(Surface, RefusesWhatCannotBeSearched)
   EXPECT_THROW(Surface(broken, { { 0, 1, 2 } }), Error);
 }
 
-TEST(Surface, NeighboursAreThePointsAcrossTheEdges)
+TEST(Surface, NeighborsAreThePointsAcrossTheEdges)
 {
   const Surface surface = test::makeSurface(test::ball(1.0, 5));
   std::vector<std::set<int>> expected(surface.points().size());
@@ -42,7 +42,7 @@ TEST(Surface, NeighboursAreThePointsAcrossTheEdges)
   }
   for (int i = 0; i < static_cast<int>(expected.size()); ++i)
   {
-    const auto found = surface.neighbours(i);
+    const auto found = surface.neighbors(i);
     const std::set<int> unique(found.begin(), found.end());
     EXPECT_EQ(unique.size(), found.size());
     EXPECT_EQ(unique, expected[static_cast<std::size_t>(i)]);
@@ -81,7 +81,8 @@ TEST(Surface, SignedDistanceIsThatOfTheBlock)
     const Eigen::Array3d beyond = (x - middle).array().abs() - 0.5 * size.array();
     const double exact =
       beyond.max(0.0).matrix().norm() + std::min(0.0, static_cast<double>(beyond.maxCoeff()));
-    const Nearest nearest = findNearest(surface, x, std::numeric_limits<double>::infinity());
+    const ClosestPoint nearest =
+      findClosestPoint(surface, x, std::numeric_limits<double>::infinity());
     EXPECT_NEAR(nearest.distance, exact, 1e-12);
     EXPECT_NEAR((nearest.point - x).norm(), std::abs(exact), 1e-12);
   }
@@ -90,8 +91,7 @@ TEST(Surface, SignedDistanceIsThatOfTheBlock)
 TEST(Surface, FarSideOfABlockIsItsThickness)
 {
   const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.03 }, 9));
-  EXPECT_NEAR(
-    rayExit(block, { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()).distance, 0.03, 1e-12);
+  EXPECT_NEAR(rayExit(block, { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()).distance, 0.03, 1e-12);
   EXPECT_EQ(rayExit(block, { 0.0, 0.2, 0.0 }, -Eigen::Vector3d::UnitZ()).distance,
     std::numeric_limits<double>::infinity());
 }
@@ -132,8 +132,9 @@ TEST(Surface, FarSideHasNoGapsBetweenItsTriangles)
           if (!grazes) // no ray within a side of the block
           {
             const double thickness = (below - above).norm();
-            const double found = rayExit(
-              surface, placed(above), (placed(below) - placed(above)).normalized()).distance;
+            const double found =
+              rayExit(surface, placed(above), (placed(below) - placed(above)).normalized())
+                .distance;
             missed += std::abs(found - thickness) < 1e-9 ? 0 : 1;
           }
         }
@@ -182,8 +183,8 @@ TEST_P(TJoint, SliverOfRoundingHasNoSayInNormalsAndSides)
     for (const double x : { -0.2, 0.0, 0.3 })
     {
       const Eigen::Vector3d ridge = turn * Eigen::Vector3d(x, 0, 0);
-      const double out = findNearest(surface, ridge + 0.01 * up, 1.0).distance;
-      const double in = findNearest(surface, ridge - 0.01 * up, 1.0).distance;
+      const double out = findClosestPoint(surface, ridge + 0.01 * up, 1.0).distance;
+      const double in = findClosestPoint(surface, ridge - 0.01 * up, 1.0).distance;
       const double aside = 0.01 / std::hypot(1.0, slope); // of the slopes, from where they meet
       ASSERT_NEAR(out, slope < 0.0 ? aside : 0.01, 1e-9) << x;
       ASSERT_NEAR(in, slope > 0.0 ? -aside : -0.01, 1e-9) << x;

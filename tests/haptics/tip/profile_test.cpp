@@ -51,7 +51,7 @@ protected:
   std::filesystem::path file_ = folder_.path() / "profile.csv";
 };
 
-TEST_F(ProfileFile, IsReadInMillimetres)
+TEST_F(ProfileFile, IsReadInMillimeters)
 {
   std::ofstream(file_) << "# a tip\nradius_mm,height_mm\n0,0\n2,0\r\n\n6,4\n";
   const Profile profile = Profile::read(file_);

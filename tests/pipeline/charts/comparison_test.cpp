@@ -128,10 +128,10 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
   EXPECT_GT(x.size(), 100U);
   for (std::size_t i = 0; i < x.size(); ++i)
   {
-    const double radius = std::abs(units::fromMillimetres(x[i]));
+    const double radius = std::abs(units::fromMillimeters(x[i]));
     const double expected =
       radius < r ? 4.0_mm - tipHeight(press.tip, radius) : ring.sinkAt(radius);
-    EXPECT_NEAR(units::fromMillimetres(z[i]), -expected, 10.0_um) << x[i];
+    EXPECT_NEAR(units::fromMillimeters(z[i]), -expected, 10.0_um) << x[i];
   }
   for (const double height : column(*plot->tables()[1], 1))
   {
@@ -147,8 +147,8 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
   for (std::size_t i = 0; i < 6; ++i)
   {
     const double side = i < 3 ? 1.0 : -1.0;
-    EXPECT_NEAR(units::fromMillimetres(controlX[i]), side * control[i % 3].first, 10.0_um);
-    EXPECT_NEAR(units::fromMillimetres(controlZ[i]), control[i % 3].second, 10.0_um);
+    EXPECT_NEAR(units::fromMillimeters(controlX[i]), side * control[i % 3].first, 10.0_um);
+    EXPECT_NEAR(units::fromMillimeters(controlZ[i]), control[i % 3].second, 10.0_um);
   }
   for (const int side : { 6, 7 })
   {
@@ -157,8 +157,8 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
     EXPECT_GT(radius.size(), 20U);
     for (std::size_t i = 0; i < radius.size(); ++i)
     {
-      const double at = std::abs(units::fromMillimetres(radius[i]));
-      EXPECT_NEAR(units::fromMillimetres(height[i]), -elements.sinkAt(at), 1.0_um);
+      const double at = std::abs(units::fromMillimeters(radius[i]));
+      EXPECT_NEAR(units::fromMillimeters(height[i]), -elements.sinkAt(at), 1.0_um);
     }
   }
 }
@@ -197,7 +197,7 @@ TEST(SectionPlot, RunsAroundTheRimOfALobe)
   for (std::size_t i = 0; i < x.size(); ++i)
   {
     const Eigen::Vector3d at =
-      place + units::fromMillimetres(x[i]) * along + units::fromMillimetres(z[i]) * up;
+      place + units::fromMillimeters(x[i]) * along + units::fromMillimeters(z[i]) * up;
     EXPECT_NEAR(std::hypot(at.x() / kWide, at.z() / kHalf), 1.0, 0.01) << at.transpose();
     least = std::min(least, at.z());
     if (i > 0)

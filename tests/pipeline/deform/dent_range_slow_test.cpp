@@ -12,7 +12,8 @@ class DentRange : public ::testing::TestWithParam<RangeCase>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Dent, DentRange,
-  ::testing::ValuesIn(rangeCases({ "block", "ball", "liver", "coarse" }, { "paper", "exact", "corrected" })),
+  ::testing::ValuesIn(
+    rangeCases({ "block", "ball", "liver", "coarse" }, { "paper", "exact", "corrected" })),
   [](const auto& with) { return nameOf(with.param); });
 
 TEST_P(DentRange, PressingDeeper)

@@ -60,7 +60,7 @@ TEST(Dent, ReachesAroundAnEdgeByTheWayAlongTheSurface)
   EXPECT_NEAR(nearest, 36.0_mm, 1.5_mm);
 }
 
-// where edges are longer than the contact is wide, a point in the tool may be no neighbour of one
+// where edges are longer than the contact is wide, a point in the tool may be no neighbor of one
 // that moves
 TEST(Dent, FindsEveryPointInTheToolOnARoughCoarseSurface)
 {

@@ -101,16 +101,16 @@ TEST_P(AgainstFiniteElements, IsWithinThreePerCentOnTheMesh)
 }
 
 // shallow, where those have no profile: our own elements, finer than those of the table
-TEST_P(AgainstFiniteElements, IsWithinThreePerCentAtOneMillimetre)
+TEST_P(AgainstFiniteElements, IsWithinThreePerCentAtOneMillimeter)
 {
   const fem::Case shallow{
     .tip = GetParam().tip, .depths = { 0.5_mm, 1.0_mm }, .elementSize = 0.25_mm
   };
   const fem::Outcome outcome = calibrate(shallow);
-  ASSERT_EQ(outcome.steps.size(), 2U) << outcome.trouble;
-  const fem::Indented& pressed = outcome.steps.back();
+  ASSERT_EQ(outcome.steps.size(), 2U) << outcome.error;
+  const fem::IndentationStep& pressed = outcome.steps.back();
   std::vector<Eigen::Vector2d> profile;
-  for (const fem::Indented::Point& point : pressed.profile)
+  for (const fem::IndentationStep::Point& point : pressed.profile)
   {
     profile.emplace_back(point.radius + point.ur, point.uz);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibration/tables/extent_table.h"
-#include "haptics/contact/indentation_of.h"
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"
@@ -146,7 +146,7 @@ private:
     Sample sample;
     sample.pose = pose;
     sample.contact = findContact(body_.haptic, law_.tip(), pose, ContactRule::Exact);
-    sample.response = law_(indentationOf(sample.contact));
+    sample.response = law_(contactGeometryOf(sample.contact));
     const Press now =
       pressOf(sample, law_.tip(), extents_.extentRadius(sample.contact.depth), style_);
     body_.surface.press(now);

@@ -174,7 +174,7 @@ struct Step
   double width;
 };
 
-// the largest of a function of the share of an edge, over a nanometre of its length
+// the largest of a function of the share of an edge, over a nanometer of its length
 template <typename Function>
 Step largestStep(const Function& sinkAt, double length)
 {
@@ -236,7 +236,7 @@ EdgeStep stepOnEdge(const Dent& dent, const Press& press, const Place& a, const 
 }
 
 // The displacement along every edge of the pressed mesh, sides and ridges included: the largest
-// step over a nanometre of its length.
+// step over a nanometer of its length.
 TEST_P(RandomPress, IsContinuousAlongEveryEdge)
 {
   double step = 0.0;

@@ -183,7 +183,7 @@ void press(const std::string& bytes, const std::string& name)
   {
     throw std::runtime_error("the answer of the reader is damaged");
   }
-  const LoadedSurface loaded = madeReady(*read, name, LengthUnit::Millimetre);
+  const LoadedSurface loaded = madeReady(*read, name, LengthUnit::Millimeter);
   const Surface surface(pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh));
   for (std::size_t i = 0; i < surface.points().size(); i += 1 + surface.points().size() / 20)
   {

@@ -125,9 +125,9 @@ TEST_F(Images, TheLevelOfADistanceIsTheBall)
   for (const auto& file : { write<vtkMetaImageWriter>("ball.mha", *image),
          write<vtkXMLImageDataWriter>("ball.vti", *image) })
   {
-    const LoadedSurface surface = readSurface(file, LengthUnit::Millimetre, { 0.0, {} });
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
     EXPECT_TRUE(surface.closed) << file;
-    EXPECT_EQ(surface.unit, LengthUnit::Millimetre);
+    EXPECT_EQ(surface.unit, LengthUnit::Millimeter);
     EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2) << file; // a tenth of a voxel
   }
 }
@@ -238,7 +238,7 @@ TEST_F(Images, NiftiValuesAreScaledAsTheHeaderSays)
     0.2);
 }
 
-TEST_F(Images, NiftiUnitsAreTurnedIntoMillimetres)
+TEST_F(Images, NiftiUnitsAreTurnedIntoMillimeters)
 {
   for (const auto& [code, size] : { std::pair('\1', 1e-3), { '\2', 1.0 }, { '\3', 1e3 } })
   {
@@ -273,9 +273,10 @@ vtkSmartPointer<vtkImageData> labels()
   {
     const Vector3d place(image->GetPoint(i));
     const double distance = (place - kCenterMm).norm();
-    const double value = distance < 20.0 ? 2.0 : distance < kRadiusMm ? 5.0
-      : place.z() > 80.0                                             ? 7.0
-                                                                     : 0.0;
+    const double value = distance < 20.0 ? 2.0
+      : distance < kRadiusMm             ? 5.0
+      : place.z() > 80.0                 ? 7.0
+                                         : 0.0;
     image->GetPointData()->GetScalars()->SetComponent(i, 0, value);
   }
   return image;
@@ -323,8 +324,9 @@ TEST_F(Images, MetaImageIsReadWithOrWithoutBlanksAndPacked)
               reinterpret_cast<const Bytef*>(voxels.data()), voxels.size()),
     Z_OK);
   packed.resize(size);
-  const std::string head = "NDims=3\nDimSize=41 41 31\nElementSpacing=2 2.5 3\n"
-                           "ElementType=MET_FLOAT\nTransformMatrix=1.000000001 0 0 0 1 0 1e-17 0 1\n";
+  const std::string head =
+    "NDims=3\nDimSize=41 41 31\nElementSpacing=2 2.5 3\n"
+    "ElementType=MET_FLOAT\nTransformMatrix=1.000000001 0 0 0 1 0 1e-17 0 1\n";
   const std::string pack = "CompressedData=True\n";
   const std::string tail = "ElementDataFile=LOCAL\n";
   for (const std::string& bytes : { head + tail + voxels, head + pack + tail + packed })
@@ -333,8 +335,9 @@ TEST_F(Images, MetaImageIsReadWithOrWithoutBlanksAndPacked)
     EXPECT_LT(farthest(*readSurface(file, {}, { 0.0, {} }).mesh, kCenterMm), 0.2);
   }
 
-  const auto words = [&](const std::string& data)
-  { return refusal(write("b.mha", head + pack + tail + data), { 0.0, {} }); };
+  const auto words = [&](const std::string& data) {
+    return refusal(write("b.mha", head + pack + tail + data), { 0.0, {} });
+  };
   EXPECT_NE(words(packed.substr(0, size / 2)).find("cut off"), std::string::npos);
   std::string half(size, '\0');
   uLongf less = size;

@@ -91,8 +91,9 @@ std::string exploit()
   attempt("run a program", execl("/bin/true", "true", nullptr));
   attempt("signal another", kill(getppid(), 0));
   attempt("trace another", ptrace(PTRACE_ATTACH, getppid(), 0, 0));
-  attempt("make code", mprotect(mmap(nullptr, 4096, PROT_READ | PROT_WRITE,
-                         MAP_PRIVATE | MAP_ANONYMOUS, -1, 0), 4096, PROT_READ | PROT_EXEC));
+  attempt("make code",
+    mprotect(mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0), 4096,
+      PROT_READ | PROT_EXEC));
   attempt("remove", unlink("/tmp/palp-exploit"));
   attempt("descriptor 9", lseek(9, 0, SEEK_CUR));
   worked += environ && *environ ? "environment " : "";

@@ -25,17 +25,17 @@ std::string refusal(double longestSide)
 
 TEST(LengthUnit, IsTheOneThatGivesTheSizeOfAnOrgan)
 {
-  EXPECT_EQ(guessUnit(230.0, ""), LengthUnit::Millimetre);
-  EXPECT_EQ(guessUnit(3.2, ""), LengthUnit::Centimetre);
-  EXPECT_EQ(guessUnit(0.23, ""), LengthUnit::Metre);
+  EXPECT_EQ(guessUnit(230.0, ""), LengthUnit::Millimeter);
+  EXPECT_EQ(guessUnit(3.2, ""), LengthUnit::Centimeter);
+  EXPECT_EQ(guessUnit(0.23, ""), LengthUnit::Meter);
 }
 
-TEST(LengthUnit, CountsTheLimitsOf5And600MillimetresIn)
+TEST(LengthUnit, CountsTheLimitsOf5And600MillimetersIn)
 {
-  EXPECT_EQ(guessUnit(600.0, ""), LengthUnit::Millimetre);
-  EXPECT_EQ(guessUnit(0.61, ""), LengthUnit::Centimetre);
-  EXPECT_EQ(guessUnit(0.005, ""), LengthUnit::Metre);
-  EXPECT_EQ(guessUnit(0.49, ""), LengthUnit::Metre);
+  EXPECT_EQ(guessUnit(600.0, ""), LengthUnit::Millimeter);
+  EXPECT_EQ(guessUnit(0.61, ""), LengthUnit::Centimeter);
+  EXPECT_EQ(guessUnit(0.005, ""), LengthUnit::Meter);
+  EXPECT_EQ(guessUnit(0.49, ""), LengthUnit::Meter);
 }
 
 TEST(LengthUnit, IsRefusedWhereTwoFit)
@@ -45,8 +45,8 @@ TEST(LengthUnit, IsRefusedWhereTwoFit)
   {
     EXPECT_NE(refusal(side).find("more than one unit"), std::string::npos) << side;
   }
-  EXPECT_EQ(guessUnit(4.9, ""), LengthUnit::Centimetre);
-  EXPECT_EQ(guessUnit(60.1, ""), LengthUnit::Millimetre);
+  EXPECT_EQ(guessUnit(4.9, ""), LengthUnit::Centimeter);
+  EXPECT_EQ(guessUnit(60.1, ""), LengthUnit::Millimeter);
 }
 
 TEST(LengthUnit, IsRefusedWhereNoneFitsAndSaysWhatEachWouldGive)
@@ -62,9 +62,9 @@ TEST(LengthUnit, IsRefusedWhereNoneFitsAndSaysWhatEachWouldGive)
 
 TEST(LengthUnit, IsReadFromTheWordsOfTheOption)
 {
-  EXPECT_EQ(parseUnit("mm"), LengthUnit::Millimetre);
-  EXPECT_EQ(parseUnit("cm"), LengthUnit::Centimetre);
-  EXPECT_EQ(parseUnit("m"), LengthUnit::Metre);
+  EXPECT_EQ(parseUnit("mm"), LengthUnit::Millimeter);
+  EXPECT_EQ(parseUnit("cm"), LengthUnit::Centimeter);
+  EXPECT_EQ(parseUnit("m"), LengthUnit::Meter);
   EXPECT_EQ(parseUnit("auto"), std::nullopt);
   for (const char* text : { "", "MM", "inch", "mm ", "km" })
   {

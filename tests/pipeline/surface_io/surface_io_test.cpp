@@ -132,7 +132,7 @@ const char* const kOff = R"(OFF
 0 0 0
 1e2 0 0
 0 1.0e+2 0
-0 0 100   # with colours
+0 0 100   # with colors
 3 0 2 1  255 0 0
 3 0 1 3
 3 0 3 2
@@ -178,7 +178,7 @@ class EveryFormat
 {
 };
 
-TEST_P(EveryFormat, GivesTheCornerOfACubeInMetres)
+TEST_P(EveryFormat, GivesTheCornerOfACubeInMeters)
 {
   const LoadedSurface surface = load(GetParam().name, GetParam().content);
   const Mesh mesh = meshOf(surface);
@@ -186,7 +186,7 @@ TEST_P(EveryFormat, GivesTheCornerOfACubeInMetres)
   EXPECT_EQ(mesh.triangles.size(), 4u);
   EXPECT_TRUE(surface.closed);
   EXPECT_TRUE(closedAndOriented(mesh));
-  EXPECT_EQ(surface.unit, LengthUnit::Millimetre);
+  EXPECT_EQ(surface.unit, LengthUnit::Millimeter);
   EXPECT_NEAR(volume(mesh), 0.1 * 0.1 * 0.1 / 6.0, 1e-10); // single precision
   ASSERT_EQ(surface.notes.size(), 2u);
   EXPECT_EQ(surface.notes[0],
@@ -198,7 +198,7 @@ TEST_P(EveryFormat, GivesTheCornerOfACubeInMetres)
 
 TEST_P(EveryFormat, IsReadInTheUnitThatIsAsked)
 {
-  const LoadedSurface surface = load(GetParam().name, GetParam().content, LengthUnit::Centimetre);
+  const LoadedSurface surface = load(GetParam().name, GetParam().content, LengthUnit::Centimeter);
   EXPECT_TRUE(extent(meshOf(surface)).isApprox(Vector3d::Constant(1.0), 1e-6));
   EXPECT_TRUE(mentions(surface, "taken in cm, as asked"));
 }
@@ -294,7 +294,7 @@ TEST_P(EveryWriter, NeverCrashesOnDamage)
     }
     try
     {
-      const Mesh mesh = meshOf(load("damaged" + name, damaged, LengthUnit::Millimetre));
+      const Mesh mesh = meshOf(load("damaged" + name, damaged, LengthUnit::Millimeter));
       for (const Triangle& t : mesh.triangles)
       {
         for (const int corner : t)
@@ -318,14 +318,14 @@ using SurfaceFile = Files;
 
 TEST_F(SurfaceFile, ThatSaysItsUnitIsBelieved)
 {
-  // 60 mm across: by its size this could be centimetres as well
+  // 60 mm across: by its size this could be centimeters as well
   const Mesh sphere = makeSphere(30.0_mm, 3);
   const LoadedSurface surface = readSurface(write("sphere.vtp", sphere));
-  EXPECT_EQ(surface.unit, LengthUnit::Millimetre);
+  EXPECT_EQ(surface.unit, LengthUnit::Millimeter);
   EXPECT_TRUE(mentions(surface, "taken in mm, as the file says"));
   EXPECT_THROW((void)readSurface(write("sphere.stl", sphere)), Error);
   EXPECT_EQ(
-    readSurface(write("sphere.vtp", sphere), LengthUnit::Centimetre).unit, LengthUnit::Centimetre);
+    readSurface(write("sphere.vtp", sphere), LengthUnit::Centimeter).unit, LengthUnit::Centimeter);
 }
 
 TEST_F(SurfaceFile, SaysItsAxesWhereTheyAreKnown)
@@ -487,26 +487,27 @@ TEST_F(SurfaceFile, OfAnyShapeIsMadeReadyInTimeThatGrowsAsItsSize)
     const int b = 6 + (i + 1) % count;
     text << "f 1 " << a << ' ' << b << "\nf 2 " << a << ' ' << b << '\n'; // half face inwards
   }
-  const LoadedSurface surface = load("cones.obj", text.str(), LengthUnit::Millimetre);
+  const LoadedSurface surface = load("cones.obj", text.str(), LengthUnit::Millimeter);
   EXPECT_TRUE(mentions(surface, "open: 3 edges"));
-  EXPECT_TRUE(mentions(surface, "60000 triangles turned to face as their neighbours"));
+  EXPECT_TRUE(mentions(surface, "60000 triangles turned to face as their neighbors"));
   const Mesh mesh = meshOf(surface);
   const Surface made(mesh.points, mesh.triangles);
-  EXPECT_EQ(made.neighbours(3).size(), count); // behind the lone triangle's three points
+  EXPECT_EQ(made.neighbors(3).size(), count); // behind the lone triangle's three points
   EXPECT_NEAR(made.normals()[3].z(), 1.0, 1e-3);
 }
 
 TEST_F(SurfaceFile, OfStlInTheWaysThatProgramsWriteItIsRead)
 {
   std::string capitals = kStl;
-  std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::ranges::transform(
+    capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
   std::string apart = kStl;
   apart.replace(apart.find("endsolid"), 8, "end solid");
   std::string returns = kStl;
   std::ranges::replace(returns, '\n', '\r');
   for (const std::string& text : { capitals, apart, returns, " \n" + std::string(kStl) })
   {
-    const LoadedSurface surface = load("corner.stl", text, LengthUnit::Millimetre);
+    const LoadedSurface surface = load("corner.stl", text, LengthUnit::Millimeter);
     EXPECT_TRUE(surface.closed);
     EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10);
   }
@@ -518,7 +519,8 @@ TEST_F(SurfaceFile, OfStlInTheWaysThatProgramsWriteItIsRead)
   }
   catch (const Error& error)
   {
-    EXPECT_NE(std::string(error.what()).find("cut off, it ends without endsolid"), std::string::npos);
+    EXPECT_NE(
+      std::string(error.what()).find("cut off, it ends without endsolid"), std::string::npos);
   }
 }
 
@@ -534,14 +536,14 @@ TEST_F(SurfaceFile, OfObjInTheWaysThatProgramsWriteItIsRead)
   };
   std::string returns = kObj;
   std::ranges::replace(returns, '\n', '\r');
-  for (const std::string& text :
-    { "\xEF\xBB\xBF" + std::string(kObj), with(kObj, "\n", " # a remark\n"),
-      with(kObj, "\n", "\r\n"), returns, with(kObj, "f 1 3 2", "f -4 -2 -3"),
-      with(kObj, "f 1 3 2", "f 1/7 3//9 2/7/9"), with(kObj, "f 1 3 2", "f 1 3 \\\n2"),
-      with(kObj, "v ", "v\t"), with(kObj, "100", "+1.0E2"), "f 4 3 2\n" + with(kObj, "f 2 3 4", "g x"),
-      with(kObj, " 0\n", " 0 1.0\n"), "o s\ns off\nvt 0 0\nl 1 2\n" + std::string(kObj) })
+  for (const std::string& text : { "\xEF\xBB\xBF" + std::string(kObj),
+         with(kObj, "\n", " # a remark\n"), with(kObj, "\n", "\r\n"), returns,
+         with(kObj, "f 1 3 2", "f -4 -2 -3"), with(kObj, "f 1 3 2", "f 1/7 3//9 2/7/9"),
+         with(kObj, "f 1 3 2", "f 1 3 \\\n2"), with(kObj, "v ", "v\t"), with(kObj, "100", "+1.0E2"),
+         "f 4 3 2\n" + with(kObj, "f 2 3 4", "g x"), with(kObj, " 0\n", " 0 1.0\n"),
+         "o s\ns off\nvt 0 0\nl 1 2\n" + std::string(kObj) })
   {
-    const LoadedSurface surface = load("corner.obj", text, LengthUnit::Millimetre);
+    const LoadedSurface surface = load("corner.obj", text, LengthUnit::Millimeter);
     EXPECT_TRUE(surface.closed) << text;
     EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10) << text;
   }
@@ -557,21 +559,22 @@ TEST_F(SurfaceFile, OfOffInTheWaysThatProgramsWriteItIsRead)
          "OFF " + numbers + faces, "# first\n\nOFF # kind\n" + numbers + faces, returns,
          "STOFF\n4 4 6\n0 0 0 .1 .2\n100 0 0 0 0\n0 100 0 1 1\n0 0 100 0 1\n" + faces,
          "STCNOFF\n4 4\n0 0 0 0 0 1 9 9 9 1 0 0\n100 0 0 0 0 1 9 9 9 1 0 0\n"
-         "0 100 0 0 0 1 9 9 9 1 0 0\n0 0 100 0 0 1 9 9 9 1 0 0\n" + faces })
+         "0 100 0 0 0 1 9 9 9 1 0 0\n0 0 100 0 0 1 9 9 9 1 0 0\n" +
+           faces })
   {
-    const LoadedSurface surface = load("corner.off", text, LengthUnit::Millimetre);
+    const LoadedSurface surface = load("corner.off", text, LengthUnit::Millimeter);
     EXPECT_TRUE(surface.closed) << text;
     EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10) << text;
   }
-  for (const auto& [text, words] :
-    { std::pair{ std::string("4OFF\n") + numbers + faces, "three coordinates, not of other dimensions" },
-      { std::string("OFF BINARY\n\1\2"), "an OFF file in text form" },
-      { std::string("OFF\n4 4 6\n0 0 0 100 0 0\n0 100 0 0 0 100\n") + faces,
-        "each stands in a line of its own" } })
+  for (const auto& [text, words] : { std::pair{ std::string("4OFF\n") + numbers + faces,
+                                       "three coordinates, not of other dimensions" },
+         { std::string("OFF BINARY\n\1\2"), "an OFF file in text form" },
+         { std::string("OFF\n4 4 6\n0 0 0 100 0 0\n0 100 0 0 0 100\n") + faces,
+           "each stands in a line of its own" } })
   {
     try
     {
-      (void)load("bad.off", text, LengthUnit::Millimetre);
+      (void)load("bad.off", text, LengthUnit::Millimeter);
       ADD_FAILURE() << text;
     }
     catch (const Error& error)
@@ -597,14 +600,16 @@ TEST_F(SurfaceFile, OfBinaryPlyIsReadWhateverElseItHolds)
       text += big ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
     };
     put(1.0);
-    for (const std::array<int, 3>& p : { std::array{ 0, 0, 0 }, { 100, 0, 0 }, { 0, 100, 0 }, { 0, 0, 100 } })
+    for (const std::array<int, 3>& p :
+      { std::array{ 0, 0, 0 }, { 100, 0, 0 }, { 0, 100, 0 }, { 0, 0, 100 } })
     {
       put(std::uint8_t{ 7 });
       put(double(p[2]));
       put(float(p[0]));
       put(std::int16_t(p[1]));
     }
-    for (const std::array<int, 3>& t : { std::array{ 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } })
+    for (const std::array<int, 3>& t :
+      { std::array{ 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } })
     {
       put(std::uint8_t{ 1 });
       put(0.5F);
@@ -614,7 +619,7 @@ TEST_F(SurfaceFile, OfBinaryPlyIsReadWhateverElseItHolds)
         put(std::uint16_t(corner));
       }
     }
-    const LoadedSurface surface = load("corner.ply", text, LengthUnit::Millimetre);
+    const LoadedSurface surface = load("corner.ply", text, LengthUnit::Millimeter);
     EXPECT_TRUE(surface.closed);
     EXPECT_NEAR(volume(meshOf(surface)), 0.1 * 0.1 * 0.1 / 6.0, 1e-10);
   }
@@ -682,7 +687,8 @@ TEST_F(SurfaceFile, ThatIsBadIsRefusedInOneSentence)
     { "empty.stl", "", ErrorCode::BadFile, "empty" },
     { "nan.stl", notANumber, ErrorCode::BadMesh, "not a usable number" },
     { "inf.obj", infinite, ErrorCode::BadMesh, "inf.obj:3: 'inf' is not a usable number" },
-    { "range.off", outOfRange, ErrorCode::BadFile, "range.off:12: a face refers to point 9, out of range (0 to 3)" },
+    { "range.off", outOfRange, ErrorCode::BadFile,
+      "range.off:12: a face refers to point 9, out of range (0 to 3)" },
     { "negative.ply", negative, ErrorCode::BadFile, "export" },
     { "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ErrorCode::BadMesh, "no triangles" },
     { "zero.off", "OFF\n0 0 0\n", ErrorCode::BadMesh, "no triangles" },
@@ -710,7 +716,7 @@ TEST_F(SurfaceFile, ThatIsBadIsRefusedInOneSentence)
     testing::internal::CaptureStderr();
     try
     {
-      (void)readSurface(file, LengthUnit::Millimetre);
+      (void)readSurface(file, LengthUnit::Millimeter);
       ADD_FAILURE() << bad.name << " was taken";
     }
     catch (const Error& error)

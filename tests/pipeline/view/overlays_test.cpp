@@ -50,7 +50,7 @@ TEST_P(EachOverlay, IsDrawnWhenWantedAndNotOtherwise)
   EXPECT_EQ(test::differenceOf(*view.picture(body, sample), *plain).mean, 0.0);
 }
 
-TEST(PressView, NamesTheRuleThatColoursTheDent)
+TEST(PressView, NamesTheRuleThatColorsTheDent)
 {
   const Body body = ball();
   View view(body, kSphere);
@@ -98,7 +98,7 @@ TEST(ControlNet, LiesOnTheToolAndOnTheSurface)
   }
 }
 
-// of the arrow, from its colour
+// of the arrow, from its color
 double lengthOfArrow(vtkRenderer& renderer)
 {
   vtkActorCollection& actors = *renderer.GetActors();

@@ -36,11 +36,11 @@ inline Body liver()
 {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(PALP_SHARE "/meshes/liver.vtp");
-  vtkNew<vtkTransform> toMetres;
-  const double metre = units::fromMillimetres(1.0);
-  toMetres->Scale(metre, metre, metre);
+  vtkNew<vtkTransform> toMeters;
+  const double meter = units::fromMillimeters(1.0);
+  toMeters->Scale(meter, meter, meter);
   vtkNew<vtkTransformPolyDataFilter> scaled;
-  scaled->SetTransform(toMetres);
+  scaled->SetTransform(toMeters);
   scaled->SetInputConnection(reader->GetOutputPort());
   scaled->Update();
   // the highest point

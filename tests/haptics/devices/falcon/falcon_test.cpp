@@ -123,7 +123,7 @@ TEST(FalconKinematics, PlaceAndAnglesAreInverse)
     const Vector3d place = randomPlace(random);
     const auto angles = falconAngles(place);
     ASSERT_TRUE(angles);
-    const auto back = falconPlace(*angles, falconCentre());
+    const auto back = falconPlace(*angles, falconCenter());
     ASSERT_TRUE(back);
     EXPECT_LT((*falconAngles(*back) - *angles).norm(), 1e-9);
   }
@@ -167,7 +167,7 @@ TEST(FalconKinematics, SaysWhatIsOutOfReach)
     EXPECT_FALSE(falconAngles(place));
     EXPECT_FALSE(falconTorques(place, Vector3d::UnitZ()));
   }
-  EXPECT_FALSE(falconPlace(Vector3d::Constant(nan), falconCentre()));
+  EXPECT_FALSE(falconPlace(Vector3d::Constant(nan), falconCenter()));
 }
 
 } // namespace

@@ -142,8 +142,8 @@ TEST_F(GuidedToolTest, StopsAtHalfOfTheThickness)
 // a narrow slit: the tool would have to go through its walls
 TEST_F(GuidedToolTest, StaysAwayFromWhereItDoesNotFit)
 {
-  test::Mesh two = test::withCopyAt(
-    test::block(Vector3d(60.0_mm, 60.0_mm, 40.0_mm), 12), Vector3d(66.0_mm, 0, 0));
+  test::Mesh two =
+    test::withCopyAt(test::block(Vector3d(60.0_mm, 60.0_mm, 40.0_mm), 12), Vector3d(66.0_mm, 0, 0));
   useSurface(std::move(two));
   tool_.moveTo({ .place = Vector3d(30.0_mm, 0, -20.0_mm), .normal = Vector3d::UnitX() });
   EXPECT_EQ(run(10), 0.0);

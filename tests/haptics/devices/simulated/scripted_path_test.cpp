@@ -199,7 +199,8 @@ TEST(Recording, IsReadByTheNamesOfItsColumns)
 TEST(Recording, SaysInOneSentenceWhatIsWrong)
 {
   const std::string header = "time_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z\n";
-  const std::pair<std::string, const char*> all[] = { { "time_s,tool_x_mm,z_mm\n", "no column tool_y_mm" },
+  const std::pair<std::string, const char*> all[] = { { "time_s,tool_x_mm,z_mm\n",
+                                                        "no column tool_y_mm" },
     { "time_s,x_mm,force_N\n", "no column y_mm" }, { header, "no row" },
     { header + "0,1,2,3,0,0\n", "samples.csv:2: a row of 6 columns below a header of 7" },
     { header + "0,1,2,three,0,0,-1\n", "\"three\" is not a number" },

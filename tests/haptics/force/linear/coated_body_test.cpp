@@ -5,8 +5,8 @@
 #include "haptics/force/linear/layer_contact.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/haptics/force/tips.h"
+#include "tests/support/allocation_guard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -207,7 +207,7 @@ TEST(CoatedLaw, ItsFactorsMultiplyThePapersForce)
   LawSettings settings{ .mode = LawMode::Corrected, .coatings = one(2.0_mm, { 60.0_kPa, 0.4 }) };
   const ForceLaw law(SphereTip{ 10.0_mm }, kBody, settings);
   const ForceLaw paper(SphereTip{ 10.0_mm }, kBody);
-  const Indentation place{
+  const ContactGeometry place{
     .depth = 3.0_mm, .thickness = 40.0_mm, .surfaceCurvature = 1.0 / 60.0_mm
   };
   double force = paper(place).force;

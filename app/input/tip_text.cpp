@@ -1,8 +1,8 @@
-#include "app/input/tip_spec.h"
+#include "app/input/tip_text.h"
 
 #include "app/input/quantity.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
@@ -116,9 +116,9 @@ Tip parseShape(std::string_view text)
       "blunt-cone:45deg:0.3mm:10mm, paraboloid:10mm or profile:FILE.csv");
 }
 
-std::string mm(double metres)
+std::string mm(double meters)
 {
-  return std::string(":").append(shortest(units::toMillimetres(metres))).append("mm");
+  return std::string(":").append(shortest(units::toMillimeters(meters))).append("mm");
 }
 
 std::string deg(double radians)

@@ -9,22 +9,22 @@
 namespace palp
 {
 
-/// The neighbours of every point of a triangle surface, in the order of its triangles.
+/// The neighbors of every point of a triangle surface, in the order of its triangles.
 ///
-/// A point's list holds chains of neighbours: a and b that follow one another make the triangle
-/// (point, a, b), counter-clockwise from outside. A closed chain repeats its first neighbour at its
+/// A point's list holds chains of neighbors: a and b that follow one another make the triangle
+/// (point, a, b), counter-clockwise from outside. A closed chain repeats its first neighbor at its
 /// end; kEnd separates the chains of a point where more than two triangles meet at an edge.
 /// About 32 bytes a point, and all that growing a region and computing a normal need.
-class Umbrella
+class VertexRings
 {
 public:
   static constexpr std::int32_t kEnd = -1;
 
-  Umbrella() = default;
+  VertexRings() = default;
 
   /// @param pointCount  number of points
   /// @param triangles   indices below pointCount; those that name a point twice are left out
-  Umbrella(std::size_t pointCount, std::span<const Triangle> triangles);
+  VertexRings(std::size_t pointCount, std::span<const Triangle> triangles);
 
   /// The chains of a point; empty where it has no triangle.
   /// @realtime  pure; no allocation, no lock, no exception

@@ -1,17 +1,17 @@
 #pragma once
 
-#include "app/commands/pictures.h"
+#include "app/commands/renderer.h"
 
 namespace palp
 {
 
 /// Draws off screen, without any display server.
-class DrawPictures final : public Pictures
+class OffscreenRenderer final : public Renderer
 {
 public:
   void drawPress(const Body& body, const Recording& recording, const Calibration* calibration,
     const ScenePlan& plan, const std::filesystem::path& directory) const override;
-  void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+  void drawCalibration(const fem::Case& study, const std::vector<fem::IndentationStep>& steps,
     const std::filesystem::path& directory) const override;
   void drawExperiment(
     const fem::Experiment& experiment, const std::filesystem::path& directory) const override;

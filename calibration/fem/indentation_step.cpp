@@ -56,7 +56,7 @@ std::string Indenter::surfaceFault() const
 {
   const int d = body_.dimension;
   const auto at = [](double radius)
-  { return " at " + units::inMillimetres(radius) + " from the axis"; };
+  { return " at " + units::inMillimeters(radius) + " from the axis"; };
   const auto& line = body_.profile;
   for (std::size_t i = 1; energy_ != Energy::Linear && i < line.size(); ++i)
   {
@@ -81,7 +81,7 @@ std::string Indenter::surfaceFault() const
     const double gap = toolAt(node).height - heightOf(node);
     if (enclosed && touching_[i] == 0 && gap > kHanging * depth_)
     {
-      return "the surface hangs " + units::inMillimetres(gap) + " below the tool" +
+      return "the surface hangs " + units::inMillimeters(gap) + " below the tool" +
         at(radiusOf(node));
     }
     // the first node alone, on the axis, bears nothing under an even pressure
@@ -93,10 +93,10 @@ std::string Indenter::surfaceFault() const
   return {};
 }
 
-Indented Indenter::state() const
+IndentationStep Indenter::state() const
 {
   const int d = body_.dimension;
-  Indented out{
+  IndentationStep out{
     .depth = depth_, .contactRadius = contactRadius(), .inverted = equilibrium_.invertedElements()
   };
   for (std::size_t i = 0; i < touching_.size(); ++i)

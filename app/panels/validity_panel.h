@@ -11,12 +11,12 @@ namespace palp
 {
 
 /// How far to rely on what is shown: the law's conditions at this place, the servo's punctuality.
-class ReliancePanel : public QWidget
+class ValidityPanel : public QWidget
 {
   Q_OBJECT
 
 public:
-  explicit ReliancePanel(QWidget* parent = nullptr);
+  explicit ValidityPanel(QWidget* parent = nullptr);
 
   /// Green, amber from 80 % of a limit, red where it is passed; the worst first.
   void showRules(const Rules& rules);

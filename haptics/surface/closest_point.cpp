@@ -1,4 +1,4 @@
-#include "haptics/surface/nearest.h"
+#include "haptics/surface/closest_point.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -154,7 +154,8 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& place, double r
 
 } // namespace
 
-Nearest findNearest(const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept
+ClosestPoint findClosestPoint(
+  const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept
 {
   const BoxTree& tree = surface.tree();
   const Closest best = closestFacet(tree, place, reach);

@@ -1,4 +1,4 @@
-#include "app/program/ledger.h"
+#include "app/program/build_trace.h"
 
 #include <algorithm>
 #include <array>
@@ -128,10 +128,10 @@ Footprint footprint()
   return print;
 }
 
-Ledger::Ledger(bool told)
-  : told_(told)
+BuildTrace::BuildTrace(bool enabled)
+  : enabled_(enabled)
 {
-  if (told_)
+  if (enabled_)
   {
     const Footprint now = footprint();
     built_.push_back({ "program", "every scene needs it", now.sinceStart, now.memory, now.threads,
@@ -139,31 +139,31 @@ Ledger::Ledger(bool told)
   }
 }
 
-Ledger::Booking::Booking(Ledger& ledger, const char* part, const char* why)
-  : ledger_(ledger)
+BuildTrace::Booking::Booking(BuildTrace& trace, const char* part, const char* why)
+  : trace_(trace)
   , entry_{ .part = part, .why = why }
 {
-  if (ledger_.told_)
+  if (trace_.enabled_)
   {
     before_ = footprint();
     begin_ = steadyTime();
   }
 }
 
-Ledger::Booking::~Booking()
+BuildTrace::Booking::~Booking()
 {
-  if (ledger_.told_)
+  if (trace_.enabled_)
   {
     entry_.time = steadyTime() - begin_;
     const Footprint after = footprint();
     entry_.memory = after.memory - before_.memory;
     entry_.threads = after.threads - before_.threads;
     entry_.libraries = after.libraries.size() - before_.libraries.size();
-    ledger_.built_.push_back(entry_);
+    trace_.built_.push_back(entry_);
   }
 }
 
-void Ledger::leaveOut(const char* part, const char* why, bool leftOut)
+void BuildTrace::skip(const char* part, const char* why, bool leftOut)
 {
   if (leftOut)
   {
@@ -171,7 +171,7 @@ void Ledger::leaveOut(const char* part, const char* why, bool leftOut)
   }
 }
 
-void Ledger::write(std::ostream& out) const
+void BuildTrace::write(std::ostream& out) const
 {
   constexpr int kName = 22;
   constexpr int kNumber = 11;

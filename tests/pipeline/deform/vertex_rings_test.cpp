@@ -1,4 +1,4 @@
-#include "pipeline/deform/umbrella.h"
+#include "pipeline/deform/vertex_rings.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@ namespace palp
 namespace
 {
 
-std::vector<std::int32_t> around(const Umbrella& umbrella, int point)
+std::vector<std::int32_t> around(const VertexRings& umbrella, int point)
 {
   const auto chains = umbrella.around(point);
   return { chains.begin(), chains.end() };
@@ -17,9 +17,9 @@ std::vector<std::int32_t> around(const Umbrella& umbrella, int point)
 // four triangles about point 0
 const std::vector<Triangle> kFan{ { 0, 1, 2 }, { 3, 0, 2 }, { 4, 0, 3 }, { 0, 4, 1 } };
 
-TEST(Umbrella, ClosesAroundAnInnerPoint)
+TEST(VertexRings, ClosesAroundAnInnerPoint)
 {
-  const Umbrella umbrella(5, kFan);
+  const VertexRings umbrella(5, kFan);
   auto chain = around(umbrella, 0);
   ASSERT_EQ(chain.size(), 5U);
   EXPECT_EQ(chain.front(), chain.back());
@@ -28,20 +28,20 @@ TEST(Umbrella, ClosesAroundAnInnerPoint)
   EXPECT_EQ(chain, (std::vector<std::int32_t>{ 1, 2, 3, 4 }));
 }
 
-TEST(Umbrella, EndsAtTheRimOfAnOpenSurface)
+TEST(VertexRings, EndsAtTheRimOfAnOpenSurface)
 {
-  const Umbrella umbrella(5, kFan);
+  const VertexRings umbrella(5, kFan);
   EXPECT_EQ(around(umbrella, 2), (std::vector<std::int32_t>{ 3, 0, 1 }));
 }
 
-TEST(Umbrella, SeparatesSheetsThatShareAPoint)
+TEST(VertexRings, SeparatesSheetsThatShareAPoint)
 {
-  const Umbrella umbrella(5, std::vector<Triangle>{ { 0, 1, 2 }, { 0, 3, 4 } });
-  EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2, Umbrella::kEnd, 3, 4 }));
+  const VertexRings umbrella(5, std::vector<Triangle>{ { 0, 1, 2 }, { 0, 3, 4 } });
+  EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2, VertexRings::kEnd, 3, 4 }));
 }
 
 // a book of pages, and a fan, each with more triangles than their squares could be looked at
-TEST(Umbrella, TakesAnyNumberOfTrianglesAtAPoint)
+TEST(VertexRings, TakesAnyNumberOfTrianglesAtAPoint)
 {
   constexpr int count = 200'000;
   std::vector<Triangle> fan;
@@ -51,23 +51,23 @@ TEST(Umbrella, TakesAnyNumberOfTrianglesAtAPoint)
     fan.push_back({ 0, 1 + i, 1 + (i + 1) % count });
     book.push_back({ 0, 1, 2 + i });
   }
-  const Umbrella around(count + 2, fan);
+  const VertexRings around(count + 2, fan);
   EXPECT_EQ(around.around(0).size(), count + 1U);
   EXPECT_EQ(around.around(0).front(), around.around(0).back());
-  const Umbrella pages(count + 2, book);
+  const VertexRings pages(count + 2, book);
   EXPECT_EQ(std::ranges::count(pages.around(0), 1), count);
-  EXPECT_EQ(std::ranges::count(pages.around(0), Umbrella::kEnd), count - 1);
+  EXPECT_EQ(std::ranges::count(pages.around(0), VertexRings::kEnd), count - 1);
 }
 
-TEST(Umbrella, LeavesOutTrianglesThatNameAPointTwice)
+TEST(VertexRings, LeavesOutTrianglesThatNameAPointTwice)
 {
-  const Umbrella umbrella(3, std::vector<Triangle>{ { 0, 0, 1 }, { 0, 1, 2 } });
+  const VertexRings umbrella(3, std::vector<Triangle>{ { 0, 0, 1 }, { 0, 1, 2 } });
   EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2 }));
 }
 
-TEST(Umbrella, HasNothingAroundALonePoint)
+TEST(VertexRings, HasNothingAroundALonePoint)
 {
-  const Umbrella umbrella(4, std::vector<Triangle>{ { 0, 1, 2 } });
+  const VertexRings umbrella(4, std::vector<Triangle>{ { 0, 1, 2 } });
   EXPECT_TRUE(umbrella.around(3).empty());
 }
 

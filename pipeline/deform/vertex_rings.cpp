@@ -1,4 +1,4 @@
-#include "pipeline/deform/umbrella.h"
+#include "pipeline/deform/vertex_rings.h"
 
 #include <algorithm>
 #include <numeric>
@@ -42,7 +42,7 @@ public:
         {
           if (out.size() > begin)
           {
-            out.push_back(Umbrella::kEnd);
+            out.push_back(VertexRings::kEnd);
           }
           walk(i, out);
         }
@@ -96,7 +96,7 @@ bool isProper(const Triangle& triangle)
 
 } // namespace
 
-Umbrella::Umbrella(std::size_t pointCount, std::span<const Triangle> triangles)
+VertexRings::VertexRings(std::size_t pointCount, std::span<const Triangle> triangles)
 {
   // sides opposite each point, as compressed rows
   std::vector<std::uint32_t> begin(pointCount + 1, 0);

@@ -22,13 +22,13 @@ struct Footprint
 
 /// Which parts were built, what each cost, and what was left out, with the reasons.
 ///
-/// Measures only when it is to be told; else it just does the work.
-class Ledger
+/// Measures only when it is to be enabled; else it just does the work.
+class BuildTrace
 {
 public:
-  explicit Ledger(bool told);
+  explicit BuildTrace(bool enabled);
 
-  /// Does a part's work and books it. Parts do not nest.
+  /// Does a part's work and books it. ProgramFeatures do not nest.
   /// @return  what the work returns
   template <typename Work>
   auto build(const char* part, const char* why, Work work)
@@ -38,7 +38,7 @@ public:
   }
 
   /// Books what is not built.
-  void leaveOut(const char* part, const char* why, bool leftOut = true);
+  void skip(const char* part, const char* why, bool leftOut = true);
 
   /// Tables of both and a line with the sums.
   void write(std::ostream& out) const;
@@ -58,19 +58,19 @@ private:
   class Booking
   {
   public:
-    Booking(Ledger& ledger, const char* part, const char* why);
+    Booking(BuildTrace& trace, const char* part, const char* why);
     ~Booking();
     Booking(const Booking&) = delete;
     Booking& operator=(const Booking&) = delete;
 
   private:
-    Ledger& ledger_;
+    BuildTrace& trace_;
     Entry entry_;
     double begin_ = 0.0; // [s]
     Footprint before_;
   };
 
-  bool told_;
+  bool enabled_;
   std::vector<Entry> built_;
   std::vector<std::pair<const char*, const char*>> leftOut_;
 };

@@ -1,4 +1,4 @@
-#include "app/program/sibling.h"
+#include "app/program/exec_program.h"
 
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
@@ -58,7 +58,7 @@ std::string commandLine()
   return line;
 }
 
-void becomeSibling(const char* name)
+void execProgram(const char* name)
 {
   const std::filesystem::path program = prefix() / "bin" / name;
   execv(program.c_str(), gArguments);

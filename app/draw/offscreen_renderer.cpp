@@ -1,12 +1,12 @@
-#include "app/draw/draw_pictures.h"
+#include "app/draw/offscreen_renderer.h"
 
-#include "haptics/force/validity.h"
-#include "app/press/export.h"
 #include "app/draw/offscreen.h"
 #include "app/plots/press_plots.h"
-#include "haptics/surface/surface_point.h"
-#include "haptics/surface/nearest.h"
+#include "app/press/export.h"
 #include "haptics/error.h"
+#include "haptics/force/validity.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/surface_point.h"
 #include "haptics/units.h"
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/charts/plot_files.h"
@@ -38,8 +38,8 @@ SurfacePoint subject(const Recording& recording, const Sample& shown)
     return { shown.contact.center, shown.contact.normal };
   }
   const Surface& surface = *recording.scene.surface;
-  const Nearest nearest =
-    findNearest(surface, shown.pose.apex, std::numeric_limits<double>::infinity());
+  const ClosestPoint nearest =
+    findClosestPoint(surface, shown.pose.apex, std::numeric_limits<double>::infinity());
   return surfacePoint(surface, nearest.triangle, nearest.point);
 }
 
@@ -139,7 +139,7 @@ void addCoatedLaw(std::vector<NamedLaw>& laws, const fem::Case& study)
 
 } // namespace
 
-void DrawPictures::drawPress(const Body& body, const Recording& recording,
+void OffscreenRenderer::drawPress(const Body& body, const Recording& recording,
   const Calibration* calibration, const ScenePlan& plan,
   const std::filesystem::path& directory) const
 {
@@ -175,8 +175,8 @@ void DrawPictures::drawPress(const Body& body, const Recording& recording,
   }
 }
 
-void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
-  const std::filesystem::path& directory) const
+void OffscreenRenderer::drawCalibration(const fem::Case& study,
+  const std::vector<fem::IndentationStep>& steps, const std::filesystem::path& directory) const
 {
   if (steps.size() < 2)
   {
@@ -191,7 +191,7 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
     .name = "elements, " + std::string(fem::name(study.energy)), .x = {}, .y = {}
   };
   Plot profiles("surface at each depth", "distance from the axis [mm]", "height [mm]");
-  for (const fem::Indented& step : steps)
+  for (const fem::IndentationStep& step : steps)
   {
     rows.push_back({ .depth = step.depth,
       .extentRadius = fem::extentRadius(step.profile, study.threshold),
@@ -201,10 +201,10 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
     force.y.push_back(step.force);
     std::vector<double> radiusMm;
     std::vector<double> heightMm;
-    for (const fem::Indented::Point& point : step.profile)
+    for (const fem::IndentationStep::Point& point : step.profile)
     {
-      radiusMm.push_back(units::toMillimetres(point.radius + point.ur));
-      heightMm.push_back(units::toMillimetres(point.uz));
+      radiusMm.push_back(units::toMillimeters(point.radius + point.ur));
+      heightMm.push_back(units::toMillimeters(point.uz));
     }
     profiles.addLine({}, radiusMm, heightMm, appearance::kMeasured, 1.5F);
   }
@@ -224,7 +224,7 @@ void DrawPictures::drawCalibration(const fem::Case& study, const std::vector<fem
   draw("profiles.png", profiles);
 }
 
-void DrawPictures::drawExperiment(
+void OffscreenRenderer::drawExperiment(
   const fem::Experiment& experiment, const std::filesystem::path& directory) const
 {
   constexpr double kNoticed = 100.0 * Validity::kJustNoticeable; // [%] of a force

@@ -7,7 +7,7 @@ namespace palp
 {
 
 /// What a force law needs to know of a contact.
-[[nodiscard]] inline Indentation indentationOf(const Contact& contact) noexcept
+[[nodiscard]] inline ContactGeometry contactGeometryOf(const Contact& contact) noexcept
 {
   return { .depth = contact.depth,
     .tilt = contact.tilt,

@@ -1,4 +1,4 @@
-#include "app/panels/reliance_panel.h"
+#include "app/panels/validity_panel.h"
 
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
@@ -28,7 +28,7 @@ QString number(const Rule& rule, double value)
   const std::string_view unit = rule.unit;
   return unit == "rad" ? QString::number(units::toDegrees(value), 'g', 3) + QStringLiteral("°")
     : unit == "N/m"
-    ? QString::number(units::toNewtonsPerMillimetre(value), 'g', 3) + QStringLiteral(" N/mm")
+    ? QString::number(units::toNewtonsPerMillimeter(value), 'g', 3) + QStringLiteral(" N/mm")
     : QString::number(value, 'g', 3);
 }
 
@@ -50,7 +50,7 @@ QString timingRow(const QString& name, const Histogram& histogram)
 
 } // namespace
 
-ReliancePanel::ReliancePanel(QWidget* parent)
+ValidityPanel::ValidityPanel(QWidget* parent)
   : QWidget(parent)
   , rules_(new QLabel)
   , timing_(new QLabel)
@@ -70,12 +70,12 @@ ReliancePanel::ReliancePanel(QWidget* parent)
   showNoContact();
 }
 
-void ReliancePanel::showNoContact()
+void ValidityPanel::showNoContact()
 {
   rules_->setText(tr("no contact"));
 }
 
-void ReliancePanel::showRules(const Rules& rules)
+void ValidityPanel::showRules(const Rules& rules)
 {
   Rules sorted = rules;
   std::stable_sort(sorted.begin(), sorted.end(),
@@ -100,7 +100,7 @@ void ReliancePanel::showRules(const Rules& rules)
   rules_->setText(text);
 }
 
-void ReliancePanel::showTiming(const Timing& timing, const std::string& schedule)
+void ValidityPanel::showTiming(const Timing& timing, const std::string& schedule)
 {
   timing_->setText(tr("<b>Servo</b> [µs]<table><tr><td></td><td>&nbsp;p50</td><td>&nbsp;p99</td>"
                       "<td>&nbsp;p99.9</td><td>&nbsp;max</td></tr>") +

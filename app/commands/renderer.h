@@ -14,9 +14,9 @@ namespace palp
 
 /// What the program that carries rendering can draw. Commands ask through this, so that they
 /// are the same code in every program.
-struct Pictures
+struct Renderer
 {
-  virtual ~Pictures() = default;
+  virtual ~Renderer() = default;
 
   /// Draws what the plan asks for of press.png (the deepest moment), force_time.png and
   /// force_depth.png.
@@ -31,7 +31,8 @@ struct Pictures
   ///
   /// @param steps   fewer than two: nothing is drawn
   /// @throws Error  as drawPress
-  virtual void drawCalibration(const fem::Case& study, const std::vector<fem::Indented>& steps,
+  virtual void drawCalibration(const fem::Case& study,
+    const std::vector<fem::IndentationStep>& steps,
     const std::filesystem::path& directory) const = 0;
 
   /// Draws a picture of every figure of an experiment.

@@ -5,7 +5,7 @@
 namespace palp
 {
 
-/// Keeps the arguments of main for commandLine() and becomeSibling().
+/// Keeps the arguments of main for commandLine() and execProgram().
 /// @param arguments  as main gets them; they live as long as the process
 void setArguments(char** arguments);
 
@@ -14,6 +14,6 @@ void setArguments(char** arguments);
 
 /// Turns this process into a sibling program with the arguments it was started with.
 /// @throws Error  NoPicture: the sibling is not installed beside this program
-[[noreturn]] void becomeSibling(const char* name);
+[[noreturn]] void execProgram(const char* name);
 
 } // namespace palp

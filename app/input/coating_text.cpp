@@ -1,8 +1,8 @@
-#include "app/input/coating_spec.h"
+#include "app/input/coating_text.h"
 
 #include "app/input/quantity.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
@@ -51,7 +51,7 @@ std::string describeCoatings(const Coatings& coatings)
   for (const Coating& coating : coatings.all())
   {
     text += text.empty() ? "" : ",";
-    text += shortest(units::toMillimetres(coating.thickness)) +
+    text += shortest(units::toMillimeters(coating.thickness)) +
       "mm:" + shortest(units::toKilopascals(coating.material.youngModulus)) +
       "kPa:" + shortest(coating.material.poissonRatio);
   }

@@ -8,7 +8,7 @@ namespace palp
 {
 
 /// Point of a surface that is nearest to a place.
-struct Nearest
+struct ClosestPoint
 {
   int triangle = -1;                               ///< -1: none within reach
   Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< on the triangles [m]
@@ -23,7 +23,7 @@ struct Nearest
 /// @param reach   farthest distance of interest [m]; infinity to find always
 /// @source        Ericson, Real-Time Collision Detection, 5.1.5; Baerentzen and Aanaes 2005
 /// @realtime      pure; no allocation, no lock, no exception
-[[nodiscard]] Nearest findNearest(
+[[nodiscard]] ClosestPoint findClosestPoint(
   const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept;
 
 } // namespace palp
