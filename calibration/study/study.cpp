@@ -401,7 +401,7 @@ Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume,
   {
     coarser.emplace(study);
   }
-  const Outcome outcome = press(
+  Outcome outcome = press(
     study, body, resume ? files.load() : Saved{}, stop, coarser ? &*coarser : nullptr,
     [&](const Outcome& reached, const Indenter& indenter)
     {

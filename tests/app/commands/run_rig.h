@@ -14,6 +14,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
 namespace palp::test

@@ -5,8 +5,11 @@
 #include <QAction>
 #include <QComboBox>
 #include <QImage>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QTabBar>
+#include <QTimer>
 
 #include <algorithm>
 #include <filesystem>
