@@ -131,7 +131,8 @@ Saved StudyFiles::load() const
   };
   std::array<double, 3> head{};
   get(head.data(), head.size());
-  const double most = static_cast<double>(payload.size() / sizeof(double)); // NaN fails as well
+  const std::size_t count = payload.size() / sizeof(double);
+  const auto most = static_cast<double>(count); // NaN fails as well
   if (!(head[0] >= 0.0 && head[0] <= most && head[1] >= 0.0 && head[1] <= most))
   {
     refuse(file, "is damaged");
