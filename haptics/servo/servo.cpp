@@ -32,10 +32,10 @@ std::optional<SafetyChain> makeChain(const Device& device, const ServoOptions& o
 
 } // namespace
 
-Servo::Servo(Device& device, Scene scene, const ServoOptions& options)
+Servo::Servo(Device& device, const Scene& scene, const ServoOptions& options)
   : device_(device)
   , options_(options)
-  , scene_(std::move(scene))
+  , scene_(scene)
   , chain_(makeChain(device, options))
   , history_(options.history ? kKept : 1)
   , thread_([this](const std::stop_token& stop) { run(stop); })

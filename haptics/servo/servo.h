@@ -42,7 +42,7 @@ class Servo
 public:
   /// Starts the thread.
   /// @param device  outlives this object, and is used by its thread alone
-  Servo(Device& device, Scene scene, const ServoOptions& options = {});
+  Servo(Device& device, const Scene& scene, const ServoOptions& options = {});
 
   /// Stops the thread, with zero force.
   ~Servo();
