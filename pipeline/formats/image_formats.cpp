@@ -5,6 +5,7 @@
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -204,6 +205,20 @@ PatientImage readMetaImage(const std::filesystem::path& file)
   return result;
 }
 
+// axes that lie in a plane, or are not numbers, would make a flat body
+void checkAxes(const std::filesystem::path& file, const vtkMatrix4x4& form)
+{
+  const auto axis = [&](int k)
+  { return Eigen::Vector3d(form.GetElement(0, k), form.GetElement(1, k), form.GetElement(2, k)); };
+  const double volume = std::abs(axis(0).cross(axis(1)).dot(axis(2)));
+  constexpr double kFlattest = 1e-6; // of a box with such edges
+  if (!(volume > kFlattest * axis(0).norm() * axis(1).norm() * axis(2).norm()))
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": the axes in its header do not span space; export it again");
+  }
+}
+
 PatientImage readNifti(const std::filesystem::path& file)
 {
   const NiftiClaim claim = niftiClaim(file);
@@ -229,6 +244,7 @@ PatientImage readNifti(const std::filesystem::path& file)
     reader->GetSFormMatrix() ? reader->GetSFormMatrix() : reader->GetQFormMatrix();
   if (form)
   {
+    checkAxes(file, *form);
     std::copy_n(form->GetData(), 16, result.toPatient);
     for (int i = 0; i < 8; ++i) // x and y
     {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -236,6 +237,20 @@ TEST_F(Images, NiftiValuesAreScaledAsTheHeaderSays)
   EXPECT_LT(farthest(*readSurface(file, {}, { 0.0, {} }).mesh,
               { -kCenterMm.x(), -kCenterMm.y(), kCenterMm.z() }),
     0.2);
+}
+
+// the first axis along the sum of the others, along none, not a number
+TEST_F(Images, NiftiAxesThatDoNotSpanSpaceAreRefused)
+{
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const std::array<float, 3>& row :
+    { std::array{ 0.0F, 2.5F, 3.0F }, { 0.0F, 0.0F, 0.0F }, { nan, 0.0F, 0.0F } })
+  {
+    std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
+    std::memcpy(bytes.data() + 280, row.data(), sizeof row);
+    const auto file = write("flat.nii", bytes);
+    EXPECT_NE(refusal(file, { 0.0, {} }).find("do not span space"), std::string::npos);
+  }
 }
 
 TEST_F(Images, NiftiUnitsAreTurnedIntoMillimeters)
