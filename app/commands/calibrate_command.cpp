@@ -180,7 +180,7 @@ void addCalibrateCommand(CLI::App& app, const Renderer* pictures)
   text("young", "Young's modulus; without coatings it scales the force and leaves R_d alone");
   text("poisson", "Poisson's ratio, less than 0.5");
   text("material", "linear, corotated, neo-hookean or neo-hookean-isochoric");
-  text("depth", "ContactGeometry depths A:B:STEP");
+  text("depth", "Indentation depths A:B:STEP");
   text("threshold", "Displacement at the edge of the deformed region");
   text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
   text("base", "Under the block: bonded, or slip for one that slides on its support");

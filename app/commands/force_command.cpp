@@ -159,7 +159,7 @@ void addForceCommand(CLI::App& app)
   options->tissue.addTo(*command);
   options->place.addTo(*command);
   command
-    ->add_option("--depth", options->depth, "ContactGeometry depths A:B:STEP, both ends included")
+    ->add_option("--depth", options->depth, "Indentation depths A:B:STEP, both ends included")
     ->capture_default_str();
   command->add_flag("--validity", options->validity,
     "Append for each condition of the law how much of its limit is used; above 1 it is broken");

@@ -22,13 +22,13 @@ struct Footprint
 
 /// Which parts were built, what each cost, and what was left out, with the reasons.
 ///
-/// Measures only when it is to be enabled; else it just does the work.
+/// Measures only when it is enabled; else it just does the work.
 class BuildTrace
 {
 public:
   explicit BuildTrace(bool enabled);
 
-  /// Does a part's work and books it. ProgramFeatures do not nest.
+  /// Does a part's work and books it. Parts do not nest.
   /// @return  what the work returns
   template <typename Work>
   auto build(const char* part, const char* why, Work work)

@@ -27,7 +27,7 @@ public:
 
   /// Work that does not stop within 1.5 s, or at a second Ctrl-C, ends with the program: for work
   /// whose files are complete at any time.
-  /// @param sentence  enabled then, with exit code 5; lives as long as this
+  /// @param sentence  told then, with exit code 5; lives as long as this
   void endWhatDoesNotStop(const char* sentence) noexcept
   {
     sentence_ = sentence;

@@ -126,7 +126,7 @@ bool Indenter::updateContact(double forceScale, bool onlyOne)
   return changed;
 }
 
-// a step that goes descentStep also where the energy is not convex, as where a node slips around an
+// a step that goes downhill also where the energy is not convex, as where a node slips around an
 // edge of the tool or a material softens: first without the tool's curvature, then stiffened
 Equilibrium::Step Indenter::descentStep(std::vector<ContactConstraint> nodes, bool mayTurn)
 {

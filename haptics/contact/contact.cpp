@@ -14,7 +14,7 @@ namespace
 
 constexpr double kSmoothing = 1.8; // [-] edge lengths; below 1.5 the facets come through
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
-constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear orientationSum
+constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact

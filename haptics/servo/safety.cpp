@@ -50,7 +50,7 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
 }
 
 // in simulated loops, from three times that of the device on, damping that comes a tick late makes
-// a hand limitCycleSpeed
+// a hand hum
 double SafetyChain::renderedDamping(double wanted) const noexcept
 {
   return std::min(wanted, kMaxDamping * device_.damping);
@@ -119,16 +119,16 @@ Eigen::Vector3d SafetyChain::rendered(
   rebase(law, depth, stiffest, scene.version);
   resumeShare();
   sample.response = depth > 0.0 ? law(depth) : Response{};
-  Rendered felt = couple(law, depth - seat_, stiffest);
+  Rendered felt = couple(law, depth - contactOffset_, stiffest);
   // what rises faster than may be slips: a force that lags, or grows while the tool rests, would
   // give energy to the hand
   if (const double highest = highestNormalForce(scene); felt.force > highest)
   {
     raise(Flag::SlewLimited);
-    seat_ = depth - depthOf(law, highest, stiffest, depth);
-    felt = couple(law, depth - seat_, stiffest);
+    contactOffset_ = depth - depthOf(law, highest, stiffest, depth);
+    felt = couple(law, depth - contactOffset_, stiffest);
   }
-  if (seat_ > 0.0) // also where the law is not yet felt
+  if (contactOffset_ > 0.0) // also where the law is not yet felt
   {
     raise(Flag::Rebased);
   }
@@ -147,15 +147,15 @@ void SafetyChain::rebase(
   const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept
 {
   const bool changed = std::exchange(version_, version) != version;
-  if (std::exchange(reseat_, false))
+  if (std::exchange(rebase_, false))
   {
-    seat_ = depth;
+    contactOffset_ = depth;
   }
   else if (changed && depth > 0.0)
   {
-    seat_ = depth - depthOf(law, normalForce_, stiffest, depth);
+    contactOffset_ = depth - depthOf(law, normalForce_, stiffest, depth);
   }
-  seat_ = std::clamp(seat_, 0.0, depth > 0.0 ? depth : 0.0);
+  contactOffset_ = std::clamp(contactOffset_, 0.0, depth > 0.0 ? depth : 0.0);
 }
 
 // of the force that is sent; a share that grows goes on from the force that was

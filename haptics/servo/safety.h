@@ -32,7 +32,7 @@ struct SafetyOrders
   bool armed = false; ///< a fault is forgiven when this becomes true anew, without a stop
   bool stop = false;  ///< emergency stop
   /// Of the main thread [s]. What it knows of the world is trusted for 0.2 s and not at all after
-  /// 0.3 s; after 2 s, when no stop button can work, its heartbeatAge is an emergency stop.
+  /// 0.3 s; after 2 s, when no stop button can work, its silence is an emergency stop.
   double heartbeatAge = 0.0;
 };
 
@@ -133,10 +133,10 @@ private:
   double lastAge_ = 0.0;   // of it, when it was admitted [s]
   int dropped_ = 0;        // poses in a row
 
-  double seat_ = 0.0;         // depth at which contact is felt to begin [m]
-  double normalForce_ = 0.0;  // of the law through the coupling, last tick [N]
-  bool reseat_ = false;       // the force has to start in contact
-  std::uint64_t version_ = 0; // of the scene, last tick
+  double contactOffset_ = 0.0; // depth at which contact is felt to begin [m]
+  double normalForce_ = 0.0;   // of the law through the coupling, last tick [N]
+  bool rebase_ = false;        // the force has to start in contact
+  std::uint64_t version_ = 0;  // of the scene, last tick
 
   Eigen::Vector3d shaped_ = Eigen::Vector3d::Zero(); // before gain, last tick [N]
   Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();   // last tick [N]

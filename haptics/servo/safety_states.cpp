@@ -16,7 +16,7 @@ constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that 
 constexpr double kLatestTicks = 5.0;
 constexpr int kMaxRestarts = 5; // of a force that late ticks let never become whole
 
-// a heartbeatAge that is borne at first, then lets the force fade, then ends it [s]
+// an age of the heartbeat that is borne at first, then lets the force fade, then ends it [s]
 struct Silence
 {
   double borne;
@@ -111,7 +111,7 @@ bool SafetyChain::plausible(const ToolPose& pose, double age) noexcept
   }
   fault(Flag::Jump);
   passivity_.restart(pose.apex);
-  reseat_ = true;
+  rebase_ = true;
   return true;
 }
 
@@ -175,7 +175,7 @@ void SafetyChain::forceOff(DeviceState state) noexcept
   apart_ = 0.0;
   shaped_.setZero();
   fading_.setZero();
-  reseat_ = true;
+  rebase_ = true;
 }
 
 } // namespace palp

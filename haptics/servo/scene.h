@@ -12,7 +12,7 @@ namespace palp
 /// All the servo thread knows of the world. Replaced whole, through Latest<Scene>.
 struct Scene
 {
-  std::shared_ptr<const Surface> surface; ///< null: nothing to evaluateContact
+  std::shared_ptr<const Surface> surface; ///< null: nothing to touch
   ForceLaw law{ SphereTip{ .radius = 0.01 },
     Material{ .youngModulus = 50e3, .poissonRatio = 0.33 } };
   ContactRule rule = ContactRule::Exact;

@@ -59,7 +59,7 @@ public:
   /// For the picture. Main thread only; the reference stays valid until the next call.
   ///
   /// Whoever renders force must look ten times a second: the force of a main thread that is silent
-  /// fades, and after two seconds its heartbeatAge is an emergency stop.
+  /// fades, and after two seconds its silence is an emergency stop.
   [[nodiscard]] const Sample& newest() noexcept
   {
     looked_.store(Clock::now(), std::memory_order_relaxed);

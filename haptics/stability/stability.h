@@ -38,7 +38,7 @@ struct StabilityRow
 };
 
 /// What counts as unstable.
-/// @source  energy and envelope: the rest of a held press; limitCycleSpeed: the smallest that
+/// @source  energy and envelope: the rest of a held press; limit cycle: the smallest that
 /// fingers notice
 struct StabilityLimits
 {

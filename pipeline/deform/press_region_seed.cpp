@@ -21,7 +21,7 @@ bool PressRegion::faces(std::int32_t point, const Eigen::Vector3d& normal) const
   return area.dot(normal) > kFacing * area.norm();
 }
 
-// the nearest point that faces the tool: descentStep from the last one, or, where that ends on
+// the nearest point that faces the tool: downhill from the last one, or, where that ends on
 // another sheet or the tool has jumped, from the nearest of a few, or else through all points
 std::int32_t PressRegion::findSeed(const Contact& contact) const noexcept
 {

@@ -36,7 +36,7 @@ TEST(SafetyChain, ForceIsBoundedInSizeAndKeepsItsDirection)
   EXPECT_TRUE(has(sample, Flag::Limited));
 }
 
-// so the later stages cannot hide what they give from the observedEnergy
+// so the later stages cannot hide what they give from the observed energy
 TEST(SafetyChain, LedgerCountsTheForceThatWasSentAfterEveryLimit)
 {
   DeviceLimits device = arm();
