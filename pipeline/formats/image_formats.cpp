@@ -5,7 +5,6 @@
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -153,13 +152,39 @@ std::uintmax_t cellsIn(std::string_view text, std::string_view key)
   return cells;
 }
 
-// VTK leaves voxels that no piece has as they come
-void checkPieces(const std::filesystem::path& file)
+// VTK takes its own place, size and direction for those that it cannot read
+void checkNumbers(const std::filesystem::path& file, std::string_view text)
 {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::filesystem::file_size(file), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(std::min(text.size(), text.find("<AppendedData")));
+  const std::size_t tag = std::min(text.find("<ImageData"), text.size());
+  text = text.substr(tag, text.find('>', tag) - tag);
+  for (const auto& [key, count] : { std::pair("Origin", 3), { "Spacing", 3 }, { "Direction", 9 } })
+  {
+    const std::size_t at = text.find(key + std::string("=\""));
+    if (at == text.npos)
+    {
+      continue;
+    }
+    const std::size_t begin = text.find('"', at) + 1;
+    std::istringstream words(std::string(text.substr(begin, text.find('"', begin) - begin)));
+    int got = 0;
+    for (double number = 0.0; words >> number;)
+    {
+      ++got;
+    }
+    if (got != count || !words.eof())
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": its " + key + " is not " + std::to_string(count) +
+          " numbers; export it again");
+    }
+  }
+}
+
+// and leaves voxels that no piece has as they come
+void checkVtiHeader(const std::filesystem::path& file)
+{
+  const std::string text = checkedXml(file);
+  checkNumbers(file, text);
   if (cellsIn(text, "<Piece Extent=") != cellsIn(text, "WholeExtent="))
   {
     throw Error(ErrorCode::BadFile,
@@ -205,20 +230,6 @@ PatientImage readMetaImage(const std::filesystem::path& file)
   return result;
 }
 
-// axes that lie in a plane, or are not numbers, would make a flat body
-void checkAxes(const std::filesystem::path& file, const vtkMatrix4x4& form)
-{
-  const auto axis = [&](int k)
-  { return Eigen::Vector3d(form.GetElement(0, k), form.GetElement(1, k), form.GetElement(2, k)); };
-  const double volume = std::abs(axis(0).cross(axis(1)).dot(axis(2)));
-  constexpr double kFlattest = 1e-6; // of a box with such edges
-  if (!(volume > kFlattest * axis(0).norm() * axis(1).norm() * axis(2).norm()))
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": the axes in its header do not span space; export it again");
-  }
-}
-
 PatientImage readNifti(const std::filesystem::path& file)
 {
   const NiftiClaim claim = niftiClaim(file);
@@ -244,7 +255,6 @@ PatientImage readNifti(const std::filesystem::path& file)
     reader->GetSFormMatrix() ? reader->GetSFormMatrix() : reader->GetQFormMatrix();
   if (form)
   {
-    checkAxes(file, *form);
     std::copy_n(form->GetData(), 16, result.toPatient);
     for (int i = 0; i < 8; ++i) // x and y
     {
@@ -290,8 +300,7 @@ PatientImage readNifti(const std::filesystem::path& file)
 
 PatientImage readVti(const std::filesystem::path& file)
 {
-  checkXmlEnd(file);
-  checkPieces(file);
+  checkVtiHeader(file);
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();

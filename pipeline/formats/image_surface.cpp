@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "pipeline/formats/image_values.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -97,6 +98,13 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
   {
     refuse("an image; name the value of the surface with a level, " + known);
   }
+  if (values.notFinite > 0)
+  {
+    const auto& [x, y, z] = values.firstOf;
+    refuse("voxels that are no numbers (NaN or infinite): " + std::to_string(values.notFinite) +
+      ", the first at " + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) +
+      " counted from 0; give them the value of what lies around the body");
+  }
   if (!(*part.level > low && *part.level < high))
   {
     refuse("no surface at level " + inWords(*part.level) + "; " + known);
@@ -113,6 +121,26 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
     level = middle;
   }
   return { volume.image, level };
+}
+
+// axes that lie in a plane, or are not numbers, would make a flat body
+void checkPlace(const PatientImage& volume, const std::string& name)
+{
+  using Eigen::Vector3d;
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> form(volume.toPatient);
+  const Vector3d spacing(volume.image->GetSpacing());
+  const Eigen::Matrix3d axes = form.topLeftCorner<3, 3>() * spacing.asDiagonal();
+  constexpr double kFlattest = 1e-6; // of a box with such edges
+  if (!(std::abs(axes.determinant()) > kFlattest * axes.colwise().norm().prod()))
+  {
+    throw Error(
+      ErrorCode::BadMesh, name + ": the axes in its header do not span space; export it again");
+  }
+  if (!form.allFinite() || !Vector3d(volume.image->GetOrigin()).allFinite())
+  {
+    throw Error(
+      ErrorCode::BadMesh, name + ": the origin in its header is not a number; export it again");
+  }
 }
 
 } // namespace
@@ -132,6 +160,7 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
   {
     refuse("several values at each voxel; give an image of one");
   }
+  checkPlace(volume, name);
   const Contour contour = contourOf(volume, part, name, notes);
   constexpr std::uintmax_t most = 10'000'000;
   if (const std::uintmax_t triangles = 2 * crossings(*contour.image, contour.level);

@@ -73,6 +73,14 @@ bool fillsRegions(
   return 2 * equal > pairs;
 }
 
+std::array<int, 3> placeOf(vtkImageData& image, vtkIdType voxel)
+{
+  const int* size = image.GetDimensions();
+  const vtkIdType row = voxel / size[0];
+  return { static_cast<int>(voxel % size[0]), static_cast<int>(row % size[1]),
+    static_cast<int>(row / size[1]) };
+}
+
 } // namespace
 
 ImageValues valuesOf(vtkImageData& image)
@@ -87,6 +95,14 @@ ImageValues valuesOf(vtkImageData& image)
       for (vtkIdType i = 0; i < count; ++i)
       {
         const auto value = static_cast<double>(voxels[i]);
+        if (!std::isfinite(value))
+        {
+          if (values.notFinite++ == 0)
+          {
+            values.firstOf = placeOf(image, i);
+          }
+          continue;
+        }
         low = value < low ? value : low;
         high = value > high ? value : high;
       }

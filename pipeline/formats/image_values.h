@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
+#include <vtkType.h>
 
 class vtkImageData;
 
@@ -11,9 +13,11 @@ namespace palp
 /// What values an image has, as they are stored.
 struct ImageValues
 {
-  double low = 0.0;
+  double low = 0.0; ///< of those that are finite
   double high = 0.0;
   std::vector<double> distinct; ///< rising; empty: more than 256
+  vtkIdType notFinite = 0;      ///< how many are NaN or infinite
+  std::array<int, 3> firstOf{}; ///< these, where
   bool labels = false; ///< three values or more, all whole, most voxels like those beside them
 };
 

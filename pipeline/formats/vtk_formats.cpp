@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <regex>
@@ -59,26 +60,49 @@ vtkSmartPointer<vtkPolyData> outerSurface(
 
 } // namespace
 
-void checkXmlEnd(const std::filesystem::path& file)
+namespace
 {
-  constexpr std::uintmax_t enough = 1024; // [bytes], for a tag and remarks or blank lines about it
-  const std::uintmax_t size = std::filesystem::file_size(file);
-  std::string tail(static_cast<std::size_t>(std::min(size, enough)), '\0');
+
+// VTK asks for the name of each component, for hours where a damaged count is believed
+void checkComponents(const std::filesystem::path& file, const std::string& tags)
+{
+  constexpr std::string_view kKey = "NumberOfComponents=\"";
+  constexpr double kMost = 1000.0;
+  for (std::size_t at = tags.find(kKey); at != tags.npos; at = tags.find(kKey, at + 1))
+  {
+    const double count = std::strtod(tags.c_str() + at + kKey.size(), nullptr);
+    if (!(count >= 0.0 && count <= kMost))
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": damaged, one of its arrays has " +
+          tags.substr(at + kKey.size(), tags.find('"', at + kKey.size()) - at - kKey.size()) +
+          " components; export it again");
+    }
+  }
+}
+
+} // namespace
+
+std::string checkedXml(const std::filesystem::path& file)
+{
   std::ifstream in(file, std::ios::binary);
-  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-  constexpr std::uintmax_t shortest = 32; // that a file cut off later can be
-  if (size >= shortest && tail.find("<VTKFile") == tail.npos)
+  std::string text(std::filesystem::file_size(file), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  constexpr std::size_t enough = 1024; // [bytes], for a tag and remarks or blank lines about it
+  constexpr std::size_t shortest = 32; // that a file cut off later can be
+  if (text.size() >= shortest && text.substr(0, enough).find("<VTKFile") == text.npos)
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": not a VTP, VTU or VTI file, whatever its name; rename or convert it");
   }
-  in.seekg(static_cast<std::streamoff>(size - tail.size()));
-  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-  if (tail.find("</VTKFile") == tail.npos)
+  if (text.find("</VTKFile", text.size() - std::min(text.size(), enough)) == text.npos)
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": cut off, its last tag </VTKFile> is missing; export or copy it again");
   }
+  text.resize(std::min(text.size(), text.find("<AppendedData")));
+  checkComponents(file, text);
+  return text;
 }
 
 vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
@@ -108,13 +132,13 @@ vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
 
 vtkSmartPointer<vtkPolyData> readVtp(const std::filesystem::path& file)
 {
-  checkXmlEnd(file);
+  (void)checkedXml(file);
   return readWith<vtkXMLPolyDataReader>(file);
 }
 
 vtkSmartPointer<vtkPolyData> readVtu(const std::filesystem::path& file)
 {
-  checkXmlEnd(file);
+  (void)checkedXml(file);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();

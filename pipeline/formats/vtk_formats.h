@@ -12,8 +12,9 @@ namespace palp
 // What a file holds, read by VTK; what it complains of it throws as VtkError. The content is not
 // checked beyond what VTK's readers pass over in silence. A damaged file may crash them.
 
-/// @throws Error  BadFile: an XML file of VTK without its last tag, or of another kind
-void checkXmlEnd(const std::filesystem::path& file);
+/// Text of an XML file of VTK, up to the data that are appended.
+/// @throws Error  BadFile: without its last tag, of another kind, or of arrays no file can have
+[[nodiscard]] std::string checkedXml(const std::filesystem::path& file);
 
 /// Polygons, or the outer surface of an unstructured grid.
 /// @throws Error  BadMesh: another kind of data

@@ -1,0 +1,202 @@
+#include "haptics/error.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "tests/support/process.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNIFTIImageWriter.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLImageDataWriter.h>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Array3d;
+using Eigen::Vector3d;
+
+constexpr int kSide = 48;     // of each image [voxels]
+constexpr double kMid = 23.5; // its center
+
+// what a body is: negative inside [mm], from the center of the image
+using Shape = std::function<double(const Vector3d&)>;
+
+vtkSmartPointer<vtkImageData> imageOf(const Shape& distance, const Array3d& spacing, bool mask)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(kSide, kSide, kSide);
+  image->SetSpacing(spacing.data());
+  image->AllocateScalars(mask ? VTK_UNSIGNED_CHAR : VTK_FLOAT, 1);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double value = distance(Vector3d(image->GetPoint(i)) - Vector3d(spacing * kMid));
+    image->GetPointData()->GetScalars()->SetComponent(
+      i, 0, mask ? static_cast<double>(value < 0.0) : value);
+  }
+  return image;
+}
+
+class ImageSurface : public testing::Test
+{
+protected:
+  template <typename Writer>
+  std::filesystem::path write(const char* name, vtkImageData& image)
+  {
+    const std::filesystem::path file = folder_.path() / name;
+    vtkNew<Writer> writer;
+    writer->SetFileName(file.c_str());
+    writer->SetInputData(&image);
+    writer->Write();
+    return file;
+  }
+
+  // points of the surface of a mask, from its center [voxels]
+  std::vector<Vector3d> surfaceOfMask(const Shape& distance, const Array3d& spacing)
+  {
+    const auto file = write<vtkXMLImageDataWriter>("mask.vti", *imageOf(distance, spacing, true));
+    const auto surface = readSurface(file, LengthUnit::Millimeter, { .level = 0.5, .labels = {} });
+    std::vector<Vector3d> points;
+    for (const Vector3d& point : pointsOf(*surface.mesh))
+    {
+      points.emplace_back((1e3 * point.array() / spacing - kMid).matrix());
+    }
+    return points;
+  }
+
+  std::string refusal(const std::filesystem::path& file)
+  {
+    try
+    {
+      (void)readSurface(file, LengthUnit::Millimeter, { .level = 0.0, .labels = {} });
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  TemporaryFolder folder_;
+};
+
+Shape blockOf(const Vector3d& half)
+{
+  return [half](const Vector3d& p) { return (p.cwiseAbs() - half).maxCoeff(); };
+}
+
+Shape ballOf(double radius)
+{
+  return [radius](const Vector3d& p) { return p.norm() - radius; };
+}
+
+TEST_F(ImageSurface, OfAMaskStandsWhereItsVoxelsEnd)
+{
+  const Array3d spacing(1.0, 2.0, 3.0);
+  for (const Vector3d& half : { Vector3d(12, 12, 12), Vector3d(16, 10, 5), Vector3d(14, 12, 2) })
+  {
+    const Vector3d halfMm = (half.array() * spacing).matrix();
+    for (const Vector3d& point : surfaceOfMask(blockOf(halfMm), spacing))
+    {
+      Vector3d::Index face = 0;
+      const double out = (point.cwiseAbs() - half).maxCoeff(&face);
+      EXPECT_LT(out, 0.25) << point.transpose();
+      const Vector3d rim = half - point.cwiseAbs();
+      constexpr double kFlat = 4.0; // voxels from an edge
+      if (rim[(face + 1) % 3] > kFlat && rim[(face + 2) % 3] > kFlat)
+      {
+        EXPECT_NEAR(out, 0.0, 0.1) << point.transpose();
+      }
+    }
+  }
+}
+
+TEST_F(ImageSurface, OfAMaskedBallIsTheBall)
+{
+  for (double radius = 5.0; radius < 21.0; radius += 1.3) // voxels
+  {
+    const auto points = surfaceOfMask(ballOf(2.0 * radius), Array3d::Constant(2.0));
+    double mean = 0.0;
+    for (const Vector3d& point : points)
+    {
+      const double out = point.norm() - radius;
+      EXPECT_LT(std::abs(out), 0.6) << "radius " << radius;
+      mean += out / static_cast<double>(points.size());
+    }
+    EXPECT_NEAR(mean, 0.0, 0.1) << "radius " << radius;
+  }
+}
+
+TEST_F(ImageSurface, OfVoxelsThatAreNoNumbersIsRefusedByTheirNumberAndPlace)
+{
+  for (const float odd : { std::numeric_limits<float>::quiet_NaN(),
+         std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() })
+  {
+    const auto image = imageOf(ballOf(30.0), Array3d::Constant(2.0), false);
+    *static_cast<float*>(image->GetScalarPointer(3, 4, 5)) = odd;
+    for (const auto& file : { write<vtkXMLImageDataWriter>("odd.vti", *image),
+           write<vtkNIFTIImageWriter>("odd.nii", *image) })
+    {
+      EXPECT_NE(refusal(file).find("no numbers (NaN or infinite): 1, the first at 3, 4, 5 "),
+        std::string::npos)
+        << refusal(file);
+    }
+    *static_cast<float*>(image->GetScalarPointer(9, 4, 5)) = odd;
+    EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("odd.vti", *image))
+                .find("infinite): 2, the first at 3, 4, 5"),
+      std::string::npos);
+  }
+}
+
+// of all formats: the corner, the size of a voxel
+TEST_F(ImageSurface, OfAHeaderWithoutNumbersIsRefusedByWhatIsWrong)
+{
+  const auto changed =
+    [&](const std::filesystem::path& file, const std::string& from, const std::string& to)
+  {
+    std::string text = readAll(file);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    std::ofstream(file, std::ios::binary) << text.replace(at, from.size(), to);
+    return refusal(file);
+  };
+  const auto image = imageOf(ballOf(30.0), Array3d(2.0, 2.0, 2.0), false);
+  const auto vti = [&] { return write<vtkXMLImageDataWriter>("odd.vti", *image); };
+  const std::string corner = "the origin in its header is not a number";
+  const std::string axes = "the axes in its header do not span space";
+  const auto says = [](const std::string& sentence, const std::string& words)
+  { EXPECT_NE(sentence.find(words), std::string::npos) << words << ": " << sentence; };
+  says(changed(vti(), "Origin=\"0 0", "Origin=\"0 nan"), "its Origin is not 3 numbers");
+  says(changed(vti(), "Spacing=\"2 2", "Spacing=\"2 nan"), "its Spacing is not 3 numbers");
+  says(changed(vti(), "Spacing=\"2 2", "Spacing=\"2 0"), axes);
+
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& [at, words] : { std::pair(292, corner), { 308, corner }, { 280, axes } })
+  {
+    const auto file = write<vtkNIFTIImageWriter>("odd.nii", *image);
+    std::string bytes = readAll(file);
+    const std::int16_t form = 1;
+    std::memcpy(bytes.data() + 254, &form, sizeof form); // sform_code, its rows from 280 on
+    for (const int row : { 0, 1, 2 })
+    {
+      const float one[4] = { row == 0 ? 2.0F : 0.0F, row == 1 ? 2.0F : 0.0F,
+        row == 2 ? 2.0F : 0.0F };
+      std::memcpy(bytes.data() + 280 + 16 * row, one, sizeof one);
+    }
+    std::memcpy(bytes.data() + at, &nan, sizeof nan);
+    std::ofstream(file, std::ios::binary) << bytes;
+    says(refusal(file), words);
+  }
+}
+
+} // namespace
+} // namespace palp::test
