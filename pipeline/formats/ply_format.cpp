@@ -291,12 +291,12 @@ private:
   [[noreturn]] void refuseCut(const Element& element) const
   {
     lines_.refuse("cut off, or its header damaged: it counts " + std::to_string(element.count) +
-      " of " + printable(element.name) + ", and ends after " + std::to_string(at_ - 1));
+      " of " + shortened(element.name) + ", and ends after " + std::to_string(at_ - 1));
   }
 
   [[noreturn]] void refuseHere(const Element& element, const std::string& what) const
   {
-    lines_.refuse(printable(element.name) + " " + std::to_string(at_) + " " + what);
+    lines_.refuse(shortened(element.name) + " " + std::to_string(at_) + " " + what);
   }
 
   [[noreturn]] void refuseIndex(double index, std::uint64_t face) const

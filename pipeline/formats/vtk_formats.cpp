@@ -105,10 +105,54 @@ std::string checkedXml(const std::filesystem::path& file)
   return text;
 }
 
+namespace
+{
+
+// VTK looks for ever at 256 blanks behind an array, and at blanks in a last line of their own
+void openLegacy(const std::filesystem::path& file, vtkDataSetReader& reader)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text(std::filesystem::file_size(file), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  constexpr std::size_t kLongest = 255;
+  const auto isBlank = [](char c) { return c == ' ' || c == '\r'; };
+  std::size_t run = 0;
+  std::size_t longest = 0;
+  for (const char c : text)
+  {
+    run = isBlank(c) ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  std::size_t format = 0; // in the third line
+  for (int line = 0; line < 2; ++line)
+  {
+    format = std::min(text.find('\n', format), text.size() - 1) + 1;
+  }
+  if (!text.substr(format, 5).starts_with("ASCII"))
+  {
+    if (longest > kLongest)
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": damaged, " + std::to_string(longest) +
+          " blanks in a row stand in it; export it again");
+    }
+    reader.SetFileName(file.c_str());
+    return;
+  }
+  const auto rest =
+    std::ranges::unique(text, [&](char a, char b) { return isBlank(a) && isBlank(b); });
+  text.erase(rest.begin(), rest.end());
+  text.erase(text.find_last_not_of(" \r\n") + 1);
+  reader.ReadFromInputStringOn();
+  reader.SetInputString(text + '\n');
+}
+
+} // namespace
+
 vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
 {
   vtkNew<vtkDataSetReader> reader;
-  reader->SetFileName(file.c_str());
+  openLegacy(file, *reader);
   if (reader->ReadOutputType() < 0)
   {
     throw Error(ErrorCode::BadFile,

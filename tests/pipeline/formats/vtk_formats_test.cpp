@@ -6,6 +6,7 @@
 #include <vtkCubeSource.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
 namespace palp::test
@@ -45,6 +46,57 @@ TEST(VtkFormats, AnArrayOfFourBillionComponentsIsRefusedByItsCount)
       EXPECT_NE(std::string(error.what()).find("4294967295 components"), std::string::npos)
         << array << ": " << error.what();
     }
+  }
+}
+
+std::string legacy(const TemporaryFolder& folder, bool binary)
+{
+  const std::filesystem::path file = folder.path() / "cube.vtk";
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkPolyDataWriter> writer;
+  writer->SetInputConnection(cube->GetOutputPort());
+  writer->SetFileName(file.c_str());
+  binary ? writer->SetFileTypeToBinary() : writer->SetFileTypeToASCII();
+  writer->Write();
+  return readAll(file);
+}
+
+// at either VTK's reader stands still
+TEST(VtkFormats, BlanksInALegacyTextAreNotCounted)
+{
+  const TemporaryFolder folder;
+  const std::string text = legacy(folder, false);
+  const std::filesystem::path file = folder.path() / "blanks.vtk";
+  for (const char blank : { ' ', '\r' })
+  {
+    for (const char* before : { "\nPOLYGONS", "\nCONNECTIVITY", "\nPOINT_DATA" })
+    {
+      const std::size_t at = text.find(before);
+      ASSERT_NE(at, text.npos) << before;
+      std::ofstream(file, std::ios::binary) << std::string(text).insert(at, 300, blank);
+      EXPECT_EQ(readSurface(file, LengthUnit::Meter).mesh->GetNumberOfPolys(), 12) << before;
+    }
+    std::ofstream(file, std::ios::binary) << text + '\n' + std::string(3, blank);
+    EXPECT_EQ(readSurface(file, LengthUnit::Meter).mesh->GetNumberOfPolys(), 12);
+  }
+}
+
+TEST(VtkFormats, BlanksInALegacyBinaryAreRefusedByTheirNumber)
+{
+  const TemporaryFolder folder;
+  const std::string text = legacy(folder, true);
+  const std::filesystem::path file = folder.path() / "blanks.vtk";
+  std::ofstream(file, std::ios::binary) << text.substr(0, text.find("\nPOLYGONS")) +
+      std::string(300, '\r') + text.substr(text.find("\nPOLYGONS"));
+  try
+  {
+    (void)readSurface(file, LengthUnit::Meter);
+    ADD_FAILURE() << "accepted";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("300 blanks in a row"), std::string::npos)
+      << error.what();
   }
 }
 
