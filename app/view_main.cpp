@@ -48,13 +48,13 @@ void endOnSignals(QApplication& application)
 
 void explainOmissions(const palp::ScenePlan& plan, palp::BuildTrace& trace)
 {
-  const bool simulated =
-    plan.device == "mouse" || plan.device == "hand" || palp::isScripted(plan.device);
-  trace.skip("USB libraries", "come when a device there is looked for", simulated);
+  trace.skip("USB libraries", "come when a device there is looked for",
+    plan.device.kind != palp::DeviceChoice::Kind::Driver);
   trace.skip("plots, sample ring", "no plot is named", !plan.records());
-  trace.skip("reliance panel", "\"validity\" is false", !plan.validity);
+  trace.skip("validity panel", "\"validity\" is false", !plan.validity);
   trace.skip("other overlays", "computed when the View menu shows them", plan.overlays.has_value());
-  trace.skip("fitted surfaces", "\"dent\" is the paper's", plan.press.surface != "fitted");
+  trace.skip("fitted surfaces", "\"dent\" is the paper's",
+    plan.press.dent.surface != palp::DentSurface::Fitted);
 }
 
 // Qt aborts where it finds no display

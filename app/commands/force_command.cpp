@@ -1,5 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/input/law_options.h"
+#include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
 #include "haptics/error.h"
@@ -23,7 +24,7 @@ struct ForceOptions
 {
   TissueOptions tissue;
   PlaceOptions place;
-  std::string depth = "0:10:0.5mm";
+  Range depths;
   bool validity = false;
 };
 
@@ -114,8 +115,8 @@ void addForces(std::vector<double>& row, const ForceLaw& law, const ContactGeome
 void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
-  const Range depths = depthsOf(options.depth);
-  ContactGeometry place = options.place.place();
+  const Range& depths = options.depths;
+  ContactGeometry place = options.place.place;
   const Validity validity(law, { .deepest = depths.si.back() });
   const Rules rules = validity(place);
   printHead(law, place, std::span(rules).first(options.validity ? rules.size() : 0));
@@ -144,7 +145,7 @@ void printForces(const ForceOptions& options)
     std::cerr << "palp: warning: at the largest depth the law is outside its limits (" << broken
               << "); --validity tells how far at each\n";
   }
-  if (options.place.given() && law.settings().mode != LawMode::Corrected)
+  if (options.place.given && law.settings().mode != LawMode::Corrected)
   {
     std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
   }
@@ -158,9 +159,10 @@ void addForceCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
   options->tissue.addTo(*command);
   options->place.addTo(*command);
-  command
-    ->add_option("--depth", options->depth, "Indentation depths A:B:STEP, both ends included")
-    ->capture_default_str();
+  const std::string usual = "0:10:0.5mm";
+  options->depths = depthsOf(usual);
+  addParsed(*command, "--depth", "Indentation depths A:B:STEP, both ends included", usual,
+    [options = options.get()](const std::string& text) { options->depths = depthsOf(text); });
   command->add_flag("--validity", options->validity,
     "Append for each condition of the law how much of its limit is used; above 1 it is broken");
   command->footer(

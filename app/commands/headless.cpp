@@ -76,15 +76,15 @@ Scene sceneOf(const ScenePlan& plan, bool chained)
 {
   Scene scene;
   scene.law = plan.press.tissue.law();
-  scene.rule = plan.press.rule();
-  scene.damping = plan.press.dampingSi();
+  scene.rule = plan.press.contact;
+  scene.damping = plan.press.damping;
   scene.forceLimit = chained ? scene.forceLimit : std::numeric_limits<double>::infinity();
   return scene;
 }
 
 void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
 {
-  const bool corrected = plan.press.tissue.options.mode == "corrected";
+  const bool corrected = plan.press.tissue.options.mode == LawMode::Corrected;
   trace.skip("window, Qt", "\"window\" is false");
   trace.skip("device, USB", "the tool follows a path");
   trace.skip("servo thread", "a path without a window is pressed in simulated time");
@@ -92,7 +92,7 @@ void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
   trace.skip("OpenGL", "no picture and no plot is asked for", !plan.draws());
   trace.skip("overlays", "no picture shows them", !plan.picture);
   trace.skip("plots", "none is named", plan.curves.empty());
-  trace.skip("calibration, dent", "\"dent\" is none", !plan.dent);
+  trace.skip("calibration, dent", "\"dent\" is none", !plan.dents());
   trace.skip("large-strain table", "the law is not corrected and no sample is rated",
     !plan.validity && !corrected);
 }
@@ -122,11 +122,11 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
   recording.rated = plan.validity;
   recording.scene = trace.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
   const ScriptedPath path =
-    trace.build("path", "moves the tool", [&] { return readScript(plan.device); });
-  recording.device =
-    plan.device.substr(0, plan.device.find(':') + 1) + scriptFile(plan.device).filename().string();
+    trace.build("path", "moves the tool", [&] { return readPath(plan.device.file); });
+  const std::string& device = plan.device.name;
+  recording.device = device.substr(0, device.find(':') + 1) + plan.device.file.filename().string();
   std::optional<Calibration> calibration;
-  if (plan.dent)
+  if (plan.dents())
   {
     calibration = trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });

@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/headless.h"
 #include "app/input/force_curve.h"
+#include "app/input/option_values.h"
 #include "app/program/build_trace.h"
 #include "app/program/data_files.h"
 #include "app/program/exec_program.h"
@@ -20,10 +21,11 @@ namespace
 
 struct RunOptions
 {
+  MeshSource mesh{ .bundled = "liver" };
   PressOptions press;
   std::filesystem::path path;
   std::filesystem::path out;
-  std::string size = "1280x960";
+  ImageSize size;
   std::vector<std::string> plots{ "force-time", "force-depth" };
   std::vector<std::string> plotFiles; // png where none is named
   std::vector<std::filesystem::path> references;
@@ -56,25 +58,23 @@ void run(const RunOptions& options, const Renderer* pictures)
   {
     execProgram("palp-draw");
   }
-  const ImageSize size = parseSize(options.size, "--size");
-  const std::vector<MeshSource> meshes = meshesOf(options.press);
-  const bool bundled = options.press.file.empty();
-  if (options.path.empty() && !bundled)
+  checkExists(options.mesh);
+  if (options.path.empty() && options.mesh.bundled.empty())
   {
     throw Error(ErrorCode::BadValue,
       "--path: missing; give a CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az] in the frame of the surface");
   }
   const std::filesystem::path path =
     options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
-  ScenePlan plan{ .meshes = meshes,
+  ScenePlan plan{ .meshes = { options.mesh },
     .press = options.press,
-    .device = "path:" + path.string(),
+    .device = parseDevice("path:" + path.string()),
     .window = false,
     .curves = {},
     .plotFiles = options.plotFiles.empty() ? std::vector<std::string>{ "png" } : options.plotFiles,
     .refined = options.refined,
     .picture = !options.noPicture,
-    .size = size };
+    .size = options.size };
   std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
   for (const std::string& name : options.plots)
   {
@@ -97,6 +97,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures)
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand(
     "run", "Press along a recorded path, without a display: data, picture and curves");
+  options->mesh.addTo(*command);
   options->press.addTo(*command);
   command->add_option("--path", options->path,
     "CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az]: the tool's apex in the coordinates of FILE (LPS for "
@@ -105,7 +106,9 @@ void addRunCommand(CLI::App& app, const Renderer* pictures)
   command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
     ->required();
   addOverwrite(*command, options->overwrite);
-  command->add_option("--size", options->size, "Size of press.png")->capture_default_str();
+  addParsed(*command, "--size", "Size of press.png", "1280x960",
+    [options = options.get()](const std::string& text)
+    { options->size = parseSize(text, "--size"); });
   command
     ->add_option("--plots", options->plots,
       "Curves to draw, like section,comparison: force-time and force-depth; section (a cut through "

@@ -1,5 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/commands/program.h"
+#include "app/input/option_values.h"
 #include "app/program/exec_program.h"
 
 #include <CLI/CLI.hpp>
@@ -13,13 +14,15 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
 {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand("view", "Open the window and press; the default command");
+  options->plan.meshes.front().addTo(*command);
   options->plan.press.addTo(*command);
-  command
-    ->add_option("--device", options->plan.device,
-      "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
-      "replay:FILE (a samples.csv that was exported); spacemouse; falcon[:FIRMWARE]; "
-      "wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)")
-    ->capture_default_str();
+  addParsed(*command, "--device",
+    "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
+    "replay:FILE (a samples.csv that was exported); spacemouse; falcon[:FIRMWARE]; "
+    "wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)",
+    options->plan.device.name,
+    [options = options.get()](const std::string& text)
+    { options->plan.device = parseDevice(text); });
   command->add_flag(
     "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
   command->footer("Examples:\n"
@@ -30,8 +33,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
     {
       // a wrong value is told before a missing display
       (void)options->plan.press.tissue.law();
-      (void)options->plan.press.dampingSi();
-      options->plan.meshes = meshesOf(options->plan.press);
+      checkExists(options->plan.meshes.front());
       if (!view)
       {
         execProgram("palp-view");

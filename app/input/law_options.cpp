@@ -1,6 +1,7 @@
 #include "app/input/law_options.h"
 
 #include "app/input/coating_text.h"
+#include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/program/data_files.h"
 #include "haptics/error.h"
@@ -48,42 +49,33 @@ LargeStrainTable shippedTable(LawMode mode)
 
 void LawOptions::addTo(CLI::App& command)
 {
-  command
-    .add_option("--law", mode,
-      "paper: Eqs. (2)-(5); exact: linear half-space; corrected: every factor that acts")
-    ->check(CLI::IsMember({ "paper", "exact", "corrected" }))
-    ->capture_default_str();
-  command.add_option("--base", base, "Under the body, for --law corrected: bonded or slip")
-    ->check(CLI::IsMember({ "bonded", "slip" }))
-    ->capture_default_str();
-  command
-    .add_option(
-      "--material", constitution, "Under large strain, for --law corrected: linear or neo-hookean")
-    ->check(CLI::IsMember({ "linear", "neo-hookean" }))
-    ->capture_default_str();
-  command.add_option("--coating", coating,
+  addChoice(command, "--law",
+    "paper: Eqs. (2)-(5); exact: linear half-space; corrected: every factor that acts", kLawModes,
+    mode);
+  addChoice(command, "--base", "Under the body, for --law corrected: bonded or slip", kBases, base);
+  addChoice(command, "--material", "Under large strain, for --law corrected: linear or neo-hookean",
+    kMaterials, constitution);
+  addParsed(command, "--coating",
     "Skin, fat, a capsule on the tissue, for --law corrected: THICKNESS:YOUNG:NU from the surface "
-    "down, as in 2mm:200kPa:0.45,10mm:20kPa:0.48");
+    "down, as in 2mm:200kPa:0.45,10mm:20kPa:0.48",
+    "", [this](const std::string& text) { coatings = parseCoatings(text); });
 }
 
 LawSettings LawOptions::settings() const
 {
-  const ConstitutiveModel material =
-    constitution == "linear" ? ConstitutiveModel::Linear : ConstitutiveModel::NeoHookean;
-  const LawMode law = mode == "paper" ? LawMode::Paper
-    : mode == "exact"                 ? LawMode::Exact
-                                      : LawMode::Corrected;
-  const bool needed = material != ConstitutiveModel::Linear && (rated || law == LawMode::Corrected);
-  if (!coating.empty() && law != LawMode::Corrected)
+  const bool needed =
+    constitution != ConstitutiveModel::Linear && (rated || mode == LawMode::Corrected);
+  if (!coatings.empty() && mode != LawMode::Corrected)
   {
     throw Error(ErrorCode::BadValue,
-      "--coating: the law '" + mode + "' knows none; take the corrected law, or leave it out");
+      "--coating: the law '" + kLawModes.at(static_cast<std::size_t>(mode)) +
+        "' knows none; take the corrected law, or leave it out");
   }
-  return { .mode = law,
-    .base = base == "slip" ? Base::Slip : Base::Bonded,
-    .constitution = material,
-    .largeStrain = needed ? shippedTable(law) : nullptr,
-    .coatings = parseCoatings(coating) };
+  return { .mode = mode,
+    .base = base,
+    .constitution = constitution,
+    .largeStrain = needed ? shippedTable(mode) : nullptr,
+    .coatings = coatings };
 }
 
 std::string describeLaw(const LawSettings& settings)
@@ -112,34 +104,35 @@ std::string brokenNames(const Rules& rules)
 
 void PlaceOptions::addTo(CLI::App& command)
 {
-  command.add_option("--thickness", thickness, "Of the body under the tool, as in 30mm");
-  command.add_option("--surface-radius", surfaceRadius,
-    "R0 of the surface, as in 50mm, -50mm where it is hollow; or R1:R2 along and across");
-  command.add_option("--tilt", tilt, "Tool axis to surface normal, as in 9deg");
-}
-
-ContactGeometry PlaceOptions::place() const
-{
-  ContactGeometry place;
-  if (!thickness.empty())
+  const auto add = [&](const char* name, const char* what, auto parse)
   {
-    place.thickness =
-      parseWithin(thickness, Quantity::Length, { 0.1_mm, 1e3, "0.1mm to 1000m" }, "--thickness");
-  }
-  if (!surfaceRadius.empty())
-  {
-    const std::size_t colon = std::min(surfaceRadius.find(':'), surfaceRadius.size());
-    const double along = curvature(surfaceRadius.substr(0, colon));
-    const double across =
-      colon < surfaceRadius.size() ? curvature(surfaceRadius.substr(colon + 1)) : along;
-    place.surfaceCurvature = 0.5 * (along + across);
-    place.curvatureSpread = 0.5 * std::abs(along - across);
-  }
-  if (!tilt.empty())
-  {
-    place.tilt = parseWithin(tilt, Quantity::Angle, { 0.0, 89.0_deg, "0deg to 89deg" }, "--tilt");
-  }
-  return place;
+    addParsed(command, name, what, "",
+      [this, parse](const std::string& text)
+      {
+        parse(text, place);
+        given = true;
+      });
+  };
+  add("--thickness", "Of the body under the tool, as in 30mm",
+    [](const std::string& text, ContactGeometry& at)
+    {
+      at.thickness =
+        parseWithin(text, Quantity::Length, { 0.1_mm, 1e3, "0.1mm to 1000m" }, "--thickness");
+    });
+  add("--surface-radius",
+    "R0 of the surface, as in 50mm, -50mm where it is hollow; or R1:R2 along and across",
+    [](const std::string& text, ContactGeometry& at)
+    {
+      const std::size_t colon = std::min(text.find(':'), text.size());
+      const double along = curvature(text.substr(0, colon));
+      const double across = colon < text.size() ? curvature(text.substr(colon + 1)) : along;
+      at.surfaceCurvature = 0.5 * (along + across);
+      at.curvatureSpread = 0.5 * std::abs(along - across);
+    });
+  add("--tilt", "Tool axis to surface normal, as in 9deg",
+    [](const std::string& text, ContactGeometry& at) {
+      at.tilt = parseWithin(text, Quantity::Angle, { 0.0, 89.0_deg, "0deg to 89deg" }, "--tilt");
+    });
 }
 
 } // namespace palp

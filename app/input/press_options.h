@@ -4,10 +4,12 @@
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
 #include "pipeline/process/file_surface.h"
+#include "pipeline/surface_io/length_unit.h"
 
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace CLI
 {
@@ -17,43 +19,66 @@ class App;
 namespace palp
 {
 
-/// What tissue is pressed with what: the options that every command shares, as text with units.
+/// A surface and where it stands.
+struct MeshSource
+{
+  std::string bundled{}; ///< name of a shipped surface, as in liver; empty: file
+  std::filesystem::path file{};
+  ImagePart part{};  ///< that is the surface, where the file is an image
+  UnitChoice unit{}; ///< of the file's coordinates
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity(); ///< from the file's to the scene's [m]
+
+  /// FILE and how it is read; the bundled liver without one.
+  void addTo(CLI::App& command);
+};
+
+/// What tissue is pressed with what: the options that every command shares.
 struct TissueOptions
 {
-  std::string tip = "sphere:10mm";
-  std::string young = "50kPa";
-  std::string poisson = "0.33";
+  Tip tip = SphereTip{ .radius = 0.01 };
+  double young = 50e3;   ///< E [Pa]
+  double poisson = 0.33; ///< nu [-]
   LawOptions options;
 
   void addTo(CLI::App& command);
 
-  /// @throws Error  BadValue: names the option, what is wrong and how to write it
+  /// @throws Error  as makeMaterial, LawOptions::settings
   [[nodiscard]] ForceLaw law() const;
 };
 
-/// A body, the tissue, and how contact is measured.
+/// How the surface around the contact is drawn.
+enum class DentSurface
+{
+  Paper,        ///< the ring of Eq. (8), from the contact that a sphere can have
+  PaperLiteral, ///< from r = sqrt(R depth), whatever the depth
+  Fitted,       ///< curves fitted to finite elements, scaled to the tool
+  None,         ///< it does not give way
+};
+
+/// How far and in what shape the surface gives way.
+struct DentOptions
+{
+  DentSurface surface = DentSurface::Paper;
+  std::filesystem::path table{}; ///< R_d(depth); empty: the bundled one for the tool
+  std::optional<double> layer{}; ///< thickness that R_d is taken for [m]; none: five tool radii
+  double threshold = 0.5e-3;     ///< displacement at R_d [m]
+};
+
+/// The tissue, how contact is measured, and how the surface gives way.
 struct PressOptions
 {
-  std::filesystem::path file; ///< empty: the bundled liver
-  std::string unit = "auto";
-  std::string level;               ///< value of an image on the surface; empty: none
-  std::vector<std::string> labels; ///< or of the regions of a label map
   TissueOptions tissue;
-  std::string contact = "exact";
-  std::string damping = "0N*s/m";
-  std::filesystem::path table;     ///< R_d(depth); empty: the bundled one for the tool
-  std::string layer;               ///< thickness that R_d is taken for; empty: five tool radii
-  std::string threshold = "0.5mm"; ///< sink at R_d
-  std::string surface = "paper";
+  ContactRule contact = ContactRule::Exact;
+  double damping = 0.0; ///< b [N s/m]
+  DentOptions dent{};
 
   void addTo(CLI::App& command);
-
-  /// @throws Error  BadValue
-  [[nodiscard]] ImagePart part() const;
-  [[nodiscard]] ContactRule rule() const;
-  [[nodiscard]] double dampingSi() const;   ///< b [N s/m]
-  [[nodiscard]] double layerSi() const;     ///< [m]; where one is given
-  [[nodiscard]] double thresholdSi() const; ///< [m]
 };
+
+/// Their text, for options and scenes alike.
+/// @throws Error  BadValue: names the option, what is wrong and how to write it
+[[nodiscard]] double parseLayer(const std::string& text);     ///< [m]
+[[nodiscard]] double parseThreshold(const std::string& text); ///< [m]
+[[nodiscard]] double parseDamping(const std::string& text);   ///< b [N s/m]
 
 } // namespace palp

@@ -1,6 +1,8 @@
 #include "app/input/scene_file.h"
 
+#include "app/input/coating_text.h"
 #include "app/input/json_object.h"
+#include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "app/program/data_files.h"
@@ -48,6 +50,18 @@ void checkAt(const JsonObject& object, std::string place, Check check)
   }
 }
 
+// what stands under a key, if anything does, through the parser of its option
+template <typename Parse>
+void parseAt(JsonObject& object, const char* key, Parse parse,
+  std::string (JsonObject::*read)(const char*, const std::string&) = &JsonObject::text)
+{
+  if (object.has(key))
+  {
+    const std::string text = (object.*read)(key, "");
+    checkAt(object, key, [&] { parse(text); });
+  }
+}
+
 Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity, const Bounds& bounds)
 {
   const std::vector<std::string> words = object.texts(key, {});
@@ -88,68 +102,74 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   MeshSource mesh;
   mesh.bundled = object.text("bundled", "");
   const std::string file = object.text("file", "");
-  const std::string level = object.number("level", "");
-  const std::string label = object.number("label", "");
-  mesh.unit = object.text("unit", "auto");
+  parseAt(
+    object, "level",
+    [&](const std::string& text) { mesh.part.level = parseNumber(text, "--level"); },
+    &JsonObject::number);
+  parseAt(
+    object, "label",
+    [&](const std::string& text) { mesh.part.labels = { parseNumber(text, "--label") }; },
+    &JsonObject::number);
+  parseAt(object, "unit", [&](const std::string& text) { mesh.unit = parseUnit(text); });
   mesh.frame = readFrame(object.object("frame"));
   object.finish();
   if (mesh.bundled.empty() == file.empty())
   {
     object.refuse("file", "give either a file or the name of a bundled surface");
   }
-  if (!level.empty())
-  {
-    checkAt(object, "level", [&] { mesh.part.level = parseNumber(level, "--level"); });
-  }
-  if (!label.empty())
-  {
-    checkAt(object, "label", [&] { mesh.part.labels = { parseNumber(label, "--label") }; });
-  }
-  checkAt(object, "unit", [&] { (void)parseUnit(mesh.unit); });
   mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();
   return mesh;
 }
 
 void readTissue(JsonObject object, PressOptions& press)
 {
-  press.tissue.options.coating = object.text("coating", press.tissue.options.coating);
-  press.tissue.young = object.text("young", press.tissue.young);
-  press.tissue.poisson = object.number("poisson", press.tissue.poisson);
-  press.damping = object.text("damping", press.damping);
+  TissueOptions& tissue = press.tissue;
+  parseAt(object, "coating",
+    [&](const std::string& text) { tissue.options.coatings = parseCoatings(text); });
+  parseAt(object, "young",
+    [&](const std::string& text)
+    { tissue.young = parseQuantity(text, Quantity::Pressure, "--young"); });
+  parseAt(
+    object, "poisson",
+    [&](const std::string& text) { tissue.poisson = parseNumber(text, "--poisson"); },
+    &JsonObject::number);
+  parseAt(object, "damping", [&](const std::string& text) { press.damping = parseDamping(text); });
   object.finish();
+}
+
+// one word for a value of an enumeration
+template <typename Enum>
+void readChoice(JsonObject& object, const char* key, const Words& words, Enum& value)
+{
+  if (object.has(key))
+  {
+    value = static_cast<Enum>(object.choice(key, object.text(key, ""), words));
+  }
 }
 
 void readLaw(JsonObject object, ScenePlan& plan)
 {
   LawOptions& law = plan.press.tissue.options;
-  law.mode = object.text("mode", law.mode);
-  law.base = object.text("base", law.base);
-  law.constitution = object.text("material", law.constitution);
-  plan.press.contact = object.text("contact", plan.press.contact);
+  readChoice(object, "mode", kLawModes, law.mode);
+  readChoice(object, "base", kBases, law.base);
+  readChoice(object, "material", kMaterials, law.constitution);
+  readChoice(object, "contact", kContactRules, plan.press.contact);
   plan.validity = object.flag("validity", plan.window);
   object.finish();
-  (void)object.choice("mode", law.mode, { "paper", "exact", "corrected" });
-  (void)object.choice("base", law.base, { "bonded", "slip" });
-  (void)object.choice("material", law.constitution, { "linear", "neo-hookean" });
-  (void)object.choice("contact", plan.press.contact, { "exact", "paper" });
 }
 
 void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& folder)
 {
-  plan.press.surface = object.text("surface", plan.press.surface);
+  DentOptions& dent = plan.press.dent;
+  Words surfaces = kDentSurfaces;
+  surfaces.emplace_back("none");
+  readChoice(object, "surface", surfaces, dent.surface);
   const std::string table = object.text("table", "");
-  plan.press.layer = object.text("layer", "");
-  plan.press.threshold = object.text("threshold", plan.press.threshold);
+  parseAt(object, "layer", [&](const std::string& text) { dent.layer = parseLayer(text); });
+  parseAt(
+    object, "threshold", [&](const std::string& text) { dent.threshold = parseThreshold(text); });
   object.finish();
-  if (!plan.press.layer.empty())
-  {
-    checkAt(object, "layer", [&] { (void)plan.press.layerSi(); });
-  }
-  checkAt(object, "threshold", [&] { (void)plan.press.thresholdSi(); });
-  constexpr int kNone = 3;
-  plan.dent = object.choice("surface", plan.press.surface,
-                { "paper", "paper-literal", "fitted", "none" }) != kNone;
-  plan.press.table = table.empty() ? std::filesystem::path{} : (folder / table).lexically_normal();
+  dent.table = table.empty() ? std::filesystem::path{} : (folder / table).lexically_normal();
 }
 
 // words of a list as what they stand for
@@ -179,30 +199,31 @@ void readExports(JsonObject& object, ScenePlan& plan)
 
 void readDevice(JsonObject& object, ScenePlan& plan, const std::filesystem::path& folder)
 {
-  plan.device = object.text("device", "mouse");
-  const bool scripted = isScripted(plan.device);
+  const std::string name = object.text("device", "mouse");
+  plan.device = parseDevice(name);
+  const bool scripted = plan.device.isScript();
   if (scripted)
   {
-    plan.device = plan.device.substr(0, plan.device.find(':') + 1) +
-      (folder / scriptFile(plan.device)).lexically_normal().string();
+    plan.device = parseDevice(
+      name.substr(0, name.find(':') + 1) + (folder / plan.device.file).lexically_normal().string());
   }
   plan.deadMan = object.flag("dead_man", false);
   plan.window = object.flag("window", !scripted);
   if (!plan.window && !scripted)
   {
-    object.refuse("window", inQuotes(plan.device) + " moves in a window only; give true");
+    object.refuse("window", inQuotes(plan.device.name) + " moves in a window only; give true");
   }
 }
 
 // what stands in one part and is needed by another
 void checkTogether(const JsonObject& object, const ScenePlan& plan)
 {
-  if (!plan.dent && (plan.window || plan.deformed || plan.picture))
+  if (!plan.dents() && (plan.window || plan.deformed || plan.picture))
   {
     object.refuse("dent",
       "'none' leaves nothing to see; leave the window and the exports deformed and picture out");
   }
-  if (!plan.dent && (plan.has(Curve::Section) || plan.has(Curve::Extent)))
+  if (!plan.dents() && (plan.has(Curve::Section) || plan.has(Curve::Extent)))
   {
     object.refuse("plots", "section and extent show the dent; leave them out, or name a surface");
   }
@@ -233,7 +254,7 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   plan.meshes = meshes;
   readDevice(object, plan, folder); // first: what follows depends on the window
   readTissue(object.object("tissue"), plan.press);
-  plan.press.tissue.tip = object.text("tool", plan.press.tissue.tip);
+  parseAt(object, "tool", [&](const std::string& text) { plan.press.tissue.tip = parseTip(text); });
   readLaw(object.object("law"), plan);
   readDent(object.object("dent"), plan, folder);
   if (object.has("overlays"))
@@ -249,9 +270,7 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   }
 
   plan.press.tissue.options.rated = plan.validity;
-  checkAt(object, "tool", [&] { (void)parseTip(plan.press.tissue.tip); });
   checkAt(object, "tissue/", [&] { (void)plan.press.tissue.law(); });
-  checkAt(object, "tissue/", [&] { (void)plan.press.dampingSi(); });
   checkTogether(object, plan);
   return plan;
 }

@@ -12,33 +12,24 @@ namespace palp
 const std::vector<std::string> kCurveNames{ "force-time", "force-depth", "section", "comparison",
   "extent" };
 
-bool isScripted(const std::string& device)
+DeviceChoice parseDevice(const std::string& name)
 {
-  return device.starts_with("path:") || device.starts_with("replay:");
+  using enum DeviceChoice::Kind;
+  const bool script = name.starts_with("path:") || name.starts_with("replay:");
+  return { .kind = name == "mouse" ? Mouse
+      : name == "hand"             ? Hand
+      : script                     ? Script
+                                   : Driver,
+    .name = name,
+    .file = script ? name.substr(name.find(':') + 1) : "" };
 }
 
-std::filesystem::path scriptFile(const std::string& device)
+void checkExists(const MeshSource& mesh)
 {
-  return device.substr(device.find(':') + 1);
-}
-
-ScriptedPath readScript(const std::string& device)
-{
-  return readPath(scriptFile(device));
-}
-
-std::vector<MeshSource> meshesOf(const PressOptions& options)
-{
-  if (options.file.empty())
+  if (mesh.bundled.empty() && !std::filesystem::exists(mesh.file))
   {
-    return { { .bundled = "liver" } };
+    throw Error(ErrorCode::BadFile, mesh.file.string() + ": there is no such file; check the path");
   }
-  if (!std::filesystem::exists(options.file))
-  {
-    throw Error(
-      ErrorCode::BadFile, options.file.string() + ": there is no such file; check the path");
-  }
-  return { { .file = options.file, .part = options.part(), .unit = options.unit } };
 }
 
 ImageSize parseSize(const std::string& text, const std::string& what)

@@ -1,11 +1,9 @@
 #pragma once
 
 #include "app/input/press_options.h"
-#include "haptics/devices/simulated/scripted_path.h"
 #include "pipeline/model/overlay.h"
 #include "pipeline/model/reference_curve.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -14,16 +12,6 @@
 
 namespace palp
 {
-
-/// A surface and where it stands.
-struct MeshSource
-{
-  std::string bundled{}; ///< name of a shipped surface, as in liver; empty: file
-  std::filesystem::path file{};
-  ImagePart part{};          ///< that is the surface, where the file is an image
-  std::string unit = "auto"; ///< of the file's coordinates
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity(); ///< from the file's to the scene's [m]
-};
 
 struct ImageSize
 {
@@ -41,18 +29,41 @@ enum class Curve
   Extent,     ///< R_d over the depth
 };
 
-/// All that a press can be made of, by name: what `run` and `view` take as options and a scene file
-/// as JSON. What is not named here is not built.
+/// What moves the tool.
+struct DeviceChoice
+{
+  enum class Kind
+  {
+    Mouse,
+    Hand,   ///< a simulated arm that follows the mouse and yields to the force
+    Script, ///< a path, or an exported samples.csv
+    Driver, ///< whatever openDriver knows by the name
+  };
+
+  Kind kind = Kind::Mouse;
+  std::string name = "mouse";   ///< as parseDevice takes it
+  std::filesystem::path file{}; ///< of a script
+
+  [[nodiscard]] bool isScript() const noexcept
+  {
+    return kind == Kind::Script;
+  }
+};
+
+/// mouse, hand, path:FILE, replay:FILE, or the name of a driver's device.
+[[nodiscard]] DeviceChoice parseDevice(const std::string& name);
+
+/// All that a press can be made of: what `run` and `view` take as options and a scene file as JSON,
+/// parsed. What is not named here is not built.
 struct ScenePlan
 {
   std::string name{}; ///< for people
   std::vector<MeshSource> meshes{ { .bundled = "liver" } };
   PressOptions press{};
-  std::string device = "mouse";
+  DeviceChoice device{};
   bool deadMan = false; ///< force only while the first button of the device is held
   bool window = true;   ///< else: a path in simulated time, without servo thread
-  bool dent = true;     ///< the surface gives way; needs a calibration
-  bool validity = true; ///< each sample is rated by the ten rules
+  bool validity = true; ///< each sample is rated by the rules of validity
   std::optional<std::vector<Overlay>> overlays{}; ///< none: those that are shown at first
   std::vector<Curve> curves{ Curve::ForceOverTime, Curve::ForceOverDepth };
   std::vector<std::string> plotFiles{ "png" }; ///< endings: png, svg, pdf, csv
@@ -66,6 +77,12 @@ struct ScenePlan
   [[nodiscard]] bool has(Curve curve) const noexcept
   {
     return std::find(curves.begin(), curves.end(), curve) != curves.end();
+  }
+
+  /// Whether the surface gives way, which needs a calibration.
+  [[nodiscard]] bool dents() const noexcept
+  {
+    return press.dent.surface != DentSurface::None;
   }
 
   /// Whether anything is made of the samples of a live press.
@@ -84,17 +101,8 @@ struct ScenePlan
 /// The names of the curves in files and options, in the order of Curve.
 extern const std::vector<std::string> kCurveNames;
 
-/// Whether a device follows a file: path:FILE or replay:FILE, a path or an exported samples.csv.
-[[nodiscard]] bool isScripted(const std::string& device);
-
-/// The file that a scripted device follows.
-[[nodiscard]] std::filesystem::path scriptFile(const std::string& device);
-
-/// @throws Error  BadFile
-[[nodiscard]] ScriptedPath readScript(const std::string& device);
-
-/// The surface that the options name.
-[[nodiscard]] std::vector<MeshSource> meshesOf(const PressOptions& options);
+/// @throws Error  BadFile: there is no such file
+void checkExists(const MeshSource& mesh);
 
 /// Reads WIDTHxHEIGHT in pixels, each 64 to 8192.
 ///

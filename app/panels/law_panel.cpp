@@ -1,6 +1,7 @@
 #include "app/panels/law_panel.h"
 
 #include "app/input/coating_text.h"
+#include "app/input/law_options.h"
 #include "app/panels/panel_boxes.h"
 #include "haptics/error.h"
 
@@ -16,20 +17,18 @@ namespace palp
 namespace
 {
 
-// the words of the options, each list in the order of its enumeration
-constexpr const char* kModes[]{ "paper", "exact", "corrected" };
-constexpr const char* kBases[]{ "bonded", "slip" };
-constexpr const char* kConstitutions[]{ "linear", "neo-hookean" };
-
-static_assert(static_cast<int>(LawMode::Corrected) == 2);
-static_assert(static_cast<int>(Base::Slip) == 1);
-static_assert(static_cast<int>(ConstitutiveModel::NeoHookean) == 1);
+// what a box shows, whose entries are in the order of the enumeration
+template <typename Enum>
+Enum shownIn(const ChoiceBox& box)
+{
+  return static_cast<Enum>(box.currentIndex());
+}
 
 } // namespace
 
-LawPanel::LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent)
+LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
   : QGroupBox(tr("Law"), parent)
-  , options_(std::move(options))
+  , rated_(rated)
   , mode_(new ChoiceBox("law", { tr("Paper"), tr("Exact half-space"), tr("Corrected") }))
   , base_(new ChoiceBox("base", { tr("Bonded"), tr("Slip") }))
   , constitution_(new ChoiceBox("material", { tr("Linear"), tr("Neo-Hookean") }))
@@ -106,19 +105,17 @@ QWidget* LawPanel::makePair()
 LawSettings LawPanel::settings() const
 {
   const std::string coating = isCorrected() ? coating_ : "";
-  const bool same = mode_->currentIndex() == static_cast<int>(inUse_.mode) &&
-    coating == describeCoatings(inUse_.coatings) &&
-    base_->currentIndex() == static_cast<int>(inUse_.base) &&
-    constitution_->currentIndex() == static_cast<int>(inUse_.constitution);
+  LawOptions options{ .mode = shownIn<LawMode>(*mode_),
+    .base = shownIn<Base>(*base_),
+    .constitution = shownIn<ConstitutiveModel>(*constitution_),
+    .coatings = parseCoatings(coating),
+    .rated = rated_ };
+  const bool same = options.mode == inUse_.mode && coating == describeCoatings(inUse_.coatings) &&
+    options.base == inUse_.base && options.constitution == inUse_.constitution;
   if (same)
   {
     return inUse_; // reads no table again
   }
-  LawOptions options = options_;
-  options.mode = kModes[mode_->currentIndex()];
-  options.base = kBases[base_->currentIndex()];
-  options.constitution = kConstitutions[constitution_->currentIndex()];
-  options.coating = coating;
   return options.settings();
 }
 
@@ -142,7 +139,7 @@ void LawPanel::setSettings(const LawSettings& inUse)
 
 bool LawPanel::isCorrected() const
 {
-  return mode_->currentIndex() == static_cast<int>(LawMode::Corrected);
+  return shownIn<LawMode>(*mode_) == LawMode::Corrected;
 }
 
 void LawPanel::showWhatActs()

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/input/law_options.h"
+#include "haptics/force/force_law.h"
 
 #include <QGroupBox>
 
@@ -21,9 +21,9 @@ class LawPanel : public QGroupBox
   Q_OBJECT
 
 public:
-  /// @param inUse    settings of the law
-  /// @param options  what they were made of; what the panel does not ask for stays as there
-  LawPanel(const LawSettings& inUse, LawOptions options, QWidget* parent = nullptr);
+  /// @param inUse  settings of the law
+  /// @param rated  as in LawOptions
+  LawPanel(const LawSettings& inUse, bool rated, QWidget* parent = nullptr);
 
   /// What coatings have to pass before they are in use; throws Error.
   void setCheck(std::function<void()> check);
@@ -45,7 +45,7 @@ private:
   void takeCoatings();
 
   LawSettings inUse_;
-  LawOptions options_;
+  bool rated_;
   ChoiceBox* mode_;
   ChoiceBox* base_;
   ChoiceBox* constitution_;

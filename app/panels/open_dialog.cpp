@@ -60,7 +60,7 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
 
 MeshSource OpenDialog::source() const
 {
-  MeshSource source{ .file = file_, .unit = unit_->currentText().toStdString() };
+  MeshSource source{ .file = file_, .unit = parseUnit(unit_->currentText().toStdString()) };
   if (label_ != nullptr && !label_->text().isEmpty())
   {
     for (const QString& label : label_->text().split(','))

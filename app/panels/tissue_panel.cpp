@@ -12,10 +12,10 @@
 namespace palp
 {
 
-TissuePanel::TissuePanel(const Scene& scene, const LawOptions& options, QWidget* parent)
+TissuePanel::TissuePanel(const Scene& scene, bool rated, QWidget* parent)
   : QWidget(parent)
   , tool_(new ToolPanel(scene.law.tip()))
-  , law_(new LawPanel(scene.law.settings(), options))
+  , law_(new LawPanel(scene.law.settings(), rated))
   , modulus_(new QuantityBox("young", ShownUnit::kilopascals()))
   , poisson_(new QuantityBox("poisson", ShownUnit::none()))
   , damping_(new QuantityBox("damping", ShownUnit::damping()))

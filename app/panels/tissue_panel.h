@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/input/law_options.h"
+#include "haptics/force/force_law.h"
 #include "haptics/servo/scene.h"
 
 #include <QWidget>
@@ -21,8 +21,8 @@ class TissuePanel : public QWidget
   Q_OBJECT
 
 public:
-  /// @param options  of the scene's law
-  TissuePanel(const Scene& scene, const LawOptions& options, QWidget* parent = nullptr);
+  /// @param rated  as in LawOptions
+  TissuePanel(const Scene& scene, bool rated, QWidget* parent = nullptr);
 
   /// As the fields say.
   /// @throws Error  as ToolPanel::tip, LawPanel::settings, ForceLaw

@@ -58,7 +58,7 @@ Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
     const std::filesystem::path file =
       source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
     body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
-    const LoadedSurface loaded = readSurface(file, parseUnit(source.unit), source.part);
+    const LoadedSurface loaded = readSurface(file, source.unit, source.part);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
     if (shown)

@@ -47,9 +47,9 @@ struct Layer
   double threshold; // [m]
 };
 
-Layer layerOf(const PressOptions& options, double radius)
+Layer layerOf(const DentOptions& options, double radius)
 {
-  return { options.layer.empty() ? kLayer * radius : options.layerSi(), options.thresholdSi() };
+  return { options.layer.value_or(kLayer * radius), options.threshold };
 }
 
 // whether finite elements of a tool of this shape were computed, whatever its size
@@ -74,13 +74,13 @@ Calibration ofTable(const std::filesystem::path& file, double young)
 }
 
 // of a cone there is one table for each of the paper's blocks
-Calibration ofCone(const PressOptions& options, const ForceLaw& law)
+Calibration ofCone(const DentOptions& options, const ForceLaw& law)
 {
   const auto& tip = law.tip();
   const auto* sharp = std::get_if<ConeTip>(&tip);
   const double angle = sharp != nullptr ? sharp->halfAngle : std::get<BluntConeTip>(tip).halfAngle;
   const Layer layer = layerOf(options, baseRadius(tip));
-  if (!options.layer.empty() || !same(layer.threshold, kThreshold))
+  if (options.layer || !same(layer.threshold, kThreshold))
   {
     throw Error(ErrorCode::BadValue,
       "--layer, --threshold: for a cone, make its own table with palp calibrate and give --table");
@@ -101,7 +101,7 @@ Calibration ofCone(const PressOptions& options, const ForceLaw& law)
   return calibration;
 }
 
-Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
+Calibration ofSphere(const DentOptions& options, const ForceLaw& law)
 {
   const double radius = baseRadius(law.tip());
   const double poisson = law.material().poissonRatio;
@@ -132,7 +132,7 @@ Calibration ofSphere(const PressOptions& options, const ForceLaw& law)
 }
 
 // the shape, layer and tissue that the fitted surfaces were computed for, whatever the size
-bool isOfTheseElements(const PressOptions& options, const ForceLaw& law)
+bool isOfTheseElements(const DentOptions& options, const ForceLaw& law)
 {
   const auto* blunt = std::get_if<BluntConeTip>(&law.tip());
   const double radius = baseRadius(law.tip());
@@ -149,12 +149,11 @@ void add(std::string& notes, const std::string& note)
 // shipped tables are of tissue without any, the user's of the tissue that was asked for at first
 bool isOfTheseCoatings(const PressOptions& options, const LawSettings& settings)
 {
-  if (options.table.empty() || settings.mode != LawMode::Corrected)
+  if (options.dent.table.empty() || settings.mode != LawMode::Corrected)
   {
     return settings.coatings.empty();
   }
-  return describeCoatings(settings.coatings) ==
-    describeCoatings(parseCoatings(options.tissue.options.coating));
+  return describeCoatings(settings.coatings) == describeCoatings(options.tissue.options.coatings);
 }
 
 } // namespace
@@ -163,10 +162,10 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
 {
   const Tip& tip = law.tip();
   // a table of the user's is made of the tissue that is pressed
-  Calibration calibration = !options.table.empty()
-    ? ofTable(options.table, law.material().youngModulus)
-    : isCone(tip) ? ofCone(options, law)
-                  : ofSphere(options, law);
+  const DentOptions& dent = options.dent;
+  Calibration calibration = !dent.table.empty() ? ofTable(dent.table, law.material().youngModulus)
+    : isCone(tip)                               ? ofCone(dent, law)
+                                                : ofSphere(dent, law);
   if (hasElements(tip))
   {
     const std::string bundled = bundledTable(tip);
@@ -183,15 +182,15 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     add(calibration.note,
       "R_d is that of tissue with other coatings or none; palp calibrate --coating makes its own");
   }
-  calibration.style.isLiteral = options.surface == "paper-literal";
-  if (options.surface == "fitted")
+  calibration.style.isLiteral = dent.surface == DentSurface::PaperLiteral;
+  if (dent.surface == DentSurface::Fitted)
   {
     calibration.style.fitted = calibration.elements;
     if (!calibration.elements)
     {
       add(calibration.note, "the surface is the paper's, as none is fitted to this tool");
     }
-    else if (!isOfTheseElements(options, law))
+    else if (!isOfTheseElements(dent, law))
     {
       calibration.reach = 0.0;
       calibration.elements.reset(); // not those of this press

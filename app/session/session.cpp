@@ -46,8 +46,8 @@ Recording startOf(const ScenePlan& plan, const Body& body, BuildTrace& trace)
   recording.command = commandLine();
   recording.rated = plan.validity;
   recording.scene.surface = body.haptic;
-  recording.scene.rule = plan.press.rule();
-  recording.scene.damping = plan.press.dampingSi();
+  recording.scene.rule = plan.press.contact;
+  recording.scene.damping = plan.press.damping;
   recording.scene.law =
     trace.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
   return recording;
@@ -69,11 +69,11 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
 void Session::open(const MeshSource& source)
 {
   Body old = std::exchange(body_, loadBody({ source }));
-  const std::string device = recording_.device;
+  const DeviceChoice choice = choice_;
   std::unique_ptr<Device> holder;
   try
   {
-    holder = makeDevice(device);
+    holder = makeDevice(choice);
   }
   catch (...)
   {
@@ -87,7 +87,7 @@ void Session::open(const MeshSource& source)
   recording_.files = body_.files;
   recording_.scene.surface = body_.haptic;
   ++recording_.scene.version;
-  useDevice(device, std::move(holder));
+  useDevice(choice, std::move(holder));
 }
 
 void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
@@ -117,40 +117,39 @@ ToolPose Session::restingPlace() const
     .axis = -Eigen::Vector3d::UnitZ() };
 }
 
-std::unique_ptr<Device> Session::makeDevice(const std::string& name)
+std::unique_ptr<Device> Session::makeDevice(const DeviceChoice& choice)
 {
-  if (name == "mouse")
+  switch (choice.kind)
   {
-    return std::make_unique<Pointer>(restingPlace());
+    case DeviceChoice::Kind::Mouse:
+      return std::make_unique<Pointer>(restingPlace());
+    case DeviceChoice::Kind::Hand:
+      return std::make_unique<SimulatedHand>(restingPlace());
+    case DeviceChoice::Kind::Script:
+      return std::make_unique<ScriptedDevice>(readPath(choice.file));
+    case DeviceChoice::Kind::Driver:
+      break;
   }
-  if (name == "hand")
+  if (!namesHardware(choice.name))
   {
-    return std::make_unique<SimulatedHand>(restingPlace());
+    throw Error(ErrorCode::BadValue,
+      "--device: '" + choice.name +
+        "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, spacemouse, "
+        "falcon, wooden:PATH or phd1:PATH");
   }
-  if (isScripted(name))
+  if (choice.name == choice_.name)
   {
-    return std::make_unique<ScriptedDevice>(readScript(name));
+    servo_.reset();
+    device_.reset();
   }
-  if (namesHardware(name))
-  {
-    if (name == recording_.device)
-    {
-      servo_.reset();
-      device_.reset();
-    }
-    return openDevice(name, { .origin = restingPlace().apex });
-  }
-  throw Error(ErrorCode::BadValue,
-    "--device: '" + name +
-      "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, spacemouse, "
-      "falcon, wooden:PATH or phd1:PATH");
+  return openDevice(choice.name, { .origin = restingPlace().apex });
 }
 
-void Session::useDevice(const std::string& name)
+void Session::useDevice(const DeviceChoice& choice)
 {
   try
   {
-    useDevice(name, makeDevice(name));
+    useDevice(choice, makeDevice(choice));
   }
   catch (...)
   {
@@ -165,18 +164,20 @@ void Session::keepHolding()
 {
   if (!device_)
   {
-    useDevice("mouse");
+    useDevice(DeviceChoice{});
   }
 }
 
-void Session::useDevice(const std::string& name, std::unique_ptr<Device> device)
+void Session::useDevice(const DeviceChoice& choice, std::unique_ptr<Device> device)
 {
   endRecording(body_);
   servo_.reset(); // stops before its device goes
   device_ = std::move(device);
   guided_ = device_->guided();
-  recording_.device = name;
-  recording_.scene.armed = name == "hand"; // only a simulated hand cannot be hurt
+  choice_ = choice;
+  recording_.device = choice.name;
+  recording_.scene.armed =
+    choice.kind == DeviceChoice::Kind::Hand; // only a simulated hand cannot be hurt
   armedAt_ = 0.0;
   recordedFrom_ = 0.0;
   if (guided_ != nullptr)

@@ -46,15 +46,15 @@ public:
   /// @throws Error  as loadCalibration; everything then stays
   void setTissue(const ForceLaw& law, ContactRule rule, double damping);
 
-  /// mouse, hand, path:FILE, replay:FILE, or what openDriver knows; a recording begins.
+  /// A recording begins.
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays, or, where it was asked
   ///                for again and is gone, the mouse takes its place
-  void useDevice(const std::string& name);
+  void useDevice(const DeviceChoice& choice);
 
   /// The same with a device of the caller's.
-  void useDevice(const std::string& name, std::unique_ptr<Device> device);
+  void useDevice(const DeviceChoice& choice, std::unique_ptr<Device> device);
 
-  /// Names that useDevice takes: of the devices that move by themselves only those that are there
+  /// Names that parseDevice takes: of the devices that move by themselves only those that are there
   /// and may be used.
   [[nodiscard]] static std::vector<std::string> devices();
 
@@ -131,12 +131,13 @@ private:
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const Body& body);
   void boundEarlier();
-  [[nodiscard]] std::unique_ptr<Device> makeDevice(const std::string& name);
+  [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);
   void keepHolding();
   [[nodiscard]] ToolPose restingPlace() const;
 
   ScenePlan plan_;
   ServoOptions servoOptions_;
+  DeviceChoice choice_; // of the device
   Body body_;
   Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;

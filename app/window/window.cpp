@@ -274,7 +274,7 @@ void Window::applyDevice(const QString& name)
     offerDevices();
     return;
   }
-  attempt([&] { session_.useDevice(name.toStdString()); });
+  attempt([&] { session_.useDevice(parseDevice(name.toStdString())); });
   devicePanel_->choose(QString::fromStdString(session_.recording().device));
   applyTissue(); // what is stable depends on the device
 }

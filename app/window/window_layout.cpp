@@ -97,7 +97,7 @@ void Window::makeView()
 
 void Window::makeDocks()
 {
-  panel_ = new TissuePanel(session_.recording().scene, session_.plan().press.tissue.options);
+  panel_ = new TissuePanel(session_.recording().scene, session_.plan().validity);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), new PanelArea(panel_));
   makeDevicePanel();

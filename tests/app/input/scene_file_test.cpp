@@ -57,10 +57,10 @@ TEST_F(SceneFile, BuildsNothingThatIsNotNamed)
   document["exports"] = { "samples" };
   document["dent"] = { { "surface", "none" } };
   const ScenePlan plan = parse(document);
-  EXPECT_FALSE(plan.window || plan.dent || plan.validity || plan.deformed || plan.picture);
+  EXPECT_FALSE(plan.window || plan.dents() || plan.validity || plan.deformed || plan.picture);
   EXPECT_TRUE(plan.curves.empty());
   EXPECT_FALSE(plan.press.tissue.options.rated);
-  EXPECT_EQ(plan.device, "path:/scenes/press.csv");
+  EXPECT_EQ(plan.device.file, "/scenes/press.csv");
 }
 
 TEST_F(SceneFile, PlacesASurfaceByTurnsAboutFixedAxesAndAShift)
@@ -166,9 +166,9 @@ TEST_F(SceneFile, EveryShippedSceneIsWhole)
   {
     const ScenePlan plan = readScene(name);
     EXPECT_FALSE(plan.name.empty());
-    if (plan.device.starts_with("path:"))
+    if (plan.device.isScript())
     {
-      EXPECT_TRUE(std::filesystem::exists(plan.device.substr(5))) << plan.device;
+      EXPECT_TRUE(std::filesystem::exists(plan.device.file)) << plan.device.name;
     }
   }
 }

@@ -56,9 +56,9 @@ protected:
     use(sceneOf(SphereTip{ 10.0_mm }));
   }
 
-  void use(const Scene& scene, const LawOptions& options = {})
+  void use(const Scene& scene, bool rated = true)
   {
-    panel_ = std::make_unique<TissuePanel>(scene, options);
+    panel_ = std::make_unique<TissuePanel>(scene, rated);
     panel_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(panel_.get()));
   }

@@ -30,9 +30,9 @@ TEST(LoadCalibration, ThePapersToolsUseItsTwentyRows)
 TEST(LoadCalibration, ASphereOfAnotherSizeIsTheSameShape)
 {
   PressOptions small;
-  small.threshold = "0.35mm";
+  small.dent.threshold = 0.35_mm;
   PressOptions large;
-  large.threshold = "0.7mm";
+  large.dent.threshold = 0.7_mm;
   const auto a = load(SphereTip{ 7.0_mm }, small).extents;
   const auto b = load(SphereTip{ 14.0_mm }, large).extents;
   for (const double depth : { 1.0_mm, 3.0_mm, 6.5_mm })
@@ -45,9 +45,9 @@ TEST(LoadCalibration, ASphereOfAnotherSizeIsTheSameShape)
 TEST(LoadCalibration, LayerAndThresholdActAsTheyMust)
 {
   PressOptions thin;
-  thin.layer = "20mm";
+  thin.dent.layer = 20.0_mm;
   PressOptions fine;
-  fine.threshold = "0.2mm";
+  fine.dent.threshold = 0.2_mm;
   const double depth = 5.0_mm;
   const double usual = load(SphereTip{ 8.0_mm }).extents.extentRadius(depth);
   EXPECT_LT(load(SphereTip{ 8.0_mm }, thin).extents.extentRadius(depth), 0.9 * usual);
@@ -58,7 +58,7 @@ TEST(LoadCalibration, SaysWhatStandsInForWhat)
 {
   EXPECT_EQ(load(SphereTip{ 8.0_mm }).note, "");
   PressOptions thick;
-  thick.layer = "1m";
+  thick.dent.layer = 1.0;
   EXPECT_NE(load(SphereTip{ 8.0_mm }, thick).note.find("clamped"), std::string::npos);
   EXPECT_FALSE(load(SphereTip{ 8.0_mm }, thick).covers(1.0_mm));
   EXPECT_NE(load(SphereTip{ 8.0_mm }, {}, 0.5).note.find("clamped"), std::string::npos);
@@ -82,7 +82,7 @@ TEST(LoadCalibration, SaysThatABluntConeHasATableOfAnother)
 TEST(LoadCalibration, SaysWhereAFittedSurfaceIsOfAnotherBody)
 {
   PressOptions options;
-  options.surface = "fitted";
+  options.dent.surface = DentSurface::Fitted;
   const Calibration same = load(SphereTip{ 10.0_mm }, options);
   EXPECT_EQ(same.note, "");
   EXPECT_TRUE(same.covers(10.0_mm));
@@ -90,7 +90,7 @@ TEST(LoadCalibration, SaysWhereAFittedSurfaceIsOfAnotherBody)
   const Calibration softer = load(SphereTip{ 8.0_mm }, options, 0.45);
   EXPECT_NE(softer.note.find("3 %"), std::string::npos);
   EXPECT_FALSE(softer.covers(1.0_mm));
-  options.layer = "20mm";
+  options.dent.layer = 20.0_mm;
   EXPECT_NE(load(SphereTip{ 8.0_mm }, options).note.find("3 %"), std::string::npos);
 }
 
@@ -105,30 +105,38 @@ TEST(LoadCalibration, KnowsNothingOfCoatedTissueButByItsOwnTable)
   EXPECT_FALSE(shipped.young || shipped.elements);
 
   PressOptions own;
-  own.table = dataFile("tables/sphere_r10_h50.csv");
-  own.tissue.options.coating = "2mm:200kPa:0.4";
+  own.dent.table = dataFile("tables/sphere_r10_h50.csv");
+  own.tissue.options.coatings = settings.coatings;
   EXPECT_EQ(loadCalibration(own, law).note, "");
   EXPECT_GT(loadCalibration(own, law).reach, 0.0);
-  own.tissue.options.coating = "3mm:200kPa:0.4";
+  own.tissue.options.coatings = {};
+  own.tissue.options.coatings.add({ 3.0_mm, { 200.0_kPa, 0.4 } });
   EXPECT_EQ(loadCalibration(own, law).reach, 0.0);
 }
 
-TEST(LoadCalibration, RefusesALayerForAConeAndBadLengths)
+TEST(LoadCalibration, RefusesALayerForACone)
 {
   PressOptions options;
-  options.layer = "40mm";
+  options.dent.layer = 40.0_mm;
   EXPECT_THROW((void)load(ConeTip{ 45.0_deg, 10.0_mm }, options), Error);
-  options.layer = "-1mm";
-  EXPECT_THROW((void)load(SphereTip{ 8.0_mm }, options), Error);
-  options.layer = "40";
-  EXPECT_THROW((void)load(SphereTip{ 8.0_mm }, options), Error);
+}
+
+TEST(PressOptions, RefusesBadLengths)
+{
+  for (const char* text : { "-1mm", "40", "0mm", "2000m", "nanmm", "" })
+  {
+    EXPECT_THROW((void)parseLayer(text), Error) << text;
+    EXPECT_THROW((void)parseThreshold(text), Error) << text;
+  }
+  EXPECT_DOUBLE_EQ(parseLayer("4cm"), 0.04);
+  EXPECT_DOUBLE_EQ(parseThreshold("20um"), 20e-6);
 }
 
 // the fitted curves of R = 10 mm, half the size
 TEST(LoadCalibration, FittedSurfacesScaleWithTheTool)
 {
   PressOptions options;
-  options.surface = "fitted";
+  options.dent.surface = DentSurface::Fitted;
   const auto whole = load(SphereTip{ 10.0_mm }, options).style.fitted;
   const auto more = load(SphereTip{ 12.0_mm }, options).style.fitted;
   ASSERT_TRUE(whole && more);

@@ -96,7 +96,7 @@ protected:
     const auto points = session_->body().haptic->points();
     arm_.top = *std::max_element(points.begin(), points.end(),
       [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); });
-    session_->useDevice("made up", std::make_unique<MadeUpDevice>(arm_));
+    session_->useDevice({ .name = "made up" }, std::make_unique<MadeUpDevice>(arm_));
   }
   ~DeviceTest() override // before the arm
   {

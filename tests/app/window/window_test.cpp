@@ -83,7 +83,7 @@ TEST_F(WindowTest, ARefusedProfileLeavesEverythingAsItWas)
 TEST_F(WindowTest, AToolWithoutAnExtentLeavesEverythingAsItWas)
 {
   ScenePlan plan;
-  plan.press.layer = "40mm";
+  plan.press.dent.layer = 0.04;
   window_.reset();
   session_ = std::make_unique<Session>(plan, silent_);
   window_ = std::make_unique<Window>(*session_, silent_);
@@ -98,7 +98,7 @@ TEST_F(WindowTest, WhatFailsLeavesEverythingAsItWas)
 {
   const std::string file = (folder_.path() / "path.csv").string();
   std::ofstream(file) << "time_s,x_mm,y_mm,z_mm\n0,0,0,200\n1,0,0,200\n";
-  session_->useDevice("path:" + file);
+  session_->useDevice(parseDevice("path:" + file));
   const std::string body = session_->body().name;
   std::filesystem::remove(file);
   EXPECT_THROW(session_->open({ .file = PALP_SHARE "/meshes/sphere_50.vtp" }), Error);
