@@ -111,8 +111,8 @@ Tip parseShape(std::string_view text)
       Profile::read(std::string(text.substr(kind.size() + 1)))) };
   }
   throw Error(ErrorCode::BadValue,
-    "--tip: " + inQuotes(text) +
-      " is no tool; give sphere:10mm, cone:45deg:10mm, punch:5mm, truncated-cone:45deg:2mm:10mm, "
+    "--tip: unknown tool " + inQuotes(text) +
+      "; expected one of sphere:10mm, cone:45deg:10mm, punch:5mm, truncated-cone:45deg:2mm:10mm, "
       "blunt-cone:45deg:0.3mm:10mm, paraboloid:10mm or profile:FILE.csv");
 }
 

@@ -4,17 +4,22 @@
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <link.h>
 #include <ostream>
 #include <sstream>
 #include <string_view>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace palp
 {
 namespace
 {
+
+constexpr double kKib = 1024.0; // [B]
 
 double steadyTime()
 {
@@ -40,18 +45,14 @@ double sinceStart()
     ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
+// what no function of the system tells
 void readStatus(Footprint& print)
 {
-  constexpr double kKib = 1024.0;
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);)
   {
     const auto value = [&] { return std::strtod(line.c_str() + line.find(':') + 1, nullptr); };
-    if (line.starts_with("VmHWM:"))
-    {
-      print.peak = kKib * value();
-    }
-    else if (line.starts_with("VmRSS:"))
+    if (line.starts_with("VmRSS:"))
     {
       print.memory = kKib * value();
     }
@@ -62,20 +63,28 @@ void readStatus(Footprint& print)
   }
 }
 
-void readMaps(Footprint& print)
+double peakMemory()
 {
-  std::ifstream file("/proc/self/maps");
-  for (std::string line; std::getline(file, line);)
-  {
-    const std::string name = line.substr(std::min(line.rfind('/') + 1, line.size()));
-    if (name.find(".so") != std::string::npos)
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return kKib * static_cast<double>(usage.ru_maxrss);
+}
+
+std::vector<std::string> loadedLibraries()
+{
+  std::vector<std::string> names;
+  dl_iterate_phdr(
+    [](dl_phdr_info* info, std::size_t, void* list)
     {
-      print.libraries.push_back(name);
-    }
-  }
-  std::sort(print.libraries.begin(), print.libraries.end());
-  print.libraries.erase(
-    std::unique(print.libraries.begin(), print.libraries.end()), print.libraries.end());
+      const std::filesystem::path file = info->dlpi_name;
+      if (file.has_parent_path()) // else the program, or the kernel's own
+      {
+        static_cast<std::vector<std::string>*>(list)->push_back(file.filename().string());
+      }
+      return 0;
+    },
+    &names);
+  return names;
 }
 
 struct Family
@@ -124,7 +133,8 @@ Footprint footprint()
   Footprint print;
   print.sinceStart = sinceStart();
   readStatus(print);
-  readMaps(print);
+  print.peak = peakMemory();
+  print.libraries = loadedLibraries();
   return print;
 }
 

@@ -236,7 +236,7 @@ StepOutcome Stepper::State::step(double dt)
   if (!positions.allFinite())
   {
     throw Error(ErrorCode::NoSolution,
-      "step: the motion ran away; start again by reset(), with shorter time steps");
+      "the simulation diverged; start again by reset(), with shorter time steps");
   }
 
   outcome.iterations = solution.iterations;

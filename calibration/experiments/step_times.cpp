@@ -69,7 +69,8 @@ StepOutcome settle(Stepper& stepper, double dt, double change, int mostSteps)
     before = now.force;
   }
   throw Error(ErrorCode::NoSolution,
-    "settle: the force still moves; allow more steps, longer ones, or more iterations");
+    "the force did not settle in " + std::to_string(mostSteps) +
+      " steps; allow more steps, longer ones, or more iterations");
 }
 
 } // namespace palp::fem

@@ -151,7 +151,7 @@ std::string Indenter::solveEquilibrium(double depth, const std::stop_token& stop
   depth_ = depth;
   if (!equilibrium_.follow(displacement_, 0.0))
   {
-    return "an element was turned inside out";
+    return "an element is inverted";
   }
   double force = 0.0;
   double imbalance = 0.0;
@@ -166,7 +166,7 @@ std::string Indenter::solveEquilibrium(double depth, const std::stop_token& stop
     k = changed && careful ? std::min(k, kMaxTightIterations / 2) : k;
     if (changes > kMaxChanges)
     {
-      return "the contact kept changing";
+      return "the contact active set did not converge";
     }
 
     const auto nodes = sliding();
@@ -187,14 +187,14 @@ std::string Indenter::solveEquilibrium(double depth, const std::stop_token& stop
     }
     if (step.change.size() == 0)
     {
-      return "the equations became singular";
+      return "the stiffness matrix is singular";
     }
     if (!lineSearch(step, nodes, gap <= kClosed * depth))
     {
-      return "an element was turned inside out";
+      return "an element is inverted";
     }
   }
-  return "no equilibrium was found: the material may have lost its stability";
+  return "equilibrium did not converge: the material may have lost its stability";
 }
 
 // along a Newton step, as far as elements stay valid and the forces or the energy get no worse

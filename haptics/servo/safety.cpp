@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace palp
@@ -17,6 +19,14 @@ constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
 constexpr double kWallDamping = 2.0;     // [N s/m]
 constexpr double kWallForce = 2.0;       // [N]
 
+[[noreturn]] void refuse(
+  const std::string& whose, const char* name, double value, const char* bounds)
+{
+  std::ostringstream text;
+  text << whose << ": " << name << " is " << value << "; " << bounds;
+  throw Error(ErrorCode::BadValue, text.str());
+}
+
 } // namespace
 
 SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& settings)
@@ -25,26 +35,29 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
   , passivity_(settings.passivityDamping, device.quantum)
   , period_(settings.period)
 {
-  for (const double value : { settings.period, settings.stiffnessShare, settings.slewRate,
-         settings.softSlewRate, settings.softStart, settings.decay, settings.fastest })
+  using Named = std::pair<const char*, double>;
+  for (const auto& [name, value] : { Named{ "period", settings.period },
+         { "stiffnessShare", settings.stiffnessShare }, { "slewRate", settings.slewRate },
+         { "softSlewRate", settings.softSlewRate }, { "softStart", settings.softStart },
+         { "decay", settings.decay }, { "fastest", settings.fastest } })
   {
     if (!(value > 0.0) || !std::isfinite(value))
     {
-      throw Error(ErrorCode::BadValue, "safety chain: a setting is not above 0; give one that is");
+      refuse("safety chain", name, value, "must be > 0 and finite");
     }
   }
   if (settings.softSlewRate >= settings.slewRate) // a force that is let go would stay for ever
   {
-    throw Error(ErrorCode::BadValue,
-      "safety chain: a force starts no more slowly than it changes; give a lower softSlewRate");
+    refuse("safety chain", "softSlewRate", settings.softSlewRate, "must be below slewRate");
   }
-  for (const double value : { settings.passivityDamping, device.maxForce, device.damping,
-         device.delay, device.velocityDelay, device.workspaceRadius })
+  for (const auto& [name, value] : { Named{ "maxForce", device.maxForce },
+         { "damping", device.damping }, { "delay", device.delay },
+         { "velocityDelay", device.velocityDelay }, { "workspaceRadius", device.workspaceRadius },
+         { "passivityDamping", settings.passivityDamping } })
   {
     if (!(value >= 0.0) || !std::isfinite(value))
     {
-      throw Error(
-        ErrorCode::BadValue, device.model + ": a limit of the device is negative; give 0 or more");
+      refuse(device.model, name, value, "must be >= 0 and finite");
     }
   }
 }

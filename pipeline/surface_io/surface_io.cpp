@@ -86,7 +86,7 @@ FileSurface readElsewhere(const std::filesystem::path& file, const ImagePart& pa
   {
     throw Error(ErrorCode::BadFile,
       file.string() +
-        ": damaged or cut off, its reader does not get through it; export or copy it again");
+        ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
   }
   return *std::move(surface);
 }
