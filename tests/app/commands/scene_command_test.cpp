@@ -116,6 +116,19 @@ TEST_F(SceneCommand, AnAddedPartAddsOnlyItself)
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/deformed.vtp"));
 }
 
+// no library talks in between, in colors of a terminal
+TEST_F(SceneCommand, SpeaksInItsOwnWordsAlone)
+{
+  const Finished finished = scene(written(R"(["picture"])", "paper"));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/press.png"));
+  std::istringstream lines(finished.err);
+  for (std::string line; std::getline(lines, line);)
+  {
+    EXPECT_TRUE(line.starts_with("palp: ")) << line;
+  }
+}
+
 TEST_F(SceneCommand, WithoutACalibrationNoColumnPretendsToOne)
 {
   ASSERT_EQ(scene(written(R"(["samples"])", "none")).code, 0);
