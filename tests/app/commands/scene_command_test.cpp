@@ -119,9 +119,9 @@ TEST_F(SceneCommand, AnAddedPartAddsOnlyItself)
 // no library talks in between, in colors of a terminal
 TEST_F(SceneCommand, SpeaksInItsOwnWordsAlone)
 {
-  const Finished finished = scene(written(R"(["picture"])", "paper"));
+  const Finished finished = scene("paper_block");
   ASSERT_EQ(finished.code, 0) << finished.err;
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/press.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/force_depth.png"));
   std::istringstream lines(finished.err);
   for (std::string line; std::getline(lines, line);)
   {
