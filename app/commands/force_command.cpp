@@ -23,7 +23,7 @@ constexpr double kLargestDepth = 1.0; // [m]; no organ is deeper
 struct ForceOptions
 {
   TissueOptions tissue;
-  PlaceOptions place;
+  GeometryOptions geometry;
   Range depths;
   bool validity = false;
 };
@@ -75,12 +75,13 @@ bool isPaper(const ForceLaw& law)
 }
 
 // what the columns are
-void printHead(const ForceLaw& law, const ContactGeometry& place, std::span<const Rule> rules)
+void printHead(const ForceLaw& law, const ContactGeometry& geometry, std::span<const Rule> rules)
 {
   std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
   if (!isPaper(law))
   {
-    for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
+    for (const Factors factors = law.factors(geometry);
+         const Factor& factor : factorsOf(law, factors))
     {
       header += ",factor_" + std::string(factor.name);
     }
@@ -95,19 +96,20 @@ void printHead(const ForceLaw& law, const ContactGeometry& place, std::span<cons
 }
 
 // after the depth
-void addForces(std::vector<double>& row, const ForceLaw& law, const ContactGeometry& place)
+void addForces(std::vector<double>& row, const ForceLaw& law, const ContactGeometry& geometry)
 {
-  const Response response = law(place);
+  const Response response = law(geometry);
   row.insert(row.end(),
     { response.force, units::toMillimeters(response.contactRadius),
       units::toNewtonsPerMillimeter(response.stiffness) });
   if (!isPaper(law))
   {
-    for (const Factors factors = law.factors(place); const Factor& factor : factorsOf(law, factors))
+    for (const Factors factors = law.factors(geometry);
+         const Factor& factor : factorsOf(law, factors))
     {
       row.push_back(factor.value);
     }
-    const InclinedForce felt = inclinedForce(response.force, place.tilt);
+    const InclinedForce felt = inclinedForce(response.force, geometry.tilt);
     row.insert(row.end(), { felt.axial, felt.lateral });
   }
 }
@@ -116,20 +118,20 @@ void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
   const Range& depths = options.depths;
-  ContactGeometry place = options.place.place;
+  ContactGeometry geometry = options.geometry.geometry;
   const Validity validity(law, { .deepest = depths.si.back() });
-  const Rules rules = validity(place);
-  printHead(law, place, std::span(rules).first(options.validity ? rules.size() : 0));
+  const Rules rules = validity(geometry);
+  printHead(law, geometry, std::span(rules).first(options.validity ? rules.size() : 0));
 
   std::vector<double> row;
   for (std::size_t i = 0; i < depths.si.size(); ++i)
   {
-    place.depth = depths.si[i];
+    geometry.depth = depths.si[i];
     row = { depths.given[i] * units::toMillimeters(depths.unit) };
-    addForces(row, law, place);
+    addForces(row, law, geometry);
     if (options.validity)
     {
-      for (const Rule& rule : validity(place))
+      for (const Rule& rule : validity(geometry))
       {
         row.push_back(rule.share());
       }
@@ -138,14 +140,14 @@ void printForces(const ForceOptions& options)
   }
   if (!isPaper(law))
   {
-    tellFactors(law, place);
+    tellFactors(law, geometry);
   }
-  if (const std::string broken = brokenNames(validity(place)); !broken.empty())
+  if (const std::string broken = brokenNames(validity(geometry)); !broken.empty())
   {
     std::cerr << "palp: warning: at the largest depth the law is outside its limits (" << broken
               << "); --validity tells how far at each\n";
   }
-  if (options.place.given && law.settings().mode != LawMode::Corrected)
+  if (options.geometry.given && law.settings().mode != LawMode::Corrected)
   {
     std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
   }
@@ -158,7 +160,7 @@ void addForceCommand(CLI::App& app)
   auto options = std::make_shared<ForceOptions>();
   CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
   options->tissue.addTo(*command);
-  options->place.addTo(*command);
+  options->geometry.addTo(*command);
   const std::string usual = "0:10:0.5mm";
   options->depths = depthsOf(usual);
   addParsed(*command, "--depth", "Indentation depths A:B:STEP, both ends included", usual,

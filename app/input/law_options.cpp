@@ -102,14 +102,14 @@ std::string brokenNames(const Rules& rules)
   return names;
 }
 
-void PlaceOptions::addTo(CLI::App& command)
+void GeometryOptions::addTo(CLI::App& command)
 {
   const auto add = [&](const char* name, const char* what, auto parse)
   {
     addParsed(command, name, what, "",
       [this, parse](const std::string& text)
       {
-        parse(text, place);
+        parse(text, geometry);
         given = true;
       });
   };

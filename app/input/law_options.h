@@ -34,10 +34,10 @@ struct LawOptions
 [[nodiscard]] std::string describeLaw(const LawSettings& settings);
 
 /// The place that is pressed, where no surface tells it.
-struct PlaceOptions
+struct GeometryOptions
 {
-  ContactGeometry place{}; ///< at a depth of 0; as it is: upright on a flat half-space
-  bool given = false;      ///< by an option
+  ContactGeometry geometry{}; ///< at a depth of 0; as it is: upright on a flat half-space
+  bool given = false;         ///< by an option
 
   void addTo(CLI::App& command);
 };

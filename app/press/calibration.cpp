@@ -114,7 +114,7 @@ Calibration ofSphere(const DentOptions& options, const ForceLaw& law)
     return ofTable(dataFile(bundledTable(law.tip()) + ".csv"), kYoung);
   }
   const SurfaceTable table = SurfaceTable::read(dataFile("tables/surface_sphere.csv"));
-  SurfaceTable::Place place{
+  SurfaceTable::Indentation place{
     .depth = radius, .tipRadius = radius, .thickness = layer.thickness, .poissonRatio = poisson
   };
   const bool covered = table.covers(place);

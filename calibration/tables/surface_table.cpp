@@ -92,11 +92,11 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
   return table;
 }
 
-SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
+SurfaceTable::Row SurfaceTable::rowAt(const Indentation& indentation) const
 {
-  const double depth = place.depth / place.tipRadius;
-  const auto n = bracket(axes_[0], place.poissonRatio);
-  const auto h = bracket(axes_[1], place.tipRadius / place.thickness);
+  const double depth = indentation.depth / indentation.tipRadius;
+  const auto n = bracket(axes_[0], indentation.poissonRatio);
+  const auto h = bracket(axes_[1], indentation.tipRadius / indentation.thickness);
   const auto d = bracket(axes_[2], depth);
   Row sum{};
   for (int corner = 0; corner < 8; ++corner)
@@ -117,7 +117,7 @@ SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
   }
   // below the first depth and beyond the last the surface follows the depth
   const double scale =
-    depth / std::clamp(depth, axes_[2].front(), axes_[2].back()) * place.tipRadius;
+    depth / std::clamp(depth, axes_[2].front(), axes_[2].back()) * indentation.tipRadius;
   for (double& sink : sum)
   {
     sink *= scale;
@@ -125,32 +125,34 @@ SurfaceTable::Row SurfaceTable::rowAt(const Place& place) const
   return sum;
 }
 
-double SurfaceTable::sinkAt(const Place& place, double radius) const
+double SurfaceTable::sinkAt(const Indentation& indentation, double radius) const
 {
-  return place.depth > 0.0 ? Curve(rowAt(place)).at(radius / place.tipRadius) : 0.0;
+  return indentation.depth > 0.0 ? Curve(rowAt(indentation)).at(radius / indentation.tipRadius)
+                                 : 0.0;
 }
 
-double SurfaceTable::extentRadius(const Place& place, double threshold) const
+double SurfaceTable::extentRadius(const Indentation& indentation, double threshold) const
 {
-  if (!(place.depth > 0.0))
+  if (!(indentation.depth > 0.0))
   {
     return 0.0;
   }
-  const Curve curve(rowAt(place));
+  const Curve curve(rowAt(indentation));
   if (!(curve.at(0.0) > threshold))
   {
     return 0.0;
   }
-  const double outside = kRadii.back() * place.tipRadius;
+  const double outside = kRadii.back() * indentation.tipRadius;
   if (curve.at(kRadii.back()) > threshold)
   {
     return outside;
   }
-  const auto sinks = [&](double radius) { return curve.at(radius / place.tipRadius) > threshold; };
+  const auto sinks = [&](double radius)
+  { return curve.at(radius / indentation.tipRadius) > threshold; };
   return bisect(sinks, { 0.0, outside }, 50).low;
 }
 
-ExtentTable SurfaceTable::extents(const Place& deepest, double threshold) const
+ExtentTable SurfaceTable::extents(const Indentation& deepest, double threshold) const
 {
   constexpr int kRows = 40;
   const double first = std::min(threshold, 0.5 * deepest.depth);
@@ -159,7 +161,7 @@ ExtentTable SurfaceTable::extents(const Place& deepest, double threshold) const
   {
     // close where R_d begins as a root
     const double t = static_cast<double>(i) / kRows;
-    Place at = deepest;
+    Indentation at = deepest;
     at.depth = first + (deepest.depth - first) * t * t;
     rows.push_back({ .depth = at.depth,
       .extentRadius = extentRadius(at, threshold),
@@ -169,13 +171,13 @@ ExtentTable SurfaceTable::extents(const Place& deepest, double threshold) const
   return ExtentTable(std::move(rows));
 }
 
-bool SurfaceTable::covers(const Place& place) const
+bool SurfaceTable::covers(const Indentation& indentation) const
 {
   const auto within = [](const std::vector<double>& axis, double value)
   { return value >= axis.front() && value <= axis.back(); };
-  return within(axes_[0], place.poissonRatio) &&
-    within(axes_[1], place.tipRadius / place.thickness) && place.depth >= 0.0 &&
-    place.depth / place.tipRadius <= axes_[2].back();
+  return within(axes_[0], indentation.poissonRatio) &&
+    within(axes_[1], indentation.tipRadius / indentation.thickness) && indentation.depth >= 0.0 &&
+    indentation.depth / indentation.tipRadius <= axes_[2].back();
 }
 
 } // namespace palp

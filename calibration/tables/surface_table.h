@@ -24,7 +24,7 @@ public:
     2.5, 2.75, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0 };
 
   /// A sphere on a layer.
-  struct Place
+  struct Indentation
   {
     double depth;        ///< delta [m]
     double tipRadius;    ///< R [m]
@@ -41,22 +41,22 @@ public:
   /// Sink of the surface [m], 0 beyond the last radius. Outside the grid, as at its border; beyond
   /// the last depth, growing with it.
   /// @param radius  deformed [m]
-  [[nodiscard]] double sinkAt(const Place& place, double radius) const;
+  [[nodiscard]] double sinkAt(const Indentation& indentation, double radius) const;
 
   /// R_d [m], 0 where nothing sinks by the threshold, at most the last radius of the table.
-  [[nodiscard]] double extentRadius(const Place& place, double threshold) const;
+  [[nodiscard]] double extentRadius(const Indentation& indentation, double threshold) const;
 
   /// R_d over the depth.
   /// @param deepest    the last depth
   /// @param threshold  sink at R_d [m]
-  [[nodiscard]] ExtentTable extents(const Place& deepest, double threshold) const;
+  [[nodiscard]] ExtentTable extents(const Indentation& deepest, double threshold) const;
 
-  /// The grid covers the place (a depth below its first one included).
-  [[nodiscard]] bool covers(const Place& place) const;
+  /// The grid covers it (a depth below its first one included).
+  [[nodiscard]] bool covers(const Indentation& indentation) const;
 
 private:
   using Row = std::array<double, kRadii.size()>;
-  [[nodiscard]] Row rowAt(const Place& place) const;
+  [[nodiscard]] Row rowAt(const Indentation& indentation) const;
 
   std::array<std::vector<double>, 3> axes_; // nu, R / thickness, depth / R
   std::vector<Row> rows_;                   // the last axis running fastest

@@ -139,14 +139,15 @@ Response ForceLaw::operator()(const ContactGeometry& local) const noexcept
   {
     return {};
   }
-  const ContactGeometry place = sanitized(local, settings_);
+  const ContactGeometry geometry = sanitized(local, settings_);
   if (settings_.mode == LawMode::Paper)
   {
-    return paper(place.depth);
+    return paper(geometry.depth);
   }
-  const LinearContact contact = linear(place);
-  const LargeStrainGrid::Ratio ratio = largeStrain(place);
-  const double modulus = material_.contactModulus() * ellipse(place) * tiltFactor(tip_, place.tilt);
+  const LinearContact contact = linear(geometry);
+  const LargeStrainGrid::Ratio ratio = largeStrain(geometry);
+  const double modulus =
+    material_.contactModulus() * ellipse(geometry) * tiltFactor(tip_, geometry.tilt);
   return { .force = modulus * contact.force * ratio.value,
     .contactRadius = contact.radius,
     .stiffness = modulus * (contact.stiffness * ratio.value + contact.force * ratio.slope) };
@@ -192,14 +193,14 @@ double ForceLaw::gapSpread(const ContactGeometry& local) const noexcept
 {
   const bool round =
     std::holds_alternative<SphereTip>(tip_) || std::holds_alternative<ParaboloidTip>(tip_);
-  const ContactGeometry place = sanitized(local, settings_);
-  if (!round || place.curvatureSpread == 0.0 || corrections_ == nullptr)
+  const ContactGeometry geometry = sanitized(local, settings_);
+  if (!round || geometry.curvatureSpread == 0.0 || corrections_ == nullptr)
   {
     return 0.0;
   }
   const double mean =
-    1.0 / baseRadius(tip_) + corrections_->layer.allowedCurvature(place.surfaceCurvature);
-  return place.curvatureSpread / mean;
+    1.0 / baseRadius(tip_) + corrections_->layer.allowedCurvature(geometry.surfaceCurvature);
+  return geometry.curvatureSpread / mean;
 }
 
 double ForceLaw::ellipse(const ContactGeometry& local) const noexcept
@@ -214,19 +215,19 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const ContactGeometry& local) const
   {
     return {};
   }
-  const ContactGeometry place = sanitized(local, settings_);
+  const ContactGeometry geometry = sanitized(local, settings_);
   const LargeStrain& table = *settings_.largeStrain;
   const double nu = material_.poissonRatio;
   LargeStrainGrid::Ratio ratio;
   if (const auto* sphere = std::get_if<SphereTip>(&tip_))
   {
-    ratio = table.sphere(place.depth / sphere->radius, sphere->radius / place.thickness, nu);
+    ratio = table.sphere(geometry.depth / sphere->radius, sphere->radius / geometry.thickness, nu);
     ratio.slope /= sphere->radius;
   }
   else if (const double halfAngle = coneAngle(tip_); table.cone.coversShape(halfAngle))
   {
-    ratio = table.cone(place.depth / place.thickness, halfAngle, nu);
-    ratio.slope /= place.thickness;
+    ratio = table.cone(geometry.depth / geometry.thickness, halfAngle, nu);
+    ratio.slope /= geometry.thickness;
   }
   return ratio;
 }
@@ -239,20 +240,20 @@ Factors ForceLaw::factors(const ContactGeometry& local) const noexcept
   {
     return result;
   }
-  const ContactGeometry place = sanitized(local, settings_);
-  ContactGeometry flat = place; // without what acts later
+  const ContactGeometry geometry = sanitized(local, settings_);
+  ContactGeometry flat = geometry; // without what acts later
   flat.thickness = kInfinite;
   const double curved = uncoated(flat).force;
   flat.surfaceCurvature = 0.0;
   const double plain = uncoated(flat).force;
-  const double layered = uncoated(place).force;
-  result[0].value = share(material_.contactModulus() * plain, paper(place.depth).force);
+  const double layered = uncoated(geometry).force;
+  result[0].value = share(material_.contactModulus() * plain, paper(geometry.depth).force);
   result[1].value = share(curved, plain);
-  result[2].value = ellipse(place);
+  result[2].value = ellipse(geometry);
   result[3].value = share(layered, curved);
-  result[4].value = largeStrain(place).value;
-  result[5].value = tiltFactor(tip_, place.tilt);
-  result[6].value = share(linear(place).force, layered);
+  result[4].value = largeStrain(geometry).value;
+  result[5].value = tiltFactor(tip_, geometry.tilt);
+  result[6].value = share(linear(geometry).force, layered);
   return result;
 }
 

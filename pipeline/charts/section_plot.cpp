@@ -194,7 +194,7 @@ void addBezier(Plot& plot, const Dent& dent, int direction, double side, const F
     const double along = units::fromMillimeters(rest.x[at]);
     const double up = units::fromMillimeters(rest.y[at]);
     const double distance =
-      dent.region().placeInFront(frame.center + along * frame.along + up * frame.up).distance;
+      dent.region().geodesicInFront(frame.center + along * frame.along + up * frame.up).distance;
     for (; next < sinks.size() && distance >= sinks[next].first; ++next)
     {
       const double t = (sinks[next].first - last) / std::max(distance - last, 1e-12);

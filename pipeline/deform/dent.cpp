@@ -112,15 +112,16 @@ void Dent::forgetPress(const DentArrays& arrays)
   }
 }
 
-PressField::Sink Dent::sinkAt(const Place& place, const Eigen::Vector3d& rest) const noexcept
+PressField::Sink Dent::sinkAt(
+  const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest) const noexcept
 {
-  PressField::Sink sink = field_.sinkAt(place, rest, *body_);
-  if (place.isBetween())
+  PressField::Sink sink = field_.sinkAt(geodesic, rest, *body_);
+  if (geodesic.isBetween())
   {
-    const PressField::Sink front = field_.sinkAt(region_.placeInFront(rest), rest, *body_);
-    sink.depth += place.facing * (front.depth - sink.depth);
+    const PressField::Sink front = field_.sinkAt(region_.geodesicInFront(rest), rest, *body_);
+    sink.depth += geodesic.facing * (front.depth - sink.depth);
   }
-  sink.depth += place.extra;
+  sink.depth += geodesic.extra;
   return sink;
 }
 
@@ -128,16 +129,16 @@ void Dent::displace(std::size_t from, std::size_t to, const DentArrays& arrays) 
 {
   const Eigen::Vector3d normal = region_.normal();
   const auto points = region_.points();
-  const auto places = region_.places();
+  const auto geodesics = region_.geodesics();
   for (std::size_t i = from; i < to; ++i)
   {
-    if (!places[i].within)
+    if (!geodesics[i].within)
     {
       continue;
     }
     const Eigen::Vector3d rest = region_.rest(points[i]);
-    const PressField::Sink sink = field_.sinkAt(places[i], rest, *body_);
-    const Eigen::Vector3d moved = -(sink.depth + places[i].extra) * normal;
+    const PressField::Sink sink = field_.sinkAt(geodesics[i], rest, *body_);
+    const Eigen::Vector3d moved = -(sink.depth + geodesics[i].extra) * normal;
     const Eigen::Vector3d sunk = rest + moved;
     const auto at = static_cast<std::size_t>(points[i]);
     for (Eigen::Index k = 0; k < 3; ++k)
@@ -169,7 +170,7 @@ bool Dent::keepUpright(const Triangle& corners, const DentArrays& arrays)
   std::array<double, 3> sinks{};
   for (std::size_t k = 0; k < 3; ++k)
   {
-    if (!region_.places()[static_cast<std::size_t>(corners[k])].within)
+    if (!region_.geodesics()[static_cast<std::size_t>(corners[k])].within)
     {
       return true; // hangs from a point at rest
     }

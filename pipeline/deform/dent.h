@@ -65,10 +65,10 @@ public:
     return region_;
   }
 
-  /// How far the surface gives way at a place of the last press; continuous along the surface,
+  /// How far the surface gives way at a point of the last press; continuous along the surface,
   /// but for the wall that a tool sunk beyond its base cuts.
   [[nodiscard]] PressField::Sink sinkAt(
-    const Place& place, const Eigen::Vector3d& rest) const noexcept;
+    const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest) const noexcept;
 
   [[nodiscard]] bool isInsideTool(const Eigen::Vector3d& point) const noexcept
   {

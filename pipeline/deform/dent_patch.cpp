@@ -55,7 +55,7 @@ void DentPatch::takeCorners(const Dent& dent)
   {
     const std::int32_t point = region.points()[i];
     const Eigen::Vector3f normal = region.areaAround(point).normalized().cast<float>();
-    corners_.push_back({ region.rest(point), normal, region.places()[i] });
+    corners_.push_back({ region.rest(point), normal, region.geodesics()[i] });
   }
   triangles.clear();
   region.forEachTriangle([&](const Triangle& triangle) { triangles.push_back(triangle); });
@@ -113,11 +113,12 @@ int DentPatch::middleOf(int a, int b, const Dent& dent)
     const Corner& first = corners_[static_cast<std::size_t>(a)];
     const Corner& second = corners_[static_cast<std::size_t>(b)];
     const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
-    Place place = dent.region().placeBetween(first.place, second.place, 0.5, rest);
-    place.within = dent.isInsideTool(rest);
+    GeodesicCoordinates geodesic =
+      dent.region().geodesicBetween(first.geodesic, second.geodesic, 0.5, rest);
+    geodesic.within = dent.isInsideTool(rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
     middle = { low, high, static_cast<int>(corners_.size()) };
-    corners_.push_back({ rest, normal, place });
+    corners_.push_back({ rest, normal, geodesic });
   }
   return middle.corner;
 }
@@ -138,8 +139,8 @@ DentPatch::Middle& DentPatch::entryOf(int low, int high)
 
 bool DentPatch::rests(int corner, const Dent& dent) const noexcept
 {
-  const Place& place = corners_[static_cast<std::size_t>(corner)].place;
-  return !place.within && !(place.distance < dent.region().outer()) && !place.isBetween();
+  const GeodesicCoordinates& geodesic = corners_[static_cast<std::size_t>(corner)].geodesic;
+  return !geodesic.within && !(geodesic.distance < dent.region().outer()) && !geodesic.isBetween();
 }
 
 void DentPatch::displace(const Dent& dent)
@@ -154,10 +155,10 @@ void DentPatch::displace(const Dent& dent)
     const Corner& corner = corners_[i];
     const PressField::Sink down = rests(static_cast<int>(i), dent)
       ? PressField::Sink{ 0.0, Zone::Rest }
-      : dent.sinkAt(corner.place, corner.rest);
+      : dent.sinkAt(corner.geodesic, corner.rest);
     points.emplace_back((corner.rest - down.depth * normal).cast<float>());
     sink.push_back(static_cast<float>(down.depth));
-    distance.push_back(static_cast<float>(corner.place.distance));
+    distance.push_back(static_cast<float>(corner.geodesic.distance));
     zone.push_back(down.zone);
   }
 }

@@ -35,7 +35,7 @@ private:
   {
     Eigen::Vector3d rest;
     Eigen::Vector3f normal;
-    Place place;
+    GeodesicCoordinates geodesic;
   };
 
   // the corner half way along an edge, which is known by its ends

@@ -14,12 +14,12 @@ void LocalQuadric::fit(const PressRegion& region, double reach)
   Coefficients heights = Coefficients::Zero();
   // the sums of w x^i y^j, of which the normal equations have each several times
   std::array<double, 15> moments{};
-  for (const Place& place : region.places())
+  for (const GeodesicCoordinates& geodesic : region.geodesics())
   {
-    const double x = scale * place.local.x();
-    const double y = scale * place.local.y();
+    const double x = scale * geodesic.local.x();
+    const double y = scale * geodesic.local.y();
     const double left = 1.0 - x * x - y * y;
-    if (!(left > 0.0) || !place.isFront())
+    if (!(left > 0.0) || !geodesic.isFront())
     {
       continue;
     }
@@ -34,7 +34,7 @@ void LocalQuadric::fit(const PressRegion& region, double reach)
     }
     for (std::size_t i = 0; i < 6; ++i)
     {
-      heights[static_cast<Eigen::Index>(i)] += left * left * place.local.z() * terms[i];
+      heights[static_cast<Eigen::Index>(i)] += left * left * geodesic.local.z() * terms[i];
     }
   }
   const auto& m = moments;

@@ -204,56 +204,57 @@ inline double PressField::smoothSink(double distance, const RingCurve& curve) co
 
 // a side below the tool goes down with the surface above it, less and less with its own depth, so
 // that it is compressed and does not fold
-[[gnu::noinline]] double PressField::sideSink(const Place& place, const Eigen::Vector3d& rest,
-  const RingCurve& curve, const ToolBody& body) const noexcept
+[[gnu::noinline]] double PressField::sideSink(const GeodesicCoordinates& geodesic,
+  const Eigen::Vector3d& rest, const RingCurve& curve, const ToolBody& body) const noexcept
 {
   const double toTool = body.lowest(rest, normal_);
-  const double below = std::max(0.0, -heightOverFit(place));
+  const double below = std::max(0.0, -heightOverFit(geodesic));
   const double above = std::isfinite(toTool) ? std::min(below - toTool, deepest_) : 0.0;
-  const double way = std::min(1.0, place.distance / curve.outer);
-  const double left = std::max(0.0, 1.0 - below / curve.outer) * (1.0 - way * way * way * way);
-  return std::max(smoothSink(place.distance, curve), above * left);
+  const double travelled = std::min(1.0, geodesic.distance / curve.outer);
+  const double left = std::max(0.0, 1.0 - below / curve.outer) *
+    (1.0 - travelled * travelled * travelled * travelled);
+  return std::max(smoothSink(geodesic.distance, curve), above * left);
 }
 
 // on the tool within the contact; around it what the fit leaves of the surface goes with it, less
 // and less so to where the fit ends; a pit that the tool does not reach goes down as a side does
-inline double PressField::frontSink(const Place& place, const Eigen::Vector3d& rest,
-  const RingCurve& curve, const ToolBody& body) const noexcept
+inline double PressField::frontSink(const GeodesicCoordinates& geodesic,
+  const Eigen::Vector3d& rest, const RingCurve& curve, const ToolBody& body) const noexcept
 {
-  const double left = heightOverFit(place);
+  const double left = heightOverFit(geodesic);
   double sink = 0.0;
   double fade = 1.0;
-  if (place.distance <= curve.inner)
+  if (geodesic.distance <= curve.inner)
   {
     const double toTool = body.lowest(rest, normal_);
     sink = std::isfinite(toTool) ? std::max(0.0, -toTool) : curve.sink;
   }
   else
   {
-    sink = smoothSink(place.distance, curve);
+    sink = smoothSink(geodesic.distance, curve);
     const double end = std::min(surface_.reach(), curve.outer);
-    if (!(place.distance < end))
+    if (!(geodesic.distance < end))
     {
       return sink;
     }
-    fade = 1.0 - smoothStep((place.distance - curve.inner) / (end - curve.inner));
+    fade = 1.0 - smoothStep((geodesic.distance - curve.inner) / (end - curve.inner));
     sink += fade * std::max(left, -sink);
   }
   if (-left > kFilledPit * curve.inner)
   {
     const double pit = smoothStep((-left / curve.inner - kFilledPit) / (kOpenPit - kFilledPit));
-    sink += fade * pit * std::max(0.0, sideSink(place, rest, curve, body) - sink);
+    sink += fade * pit * std::max(0.0, sideSink(geodesic, rest, curve, body) - sink);
   }
   return sink;
 }
 
-PressField::Sink PressField::sinkAt(
-  const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
+PressField::Sink PressField::sinkAt(const GeodesicCoordinates& geodesic,
+  const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
 {
-  const RingCurve curve = curveTowards(place.turns);
-  const double sink =
-    place.isFront() ? frontSink(place, rest, curve, body) : sideSink(place, rest, curve, body);
-  const bool isUnder = place.isFront() && place.distance <= curve.inner && sink > 0.0;
+  const RingCurve curve = curveTowards(geodesic.turns);
+  const double sink = geodesic.isFront() ? frontSink(geodesic, rest, curve, body)
+                                         : sideSink(geodesic, rest, curve, body);
+  const bool isUnder = geodesic.isFront() && geodesic.distance <= curve.inner && sink > 0.0;
   const Eigen::Vector3d sunk = rest - sink * normal_;
   if (!isUnder && body.contains(sunk))
   {

@@ -21,7 +21,7 @@ enum class Zone : unsigned char
   Contact = 2 ///< on the tool
 };
 
-/// How far the surface gives way at every place of a press.
+/// How far the surface gives way at every point of a press.
 ///
 /// Inside the contact circle the surface lies on the tool. Around it the Bezier patches of Eq. (8),
 /// one between each two of kDirections, are laid over the undeformed surface: lengths along it and
@@ -58,10 +58,10 @@ public:
     return reach_;
   }
 
-  /// @param place  of a point within the dent, whose way either faces the tool or does not
+  /// @param geodesic  of a point within the dent, which either faces the tool or does not
   /// @param rest   the point [m]
-  [[nodiscard]] Sink sinkAt(
-    const Place& place, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
+  [[nodiscard]] Sink sinkAt(const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest,
+    const ToolBody& body) const noexcept;
 
   /// The ring's curve in one of kDirections.
   [[nodiscard]] const RingCurve& curve(int direction) const noexcept
@@ -85,13 +85,13 @@ private:
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
   [[nodiscard]] double fittedSink(const RingCurve& curve, double radius) const noexcept;
   [[nodiscard]] double smoothSink(double distance, const RingCurve& curve) const noexcept;
-  [[nodiscard]] double sideSink(const Place& place, const Eigen::Vector3d& rest,
+  [[nodiscard]] double sideSink(const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest,
     const RingCurve& curve, const ToolBody& body) const noexcept;
-  [[nodiscard]] double frontSink(const Place& place, const Eigen::Vector3d& rest,
+  [[nodiscard]] double frontSink(const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest,
     const RingCurve& curve, const ToolBody& body) const noexcept;
-  [[nodiscard]] double heightOverFit(const Place& place) const noexcept
+  [[nodiscard]] double heightOverFit(const GeodesicCoordinates& geodesic) const noexcept
   {
-    return place.local.z() - surface_.height(place.local.x(), place.local.y());
+    return geodesic.local.z() - surface_.height(geodesic.local.x(), geodesic.local.y());
   }
 
   std::optional<SurfaceProfile> fittedCurve_;

@@ -85,7 +85,7 @@ void PressRegion::clear() noexcept
     slot = kNowhere | (slot & kSharpBit);
   }
   points_.clear();
-  places_.clear();
+  geodesics_.clear();
   hasSides_ = false;
   outer_ = 0.0;
 }
@@ -131,10 +131,10 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   seed_ = seed;
   queue_.clear();
   settle(seed, toLocal(rest(seed)), body);
-  if (!places_.front().within)
+  if (!geodesics_.front().within)
   {
     // a tool between the points of a coarse mesh: a finer patch can still show its dent
-    places_.front().within = true;
+    geodesics_.front().within = true;
     queue_.push_back(0);
   }
   for (std::size_t i = 0; i < queue_.size(); ++i)
@@ -159,9 +159,9 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
 // meets the corners of a triangle that has one within the dent
 void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body)
 {
-  if (places_[from].isFront())
+  if (geodesics_[from].isFront())
   {
-    const Eigen::Vector3d p = places_[from].local;
+    const Eigen::Vector3d p = geodesics_[from].local;
     const Eigen::Vector3d atA = toLocal(rest(a));
     const Eigen::Vector3d atB = toLocal(rest(b));
     if (facesTool(atA - p, atB - p))
@@ -187,13 +187,13 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
   const std::size_t index = indexOf(point);
   slot_[static_cast<std::size_t>(point)] |= kSettledBit;
   hasSides_ = hasSides_ || (slot_[static_cast<std::size_t>(point)] & kSharpBit) != 0;
-  Place& place = places_[index];
-  place.local = local;
-  place.turns = diamondAngle(local.x(), local.y());
-  place.distance = distanceInFront(local);
-  place.facing = 1.0F;
-  place.within = place.distance < outer_ || body.contains(rest(point));
-  if (place.within || isNear(point, body))
+  GeodesicCoordinates& geodesic = geodesics_[index];
+  geodesic.local = local;
+  geodesic.turns = diamondAngle(local.x(), local.y());
+  geodesic.distance = distanceInFront(local);
+  geodesic.facing = 1.0F;
+  geodesic.within = geodesic.distance < outer_ || body.contains(rest(point));
+  if (geodesic.within || isNear(point, body))
   {
     queue_.push_back(static_cast<std::int32_t>(index));
   }
@@ -208,15 +208,15 @@ void PressRegion::meetAround(
     return;
   }
   const bool isNew = find(point) < 0;
-  Place place = placeAround(from, beside, point);
+  GeodesicCoordinates geodesic = geodesicAround(from, beside, point);
   const std::size_t index = indexOf(point);
-  if (!isNew && !(place.distance < kShorter * places_[index].distance))
+  if (!isNew && !(geodesic.distance < kShorter * geodesics_[index].distance))
   {
     return;
   }
-  place.within = place.distance < outer_ || body.contains(rest(point));
-  places_[index] = place;
-  if (place.within || isNear(point, body))
+  geodesic.within = geodesic.distance < outer_ || body.contains(rest(point));
+  geodesics_[index] = geodesic;
+  if (geodesic.within || isNear(point, body))
   {
     queue_.push_back(static_cast<std::int32_t>(index));
   }
@@ -230,7 +230,7 @@ void PressRegion::meetAround(
   {
     slot = static_cast<std::int32_t>(points_.size()) << kBits | (slot & kSharpBit);
     points_.push_back(point);
-    places_.emplace_back();
+    geodesics_.emplace_back();
   }
   return static_cast<std::size_t>(slot >> kBits);
 }
@@ -249,7 +249,7 @@ inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const n
   return seen + t * t * s * (straight - seen);
 }
 
-Place PressRegion::placeInFront(const Eigen::Vector3d& point) const noexcept
+GeodesicCoordinates PressRegion::geodesicInFront(const Eigen::Vector3d& point) const noexcept
 {
   const Eigen::Vector3d local = toLocal(point);
   return { .local = local,
@@ -259,34 +259,34 @@ Place PressRegion::placeInFront(const Eigen::Vector3d& point) const noexcept
     .within = false };
 }
 
-Place PressRegion::placeBetween(
-  const Place& a, const Place& b, double share, const Eigen::Vector3d& point) const noexcept
+GeodesicCoordinates PressRegion::geodesicBetween(const GeodesicCoordinates& a,
+  const GeodesicCoordinates& b, double share, const Eigen::Vector3d& point) const noexcept
 {
-  Place place = placeInFront(point);
+  GeodesicCoordinates geodesic = geodesicInFront(point);
   if (!a.isFront() || !b.isFront())
   {
-    const Eigen::Vector2d way = a.way() + share * (b.way() - a.way());
-    place.turns = diamondAngle(way.x(), way.y());
-    place.distance = a.distance + share * (b.distance - a.distance);
-    place.facing = a.facing + static_cast<float>(share) * (b.facing - a.facing);
+    const Eigen::Vector2d log = a.logMap() + share * (b.logMap() - a.logMap());
+    geodesic.turns = diamondAngle(log.x(), log.y());
+    geodesic.distance = a.distance + share * (b.distance - a.distance);
+    geodesic.facing = a.facing + static_cast<float>(share) * (b.facing - a.facing);
   }
-  place.extra = a.extra + static_cast<float>(share) * (b.extra - a.extra);
-  return place;
+  geodesic.extra = a.extra + static_cast<float>(share) * (b.extra - a.extra);
+  return geodesic;
 }
 
 // the way to a point across the edge between two others, straight where their triangle is laid into
 // the plane of their own ways; along an edge where it is not seen through the first
-Place PressRegion::placeAround(
+GeodesicCoordinates PressRegion::geodesicAround(
   std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept
 {
-  const Place& first = places_[static_cast<std::size_t>(find(from))];
+  const GeodesicCoordinates& first = geodesics_[static_cast<std::size_t>(find(from))];
   const Eigen::Vector3d arm = rest(point) - rest(from);
   double distance = first.distance + arm.norm();
   float turns = first.turns;
   if (const std::int32_t slot = find(beside); slot >= 0)
   {
     // the edge on the x axis, the contact's center below it, the point above
-    const Place& second = places_[static_cast<std::size_t>(slot)];
+    const GeodesicCoordinates& second = geodesics_[static_cast<std::size_t>(slot)];
     const Eigen::Vector3d edge = rest(beside) - rest(from);
     const double length = std::max(edge.norm(), kTiny);
     const double x = edge.dot(arm) / length;
@@ -300,7 +300,8 @@ Place PressRegion::placeAround(
     if (crossing >= 0.0 && crossing <= length)
     {
       distance = std::sqrt((x - centerX) * (x - centerX) + (y + below) * (y + below));
-      const Eigen::Vector2d towards = (length - crossing) * first.way() + crossing * second.way();
+      const Eigen::Vector2d towards =
+        (length - crossing) * first.logMap() + crossing * second.logMap();
       turns = diamondAngle(towards.x(), towards.y());
     }
   }

@@ -30,19 +30,19 @@ namespace palp
   return Eigen::Vector2d(x, std::copysign(1.0 - std::abs(x), 2.0 - turns)).normalized();
 }
 
-/// A place of a pressed surface, seen from the contact.
-struct Place
+/// A point of a pressed surface, seen from the contact, by its geodesic from there.
+struct GeodesicCoordinates
 {
   Eigen::Vector3d local; ///< rest position from the contact's center [m], z along its normal
-  double distance;       ///< length of the way along the surface [m]
-  float turns;           ///< where in the tangent plane the way there begins, see diamondAngle()
-  float facing;          ///< 1 where the surface faces the tool all along the way, 0 where it does
+  double distance;       ///< length of the geodesic [m]
+  float turns;           ///< direction in which it leaves the contact, see diamondAngle()
+  float facing;          ///< 1 where the surface faces the tool all along it, 0 where it does
                          ///< not, between on an edge from the one to the other
   float extra = 0.0F;    ///< sinks further than the field by this, so that no side turns over [m]
   bool within;           ///< within the dent; else next to it
 
-  /// The way, unrolled into the tangent plane [m].
-  [[nodiscard]] Eigen::Vector2d way() const noexcept
+  /// The geodesic, unrolled into the tangent plane [m].
+  [[nodiscard]] Eigen::Vector2d logMap() const noexcept
   {
     return distance * directionOf(turns);
   }
@@ -59,10 +59,10 @@ struct Place
 
 /// The part of a surface around a contact, grown over mesh neighbors.
 ///
-/// Where the surface faces the tool, a way is the straight line to the point: as seen along the
-/// normal at the contact circle, as r is, and as long as the distance in space at the outer circle.
-/// Where it turns away, ways go on along the triangles, laid flat one by one; the far side of a
-/// thin lobe is therefore as far as the way around its edge.
+/// Where the surface faces the tool, a geodesic is the straight line to the point: as seen along
+/// the normal at the contact circle, as r is, and as long as the distance in space at the outer
+/// circle. Where it turns away, geodesics go on along the triangles, laid flat one by one; the far
+/// side of a thin lobe is therefore as far as the path around its edge.
 class PressRegion
 {
 public:
@@ -92,10 +92,10 @@ public:
     return points_;
   }
 
-  /// Their places, in the same order.
-  [[nodiscard]] std::span<const Place> places() const noexcept
+  /// Their coordinates, in the same order.
+  [[nodiscard]] std::span<const GeodesicCoordinates> geodesics() const noexcept
   {
-    return places_;
+    return geodesics_;
   }
 
   /// Index of a point in points(), negative when it is not there.
@@ -115,18 +115,18 @@ public:
     return hasSides_;
   }
 
-  /// Adds to Place::extra of the point of an index.
+  /// Adds to GeodesicCoordinates::extra of the point of an index.
   void sinkFurther(std::size_t index, double more) noexcept
   {
-    places_[index].extra += static_cast<float>(more);
+    geodesics_[index].extra += static_cast<float>(more);
   }
 
-  /// The place of a point that faces the tool.
-  [[nodiscard]] Place placeInFront(const Eigen::Vector3d& point) const noexcept;
+  /// Of a point that faces the tool.
+  [[nodiscard]] GeodesicCoordinates geodesicInFront(const Eigen::Vector3d& point) const noexcept;
 
-  /// The place of a point on the edge between two others, at a share of the way from a to b.
-  [[nodiscard]] Place placeBetween(
-    const Place& a, const Place& b, double share, const Eigen::Vector3d& point) const noexcept;
+  /// Of a point on the edge between two others, at a fraction of the way from a to b.
+  [[nodiscard]] GeodesicCoordinates geodesicBetween(const GeodesicCoordinates& a,
+    const GeodesicCoordinates& b, double share, const Eigen::Vector3d& point) const noexcept;
 
   [[nodiscard]] Eigen::Vector3d rest(std::int32_t point) const noexcept
   {
@@ -200,7 +200,7 @@ private:
   void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
   void meetAround(std::int32_t point, std::int32_t from, std::int32_t beside, const ToolBody& body);
   [[nodiscard]] double distanceInFront(const Eigen::Vector3d& local) const noexcept;
-  [[nodiscard]] Place placeAround(
+  [[nodiscard]] GeodesicCoordinates geodesicAround(
     std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;
 
   std::span<const float> rest_;
@@ -209,7 +209,7 @@ private:
 
   // of one press; capacity is kept from frame to frame
   std::vector<std::int32_t> points_;
-  std::vector<Place> places_;
+  std::vector<GeodesicCoordinates> geodesics_;
   std::vector<std::int32_t> queue_;                    // slots to grow from
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity(); // rows: two tangents and the normal
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
@@ -242,7 +242,7 @@ template <typename Function>
 void PressRegion::forEachTriangle(Function function) const
 {
   const auto isWithin = [&](std::int32_t index)
-  { return places_[static_cast<std::size_t>(index)].within; };
+  { return geodesics_[static_cast<std::size_t>(index)].within; };
   for (std::int32_t owner = 0; owner < static_cast<std::int32_t>(points_.size()); ++owner)
   {
     if (!isWithin(owner))

@@ -21,7 +21,7 @@ void addRest(vtkCellArray& from, const PressRegion& region, vtkCellArray& to)
   const auto isWithin = [&](vtkIdType point)
   {
     const std::int32_t at = region.find(static_cast<std::int32_t>(point));
-    return at >= 0 && region.places()[static_cast<std::size_t>(at)].within;
+    return at >= 0 && region.geodesics()[static_cast<std::size_t>(at)].within;
   };
   const auto cells = vtk::TakeSmartPointer(from.NewIterator());
   vtkNew<vtkIdList> corners;

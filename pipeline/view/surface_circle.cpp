@@ -71,7 +71,7 @@ void SurfaceCircle::putOnField(const Dent& dent, double radius)
     {
       rest[k] -= moved->GetTypedComponent(i, k);
     }
-    const Place place = dent.region().placeInFront(rest);
+    const GeodesicCoordinates place = dent.region().geodesicInFront(rest);
     if (std::abs(place.distance - radius) < kSame * radius)
     {
       isInFront[static_cast<std::size_t>(i)] = true;

@@ -229,8 +229,8 @@ IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
   }
   const Eigen::Vector3d angles{ falconAngle(state->encoder[0]), falconAngle(state->encoder[1]),
     falconAngle(state->encoder[2]) };
-  auto place = falconPlace(angles, place_);
-  place = place ? place : falconPlace(angles, falconCenter());
+  auto place = falconPosition(angles, place_);
+  place = place ? place : falconPosition(angles, falconCenter());
   homed_ = state->homed && place;
   place_ = place.value_or(place_);
   sample = { .position = place_ - falconCenter(), .buttons = state->buttons, .homed = homed_ };

@@ -101,7 +101,7 @@ std::optional<Matrix3d> falconJacobian(const Vector3d& place) noexcept
   return jacobian;
 }
 
-std::optional<Vector3d> falconPlace(const Vector3d& angles, const Vector3d& near) noexcept
+std::optional<Vector3d> falconPosition(const Vector3d& angles, const Vector3d& near) noexcept
 {
   Vector3d place = near;
   for (int step = 0; step < kMaxSteps; ++step)

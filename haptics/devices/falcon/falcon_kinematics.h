@@ -20,11 +20,11 @@ namespace palp
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] std::optional<Eigen::Matrix3d> falconJacobian(const Eigen::Vector3d& place) noexcept;
 
-/// Place of the grip for leg angles, by Newton's method on the angles.
+/// Position of the grip for leg angles, by Newton's method on the angles.
 /// @param near  a place close to it, as the last one
 /// @return      nothing: not found in ten steps
 /// @realtime    pure; no allocation, no lock, no exception
-[[nodiscard]] std::optional<Eigen::Vector3d> falconPlace(
+[[nodiscard]] std::optional<Eigen::Vector3d> falconPosition(
   const Eigen::Vector3d& angles, const Eigen::Vector3d& near) noexcept;
 
 /// Leg angle [rad] of an encoder, and where a search for the first place starts.

@@ -60,7 +60,7 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 [[nodiscard]] Eigen::Vector3d jointAngles(
   const WoodenArm& arm, const std::array<std::int16_t, 6>& encoders) noexcept;
 
-/// Place of the handle in the frame of its workspace [m].
+/// Position of the handle in the frame of its workspace [m].
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Eigen::Vector3d forwardKinematics(
   const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;

@@ -141,11 +141,11 @@ ContactTable::Entry ContactTable::operator()(double depth) const noexcept
     return entry;
   }
   const std::size_t i = std::min(static_cast<std::size_t>(along), rows_.size() - 2);
-  const double place = std::min(1.0, along - static_cast<double>(i));
+  const double geometry = std::min(1.0, along - static_cast<double>(i));
   const Row& low = rows_[i];
   const Row& high = rows_[i + 1];
   const auto read = [&](double y0, double y1, double slope0, double slope1)
-  { return hermite(place, step_, y0, y1, slope0, slope1).value; };
+  { return hermite(geometry, step_, y0, y1, slope0, slope1).value; };
   entry.force = read(low.value.force, high.value.force, low.slope.force, high.slope.force);
   entry.radius = read(low.value.radius, high.value.radius, low.slope.radius, high.slope.radius);
   for (std::size_t k = 0; k < kMoments; ++k)

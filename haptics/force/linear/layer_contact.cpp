@@ -110,27 +110,27 @@ LinearContact LayerContact::operator()(
   const double kappa = allowedCurvature(curvature);
   double shallow = 0.0; // places between which the depth is met
   double deep = base;
-  double place = std::min(depth, base);
-  Trial now = trial(place, thickness, kappa);
-  double nextPlace = place * depth / now.depth;
+  double geometry = std::min(depth, base);
+  Trial now = trial(geometry, thickness, kappa);
+  double nextPlace = geometry * depth / now.depth;
   for (int i = 0; i < kMaxSteps && std::abs(now.depth - depth) > kClose * depth; ++i)
   {
-    (now.depth < depth ? shallow : deep) = place;
-    nextPlace = std::clamp(nextPlace, place / kLongestStep, place * kLongestStep);
+    (now.depth < depth ? shallow : deep) = geometry;
+    nextPlace = std::clamp(nextPlace, geometry / kLongestStep, geometry * kLongestStep);
     if (!(nextPlace > shallow && nextPlace < deep))
     {
       // the base where nothing shallower was too deep, else halfway
       nextPlace = nextPlace >= base && deep == base ? base : 0.5 * (shallow + deep);
     }
-    if (nextPlace == place)
+    if (nextPlace == geometry)
     {
       break; // the whole base is in contact
     }
     const Trial next = trial(nextPlace, thickness, kappa);
-    const double chord = (next.depth - now.depth) / (nextPlace - place);
-    place = nextPlace;
+    const double chord = (next.depth - now.depth) / (nextPlace - geometry);
+    geometry = nextPlace;
     now = next;
-    nextPlace = place + (depth - now.depth) / chord;
+    nextPlace = geometry + (depth - now.depth) / chord;
   }
   return { .force = std::max(0.0, 2.0 * (depth * now.uniform - now.shape)),
     .radius = now.radius,

@@ -67,6 +67,6 @@ void setSlopes(std::span<PunchSolution> solutions, std::size_t series, double st
 /// @param step   of the width between them
 /// @realtime     pure; no allocation, no lock, no exception
 [[nodiscard]] PunchSolution between(
-  const PunchSolution& low, const PunchSolution& high, double step, double place) noexcept;
+  const PunchSolution& low, const PunchSolution& high, double step, double geometry) noexcept;
 
 } // namespace palp

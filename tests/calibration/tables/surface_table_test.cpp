@@ -34,7 +34,7 @@ TEST(SurfaceTable, InterpolatesBetweenItsPlaces)
     .elementSize = 0.4_mm };
   for (const IndentationStep& step : completed(study).steps)
   {
-    const SurfaceTable::Place place{ step.depth, radius, study.height, 0.27 };
+    const SurfaceTable::Indentation place{ step.depth, radius, study.height, 0.27 };
     EXPECT_TRUE(table.covers(place));
     for (const double r : { 0.0, 3.0_mm, 9.0_mm, 14.0_mm, 25.0_mm })
     {

@@ -245,7 +245,7 @@ private:
       {
         const Eigen::Vector3d point = region.toSurface(
           { r * to.x(), r * to.y(), dent.field().surface().height(r * to.x(), r * to.y()) });
-        const Place place = region.placeInFront(point);
+        const GeodesicCoordinates place = region.geodesicInFront(point);
         const double sink = place.distance < region.outer() ? dent.sinkAt(place, point).depth : 0.0;
         if (before >= 0.0 && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
         {

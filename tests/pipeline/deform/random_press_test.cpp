@@ -118,7 +118,7 @@ TEST_P(RandomPress, LeavesNoPointInsideTheToolAndTurnsNoTriangleOver)
         // hang from a point at rest
         const bool isSide = area(surface.rest).dot(region.normal()) <= 0.0;
         const bool hangs = !std::all_of(triangle.begin(), triangle.end(),
-          [&](int k) { return region.places()[static_cast<std::size_t>(k)].within; });
+          [&](int k) { return region.geodesics()[static_cast<std::size_t>(k)].within; });
         const bool isTurned = isSide ? area(surface.points).dot(area(surface.rest)) <= 0.0
                                      : area(surface.points).dot(region.normal()) <= 0.0;
         turned += isTurned && !(isSide && hangs) ? 1 : 0;
@@ -151,10 +151,10 @@ TEST_P(RandomPress, IsSmoothAtTheContact)
         (p0 - center - (p0 - center).dot(region.normal()) * region.normal()).norm();
       const auto sinkAt = [&](double radius)
       {
-        const Eigen::Vector3d foot = region.placeInFront(center + radius * outwards).local;
+        const Eigen::Vector3d foot = region.geodesicInFront(center + radius * outwards).local;
         const Eigen::Vector3d point =
           region.toSurface({ foot.x(), foot.y(), field.surface().height(foot.x(), foot.y()) });
-        const Place place = region.placeInFront(point);
+        const GeodesicCoordinates place = region.geodesicInFront(point);
         return place.distance < region.outer() ? surface.dent.sinkAt(place, point).depth : 0.0;
       };
       const double h = 3e-5 * inner; // the ring turns sharply where P1 is close to P0
@@ -213,14 +213,15 @@ struct EdgeStep
   bool isRim; ///< at R_d
 };
 
-EdgeStep stepOnEdge(const Dent& dent, const Press& press, const Place& a, const Place& b)
+EdgeStep stepOnEdge(
+  const Dent& dent, const Press& press, const GeodesicCoordinates& a, const GeodesicCoordinates& b)
 {
   const PressRegion& region = dent.region();
   const ToolBody body(press.tip, press.pose);
   const Eigen::Vector3d start = region.toSurface(a.local);
   const Eigen::Vector3d edge = region.toSurface(b.local) - start;
   const auto placeAt = [&](double share)
-  { return region.placeBetween(a, b, share, start + share * edge); };
+  { return region.geodesicBetween(a, b, share, start + share * edge); };
   const auto sinkAt = [&](double share)
   { return dent.sinkAt(placeAt(share), start + share * edge).depth; };
   const auto [size, low, width] = largestStep(sinkAt, edge.norm());
@@ -247,7 +248,7 @@ TEST_P(RandomPress, IsContinuousAlongEveryEdge)
     surface.press(press);
     const PressRegion& region = surface.dent.region();
     const auto placeOf = [&](int corner)
-    { return region.places()[static_cast<std::size_t>(corner)]; };
+    { return region.geodesics()[static_cast<std::size_t>(corner)]; };
     region.forEachTriangle(
       [&](const Triangle& triangle)
       {

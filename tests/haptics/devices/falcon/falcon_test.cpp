@@ -97,7 +97,7 @@ TEST(FalconKinematics, ReachesThePublishedHeights)
   const auto height = [](double counts)
   {
     const auto place =
-      falconPlace(Vector3d::Constant(falconAngle(counts)), Vector3d(0.0, 0.0, 0.11));
+      falconPosition(Vector3d::Constant(falconAngle(counts)), Vector3d(0.0, 0.0, 0.11));
     return place ? place->z() : -1.0;
   };
   EXPECT_NEAR(height(0.0), 0.1346, 5e-5);
@@ -123,7 +123,7 @@ TEST(FalconKinematics, PlaceAndAnglesAreInverse)
     const Vector3d place = randomPlace(random);
     const auto angles = falconAngles(place);
     ASSERT_TRUE(angles);
-    const auto back = falconPlace(*angles, falconCenter());
+    const auto back = falconPosition(*angles, falconCenter());
     ASSERT_TRUE(back);
     EXPECT_LT((*falconAngles(*back) - *angles).norm(), 1e-9);
   }
@@ -167,7 +167,7 @@ TEST(FalconKinematics, SaysWhatIsOutOfReach)
     EXPECT_FALSE(falconAngles(place));
     EXPECT_FALSE(falconTorques(place, Vector3d::UnitZ()));
   }
-  EXPECT_FALSE(falconPlace(Vector3d::Constant(nan), falconCenter()));
+  EXPECT_FALSE(falconPosition(Vector3d::Constant(nan), falconCenter()));
 }
 
 } // namespace
