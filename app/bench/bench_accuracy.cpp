@@ -1,6 +1,6 @@
 #include "app/bench/bench.h"
 #include "data/shapes.h"
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/units.h"
 

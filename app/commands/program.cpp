@@ -108,6 +108,24 @@ int tell(const CLI::ParseError& error, const CLI::App& app)
   return 2;
 }
 
+int runCommand(CLI::App& app, int argc, char** argv)
+{
+  int code = 0;
+  try
+  {
+    app.parse(withCommand(app, argc, argv));
+  }
+  catch (const CLI::RuntimeError& error) // a command that has its own exit codes
+  {
+    code = error.get_exit_code();
+  }
+  if (!std::cout.flush())
+  {
+    throw Error(ErrorCode::BadFile, "standard output: cannot be written in full; check the space");
+  }
+  return code;
+}
+
 } // namespace
 
 int exitCode(ErrorCode code)
@@ -151,21 +169,7 @@ int runProgram(int argc, char** argv, const ProgramFeatures& parts)
 
   try
   {
-    int code = 0;
-    try
-    {
-      app.parse(withCommand(app, argc, argv));
-    }
-    catch (const CLI::RuntimeError& error) // a command that has its own exit codes
-    {
-      code = error.get_exit_code();
-    }
-    if (!std::cout.flush())
-    {
-      throw Error(
-        ErrorCode::BadFile, "standard output: cannot be written in full; check the space");
-    }
-    return code;
+    return runCommand(app, argc, argv);
   }
   catch (const CLI::ParseError& error)
   {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/law_options.h"
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/force/force_law.h"
 #include "pipeline/process/file_surface.h"
 #include "pipeline/surface_io/length_unit.h"

@@ -23,8 +23,8 @@ enum class Quantity
 /// @param what   name of the option or field, for the message
 /// @param usual  unit of a number that has none, where the reader is told it; empty: refused
 /// @return       SI
-/// @throws Error BadValue: no number, no unit (the message gives the fix), or another quantity's
-/// unit
+/// @throws Error BadValue: no number, no unit (the message gives the fix),
+///               or another quantity's unit
 [[nodiscard]] double parseQuantity(
   std::string_view text, Quantity kind, std::string_view what, std::string_view usual = {});
 

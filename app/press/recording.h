@@ -46,8 +46,8 @@ struct Recording
 ///
 /// The same recording gives the same bytes: no date, no host.
 ///
-/// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when apart; null: no such
-/// column
+/// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when
+///                     apart; null: no such column
 void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration);
 
 } // namespace palp

@@ -54,7 +54,8 @@ bool PointerTool::leftSurface(const Pixel& to) const
 void PointerTool::moveTo(const SurfacePoint& place)
 {
   place_ = place;
-  deepest_ = std::min(kMaxDepth, 0.5 * rayExit(*surface_, place.position, -place.normal).distance);
+  deepest_ =
+    std::min(kMaxDepth, 0.5 * rayExit(surface_->tree(), place.position, -place.normal).distance);
 }
 
 void PointerTool::hover(int x, int y)

@@ -41,8 +41,8 @@ private:
 };
 
 /// The rotation that is nearest to F, found from one near it.
-/// @param gradient  F; where it is inside out, the proper rotation that leaves its shortest stretch
-///                  negative
+/// @param gradient  F; where it is inside out, the proper rotation that leaves
+///                  its shortest stretch negative
 [[nodiscard]] Eigen::Quaterniond nearestRotation(
   const Eigen::Matrix3d& gradient, const Eigen::Quaterniond& from);
 

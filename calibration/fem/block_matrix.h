@@ -29,10 +29,11 @@ public:
   /// Of a tetrahedron whose nodes ascend: 01, 02, 03, 12, 13, 23, as indices into edges().
   [[nodiscard]] std::array<int, 6> edgesOf(const std::array<int, 4>& nodes) const;
 
+  /// One per edge.
   [[nodiscard]] std::vector<Eigen::Matrix3d>& blocks() noexcept
   {
     return blocks_;
-  } ///< one per edge
+  }
   [[nodiscard]] const std::vector<Eigen::Matrix3d>& diagonal() const noexcept
   {
     return diagonal_;

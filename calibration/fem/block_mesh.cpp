@@ -47,8 +47,8 @@ Gradient brickGradient(const std::array<double, 3>& edges, const std::array<doub
   return gradient;
 }
 
-// boundaries of steps that grow by one ratio from 0 to length, the first of them `head * first`
-// long
+// boundaries of steps that grow by one ratio from 0 to length, the first
+// of them `head * first` long
 std::vector<double> growingSteps(double length, std::size_t count, double first, double head)
 {
   const auto steps = [&](double ratio)
@@ -64,8 +64,8 @@ std::vector<double> growingSteps(double length, std::size_t count, double first,
   return steps(bisect(isShort, { 0.1, 10.0 }, 60).low);
 }
 
-// half of a row of n nodes, from the middle outwards; where n is even, node -1 is the image of node
-// 0
+// half of a row of n nodes, from the middle outwards; where n is even,
+// node -1 is the image of node 0
 struct HalfRow
 {
   int firstElement;

@@ -145,7 +145,8 @@ void Equilibrium::predict(const VectorXd& change)
   }
 }
 
-Equilibrium::Step Equilibrium::solve(const std::vector<ContactConstraint>& sliding, double added)
+// fills the matrix; returns the residual of the dofs that are free
+VectorXd Equilibrium::linearize(const std::vector<ContactConstraint>& sliding, double added)
 {
   std::vector<int> slidingOf(static_cast<std::size_t>(body_.nodeCount()), -1);
   for (std::size_t s = 0; s < sliding.size(); ++s)
@@ -190,7 +191,12 @@ Equilibrium::Step Equilibrium::solve(const std::vector<ContactConstraint>& slidi
       residual[dof] = 0.0;
     }
   }
+  return residual;
+}
 
+Equilibrium::Step Equilibrium::solve(const std::vector<ContactConstraint>& sliding, double added)
+{
+  const VectorXd residual = linearize(sliding, added);
   Step step{ .residual = residual.lpNorm<Eigen::Infinity>(),
     .imbalance = (residual + onTheTool(guessed_ - forces_, sliding)).lpNorm<Eigen::Infinity>() };
   solver_.factorize(matrix_);
@@ -200,6 +206,7 @@ Equilibrium::Step Equilibrium::solve(const std::vector<ContactConstraint>& slidi
   }
   step.stable = solver_.vectorD().minCoeff() > 0.0;
   step.change = solver_.solve(-residual);
+  const int d = body_.dimension;
   for (const ContactConstraint& s : sliding)
   {
     step.change[d * s.node + d - 1] =

@@ -35,10 +35,11 @@ public:
   /// @source  Magisano, Leonetti and Garcea 2017: mixed integration points
   [[nodiscard]] bool follow(const Eigen::VectorXd& displacement, double part);
 
+  /// Stored [J].
   [[nodiscard]] double energy() const noexcept
   {
     return storedEnergy_;
-  } ///< [J]
+  }
   [[nodiscard]] int invertedElements() const noexcept;
   [[nodiscard]] const Eigen::VectorXd& forces() const noexcept
   {
@@ -70,6 +71,8 @@ private:
   [[nodiscard]] Eigen::VectorXd onTheTool(
     Eigen::VectorXd forces, const std::vector<ContactConstraint>& sliding) const;
   void predict(const Eigen::VectorXd& change);
+  [[nodiscard]] Eigen::VectorXd linearize(
+    const std::vector<ContactConstraint>& sliding, double added);
   void scatter(std::size_t element, const std::vector<int>& slidingOf,
     const std::vector<ContactConstraint>& sliding, Eigen::VectorXd& residual);
 

@@ -56,8 +56,8 @@ public:
   /// Goes from the present depth to a deeper one, in smaller steps where needed.
   /// @param depth   delta [m], more than before
   /// @param stop    asked before every Newton step
-  /// @throws Error  NoSolution: says at which depth and why, or kInterrupted; the last solution
-  ///                stays
+  /// @throws Error  NoSolution: says at which depth and why, or
+  ///                kInterrupted; the last solution stays
   void press(double depth, const std::stop_token& stop = {});
 
   [[nodiscard]] IndentationStep state() const;

@@ -13,6 +13,8 @@ namespace
 // largest change seen under spheres and cones, times (contact radius / element size)^2 [-]
 constexpr double kAtTheEdge = 0.07;
 constexpr double kNextChange = 1.0 / 3.0; // 1/4 for the second order of a smooth contact [-]
+constexpr double kFinest = 0.1;           // elements for a shallow contact, over those of the case
+constexpr double kFewest = 2.0; // elements across a contact, before its force is looked at
 
 Case withLargerElements(Case study)
 {
@@ -45,6 +47,46 @@ double MeshCheck::changeOnHalving(const IndentationStep& step, const std::stop_t
     lost_ = true;
   }
   return HUGE_VAL;
+}
+
+std::optional<IndentationStep> onFinerElements(
+  const Case& study, double depth, const std::stop_token& stop)
+{
+  constexpr int kSteps = 4;
+  Case finer = study;
+  finer.depths = { depth };
+  for (finer.elementSize = 0.5 * elementSize(study);
+       finer.elementSize >= std::max(kSmallestElement, kFinest * elementSize(study));
+       finer.elementSize *= 0.5)
+  {
+    if (contactReach(study.tip, depth) < kFewest * finer.elementSize)
+    {
+      continue;
+    }
+    try
+    {
+      const Body body = bodyOf(finer);
+      Indenter indenter(body, finer.tip, finer.energy, finer.material);
+      MeshCheck coarser(finer);
+      for (int i = 1; i <= kSteps; ++i)
+      {
+        indenter.press(depth * i / kSteps, stop);
+      }
+      IndentationStep found = indenter.state();
+      if (coarser.changeOnHalving(found, stop) <= kMeshError)
+      {
+        return found;
+      }
+    }
+    catch (const Error&)
+    {
+      if (stop.stop_requested())
+      {
+        break;
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 } // namespace palp::fem

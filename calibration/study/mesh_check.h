@@ -1,9 +1,16 @@
 #pragma once
 
-#include "calibration/study/study.h"
+#include "calibration/study/case.h"
+
+#include <optional>
+#include <stop_token>
 
 namespace palp::fem
 {
+
+/// Halving the elements changes no force that is kept by more than this, by the estimate of
+/// MeshCheck, which takes about a quarter of the time [-].
+constexpr double kMeshError = 0.01;
 
 /// A case with elements twice as large, pressed to the same depths: tells the error of the mesh.
 class MeshCheck
@@ -26,5 +33,11 @@ private:
   Indenter indenter_;
   bool lost_ = false;
 };
+
+/// The same depth on elements of a half to an eighth of the case's, for a contact that spans too
+/// few.
+/// @return  nothing where they do not suffice either, or when stopped
+[[nodiscard]] std::optional<IndentationStep> onFinerElements(
+  const Case& study, double depth, const std::stop_token& stop);
 
 } // namespace palp::fem

@@ -1,5 +1,6 @@
 #include "calibration/study/shipped_tables.h"
 
+#include "calibration/study/study.h"
 #include "calibration/study/study_files.h"
 #include "calibration/study/surface_fit.h"
 #include "calibration/tables/surface_table.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <span>
 #include <sstream>
 
 namespace palp::fem
@@ -76,6 +78,31 @@ std::vector<double> ratios(
                              : result.back());
   }
   return result;
+}
+
+// force ratios over depth, beginning with that of no depth
+void addRatios(std::ostream& out, double first, std::span<const double> depths, double column,
+  double poisson, const std::vector<double>& ratioOf)
+{
+  out << "0," << column << ',' << poisson << ',' << first << '\n';
+  for (std::size_t i = 0; i < ratioOf.size(); ++i)
+  {
+    out << depths[i] << ',' << column << ',' << poisson << ',' << ratioOf[i] << '\n';
+  }
+}
+
+// sink of the surface over the radius, for every depth
+void addSurfaces(std::ostream& out, const Outcome& large, double ratio, double poisson)
+{
+  for (std::size_t i = 0; i < large.steps.size(); ++i)
+  {
+    out << kDepths[i] << ',' << ratio << ',' << poisson;
+    for (const double radius : SurfaceTable::kRadii)
+    {
+      out << ',' << sinkOf(large.steps[i], radius * kRadius) / kRadius;
+    }
+    out << '\n';
+  }
 }
 
 void makeExtentTables(
@@ -157,21 +184,9 @@ void makeSphereTables(
       const bool thickest = ratio == kRadiusOverThickness.front();
       for (const double row : thickest ? std::vector{ 0.0, ratio } : std::vector{ ratio })
       {
-        forces << "0," << row << ',' << poisson << ",1\n";
-        for (std::size_t i = 0; i < ratioOf.size(); ++i)
-        {
-          forces << kDepths[i] << ',' << row << ',' << poisson << ',' << ratioOf[i] << '\n';
-        }
+        addRatios(forces, 1.0, kDepths, row, poisson, ratioOf);
       }
-      for (std::size_t i = 0; i < large.steps.size(); ++i)
-      {
-        surfaces << kDepths[i] << ',' << ratio << ',' << poisson;
-        for (const double radius : SurfaceTable::kRadii)
-        {
-          surfaces << ',' << sinkOf(large.steps[i], radius * kRadius) / kRadius;
-        }
-        surfaces << '\n';
-      }
+      addSurfaces(surfaces, large, ratio, poisson);
     }
   }
   if (stop.stop_requested())
@@ -223,12 +238,7 @@ void makeConeTable(
         study.depths.push_back(depth * kConeThickness);
       }
       const auto ratioOf = ratios(study, with(Energy::NeoHookean, study, stop), notes, stop);
-      forces << "0," << degrees << ',' << poisson << ',' << ratioOf.front() << '\n';
-      for (std::size_t i = 0; i < ratioOf.size(); ++i)
-      {
-        forces << kDepthOverThickness[i] << ',' << degrees << ',' << poisson << ',' << ratioOf[i]
-               << '\n';
-      }
+      addRatios(forces, ratioOf.front(), kDepthOverThickness, degrees, poisson, ratioOf);
     }
   }
   if (stop.stop_requested())

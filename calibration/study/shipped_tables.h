@@ -1,7 +1,5 @@
 #pragma once
 
-#include "calibration/study/study.h"
-
 #include <filesystem>
 #include <functional>
 #include <stop_token>

@@ -74,6 +74,88 @@ std::uint64_t checksumOf(std::string_view bytes)
   return sum;
 }
 
+// the numbers of a checkpoint, one after another
+class Numbers
+{
+public:
+  Numbers(const std::string& payload, std::filesystem::path file)
+    : payload_(payload)
+    , file_(std::move(file))
+  {
+  }
+
+  void get(auto* values, std::size_t count)
+  {
+    const std::size_t bytes = count * sizeof *values;
+    if (payload_.size() - at_ < bytes)
+    {
+      refuse(file_, "is damaged");
+    }
+    if (bytes > 0) // an empty vector has no address to copy to
+    {
+      std::memcpy(values, payload_.data() + at_, bytes);
+    }
+    at_ += bytes;
+  }
+
+  // a count that the file has room for
+  [[nodiscard]] std::size_t count(double value) const
+  {
+    const auto most = static_cast<double>(payload_.size() / sizeof(double));
+    if (!(value >= 0.0 && value <= most)) // NaN fails as well
+    {
+      refuse(file_, "is damaged");
+    }
+    return static_cast<std::size_t>(value);
+  }
+
+  [[nodiscard]] std::string_view taken() const
+  {
+    return std::string_view(payload_).substr(0, at_);
+  }
+
+private:
+  const std::string& payload_;
+  std::filesystem::path file_;
+  std::size_t at_ = 0;
+};
+
+void readCheckpoint(Numbers& numbers, Saved& saved)
+{
+  std::array<double, 3> head{};
+  numbers.get(head.data(), head.size());
+  Checkpoint& checkpoint = saved.checkpoint.emplace();
+  checkpoint.displacement.resize(static_cast<Eigen::Index>(numbers.count(head[0])));
+  saved.refused.resize(numbers.count(head[1]));
+  checkpoint.depth = head[2];
+  numbers.get(saved.refused.data(), saved.refused.size());
+  numbers.get(checkpoint.displacement.data(), numbers.count(head[0]));
+}
+
+// every depth down to the checkpoint's has its row and its profile
+void expectComplete(
+  const Saved& saved, const std::vector<double>& depths, const std::filesystem::path& file)
+{
+  const double deepest = saved.checkpoint->depth * (1.0 + kSameDepth);
+  if (!has(saved.steps, saved.checkpoint->depth) ||
+    std::ranges::any_of(
+      saved.steps, [](const IndentationStep& step) { return step.profile.empty(); }))
+  {
+    refuse(file, "does not fit the tables beside it");
+  }
+  const auto missing = std::ranges::find_if(depths,
+    [&](double depth)
+    {
+      const bool refused = std::ranges::find(saved.refused, depth) != saved.refused.end();
+      return depth < deepest && !refused && !has(saved.steps, depth);
+    });
+  if (missing != depths.end())
+  {
+    refuse(
+      file, "is past " + shortest(units::toMillimeters(*missing)) + " mm, which the table lacks");
+  }
+}
+
 } // namespace
 
 void StudyFiles::save(const Checkpoint& checkpoint, const std::vector<double>& refused) const
@@ -115,63 +197,20 @@ Saved StudyFiles::load() const
     }
   }
   const std::string payload{ std::istreambuf_iterator<char>(in), {} };
-  std::size_t at = 0;
-  const auto get = [&](auto* values, std::size_t count)
-  {
-    const std::size_t bytes = count * sizeof *values;
-    if (payload.size() - at < bytes)
-    {
-      refuse(file, "is damaged");
-    }
-    if (bytes > 0) // an empty vector has no address to copy to
-    {
-      std::memcpy(values, payload.data() + at, bytes);
-    }
-    at += bytes;
-  };
-  std::array<double, 3> head{};
-  get(head.data(), head.size());
-  const std::size_t count = payload.size() / sizeof(double);
-  const auto most = static_cast<double>(count); // NaN fails as well
-  if (!(head[0] >= 0.0 && head[0] <= most && head[1] >= 0.0 && head[1] <= most))
-  {
-    refuse(file, "is damaged");
-  }
-  Checkpoint checkpoint{ .depth = head[2], .displacement = {} };
-  checkpoint.displacement.resize(static_cast<Eigen::Index>(head[0]));
-  saved.refused.resize(static_cast<std::size_t>(head[1]));
-  get(saved.refused.data(), saved.refused.size());
-  get(checkpoint.displacement.data(), static_cast<std::size_t>(head[0]));
-  const std::string_view summed(payload.data(), at);
+  Numbers numbers(payload, file);
+  readCheckpoint(numbers, saved);
+  const std::string summed(numbers.taken());
   std::uint64_t sum = 0;
-  get(&sum, 1);
-  if (sum != checksumOf(std::string(summed) + rowsTo(folder_.path(), checkpoint.depth)))
+  numbers.get(&sum, 1);
+  if (sum != checksumOf(summed + rowsTo(folder_.path(), saved.checkpoint->depth)))
   {
     refuse(file, "does not fit the tables beside it, or one of them was changed");
   }
-
   // the table may be one depth ahead
-  const double deepest = checkpoint.depth * (1.0 + kSameDepth);
+  const double deepest = saved.checkpoint->depth * (1.0 + kSameDepth);
   saved.steps = readSteps(folder_.path());
   std::erase_if(saved.steps, [&](const IndentationStep& step) { return step.depth > deepest; });
-  if (!has(saved.steps, checkpoint.depth) ||
-    std::ranges::any_of(
-      saved.steps, [](const IndentationStep& step) { return step.profile.empty(); }))
-  {
-    refuse(file, "does not fit the tables beside it");
-  }
-  const auto missing = std::ranges::find_if(study_.depths,
-    [&](double depth)
-    {
-      const bool refused = std::ranges::find(saved.refused, depth) != saved.refused.end();
-      return depth < deepest && !refused && !has(saved.steps, depth);
-    });
-  if (missing != study_.depths.end())
-  {
-    refuse(
-      file, "is past " + shortest(units::toMillimeters(*missing)) + " mm, which the table lacks");
-  }
-  saved.checkpoint = std::move(checkpoint);
+  expectComplete(saved, study_.depths, file);
   return saved;
 }
 

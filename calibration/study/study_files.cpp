@@ -6,7 +6,7 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/number_table.h"
 #include "haptics/files/replace_file.h"
-#include "haptics/force/linear/half_space.h"
+#include "haptics/force/linear/contact_depth.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 

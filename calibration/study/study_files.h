@@ -1,9 +1,13 @@
 #pragma once
 
-#include "calibration/study/study.h"
+#include "calibration/study/case.h"
+#include "calibration/study/outcome.h"
 #include "haptics/files/output_folder.h"
 
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace palp::fem
 {

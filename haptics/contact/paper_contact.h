@@ -1,6 +1,9 @@
 #pragma once
 
 #include "haptics/contact/contact.h"
+#include "haptics/pose.h"
+#include "haptics/surface/surface.h"
+#include "haptics/tip/tip.h"
 
 namespace palp
 {

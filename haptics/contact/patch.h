@@ -47,7 +47,7 @@ struct DiscIntegral
 ///
 /// @param radius  of the ball [m], above 0
 /// @param side    1: the center is well outside the body, -1: well inside; between, both sides
-/// count
+///                count
 /// @param fade    height behind a plane at which a triangle no longer counts [m], above 0
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center,

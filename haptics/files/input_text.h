@@ -16,8 +16,8 @@ namespace palp
 /// The first 200 bytes of a text for a message, printable, and dots where it goes on.
 [[nodiscard]] std::string shortened(const std::string& text);
 
-/// A piece of such a text for a message: in single quotes, cut to 40 bytes, without control
-/// characters.
+/// A piece of such a text for a message: in single quotes, cut to 40 bytes,
+/// without control characters.
 [[nodiscard]] std::string inQuotes(std::string_view text);
 
 /// The same text without control characters, which a terminal would obey.

@@ -4,7 +4,6 @@
 #include "haptics/force/inclination.h"
 #include "haptics/force/linear/coated_body.h"
 #include "haptics/force/linear/layer_contact.h"
-#include "haptics/tip/on_tip.h"
 #include "haptics/units.h"
 
 #include <algorithm>

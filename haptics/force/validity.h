@@ -57,7 +57,7 @@ public:
   Validity(const ForceLaw& law, const Limits& limits);
 
   /// @param edgeDistance  from the contact to an open or sharp edge [m]; infinite where there is
-  /// none
+  ///                      none
   /// @source              Eqs. (7), (9), Secs. 3.2, 4.3
   /// @realtime            pure; no allocation, no lock, no exception
   [[nodiscard]] Rules operator()(const ContactGeometry& local,

@@ -62,7 +62,7 @@ template <typename Function>
 ///
 /// @param stepAt  value over slope at a number
 /// @return        to about 1e-18 of itself, since the error of a step is the square of the one
-/// before
+///                before
 /// @realtime      as stepAt
 template <typename Function>
 [[nodiscard]] double newton(double x, const Function& stepAt) noexcept

@@ -2,6 +2,7 @@
 
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
+#include "haptics/pose.h"
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/force/force_law.h"
 
 #include <cstdint>

@@ -38,8 +38,8 @@ struct StabilityRow
 };
 
 /// What counts as unstable.
-/// @source  energy and envelope: the rest of a held press; limit cycle: the smallest that
-/// fingers notice
+/// @source  energy and envelope: the rest of a held press; limit cycle: the
+///          smallest that fingers notice
 struct StabilityLimits
 {
   static constexpr double kEnergy = -1e-6;            ///< [J]

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "haptics/surface/surface.h"
+#include "haptics/surface/box_tree.h"
 
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace palp
 {
@@ -39,11 +40,19 @@ void cut(const FacetPart& piece, double cell, Use use)
     use);
 }
 
+/// Triangles with what lies across their sides.
+struct LinkedTriangles
+{
+  std::span<const Eigen::Vector3d> points; ///< [m]
+  std::span<const Triangle> triangles;
+  std::span<const std::array<int, 3>> across; ///< triangles, from corner k to k + 1; -1: none
+};
+
 /// By half of what the surface turns at each side of a triangle, across that side, per length.
 ///
-/// @param triangle  the facet's, among those of the surface
+/// @param triangle  the facet's, among those of the mesh
 /// @return          one symmetric tensor a side [rad], zero at an open one
 [[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(
-  const Surface& surface, const Facet& facet, int triangle);
+  const LinkedTriangles& mesh, const Facet& facet, int triangle);
 
 } // namespace palp

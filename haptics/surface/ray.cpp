@@ -21,7 +21,7 @@ bool isWithin(const Facet& facet, const Eigen::Vector3d& x) noexcept
 }
 
 // side: 1 where the ray leaves through a facet, -1 where it enters
-RayHit firstHit(const Surface& surface, const Eigen::Vector3d& origin,
+RayHit firstHit(const BoxTree& tree, const Eigen::Vector3d& origin,
   const Eigen::Vector3d& direction, double side) noexcept
 {
   RayHit first;
@@ -43,7 +43,7 @@ RayHit firstHit(const Surface& surface, const Eigen::Vector3d& origin,
   };
   const auto visit = [&](int i)
   {
-    const Facet& facet = surface.tree().facets()[static_cast<std::size_t>(i)];
+    const Facet& facet = tree.facets()[static_cast<std::size_t>(i)];
     const double along = facet.normal.dot(direction);
     if (!(side * along > 0.0))
     {
@@ -52,25 +52,25 @@ RayHit firstHit(const Surface& surface, const Eigen::Vector3d& origin,
     const double t = facet.normal.dot(facet.corners[0] - origin) / along;
     if (t > 0.0 && t < first.distance && isWithin(facet, origin + t * direction))
     {
-      first = { surface.tree().triangle(i), t };
+      first = { tree.triangle(i), t };
     }
   };
-  surface.tree().search(crosses, visit);
+  tree.search(crosses, visit);
   return first;
 }
 
 } // namespace
 
 RayHit rayEntry(
-  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept
+  const BoxTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept
 {
-  return firstHit(surface, origin, direction, -1.0);
+  return firstHit(tree, origin, direction, -1.0);
 }
 
 RayHit rayExit(
-  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept
+  const BoxTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept
 {
-  return firstHit(surface, origin, direction, 1.0);
+  return firstHit(tree, origin, direction, 1.0);
 }
 
 } // namespace palp

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/surface/surface.h"
+#include "haptics/surface/box_tree.h"
 
 #include <Eigen/Core>
 #include <limits>
@@ -18,15 +18,16 @@ struct RayHit
 /// The first triangle that a ray enters the body through. Triangles reach a little beyond their
 /// edges, so that no ray slips between two.
 ///
+/// @param tree       of the surface
 /// @param origin     [m]
 /// @param direction  unit vector
 /// @realtime         pure; no allocation, no lock, no exception
 [[nodiscard]] RayHit rayEntry(
-  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
+  const BoxTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
 
 /// The first triangle that a ray leaves the body through, likewise.
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] RayHit rayExit(
-  const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
+  const BoxTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
 
 } // namespace palp

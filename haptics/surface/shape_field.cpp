@@ -2,7 +2,6 @@
 
 #include "haptics/surface/facet_part.h"
 #include "haptics/surface/ray.h"
-#include "haptics/surface/surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -59,12 +58,11 @@ double leastCell(const BoxTree& tree)
 
 } // namespace
 
-ShapeField::ShapeField(const Surface& surface)
+ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double edgeLength)
 {
-  const BoxTree& tree = surface.tree();
   const BoxTree::Node& box = tree.nodes()[0];
   const double size = diagonal(box);
-  const double scale = std::min(kEdges * surface.edgeLength(), kWidest * size);
+  const double scale = std::min(kEdges * edgeLength, kWidest * size);
   cell_ = std::max({ kFine * kFinest * size, kCoarse * scale, leastCell(tree) });
   finest_ = std::max(scale, cell_ / kFine);
   for (Eigen::Index k = 0; k < 3; ++k)
@@ -78,7 +76,7 @@ ShapeField::ShapeField(const Surface& surface)
   for (std::size_t i = 0; i < tree.facets().size(); ++i)
   {
     const Facet& facet = tree.facets()[i];
-    const auto turns = bendsOf(surface, facet, tree.triangle(static_cast<int>(i)));
+    const auto turns = bendsOf(mesh, facet, tree.triangle(static_cast<int>(i)));
     cut(FacetPart{ facet.corners, { 0, 1, 2 } }, cell_,
       [&](const FacetPart& part)
       {
@@ -98,7 +96,7 @@ ShapeField::ShapeField(const Surface& surface)
       });
   }
   build(pieces, static_cast<float>(cell_));
-  measureLeaves(surface);
+  measureLeaves(tree);
   addUp();
 }
 
@@ -227,7 +225,7 @@ LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
 }
 
 // thickness and sharpness of the leaves, from what is about them
-void ShapeField::measureLeaves(const Surface& surface)
+void ShapeField::measureLeaves(const BoxTree& tree)
 {
   const double around = kTurn * cell_;
   sharp_.assign(nodes_.size(), 0);
@@ -255,7 +253,7 @@ void ShapeField::measureLeaves(const Surface& surface)
         }
       });
     const Eigen::Vector3d inward = -sum.area.normalized().cast<double>();
-    const double thickness = rayExit(surface, place, inward).distance;
+    const double thickness = rayExit(tree, place, inward).distance;
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(thickness));
     const float curvature = sum.bend.trace() / area;
     const bool bends =

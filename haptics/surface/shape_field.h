@@ -9,7 +9,8 @@
 namespace palp
 {
 
-class Surface;
+class BoxTree;
+struct LinkedTriangles; // haptics/surface/facet_part.h
 
 /// What a force law asks of the surface that a tool presses, averaged over the contact.
 struct LocalShape
@@ -37,8 +38,9 @@ class ShapeField
 public:
   ShapeField() = default;
 
-  /// @param surface  with its tree and neighbors
-  explicit ShapeField(const Surface& surface);
+  /// @param tree        over the triangles of the mesh
+  /// @param edgeLength  of the mesh [m]
+  ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double edgeLength);
 
   /// Averages over the part of the surface in a ball that faces along a normal.
   ///
@@ -87,7 +89,7 @@ private:
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
   void build(std::span<Piece> pieces, float cell);
-  void measureLeaves(const Surface& surface);
+  void measureLeaves(const BoxTree& tree);
   void addUp();
   [[nodiscard]] float toSharpEdge(std::size_t at, const Eigen::Vector3f& from, float best) const;
 

@@ -1,6 +1,7 @@
 #include "haptics/surface/surface.h"
 
 #include "haptics/error.h"
+#include "haptics/surface/facet_part.h"
 #include "haptics/surface/sides.h"
 
 #include <Eigen/Geometry>
@@ -99,7 +100,7 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
   {
     spreadOpenEdges();
   }
-  shape_ = ShapeField(*this);
+  shape_ = ShapeField(tree_, { points_, triangles_, across_ }, edgeLength_);
 }
 
 void Surface::linkEdges()

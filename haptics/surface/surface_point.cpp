@@ -29,7 +29,7 @@ SurfacePoint surfacePoint(const Surface& surface, int triangle, const Eigen::Vec
 std::optional<SurfacePoint> pick(
   const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
 {
-  const RayHit hit = rayEntry(surface, origin, direction);
+  const RayHit hit = rayEntry(surface.tree(), origin, direction);
   if (hit.triangle < 0)
   {
     return std::nullopt;

@@ -21,8 +21,8 @@ public:
   };
 
   /// Reads `radius_mm,height_mm`; lines that begin with # are comments.
-  /// @throws Error  BadFile: missing, no such header, or what the constructor refuses, with the
-  /// line
+  /// @throws Error  BadFile: missing, no such header, or what the
+  ///                constructor refuses, with the line
   [[nodiscard]] static Profile read(const std::filesystem::path& file);
 
   /// @param points   3 to 10,000; radii increasing, heights and slopes never decreasing
@@ -39,10 +39,11 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double slope(double radius) const noexcept;
 
+  /// Radius of the shaft [m].
   [[nodiscard]] double baseRadius() const noexcept
   {
     return pieces_.back().end;
-  } ///< [m]
+  }
 
   [[nodiscard]] const std::string& name() const noexcept
   {

@@ -1,7 +1,6 @@
 #include "haptics/tip/tip.h"
 
 #include "haptics/error.h"
-#include "haptics/tip/on_tip.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 

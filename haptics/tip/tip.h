@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <variant>
 
@@ -59,6 +60,38 @@ struct ProfileTip
 /// A rigid tool base, axisymmetric about its axis; the apex is the end that touches first.
 using Tip = std::variant<SphereTip, ConeTip, PunchTip, TruncatedConeTip, BluntConeTip,
   ParaboloidTip, ProfileTip>;
+
+/// Calls function with the shape that a tip has.
+///
+/// By get_if for each shape in turn, because visit may throw and the servo thread may not.
+///
+/// @return    what function returns; for a variant that lost its value, a default
+/// @realtime  as function
+template <typename Function>
+auto onTip(const Tip& tip, Function function) noexcept -> decltype(function(SphereTip{}))
+{
+  decltype(function(SphereTip{})) result{};
+  const auto isDone = [&](const auto* shape)
+  {
+    if (shape != nullptr)
+    {
+      result = function(*shape);
+    }
+    return shape != nullptr;
+  };
+  const auto tryEach = [&]<typename... Shapes>(const std::variant<Shapes...>& any)
+  { return (isDone(std::get_if<Shapes>(&any)) || ...); };
+  (void)tryEach(tip);
+  return result;
+}
+
+/// Slope of a cone's flank.
+/// @param angle  alpha [rad] between axis and flank
+/// @realtime     pure; no allocation, no lock, no exception
+[[nodiscard]] inline double cot(double angle) noexcept
+{
+  return 1.0 / std::tan(angle);
+}
 
 /// Radius of the shaft, which is also the largest contact radius.
 /// @return    [m]

@@ -1,6 +1,6 @@
 #include "pipeline/deform/contact_pressure.h"
 
-#include "haptics/force/linear/half_space.h"
+#include "haptics/force/linear/contact_depth.h"
 
 #include <algorithm>
 #include <cmath>

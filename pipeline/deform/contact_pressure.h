@@ -28,8 +28,7 @@ public:
 
   /// @param radius  distance from the contact's center [m], 0 or more
   /// @return        p [Pa], 0 outside the contact; where the theory is infinite, at a sharp apex
-  /// and
-  ///                at the edge of a flat base, the value of a small distance from there
+  ///                and at the edge of a flat base, the value of a small distance from there
   [[nodiscard]] double at(double radius) const noexcept;
 
 private:

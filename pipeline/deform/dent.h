@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/contact/contact.h"
+#include "haptics/pose.h"
 #include "pipeline/deform/press_field.h"
 #include "pipeline/deform/press_region.h"
 #include "pipeline/deform/tool_body.h"

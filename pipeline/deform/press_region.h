@@ -104,8 +104,8 @@ public:
     return slot_[static_cast<std::size_t>(point)] >> kBits;
   }
 
-  /// Calls a function with every triangle that has a corner within the dent, as indices into
-  /// points().
+  /// Calls a function with every triangle that has a corner within the
+  /// dent, as indices into points().
   template <typename Function>
   void forEachTriangle(Function function) const;
 

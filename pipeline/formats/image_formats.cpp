@@ -1,7 +1,8 @@
 #include "pipeline/formats/image_formats.h"
 
-#include "haptics/error.h"
+#include "pipeline/formats/inflate.h"
 #include "pipeline/formats/meta_image.h"
+#include "pipeline/formats/refuse.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 
@@ -37,8 +38,7 @@ constexpr const char* kPatientAxes = "in the patient's axes to left, back and he
 
 [[noreturn]] void refuseTurned(const std::filesystem::path& file)
 {
-  throw Error(ErrorCode::BadFile,
-    file.string() + ": its axes are turned, which is read from NIfTI only; save it as .nii.gz");
+  refuse(file, "its axes are turned, which is read from NIfTI only; save it as .nii.gz");
 }
 
 PatientImage straight(vtkSmartPointer<vtkImageData> image)
@@ -173,8 +173,8 @@ void checkNumbers(const std::filesystem::path& file, std::string_view text)
     }
     if (got != count || !words.eof())
     {
-      throw Error(ErrorCode::BadFile,
-        file.string() + ": its " + key + " is not " + std::to_string(count) +
+      refuse(file,
+        std::string("its ") + key + " is not " + std::to_string(count) +
           " numbers; export it again");
     }
   }
@@ -187,8 +187,7 @@ void checkVtiHeader(const std::filesystem::path& file)
   checkNumbers(file, text);
   if (cellsIn(text, "<Piece Extent=") != cellsIn(text, "WholeExtent="))
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": damaged, its pieces do not fill its WholeExtent; export it again");
+    refuse(file, "damaged, its pieces do not fill its WholeExtent; export it again");
   }
 }
 
@@ -230,46 +229,67 @@ PatientImage readMetaImage(const std::filesystem::path& file)
   return result;
 }
 
+// the better of the two forms a header may have; both lead to right, front, head
+void placeInPatient(vtkNIFTIImageReader& reader, PatientImage& image)
+{
+  vtkMatrix4x4* form = reader.GetSFormMatrix() ? reader.GetSFormMatrix() : reader.GetQFormMatrix();
+  if (form)
+  {
+    std::copy_n(form->GetData(), 16, image.toPatient);
+    for (int i = 0; i < 8; ++i) // x and y
+    {
+      image.toPatient[i] = -image.toPatient[i];
+    }
+  }
+  image.notes.emplace_back(form
+      ? std::string(kPatientAxes) + ", turned from NIfTI's to right, front and head (RAS)"
+      : "the header tells no place in the patient; axes and corner of the voxels are taken");
+}
+
+// into mm; only the first volume was read
+void applyUnit(vtkNIFTIImageHeader& header, PatientImage& image)
+{
+  const double factor = niftiUnit(header.GetXYZTUnits());
+  for (int i = 0; i < 12; ++i)
+  {
+    image.toPatient[i] *= factor > 0.0 ? factor : 1.0;
+  }
+  if (factor == 0.0)
+  {
+    image.notes.emplace_back("warning: the header names no unit; mm are taken, as is the custom");
+  }
+  if (header.GetDim(0) > 3 && header.GetDim(4) > 1)
+  {
+    image.notes.emplace_back(
+      "warning: the first of " + std::to_string(header.GetDim(4)) + " volumes is taken");
+  }
+}
+
 PatientImage readNifti(const std::filesystem::path& file)
 {
   const NiftiClaim claim = niftiClaim(file);
   if (!claim.fault.empty())
   {
-    throw Error(ErrorCode::BadFile, file.string() + ": " + claim.fault);
+    refuse(file, claim.fault);
   }
-  constexpr std::uintmax_t ratio = 1032; // the most that deflate can pack into a byte
   const std::uintmax_t size = std::filesystem::file_size(file);
   const bool packed = file.string().ends_with("z") || file.string().ends_with("Z");
-  if (claim.bytes > (packed ? ratio * size : size))
+  if (claim.bytes > (packed ? kDeflateRatio * size : size))
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": cut off, its header claims " + std::to_string(claim.bytes) +
+    refuse(file,
+      "cut off, its header claims " + std::to_string(claim.bytes) +
         " bytes of voxels; export or copy it again");
   }
   vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
   PatientImage result = straight(reader->GetOutput());
-  // the better of the two forms a header may have; both lead to right, front, head
-  vtkMatrix4x4* form =
-    reader->GetSFormMatrix() ? reader->GetSFormMatrix() : reader->GetQFormMatrix();
-  if (form)
-  {
-    std::copy_n(form->GetData(), 16, result.toPatient);
-    for (int i = 0; i < 8; ++i) // x and y
-    {
-      result.toPatient[i] = -result.toPatient[i];
-    }
-  }
-  result.notes.emplace_back(form
-      ? std::string(kPatientAxes) + ", turned from NIfTI's to right, front and head (RAS)"
-      : "the header tells no place in the patient; axes and corner of the voxels are taken");
+  placeInPatient(*reader, result);
   result.slope = reader->GetRescaleSlope();
   result.intercept = reader->GetRescaleIntercept();
   if (!std::isfinite(result.slope) || !std::isfinite(result.intercept))
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": scl_slope or scl_inter is not a number; export it again");
+    refuse(file, "scl_slope or scl_inter is not a number; export it again");
   }
   if (result.slope == 0.0) // values as they are stored
   {
@@ -279,21 +299,7 @@ PatientImage readNifti(const std::filesystem::path& file)
   result.unit = "mm";
   if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
   {
-    const double factor = niftiUnit(header->GetXYZTUnits());
-    for (int i = 0; i < 12; ++i)
-    {
-      result.toPatient[i] *= factor > 0.0 ? factor : 1.0;
-    }
-    if (factor == 0.0)
-    {
-      result.notes.emplace_back(
-        "warning: the header names no unit; mm are taken, as is the custom");
-    }
-    if (header->GetDim(0) > 3 && header->GetDim(4) > 1)
-    {
-      result.notes.emplace_back(
-        "warning: the first of " + std::to_string(header->GetDim(4)) + " volumes is taken");
-    }
+    applyUnit(*header, result);
   }
   return result;
 }

@@ -57,6 +57,17 @@ struct Contour
   double level;
 };
 
+// 1 where an image has one of these values, else 0
+vtkSmartPointer<vtkImageData> maskOf(vtkImageData& volume, const std::vector<double>& values)
+{
+  const std::vector<std::uint8_t> inside = indicator(volume, values);
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->CopyStructure(&volume);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  std::ranges::copy(inside, static_cast<unsigned char*>(image->GetScalarPointer()));
+  return image;
+}
+
 Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::string& name,
   std::vector<std::string>& notes)
 {
@@ -82,12 +93,7 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
       }
       stored.push_back(*same);
     }
-    const std::vector<std::uint8_t> inside = indicator(*volume.image, stored);
-    auto image = vtkSmartPointer<vtkImageData>::New();
-    image->CopyStructure(volume.image);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-    std::ranges::copy(inside, static_cast<unsigned char*>(image->GetScalarPointer()));
-    return { image, 0.5 };
+    return { maskOf(*volume.image, stored), 0.5 };
   }
   if (values.labels)
   {
@@ -143,6 +149,33 @@ void checkPlace(const PatientImage& volume, const std::string& name)
   }
 }
 
+// the largest piece, without the stairs of the voxels
+vtkSmartPointer<vtkPolyData> smoothSurface(const Contour& contour, std::vector<std::string>& notes)
+{
+  vtkNew<vtkSynchronizedTemplates3D> templates; // starts no thread, unlike its newer kin
+  templates->SetInputData(contour.image);
+  templates->SetValue(0, contour.level);
+  templates->ComputeNormalsOff();
+  templates->ComputeScalarsOff();
+  vtkNew<vtkPolyDataConnectivityFilter> largest;
+  largest->SetInputConnection(templates->GetOutputPort());
+  largest->SetExtractionModeToLargestRegion();
+  largest->Update();
+  if (largest->GetNumberOfExtractedRegions() > 1)
+  {
+    notes.push_back("the largest of its " + std::to_string(largest->GetNumberOfExtractedRegions()) +
+      " pieces is taken");
+  }
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
+  smooth->SetInputConnection(largest->GetOutputPort());
+  smooth->SetNumberOfIterations(20);
+  smooth->SetPassBand(0.1); // a stair of one voxel goes, what is larger stays
+  smooth->NormalizeCoordinatesOn();
+  smooth->BoundarySmoothingOff();
+  smooth->Update();
+  return smooth->GetOutput();
+}
+
 } // namespace
 
 vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const ImagePart& part,
@@ -170,29 +203,7 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
       " million triangles, noise at that level; smooth the image, or take fewer voxels");
   }
 
-  vtkNew<vtkSynchronizedTemplates3D> templates; // starts no thread, unlike its newer kin
-  templates->SetInputData(contour.image);
-  templates->SetValue(0, contour.level);
-  templates->ComputeNormalsOff();
-  templates->ComputeScalarsOff();
-  vtkNew<vtkPolyDataConnectivityFilter> largest;
-  largest->SetInputConnection(templates->GetOutputPort());
-  largest->SetExtractionModeToLargestRegion();
-  largest->Update();
-  if (largest->GetNumberOfExtractedRegions() > 1)
-  {
-    notes.push_back("the largest of its " + std::to_string(largest->GetNumberOfExtractedRegions()) +
-      " pieces is taken");
-  }
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
-  smooth->SetInputConnection(largest->GetOutputPort());
-  smooth->SetNumberOfIterations(20);
-  smooth->SetPassBand(0.1); // a stair of one voxel goes, what is larger stays
-  smooth->NormalizeCoordinatesOn();
-  smooth->BoundarySmoothingOff();
-  smooth->Update();
-
-  vtkSmartPointer<vtkPolyData> surface = smooth->GetOutput();
+  const vtkSmartPointer<vtkPolyData> surface = smoothSurface(contour, notes);
   vtkNew<vtkMatrix4x4> toPatient;
   toPatient->DeepCopy(volume.toPatient);
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)

@@ -1,7 +1,8 @@
 #include "pipeline/formats/meta_image.h"
 
-#include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/inflate.h"
+#include "pipeline/formats/refuse.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,15 +10,12 @@
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <memory>
-#include <span>
 #include <sstream>
 #include <vector>
 #include <vtkByteSwap.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
-#include <zlib.h>
 
 namespace palp
 {
@@ -25,11 +23,6 @@ namespace
 {
 
 using Fields = std::map<std::string, std::string>;
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& message)
-{
-  throw Error(ErrorCode::BadFile, file.string() + ": " + message);
-}
 
 std::string trimmed(std::string_view text)
 {
@@ -188,65 +181,6 @@ void findData(const std::filesystem::path& file, const Fields& fields, std::uint
   }
 }
 
-[[noreturn]] void refuseCut(
-  const std::filesystem::path& file, std::uintmax_t there, std::uintmax_t needed)
-{
-  refuse(file,
-    "cut off, its data have " + std::to_string(there) + " of " + std::to_string(needed) +
-      " bytes; export or copy it again");
-}
-
-// all of the voxels from compressed bytes, with their checksum
-void inflateInto(std::span<unsigned char> voxels, std::ifstream& in, std::uintmax_t most,
-  const std::filesystem::path& file)
-{
-  z_stream stream{};
-  constexpr int eitherHeader = 32 + MAX_WBITS; // zlib's or gzip's
-  if (inflateInit2(&stream, eitherHeader) != Z_OK)
-  {
-    throw std::bad_alloc();
-  }
-  const std::unique_ptr<z_stream, decltype(&inflateEnd)> end(&stream, &inflateEnd);
-  std::vector<unsigned char> piece(1 << 18);
-  constexpr std::size_t step = 1U << 30; // zlib counts in 32 bits
-  std::size_t done = 0;
-  unsigned char beyond = 0;
-  int state = Z_OK;
-  while (state == Z_OK)
-  {
-    if (stream.avail_in == 0)
-    {
-      const auto size = static_cast<std::streamsize>(std::min<std::uintmax_t>(piece.size(), most));
-      in.read(reinterpret_cast<char*>(piece.data()), size);
-      most -= static_cast<std::uintmax_t>(in.gcount());
-      stream.next_in = piece.data();
-      stream.avail_in = static_cast<uInt>(in.gcount());
-      if (stream.avail_in == 0)
-      {
-        refuse(file, "cut off, its compressed data end too early; export or copy it again");
-      }
-    }
-    const bool full = done == voxels.size();
-    const auto room = static_cast<uInt>(full ? 1 : std::min(voxels.size() - done, step));
-    stream.next_out = full ? &beyond : voxels.data() + done;
-    stream.avail_out = room;
-    state = inflate(&stream, Z_NO_FLUSH);
-    done += room - stream.avail_out;
-    if (done > voxels.size())
-    {
-      refuse(file, "its compressed data hold more than its size says; export it again");
-    }
-  }
-  if (state != Z_STREAM_END)
-  {
-    refuse(file, "its compressed data are damaged, by their checksum; export or copy it again");
-  }
-  if (done < voxels.size())
-  {
-    refuseCut(file, done, voxels.size());
-  }
-}
-
 void readWords(vtkDataArray& voxels, std::ifstream& in, const std::filesystem::path& file)
 {
   vtkIdType count = 0;
@@ -327,10 +261,9 @@ vtkSmartPointer<vtkImageData> readMetaVolume(
   std::error_code failure;
   const std::uintmax_t all = std::filesystem::file_size(header.dataFile, failure);
   const std::uintmax_t there = all > header.begin ? all - header.begin : 0;
-  constexpr std::uintmax_t ratio = 1032; // the most that deflate can pack into a byte
   const auto voxel = static_cast<std::uintmax_t>(vtkDataArray::GetDataTypeSize(header.type));
   const std::uintmax_t needed = header.compressed
-    ? std::max(header.compressedSize, header.bytes / ratio)
+    ? std::max(header.compressedSize, header.bytes / kDeflateRatio)
     : header.text ? 2 * (header.bytes / voxel) - 1 // a digit and a blank
                   : header.bytes;
   if (failure || there < needed)

@@ -1,4 +1,4 @@
-#include "pipeline/formats/obj_format.h"
+#include "pipeline/formats/surface_readers.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"

@@ -1,4 +1,4 @@
-#include "pipeline/formats/off_format.h"
+#include "pipeline/formats/surface_readers.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
@@ -18,8 +18,8 @@ namespace palp
 namespace
 {
 
-// the keyword, which may share its line with the counts; texture, colors and normals of points are
-// skipped
+// the keyword, which may share its line with the counts; texture, colors and
+// normals of points are skipped
 void readKeyword(TextLines& lines)
 {
   std::string word(lines.word());

@@ -1,7 +1,8 @@
 #include "pipeline/formats/read_limits.h"
 
-#include "haptics/error.h"
 #include "pipeline/formats/image_formats.h"
+#include "pipeline/formats/inflate.h"
+#include "pipeline/formats/refuse.h"
 
 #include <algorithm>
 #include <string>
@@ -28,9 +29,8 @@ Sizes sizesOf(const std::filesystem::path& file)
   }
   const std::uintmax_t size = std::filesystem::file_size(file, missing);
   const std::uintmax_t claimed = claimedBytes(file);
-  constexpr std::uintmax_t ratio = 1032; // the most that deflate can pack into a byte
   const bool elsewhere = neededFiles(file).front() != file;
-  return { size, elsewhere || claimed / ratio <= size ? claimed : 0 };
+  return { size, elsewhere || claimed / kDeflateRatio <= size ? claimed : 0 };
 }
 
 std::uintmax_t mostMemory()
@@ -56,8 +56,8 @@ void checkFits(const std::filesystem::path& file)
 {
   if (const Sizes sizes = sizesOf(file); sizes.claimed > mostMemory())
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": an image of " + std::to_string(sizes.claimed >> 30) +
+    refuse(file,
+      "an image of " + std::to_string(sizes.claimed >> 30) +
         " GB, more than this machine's memory; take fewer voxels");
   }
 }

@@ -1,7 +1,8 @@
-#include "pipeline/formats/stl_format.h"
+#include "pipeline/formats/surface_readers.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/refuse.h"
 
 #include <algorithm>
 #include <cctype>
@@ -21,11 +22,6 @@ namespace palp
 {
 namespace
 {
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& message)
-{
-  throw Error(ErrorCode::BadFile, file.string() + ": " + message);
-}
 
 // words of a text in small letters, with the line of the last
 class Words
@@ -72,6 +68,24 @@ private:
   int line_ = 1;
 };
 
+// of one coordinate; 0 where the file ends in it
+double readCoordinate(Words& words, const std::filesystem::path& file)
+{
+  std::string word;
+  double x = 0.0;
+  const bool more = words.next(word);
+  const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
+  const auto [end, failure] = std::from_chars(begin, word.data() + word.size(), x);
+  if (more && !words.atEnd() &&
+    (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
+  {
+    throw Error(ErrorCode::BadMesh,
+      words.place(file) + ": " + inQuotes(word) +
+        " is not a usable number; repair or export the surface again");
+  }
+  return x;
+}
+
 vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
 {
   Words words(file);
@@ -98,16 +112,7 @@ vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
       double p[3];
       for (double& x : p)
       {
-        const bool more = words.next(word);
-        const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
-        const auto [end, failure] = std::from_chars(begin, word.data() + word.size(), x);
-        if (more && !words.atEnd() &&
-          (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
-        {
-          throw Error(ErrorCode::BadMesh,
-            words.place(file) + ": " + inQuotes(word) +
-              " is not a usable number; repair or export the surface again");
-        }
+        x = readCoordinate(words, file);
       }
       points->InsertNextPoint(p);
       ++corners;

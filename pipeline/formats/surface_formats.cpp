@@ -4,11 +4,9 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
-#include "pipeline/formats/obj_format.h"
-#include "pipeline/formats/off_format.h"
-#include "pipeline/formats/ply_format.h"
 #include "pipeline/formats/read_limits.h"
-#include "pipeline/formats/stl_format.h"
+#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/surface_readers.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
 
@@ -33,11 +31,6 @@ namespace palp
 {
 namespace
 {
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& message)
-{
-  throw Error(ErrorCode::BadFile, file.string() + ": " + message);
-}
 
 struct Format
 {

@@ -58,11 +58,6 @@ vtkSmartPointer<vtkPolyData> outerSurface(
   return outside->GetOutput();
 }
 
-} // namespace
-
-namespace
-{
-
 // VTK asks for the name of each component, for hours where a damaged count is believed
 void checkComponents(const std::filesystem::path& file, const std::string& tags)
 {

@@ -34,7 +34,7 @@ public:
   }
 
   /// @param time   [s], 0 or more and never less than before; samples that are not finite are left
-  /// out
+  ///               out
   /// @realtime     no allocation, no lock, no exception
   void add(double time, double value) noexcept
   {

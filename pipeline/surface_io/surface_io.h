@@ -48,8 +48,7 @@ struct LoadedSurface
 ///
 /// @param mesh    [m], triangles
 /// @param space   of the axes, as "LPS", which VTP holds in its field array SPACE as 3D Slicer
-/// does;
-///                empty: unknown
+///                does; empty: unknown
 /// @throws Error  BadFile: unknown ending, or the file cannot be written
 void writeSurface(
   const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space = "");

@@ -1,5 +1,5 @@
-#include "haptics/contact/contact.h"
 #include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/decimate.h"
 #include "haptics/units.h"

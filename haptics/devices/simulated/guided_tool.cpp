@@ -153,7 +153,8 @@ double GuidedTool::deepest(const Contact& contact) const noexcept
   {
     return goal_->depth;
   }
-  const double thickness = rayExit(*world_->surface, contact.center, -contact.normal).distance;
+  const double thickness =
+    rayExit(world_->surface->tree(), contact.center, -contact.normal).distance;
   return std::min(goal_->depth, 0.5 * thickness);
 }
 

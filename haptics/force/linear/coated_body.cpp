@@ -79,8 +79,8 @@ States onTop(const States& below, double kh, double nu, double modulus)
 }
 
 // Gauss points in k over the range in which the compliance is not yet that of a half-space: by
-// octaves, as sheets of all thicknesses show, and dense enough for the cosines of the widest
-// contact
+// octaves, as sheets of all thicknesses show, and dense enough for the
+// cosines of the widest contact
 Quadrature wavenumbers(double uppermost, double widest)
 {
   constexpr double deepest = 20.0; // 1 - L falls as exp(-2 k h), to 1e-15 here

@@ -17,8 +17,7 @@ namespace palp
 /// @param thickness   of the body without its coatings [m]: infinite, or down to the base; 0: the
 ///                    coatings lie on the base
 /// @return            [-]; 1 for a large k, E* of the uppermost over that of the body for a small
-/// one on
-///                    a half-space, 0 for a small one on a base
+///                    one on a half-space, 0 for a small one on a base
 /// @source            the general solution of plane strain in each sheet, joined from below; two
 ///                    sheets: Burmister 1943
 [[nodiscard]] double surfaceCompliance(double wavenumber, std::span<const Coating> coatings,
@@ -43,7 +42,7 @@ public:
 
   /// @param radius     a [m], 0 to the widest
   /// @param thickness  of the body with its coatings [m]; below them at least kThinnestBody is
-  /// taken
+  ///                   taken
   /// @return           phi, relative to a half-space of the body; slopes by the radius [1/m]
   /// @realtime         pure; no allocation, no lock, no exception
   [[nodiscard]] PunchSolution operator()(double radius, double thickness) const noexcept;

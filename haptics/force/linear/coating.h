@@ -23,8 +23,8 @@ class Coatings
 public:
   static constexpr std::size_t kMost = 4;
 
-  /// @throws Error  BadValue: one more than kMost, a thickness outside 10 um to 1 m, or as
-  ///                makeMaterial
+  /// @throws Error  BadValue: one more than kMost, a thickness outside 10 um
+  ///                to 1 m, or as makeMaterial
   void add(const Coating& coating);
 
   [[nodiscard]] std::span<const Coating> all() const noexcept

@@ -1,6 +1,6 @@
 #include "haptics/force/linear/contact_table.h"
 
-#include "haptics/force/linear/half_space.h"
+#include "haptics/force/linear/contact_depth.h"
 #include "haptics/numerics/monotone_cubic.h"
 #include "haptics/numerics/roots.h"
 

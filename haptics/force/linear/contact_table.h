@@ -33,11 +33,11 @@ public:
   /// @realtime     pure; no allocation, no lock, no exception
   [[nodiscard]] Entry operator()(double depth) const noexcept;
 
-  /// Depth at which the whole base is in contact; for a sphere where a is R but for 1e-9.
+  /// Depth at which the whole base is in contact; for a sphere where a is R but for 1e-9 [m].
   [[nodiscard]] double baseDepth() const noexcept
   {
     return baseDepth_;
-  } ///< [m]
+  }
 
 private:
   struct Row

@@ -1,8 +1,7 @@
 #include "haptics/force/linear/half_space.h"
 
+#include "haptics/force/linear/contact_depth.h"
 #include "haptics/numerics/roots.h"
-#include "haptics/tip/on_tip.h"
-#include "haptics/tip/profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,71 +11,6 @@ namespace palp
 {
 namespace
 {
-
-// a cone whose tip is a cap: the lengths that its formulas share
-struct CappedCone
-{
-  explicit CappedCone(const BluntConeTip& tip) noexcept
-    : rho(tip.tipRadius)
-    , b(rho * std::cos(tip.halfAngle))
-    , n(rho * std::sin(tip.halfAngle))
-  {
-  }
-
-  // sqrt(a^2 - b^2)
-  [[nodiscard]] double m(double a) const noexcept
-  {
-    return std::sqrt(std::max(0.0, (a - b) * (a + b)));
-  }
-
-  // depth / a beyond the cap
-  [[nodiscard]] double steepness(double a) const noexcept
-  {
-    return std::log((a + rho) / (m(a) + n)) + b / n * std::acos(std::min(1.0, b / a));
-  }
-
-  double rho; // of the cap [m]
-  double b;   // radius where cap and flank meet [m]
-  double n;   // height of the cap's center over that circle [m]; b / n = cot(alpha)
-};
-
-// g(a): depth at which the radius of contact is a
-
-double contactDepth(const SphereTip& tip, double a) noexcept
-{
-  return a * std::atanh(a / tip.radius);
-}
-
-double contactDepth(const ConeTip& tip, double a) noexcept
-{
-  return 0.5 * std::numbers::pi * a * cot(tip.halfAngle);
-}
-
-double contactDepth(const PunchTip&, double) noexcept
-{
-  return 0.0;
-}
-
-double contactDepth(const TruncatedConeTip& tip, double a) noexcept
-{
-  return a > tip.flatRadius ? a * cot(tip.halfAngle) * std::acos(tip.flatRadius / a) : 0.0;
-}
-
-double contactDepth(const BluntConeTip& tip, double a) noexcept
-{
-  const CappedCone cone(tip);
-  return a > cone.b ? a * cone.steepness(a) : contactDepth(SphereTip{ cone.rho }, a);
-}
-
-double contactDepth(const ParaboloidTip& tip, double a) noexcept
-{
-  return a * a / tip.radius;
-}
-
-double contactDepth(const ProfileTip& tip, double a) noexcept
-{
-  return tip.profile->contactDepth(a);
-}
 
 // the answer before the base is in contact
 
@@ -165,11 +99,6 @@ LinearContact respond(const ContactTable& table, double depth) noexcept
 }
 
 } // namespace
-
-double contactDepth(const Tip& tip, double radius) noexcept
-{
-  return onTip(tip, [radius](const auto& shape) { return contactDepth(shape, radius); });
-}
 
 HalfSpace::HalfSpace(const Tip& tip)
   : tip_(tip)

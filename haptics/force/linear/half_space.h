@@ -8,14 +8,6 @@
 namespace palp
 {
 
-/// Depth at which the circle of contact with a half-space reaches a radius: g(a) of the method
-/// of dimensionality reduction.
-///
-/// @param radius  a [m], 0 to the base radius
-/// @return        [m]; infinite at the equator of a sphere
-/// @source        Sneddon 1965; blunt cone: Ciavarella 1999
-[[nodiscard]] double contactDepth(const Tip& tip, double radius) noexcept;
-
 /// What a linear body with a contact modulus of 1 answers.
 struct LinearContact
 {

@@ -1,5 +1,7 @@
 #include "haptics/force/linear/layer_contact.h"
 
+#include "haptics/force/linear/contact_depth.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

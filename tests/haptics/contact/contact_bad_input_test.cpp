@@ -1,4 +1,4 @@
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 

@@ -105,8 +105,8 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
 }
 
 // The claim the depth rests on: h^2 = Q - 3/2 square / weight on a sphere of any radius. Along the
-// mean normal, a ball about a body's whole side (0.6 about one of radius 0.7) is no such part of
-// it.
+// mean normal, a ball about a body's whole side (0.6 about one of radius
+// 0.7) is no such part of it.
 TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
 {
   const double height = 0.3;

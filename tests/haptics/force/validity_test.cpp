@@ -1,7 +1,7 @@
 #include "haptics/force/validity.h"
 
-#include "haptics/contact/contact.h"
 #include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 

@@ -42,8 +42,8 @@ INSTANTIATE_TEST_SUITE_P(Coupling, AnyLaw,
   ::testing::Values(PowerLaw{ 7.48e3, 1.5 }, PowerLaw{ 1e6, 1.5 }, PowerLaw{ 1e9, 2.0 },
     PowerLaw{ 500.0, 1.0 }, PowerLaw{ 5e3, 1.0 }, PowerLaw{ 1e12, 1.0 }));
 
-// the largest force nowhere stiffer than K and nowhere above the law: min over s of F(s) + K (d -
-// s)
+// the largest force nowhere stiffer than K and nowhere above the law: min
+// over s of F(s) + K (d - s)
 TEST_P(AnyLaw, IsTheLargestForceThatADeviceMayRender)
 {
   constexpr double kLimit = 1400.0;

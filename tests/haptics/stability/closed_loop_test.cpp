@@ -126,8 +126,8 @@ TEST_P(ThroughTheChain, AnyStiffnessBehavesAsAWallThatTheDeviceCanRender)
   }
 }
 
-// not only stable: the very motion of a wall as stiff as may be, until a limit of force or rate
-// acts
+// not only stable: the very motion of a wall as stiff as may be, until a
+// limit of force or rate acts
 TEST(ClosedLoop, AnyStiffnessMovesAsTheCappedWallDoes)
 {
   for (const double stiffness : { 34e3, 1e9, kInf })

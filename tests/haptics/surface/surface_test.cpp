@@ -91,8 +91,9 @@ TEST(Surface, SignedDistanceIsThatOfTheBlock)
 TEST(Surface, FarSideOfABlockIsItsThickness)
 {
   const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.03 }, 9));
-  EXPECT_NEAR(rayExit(block, { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()).distance, 0.03, 1e-12);
-  EXPECT_EQ(rayExit(block, { 0.0, 0.2, 0.0 }, -Eigen::Vector3d::UnitZ()).distance,
+  EXPECT_NEAR(
+    rayExit(block.tree(), { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()).distance, 0.03, 1e-12);
+  EXPECT_EQ(rayExit(block.tree(), { 0.0, 0.2, 0.0 }, -Eigen::Vector3d::UnitZ()).distance,
     std::numeric_limits<double>::infinity());
 }
 
@@ -133,7 +134,7 @@ TEST(Surface, FarSideHasNoGapsBetweenItsTriangles)
           {
             const double thickness = (below - above).norm();
             const double found =
-              rayExit(surface, placed(above), (placed(below) - placed(above)).normalized())
+              rayExit(surface.tree(), placed(above), (placed(below) - placed(above)).normalized())
                 .distance;
             missed += std::abs(found - thickness) < 1e-9 ? 0 : 1;
           }

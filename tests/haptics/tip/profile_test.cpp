@@ -1,6 +1,7 @@
 #include "haptics/tip/profile.h"
 
 #include "haptics/error.h"
+#include "haptics/force/linear/contact_depth.h"
 #include "haptics/force/linear/half_space.h"
 #include "haptics/units.h"
 #include "tests/support/process.h"

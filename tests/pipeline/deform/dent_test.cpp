@@ -30,8 +30,8 @@ INSTANTIATE_TEST_SUITE_P(Dent, AnyTip,
   ::testing::Values(Tip{ SphereTip{ 10.0_mm } }, Tip{ ConeTip{ 45.0_deg, 10.0_mm } },
     Tip{ ConeTip{ 30.0_deg, 6.0_mm } }, Tip{ PunchTip{ 5.0_mm } }));
 
-// on a plane, Fig. 5(b) to the letter: tool inside r, the curve of P0, P1, P2 up to R_d, rest
-// beyond
+// on a plane, Fig. 5(b) to the letter: tool inside r, the curve of P0,
+// P1, P2 up to R_d, rest beyond
 TEST_P(AnyTip, OnAPlaneIsTheToolAndTheBezierRing)
 {
   const double depth = 3.0_mm;

@@ -2,6 +2,7 @@
 
 #include "calibration/tables/extent_table.h"
 #include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/tip/profile.h"
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"

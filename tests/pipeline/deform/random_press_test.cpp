@@ -1,6 +1,6 @@
 #include "pipeline/deform/dent.h"
 
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/force/force_law.h"
 #include "pipeline/deform/dent_patch.h"
 #include "tests/pipeline/deform/press_cases.h"

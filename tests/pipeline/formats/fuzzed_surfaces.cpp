@@ -1,7 +1,7 @@
 #include "tests/pipeline/formats/fuzzed_surfaces.h"
 
 #include "data/shapes.h"
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "pipeline/formats/surface_formats.h"

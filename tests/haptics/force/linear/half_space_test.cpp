@@ -1,5 +1,6 @@
 #include "haptics/force/linear/half_space.h"
 
+#include "haptics/force/linear/contact_depth.h"
 #include "haptics/units.h"
 #include "tests/haptics/force/reference_table.h"
 #include "tests/haptics/force/tips.h"

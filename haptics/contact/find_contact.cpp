@@ -1,4 +1,4 @@
-#include "haptics/contact/contact.h"
+#include "haptics/contact/find_contact.h"
 
 #include "haptics/contact/paper_contact.h"
 #include "haptics/contact/patch.h"
@@ -57,12 +57,9 @@ double contactRadius(const Tip& tip, double nose, double distance) noexcept
   return std::min(std::min(slope, 1.0) * depth, baseRadius(tip));
 }
 
-// Distance to the surface that the facets stand for.
-//
-// On a plane, and on a sphere of any radius, the area within a distance sqrt(q) grows evenly with
-// q - h^2, so that w = Q - q has the means 1/2 and 1/3 of Q - h^2 and of its square, whatever the
-// curvature: h^2 = Q - 3/2 square / weight, which has no corner where a triangle leaves the ball.
-// Both are taken along the mean normal, so that a wall behind does not count as more of the same.
+// Distance to the surface that the facets stand for: on planes and spheres w = Q - q has the means
+// 1/2 and 1/3 of Q - h^2 and of its square, so h^2 = Q - 3/2 square / weight, without a corner
+// where a triangle leaves the ball. Along the mean normal, so that a wall behind does not count.
 double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
 {
   const double reached = 1.5 * patch.square.dot(patch.normal) / patch.normal.squaredNorm();

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "haptics/contact/contact.h"
+#include "haptics/pose.h"
+#include "haptics/surface/surface.h"
+#include "haptics/tip/tip.h"
+
+namespace palp
+{
+
+/// How the depth is measured.
+enum class ContactRule
+{
+  Exact, ///< to the triangles: contact starts at depth > 0 whatever the mesh
+  Paper, ///< Sec. 4.1: mesh points inside the tool, depth from their center
+};
+
+/// Where and how deep the tool is in the undeformed surface.
+///
+/// depth is how far the tool's deepest point along the contact normal lies below the surface
+/// (sphere: R minus the distance from its center to the surface; cone: its apex). Exact: the
+/// distance to the triangles, from which the facets are smoothed out over 1.8 edge lengths, but
+/// never beyond the contact itself. So it is a continuous function of the pose, starts where the
+/// tool touches a triangle, and is that of the true plane or sphere under a mesh of one.
+///
+/// Two lobes at once share the normal and, where they press against each other, fade the depth.
+/// A tool whose reference point is inside a body is pushed out the nearest way; where a triangle is
+/// turned over, those about it say what is inside. An open sheet is pressed from its front only, by
+/// tools whose axis points against its normal.
+///
+/// @param surface  undeformed
+/// @param tip      checked
+/// @param pose     axis of unit length; a value that is not finite gives no contact
+/// @source         Sec. 4.1
+/// @realtime       pure; no allocation, no lock, no exception
+[[nodiscard]] Contact findContact(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept;
+
+} // namespace palp
