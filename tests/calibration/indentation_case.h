@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace palp::fem
 {
@@ -35,6 +36,23 @@ inline Case paperCase(Energy energy = Energy::NeoHookean)
 inline Tip cappedCone()
 {
   return BluntConeTip{ .halfAngle = 45.0_deg, .tipRadius = 0.3_mm, .baseRadius = 10.0_mm };
+}
+
+/// Hertz's force on a half-space under a paraboloid [N].
+inline double hertzForce(const Case& study, double radius, double depth)
+{
+  return 4.0 / 3.0 * study.material.contactModulus() * std::sqrt(radius) * std::pow(depth, 1.5);
+}
+
+/// Force on a linear layer under a paraboloid over Hertz's, to the third order of chi.
+/// @param chi  contact radius over thickness, of the half-space [-]
+/// @param m0   and m2: integrals of the layer, by Poisson's ratio and base [-]
+inline double layerFactor(double chi, double m0, double m2)
+{
+  constexpr double pi = std::numbers::pi;
+  return 1.0 + 2.0 / pi * m0 * chi + 14.0 / (3.0 * pi * pi) * m0 * m0 * chi * chi +
+    (5.0 * std::pow(4.0 / (3.0 * pi), 3) * std::pow(m0, 3) - 8.0 / (15.0 * pi) * m2) *
+    std::pow(chi, 3);
 }
 
 inline Outcome completed(const Case& study)

@@ -1,55 +1,12 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <random>
-#include <string>
-#include <vector>
+#include "tests/support/damage.h"
+#include "tests/support/fates.h"
+
+#include <cstddef>
 
 namespace palp::test
 {
-
-using Random = std::mt19937_64;
-
-/// A single fault whose cause is known.
-struct Fault
-{
-  const char* name;
-  /// @return  the damaged file; nothing where this file has no place for such a fault
-  std::function<std::optional<std::string>(const std::string& whole, Random&)> make;
-  std::string words;   ///< regular expression; a sentence that names the cause has a match of it
-  bool refused = true; ///< whether such a file must be refused
-  bool packed = false; ///< done to the file as it is stored, not to what it holds
-};
-
-/// A kind of file, how it is read, and what may be wrong with it.
-struct Fuzzed
-{
-  std::string file;               ///< its name, with the ending
-  std::vector<std::string> whole; ///< files that are read without complaint
-  std::vector<Fault> faults;
-  /// Runs where a crash is contained; its result goes to take. Null: take gets the file's name.
-  std::function<std::string(const std::filesystem::path&)> read;
-  /// Runs where nothing may go wrong.
-  std::function<void(const std::string&)> take;
-  std::function<std::string(const std::string&)> pack{}; ///< of the content, for storing
-};
-
-/// What became of the damaged files of a kind.
-struct Fates
-{
-  int count = 0;
-  int read = 0;
-  int refused = 0;
-  int crashed = 0;                  ///< the reader; told as a refusal
-  int known = 0;                    ///< refused files whose one fault is known
-  int named = 0;                    ///< of these, those whose sentence names it
-  double longest = 0.0;             ///< [s] of processor time
-  double peak = 0.0;                ///< [GB] of memory
-  std::vector<std::string> wrong;   ///< what must not be, a line each
-  std::vector<std::string> unnamed; ///< known faults with another sentence, some of them
-};
 
 /// Reads damaged files, many in one forked process, which is replaced after a crash; a file that
 /// ends it is tried again, its reading and its taking each in a process of its own.
@@ -58,23 +15,5 @@ struct Fates
 /// @param memory  [bytes] that a reading of this size may take
 /// @param time    [s] of processor time that it may take
 [[nodiscard]] Fates fuzz(const Fuzzed& kind, int count, std::size_t memory, double time);
-
-/// Prints a line of figures, and fails where 5 s, 1 GB, or 95 % of named causes are missed.
-void expectGoodFates(const Fuzzed& kind, const Fates& fates);
-
-// Faults that several kinds have.
-
-[[nodiscard]] Fault cutOff(std::string words, std::size_t shortest, bool refused = true);
-
-/// One match of a pattern, chosen by chance, becomes another text.
-[[nodiscard]] Fault replaced(const char* name, const std::string& pattern, const std::string& by,
-  std::string words, bool refused = true);
-
-/// Bytes at a place, chosen by chance among count of them that are a step apart, are overwritten.
-[[nodiscard]] Fault overwritten(const char* name, std::size_t at, std::size_t step,
-  std::size_t count, const std::string& by, std::string words, bool refused = true);
-
-/// The content of another kind of file under this name.
-[[nodiscard]] Fault foreign(const std::string& content, std::string words);
 
 } // namespace palp::test

@@ -1,13 +1,221 @@
-#include "tests/app/input/fuzzed_texts.h"
+#include "app/commands/calibrate_case.h"
+#include "app/input/force_curve.h"
+#include "app/input/scene_file.h"
+#include "app/input/tip_text.h"
+#include "calibration/tables/extent_table.h"
+#include "calibration/tables/surface_table.h"
+#include "haptics/devices/simulated/scripted_path.h"
+#include "haptics/error.h"
+#include "haptics/force/force_law.h"
+#include "haptics/force/large_strain.h"
+#include "pipeline/deform/fitted_surfaces.h"
+#include "tests/support/fuzz.h"
+#include "tests/support/process.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <gtest/gtest.h>
-
-// some hundred damaged files of each kind; text_fuzz_slow_test takes many
+#include <iterator>
+#include <stdexcept>
 
 namespace palp::test
 {
 namespace
 {
+
+void expectFinite(double value)
+{
+  if (!std::isfinite(value))
+  {
+    throw std::runtime_error("a number that is not finite came through");
+  }
+}
+
+void takePath(const std::string& file)
+{
+  const ScriptedPath path = readPath(file);
+  for (int i = 0; i <= 20; ++i)
+  {
+    const ToolPose pose =
+      path.poseAt(path.startTime() + 0.05 * i * path.duration(), -Eigen::Vector3d::UnitZ());
+    expectFinite(pose.apex.norm() + pose.axis.norm());
+  }
+}
+
+void takeProfile(const std::string& file)
+{
+  const ForceLaw law(parseTip("profile:" + file), { 50e3, 0.33 }, { .mode = LawMode::Exact });
+  for (int i = 1; i <= 20; ++i)
+  {
+    expectFinite(law({ .depth = 0.0005 * i }).force);
+  }
+}
+
+void takeCurve(const std::string& file)
+{
+  const ReferenceCurve curve = readForceCurve(file);
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+  {
+    expectFinite(curve.x[i] + curve.y[i]);
+  }
+}
+
+void takeExtents(const std::string& file)
+{
+  const ExtentTable table = ExtentTable::read(file);
+  for (int i = 0; i <= 20; ++i)
+  {
+    expectFinite(table.extentRadius(0.001 * i));
+  }
+}
+
+void takeSurfaces(const std::string& file)
+{
+  (void)FittedSurfaces::read(file);
+}
+
+void takeScene(const std::string& file)
+{
+  (void)readScene(file);
+}
+
+void takeSweep(const std::string& file)
+{
+  (void)readSweep(file, {});
+}
+
+const std::string kData = PALP_SOURCE_DIR "/data/";
+const std::string kNumber = "not a number|not numbers|not finite|finite number";
+
+std::vector<Fault> tableFaults()
+{
+  const std::string columns = "columns|column";
+  const std::string header = "header|column|not a number";
+  return { replaced("word", "(\n)[0-9.]+(,)", "$01one$2", kNumber),
+    replaced("NaN", "(\n[0-9.]+,)[-0-9.e]+", "$01nan", kNumber),
+    replaced("infinite", "(\n[0-9.]+,)[-0-9.e]+", "$01inf", kNumber),
+    replaced("row too short", "(\n[-0-9.e]+),[-0-9.e]+", "$1", columns + "|" + header),
+    replaced("row too long", "(\n[-0-9.e]+)(,[-0-9.e]+)", "$1$2$2", columns),
+    foreign("solid corner\nfacet normal 0 0 1\n", "header|not a number|column") };
+}
+
+std::vector<Fuzzed> fuzzedTables()
+{
+  const std::vector<Fault> ofTables = tableFaults();
+  std::vector<Fault> ofCurves = ofTables; // columns that nobody asks for may be infinite
+  ofCurves[1] = replaced("NaN", ",[0-9.]+\n", ",nan\n", kNumber);
+  ofCurves[2] = replaced("infinite", ",[0-9.]+\n", ",inf\n", kNumber);
+  const auto with = [&](Fault fault)
+  {
+    std::vector<Fault> faults = ofTables;
+    faults.push_back(std::move(fault));
+    return faults;
+  };
+  const std::string recording =
+    "# palp\ntime_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z,depth_mm,force_N\n"
+    "0,0,0,2,0,0,-1,0,0\n0.5,0,0,0,0,0,-1,1,0.5\n1,0,0,-2,0,0,-1,2,1.4\n";
+  const Fault order =
+    replaced("order", "\n(0\\.5|1|1\\.0|2\\.4),", "\n-3,", "increase|order|ascend");
+  const std::string profile = "radius_mm,height_mm\n0,0\n1,0.05\n2,0.21\n3,0.5\n4,0.9\n5,1.5\n";
+  return { { .file = "path.csv",
+             .whole = { readAll(kData + "paths/block_press.csv"), "0,0,0,2\n1,0,0,-1\n2,0,0,1\n" },
+             .faults = with(order),
+             .read = {},
+             .take = takePath },
+    { .file = "samples.csv",
+      .whole = { recording },
+      .faults = with(order),
+      .read = {},
+      .take = takePath },
+    { .file = "curve.csv",
+      .whole = { recording, "depth_mm,force_N\n0,0\n1,0.5\n2,1.4\n" },
+      .faults = ofCurves,
+      .read = {},
+      .take = takeCurve },
+    { .file = "profile.csv",
+      .whole = { profile },
+      .faults = with(replaced("order", "\n2,", "\n9,", "increase|order|turns inward")),
+      .read = {},
+      .take = takeProfile },
+    { .file = "extents.csv",
+      .whole = { readAll(kData + "tables/sphere_r10_h50.csv") },
+      .faults = ofTables,
+      .read = {},
+      .take = takeExtents },
+    { .file = "surface.csv",
+      .whole = { readAll(kData + "tables/sphere_r10_h50_surface.csv") },
+      .faults = ofTables,
+      .read = {},
+      .take = takeSurfaces } };
+}
+
+std::vector<Fuzzed> fuzzedJson()
+{
+  const std::string scene = readAll(kData + "scenes/liver_coated.json");
+  const std::vector<Fault> ofJson{ cutOff("line [0-9]+, column|parse|not a list", 2),
+    replaced("comma", "\",(\\s)", "\";$1", "line [0-9]+, column|not a list"),
+    foreign("time_s,x_mm\n0,1\n", "line [0-9]+, column|not a list") };
+  std::vector<Fault> ofScenes = ofJson;
+  ofScenes.push_back(replaced(
+    "key", "\"(tool|law|dent|device|meshes|tissue)\"", "\"x$1\"", "unknown key|at least one"));
+  ofScenes.push_back(replaced("type", "(\"tool\": )\"[^\"]*\"", "$1[1]", "must be a text"));
+  ofScenes.push_back(replaced("version", "(\"palp_scene\": )1", "$012", "palp_scene"));
+  ofScenes.push_back(replaced("unit", "kPa\"", "kPq\"", "/tissue"));
+  ofScenes.push_back(replaced("tool", "\"sphere", "\"spore", "/tool"));
+  const std::string sweep =
+    R"([{"name": "soft", "young": "5kPa"}, {"name": "hard", "young": "80kPa", "tip": "cone:45deg:10mm"}])";
+  std::vector<Fault> ofSweeps = ofJson;
+  ofSweeps.push_back(replaced("key", "young", "old", "no setting"));
+  ofSweeps.push_back(replaced("name", "\"hard\"", "\"../hard\"", "no folder can have"));
+  ofSweeps.push_back(replaced("twice", "\"hard\"", "\"soft\"", "another"));
+  ofSweeps.push_back(replaced("type", "\"5kPa\"", "5", "no text"));
+  return {
+    { .file = "scene.json",
+      .whole = { scene, readAll(kData + "scenes/thin_lobe.json") },
+      .faults = ofScenes,
+      .read = {},
+      .take = takeScene },
+    { .file = "sweep.json", .whole = { sweep }, .faults = ofSweeps, .read = {}, .take = takeSweep }
+  };
+}
+
+// every kind of text that the program reads itself.
+const std::vector<Fuzzed>& fuzzedTexts()
+{
+  static const std::vector<Fuzzed> all = []
+  {
+    std::vector<Fuzzed> every = fuzzedTables();
+    std::ranges::move(fuzzedJson(), std::back_inserter(every));
+    return every;
+  }();
+  return all;
+}
+
+constexpr std::size_t kFuzzedTexts = 8;
+
+std::string fuzzedTextName(std::size_t which)
+{
+  std::string name = fuzzedTexts()[which].file;
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
+
+// PALP_FUZZ sets another count.
+void fuzzText(std::size_t which, int count)
+{
+  const Fuzzed& kind = fuzzedTexts()[which];
+  const char* asked = std::getenv("PALP_FUZZ");
+  constexpr std::size_t memory = 1U << 30;
+  constexpr double time = 5.0; // [s]
+  expectGoodFates(kind, fuzz(kind, asked ? std::atoi(asked) : count, memory, time));
+}
+
+#ifdef PALP_SLOW
+constexpr int kFiles = 100'000; // damaged ones of each kind
+#else
+constexpr int kFiles = 200;
+#endif
 
 class Fuzz : public testing::TestWithParam<std::size_t>
 {
@@ -17,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(Texts, Fuzz, testing::Range<std::size_t>(0, kFuzzedText
 
 TEST_P(Fuzz, EndsAsNumbersOrATrueSentence)
 {
-  fuzzText(GetParam(), 200);
+  fuzzText(GetParam(), kFiles);
 }
 
 } // namespace

@@ -20,6 +20,7 @@
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
 #include <vtkRenderWindow.h>
+#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
@@ -96,7 +97,7 @@ TEST(ExtentPlot, FitsAQuadraticExactly)
   }
 }
 
-TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
+vtkSmartPointer<vtkPalpDeformFilter> pressedPlane()
 {
   vtkNew<vtkPlaneSource> source;
   source->SetOrigin(-30.0_mm, -30.0_mm, 0.0);
@@ -105,10 +106,16 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
   source->SetResolution(60, 60);
   vtkNew<vtkTriangleFilter> triangles;
   triangles->SetInputConnection(source->GetOutputPort());
-  vtkNew<vtkPalpDeformFilter> filter;
+  auto filter = vtkSmartPointer<vtkPalpDeformFilter>::New();
   filter->SetInputConnection(triangles->GetOutputPort());
   filter->GeneratePatchOn();
   filter->SetPatchLevel(2);
+  return filter;
+}
+
+TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
+{
+  const auto filter = pressedPlane();
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const Press press =
     test::pressAt(Eigen::Vector3d::Zero(), up, SphereTip{ 10.0_mm }, 4.0_mm, 18.0_mm);

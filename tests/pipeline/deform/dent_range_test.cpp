@@ -1,29 +1,142 @@
-#include "tests/pipeline/deform/dent_range.h"
+#include "haptics/tip/profile.h"
+#include "haptics/units.h"
+#include "tests/pipeline/deform/presser.h"
 
-namespace palp
+#include <gtest/gtest.h>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace palp::test
 {
 namespace
 {
 
-using namespace test;
+struct NamedTip
+{
+  std::string name;
+  Tip tip;
+  bool isFitted = false; // to finite elements of this shape
+};
 
-// a part of what dent_range_slow_test tries
+std::vector<NamedTip> everyTip()
+{
+  std::vector<Profile::Point> egg;
+  for (const double r : { 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0 })
+  {
+    egg.push_back({ r * 1.0_mm, (0.08 * r * r + 0.002 * r * r * r * r) * 1.0_mm });
+  }
+  return { { "sphere_10", SphereTip{ 10.0_mm }, true }, { "sphere_4", SphereTip{ 4.0_mm }, true },
+    { "cone_45", ConeTip{ 45.0_deg, 10.0_mm }, true }, { "cone_60", ConeTip{ 60.0_deg, 6.0_mm } },
+    { "punch", PunchTip{ 5.0_mm } }, { "truncated", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm } },
+    { "blunt", BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm } },
+    { "paraboloid", ParaboloidTip{ 8.0_mm } },
+    { "profile", ProfileTip{ std::make_shared<const Profile>(egg) } } };
+}
+
+// A tool, a body, a law and a picture.
+struct RangeCase
+{
+  NamedTip tip;
+  std::string body;
+  std::string law;
+  std::string surface;
+};
+
+std::string nameOf(const RangeCase& with)
+{
+  return with.tip.name + "_" + with.body + "_" + with.law + "_" + with.surface;
+}
+
+void PrintTo(const RangeCase& with, std::ostream* out)
+{
+  *out << nameOf(with);
+}
+
+std::vector<RangeCase> rangeCases(
+  const std::vector<std::string>& bodies, const std::vector<std::string>& laws)
+{
+  std::vector<RangeCase> all;
+  for (const NamedTip& tip : everyTip())
+  {
+    for (const std::string& body : bodies)
+    {
+      for (const std::string& law : laws)
+      {
+        all.push_back({ tip, body, law, "paper" });
+        if (tip.isFitted)
+        {
+          all.push_back({ tip, body, law, "fitted" });
+        }
+      }
+    }
+  }
+  return all;
+}
+
+void expectSound(const Findings& findings)
+{
+  EXPECT_LE(findings.inside.value, 1.0_um) << findings.inside.where;
+  EXPECT_LE(findings.rise.value, 2.0_um) << findings.rise.where;
+  EXPECT_LE(findings.jump.value, 20.0_um) << findings.jump.where;
+  EXPECT_LE(findings.wall.value, 1.3) << findings.wall.where;
+}
+
+// From 0.02 to 2 base radii.
+// step:  of the depth [-] of the base radius
+void pressDeeper(const RangeCase& with, double step)
+{
+  Presser presser(bodyOf(with.body), with.tip.tip, with.law, with.surface);
+  Findings findings;
+  for (double share = 0.02; share < 2.0 + 0.5 * step; share += step)
+  {
+    presser.press(share * baseRadius(with.tip.tip), 0.0, findings);
+  }
+  expectSound(findings);
+}
+
+// By steps of 0.02 mm at three depths.
+void slide(const RangeCase& with, int steps)
+{
+  for (const double share : { 0.4, 0.9, 1.5 })
+  {
+    Presser presser(bodyOf(with.body), with.tip.tip, with.law, with.surface);
+    Findings findings;
+    for (int i = 0; i <= steps; ++i)
+    {
+      presser.press(share * baseRadius(with.tip.tip), 0.02_mm * i, findings);
+    }
+    expectSound(findings);
+  }
+}
+
+#ifdef PALP_SLOW // every tool, body, law and picture
+const auto kCases =
+  rangeCases({ "block", "ball", "liver", "coarse" }, { "paper", "exact", "corrected" });
+constexpr double kStep = 0.01;
+constexpr int kSlides = 200;
+#else
+const auto kCases = rangeCases({ "block", "ball" }, { "paper" });
+constexpr double kStep = 0.03;
+constexpr int kSlides = 10;
+#endif
+
 class DentRange : public ::testing::TestWithParam<RangeCase>
 {
 };
-INSTANTIATE_TEST_SUITE_P(Dent, DentRange,
-  ::testing::ValuesIn(rangeCases({ "block", "ball" }, { "paper" })),
+INSTANTIATE_TEST_SUITE_P(Dent, DentRange, ::testing::ValuesIn(kCases),
   [](const auto& with) { return nameOf(with.param); });
 
 TEST_P(DentRange, PressingDeeper)
 {
-  pressDeeper(GetParam(), 0.03);
+  pressDeeper(GetParam(), kStep);
 }
 
 TEST_P(DentRange, Sliding)
 {
-  slide(GetParam(), 10);
+  slide(GetParam(), kSlides);
 }
 
 } // namespace
-} // namespace palp
+} // namespace palp::test

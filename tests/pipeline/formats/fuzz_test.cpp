@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
-// some hundred damaged files of each kind; fuzz_slow_test takes many
-
 namespace palp::test
 {
 namespace
 {
+
+#ifdef PALP_SLOW
+constexpr int kFiles = 100'000; // damaged ones of each kind
+#else
+constexpr int kFiles = 200;
+#endif
 
 class Fuzz : public testing::TestWithParam<std::size_t>
 {
@@ -17,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Fuzz, testing::Range<std::size_t>(0, kFuzzedSurf
 
 TEST_P(Fuzz, EndsAsASurfaceOrATrueSentence)
 {
-  fuzzSurface(GetParam(), 200);
+  fuzzSurface(GetParam(), kFiles);
 }
 
 } // namespace

@@ -1,0 +1,172 @@
+#include "tests/pipeline/formats/fuzzed_parts.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNIFTIImageWriter.h>
+#include <vtkPointData.h>
+#include <vtkXMLImageDataWriter.h>
+#include <zlib.h>
+
+namespace palp::test
+{
+namespace
+{
+
+constexpr int kSide = 10; // voxels
+
+// distance to a ball [mm]
+vtkSmartPointer<vtkImageData> ballImage()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(kSide, kSide, kSide);
+  image->SetSpacing(5.0, 5.0, 6.0);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  const Eigen::Vector3d center(22.0, 23.0, 27.0);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double distance = (Eigen::Vector3d(image->GetPoint(i)) - center).norm() - 15.0;
+    image->GetPointData()->GetScalars()->SetComponent(i, 0, distance);
+  }
+  return image;
+}
+
+constexpr std::size_t kVoxelBytes = kSide * kSide * kSide * sizeof(float);
+
+} // namespace
+
+std::string voxelBytes()
+{
+  return { static_cast<const char*>(ballImage()->GetScalarPointer()), kVoxelBytes };
+}
+
+namespace
+{
+
+std::string deflated(const std::string& bytes, int windowBits)
+{
+  z_stream stream{};
+  deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, windowBits, 8, Z_DEFAULT_STRATEGY);
+  std::string packed(deflateBound(&stream, bytes.size()) + 64, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+std::string zipped(const std::string& bytes)
+{
+  return deflated(bytes, MAX_WBITS + 16);
+}
+
+std::string metaHeader(const std::string& more, const std::string& data)
+{
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n" +
+    more +
+    "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 5 5 6\n"
+    "DimSize = 10 10 10\nElementType = MET_FLOAT\nElementDataFile = " +
+    data + "\n";
+}
+
+std::vector<Fuzzed> metaKinds()
+{
+  const std::string raw = metaHeader("CompressedData = False\n", "LOCAL") + voxelBytes();
+  const std::string packed = deflated(voxelBytes(), MAX_WBITS);
+  const std::string compressed =
+    metaHeader(
+      "CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size()) + "\n",
+      "LOCAL") +
+    packed;
+  const std::vector<Fault> header{ cutOff(kCut, 60),
+    replaced("size", "(DimSize = )[0-9]+", "$01999", kCount),
+    replaced("no size", "(DimSize = )[0-9]+", "$01-1", "DimSize"),
+    replaced("size in words", "(DimSize = )[0-9]+", "$01ten", "DimSize"),
+    replaced("type", "MET_FLOAT", "MET_REAL", "ElementType"),
+    replaced("spacing", "(ElementSpacing = )[0-9]+", "$010", "ElementSpacing"),
+    replaced("turned", "(TransformMatrix = )1 0", "$010 1", "turned"),
+    replaced("dimensions", "(NDims = )3", "$012", "dimensions"),
+    replaced("no offset", "(Offset = )0", "$01nan", "Offset"), foreign(offText(), kKind) };
+  std::vector<Fault> ofData = header;
+  const std::size_t begin = compressed.size() - packed.size();
+  ofData.push_back({ "checksum",
+    [=](const std::string& whole, Random& random) -> std::optional<std::string>
+    {
+      if (whole != compressed)
+      {
+        return std::nullopt;
+      }
+      std::string text = whole;
+      std::uniform_int_distribution<std::size_t> place(begin + 2, whole.size() - 5);
+      text[place(random)] ^= 1;
+      return text;
+    },
+    "checksum|compressed data" });
+  Fuzzed beside = image("ball.mhd", { metaHeader("", "voxels.raw") }, header);
+  beside.read = [](const std::filesystem::path& file)
+  {
+    const std::filesystem::path voxels = file.parent_path() / "voxels.raw";
+    if (!std::filesystem::exists(voxels))
+    {
+      std::ofstream(voxels, std::ios::binary) << voxelBytes();
+    }
+    return readImageBytes(file);
+  };
+  beside.faults.push_back(replaced("name", "(ElementDataFile = )voxels", "$1pixels", "beside"));
+  return { image("ball.mha", { raw, compressed }, ofData), beside };
+}
+
+std::vector<Fuzzed> otherImages()
+{
+  const auto data = ballImage();
+  const auto vti = [&](auto set) { return written<vtkXMLImageDataWriter>("a.vti", *data, set); };
+  const std::string nifti = written<vtkNIFTIImageWriter>("a.nii", *data, [](auto&) {});
+  const std::vector<Fault> ofNifti{ cutOff(kCut, 10),
+    overwritten("size", 42, 2, 3, bytesOf(std::int16_t{ 999 }), kCount),
+    overwritten("negative size", 42, 2, 3, bytesOf(std::int16_t{ -5 }), kCount),
+    overwritten("type", 70, 2, 1, bytesOf(std::int16_t{ 999 }), "datatype"),
+    overwritten("slope", 112, 4, 1, bytesOf(kNan), "scl_slope"),
+    overwritten("magic", 344, 4, 1, "abcd", "NIfTI"), foreign(offText(), "NIfTI") };
+  Fuzzed packed = image("ball.nii.gz", { nifti }, ofNifti);
+  packed.pack = zipped;
+  packed.faults.front().packed = true; // cut as it is stored
+  packed.faults.push_back({ "checksum",
+    [](const std::string& whole, Random& random)
+    {
+      std::string text = whole;
+      std::uniform_int_distribution<std::size_t> place(12, whole.size() - 9);
+      text[place(random)] ^= 1;
+      return std::optional(text);
+    },
+    "checksum|compressed", true, true });
+  return { image("ball.nii", { nifti }, ofNifti), packed,
+    image("ball.vti",
+      { vti([](auto& w) { w.SetDataModeToAscii(); }), vti([](auto& w) { w.SetDataModeToBinary(); }),
+        vti([](auto& w) { w.SetDataModeToAppended(); }) },
+      { cutOff(kCut, 40), replaced("extent", "(WholeExtent=\"0 )9", "$0199", "xtent"),
+        replaced("type", "type=\"Float32\"", "type=\"Real32\"", "type|Real"),
+        replaced("tag", "</PointData>", "</PintData>", "tag|XML|mismatch"),
+        replaced("kind", "type=\"ImageData\"", "type=\"PolyData\"", "ImageData|not a VTI", false),
+        foreign(offText(), kKind) }) };
+}
+
+} // namespace
+
+std::vector<Fuzzed> fuzzedImages()
+{
+  std::vector<Fuzzed> all;
+  for (auto* kinds : { metaKinds, otherImages })
+  {
+    std::ranges::move(kinds(), std::back_inserter(all));
+  }
+  return all;
+}
+
+} // namespace palp::test

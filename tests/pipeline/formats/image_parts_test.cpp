@@ -1,0 +1,115 @@
+#include "tests/pipeline/formats/ball_images.h"
+
+#include <numbers>
+#include <vtkXMLImageDataWriter.h>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+TEST_F(Images, TheLevelOfADistanceIsTheBall)
+{
+  const auto image = ball(false);
+  for (const auto& file : { write<vtkMetaImageWriter>("ball.mha", *image),
+         write<vtkXMLImageDataWriter>("ball.vti", *image) })
+  {
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
+    EXPECT_TRUE(surface.closed) << file;
+    EXPECT_EQ(surface.unit, LengthUnit::Millimeter);
+    EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2) << file; // a tenth of a voxel
+  }
+}
+
+TEST_F(Images, AMaskLosesItsStairsAndKeepsItsVolume)
+{
+  const auto file = write<vtkMetaImageWriter>("mask.mha", *ball(true));
+  const LoadedSurface surface = readSurface(file, {}, { 0.5, {} });
+  EXPECT_TRUE(surface.closed);
+  EXPECT_LT(farthest(*surface.mesh, kCenterMm), 2.2); // half the diagonal of a voxel
+  const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadiusMm, 3);
+  EXPECT_NEAR(volumeMm3(*surface.mesh), exact, 0.02 * exact);
+}
+
+TEST_F(Images, OnlyTheLargestPieceIsTaken)
+{
+  const auto image = ball(true);
+  image->SetScalarComponentFromDouble(1, 1, 1, 0, 1.0);
+  const LoadedSurface surface =
+    readSurface(write<vtkMetaImageWriter>("speck.mha", *image), {}, { 0.5, {} });
+  EXPECT_LT(farthest(*surface.mesh, kCenterMm), 2.2);
+}
+
+TEST_F(Images, RefusesWithTheValuesThatThereAre)
+{
+  const auto mask = write<vtkMetaImageWriter>("mask.mha", *ball(true));
+  EXPECT_NE(refusal(mask, {}).find("name the value of the surface with a level, its values go from "
+                                   "0 to 1"),
+    std::string::npos);
+  EXPECT_NE(refusal(mask, { 3.0, {} }).find("no surface at level 3"), std::string::npos);
+  const std::filesystem::path stl = folder_.path() / "a.stl";
+  std::ofstream(stl) << "solid a\nendsolid a\n";
+  EXPECT_NE(refusal(stl, { 1.0, {} }).find("leave the level out"), std::string::npos);
+
+  std::string turned = readAll(mask);
+  const std::string axes = "TransformMatrix = 1 0 0 0 1 0 0 0 1";
+  const std::size_t at = turned.find(axes);
+  ASSERT_NE(at, std::string::npos);
+  turned.replace(at, axes.size(), "TransformMatrix = 0 1 0 1 0 0 0 0 1");
+  const std::filesystem::path file = folder_.path() / "turned.mha";
+  std::ofstream(file, std::ios::binary) << turned;
+  EXPECT_NE(refusal(file, { 0.5, {} }).find("its axes are turned"), std::string::npos);
+}
+
+// a ball of label 5 in a ball of label 2, and a box of label 7
+vtkSmartPointer<vtkImageData> labels()
+{
+  auto image = ball(true);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const Vector3d place(image->GetPoint(i));
+    const double distance = (place - kCenterMm).norm();
+    const double value = distance < 20.0 ? 2.0
+      : distance < kRadiusMm             ? 5.0
+      : place.z() > 80.0                 ? 7.0
+                                         : 0.0;
+    image->GetPointData()->GetScalars()->SetComponent(i, 0, value);
+  }
+  return image;
+}
+
+TEST_F(Images, ALabelMapIsTakenByItsLabelsAndNotByALevel)
+{
+  const auto file = write<vtkMetaImageWriter>("labels.mha", *labels());
+  for (const double level : { 0.5, 4.5, 5.0 })
+  {
+    EXPECT_NE(refusal(file, { level, {} }).find("its labels are 0, 2, 5, 7"), std::string::npos);
+  }
+  EXPECT_NE(refusal(file, { {}, { 4.0 } }).find("no label 4 in it"), std::string::npos);
+  const LoadedSurface inner = readSurface(file, {}, { {}, { 2.0 } });
+  const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(20.0, 3);
+  EXPECT_NEAR(volumeMm3(*inner.mesh), exact, 0.03 * exact);
+  const LoadedSurface both = readSurface(file, {}, { {}, { 2.0, 5.0 } });
+  EXPECT_TRUE(both.closed);
+  EXPECT_LT(farthest(*both.mesh, kCenterMm), 2.2);
+}
+
+TEST_F(Images, AMaskHasOneSurfaceWhateverLevelLiesBetween)
+{
+  const auto image = ball(true);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    auto* voxels = image->GetPointData()->GetScalars();
+    voxels->SetComponent(i, 0, 255.0 * voxels->GetComponent(i, 0));
+  }
+  const auto file = write<vtkMetaImageWriter>("mask.mha", *image);
+  const LoadedSurface middle = readSurface(file, {}, { 127.5, {} });
+  const LoadedSurface low = readSurface(file, {}, { 0.5, {} });
+  EXPECT_EQ(pointsOf(*low.mesh), pointsOf(*middle.mesh));
+  EXPECT_NE(low.notes[2].find("its surface is taken at 127.5, their middle"), std::string::npos);
+}
+
+} // namespace
+} // namespace palp::test

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "tests/support/damage.h"
+
+#include <string>
+#include <vector>
+
+namespace palp::test
+{
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true; ///< takes more memory than any limit
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// How far a file came.
+enum class Stage : int
+{
+  Reading,
+  Taking,
+  Done,
+};
+
+/// What became of one damaged file.
+struct Result
+{
+  Stage reached = Stage::Reading;
+  bool refused = false;
+  double time = 0.0; ///< [s] of processor time
+  double peak = 0.0; ///< [GB]
+  char message[1000] = {};
+};
+
+/// What became of the damaged files of a kind.
+struct Fates
+{
+  int count = 0;
+  int read = 0;
+  int refused = 0;
+  int crashed = 0;                  ///< the reader; told as a refusal
+  int known = 0;                    ///< refused files whose one fault is known
+  int named = 0;                    ///< of these, those whose sentence names it
+  double longest = 0.0;             ///< [s] of processor time
+  double peak = 0.0;                ///< [GB] of memory
+  std::vector<std::string> wrong;   ///< what must not be, a line each
+  std::vector<std::string> unnamed; ///< known faults with another sentence, some of them
+};
+
+/// Adds one to the fates.
+/// @param number  of the file, see damagedFile
+void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates);
+
+/// Prints a line of figures, and fails where 5 s, 1 GB, or 95 % of named causes are missed.
+void expectGoodFates(const Fuzzed& kind, const Fates& fates);
+
+} // namespace palp::test
