@@ -38,7 +38,7 @@ Surface makeBody(int splits)
       0.06 * std::sin(5.0 * x.z() + 2.0 * x.x());
     p = bump * x.cwiseProduct(Eigen::Vector3d(75.0_mm, 50.0_mm, 35.0_mm));
   }
-  return Surface(std::move(mesh.points), std::move(mesh.triangles));
+  return { std::move(mesh.points), std::move(mesh.triangles) };
 }
 
 Contact press(const Surface& surface, const Eigen::Vector3d& apex, const Eigen::Vector3d& outward,

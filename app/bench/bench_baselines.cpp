@@ -9,7 +9,8 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kNodes = 40;          // along each side: the paper's 1,600 vertices
+constexpr int kNodes = 40; // along each side: the paper's 1,600 vertices
+constexpr std::size_t kPoints = std::size_t{ kNodes } * kNodes;
 constexpr int kLayers = 10;         // of nodes
 constexpr double kHeight = 50.0_mm; // the block of Sec. 3.3.2
 constexpr double kStep = 10.0_ms;
@@ -38,7 +39,7 @@ BenchRow benchBaseline(fem::Baseline baseline)
   {
     time *= 1e3;
   }
-  BenchRow row = benchRow("baseline", kNodes * kNodes, "moving", std::move(times));
+  BenchRow row = benchRow("baseline", kPoints, "moving", std::move(times));
   row.variant = name(baseline);
   return row;
 }
@@ -55,9 +56,9 @@ std::vector<BenchRow> benchBaselines()
   const auto servo = [&](int i) { (void)tick(pose(i)); };
   const auto picture = [&](int i) { update(pose(i)); };
   (void)timed(kRepetitions, nothing, servo); // soft start
-  std::vector<BenchRow> rows{ benchRow("servo_step", kNodes * kNodes, "moving",
+  std::vector<BenchRow> rows{ benchRow("servo_step", kPoints, "moving",
                                 timed(kRepetitions, nothing, servo)),
-    benchRow("update", kNodes * kNodes, "moving", timed(kRepetitions, nothing, picture)) };
+    benchRow("update", kPoints, "moving", timed(kRepetitions, nothing, picture)) };
   for (const fem::Baseline baseline : fem::kBaselines)
   {
     rows.push_back(benchBaseline(baseline));

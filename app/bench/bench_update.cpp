@@ -32,8 +32,9 @@ BenchRow benchDent(
 {
   const double outer = dome.radiusOf(touched);
   const double step = jump ? dome.size / 40.0 : outer / 20.0;
+  constexpr int kMiddle = kSteps / 2;
   const auto frame = [&](int i)
-  { drawn.press(dome.press(outer, step * ((jump ? 7 * i : i) % kSteps - kSteps / 2))); };
+  { drawn.press(dome.press(outer, step * ((jump ? 7 * i : i) % kSteps - kMiddle))); };
   return benchFrames("dent", drawn.zone.size(), mode, frame);
 }
 

@@ -65,7 +65,7 @@ Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string
   { throw Error(ErrorCode::BadFile, file + ": case " + std::to_string(count) + ' ' + what); };
   if (!entry.is_object() || !entry.contains("name"))
   {
-    refuse("has no name; give each as {\"name\": \"soft\", \"young\": \"5kPa\"}");
+    refuse(R"(has no name; give each as {"name": "soft", "young": "5kPa"})");
   }
   CaseText text = defaults;
   std::string name;
@@ -159,7 +159,7 @@ std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& d
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": not a list of cases in JSON; give one or more, as " +
-        "[{\"name\": \"soft\", \"young\": \"5kPa\"}]");
+        R"([{"name": "soft", "young": "5kPa"}])");
   }
   std::vector<Case> cases;
   std::set<std::string> names;
