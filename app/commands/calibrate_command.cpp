@@ -56,11 +56,13 @@ void refuseWhereStopped(const std::stop_token& stop)
   }
 }
 
-void runSweep(const CalibrateOptions& options, std::stop_token stop, const Renderer* pictures)
+void runSweep(
+  const CalibrateOptions& options, const std::stop_token& stop, const Renderer* pictures)
 {
   const auto cases = readSweep(options.sweep, options.text);
   const OutputFolder whole(options.out, {}, OutputFolder::Earlier::Keep); // one sweep in a folder
   std::vector<std::unique_ptr<OutputFolder>> folders;
+  folders.reserve(cases.size());
   for (const Case& study : cases)
   {
     folders.push_back(openFolder(options.out / study.name, options));
@@ -93,7 +95,8 @@ void runSweep(const CalibrateOptions& options, std::stop_token stop, const Rende
   }
 }
 
-void calibrateOne(const CalibrateOptions& options, std::stop_token stop, const Renderer* pictures)
+void calibrateOne(
+  const CalibrateOptions& options, const std::stop_token& stop, const Renderer* pictures)
 {
   const Case study = caseOf(options.out.filename().string(), options.text);
   const auto folder = openFolder(options.out, options);
