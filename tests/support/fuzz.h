@@ -3,7 +3,10 @@
 #include "tests/support/damage.h"
 #include "tests/support/fates.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <string>
 
 namespace palp::test
 {
@@ -15,5 +18,25 @@ namespace palp::test
 /// @param memory  [bytes] that a reading of this size may take
 /// @param time    [s] of processor time that it may take
 [[nodiscard]] Fates fuzz(const Fuzzed& kind, int count, std::size_t memory, double time);
+
+/// Files of each kind for a test: few, many with PALP_SLOW, or the number in PALP_FUZZ.
+inline int fuzzCount()
+{
+#ifdef PALP_SLOW
+  constexpr int usual = 100'000;
+#else
+  constexpr int usual = 200;
+#endif
+  const char* asked = std::getenv("PALP_FUZZ");
+  return asked ? std::atoi(asked) : usual;
+}
+
+/// A kind's file, as the name of a test.
+[[nodiscard]] inline std::string nameOf(const Fuzzed& kind)
+{
+  std::string name = kind.file;
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
 
 } // namespace palp::test

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <stdexcept>
@@ -180,7 +179,7 @@ std::vector<Fuzzed> fuzzedJson()
   };
 }
 
-// every kind of text that the program reads itself.
+// every kind of text that the program reads itself
 const std::vector<Fuzzed>& fuzzedTexts()
 {
   static const std::vector<Fuzzed> all = []
@@ -194,38 +193,18 @@ const std::vector<Fuzzed>& fuzzedTexts()
 
 constexpr std::size_t kFuzzedTexts = 8;
 
-std::string fuzzedTextName(std::size_t which)
-{
-  std::string name = fuzzedTexts()[which].file;
-  std::ranges::replace(name, '.', '_');
-  return name;
-}
-
-// PALP_FUZZ sets another count.
-void fuzzText(std::size_t which, int count)
-{
-  const Fuzzed& kind = fuzzedTexts()[which];
-  const char* asked = std::getenv("PALP_FUZZ");
-  constexpr std::size_t memory = 1U << 30;
-  constexpr double time = 5.0; // [s]
-  expectGoodFates(kind, fuzz(kind, asked ? std::atoi(asked) : count, memory, time));
-}
-
-#ifdef PALP_SLOW
-constexpr int kFiles = 100'000; // damaged ones of each kind
-#else
-constexpr int kFiles = 200;
-#endif
-
 class Fuzz : public testing::TestWithParam<std::size_t>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Texts, Fuzz, testing::Range<std::size_t>(0, kFuzzedTexts),
-  [](const auto& which) { return fuzzedTextName(which.param); });
+  [](const auto& which) { return nameOf(fuzzedTexts()[which.param]); });
 
 TEST_P(Fuzz, EndsAsNumbersOrATrueSentence)
 {
-  fuzzText(GetParam(), kFiles);
+  const Fuzzed& kind = fuzzedTexts()[GetParam()];
+  constexpr std::size_t memory = 1U << 30;
+  constexpr double time = 5.0; // [s]
+  expectGoodFates(kind, fuzz(kind, fuzzCount(), memory, time));
 }
 
 } // namespace
