@@ -91,10 +91,11 @@ void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
     {
       endEarly(named.name, *output);
     }
-    replaceFile(output->stage() / (experiment.name + ".csv"), fem::csv(experiment));
+    replaceFile(output->stage() / (experiment.numbers.name + ".csv"), fem::csv(experiment));
     if (!options.noPicture)
     {
-      pictures->drawExperiment(experiment, output->stage());
+      pictures->drawFigures(
+        experiment.figures, experiment.points, figures::Layout::Alone, output->stage());
     }
     std::cerr << experiment.finding << '\n';
   }

@@ -3,11 +3,11 @@
 #include "app/bench/bench.h"
 #include "app/press/body.h"
 #include "app/press/recording.h"
-#include "app/report/document.h"
-#include "calibration/experiments/experiments.h"
+#include "calibration/figures/figure.h"
 #include "calibration/study/study.h"
 
 #include <filesystem>
+#include <span>
 
 namespace palp
 {
@@ -35,17 +35,13 @@ struct Renderer
     const std::vector<fem::IndentationStep>& steps,
     const std::filesystem::path& directory) const = 0;
 
-  /// Draws a picture of every figure of an experiment.
+  /// Draws NAME.png of every figure that stands alone, NAME.svg of one on a page.
   ///
+  /// @param tables  all that the figures name
   /// @throws Error  as drawPress
-  virtual void drawExperiment(
-    const fem::Experiment& experiment, const std::filesystem::path& directory) const = 0;
-
-  /// Draws NAME.svg of every chart of a part of the report.
-  ///
-  /// @throws Error  as drawPress
-  virtual void drawReport(
-    const report::Section& section, const std::filesystem::path& directory) const = 0;
+  virtual void drawFigures(std::span<const figures::Figure> figures,
+    std::span<const figures::Table> tables, figures::Layout layout,
+    const std::filesystem::path& directory) const = 0;
 
   /// What a moved dent costs a picture beyond drawing the same scene again, upload included.
   ///

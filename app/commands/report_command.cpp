@@ -184,7 +184,8 @@ void makeReport(const ReportOptions& options, const Renderer* pictures)
     claims);
   for (const Section& section : sections)
   {
-    pictures->drawReport(section, folder.output().stage());
+    pictures->drawFigures(
+      section.figures, section.tables, figures::Layout::OnPage, folder.output().stage());
   }
   folder.output().publish();
   writePage(folder.output().path(), folder.machine(), sections, unfinished);

@@ -33,7 +33,7 @@ void studyStability(const StabilityOptions& options)
   const std::vector<JudgedCase> cases = judgeAll(options.quick);
   std::ostringstream map;
   drawStabilityMap(map, cases);
-  replaceFile(output->stage() / "stability.csv", report::csv(stabilityTable(cases)));
+  replaceFile(output->stage() / "stability.csv", figures::csv(stabilityTable(cases)));
   replaceFile(output->stage() / "stability.svg", map.str());
   output->publish();
   std::cout << stabilitySummary(cases);

@@ -4,7 +4,6 @@
 #include "app/plots/press_plots.h"
 #include "app/press/export.h"
 #include "haptics/error.h"
-#include "haptics/force/validity.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/surface_point.h"
 #include "haptics/units.h"
@@ -222,39 +221,6 @@ void OffscreenRenderer::drawCalibration(const fem::Case& study,
   draw("force.png", *forcePlot(laws, steps.back().depth, { force }));
   draw("extent.png", *extentPlot(ExtentTable(rows), {}));
   draw("profiles.png", profiles);
-}
-
-void OffscreenRenderer::drawExperiment(
-  const fem::Experiment& experiment, const std::filesystem::path& directory) const
-{
-  constexpr double kNoticed = 100.0 * Validity::kJustNoticeable; // [%] of a force
-  const OffscreenContext context;
-  for (const fem::Figure& figure : experiment.figures)
-  {
-    Plot plot(figure.title, figure.bottom, figure.left);
-    if (figure.noticed && !figure.curves.empty() && !figure.curves.front().x.empty())
-    {
-      const std::vector<double>& x = figure.curves.front().x;
-      plot.addBand("less than a hand notices, 7 %", x, std::vector(x.size(), -kNoticed),
-        std::vector(x.size(), kNoticed), appearance::kGround);
-    }
-    for (const fem::Curve& curve : figure.curves)
-    {
-      const auto& color =
-        appearance::kCurves[static_cast<std::size_t>(curve.color) % appearance::kCurves.size()];
-      if (curve.style == fem::Curve::Style::Points)
-      {
-        plot.addPoints(curve.name, curve.x, curve.y, color);
-      }
-      else
-      {
-        plot.addLine(
-          curve.name, curve.x, curve.y, color, 2.0F, curve.style == fem::Curve::Style::Dashed);
-      }
-    }
-    drawChart(context, directory / (figure.name + ".png"),
-      [&](vtkContextScene& scene) { plot.addTo(scene); });
-  }
 }
 
 } // namespace palp

@@ -13,10 +13,8 @@ public:
     const ScenePlan& plan, const std::filesystem::path& directory) const override;
   void drawCalibration(const fem::Case& study, const std::vector<fem::IndentationStep>& steps,
     const std::filesystem::path& directory) const override;
-  void drawExperiment(
-    const fem::Experiment& experiment, const std::filesystem::path& directory) const override;
-  void drawReport(
-    const report::Section& section, const std::filesystem::path& directory) const override;
+  void drawFigures(std::span<const figures::Figure> figures, std::span<const figures::Table> tables,
+    figures::Layout layout, const std::filesystem::path& directory) const override;
   [[nodiscard]] std::vector<BenchRow> benchFrames(std::size_t most) const override;
 };
 

@@ -1,6 +1,6 @@
 #include "app/bench/bench.h"
 #include "app/bench/bench_work.h"
-#include "app/report/force_methods.h"
+#include "app/report/methods.h"
 #include "app/report/parts.h"
 #include "haptics/numerics/statistics.h"
 #include "haptics/units.h"
@@ -88,9 +88,10 @@ std::vector<Cell> timeStepper(Table& table, fem::Baseline baseline,
     static_cast<double>(fem::invertedElements(stepper.mesh(), stepper.positions())));
 }
 
-Chart chartOf(const char* name, const char* caption, const char* left, const char* column, bool log)
+Figure figureOf(
+  const char* name, const char* caption, const char* left, const char* column, bool log)
 {
-  Chart chart{ .name = name,
+  Figure figure{ .name = name,
     .caption = caption,
     .bottom = "step",
     .left = left,
@@ -102,14 +103,44 @@ Chart chartOf(const char* name, const char* caption, const char* left, const cha
     { std::pair{ kOurs, 1 }, std::pair{ kOursFine, 4 }, std::pair{ "mass-spring", 5 },
       std::pair{ "mass-spring-volume", 6 }, std::pair{ "corotational", 2 } })
   {
-    chart.curves.push_back({ .label = method,
+    figure.curves.push_back({ .label = method,
       .table = "step_times",
       .x = "step",
       .y = column,
       .where = { { "method", method }, { "run", "1" } },
       .color = color });
   }
-  return chart;
+  return figure;
+}
+
+Claim claimOf(fem::Baseline baseline, const std::vector<Cell>& row, const std::vector<Cell>& ours)
+{
+  const bool elements = baseline == fem::Baseline::Corotational;
+  return { .of = elements ? "Fig. 12(b)" : "Fig. 12(c)",
+    .paper = elements ? "finite elements: about 20 ms a step" : "springs: about 15 ms a step",
+    .here = shown(row[4]) + " ms, " + shown(std::get<double>(row[4]) / std::get<double>(ours[4])) +
+      " times the analytical step",
+    .verdict = "the order agrees: no 1 kHz loop holds it; the figure follows the body, the "
+               "iterations and the machine, of which the paper names the surface only" };
+}
+
+std::vector<std::string> textOf(const fem::TetMesh& body)
+{
+  const fem::StepSettings settings;
+  return { "The baselines of Fig. 12, stepped in this run against the same tool on a body "
+           "whose top is the paper's surface of 1,600 vertices, 4,641 edges and 3,042 "
+           "triangles: " +
+      std::to_string(body.tets.size()) + " tetrahedra, " + std::to_string(body.positions.cols()) +
+      " nodes, 50 mm thick, bonded at its base. Backward Euler with one linearisation a step of " +
+      shown(units::toMilliseconds(kGraphicsStep)) +
+      " ms; conjugate gradients with the diagonal as "
+      "preconditioner, warm start from the last velocities, at most " +
+      std::to_string(settings.mostIterations) + " iterations a solve or a relative residual of " +
+      shown(settings.tolerance) + "; lumped masses, " + shown(settings.density) +
+      " kg/m\u00b3, stiffness damping " + shown(units::toMilliseconds(settings.stiffnessDamping)) +
+      " ms. One core. The analytical step is contact, force, dent and normals of the same surface.",
+    "For comparison: the paper's framework takes about 1.5 ms for springs on the surface alone and "
+    "21 to 42 ms for a volume of finite elements at 25 iterations on a machine like this." };
 }
 
 } // namespace
@@ -142,42 +173,20 @@ Section dynamics(const Effort& effort)
       folds.append(" folds under the tool: ");
       folds.append(shown(row.back())).append(" tetrahedra are inside out at the end. ");
     }
-    const bool elements = baseline == fem::Baseline::Corotational;
-    if (elements || baseline == fem::Baseline::MassSpring)
+    if (baseline == fem::Baseline::Corotational || baseline == fem::Baseline::MassSpring)
     {
-      section.claims.push_back({ .of = elements ? "Fig. 12(b)" : "Fig. 12(c)",
-        .paper = elements ? "finite elements: about 20 ms a step" : "springs: about 15 ms a step",
-        .here = shown(row[4]) + " ms, " +
-          shown(std::get<double>(row[4]) / std::get<double>(summary.rows[0][4])) +
-          " times the analytical step",
-        .verdict = "the order agrees: no 1 kHz loop holds it; the figure follows the body, the "
-                   "iterations and the machine, of which the paper names the surface only" });
+      section.claims.push_back(claimOf(baseline, row, summary.rows.front()));
     }
     effort.reached(static_cast<double>(summary.rows.size() - 2) / fem::kBaselines.size());
   }
-  const fem::TetMesh body = baselineBody(kHeight);
-  const fem::StepSettings settings;
-  section.text = { "The baselines of Fig. 12, stepped in this run against the same tool on a body "
-                   "whose top is the paper's surface of 1,600 vertices, 4,641 edges and 3,042 "
-                   "triangles: " +
-      std::to_string(body.tets.size()) + " tetrahedra, " + std::to_string(body.positions.cols()) +
-      " nodes, 50 mm thick, bonded at its base. Backward Euler with one linearisation a step of " +
-      shown(units::toMilliseconds(kGraphicsStep)) +
-      " ms; conjugate gradients with the diagonal as "
-      "preconditioner, warm start from the last velocities, at most " +
-      std::to_string(settings.mostIterations) + " iterations a solve or a relative residual of " +
-      shown(settings.tolerance) + "; lumped masses, " + shown(settings.density) +
-      " kg/m\u00b3, stiffness damping " + shown(units::toMilliseconds(settings.stiffnessDamping)) +
-      " ms. One core. The analytical step is contact, force, dent and normals of the same surface.",
-    "For comparison: the paper's framework takes about 1.5 ms for springs on the surface alone and "
-    "21 to 42 ms for a volume of finite elements at 25 iterations on a machine like this." };
+  section.text = textOf(baselineBody(kHeight));
   if (!folds.empty())
   {
     section.text.push_back(folds);
   }
-  section.charts = { chartOf(
-                       "fig12_times", "time of a step", "time of a step [ms]", "time_ms", true),
-    chartOf("fig12_forces", "force", "force [N]", "force_N", false) };
+  section.figures = { figureOf(
+                        "fig12_times", "time of a step", "time of a step [ms]", "time_ms", true),
+    figureOf("fig12_forces", "force", "force [N]", "force_N", false) };
   section.tables = { std::move(summary), std::move(times) };
   return section;
 }

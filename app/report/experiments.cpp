@@ -15,120 +15,67 @@ namespace
 {
 
 using fem::Experiment;
+using fem::parts::kNoticed;
 using fem::parts::largest;
 using fem::parts::passing;
-
-constexpr double kNoticed = 100.0 * Validity::kJustNoticeable; // [%] of a force
 
 fem::Resolution resolutionOf(const Effort& effort)
 {
   return effort.quick ? fem::Resolution::Quick : fem::Resolution::Full;
 }
 
-Table tableOf(const Experiment& experiment)
+// a page's legend has lines only
+void drawBandAsLines(Figure& figure, Table& points)
 {
-  Table table{ .name = experiment.name,
-    .caption = "All numbers of the experiment.",
-    .columns = experiment.columns,
-    .shown = false };
-  for (const auto& row : experiment.rows)
+  if (figure.band == 0.0 || figure.curves.empty())
   {
-    table.rows.emplace_back(row.begin(), row.end());
+    return;
   }
-  return table;
-}
-
-// the curves of a figure one below the other, told apart by a number
-void addFigure(Section& section, const fem::Figure& figure)
-{
-  Table table{ .name = figure.name + "_figure",
-    .caption = figure.title,
-    .columns = { "number", "curve", figure.bottom, figure.left },
-    .shown = false };
-  Chart chart{
-    .name = figure.name, .caption = figure.title + '.', .bottom = figure.bottom, .left = figure.left
-  };
-  const auto add = [&](const fem::Curve& curve, Curve::Style style, int color)
+  const std::vector<double> x = pointsOf(std::span(&points, 1), figure.curves.front()).x;
+  for (const double side : { figure.band, -figure.band })
   {
-    const auto number = static_cast<double>(chart.curves.size() + 1);
-    for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (!x.empty())
     {
-      table.rows.push_back({ number, curve.name, curve.x[i], curve.y[i] });
-    }
-    chart.curves.push_back({ .label = curve.name,
-      .table = table.name,
-      .x = figure.bottom,
-      .y = figure.left,
-      .where = { { "number", shown(number) } },
-      .style = style,
-      .color = color });
-  };
-  for (const fem::Curve& curve : figure.curves)
-  {
-    using enum fem::Curve::Style;
-    add(curve,
-      curve.style == Points     ? Curve::Style::Circles
-        : curve.style == Dashed ? Curve::Style::Dashed
-                                : Curve::Style::Line,
-      1 + curve.color % 6);
-  }
-  if (figure.noticed && !figure.curves.empty() && !figure.curves.front().x.empty())
-  {
-    const std::vector<double>& x = figure.curves.front().x;
-    for (const double side : { kNoticed, -kNoticed })
-    {
-      add({ .name = side > 0.0 ? "7 %, just noticed by a hand" : "",
-            .x = { x.front(), x.back() },
-            .y = { side, side } },
-        Curve::Style::Dashed, 7);
+      addCurve(figure, points,
+        { .label =
+            side > 0.0 ? std::to_string(std::lround(side)) + " %, just noticed by a hand" : "",
+          .style = Curve::Style::Dashed,
+          .color = 7 },
+        { { x.front(), x.back() }, { side, side } });
     }
   }
-  section.tables.push_back(std::move(table));
-  section.charts.push_back(std::move(chart));
+  figure.band = 0.0;
 }
 
 // figures with the same curves stand side by side
-bool haveSameLegend(const std::vector<Chart>& charts)
+bool haveSameLegend(const std::vector<Figure>& all)
 {
-  const auto isSame = [&](const Chart& chart)
-  {
-    return std::ranges::equal(
-      chart.curves, charts.front().curves, {}, &Curve::label, &Curve::label);
+  const auto isSame = [&](const Figure& figure) {
+    return std::ranges::equal(figure.curves, all.front().curves, {}, &Curve::label, &Curve::label);
   };
-  return charts.size() > 1 && std::ranges::all_of(charts, isSame);
+  return all.size() > 1 && std::ranges::all_of(all, isSame);
 }
 
 /// @param see  what to see in the figures
-Section sectionOf(const Experiment& experiment, const Effort& effort, const std::string& see)
+Section sectionOf(Experiment experiment, const Effort& effort, const std::string& see)
 {
   effort.reached(1.0); // an interrupted experiment lacks rows
   Section section;
-  section.text.push_back(experiment.finding);
-  section.tables.push_back(tableOf(experiment));
-  for (const fem::Figure& figure : experiment.figures)
+  section.text.push_back(std::move(experiment.finding));
+  section.tables.push_back(std::move(experiment.numbers));
+  for (std::size_t i = 0; i < experiment.figures.size(); ++i)
   {
-    addFigure(section, figure);
+    drawBandAsLines(experiment.figures[i], experiment.points[i]);
+    section.tables.push_back(std::move(experiment.points[i]));
   }
-  const bool together = haveSameLegend(section.charts);
-  for (Chart& chart : section.charts)
+  section.figures = std::move(experiment.figures);
+  const bool together = haveSameLegend(section.figures);
+  for (Figure& figure : section.figures)
   {
-    chart.group = together ? see : "";
-    chart.caption += together ? "" : " " + see;
+    figure.group = together ? see : "";
+    figure.caption += together ? "." : ". " + see;
   }
   return section;
-}
-
-std::vector<double> columnOf(const Experiment& experiment, const std::string& name)
-{
-  const auto found = std::ranges::find(experiment.columns, name);
-  std::vector<double> values;
-  for (const auto& row : experiment.rows)
-  {
-    values.push_back(found == experiment.columns.end()
-        ? std::nan("")
-        : row[static_cast<std::size_t>(found - experiment.columns.begin())]);
-  }
-  return values;
 }
 
 std::string millimeters(double value)
@@ -152,8 +99,9 @@ double firstToDepart(const Experiment& experiment, const std::string& tool, cons
   for (const char* radius : { "30", "50", "100" })
   {
     first = std::min(first,
-      passing(columnOf(experiment, "depth_mm"),
-        columnOf(experiment, tool + "_R0_" + radius + "mm_" + support + "_percent"), kNoticed));
+      passing(experiment.numbers.column("depth_mm"),
+        experiment.numbers.column(tool + "_R0_" + radius + "mm_" + support + "_percent"),
+        kNoticed));
   }
   return first;
 }
@@ -166,7 +114,7 @@ Section curvature(const Effort& effort)
   Section section = sectionOf(found, effort,
     "How far the force on a ball departs from that on the block: where a curve leaves the dashed "
     "lines a hand notices. The two supports lie further apart than the three radii.");
-  const double most = largest(columnOf(found, "sphere_block_N"));
+  const double most = largest(found.numbers.column("sphere_block_N"));
   const auto claim = [&](const char* of, const char* tool, double limit)
   {
     const double half = firstToDepart(found, tool, "half");
@@ -196,8 +144,8 @@ Section inclination(const Effort& effort)
   Section section = sectionOf(found, effort,
     "A tool may tilt until its curve crosses the dashed line; the cone's does so at half the "
     "sphere's angle.");
-  const auto tilts = columnOf(found, "tilt_deg");
-  const auto change = columnOf(found, "cone_force_change_percent");
+  const auto tilts = found.numbers.column("tilt_deg");
+  const auto change = found.numbers.column("cone_force_change_percent");
   section.claims = { { .of = "Eq. (7)",
                        .paper = "a sphere may tilt by 22 degrees, arccos(1 - 0.07)",
                        .here =
@@ -231,8 +179,8 @@ Section extents(const Effort& effort)
   const Experiment found = fem::extents(resolutionOf(effort), effort.stop);
   Section section = sectionOf(found, effort,
     "The points of both moduli are the same. A line serves shallow presses, a parabola all.");
-  const auto soft = columnOf(found, "sphere_50kPa_mm");
-  const auto stiff = columnOf(found, "sphere_1500kPa_mm");
+  const auto soft = found.numbers.column("sphere_50kPa_mm");
+  const auto stiff = found.numbers.column("sphere_1500kPa_mm");
   double apart = 0.0;
   for (std::size_t i = 0; i < soft.size(); ++i)
   {
@@ -245,7 +193,7 @@ Section extents(const Effort& effort)
                        .verdict = "differs, as Fig. 7" },
     { .of = "Fig. 8(b)",
       .paper = "the cone deforms a smaller region than the sphere",
-      .here = millimeters(largest(columnOf(found, "cone_50kPa_mm"))) + " against " +
+      .here = millimeters(largest(found.numbers.column("cone_50kPa_mm"))) + " against " +
         millimeters(largest(soft)) + " at 10 mm",
       .verdict = "agrees" } };
   return section;
@@ -256,10 +204,10 @@ Section forces(const Effort& effort)
   const Experiment found = fem::forces(resolutionOf(effort), effort.stop);
   Section section = sectionOf(
     found, effort, "The material of the elements decides on which side of the law they lie.");
-  const auto depths = columnOf(found, "depth_mm");
+  const auto depths = found.numbers.column("depth_mm");
   const auto at = [&](const std::string& name, double depth)
   {
-    const auto values = columnOf(found, name);
+    const auto values = found.numbers.column(name);
     const auto nearest =
       std::ranges::min_element(depths, {}, [&](double other) { return std::abs(other - depth); });
     return values[static_cast<std::size_t>(nearest - depths.begin())];
@@ -279,7 +227,7 @@ Section forces(const Effort& effort)
   const auto limit = [&](const char* material)
   {
     return millimeters(passing(depths,
-      columnOf(found, "sphere_" + std::string(material) + "_difference_percent"), kNoticed));
+      found.numbers.column("sphere_" + std::string(material) + "_difference_percent"), kNoticed));
   };
   section.claims = { { .of = "Fig. 15(a)",
                        .paper = "Eq. (4) lies above linear elements when deep and below "

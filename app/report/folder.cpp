@@ -70,8 +70,8 @@ std::vector<std::string> filesIn(const std::filesystem::path& folder)
       names.push_back(entry.path().filename().string());
       std::ranges::transform(section->tables, std::back_inserter(names),
         [](const Table& table) { return table.name + ".csv"; });
-      std::ranges::transform(section->charts, std::back_inserter(names),
-        [](const Chart& chart) { return chart.name + ".svg"; });
+      std::ranges::transform(section->figures, std::back_inserter(names),
+        [](const Figure& figure) { return figure.name + ".svg"; });
       std::ranges::transform(section->pictures, std::back_inserter(names), &Picture::name);
     }
   }

@@ -1,5 +1,5 @@
 #include "app/bench/bench.h"
-#include "app/report/force_methods.h"
+#include "app/report/methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
 #include "haptics/numerics/statistics.h"
@@ -139,12 +139,12 @@ constexpr std::array kMarks{ Mark{ "paper law", Curve::Style::Circles, 2 },
   Mark{ "mass-spring-volume", Curve::Style::Squares, 6 },
   Mark{ "corotational", Curve::Style::Squares, 2 } };
 
-void addCharts(Section& section, const BlockPress& press)
+void addFigures(Section& section, const BlockPress& press)
 {
   const std::string setting = settingOf(press, Energy::NeoHookean, "");
   for (const Regime& regime : kRegimes)
   {
-    Chart chart{
+    Figure figure{
       .name = "error_vs_time_" + fileWord(press.name) + "_" + fileWord(regime.name),
       .caption = regime.name,
       .bottom = "time of one evaluation [\u00b5s]",
@@ -156,7 +156,7 @@ void addCharts(Section& section, const BlockPress& press)
     };
     for (const Mark& mark : kMarks)
     {
-      chart.curves.push_back({ .label = mark.method,
+      figure.curves.push_back({ .label = mark.method,
         .table = "error_vs_time",
         .x = "time_us",
         .y = "error_rms_pct",
@@ -166,7 +166,7 @@ void addCharts(Section& section, const BlockPress& press)
     }
     for (const auto& [front, color] : { std::pair{ "all methods", 7 }, std::pair{ "no table", 0 } })
     {
-      chart.curves.push_back({ .label = "Pareto front, " + std::string(front),
+      figure.curves.push_back({ .label = "Pareto front, " + std::string(front),
         .table = "pareto_front",
         .x = "time_us",
         .y = "error_rms_pct",
@@ -174,7 +174,7 @@ void addCharts(Section& section, const BlockPress& press)
         .style = Curve::Style::Dashed,
         .color = color });
     }
-    section.charts.push_back(std::move(chart));
+    section.figures.push_back(std::move(figure));
   }
 }
 
@@ -313,7 +313,7 @@ Section forceAgainstTime(const Effort& effort)
     std::move(tables.spread) };
   for (const BlockPress& press : wanted)
   {
-    addCharts(section, press);
+    addFigures(section, press);
   }
   return section;
 }

@@ -1,9 +1,9 @@
 #include "app/report/html_page.h"
 
+#include "calibration/figures/palette.h"
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
 
-#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,9 +12,6 @@ namespace palp::report
 {
 namespace
 {
-
-constexpr std::array kPalette{ "#1a1c21", "#0072b2", "#d55e00", "#009e73", "#56b4e9", "#cc79a7",
-  "#e69f00", "#7f7f7f" };
 
 // as 166 ranges of two quick reports on one idle machine did
 constexpr const char* kBetweenRuns =
@@ -97,7 +94,7 @@ std::string fileLink(const std::string& name)
 // the mark of a curve, as in the figure
 std::string glyph(const Curve& curve)
 {
-  const std::string color = paletteColor(curve.color);
+  const std::string color = figures::paletteColor(curve.color);
   std::string shape;
   switch (curve.style)
   {
@@ -136,23 +133,23 @@ std::string inlineSvg(const std::filesystem::path& file)
 }
 
 void writeFigure(std::ostream& out, const std::filesystem::path& folder, const Section& section,
-  std::span<const Chart> group)
+  std::span<const Figure> group)
 {
   const bool alone = group.size() == 1;
   out << "<figure>\n<div class=\"charts" << (alone ? " alone" : "") << "\">\n";
-  for (const Chart& chart : group)
+  for (const Figure& figure : group)
   {
-    out << "<div>" << inlineSvg(folder / (chart.name + ".svg"));
+    out << "<div>" << inlineSvg(folder / (figure.name + ".svg"));
     if (!alone)
     {
-      out << "<p class=\"part\">" << escape(chart.caption) << "</p>";
+      out << "<p class=\"part\">" << escape(figure.caption) << "</p>";
     }
     out << "</div>\n";
   }
   out << "</div>\n<div class=\"legend\">";
   for (const Curve& curve : group.front().curves)
   {
-    if (!curve.label.empty() && !pointsOf(section, curve).x.empty())
+    if (!curve.label.empty() && !pointsOf(section.tables, curve).x.empty())
     {
       out << "<span>" << glyph(curve) << ' ' << escape(curve.label) << "</span>";
     }
@@ -160,9 +157,9 @@ void writeFigure(std::ostream& out, const std::filesystem::path& folder, const S
   out << "</div>\n<figcaption>" << escape(alone ? group.front().caption : group.front().group)
       << " Data: ";
   std::vector<std::string> named;
-  for (const Chart& chart : group)
+  for (const Figure& figure : group)
   {
-    for (const Curve& curve : chart.curves)
+    for (const Curve& curve : figure.curves)
     {
       if (std::ranges::find(named, curve.table) == named.end())
       {
@@ -203,16 +200,15 @@ void writeSection(std::ostream& out, const std::filesystem::path& folder, const 
   {
     out << "<p>" << escape(paragraph) << "</p>\n";
   }
-  const std::span charts(section.charts);
-  for (std::size_t begin = 0; begin < charts.size();)
+  const std::span all(section.figures);
+  for (std::size_t begin = 0; begin < all.size();)
   {
     std::size_t end = begin + 1;
-    while (end < charts.size() && !charts[begin].group.empty() &&
-      charts[end].group == charts[begin].group)
+    while (end < all.size() && !all[begin].group.empty() && all[end].group == all[begin].group)
     {
       ++end;
     }
-    writeFigure(out, folder, section, charts.subspan(begin, end - begin));
+    writeFigure(out, folder, section, all.subspan(begin, end - begin));
     begin = end;
   }
   for (const Picture& picture : section.pictures)
@@ -267,11 +263,6 @@ void writeHead(std::ostream& out, const nlohmann::ordered_json& machine,
 }
 
 } // namespace
-
-const char* paletteColor(int index) noexcept
-{
-  return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
-}
 
 void writePage(const std::filesystem::path& folder, const nlohmann::ordered_json& machine,
   const std::vector<Section>& sections, const std::vector<std::string>& unfinished)

@@ -8,10 +8,6 @@
 namespace palp::report
 {
 
-/// A color that figures and legends share, as #rrggbb; apart for every kind of color vision.
-/// @source  Okabe and Ito 2008
-[[nodiscard]] const char* paletteColor(int index) noexcept;
-
 /// Writes report.html: one file with its figures inside, and links to the data beside it.
 ///
 /// @param folder   holds an SVG for each figure, which are taken in

@@ -194,6 +194,36 @@ Curve curve(const char* label, const char* work, const char* mode, Curve::Style 
     .color = color };
 }
 
+Figure scalingFigure()
+{
+  return { .name = "scaling",
+    .caption = "Time of a step against the number of vertices. The servo step reads the triangles "
+               "under the tool only, so that it hardly knows how many there are; asking every "
+               "triangle grows like the paper's step.",
+    .bottom = "vertices",
+    .left = "time of a step [\u00b5s]",
+    .logBottom = true,
+    .logLeft = true,
+    .curves = { curve("servo step", "servo_step", "moving", Curve::Style::Circles, 1),
+      curve("servo step, tool jumps", "servo_step", "jump", Curve::Style::Squares, 1),
+      curve("servo step, cold cache", "servo_step", "cold", Curve::Style::Squares, 4),
+      curve("force, dent and normals", "update", "moving", Curve::Style::Diamonds, 3),
+      curve("dent of 2,300 vertices", "dent", "2300", Curve::Style::Diamonds, 5),
+      curve("every triangle asked", "query_brute", "moving", Curve::Style::Diamonds, 7),
+      { .label = "paper, Table 1",
+        .table = "paper_line",
+        .x = "vertices",
+        .y = "paper_us",
+        .style = Curve::Style::Circles,
+        .color = 2 },
+      { .label = "the paper's line, continued",
+        .table = "paper_line",
+        .x = "vertices",
+        .y = "line_us",
+        .style = Curve::Style::Dashed,
+        .color = 2 } } };
+}
+
 // palp bench in a process of its own, for where the loader puts a program changes its speed
 nlohmann::json runBench(const Effort& effort)
 {
@@ -253,33 +283,7 @@ Section scaling(const Effort& effort)
     std::to_string(runs) +
     " processes: where the loader puts a program "
     "changes a step of microseconds by some 10 per cent." };
-  Chart chart{ .name = "scaling",
-    .caption = "Time of a step against the number of vertices. The servo step reads the triangles "
-               "under the tool only, so that it hardly knows how many there are; asking every "
-               "triangle grows like the paper's step.",
-    .bottom = "vertices",
-    .left = "time of a step [\u00b5s]",
-    .logBottom = true,
-    .logLeft = true,
-    .curves = { curve("servo step", "servo_step", "moving", Curve::Style::Circles, 1),
-      curve("servo step, tool jumps", "servo_step", "jump", Curve::Style::Squares, 1),
-      curve("servo step, cold cache", "servo_step", "cold", Curve::Style::Squares, 4),
-      curve("force, dent and normals", "update", "moving", Curve::Style::Diamonds, 3),
-      curve("dent of 2,300 vertices", "dent", "2300", Curve::Style::Diamonds, 5),
-      curve("every triangle asked", "query_brute", "moving", Curve::Style::Diamonds, 7),
-      { .label = "paper, Table 1",
-        .table = "paper_line",
-        .x = "vertices",
-        .y = "paper_us",
-        .style = Curve::Style::Circles,
-        .color = 2 },
-      { .label = "the paper's line, continued",
-        .table = "paper_line",
-        .x = "vertices",
-        .y = "line_us",
-        .style = Curve::Style::Dashed,
-        .color = 2 } } };
-  section.charts.push_back(std::move(chart));
+  section.figures.push_back(scalingFigure());
   return section;
 }
 

@@ -44,9 +44,9 @@ std::vector<Cell> quantiles(const char* name, const Histogram& histogram)
   return row;
 }
 
-Chart chartOf(const char* name, const char* caption, const char* left, const char* column)
+Figure figureOf(const char* name, const char* caption, const char* left, const char* column)
 {
-  Chart chart{ .name = name,
+  Figure figure{ .name = name,
     .caption = caption,
     .bottom = "time [\u00b5s]",
     .left = left,
@@ -58,10 +58,10 @@ Chart chartOf(const char* name, const char* caption, const char* left, const cha
   for (const auto& [label, table, color] : { std::tuple{ "lateness", "servo_lateness", 2 },
          std::tuple{ "step: contact, law and safety chain", "servo_step_time", 1 } })
   {
-    chart.curves.push_back(
+    figure.curves.push_back(
       { .label = label, .table = table, .x = "up_to_us", .y = column, .color = color });
   }
-  return chart;
+  return figure;
 }
 
 } // namespace
@@ -93,8 +93,8 @@ Section servo(const Effort& effort)
         schedule + "." };
     });
   // the last bucket has nothing beyond it, which a logarithm does not show
-  section.charts = { chartOf("servo_histogram", "ticks in each bucket", "ticks", "ticks"),
-    chartOf("servo_share_beyond", "share of ticks beyond a time", "share of ticks beyond",
+  section.figures = { figureOf("servo_histogram", "ticks in each bucket", "ticks", "ticks"),
+    figureOf("servo_share_beyond", "share of ticks beyond a time", "share of ticks beyond",
       "share_beyond") };
   for (std::size_t i : { 1U, 2U })
   {

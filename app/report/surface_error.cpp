@@ -1,6 +1,4 @@
-#include "app/bench/bench.h"
-#include "app/bench/bench_work.h"
-#include "app/report/force_methods.h"
+#include "app/report/methods.h"
 #include "app/report/pareto.h"
 #include "app/report/parts.h"
 #include "haptics/files/csv_text.h"
@@ -19,20 +17,7 @@ namespace
 using namespace units::literals;
 using units::toMillimeters;
 
-constexpr int kPoints = 101;          // along a side of the plane that is drawn
 constexpr double kFarthest = 45.0_mm; // from the axis; the block ends at 50 mm
-
-// a surface as a method has it: distance from the axis and sink of its points [m]
-using Drawn = std::vector<std::pair<double, double>>;
-
-struct SurfaceTrial
-{
-  std::string method;
-  std::string setting;
-  std::string leavesOut;
-  std::vector<Drawn> surfaces;            // for each reference surface
-  std::vector<std::vector<double>> times; // likewise, of repeated updates [us]
-};
 
 struct Off
 {
@@ -58,74 +43,6 @@ void add(Off& off, Drawn drawn, const ReferenceSurface& reference)
     off.squares += width * error * error;
     off.length += width;
   }
-}
-
-SurfaceTrial tryDent(const BlockPress& press, std::span<const ReferenceSurface> references,
-  bool fitted, const Effort& effort)
-{
-  SurfaceTrial trial{ .method = fitted ? "fitted Bezier" : "paper Bezier",
-    .setting = std::to_string(kPoints * kPoints) + " vertices",
-    .leavesOut = fitted ? "every tool, body and nu but its own; volume"
-                        : "the surface beyond R_d, where it is still 0.5 mm deep; volume",
-    .surfaces = {},
-    .times = {} };
-  VisualUpdate step(kPoints, press.tip, press.table, fitted);
-  for (const ReferenceSurface& reference : references)
-  {
-    effort.check();
-    auto& times = trial.times.emplace_back();
-    for (int i = 0; i < effort.repeats(); ++i)
-    {
-      const auto measured = timed(
-        41, [](int) {},
-        [&](int k) {
-          step(straightDown({ 2.0_mm * (k % 20 - 10), 0.0, -reference.depth }));
-        });
-      times.push_back(statisticsOf(measured).median);
-    }
-    step(straightDown({ 0.0, 0.0, -reference.depth }));
-    Drawn drawn;
-    for (std::size_t i = 0; i < step.vertices(); ++i)
-    {
-      const Eigen::Vector3d vertex = step.vertex(i);
-      if (std::abs(vertex.y()) < 1e-6 && vertex.x() > -1e-6) // the row from the axis outwards
-      {
-        drawn.emplace_back(vertex.x(), -vertex.z());
-      }
-    }
-    trial.surfaces.push_back(std::move(drawn));
-  }
-  return trial;
-}
-
-SurfaceTrial tryElementSurface(const BlockPress& press,
-  std::span<const ReferenceSurface> references, double size, const Effort& effort)
-{
-  std::vector<double> depths;
-  for (int i = 1; i * 0.5_mm < references.back().depth + 0.1_mm; ++i)
-  {
-    depths.push_back(i * 0.5_mm);
-  }
-  std::vector<fem::IndentationStep> steps;
-  const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, effort, &steps);
-  SurfaceTrial trial{ .method = "finite elements",
-    .setting = forces.setting,
-    .leavesOut = forces.leavesOut,
-    .surfaces = {},
-    .times = {} };
-  for (const ReferenceSurface& reference : references)
-  {
-    const auto found = std::ranges::min_element(steps, {},
-      [&](const fem::IndentationStep& step) { return std::abs(step.depth - reference.depth); });
-    Drawn drawn;
-    for (const auto& point : found->profile)
-    {
-      drawn.emplace_back(point.radius + point.ur, -point.uz);
-    }
-    trial.surfaces.push_back(std::move(drawn));
-    trial.times.push_back(forces.times[static_cast<std::size_t>(found - steps.begin())]);
-  }
-  return trial;
 }
 
 Section start()
@@ -207,79 +124,81 @@ std::vector<double> profileDepths(const BlockPress& press)
   return depths;
 }
 
+using Style = Curve::Style;
+
 struct Mark
 {
   const char* method;
-  Curve::Style point;
-  Curve::Style line;
+  Style point;
+  Style line;
   int color;
 };
-constexpr std::array kMarks{ Mark{ "paper Bezier", Curve::Style::Circles, Curve::Style::Line, 2 },
-  Mark{ "fitted Bezier", Curve::Style::Circles, Curve::Style::Line, 1 },
-  Mark{ "finite elements", Curve::Style::Diamonds, Curve::Style::Dashed, 0 } };
+constexpr std::array kMarks{ Mark{ "paper Bezier", Style::Circles, Style::Line, 2 },
+  Mark{ "fitted Bezier", Style::Circles, Style::Line, 1 },
+  Mark{ "finite elements", Style::Diamonds, Style::Dashed, 0 } };
 
-void addCharts(Section& section, const BlockPress& press)
+using Words = std::vector<std::pair<std::string, std::string>>; // column, cell
+
+Figure errorFigure(const BlockPress& press, const Regime& regime)
+{
+  Figure figure{ .name = "surface_error_" + fileWord(press.name) + "_" + fileWord(regime.name),
+    .caption = regime.name,
+    .bottom = "time of one picture [\u00b5s]",
+    .left = "RMS error of the surface [mm]",
+    .logBottom = true,
+    .logLeft = true,
+    .group = "RMS error of the surface against the time of one picture, " + press.name +
+      ". Lower and further left is better." };
+  const auto add = [&](const char* label, const char* table, Words where, Style style, int color)
+  {
+    where.emplace_back("regime", regime.name);
+    figure.curves.push_back(
+      { label, table, "time_us", "error_rms_mm", std::move(where), style, color });
+  };
+  for (const Mark& mark : kMarks)
+  {
+    add(mark.method, "surface_error_vs_time",
+      { { "method", mark.method }, { "setting", press.name } }, mark.point, mark.color);
+  }
+  add("Pareto front", "surface_pareto_front", { { "front", press.name } }, Style::Dashed, 0);
+  return figure;
+}
+
+Figure profileFigure(const BlockPress& press, double depth)
+{
+  const std::string depthMm = shortest(toMillimeters(depth)); // as the table's cells
+  Figure figure{ .name =
+                   "surface_profiles_" + fileWord(press.name) + "_" + fileWord(depthMm) + "mm",
+    .caption = depthMm + " mm deep",
+    .bottom = "distance from the axis [mm]",
+    .left = "height [mm]",
+    .group = "The surface under " + press.name +
+      ". The paper's curve meets the undeformed surface at R_d, where the tissue is still 0.5 mm "
+      "deep; at a depth of R its Eq. (3) has contact up to the equator and leaves no ring. The "
+      "fitted curve follows the tissue to the edge of the block." };
+  const auto add = [&](const char* label, const char* method, Style style, int color)
+  {
+    const Words where{ { "press", press.name }, { "method", method }, { "depth_mm", depthMm } };
+    figure.curves.push_back(
+      { label, "surface_profiles", "radius_mm", "height_mm", where, style, color });
+  };
+  add("independent elements", "reference", Style::Circles, 7);
+  for (const Mark& mark : kMarks)
+  {
+    add(mark.method, mark.method, mark.line, mark.color);
+  }
+  return figure;
+}
+
+void addFigures(Section& section, const BlockPress& press)
 {
   for (const Regime& regime : kRegimes)
   {
-    Chart chart{ .name = "surface_error_" + fileWord(press.name) + "_" + fileWord(regime.name),
-      .caption = regime.name,
-      .bottom = "time of one picture [\u00b5s]",
-      .left = "RMS error of the surface [mm]",
-      .logBottom = true,
-      .logLeft = true,
-      .group = "RMS error of the surface against the time of one picture, " + press.name +
-        ". Lower and further left is better." };
-    for (const Mark& mark : kMarks)
-    {
-      chart.curves.push_back({ .label = mark.method,
-        .table = "surface_error_vs_time",
-        .x = "time_us",
-        .y = "error_rms_mm",
-        .where = { { "method", mark.method }, { "setting", press.name },
-          { "regime", regime.name } },
-        .style = mark.point,
-        .color = mark.color });
-    }
-    chart.curves.push_back({ .label = "Pareto front",
-      .table = "surface_pareto_front",
-      .x = "time_us",
-      .y = "error_rms_mm",
-      .where = { { "front", press.name }, { "regime", regime.name } },
-      .style = Curve::Style::Dashed,
-      .color = 0 });
-    section.charts.push_back(std::move(chart));
+    section.figures.push_back(errorFigure(press, regime));
   }
   for (const double depth : profileDepths(press))
   {
-    const std::string depthMm = shortest(toMillimeters(depth)); // as the table's cells
-    Chart profile{ .name =
-                     "surface_profiles_" + fileWord(press.name) + "_" + fileWord(depthMm) + "mm",
-      .caption = depthMm + " mm deep",
-      .bottom = "distance from the axis [mm]",
-      .left = "height [mm]",
-      .group = "The surface under " + press.name +
-        ". The paper's curve meets the undeformed surface at R_d, where the tissue is still 0.5 mm "
-        "deep; at a depth of R its Eq. (3) has contact up to the equator and leaves no ring. The "
-        "fitted curve follows the tissue to the edge of the block." };
-    profile.curves.push_back({ .label = "independent elements",
-      .table = "surface_profiles",
-      .x = "radius_mm",
-      .y = "height_mm",
-      .where = { { "press", press.name }, { "method", "reference" }, { "depth_mm", depthMm } },
-      .style = Curve::Style::Circles,
-      .color = 7 });
-    for (const Mark& mark : kMarks)
-    {
-      profile.curves.push_back({ .label = mark.method,
-        .table = "surface_profiles",
-        .x = "radius_mm",
-        .y = "height_mm",
-        .where = { { "press", press.name }, { "method", mark.method }, { "depth_mm", depthMm } },
-        .style = mark.line,
-        .color = mark.color });
-    }
-    section.charts.push_back(std::move(profile));
+    section.figures.push_back(profileFigure(press, depth));
   }
 }
 
@@ -318,7 +237,7 @@ void measurePress(
       tryElementSurface(press, references, kResolutions[i], effort), i + 1 == kResolutions.size());
     effort.reached(begin + share * static_cast<double>(i + 1) / kResolutions.size());
   }
-  addCharts(section, press);
+  addFigures(section, press);
 }
 
 } // namespace
@@ -332,7 +251,7 @@ Section surfaceAgainstTime(const Effort& effort)
     "at which that program wrote its surface count (2.5, 5, 7.5 and 10 mm), so that the smaller "
     "sphere has none in the shallow regime.",
     "Time is that of one picture: for the Bezier surfaces contact, force, dent and normals of " +
-      std::to_string(kPoints * kPoints) +
+      std::to_string(kDrawnPoints) +
       " vertices; for finite elements the step from the depth half a millimeter before."
   };
   const std::span all(presses());
@@ -354,11 +273,11 @@ Section surfaceAgainstTime(const Effort& effort)
   }
   section.tables.insert(section.tables.begin() + 1, std::move(front));
   // a regime without a depth of the references
-  std::erase_if(section.charts,
-    [&](const Chart& chart)
+  std::erase_if(section.figures,
+    [&](const Figure& figure)
     {
-      return std::ranges::all_of(
-        chart.curves, [&](const Curve& curve) { return pointsOf(section, curve).x.empty(); });
+      return std::ranges::all_of(figure.curves,
+        [&](const Curve& curve) { return pointsOf(section.tables, curve).x.empty(); });
     });
   return section;
 }

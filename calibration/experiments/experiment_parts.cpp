@@ -6,35 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace palp::fem
 {
 
 std::string csv(const Experiment& experiment)
 {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(7);
-  out << "# " << experiment.finding << '\n';
-  for (std::size_t i = 0; i < experiment.columns.size(); ++i)
-  {
-    out << (i == 0 ? "" : ",") << experiment.columns[i];
-  }
-  out << '\n';
-  for (const auto& row : experiment.rows)
-  {
-    for (std::size_t i = 0; i < row.size(); ++i)
-    {
-      out << (i == 0 ? "" : ",");
-      if (!std::isnan(row[i]))
-      {
-        out << row[i];
-      }
-    }
-    out << '\n';
-  }
-  return out.str();
+  constexpr int kDigits = 7;
+  return "# " + experiment.finding + '\n' + figures::csv(experiment.numbers, kDigits);
 }
 
 namespace parts
@@ -42,6 +21,11 @@ namespace parts
 
 using namespace units::literals;
 using units::toMillimeters;
+
+namespace
+{
+constexpr const char* kDepthColumn = "depth_mm";
+}
 
 std::vector<double> depthSteps(double step, double last, Resolution resolution)
 {
@@ -145,48 +129,56 @@ std::string fixed(double value, int digits)
   return text;
 }
 
+Experiment experimentOf(std::string name, std::vector<std::string> columns)
+{
+  return { .numbers = { .name = std::move(name),
+             .caption = "All numbers of the experiment.",
+             .columns = std::move(columns),
+             .shown = false } };
+}
+
 Experiment overDepth(std::string name, const std::vector<double>& depths)
 {
-  Experiment experiment{
-    .name = std::move(name), .columns = { "depth_mm" }, .rows = {}, .figures = {}, .finding = {}
-  };
+  Experiment experiment = experimentOf(std::move(name), { kDepthColumn });
   for (const double depth : depths)
   {
-    experiment.rows.push_back({ toMillimeters(depth) });
+    experiment.numbers.rows.push_back({ toMillimeters(depth) });
   }
   return experiment;
 }
 
 void addColumn(Experiment& experiment, std::string name, const std::vector<double>& values)
 {
-  experiment.columns.push_back(std::move(name));
+  experiment.numbers.columns.push_back(std::move(name));
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    experiment.rows[i].push_back(values[i]);
+    experiment.numbers.rows[i].emplace_back(values[i]);
   }
 }
 
-Curve curve(const Experiment& experiment, const std::string& column, std::string name, int color,
-  Curve::Style style)
+void addFigure(Experiment& experiment, Figure figure)
 {
-  const auto& columns = experiment.columns;
-  const auto at =
-    static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
-  Curve result{ .name = std::move(name), .x = {}, .y = {}, .color = color, .style = style };
-  if (columns.front() == "depth_mm")
+  experiment.points.push_back(figures::pointTable(figure));
+  experiment.figures.push_back(std::move(figure));
+}
+
+void addCurve(Experiment& experiment, Curve curve, const Points& points)
+{
+  figures::addCurve(experiment.figures.back(), experiment.points.back(), std::move(curve), points);
+}
+
+Points pointsOf(const Experiment& experiment, const std::string& column)
+{
+  const Table& numbers = experiment.numbers;
+  const std::string& first = numbers.columns.front();
+  Points points = figures::pointsOf(
+    std::span(&numbers, 1), { .label = {}, .table = numbers.name, .x = first, .y = column });
+  if (first == kDepthColumn)
   {
-    result.x.push_back(0.0);
-    result.y.push_back(0.0);
+    points.x.insert(points.x.begin(), 0.0);
+    points.y.insert(points.y.begin(), 0.0);
   }
-  for (const auto& row : experiment.rows)
-  {
-    if (!std::isnan(row[at]))
-    {
-      result.x.push_back(row.front());
-      result.y.push_back(row[at]);
-    }
-  }
-  return result;
+  return points;
 }
 
 } // namespace parts

@@ -3,6 +3,7 @@
 #include "calibration/experiments/experiments.h"
 #include "calibration/fem/indenter.h"
 #include "calibration/study/study.h"
+#include "haptics/force/validity.h"
 #include "haptics/units.h"
 
 #include <limits>
@@ -13,6 +14,7 @@ namespace palp::fem::parts
 {
 
 inline constexpr Material kTissue{ .youngModulus = 50e3, .poissonRatio = 0.33 }; // Sec. 3.2
+inline constexpr double kNoticed = 100.0 * Validity::kJustNoticeable;            // [%] of a force
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// step, 2 step, ... to last [m]; half as many where it is to be quick
@@ -46,13 +48,21 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 [[nodiscard]] std::string fixed(double value, int digits);
 
+/// An experiment without rows.
+[[nodiscard]] Experiment experimentOf(std::string name, std::vector<std::string> columns);
+
 /// An experiment whose abscissa is the depth.
 [[nodiscard]] Experiment overDepth(std::string name, const std::vector<double>& depths);
 
 void addColumn(Experiment& experiment, std::string name, const std::vector<double>& values);
 
+/// Begins a figure without curves; addCurve() adds to the last one.
+void addFigure(Experiment& experiment, Figure figure);
+
+/// @param curve  label, style and color
+void addCurve(Experiment& experiment, Curve curve, const Points& points);
+
 /// A column over the first one, where there are values; over the depth from (0, 0).
-[[nodiscard]] Curve curve(const Experiment& experiment, const std::string& column, std::string name,
-  int color, Curve::Style style = Curve::Style::Line);
+[[nodiscard]] Points pointsOf(const Experiment& experiment, const std::string& column);
 
 } // namespace palp::fem::parts

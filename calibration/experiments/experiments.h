@@ -1,5 +1,7 @@
 #pragma once
 
+#include "calibration/figures/figure.h"
+
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -7,40 +9,18 @@
 namespace palp::fem
 {
 
-/// One curve of a figure, in the units of its axes.
-struct Curve
-{
-  std::string name;
-  std::vector<double> x;
-  std::vector<double> y;
-  int color = 0; ///< curves that belong together share one
-  enum class Style
-  {
-    Line,
-    Dashed,
-    Points,
-  } style = Style::Line;
-};
-
-/// What an experiment shows.
-struct Figure
-{
-  std::string name; ///< of the file
-  std::string title;
-  std::string bottom; ///< axis, with its unit
-  std::string left;
-  std::vector<Curve> curves;
-  bool noticed = false; ///< with a band of 7 %, what a hand just notices
-};
+using figures::Curve;
+using figures::Figure;
+using figures::Points;
+using figures::Table;
 
 /// An experiment of the paper done again: numbers, and what they say about the paper's.
 struct Experiment
 {
-  std::string name;                 ///< of the file
-  std::vector<std::string> columns; ///< the first is the abscissa; each name ends in its unit
-  std::vector<std::vector<double>> rows;
-  std::vector<Figure> figures;
-  std::string finding; ///< a few sentences
+  Table numbers; ///< the first column is the abscissa
+  std::vector<Figure> figures{};
+  std::vector<Table> points{}; ///< of each figure
+  std::string finding{};       ///< a few sentences
 };
 
 /// How finely an experiment is done.

@@ -39,17 +39,17 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
   const auto flat = forcesOn(block, tip, Energy::Corotated, depths, stop);
   const double most = largest(flat);
   addColumn(result, name + "_block_N", flat);
-  Figure figure{ .name = "curvature_" + name,
-    .title = "Fig. 3: " + name + " on elastic spheres against the flat block",
-    .bottom = kDepth,
-    .left = "e_f, Eq. (6) [% of " + fixed(most, 2) + " N]",
-    .curves = {},
-    .noticed = true };
+  addFigure(result,
+    { .name = "curvature_" + name,
+      .caption = "Fig. 3: " + name + " on elastic spheres against the flat block",
+      .bottom = kDepth,
+      .left = "e_f, Eq. (6) [% of " + fixed(most, 2) + " N]",
+      .band = kNoticed });
   std::string found;
   for (const Support& support : kSupports)
   {
     found += std::string(found.empty() ? "" : "; ") + support.words + ", R0 =";
-    int color = 0;
+    int color = 1;
     for (const double radius : { 30.0_mm, 50.0_mm, 100.0_mm })
     {
       const Body body = sphereBody(radius, support.kind, 11.0_mm, elementSize(tip, resolution));
@@ -59,7 +59,7 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
         error[i] = (error[i] - flat[i]) / most;
       }
       const std::string size = fixed(toMillimeters(radius), 0) + " mm";
-      found += (color > 0 ? ", " : " ") + size + ' ' + passesAt(depths, error);
+      found += (color > 1 ? ", " : " ") + size + ' ' + passesAt(depths, error);
       for (double& e : error)
       {
         e *= 100.0;
@@ -67,11 +67,14 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
       const std::string column =
         name + "_R0_" + fixed(toMillimeters(radius), 0) + "mm_" + support.column + "_percent";
       addColumn(result, column, error);
-      figure.curves.push_back(curve(result, column, "R0 = " + size + ", " + support.words, color++,
-        support.kind == SphereSupport::BottomCap ? Curve::Style::Dashed : Curve::Style::Line));
+      const bool glued = support.kind == SphereSupport::BottomCap;
+      addCurve(result,
+        { .label = "R0 = " + size + ", " + support.words,
+          .style = glued ? Curve::Style::Dashed : Curve::Style::Line,
+          .color = color++ },
+        pointsOf(result, column));
     }
   }
-  result.figures.push_back(std::move(figure));
   result.finding += "The " + name + " presses the block with at most " + fixed(most, 2) + " N (" +
     (sphere ? "paper: 5.66 N" : "paper: not stated") + "); spheres depart from it by 7 %, " +
     found + " (paper: none before " + (sphere ? "9" : "6.5") + " mm). ";
@@ -93,31 +96,32 @@ Experiment curvature(Resolution resolution, const std::stop_token& stop)
 
 Experiment inclination()
 {
-  Experiment result{ .name = "inclination",
-    .columns = { "tilt_deg", "sphere_normal_loss_percent", "cone_force_change_percent" },
-    .rows = {},
-    .figures = {},
-    .finding = {} };
+  Experiment result = experimentOf(
+    "inclination", { "tilt_deg", "sphere_normal_loss_percent", "cone_force_change_percent" });
   const Tip sharp = ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm };
   const auto change = [&](double degrees)
   { return tiltFactor(sharp, units::fromDegrees(degrees)) - 1.0; };
   for (int degree = 0; degree <= 25; ++degree)
   {
     const double loss = 1.0 - std::cos(units::fromDegrees(degree));
-    result.rows.push_back({ static_cast<double>(degree), 100.0 * loss, 100.0 * change(degree) });
+    result.numbers.rows.push_back(
+      { static_cast<double>(degree), 100.0 * loss, 100.0 * change(degree) });
   }
   double limit = 0.0;
   while (change(limit) < Validity::kJustNoticeable)
   {
     limit += 0.01;
   }
-  result.figures.push_back({ .name = "inclination",
-    .title = "Eq. (7): what an inclined tool changes",
-    .bottom = "tilt [\u00b0]",
-    .left = "change of the force [%]",
-    .curves = { curve(result, "sphere_normal_loss_percent", "sphere, 1 - cos(tilt)", 0),
-      curve(result, "cone_force_change_percent", "cone of 45\u00b0, boundary elements", 1) },
-    .noticed = true });
+  addFigure(result,
+    { .name = "inclination",
+      .caption = "Eq. (7): what an inclined tool changes",
+      .bottom = "tilt [\u00b0]",
+      .left = "change of the force [%]",
+      .band = kNoticed });
+  addCurve(result, { .label = "sphere, 1 - cos(tilt)", .color = 1 },
+    pointsOf(result, "sphere_normal_loss_percent"));
+  addCurve(result, { .label = "cone of 45\u00b0, boundary elements", .color = 2 },
+    pointsOf(result, "cone_force_change_percent"));
   result.finding = "Sphere: " + fixed(units::toDegrees(tiltOfShare(Validity::kJustNoticeable)), 2) +
     " degrees by Eq. (7), which the paper rounds to 22. Cone of 45 degrees: boundary elements on "
     "the linear half-space reach 7 % at " +
@@ -171,13 +175,14 @@ Forces addForces(Experiment& result, bool sphere, const std::vector<double>& dep
     forces.paper.push_back(law(ContactGeometry{ .depth = depth }).force);
   }
   addColumn(result, name + "paper_N", forces.paper);
-  Figure figure{ .name = sphere ? "forces_sphere" : "forces_cone",
-    .title = sphere ? "Fig. 15(a): sphere R = 6 mm, block of 30 mm"
-                    : "Fig. 15(b): cone of 45\u00b0 with a cap of 0.3 mm, block of 30 mm",
-    .bottom = kDepth,
-    .left = "force [N]",
-    .curves = {
-      curve(result, name + "paper_N", sphere ? "paper, Eq. (4)" : "paper, Eq. (5), sharp", 0) } };
+  addFigure(result,
+    { .name = sphere ? "forces_sphere" : "forces_cone",
+      .caption = sphere ? "Fig. 15(a): sphere R = 6 mm, block of 30 mm"
+                        : "Fig. 15(b): cone of 45\u00b0 with a cap of 0.3 mm, block of 30 mm",
+      .bottom = kDepth,
+      .left = "force [N]" });
+  addCurve(result, { .label = sphere ? "paper, Eq. (4)" : "paper, Eq. (5), sharp", .color = 1 },
+    pointsOf(result, name + "paper_N"));
   for (std::size_t e = 0; e < kEnergies.size(); ++e)
   {
     const Energy energy = kEnergies[e];
@@ -185,22 +190,24 @@ Forces addForces(Experiment& result, bool sphere, const std::vector<double>& dep
     forces.elements[e] = forcesOn(body, tip, energy, depths, stop);
     const std::string column = name + std::string(fem::name(energy)) + "_N";
     addColumn(result, column, forces.elements[e]);
-    figure.curves.push_back(curve(result, column, "elements, " + std::string(fem::name(energy)),
-      static_cast<int>(e) + 1, Curve::Style::Points));
+    addCurve(result,
+      { .label = "elements, " + std::string(fem::name(energy)),
+        .style = Curve::Style::Circles,
+        .color = static_cast<int>(e) + 2 },
+      pointsOf(result, column));
   }
-  result.figures.push_back(std::move(figure));
   return forces;
 }
 
 // Fig. 16
 void addDifferences(Experiment& result, const std::vector<double>& depths, const Forces& forces)
 {
-  Figure figure{ .name = "force_difference",
-    .title = "Fig. 16: Eq. (4) minus finite elements, sphere R = 6 mm",
-    .bottom = kDepth,
-    .left = "e_f, Eq. (9) [% of the largest force to 5 mm]",
-    .curves = {},
-    .noticed = true };
+  addFigure(result,
+    { .name = "force_difference",
+      .caption = "Fig. 16: Eq. (4) minus finite elements, sphere R = 6 mm",
+      .bottom = kDepth,
+      .left = "e_f, Eq. (9) [% of the largest force to 5 mm]",
+      .band = kNoticed });
   for (std::size_t e = 0; e < kEnergies.size(); ++e)
   {
     auto shallow = differences(depths, forces.paper, forces.elements[e], 5.0_mm);
@@ -214,9 +221,9 @@ void addDifferences(Experiment& result, const std::vector<double>& depths, const
     }
     const std::string column = "sphere_" + material + "_difference_percent";
     addColumn(result, column, shallow);
-    figure.curves.push_back(curve(result, column, material, static_cast<int>(e) + 1));
+    addCurve(
+      result, { .label = material, .color = static_cast<int>(e) + 2 }, pointsOf(result, column));
   }
-  result.figures.push_back(std::move(figure));
 }
 
 // the last depth to which the law is within 5 % of the elements [mm], from 1 mm on

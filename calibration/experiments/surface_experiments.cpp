@@ -28,10 +28,10 @@ std::vector<double> extentsOf(const Case& study, const std::stop_token& stop)
   return radii;
 }
 
-Curve polynomial(const Fit& fit, std::string name, int color)
+Points polynomial(const Fit& fit)
 {
   constexpr int kPoints = 100;
-  Curve result{ .name = std::move(name), .x = {}, .y = {}, .color = color };
+  Points result;
   for (int i = 0; i <= kPoints; ++i)
   {
     const double x = fit.upTo * i / kPoints;
@@ -71,16 +71,18 @@ double addExtents(Experiment& result, bool sphere, const std::vector<double>& de
     radii.push_back(soft[i]);
   }
   const ExtentFits fits = fitExtent(reached, radii);
-  const int color = sphere ? 0 : 3;
-  auto& curves = result.figures.front().curves;
-  curves.push_back(
-    curve(result, name + "_50kPa_mm", name + ", 50 kPa and 1.5 MPa", color, Curve::Style::Points));
+  const int color = sphere ? 1 : 4;
+  addCurve(result,
+    { .label = name + ", 50 kPa and 1.5 MPa", .style = Curve::Style::Circles, .color = color },
+    pointsOf(result, name + "_50kPa_mm"));
   if (fits.linearHoldsTo > 0.0)
   {
-    curves.push_back(polynomial(
-      fits.linear, name + ", line to " + fixed(fits.linearHoldsTo, 1) + " mm", color + 1));
+    addCurve(result,
+      { .label = name + ", line to " + fixed(fits.linearHoldsTo, 1) + " mm", .color = color + 1 },
+      polynomial(fits.linear));
   }
-  curves.push_back(polynomial(fits.quadratic, name + ", parabola", color + 2));
+  addCurve(
+    result, { .label = name + ", parabola", .color = color + 2 }, polynomial(fits.quadratic));
   result.finding += (sphere ? "Sphere: R_d = " : "Cone: R_d = ") + fixed(largest(radii), 1) +
     " mm at the last depth; " +
     (fits.linearHoldsTo > 0.0 ? "a line holds to " + fixed(fits.linearHoldsTo, 1) + " mm"
@@ -97,8 +99,7 @@ struct Shares
 };
 
 // one depth of Fig. 7
-void addProfile(Experiment& result, Figure& figure, const Case& study, const IndentationStep& step,
-  Shares& shares)
+void addProfile(Experiment& result, const Case& study, const IndentationStep& step, Shares& shares)
 {
   const double extent = extentRadius(step.profile, study.threshold);
   const SurfaceProfile fit = fitSurface(step, study.tip);
@@ -108,11 +109,9 @@ void addProfile(Experiment& result, Figure& figure, const Case& study, const Ind
   shares.paper = std::max(shares.paper, surfaceError(step, fit.outer, paper).rms / step.depth);
   shares.fitted = std::max(shares.fitted, surfaceError(step, fit.outer, fitted).rms / step.depth);
 
-  // one entry in the legend for all depths
-  const auto name = [&](const char* text) { return figure.curves.size() < 3 ? text : ""; };
-  Curve elements{ .name = name("finite elements"), .x = {}, .y = {}, .color = 0 };
-  Curve drawn{ .name = name("paper, Eq. (8)"), .x = {}, .y = {}, .color = 1 };
-  Curve closer{ .name = name("fitted"), .x = {}, .y = {}, .color = 2 };
+  Points elements;
+  Points drawn;
+  Points closer;
   const double sphere = std::holds_alternative<SphereTip>(study.tip) ? 0.0 : 1.0;
   for (const auto& point : step.profile)
   {
@@ -122,7 +121,7 @@ void addProfile(Experiment& result, Figure& figure, const Case& study, const Ind
     const double height = toMillimeters(point.uz);
     const double ring = outside ? -toMillimeters(paper(radius)) : kMissing;
     const double curve = outside ? -toMillimeters(fitted(radius)) : kMissing;
-    result.rows.push_back({ x, sphere, toMillimeters(step.depth), height, ring, curve });
+    result.numbers.rows.push_back({ x, sphere, toMillimeters(step.depth), height, ring, curve });
     elements.x.push_back(x);
     elements.y.push_back(height);
     if (outside)
@@ -133,9 +132,10 @@ void addProfile(Experiment& result, Figure& figure, const Case& study, const Ind
       closer.y.push_back(curve);
     }
   }
-  figure.curves.push_back(std::move(elements));
-  figure.curves.push_back(std::move(drawn));
-  figure.curves.push_back(std::move(closer));
+  const bool first = result.figures.back().curves.empty(); // one entry in the legend for all depths
+  addCurve(result, { .label = first ? "finite elements" : "", .color = 1 }, elements);
+  addCurve(result, { .label = first ? "paper, Eq. (8)" : "", .color = 2 }, drawn);
+  addCurve(result, { .label = first ? "fitted" : "", .color = 3 }, closer);
 }
 
 } // namespace
@@ -144,11 +144,11 @@ Experiment extents(Resolution resolution, const std::stop_token& stop)
 {
   const auto depths = depthSteps(0.5_mm, 10.0_mm, resolution);
   Experiment result = overDepth("extents", depths);
-  result.figures.push_back({ .name = "extents",
-    .title = "Fig. 8: radius of the deformed region, R = 10 mm, block of 50 mm",
-    .bottom = "depth \u03b4 [mm]",
-    .left = "R_d [mm]",
-    .curves = {} });
+  addFigure(result,
+    { .name = "extents",
+      .caption = "Fig. 8: radius of the deformed region, R = 10 mm, block of 50 mm",
+      .bottom = "depth \u03b4 [mm]",
+      .left = "R_d [mm]" });
   const double sphere = addExtents(result, true, depths, resolution, stop);
   const double cone = addExtents(result, false, depths, resolution, stop);
   result.finding += "The cone's is smaller, as the paper says. 50 kPa and 1.5 MPa give the same "
@@ -162,28 +162,24 @@ Experiment extents(Resolution resolution, const std::stop_token& stop)
 
 Experiment profiles(Resolution resolution, const std::stop_token& stop)
 {
-  Experiment result{ .name = "profiles",
-    .columns = { "radius_mm", "tool", "depth_mm", "finite_elements_mm", "paper_mm", "fitted_mm" },
-    .rows = {},
-    .figures = {},
-    .finding = {} };
+  Experiment result = experimentOf(
+    "profiles", { "radius_mm", "tool", "depth_mm", "finite_elements_mm", "paper_mm", "fitted_mm" });
   for (const bool sphere : { true, false })
   {
     // the same depths however quick: they are the paper's four pictures
     Case study = paperBlock(tool(sphere, 10.0_mm), 50.0_mm, Energy::NeoHookean,
       depthSteps(2.5_mm, 10.0_mm, Resolution::Full), resolution);
-    Figure figure{ .name = sphere ? "profiles_sphere" : "profiles_cone",
-      .title = std::string("Fig. 7: surface under the ") + (sphere ? "sphere" : "cone") +
-        ", R = 10 mm, at 2.5, 5, 7.5 and 10 mm",
-      .bottom = "distance from the axis [mm]",
-      .left = "height [mm]",
-      .curves = {} };
+    addFigure(result,
+      { .name = sphere ? "profiles_sphere" : "profiles_cone",
+        .caption = std::string("Fig. 7: surface under the ") + (sphere ? "sphere" : "cone") +
+          ", R = 10 mm, at 2.5, 5, 7.5 and 10 mm",
+        .bottom = "distance from the axis [mm]",
+        .left = "height [mm]" });
     Shares shares;
     for (const IndentationStep& step : calibrate(study, stop).steps)
     {
-      addProfile(result, figure, study, step, shares);
+      addProfile(result, study, step, shares);
     }
-    result.figures.push_back(std::move(figure));
     result.finding += std::string(sphere ? "Sphere (tool 0)" : "Cone (tool 1)") +
       ": the paper's quadratic curve, which ends at R_d where the surface is still 0.5 mm deep, "
       "lies up to " +

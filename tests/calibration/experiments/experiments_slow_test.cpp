@@ -1,6 +1,5 @@
 #include "calibration/experiments/experiments.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace palp::fem
@@ -10,17 +9,15 @@ namespace
 
 double at(const Experiment& experiment, std::size_t row, const std::string& column)
 {
-  const auto found = std::find(experiment.columns.begin(), experiment.columns.end(), column);
-  EXPECT_NE(found, experiment.columns.end()) << column;
-  return experiment.rows[row][static_cast<std::size_t>(found - experiment.columns.begin())];
+  return experiment.numbers.column(column)[row];
 }
 
 void expectFull(const Experiment& experiment)
 {
-  EXPECT_FALSE(experiment.rows.empty());
-  for (const auto& row : experiment.rows)
+  EXPECT_FALSE(experiment.numbers.rows.empty());
+  for (const auto& row : experiment.numbers.rows)
   {
-    EXPECT_EQ(row.size(), experiment.columns.size());
+    EXPECT_EQ(row.size(), experiment.numbers.columns.size());
   }
   EXPECT_FALSE(experiment.figures.empty());
   for (const Figure& figure : experiment.figures)

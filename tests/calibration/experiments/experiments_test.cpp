@@ -12,8 +12,9 @@ namespace
 TEST(Experiments, InclinationFollowsEquationSeven)
 {
   const Experiment found = inclination();
-  EXPECT_NEAR(found.rows[9][2], 4.5, 0.1);
-  EXPECT_NEAR(found.rows[21][1], 6.64, 0.01); // 1 - cos 21 degrees
+  EXPECT_NEAR(found.numbers.column("cone_force_change_percent")[9], 4.5, 0.1);
+  EXPECT_NEAR(
+    found.numbers.column("sphere_normal_loss_percent")[21], 6.64, 0.01); // 1 - cos 21 degrees
   EXPECT_NE(found.finding.find("21.57"), std::string::npos);
 }
 
@@ -27,20 +28,19 @@ TEST(Experiments, QuickProfilesDrawEveryCurve)
     ASSERT_EQ(figure.curves.size(), 12U);
     for (const Curve& curve : figure.curves)
     {
-      EXPECT_EQ(curve.x.size(), curve.y.size());
-      EXPECT_GT(curve.x.size(), 8U);
+      EXPECT_GT(figures::pointsOf(found.points, curve).x.size(), 8U);
     }
-    EXPECT_EQ(figure.curves[0].name, "finite elements");
-    EXPECT_EQ(figure.curves[3].name, ""); // named once
+    EXPECT_EQ(figure.curves[0].label, "finite elements");
+    EXPECT_EQ(figure.curves[3].label, ""); // named once
   }
 }
 
 TEST(Experiments, TablesCarryTheirFindingAboveTheColumns)
 {
-  const Experiment two{ .name = "two",
-    .columns = { "a_mm", "b_N" },
-    .rows = { { 1, NAN }, { 3, 0.5 } },
-    .figures = {},
+  const Experiment two{ .numbers = { .name = "two",
+                          .caption = {},
+                          .columns = { "a_mm", "b_N" },
+                          .rows = { { 1.0, NAN }, { 3.0, 0.5 } } },
     .finding = "Yes." };
   EXPECT_EQ(csv(two), "# Yes.\na_mm,b_N\n1,\n3,0.5\n");
 }

@@ -20,7 +20,6 @@
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
 #include <vtkRenderWindow.h>
-#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
@@ -97,58 +96,75 @@ TEST(ExtentPlot, FitsAQuadraticExactly)
   }
 }
 
-vtkSmartPointer<vtkPalpDeformFilter> pressedPlane()
+// a sphere in a plane, as if elements had found a hyperbola outside the contact
+class PlaneSection : public ::testing::Test
 {
-  vtkNew<vtkPlaneSource> source;
-  source->SetOrigin(-30.0_mm, -30.0_mm, 0.0);
-  source->SetPoint1(30.0_mm, -30.0_mm, 0.0);
-  source->SetPoint2(-30.0_mm, 30.0_mm, 0.0);
-  source->SetResolution(60, 60);
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(source->GetOutputPort());
-  auto filter = vtkSmartPointer<vtkPalpDeformFilter>::New();
-  filter->SetInputConnection(triangles->GetOutputPort());
-  filter->GeneratePatchOn();
-  filter->SetPatchLevel(2);
-  return filter;
-}
+protected:
+  PlaneSection()
+  {
+    vtkNew<vtkPlaneSource> source;
+    source->SetOrigin(-30.0_mm, -30.0_mm, 0.0);
+    source->SetPoint1(30.0_mm, -30.0_mm, 0.0);
+    source->SetPoint2(-30.0_mm, 30.0_mm, 0.0);
+    source->SetResolution(60, 60);
+    vtkNew<vtkTriangleFilter> triangles;
+    triangles->SetInputConnection(source->GetOutputPort());
+    filter->SetInputConnection(triangles->GetOutputPort());
+    filter->GeneratePatchOn();
+    filter->SetPatchLevel(2);
+    filter->SetPress(press);
+    plot = sectionPlot(*filter, Eigen::Vector3d(1.0, 0.05, 0.0), elements);
+  }
 
-TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
-{
-  const auto filter = pressedPlane();
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const Press press =
-    test::pressAt(Eigen::Vector3d::Zero(), up, SphereTip{ 10.0_mm }, 4.0_mm, 18.0_mm);
-  filter->SetPress(press);
-  // as if elements had found a hyperbola outside the contact
-  const SurfaceProfile elements{
-    .inner = 7.0_mm, .outer = 40.0_mm, .sink = 2.0_mm, .slope = 0.5, .control = { 1.0_mm, 1.0_mm }
-  };
-  const auto plot = sectionPlot(*filter, Eigen::Vector3d(1.0, 0.05, 0.0), elements);
-  ASSERT_EQ(plot->tables().size(), 8U); // the curve and the elements on either side
-  vtkTable& drawn = *plot->tables()[2];
+  [[nodiscard]] std::vector<double> x(std::size_t curve) const
+  {
+    return column(*plot->tables().at(curve), 0);
+  }
+  [[nodiscard]] std::vector<double> height(std::size_t curve) const
+  {
+    return column(*plot->tables().at(curve), 1);
+  }
+
+  const Press press = test::pressAt(
+    Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), SphereTip{ 10.0_mm }, 4.0_mm, 18.0_mm);
+  const SurfaceProfile elements{ .inner = 7.0_mm,
+    .outer = 40.0_mm,
+    .sink = 2.0_mm,
+    .slope = 0.5,
+    .control = { 1.0_mm, 1.0_mm } };
   const double r = press.contactRadius;
   const double sink = 4.0_mm - tipHeight(press.tip, r);
-  const RingCurve ring = makeRingCurve(r, sink, tipSlope(press.tip, r), 18.0_mm);
-  const auto x = column(drawn, 0);
-  const auto z = column(drawn, 1);
-  EXPECT_GT(x.size(), 100U);
-  for (std::size_t i = 0; i < x.size(); ++i)
+  const double slope = tipSlope(press.tip, r);
+  vtkNew<vtkPalpDeformFilter> filter;
+  std::unique_ptr<Plot> plot;
+};
+
+TEST_F(PlaneSection, CutsAPlaneAlongTheCurveOfEquationEight)
+{
+  ASSERT_EQ(plot->tables().size(), 8U); // the curve and the elements on either side
+  const RingCurve ring = makeRingCurve(r, sink, slope, 18.0_mm);
+  const auto along = x(2);
+  const auto z = height(2);
+  EXPECT_GT(along.size(), 100U);
+  for (std::size_t i = 0; i < along.size(); ++i)
   {
-    const double radius = std::abs(units::fromMillimeters(x[i]));
+    const double radius = std::abs(units::fromMillimeters(along[i]));
     const double expected =
       radius < r ? 4.0_mm - tipHeight(press.tip, radius) : ring.sinkAt(radius);
-    EXPECT_NEAR(units::fromMillimeters(z[i]), -expected, 10.0_um) << x[i];
+    EXPECT_NEAR(units::fromMillimeters(z[i]), -expected, 10.0_um) << along[i];
   }
-  for (const double height : column(*plot->tables()[1], 1))
+  for (const double atRest : height(1))
   {
-    EXPECT_NEAR(height, 0.0, 1e-4); // at rest
+    EXPECT_NEAR(atRest, 0.0, 1e-4);
   }
-  // Fig. 5(b): P0 on the tool, P1 where its tangent meets the surface, P2 at R_d
-  const auto controlX = column(*plot->tables()[5], 0);
-  const auto controlZ = column(*plot->tables()[5], 1);
-  const double meet = r + sink / tipSlope(press.tip, r);
-  const std::vector<std::pair<double, double>> control{ { r, -sink }, { meet, 0.0 },
+}
+
+// Fig. 5(b): P0 on the tool, P1 where its tangent meets the surface, P2 at R_d
+TEST_F(PlaneSection, MarksTheControlPointsOnEitherSide)
+{
+  const auto controlX = x(5);
+  const auto controlZ = height(5);
+  const std::vector<std::pair<double, double>> control{ { r, -sink }, { r + sink / slope, 0.0 },
     { 18.0_mm, 0.0 } };
   ASSERT_EQ(controlX.size(), 6U);
   for (std::size_t i = 0; i < 6; ++i)
@@ -157,15 +173,19 @@ TEST(SectionPlot, CutsAPlaneAlongTheCurveOfEquationEight)
     EXPECT_NEAR(units::fromMillimeters(controlX[i]), side * control[i % 3].first, 10.0_um);
     EXPECT_NEAR(units::fromMillimeters(controlZ[i]), control[i % 3].second, 10.0_um);
   }
-  for (const int side : { 6, 7 })
+}
+
+TEST_F(PlaneSection, LaysElementsBelowTheSurfaceAtRest)
+{
+  for (const std::size_t side : { 6U, 7U })
   {
-    const auto radius = column(*plot->tables()[side], 0);
-    const auto height = column(*plot->tables()[side], 1);
+    const auto radius = x(side);
+    const auto z = height(side);
     EXPECT_GT(radius.size(), 20U);
     for (std::size_t i = 0; i < radius.size(); ++i)
     {
       const double at = std::abs(units::fromMillimeters(radius[i]));
-      EXPECT_NEAR(units::fromMillimeters(height[i]), -elements.sinkAt(at), 1.0_um);
+      EXPECT_NEAR(units::fromMillimeters(z[i]), -elements.sinkAt(at), 1.0_um);
     }
   }
 }

@@ -45,6 +45,34 @@ inline constexpr std::array kResolutions{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 
 [[nodiscard]] Trial trySteps(const BlockPress& press, fem::Baseline baseline,
   std::span<const double> depths, const std::function<bool(double)>& wanted, const Effort& effort);
 
+/// A surface as a method has it: distance from the axis and sink of its points [m].
+using Drawn = std::vector<std::pair<double, double>>;
+
+/// A way to get the surface under a press, tried at the depths of references.
+struct SurfaceTrial
+{
+  std::string method;
+  std::string setting;
+  std::string leavesOut;
+  std::vector<Drawn> surfaces;            ///< for each reference surface
+  std::vector<std::vector<double>> times; ///< likewise, of repeated updates [us]
+};
+
+/// Of the plane that tryDent() draws.
+inline constexpr int kDrawnSide = 101; // points along a side of the plane
+inline constexpr int kDrawnPoints = kDrawnSide * kDrawnSide;
+
+/// The dent that the window draws; an evaluation is contact, force, dent and normals.
+/// @param fitted  the curve that was fitted to elements, else the paper's
+/// @throws Interrupted
+[[nodiscard]] SurfaceTrial tryDent(const BlockPress& press,
+  std::span<const ReferenceSurface> references, bool fitted, const Effort& effort);
+
+/// Our own neo-Hookean elements, as tryElements().
+/// @throws Interrupted
+[[nodiscard]] SurfaceTrial tryElementSurface(const BlockPress& press,
+  std::span<const ReferenceSurface> references, double size, const Effort& effort);
+
 /// The body of Fig. 12: 1,600 vertices on top.
 [[nodiscard]] fem::TetMesh baselineBody(double height);
 

@@ -1,6 +1,7 @@
-#include "app/report/force_methods.h"
+#include "app/report/methods.h"
 
 #include "app/bench/bench.h"
+#include "app/bench/bench_work.h"
 #include "app/program/data_files.h"
 #include "calibration/study/study.h"
 #include "calibration/tables/extent_table.h"
@@ -10,6 +11,7 @@
 #include "haptics/numerics/statistics.h"
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -220,6 +222,74 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
     {
       trial.times[i].push_back(time * 1e3); // [us]
     }
+  }
+  return trial;
+}
+
+SurfaceTrial tryDent(const BlockPress& press, std::span<const ReferenceSurface> references,
+  bool fitted, const Effort& effort)
+{
+  SurfaceTrial trial{ .method = fitted ? "fitted Bezier" : "paper Bezier",
+    .setting = std::to_string(kDrawnPoints) + " vertices",
+    .leavesOut = fitted ? "every tool, body and nu but its own; volume"
+                        : "the surface beyond R_d, where it is still 0.5 mm deep; volume",
+    .surfaces = {},
+    .times = {} };
+  VisualUpdate step(kDrawnSide, press.tip, press.table, fitted);
+  for (const ReferenceSurface& reference : references)
+  {
+    effort.check();
+    auto& times = trial.times.emplace_back();
+    for (int i = 0; i < effort.repeats(); ++i)
+    {
+      const auto measured = timed(
+        41, [](int) {},
+        [&](int k) {
+          step(straightDown({ 2.0_mm * (k % 20 - 10), 0.0, -reference.depth }));
+        });
+      times.push_back(statisticsOf(measured).median);
+    }
+    step(straightDown({ 0.0, 0.0, -reference.depth }));
+    Drawn drawn;
+    for (std::size_t i = 0; i < step.vertices(); ++i)
+    {
+      const Eigen::Vector3d vertex = step.vertex(i);
+      if (std::abs(vertex.y()) < 1e-6 && vertex.x() > -1e-6) // the row from the axis outwards
+      {
+        drawn.emplace_back(vertex.x(), -vertex.z());
+      }
+    }
+    trial.surfaces.push_back(std::move(drawn));
+  }
+  return trial;
+}
+
+SurfaceTrial tryElementSurface(const BlockPress& press,
+  std::span<const ReferenceSurface> references, double size, const Effort& effort)
+{
+  std::vector<double> depths;
+  for (int i = 1; i * 0.5_mm < references.back().depth + 0.1_mm; ++i)
+  {
+    depths.push_back(i * 0.5_mm);
+  }
+  std::vector<fem::IndentationStep> steps;
+  const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, effort, &steps);
+  SurfaceTrial trial{ .method = "finite elements",
+    .setting = forces.setting,
+    .leavesOut = forces.leavesOut,
+    .surfaces = {},
+    .times = {} };
+  for (const ReferenceSurface& reference : references)
+  {
+    const auto found = std::ranges::min_element(steps, {},
+      [&](const fem::IndentationStep& step) { return std::abs(step.depth - reference.depth); });
+    Drawn drawn;
+    for (const auto& point : found->profile)
+    {
+      drawn.emplace_back(point.radius + point.ur, -point.uz);
+    }
+    trial.surfaces.push_back(std::move(drawn));
+    trial.times.push_back(forces.times[static_cast<std::size_t>(found - steps.begin())]);
   }
   return trial;
 }

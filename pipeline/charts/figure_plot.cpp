@@ -1,0 +1,86 @@
+#include "pipeline/charts/figure_plot.h"
+
+#include "calibration/figures/palette.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+using figures::Curve;
+using figures::Layout;
+
+// a picture of its own takes the colors of the window's charts
+appearance::Color colorOf(const Curve& curve, Layout layout)
+{
+  if (layout == Layout::Alone)
+  {
+    return curve.color > 0 ? appearance::curveColor(static_cast<std::size_t>(curve.color) - 1)
+                           : appearance::kInk;
+  }
+  const auto digits = std::stoul(figures::paletteColor(curve.color) + 1, nullptr, 16);
+  const auto part = [&](unsigned shift)
+  { return static_cast<double>((digits >> shift) & 0xffU) / 255.0; };
+  return { part(16), part(8), part(0) };
+}
+
+void addCurve(Plot& plot, const Curve& curve, const figures::Points& points, Layout layout)
+{
+  const appearance::Color color = colorOf(curve, layout);
+  const auto mark = [&](Plot::Mark shape, float size)
+  {
+    plot.addPoints(
+      curve.label, points.x, points.y, color, shape, layout == Layout::Alone ? 0.75F * size : size);
+  };
+  switch (curve.style)
+  {
+    case Curve::Style::Line:
+    case Curve::Style::Dashed:
+      if (points.x.size() > 1)
+      {
+        plot.addLine(
+          curve.label, points.x, points.y, color, 2.0F, curve.style == Curve::Style::Dashed);
+      }
+      break;
+    case Curve::Style::Circles:
+      mark(Plot::Mark::Circle, 8.0F);
+      break;
+    case Curve::Style::Squares:
+      mark(Plot::Mark::Square, 7.0F);
+      break;
+    case Curve::Style::Diamonds:
+      mark(Plot::Mark::Diamond, 10.0F);
+      break;
+  }
+}
+
+} // namespace
+
+std::unique_ptr<Plot> figurePlot(
+  const figures::Figure& figure, std::span<const figures::Table> tables, Layout layout)
+{
+  const bool alone = layout == Layout::Alone;
+  auto plot = std::make_unique<Plot>(alone ? figure.caption : "", figure.bottom, figure.left);
+  if (figure.band > 0.0 && !figure.curves.empty())
+  {
+    const std::vector<double> x = figures::pointsOf(tables, figure.curves.front()).x;
+    plot->addBand("less than a hand notices, " + std::to_string(std::lround(figure.band)) + " %", x,
+      std::vector(x.size(), -figure.band), std::vector(x.size(), figure.band), appearance::kGround);
+  }
+  for (const Curve& curve : figure.curves)
+  {
+    addCurve(*plot, curve, figures::pointsOf(tables, curve), layout);
+  }
+  plot->setLogarithmic(figure.logBottom, figure.logLeft);
+  if (!alone)
+  {
+    plot->hideLegend();
+  }
+  return plot;
+}
+
+} // namespace palp
