@@ -24,29 +24,6 @@ fem::Resolution resolutionOf(const Effort& effort)
   return effort.quick ? fem::Resolution::Quick : fem::Resolution::Full;
 }
 
-// a page's legend has lines only
-void drawBandAsLines(Figure& figure, Table& points)
-{
-  if (figure.band == 0.0 || figure.curves.empty())
-  {
-    return;
-  }
-  const std::vector<double> x = pointsOf(std::span(&points, 1), figure.curves.front()).x;
-  for (const double side : { figure.band, -figure.band })
-  {
-    if (!x.empty())
-    {
-      addCurve(figure, points,
-        { .label =
-            side > 0.0 ? std::to_string(std::lround(side)) + " %, just noticed by a hand" : "",
-          .style = Curve::Style::Dashed,
-          .color = 7 },
-        { { x.front(), x.back() }, { side, side } });
-    }
-  }
-  figure.band = 0.0;
-}
-
 // figures with the same curves stand side by side
 bool haveSameLegend(const std::vector<Figure>& all)
 {
@@ -63,11 +40,7 @@ Section sectionOf(Experiment experiment, const Effort& effort, const std::string
   Section section;
   section.text.push_back(std::move(experiment.finding));
   section.tables.push_back(std::move(experiment.numbers));
-  for (std::size_t i = 0; i < experiment.figures.size(); ++i)
-  {
-    drawBandAsLines(experiment.figures[i], experiment.points[i]);
-    section.tables.push_back(std::move(experiment.points[i]));
-  }
+  std::ranges::move(experiment.points, std::back_inserter(section.tables));
   section.figures = std::move(experiment.figures);
   const bool together = haveSameLegend(section.figures);
   for (Figure& figure : section.figures)
@@ -112,8 +85,8 @@ Section curvature(const Effort& effort)
 {
   const Experiment found = fem::curvature(resolutionOf(effort), effort.stop);
   Section section = sectionOf(found, effort,
-    "How far the force on a ball departs from that on the block: where a curve leaves the dashed "
-    "lines a hand notices. The two supports lie further apart than the three radii.");
+    "How far the force on a ball departs from that on the block: where a curve leaves the gray "
+    "band a hand notices. The two supports lie further apart than the three radii.");
   const double most = largest(found.numbers.column("sphere_block_N"));
   const auto claim = [&](const char* of, const char* tool, double limit)
   {
@@ -142,7 +115,7 @@ Section inclination(const Effort& effort)
 {
   const Experiment found = fem::inclination();
   Section section = sectionOf(found, effort,
-    "A tool may tilt until its curve crosses the dashed line; the cone's does so at half the "
+    "A tool may tilt until its curve leaves the gray band; the cone's does so at half the "
     "sphere's angle.");
   const auto tilts = found.numbers.column("tilt_deg");
   const auto change = found.numbers.column("cone_force_change_percent");

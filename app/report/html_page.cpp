@@ -92,30 +92,30 @@ std::string fileLink(const std::string& name)
 }
 
 // the mark of a curve, as in the figure
-std::string glyph(const Curve& curve)
+std::string markOf(const Curve& curve)
 {
   const std::string color = figures::paletteColor(curve.color);
-  std::string shape;
   switch (curve.style)
   {
     case Curve::Style::Line:
-      shape = "<path d=\"M1 7H27\" stroke-width=\"2.5\" stroke=\"" + color + "\"/>";
-      break;
+      return "<path d=\"M1 7H27\" stroke-width=\"2.5\" stroke=\"" + color + "\"/>";
     case Curve::Style::Dashed:
-      shape = "<path d=\"M1 7H27\" stroke-width=\"2\" stroke-dasharray=\"6 4\" stroke=\"" + color +
+      return "<path d=\"M1 7H27\" stroke-width=\"2\" stroke-dasharray=\"6 4\" stroke=\"" + color +
         "\"/>";
-      break;
     case Curve::Style::Circles:
-      shape = "<circle cx=\"14\" cy=\"7\" r=\"4.5\" fill=\"" + color + "\"/>";
-      break;
+      return "<circle cx=\"14\" cy=\"7\" r=\"4.5\" fill=\"" + color + "\"/>";
     case Curve::Style::Squares:
-      shape = "<path d=\"M10 3h8v8h-8z\" fill=\"" + color + "\"/>";
-      break;
+      return "<path d=\"M10 3h8v8h-8z\" fill=\"" + color + "\"/>";
     case Curve::Style::Diamonds:
-      shape = "<path d=\"M14 1l6 6-6 6-6-6z\" fill=\"" + color + "\"/>";
-      break;
+      return "<path d=\"M14 1l6 6-6 6-6-6z\" fill=\"" + color + "\"/>";
   }
-  return "<svg viewBox=\"0 0 28 14\" aria-hidden=\"true\">" + shape + "</svg>";
+  return {};
+}
+
+std::string legendEntry(const std::string& mark, const std::string& label)
+{
+  return "<span><svg viewBox=\"0 0 28 14\" aria-hidden=\"true\">" + mark + "</svg> " +
+    escape(label) + "</span>";
 }
 
 // an SVG file without what only a file of its own needs
@@ -147,11 +147,16 @@ void writeFigure(std::ostream& out, const std::filesystem::path& folder, const S
     out << "</div>\n";
   }
   out << "</div>\n<div class=\"legend\">";
+  if (group.front().band > 0.0)
+  {
+    const std::string band = "<path d=\"M1 1H27V13H1z\" fill=\"" + std::string(figures::kBandColor);
+    out << legendEntry(band + "\" fill-opacity=\".25\"/>", bandLabel(group.front()));
+  }
   for (const Curve& curve : group.front().curves)
   {
     if (!curve.label.empty() && !pointsOf(section.tables, curve).x.empty())
     {
-      out << "<span>" << glyph(curve) << ' ' << escape(curve.label) << "</span>";
+      out << legendEntry(markOf(curve), curve.label);
     }
   }
   out << "</div>\n<figcaption>" << escape(alone ? group.front().caption : group.front().group)

@@ -18,8 +18,6 @@ bool begins(const std::string& cell, const std::string& words)
   return cell == words || cell.starts_with(words + ";");
 }
 
-} // namespace
-
 const Table& tableNamed(std::span<const Table> tables, const std::string& name)
 {
   const auto found = std::ranges::find(tables, name, &Table::name);
@@ -28,6 +26,13 @@ const Table& tableNamed(std::span<const Table> tables, const std::string& name)
     throw Error(ErrorCode::BadFile, "no table " + name);
   }
   return *found;
+}
+
+} // namespace
+
+std::string bandLabel(const Figure& figure)
+{
+  return "less than a hand notices, " + std::to_string(std::lround(figure.band)) + " %";
 }
 
 Points pointsOf(std::span<const Table> tables, const Curve& curve)

@@ -46,6 +46,9 @@ struct Figure
   double band = 0.0;   ///< what a hand does not notice, to either side of 0 [%]; 0: none
 };
 
+/// What the legend says of a figure's band.
+[[nodiscard]] std::string bandLabel(const Figure& figure);
+
 /// What a figure is drawn for.
 enum class Layout
 {
@@ -59,9 +62,6 @@ struct Points
   std::vector<double> x;
   std::vector<double> y;
 };
-
-/// @throws Error  BadFile: no such table
-[[nodiscard]] const Table& tableNamed(std::span<const Table> tables, const std::string& name);
 
 /// The points of a curve; a pair with a number that is not finite is left out.
 /// @throws Error  BadFile: no such table or column

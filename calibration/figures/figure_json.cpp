@@ -68,7 +68,7 @@ Json toJson(const Figure& figure)
   }
   return { { "name", figure.name }, { "caption", figure.caption }, { "bottom", figure.bottom },
     { "left", figure.left }, { "log_bottom", figure.logBottom }, { "log_left", figure.logLeft },
-    { "group", figure.group }, { "curves", std::move(curves) } };
+    { "group", figure.group }, { "band", figure.band }, { "curves", std::move(curves) } };
 }
 
 Figure figureOf(const Json& json)
@@ -79,7 +79,8 @@ Figure figureOf(const Json& json)
     .left = json.at("left"),
     .logBottom = json.at("log_bottom"),
     .logLeft = json.at("log_left"),
-    .group = json.at("group") };
+    .group = json.at("group"),
+    .band = json.value("band", 0.0) };
   for (const Json& curve : json.at("curves"))
   {
     figure.curves.push_back({ .label = curve.at("label"),

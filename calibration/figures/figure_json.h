@@ -12,7 +12,6 @@ namespace palp::figures
 /// @throws nlohmann::json::exception  not what toJson() made
 [[nodiscard]] Table tableOf(const nlohmann::ordered_json& json);
 
-/// All but the band, which a page draws as curves.
 [[nodiscard]] nlohmann::ordered_json toJson(const Figure& figure);
 
 /// @throws nlohmann::json::exception  not what toJson() made

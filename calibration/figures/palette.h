@@ -16,4 +16,7 @@ namespace palp::figures
   return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
 }
 
+/// Of the band that a hand does not notice; curves lie over it.
+inline constexpr const char* kBandColor = "#b8bfc9";
+
 } // namespace palp::figures

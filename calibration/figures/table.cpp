@@ -102,23 +102,18 @@ std::string shown(const Cell& cell)
 std::string csv(const Table& table, int digits)
 {
   std::string text;
-  const char* separator = "";
-  for (const std::string& column : table.columns)
+  const auto add = [&](const std::vector<Cell>& row)
   {
-    text.append(separator).append(field(column));
-    separator = ",";
-  }
-  text += '\n';
-  for (const auto& row : table.rows)
-  {
-    separator = "";
+    const char* separator = "";
     for (const Cell& cell : row)
     {
       text.append(separator).append(field(textOf(cell, digits)));
       separator = ",";
     }
     text += '\n';
-  }
+  };
+  add({ table.columns.begin(), table.columns.end() });
+  std::ranges::for_each(table.rows, add);
   return text;
 }
 

@@ -2,7 +2,6 @@
 
 #include "calibration/figures/palette.h"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -12,30 +11,21 @@ namespace
 {
 
 using figures::Curve;
-using figures::Layout;
 
-// a picture of its own takes the colors of the window's charts
-appearance::Color colorOf(const Curve& curve, Layout layout)
+// of #rrggbb
+appearance::Color colorOf(const char* hex)
 {
-  if (layout == Layout::Alone)
-  {
-    return curve.color > 0 ? appearance::curveColor(static_cast<std::size_t>(curve.color) - 1)
-                           : appearance::kInk;
-  }
-  const auto digits = std::stoul(figures::paletteColor(curve.color) + 1, nullptr, 16);
+  const auto digits = std::stoul(hex + 1, nullptr, 16);
   const auto part = [&](unsigned shift)
   { return static_cast<double>((digits >> shift) & 0xffU) / 255.0; };
   return { part(16), part(8), part(0) };
 }
 
-void addCurve(Plot& plot, const Curve& curve, const figures::Points& points, Layout layout)
+void addCurve(Plot& plot, const Curve& curve, const figures::Points& points)
 {
-  const appearance::Color color = colorOf(curve, layout);
+  const appearance::Color color = colorOf(figures::paletteColor(curve.color));
   const auto mark = [&](Plot::Mark shape, float size)
-  {
-    plot.addPoints(
-      curve.label, points.x, points.y, color, shape, layout == Layout::Alone ? 0.75F * size : size);
-  };
+  { plot.addPoints(curve.label, points.x, points.y, color, shape, size); };
   switch (curve.style)
   {
     case Curve::Style::Line:
@@ -61,19 +51,19 @@ void addCurve(Plot& plot, const Curve& curve, const figures::Points& points, Lay
 } // namespace
 
 std::unique_ptr<Plot> figurePlot(
-  const figures::Figure& figure, std::span<const figures::Table> tables, Layout layout)
+  const figures::Figure& figure, std::span<const figures::Table> tables, figures::Layout layout)
 {
-  const bool alone = layout == Layout::Alone;
+  const bool alone = layout == figures::Layout::Alone;
   auto plot = std::make_unique<Plot>(alone ? figure.caption : "", figure.bottom, figure.left);
   if (figure.band > 0.0 && !figure.curves.empty())
   {
     const std::vector<double> x = figures::pointsOf(tables, figure.curves.front()).x;
-    plot->addBand("less than a hand notices, " + std::to_string(std::lround(figure.band)) + " %", x,
-      std::vector(x.size(), -figure.band), std::vector(x.size(), figure.band), appearance::kGround);
+    plot->addBand(figures::bandLabel(figure), x, std::vector(x.size(), -figure.band),
+      std::vector(x.size(), figure.band), colorOf(figures::kBandColor));
   }
   for (const Curve& curve : figure.curves)
   {
-    addCurve(*plot, curve, figures::pointsOf(tables, curve), layout);
+    addCurve(*plot, curve, figures::pointsOf(tables, curve));
   }
   plot->setLogarithmic(figure.logBottom, figure.logLeft);
   if (!alone)

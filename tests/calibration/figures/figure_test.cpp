@@ -92,7 +92,9 @@ TEST(Figure, ReadsBackFromItsJson)
     .left = "e [%]",
     .logBottom = true,
     .curves = { errors({ { "method", "law" } }) },
-    .group = "G" };
+    .group = "G",
+    .band = 7.0 };
+  EXPECT_EQ(figureOf(toJson(figure)).band, 7.0);
   EXPECT_EQ(toJson(figureOf(toJson(figure))), toJson(figure));
   const nlohmann::ordered_json table = toJson(kTrials);
   EXPECT_EQ(csv(tableOf(nlohmann::ordered_json::parse(table.dump()))), csv(kTrials));
