@@ -2,6 +2,7 @@
 #include "data/shapes.h"
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
+#include "haptics/numerics/polynomial_fit.h"
 #include "haptics/numerics/statistics.h"
 #include "pipeline/process/child_process.h"
 
@@ -92,32 +93,24 @@ Table tableOne(const std::map<Key, Repeated>& all)
 // least squares through the paper's means, and on to a million vertices
 Table paperLine()
 {
-  double sum = 0.0;
-  double sumX = 0.0;
-  double sumY = 0.0;
-  double sumXX = 0.0;
-  double sumXY = 0.0;
+  std::vector<double> sizes;
+  std::vector<double> means;
   for (const PaperRow& row : kPaper)
   {
-    const double x = row.side * row.side;
-    sum += 1.0;
-    sumX += x;
-    sumY += row.mean;
-    sumXX += x * x;
-    sumXY += x * row.mean;
+    sizes.push_back(row.side * row.side);
+    means.push_back(row.mean);
   }
-  const double slope = (sum * sumXY - sumX * sumY) / (sum * sumXX - sumX * sumX);
-  const double offset = (sumY - slope * sumX) / sum;
+  const PolynomialFit line = fitPolynomial(sizes, means, 1);
   Table table{ .name = "paper_line",
     .caption = "The straight line of Fig. 14, and its continuation.",
     .columns = { "vertices", "line_us", "paper_us" },
     .shown = false };
   const auto add = [&](double vertices, double mean) {
-    table.rows.push_back({ vertices, 1e3 * (offset + slope * vertices), 1e3 * mean });
+    table.rows.push_back({ vertices, 1e3 * line(vertices), 1e3 * mean });
   };
-  for (const PaperRow& row : kPaper)
+  for (std::size_t i = 0; i < sizes.size(); ++i)
   {
-    add(row.side * row.side, row.mean);
+    add(sizes[i], means[i]);
   }
   for (const double vertices : { 30'000.0, 100'000.0, 300'000.0, 1'000'000.0 })
   {

@@ -28,18 +28,14 @@ std::vector<double> extentsOf(const Case& study, const std::stop_token& stop)
   return radii;
 }
 
-Points polynomial(const Fit& fit)
+Points polynomial(const PolynomialFit& fit)
 {
   constexpr int kPoints = 100;
   Points result;
   for (int i = 0; i <= kPoints; ++i)
   {
     const double x = fit.upTo * i / kPoints;
-    double y = 0.0;
-    for (std::size_t k = fit.coefficients.size(); k-- > 0;)
-    {
-      y = y * x + fit.coefficients[k];
-    }
+    const double y = fit(x);
     if (y >= 0.0)
     {
       result.x.push_back(x);

@@ -1,36 +1,9 @@
 #include "calibration/study/curve_fit.h"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
 
 namespace palp::fem
 {
-
-Fit fitPolynomial(const std::vector<double>& x, const std::vector<double>& y, int degree)
-{
-  Fit fit;
-  const auto count = static_cast<Eigen::Index>(x.size());
-  if (count <= degree)
-  {
-    return fit;
-  }
-  Eigen::MatrixXd powers(count, degree + 1);
-  powers.col(0).setOnes();
-  const auto at = Eigen::Map<const Eigen::VectorXd>(x.data(), count);
-  const auto values = Eigen::Map<const Eigen::VectorXd>(y.data(), count);
-  for (int p = 1; p <= degree; ++p)
-  {
-    powers.col(p) = powers.col(p - 1).cwiseProduct(at);
-  }
-  const Eigen::VectorXd solution = powers.colPivHouseholderQr().solve(values);
-  const Eigen::VectorXd residual = powers * solution - values;
-  fit.coefficients.assign(solution.begin(), solution.end());
-  fit.rms = residual.norm() / std::sqrt(static_cast<double>(count));
-  fit.worst = residual.lpNorm<Eigen::Infinity>();
-  fit.upTo = x.back();
-  return fit;
-}
 
 ExtentFits fitExtent(const std::vector<double>& depths, const std::vector<double>& extents)
 {
@@ -47,7 +20,7 @@ ExtentFits fitExtent(const std::vector<double>& depths, const std::vector<double
     }
     x.push_back(depths[i]);
     y.push_back(extents[i]);
-    const Fit line = fitPolynomial(x, y, 1);
+    const PolynomialFit line = fitPolynomial(x, y, 1);
     if (x.size() >= kFewest && line.worst <= kHolds * *std::max_element(y.begin(), y.end()))
     {
       fits.linear = line;

@@ -79,7 +79,7 @@ std::string noteOf(const Outcome& outcome)
   return outcome.error.empty() ? "" : "# incomplete: " + outcome.error + "\n";
 }
 
-nlohmann::json json(const Fit& fit)
+nlohmann::json json(const PolynomialFit& fit)
 {
   return { { "coefficients_mm", fit.coefficients }, { "rms_mm", fit.rms },
     { "largest_residual_mm", fit.worst }, { "up_to_depth_mm", fit.upTo } };

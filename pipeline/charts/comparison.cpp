@@ -1,9 +1,9 @@
 #include "pipeline/charts/comparison.h"
 
 #include "haptics/force/validity.h"
+#include "haptics/numerics/polynomial_fit.h"
 #include "haptics/units.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -116,34 +116,32 @@ std::unique_ptr<Plot> extentPlot(
   auto plot = std::make_unique<Plot>("extent over depth", "depth \u03b4 [mm]", "R_d [mm]");
   std::vector<double> depths;
   std::vector<double> radii;
+  std::vector<double> fittedDepths; // where the surface sinks by the threshold
+  std::vector<double> fittedRadii;
   for (const ExtentTable::Row& row : table.rows())
   {
     depths.push_back(units::toMillimeters(row.depth));
     radii.push_back(units::toMillimeters(row.extentRadius));
-  }
-  // R_d = c1 depth + c2 depth^2 + c0 over the rows where there is one
-  Eigen::Matrix3d sums = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < depths.size(); ++i)
-  {
-    const Eigen::Vector3d terms(1.0, depths[i], depths[i] * depths[i]);
-    if (radii[i] > 0.0)
+    if (row.extentRadius > 0.0)
     {
-      sums += terms * terms.transpose();
-      right += radii[i] * terms;
+      fittedDepths.push_back(depths.back());
+      fittedRadii.push_back(radii.back());
     }
   }
-  const Eigen::Vector3d fit = sums.completeOrthogonalDecomposition().solve(right);
+  const PolynomialFit fit = fitPolynomial(fittedDepths, fittedRadii, 2);
   const std::vector<double> shown = inMillimeters(depthsTo(table.rows().back().depth));
   std::vector<double> line;
   std::vector<double> curve;
   for (const double depth : shown)
   {
     line.push_back(units::toMillimeters(table.extentRadius(units::fromMillimeters(depth))));
-    curve.push_back(std::max(0.0, fit.dot(Eigen::Vector3d(1.0, depth, depth * depth))));
+    curve.push_back(std::max(0.0, fit(depth)));
   }
   plot->addLine("table, linear in between", shown, line, appearance::curveColor(0));
-  plot->addLine("quadratic fit", shown, curve, appearance::curveColor(1));
+  if (!fit.coefficients.empty())
+  {
+    plot->addLine("quadratic fit", shown, curve, appearance::curveColor(1));
+  }
   plot->addPoints("table", depths, radii, appearance::curveColor(0));
   std::size_t color = 2;
   for (const ReferenceCurve& reference : references)

@@ -1,6 +1,5 @@
 #include "calibration/study/study.h"
 
-#include "calibration/study/curve_fit.h"
 #include "calibration/tables/extent_table.h"
 #include "haptics/files/number_table.h"
 #include "tests/calibration/study/quick_case.h"
@@ -123,23 +122,6 @@ TEST(Study, StopsWithinADepth)
   EXPECT_EQ(indenter.checkpoint().depth, 0.0);
   indenter.press(3.0_mm);
   EXPECT_EQ(indenter.checkpoint().depth, 3.0_mm);
-}
-
-// a fit finds the polynomial that the points were taken from
-TEST(Study, FitRecoversAParabola)
-{
-  const std::vector<double> x{ 1, 2, 3, 4, 5 };
-  std::vector<double> y;
-  for (const double value : x)
-  {
-    y.push_back(2.0 - 0.5 * value + 0.25 * value * value);
-  }
-  const Fit fit = fitPolynomial(x, y, 2);
-  EXPECT_NEAR(fit.coefficients[0], 2.0, 1e-12);
-  EXPECT_NEAR(fit.coefficients[1], -0.5, 1e-12);
-  EXPECT_NEAR(fit.coefficients[2], 0.25, 1e-12);
-  EXPECT_LT(fit.worst, 1e-12);
-  EXPECT_TRUE(fitPolynomial({ 1.0 }, { 1.0 }, 1).coefficients.empty());
 }
 
 } // namespace
