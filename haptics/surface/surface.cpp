@@ -1,8 +1,8 @@
 #include "haptics/surface/surface.h"
 
 #include "haptics/error.h"
+#include "haptics/surface/edges.h"
 #include "haptics/surface/facet_part.h"
-#include "haptics/surface/sides.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -105,31 +105,18 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
 
 void Surface::linkEdges()
 {
-  const Sides sides = sidesByPoint(points_.size(), triangles_);
-  across_.assign(triangles_.size(), { -1, -1, -1 });
-  std::vector<std::array<int, 2>> edges;
-  edges.reserve(sides.all.size() / 2);
+  Edges edges = edgesOf(points_.size(), triangles_);
+  across_ = std::move(edges.across);
+  openEdges_ = std::move(edges.unpaired);
   double sum = 0.0;
-  forEachEdge(sides,
-    [&](int point, std::span<const Side> edge)
-    {
-      const int other = edge.front().other;
-      edges.push_back({ point, other });
-      sum += (points_[at(point)] - points_[at(other)]).squaredNorm();
-      if (edge.size() == 2)
-      {
-        across_[at(edge[0].triangle)][at(edge[0].k)] = edge[1].triangle;
-        across_[at(edge[1].triangle)][at(edge[1].k)] = edge[0].triangle;
-      }
-      else
-      {
-        openEdges_.push_back(edges.back());
-      }
-    });
-  edgeLength_ = std::sqrt(sum / static_cast<double>(edges.size()));
+  for (const auto& [a, b] : edges.all)
+  {
+    sum += (points_[at(a)] - points_[at(b)]).squaredNorm();
+  }
+  edgeLength_ = std::sqrt(sum / static_cast<double>(edges.all.size()));
 
   firstNeighbor_.assign(points_.size() + 1, 0);
-  for (const auto& [a, b] : edges)
+  for (const auto& [a, b] : edges.all)
   {
     ++firstNeighbor_[at(a) + 1];
     ++firstNeighbor_[at(b) + 1];
@@ -138,9 +125,9 @@ void Surface::linkEdges()
   {
     firstNeighbor_[i + 1] += firstNeighbor_[i];
   }
-  neighbors_.resize(2 * edges.size());
+  neighbors_.resize(2 * edges.all.size());
   std::vector<int> next = firstNeighbor_;
-  for (const auto& [a, b] : edges)
+  for (const auto& [a, b] : edges.all)
   {
     neighbors_[at(next[at(a)]++)] = b;
     neighbors_[at(next[at(b)]++)] = a;

@@ -2,7 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/surface/box_tree.h"
-#include "haptics/surface/sides.h"
+#include "haptics/surface/edges.h"
 #include "pipeline/model/poly_data.h"
 
 #include <Eigen/Geometry>
@@ -89,30 +89,6 @@ Merged merged(std::span<const Eigen::Vector3d> points, std::span<const Triangle>
   return result;
 }
 
-struct Edges
-{
-  std::vector<std::array<int, 3>> across; // the triangle behind each side; -1: none, or several
-  std::size_t open = 0;                   // edges with one triangle
-  std::size_t crowded = 0;                // edges with more than two
-};
-
-Edges edgesOf(std::size_t points, std::span<const Triangle> triangles)
-{
-  Edges edges{ .across = { triangles.size(), { -1, -1, -1 } } };
-  forEachEdge(sidesByPoint(points, triangles),
-    [&](int, std::span<const Side> edge)
-    {
-      edges.open += edge.size() == 1;
-      edges.crowded += edge.size() > 2;
-      if (edge.size() == 2)
-      {
-        edges.across[at(edge[0].triangle)][at(edge[0].k)] = edge[1].triangle;
-        edges.across[at(edge[1].triangle)][at(edge[1].k)] = edge[0].triangle;
-      }
-    });
-  return edges;
-}
-
 // whether a triangle goes along an edge from one point to another
 bool goes(const Triangle& t, int from, int to)
 {
@@ -189,16 +165,17 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   }
 
   const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
-  result.closed = edges.open == 0 && edges.crowded == 0;
+  const std::size_t open = edges.unpaired.size() - edges.crowded;
+  result.closed = edges.unpaired.empty();
   if (edges.crowded > 0)
   {
     result.warnings.push_back(
       "not a manifold: " + counted(edges.crowded, "edge has", "edges have") +
       " more than two triangles; forces near there may be wrong");
   }
-  if (edges.open > 0)
+  if (open > 0)
   {
-    result.warnings.push_back("open: " + counted(edges.open, "edge has", "edges have") +
+    result.warnings.push_back("open: " + counted(open, "edge has", "edges have") +
       " one triangle only; press it from the front");
   }
 
