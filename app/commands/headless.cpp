@@ -91,7 +91,7 @@ void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
   trace.skip("live sample ring", "no servo thread fills it");
   trace.skip("OpenGL", "no picture and no plot is asked for", !plan.draws());
   trace.skip("overlays", "no picture shows them", !plan.picture);
-  trace.skip("plots", "none is named", plan.curves.empty());
+  trace.skip("plots", "none is named", plan.plots.empty());
   trace.skip("calibration, dent", "\"dent\" is none", !plan.dents());
   trace.skip("large-strain table", "the law is not corrected and no sample is rated",
     !plan.validity && !corrected);
@@ -131,8 +131,8 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
     calibration = trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
-  const bool shown = plan.deformed || plan.picture || plan.has(Curve::Section);
-  const Body body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
+  const bool shown = plan.deformed || plan.picture || plan.has(PlotKind::Section);
+  const SceneBody body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
     [&] { return loadBody(plan.meshes, shown); });
   for (const std::string& note : body.notes)
   {

@@ -23,7 +23,7 @@ struct Renderer
   ///
   /// @param calibration  null only where the plan has no press.png
   /// @throws Error  NoPicture: no context, or a picture that came out empty
-  virtual void drawPress(const Body& body, const Recording& recording,
+  virtual void drawPress(const SceneBody& body, const Recording& recording,
     const Calibration* calibration, const ScenePlan& plan,
     const std::filesystem::path& directory) const = 0;
 

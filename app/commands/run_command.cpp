@@ -38,13 +38,13 @@ struct RunOptions
 // an option without effect is a mistake that nobody would see
 void checkUsed(const RunOptions& options, const ScenePlan& plan)
 {
-  if (!options.references.empty() && !plan.has(Curve::Comparison))
+  if (!options.references.empty() && !plan.has(PlotKind::Comparison))
   {
     throw Error(ErrorCode::BadValue,
       "--reference: stands in the comparison only; add --plots comparison, or leave it out");
   }
-  if (!options.plotFiles.empty() && !plan.has(Curve::Comparison) && !plan.has(Curve::Section) &&
-    !plan.has(Curve::Extent))
+  if (!options.plotFiles.empty() && !plan.has(PlotKind::Comparison) &&
+    !plan.has(PlotKind::Section) && !plan.has(PlotKind::Extent))
   {
     throw Error(ErrorCode::BadValue,
       "--plot-files: says how section, comparison and extent are written; add one to --plots, or "
@@ -70,7 +70,7 @@ void run(const RunOptions& options, const Renderer* pictures)
     .press = options.press,
     .device = parseDevice("path:" + path.string()),
     .window = false,
-    .curves = {},
+    .plots = {},
     .plotFiles = options.plotFiles.empty() ? std::vector<std::string>{ "png" } : options.plotFiles,
     .refined = options.refined,
     .picture = !options.noPicture,
@@ -78,10 +78,10 @@ void run(const RunOptions& options, const Renderer* pictures)
   std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
   for (const std::string& name : options.plots)
   {
-    const auto found = std::find(kCurveNames.begin(), kCurveNames.end(), name);
+    const auto found = std::find(kPlotNames.begin(), kPlotNames.end(), name);
     if (!options.noPicture)
     {
-      plan.curves.push_back(static_cast<Curve>(found - kCurveNames.begin()));
+      plan.plots.push_back(static_cast<PlotKind>(found - kPlotNames.begin()));
     }
   }
   checkUsed(options, plan);
@@ -115,7 +115,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures)
       "the deepest contact); comparison (force over depth of the laws, this press, finite elements "
       "and --reference); extent (R_d over depth)")
     ->delimiter(',')
-    ->check(CLI::IsMember(kCurveNames))
+    ->check(CLI::IsMember(kPlotNames))
     ->capture_default_str();
   command
     ->add_option("--plot-files", options->plotFiles,

@@ -42,7 +42,7 @@ SurfacePoint subject(const Recording& recording, const Sample& shown)
   return surfacePoint(surface, nearest.triangle, nearest.point);
 }
 
-void drawScene(const OffscreenContext& context, const Body& body, const Recording& recording,
+void drawScene(const OffscreenContext& context, const SceneBody& body, const Recording& recording,
   const Calibration& calibration, const ScenePlan& plan, const std::filesystem::path& file)
 {
   const auto window = context.makeWindow(plan.size.width, plan.size.height);
@@ -90,19 +90,20 @@ void drawForce(const OffscreenContext& context, const Recording& recording, cons
     charts.add(sample);
   }
   charts.refresh();
-  if (plan.has(Curve::ForceOverTime))
+  if (plan.has(PlotKind::ForceOverTime))
   {
     drawChart(context, directory / "force_time.png",
       [&](vtkContextScene& scene) { charts.addForceOverTime(scene); });
   }
-  if (plan.has(Curve::ForceOverDepth))
+  if (plan.has(PlotKind::ForceOverDepth))
   {
     drawChart(context, directory / "force_depth.png",
       [&](vtkContextScene& scene) { charts.addForceOverDepth(scene); });
   }
 }
 
-Plots deepestSection(const Body& body, const Recording& recording, const Calibration& calibration)
+Plots deepestSection(
+  const SceneBody& body, const Recording& recording, const Calibration& calibration)
 {
   const Sample* deepest = recording.deepest();
   if (!deepest)
@@ -138,7 +139,7 @@ void addCoatedLaw(std::vector<NamedLaw>& laws, const fem::Case& study)
 
 } // namespace
 
-void OffscreenRenderer::drawPress(const Body& body, const Recording& recording,
+void OffscreenRenderer::drawPress(const SceneBody& body, const Recording& recording,
   const Calibration* calibration, const ScenePlan& plan,
   const std::filesystem::path& directory) const
 {
@@ -148,9 +149,9 @@ void OffscreenRenderer::drawPress(const Body& body, const Recording& recording,
     drawScene(context, body, recording, *calibration, plan, directory / "press.png");
   }
   drawForce(context, recording, plan, directory);
-  const auto draw = [&](Curve curve, const char* name, const std::function<Plots()>& make)
+  const auto draw = [&](PlotKind plot, const char* name, const std::function<Plots()>& make)
   {
-    const Plots plots = plan.has(curve) ? make() : Plots{};
+    const Plots plots = plan.has(plot) ? make() : Plots{};
     if (plots.empty())
     {
       return;
@@ -163,14 +164,15 @@ void OffscreenRenderer::drawPress(const Body& body, const Recording& recording,
       writePlots(plots, *window, directory / (name + ("." + ending)));
     }
   };
-  draw(Curve::Comparison, "comparison",
+  draw(PlotKind::Comparison, "comparison",
     [&] {
       return forceComparison(recording.scene.law, recording.samples, calibration, plan.references);
     });
   if (calibration)
   {
-    draw(Curve::Section, "section", [&] { return deepestSection(body, recording, *calibration); });
-    draw(Curve::Extent, "extent", [&] { return extentComparison(*calibration); });
+    draw(
+      PlotKind::Section, "section", [&] { return deepestSection(body, recording, *calibration); });
+    draw(PlotKind::Extent, "extent", [&] { return extentComparison(*calibration); });
   }
 }
 
@@ -185,7 +187,7 @@ void OffscreenRenderer::drawCalibration(const fem::Case& study,
   const auto draw = [&](const char* name, Plot& plot)
   { drawChart(context, directory / name, [&](vtkContextScene& scene) { plot.addTo(scene); }); };
 
-  std::vector<ExtentTable::Row> rows;
+  std::vector<ExtentTable::Extent> rows;
   ReferenceCurve force{
     .name = "elements, " + std::string(fem::name(study.energy)), .x = {}, .y = {}
   };

@@ -9,7 +9,7 @@ namespace palp
 class OffscreenRenderer final : public Renderer
 {
 public:
-  void drawPress(const Body& body, const Recording& recording, const Calibration* calibration,
+  void drawPress(const SceneBody& body, const Recording& recording, const Calibration* calibration,
     const ScenePlan& plan, const std::filesystem::path& directory) const override;
   void drawCalibration(const fem::Case& study, const std::vector<fem::IndentationStep>& steps,
     const std::filesystem::path& directory) const override;

@@ -223,7 +223,7 @@ void checkTogether(const JsonObject& object, const ScenePlan& plan)
     object.refuse("dent",
       "'none' leaves nothing to see; leave the window and the exports deformed and picture out");
   }
-  if (!plan.dents() && (plan.has(Curve::Section) || plan.has(Curve::Extent)))
+  if (!plan.dents() && (plan.has(PlotKind::Section) || plan.has(PlotKind::Extent)))
   {
     object.refuse("plots", "section and extent show the dent; leave them out, or name a surface");
   }
@@ -261,7 +261,7 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   {
     plan.overlays = kinds<Overlay>(object, "overlays", kOverlays);
   }
-  plan.curves = kinds<Curve>(object, "plots", kCurveNames);
+  plan.plots = kinds<PlotKind>(object, "plots", kPlotNames);
   readExports(object, plan);
   object.finish();
   if (meshes.empty())

@@ -9,7 +9,7 @@
 namespace palp
 {
 
-const std::vector<std::string> kCurveNames{ "force-time", "force-depth", "section", "comparison",
+const std::vector<std::string> kPlotNames{ "force-time", "force-depth", "section", "comparison",
   "extent" };
 
 DeviceChoice parseDevice(const std::string& name)

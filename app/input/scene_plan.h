@@ -19,8 +19,8 @@ struct ImageSize
   int height = 960;
 };
 
-/// Curves that can be drawn while or after a press.
-enum class Curve
+/// Plots that can be drawn while or after a press.
+enum class PlotKind
 {
   ForceOverTime,
   ForceOverDepth,
@@ -65,7 +65,7 @@ struct ScenePlan
   bool window = true;   ///< else: a path in simulated time, without servo thread
   bool validity = true; ///< each sample is rated by the rules of validity
   std::optional<std::vector<Overlay>> overlays{}; ///< none: those that are shown at first
-  std::vector<Curve> curves{ Curve::ForceOverTime, Curve::ForceOverDepth };
+  std::vector<PlotKind> plots{ PlotKind::ForceOverTime, PlotKind::ForceOverDepth };
   std::vector<std::string> plotFiles{ "png" }; ///< endings: png, svg, pdf, csv
   std::vector<ReferenceCurve> references{};    ///< forces [N] over depth [m] to compare with
   bool samples = true;                         ///< exported: samples.csv
@@ -74,9 +74,9 @@ struct ScenePlan
   bool picture = true;                         ///< exported: press.png
   ImageSize size{};                            ///< of press.png
 
-  [[nodiscard]] bool has(Curve curve) const noexcept
+  [[nodiscard]] bool has(PlotKind plot) const noexcept
   {
-    return std::find(curves.begin(), curves.end(), curve) != curves.end();
+    return std::find(plots.begin(), plots.end(), plot) != plots.end();
   }
 
   /// Whether the surface gives way, which needs a calibration.
@@ -88,18 +88,18 @@ struct ScenePlan
   /// Whether anything is made of the samples of a live press.
   [[nodiscard]] bool records() const noexcept
   {
-    return !curves.empty();
+    return !plots.empty();
   }
 
   /// Whether pictures are made off screen.
   [[nodiscard]] bool draws() const noexcept
   {
-    return !window && (picture || !curves.empty());
+    return !window && (picture || !plots.empty());
   }
 };
 
-/// The names of the curves in files and options, in the order of Curve.
-extern const std::vector<std::string> kCurveNames;
+/// The names of the plots in files and options, in the order of PlotKind.
+extern const std::vector<std::string> kPlotNames;
 
 /// @throws Error  BadFile: there is no such file
 void checkExists(const MeshSource& mesh);

@@ -53,7 +53,7 @@ ReferenceCurve elementsOf(const Calibration& calibration, const ForceLaw& law)
   ReferenceCurve curve{ .name = "finite elements", .x = {}, .y = {} };
   if (calibration.young)
   {
-    for (const ExtentTable::Row& row : calibration.extents.rows())
+    for (const ExtentTable::Extent& row : calibration.extents.rows())
     {
       if (row.force > 0.0)
       {

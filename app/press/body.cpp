@@ -47,9 +47,9 @@ std::string describe(const Deviation& apart, std::size_t points)
 
 } // namespace
 
-Body loadBody(const std::vector<MeshSource>& meshes, bool shown)
+SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
 {
-  Body body;
+  SceneBody body;
   Union display;
   Union haptic;
   bool coarser = false;

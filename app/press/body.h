@@ -15,7 +15,7 @@ namespace palp
 {
 
 /// What is pressed, in two levels of detail: one to look at, one to feel.
-struct Body
+struct SceneBody
 {
   std::string name;                      ///< file name, for people
   std::string unit;                      ///< that the file's coordinates were read in
@@ -31,6 +31,6 @@ struct Body
 /// @param meshes   one or more
 /// @param shown    whether a surface to look at is needed, too
 /// @throws Error   BadFile, BadMesh, BadValue
-[[nodiscard]] Body loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
+[[nodiscard]] SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
 
 } // namespace palp

@@ -56,8 +56,8 @@ std::string spaceOf(const Recording& recording)
 
 } // namespace
 
-void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
-  const Calibration& calibration, bool refined)
+void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
+  const Recording& recording, const Calibration& calibration, bool refined)
 {
   vtkNew<vtkPalpDeformFilter> filter;
   filter->SetInputData(body.display);
@@ -112,7 +112,7 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing)
   replaceFile(file, out.view());
 }
 
-bool exportRecording(const std::filesystem::path& directory, const Body& body,
+bool exportRecording(const std::filesystem::path& directory, const SceneBody& body,
   const Recording& recording, const Calibration& calibration, const Timing& timing,
   const std::function<bool(const std::string& found)>& mayReplace)
 {

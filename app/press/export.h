@@ -21,8 +21,8 @@ namespace palp
 /// @param refined  with the triangles of the dent divided as in the picture: between the points of
 ///                 the body's own triangles the tool shows through
 /// @throws Error  BadFile: cannot be written
-void writeDeformed(const std::filesystem::path& file, const Body& body, const Recording& recording,
-  const Calibration& calibration, bool refined = false);
+void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
+  const Recording& recording, const Calibration& calibration, bool refined = false);
 
 /// Writes the samples into a file; see the other writeSamples.
 /// @throws Error  BadFile: cannot be written
@@ -41,7 +41,7 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing);
 /// @param mayReplace  asked with their names, as words, where some are there already
 /// @return            false where they may not be replaced
 /// @throws Error      as OutputFolder
-[[nodiscard]] bool exportRecording(const std::filesystem::path& directory, const Body& body,
+[[nodiscard]] bool exportRecording(const std::filesystem::path& directory, const SceneBody& body,
   const Recording& recording, const Calibration& calibration, const Timing& timing,
   const std::function<bool(const std::string& found)>& mayReplace);
 

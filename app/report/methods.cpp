@@ -54,7 +54,7 @@ public:
     : depths_{ 0.0 }
     , forces_{ 0.0 }
   {
-    for (const ExtentTable::Row& row : table.rows())
+    for (const ExtentTable::Extent& row : table.rows())
     {
       depths_.push_back(row.depth);
       forces_.push_back(row.force);

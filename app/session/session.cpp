@@ -37,7 +37,7 @@ bool restsAt(const Sample& before, const Sample& now)
 }
 
 // what is recorded of a press that has not begun
-Recording startOf(const ScenePlan& plan, const Body& body, BuildTrace& trace)
+Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trace)
 {
   Recording recording;
   recording.mesh = body.name;
@@ -68,7 +68,7 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
 
 void Session::open(const MeshSource& source)
 {
-  Body old = std::exchange(body_, loadBody({ source }));
+  SceneBody old = std::exchange(body_, loadBody({ source }));
   const DeviceChoice choice = choice_;
   std::unique_ptr<Device> holder;
   try
@@ -283,7 +283,7 @@ void Session::record(const Sample& sample, const std::function<void(const Sample
   each(sample);
 }
 
-void Session::endRecording(const Body& body)
+void Session::endRecording(const SceneBody& body)
 {
   if (servo_)
   {

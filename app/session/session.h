@@ -98,7 +98,7 @@ public:
   {
     return servo_->schedule();
   }
-  [[nodiscard]] const Body& body() const noexcept
+  [[nodiscard]] const SceneBody& body() const noexcept
   {
     return body_;
   }
@@ -116,7 +116,7 @@ public:
   /// A recording that another body, tool, tissue or device ended, with what it was made on.
   struct Take
   {
-    Body body;
+    SceneBody body;
     Recording recording;
     Calibration calibration;
   };
@@ -129,7 +129,7 @@ public:
 
 private:
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
-  void endRecording(const Body& body);
+  void endRecording(const SceneBody& body);
   void boundEarlier();
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);
   void keepHolding();
@@ -138,7 +138,7 @@ private:
   ScenePlan plan_;
   ServoOptions servoOptions_;
   DeviceChoice choice_; // of the device
-  Body body_;
+  SceneBody body_;
   Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;
   double armedAt_ = 0.0;          // time of the servo from which on a fault is a new one [s]

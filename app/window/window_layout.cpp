@@ -125,14 +125,14 @@ void Window::makeDocks()
 void Window::makeCharts()
 {
   charts_ = std::make_unique<ForceCharts>();
-  for (const Curve curve : session_.plan().curves)
+  for (const PlotKind plot : session_.plan().plots)
   {
-    if (curve == Curve::ForceOverTime)
+    if (plot == PlotKind::ForceOverTime)
     {
       addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
       charts_->addForceOverTime(*timeView_->GetScene());
     }
-    else if (curve == Curve::ForceOverDepth)
+    else if (plot == PlotKind::ForceOverDepth)
     {
       addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
       charts_->addForceOverDepth(*depthView_->GetScene());
@@ -251,7 +251,7 @@ void Window::makeViewMenu()
   connect(plots, &QAction::toggled, this, &Window::makePlots);
   const ScenePlan& plan = session_.plan();
   plots->setChecked(
-    plan.has(Curve::Section) || plan.has(Curve::Comparison) || plan.has(Curve::Extent));
+    plan.has(PlotKind::Section) || plan.has(PlotKind::Comparison) || plan.has(PlotKind::Extent));
 }
 
 } // namespace palp

@@ -10,7 +10,7 @@ namespace palp
 {
 ExtentTable ExtentTable::read(const std::filesystem::path& file)
 {
-  std::vector<Row> rows;
+  std::vector<Extent> rows;
   for (const auto& [values, line] : NumberTable::readFinite(file, kHeader).rows)
   {
     rows.push_back({ .depth = units::fromMillimeters(values[0]),
@@ -28,10 +28,10 @@ ExtentTable ExtentTable::read(const std::filesystem::path& file)
   }
 }
 
-ExtentTable::ExtentTable(std::vector<Row> rows)
+ExtentTable::ExtentTable(std::vector<Extent> rows)
   : rows_(std::move(rows))
 {
-  const auto notIncreasing = [](const Row& a, const Row& b) { return !(a.depth < b.depth); };
+  const auto notIncreasing = [](const Extent& a, const Extent& b) { return !(a.depth < b.depth); };
   if (rows_.size() < 2 || !(rows_.front().depth > 0.0) ||
     std::adjacent_find(rows_.begin(), rows_.end(), notIncreasing) != rows_.end())
   {
@@ -47,12 +47,12 @@ double ExtentTable::extentRadius(double depth) const noexcept
     return 0.0;
   }
   const auto above = std::lower_bound(rows_.begin(), rows_.end(), depth,
-    [](const Row& row, double value) { return row.depth < value; });
+    [](const Extent& row, double value) { return row.depth < value; });
   if (above == rows_.end())
   {
     return rows_.back().extentRadius;
   }
-  const Row below = above == rows_.begin() ? Row{} : *(above - 1);
+  const Extent below = above == rows_.begin() ? Extent{} : *(above - 1);
   const double t = (depth - below.depth) / (above->depth - below.depth);
   return below.extentRadius + t * (above->extentRadius - below.extentRadius);
 }

@@ -18,7 +18,7 @@ public:
   /// Columns of a file.
   static constexpr const char* kHeader = "depth_mm,extent_radius_mm,force_N,contact_radius_mm";
 
-  struct Row
+  struct Extent
   {
     double depth;         ///< delta [m]
     double extentRadius;  ///< R_d [m]
@@ -32,19 +32,19 @@ public:
 
   /// @param rows    at least two, depths increasing
   /// @throws Error  BadValue
-  explicit ExtentTable(std::vector<Row> rows);
+  explicit ExtentTable(std::vector<Extent> rows);
 
   /// @param depth  delta [m]; below the first row the line to (0, 0), beyond the last its value
   /// @return       R_d [m]
   [[nodiscard]] double extentRadius(double depth) const noexcept;
 
-  [[nodiscard]] const std::vector<Row>& rows() const noexcept
+  [[nodiscard]] const std::vector<Extent>& rows() const noexcept
   {
     return rows_;
   }
 
 private:
-  std::vector<Row> rows_;
+  std::vector<Extent> rows_;
 };
 
 } // namespace palp

@@ -14,10 +14,10 @@ namespace
 {
 
 // a surface through its values at the radii of a table
-class Curve
+class SinkCurve
 {
 public:
-  explicit Curve(const std::array<double, SurfaceTable::kRadii.size()>& sinks)
+  explicit SinkCurve(const std::array<double, SurfaceTable::kRadii.size()>& sinks)
     : sinks_(sinks)
     , slopes_(monotoneSlopes(SurfaceTable::kRadii, sinks_))
   {
@@ -92,13 +92,13 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
   return table;
 }
 
-SurfaceTable::Row SurfaceTable::rowAt(const Indentation& indentation) const
+SurfaceTable::Sinks SurfaceTable::sinksAt(const Indentation& indentation) const
 {
   const double depth = indentation.depth / indentation.tipRadius;
   const auto n = bracket(axes_[0], indentation.poissonRatio);
   const auto h = bracket(axes_[1], indentation.tipRadius / indentation.thickness);
   const auto d = bracket(axes_[2], depth);
-  Row sum{};
+  Sinks sum{};
   for (int corner = 0; corner < 8; ++corner)
   {
     const auto pick = [corner](int bit, const Bracket& b)
@@ -109,10 +109,10 @@ SurfaceTable::Row SurfaceTable::rowAt(const Indentation& indentation) const
     const auto [i, wi] = pick(0, n);
     const auto [j, wj] = pick(1, h);
     const auto [k, wk] = pick(2, d);
-    const Row& row = rows_[(i * axes_[1].size() + j) * axes_[2].size() + k];
+    const Sinks& sinks = rows_[(i * axes_[1].size() + j) * axes_[2].size() + k];
     for (std::size_t r = 0; r < sum.size(); ++r)
     {
-      sum[r] += wi * wj * wk * row[r];
+      sum[r] += wi * wj * wk * sinks[r];
     }
   }
   // below the first depth and beyond the last the surface follows the depth
@@ -127,8 +127,9 @@ SurfaceTable::Row SurfaceTable::rowAt(const Indentation& indentation) const
 
 double SurfaceTable::sinkAt(const Indentation& indentation, double radius) const
 {
-  return indentation.depth > 0.0 ? Curve(rowAt(indentation)).at(radius / indentation.tipRadius)
-                                 : 0.0;
+  return indentation.depth > 0.0
+    ? SinkCurve(sinksAt(indentation)).at(radius / indentation.tipRadius)
+    : 0.0;
 }
 
 double SurfaceTable::extentRadius(const Indentation& indentation, double threshold) const
@@ -137,7 +138,7 @@ double SurfaceTable::extentRadius(const Indentation& indentation, double thresho
   {
     return 0.0;
   }
-  const Curve curve(rowAt(indentation));
+  const SinkCurve curve(sinksAt(indentation));
   if (!(curve.at(0.0) > threshold))
   {
     return 0.0;
@@ -156,7 +157,7 @@ ExtentTable SurfaceTable::extents(const Indentation& deepest, double threshold) 
 {
   constexpr int kRows = 40;
   const double first = std::min(threshold, 0.5 * deepest.depth);
-  std::vector<ExtentTable::Row> rows;
+  std::vector<ExtentTable::Extent> rows;
   for (int i = 0; i <= kRows; ++i)
   {
     // close where R_d begins as a root

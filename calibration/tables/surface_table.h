@@ -55,11 +55,11 @@ public:
   [[nodiscard]] bool covers(const Indentation& indentation) const;
 
 private:
-  using Row = std::array<double, kRadii.size()>;
-  [[nodiscard]] Row rowAt(const Indentation& indentation) const;
+  using Sinks = std::array<double, kRadii.size()>;
+  [[nodiscard]] Sinks sinksAt(const Indentation& indentation) const;
 
   std::array<std::vector<double>, 3> axes_; // nu, R / thickness, depth / R
-  std::vector<Row> rows_;                   // the last axis running fastest
+  std::vector<Sinks> rows_;                 // the last axis running fastest
 };
 
 } // namespace palp

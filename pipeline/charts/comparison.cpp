@@ -118,7 +118,7 @@ std::unique_ptr<Plot> extentPlot(
   std::vector<double> radii;
   std::vector<double> fittedDepths; // where the surface sinks by the threshold
   std::vector<double> fittedRadii;
-  for (const ExtentTable::Row& row : table.rows())
+  for (const ExtentTable::Extent& row : table.rows())
   {
     depths.push_back(units::toMillimeters(row.depth));
     radii.push_back(units::toMillimeters(row.extentRadius));

@@ -98,10 +98,10 @@ std::optional<SurfaceProfile> FittedSurfaces::at(double depth) const noexcept
 SurfaceProfile FittedSurfaces::profileAt(double depth) const noexcept
 {
   const auto above = std::lower_bound(rows_.begin(), rows_.end(), depth,
-    [](const Row& row, double value) { return row.depth < value; });
+    [](const DepthProfile& row, double value) { return row.depth < value; });
   if (above != rows_.begin())
   {
-    const Row& below = *(above - 1);
+    const DepthProfile& below = *(above - 1);
     return between(
       below.profile, above->profile, (depth - below.depth) / (above->depth - below.depth));
   }

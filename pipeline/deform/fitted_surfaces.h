@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  struct Row
+  struct DepthProfile
   {
     double depth; // [m]
     SurfaceProfile profile;
@@ -51,7 +51,7 @@ private:
 
   [[nodiscard]] SurfaceProfile profileAt(double depth) const noexcept;
 
-  std::vector<Row> rows_;
+  std::vector<DepthProfile> rows_;
 };
 
 } // namespace palp

@@ -13,8 +13,8 @@ namespace palp
 namespace
 {
 
-constexpr int kRows = 512;
-constexpr double kShallowest = 1e-9; // of the base depth; below, the power law of the first row
+constexpr int kKnots = 512;
+constexpr double kShallowest = 1e-9; // of the base depth; below, the power law of the first knot
 constexpr double kEquator = 1e-9;    // of R, left out of a sphere, whose base depth is infinite
 
 // radius at which g reaches a depth, known to lie between low and high
@@ -25,7 +25,7 @@ double contactRadius(const Tip& tip, double depth, double low, double high)
   const double above = excess(high);
   if (!(above > 0.0))
   {
-    return high; // rounding at a wall, which rises by more than one row between two numbers
+    return high; // rounding at a wall, which rises by more than one knot between two numbers
   }
   if (below >= 0.0)
   {
@@ -40,10 +40,10 @@ std::vector<double> contactRadii(
   const Tip& tip, const std::vector<double>& logs, double step, double base)
 {
   std::vector<double> radii(logs.size(), base);
-  for (std::size_t row = logs.size() - 1; row-- > 0;)
+  for (std::size_t knot = logs.size() - 1; knot-- > 0;)
   {
-    radii[row] = contactRadius(tip, std::exp(logs[row]),
-      std::max(flatRadius(tip), radii[row + 1] * std::exp(-step)), radii[row + 1]);
+    radii[knot] = contactRadius(tip, std::exp(logs[knot]),
+      std::max(flatRadius(tip), radii[knot + 1] * std::exp(-step)), radii[knot + 1]);
   }
   return radii;
 }
@@ -76,17 +76,17 @@ ContactTable::ContactTable(const Tip& tip)
     return;
   }
   firstLog_ = std::log(kShallowest * baseDepth_);
-  step_ = -std::log(kShallowest) / (kRows - 1);
+  step_ = -std::log(kShallowest) / (kKnots - 1);
 
-  std::vector<double> logs(kRows);
-  for (int i = 0; i < kRows; ++i)
+  std::vector<double> logs(kKnots);
+  for (int i = 0; i < kKnots; ++i)
   {
     logs[static_cast<std::size_t>(i)] = firstLog_ + i * step_;
   }
   const std::vector<double> radii = contactRadii(tip, logs, step_, base_.radius);
   const std::vector<double> slopes = monotoneSlopes(logs, radii);
 
-  // integrals of g s^(2k): below the first row a ~ depth^p in closed form, then Gauss
+  // integrals of g s^(2k): below the first knot a ~ depth^p in closed form, then Gauss
   std::array<double, kMoments> sums{};
   const double power = slopes[0] / radii[0];
   for (std::size_t k = 0; k < kMoments; ++k)
@@ -94,26 +94,27 @@ ContactTable::ContactTable(const Tip& tip)
     const double order = 2.0 * static_cast<double>(k) + 1.0;
     sums[k] = std::exp(firstLog_) * std::pow(radii[0], order) * power / (1.0 + order * power);
   }
-  rows_.resize(kRows);
-  for (std::size_t i = 0; i < rows_.size(); ++i)
+  knots_.resize(kKnots);
+  for (std::size_t i = 0; i < knots_.size(); ++i)
   {
     addMoments(tip, i > 0 ? radii[i - 1] : radii[0], radii[i], sums);
     const double depth = std::exp(logs[i]);
-    Row& row = rows_[i];
-    row.value.radius = radii[i];
-    row.slope.radius = slopes[i];
-    row.value.force = 2.0 * (depth * radii[i] - sums[0]);
-    row.slope.force = 2.0 * depth * radii[i];
+    Knot& knot = knots_[i];
+    knot.value.radius = radii[i];
+    knot.slope.radius = slopes[i];
+    knot.value.force = 2.0 * (depth * radii[i] - sums[0]);
+    knot.slope.force = 2.0 * depth * radii[i];
     double scale = 1.0;
     for (std::size_t k = 0; k < kMoments; ++k)
     {
       const double moment = sums[k] / scale;
-      row.value.moments[k] = moment;
-      row.slope.moments[k] = (depth - 2.0 * static_cast<double>(k) * moment / radii[i]) * slopes[i];
+      knot.value.moments[k] = moment;
+      knot.slope.moments[k] =
+        (depth - 2.0 * static_cast<double>(k) * moment / radii[i]) * slopes[i];
       scale *= radii[i] * radii[i];
     }
   }
-  base_ = rows_.back().value;
+  base_ = knots_.back().value;
 }
 
 ContactTable::Entry ContactTable::operator()(double depth) const noexcept
@@ -128,7 +129,7 @@ ContactTable::Entry ContactTable::operator()(double depth) const noexcept
   if (along < 0.0)
   {
     // a ~ depth^p
-    const Row& first = rows_.front();
+    const Knot& first = knots_.front();
     const double exponent = first.slope.radius / first.value.radius;
     const double shrink = std::exp(exponent * (log - firstLog_));
     entry.radius = first.value.radius * shrink;
@@ -140,12 +141,12 @@ ContactTable::Entry ContactTable::operator()(double depth) const noexcept
     }
     return entry;
   }
-  const std::size_t i = std::min(static_cast<std::size_t>(along), rows_.size() - 2);
-  const double geometry = std::min(1.0, along - static_cast<double>(i));
-  const Row& low = rows_[i];
-  const Row& high = rows_[i + 1];
+  const std::size_t i = std::min(static_cast<std::size_t>(along), knots_.size() - 2);
+  const double fraction = std::min(1.0, along - static_cast<double>(i));
+  const Knot& low = knots_[i];
+  const Knot& high = knots_[i + 1];
   const auto read = [&](double y0, double y1, double slope0, double slope1)
-  { return hermite(geometry, step_, y0, y1, slope0, slope1).value; };
+  { return hermite(fraction, step_, y0, y1, slope0, slope1).value; };
   entry.force = read(low.value.force, high.value.force, low.slope.force, high.slope.force);
   entry.radius = read(low.value.radius, high.value.radius, low.slope.radius, high.slope.radius);
   for (std::size_t k = 0; k < kMoments; ++k)

@@ -40,17 +40,17 @@ public:
   }
 
 private:
-  struct Row
+  struct Knot
   {
     Entry value;
     Entry slope; // d value / d log(depth)
   };
 
   double baseDepth_;
-  double firstLog_ = 0.0; // log of the first row's depth
-  double step_ = 0.0;     // in log(depth)
-  std::vector<Row> rows_; // none where the base touches at once
-  Entry base_;            // at baseDepth()
+  double firstLog_ = 0.0;   // log of the first knot's depth
+  double step_ = 0.0;       // in log(depth)
+  std::vector<Knot> knots_; // none where the base touches at once
+  Entry base_;              // at baseDepth()
 };
 
 } // namespace palp

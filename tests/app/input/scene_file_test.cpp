@@ -58,7 +58,7 @@ TEST_F(SceneFile, BuildsNothingThatIsNotNamed)
   document["dent"] = { { "surface", "none" } };
   const ScenePlan plan = parse(document);
   EXPECT_FALSE(plan.window || plan.dents() || plan.validity || plan.deformed || plan.picture);
-  EXPECT_TRUE(plan.curves.empty());
+  EXPECT_TRUE(plan.plots.empty());
   EXPECT_FALSE(plan.press.tissue.options.rated);
   EXPECT_EQ(plan.device.file, "/scenes/press.csv");
 }

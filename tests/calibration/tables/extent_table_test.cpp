@@ -16,7 +16,7 @@ namespace
 {
 
 using namespace units::literals;
-using Row = ExtentTable::Row;
+using Extent = ExtentTable::Extent;
 
 // the message of the error that reading the text gives; empty when it can be read
 std::string refusal(const std::string& text)
@@ -48,7 +48,7 @@ TEST(ExtentTable, ReadsMillimetersAsMeters)
 
 TEST(ExtentTable, IsLinearBetweenRowsAndConstantBeyond)
 {
-  const ExtentTable table({ Row{ 1.0_mm, 3.0_mm, 0, 0 }, Row{ 2.0_mm, 7.0_mm, 0, 0 } });
+  const ExtentTable table({ Extent{ 1.0_mm, 3.0_mm, 0, 0 }, Extent{ 2.0_mm, 7.0_mm, 0, 0 } });
   EXPECT_DOUBLE_EQ(table.extentRadius(0.5_mm), 1.5_mm); // on the line to (0, 0)
   EXPECT_DOUBLE_EQ(table.extentRadius(1.25_mm), 4.0_mm);
   EXPECT_DOUBLE_EQ(table.extentRadius(2.0_mm), 7.0_mm);
@@ -57,7 +57,7 @@ TEST(ExtentTable, IsLinearBetweenRowsAndConstantBeyond)
 
 TEST(ExtentTable, IsZeroOutOfContact)
 {
-  const ExtentTable table({ Row{ 1.0_mm, 3.0_mm, 0, 0 }, Row{ 2.0_mm, 7.0_mm, 0, 0 } });
+  const ExtentTable table({ Extent{ 1.0_mm, 3.0_mm, 0, 0 }, Extent{ 2.0_mm, 7.0_mm, 0, 0 } });
   EXPECT_EQ(table.extentRadius(0.0), 0.0);
   EXPECT_EQ(table.extentRadius(-1.0_mm), 0.0);
   EXPECT_EQ(table.extentRadius(std::numeric_limits<double>::quiet_NaN()), 0.0);
@@ -106,9 +106,10 @@ TEST(ExtentTable, RefusesWhatItCannotOpen)
 
 TEST(ExtentTable, RefusesValuesThatAreNoTable)
 {
-  EXPECT_THROW(ExtentTable({ Row{ 1.0_mm, 3.0_mm, 0, 0 } }), Error);
-  EXPECT_THROW(ExtentTable({ Row{ 2.0_mm, 3.0_mm, 0, 0 }, Row{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
-  EXPECT_THROW(ExtentTable({ Row{ 0.0, 3.0_mm, 0, 0 }, Row{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
+  EXPECT_THROW(ExtentTable({ Extent{ 1.0_mm, 3.0_mm, 0, 0 } }), Error);
+  EXPECT_THROW(
+    ExtentTable({ Extent{ 2.0_mm, 3.0_mm, 0, 0 }, Extent{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
+  EXPECT_THROW(ExtentTable({ Extent{ 0.0, 3.0_mm, 0, 0 }, Extent{ 1.0_mm, 7.0_mm, 0, 0 } }), Error);
 }
 
 struct Shipped

@@ -57,7 +57,7 @@ TEST(SurfaceTable, GivesTheExtentsOfTheShippedTables)
   {
     const ExtentTable extents = table.extents({ 10.0_mm, radius, 5.0 * radius, 0.33 }, 0.5_mm);
     const ExtentTable papers = ExtentTable::read(shipped(name));
-    for (const ExtentTable::Row& row : papers.rows())
+    for (const ExtentTable::Extent& row : papers.rows())
     {
       // deeper than the radius it is an estimate
       const double share = radius == 10.0_mm || row.depth > radius ? 0.08 : 0.04;

@@ -80,7 +80,7 @@ TEST(ForceErrorPlot, IsEquationNine)
 
 TEST(ExtentPlot, FitsAQuadraticExactly)
 {
-  std::vector<ExtentTable::Row> rows;
+  std::vector<ExtentTable::Extent> rows;
   for (int i = 1; i <= 10; ++i)
   {
     const double mm = i;

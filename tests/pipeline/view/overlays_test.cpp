@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(PressView, EachOverlay,
 
 TEST_P(EachOverlay, IsDrawnWhenWantedAndNotOtherwise)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   View view(body, kSphere);
   for (std::size_t i = 0; i < kOverlayCount; ++i)
   {
@@ -52,7 +52,7 @@ TEST_P(EachOverlay, IsDrawnWhenWantedAndNotOtherwise)
 
 TEST(PressView, NamesTheRuleThatColorsTheDent)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   View view(body, kSphere);
   view.view.setVisible(std::vector{ Overlay::ValidityColors, Overlay::Readings });
   expectBaseline(*view.picture(body, pressed(body, kSphere, 5.0_mm)), "validity_rule");
@@ -60,7 +60,7 @@ TEST(PressView, NamesTheRuleThatColorsTheDent)
 
 TEST(SectionPlot, ShowsFig5OnABall)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   View view(body, kSphere);
   view.view.show(pressed(body, kSphere, 5.0_mm));
   std::vector<std::unique_ptr<Plot>> plots;
@@ -76,7 +76,7 @@ TEST(SectionPlot, ShowsFig5OnABall)
 
 TEST(ControlNet, LiesOnTheToolAndOnTheSurface)
 {
-  const Body body = block();
+  const Specimen body = block();
   View view(body, kSphere);
   view.view.show(pressed(body, kSphere, 5.0_mm));
   vtkNew<vtkPolyData> net;
@@ -117,7 +117,7 @@ double lengthOfArrow(vtkRenderer& renderer)
 // the same press with a tool that is larger than the body
 TEST(ForceArrow, StaysSmallAgainstTheBodyWhateverTheToolAndTheForce)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   const double diagonal = body.surface->GetLength();
   for (const double radius : { 1.0_mm, 10.0_mm, 125.0_mm, 1000.0_mm })
   {

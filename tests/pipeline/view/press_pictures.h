@@ -25,14 +25,14 @@ namespace palp::test
 using namespace units::literals;
 
 /// A surface, and where it is pressed.
-struct Body
+struct Specimen
 {
   vtkSmartPointer<vtkPolyData> surface;
   Eigen::Vector3d place;
   Eigen::Vector3d normal;
 };
 
-inline Body liver()
+inline Specimen liver()
 {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(PALP_SHARE "/meshes/liver.vtp");
@@ -44,7 +44,7 @@ inline Body liver()
   scaled->SetInputConnection(reader->GetOutputPort());
   scaled->Update();
   // the highest point
-  Body body{ scaled->GetOutput(), { 0.0, 0.0, -1.0 }, Eigen::Vector3d::UnitZ() };
+  Specimen body{ scaled->GetOutput(), { 0.0, 0.0, -1.0 }, Eigen::Vector3d::UnitZ() };
   for (vtkIdType i = 0; i < body.surface->GetNumberOfPoints(); ++i)
   {
     double point[3];
@@ -57,7 +57,7 @@ inline Body liver()
   return body;
 }
 
-inline Body ball()
+inline Specimen ball()
 {
   vtkNew<vtkSphereSource> source;
   source->SetRadius(50.0_mm);
@@ -67,7 +67,7 @@ inline Body ball()
   return { source->GetOutput(), { 0.0, 0.0, 50.0_mm }, Eigen::Vector3d::UnitZ() };
 }
 
-inline Body block()
+inline Specimen block()
 {
   vtkNew<vtkCubeSource> cube;
   cube->SetXLength(100.0_mm);
@@ -86,7 +86,7 @@ inline const Tip kSphere = SphereTip{ 10.0_mm };
 inline const Tip kCone = ConeTip{ 45.0_deg, 10.0_mm };
 inline const Tip kSmall = SphereTip{ 3.0_mm };
 
-inline Sample pressed(const Body& body, const Tip& tip, double depth)
+inline Sample pressed(const Specimen& body, const Tip& tip, double depth)
 {
   const ForceLaw law(tip, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 });
   Sample sample;
@@ -99,7 +99,7 @@ inline Sample pressed(const Body& body, const Tip& tip, double depth)
 /// An off-screen window that shows a press.
 struct View
 {
-  explicit View(const Body& body, const Tip& tip)
+  explicit View(const Specimen& body, const Tip& tip)
     : view(*renderer)
     , tool(tip)
   {
@@ -114,7 +114,7 @@ struct View
       { 10.0_mm, 30.0_mm, 8.0, 10.0_mm } }));
   }
 
-  vtkSmartPointer<vtkImageData> picture(const Body& body, const Sample& sample)
+  vtkSmartPointer<vtkImageData> picture(const Specimen& body, const Sample& sample)
   {
     view.show(sample);
     lookAt(body);
@@ -123,7 +123,7 @@ struct View
 
   // 50 degrees from the normal, which shows into the dent and along the arrow; from the front, so
   // that the view does not roll with the normal
-  void lookAt(const Body& body)
+  void lookAt(const Specimen& body)
   {
     const double base = baseRadius(tool);
     const double diagonal = body.surface->GetLength();

@@ -24,7 +24,7 @@ using namespace units::literals;
 
 TEST(PressView, ShowsTheLiverUnderBothTools)
 {
-  const Body body = liver();
+  const Specimen body = liver();
   View sphere(body, kSphere);
   expectBaseline(*sphere.picture(body, pressed(body, kSphere, 5.0_mm)), "liver_sphere");
   View cone(body, kCone);
@@ -33,7 +33,7 @@ TEST(PressView, ShowsTheLiverUnderBothTools)
 
 TEST(PressView, ShowsARoundDentOfASmallTool)
 {
-  const Body body = liver();
+  const Specimen body = liver();
   View view(body, kSmall);
   expectBaseline(*view.picture(body, pressed(body, kSmall, 1.5_mm)), "liver_small");
 }
@@ -42,7 +42,7 @@ TEST(PressView, ShowsBlockAndBall)
 {
   for (const bool isBlock : { true, false })
   {
-    const Body body = isBlock ? block() : ball();
+    const Specimen body = isBlock ? block() : ball();
     const std::string name = isBlock ? "block" : "ball";
     View sphere(body, kSphere);
     expectBaseline(*sphere.picture(body, pressed(body, kSphere, 5.0_mm)), name + "_sphere");
@@ -55,7 +55,7 @@ TEST(PressView, ShowsFittedSurfaces)
 {
   const auto fitted = [](const std::string& tool)
   { return FittedSurfaces::read(PALP_SHARE "/tables/" + tool + "_r10_h50_surface.csv"); };
-  const std::array<std::pair<Body, std::string>, 3> bodies{ std::pair(block(), "block"),
+  const std::array<std::pair<Specimen, std::string>, 3> bodies{ std::pair(block(), "block"),
     std::pair(ball(), "ball"), std::pair(liver(), "liver") };
   for (const auto& [body, name] : bodies)
   {
@@ -70,7 +70,7 @@ TEST(PressView, ShowsFittedSurfaces)
 
 TEST(PressView, IsAtRestAgainWhenTheToolHasLeft)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   View view(body, kSphere);
   Sample apart;
   apart.pose.apex = { 0.0, 0.0, 0.5 };
@@ -82,8 +82,8 @@ TEST(PressView, IsAtRestAgainWhenTheToolHasLeft)
 
 TEST(PressView, TakesAnotherSurfaceAndAnotherTool)
 {
-  const Body first = ball();
-  const Body second = block();
+  const Specimen first = ball();
+  const Specimen second = block();
   View view(first, kSphere);
   (void)view.picture(first, pressed(first, kSphere, 5.0_mm));
   view.view.setSurface(second.surface);
@@ -97,7 +97,7 @@ TEST(PressView, TakesAnotherSurfaceAndAnotherTool)
 
 TEST(PressView, DrawsNoToolThatIsNowhere)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   View view(body, kSphere);
   Sample lost;
   lost.pose.apex.setConstant(std::numeric_limits<double>::quiet_NaN());
