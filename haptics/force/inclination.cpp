@@ -78,8 +78,8 @@ double tiltFactor(const Tip& tip, double tilt) noexcept
   {
     return 1.0;
   }
-  const double geometry = std::abs(tilt) * kMiddle / noticeableTilt(*cone);
-  return cubicAt(kTilts, kForces, kSlopes, geometry).value;
+  const double scaledTilt = std::abs(tilt) * kMiddle / noticeableTilt(*cone);
+  return cubicAt(kTilts, kForces, kSlopes, scaledTilt).value;
 }
 
 double tiltReach(const Tip& tip) noexcept

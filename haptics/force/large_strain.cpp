@@ -59,8 +59,8 @@ LargeStrainGrid readGrid(
     std::size_t index = 0;
     for (const std::size_t k : { 2U, 1U, 0U })
     {
-      const auto geometry = std::lower_bound(axes[k].begin(), axes[k].end(), row.values[k]);
-      index = index * axes[k].size() + static_cast<std::size_t>(geometry - axes[k].begin());
+      const auto node = std::lower_bound(axes[k].begin(), axes[k].end(), row.values[k]);
+      index = index * axes[k].size() + static_cast<std::size_t>(node - axes[k].begin());
     }
     if (ratios[index] != 0.0)
     {

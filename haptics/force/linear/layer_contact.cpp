@@ -110,29 +110,29 @@ LinearContact LayerContact::operator()(
 {
   const double base = table_.baseDepth();
   const double kappa = allowedCurvature(curvature);
-  double shallow = 0.0; // places between which the depth is met
+  double shallow = 0.0; // half-space depths between which the depth is met
   double deep = base;
-  double geometry = std::min(depth, base);
-  Trial now = trial(geometry, thickness, kappa);
-  double nextPlace = geometry * depth / now.depth;
+  double halfSpaceDepth = std::min(depth, base);
+  Trial now = trial(halfSpaceDepth, thickness, kappa);
+  double nextDepth = halfSpaceDepth * depth / now.depth;
   for (int i = 0; i < kMaxSteps && std::abs(now.depth - depth) > kClose * depth; ++i)
   {
-    (now.depth < depth ? shallow : deep) = geometry;
-    nextPlace = std::clamp(nextPlace, geometry / kLongestStep, geometry * kLongestStep);
-    if (!(nextPlace > shallow && nextPlace < deep))
+    (now.depth < depth ? shallow : deep) = halfSpaceDepth;
+    nextDepth = std::clamp(nextDepth, halfSpaceDepth / kLongestStep, halfSpaceDepth * kLongestStep);
+    if (!(nextDepth > shallow && nextDepth < deep))
     {
       // the base where nothing shallower was too deep, else halfway
-      nextPlace = nextPlace >= base && deep == base ? base : 0.5 * (shallow + deep);
+      nextDepth = nextDepth >= base && deep == base ? base : 0.5 * (shallow + deep);
     }
-    if (nextPlace == geometry)
+    if (nextDepth == halfSpaceDepth)
     {
       break; // the whole base is in contact
     }
-    const Trial next = trial(nextPlace, thickness, kappa);
-    const double chord = (next.depth - now.depth) / (nextPlace - geometry);
-    geometry = nextPlace;
+    const Trial next = trial(nextDepth, thickness, kappa);
+    const double chord = (next.depth - now.depth) / (nextDepth - halfSpaceDepth);
+    halfSpaceDepth = nextDepth;
     now = next;
-    nextPlace = geometry + (depth - now.depth) / chord;
+    nextDepth = halfSpaceDepth + (depth - now.depth) / chord;
   }
   return { .force = std::max(0.0, 2.0 * (depth * now.uniform - now.shape)),
     .radius = now.radius,

@@ -90,13 +90,13 @@ void setSlopes(std::span<PunchSolution> solutions, std::size_t series, double st
 }
 
 PunchSolution between(
-  const PunchSolution& low, const PunchSolution& high, double step, double geometry) noexcept
+  const PunchSolution& low, const PunchSolution& high, double step, double fraction) noexcept
 {
   PunchSolution result;
   for (std::size_t k = 0; k < PunchSolution::kTerms; ++k)
   {
     const Cubic cubic =
-      hermite(geometry, step, low.value[k], high.value[k], low.slope[k], high.slope[k]);
+      hermite(fraction, step, low.value[k], high.value[k], low.slope[k], high.slope[k]);
     result.value[k] = cubic.value;
     result.slope[k] = cubic.slope;
   }

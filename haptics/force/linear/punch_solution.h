@@ -63,10 +63,10 @@ private:
 /// @param series  this many take turns: those of the first width come first
 void setSlopes(std::span<PunchSolution> solutions, std::size_t series, double step);
 
-/// @param place  0 to 1, from one solution to the next
-/// @param step   of the width between them
+/// @param fraction  0 to 1, from one solution to the next
+/// @param step      of the width between them
 /// @realtime     pure; no allocation, no lock, no exception
 [[nodiscard]] PunchSolution between(
-  const PunchSolution& low, const PunchSolution& high, double step, double geometry) noexcept;
+  const PunchSolution& low, const PunchSolution& high, double step, double fraction) noexcept;
 
 } // namespace palp
