@@ -67,22 +67,18 @@ using Tip = std::variant<SphereTip, ConeTip, PunchTip, TruncatedConeTip, BluntCo
 ///
 /// @return    what function returns; for a variant that lost its value, a default
 /// @realtime  as function
-template <typename Function>
+template <std::size_t Next = 0, typename Function>
 auto onTip(const Tip& tip, Function function) noexcept -> decltype(function(SphereTip{}))
 {
-  decltype(function(SphereTip{})) result{};
-  const auto isDone = [&](const auto* shape)
+  if constexpr (Next < std::variant_size_v<Tip>)
   {
-    if (shape != nullptr)
-    {
-      result = function(*shape);
-    }
-    return shape != nullptr;
-  };
-  const auto tryEach = [&]<typename... Shapes>(const std::variant<Shapes...>& any)
-  { return (isDone(std::get_if<Shapes>(&any)) || ...); };
-  (void)tryEach(tip);
-  return result;
+    const auto* shape = std::get_if<Next>(&tip);
+    return shape != nullptr ? function(*shape) : onTip<Next + 1>(tip, function);
+  }
+  else
+  {
+    return {};
+  }
 }
 
 /// Slope of a cone's flank.
