@@ -101,8 +101,8 @@ public:
   // a count that the file has room for
   [[nodiscard]] std::size_t count(double value) const
   {
-    const auto most = static_cast<double>(payload_.size() / sizeof(double));
-    if (!(value >= 0.0 && value <= most)) // NaN fails as well
+    const std::size_t most = payload_.size() / sizeof(double);
+    if (!(value >= 0.0 && value <= static_cast<double>(most))) // NaN fails as well
     {
       refuse(file_, "is damaged");
     }
