@@ -44,21 +44,28 @@ std::unique_ptr<OutputFolder> openFolder(
 constexpr const char* kStopped =
   "interrupted; what was reached is complete in --out, --resume goes on from here";
 
+constexpr const char* kNothingYet =
+  "interrupted before the first depth was done; what is in --out is as before";
+
+constexpr const char* kSweepStopped =
+  "interrupted; the depths that were done are complete in the folders of their cases, --resume "
+  "goes on from there";
+
 constexpr const char* kTablesStopped =
   "interrupted; the tables that were not finished are as before, start again for them";
 
 // before any picture is drawn
-void refuseWhereStopped(const std::stop_token& stop)
+void refuseWhereStopped(const Interrupt& interrupt, const char* sentence)
 {
-  if (stop.stop_requested())
+  if (interrupt.token().stop_requested())
   {
-    throw Error(ErrorCode::NoSolution, kStopped);
+    throw Error(ErrorCode::NoSolution, sentence);
   }
 }
 
-void runSweep(
-  const CalibrateOptions& options, const std::stop_token& stop, const Renderer* pictures)
+void runSweep(const CalibrateOptions& options, Interrupt& interrupt, const Renderer* pictures)
 {
+  interrupt.endWhatDoesNotStop(kSweepStopped);
   const auto cases = readSweep(options.sweep, options.text);
   const OutputFolder whole(options.out, {}, OutputFolder::Earlier::Keep); // one sweep in a folder
   std::vector<std::unique_ptr<OutputFolder>> folders;
@@ -71,14 +78,14 @@ void runSweep(
   std::size_t done = 0;
   ProgressLine progress("cases");
   progress(0, cases.size());
-  sweep(folders, cases, options.resume, options.jobs, stop,
+  sweep(folders, cases, options.resume, options.jobs, interrupt.token(),
     [&](const std::string& name, const std::string& failure)
     {
       failed += failure.empty() ? 0 : 1;
       progress.tell(name + ": " + (failure.empty() ? "done" : failure));
       progress(++done, cases.size());
     });
-  refuseWhereStopped(stop);
+  refuseWhereStopped(interrupt, kSweepStopped);
   for (std::size_t i = 0; i < cases.size(); ++i)
   {
     if (!options.noPicture && std::filesystem::exists(folders[i]->path() / "table.csv"))
@@ -95,18 +102,24 @@ void runSweep(
   }
 }
 
-void calibrateOne(
-  const CalibrateOptions& options, const std::stop_token& stop, const Renderer* pictures)
+void calibrateOne(const CalibrateOptions& options, Interrupt& interrupt, const Renderer* pictures)
 {
   const Case study = caseOf(options.out.filename().string(), options.text);
   const auto folder = openFolder(options.out, options);
+  const bool goesOn = options.resume && std::filesystem::exists(options.out / "table.csv");
+  interrupt.endWhatDoesNotStop(goesOn ? kStopped : kNothingYet);
   Outcome outcome;
   {
     ProgressLine progress("depths");
     progress(0, study.depths.size());
-    outcome = calibrateInto(*folder, study, options.resume, stop, std::ref(progress));
+    outcome = calibrateInto(*folder, study, options.resume, interrupt.token(),
+      [&](std::size_t done, std::size_t total)
+      {
+        progress(done, total);
+        interrupt.endWhatDoesNotStop(kStopped);
+      });
   }
-  refuseWhereStopped(stop);
+  refuseWhereStopped(interrupt, outcome.steps.empty() ? kNothingYet : kStopped);
   if (!options.noPicture)
   {
     pictures->drawCalibration(study, outcome.steps, folder->stage());
@@ -118,7 +131,8 @@ void calibrateOne(
       outcome.error + " (" + std::to_string(outcome.steps.size()) + " of " +
         std::to_string(study.depths.size()) + " depths are in " + options.out.string() + ")");
   }
-  std::cerr << "palp: tables, fit and pictures are in " << options.out.string() << '\n';
+  std::cerr << "palp: " << (options.noPicture ? "tables and fit" : "tables, fit and pictures")
+            << " are in " << options.out.string() << '\n';
 }
 
 std::vector<std::string> tablesIn(const std::filesystem::path& folder)
@@ -142,26 +156,23 @@ void runCalibration(const CalibrateOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   Interrupt interrupt;
-  interrupt.endWhatDoesNotStop(options.tables.empty() ? kStopped : kTablesStopped);
   if (!options.tables.empty())
   {
+    interrupt.endWhatDoesNotStop(kTablesStopped);
     const auto folder = openOutput(options.tables,
       options.overwrite ? std::vector<std::string>{} : tablesIn(options.tables), options.overwrite);
     makeShippedTables(folder->stage(), interrupt.token(),
       [](const std::string& name) { std::cerr << "palp: " << name << '\n'; });
-    if (interrupt.token().stop_requested())
-    {
-      throw Error(ErrorCode::NoSolution, kTablesStopped);
-    }
+    refuseWhereStopped(interrupt, kTablesStopped);
     folder->publish();
   }
   else if (!options.sweep.empty())
   {
-    runSweep(options, interrupt.token(), pictures);
+    runSweep(options, interrupt, pictures);
   }
   else
   {
-    calibrateOne(options, interrupt.token(), pictures);
+    calibrateOne(options, interrupt, pictures);
   }
 }
 

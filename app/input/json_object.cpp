@@ -124,6 +124,12 @@ std::string JsonObject::number(const char* key, const std::string& fallback)
   return text(key, fallback);
 }
 
+bool JsonObject::isNumber(const char* key, double value)
+{
+  const nlohmann::json* found = find(key);
+  return found && found->is_number() && found->get<double>() == value;
+}
+
 std::vector<std::string> JsonObject::texts(
   const char* key, const std::vector<std::string>& fallback)
 {

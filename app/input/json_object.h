@@ -36,6 +36,8 @@ public:
   [[nodiscard]] bool flag(const char* key, bool fallback);
   /// A number, or a text that stands for one, as text.
   [[nodiscard]] std::string number(const char* key, const std::string& fallback);
+  /// Whether there is a number of this value; a text is none.
+  [[nodiscard]] bool isNumber(const char* key, double value);
   [[nodiscard]] std::vector<std::string> texts(
     const char* key, const std::vector<std::string>& fallback);
   [[nodiscard]] std::vector<JsonObject> objects(const char* key); ///< none where absent

@@ -109,9 +109,10 @@ const Unit& unitNamed(std::string_view name, Quantity kind, std::string_view wha
   std::string_view text, std::string_view number)
 {
   const std::span<const Unit> units = unitsOf(kind);
+  const bool micro = name == "\u00B5m" || name == "\u03BCm"; // the sign, the Greek letter
   for (const Unit& unit : units)
   {
-    if (unit.name == name)
+    if (unit.name == (micro ? "um" : name))
     {
       return unit;
     }
@@ -171,6 +172,23 @@ double parseNumber(std::string_view text, std::string_view what)
     refuse(what, text, "has a unit; give the bare number");
   }
   return split.number;
+}
+
+std::vector<double> parseNumbers(std::string_view text, std::string_view what)
+{
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view one = text.substr(begin, end - begin);
+    if (trimmed(one).empty())
+    {
+      refuse(what, text, "has an empty place; give numbers with a comma between them");
+    }
+    numbers.push_back(parseNumber(one, what));
+    begin = end + 1;
+  }
+  return numbers;
 }
 
 Range parseRange(std::string_view text, Quantity kind, std::string_view what)

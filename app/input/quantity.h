@@ -50,6 +50,10 @@ struct Bounds
 /// @throws Error BadValue
 [[nodiscard]] double parseNumber(std::string_view text, std::string_view what);
 
+/// Reads bare numbers with commas between them, as in `1,2`.
+/// @throws Error BadValue: also where a place is empty
+[[nodiscard]] std::vector<double> parseNumbers(std::string_view text, std::string_view what);
+
 /// A sequence of values that remembers them in the unit they were given in.
 struct Range
 {

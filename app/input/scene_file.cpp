@@ -108,7 +108,7 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
     &JsonObject::number);
   parseAt(
     object, "label",
-    [&](const std::string& text) { mesh.part.labels = { parseNumber(text, "--label") }; },
+    [&](const std::string& text) { mesh.part.labels = parseNumbers(text, "--label"); },
     &JsonObject::number);
   parseAt(object, "unit", [&](const std::string& text) { mesh.unit = parseUnit(text); });
   mesh.frame = readFrame(object.object("frame"));
@@ -116,6 +116,10 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   if (mesh.bundled.empty() == file.empty())
   {
     object.refuse("file", "give either a file or the name of a bundled surface");
+  }
+  if (mesh.part.level && !mesh.part.labels.empty())
+  {
+    object.refuse("label", "both are given, level and label; give the one or the other");
   }
   mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();
   return mesh;

@@ -61,17 +61,20 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
 MeshSource OpenDialog::source() const
 {
   MeshSource source{ .file = file_, .unit = parseUnit(unit_->currentText().toStdString()) };
-  if (label_ != nullptr && !label_->text().isEmpty())
+  const std::string level = level_ != nullptr ? level_->text().toStdString() : "";
+  const std::string labels = label_ != nullptr ? label_->text().toStdString() : "";
+  if (!level.empty() && !labels.empty())
   {
-    for (const QString& label : label_->text().split(','))
-    {
-      source.part.labels.push_back(
-        parseNumber(label.trimmed().toStdString(), tr("Label").toStdString()));
-    }
+    throw Error(
+      ErrorCode::BadValue, "Level and Label: both are given; give the one or the other");
   }
-  else if (level_ != nullptr)
+  if (!level.empty())
   {
-    source.part.level = parseNumber(level_->text().toStdString(), tr("Level").toStdString());
+    source.part.level = parseNumber(level, "Level");
+  }
+  if (!labels.empty())
+  {
+    source.part.labels = parseNumbers(labels, "Label");
   }
   return source;
 }

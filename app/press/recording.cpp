@@ -8,6 +8,8 @@
 #include "haptics/units.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <ostream>
 #include <vector>
@@ -56,6 +58,14 @@ void describeRecording(std::ostream& out, const Recording& recording)
          "and limits; force_x/y/z_N: sent to the device\n"
       << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
          "all factors\n";
+  if (recording.thinned > 0)
+  {
+    const bool all = recording.thinned == recording.samples.size();
+    out << "# of a long recording: before "
+        << shortest(all ? recording.samples.back().time : recording.samples[recording.thinned].time)
+        << " s only the samples of the least and the largest depth and force within each "
+        << shortest(recording.interval) << " s\n";
+  }
 }
 
 void writeColumns(std::ostream& out, const ForceLaw& law, bool hasExtents, bool hasRules)
@@ -105,7 +115,54 @@ std::vector<double> rowOf(const Sample& sample, const ForceLaw& law, const Calib
   return row;
 }
 
+// of each interval the extremes; returns how many are left of those from begin to end
+std::size_t thinRange(
+  std::vector<Sample>& samples, std::size_t begin, std::size_t end, double interval)
+{
+  const auto depth = [](const Sample& sample) { return sample.contact.depth; };
+  const auto force = [](const Sample& sample) { return sample.response.force; };
+  auto left = samples.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto stop = samples.begin() + static_cast<std::ptrdiff_t>(end);
+  for (auto at = left; at != stop;)
+  {
+    const double number = std::floor(at->time / interval);
+    const auto next = std::find_if(
+      at, stop, [&](const Sample& sample) { return std::floor(sample.time / interval) != number; });
+    const std::array extremes{ std::ranges::min_element(at, next, {}, depth),
+      std::ranges::max_element(at, next, {}, depth), std::ranges::min_element(at, next, {}, force),
+      std::ranges::max_element(at, next, {}, force) };
+    std::array<Sample, extremes.size()> kept;
+    const auto last = std::copy_if(at, next, kept.begin(),
+      [&, from = at](const Sample&) mutable
+      { return std::ranges::find(extremes, from++) != extremes.end(); });
+    left = std::copy(kept.begin(), last, left);
+    at = next;
+  }
+  samples.erase(left, stop);
+  return static_cast<std::size_t>(left - samples.begin()) - begin;
+}
+
 } // namespace
+
+void bound(Recording& recording, std::size_t kept)
+{
+  const std::size_t minute = kept / 10; // at a time, so that moving the rest is rare
+  if (recording.samples.size() > recording.thinned + kept + minute)
+  {
+    const std::size_t first = recording.thinned;
+    recording.thinned += thinRange(recording.samples, first, first + minute, recording.interval);
+    while (recording.thinned > 2 * minute)
+    {
+      recording.interval *= 2.0;
+      recording.thinned = thinRange(recording.samples, 0, recording.thinned, recording.interval);
+    }
+  }
+}
+
+void thin(Recording& recording)
+{
+  recording.thinned = thinRange(recording.samples, 0, recording.samples.size(), recording.interval);
+}
 
 const Sample* Recording::deepest() const noexcept
 {

@@ -15,7 +15,7 @@ namespace palp
 {
 
 /// Who pressed what, and everything that was measured. Of a tool that rests away from the surface
-/// only the first and the last sample are kept.
+/// only the first and the last sample are kept; of a long recording, see bound().
 struct Recording
 {
   std::string mesh;              ///< file name, for people
@@ -25,7 +25,9 @@ struct Recording
   std::string command{};         ///< see commandLine
   Scene scene;
   std::vector<Sample> samples;
-  bool rated = true; ///< how far each sample may be believed is told, too
+  std::size_t thinned = 0; ///< of these the first, between which others were left out
+  double interval = 0.1;   ///< of which of those only the extremes are kept [s]
+  bool rated = true;       ///< how far each sample may be believed is told, too
 
   /// The first sample of the largest depth; nothing when the tool never touched.
   [[nodiscard]] const Sample* deepest() const noexcept;
@@ -33,6 +35,17 @@ struct Recording
   /// The samples of the last contact without a gap; the present one, where the tool touches.
   [[nodiscard]] std::span<const Sample> lastPress() const noexcept;
 };
+
+constexpr std::size_t kKeptWhole = 600'000; ///< samples, ten minutes
+
+/// Bounds a recording that grows: of what is older than the last `kept` samples those stay that
+/// have the least and the largest depth and force within each interval, which doubles where they
+/// are too many. Never more than 1.4 times `kept` stay, the deepest among them.
+/// @param kept  a multiple of 1000
+void bound(Recording& recording, std::size_t kept = kKeptWhole);
+
+/// The same of all samples of a recording that has ended.
+void thin(Recording& recording);
 
 /// The first sample of the largest depth; null where none touches.
 [[nodiscard]] const Sample* deepestOf(std::span<const Sample> samples) noexcept;

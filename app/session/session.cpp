@@ -22,8 +22,7 @@ namespace palp
 namespace
 {
 
-constexpr std::size_t kKept = 600'000; // samples, ten minutes
-constexpr double kForgiving = 0.05;    // until the servo has heard of an order, at the latest [s]
+constexpr double kForgiving = 0.05; // until the servo has heard of an order, at the latest [s]
 
 // a tool that nobody moves, away from the surface
 bool restsAt(const Sample& before, const Sample& now)
@@ -254,13 +253,7 @@ void Session::update(const std::function<void(const Sample&)>& each)
   {
     arm(false);
   }
-  // a minute at a time, so that moving the rest is rare
-  constexpr std::size_t kMinute = kKept / 10;
-  std::vector<Sample>& kept = recording_.samples;
-  if (kept.size() > kKept + kMinute)
-  {
-    kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(kKept));
-  }
+  bound(recording_);
   boundEarlier();
 }
 
@@ -296,6 +289,8 @@ void Session::endRecording(const SceneBody& body)
     earlier_.back().recording.samples = std::move(samples);
   }
   recording_.samples.clear();
+  recording_.thinned = 0;
+  recording_.interval = Recording{}.interval;
   resting_.reset();
 }
 
@@ -306,7 +301,14 @@ void Session::boundEarlier()
     return std::accumulate(earlier_.begin(), earlier_.end(), recording_.samples.size(),
       [](std::size_t sum, const Take& take) { return sum + take.recording.samples.size(); });
   };
-  while (!earlier_.empty() && samples() > kKept)
+  for (Take& take : earlier_)
+  {
+    if (samples() > kKeptWhole && take.recording.thinned == 0)
+    {
+      thin(take.recording);
+    }
+  }
+  while (!earlier_.empty() && samples() > 2 * kKeptWhole)
   {
     earlier_.erase(earlier_.begin());
   }

@@ -107,7 +107,8 @@ public:
     return calibration_;
   }
 
-  /// The last ten minutes; without samples where the plan has no curves to draw of them.
+  /// The last ten minutes whole, see bound(); without samples where the plan has no curves to draw
+  /// of them.
   [[nodiscard]] const Recording& recording() const noexcept
   {
     return recording_;
@@ -121,7 +122,8 @@ public:
     Calibration calibration;
   };
 
-  /// Those with a press in them, oldest first; of all samples kept the newest ten minutes.
+  /// Those with a press in them, oldest first; thinned where together they hold more than ten
+  /// minutes, and the oldest gone where they still hold more than twenty.
   [[nodiscard]] const std::vector<Take>& earlier() const noexcept
   {
     return earlier_;

@@ -108,6 +108,18 @@ void Window::takeSamples()
     });
 }
 
+// once, where it begins
+void Window::sayWhatIsThinned()
+{
+  const bool isThinned = session_.recording().thinned > 0;
+  if (isThinned && !saidThinned_)
+  {
+    say(tr("A long recording: of what is older than ten minutes, the least and the largest depth "
+           "and force of each 0.1 s are kept"));
+  }
+  saidThinned_ = isThinned;
+}
+
 void Window::clearCharts()
 {
   if (charts_)
@@ -120,6 +132,7 @@ void Window::clearCharts()
 void Window::refresh()
 {
   takeSamples();
+  sayWhatIsThinned();
   aim(); // a click ends by itself
   fitView();
   const Sample& sample = session_.newest();

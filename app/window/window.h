@@ -90,6 +90,7 @@ private:
   void applyTissue();
   void applyDevice(const QString& name);
   void sayWhatIsKept();
+  void sayWhatIsThinned();
   void say(const QString& what);
   bool attempt(const std::function<void()>& work);
 
@@ -110,6 +111,7 @@ private:
   std::optional<std::pair<int, int>> fittedTo_ =
     std::pair(0, 0); // size that all of the body is seen in
   std::size_t takesKept_ = 0;
+  bool saidThinned_ = false;
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   vtkNew<vtkContextView> timeView_;

@@ -35,6 +35,12 @@ bool near(const std::vector<double>& axis, double value) noexcept
   return value >= axis.front() - kNear && value <= axis.back() + kNear;
 }
 
+bool within(const std::vector<double>& axis, double value) noexcept
+{
+  constexpr double kRounding = 1e-9;
+  return value >= axis.front() - kRounding && value <= axis.back() + kRounding;
+}
+
 // the grid in a file; scale brings the second column to SI
 LargeStrainGrid readGrid(
   const std::filesystem::path& file, const std::string& header, double (*scale)(double))
@@ -129,7 +135,7 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
   const Bracket n = bracket(poisson_, poisson);
   const std::size_t nextShape = std::min(s.low + 1, second_.size() - 1);
   const std::size_t nextPoisson = std::min(n.low + 1, poisson_.size() - 1);
-  Ratio result{ 0.0, 0.0, near(second_, second) };
+  Ratio result{ 0.0, 0.0, within(second_, second) && within(poisson_, poisson) };
   const auto add = [&](std::size_t nu, std::size_t shape, double weight)
   {
     const Ratio one = along(nu * second_.size() + shape, first);

@@ -120,7 +120,9 @@ TEST(CalibrateCommand, EndsSoonAfterATermInTheMiddleOfADepth)
                                             " calibrate --no-picture --element-size 0.05mm --out " +
     folder.string() + "; code=$?; [ $code = 124 ] || exit $code");
   EXPECT_EQ(stopped.code, 0); // by the TERM, not by the KILL 20 s later, which is 137
-  EXPECT_NE(stopped.err.find("interrupted"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("interrupted before the first depth"), std::string::npos)
+    << stopped.err;
+  EXPECT_EQ(stopped.err.find("--resume"), std::string::npos) << stopped.err;
 }
 
 TEST(CalibrateCommand, SweepsStayBelowOutAndSayWhatIsWrong)

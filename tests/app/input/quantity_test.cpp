@@ -117,6 +117,25 @@ TEST(Range, EqualEndsGiveOneValue)
   EXPECT_EQ(parseRange("2:2:1mm", Quantity::Length, "d").si, std::vector<double>{ 0.002 });
 }
 
+TEST(Quantity, ReadsMicrometersHoweverTheyAreWritten)
+{
+  for (const char* text : { "250um", "250\u00B5m", "250 \u03BCm" })
+  {
+    EXPECT_EQ(parseQuantity(text, Quantity::Length, "r"), 250e-6) << text;
+  }
+  EXPECT_THROW((void)parseQuantity("250\u00B5Pa", Quantity::Pressure, "p"), Error);
+}
+
+TEST(Quantity, NumbersHaveOneCommaBetweenThem)
+{
+  EXPECT_EQ(parseNumbers("5", "--label"), (std::vector<double>{ 5.0 }));
+  EXPECT_EQ(parseNumbers("1, 2,7", "--label"), (std::vector<double>{ 1.0, 2.0, 7.0 }));
+  for (const char* text : { "", "5,,7", ",5", "5,", "5, ", "5 7", "5;7" })
+  {
+    EXPECT_THROW((void)parseNumbers(text, "--label"), Error) << text;
+  }
+}
+
 TEST(Range, RefusesWhatDoesNotGoUp)
 {
   for (const char* text :

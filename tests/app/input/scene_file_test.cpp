@@ -85,6 +85,7 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
   };
   const std::pair<const char*, const char*> cases[] = {
     { R"({"palp_scene": 2})", "mine.json: /palp_scene: must be 1" },
+    { R"({"palp_scene": "1"})", "mine.json: /palp_scene: must be 1" },
     { R"({"tisue": {}})", "mine.json: /tisue: unknown key" },
     { R"({"tissue": {"youngs": "1kPa"}})", "mine.json: /tissue/youngs: unknown key" },
     { R"({"tissue": {"young": "50"}})", "mine.json: /tissue/young: " },
@@ -101,6 +102,9 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"meshes": [{}]})", "mine.json: /meshes/0/file: give either" },
     { R"({"meshes": [{"file": "a.stl", "unit": "inch"}]})", "mine.json: /meshes/0/unit: " },
     { R"({"meshes": [{"file": "a.mha", "level": "high"}]})", "mine.json: /meshes/0/level: " },
+    { R"({"meshes": [{"file": "a.mha", "label": "5,,7"}]})", "mine.json: /meshes/0/label: '5,,7'" },
+    { R"({"meshes": [{"file": "a.mha", "level": 1, "label": 5}]})",
+      "mine.json: /meshes/0/label: both are given" },
     { R"({"meshes": [{"bundled": "liver", "frame": {"origin": ["1mm"]}}]})",
       "mine.json: /meshes/0/frame/origin: must be three" },
     { R"({"dent": {"layer": "thick"}})", "mine.json: /dent/layer: " },

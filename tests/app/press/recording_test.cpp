@@ -1,6 +1,9 @@
 #include "app/press/recording.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <random>
+#include <sstream>
 
 namespace palp
 {
@@ -43,6 +46,58 @@ TEST(Recording, TheDeepestIsTheFirstOfItsDepth)
   const Recording recording = recordingOf({ 0, 3, 9, 9, 1 });
   EXPECT_EQ(recording.deepest(), &recording.samples[2]);
   EXPECT_EQ(recordingOf({ 0 }).deepest(), nullptr);
+}
+
+// a day of holding and pressing, in a bound of six seconds
+TEST(Recording, ThatGrowsIsBoundedAndKeepsItsExtremesAndEachContact)
+{
+  constexpr std::size_t kKept = 6000;
+  Recording recording;
+  std::size_t most = 0;
+  double deepest = 0.0;
+  double strongest = 0.0;
+  std::mt19937 random(1); // NOLINT: the same samples each time
+  std::uniform_real_distribution<double> noise(0.0, 1e-4);
+  for (int i = 0; i < 1'000'000; ++i)
+  {
+    Sample& sample = recording.samples.emplace_back();
+    const bool lifted = i / 20'000 % 2 == 1;
+    sample.time = 1e-3 * i;
+    sample.contact.depth = lifted ? 0.0 : 5e-3 + noise(random);
+    sample.response.force = lifted ? 0.0 : 3.0 + noise(random);
+    deepest = std::max(deepest, sample.contact.depth);
+    strongest = std::max(strongest, sample.response.force);
+    bound(recording, kKept);
+    most = std::max(most, recording.samples.size());
+  }
+  EXPECT_LE(most, kKept * 14 / 10);
+  EXPECT_EQ(recording.deepest()->contact.depth, deepest);
+  const auto& samples = recording.samples;
+  const auto force = [](const Sample& sample) { return sample.response.force; };
+  EXPECT_EQ(std::ranges::max(samples, {}, force).response.force, strongest);
+  for (std::size_t i = samples.size() - kKept; i < samples.size(); ++i)
+  {
+    EXPECT_NEAR(samples[i].time - samples[i - 1].time, 1e-3, 1e-9) << i;
+  }
+  int contacts = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+  {
+    ASSERT_GT(samples[i].time, samples[i - 1].time);
+    contacts += samples[i].contact.touching() && !samples[i - 1].contact.touching();
+  }
+  EXPECT_EQ(contacts, 24);
+  std::ostringstream text;
+  writeSamples(text, recording, nullptr);
+  EXPECT_NE(text.str().find("# of a long recording: before "), std::string::npos);
+}
+
+TEST(Recording, OfTenMinutesIsWhole)
+{
+  Recording recording;
+  recording.samples.resize(kKeptWhole);
+  bound(recording);
+  EXPECT_EQ(recording.samples.size(), kKeptWhole);
+  EXPECT_EQ(recording.thinned, 0U);
 }
 
 } // namespace

@@ -137,7 +137,8 @@ TEST_F(WindowTest, AsksForTheLevelOfAnImage)
 {
   const std::string file = writeMask(folder_.path() / "mask.mha");
   std::vector<QString> reasons;
-  QStringList levels{ "0,5", "7", "0.5" }; // typed in turn
+  QStringList levels{ "0,5", "7", "0.5", "0.5" }; // typed in turn
+  QStringList labels{ "", "", "1", "" };
   QTimer typist;
   QObject::connect(&typist, &QTimer::timeout,
     [&]
@@ -147,15 +148,17 @@ TEST_F(WindowTest, AsksForTheLevelOfAnImage)
       {
         reasons.push_back(dialog->findChild<QLabel*>("why")->text());
         dialog->findChild<QLineEdit*>("level")->setText(levels.takeFirst());
+        dialog->findChild<QLineEdit*>("label")->setText(labels.takeFirst());
         dialog->accept();
       }
     });
   typist.start(200);
   ASSERT_TRUE(window_->openFile(QString::fromStdString(file)));
-  ASSERT_EQ(reasons.size(), 3U);
+  ASSERT_EQ(reasons.size(), 4U);
   EXPECT_TRUE(reasons[0].contains("level")) << reasons[0].toStdString();
   EXPECT_TRUE(reasons[1].contains("comma")) << reasons[1].toStdString();
   EXPECT_TRUE(reasons[2].contains("7")) << reasons[2].toStdString();
+  EXPECT_TRUE(reasons[3].contains("both are given")) << reasons[3].toStdString();
   EXPECT_EQ(session_->body().name, "mask.mha");
   press(60);
   release();

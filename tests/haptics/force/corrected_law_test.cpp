@@ -6,6 +6,7 @@
 #include "tests/haptics/force/tips.h"
 #include "tests/support/allocation_guard.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -178,6 +179,29 @@ LargeStrainTable shippedRatios()
 {
   const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/";
   return readLargeStrain(folder + "large_strain_sphere.csv", folder + "large_strain_cone.csv");
+}
+
+// what the shipped tables say they cover, as `palp calibrate --tables` presses it
+TEST(CorrectedLaw, OutsideItsTablesLargeStrainIsFlaggedForAnyPoissonsRatio)
+{
+  const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = shippedRatios() };
+  const auto isFlagged = [&](const Tip& tip, double nu)
+  {
+    const Validity validity(ForceLaw(tip, { 50.0_kPa, nu }, settings));
+    const Rules rules = validity({ .depth = 8.0_mm, .thickness = 50.0_mm });
+    return !std::ranges::find(rules, std::string("large_strain"), &Rule::name)->holds();
+  };
+  for (int hundredths = 0; hundredths <= 50; ++hundredths)
+  {
+    const double nu = hundredths / 100.0;
+    EXPECT_EQ(isFlagged(SphereTip{ 10.0_mm }, nu), hundredths > 49) << nu;
+    for (const double angle : { 45.0_deg, 50.0_deg, 60.0_deg })
+    {
+      EXPECT_EQ(isFlagged(ConeTip{ angle, 10.0_mm }, nu), hundredths > 45) << nu << " " << angle;
+    }
+    EXPECT_TRUE(isFlagged(ConeTip{ 43.0_deg, 10.0_mm }, nu)) << nu;
+    EXPECT_TRUE(isFlagged(ConeTip{ 62.0_deg, 10.0_mm }, nu)) << nu;
+  }
 }
 
 class NeoHookeanBlock : public ::testing::TestWithParam<Case>

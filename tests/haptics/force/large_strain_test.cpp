@@ -45,6 +45,8 @@ TEST(LargeStrainGrid, IsOneFarFromItsPoissonsRatios)
   EXPECT_EQ(grid()(1.0, 0.1, 0.2).value, 1.0);
   EXPECT_FALSE(grid()(1.0, 0.1, 0.2).inside);
   EXPECT_EQ(grid()(1.0, 0.2, 0.26).value, 1.08);
+  EXPECT_FALSE(grid()(1.0, 0.2, 0.26).inside);
+  EXPECT_TRUE(grid()(1.0, 0.2, 0.3).inside);
 }
 
 TEST(LargeStrainGrid, IsSmoothAndMonotoneInDepth)
