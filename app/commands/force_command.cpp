@@ -48,7 +48,8 @@ void tellFactors(const ForceLaw& law, const ContactGeometry& deepest)
   if (bare)
   {
     std::cerr << (law.settings().coatings.empty()
-        ? "palp: no table of large strain covers this tool and place; linear there\n"
+        ? "palp: no table of large strain covers this tool and place; its border counts there, or "
+          "no such factor\n"
         : "palp: coated tissue counts as linear at large strain\n");
   }
 }
