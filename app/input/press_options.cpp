@@ -46,9 +46,8 @@ void MeshSource::addTo(CLI::App& command)
   auto* level = addParsed(command, "--level",
     "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1", "",
     [this](const std::string& text) { part.level = parseNumber(text, "--level"); });
-  addParsed(command, "--label",
-    "Value of a label map whose region is the body: 5, or 1,2 for both", "",
-    [this](const std::string& text) { part.labels = parseNumbers(text, "--label"); })
+  addParsed(command, "--label", "Value of a label map whose region is the body: 5, or 1,2 for both",
+    "", [this](const std::string& text) { part.labels = parseNumbers(text, "--label"); })
     ->excludes(level);
 }
 

@@ -244,7 +244,7 @@ void checkTogether(const JsonObject& object, const ScenePlan& plan)
 ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
 {
   ScenePlan plan;
-  if (object.number("palp_scene", "") != "1")
+  if (!object.isNumber("palp_scene", 1.0))
   {
     object.refuse("palp_scene", "must be 1, the version of scenes that this program reads");
   }

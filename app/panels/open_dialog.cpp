@@ -65,8 +65,7 @@ MeshSource OpenDialog::source() const
   const std::string labels = label_ != nullptr ? label_->text().toStdString() : "";
   if (!level.empty() && !labels.empty())
   {
-    throw Error(
-      ErrorCode::BadValue, "Level and Label: both are given; give the one or the other");
+    throw Error(ErrorCode::BadValue, "Level and Label: both are given; give the one or the other");
   }
   if (!level.empty())
   {

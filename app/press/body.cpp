@@ -1,6 +1,8 @@
 #include "app/press/body.h"
 
 #include "app/program/data_files.h"
+#include "app/program/progress_line.h"
+#include "haptics/files/input_text.h"
 #include "haptics/surface/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
@@ -9,6 +11,7 @@
 #include <vtkPolyData.h>
 
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 namespace palp
@@ -53,11 +56,13 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
   Union display;
   Union haptic;
   bool coarser = false;
+  std::optional<ProgressLine> progress;
   for (const MeshSource& source : meshes)
   {
     const std::filesystem::path file =
       source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
     body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
+    progress.emplace("reading " + printable(file.filename().string()));
     const LoadedSurface loaded = readSurface(file, source.unit, source.part);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());

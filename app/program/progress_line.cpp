@@ -14,11 +14,12 @@ ProgressLine::ProgressLine(std::string what)
   writer_ = std::jthread(
     [this](const std::stop_token& finished)
     {
-      const auto pause = std::chrono::seconds(terminal_ ? 1 : 10);
+      std::chrono::seconds pause(2);
       std::unique_lock lock(mutex_);
       while (!wakeUp_.wait_for(lock, finished, pause, [&] { return finished.stop_requested(); }))
       {
         print();
+        pause = std::chrono::seconds(terminal_ ? 1 : 10);
       }
     });
 }
@@ -45,9 +46,10 @@ void ProgressLine::tell(const std::string& line)
 void ProgressLine::print() const
 {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-  std::cerr << (terminal_ ? "\r\033[Kpalp: " : "palp: ") << done_ << " of " << total_ << ' '
-            << what_ << " done, " << std::lround(spent.count()) << " s" << (terminal_ ? "" : "\n")
-            << std::flush;
+  const std::string count = std::to_string(done_) + " of " + std::to_string(total_) + ' ';
+  std::cerr << (terminal_ ? "\r\033[Kpalp: " : "palp: ")
+            << (total_ > 0 ? count + what_ + " done" : what_) << ", " << std::lround(spent.count())
+            << " s" << (terminal_ ? "" : "\n") << std::flush;
 }
 
 } // namespace palp

@@ -9,12 +9,12 @@
 namespace palp
 {
 
-/// How far long work is, on standard error: on a terminal a line that is written over itself every
-/// second, elsewhere a line every ten.
+/// How far long work is, on standard error: after two seconds, on a terminal as a line that is
+/// written over itself every second, elsewhere as a line every ten.
 class ProgressLine
 {
 public:
-  /// @param what  that is counted, as "depths"
+  /// @param what  that is counted, as "depths"; or what is done, as long as nothing is counted
   explicit ProgressLine(std::string what);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;

@@ -14,6 +14,7 @@
 
 #include <QFileDialog>
 #include <QImage>
+#include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QStatusBar>
@@ -75,7 +76,10 @@ void Window::makeFileMenu()
 void Window::say(const QString& what)
 {
   constexpr int kLong = 15'000; // [ms], to be read
-  statusBar()->showMessage(what, kLong);
+  const QFontMetrics font = statusBar()->fontMetrics();
+  const int room = statusBar()->width() - servoLabel_->width() - 4 * font.averageCharWidth();
+  statusBar()->showMessage(font.elidedText(what, Qt::ElideRight, room), kLong);
+  statusBar()->setToolTip(what);
 }
 
 bool Window::openFile(const QString& file)

@@ -8,7 +8,11 @@
 #include <vtkContextScene.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPen.h>
 #include <vtkPlot.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
 vtkStandardNewMacro(vtkPalpChart);
@@ -34,8 +38,46 @@ void vtkPalpChart::SetPlace(const vtkRectf& place)
   this->Modified();
 }
 
+// fonts follow the dots per inch of the screen; what has its size in pixels follows here
+void vtkPalpChart::ScaleTo(double scale)
+{
+  const auto share = static_cast<float>(scale / this->Scale);
+  if (share == 1.0F)
+  {
+    return;
+  }
+  this->Scale = scale;
+  for (vtkIdType i = 0; i < this->GetNumberOfPlots(); ++i)
+  {
+    vtkPlot* plot = this->GetPlot(i);
+    plot->GetPen()->SetWidth(share * plot->GetPen()->GetWidth());
+    if (auto* points = vtkPlotPoints::SafeDownCast(plot))
+    {
+      points->SetMarkerSize(share * points->GetMarkerSize());
+    }
+  }
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    vtkAxis* axis = this->GetAxis(side);
+    for (vtkPen* pen : { axis->GetPen(), axis->GetGridPen() })
+    {
+      pen->SetWidth(share * pen->GetWidth());
+    }
+    axis->SetLabelOffset(share * axis->GetLabelOffset());
+    axis->SetTickLength(share * axis->GetTickLength());
+    axis->SetMargins(static_cast<int>(share * static_cast<float>(axis->GetMargins()[0])),
+      static_cast<int>(share * static_cast<float>(axis->GetMargins()[1])));
+  }
+  this->SetHiddenAxisBorder(
+    static_cast<int>(share * static_cast<float>(this->GetHiddenAxisBorder())));
+}
+
 bool vtkPalpChart::Paint(vtkContext2D* painter)
 {
+  if (vtkRenderer* renderer = this->Scene->GetRenderer())
+  {
+    this->ScaleTo(renderer->GetRenderWindow()->GetDPI() / palp::appearance::kDpi);
+  }
   vtkRectf place = this->Place;
   if (!(place.GetWidth() > 0.0F))
   {

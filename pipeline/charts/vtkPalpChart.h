@@ -48,6 +48,9 @@ private:
 
   float PaintLegend(vtkContext2D* painter, const vtkRectf& place, bool draw);
 
+  void ScaleTo(double scale);
+
   vtkRectf Place;
+  double Scale = 1.0; // that pens, marks and gaps have now
   bool Keyed = true;
 };

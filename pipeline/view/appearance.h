@@ -15,6 +15,8 @@ class vtkTextProperty;
 namespace palp::appearance
 {
 
+inline constexpr double kDpi = 72.0; // dots per inch at which a point is a pixel
+
 using Color = std::array<double, 3>; // red, green, blue, 0 to 1
 
 inline constexpr Color kLiver{ 0.55, 0.20, 0.16 };

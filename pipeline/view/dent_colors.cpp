@@ -11,9 +11,25 @@
 
 namespace palp
 {
+namespace
+{
+
+constexpr double kLegendWidth = 0.10; // of the picture
+
+} // namespace
+
 DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
   : map_(appearance::viridisOn(appearance::kLiver))
   , plain_(property)
+  , place_(renderer,
+      [this](double width, double, double scale)
+      {
+        constexpr double kHalfTitle = 60.0; // [pixels]
+        const double half = 0.5 * kLegendWidth;
+        legend_->SetPosition(
+          std::max(0.0, std::min(0.82, 1.0 - half - kHalfTitle * scale / width)), 0.30);
+        legend_->SetVerticalTitleSeparation(static_cast<int>(10.0 * scale));
+      })
 {
   pressure_->SetInputConnection(press.GetOutputPort(1));
   mapper_->SetInputConnection(press.GetOutputPort(1));
@@ -29,10 +45,8 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
   legend_->SetLabelFormat("%.3g");
   legend_->SetUnconstrainedFontSize(true);
   legend_->SetBarRatio(0.25);
-  legend_->SetWidth(0.10);
+  legend_->SetWidth(kLegendWidth);
   legend_->SetHeight(0.5);
-  legend_->SetPosition(0.82, 0.30);
-  legend_->SetVerticalTitleSeparation(10);
   appearance::setFont(*legend_->GetTitleTextProperty(), 14, appearance::kInk, true);
   appearance::setFont(*legend_->GetLabelTextProperty(), 14);
   for (vtkTextProperty* text : { legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty() })

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/force/validity.h"
+#include "pipeline/view/before_render.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/vtkPalpPressureFilter.h"
 
@@ -58,6 +59,7 @@ private:
   vtkNew<vtkActor> actor_;
   vtkSmartPointer<vtkProperty> plain_;
   vtkNew<vtkScalarBarActor> legend_;
+  BeforeRender place_; // the legend, whose title is wider than itself
 };
 
 } // namespace palp

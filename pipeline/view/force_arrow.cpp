@@ -24,6 +24,7 @@ constexpr double kShortest = 12.0_mm;
 constexpr double kLeast = 0.05;
 constexpr double kLongest = 0.3;
 constexpr double kMaxThickness = 0.008;
+constexpr double kMargin = 6.0; // of the label from the edge [pixels]
 
 } // namespace
 
@@ -34,6 +35,20 @@ double ForceArrow::lengthOf(double force, double diagonal) noexcept
 }
 
 ForceArrow::ForceArrow(vtkRenderer& renderer)
+  : place_(renderer,
+      [this, &renderer](double width, double height, double scale)
+      {
+        renderer.SetWorldPoint(end_.x(), end_.y(), end_.z(), 1.0);
+        renderer.WorldToDisplay();
+        const double* at = renderer.GetDisplayPoint();
+        double size[2]{};
+        label_->GetSize(&renderer, size);
+        const double margin = kMargin * scale;
+        const double half = 0.5 * size[1];
+        const double x = std::max(margin, std::min(at[0], width - margin - size[0]));
+        const double y = at[1] + (x < at[0] ? size[1] : 0.0); // off the arrow it would cover
+        label_->SetPosition(x, std::max(margin + half, std::min(y, height - margin - half)));
+      })
 {
   source_->SetTipResolution(32);
   source_->SetShaftResolution(32);
@@ -49,7 +64,6 @@ ForceArrow::ForceArrow(vtkRenderer& renderer)
   text.SetBackgroundColor(1.0, 1.0, 1.0);
   text.SetBackgroundOpacity(0.75);
   text.SetVerticalJustificationToCentered();
-  label_->GetPositionCoordinate()->SetCoordinateSystemToWorld();
   renderer.AddActor2D(label_);
   ForceArrow::hide();
 }
@@ -69,8 +83,7 @@ void ForceArrow::show(const OverlayState& moment)
   const Eigen::Vector3d start = contact.center - contact.depth * contact.normal;
   arrow_->SetUserMatrix(
     appearance::placement(start, length * appearance::axesAlong(contact.normal, 0)));
-  const Eigen::Vector3d end = start + (length + thickness) * contact.normal;
-  label_->GetPositionCoordinate()->SetValue(end.x(), end.y(), end.z());
+  end_ = start + (length + thickness) * contact.normal;
   const bool isCut = force * kLengthPerForce > length;
   label_->SetInput(
     appearance::fixedText(force, 2).append(isCut ? " N (arrow cut off)" : " N").c_str());

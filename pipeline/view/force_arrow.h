@@ -1,6 +1,9 @@
 #pragma once
 
+#include "pipeline/view/before_render.h"
 #include "pipeline/view/overlay_props.h"
+
+#include <Eigen/Core>
 
 #include <vtkActor.h>
 #include <vtkArrowSource.h>
@@ -29,6 +32,8 @@ private:
   vtkNew<vtkArrowSource> source_;
   vtkNew<vtkActor> arrow_;
   vtkNew<vtkTextActor> label_;
+  Eigen::Vector3d end_ = Eigen::Vector3d::Zero(); // of the arrow [m]
+  BeforeRender place_;                            // the label, within the picture
 };
 
 } // namespace palp

@@ -20,6 +20,18 @@ std::string millimeters(double meters)
 } // namespace
 
 Readings::Readings(vtkRenderer& renderer)
+  : place_(renderer,
+      [this](double, double, double scale)
+      {
+        constexpr double kMargin = 16.0; // [pixels]
+        constexpr double kLine = 28.0;   // [pixels]
+        double height = kMargin * scale;
+        for (std::size_t i = kLines; i-- > 0;)
+        {
+          lines_[i]->SetPosition(kMargin * scale, height);
+          height += lines_[i]->GetVisibility() ? kLine * scale : 0.0;
+        }
+      })
 {
   const std::array<appearance::Color, kLines> inks{ appearance::kPaper, appearance::kContact,
     appearance::kExtent, appearance::kPaper };
@@ -56,16 +68,10 @@ void Readings::show(const OverlayState& moment)
     texts[2] = " \u25cb extent circle R_d = " + millimeters(moment.extentRadius);
   }
   texts[3] = validity_.empty() ? std::string{} : " " + validity_ + " ";
-
-  constexpr double kMargin = 16.0; // [pixels]
-  constexpr double kLine = 28.0;   // [pixels]
-  double height = kMargin;
-  for (std::size_t i = kLines; i-- > 0;)
+  for (std::size_t i = 0; i < kLines; ++i)
   {
     lines_[i]->SetVisibility(!texts[i].empty());
     lines_[i]->SetInput(texts[i].c_str());
-    lines_[i]->SetPosition(kMargin, height);
-    height += texts[i].empty() ? 0.0 : kLine;
   }
 }
 

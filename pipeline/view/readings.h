@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/view/before_render.h"
 #include "pipeline/view/overlay_props.h"
 
 #include <array>
@@ -28,6 +29,7 @@ private:
   bool contactCircle_ = false;
   bool extentCircle_ = false;
   std::string validity_;
+  BeforeRender place_; // the lines, one over the other
 };
 
 } // namespace palp

@@ -89,5 +89,27 @@ TEST_F(OddInput, OfFoldersToWriteIsRefused)
   }
 }
 
+// a reader that takes its time, in a copy of the program: what is read is told, and can be stopped
+TEST(SlowInput, IsToldAfterTwoSecondsAndEndsWithTheInterrupt)
+{
+  const test::TemporaryFolder folder;
+  const std::filesystem::path bin = folder.path() / "bin";
+  std::filesystem::create_directory(bin);
+  std::filesystem::copy_file(PALP_PROGRAM, bin / "palp");
+  std::ofstream(bin / "palp-read") << "#!/bin/sh\nexec sleep 60\n";
+  std::filesystem::permissions(bin / "palp-read", std::filesystem::perms::owner_all);
+  std::ofstream(folder.path() / "liver.stl") << "solid";
+  const std::string here = folder.path().string();
+  const test::Finished stopped =
+    test::runCommand("cd " + here + "; PALP_DATA=" PALP_SHARE " " + bin.string() +
+      "/palp run liver.stl --no-picture --out out --path " PALP_SHARE
+      "/paths/liver_press.csv 2> told & running=$!; "
+      "until [ -s told ]; do sleep 0.05; done; kill -INT $running; wait $running; "
+      "code=$?; cat told >&2; exit $code");
+  EXPECT_EQ(stopped.code, 130) << stopped.err; // of SIGINT
+  EXPECT_NE(stopped.err.find("palp: reading liver.stl, 2 s"), std::string::npos) << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "samples.csv"));
+}
+
 } // namespace
 } // namespace palp

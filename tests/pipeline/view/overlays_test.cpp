@@ -4,12 +4,15 @@
 #include "tests/pipeline/view/press_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
+#include <vtkActor2DCollection.h>
 #include <vtkProperty.h>
+#include <vtkTextActor.h>
 
 namespace palp
 {
@@ -94,6 +97,65 @@ TEST(ControlNet, LiesOnTheToolAndOnTheSurface)
     else
     {
       EXPECT_NEAR(point.z(), 25.0_mm, 0.5_um); // P1 and P2 on the tangent L1
+    }
+  }
+}
+
+struct Box
+{
+  double low[2];
+  double high[2];
+};
+
+// of all texts that are shown [pixels]
+std::vector<Box> shownTexts(vtkRenderer& renderer)
+{
+  std::vector<Box> boxes;
+  vtkActor2DCollection& actors = *renderer.GetActors2D();
+  actors.InitTraversal();
+  while (vtkActor2D* actor = actors.GetNextActor2D())
+  {
+    auto* text = vtkTextActor::SafeDownCast(actor);
+    if (text != nullptr && text->GetVisibility() != 0)
+    {
+      double box[4]; // from its position
+      text->GetBoundingBox(&renderer, box);
+      const double* at = text->GetPosition();
+      boxes.push_back({ { at[0] + box[0], at[1] + box[2] }, { at[0] + box[1], at[1] + box[3] } });
+    }
+  }
+  return boxes;
+}
+
+// a small window, and a screen of twice the dots per inch
+TEST(PressView, KeepsItsTextsInThePictureAndApart)
+{
+  const Body body = ball();
+  for (const auto& [width, height, dpi] : { std::array{ 480, 360, 72 }, { 375, 700, 72 },
+         { 340, 360, 72 }, { 960, 720, 144 }, { 750, 1400, 144 } })
+  {
+    View view(body, kSphere);
+    view.window->SetSize(width, height);
+    view.window->SetDPI(dpi);
+    view.view.setVisible(std::vector{ Overlay::ForceArrow, Overlay::ContactCircle,
+      Overlay::ExtentCircle, Overlay::Readings, Overlay::DisplacementColors });
+    for (const double depth : { 2.0_mm, 15.0_mm })
+    {
+      view.picture(body, pressed(body, kSphere, depth));
+      const std::vector<Box> texts = shownTexts(*view.renderer);
+      ASSERT_EQ(texts.size(), 4U);
+      for (std::size_t i = 0; i < texts.size(); ++i)
+      {
+        EXPECT_GE(texts[i].low[0], 0.0) << width << " text " << i;
+        EXPECT_LE(texts[i].high[0], width) << width << " text " << i;
+        EXPECT_GE(texts[i].low[1], 0.0) << width << " text " << i;
+        EXPECT_LE(texts[i].high[1], height) << width << " text " << i;
+        for (std::size_t k = 0; k < i; ++k)
+        {
+          EXPECT_TRUE(texts[i].low[1] > texts[k].high[1] || texts[k].low[1] > texts[i].high[1])
+            << width << " at " << dpi << " dpi, texts " << k << " and " << i;
+        }
+      }
     }
   }
 }

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+class vtkRenderer;
+
+namespace palp
+{
+
+/// Calls a function before each picture of a renderer, as long as this lives: for what has its
+/// place in pixels, or follows the camera.
+class BeforeRender
+{
+public:
+  /// @param place  gets the width and height of the picture and the size of a pixel's worth of
+  ///               layout, which is more than 1 on a screen of many dots per inch [pixels]
+  BeforeRender(
+    vtkRenderer& renderer, std::function<void(double width, double height, double scale)> place);
+  ~BeforeRender();
+  BeforeRender(const BeforeRender&) = delete;
+  BeforeRender& operator=(const BeforeRender&) = delete;
+
+private:
+  vtkSmartPointer<vtkRenderer> renderer_;
+  std::function<void(double, double, double)> place_;
+  vtkNew<vtkCallbackCommand> command_;
+};
+
+} // namespace palp
