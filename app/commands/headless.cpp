@@ -8,6 +8,7 @@
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
+#include "app/program/progress_line.h"
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/output_folder.h"
@@ -148,8 +149,12 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
   recording.command = commandLine();
   recording.scene.surface = body.haptic;
 
-  recording.samples = trace.build(
-    "press", "force at every millisecond", [&] { return play(path, recording.scene, chained); });
+  recording.samples = trace.build("press", "force at every millisecond",
+    [&]
+    {
+      const ProgressLine progress("pressing along the path");
+      return play(path, recording.scene, chained);
+    });
   const Calibration* known = calibration ? &*calibration : nullptr;
   tell(recording, known);
   if (plan.samples)
