@@ -130,7 +130,7 @@ std::vector<Box> shownTexts(vtkRenderer& renderer)
 // a small window, and a screen of twice the dots per inch
 TEST(PressView, KeepsItsTextsInThePictureAndApart)
 {
-  const Body body = ball();
+  const Specimen body = ball();
   for (const auto& [width, height, dpi] : { std::array{ 480, 360, 72 }, { 375, 700, 72 },
          { 340, 360, 72 }, { 960, 720, 144 }, { 750, 1400, 144 } })
   {
