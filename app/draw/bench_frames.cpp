@@ -39,7 +39,7 @@ public:
 protected:
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override
   {
-    constexpr std::size_t kMost = 3 * 10'000;
+    constexpr std::size_t kMost = 30'000; // corners
     std::size_t& count = Primitives[PrimitiveTris].IBO->IndexCount;
     const std::size_t all = count;
     count = std::min(count, kMost);
@@ -89,7 +89,8 @@ Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
 // where the tool is in a frame, there and back [m]
 double wayOf(int frame, double outer)
 {
-  return 0.05 * outer * (frame % kSteps - kSteps / 2);
+  const int step = frame % kSteps - kSteps / 2;
+  return 0.05 * outer * step;
 }
 
 // the surface alone

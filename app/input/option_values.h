@@ -29,13 +29,13 @@ extern const Words kDentSurfaces; ///< DentSurface, without None
 /// @param usual  what holds without the option, for the help; empty: not shown
 /// @param take   parses and keeps; throws Error BadValue
 CLI::Option* addParsed(CLI::App& command, const std::string& name, const std::string& what,
-  const std::string& usual, std::function<void(const std::string&)> take);
+  const std::string& usual, const std::function<void(const std::string&)>& take);
 
 /// An option that takes one of several words.
 /// @param usual  index of the word that holds without the option
 /// @param take   keeps the index of the word that was given
 CLI::Option* addWord(CLI::App& command, const std::string& name, const std::string& what,
-  const Words& words, std::size_t usual, std::function<void(std::size_t)> take);
+  const Words& words, std::size_t usual, const std::function<void(std::size_t)>& take);
 
 /// The same for a value of the words' enumeration.
 template <typename Enum>

@@ -270,7 +270,7 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   object.finish();
   if (meshes.empty())
   {
-    object.refuse("meshes", "give at least one surface, as in [{\"bundled\": \"liver\"}]");
+    object.refuse("meshes", R"(give at least one surface, as in [{"bundled": "liver"}])");
   }
 
   plan.press.tissue.options.rated = plan.validity;

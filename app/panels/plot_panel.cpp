@@ -65,7 +65,7 @@ QString PlotPanel::save(const std::filesystem::path& file)
   {
     throw Error(ErrorCode::BadValue, "nothing to save yet: press the surface");
   }
-  const QString what = savePlots(plots_, file);
+  QString what = savePlots(plots_, file);
   showPlots(*window_, plots_); // a chart is in one window at a time
   window_->Render();
   return what;

@@ -33,11 +33,8 @@ std::vector<double> depthsTo(double deepest)
 
 std::vector<double> forcesOf(const NamedLaw& law, const std::vector<double>& depths)
 {
-  std::vector<double> forces;
-  for (const double depth : depths)
-  {
-    forces.push_back(law.force(depth));
-  }
+  std::vector<double> forces(depths.size());
+  std::ranges::transform(depths, forces.begin(), [&law](double depth) { return law.force(depth); });
   return forces;
 }
 

@@ -176,7 +176,7 @@ bool Dent::keepUpright(const Triangle& corners, const DentArrays& arrays)
     }
     const std::int32_t point = region_.points()[static_cast<std::size_t>(corners[k])];
     rest[k] = region_.rest(point);
-    sinks[k] = -Eigen::Map<const Eigen::Vector3f>(arrays.displacement + 3 * point)
+    sinks[k] = -Eigen::Map<const Eigen::Vector3f>(arrays.displacement + 3 * std::ptrdiff_t{ point })
                   .cast<double>()
                   .dot(region_.normal());
   }

@@ -137,9 +137,10 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
     geodesics_.front().within = true;
     queue_.push_back(0);
   }
-  for (std::size_t i = 0; i < queue_.size(); ++i)
+  std::size_t first = 0; // the queue grows meanwhile
+  while (first < queue_.size())
   {
-    const auto from = static_cast<std::size_t>(queue_[i]);
+    const auto from = static_cast<std::size_t>(queue_[first++]);
     std::int32_t before = VertexRings::kEnd;
     bool isOpen = false; // what was before has no settled place
     for (const std::int32_t next : umbrella_.around(points_[from]))

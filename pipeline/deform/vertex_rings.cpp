@@ -25,7 +25,7 @@ public:
     starts_.clear();
     for (std::size_t i = 0; i < sides.size(); ++i)
     {
-      starts_.push_back({ sides[i].first, static_cast<std::int32_t>(i) });
+      starts_.emplace_back(sides[i].first, static_cast<std::int32_t>(i));
       ends_.push_back(sides[i].second);
     }
     std::ranges::sort(starts_);

@@ -3,9 +3,9 @@
 #include "haptics/error.h"
 #include "pipeline/process/sandbox.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <exception>
 #include <fcntl.h>
 #include <poll.h>
@@ -13,6 +13,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -74,12 +75,9 @@ void limit(int resource, std::uint64_t most)
 std::optional<pid_t> spawn(
   const std::vector<std::string>& command, int output, bool keepsEnvironment)
 {
-  std::vector<char*> arguments;
-  for (const std::string& argument : command)
-  {
-    arguments.push_back(const_cast<char*>(argument.c_str()));
-  }
-  arguments.push_back(nullptr);
+  std::vector<char*> arguments(command.size() + 1); // the last one ends the list
+  std::ranges::transform(command, arguments.begin(),
+    [](const std::string& argument) { return const_cast<char*>(argument.c_str()); });
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
@@ -117,7 +115,7 @@ std::optional<std::string> run(const std::vector<std::string>& command, bool kee
   {
     close(ends[0]);
     throw Error(ErrorCode::BadFile,
-      command[0] + ": cannot be started (" + std::strerror(why) + "); " +
+      command[0] + ": cannot be started (" + std::generic_category().message(why) + "); " +
         (why == ENOENT || why == EACCES ? "build or install it" : "close some programs"));
   }
   std::string output = readAll(ends[0]);

@@ -60,7 +60,7 @@ void restrictCalls(int output) noexcept
     return;
   }
   const auto allow = [&](int call) { seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0); };
-  const auto allowIf = [&](int call, scmp_arg_cmp condition)
+  const auto allowIf = [&](int call, const scmp_arg_cmp& condition)
   { seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, condition); };
   for (const int call : kCalls)
   {
@@ -68,17 +68,17 @@ void restrictCalls(int output) noexcept
   }
   // opening to read; memory that is no code; signals to itself; writing to the one descriptor
   constexpr scmp_datum_t kWrites = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND;
-  allowIf(SCMP_SYS(open), SCMP_A1(SCMP_CMP_MASKED_EQ, kWrites, 0));
-  allowIf(SCMP_SYS(openat), SCMP_A2(SCMP_CMP_MASKED_EQ, kWrites, 0));
-  allowIf(SCMP_SYS(mmap), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
-  allowIf(SCMP_SYS(mprotect), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
+  allowIf(SCMP_SYS(open), { 1, SCMP_CMP_MASKED_EQ, kWrites, 0 });
+  allowIf(SCMP_SYS(openat), { 2, SCMP_CMP_MASKED_EQ, kWrites, 0 });
+  allowIf(SCMP_SYS(mmap), { 2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0 });
+  allowIf(SCMP_SYS(mprotect), { 2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0 });
   const auto self = static_cast<scmp_datum_t>(getpid());
-  allowIf(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, self));
-  allowIf(SCMP_SYS(kill), SCMP_A0(SCMP_CMP_EQ, self));
+  allowIf(SCMP_SYS(tgkill), { 0, SCMP_CMP_EQ, self, 0 });
+  allowIf(SCMP_SYS(kill), { 0, SCMP_CMP_EQ, self, 0 });
   const auto only = static_cast<scmp_datum_t>(output);
-  allowIf(SCMP_SYS(write), SCMP_A0(SCMP_CMP_EQ, only));
-  allowIf(SCMP_SYS(writev), SCMP_A0(SCMP_CMP_EQ, only));
-  allowIf(SCMP_SYS(fcntl), SCMP_A1(SCMP_CMP_EQ, F_GETFL));
+  allowIf(SCMP_SYS(write), { 0, SCMP_CMP_EQ, only, 0 });
+  allowIf(SCMP_SYS(writev), { 0, SCMP_CMP_EQ, only, 0 });
+  allowIf(SCMP_SYS(fcntl), { 1, SCMP_CMP_EQ, F_GETFL, 0 });
   seccomp_load(filter); // fails where the kernel has none
   seccomp_release(filter);
 }

@@ -54,7 +54,7 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   text << name << ": " << surface.mesh->GetNumberOfPoints() << " points, "
        << surface.mesh->GetNumberOfPolys() << " triangles, " << (surface.closed ? "closed, " : "");
   text.precision(3);
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double side = units::toMillimeters(box[2 * axis + 1] - box[2 * axis]);
     text << (axis > 0 ? " x " : "") << (side < 100.0 ? side : std::round(side));
@@ -156,19 +156,21 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
     .closed = repaired.closed,
     .notes = {} };
   surface.notes.push_back(summary(name, surface, why));
-  for (const std::string& note : read.notes)
+  constexpr std::string_view kWarning = "warning: ";
+  const auto tell = [&](std::string_view kind, std::string_view what)
+  { surface.notes.emplace_back(kind).append(name).append(": ").append(what); };
+  for (const std::string_view note : read.notes)
   {
-    const bool warns = note.starts_with("warning: ");
-    surface.notes.push_back(
-      std::string(warns ? "warning: " : "") + name + ": " + (warns ? note.substr(9) : note));
+    const bool warns = note.starts_with(kWarning);
+    tell(warns ? kWarning : "", note.substr(warns ? kWarning.size() : 0));
   }
   for (const std::string& note : repaired.notes)
   {
-    surface.notes.push_back(name + ": " + note);
+    tell("", note);
   }
   for (const std::string& warning : warnings)
   {
-    surface.notes.push_back("warning: " + name + ": " + warning);
+    tell(kWarning, warning);
   }
   return surface;
 }

@@ -38,24 +38,19 @@ struct Merged
 // cost no more than others
 std::vector<int> firstOfEach(std::span<const Eigen::Vector3d> points)
 {
-  struct Place
-  {
-    std::array<float, 3> x; // as it will be shown
-    int point;
-    auto operator<=>(const Place&) const = default;
-  };
-  std::vector<Place> places(points.size());
+  using Shown = std::array<float, 3>;
+  std::vector<std::pair<Shown, int>> places(points.size()); // and which point it is
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const Eigen::Vector3f x = points[i].cast<float>();
     places[i] = { { x[0], x[1], x[2] }, static_cast<int>(i) };
   }
-  std::ranges::sort(places, [](const Place& a, const Place& b) { return a < b; });
+  std::ranges::sort(places);
   std::vector<int> first(points.size());
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    const bool same = i > 0 && places[i].x == places[i - 1].x;
-    first[at(places[i].point)] = same ? first[at(places[i - 1].point)] : places[i].point;
+    const bool same = i > 0 && places[i].first == places[i - 1].first;
+    first[at(places[i].second)] = same ? first[at(places[i - 1].second)] : places[i].second;
   }
   return first;
 }
@@ -80,7 +75,7 @@ Merged merged(std::span<const Eigen::Vector3d> points, std::span<const Triangle>
       if (known < 0)
       {
         known = static_cast<int>(result.points.size());
-        result.points.push_back(points[at(corner)].cast<float>().cast<double>());
+        result.points.emplace_back(points[at(corner)].cast<float>().cast<double>());
       }
       corner = known;
     }
