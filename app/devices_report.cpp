@@ -139,14 +139,14 @@ int probe(const std::string& name)
 // until the user ends the program
 [[noreturn]] void watch()
 {
-  const auto samePlace = [](const FoundDevice& a)
+  const auto onSamePath = [](const FoundDevice& a)
   { return [&a](const FoundDevice& b) { return a.path == b.path && a.ids == b.ids; }; };
   for (std::vector<FoundDevice> before = findDevices();; std::this_thread::sleep_for(500ms))
   {
     const std::vector<FoundDevice> now = findDevices();
     for (const FoundDevice& one : now)
     {
-      if (std::ranges::none_of(before, samePlace(one)))
+      if (std::ranges::none_of(before, onSamePath(one)))
       {
         std::cout << "plugged in:\n";
         print(one);
@@ -154,7 +154,7 @@ int probe(const std::string& name)
     }
     for (const FoundDevice& one : before)
     {
-      if (std::ranges::none_of(now, samePlace(one)))
+      if (std::ranges::none_of(now, onSamePath(one)))
       {
         std::cout << "unplugged: " << one.name << " at " << one.path << '\n';
       }

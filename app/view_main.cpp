@@ -71,7 +71,7 @@ void refuseToAbort(QtMsgType type, const QMessageLogContext&, const QString& tex
 
 int view(const palp::ViewOptions& options)
 {
-  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+  if (!qEnvironmentVariableIsSet("DISPLAY") && !qEnvironmentVariableIsSet("WAYLAND_DISPLAY"))
   {
     throw palp::Error(palp::ErrorCode::NoPicture,
       "window: there is no display here; use palp run, which needs none");
@@ -87,7 +87,8 @@ int view(const palp::ViewOptions& options)
   const QtMessageHandler before = qInstallMessageHandler(refuseToAbort);
   QApplication application(count, words);
   qInstallMessageHandler(before);
-  std::setlocale(LC_NUMERIC, "C"); // Qt takes the user's; files and VTK want a decimal point
+  // Qt takes the user's; files and VTK want a decimal point
+  std::setlocale(LC_NUMERIC, "C"); // NOLINT(concurrency-mt-unsafe): no other thread yet
 
   palp::Session session(options.plan, trace, &gEnded);
   for (const std::string& note : session.body().notes)

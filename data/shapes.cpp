@@ -106,9 +106,9 @@ Mesh makeBox(const Vector3d& size, double spacing)
   const Counts cells = (size.array() / spacing - 1e-9).ceil().cast<int>();
   const auto point = [&](const Counts& from)
   {
-    const Eigen::Array3d share = from.cast<double>() / cells.cast<double>();
+    const Eigen::Array3d fraction = from.cast<double>() / cells.cast<double>();
     return lattice.at(
-      { from[0], from[1], from[2] }, size.array() * (share - Eigen::Array3d(0.5, 0.5, 1.0)));
+      { from[0], from[1], from[2] }, size.array() * (fraction - Eigen::Array3d(0.5, 0.5, 1.0)));
   };
   for (int axis = 0; axis < 3; ++axis)
   {

@@ -6,7 +6,8 @@
 namespace palp
 {
 
-/// A curved surface of n x n points for benchmarks, and presses that displace a known share of it.
+/// A curved surface of n x n points for benchmarks, and presses that displace a known fraction of
+/// it.
 struct BenchDome
 {
   int n;

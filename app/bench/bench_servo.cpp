@@ -59,9 +59,11 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
   rows.push_back(benchRow("servo_step", vertices, "moving", timed(ticks, nothing, move)));
 
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> place(-35.0_mm, 35.0_mm);
+  std::uniform_real_distribution<double> coordinate(-35.0_mm, 35.0_mm);
   ToolPose pose = poseAtTick(0);
-  const auto jump = [&](int) { pose.apex = { place(random), place(random), -kBenchDepth }; };
+  const auto jump = [&](int) {
+    pose.apex = { coordinate(random), coordinate(random), -kBenchDepth };
+  };
   rows.push_back(
     benchRow("servo_step", vertices, "jump", timed(ticks, jump, [&](int) { (void)tick(pose); })));
   rows.push_back(benchRow("servo_step", vertices, "cold", timed(ticks / 40, flush, move)));

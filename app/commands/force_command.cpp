@@ -134,7 +134,7 @@ void printForces(const ForceOptions& options)
     {
       for (const Rule& rule : validity(geometry))
       {
-        row.push_back(rule.share());
+        row.push_back(rule.fraction());
       }
     }
     writeCsvRow(std::cout, row);

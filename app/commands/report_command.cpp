@@ -66,11 +66,11 @@ public:
   {
   }
 
-  void tell(double share) const
+  void tell(double fraction) const
   {
     if (isatty(STDERR_FILENO) != 0)
     {
-      std::cerr << '\r' << head_ << ": " << std::lround(100.0 * share) << " % " << std::flush;
+      std::cerr << '\r' << head_ << ": " << std::lround(100.0 * fraction) << " % " << std::flush;
     }
   }
 
@@ -106,8 +106,8 @@ std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& inte
     try
     {
       Section section =
-        kParts[i].make({ .quick = quick, .stop = interrupt.token(), .tell = [&](double share) {
-                          progress.tell(share);
+        kParts[i].make({ .quick = quick, .stop = interrupt.token(), .tell = [&](double fraction) {
+                          progress.tell(fraction);
                         } });
       section.name = kParts[i].name;
       section.title = kParts[i].title;

@@ -60,9 +60,9 @@ void drawScene(const OffscreenContext& context, const SceneBody& body, const Rec
   }
   const Sample* deepest = recording.deepest();
   const Sample& shown = deepest ? *deepest : recording.samples.back();
-  const SurfacePoint place = subject(recording, shown);
+  const SurfacePoint point = subject(recording, shown);
   view.show(shown);
-  view.lookAtWhole(place.position, place.normal);
+  view.lookAtWhole(point.position, point.normal);
   view.show(shown); // labels take their place from the camera
   writePng(*window, file);
 }

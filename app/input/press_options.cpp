@@ -68,7 +68,7 @@ void TissueOptions::addTo(CLI::App& command)
 
 ForceLaw TissueOptions::law() const
 {
-  return ForceLaw(tip, makeMaterial(young, poisson), options.settings());
+  return { tip, makeMaterial(young, poisson), options.settings() };
 }
 
 void PressOptions::addTo(CLI::App& command)

@@ -32,7 +32,7 @@ const std::vector<std::string> kExports{ "samples", "deformed", "picture", "refi
 // the message of an option, "--young: what", told of a place in the document instead; a place that
 // ends in a slash goes on with the option's name
 template <typename Check>
-void checkAt(const JsonObject& object, std::string place, Check check)
+void checkAt(const JsonObject& object, std::string path, Check check)
 {
   try
   {
@@ -42,11 +42,11 @@ void checkAt(const JsonObject& object, std::string place, Check check)
   {
     const std::string message = error.what();
     const std::size_t end = message.starts_with("--") ? message.find(": ") : 0;
-    if (place.ends_with('/'))
+    if (path.ends_with('/'))
     {
-      place = end > 0 ? place + message.substr(2, end - 2) : place.substr(0, place.size() - 1);
+      path = end > 0 ? path + message.substr(2, end - 2) : path.substr(0, path.size() - 1);
     }
-    object.refuse(place, message.substr(end > 0 ? end + 2 : 0));
+    object.refuse(path, message.substr(end > 0 ? end + 2 : 0));
   }
 }
 

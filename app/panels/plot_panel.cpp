@@ -77,14 +77,14 @@ QString savePlots(const Plots& plots, const std::filesystem::path& file)
   constexpr int kHeight = 1000;
   constexpr int kDpi = 144; // letters and marks twice as large as on a screen
   const bool isPicture = file.extension() == ".png";
-  const int share = isPicture ? 1 : 2; // lines and text are as sharp at any size
+  const int divisor = isPicture ? 1 : 2; // lines and text are as sharp at any size
   const int height = plots.size() > 1 ? kHeight * 3 / 2 : kHeight;
   vtkNew<vtkRenderWindow> window;
   window->SetShowWindow(false);
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(isPicture ? 8 : 0);
-  window->SetSize(kWidth / share, height / share);
-  window->SetDPI(kDpi / share);
+  window->SetSize(kWidth / divisor, height / divisor);
+  window->SetDPI(kDpi / divisor);
   showPlots(*window, plots);
   writePlots(plots, *window, file);
   window->GetRenderers()->RemoveAllItems(); // the charts outlive it

@@ -15,11 +15,11 @@ namespace palp
 namespace
 {
 
-QString colorOf(double share)
+QString colorOf(double fraction)
 {
-  const appearance::Color& color = share > 1.0 ? appearance::kBad
-    : share > Rule::kDoubtful                  ? appearance::kDoubtful
-                                               : appearance::kGood;
+  const appearance::Color& color = fraction > 1.0 ? appearance::kBad
+    : fraction > Rule::kDoubtful                  ? appearance::kDoubtful
+                                                  : appearance::kGood;
   return QColor::fromRgbF(color[0], color[1], color[2]).name();
 }
 
@@ -41,9 +41,9 @@ QString microseconds(Histogram::Duration duration)
 QString timingRow(const QString& name, const Histogram& histogram)
 {
   QString row = "<tr><td>" + name + "</td>";
-  for (const double share : { 0.5, 0.99, 0.999 })
+  for (const double fraction : { 0.5, 0.99, 0.999 })
   {
-    row += "<td align=right>&nbsp;" + microseconds(histogram.quantile(share)) + "</td>";
+    row += "<td align=right>&nbsp;" + microseconds(histogram.quantile(fraction)) + "</td>";
   }
   return row + "<td align=right>&nbsp;" + microseconds(histogram.longest()) + "</td></tr>";
 }
@@ -79,18 +79,18 @@ void ValidityPanel::showRules(const Rules& rules)
 {
   Rules sorted = rules;
   std::stable_sort(sorted.begin(), sorted.end(),
-    [](const Rule& a, const Rule& b) { return a.share() > b.share(); });
+    [](const Rule& a, const Rule& b) { return a.fraction() > b.fraction(); });
   QString text;
   for (const Rule& rule : sorted)
   {
-    if (rule.share() == 0.0)
+    if (rule.fraction() == 0.0)
     {
       continue; // nothing to say of a rule that does not bear on this place
     }
     text +=
       QStringLiteral("<span style='color:%1'>&#9679;</span> %2: %3 % of its limit (%4 of %5)<br>")
-        .arg(colorOf(rule.share()), QString(rule.name).replace('_', ' '))
-        .arg(100.0 * rule.share(), 0, 'f', 0)
+        .arg(colorOf(rule.fraction()), QString(rule.name).replace('_', ' '))
+        .arg(100.0 * rule.fraction(), 0, 'f', 0)
         .arg(number(rule, rule.value), number(rule, rule.limit));
     if (!rule.holds())
     {

@@ -30,12 +30,12 @@ const char* nameOf(LawMode mode)
 }
 
 // the one in use first: the band is about it
-std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const ContactGeometry& place)
+std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const ContactGeometry& geometry)
 {
   const LawMode used = law.settings().mode;
   const char* of = law.settings().coatings.empty() ? "" : ", without coatings";
   const auto color = [](LawMode mode) { return static_cast<std::size_t>(mode); };
-  std::vector<NamedLaw> laws{ { nameOf(used), law, place, color(used) } };
+  std::vector<NamedLaw> laws{ { nameOf(used), law, geometry, color(used) } };
   for (const LawMode mode : { LawMode::Paper, LawMode::Exact })
   {
     if (mode != used)

@@ -114,13 +114,13 @@ Calibration ofSphere(const DentOptions& options, const ForceLaw& law)
     return ofTable(dataFile(bundledTable(law.tip()) + ".csv"), kYoung);
   }
   const SurfaceTable table = SurfaceTable::read(dataFile("tables/surface_sphere.csv"));
-  SurfaceTable::Indentation place{
+  SurfaceTable::Indentation indentation{
     .depth = radius, .tipRadius = radius, .thickness = layer.thickness, .poissonRatio = poisson
   };
-  const bool covered = table.covers(place);
+  const bool covered = table.covers(indentation);
   const bool sphere = std::holds_alternative<SphereTip>(law.tip());
-  place.depth = std::max(radius, kMaxDepth);
-  return { .extents = table.extents(place, layer.threshold),
+  indentation.depth = std::max(radius, kMaxDepth);
+  return { .extents = table.extents(indentation, layer.threshold),
     .style = {},
     .reach = sphere && covered ? radius : 0.0,
     .note = !sphere ? "R_d is that of a sphere of the same radius and may be wrong by half; palp "

@@ -18,6 +18,7 @@
 #include <array>
 #include <chrono>
 #include <sstream>
+#include <vector>
 
 namespace palp
 {
@@ -113,18 +114,24 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing)
 }
 
 bool exportRecording(const std::filesystem::path& directory, const SceneBody& body,
-  const Recording& recording, const Calibration& calibration, const Timing& timing,
-  const std::function<bool(const std::string& found)>& mayReplace)
+  const Recording& recording, const Calibration& calibration, const ExportOptions& options)
 {
-  OutputFolder output(
-    directory, { "samples.csv", "deformed.vtp", "servo.csv" }, OutputFolder::Earlier::Replace);
-  if (!output.found().empty() && !mayReplace(output.found()))
+  std::vector<std::string> files{ "samples.csv", "deformed.vtp" };
+  if (options.timing)
+  {
+    files.emplace_back("servo.csv");
+  }
+  OutputFolder output(directory, files, OutputFolder::Earlier::Replace);
+  if (!output.found().empty() && !options.mayReplace(output.found()))
   {
     return false;
   }
   writeSamples(output.stage() / "samples.csv", recording, &calibration);
-  writeDeformed(output.stage() / "deformed.vtp", body, recording, calibration);
-  writeTiming(output.stage() / "servo.csv", timing);
+  writeDeformed(output.stage() / "deformed.vtp", body, recording, calibration, options.refined);
+  if (options.timing)
+  {
+    writeTiming(output.stage() / "servo.csv", *options.timing);
+  }
   output.publish();
   return true;
 }

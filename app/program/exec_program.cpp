@@ -26,9 +26,10 @@ std::string quoted(const std::string& word)
     return word;
   }
   std::string text = "'";
-  for (const unsigned char c : word)
+  for (const char c : word)
   {
-    text += c == '\'' ? "'\\''" : std::string(1, c < ' ' ? '?' : static_cast<char>(c));
+    const bool isControl = c >= 0 && c < ' ';
+    text += c == '\'' ? "'\\''" : std::string(1, isControl ? '?' : c);
   }
   return text + "'";
 }

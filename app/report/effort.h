@@ -16,7 +16,7 @@ struct Effort
 {
   bool quick = false; ///< a minute for the whole report, not a quarter of an hour
   std::stop_token stop;
-  std::function<void(double)> tell; ///< share of the part that is done, 0 to 1
+  std::function<void(double)> tell; ///< fraction of the part that is done, 0 to 1
 
   /// @throws Interrupted  when asked to stop
   void check() const
@@ -28,10 +28,10 @@ struct Effort
   }
 
   /// The same, and tells how far the part has come.
-  void reached(double share) const
+  void reached(double fraction) const
   {
     check();
-    tell(share);
+    tell(fraction);
   }
 
   /// How often a figure is measured anew.

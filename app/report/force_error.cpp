@@ -181,18 +181,18 @@ void addFigures(Section& section, const BlockPress& press)
 // what a reader asks first: which of the laws lie on the fronts
 std::string finding(const Table& front)
 {
-  std::set<std::string> places; // press and regime
+  std::set<std::string> cases; // press and regime
   std::map<std::string, std::array<std::set<std::string>, 2>> laws;
   for (const auto& row : front.rows)
   {
     const auto& setting = std::get<std::string>(row[front.indexOf("setting")]);
-    const std::string place = setting.substr(0, setting.find(';')) + ", " +
+    const std::string which = setting.substr(0, setting.find(';')) + ", " +
       std::get<std::string>(row[front.indexOf("regime")]);
     const bool withTable = row[front.indexOf("front")] == Cell("all methods");
-    places.insert(place);
-    laws[std::get<std::string>(row[front.indexOf("method")])][withTable ? 0 : 1].insert(place);
+    cases.insert(which);
+    laws[std::get<std::string>(row[front.indexOf("method")])][withTable ? 0 : 1].insert(which);
   }
-  const auto all = std::to_string(places.size());
+  const auto all = std::to_string(cases.size());
   std::string text = "Of " + all + " fronts (presses times regimes)";
   const char* separator = " ";
   for (const char* law : { "paper law", "exact half-space", "corrected law", "table" })

@@ -98,23 +98,23 @@ std::string markOf(const Curve& curve)
   switch (curve.style)
   {
     case Curve::Style::Line:
-      return "<path d=\"M1 7H27\" stroke-width=\"2.5\" stroke=\"" + color + "\"/>";
+      return R"(<path d="M1 7H27" stroke-width="2.5" stroke=")" + color + R"("/>)";
     case Curve::Style::Dashed:
-      return "<path d=\"M1 7H27\" stroke-width=\"2\" stroke-dasharray=\"6 4\" stroke=\"" + color +
-        "\"/>";
+      return R"(<path d="M1 7H27" stroke-width="2" stroke-dasharray="6 4" stroke=")" + color +
+        R"("/>)";
     case Curve::Style::Circles:
-      return "<circle cx=\"14\" cy=\"7\" r=\"4.5\" fill=\"" + color + "\"/>";
+      return R"(<circle cx="14" cy="7" r="4.5" fill=")" + color + R"("/>)";
     case Curve::Style::Squares:
-      return "<path d=\"M10 3h8v8h-8z\" fill=\"" + color + "\"/>";
+      return R"(<path d="M10 3h8v8h-8z" fill=")" + color + R"("/>)";
     case Curve::Style::Diamonds:
-      return "<path d=\"M14 1l6 6-6 6-6-6z\" fill=\"" + color + "\"/>";
+      return R"(<path d="M14 1l6 6-6 6-6-6z" fill=")" + color + R"("/>)";
   }
   return {};
 }
 
 std::string legendEntry(const std::string& mark, const std::string& label)
 {
-  return "<span><svg viewBox=\"0 0 28 14\" aria-hidden=\"true\">" + mark + "</svg> " +
+  return R"(<span><svg viewBox="0 0 28 14" aria-hidden="true">)" + mark + "</svg> " +
     escape(label) + "</span>";
 }
 
@@ -149,8 +149,8 @@ void writeFigure(std::ostream& out, const std::filesystem::path& folder, const S
   out << "</div>\n<div class=\"legend\">";
   if (group.front().band > 0.0)
   {
-    const std::string band = "<path d=\"M1 1H27V13H1z\" fill=\"" + std::string(figures::kBandColor);
-    out << legendEntry(band + "\" fill-opacity=\".25\"/>", bandLabel(group.front()));
+    const std::string band = R"(<path d="M1 1H27V13H1z" fill=")" + std::string(figures::kBandColor);
+    out << legendEntry(band + R"(" fill-opacity=".25"/>)", bandLabel(group.front()));
   }
   for (const Curve& curve : group.front().curves)
   {

@@ -78,7 +78,8 @@ Table tableOne(const std::map<Key, Repeated>& all)
   double model = 0.0;
   for (const PaperRow& row : kPaper)
   {
-    const auto vertices = static_cast<std::size_t>(row.side * row.side);
+    const auto side = static_cast<std::size_t>(row.side);
+    const std::size_t vertices = side * side;
     const Repeated& step = all.at({ "update", "moving", vertices });
     const Repeated& servo = all.at({ "servo_step", "moving", vertices });
     const auto ms = [](const std::vector<double>& values)

@@ -14,7 +14,7 @@ double inMicroseconds(Histogram::Duration time)
   return std::chrono::duration<double, std::micro>(time).count();
 }
 
-// counts of each bucket, and the share of all ticks that took longer
+// counts of each bucket, and the fraction of all ticks that took longer
 Table histogramTable(std::string name, std::string caption, const Histogram& histogram)
 {
   Table table{ .name = std::move(name),

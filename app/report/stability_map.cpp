@@ -73,7 +73,7 @@ std::string rowName(const StabilityCase& what)
 
 void text(std::ostream& out, int x, int y, const std::string& words, const char* more = "")
 {
-  out << "<text x=\"" << x << "\" y=\"" << y << "\" " << more << ">" << words << "</text>\n";
+  out << R"(<text x=")" << x << R"(" y=")" << y << R"(" )" << more << ">" << words << "</text>\n";
 }
 
 using Cells = std::map<std::pair<std::string, double>, StabilityOutcome>;
@@ -106,8 +106,8 @@ void drawCells(std::ostream& out, int left, const std::vector<std::string>& rows
       const auto cell = cells.find({ row, modulus });
       if (cell != cells.end())
       {
-        out << "<rect x=\"" << x << "\" y=\"" << y << "\" width=\"" << kCell - 2 << "\" height=\""
-            << kRow - 2 << "\" fill=\"" << colorOf(cell->second) << "\"/>\n";
+        out << R"(<rect x=")" << x << R"(" y=")" << y << R"(" width=")" << kCell - 2
+            << R"(" height=")" << kRow - 2 << R"(" fill=")" << colorOf(cell->second) << "\"/>\n";
       }
       y += kRow;
     }
@@ -121,7 +121,7 @@ void drawLegend(std::ostream& out, const std::vector<std::string>& rows)
   int y = kHead;
   for (const std::string& row : rows)
   {
-    text(out, kLabels - 8, y + kRow - 7, row, "text-anchor=\"end\"");
+    text(out, kLabels - 8, y + kRow - 7, row, R"(text-anchor="end")");
     y += kRow;
   }
   text(out, kLabels, y + 18, "Young's modulus; rows: loop period, then what was varied at 1 ms");
@@ -129,7 +129,7 @@ void drawLegend(std::ostream& out, const std::vector<std::string>& rows)
   for (const StabilityOutcome outcome : { StabilityOutcome::Stable, StabilityOutcome::Limited,
          StabilityOutcome::Refused, StabilityOutcome::Unstable })
   {
-    out << "<rect x=\"" << x << "\" y=\"" << y + 32 << "\" width=\"14\" height=\"14\" fill=\""
+    out << R"(<rect x=")" << x << R"(" y=")" << y + 32 << R"(" width="14" height="14" fill=")"
         << colorOf(outcome) << "\"/>\n";
     text(out, x + 20, y + 44, nameOf(outcome));
     x += 90;
@@ -168,19 +168,19 @@ void drawStabilityMap(std::ostream& out, std::span<const JudgedCase> cases)
   }
   const int panel = static_cast<int>(moduli.size()) * kCell;
   const int height = kHead + static_cast<int>(rows.size()) * kRow + kFoot;
-  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << kLabels + 2 * panel + 60
-      << "\" height=\"" << height << "\" viewBox=\"0 0 " << kLabels + 2 * panel + 60 << ' '
+  out << R"(<svg xmlns="http://www.w3.org/2000/svg" width=")" << kLabels + 2 * panel + 60
+      << R"(" height=")" << height << R"(" viewBox="0 0 )" << kLabels + 2 * panel + 60 << ' '
       << height << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   text(out, 12, 24, "Closed loop of hand, device and tissue: worst outcome of each cell",
-    "font-size=\"15\"");
+    R"(font-size="15")");
 
   for (const bool chain : { false, true })
   {
     const int left = kLabels + (chain ? panel + 30 : 0);
     const Cells cells = worstOf(cases, chain);
     text(out, left, 46, chain ? "through the safety chain" : "the law alone, cut at 7.9 N",
-      "font-size=\"13\"");
+      R"(font-size="13")");
     drawCells(out, left, rows, moduli, cells);
   }
   drawLegend(out, rows);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace palp::report
 {
@@ -203,14 +202,18 @@ void addFigures(Section& section, const BlockPress& press)
 }
 
 void measurePress(
-  Section& section, const BlockPress& press, const Effort& effort, double begin, double share)
+  Section& section, const BlockPress& press, const Effort& effort, double begin, double fraction)
 {
   const auto references = referenceSurfaces(press);
   const auto depths = profileDepths(press);
   const auto isShown = [&](const ReferenceSurface& one)
   { return std::ranges::find(depths, one.depth) != depths.end(); };
-  for (const ReferenceSurface& one : references | std::views::filter(isShown))
+  for (const ReferenceSurface& one : references)
   {
+    if (!isShown(one))
+    {
+      continue;
+    }
     Drawn points; // every sixth, to be seen apart
     for (std::size_t i = 0; i < one.radius.size(); i += 6)
     {
@@ -235,7 +238,7 @@ void measurePress(
   {
     keep(
       tryElementSurface(press, references, kResolutions[i], effort), i + 1 == kResolutions.size());
-    effort.reached(begin + share * static_cast<double>(i + 1) / kResolutions.size());
+    effort.reached(begin + fraction * static_cast<double>(i + 1) / kResolutions.size());
   }
   addFigures(section, press);
 }
@@ -256,12 +259,12 @@ Section surfaceAgainstTime(const Effort& effort)
   };
   const std::span all(presses());
   const auto wanted = effort.quick ? all.subspan(1, 1) : all.first(2);
-  const double share = 1.0 / static_cast<double>(wanted.size());
+  const double fraction = 1.0 / static_cast<double>(wanted.size());
   double begin = 0.0;
   for (const BlockPress& press : wanted)
   {
-    measurePress(section, press, effort, begin, share);
-    begin += share;
+    measurePress(section, press, effort, begin, fraction);
+    begin += fraction;
   }
   Table front{ .name = "surface_pareto_front",
     .caption = "The Pareto fronts: no other surface is both faster and more accurate.",

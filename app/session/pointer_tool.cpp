@@ -18,7 +18,7 @@ void PointerTool::setSurface(std::shared_ptr<const Surface> surface)
 {
   surface_ = std::move(surface);
   letGo();
-  place_.reset();
+  point_.reset();
   last_.reset();
 }
 
@@ -42,8 +42,8 @@ bool PointerTool::leftSurface(const Pixel& to) const
     std::clamp(std::ceil(std::hypot(to.x - from.x, to.y - from.y) / kStep), 1.0, kMost);
   for (double i = 1.0; i <= steps; ++i)
   {
-    const double share = i / steps;
-    if (!below({ from.x + share * (to.x - from.x), from.y + share * (to.y - from.y) }))
+    const double fraction = i / steps;
+    if (!below({ from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y) }))
     {
       return true;
     }
@@ -51,11 +51,11 @@ bool PointerTool::leftSurface(const Pixel& to) const
   return false;
 }
 
-void PointerTool::moveTo(const SurfacePoint& place)
+void PointerTool::moveTo(const SurfacePoint& point)
 {
-  place_ = place;
+  point_ = point;
   deepest_ =
-    std::min(kMaxDepth, 0.5 * rayExit(surface_->tree(), place.position, -place.normal).distance);
+    std::min(kMaxDepth, 0.5 * rayExit(surface_->tree(), point.position, -point.normal).distance);
 }
 
 void PointerTool::hover(int x, int y)
@@ -67,9 +67,9 @@ void PointerTool::hover(int x, int y)
   }
   last_ = pixel;
   const bool isClick = pressed_ > 0.0; // still shown, at its own place
-  if (const auto place = below(pixel); place && !isClick)
+  if (const auto point = below(pixel); point && !isClick)
   {
-    moveTo(*place);
+    moveTo(*point);
   }
 }
 
@@ -107,7 +107,7 @@ void PointerTool::release(double time)
 
 void PointerTool::wheel(int notches)
 {
-  if (!place_)
+  if (!point_)
   {
     return;
   }
@@ -140,13 +140,13 @@ void PointerTool::update(double time)
 
 std::optional<PressTarget> PointerTool::target() const
 {
-  if (!place_)
+  if (!point_)
   {
     return std::nullopt;
   }
   const double wanted = pressing_ || pressed_ > 0.0 ? pressed_ : held_;
   return PressTarget{
-    .place = place_->position, .normal = place_->normal, .depth = std::min(wanted, deepest_)
+    .position = point_->position, .normal = point_->normal, .depth = std::min(wanted, deepest_)
   };
 }
 

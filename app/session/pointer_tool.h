@@ -68,11 +68,11 @@ private:
 
   [[nodiscard]] std::optional<SurfacePoint> below(const Pixel& pixel) const;
   [[nodiscard]] bool leftSurface(const Pixel& to) const;
-  void moveTo(const SurfacePoint& place);
+  void moveTo(const SurfacePoint& point);
 
   std::function<SightLine(double, double)> view_;
   std::shared_ptr<const Surface> surface_;
-  std::optional<SurfacePoint> place_; // of the tool
+  std::optional<SurfacePoint> point_; // of the tool
   std::optional<Pixel> last_;         // of a pointer that moved with no button down
   double deepest_ = kMaxDepth;        // at the place [m]
   double held_ = 0.0;                 // by the wheel [m]

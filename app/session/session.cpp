@@ -106,7 +106,7 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
   recordedFrom_ = servo_->newest().time + kForgiving;
 }
 
-ToolPose Session::restingPlace() const
+ToolPose Session::restingPose() const
 {
   // above the highest point of the body, pointing down
   const auto points = body_.haptic->points();
@@ -121,9 +121,9 @@ std::unique_ptr<Device> Session::makeDevice(const DeviceChoice& choice)
   switch (choice.kind)
   {
     case DeviceChoice::Kind::Mouse:
-      return std::make_unique<Pointer>(restingPlace());
+      return std::make_unique<Pointer>(restingPose());
     case DeviceChoice::Kind::Hand:
-      return std::make_unique<SimulatedHand>(restingPlace());
+      return std::make_unique<SimulatedHand>(restingPose());
     case DeviceChoice::Kind::Script:
       return std::make_unique<ScriptedDevice>(readPath(choice.file));
     case DeviceChoice::Kind::Driver:
@@ -141,7 +141,7 @@ std::unique_ptr<Device> Session::makeDevice(const DeviceChoice& choice)
     servo_.reset();
     device_.reset();
   }
-  return openDevice(choice.name, { .origin = restingPlace().apex });
+  return openDevice(choice.name, { .origin = restingPose().apex });
 }
 
 void Session::useDevice(const DeviceChoice& choice)

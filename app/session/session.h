@@ -135,7 +135,7 @@ private:
   void boundEarlier();
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);
   void keepHolding();
-  [[nodiscard]] ToolPose restingPlace() const;
+  [[nodiscard]] ToolPose restingPose() const;
 
   ScenePlan plan_;
   ServoOptions servoOptions_;

@@ -170,9 +170,9 @@ void Window::keepView()
 void Window::showReadings()
 {
   devicePanel_->show(session_, shown_, acted_ | shown_.flags);
-  if (reliance_)
+  if (validityPanel_)
   {
-    showReliance(shown_);
+    showValidity(shown_);
   }
   const Contact& contact = shown_.contact;
   forceLabel_->setText(!contact.touching()
@@ -197,13 +197,13 @@ void Window::refreshPanels()
 void Window::refreshTiming()
 {
   const Timing& timing = session_.timing();
-  if (reliance_)
+  if (validityPanel_)
   {
-    reliance_->showTiming(timing, session_.schedule());
+    validityPanel_->showTiming(timing, session_.schedule());
   }
   const auto ticks = timing.ticks.load();
   const auto late = timing.skipped.load();
-  const double elapsed = static_cast<double>(ticks + late);
+  const auto elapsed = static_cast<double>(ticks + late);
   servoLabel_->setText(
     tr("servo %1 Hz    late ticks %2")
       .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
@@ -229,16 +229,16 @@ void Window::refreshCharts()
   }
 }
 
-void Window::showReliance(const Sample& sample)
+void Window::showValidity(const Sample& sample)
 {
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    reliance_->showRules(validity_(contactGeometryOf(contact), contact.edgeDistance));
+    validityPanel_->showRules(validity_(contactGeometryOf(contact), contact.edgeDistance));
   }
   else
   {
-    reliance_->showNoContact();
+    validityPanel_->showNoContact();
   }
 }
 

@@ -86,7 +86,7 @@ private:
   void refreshPanels();
   void refreshCharts();
   void refreshTiming();
-  void showReliance(const Sample& sample);
+  void showValidity(const Sample& sample);
   void applyTissue();
   void applyDevice(const QString& name);
   void sayWhatIsKept();
@@ -118,8 +118,9 @@ private:
   vtkNew<vtkContextView> depthView_;
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;
-  ValidityPanel* reliance_ = nullptr; // null: the plan rates no sample
-  PlotPanel* plots_ = nullptr;        // null: never shown
+  ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
+  PlotPanel* plots_ = nullptr;             // null: never shown
+  QAction* refinedExport_ = nullptr;
   QLabel* forceLabel_ = nullptr;
   QLabel* servoLabel_ = nullptr;
 };

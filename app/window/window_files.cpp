@@ -65,7 +65,10 @@ void Window::makeFileMenu()
         exportData(name);
       }
     });
-  for (QAction* action : { curves, exporting })
+  refinedExport_ = file->addAction(tr("Export the dent &refined"));
+  refinedExport_->setObjectName("refinedExport");
+  refinedExport_->setCheckable(true);
+  for (QAction* action : { curves, exporting, refinedExport_ })
   {
     action->setEnabled(session_.plan().records()); // without plots no sample is kept
   }
@@ -163,8 +166,9 @@ bool Window::exportData(const QString& directory)
         return QMessageBox::question(this, tr("Palp"),
                  text.arg(directory, QString::fromStdString(found))) == QMessageBox::Yes;
       };
+      const bool refined = refinedExport_->isChecked();
       if (!exportRecording(folder, session_.body(), session_.recording(), session_.calibration(),
-            session_.timing(), ask))
+            { .timing = &session_.timing(), .refined = refined, .mayReplace = ask }))
       {
         return;
       }
@@ -173,9 +177,8 @@ bool Window::exportData(const QString& directory)
       for (const Session::Take& take : session_.earlier())
       {
         const std::string name = "earlier-" + std::to_string(++count);
-        std::filesystem::create_directories(folder / name);
-        writeSamples(folder / name / "samples.csv", take.recording, &take.calibration);
-        writeDeformed(folder / name / "deformed.vtp", take.body, take.recording, take.calibration);
+        (void)exportRecording(
+          folder / name, take.body, take.recording, take.calibration, { .refined = refined });
         more += ", " + QString::fromStdString(name);
       }
       say(tr("Written to %1: samples.csv (%2 samples), deformed.vtp, servo.csv%3")

@@ -109,8 +109,8 @@ void Window::makeDocks()
   addDock(this, Qt::LeftDockWidgetArea, tr("Device"), device);
   if (session_.plan().validity)
   {
-    reliance_ = new ValidityPanel;
-    addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(reliance_));
+    validityPanel_ = new ValidityPanel;
+    addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(validityPanel_));
   }
 
   forceLabel_ = new QLabel;

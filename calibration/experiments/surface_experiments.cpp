@@ -95,15 +95,18 @@ struct Shares
 };
 
 // one depth of Fig. 7
-void addProfile(Experiment& result, const Case& study, const IndentationStep& step, Shares& shares)
+void addProfile(
+  Experiment& result, const Case& study, const IndentationStep& step, Shares& fractions)
 {
   const double extent = extentRadius(step.profile, study.threshold);
   const SurfaceProfile fit = fitSurface(step, study.tip);
   const auto paper = [&](double radius)
   { return paperSink(study.tip, step.depth, step.contactRadius, extent, radius); };
   const auto fitted = [&](double radius) { return fit.sinkAt(radius); };
-  shares.paper = std::max(shares.paper, surfaceError(step, fit.outer, paper).rms / step.depth);
-  shares.fitted = std::max(shares.fitted, surfaceError(step, fit.outer, fitted).rms / step.depth);
+  fractions.paper =
+    std::max(fractions.paper, surfaceError(step, fit.outer, paper).rms / step.depth);
+  fractions.fitted =
+    std::max(fractions.fitted, surfaceError(step, fit.outer, fitted).rms / step.depth);
 
   Points elements;
   Points drawn;
@@ -171,17 +174,17 @@ Experiment profiles(Resolution resolution, const std::stop_token& stop)
           ", R = 10 mm, at 2.5, 5, 7.5 and 10 mm",
         .bottom = "distance from the axis [mm]",
         .left = "height [mm]" });
-    Shares shares;
+    Shares fractions;
     for (const IndentationStep& step : calibrate(study, stop).steps)
     {
-      addProfile(result, study, step, shares);
+      addProfile(result, study, step, fractions);
     }
     result.finding += std::string(sphere ? "Sphere (tool 0)" : "Cone (tool 1)") +
       ": the paper's quadratic curve, which ends at R_d where the surface is still 0.5 mm deep, "
       "lies up to " +
-      fixed(100.0 * shares.paper, 1) +
+      fixed(100.0 * fractions.paper, 1) +
       " % of the depth (rms over the radius) off the finite elements, the fitted curve " +
-      fixed(100.0 * shares.fitted, 1) + " %. ";
+      fixed(100.0 * fractions.fitted, 1) + " %. ";
   }
   result.finding += "The paper's Fig. 7 shows other surfaces for 50 kPa and 1.5 MPa; in statics "
                     "they are the same.";

@@ -65,7 +65,7 @@ Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& materi
   matrix_.setFromTriplets(pattern.begin(), pattern.end());
   solver_.analyzePattern(matrix_);
 
-  const auto place = [this](int i, int j)
+  const auto entryOf = [this](int i, int j)
   {
     const int* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[j];
     const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[j + 1];
@@ -73,20 +73,20 @@ Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& materi
   };
   for (int dof = 0; dof < body.dofCount(); ++dof)
   {
-    diagonal_.push_back(place(dof, dof));
+    diagonal_.push_back(entryOf(dof, dof));
   }
   for (const Element& element : body.elements)
   {
-    std::vector<int> places;
+    std::vector<int> entries;
     for (std::size_t a = 0; a < element.dofs.size(); ++a)
     {
       for (std::size_t b = 0; b <= a; ++b)
       {
         const auto [low, high] = std::minmax(element.dofs[a], element.dofs[b]);
-        places.push_back(place(high, low));
+        entries.push_back(entryOf(high, low));
       }
     }
-    places_.push_back(std::move(places));
+    entries_.push_back(std::move(entries));
   }
 }
 
@@ -301,7 +301,7 @@ void Equilibrium::scatter(std::size_t e, const std::vector<int>& slidingOf,
     {
       if (removed[a] == 0 && removed[b] == 0)
       {
-        matrix_.valuePtr()[places_[e][at]] +=
+        matrix_.valuePtr()[entries_[e][at]] +=
           stiffness(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
       }
     }

@@ -81,7 +81,7 @@ private:
   Material material_;
   std::vector<char> held_;                 // per dof
   std::vector<ElementResponse> responses_; // per element
-  std::vector<std::vector<int>> places_;   // per element: lower triangle into the matrix's values
+  std::vector<std::vector<int>> entries_;  // per element: lower triangle into the matrix's values
   std::vector<int> diagonal_;              // per dof: into the matrix's values
   double storedEnergy_ = 0.0;
   Eigen::VectorXd forces_;

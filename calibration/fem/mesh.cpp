@@ -84,11 +84,11 @@ IntegrationPoint ringPoint(const Eigen::Matrix<double, 2, 8>& corners, double x,
   return point;
 }
 
-using Place = std::function<Vector2d(double, double)>; // (u, v) to (r, z)
+using Mapping = std::function<Vector2d(double, double)>; // (u, v) to (r, z)
 
 // nodes at the corners and the middles of the sides of a grid, none in the middle of a cell
 Eigen::MatrixXi addNodes(Body& body, const std::vector<double>& us, const std::vector<double>& vs,
-  const Place& place, Base base)
+  const Mapping& mapping, Base base)
 {
   const int columns = 2 * static_cast<int>(us.size()) - 1;
   const int rows = 2 * static_cast<int>(vs.size()) - 1;
@@ -109,7 +109,7 @@ Eigen::MatrixXi addNodes(Body& body, const std::vector<double>& us, const std::v
         continue;
       }
       number(i, j) = count;
-      body.positions.col(count) = place(halfway(us, i), halfway(vs, j));
+      body.positions.col(count) = mapping(halfway(us, i), halfway(vs, j));
       if (j == 0)
       {
         body.base.push_back(count);
@@ -170,11 +170,11 @@ Element ring(const Body& body, const Eigen::MatrixXi& number, int i, int j, Inte
 }
 
 // a body of revolution: u = 0 is the axis, the first v the base, the last the top
-Body revolve(const std::vector<double>& us, const std::vector<double>& vs, const Place& place,
+Body revolve(const std::vector<double>& us, const std::vector<double>& vs, const Mapping& mapping,
   Integration integration = Integration::Reduced, Base base = Base::Bonded)
 {
   Body body{ .dimension = 2 };
-  const Eigen::MatrixXi number = addNodes(body, us, vs, place, base);
+  const Eigen::MatrixXi number = addNodes(body, us, vs, mapping, base);
   body.profile = body.surface;
   body.top = body.positions(1, body.surface.front());
   for (int j = 1; j < number.cols(); j += 2)

@@ -77,9 +77,10 @@ Tip rounded(const std::string& name, double flat, double rounding, double halfAn
       .height = rounding * (1.0 - std::cos(angle)) });
   }
   const Profile::Point end = points.back();
-  for (const double share : { 0.01, 0.02, 1.0 }) // straight also where the edge's curve would go on
+  for (const double fraction :
+    { 0.01, 0.02, 1.0 }) // straight also where the edge's curve would go on
   {
-    const double rise = share * (height - end.height);
+    const double rise = fraction * (height - end.height);
     points.push_back(
       { .radius = end.radius + rise * std::tan(halfAngle), .height = end.height + rise });
   }

@@ -28,11 +28,11 @@ SurfaceProfile fitSurface(const IndentationStep& pressed, const Tip& tip)
       continue;
     }
     ++outside;
-    const double share = std::sqrt(radius - points[i - 1].radius - points[i - 1].ur);
+    const double fraction = std::sqrt(radius - points[i - 1].radius - points[i - 1].ur);
     const auto b = SurfaceProfile::bernstein(curve.parameter(radius));
     const auto row = static_cast<Eigen::Index>(i);
-    weights.row(row) << share * b[2], share * b[3];
-    rest[row] = share * (-points[i].uz - b[4] * curve.lastButOne() - b[5] * curve.sink);
+    weights.row(row) << fraction * b[2], fraction * b[3];
+    rest[row] = fraction * (-points[i].uz - b[4] * curve.lastButOne() - b[5] * curve.sink);
   }
   if (outside < 8)
   {

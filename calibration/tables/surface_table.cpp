@@ -104,7 +104,7 @@ SurfaceTable::Sinks SurfaceTable::sinksAt(const Indentation& indentation) const
     const auto pick = [corner](int bit, const Bracket& b)
     {
       const bool upper = (corner >> bit & 1) != 0;
-      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.place : 1.0 - b.place };
+      return std::pair{ b.low + (upper ? 1 : 0), upper ? b.fraction : 1.0 - b.fraction };
     };
     const auto [i, wi] = pick(0, n);
     const auto [j, wj] = pick(1, h);

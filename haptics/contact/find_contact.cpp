@@ -80,7 +80,7 @@ struct Neighborhood
 };
 
 Neighborhood look(
-  const Surface& surface, const Tip& tip, const Eigen::Vector3d& place, double distance) noexcept
+  const Surface& surface, const Tip& tip, const Eigen::Vector3d& position, double distance) noexcept
 {
   // facets are smoothed out over the scale of the mesh, within the contact
   const double radius =
@@ -88,7 +88,7 @@ Neighborhood look(
   const double squaredBall = distance * distance + radius * radius;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
   return { distance, radius, squaredBall,
-    patchWithin(surface, place, std::sqrt(squaredBall), side, std::max(radius, 1e-9)) };
+    patchWithin(surface, position, std::sqrt(squaredBall), side, std::max(radius, 1e-9)) };
 }
 
 // whether the one nearest triangle, a fold perhaps, says inside while those about it say outside
@@ -101,22 +101,22 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
 Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
 {
   const double nose = noseRadius(tip);
-  const Eigen::Vector3d place = pose.apex - nose * pose.axis;
+  const Eigen::Vector3d position = pose.apex - nose * pose.axis;
   const double reach = nose + flatRadius(tip);
-  if (surface.closed() && squaredDistance(surface.tree().nodes()[0], place) > reach * reach)
+  if (surface.closed() && squaredDistance(surface.tree().nodes()[0], position) > reach * reach)
   {
     return {}; // quickly; behind an open sheet, contact may reach beyond its box
   }
   const ClosestPoint nearest =
-    findClosestPoint(surface, place, std::numeric_limits<double>::infinity());
+    findClosestPoint(surface, position, std::numeric_limits<double>::infinity());
   if (nearest.triangle < 0 || nearest.distance >= reach)
   {
     return {};
   }
-  Neighborhood here = look(surface, tip, place, nearest.distance);
-  if (isOrientationFlipped(here, place - nearest.point))
+  Neighborhood here = look(surface, tip, position, nearest.distance);
+  if (isOrientationFlipped(here, position - nearest.point))
   {
-    here = look(surface, tip, place, -nearest.distance);
+    here = look(surface, tip, position, -nearest.distance);
     if (here.distance >= reach)
     {
       return {};
@@ -139,13 +139,13 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   {
     contact.depth *= std::clamp(facing / kFront, 0.0, 1.0);
   }
-  contact.center = place - height * contact.normal;
+  contact.center = position - height * contact.normal;
   contact.triangle = nearest.triangle;
   const double grain = kGrain * (nose + flatRadius(tip));
   const double span =
     std::max({ contactRadius(tip, nose, distance), surface.shape().finest(), kFinest * grain });
   const LocalShape shape =
-    surface.shape()(place, std::hypot(distance, span), contact.normal, grain);
+    surface.shape()(position, std::hypot(distance, span), contact.normal, grain);
   contact.surfaceCurvature = shape.meanCurvature;
   contact.curvatureSpread = shape.curvatureSpread;
   contact.thickness = shape.thickness;

@@ -7,14 +7,14 @@ namespace palp
 
 /// A tool's axis turned part of the way to another, so that a target's jump becomes motion.
 ///
-/// @param share  0: stays, 1: there
+/// @param fraction  0: stays, 1: there
 /// @return       unit vector; the target where the two are opposite
 /// @realtime     pure; no allocation, no lock, no exception
 [[nodiscard]] inline Eigen::Vector3d turned(
-  const Eigen::Vector3d& axis, const Eigen::Vector3d& target, double share) noexcept
+  const Eigen::Vector3d& axis, const Eigen::Vector3d& target, double fraction) noexcept
 {
   constexpr double kShortest = 1e-3; // below it the direction between the two means nothing
-  const Eigen::Vector3d between = axis + share * (target - axis);
+  const Eigen::Vector3d between = axis + fraction * (target - axis);
   const double length = between.norm();
   return length > kShortest ? Eigen::Vector3d(between / length) : target;
 }

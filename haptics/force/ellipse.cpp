@@ -21,9 +21,9 @@ EllipseFactor::EllipseFactor()
     const double k = std::comp_ellint_1(std::sqrt(e2));
     const double e = std::comp_ellint_2(std::sqrt(e2));
     const double ratio = (k - e) / (e / (aspect * aspect) - k); // A / B
-    const double share = ratio / (1.0 + ratio);                 // A / (A + B)
-    spreads_.push_back(1.0 - 2.0 * share);
-    factors_.push_back(0.5 * std::numbers::pi / k * std::sqrt((k - e) / (share * e2 * k)));
+    const double fraction = ratio / (1.0 + ratio);              // A / (A + B)
+    spreads_.push_back(1.0 - 2.0 * fraction);
+    factors_.push_back(0.5 * std::numbers::pi / k * std::sqrt((k - e) / (fraction * e2 * k)));
   }
   slopes_ = monotoneSlopes(spreads_, factors_);
 }

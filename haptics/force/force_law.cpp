@@ -83,8 +83,8 @@ double coneAngle(const Tip& tip) noexcept
   return blunt != nullptr ? blunt->halfAngle : 0.0;
 }
 
-// a share, 1 where there is too little to divide by
-double share(double part, double whole) noexcept
+// 1 where there is too little to divide by
+double ratio(double part, double whole) noexcept
 {
   const double value = part / whole;
   return std::isfinite(value) ? value : 1.0;
@@ -247,13 +247,13 @@ Factors ForceLaw::factors(const ContactGeometry& local) const noexcept
   flat.surfaceCurvature = 0.0;
   const double plain = uncoated(flat).force;
   const double layered = uncoated(geometry).force;
-  result[0].value = share(material_.contactModulus() * plain, paper(geometry.depth).force);
-  result[1].value = share(curved, plain);
+  result[0].value = ratio(material_.contactModulus() * plain, paper(geometry.depth).force);
+  result[1].value = ratio(curved, plain);
   result[2].value = ellipse(geometry);
-  result[3].value = share(layered, curved);
+  result[3].value = ratio(layered, curved);
   result[4].value = largeStrain(geometry).value;
   result[5].value = tiltFactor(tip_, geometry.tilt);
-  result[6].value = share(linear(geometry).force, layered);
+  result[6].value = ratio(linear(geometry).force, layered);
   return result;
 }
 

@@ -66,9 +66,9 @@ InclinedForce inclinedForce(double force, double tilt) noexcept
   return { force * std::cos(tilt), force * std::sin(std::abs(tilt)) };
 }
 
-double tiltOfShare(double share) noexcept
+double tiltOfShare(double fraction) noexcept
 {
-  return std::acos(1.0 - share);
+  return std::acos(1.0 - fraction);
 }
 
 double tiltFactor(const Tip& tip, double tilt) noexcept
@@ -93,7 +93,7 @@ double tiltReach(const Tip& tip) noexcept
   constexpr std::array angles{ 30.0_deg, 45.0_deg, 60.0_deg, 90.0_deg };
   constexpr std::array reaches{ 25.0_deg, 30.0_deg, 15.0_deg, 0.0 };
   const Bracket at = bracket(angles, cone->halfAngle);
-  return reaches[at.low] + at.place * (reaches[at.low + 1] - reaches[at.low]);
+  return reaches[at.low] + at.fraction * (reaches[at.low + 1] - reaches[at.low]);
 }
 
 } // namespace palp

@@ -19,9 +19,9 @@ struct InclinedForce
 /// @realtime     pure; no allocation, no lock, no exception
 [[nodiscard]] InclinedForce inclinedForce(double force, double tilt) noexcept;
 
-/// Tilt at which the axial force falls short of the normal one by a share.
+/// Tilt at which the axial force falls short of the normal one by a fraction.
 /// @source Eq. (7): arccos(1 - 0.07) = 21.6 degrees
-[[nodiscard]] double tiltOfShare(double share) noexcept;
+[[nodiscard]] double tiltOfShare(double fraction) noexcept;
 
 /// Factor on the normal force of a tilted sharp cone over the upright one, at the same depth of
 /// its apex; 1 for any other tip, and exactly so for a sphere.

@@ -143,10 +143,10 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
     result.slope += weight * one.slope;
     result.inside = result.inside && one.inside;
   };
-  add(n.low, s.low, (1.0 - n.place) * (1.0 - s.place));
-  add(n.low, nextShape, (1.0 - n.place) * s.place);
-  add(nextPoisson, s.low, n.place * (1.0 - s.place));
-  add(nextPoisson, nextShape, n.place * s.place);
+  add(n.low, s.low, (1.0 - n.fraction) * (1.0 - s.fraction));
+  add(n.low, nextShape, (1.0 - n.fraction) * s.fraction);
+  add(nextPoisson, s.low, n.fraction * (1.0 - s.fraction));
+  add(nextPoisson, nextShape, n.fraction * s.fraction);
   return result;
 }
 

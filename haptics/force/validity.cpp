@@ -95,7 +95,7 @@ double tiltLimit(const ForceLaw& law)
   return corrected ? tiltReach(law.tip()) : kConeTilt;
 }
 
-double share(double part, double whole) noexcept
+double fraction(double part, double whole) noexcept
 {
   return whole > 0.0 ? std::abs(part) / whole : 0.0;
 }
@@ -161,10 +161,10 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
   const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
 
   return { {
-    { "force_of_maximum", "-", shown(share(response.force - truth, maximum)), kJustNoticeable,
+    { "force_of_maximum", "-", shown(fraction(response.force - truth, maximum)), kJustNoticeable,
       "the force may differ from the best law known by 7 % of the maximum, which a hand just "
       "notices (Eq. 9)" },
-    { "force_of_itself", "-", shown(share(response.force - truth, truth)), kJustNoticeable,
+    { "force_of_itself", "-", shown(fraction(response.force - truth, truth)), kJustNoticeable,
       "the force may differ from the best law known by 7 % of itself, which a hand just notices" },
     { "inclination", "rad", shown(local.tilt), tilt_,
       isRound(tip) ? "beyond 21.6 degrees the axial share of the force is 7 % short (Eq. 7)"

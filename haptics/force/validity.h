@@ -12,7 +12,7 @@ namespace palp
 /// One condition under which a law may be believed, at one place.
 struct Rule
 {
-  static constexpr double kDoubtful = 0.8; ///< share from which on the limit is near
+  static constexpr double kDoubtful = 0.8; ///< fraction from which on the limit is near
 
   const char* name;
   const char* unit; ///< of value and limit: "-", "rad" or "N/m"
@@ -26,7 +26,7 @@ struct Rule
   }
 
   /// How much of the limit is used; above 1 the rule is broken.
-  [[nodiscard]] double share() const noexcept
+  [[nodiscard]] double fraction() const noexcept
   {
     return value == 0.0 || limit == std::numeric_limits<double>::infinity() ? 0.0 : value / limit;
   }

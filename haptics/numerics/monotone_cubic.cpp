@@ -21,8 +21,8 @@ Bracket bracket(std::span<const double> axis, double value) noexcept
 Cubic cubicAt(std::span<const double> x, std::span<const double> y, std::span<const double> slopes,
   double at) noexcept
 {
-  const auto [low, place] = bracket(x, at);
-  return hermite(place, x[low + 1] - x[low], y[low], y[low + 1], slopes[low], slopes[low + 1]);
+  const auto [low, fraction] = bracket(x, at);
+  return hermite(fraction, x[low + 1] - x[low], y[low], y[low + 1], slopes[low], slopes[low + 1]);
 }
 
 std::vector<double> polynomialSlopes(std::span<const double> x, std::span<const double> y)

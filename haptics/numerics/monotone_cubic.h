@@ -15,23 +15,23 @@ struct Cubic
 
 /// Cubic on one interval from the values and slopes at its ends.
 ///
-/// @param place  0 to 1 along the interval
+/// @param fraction  0 to 1 along the interval
 /// @realtime     pure; no allocation, no lock, no exception
 [[nodiscard]] constexpr Cubic hermite(
-  double place, double width, double y0, double y1, double slope0, double slope1) noexcept
+  double fraction, double width, double y0, double y1, double slope0, double slope1) noexcept
 {
   const double chord = (y1 - y0) / width;
   const double bend = slope0 + slope1 - 2.0 * chord;
   const double turn = chord - slope0 - bend;
-  return { y0 + width * place * (slope0 + place * (turn + place * bend)),
-    slope0 + place * (2.0 * turn + 3.0 * place * bend) };
+  return { y0 + width * fraction * (slope0 + fraction * (turn + fraction * bend)),
+    slope0 + fraction * (2.0 * turn + 3.0 * fraction * bend) };
 }
 
 /// An interval of an axis.
 struct Bracket
 {
   std::size_t low; ///< its first point
-  double place;    ///< 0 to 1, towards the next point
+  double fraction; ///< 0 to 1, towards the next point
 };
 
 /// The interval that holds a value; beyond the axis, its border.

@@ -22,8 +22,8 @@ public:
   /// @realtime        no allocation, no lock, no exception
   void record(double dt) noexcept
   {
-    const double share = dt / nominal_ * kBinsPerPeriod;
-    const auto bin = static_cast<std::uint16_t>(share < kBins - 1 ? share : kBins - 1);
+    const double fraction = dt / nominal_ * kBinsPerPeriod;
+    const auto bin = static_cast<std::uint16_t>(fraction < kBins - 1 ? fraction : kBins - 1);
     if (count_ < ticks_.size())
     {
       ++count_;

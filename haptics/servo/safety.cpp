@@ -37,7 +37,7 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
 {
   using Named = std::pair<const char*, double>;
   for (const auto& [name, value] : { Named{ "period", settings.period },
-         { "stiffnessShare", settings.stiffnessShare }, { "slewRate", settings.slewRate },
+         { "stiffnessFraction", settings.stiffnessFraction }, { "slewRate", settings.slewRate },
          { "softSlewRate", settings.softSlewRate }, { "softStart", settings.softStart },
          { "decay", settings.decay }, { "fastest", settings.fastest } })
   {
@@ -78,7 +78,7 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
   const double without = stableStiffness(loop);
   loop.virtualDamping = renderedDamping(damping);
   loop.delay += device_.velocityDelay;
-  return settings_.stiffnessShare * std::max(without, stableStiffness(loop));
+  return settings_.stiffnessFraction * std::max(without, stableStiffness(loop));
 }
 
 void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene) noexcept
@@ -130,7 +130,7 @@ Eigen::Vector3d SafetyChain::rendered(
   const double depth = sample.contact.depth;
   const double stiffest = stiffnessLimit(scene.damping);
   rebase(law, depth, stiffest, scene.version);
-  resumeShare();
+  resumeFraction();
   sample.response = depth > 0.0 ? law(depth) : Response{};
   Rendered felt = couple(law, depth - contactOffset_, stiffest);
   // what rises faster than may be slips: a force that lags, or grows while the tool rests, would
@@ -171,16 +171,16 @@ void SafetyChain::rebase(
   contactOffset_ = std::clamp(contactOffset_, 0.0, depth > 0.0 ? depth : 0.0);
 }
 
-// of the force that is sent; a share that grows goes on from the force that was
-void SafetyChain::resumeShare() noexcept
+// of the force that is sent; a fraction that grows goes on from the force that was
+void SafetyChain::resumeFraction() noexcept
 {
-  const double share = watchdogGain_ * (state_ == DeviceState::Decay ? gain_ : 1.0);
-  if (share > share_)
+  const double fraction = watchdogGain_ * (state_ == DeviceState::Decay ? gain_ : 1.0);
+  if (fraction > share_)
   {
-    normalForce_ *= share_ / share;
-    shaped_ *= share_ / share;
+    normalForce_ *= share_ / fraction;
+    shaped_ *= share_ / fraction;
   }
-  share_ = share;
+  share_ = fraction;
 }
 
 // that the law may reach in this tick [N]

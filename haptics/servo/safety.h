@@ -15,15 +15,15 @@ namespace palp
 /// How a safety chain behaves; the defaults are those of every device.
 struct SafetySettings
 {
-  double period = 0.001;         ///< T of the loop [s]
-  double stiffnessShare = 0.7;   ///< of the stable stiffness that is used [-]
-  double passivityDamping = 2.0; ///< alpha_max [N s/m]
-  double slewRate = 500.0;       ///< [N/s]
-  double softSlewRate = 50.0;    ///< while a force starts [N/s]
-  double softStart = 0.5;        ///< from zero to full force [s]
-  double decay = 0.1;            ///< from full force to zero [s]
-  double fastest = 2.0;          ///< a hand [m/s]; what is faster is a fault
-  bool deadMan = false;          ///< force only while the first button is held
+  double period = 0.001;          ///< T of the loop [s]
+  double stiffnessFraction = 0.7; ///< of the stable stiffness that is used [-]
+  double passivityDamping = 2.0;  ///< alpha_max [N s/m]
+  double slewRate = 500.0;        ///< [N/s]
+  double softSlewRate = 50.0;     ///< while a force starts [N/s]
+  double softStart = 0.5;         ///< from zero to full force [s]
+  double decay = 0.1;             ///< from full force to zero [s]
+  double fastest = 2.0;           ///< a hand [m/s]; what is faster is a fault
+  bool deadMan = false;           ///< force only while the first button is held
 };
 
 /// What the user and the program say in a tick.
@@ -92,7 +92,7 @@ private:
   [[nodiscard]] Eigen::Vector3d rendered(
     Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
   void rebase(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
-  void resumeShare() noexcept;
+  void resumeFraction() noexcept;
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
     const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept;
@@ -122,7 +122,7 @@ private:
   std::uint32_t latched_ = 0; // faults that wait to be forgiven
   bool wasArmed_ = false;     // last tick
   double dt_ = 0.0;           // of this tick, bounded [s]
-  double gain_ = 0.0;         // share of the largest force that may be, of the force in decay
+  double gain_ = 0.0;         // fraction of the largest force that may be, of the force in decay
   double share_ = 0.0;        // of the force that is sent while it decays or the device is silent
   double watchdogGain_ = 0.0; // less than 1 while the device is silent
   double apart_ = 0.0;        // time without contact [s]

@@ -151,7 +151,7 @@ void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders
   }
   else if (!wanted && forceOn())
   {
-    // that of a start is a share of the largest force, that of a decay of the force itself
+    // that of a start is a fraction of the largest force, that of a decay of the force itself
     gain_ = state_ == DeviceState::SoftStart ? 1.0 : gain_;
     state_ = DeviceState::Decay;
   }

@@ -19,9 +19,9 @@ void raise(Sample& sample, Flag flag) noexcept
 
 Response evaluateLaw(const Scene& scene, const Contact& contact, double depth) noexcept
 {
-  ContactGeometry place = contactGeometryOf(contact);
-  place.depth = depth;
-  return scene.law(place);
+  ContactGeometry geometry = contactGeometryOf(contact);
+  geometry.depth = depth;
+  return scene.law(geometry);
 }
 
 Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept

@@ -20,7 +20,7 @@ public:
   /// @realtime  no allocation, no lock, no exception
   void record(Duration duration) noexcept;
 
-  /// Upper bound of the smallest share of the durations that holds a fraction of them.
+  /// A bound that at least a fraction of the durations stays below.
   ///
   /// @param fraction  0 to 1
   /// @return          0 when nothing was recorded; never beyond longest()

@@ -25,7 +25,7 @@ struct Motion
   void advance(const Plant& plant, double push, double time)
   {
     const double rate = plant.damping / plant.mass;
-    const double glide = -std::expm1(-rate * time) / rate; // way of a unit speed
+    const double glide = -std::expm1(-rate * time) / rate; // path of a unit speed
     depth += glide * speed + (time - glide) / plant.damping * push;
     speed += -rate * glide * speed + glide / plant.mass * push;
   }
@@ -159,13 +159,13 @@ void settle(Controller& controller, const LoopCase& loop)
 }
 
 // speed early on, and where the loop still hums at the end
-void seeSpeed(LoopResult& result, double share, double speed, double force)
+void seeSpeed(LoopResult& result, double fraction, double speed, double force)
 {
-  if (share > 0.125 && share <= 0.25)
+  if (fraction > 0.125 && fraction <= 0.25)
   {
     result.earlySpeed = std::max(result.earlySpeed, speed);
   }
-  if (share > 0.875 && force > 0.0)
+  if (fraction > 0.875 && force > 0.0)
   {
     result.limitCycleSpeed = std::max(result.limitCycleSpeed, speed);
   }
@@ -199,9 +199,9 @@ LoopResult simulate(const LoopCase& loop)
 
     const Motion before = motion;
     motion.advance(plant, plant.handForce - force, dt);
-    const double way = motion.depth - before.depth;
-    port += force * way;
-    dissipated += (plant.handForce - force) * way -
+    const double travel = motion.depth - before.depth;
+    port += force * travel;
+    dissipated += (plant.handForce - force) * travel -
       0.5 * plant.mass * (motion.speed * motion.speed - before.speed * before.speed);
 
     const double speed = std::abs(motion.speed);
@@ -210,9 +210,9 @@ LoopResult simulate(const LoopCase& loop)
     result.peakForce = std::max(result.peakForce, force);
     result.peakStep = std::max(result.peakStep, std::abs(force - last));
     last = force;
-    const double share = time / loop.duration;
-    seeSpeed(result, share, speed, force);
-    if (share > 0.75)
+    const double fraction = time / loop.duration;
+    seeSpeed(result, fraction, speed, force);
+    if (fraction > 0.75)
     {
       tail += speed * speed * dt;
       tailTime += dt;

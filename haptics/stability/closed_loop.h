@@ -35,7 +35,7 @@ struct LoopCase
   double damping = 0.0;                          ///< B of the law [N s/m]
   double forceLimit = 4.0;                       ///< [N], chain only
   double period = 0.001;                         ///< T [s]
-  double jitter = 0.0;                           ///< of the period, both ways, as a share of it
+  double jitter = 0.0;                           ///< of the period, both ways, as a fraction of it
   int dropped = 0;                               ///< ticks lost in a row
   double dropEvery = 0.25;                       ///< [s]
   double duration = 20.0;                        ///< [s]

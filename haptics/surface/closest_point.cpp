@@ -94,12 +94,14 @@ struct Closest
   int facet = -1;
   OnFacet hit{};
 
-  void look(const BoxTree& tree, const BoxTree::Node& leaf, const Eigen::Vector3d& place) noexcept
+  void look(
+    const BoxTree& tree, const BoxTree::Node& leaf, const Eigen::Vector3d& position) noexcept
   {
     for (int i = leaf.first; i < leaf.first + leaf.count; ++i)
     {
-      const OnFacet candidate = nearestOnFacet(tree.facets()[static_cast<std::size_t>(i)], place);
-      const double distance = (candidate.point - place).squaredNorm();
+      const OnFacet candidate =
+        nearestOnFacet(tree.facets()[static_cast<std::size_t>(i)], position);
+      const double distance = (candidate.point - position).squaredNorm();
       if (distance < squared)
       {
         *this = { distance, i, candidate };
@@ -115,11 +117,11 @@ struct Waiting
   double squared;
 };
 
-Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& place, double reach) noexcept
+Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept
 {
   const auto nodes = tree.nodes();
   const auto boxOf = [&](std::int32_t node) {
-    return Waiting{ node, squaredDistance(nodes[static_cast<std::size_t>(node)], place) };
+    return Waiting{ node, squaredDistance(nodes[static_cast<std::size_t>(node)], position) };
   };
   std::array<Waiting, BoxTree::kDepth> stack;
   std::size_t waiting = 0;
@@ -131,7 +133,7 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& place, double r
       const BoxTree::Node& node = nodes[static_cast<std::size_t>(current.node)];
       if (node.count > 0)
       {
-        best.look(tree, node, place);
+        best.look(tree, node, position);
         break;
       }
       // the nearer child first: it shortens the reach for the other
@@ -155,10 +157,10 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& place, double r
 } // namespace
 
 ClosestPoint findClosestPoint(
-  const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept
+  const Surface& surface, const Eigen::Vector3d& position, double reach) noexcept
 {
   const BoxTree& tree = surface.tree();
-  const Closest best = closestFacet(tree, place, reach);
+  const Closest best = closestFacet(tree, position, reach);
   if (best.facet < 0)
   {
     return {};
@@ -168,7 +170,7 @@ ClosestPoint findClosestPoint(
   const auto [normal, open] =
     sideOf(surface, tree.facets()[static_cast<std::size_t>(best.facet)], triangle, hit);
   const double distance = std::sqrt(best.squared);
-  const double height = normal.dot(place - hit.point);
+  const double height = normal.dot(position - hit.point);
   if (height >= 0.0)
   {
     return { triangle, hit.point, distance };

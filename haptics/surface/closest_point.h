@@ -24,6 +24,6 @@ struct ClosestPoint
 /// @source        Ericson, Real-Time Collision Detection, 5.1.5; Baerentzen and Aanaes 2005
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] ClosestPoint findClosestPoint(
-  const Surface& surface, const Eigen::Vector3d& place, double reach) noexcept;
+  const Surface& surface, const Eigen::Vector3d& position, double reach) noexcept;
 
 } // namespace palp

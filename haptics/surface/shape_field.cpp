@@ -103,23 +103,23 @@ ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double 
 // splits at the median of the widest of place and normal until both fit a cell
 void ShapeField::build(std::span<Piece> pieces, float cell)
 {
-  using Place = Eigen::Array<float, 6, 1>;
-  const auto placeOf = [cell](const Piece& piece)
+  using Coordinates = Eigen::Array<float, 6, 1>;
+  const auto coordinatesOf = [cell](const Piece& piece)
   {
-    Place place;
-    place << piece.center.array(), cell * piece.sums.area.normalized().array();
-    return place;
+    Coordinates coordinates;
+    coordinates << piece.center.array(), cell * piece.sums.area.normalized().array();
+    return coordinates;
   };
-  Place low = Place::Constant(std::numeric_limits<float>::infinity());
-  Place high = -low;
+  Coordinates low = Coordinates::Constant(std::numeric_limits<float>::infinity());
+  Coordinates high = -low;
   Node node;
   Sums sums;
   float area = 0.0F;
   for (const Piece& piece : pieces)
   {
-    const Place place = placeOf(piece);
-    low = low.min(place);
-    high = high.max(place);
+    const Coordinates coordinates = coordinatesOf(piece);
+    low = low.min(coordinates);
+    high = high.max(coordinates);
     const float weight = piece.sums.area.norm();
     area += weight;
     node.center += weight * piece.center;
@@ -144,7 +144,8 @@ void ShapeField::build(std::span<Piece> pieces, float cell)
   }
   const std::size_t half = pieces.size() / 2;
   std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(),
-    [&](const Piece& a, const Piece& b) { return placeOf(a)[widest] < placeOf(b)[widest]; });
+    [&](const Piece& a, const Piece& b)
+    { return coordinatesOf(a)[widest] < coordinatesOf(b)[widest]; });
   build(pieces.first(half), cell);
   nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
   build(pieces.subspan(half), cell);
@@ -236,10 +237,10 @@ void ShapeField::measureLeaves(const BoxTree& tree)
     {
       continue;
     }
-    const Eigen::Vector3d place = origin_ + nodes_[i].center.cast<double>();
+    const Eigen::Vector3d coordinates = origin_ + nodes_[i].center.cast<double>();
     Sums sum;
     float area = 0.0F;
-    search(place, around, 0.0,
+    search(coordinates, around, 0.0,
       [&](std::size_t k, float weight)
       {
         const Sums& part = sums_[k];
@@ -253,7 +254,7 @@ void ShapeField::measureLeaves(const BoxTree& tree)
         }
       });
     const Eigen::Vector3d inward = -sum.area.normalized().cast<double>();
-    const double thickness = rayExit(tree, place, inward).distance;
+    const double thickness = rayExit(tree, coordinates, inward).distance;
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(thickness));
     const float curvature = sum.bend.trace() / area;
     const bool bends =

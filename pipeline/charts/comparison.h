@@ -21,13 +21,13 @@ struct NamedLaw
   std::string name;
   ForceLaw law;
   ContactGeometry
-    place{}; ///< what the law knows but the depth; by default a half-space pressed straight
+    geometry{}; ///< what the law knows but the depth; by default a half-space pressed straight
   std::optional<std::size_t>
     color{}; ///< as curveColor, which then is no reference's; none: the next
 
   [[nodiscard]] double force(double depth) const noexcept
   {
-    ContactGeometry at = place;
+    ContactGeometry at = geometry;
     at.depth = depth;
     return law(at).force;
   }

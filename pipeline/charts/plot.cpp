@@ -183,9 +183,9 @@ void Plot::addTo(vtkContextScene& scene)
   scene.AddItem(chart_);
 }
 
-void Plot::addTo(vtkContextScene& scene, const vtkRectf& place)
+void Plot::addTo(vtkContextScene& scene, const vtkRectf& rectangle)
 {
-  chart_->SetPlace(place);
+  chart_->SetRectangle(rectangle);
   addTo(scene);
 }
 

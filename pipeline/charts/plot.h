@@ -59,7 +59,7 @@ public:
   void addTo(vtkContextScene& scene);
 
   /// The same in a part of the scene [pixels].
-  void addTo(vtkContextScene& scene, const vtkRectf& place);
+  void addTo(vtkContextScene& scene, const vtkRectf& rectangle);
 
   /// The curves in the order in which they were added; the first column is x.
   [[nodiscard]] const std::vector<vtkSmartPointer<vtkTable>>& tables() const

@@ -19,7 +19,7 @@ vtkStandardNewMacro(vtkPalpChart);
 
 vtkPalpChart::vtkPalpChart()
 {
-  this->Place.Set(0.0F, 0.0F, 0.0F, 0.0F); // its own constructor leaves it undefined
+  this->Rectangle.Set(0.0F, 0.0F, 0.0F, 0.0F); // its own constructor leaves it undefined
   this->SetShowLegend(false);
   this->SetAutoSize(false);
 }
@@ -27,22 +27,22 @@ vtkPalpChart::vtkPalpChart()
 void vtkPalpChart::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Place: " << this->Place[0] << ' ' << this->Place[1] << ' ' << this->Place[2]
-     << ' ' << this->Place[3] << " pixels\n"
+  os << indent << "Place: " << this->Rectangle[0] << ' ' << this->Rectangle[1] << ' '
+     << this->Rectangle[2] << ' ' << this->Rectangle[3] << " pixels\n"
      << indent << "Keyed: " << this->Keyed << '\n';
 }
 
-void vtkPalpChart::SetPlace(const vtkRectf& place)
+void vtkPalpChart::SetRectangle(const vtkRectf& rectangle)
 {
-  this->Place = place;
+  this->Rectangle = rectangle;
   this->Modified();
 }
 
 // fonts follow the dots per inch of the screen; what has its size in pixels follows here
 void vtkPalpChart::ScaleTo(double scale)
 {
-  const auto share = static_cast<float>(scale / this->Scale);
-  if (share == 1.0F)
+  const auto fraction = static_cast<float>(scale / this->Scale);
+  if (fraction == 1.0F)
   {
     return;
   }
@@ -50,10 +50,10 @@ void vtkPalpChart::ScaleTo(double scale)
   for (vtkIdType i = 0; i < this->GetNumberOfPlots(); ++i)
   {
     vtkPlot* plot = this->GetPlot(i);
-    plot->GetPen()->SetWidth(share * plot->GetPen()->GetWidth());
+    plot->GetPen()->SetWidth(fraction * plot->GetPen()->GetWidth());
     if (auto* points = vtkPlotPoints::SafeDownCast(plot))
     {
-      points->SetMarkerSize(share * points->GetMarkerSize());
+      points->SetMarkerSize(fraction * points->GetMarkerSize());
     }
   }
   for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
@@ -61,15 +61,15 @@ void vtkPalpChart::ScaleTo(double scale)
     vtkAxis* axis = this->GetAxis(side);
     for (vtkPen* pen : { axis->GetPen(), axis->GetGridPen() })
     {
-      pen->SetWidth(share * pen->GetWidth());
+      pen->SetWidth(fraction * pen->GetWidth());
     }
-    axis->SetLabelOffset(share * axis->GetLabelOffset());
-    axis->SetTickLength(share * axis->GetTickLength());
-    axis->SetMargins(static_cast<int>(share * static_cast<float>(axis->GetMargins()[0])),
-      static_cast<int>(share * static_cast<float>(axis->GetMargins()[1])));
+    axis->SetLabelOffset(fraction * axis->GetLabelOffset());
+    axis->SetTickLength(fraction * axis->GetTickLength());
+    axis->SetMargins(static_cast<int>(fraction * static_cast<float>(axis->GetMargins()[0])),
+      static_cast<int>(fraction * static_cast<float>(axis->GetMargins()[1])));
   }
   this->SetHiddenAxisBorder(
-    static_cast<int>(share * static_cast<float>(this->GetHiddenAxisBorder())));
+    static_cast<int>(fraction * static_cast<float>(this->GetHiddenAxisBorder())));
 }
 
 bool vtkPalpChart::Paint(vtkContext2D* painter)
@@ -78,15 +78,15 @@ bool vtkPalpChart::Paint(vtkContext2D* painter)
   {
     this->ScaleTo(renderer->GetRenderWindow()->GetDPI() / palp::appearance::kDpi);
   }
-  vtkRectf place = this->Place;
-  if (!(place.GetWidth() > 0.0F))
+  vtkRectf rectangle = this->Rectangle;
+  if (!(rectangle.GetWidth() > 0.0F))
   {
-    place = vtkRectf(0.0F, 0.0F, static_cast<float>(this->Scene->GetSceneWidth()),
+    rectangle = vtkRectf(0.0F, 0.0F, static_cast<float>(this->Scene->GetSceneWidth()),
       static_cast<float>(this->Scene->GetSceneHeight()));
   }
-  const float legend = this->Keyed ? this->PaintLegend(painter, place, false) : 0.0F;
-  const vtkRectf chart(
-    place.GetX(), place.GetY() + legend, place.GetWidth(), place.GetHeight() - legend);
+  const float legend = this->Keyed ? this->PaintLegend(painter, rectangle, false) : 0.0F;
+  const vtkRectf chart(rectangle.GetX(), rectangle.GetY() + legend, rectangle.GetWidth(),
+    rectangle.GetHeight() - legend);
   if (this->GetSize() != chart)
   {
     this->SetSize(chart);
@@ -95,13 +95,13 @@ bool vtkPalpChart::Paint(vtkContext2D* painter)
   const bool painted = this->Superclass::Paint(painter);
   if (this->Keyed)
   {
-    this->PaintLegend(painter, place, true);
+    this->PaintLegend(painter, rectangle, true);
   }
   return painted;
 }
 
 // its height, whether it is drawn or not
-float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& place, bool draw)
+float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& rectangle, bool draw)
 {
   vtkNew<vtkTextProperty> text;
   palp::appearance::setFont(*text, 12);
@@ -124,7 +124,7 @@ float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& place, bo
     }
     painter->ComputeStringBounds(label, bounds);
     const float width = mark + gap + bounds[2];
-    if (x > gap && x + width > place.GetWidth())
+    if (x > gap && x + width > rectangle.GetWidth())
     {
       x = gap;
       row += 1.0F;
@@ -133,9 +133,9 @@ float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& place, bo
     {
       const float y = this->GetSize().GetY() - (row - 0.5F) * line; // down from the chart
       this->GetPlot(i)->PaintLegend(
-        painter, vtkRectf(place.GetX() + x, y - 0.3F * line, mark, 0.6F * line), 0);
+        painter, vtkRectf(rectangle.GetX() + x, y - 0.3F * line, mark, 0.6F * line), 0);
       painter->ApplyTextProp(text);
-      painter->DrawString(place.GetX() + x + mark + gap, y, label);
+      painter->DrawString(rectangle.GetX() + x + mark + gap, y, label);
     }
     x += width + 2.0F * gap;
   }

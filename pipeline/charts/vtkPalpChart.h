@@ -21,10 +21,10 @@ public:
   /**
    * Where chart and legend stand in the scene [pixels]. Default: empty, which is all of it.
    */
-  void SetPlace(const vtkRectf& place);
-  const vtkRectf& GetPlace() const
+  void SetRectangle(const vtkRectf& rectangle);
+  const vtkRectf& GetRectangle() const
   {
-    return this->Place;
+    return this->Rectangle;
   }
   ///@}
 
@@ -46,11 +46,11 @@ private:
   vtkPalpChart(const vtkPalpChart&) = delete;
   void operator=(const vtkPalpChart&) = delete;
 
-  float PaintLegend(vtkContext2D* painter, const vtkRectf& place, bool draw);
+  float PaintLegend(vtkContext2D* painter, const vtkRectf& rectangle, bool draw);
 
   void ScaleTo(double scale);
 
-  vtkRectf Place;
+  vtkRectf Rectangle;
   double Scale = 1.0; // that pens, marks and gaps have now
   bool Keyed = true;
 };

@@ -27,7 +27,7 @@ bool isFinite(const Press& press)
 }
 
 constexpr int kUprightPasses = 30;
-constexpr double kUpright = 0.05; // [-] share of its area at rest that a side keeps at least
+constexpr double kUpright = 0.05; // [-] fraction of its area at rest that a side keeps at least
 
 // x, y, z in one register
 using Lanes = float __attribute__((vector_size(16)));
@@ -191,12 +191,12 @@ bool Dent::keepUpright(const Triangle& corners, const DentArrays& arrays)
   {
     return true;
   }
-  const double share = 1.0 - (1.0 - 2.0 * kUpright) * whole / lost;
+  const double fraction = 1.0 - (1.0 - 2.0 * kUpright) * whole / lost;
   const double most = *std::max_element(sinks.begin(), sinks.end());
   for (std::size_t k = 0; k < 3; ++k)
   {
     const auto index = static_cast<std::size_t>(corners[k]);
-    region_.sinkFurther(index, share * (most - sinks[k]));
+    region_.sinkFurther(index, fraction * (most - sinks[k]));
     displace(index, index + 1, arrays);
   }
   return false;

@@ -156,7 +156,8 @@ RingCurve PressField::curveAlong(
 
 inline RingCurve PressField::curveTowards(double turns) const noexcept
 {
-  const double patch = turns * (kDirections / 4);
+  constexpr int kQuarter = kDirections / 4;
+  const double patch = turns * kQuarter;
   const int below = std::min(static_cast<int>(patch), kDirections - 1);
   const double v = patch - below;
   const RingCurve& a = curves_[static_cast<std::size_t>(below)];

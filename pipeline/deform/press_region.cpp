@@ -261,17 +261,17 @@ GeodesicCoordinates PressRegion::geodesicInFront(const Eigen::Vector3d& point) c
 }
 
 GeodesicCoordinates PressRegion::geodesicBetween(const GeodesicCoordinates& a,
-  const GeodesicCoordinates& b, double share, const Eigen::Vector3d& point) const noexcept
+  const GeodesicCoordinates& b, double fraction, const Eigen::Vector3d& point) const noexcept
 {
   GeodesicCoordinates geodesic = geodesicInFront(point);
   if (!a.isFront() || !b.isFront())
   {
-    const Eigen::Vector2d log = a.logMap() + share * (b.logMap() - a.logMap());
+    const Eigen::Vector2d log = a.logMap() + fraction * (b.logMap() - a.logMap());
     geodesic.turns = diamondAngle(log.x(), log.y());
-    geodesic.distance = a.distance + share * (b.distance - a.distance);
-    geodesic.facing = a.facing + static_cast<float>(share) * (b.facing - a.facing);
+    geodesic.distance = a.distance + fraction * (b.distance - a.distance);
+    geodesic.facing = a.facing + static_cast<float>(fraction) * (b.facing - a.facing);
   }
-  geodesic.extra = a.extra + static_cast<float>(share) * (b.extra - a.extra);
+  geodesic.extra = a.extra + static_cast<float>(fraction) * (b.extra - a.extra);
   return geodesic;
 }
 

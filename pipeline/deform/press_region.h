@@ -126,7 +126,7 @@ public:
 
   /// Of a point on the edge between two others, at a fraction of the way from a to b.
   [[nodiscard]] GeodesicCoordinates geodesicBetween(const GeodesicCoordinates& a,
-    const GeodesicCoordinates& b, double share, const Eigen::Vector3d& point) const noexcept;
+    const GeodesicCoordinates& b, double fraction, const Eigen::Vector3d& point) const noexcept;
 
   [[nodiscard]] Eigen::Vector3d rest(std::int32_t point) const noexcept
   {

@@ -130,7 +130,7 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
 }
 
 // axes that lie in a plane, or are not numbers, would make a flat body
-void checkPlace(const PatientImage& volume, const std::string& name)
+void checkPosition(const PatientImage& volume, const std::string& name)
 {
   using Eigen::Vector3d;
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> form(volume.toPatient);
@@ -193,7 +193,7 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
   {
     refuse("several values at each voxel; give an image of one");
   }
-  checkPlace(volume, name);
+  checkPosition(volume, name);
   const Contour contour = contourOf(volume, part, name, notes);
   constexpr std::uintmax_t most = 10'000'000;
   if (const std::uintmax_t triangles = 2 * crossings(*contour.image, contour.level);

@@ -58,7 +58,7 @@ public:
     return in_.eof();
   }
 
-  [[nodiscard]] std::string place(const std::filesystem::path& file) const
+  [[nodiscard]] std::string position(const std::filesystem::path& file) const
   {
     return file.string() + ":" + std::to_string(line_);
   }
@@ -80,7 +80,7 @@ double readCoordinate(Words& words, const std::filesystem::path& file)
     (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(x)))
   {
     throw Error(ErrorCode::BadMesh,
-      words.place(file) + ": " + inQuotes(word) +
+      words.position(file) + ": " + inQuotes(word) +
         " is not a usable number; repair or export the surface again");
   }
   return x;

@@ -39,18 +39,18 @@ struct Merged
 std::vector<int> firstOfEach(std::span<const Eigen::Vector3d> points)
 {
   using Shown = std::array<float, 3>;
-  std::vector<std::pair<Shown, int>> places(points.size()); // and which point it is
+  std::vector<std::pair<Shown, int>> numbered(points.size()); // and which point it is
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const Eigen::Vector3f x = points[i].cast<float>();
-    places[i] = { { x[0], x[1], x[2] }, static_cast<int>(i) };
+    numbered[i] = { { x[0], x[1], x[2] }, static_cast<int>(i) };
   }
-  std::ranges::sort(places);
+  std::ranges::sort(numbered);
   std::vector<int> first(points.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < numbered.size(); ++i)
   {
-    const bool same = i > 0 && places[i].first == places[i - 1].first;
-    first[at(places[i].second)] = same ? first[at(places[i - 1].second)] : places[i].second;
+    const bool same = i > 0 && numbered[i].first == numbered[i - 1].first;
+    first[at(numbered[i].second)] = same ? first[at(numbered[i - 1].second)] : numbered[i].second;
   }
   return first;
 }

@@ -74,10 +74,10 @@ vtkSmartPointer<vtkLookupTable> viridisOn(const Color& base)
   {
     Color color{};
     function->GetColor(static_cast<double>(i) / (kColors - 1), color.data());
-    const double share = std::min(1.0, i / (kFadeIn * (kColors - 1)));
+    const double fraction = std::min(1.0, i / (kFadeIn * (kColors - 1)));
     for (std::size_t k = 0; k < color.size(); ++k)
     {
-      color[k] = base[k] + share * (color[k] - base[k]);
+      color[k] = base[k] + fraction * (color[k] - base[k]);
     }
     table->SetTableValue(i, color[0], color[1], color[2]);
   }

@@ -10,9 +10,9 @@ namespace palp
 {
 
 BeforeRender::BeforeRender(
-  vtkRenderer& renderer, std::function<void(double width, double height, double scale)> place)
+  vtkRenderer& renderer, std::function<void(double width, double height, double scale)> layOut)
   : renderer_(&renderer)
-  , place_(std::move(place))
+  , layOut_(std::move(layOut))
 {
   command_->SetClientData(this);
   command_->SetCallback(
@@ -22,7 +22,7 @@ BeforeRender::BeforeRender(
       const int* size = self.renderer_->GetSize();
       if (vtkRenderWindow* window = self.renderer_->GetRenderWindow(); window && size[0] > 0)
       {
-        self.place_(size[0], size[1], window->GetDPI() / appearance::kDpi);
+        self.layOut_(size[0], size[1], window->GetDPI() / appearance::kDpi);
       }
     });
   renderer_->AddObserver(vtkCommand::StartEvent, command_);

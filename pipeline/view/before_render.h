@@ -15,17 +15,17 @@ namespace palp
 class BeforeRender
 {
 public:
-  /// @param place  gets the width and height of the picture and the size of a pixel's worth of
+  /// @param layOut  gets the width and height of the picture and the size of a pixel's worth of
   ///               layout, which is more than 1 on a screen of many dots per inch [pixels]
   BeforeRender(
-    vtkRenderer& renderer, std::function<void(double width, double height, double scale)> place);
+    vtkRenderer& renderer, std::function<void(double width, double height, double scale)> layOut);
   ~BeforeRender();
   BeforeRender(const BeforeRender&) = delete;
   BeforeRender& operator=(const BeforeRender&) = delete;
 
 private:
   vtkSmartPointer<vtkRenderer> renderer_;
-  std::function<void(double, double, double)> place_;
+  std::function<void(double, double, double)> layOut_;
   vtkNew<vtkCallbackCommand> command_;
 };
 

@@ -21,7 +21,7 @@ constexpr double kLegendWidth = 0.10; // of the picture
 DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
   : map_(appearance::viridisOn(appearance::kLiver))
   , plain_(property)
-  , place_(renderer,
+  , layOut_(renderer,
       [this](double width, double, double scale)
       {
         constexpr double kHalfTitle = 60.0; // [pixels]
@@ -96,7 +96,7 @@ void DentColors::show(const OverlayState& moment, By by)
   else if (const auto worst = worstRule(moment); by == By::Validity && worst)
   {
     const appearance::Color& color = !worst->holds() ? appearance::kBad
-      : worst->share() > Rule::kDoubtful             ? appearance::kDoubtful
+      : worst->fraction() > Rule::kDoubtful          ? appearance::kDoubtful
                                                      : appearance::kGood;
     vtkNew<vtkProperty> property;
     property->DeepCopy(plain_);
@@ -122,8 +122,8 @@ std::optional<Rule> DentColors::worstRule(const OverlayState& moment) const
   }
   const Contact& contact = moment.sample.contact;
   const Rules rules = (*validity_)(contactGeometryOf(contact), contact.edgeDistance);
-  return *std::max_element(
-    rules.begin(), rules.end(), [](const Rule& a, const Rule& b) { return a.share() < b.share(); });
+  return *std::max_element(rules.begin(), rules.end(),
+    [](const Rule& a, const Rule& b) { return a.fraction() < b.fraction(); });
 }
 
 std::string DentColors::rule(const OverlayState& moment) const
@@ -135,10 +135,10 @@ std::string DentColors::rule(const OverlayState& moment) const
   }
   std::string name = worst->name;
   std::replace(name.begin(), name.end(), '_', ' ');
-  const char* verdict = !worst->holds() ? "not valid: "
-    : worst->share() > Rule::kDoubtful  ? "doubtful: "
-                                        : "valid: ";
-  return verdict + name + " uses " + appearance::fixedText(100.0 * worst->share(), 0) +
+  const char* verdict = !worst->holds()   ? "not valid: "
+    : worst->fraction() > Rule::kDoubtful ? "doubtful: "
+                                          : "valid: ";
+  return verdict + name + " uses " + appearance::fixedText(100.0 * worst->fraction(), 0) +
     " % of its limit";
 }
 

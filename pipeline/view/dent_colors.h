@@ -44,7 +44,7 @@ public:
     fixedTop_ = top;
   }
 
-  /// The rule nearest to its limit, with the share of it that is used; empty without a law.
+  /// The rule nearest to its limit, with the fraction of it that is used; empty without a law.
   [[nodiscard]] std::string rule(const OverlayState& moment) const;
 
 private:
@@ -59,7 +59,7 @@ private:
   vtkNew<vtkActor> actor_;
   vtkSmartPointer<vtkProperty> plain_;
   vtkNew<vtkScalarBarActor> legend_;
-  BeforeRender place_; // the legend, whose title is wider than itself
+  BeforeRender layOut_; // the legend, whose title is wider than itself
 };
 
 } // namespace palp

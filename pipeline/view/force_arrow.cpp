@@ -35,7 +35,7 @@ double ForceArrow::lengthOf(double force, double diagonal) noexcept
 }
 
 ForceArrow::ForceArrow(vtkRenderer& renderer)
-  : place_(renderer,
+  : layOut_(renderer,
       [this, &renderer](double width, double height, double scale)
       {
         renderer.SetWorldPoint(end_.x(), end_.y(), end_.z(), 1.0);

@@ -13,8 +13,8 @@
 namespace palp
 {
 
-/// The force on the hand as an arrow, as long as it is large, up to a share of the body, with its
-/// value in newtons.
+/// The force on the hand as an arrow, as long as it is large, up to a fraction of the body, with
+/// its value in newtons.
 class ForceArrow : public OverlayProps
 {
 public:
@@ -33,7 +33,7 @@ private:
   vtkNew<vtkActor> arrow_;
   vtkNew<vtkTextActor> label_;
   Eigen::Vector3d end_ = Eigen::Vector3d::Zero(); // of the arrow [m]
-  BeforeRender place_;                            // the label, within the picture
+  BeforeRender layOut_;                           // the label, within the picture
 };
 
 } // namespace palp

@@ -243,7 +243,7 @@ void PressView::lookAtSurface()
   renderer_.ResetCamera(bounds);
 }
 
-void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
+void PressView::lookAtWhole(const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
 {
   constexpr double kObliquity = 40.0_deg;
   // a place on top is seen from the front, any other from above
@@ -257,10 +257,10 @@ void PressView::lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d&
   surfaceMapper_->GetBounds(bounds);
   const Eigen::Vector3d middle =
     0.5 * Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
-  const Eigen::Vector3d focus = 0.6 * middle + 0.4 * place;
+  const Eigen::Vector3d focus = 0.6 * middle + 0.4 * position;
   const double spread = std::tan(0.5 * kViewAngle);
   // tool and arrow may be larger than the surface, and are nearer
-  const Eigen::Vector3d top = place + above_ * normal - focus;
+  const Eigen::Vector3d top = position + above_ * normal - focus;
   const double nearer = top.dot(towards);
   const double across = (top - nearer * towards).norm();
   const double away = std::max(0.45 * diagonal_ / spread, nearer + 1.2 * across / spread);

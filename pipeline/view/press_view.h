@@ -68,9 +68,9 @@ public:
 
   /// The whole surface with a place on it, head up where it is pressed from a side.
   ///
-  /// @param place   on the surface [m]
+  /// @param position   on the surface [m]
   /// @param normal  unit, outward
-  void lookAtWhole(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
+  void lookAtWhole(const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
 
   /// R_d of the table for a depth [m]; 0 without a table.
   [[nodiscard]] double extentRadius(double depth) const noexcept;

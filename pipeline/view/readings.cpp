@@ -20,7 +20,7 @@ std::string millimeters(double meters)
 } // namespace
 
 Readings::Readings(vtkRenderer& renderer)
-  : place_(renderer,
+  : layOut_(renderer,
       [this](double, double, double scale)
       {
         constexpr double kMargin = 16.0; // [pixels]

@@ -29,7 +29,7 @@ private:
   bool contactCircle_ = false;
   bool extentCircle_ = false;
   std::string validity_;
-  BeforeRender place_; // the lines, one over the other
+  BeforeRender layOut_; // the lines, one over the other
 };
 
 } // namespace palp

@@ -71,11 +71,11 @@ void SurfaceCircle::putOnField(const Dent& dent, double radius)
     {
       rest[k] -= moved->GetTypedComponent(i, k);
     }
-    const GeodesicCoordinates place = dent.region().geodesicInFront(rest);
-    if (std::abs(place.distance - radius) < kSame * radius)
+    const GeodesicCoordinates geodesic = dent.region().geodesicInFront(rest);
+    if (std::abs(geodesic.distance - radius) < kSame * radius)
     {
       isInFront[static_cast<std::size_t>(i)] = true;
-      rest -= dent.sinkAt(place, rest).depth * dent.region().normal();
+      rest -= dent.sinkAt(geodesic, rest).depth * dent.region().normal();
       points->SetPoint(i, rest.data());
     }
   }

@@ -33,7 +33,7 @@ inline vtkSmartPointer<vtkImageData> imageOf(vtkRenderWindow& window)
 struct Difference
 {
   double mean = 255.0;  ///< of all channels, 0 to 255
-  double changed = 1.0; ///< share of pixels with a channel off by more than 48
+  double changed = 1.0; ///< fraction of pixels with a channel off by more than 48
 };
 
 inline Difference differenceOf(vtkImageData& image, vtkImageData& reference)

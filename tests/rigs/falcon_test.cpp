@@ -233,9 +233,9 @@ TEST_F(FalconRig, MotorsGetTheTorquesOfTheForce)
     for (int axis = 0; axis < 3; ++axis)
     {
       const Vector3d step = 1.0_um * Vector3d::Unit(axis);
-      const Vector3d way = *falconAngles(place + step) - *falconAngles(place - step);
+      const Vector3d change = *falconAngles(place + step) - *falconAngles(place - step);
       const Vector3d torques(falcon_->torques[0], falcon_->torques[1], falcon_->torques[2]);
-      felt[axis] = -torques.dot(way) / 2.0_um / 2300.0; // counts in a newton meter
+      felt[axis] = -torques.dot(change) / 2.0_um / 2300.0; // counts in a newton meter
     }
     EXPECT_NEAR(felt.norm(), force.norm(), 0.01 * force.norm());
     EXPECT_LT(std::acos(std::min(1.0, felt.normalized().dot(force.normalized()))), 0.5_deg);

@@ -30,11 +30,11 @@ inline Vector3d placeAt(int reach)
 }
 
 // counts after which the arm is so much lower than at its start
-inline int reachFor(double way)
+inline int reachFor(double travel)
 {
   const int down = placeAt(1).z() < placeAt(0).z() ? 1 : -1;
   int reach = 0;
-  while (placeAt(0).z() - placeAt(reach).z() < way)
+  while (placeAt(0).z() - placeAt(reach).z() < travel)
   {
     reach += down;
   }

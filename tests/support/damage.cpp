@@ -148,13 +148,13 @@ Fault overwritten(const char* name, std::size_t at, std::size_t step, std::size_
   return { name,
     [=](const std::string& whole, Random& random) -> std::optional<std::string>
     {
-      const std::size_t place = at + step * below(random, count);
-      if (place + by.size() > whole.size())
+      const std::size_t position = at + step * below(random, count);
+      if (position + by.size() > whole.size())
       {
         return std::nullopt;
       }
       std::string text = whole;
-      overwrite(text, place, by);
+      overwrite(text, position, by);
       return text;
     },
     std::move(words), refused };

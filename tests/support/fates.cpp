@@ -70,21 +70,21 @@ void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates)
 
 void expectGoodFates(const Fuzzed& kind, const Fates& fates)
 {
-  const double share = fates.known == 0 ? 1.0 : 1.0 * fates.named / fates.known;
+  const double fraction = fates.known == 0 ? 1.0 : 1.0 * fates.named / fates.known;
   std::printf(
     "%-12s %6d files: %d read, %d refused, %d readers crashed; of %d known faults %.2f %% "
     "named; at most %.2f s, %.3f GB\n",
     kind.file.c_str(), fates.count, fates.read, fates.refused, fates.crashed, fates.known,
-    100.0 * share, fates.longest, fates.peak);
+    100.0 * fraction, fates.longest, fates.peak);
   EXPECT_LE(fates.longest, 5.0);
   if (!kSanitized)
   {
     EXPECT_LE(fates.peak, 1.0);
   }
-  EXPECT_GE(share, 0.95);
+  EXPECT_GE(fraction, 0.95);
   EXPECT_TRUE(fates.wrong.empty()) << fates.wrong.size() << " wrong, the first: " << fates.wrong[0];
   constexpr std::size_t shown = 5;
-  for (std::size_t i = 0; share < 0.95 && i < std::min(shown, fates.unnamed.size()); ++i)
+  for (std::size_t i = 0; fraction < 0.95 && i < std::min(shown, fates.unnamed.size()); ++i)
   {
     std::printf("  not named: %s\n", fates.unnamed[i].c_str());
   }

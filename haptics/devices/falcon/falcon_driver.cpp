@@ -210,15 +210,15 @@ DeviceLimits FalconDriver::limits() const
 IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
 {
   FalconCommand command{ .homing = true };
-  const auto torques = homed_ ? falconTorques(place_, force) : std::nullopt;
+  const auto torques = homed_ ? falconTorques(position_, force) : std::nullopt;
   if (torques)
   {
     const Eigen::Vector3d counts = -kCountsPerTorque * *torques;
     const double largest = counts.cwiseAbs().maxCoeff();
-    const double share = largest > kLargestCount ? kLargestCount / largest : 1.0;
+    const double fraction = largest > kLargestCount ? kLargestCount / largest : 1.0;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      command.torque[i] = nearestInt<std::int16_t>(share * counts[static_cast<int>(i)]);
+      command.torque[i] = nearestInt<std::int16_t>(fraction * counts[static_cast<int>(i)]);
     }
   }
   std::optional<FalconState> state;
@@ -229,11 +229,11 @@ IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
   }
   const Eigen::Vector3d angles{ falconAngle(state->encoder[0]), falconAngle(state->encoder[1]),
     falconAngle(state->encoder[2]) };
-  auto place = falconPosition(angles, place_);
-  place = place ? place : falconPosition(angles, falconCenter());
-  homed_ = state->homed && place;
-  place_ = place.value_or(place_);
-  sample = { .position = place_ - falconCenter(), .buttons = state->buttons, .homed = homed_ };
+  auto position = falconPosition(angles, position_);
+  position = position ? position : falconPosition(angles, falconCenter());
+  homed_ = state->homed && position;
+  position_ = position.value_or(position_);
+  sample = { .position = position_ - falconCenter(), .buttons = state->buttons, .homed = homed_ };
   return IoCode::Ok;
 }
 

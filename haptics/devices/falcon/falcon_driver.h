@@ -36,7 +36,7 @@ private:
 
   std::unique_ptr<SerialTransport> transport_;
   FalconReader reader_;
-  Eigen::Vector3d place_ = falconCenter();
+  Eigen::Vector3d position_ = falconCenter();
   bool homed_ = false;
   int purges_ = 0; // exchanges that are to begin by forgetting what was not read
 };

@@ -36,13 +36,13 @@ struct Leg
   double splay; // theta 3 [rad]
 };
 
-std::optional<Leg> legAt(const Vector3d& place, double direction) noexcept
+std::optional<Leg> legAt(const Vector3d& position, double direction) noexcept
 {
   const double c = std::cos(direction);
   const double s = std::sin(direction);
-  const double along = c * place.x() + s * place.y() - kBaseRadius + kGrip;
-  const double across = -s * place.x() + c * place.y() - kBaseAside + kAside;
-  const double up = place.z();
+  const double along = c * position.x() + s * position.y() - kBaseRadius + kGrip;
+  const double across = -s * position.x() + c * position.y() - kBaseAside + kAside;
+  const double up = position.z();
   const double splay = std::acos(across / kRods);
   const double reach = kEnds + kRods * std::sin(splay);
   const double distance = std::hypot(along, up);
@@ -58,12 +58,12 @@ std::optional<Leg> legAt(const Vector3d& place, double direction) noexcept
 
 } // namespace
 
-std::optional<Vector3d> falconAngles(const Vector3d& place) noexcept
+std::optional<Vector3d> falconAngles(const Vector3d& position) noexcept
 {
   Vector3d angles;
   for (int i = 0; i < 3; ++i)
   {
-    const auto leg = legAt(place, kDirections[static_cast<std::size_t>(i)]);
+    const auto leg = legAt(position, kDirections[static_cast<std::size_t>(i)]);
     if (!leg)
     {
       return std::nullopt;
@@ -74,13 +74,13 @@ std::optional<Vector3d> falconAngles(const Vector3d& place) noexcept
 }
 
 // the rods keep their length: their direction times the motion of both ends is the same
-std::optional<Matrix3d> falconJacobian(const Vector3d& place) noexcept
+std::optional<Matrix3d> falconJacobian(const Vector3d& position) noexcept
 {
   Matrix3d jacobian;
   for (int i = 0; i < 3; ++i)
   {
     const double direction = kDirections[static_cast<std::size_t>(i)];
-    const auto leg = legAt(place, direction);
+    const auto leg = legAt(position, direction);
     if (!leg)
     {
       return std::nullopt;
@@ -103,11 +103,11 @@ std::optional<Matrix3d> falconJacobian(const Vector3d& place) noexcept
 
 std::optional<Vector3d> falconPosition(const Vector3d& angles, const Vector3d& near) noexcept
 {
-  Vector3d place = near;
+  Vector3d position = near;
   for (int step = 0; step < kMaxSteps; ++step)
   {
-    const auto reached = falconAngles(place);
-    const auto jacobian = falconJacobian(place);
+    const auto reached = falconAngles(position);
+    const auto jacobian = falconJacobian(position);
     if (!reached || !jacobian)
     {
       return std::nullopt;
@@ -115,15 +115,15 @@ std::optional<Vector3d> falconPosition(const Vector3d& angles, const Vector3d& n
     bool invertible = false;
     Matrix3d inverse = Matrix3d::Zero();
     jacobian->computeInverseWithCheck(inverse, invertible);
-    const Vector3d way = inverse * (angles - *reached);
-    if (!invertible || !way.allFinite())
+    const Vector3d step = inverse * (angles - *reached);
+    if (!invertible || !step.allFinite())
     {
       return std::nullopt;
     }
-    place += way;
-    if (way.norm() < kFound)
+    position += step;
+    if (step.norm() < kFound)
     {
-      return place;
+      return position;
     }
   }
   return std::nullopt;
@@ -140,9 +140,9 @@ Vector3d falconCenter() noexcept
   return { 0.0, 0.0, 0.125 };
 }
 
-std::optional<Vector3d> falconTorques(const Vector3d& place, const Vector3d& force) noexcept
+std::optional<Vector3d> falconTorques(const Vector3d& position, const Vector3d& force) noexcept
 {
-  const auto jacobian = falconJacobian(place);
+  const auto jacobian = falconJacobian(position);
   if (!jacobian)
   {
     return std::nullopt;

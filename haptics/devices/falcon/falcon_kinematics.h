@@ -13,12 +13,13 @@ namespace palp
 /// @return    nothing: out of reach, or not finite
 /// @source    own derivation; geometry of libnifalcon/libnifalcon FalconGeometry.h, as facts
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] std::optional<Eigen::Vector3d> falconAngles(const Eigen::Vector3d& place) noexcept;
+[[nodiscard]] std::optional<Eigen::Vector3d> falconAngles(const Eigen::Vector3d& position) noexcept;
 
 /// Derivative of those angles by the place [rad/m].
 /// @return    nothing: out of reach, or in a singular pose
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] std::optional<Eigen::Matrix3d> falconJacobian(const Eigen::Vector3d& place) noexcept;
+[[nodiscard]] std::optional<Eigen::Matrix3d> falconJacobian(
+  const Eigen::Vector3d& position) noexcept;
 
 /// Position of the grip for leg angles, by Newton's method on the angles.
 /// @param near  a place close to it, as the last one
@@ -35,6 +36,6 @@ namespace palp
 /// @return    nothing: out of reach, singular, or not finite
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] std::optional<Eigen::Vector3d> falconTorques(
-  const Eigen::Vector3d& place, const Eigen::Vector3d& force) noexcept;
+  const Eigen::Vector3d& position, const Eigen::Vector3d& force) noexcept;
 
 } // namespace palp

@@ -69,9 +69,9 @@ Eigen::Vector3d velocityOf(const SpaceMouseState& state, const RateControl& rate
   Eigen::Vector3d velocity;
   for (int i = 0; i < 3; ++i)
   {
-    const double share =
+    const double fraction =
       std::min(1.0, std::abs(state.axes[static_cast<std::size_t>(i)]) / kFullScale);
-    const double beyond = std::max(0.0, share - rate.deadBand) / (1.0 - rate.deadBand);
+    const double beyond = std::max(0.0, fraction - rate.deadBand) / (1.0 - rate.deadBand);
     velocity[i] = std::copysign(
       rate.speed * std::pow(beyond, rate.exponent), state.axes[static_cast<std::size_t>(i)]);
   }

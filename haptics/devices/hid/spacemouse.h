@@ -27,7 +27,7 @@ struct SpaceMouseState
 struct RateControl
 {
   double speed = 0.060;   ///< at full deflection [m/s]
-  double deadBand = 0.05; ///< share of the deflection that counts as rest
+  double deadBand = 0.05; ///< fraction of the deflection that counts as rest
   double exponent = 2.0;  ///< above 1: finer near rest
 };
 

@@ -176,10 +176,10 @@ std::array<double, 3> motorCurrents(
     largest = std::fmax(largest, std::abs(currents[i]));
   }
   const bool finite = torques.allFinite() && std::isfinite(largest);
-  const double share = !finite ? 0.0 : largest > arm.maxCurrent ? arm.maxCurrent / largest : 1.0;
+  const double fraction = !finite ? 0.0 : largest > arm.maxCurrent ? arm.maxCurrent / largest : 1.0;
   for (double& current : currents)
   {
-    current = share > 0.0 ? current * share : 0.0;
+    current = fraction > 0.0 ? current * fraction : 0.0;
   }
   return currents;
 }

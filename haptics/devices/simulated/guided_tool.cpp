@@ -18,7 +18,7 @@ constexpr double kRounding = 1e-8;     // [m]
 constexpr double kNear = 0.003;        // from its place, the tool is there [m]
 constexpr double kSame = 0.001;        // places are one [m]
 constexpr double kHighest = 0.015;     // above a place, to come down from [m]
-constexpr double kLongestWay = 0.060;  // along the surface [m]
+constexpr double kLongestPath = 0.060; // along the surface [m]
 constexpr double kCloser = 1e-4;       // less is no progress [m]
 constexpr double kBlocked = 0.050;     // without progress far from the place [s]
 constexpr double kSettled = 0.300;     // without progress near it [s]
@@ -30,8 +30,8 @@ Eigen::Vector3d across(const Eigen::Vector3d& vector, const Eigen::Vector3d& dir
   return vector - vector.dot(direction) * direction;
 }
 
-// share of a gap to close in a tick: a first-order lag whose speed is bounded
-double shareOf(double gap, double dt) noexcept
+// fraction of a gap to close in a tick: a first-order lag whose speed is bounded
+double fractionOf(double gap, double dt) noexcept
 {
   const double lag = dt / (GuidedTool::kLagTime + dt);
   return gap * lag > GuidedTool::kSpeed * dt ? GuidedTool::kSpeed * dt / gap : lag;
@@ -51,7 +51,7 @@ GuidedTool::GuidedTool(const ToolPose& start)
 
 void GuidedTool::moveTo(const PressTarget& target)
 {
-  if (target.place.allFinite() && target.normal.allFinite() && std::isfinite(target.depth))
+  if (target.position.allFinite() && target.normal.allFinite() && std::isfinite(target.depth))
   {
     target_.publish(target);
   }
@@ -89,13 +89,13 @@ const ToolPose& GuidedTool::advance(double dt, bool mayAppear) noexcept
     }
   }
   move(tick, mayAppear);
-  const Eigen::Vector3d way = now_.pose.apex - before;
-  if (way.norm() <= 2.0 * kSpeed * tick) // the tool did not appear elsewhere
+  const Eigen::Vector3d motion = now_.pose.apex - before;
+  if (motion.norm() <= 2.0 * kSpeed * tick) // the tool did not appear elsewhere
   {
-    now_.pose.velocity = way / dt;
+    now_.pose.velocity = motion / dt;
   }
   watch(tick);
-  const bool isStill = way.norm() < kStill && (now_.pose.axis - axis).norm() < kStill;
+  const bool isStill = motion.norm() < kStill && (now_.pose.axis - axis).norm() < kStill;
   const bool isPressed = stalled_ > kSettled && target->depth > 0.0 && !lifting_;
   resting_ = mayAppear && (now_.contact.touching() ? isPressed : isStill);
   return now_.pose;
@@ -103,12 +103,12 @@ const ToolPose& GuidedTool::advance(double dt, bool mayAppear) noexcept
 
 void GuidedTool::take(const PressTarget& target) noexcept
 {
-  if (approached_ && (target.place - *approached_).norm() > kSame)
+  if (approached_ && (target.position - *approached_).norm() > kSame)
   {
     approached_.reset();
   }
   const bool isUnderWay =
-    goal_ && now_.contact.touching() && (goal_->place - now_.contact.center).norm() > kNear;
+    goal_ && now_.contact.touching() && (goal_->position - now_.contact.center).norm() > kNear;
   const Eigen::Vector3d before = isUnderWay ? gap() : Eigen::Vector3d::Zero();
   goal_ = target;
   if (isUnderWay)
@@ -125,7 +125,7 @@ void GuidedTool::take(const PressTarget& target) noexcept
 // from the apex to where it would be in a body without curvature
 Eigen::Vector3d GuidedTool::gap() const noexcept
 {
-  return goal_->place - goal_->depth * goal_->normal - now_.pose.apex;
+  return goal_->position - goal_->depth * goal_->normal - now_.pose.apex;
 }
 
 void GuidedTool::watch(double dt) noexcept
@@ -164,7 +164,7 @@ void GuidedTool::move(double dt, bool mayAppear) noexcept
   if (world_->surface == nullptr)
   {
     const double height = pressing ? -goal_->depth : kHover;
-    now_ = at(goal_->place + height * goal_->normal, -goal_->normal);
+    now_ = at(goal_->position + height * goal_->normal, -goal_->normal);
     return;
   }
   if (!now_.contact.touching())
@@ -199,24 +199,24 @@ void GuidedTool::move(double dt, bool mayAppear) noexcept
 // in the air, on the line on which the place is pressed
 bool GuidedTool::isAbove() const noexcept
 {
-  const Eigen::Vector3d offset = now_.pose.apex - goal_->place;
+  const Eigen::Vector3d offset = now_.pose.apex - goal_->position;
   const double height = offset.dot(goal_->normal);
   return across(offset, goal_->normal).norm() < kNear && height > -goal_->depth - kNear &&
     height < kHighest + kNear && now_.pose.axis.dot(goal_->normal) < 0.0;
 }
 
-// whether the way along the surface is none
+// whether the path along the surface is none
 bool GuidedTool::mustLift() const noexcept
 {
-  const Eigen::Vector3d way = goal_->place - now_.contact.center;
-  const double length = way.norm();
+  const Eigen::Vector3d offset = goal_->position - now_.contact.center;
+  const double length = offset.norm();
   if (length < kNear || approached_)
   {
     return false; // it is there, or as near as the surface lets it
   }
-  constexpr double kSteep = 0.3; // cosine between the way and the surface
-  return length > kLongestWay || now_.pose.axis.dot(goal_->normal) > 0.0 ||
-    across(way, now_.contact.normal).norm() < kSteep * length || stalled_ > kBlocked;
+  constexpr double kSteep = 0.3; // cosine between the offset and the surface
+  return length > kLongestPath || now_.pose.axis.dot(goal_->normal) > 0.0 ||
+    across(offset, now_.contact.normal).norm() < kSteep * length || stalled_ > kBlocked;
 }
 
 // false where the tool does not fit
@@ -225,11 +225,11 @@ bool GuidedTool::appear() noexcept
   constexpr double kStep = 0.001; // [m]
   for (double height = kHover; height <= kHighest;)
   {
-    const Trial above = at(goal_->place + height * goal_->normal, -goal_->normal);
+    const Trial above = at(goal_->position + height * goal_->normal, -goal_->normal);
     if (!above.contact.touching())
     {
       now_ = above;
-      approached_ = goal_->place;
+      approached_ = goal_->position;
       lifting_ = false;
       return true;
     }
@@ -245,8 +245,8 @@ bool GuidedTool::appear() noexcept
 void GuidedTool::rise(double reach) noexcept
 {
   const Trial higher = at(now_.pose.apex - reach * now_.pose.axis, now_.pose.axis);
-  const bool isLow = across(now_.pose.apex - goal_->place, goal_->normal).norm() > kNear ||
-    (now_.pose.apex - goal_->place).dot(goal_->normal) < kHover;
+  const bool isLow = across(now_.pose.apex - goal_->position, goal_->normal).norm() > kNear ||
+    (now_.pose.apex - goal_->position).dot(goal_->normal) < kHover;
   if (isLow && !higher.contact.touching())
   {
     now_ = higher;
@@ -257,16 +257,16 @@ void GuidedTool::rise(double reach) noexcept
 void GuidedTool::withdraw(double reach) noexcept
 {
   const double wanted = lifting_ ? 0.0 : deepest(now_.contact);
-  const double way = std::min(reach, now_.contact.depth - wanted + kRounding);
+  const double step = std::min(reach, now_.contact.depth - wanted + kRounding);
   Trial best = now_;
   for (const Eigen::Vector3d& direction :
     { now_.contact.normal, Eigen::Vector3d(-now_.pose.axis), goal_->normal })
   {
-    const Trial out = at(now_.pose.apex + way * direction, now_.pose.axis);
+    const Trial out = at(now_.pose.apex + step * direction, now_.pose.axis);
     best = out.contact.depth < best.contact.depth ? out : best;
   }
-  constexpr double kSlow = 0.5; // of the way
-  if (best.contact.depth < now_.contact.depth - kSlow * way)
+  constexpr double kSlow = 0.5; // of the step
+  if (best.contact.depth < now_.contact.depth - kSlow * step)
   {
     now_ = best;
   }
@@ -280,7 +280,7 @@ void GuidedTool::withdraw(double reach) noexcept
 GuidedTool::Trial GuidedTool::settled(Trial trial, double depth, double reach) const noexcept
 {
   constexpr int kAttempts = 6;
-  double slope = 1.0; // of the depth over the way; more between walls
+  double slope = 1.0; // of the depth over the step; more between walls
   for (int i = 0; i < kAttempts && trial.contact.touching(); ++i)
   {
     const double excess = trial.contact.depth - std::min(depth, deepest(trial.contact));
@@ -288,9 +288,9 @@ GuidedTool::Trial GuidedTool::settled(Trial trial, double depth, double reach) c
     {
       break;
     }
-    const double way = std::max(excess / slope, -reach);
-    const Trial next = at(trial.pose.apex + way * trial.contact.normal, trial.pose.axis);
-    slope = std::clamp((trial.contact.depth - next.contact.depth) / way, 0.5 * slope, 8.0 * slope);
+    const double step = std::max(excess / slope, -reach);
+    const Trial next = at(trial.pose.apex + step * trial.contact.normal, trial.pose.axis);
+    slope = std::clamp((trial.contact.depth - next.contact.depth) / step, 0.5 * slope, 8.0 * slope);
     if (next.contact.touching())
     {
       trial = next;
@@ -305,10 +305,11 @@ GuidedTool::Trial GuidedTool::settled(Trial trial, double depth, double reach) c
 
 void GuidedTool::descend(double dt) noexcept
 {
-  const Eigen::Vector3d way = gap();
-  const double share = shareOf(way.norm(), dt);
+  const Eigen::Vector3d offset = gap();
+  const double fraction = fractionOf(offset.norm(), dt);
   const Trial next = settled(
-    at(now_.pose.apex + share * way, turned(now_.pose.axis, -goal_->normal, share)), HUGE_VAL, 0.0);
+    at(now_.pose.apex + fraction * offset, turned(now_.pose.axis, -goal_->normal, fraction)),
+    HUGE_VAL, 0.0);
   if (next.contact.depth <= deepest(next.contact) + kTolerance)
   {
     now_ = next;
@@ -318,18 +319,18 @@ void GuidedTool::descend(double dt) noexcept
 void GuidedTool::slide(double dt) noexcept
 {
   const Contact before = now_.contact;
-  const Eigen::Vector3d way = across(gap(), before.normal);
-  const double share = shareOf(way.norm(), dt);
+  const Eigen::Vector3d offset = across(gap(), before.normal);
+  const double fraction = fractionOf(offset.norm(), dt);
   const double reach = kSpeed * dt;
   // under a wall that the press does not aim at, the tool goes no deeper
   constexpr double kAimed = 0.5;
   const double missing = std::max(0.0, deepest(before) - before.depth);
   const bool isAimed = before.normal.dot(goal_->normal) > kAimed;
-  const double depth = before.depth + (isAimed ? missing * shareOf(missing, dt) : 0.0);
+  const double depth = before.depth + (isAimed ? missing * fractionOf(missing, dt) : 0.0);
   for (const double part : { 1.0, 0.5, 0.25, 0.0 })
   {
-    const Eigen::Vector3d apex = now_.pose.apex + part * share * way;
-    const Eigen::Vector3d axis = turned(now_.pose.axis, -goal_->normal, part * share);
+    const Eigen::Vector3d apex = now_.pose.apex + part * fraction * offset;
+    const Eigen::Vector3d axis = turned(now_.pose.axis, -goal_->normal, part * fraction);
     const Trial next = settled(at(apex, axis), depth, reach);
     const bool keepsPace = (next.pose.apex - now_.pose.apex).norm() <= 2.0 * reach;
     if (next.contact.touching() && keepsPace &&

@@ -13,8 +13,8 @@ namespace palp
 /// Where on a surface a tool is to press, and how deep.
 struct PressTarget
 {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< on the surface [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< outward unit vector; the tool points back
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< on the surface [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward unit vector; the tool points back
   double depth = 0.0; ///< of the contact, at most [m]; 0: hover above the place
 
   bool operator==(const PressTarget&) const = default;

@@ -234,14 +234,14 @@ ToolPose ScriptedPath::poseAt(double time, const Eigen::Vector3d& missingAxis) c
   const PathKnot& to = atEnd ? knots_.back() : *later;
   const PathKnot& from = *(&to - 1);
   const double length = to.time - from.time;
-  const double share = (time - from.time) / length;
+  const double fraction = (time - from.time) / length;
   ToolPose pose;
-  pose.apex = from.apex + share * (to.apex - from.apex);
+  pose.apex = from.apex + fraction * (to.apex - from.apex);
   pose.velocity = (to.apex - from.apex) / length;
 
   // the chord between two unit vectors, made a unit vector again; opposite ones have no middle
   const Eigen::Vector3d start = from.axis.value_or(missingAxis);
-  const Eigen::Vector3d chord = start + share * (to.axis.value_or(missingAxis) - start);
+  const Eigen::Vector3d chord = start + fraction * (to.axis.value_or(missingAxis) - start);
   pose.axis = chord.norm() > kAxisTolerance ? chord.normalized() : start;
   return pose;
 }

@@ -52,7 +52,7 @@ public:
   /// seen from the middle of a ball of radius R0, shortens the depth by
   /// (3 - 2 nu) / (4 pi (1 - nu)) F / (E* R0) where the ball is held at its middle, by nothing
   /// where it rests freely: half of that stands for a support that is not known. Bodies between a
-  /// flat one and a ball, by the share of a ball, take it in proportion.
+  /// flat one and a ball, by the fraction of a ball, take it in proportion.
   ///
   /// @param thickness  [m], more than 0; infinite for a half-space
   /// @source           Boussinesq, u_z on the axis 2 R0 below the load, which Tatara 1991 takes for

@@ -21,17 +21,17 @@ Eigen::Map<const Eigen::VectorXd> vectorOf(const std::vector<double>& values)
 
 } // namespace
 
-PunchEquation::PunchEquation(Quadrature wavenumbers, int places)
+PunchEquation::PunchEquation(Quadrature wavenumbers, int nodes)
   : wavenumbers_(std::move(wavenumbers))
-  , places_(gaussLegendre(places, 0.0, 1.0))
+  , nodes_(gaussLegendre(nodes, 0.0, 1.0))
 {
-  const auto x = vectorOf(places_.nodes).array();
-  Eigen::MatrixXd powers(places, PunchSolution::kTerms);
+  const auto x = vectorOf(nodes_.nodes).array();
+  Eigen::MatrixXd powers(nodes, PunchSolution::kTerms);
   for (int k = 0; k < PunchSolution::kTerms; ++k)
   {
     powers.col(k) = x.pow(2 * k);
   }
-  const Eigen::MatrixXd weighted = powers.transpose() * vectorOf(places_.weights).asDiagonal();
+  const Eigen::MatrixXd weighted = powers.transpose() * vectorOf(nodes_.weights).asDiagonal();
   fit_ = (weighted * powers).ldlt().solve(weighted);
 }
 
@@ -39,7 +39,7 @@ void PunchEquation::setRadius(double radius)
 {
   radius_ = radius;
   cosines_ =
-    (radius * vectorOf(places_.nodes) * vectorOf(wavenumbers_.nodes).transpose()).array().cos();
+    (radius * vectorOf(nodes_.nodes) * vectorOf(wavenumbers_.nodes).transpose()).array().cos();
 }
 
 Eigen::MatrixXd PunchEquation::kernel(const Eigen::VectorXd& deficit) const
@@ -48,19 +48,19 @@ Eigen::MatrixXd PunchEquation::kernel(const Eigen::VectorXd& deficit) const
   // deep below the surface nothing is felt of short waves
   constexpr double unfelt = 1e-14;
   const auto felt = std::find_if(
-    deficit.begin(), deficit.end(), [](double share) { return std::abs(share) > unfelt; });
+    deficit.begin(), deficit.end(), [](double fraction) { return std::abs(fraction) > unfelt; });
   const Eigen::Index count = deficit.end() - felt;
   const auto cosines = cosines_.rightCols(count);
   return 2.0 * radius_ / std::numbers::pi * cosines * spectrum.tail(count).asDiagonal() *
-    cosines.transpose() * vectorOf(places_.weights).asDiagonal();
+    cosines.transpose() * vectorOf(nodes_.weights).asDiagonal();
 }
 
 std::array<double, PunchSolution::kTerms> PunchEquation::solve(const Eigen::MatrixXd& kernel) const
 {
-  const Eigen::Index places = kernel.rows();
-  const Eigen::VectorXd phi = (Eigen::MatrixXd::Identity(places, places) - kernel)
+  const Eigen::Index nodes = kernel.rows();
+  const Eigen::VectorXd phi = (Eigen::MatrixXd::Identity(nodes, nodes) - kernel)
                                 .partialPivLu()
-                                .solve(Eigen::VectorXd::Ones(places));
+                                .solve(Eigen::VectorXd::Ones(nodes));
   const Eigen::VectorXd terms = fit_ * phi;
   std::array<double, PunchSolution::kTerms> result{};
   std::copy(terms.begin(), terms.end(), result.begin());

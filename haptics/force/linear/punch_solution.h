@@ -31,8 +31,8 @@ class PunchEquation
 public:
   /// @param wavenumbers  k of the integral over the surface's compliance [1/m, or over a length];
   ///                     the largest first saves work
-  /// @param places       at which it is solved; more than the widest a times the largest k over 20
-  PunchEquation(Quadrature wavenumbers, int places);
+  /// @param nodes       at which it is solved; more than the widest a times the largest k over 20
+  PunchEquation(Quadrature wavenumbers, int nodes);
 
   [[nodiscard]] const std::vector<double>& wavenumbers() const noexcept
   {
@@ -53,7 +53,7 @@ public:
 
 private:
   Quadrature wavenumbers_;
-  Quadrature places_; // x
+  Quadrature nodes_; // x
   Eigen::MatrixXd fit_;
   Eigen::MatrixXd cosines_; // places x wavenumbers
   double radius_ = 0.0;

@@ -96,7 +96,7 @@ protected:
       text += kBefore;
     }
     std::mt19937 random(1); // NOLINT: the same moments each time
-    std::uniform_real_distribution<double> share(0.0, 1.0);
+    std::uniform_real_distribution<double> fraction(0.0, 1.0);
     int news = 0;
     for (int i = 0; i < kills(); ++i)
     {
@@ -105,12 +105,12 @@ protected:
       auto victim = std::make_unique<Victim>(full);
       if (i % 2 == 0)
       {
-        std::this_thread::sleep_for(1.2 * share(random) * duration);
+        std::this_thread::sleep_for(1.2 * fraction(random) * duration);
       }
       else // where files change is where a kill tells most
       {
-        files.wait(static_cast<int>(share(random) * events), *victim);
-        std::this_thread::sleep_for(share(random) * std::chrono::milliseconds(2));
+        files.wait(static_cast<int>(fraction(random) * events), *victim);
+        std::this_thread::sleep_for(fraction(random) * std::chrono::milliseconds(2));
       }
       victim.reset();
       const Files now = filesIn(out_);

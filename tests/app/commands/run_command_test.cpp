@@ -121,15 +121,15 @@ TEST_F(RunCommand, EachFactorFollowsFromItsPlace)
     {
       continue;
     }
-    std::ostringstream place;
-    place.precision(17);
-    place << " --thickness " << rows["thickness_mm"][k] << "mm --surface-radius "
-          << 1e3 / rows["curvature_per_m"][k] << "mm --tilt " << rows["tilt_deg"][k]
-          << "deg --depth " << rows["depth_mm"][k] << ":" << rows["depth_mm"][k] << ":1mm";
-    const Finished alone = palp("force" + law + place.str());
+    std::ostringstream position;
+    position.precision(17);
+    position << " --thickness " << rows["thickness_mm"][k] << "mm --surface-radius "
+             << 1e3 / rows["curvature_per_m"][k] << "mm --tilt " << rows["tilt_deg"][k]
+             << "deg --depth " << rows["depth_mm"][k] << ":" << rows["depth_mm"][k] << ":1mm";
+    const Finished alone = palp("force" + law + position.str());
     std::istringstream table(alone.out);
     const double expected = test::parseCsv(table)["force_N"].front() * rows["factor_ellipse"][k];
-    EXPECT_NEAR(rows["force_N"][k], expected, 1e-9 * expected) << place.str() << alone.err;
+    EXPECT_NEAR(rows["force_N"][k], expected, 1e-9 * expected) << position.str() << alone.err;
     ++asked;
   }
   EXPECT_GE(asked, 3);

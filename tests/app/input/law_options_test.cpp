@@ -44,8 +44,9 @@ TEST(LawOptions, ExactSphereIsSneddons)
 
 TEST(LawOptions, SlippingBaseIsSofter)
 {
-  const std::string place = "--tip sphere:6mm --law corrected --thickness 20mm --depth 5:5:1mm ";
-  EXPECT_LT(table(force(place + "--base slip"))["force_N"][0], table(force(place))["force_N"][0]);
+  const std::string position = "--tip sphere:6mm --law corrected --thickness 20mm --depth 5:5:1mm ";
+  EXPECT_LT(
+    table(force(position + "--base slip"))["force_N"][0], table(force(position))["force_N"][0]);
 }
 
 // finite elements, data/reference: 0.199 N and 2.957 N, within 3 %
@@ -98,9 +99,9 @@ TEST(LawOptions, EveryToolIsUnderstood)
 TEST(LawOptions, PaperStaysThePapersWhateverThePlace)
 {
   const Finished bare = force("--tip sphere:6mm --depth 0:6:1mm");
-  const Finished place = force("--tip sphere:6mm --depth 0:6:1mm --thickness 10mm --tilt 9deg");
-  EXPECT_EQ(bare.out, place.out);
-  EXPECT_NE(place.err.find("--law corrected"), std::string::npos);
+  const Finished position = force("--tip sphere:6mm --depth 0:6:1mm --thickness 10mm --tilt 9deg");
+  EXPECT_EQ(bare.out, position.out);
+  EXPECT_NE(position.err.find("--law corrected"), std::string::npos);
 }
 
 TEST(LawOptions, TellsWhichFactorsAct)

@@ -138,18 +138,18 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
 }
 
 // every key that the schema describes is one that the reader knows, at every level
-void expectKnown(const json& properties, const json& base, const json::json_pointer& place)
+void expectKnown(const json& properties, const json& base, const json::json_pointer& position)
 {
   for (const auto& [key, schema] : properties.items())
   {
     json document = base;
-    document[place / key] = json::array({ 7 }); // never right
-    EXPECT_EQ(refusal(document.dump()).find("unknown key"), std::string::npos) << place / key;
+    document[position / key] = json::array({ 7 }); // never right
+    EXPECT_EQ(refusal(document.dump()).find("unknown key"), std::string::npos) << position / key;
     if (schema.contains("properties"))
     {
       json within = base;
-      within[place / key] = json::object();
-      expectKnown(schema["properties"], within, place / key);
+      within[position / key] = json::object();
+      expectKnown(schema["properties"], within, position / key);
     }
   }
 }

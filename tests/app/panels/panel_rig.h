@@ -38,10 +38,10 @@ inline void expectSame(const Tip& found, const Tip& expected)
   ASSERT_EQ(found.index(), expected.index());
   EXPECT_NEAR(baseRadius(found), baseRadius(expected), 1e-12);
   EXPECT_NEAR(flatRadius(found), flatRadius(expected), 1e-12);
-  for (const double share : { 0.01, 0.1, 0.3, 0.6, 0.9, 1.0 })
+  for (const double fraction : { 0.01, 0.1, 0.3, 0.6, 0.9, 1.0 })
   {
-    const double radius = share * baseRadius(expected);
-    EXPECT_NEAR(tipHeight(found, radius), tipHeight(expected, radius), 1e-12) << share;
+    const double radius = fraction * baseRadius(expected);
+    EXPECT_NEAR(tipHeight(found, radius), tipHeight(expected, radius), 1e-12) << fraction;
   }
 }
 

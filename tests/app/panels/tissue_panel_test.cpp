@@ -194,9 +194,9 @@ TEST_F(TissuePanelTest, TheWheelChangesOnlyWhatWasClicked)
   QuantityBox& radius = box("radius");
   const auto turn = [&]
   {
-    const QPointF place = radius.rect().center();
-    QWheelEvent event(place, radius.mapToGlobal(place.toPoint()), {}, { 0, 120 }, Qt::NoButton,
-      Qt::NoModifier, Qt::NoScrollPhase, false);
+    const QPointF position = radius.rect().center();
+    QWheelEvent event(position, radius.mapToGlobal(position.toPoint()), {}, { 0, 120 },
+      Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
     QApplication::sendEvent(&radius, &event);
   };
   QApplication::setActiveWindow(panel_.get());

@@ -55,8 +55,8 @@ Shared liver()
 void play(test::PointerBench& bench, double rate, unsigned seed, double duration)
 {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  const auto pixel = [&] { return 100.0 + 600.0 * share(random); };
+  std::uniform_real_distribution<double> fraction(0.0, 1.0);
+  const auto pixel = [&] { return 100.0 + 600.0 * fraction(random); };
   PointerTool& pointer = bench.pointer;
   Eigen::Vector2d at(400, 400);
   Eigen::Vector2d speed(0, 0); // [pixels/s]
@@ -64,12 +64,12 @@ void play(test::PointerBench& bench, double rate, unsigned seed, double duration
   while (bench.now < duration)
   {
     bench.runTo(
-      bench.now - std::log(1.0 - share(random)) / rate, share(random) < 0.02 ? 0.02 : 1e-3);
-    const double what = share(random);
-    speed =
-      share(random) < 0.1 ? Eigen::Vector2d(2000 * share(random) - 1000, pixel() - 400) : speed;
+      bench.now - std::log(1.0 - fraction(random)) / rate, fraction(random) < 0.02 ? 0.02 : 1e-3);
+    const double what = fraction(random);
+    speed = fraction(random) < 0.1 ? Eigen::Vector2d(2000 * fraction(random) - 1000, pixel() - 400)
+                                   : speed;
     at += speed / rate;
-    at = share(random) < 0.03 || (at.array() - 400).abs().maxCoeff() > 350
+    at = fraction(random) < 0.03 || (at.array() - 400).abs().maxCoeff() > 350
       ? Eigen::Vector2d(pixel(), pixel())
       : at;
     const int x = static_cast<int>(at.x());

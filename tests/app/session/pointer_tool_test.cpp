@@ -87,10 +87,10 @@ TEST_F(PointerToolTest, TheWheelHoldsADepthWhileThePointerMoves)
   pointer.hover(400, 400);
   pointer.wheel(8);
   EXPECT_DOUBLE_EQ(asked(), 4.0_mm);
-  const Vector3d before = pointer.target()->place;
+  const Vector3d before = pointer.target()->position;
   pointer.hover(450, 400);
   EXPECT_DOUBLE_EQ(asked(), 4.0_mm);
-  EXPECT_GT((pointer.target()->place - before).norm(), 5.0_mm);
+  EXPECT_GT((pointer.target()->position - before).norm(), 5.0_mm);
   pointer.wheel(-3);
   EXPECT_DOUBLE_EQ(asked(), 2.5_mm);
   pointer.press(450, 400, 1.0); // goes on from there
@@ -168,10 +168,10 @@ TEST(PointerTool, LetsGoInAGapThatNoEventTellsOf)
 }
 
 // distance of a place to a block whose top is z = 0, by hand
-double outsideBlock(const Vector3d& place)
+double outsideBlock(const Vector3d& position)
 {
   const Vector3d half(50.0_mm, 50.0_mm, 15.0_mm);
-  const Vector3d beyond = (place + Vector3d(0, 0, 15.0_mm)).cwiseAbs() - half;
+  const Vector3d beyond = (position + Vector3d(0, 0, 15.0_mm)).cwiseAbs() - half;
   return beyond.cwiseMax(0.0).norm() + std::min(0.0, beyond.maxCoeff());
 }
 

@@ -75,10 +75,11 @@ TEST_F(WindowTest, AHeldPressThatMovesIsNoDeeper)
       Qt::NoModifier, Qt::NoScrollPhase, false);
     QApplication::sendEvent(canvas_, &notch);
   }
-  for (const QPoint place : { QPoint(-80, 0), QPoint(80, -20), QPoint(-40, -30), QPoint(60, 10) })
+  for (const QPoint position :
+    { QPoint(-80, 0), QPoint(80, -20), QPoint(-40, -30), QPoint(60, 10) })
   {
     QTest::qWait(300);
-    QTest::mouseMove(canvas_, middle + place);
+    QTest::mouseMove(canvas_, middle + position);
   }
   QTest::qWait(300);
   ASSERT_NE(session_->recording().deepest(), nullptr);
@@ -87,9 +88,10 @@ TEST_F(WindowTest, AHeldPressThatMovesIsNoDeeper)
 
 TEST_F(WindowTest, HoveringNeverTouches)
 {
-  for (const QPoint place : { QPoint(-150, 0), QPoint(120, -30), QPoint(0, 60), QPoint(-60, -60) })
+  for (const QPoint position :
+    { QPoint(-150, 0), QPoint(120, -30), QPoint(0, 60), QPoint(-60, -60) })
   {
-    QTest::mouseMove(canvas_, canvas_->rect().center() + place);
+    QTest::mouseMove(canvas_, canvas_->rect().center() + position);
     QTest::qWait(150);
   }
   EXPECT_EQ(peakForce(), 0.0);
@@ -100,12 +102,12 @@ TEST_F(WindowTest, GoesToAnotherPlaceOverTheSurface)
 {
   press(60);
   const QPoint middle = canvas_->rect().center();
-  for (const QPoint place : { QPoint(-150, 0), QPoint(120, -30), QPoint(-60, -60) })
+  for (const QPoint position : { QPoint(-150, 0), QPoint(120, -30), QPoint(-60, -60) })
   {
     release();
-    QTest::mouseMove(canvas_, middle + place);
-    QTest::mousePress(canvas_, Qt::LeftButton, {}, middle + place);
-    QTest::mouseMove(canvas_, middle + place + QPoint(0, 60));
+    QTest::mouseMove(canvas_, middle + position);
+    QTest::mousePress(canvas_, Qt::LeftButton, {}, middle + position);
+    QTest::mouseMove(canvas_, middle + position + QPoint(0, 60));
     const auto there = [this]
     {
       const Sample sample = session_->newest();

@@ -1,4 +1,5 @@
 #include "app/panels/plot_panel.h"
+#include "pipeline/surface_io/surface_io.h"
 #include "tests/app/window/window_rig.h"
 #include "tests/support/csv_table.h"
 
@@ -130,6 +131,22 @@ TEST_F(WindowTest, ExportsWhatWasMeasured)
   EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peakForce(), 1e-12);
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "deformed.vtp"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
+}
+
+TEST_F(WindowTest, ExportsTheDentAsFineAsInThePicture)
+{
+  press(100);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return peakForce() > 1.0; }, kPatience));
+  release();
+  const auto pointsOfExport = [&](const char* name)
+  {
+    const auto folder = folder_.path() / name;
+    EXPECT_TRUE(window_->exportData(QString::fromStdString(folder.string())));
+    return readSurface(folder / "deformed.vtp").mesh->GetNumberOfPoints();
+  };
+  EXPECT_EQ(pointsOfExport("as it is"), session_->body().display->GetNumberOfPoints());
+  window_->findChild<QAction*>("refinedExport")->trigger();
+  EXPECT_GT(pointsOfExport("refined"), session_->body().display->GetNumberOfPoints());
 }
 
 TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)

@@ -101,9 +101,9 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
       worstForce = std::max(worstForce, std::abs(step.force / force - 1.0));
     }
     const double extent = rows[i].number("Rd05_def_m");
-    const double share = study.height == 50.0_mm && step.depth > 6.0_mm ? 0.06 : 0.04;
+    const double fraction = study.height == 50.0_mm && step.depth > 6.0_mm ? 0.06 : 0.04;
     const double found = extentRadius(step.profile, study.threshold);
-    EXPECT_NEAR(found, extent, std::max(0.3_mm, share * extent)) << step.depth;
+    EXPECT_NEAR(found, extent, std::max(0.3_mm, fraction * extent)) << step.depth;
     worstExtent = std::max(worstExtent, std::abs(found - extent));
   }
   RecordProperty("worst_force_percent", std::to_string(100.0 * worstForce));

@@ -145,8 +145,8 @@ TEST_P(ShippedTable, AgreesWithAnIndependentProgram)
     const double force = reference[i].number("F_N");
     EXPECT_NEAR(rows[i].force, force, (rows[i].depth < 1.01_mm ? 0.05 : 0.03) * force);
     const double extent = reference[i].number("Rd05_def_m");
-    const double share = rows[i].depth < 6.01_mm ? 0.04 : 0.06;
-    EXPECT_NEAR(rows[i].extentRadius, extent, std::max(0.3_mm, share * extent));
+    const double fraction = rows[i].depth < 6.01_mm ? 0.04 : 0.06;
+    EXPECT_NEAR(rows[i].extentRadius, extent, std::max(0.3_mm, fraction * extent));
     // the reference counts whole elements
     EXPECT_NEAR(rows[i].contactRadius, reference[i].number("a_def_m"), 0.3_mm);
   }

@@ -34,16 +34,16 @@ TEST(SurfaceTable, InterpolatesBetweenItsPlaces)
     .elementSize = 0.4_mm };
   for (const IndentationStep& step : completed(study).steps)
   {
-    const SurfaceTable::Indentation place{ step.depth, radius, study.height, 0.27 };
-    EXPECT_TRUE(table.covers(place));
+    const SurfaceTable::Indentation position{ step.depth, radius, study.height, 0.27 };
+    EXPECT_TRUE(table.covers(position));
     for (const double r : { 0.0, 3.0_mm, 9.0_mm, 14.0_mm, 25.0_mm })
     {
-      EXPECT_NEAR(table.sinkAt(place, r), sinkOf(step, r), 0.02 * step.depth) << r;
+      EXPECT_NEAR(table.sinkAt(position, r), sinkOf(step, r), 0.02 * step.depth) << r;
     }
     for (const double threshold : { 0.3_mm, 0.5_mm, 1.0_mm })
     {
       const double extent = extentRadius(step.profile, threshold);
-      EXPECT_NEAR(table.extentRadius(place, threshold), extent, std::max(0.3_mm, 0.04 * extent));
+      EXPECT_NEAR(table.extentRadius(position, threshold), extent, std::max(0.3_mm, 0.04 * extent));
     }
   }
 }
@@ -60,9 +60,9 @@ TEST(SurfaceTable, GivesTheExtentsOfTheShippedTables)
     for (const ExtentTable::Extent& row : papers.rows())
     {
       // deeper than the radius it is an estimate
-      const double share = radius == 10.0_mm || row.depth > radius ? 0.08 : 0.04;
+      const double fraction = radius == 10.0_mm || row.depth > radius ? 0.08 : 0.04;
       EXPECT_NEAR(extents.extentRadius(row.depth), row.extentRadius,
-        std::max(0.3_mm, share * row.extentRadius))
+        std::max(0.3_mm, fraction * row.extentRadius))
         << name << ' ' << row.depth;
     }
   }

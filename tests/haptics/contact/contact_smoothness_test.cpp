@@ -97,7 +97,7 @@ TEST(ContactSmoothness, NothingJumps)
   const double step = 0.2_um;
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
   for (const Surface& surface : surfaces)
   {
     for (const Tip& tip :
@@ -109,11 +109,12 @@ TEST(ContactSmoothness, NothingJumps)
       {
         const Eigen::Vector3d axis =
           Eigen::Vector3d(0.3 * normal(random), 0.3 * normal(random), -1.0).normalized();
-        const Eigen::Vector3d way =
+        const Eigen::Vector3d direction =
           Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
         ToolPose pose;
         pose.axis = axis;
-        pose.apex = { 30.0_mm * place(random), 20.0_mm * place(random), 4.0_mm * place(random) };
+        pose.apex = { 30.0_mm * position(random), 20.0_mm * position(random),
+          4.0_mm * position(random) };
         const auto push = [&]
         {
           const Contact contact = findContact(surface, tip, pose, ContactRule::Exact);
@@ -122,7 +123,7 @@ TEST(ContactSmoothness, NothingJumps)
         Eigen::Vector3d last = push();
         for (int k = 0; k < 2000; ++k)
         {
-          pose.apex += step * way;
+          pose.apex += step * direction;
           const Eigen::Vector3d now = push();
           ASSERT_LE((now - last).norm(), 40.0 * step)
             << "at " << pose.apex.transpose() << " axis " << axis.transpose();

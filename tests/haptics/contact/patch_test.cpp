@@ -48,13 +48,14 @@ DiscIntegral subdivided(
 TEST(Patch, TriangleAndBallAgreeWithSubdivision)
 {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
-  const auto point = [&] { return Eigen::Vector3d(place(random), place(random), place(random)); };
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
+  const auto point = [&]
+  { return Eigen::Vector3d(position(random), position(random), position(random)); };
   for (int i = 0; i < 200; ++i)
   {
     const Facet facet = facetOf(point(), point(), point());
     const Eigen::Vector3d center = point();
-    const double squaredRadius = 0.05 + std::abs(place(random));
+    const double squaredRadius = 0.05 + std::abs(position(random));
     const DiscIntegral exact = integrate(facet, center, squaredRadius);
     const DiscIntegral sum = subdivided(facet, center, squaredRadius, 7);
     EXPECT_NEAR(exact.weight, sum.weight, 5e-4);

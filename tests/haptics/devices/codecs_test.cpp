@@ -179,17 +179,18 @@ TEST(WoodenHaptics, ForceArrivesThroughTheWire)
 {
   const WoodenArm arm;
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  std::uniform_real_distribution<double> fraction(-1.0, 1.0);
   for (int i = 0; i < 1000; ++i)
   {
     const auto count = [&](double middle, double range)
-    { return static_cast<std::int16_t>(middle + range * share(random)); };
+    { return static_cast<std::int16_t>(middle + range * fraction(random)); };
     const std::array<std::int16_t, 6> counts{ count(0, 2000), count(760, 1140), count(5300, 1140),
       0, 0, 0 };
     const test::WoodenCounts at{ counts[0], counts[1], counts[2] };
     const Vector3d angles = jointAngles(arm, counts);
     EXPECT_LT((forwardKinematics(arm, angles) - test::woodenTool(at)).norm(), 1e-9);
-    const Vector3d force = 3.0 * Vector3d(share(random), share(random), share(random)).normalized();
+    const Vector3d force =
+      3.0 * Vector3d(fraction(random), fraction(random), fraction(random)).normalized();
     std::array<std::byte, 14> wire{};
     encodeWooden(motorCurrents(arm, angles, force), wire);
     const auto current = [&](std::size_t motor) { return readInt<std::int16_t>(wire, 2 * motor); };

@@ -78,25 +78,25 @@ TEST_P(AnyTip, IsExactWhereNothingActs)
 
 TEST_P(AnyTip, FactorsMultiplyThePapersForce)
 {
-  const ContactGeometry place{ .depth = 3.0_mm,
+  const ContactGeometry position{ .depth = 3.0_mm,
     .tilt = 9.0_deg,
     .thickness = 20.0_mm,
     .surfaceCurvature = 1.0 / 50.0_mm,
     .curvatureSpread = 1.0 / 100.0_mm };
   const ForceLaw law(
     GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
-  double force = ForceLaw(GetParam(), kLiver)(place).force;
-  for (const Factor& factor : law.factors(place))
+  double force = ForceLaw(GetParam(), kLiver)(position).force;
+  for (const Factor& factor : law.factors(position))
   {
     EXPECT_GT(factor.value, 0.0) << factor.name;
     force *= factor.value;
   }
-  EXPECT_NEAR(law(place).force, force, 1e-12 * force);
+  EXPECT_NEAR(law(position).force, force, 1e-12 * force);
 }
 
 TEST_P(AnyTip, EachFactorCanBeSwitchedOff)
 {
-  const ContactGeometry place{
+  const ContactGeometry position{
     .depth = 3.0_mm, .tilt = 9.0_deg, .thickness = 20.0_mm, .surfaceCurvature = 1.0 / 50.0_mm
   };
   const ForceLaw law(GetParam(), kLiver,
@@ -107,7 +107,7 @@ TEST_P(AnyTip, EachFactorCanBeSwitchedOff)
       .thickness = false,
       .inclination = false });
   const ForceLaw exact(GetParam(), kLiver, { .mode = LawMode::Exact });
-  EXPECT_EQ(law(place).force, exact(place).force);
+  EXPECT_EQ(law(position).force, exact(position).force);
 }
 
 TEST_P(AnyTip, StiffnessIsTheDerivativeWithEveryFactor)
@@ -143,17 +143,17 @@ TEST_P(AnyTip, ReturnsNoNaN)
     GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
   for (const double odd : { nan, infinite, -infinite, 0.0, -1.0, 1e-300, 1e300 })
   {
-    for (const ContactGeometry& place : { ContactGeometry{ .depth = odd, .thickness = 10.0_mm },
+    for (const ContactGeometry& position : { ContactGeometry{ .depth = odd, .thickness = 10.0_mm },
            ContactGeometry{ .depth = 1.0_mm, .tilt = odd },
            ContactGeometry{ .depth = 1.0_mm, .thickness = odd },
            ContactGeometry{ .depth = 1.0_mm, .surfaceCurvature = odd },
            ContactGeometry{ .depth = 1.0_mm, .curvatureSpread = odd } })
     {
-      const Response response = law(place);
+      const Response response = law(position);
       EXPECT_TRUE(std::isfinite(response.force) && response.force >= 0.0) << odd;
       EXPECT_TRUE(std::isfinite(response.stiffness) && response.stiffness >= 0.0) << odd;
       EXPECT_TRUE(std::isfinite(response.contactRadius)) << odd;
-      for (const Factor& factor : law.factors(place))
+      for (const Factor& factor : law.factors(position))
       {
         EXPECT_TRUE(std::isfinite(factor.value)) << factor.name << " " << odd;
       }
@@ -228,16 +228,16 @@ TEST_P(NeoHookeanBlock, IsMetWithin3PercentWherePapersLawIsOffBy10)
   double worstPaper = 0.0;
   for (const auto& row : rows)
   {
-    const ContactGeometry place{ .depth = row.number("delta_m"),
+    const ContactGeometry position{ .depth = row.number("delta_m"),
       .thickness = GetParam().thickness };
-    const bool compared = place.depth > 0.99_mm && place.depth < 10.01_mm &&
+    const bool compared = position.depth > 0.99_mm && position.depth < 10.01_mm &&
       (std::holds_alternative<BluntConeTip>(GetParam().tip) ||
-        place.depth < baseRadius(GetParam().tip) * 1.001);
+        position.depth < baseRadius(GetParam().tip) * 1.001);
     if (compared)
     {
       const double force = row.number("F_N");
-      worst = std::max(worst, std::abs(corrected(place).force / force - 1.0));
-      worstPaper = std::max(worstPaper, std::abs(paper(place).force / force - 1.0));
+      worst = std::max(worst, std::abs(corrected(position).force / force - 1.0));
+      worstPaper = std::max(worstPaper, std::abs(paper(position).force / force - 1.0));
     }
   }
   EXPECT_LE(worst, 0.03);
@@ -301,13 +301,13 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
           ASSERT_EQ(rows.size(), 10U) << name;
           for (const auto& row : rows)
           {
-            const ContactGeometry place{ .depth = row.number("delta_m"),
+            const ContactGeometry position{ .depth = row.number("delta_m"),
               .thickness = 2.0 * units::fromMillimeters(ball),
               .surfaceCurvature = 1.0 / units::fromMillimeters(ball) };
-            if (brokenRules(validity(place)) == 0)
+            if (brokenRules(validity(position)) == 0)
             {
-              EXPECT_NEAR(law(place).force / row.number("F_N"), 1.0, 0.05)
-                << name << " " << place.depth;
+              EXPECT_NEAR(law(position).force / row.number("F_N"), 1.0, 0.05)
+                << name << " " << position.depth;
               ++believed;
             }
           }
@@ -323,15 +323,15 @@ TEST(CorrectedLaw, DoesNotAllocate)
   const ForceLaw law(
     SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
   const Validity validity(law);
-  const ContactGeometry place{ .depth = 3.0_mm,
+  const ContactGeometry position{ .depth = 3.0_mm,
     .tilt = 9.0_deg,
     .thickness = 20.0_mm,
     .surfaceCurvature = 1.0 / 50.0_mm,
     .curvatureSpread = 1.0 / 100.0_mm };
   const test::AllocationGuard guard;
-  const double force = law(place).force;
-  const double factor = law.factors(place)[3].value;
-  const double value = validity(place)[0].value;
+  const double force = law(position).force;
+  const double factor = law.factors(position)[3].value;
+  const double value = validity(position)[0].value;
   EXPECT_EQ(guard.count(), 0U);
   EXPECT_GT(force + factor + value, 0.0);
 }

@@ -70,11 +70,11 @@ TEST(Validity, ChangesWithTheMaximumOfTheExperiment)
   const ForceLaw law(SphereTip{ 10.0_mm }, kLiver);
   const Validity shallow(law, { .deepest = 4.0_mm });
   const Validity deep(law, { .deepest = 8.0_mm });
-  const ContactGeometry place{ .depth = 4.0_mm };
-  EXPECT_NEAR(rule(shallow(place), "force_of_maximum").value,
-    rule(shallow(place), "force_of_itself").value, 1e-12);
-  EXPECT_LT(
-    rule(deep(place), "force_of_maximum").value, rule(shallow(place), "force_of_maximum").value);
+  const ContactGeometry position{ .depth = 4.0_mm };
+  EXPECT_NEAR(rule(shallow(position), "force_of_maximum").value,
+    rule(shallow(position), "force_of_itself").value, 1e-12);
+  EXPECT_LT(rule(deep(position), "force_of_maximum").value,
+    rule(shallow(position), "force_of_maximum").value);
 }
 
 // the first order of the layer, (2/pi) m0 a/h, is 7 % at a/h = 0.07 pi / (2 * 1.41177)
@@ -211,11 +211,11 @@ TEST(Validity, SeesADepthBeyondHalfTheBody)
     for (const LawMode mode : { LawMode::Paper, LawMode::Exact, LawMode::Corrected })
     {
       const Validity validity(ForceLaw(tip, kLiver, { .mode = mode }));
-      const auto share = [&](double depth)
-      { return rule(validity({ .depth = depth, .thickness = 8.0_mm }), "penetration").share(); };
-      EXPECT_LT(share(3.9_mm), 1.0);
-      EXPECT_GT(share(4.1_mm), 1.0);
-      EXPECT_GT(share(10.0_mm), 2.0);
+      const auto fraction = [&](double depth)
+      { return rule(validity({ .depth = depth, .thickness = 8.0_mm }), "penetration").fraction(); };
+      EXPECT_LT(fraction(3.9_mm), 1.0);
+      EXPECT_GT(fraction(4.1_mm), 1.0);
+      EXPECT_GT(fraction(10.0_mm), 2.0);
     }
   }
 }
@@ -224,22 +224,22 @@ TEST(Validity, SeesADepthBeyondHalfTheBody)
 TEST(Validity, SeesAnEllipseThatIsTooSlender)
 {
   const ForceLaw law(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
-  const auto place = [](double spread)
+  const auto position = [](double spread)
   { return ContactGeometry{ .depth = 1.0_mm, .curvatureSpread = spread }; };
-  EXPECT_TRUE(rule(Validity(law)(place(59.0)), "ellipse").holds());
-  EXPECT_FALSE(rule(Validity(law)(place(61.0)), "ellipse").holds());
-  EXPECT_LT(law(place(1e6)).force, 1.17 * law(place(0.0)).force);
+  EXPECT_TRUE(rule(Validity(law)(position(59.0)), "ellipse").holds());
+  EXPECT_FALSE(rule(Validity(law)(position(61.0)), "ellipse").holds());
+  EXPECT_LT(law(position(1e6)).force, 1.17 * law(position(0.0)).force);
 }
 
 TEST(Validity, EveryRuleHasWordsAndNoNaN)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Validity validity(ForceLaw(PunchTip{ 5.0_mm }, kLiver));
-  for (const ContactGeometry& place :
+  for (const ContactGeometry& position :
     { ContactGeometry{}, ContactGeometry{ .depth = nan, .tilt = nan },
       ContactGeometry{ .depth = 1.0_mm, .thickness = nan, .surfaceCurvature = nan } })
   {
-    for (const Rule& one : validity(place, nan))
+    for (const Rule& one : validity(position, nan))
     {
       EXPECT_FALSE(std::isnan(one.value)) << one.name;
       EXPECT_FALSE(std::isnan(one.limit)) << one.name;

@@ -57,9 +57,9 @@ TEST(MonotoneSlopes, KeepTheCurveBetweenItsPoints)
   const std::vector<double> slopes = monotoneSlopes(x, y);
   for (std::size_t i = 0; i + 1 < x.size(); ++i)
   {
-    for (double place = 0.0; place <= 1.0; place += 0.01)
+    for (double fraction = 0.0; fraction <= 1.0; fraction += 0.01)
     {
-      const double value = hermite(place, 1.0, y[i], y[i + 1], slopes[i], slopes[i + 1]).value;
+      const double value = hermite(fraction, 1.0, y[i], y[i + 1], slopes[i], slopes[i + 1]).value;
       EXPECT_GE(value, std::min(y[i], y[i + 1]) - 1e-12);
       EXPECT_LE(value, std::max(y[i], y[i + 1]) + 1e-12);
     }
@@ -69,10 +69,10 @@ TEST(MonotoneSlopes, KeepTheCurveBetweenItsPoints)
 TEST(MonotoneCubic, BracketHoldsTheValueAndEndsAtTheBorder)
 {
   const std::vector<double> axis{ 1.0, 2.0, 4.0 };
-  const auto expect = [&](double value, std::size_t low, double place)
+  const auto expect = [&](double value, std::size_t low, double fraction)
   {
     EXPECT_EQ(bracket(axis, value).low, low) << value;
-    EXPECT_DOUBLE_EQ(bracket(axis, value).place, place) << value;
+    EXPECT_DOUBLE_EQ(bracket(axis, value).fraction, fraction) << value;
   };
   expect(0.0, 0, 0.0);
   expect(1.5, 0, 0.5);
@@ -81,7 +81,7 @@ TEST(MonotoneCubic, BracketHoldsTheValueAndEndsAtTheBorder)
   expect(4.0, 1, 1.0);
   expect(9.0, 1, 1.0);
   EXPECT_EQ(bracket(std::vector{ 3.0 }, 7.0).low, 0U);
-  EXPECT_EQ(bracket(std::vector{ 3.0 }, 7.0).place, 0.0);
+  EXPECT_EQ(bracket(std::vector{ 3.0 }, 7.0).fraction, 0.0);
 }
 
 TEST(MonotoneCubic, CurveGoesThroughItsPointsAndStaysBeyond)

@@ -78,9 +78,9 @@ Tap tap(double damping, double stiffness, double maxDamping, double duration = 8
     {
       const double h = 1.0_ms / kFine;
       const double faster = v + (force + 1.0 - damping * v) / kMass * h;
-      const double way = 0.5 * (v + faster) * h;
-      port -= force * way;
-      x += way;
+      const double travel = 0.5 * (v + faster) * h;
+      port -= force * travel;
+      x += travel;
       v = faster;
     }
     result.energy = std::min(result.energy, port);

@@ -69,11 +69,11 @@ struct Bench
   Sample press(double depth)
   {
     Sample sample;
-    for (; std::abs(depth - place) > 0.1_mm; place += std::copysign(0.1_mm, depth - place))
+    for (; std::abs(depth - position) > 0.1_mm; position += std::copysign(0.1_mm, depth - position))
     {
-      sample = at(place);
+      sample = at(position);
     }
-    place = depth;
+    position = depth;
     return at(depth);
   }
 
@@ -82,7 +82,7 @@ struct Bench
     orders.armed = true;
     for (int i = 0; i < 100; ++i)
     {
-      (void)at(place);
+      (void)at(position);
     }
     ASSERT_EQ(chain.state(), DeviceState::Active);
   }
@@ -92,7 +92,7 @@ struct Bench
   DeviceStatus status;
   SafetyOrders orders;
   double stiffness = 500.0;
-  double place = -5.0_mm;
+  double position = -5.0_mm;
   Vector3d force = Vector3d::Zero();
 };
 

@@ -19,31 +19,34 @@ using namespace test;
 TEST(SafetyChain, BoundsEverythingThatAMillionWildTicksCanBring)
 {
   std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::uniform_real_distribution<double> fraction(0.0, 1.0);
   const auto anything = [&]
-  { return share(random) < 0.5 ? (share(random) - 0.5) * 0.05 : std::bit_cast<double>(random()); };
+  {
+    return fraction(random) < 0.5 ? (fraction(random) - 0.5) * 0.05
+                                  : std::bit_cast<double>(random());
+  };
   Bench bench;
   std::uint64_t bad = 0;
   for (int i = 0; i < 1'000'000; ++i)
   {
-    const bool wild = share(random) < 0.02;
+    const bool wild = fraction(random) < 0.02;
     ToolPose pose{ .apex = Vector3d(0, 0, -0.01 * std::sin(i * 0.003)) };
     if (wild)
     {
       pose.apex[i % 3] = anything();
       pose.velocity[(i + 1) % 3] = anything();
-      pose.axis[(i + 2) % 3] = share(random) < 0.2 ? anything() : pose.axis[(i + 2) % 3];
+      pose.axis[(i + 2) % 3] = fraction(random) < 0.2 ? anything() : pose.axis[(i + 2) % 3];
     }
     bench.stiffness = wild ? anything() : 500.0;
     bench.scene.damping = wild ? anything() : 1.0;
     bench.scene.forceLimit = wild ? anything() : 4.0;
-    bench.status.age = wild && share(random) < 0.1 ? anything() : 0.0;
+    bench.status.age = wild && fraction(random) < 0.1 ? anything() : 0.0;
     bench.orders.armed = i % 1000 > 2;
-    bench.orders.stop = share(random) < 1e-4;
+    bench.orders.stop = fraction(random) < 1e-4;
     const Vector3d before = bench.force;
-    const bool gone = share(random) < 1e-4;
-    const Sample sample = bench.tick(
-      gone ? std::nullopt : std::optional(pose), wild && share(random) < 0.2 ? anything() : kTick);
+    const bool gone = fraction(random) < 1e-4;
+    const Sample sample = bench.tick(gone ? std::nullopt : std::optional(pose),
+      wild && fraction(random) < 0.2 ? anything() : kTick);
     const bool grows = sample.force.norm() > before.norm();
     bad += !sample.force.allFinite() || !std::isfinite(sample.proxyDepth);
     bad += sample.force.norm() > 4.0 * (1.0 + 1e-12) && !wild;
@@ -145,15 +148,15 @@ TEST(SafetyChain, AHandThatMovesDuringASilenceHasNotJumped)
     for (int silent = 1; silent < 20; ++silent)
     {
       Bench bench;
-      bench.place = -50.0_mm;
+      bench.position = -50.0_mm;
       bench.activate();
       for (int age = 1; age <= silent; ++age)
       {
         bench.status.age = age * kTick;
-        EXPECT_FALSE(has(bench.at(bench.place), Flag::Jump));
+        EXPECT_FALSE(has(bench.at(bench.position), Flag::Jump));
       }
       bench.status.age = 0.0;
-      const Sample back = bench.at(bench.place + speed * (silent + 1) * kTick);
+      const Sample back = bench.at(bench.position + speed * (silent + 1) * kTick);
       ASSERT_FALSE(has(back, Flag::Jump)) << speed << " m/s for " << silent << " ms";
       EXPECT_EQ(back.state, DeviceState::Active);
     }
@@ -167,10 +170,10 @@ TEST(SafetyChain, ASilenceExcusesNoMoreThanAHandCanMoveInIt)
   for (int age = 1; age <= 8; ++age)
   {
     bench.status.age = age * kTick;
-    (void)bench.at(bench.place);
+    (void)bench.at(bench.position);
   }
   bench.status.age = 0.0;
-  EXPECT_TRUE(has(bench.at(bench.place - 2.1 * 9 * kTick), Flag::Jump)); // [m], at 2.1 m/s
+  EXPECT_TRUE(has(bench.at(bench.position - 2.1 * 9 * kTick), Flag::Jump)); // [m], at 2.1 m/s
 }
 
 TEST(SafetyChain, JumpIsHeldThenAFaultThatFades)

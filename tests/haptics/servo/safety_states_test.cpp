@@ -194,7 +194,7 @@ TEST_P(UnpluggedIn, GivesNoForceUntilItIsBackHomedAndArmedAnew)
   {
     (void)bench_.at(5.0_mm);
   }
-  bench_.place = 5.0_mm;
+  bench_.position = 5.0_mm;
   EXPECT_GT(bench_.press(6.0_mm).force.norm(), 0.0);
 }
 
@@ -239,7 +239,7 @@ TEST(SafetyChain, HomingMovesEveryPlaceWithoutAFault)
     EXPECT_EQ(homed.pose.apex.z(), 5.0_mm);
     EXPECT_EQ(homed.force, Vector3d::Zero());
     EXPECT_EQ(bench.chain.state(), DeviceState::SoftStart);
-    bench.place = -5.0_mm;
+    bench.position = -5.0_mm;
     bench.activate();
   }
 }
@@ -278,7 +278,7 @@ TEST(SafetyChain, DeadManNeedsTheButton)
     ASSERT_EQ(bench.at(5.0_mm).state, DeviceState::Ready);
   }
   bench.status.buttons = 1;
-  bench.place = -5.0_mm;
+  bench.position = -5.0_mm;
   for (int i = 0; i < 100; ++i)
   {
     (void)bench.at(5.0_mm - i * 0.1_mm);
@@ -310,7 +310,7 @@ TEST(SafetyChain, DisarmingLetsTheForceFade)
   EXPECT_EQ(bench.chain.state(), DeviceState::Ready);
 }
 
-// the share of the largest force that a start has reached is no share of the force
+// the fraction of the largest force that a start has reached is no fraction of the force
 TEST(SafetyChain, DisarmingDuringASoftStartLetsTheForceFade)
 {
   for (const int ticks : { 50, 200, 400 })
@@ -321,8 +321,8 @@ TEST(SafetyChain, DisarmingDuringASoftStartLetsTheForceFade)
     (void)bench.at(5.0_mm);
     for (int i = 1; i <= ticks; ++i)
     {
-      bench.place = 5.0_mm + i * 0.01_mm;
-      (void)bench.at(bench.place);
+      bench.position = 5.0_mm + i * 0.01_mm;
+      (void)bench.at(bench.position);
     }
     ASSERT_EQ(bench.chain.state(), DeviceState::SoftStart);
     double last = bench.force.z();
@@ -330,7 +330,7 @@ TEST(SafetyChain, DisarmingDuringASoftStartLetsTheForceFade)
     bench.orders.armed = false;
     for (int i = 0; i < 101; ++i)
     {
-      const double now = bench.at(bench.place).force.z();
+      const double now = bench.at(bench.position).force.z();
       ASSERT_LE(now, last);
       ASSERT_LE(last - now, kSoftSlew) << i;
       last = now;

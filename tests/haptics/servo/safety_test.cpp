@@ -132,9 +132,9 @@ TEST(SafetyChain, WorkspaceEndsInASoftSpringInward)
   Vector3d before = bench.force;
   for (int i = 0; i <= 300; ++i)
   {
-    const Vector3d place(i * 0.5_mm, 0.0, 5.0_mm);
+    const Vector3d position(i * 0.5_mm, 0.0, 5.0_mm);
     const Sample sample =
-      bench.tick(ToolPose{ .apex = place, .velocity = Vector3d(0.5, 0.0, 0.0) });
+      bench.tick(ToolPose{ .apex = position, .velocity = Vector3d(0.5, 0.0, 0.0) });
     ASSERT_EQ(has(sample, Flag::Workspace), i > 200) << i;
     ASSERT_LE((sample.force - before).norm(), kSlew * (1.0 + 1e-9)) << i;
     EXPECT_LE(sample.force.norm(), 2.0 + 1e-12);

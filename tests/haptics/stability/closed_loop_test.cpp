@@ -69,24 +69,24 @@ Worst overTheGrid(const Make& make)
   return worst;
 }
 
-Worst bareWall(double share)
+Worst bareWall(double fraction)
 {
   return overTheGrid(
-    [share](LoopCase& loop, double stable)
+    [fraction](LoopCase& loop, double stable)
     {
       loop.plant.maxForce = 1e9;
-      loop.law = wall(share * stable);
+      loop.law = wall(fraction * stable);
     });
 }
 
 TEST(ClosedLoop, BareWallBelowTheStableStiffnessGivesNoEnergy)
 {
-  for (const double share : { 0.7, 0.8 })
+  for (const double fraction : { 0.7, 0.8 })
   {
-    const Worst worst = bareWall(share);
+    const Worst worst = bareWall(fraction);
     EXPECT_EQ(worst.cases, 54);
-    EXPECT_GE(worst.energy, -1e-6) << share;
-    EXPECT_LE(worst.envelope, 0.1) << share;
+    EXPECT_GE(worst.energy, -1e-6) << fraction;
+    EXPECT_LE(worst.envelope, 0.1) << fraction;
   }
 }
 

@@ -17,10 +17,10 @@ namespace
 
 using namespace units::literals;
 
-LocalShape shapeAt(const Surface& surface, const Eigen::Vector3d& place, double radius,
+LocalShape shapeAt(const Surface& surface, const Eigen::Vector3d& position, double radius,
   const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ())
 {
-  return surface.shape()(place, std::max(radius, surface.shape().finest()), normal, 0.0);
+  return surface.shape()(position, std::max(radius, surface.shape().finest()), normal, 0.0);
 }
 
 TEST(ShapeField, OfASphereIsOneOverItsRadius)
@@ -107,13 +107,14 @@ TEST(ShapeField, ChangesContinuously)
     for (int i = 0; i < 10; ++i)
     {
       Eigen::Vector3d at(12.0_mm * part(random), 12.0_mm * part(random), top);
-      const Eigen::Vector3d way = Eigen::Vector3d(part(random), part(random), 0.0).normalized();
+      const Eigen::Vector3d direction =
+        Eigen::Vector3d(part(random), part(random), 0.0).normalized();
       const double radius = surface.shape().finest();
       const double most = 60.0 * step / radius; // [rad] within the radius
       LocalShape last = shapeAt(surface, at, 0.0);
       for (int k = 0; k < 1000; ++k)
       {
-        at += step * way;
+        at += step * direction;
         const LocalShape now = shapeAt(surface, at, 0.0);
         ASSERT_LE(std::abs(now.meanCurvature - last.meanCurvature), most / radius);
         ASSERT_LE(std::abs(now.curvatureSpread - last.curvatureSpread), most / radius);

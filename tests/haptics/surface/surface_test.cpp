@@ -73,10 +73,10 @@ TEST(Surface, SignedDistanceIsThatOfTheBlock)
   const Surface surface = test::makeSurface(test::block(size, 12));
   EXPECT_EQ(surface.tree().facets().size(), surface.triangles().size());
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
   for (int i = 0; i < 2000; ++i)
   {
-    const Eigen::Vector3d x(place(random), place(random), place(random));
+    const Eigen::Vector3d x(position(random), position(random), position(random));
     const Eigen::Vector3d middle(0.0, 0.0, -0.5 * size.z());
     const Eigen::Array3d beyond = (x - middle).array().abs() - 0.5 * size.array();
     const double exact =

@@ -205,13 +205,14 @@ TEST(SectionPlot, RunsAroundTheRimOfALobe)
   lobe->SetTransform(flat);
   lobe->SetInputConnection(ball->GetOutputPort());
   const double side = 15.0_mm;
-  const Eigen::Vector3d place(side, 0.0, kHalf * std::sqrt(1.0 - std::pow(side / kWide, 2)));
+  const Eigen::Vector3d position(side, 0.0, kHalf * std::sqrt(1.0 - std::pow(side / kWide, 2)));
   const Eigen::Vector3d up =
-    Eigen::Vector3d(place.x() / (kWide * kWide), 0.0, place.z() / (kHalf * kHalf)).normalized();
+    Eigen::Vector3d(position.x() / (kWide * kWide), 0.0, position.z() / (kHalf * kHalf))
+      .normalized();
   vtkNew<vtkPalpDeformFilter> filter;
   filter->SetInputConnection(lobe->GetOutputPort());
   filter->GeneratePatchOn();
-  filter->SetPress(test::pressAt(place, up, SphereTip{ 6.0_mm }, 2.0_mm, 14.0_mm));
+  filter->SetPress(test::pressAt(position, up, SphereTip{ 6.0_mm }, 2.0_mm, 14.0_mm));
   filter->Update();
 
   const Eigen::Vector3d along = Eigen::Vector3d::UnitY().cross(up);
@@ -224,7 +225,7 @@ TEST(SectionPlot, RunsAroundTheRimOfALobe)
   for (std::size_t i = 0; i < x.size(); ++i)
   {
     const Eigen::Vector3d at =
-      place + units::fromMillimeters(x[i]) * along + units::fromMillimeters(z[i]) * up;
+      position + units::fromMillimeters(x[i]) * along + units::fromMillimeters(z[i]) * up;
     EXPECT_NEAR(std::hypot(at.x() / kWide, at.z() / kHalf), 1.0, 0.01) << at.transpose();
     least = std::min(least, at.z());
     if (i > 0)

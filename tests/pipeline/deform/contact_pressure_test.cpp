@@ -20,9 +20,10 @@ TEST(ContactPressure, OfAParaboloidIsHertzs)
   const double force = 0.7;
   const ContactPressure pressure(ParaboloidTip{ 10.0_mm }, 0.9_mm, a, force);
   const double peak = 3.0 * force / (2.0 * std::numbers::pi * a * a);
-  for (const double share : { 0.0, 0.2, 0.5, 0.8, 0.95 })
+  for (const double fraction : { 0.0, 0.2, 0.5, 0.8, 0.95 })
   {
-    EXPECT_NEAR(pressure.at(share * a), peak * std::sqrt(1.0 - share * share), 0.005 * peak);
+    EXPECT_NEAR(
+      pressure.at(fraction * a), peak * std::sqrt(1.0 - fraction * fraction), 0.005 * peak);
   }
   EXPECT_EQ(pressure.at(1.01 * a), 0.0);
 }
@@ -34,9 +35,9 @@ TEST(ContactPressure, OfAConeIsLoves)
   const double force = 1.3;
   const ContactPressure pressure(ConeTip{ 45.0_deg, 10.0_mm }, 6.28_mm, a, force);
   const double mean = force / (std::numbers::pi * a * a);
-  for (const double share : { 0.1, 0.3, 0.6, 0.9 })
+  for (const double fraction : { 0.1, 0.3, 0.6, 0.9 })
   {
-    EXPECT_NEAR(pressure.at(share * a), mean * std::acosh(1.0 / share), 0.01 * mean);
+    EXPECT_NEAR(pressure.at(fraction * a), mean * std::acosh(1.0 / fraction), 0.01 * mean);
   }
 }
 
@@ -47,10 +48,10 @@ TEST(ContactPressure, OfAFlatPunchIsBoussinesqs)
   const double force = 2.0;
   const ContactPressure pressure(PunchTip{ a }, 1.0_mm, a, force);
   const double middle = force / (2.0 * std::numbers::pi * a * a);
-  for (const double share : { 0.0, 0.5, 0.9 })
+  for (const double fraction : { 0.0, 0.5, 0.9 })
   {
-    const double expected = middle / std::sqrt(1.0 - share * share);
-    EXPECT_NEAR(pressure.at(share * a), expected, 0.02 * expected);
+    const double expected = middle / std::sqrt(1.0 - fraction * fraction);
+    EXPECT_NEAR(pressure.at(fraction * a), expected, 0.02 * expected);
   }
 }
 
@@ -64,11 +65,11 @@ INSTANTIATE_TEST_SUITE_P(ContactPressure, AnyTip,
 
 TEST_P(AnyTip, AddsUpToTheForce)
 {
-  for (const double share : { 0.3, 0.7, 1.0 })
+  for (const double fraction : { 0.3, 0.7, 1.0 })
   {
     // the contact of a flat punch is always its base
     const bool isPunch = std::holds_alternative<PunchTip>(GetParam());
-    const double a = (isPunch ? 1.0 : share) * baseRadius(GetParam());
+    const double a = (isPunch ? 1.0 : fraction) * baseRadius(GetParam());
     const ContactPressure pressure(GetParam(), 20.0_mm, a, 1.5);
     double sum = 0.0;
     constexpr int kRings = 20000;

@@ -89,9 +89,9 @@ void pressDeeper(const RangeCase& with, double step)
 {
   Presser presser(bodyOf(with.body), with.tip.tip, with.law, with.surface);
   Findings findings;
-  for (double share = 0.02; share < 2.0 + 0.5 * step; share += step)
+  for (double fraction = 0.02; fraction < 2.0 + 0.5 * step; fraction += step)
   {
-    presser.press(share * baseRadius(with.tip.tip), 0.0, findings);
+    presser.press(fraction * baseRadius(with.tip.tip), 0.0, findings);
   }
   expectSound(findings);
 }
@@ -99,13 +99,13 @@ void pressDeeper(const RangeCase& with, double step)
 // By steps of 0.02 mm at three depths.
 void slide(const RangeCase& with, int steps)
 {
-  for (const double share : { 0.4, 0.9, 1.5 })
+  for (const double fraction : { 0.4, 0.9, 1.5 })
   {
     Presser presser(bodyOf(with.body), with.tip.tip, with.law, with.surface);
     Findings findings;
     for (int i = 0; i <= steps; ++i)
     {
-      presser.press(share * baseRadius(with.tip.tip), 0.02_mm * i, findings);
+      presser.press(fraction * baseRadius(with.tip.tip), 0.02_mm * i, findings);
     }
     expectSound(findings);
   }

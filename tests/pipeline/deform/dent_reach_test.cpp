@@ -119,7 +119,7 @@ TEST_P(RandomPress, KeepsEveryPointOutOfTheToolAndBeyondRdAtRest)
   DentedSurface surface = test::ellipsoid(5, GetParam());
   std::mt19937 random(11);
   std::uniform_int_distribution<std::size_t> vertex(0, surface.count() - 1);
-  std::uniform_real_distribution<double> share(0.05, 1.0);
+  std::uniform_real_distribution<double> fraction(0.05, 1.0);
   std::uniform_real_distribution<double> tilt(-20.0_deg, 20.0_deg);
   const std::vector<float> restNormals = surface.normals;
   const std::array<Tip, 3> tips{ SphereTip{ 10.0_mm }, SphereTip{ 4.0_mm },
@@ -129,7 +129,7 @@ TEST_P(RandomPress, KeepsEveryPointOutOfTheToolAndBeyondRdAtRest)
     const std::size_t at = vertex(random);
     const Eigen::Vector3d normal = DentedSurface::at(restNormals, at).normalized();
     const Tip& tip = tips[static_cast<std::size_t>(i) % tips.size()];
-    const double depth = share(random) * 0.5 * baseRadius(tip);
+    const double depth = fraction(random) * 0.5 * baseRadius(tip);
     const double extent = 3.7 * depth;
     Press press = test::pressAt(DentedSurface::at(surface.rest, at), normal, tip, depth, extent);
     if (const auto* sphere = std::get_if<SphereTip>(&tip))
@@ -159,13 +159,13 @@ TEST_P(RandomPress, TurnsNoTriangleOver)
   DentedSurface surface = test::ellipsoid(5, GetParam());
   std::mt19937 random(5);
   std::uniform_int_distribution<std::size_t> vertex(0, surface.count() - 1);
-  std::uniform_real_distribution<double> share(0.05, 1.0);
+  std::uniform_real_distribution<double> fraction(0.05, 1.0);
   const std::vector<float> restNormals = surface.normals;
   for (int i = 0; i < 70; ++i)
   {
     const std::size_t at = vertex(random);
     const Eigen::Vector3d normal = DentedSurface::at(restNormals, at).normalized();
-    const double depth = share(random) * 5.0_mm;
+    const double depth = fraction(random) * 5.0_mm;
     surface.press(test::pressAt(
       DentedSurface::at(surface.rest, at), normal, SphereTip{ 10.0_mm }, depth, 3.7 * depth));
     for (const Triangle& triangle : surface.triangles)

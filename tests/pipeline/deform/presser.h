@@ -31,14 +31,15 @@ struct PressedBody
   std::string name;
   DentedSurface surface;
   Surface haptic;
-  Eigen::Vector3d place;
+  Eigen::Vector3d position;
   Eigen::Vector3d outward;
 };
 
-inline PressedBody pressedBody(
-  const std::string& name, const Mesh& mesh, const Eigen::Vector3d& place, Eigen::Vector3d outward)
+inline PressedBody pressedBody(const std::string& name, const Mesh& mesh,
+  const Eigen::Vector3d& position, Eigen::Vector3d outward)
 {
-  return { name, dented(mesh), Surface(mesh.points, mesh.triangles), place, outward.normalized() };
+  return { name, dented(mesh), Surface(mesh.points, mesh.triangles), position,
+    outward.normalized() };
 }
 
 inline PressedBody madeBody(const std::string& name)
@@ -78,12 +79,12 @@ struct Worst
   double value = -1.0;
   std::string where;
 
-  void see(double other, const std::string& place)
+  void see(double other, const std::string& position)
   {
     if (other > value)
     {
       value = other;
-      where = place;
+      where = position;
     }
   }
 };
@@ -120,7 +121,7 @@ public:
   void press(double depth, double aside, Findings& findings)
   {
     const Eigen::Vector3d tangent = body_.outward.unitOrthogonal();
-    const ToolPose pose{ .apex = body_.place + aside * tangent - depth * body_.outward,
+    const ToolPose pose{ .apex = body_.position + aside * tangent - depth * body_.outward,
       .axis = -body_.outward };
     press({ pose }, findings,
       "depth " + std::to_string(depth / base_) + " R, aside " + std::to_string(aside / 1.0_mm) +
@@ -201,11 +202,12 @@ private:
       const std::string here =
         where + ", " + std::to_string((rest - b.center).norm() / 1.0_mm) + " mm away";
       const bool isContact = body_.surface.zone[i] == 2 || zones_[i] == 2;
-      if (deeper > 0.0 && !isContact)
+      const bool isPassed = isShaft(now, rest, aside);
+      if (deeper > 0.0 && !isContact && !(isPassed && aside > 0.1 * deeper))
       {
         findings.rise.see(-change - kSteepest * (aside + lever), here);
       }
-      if (!isShaft(now, rest, aside))
+      if (!isPassed)
       {
         findings.jump.see(std::abs(change) - motion, here);
       }
@@ -246,8 +248,9 @@ private:
       {
         const Eigen::Vector3d point = region.toSurface(
           { r * to.x(), r * to.y(), dent.field().surface().height(r * to.x(), r * to.y()) });
-        const GeodesicCoordinates place = region.geodesicInFront(point);
-        const double sink = place.distance < region.outer() ? dent.sinkAt(place, point).depth : 0.0;
+        const GeodesicCoordinates position = region.geodesicInFront(point);
+        const double sink =
+          position.distance < region.outer() ? dent.sinkAt(position, point).depth : 0.0;
         if (before >= 0.0 && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
         {
           findings.wall.see(

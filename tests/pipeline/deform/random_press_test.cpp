@@ -154,8 +154,9 @@ TEST_P(RandomPress, IsSmoothAtTheContact)
         const Eigen::Vector3d foot = region.geodesicInFront(center + radius * outwards).local;
         const Eigen::Vector3d point =
           region.toSurface({ foot.x(), foot.y(), field.surface().height(foot.x(), foot.y()) });
-        const GeodesicCoordinates place = region.geodesicInFront(point);
-        return place.distance < region.outer() ? surface.dent.sinkAt(place, point).depth : 0.0;
+        const GeodesicCoordinates position = region.geodesicInFront(point);
+        return position.distance < region.outer() ? surface.dent.sinkAt(position, point).depth
+                                                  : 0.0;
       };
       const double h = 3e-5 * inner; // the ring turns sharply where P1 is close to P0
       const double inside = (sinkAt(inner - h) - sinkAt(inner - 2.0 * h)) / h;
@@ -170,11 +171,11 @@ TEST_P(RandomPress, IsSmoothAtTheContact)
 struct Step
 {
   double size; ///< of the displacement [m]
-  double at;   ///< share of the edge where it begins
+  double at;   ///< fraction of the edge where it begins
   double width;
 };
 
-// the largest of a function of the share of an edge, over a nanometer of its length
+// the largest of a function of the fraction of an edge, over a nanometer of its length
 template <typename Function>
 Step largestStep(const Function& sinkAt, double length)
 {
@@ -187,12 +188,12 @@ Step largestStep(const Function& sinkAt, double length)
     const double from = step.at;
     for (int k = 0; k < kParts; ++k)
     {
-      const double share = from + k * step.width;
-      if (const double change = std::abs(sinkAt(share + step.width) - sinkAt(share));
+      const double fraction = from + k * step.width;
+      if (const double change = std::abs(sinkAt(fraction + step.width) - sinkAt(fraction));
           change > step.size)
       {
         step.size = change;
-        step.at = share;
+        step.at = fraction;
       }
     }
   }
@@ -220,13 +221,13 @@ EdgeStep stepOnEdge(
   const ToolBody body(press.tip, press.pose);
   const Eigen::Vector3d start = region.toSurface(a.local);
   const Eigen::Vector3d edge = region.toSurface(b.local) - start;
-  const auto placeAt = [&](double share)
-  { return region.geodesicBetween(a, b, share, start + share * edge); };
-  const auto sinkAt = [&](double share)
-  { return dent.sinkAt(placeAt(share), start + share * edge).depth; };
+  const auto placeAt = [&](double fraction)
+  { return region.geodesicBetween(a, b, fraction, start + fraction * edge); };
+  const auto sinkAt = [&](double fraction)
+  { return dent.sinkAt(placeAt(fraction), start + fraction * edge).depth; };
   const auto [size, low, width] = largestStep(sinkAt, edge.norm());
-  const auto isOverTool = [&](double share)
-  { return std::isfinite(body.lowest(start + share * edge, region.normal())); };
+  const auto isOverTool = [&](double fraction)
+  { return std::isfinite(body.lowest(start + fraction * edge, region.normal())); };
   const double sink = std::min(sinkAt(low), sinkAt(low + width));
   if (isWall(press, start + low * edge - sink * region.normal(),
         isOverTool(low) != isOverTool(low + width)))

@@ -47,9 +47,9 @@ Inside insideOf(vtkPolyData& mesh, const Press& press)
     {
       for (int j = 0; i + j <= n; ++j)
       {
-        const Eigen::Vector3d place =
+        const Eigen::Vector3d position =
           (i * points[t[0]] + j * points[t[1]] + (n - i - j) * points[t[2]]) / n;
-        inside.triangles = std::max(inside.triangles, depth(place));
+        inside.triangles = std::max(inside.triangles, depth(position));
       }
     }
   }
@@ -60,7 +60,7 @@ struct Case
 {
   const char* name;
   Mesh mesh;
-  Eigen::Vector3d place;
+  Eigen::Vector3d position;
   Tip tip;
   double depth;
 };
@@ -79,7 +79,7 @@ TEST(RefinedSurface, HasNoPointInsideTheToolAndCutsItLess)
     filter->SetInputData(makePolyData(with.mesh.points, with.mesh.triangles));
     filter->SetGeneratePatch(true);
     const Press press =
-      test::pressAt(with.place, Eigen::Vector3d::UnitZ(), with.tip, with.depth, 20.0_mm);
+      test::pressAt(with.position, Eigen::Vector3d::UnitZ(), with.tip, with.depth, 20.0_mm);
     filter->SetPress(press);
     for (const int level : { -1, 4 })
     {

@@ -34,9 +34,9 @@ TEST_P(AnyTool, IsMetAtItsProfileWhenStraight)
 {
   const ToolPose pose{ .apex = { 5.0_mm, 0.0, 2.0_mm } };
   const ToolBody body(GetParam(), pose);
-  for (const double share : { 0.0, 0.3, 0.7, 0.99 })
+  for (const double fraction : { 0.0, 0.3, 0.7, 0.99 })
   {
-    const double radius = share * baseRadius(GetParam());
+    const double radius = fraction * baseRadius(GetParam());
     const Eigen::Vector3d origin(5.0_mm, radius, -4.0_mm);
     EXPECT_NEAR(body.lowest(origin, kUp), 6.0_mm + tipHeight(GetParam(), radius), 1e-9);
   }
@@ -48,13 +48,13 @@ TEST_P(AnyTool, IsMetAtItsProfileWhenStraight)
 TEST_P(AnyTool, IsEnteredFromOutsideWhenTilted)
 {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-15.0_mm, 15.0_mm);
+  std::uniform_real_distribution<double> position(-15.0_mm, 15.0_mm);
   std::uniform_real_distribution<double> angle(0.0, 60.0_deg);
   int hits = 0;
   for (int i = 0; i < 500; ++i)
   {
     const ToolBody body(GetParam(), tilted(angle(random)));
-    const Eigen::Vector3d origin(place(random), place(random), place(random));
+    const Eigen::Vector3d origin(position(random), position(random), position(random));
     EXPECT_EQ(body.contains(origin), body.inside(origin) > 0.0);
     const double t = body.lowest(origin, kUp);
     if (std::isinf(t))
@@ -80,11 +80,11 @@ TEST(ToolBody, SphereIsItsImplicitFunction)
   const ToolBody body(SphereTip{ radius }, pose);
   const Eigen::Vector3d center = pose.apex - radius * pose.axis;
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-12.0_mm, 12.0_mm);
+  std::uniform_real_distribution<double> position(-12.0_mm, 12.0_mm);
   for (int i = 0; i < 300; ++i)
   {
     const Eigen::Vector3d point =
-      center + Eigen::Vector3d(place(random), place(random), place(random));
+      center + Eigen::Vector3d(position(random), position(random), position(random));
     if ((point - center).dot(pose.axis) < 0.0)
     {
       continue; // beside the shaft

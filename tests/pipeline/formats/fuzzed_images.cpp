@@ -104,8 +104,8 @@ std::vector<Fuzzed> metaKinds()
         return std::nullopt;
       }
       std::string text = whole;
-      std::uniform_int_distribution<std::size_t> place(begin + 2, whole.size() - 5);
-      text[place(random)] ^= 1;
+      std::uniform_int_distribution<std::size_t> position(begin + 2, whole.size() - 5);
+      text[position(random)] ^= 1;
       return text;
     },
     "checksum|compressed data" });
@@ -141,8 +141,8 @@ std::vector<Fuzzed> otherImages()
     [](const std::string& whole, Random& random)
     {
       std::string text = whole;
-      std::uniform_int_distribution<std::size_t> place(12, whole.size() - 9);
-      text[place(random)] ^= 1;
+      std::uniform_int_distribution<std::size_t> position(12, whole.size() - 9);
+      text[position(random)] ^= 1;
       return std::optional(text);
     },
     "checksum|compressed", true, true });

@@ -69,11 +69,11 @@ vtkSmartPointer<vtkImageData> labels()
   auto image = ball(true);
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
-    const Vector3d place(image->GetPoint(i));
-    const double distance = (place - kCenterMm).norm();
+    const Vector3d position(image->GetPoint(i));
+    const double distance = (position - kCenterMm).norm();
     const double value = distance < 20.0 ? 2.0
       : distance < kRadiusMm             ? 5.0
-      : place.z() > 80.0                 ? 7.0
+      : position.z() > 80.0              ? 7.0
                                          : 0.0;
     image->GetPointData()->GetScalars()->SetComponent(i, 0, value);
   }

@@ -20,9 +20,9 @@ namespace palp::test
 namespace
 {
 
-std::optional<std::string> answering(const std::string& way)
+std::optional<std::string> answering(const std::string& ending)
 {
-  return answerOf({ PALP_ANSWERING, way });
+  return answerOf({ PALP_ANSWERING, ending });
 }
 
 TEST(ChildProcess, CarriesOverWhatTheWorkReturns)
@@ -67,9 +67,9 @@ TEST(ChildProcess, NamesAProgramThatIsNotThere)
 TEST(ChildProcess, TurnsACrashIntoNothing)
 {
   testing::internal::CaptureStderr();
-  for (const char* way : { "abort", "segmentation", "exit 3", "exit 0", "no memory" })
+  for (const char* ending : { "abort", "segmentation", "exit 3", "exit 0", "no memory" })
   {
-    EXPECT_EQ(answering(way), std::nullopt) << way;
+    EXPECT_EQ(answering(ending), std::nullopt) << ending;
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

@@ -28,7 +28,7 @@ using namespace units::literals;
 struct Specimen
 {
   vtkSmartPointer<vtkPolyData> surface;
-  Eigen::Vector3d place;
+  Eigen::Vector3d position;
   Eigen::Vector3d normal;
 };
 
@@ -49,9 +49,9 @@ inline Specimen liver()
   {
     double point[3];
     body.surface->GetPoint(i, point);
-    if (point[2] > body.place.z())
+    if (point[2] > body.position.z())
     {
-      body.place = Eigen::Vector3d(point[0], point[1], point[2]);
+      body.position = Eigen::Vector3d(point[0], point[1], point[2]);
     }
   }
   return body;
@@ -90,8 +90,8 @@ inline Sample pressed(const Specimen& body, const Tip& tip, double depth)
 {
   const ForceLaw law(tip, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 });
   Sample sample;
-  sample.contact = { .depth = depth, .normal = body.normal, .center = body.place };
-  sample.pose = { .apex = body.place - depth * body.normal, .axis = -body.normal };
+  sample.contact = { .depth = depth, .normal = body.normal, .center = body.position };
+  sample.pose = { .apex = body.position - depth * body.normal, .axis = -body.normal };
   sample.response = law({ .depth = depth });
   return sample;
 }
@@ -133,7 +133,7 @@ struct View
     Eigen::Vector3d side = -Eigen::Vector3d::UnitY() + body.normal.y() * body.normal;
     side = side.norm() > 0.3 ? side.normalized() : body.normal.unitOrthogonal();
     const Eigen::Vector3d towards = std::cos(50.0_deg) * body.normal + std::sin(50.0_deg) * side;
-    const Eigen::Vector3d focus = body.place + 0.12 * height * body.normal;
+    const Eigen::Vector3d focus = body.position + 0.12 * height * body.normal;
     const Eigen::Vector3d eye = focus + distance * towards;
     vtkCamera& camera = *renderer->GetActiveCamera();
     camera.SetFocalPoint(focus.data());

@@ -96,9 +96,9 @@ TEST(FalconKinematics, ReachesThePublishedHeights)
 {
   const auto height = [](double counts)
   {
-    const auto place =
+    const auto position =
       falconPosition(Vector3d::Constant(falconAngle(counts)), Vector3d(0.0, 0.0, 0.11));
-    return place ? place->z() : -1.0;
+    return position ? position->z() : -1.0;
   };
   EXPECT_NEAR(height(0.0), 0.1346, 5e-5);
   EXPECT_NEAR(height(-1500.0), 0.0741, 5e-5);
@@ -120,8 +120,8 @@ TEST(FalconKinematics, PlaceAndAnglesAreInverse)
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i)
   {
-    const Vector3d place = randomPlace(random);
-    const auto angles = falconAngles(place);
+    const Vector3d position = randomPlace(random);
+    const auto angles = falconAngles(position);
     ASSERT_TRUE(angles);
     const auto back = falconPosition(*angles, falconCenter());
     ASSERT_TRUE(back);
@@ -134,13 +134,14 @@ TEST(FalconKinematics, JacobianIsTheDerivative)
   std::mt19937 random(2);
   for (int i = 0; i < 2000; ++i)
   {
-    const Vector3d place = randomPlace(random);
-    const auto jacobian = falconJacobian(place);
+    const Vector3d position = randomPlace(random);
+    const auto jacobian = falconJacobian(position);
     ASSERT_TRUE(jacobian);
     for (int axis = 0; axis < 3; ++axis)
     {
       const Vector3d step = 1e-5 * Vector3d::Unit(axis);
-      const Vector3d slope = (*falconAngles(place + step) - *falconAngles(place - step)) / 2e-5;
+      const Vector3d slope =
+        (*falconAngles(position + step) - *falconAngles(position - step)) / 2e-5;
       EXPECT_LT((jacobian->col(axis) - slope).norm(), 1e-6 * jacobian->norm());
     }
   }
@@ -149,23 +150,23 @@ TEST(FalconKinematics, JacobianIsTheDerivative)
 // virtual work, with the motion from the angles and not from the Jacobian
 TEST(FalconKinematics, TorquesDoTheWorkOfTheForce)
 {
-  const Vector3d place(0.01, -0.015, 0.12);
+  const Vector3d position(0.01, -0.015, 0.12);
   const Vector3d force(1.0, -0.5, 2.0);
-  const auto torques = falconTorques(place, force);
+  const auto torques = falconTorques(position, force);
   ASSERT_TRUE(torques);
-  const Vector3d way(1e-6, 2e-6, -3e-6);
-  const Vector3d turned = *falconAngles(place + way) - *falconAngles(place - way);
-  EXPECT_NEAR(torques->dot(turned), force.dot(2.0 * way), 1e-6 * force.norm() * way.norm());
+  const Vector3d change(1e-6, 2e-6, -3e-6);
+  const Vector3d turned = *falconAngles(position + change) - *falconAngles(position - change);
+  EXPECT_NEAR(torques->dot(turned), force.dot(2.0 * change), 1e-6 * force.norm() * change.norm());
 }
 
 TEST(FalconKinematics, SaysWhatIsOutOfReach)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Vector3d& place : { Vector3d(1.0, 0, 0.1), Vector3d(0, 0, 0.3), Vector3d(nan, 0, 0.1),
-         Vector3d(0, 0.2, 0.1), Vector3d(0, 0, HUGE_VAL) })
+  for (const Vector3d& position : { Vector3d(1.0, 0, 0.1), Vector3d(0, 0, 0.3),
+         Vector3d(nan, 0, 0.1), Vector3d(0, 0.2, 0.1), Vector3d(0, 0, HUGE_VAL) })
   {
-    EXPECT_FALSE(falconAngles(place));
-    EXPECT_FALSE(falconTorques(place, Vector3d::UnitZ()));
+    EXPECT_FALSE(falconAngles(position));
+    EXPECT_FALSE(falconTorques(position, Vector3d::UnitZ()));
   }
   EXPECT_FALSE(falconPosition(Vector3d::Constant(nan), falconCenter()));
 }

@@ -72,7 +72,7 @@ TEST_F(GuidedToolTest, RestsUntilItsFirstTarget)
 
 TEST_F(GuidedToolTest, HoversAboveItsPlaceAtOnce)
 {
-  tool_.moveTo({ .place = Vector3d(20.0_mm, 0, 0) });
+  tool_.moveTo({ .position = Vector3d(20.0_mm, 0, 0) });
   EXPECT_EQ(run(1), 0.0);
   EXPECT_EQ(pose_.apex, Vector3d(20.0_mm, 0, GuidedTool::kHover));
   EXPECT_EQ(pose_.velocity, Vector3d::Zero());
@@ -104,7 +104,7 @@ TEST_F(GuidedToolTest, SlidesOverThePlaneAtItsDepth)
 {
   tool_.moveTo({ .depth = 3.0_mm });
   run(300);
-  tool_.moveTo({ .place = Vector3d(30.0_mm, 10.0_mm, 0), .depth = 3.0_mm });
+  tool_.moveTo({ .position = Vector3d(30.0_mm, 10.0_mm, 0), .depth = 3.0_mm });
   for (int i = 0; i < 400; ++i)
   {
     run(1);
@@ -119,7 +119,7 @@ TEST_F(GuidedToolTest, LiftsToReachTheOtherSide)
   tool_.moveTo({ .depth = 3.0_mm });
   run(300);
   tool_.moveTo(
-    { .place = Vector3d(0, 0, -30.0_mm), .normal = -Vector3d::UnitZ(), .depth = 3.0_mm });
+    { .position = Vector3d(0, 0, -30.0_mm), .normal = -Vector3d::UnitZ(), .depth = 3.0_mm });
   EXPECT_LE(run(400), 3.0_mm + 1e-5);
   EXPECT_NEAR(pose_.apex.z(), -27.0_mm, 0.02_mm);
   EXPECT_NEAR(pose_.axis.z(), 1.0, 1e-6);
@@ -145,10 +145,10 @@ TEST_F(GuidedToolTest, StaysAwayFromWhereItDoesNotFit)
   test::Mesh two =
     test::withCopyAt(test::block(Vector3d(60.0_mm, 60.0_mm, 40.0_mm), 12), Vector3d(66.0_mm, 0, 0));
   useSurface(std::move(two));
-  tool_.moveTo({ .place = Vector3d(30.0_mm, 0, -20.0_mm), .normal = Vector3d::UnitX() });
+  tool_.moveTo({ .position = Vector3d(30.0_mm, 0, -20.0_mm), .normal = Vector3d::UnitX() });
   EXPECT_EQ(run(10), 0.0);
   tool_.moveTo(
-    { .place = Vector3d(30.0_mm, 0, -20.0_mm), .normal = Vector3d::UnitX(), .depth = 2.0_mm });
+    { .position = Vector3d(30.0_mm, 0, -20.0_mm), .normal = Vector3d::UnitX(), .depth = 2.0_mm });
   EXPECT_EQ(run(500), 0.0);
 }
 
@@ -187,7 +187,7 @@ TEST_F(GuidedToolTest, AllocatesNothing)
   tool_.moveTo({ .depth = 5.0_mm });
   const test::AllocationGuard guard;
   run(50);
-  tool_.moveTo({ .place = Vector3d(20.0_mm, 0, 0), .depth = 3.0_mm });
+  tool_.moveTo({ .position = Vector3d(20.0_mm, 0, 0), .depth = 3.0_mm });
   run(200);
   tool_.moveTo({});
   run(100);
@@ -197,7 +197,7 @@ TEST_F(GuidedToolTest, AllocatesNothing)
 TEST_F(GuidedToolTest, IgnoresWhatIsNotFinite)
 {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  tool_.moveTo({ .place = Vector3d(kNaN, 0, 0) });
+  tool_.moveTo({ .position = Vector3d(kNaN, 0, 0) });
   tool_.moveTo({ .depth = kNaN });
   run(3);
   EXPECT_EQ(pose_.apex, kFar.apex);

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const ToolPose kOrigin{};
-const PressTarget kAside{ .place = Vector3d(0.0, 10.0_mm, 1.0_mm), .depth = 1.0_mm };
+const PressTarget kAside{ .position = Vector3d(0.0, 10.0_mm, 1.0_mm), .depth = 1.0_mm };
 
 // a damped oscillator let go at rest, from a textbook
 double textbook(const HandMechanics& hand, double from, double time)
@@ -87,7 +87,7 @@ TEST(SimulatedHand, IsStableForAnyTick)
 TEST(SimulatedHand, StaysFiniteWhateverItIsGiven)
 {
   SimulatedHand hand(kOrigin);
-  hand.guided()->moveTo({ .place = Vector3d(kNaN, 0, 0) });
+  hand.guided()->moveTo({ .position = Vector3d(kNaN, 0, 0) });
   hand.guided()->moveTo({ .normal = Vector3d(kNaN, 0, 0) });
   for (const double tick : { kNaN, -1.0, 0.0, HUGE_VAL })
   {

@@ -190,15 +190,15 @@ TEST(CoatedLaw, LiesBetweenTheTwoTissues)
   const ForceLaw outer(SphereTip{ 10.0_mm }, skin, settings);
   settings.coatings = one(1.0_mm, skin);
   const ForceLaw coated(SphereTip{ 10.0_mm }, kBody, settings);
-  double share = 1.0;
+  double fraction = 1.0;
   for (const double depth : { 0.001_mm, 0.01_mm, 0.1_mm, 1.0_mm, 5.0_mm, 9.0_mm })
   {
     const double force = coated({ .depth = depth }).force;
     EXPECT_GT(force, inner({ .depth = depth }).force);
     EXPECT_LT(force, outer({ .depth = depth }).force);
     // the wider the contact, the less the skin tells
-    EXPECT_LT(force / outer({ .depth = depth }).force, share);
-    share = force / outer({ .depth = depth }).force;
+    EXPECT_LT(force / outer({ .depth = depth }).force, fraction);
+    fraction = force / outer({ .depth = depth }).force;
   }
 }
 
@@ -207,20 +207,20 @@ TEST(CoatedLaw, ItsFactorsMultiplyThePapersForce)
   LawSettings settings{ .mode = LawMode::Corrected, .coatings = one(2.0_mm, { 60.0_kPa, 0.4 }) };
   const ForceLaw law(SphereTip{ 10.0_mm }, kBody, settings);
   const ForceLaw paper(SphereTip{ 10.0_mm }, kBody);
-  const ContactGeometry place{
+  const ContactGeometry position{
     .depth = 3.0_mm, .thickness = 40.0_mm, .surfaceCurvature = 1.0 / 60.0_mm
   };
-  double force = paper(place).force;
-  for (const Factor& factor : law.factors(place))
+  double force = paper(position).force;
+  for (const Factor& factor : law.factors(position))
   {
     force *= factor.value;
   }
-  EXPECT_NEAR(law(place).force, force, 1e-9 * force);
-  EXPECT_GT(law.factors(place)[6].value, 1.1);
+  EXPECT_NEAR(law(position).force, force, 1e-9 * force);
+  EXPECT_GT(law.factors(position)[6].value, 1.1);
   // a law without coatings of the same tissue has the same other factors
   settings.coatings = {};
-  const Factors plain = ForceLaw(SphereTip{ 10.0_mm }, kBody, settings).factors(place);
-  EXPECT_EQ(plain[3].value, law.factors(place)[3].value);
+  const Factors plain = ForceLaw(SphereTip{ 10.0_mm }, kBody, settings).factors(position);
+  EXPECT_EQ(plain[3].value, law.factors(position)[3].value);
   EXPECT_EQ(plain[6].value, 1.0);
 }
 
