@@ -203,7 +203,7 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
       " million triangles, noise at that level; smooth the image, or take fewer voxels");
   }
 
-  const vtkSmartPointer<vtkPolyData> surface = smoothSurface(contour, notes);
+  vtkSmartPointer<vtkPolyData> surface = smoothSurface(contour, notes);
   vtkNew<vtkMatrix4x4> toPatient;
   toPatient->DeepCopy(volume.toPatient);
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)

@@ -47,8 +47,8 @@ vtkSmartPointer<vtkPolyData> makePolyData(
     vertices->SetPoint(static_cast<vtkIdType>(i), points[i].data());
   }
   vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(
-    static_cast<vtkIdType>(triangles.size()), static_cast<vtkIdType>(3 * triangles.size()));
+  const auto count = static_cast<vtkIdType>(triangles.size());
+  cells->AllocateExact(count, 3 * count);
   for (const auto& [a, b, c] : triangles)
   {
     cells->InsertNextCell({ a, b, c });
