@@ -27,7 +27,7 @@ vtkPalpChart::vtkPalpChart()
 void vtkPalpChart::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Place: " << this->Rectangle[0] << ' ' << this->Rectangle[1] << ' '
+  os << indent << "Rectangle: " << this->Rectangle[0] << ' ' << this->Rectangle[1] << ' '
      << this->Rectangle[2] << ' ' << this->Rectangle[3] << " pixels\n"
      << indent << "Keyed: " << this->Keyed << '\n';
 }
@@ -41,8 +41,8 @@ void vtkPalpChart::SetRectangle(const vtkRectf& rectangle)
 // fonts follow the dots per inch of the screen; what has its size in pixels follows here
 void vtkPalpChart::ScaleTo(double scale)
 {
-  const auto fraction = static_cast<float>(scale / this->Scale);
-  if (fraction == 1.0F)
+  const auto growth = static_cast<float>(scale / this->Scale);
+  if (growth == 1.0F)
   {
     return;
   }
@@ -50,10 +50,10 @@ void vtkPalpChart::ScaleTo(double scale)
   for (vtkIdType i = 0; i < this->GetNumberOfPlots(); ++i)
   {
     vtkPlot* plot = this->GetPlot(i);
-    plot->GetPen()->SetWidth(fraction * plot->GetPen()->GetWidth());
+    plot->GetPen()->SetWidth(growth * plot->GetPen()->GetWidth());
     if (auto* points = vtkPlotPoints::SafeDownCast(plot))
     {
-      points->SetMarkerSize(fraction * points->GetMarkerSize());
+      points->SetMarkerSize(growth * points->GetMarkerSize());
     }
   }
   for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
@@ -61,15 +61,15 @@ void vtkPalpChart::ScaleTo(double scale)
     vtkAxis* axis = this->GetAxis(side);
     for (vtkPen* pen : { axis->GetPen(), axis->GetGridPen() })
     {
-      pen->SetWidth(fraction * pen->GetWidth());
+      pen->SetWidth(growth * pen->GetWidth());
     }
-    axis->SetLabelOffset(fraction * axis->GetLabelOffset());
-    axis->SetTickLength(fraction * axis->GetTickLength());
-    axis->SetMargins(static_cast<int>(fraction * static_cast<float>(axis->GetMargins()[0])),
-      static_cast<int>(fraction * static_cast<float>(axis->GetMargins()[1])));
+    axis->SetLabelOffset(growth * axis->GetLabelOffset());
+    axis->SetTickLength(growth * axis->GetTickLength());
+    axis->SetMargins(static_cast<int>(growth * static_cast<float>(axis->GetMargins()[0])),
+      static_cast<int>(growth * static_cast<float>(axis->GetMargins()[1])));
   }
   this->SetHiddenAxisBorder(
-    static_cast<int>(fraction * static_cast<float>(this->GetHiddenAxisBorder())));
+    static_cast<int>(growth * static_cast<float>(this->GetHiddenAxisBorder())));
 }
 
 bool vtkPalpChart::Paint(vtkContext2D* painter)

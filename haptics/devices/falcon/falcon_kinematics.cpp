@@ -115,13 +115,13 @@ std::optional<Vector3d> falconPosition(const Vector3d& angles, const Vector3d& n
     bool invertible = false;
     Matrix3d inverse = Matrix3d::Zero();
     jacobian->computeInverseWithCheck(inverse, invertible);
-    const Vector3d step = inverse * (angles - *reached);
-    if (!invertible || !step.allFinite())
+    const Vector3d correction = inverse * (angles - *reached);
+    if (!invertible || !correction.allFinite())
     {
       return std::nullopt;
     }
-    position += step;
-    if (step.norm() < kFound)
+    position += correction;
+    if (correction.norm() < kFound)
     {
       return position;
     }

@@ -119,7 +119,12 @@ protected:
     for (int i = 0; i < kAttempts && !pushes(); ++i)
     {
       arm_.depth = -5e-3;
-      QTest::qWait(200); // the panel shows what the device did
+      const auto isShown = [&] // what the device did
+      {
+        return !session_->newest().contact.touching() &&
+          armButton_->isChecked() == session_->armed();
+      };
+      (void)QTest::qWaitFor(isShown, kPatience / kAttempts);
       if (!session_->armed())
       {
         arm();

@@ -78,10 +78,10 @@ TEST_F(WindowTest, AHeldPressThatMovesIsNoDeeper)
   for (const QPoint position :
     { QPoint(-80, 0), QPoint(80, -20), QPoint(-40, -30), QPoint(60, 10) })
   {
-    QTest::qWait(300);
+    waitForRest();
     QTest::mouseMove(canvas_, middle + position);
   }
-  QTest::qWait(300);
+  waitForRest();
   ASSERT_NE(session_->recording().deepest(), nullptr);
   EXPECT_NEAR(session_->recording().deepest()->contact.depth, 4e-3, 0.1e-3);
 }
@@ -92,7 +92,7 @@ TEST_F(WindowTest, HoveringNeverTouches)
     { QPoint(-150, 0), QPoint(120, -30), QPoint(0, 60), QPoint(-60, -60) })
   {
     QTest::mouseMove(canvas_, canvas_->rect().center() + position);
-    QTest::qWait(150);
+    waitForRest();
   }
   EXPECT_EQ(peakForce(), 0.0);
 }
@@ -108,13 +108,8 @@ TEST_F(WindowTest, GoesToAnotherPlaceOverTheSurface)
     QTest::mouseMove(canvas_, middle + position);
     QTest::mousePress(canvas_, Qt::LeftButton, {}, middle + position);
     QTest::mouseMove(canvas_, middle + position + QPoint(0, 60));
-    const auto there = [this]
-    {
-      const Sample sample = session_->newest();
-      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5;
-    };
-    QTest::qWait(100);
-    EXPECT_TRUE(QTest::qWaitFor(there, kPatience));
+    waitForRest();
+    EXPECT_TRUE(session_->newest().contact.touching());
   }
   release();
   ASSERT_NE(session_->recording().deepest(), nullptr);
@@ -162,9 +157,9 @@ TEST_F(WindowTest, AllReadingsAreOfOneSample)
   QTest::mouseMove(canvas_, middle);
   QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
   int compared = 0;
-  for (int pixels = 10; pixels < 200; pixels += 3)
+  for (int i = 0; i < 1000 && (i < 60 || compared <= 10); ++i)
   {
-    QTest::mouseMove(canvas_, middle + QPoint(0, pixels));
+    QTest::mouseMove(canvas_, middle + QPoint(0, 10 + 3 * (i % 60)));
     QTest::qWait(15);
     const QString scene = readings();
     const QString status = window_->findChild<QLabel*>("force")->text();

@@ -83,9 +83,8 @@ TEST_F(WindowTest, ThisPressIsNotTheDeepestOfTheRecording)
   {
     press(pixels);
     release();
-    EXPECT_TRUE(
-      QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
-    QTest::qWait(200);
+    EXPECT_TRUE(waitForLift());
+    waitForRest();
   }
   panel->refresh();
   const std::filesystem::path file = folder_.path() / "forces.csv";
@@ -123,7 +122,7 @@ TEST_F(WindowTest, ExportsWhatWasMeasured)
   press(100);
   ASSERT_TRUE(QTest::qWaitFor([&] { return peakForce() > 1.0; }, kPatience));
   release();
-  QTest::qWait(200);
+  EXPECT_TRUE(waitForLift());
   ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
   const test::CsvTable samples = test::readCsv(folder_.path() / "samples.csv");
   const auto& force = samples["force_N"];
@@ -179,9 +178,8 @@ TEST_F(WindowTest, KeepsAndExportsWhatAChangeEnds)
 {
   press(100);
   release();
-  EXPECT_TRUE(
-    QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
-  QTest::qWait(200);
+  EXPECT_TRUE(waitForLift());
+  waitForRest();
   const double peak = peakForce();
   window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
   EXPECT_TRUE(window_->statusBar()->currentMessage().contains("kept"));

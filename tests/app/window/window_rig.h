@@ -46,7 +46,26 @@ protected:
     QApplication::setActiveWindow(window_.get()); // no window manager does it here
     canvas_ = window_->findChild<QVTKOpenGLNativeWidget*>("canvas");
     EXPECT_TRUE(canvas_->isValid()) << "no OpenGL context";
-    QTest::qWait(500);
+    const auto begun = [this]
+    { return canvas_->renderWindow()->GetNeverRendered() == 0 && session_->newest().time > 0.1; };
+    EXPECT_TRUE(QTest::qWaitFor(begun, kPatience));
+  }
+
+  // until the tool rests, and not since before
+  void waitForRest() const
+  {
+    const double before = session_->newest().time;
+    const auto rests = [this, before]
+    {
+      const Sample sample = session_->newest();
+      return sample.pose.velocity.norm() < 1e-5 && sample.time > before + 0.1;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(rests, kPatience));
+  }
+
+  [[nodiscard]] bool waitForLift() const
+  {
+    return QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience);
   }
 
   // the pointer goes down in the middle of the liver and drags, until the tool rests
@@ -54,17 +73,12 @@ protected:
   {
     const QPoint middle = canvas_->rect().center();
     QTest::mouseMove(canvas_, middle);
-    QTest::qWait(100);
+    waitForRest();
     QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
     QTest::mouseMove(canvas_, middle + QPoint(0, pixelsDown));
-    const double told = session_->newest().time;
-    const auto rests = [this, told] // and not since before the drag
-    {
-      const Sample sample = session_->newest();
-      return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5 &&
-        sample.time > told + 0.1;
-    };
-    EXPECT_TRUE(QTest::qWaitFor(rests, kPatience));
+    EXPECT_TRUE(
+      QTest::qWaitFor([this] { return session_->newest().contact.touching(); }, kPatience));
+    waitForRest();
   }
 
   void release()
@@ -80,8 +94,7 @@ protected:
     for (int again = 0; again < kAttempts && !isFelt(session_->newest()); ++again)
     {
       release();
-      EXPECT_TRUE(
-        QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+      EXPECT_TRUE(waitForLift());
       session_->arm(false);
       const double now = session_->newest().time;
       EXPECT_TRUE(

@@ -184,9 +184,8 @@ TEST_F(WindowTest, FitsASmallScreenWithItsStatusBar)
   const int screen = window_->screen()->availableSize().height();
   const QSize small(1008, std::max(672, screen * 7 / 10));
   window_->resize(small);
-  QTest::qWait(200);
-  EXPECT_EQ(window_->size(), small);
-  EXPECT_GE(canvas_->width(), 300);
+  const auto fits = [&] { return window_->size() == small && canvas_->width() >= 300; };
+  EXPECT_TRUE(QTest::qWaitFor(fits, kPatience));
   const QRect bar(
     window_->statusBar()->mapTo(window_.get(), QPoint()), window_->statusBar()->size());
   EXPECT_TRUE(window_->rect().contains(bar));
