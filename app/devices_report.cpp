@@ -5,10 +5,12 @@
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
+#include "haptics/numerics/statistics.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -36,11 +38,12 @@ struct Family
 
 constexpr std::array kFamilies{
   Family{ DeviceKind::SpaceMouse, "SpaceMouse", "plug one in; it moves the tool, without force",
-    &hidHurdle },
+    &hidUnusableReason },
   Family{ DeviceKind::Falcon, "Novint Falcon",
-    "plug in USB and power; the first time give firmware as --device falcon:FILE", &usbHurdle },
+    "plug in USB and power; the first time give firmware as --device falcon:FILE",
+    &usbUnusableReason },
   Family{ DeviceKind::RawHid, "WoodenHaptics, PHD1 and other raw HID boards",
-    "plug one in; use it by its path, as --device wooden:/dev/hidraw2", &hidHurdle },
+    "plug one in; use it by its path, as --device wooden:/dev/hidraw2", &hidUnusableReason },
 };
 
 void print(const FoundDevice& device)
@@ -109,14 +112,14 @@ int list(std::vector<FoundDevice> all)
 int probe(const std::string& name)
 {
   const std::unique_ptr<Driver> driver = openDriver(name);
-  std::vector<Clock::duration> times;
+  std::vector<double> times; // [us]
   int answered = 0;
   DriverSample sample;
   for (const auto end = Clock::now() + 1s; Clock::now() < end;)
   {
     const auto begin = Clock::now();
     const IoCode code = driver->tick(Eigen::Vector3d::Zero(), 0.001, sample);
-    times.push_back(Clock::now() - begin);
+    times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
     answered += code == IoCode::Ok ? 1 : 0;
     if (code == IoCode::Gone)
     {
@@ -125,12 +128,10 @@ int probe(const std::string& name)
     }
     std::this_thread::sleep_until(begin + 1ms);
   }
-  std::ranges::sort(times);
-  const auto microseconds = [](Clock::duration time)
-  { return std::chrono::duration_cast<std::chrono::microseconds>(time).count(); };
+  const Statistics statistics = statisticsOf(times);
   std::cout << driver->limits().model << ": " << answered << " of " << times.size()
-            << " exchanges answered in a second; median " << microseconds(times[times.size() / 2])
-            << " us, longest " << microseconds(times.back()) << " us"
+            << " exchanges answered in a second; median " << std::lround(statistics.median)
+            << " us, longest " << std::lround(statistics.high) << " us"
             << (sample.homed ? "" : "; not homed yet") << (sample.stopped ? "; stopped" : "")
             << '\n';
   return answered > 0 ? 0 : kNoneUsable;

@@ -23,7 +23,7 @@ namespace
 {
 
 // stops the force in the next tick of the servo, though the window may hang
-std::atomic<bool> gEnded = false; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<bool> gEnded = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 // then ends the program in order, so that the last force sent is zero

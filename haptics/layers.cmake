@@ -24,8 +24,7 @@ endif()
 
 # palp_library(<name> SOURCES <file>... [PUBLIC <library>...] [PRIVATE <library>...])
 #
-# The library of the calling folder, palp::<name>. What its headers include is PUBLIC, what only its
-# sources include PRIVATE; tests/style/tree.py compares both with the includes.
+# The library of the calling folder. PUBLIC is what its headers include, PRIVATE what only its sources do.
 function(palp_library name)
   cmake_parse_arguments(PARSE_ARGV 1 palp "" "" "SOURCES;PUBLIC;PRIVATE")
   set(target palp_${name})
@@ -57,8 +56,14 @@ function(palp_install component)
   install(TARGETS palp_${component} ${ARGN} EXPORT palp_${component} ARCHIVE DESTINATION lib/palp)
   install(EXPORT palp_${component} NAMESPACE palp:: FILE Palp_${component}.cmake
     DESTINATION lib/cmake/Palp)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${component} DESTINATION include/palp
-    FILES_MATCHING PATTERN "*.h")
+  foreach(target ${ARGN})
+    get_target_property(directory ${target} SOURCE_DIR)
+    get_target_property(headers ${target} SOURCES)
+    list(FILTER headers INCLUDE REGEX "\\.h$")
+    list(TRANSFORM headers PREPEND ${directory}/)
+    file(RELATIVE_PATH place ${PROJECT_SOURCE_DIR} ${directory})
+    install(FILES ${headers} DESTINATION include/palp/${place})
+  endforeach()
 endfunction()
 
 # palp_forbid(<target> <regex>): stop the configuration if a target links against a

@@ -128,7 +128,7 @@ Case caseOf(const std::string& name, const CaseText& text)
   }
   const Tip tip = parseTip(value("tip"));
   // small-strain theory knows the undeformed surface, which meets the edge of a flat at a node
-  const bool sharp = *energy == Energy::Linear && flatRadius(tip) > 0.0;
+  const bool sharp = *energy == StrainEnergy::Linear && flatRadius(tip) > 0.0;
   const auto [width, depth, height] = parseBlock(value("block"));
   Case study{ .name = name,
     .width = width,

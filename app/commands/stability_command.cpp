@@ -52,8 +52,9 @@ void addStabilityCommand(CLI::App& app)
   command->add_flag("--quick", options->quick, "A tenth of the cases: seconds, not minutes");
   command->footer(
     "unstable: the loop gave energy to the hand (energy_uJ below -1), or the hand did not come\n"
-    "to rest (late speed above a tenth of the early one), or it hummed at an encoder of 48 um\n"
-    "(limit_cycle_speed_m_per_s above 0.025). refused: no force was given, or a fault ended it. "
+    "to rest (late speed above a tenth of the early one), or it went on in a limit cycle at an\n"
+    "encoder of 48 um (limit_cycle_speed_m_per_s above 0.025). refused: no force was given, or a "
+    "fault ended it. "
     "limited_by\n"
     "names the stages of the chain that acted.\n"
     "Example:\n"

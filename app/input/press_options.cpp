@@ -32,7 +32,8 @@ double parseDamping(const std::string& text)
 void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
-    "Surface: STL, OBJ, PLY, OFF, VTK or VTP; image: MHA, MHD, NII, NII.GZ or VTI; the bundled "
+    "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ or VTI; the "
+    "bundled "
     "liver if none",
     "",
     [this](const std::string& text)

@@ -14,8 +14,8 @@ namespace palp
 {
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
-/// the surface or the label of the body. Stays, with the reason, until the
-/// file is opened or given up.
+/// the surface or the label of the body. Stays, with the reason, until the file is opened or given
+/// up.
 class OpenDialog : public QDialog
 {
   Q_OBJECT

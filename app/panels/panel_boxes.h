@@ -87,8 +87,8 @@ protected:
   void wheelEvent(QWheelEvent* event) override;
 };
 
-/// Rows of a label and a field, for a group of a panel. A grid, as a form
-/// keeps room for what is hidden.
+/// Rows of a label and a field, for a group of a panel. A grid, as a form keeps room for what is
+/// hidden.
 [[nodiscard]] QGridLayout* makeRows(QGroupBox& group);
 
 void addRow(QGridLayout& rows, const QString& label, QWidget* field);

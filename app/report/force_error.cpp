@@ -14,16 +14,17 @@ namespace palp::report
 namespace
 {
 
-using fem::Energy;
+using fem::StrainEnergy;
 
-constexpr std::array kEnergies{ Energy::Linear, Energy::Corotated, Energy::NeoHookean };
+constexpr std::array kEnergies{ StrainEnergy::Linear, StrainEnergy::Corotated,
+  StrainEnergy::NeoHookean };
 
 std::string join(const std::string& a, const std::string& b)
 {
   return b.empty() ? a : a + "; " + b;
 }
 
-std::string settingOf(const BlockPress& press, Energy against, const std::string& own)
+std::string settingOf(const BlockPress& press, StrainEnergy against, const std::string& own)
 {
   return join(press.name + "; against " + std::string(fem::name(against)), own);
 }
@@ -85,7 +86,7 @@ struct Tables
 
 void addTrial(Tables& tables, const BlockPress& press, const Trial& trial)
 {
-  for (const Energy against : { Energy::NeoHookean, trial.like })
+  for (const StrainEnergy against : { StrainEnergy::NeoHookean, trial.like })
   {
     const ReferenceForces reference = referenceForces(press, against);
     const std::string setting = settingOf(press, against, trial.setting);
@@ -109,13 +110,13 @@ void addTrial(Tables& tables, const BlockPress& press, const Trial& trial)
             spread.low, spread.high, spread.median / tables.sweep });
       }
     }
-    if (against == Energy::NeoHookean)
+    if (against == StrainEnergy::NeoHookean)
     {
       line.insert(line.begin() + 3, all.empty() ? std::nan("") : statisticsOf(all).median);
       line.emplace_back(trial.leavesOut);
       tables.summary.rows.push_back(std::move(line));
     }
-    if (trial.like == Energy::NeoHookean)
+    if (trial.like == StrainEnergy::NeoHookean)
     {
       break; // one reference only
     }
@@ -141,7 +142,7 @@ constexpr std::array kMarks{ Mark{ "paper law", Curve::Style::Circles, 2 },
 
 void addFigures(Section& section, const BlockPress& press)
 {
-  const std::string setting = settingOf(press, Energy::NeoHookean, "");
+  const std::string setting = settingOf(press, StrainEnergy::NeoHookean, "");
   for (const Regime& regime : kRegimes)
   {
     Figure figure{
@@ -230,7 +231,7 @@ std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& refere
     trials.push_back(again ? Trial{} : trySteps(press, baseline, depths, wanted, effort));
     tried();
   }
-  for (const Energy energy : kEnergies)
+  for (const StrainEnergy energy : kEnergies)
   {
     for (const double size : kResolutions)
     {
@@ -246,7 +247,7 @@ std::vector<Trial> tryAll(const BlockPress& press, const ReferenceForces& refere
 void measurePress(
   Tables& tables, const BlockPress& press, const Effort& effort, const std::function<void()>& tried)
 {
-  const ReferenceForces reference = referenceForces(press, Energy::NeoHookean);
+  const ReferenceForces reference = referenceForces(press, StrainEnergy::NeoHookean);
   std::vector<Trial> trials = tryAll(press, reference, effort, false, tried);
   for (int repeat = 1; repeat < effort.repeats(); ++repeat)
   {
@@ -304,7 +305,7 @@ Section forceAgainstTime(const Effort& effort)
     .shown = false };
   for (const BlockPress& press : wanted)
   {
-    const std::string setting = settingOf(press, Energy::NeoHookean, "");
+    const std::string setting = settingOf(press, StrainEnergy::NeoHookean, "");
     addParetoFront(front, "all methods", tables.errors, "error_rms_pct", setting, "");
     addParetoFront(front, "no table", tables.errors, "error_rms_pct", setting, "table");
   }

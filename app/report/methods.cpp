@@ -82,18 +82,18 @@ private:
   std::vector<double> slopes_;
 };
 
-Trial start(const char* method, const char* leavesOut, fem::Energy like)
+Trial start(const char* method, const char* leavesOut, fem::StrainEnergy like)
 {
   return { method, "", leavesOut, like, {}, {} };
 }
 
-const char* omissionsOf(fem::Energy energy)
+const char* omissionsOf(fem::StrainEnergy energy)
 {
   switch (energy)
   {
-    case fem::Energy::Linear:
+    case fem::StrainEnergy::Linear:
       return "large strain, rotation, the sideways motion of what is touched; inertia, friction";
-    case fem::Energy::Corotated:
+    case fem::StrainEnergy::Corotated:
       return "stiffening at large strain; inertia, friction";
     default:
       return "inertia, friction; the square block is a cylinder of equal area";
@@ -127,20 +127,21 @@ std::vector<Trial> tryLaws(
   const ForceTable table(ExtentTable::read(dataFile("tables/" + press.table + ".csv")));
 
   std::vector<Trial> trials;
-  const auto add = [&](const char* method, const char* leavesOut, fem::Energy like, auto forceAt)
+  const auto add =
+    [&](const char* method, const char* leavesOut, fem::StrainEnergy like, auto forceAt)
   { measure(trials.emplace_back(start(method, leavesOut, like)), depths, effort, forceAt); };
   add("paper law", "thickness and width of the body, large strain; that r is not small",
-    fem::Energy::Linear, [&](double depth) { return paper({ .depth = depth }).force; });
-  add("exact half-space", "thickness and width of the body, large strain", fem::Energy::Linear,
-    [&](double depth) { return exact({ .depth = depth }).force; });
-  add("corrected law", "width of the body, friction, inertia", fem::Energy::NeoHookean,
+    fem::StrainEnergy::Linear, [&](double depth) { return paper({ .depth = depth }).force; });
+  add("exact half-space", "thickness and width of the body, large strain",
+    fem::StrainEnergy::Linear, [&](double depth) { return exact({ .depth = depth }).force; });
+  add("corrected law", "width of the body, friction, inertia", fem::StrainEnergy::NeoHookean,
     [&](double depth) { return full({ .depth = depth, .thickness = press.height }).force; });
   add("table", "every tool, body and nu but its own, tilt, curvature; friction, inertia",
-    fem::Energy::NeoHookean, [&](double depth) { return table(depth); });
+    fem::StrainEnergy::NeoHookean, [&](double depth) { return table(depth); });
   return trials;
 }
 
-Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
+Trial tryElements(const BlockPress& press, fem::StrainEnergy energy, double size,
   std::span<const double> depths, const Effort& effort, std::vector<fem::IndentationStep>* surfaces)
 {
   Trial trial = start("", omissionsOf(energy), energy);
@@ -193,8 +194,8 @@ Trial trySteps(const BlockPress& press, fem::Baseline baseline, std::span<const 
   constexpr int kMaxSteps = 100;
   constexpr int kTimed = 5;
   const bool elements = baseline == fem::Baseline::Corotational;
-  Trial trial =
-    start("", omissionsOf(baseline), elements ? fem::Energy::Corotated : fem::Energy::NeoHookean);
+  Trial trial = start("", omissionsOf(baseline),
+    elements ? fem::StrainEnergy::Corotated : fem::StrainEnergy::NeoHookean);
   trial.method = fem::name(baseline);
   trial.setting = "1600 vertices";
   trial.forces.assign(depths.size(), std::numeric_limits<double>::quiet_NaN());
@@ -273,7 +274,8 @@ SurfaceTrial tryElementSurface(const BlockPress& press,
     depths.push_back(i * 0.5_mm);
   }
   std::vector<fem::IndentationStep> steps;
-  const Trial forces = tryElements(press, fem::Energy::NeoHookean, size, depths, effort, &steps);
+  const Trial forces =
+    tryElements(press, fem::StrainEnergy::NeoHookean, size, depths, effort, &steps);
   SurfaceTrial trial{ .method = "finite elements",
     .setting = forces.setting,
     .leavesOut = forces.leavesOut,

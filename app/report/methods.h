@@ -17,7 +17,7 @@ struct Trial
   std::string method;
   std::string setting;                    ///< of the method, as "h 1 mm"; empty: none
   std::string leavesOut;                  ///< what it does not know
-  fem::Energy like;                       ///< the material it is made for
+  fem::StrainEnergy like;                 ///< the material it is made for
   std::vector<double> forces;             ///< for each depth [N]; not a number where it finds none
   std::vector<std::vector<double>> times; ///< for each depth, of repeated evaluations [us]
 };
@@ -34,7 +34,7 @@ inline constexpr std::array kResolutions{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 
 /// @param size      of an element under the tool, over the tool's size
 /// @param surfaces  takes the pressed body at each depth, where wanted
 /// @throws Interrupted
-[[nodiscard]] Trial tryElements(const BlockPress& press, fem::Energy energy, double size,
+[[nodiscard]] Trial tryElements(const BlockPress& press, fem::StrainEnergy energy, double size,
   std::span<const double> depths, const Effort& effort,
   std::vector<fem::IndentationStep>* surfaces = nullptr);
 

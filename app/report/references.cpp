@@ -47,11 +47,11 @@ const std::array<BlockPress, 4>& presses()
   return kPresses;
 }
 
-ReferenceForces referenceForces(const BlockPress& press, fem::Energy energy)
+ReferenceForces referenceForces(const BlockPress& press, fem::StrainEnergy energy)
 {
-  const std::string& name = energy == fem::Energy::Linear ? press.linear
-    : energy == fem::Energy::Corotated                    ? press.corotated
-                                                          : press.neoHookean;
+  const std::string& name = energy == fem::StrainEnergy::Linear ? press.linear
+    : energy == fem::StrainEnergy::Corotated                    ? press.corotated
+                                                                : press.neoHookean;
   // one table has fewer columns, its values being restored from a summary
   const char* header = name == "calib_cone45__COROT_h0.5"
     ? "delta_m,F_N,Rd05_ref_m"

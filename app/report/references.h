@@ -40,7 +40,7 @@ struct ReferenceForces
 };
 
 /// @throws Error  BadFile
-[[nodiscard]] ReferenceForces referenceForces(const BlockPress& press, fem::Energy energy);
+[[nodiscard]] ReferenceForces referenceForces(const BlockPress& press, fem::StrainEnergy energy);
 
 /// Surface of a pressed block as an independent program has it: neo-Hookean.
 struct ReferenceSurface

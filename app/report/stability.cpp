@@ -66,7 +66,8 @@ Section stability(const Effort& effort)
   section.text = { inOneParagraph(stabilitySummary(cases)) };
   section.text.emplace_back(
     "Hand, device, coupling and tissue are simulated in closed loop (palp stability). Unstable: "
-    "the loop gave energy to the hand, or the hand did not come to rest, or it hummed at an "
+    "the loop gave energy to the hand, or the hand did not come to rest, or it went on in a limit "
+    "cycle at an "
     "encoder of 48 \u00b5m. The chain bounds stiffness and force, so that what is stiffer than a "
     "device can render is felt softer, not as shaking.");
   section.pictures = { { "stability.svg",

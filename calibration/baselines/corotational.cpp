@@ -89,7 +89,7 @@ CorotationalTets::CorotationalTets(
   }
 }
 
-double CorotationalTets::respond(
+double CorotationalTets::evaluate(
   const Eigen::Matrix3Xd& positions, Eigen::Matrix3Xd& forces, BlockMatrix& stiffness)
 {
   forces.setZero();

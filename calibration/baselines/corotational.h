@@ -22,7 +22,7 @@ public:
   /// @param matrix    of the same mesh
   CorotationalTets(const TetMesh& mesh, const BlockMatrix& matrix, const Material& material);
 
-  double respond(
+  double evaluate(
     const Eigen::Matrix3Xd& positions, Eigen::Matrix3Xd& forces, BlockMatrix& stiffness) override;
   void reset() override;
 

@@ -41,7 +41,7 @@ MassSprings::MassSprings(
   }
 }
 
-double MassSprings::respond(
+double MassSprings::evaluate(
   const Eigen::Matrix3Xd& positions, Eigen::Matrix3Xd& forces, BlockMatrix& stiffness)
 {
   forces.setZero();

@@ -26,7 +26,7 @@ public:
   MassSprings(
     const TetMesh& mesh, const BlockMatrix& matrix, const Material& material, bool holdVolumes);
 
-  double respond(
+  double evaluate(
     const Eigen::Matrix3Xd& positions, Eigen::Matrix3Xd& forces, BlockMatrix& stiffness) override;
 
 private:

@@ -229,7 +229,7 @@ StepOutcome Stepper::State::step(double dt)
   require(std::isfinite(dt) && dt > 0.0 && dt <= kLongestStep,
     "step: the time step must be more than 0 and at most 1 s");
   StepOutcome outcome;
-  outcome.elasticEnergy = elasticity->respond(positions, forces, stiffness);
+  outcome.elasticEnergy = elasticity->evaluate(positions, forces, stiffness);
   findContacts(dt);
   const auto solution = solve(dt);
   positions += dt * velocities;
@@ -270,7 +270,7 @@ void Stepper::placeTool(const Vector3d& apex)
   const Matrix3Xd& rest = state_->mesh.positions;
   const auto top = rest(Eigen::all, state_->mesh.surface);
   const auto base = rest(Eigen::all, state_->mesh.bonded);
-  require(apex.allFinite(), "tool: its place is not a finite number");
+  require(apex.allFinite(), "tool: its position is not a finite number");
   require((apex.array() >= top.rowwise().minCoeff().array()).head<2>().all() &&
       (apex.array() <= top.rowwise().maxCoeff().array()).head<2>().all(),
     "tool: its apex is beside the surface; place it above");

@@ -50,8 +50,8 @@ double elementSize(const Tip& tip, Resolution resolution)
   return resolution == Resolution::Quick ? 2.0 * full : full;
 }
 
-Case paperBlock(
-  const Tip& tip, double height, Energy energy, std::vector<double> depths, Resolution resolution)
+Case paperBlock(const Tip& tip, double height, StrainEnergy energy, std::vector<double> depths,
+  Resolution resolution)
 {
   return { .name = "block",
     .height = height,
@@ -62,7 +62,7 @@ Case paperBlock(
     .elementSize = elementSize(tip, resolution) };
 }
 
-std::vector<double> forcesOn(const Body& body, const Tip& tip, Energy energy,
+std::vector<double> forcesOn(const Body& body, const Tip& tip, StrainEnergy energy,
   const std::vector<double>& depths, const std::stop_token& stop)
 {
   Indenter indenter(body, tip, energy, kTissue);

@@ -24,14 +24,14 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] Tip tool(bool sphere, double radius);
 
 /// The paper's block of 100 x 100 mm.
-[[nodiscard]] Case paperBlock(
-  const Tip& tip, double height, Energy energy, std::vector<double> depths, Resolution resolution);
+[[nodiscard]] Case paperBlock(const Tip& tip, double height, StrainEnergy energy,
+  std::vector<double> depths, Resolution resolution);
 
 /// Element size under a tool [m].
 [[nodiscard]] double elementSize(const Tip& tip, Resolution resolution);
 
 /// Presses a body as deep as solutions go; kMissing beyond [N].
-[[nodiscard]] std::vector<double> forcesOn(const Body& body, const Tip& tip, Energy energy,
+[[nodiscard]] std::vector<double> forcesOn(const Body& body, const Tip& tip, StrainEnergy energy,
   const std::vector<double>& depths, const std::stop_token& stop);
 
 /// The largest value that is there; 0 where none is.

@@ -35,8 +35,8 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
 {
   const Tip tip = tool(sphere, 10.0_mm);
   const std::string name = sphere ? "sphere" : "cone";
-  const Body block = bodyOf(paperBlock(tip, 50.0_mm, Energy::Corotated, depths, resolution));
-  const auto flat = forcesOn(block, tip, Energy::Corotated, depths, stop);
+  const Body block = bodyOf(paperBlock(tip, 50.0_mm, StrainEnergy::Corotated, depths, resolution));
+  const auto flat = forcesOn(block, tip, StrainEnergy::Corotated, depths, stop);
   const double most = largest(flat);
   addColumn(result, name + "_block_N", flat);
   addFigure(result,
@@ -53,7 +53,7 @@ void addCurvature(Experiment& result, bool sphere, const std::vector<double>& de
     for (const double radius : { 30.0_mm, 50.0_mm, 100.0_mm })
     {
       const Body body = sphereBody(radius, support.kind, 11.0_mm, elementSize(tip, resolution));
-      auto error = forcesOn(body, tip, Energy::Corotated, depths, stop);
+      auto error = forcesOn(body, tip, StrainEnergy::Corotated, depths, stop);
       for (std::size_t i = 0; i < depths.size(); ++i)
       {
         error[i] = (error[i] - flat[i]) / most;
@@ -133,8 +133,8 @@ Experiment inclination()
 namespace
 {
 
-constexpr std::array kEnergies{ Energy::Linear, Energy::Corotated, Energy::NeoHookean,
-  Energy::NeoHookeanIsochoric };
+constexpr std::array kEnergies{ StrainEnergy::Linear, StrainEnergy::Corotated,
+  StrainEnergy::NeoHookean, StrainEnergy::NeoHookeanIsochoric };
 
 // relative to the largest force down to a depth, Eq. (9) with its sign
 std::vector<double> differences(const std::vector<double>& depths, const std::vector<double>& paper,
@@ -185,7 +185,7 @@ Forces addForces(Experiment& result, bool sphere, const std::vector<double>& dep
     pointsOf(result, name + "paper_N"));
   for (std::size_t e = 0; e < kEnergies.size(); ++e)
   {
-    const Energy energy = kEnergies[e];
+    const StrainEnergy energy = kEnergies[e];
     const Body body = bodyOf(paperBlock(tip, 30.0_mm, energy, depths, resolution));
     forces.elements[e] = forcesOn(body, tip, energy, depths, stop);
     const std::string column = name + std::string(fem::name(energy)) + "_N";

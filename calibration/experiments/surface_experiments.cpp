@@ -50,7 +50,8 @@ double addExtents(Experiment& result, bool sphere, const std::vector<double>& de
   Resolution resolution, const std::stop_token& stop)
 {
   const std::string name = sphere ? "sphere" : "cone";
-  Case study = paperBlock(tool(sphere, 10.0_mm), 50.0_mm, Energy::NeoHookean, depths, resolution);
+  Case study =
+    paperBlock(tool(sphere, 10.0_mm), 50.0_mm, StrainEnergy::NeoHookean, depths, resolution);
   const auto soft = extentsOf(study, stop);
   study.material.youngModulus = 1.5_MPa;
   const auto stiff = extentsOf(study, stop);
@@ -166,7 +167,7 @@ Experiment profiles(Resolution resolution, const std::stop_token& stop)
   for (const bool sphere : { true, false })
   {
     // the same depths however quick: they are the paper's four pictures
-    Case study = paperBlock(tool(sphere, 10.0_mm), 50.0_mm, Energy::NeoHookean,
+    Case study = paperBlock(tool(sphere, 10.0_mm), 50.0_mm, StrainEnergy::NeoHookean,
       depthSteps(2.5_mm, 10.0_mm, Resolution::Full), resolution);
     addFigure(result,
       { .name = sphere ? "profiles_sphere" : "profiles_cone",

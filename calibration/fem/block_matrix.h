@@ -11,6 +11,7 @@ namespace palp::fem
 /// A symmetric matrix of 3 x 3 blocks, one for each node and one for each edge of tetrahedra.
 ///
 /// Blocks above the diagonal are stored, row by row. That of an edge holds d2W/dx_i dx_j, i < j.
+/// Of our own, for Eigen's sparse matrices store no blocks.
 class BlockMatrix
 {
 public:

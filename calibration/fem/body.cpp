@@ -63,7 +63,7 @@ struct Volume
   MatrixXd curvature; // d2 ln J / du2
 };
 
-bool respondWithMeanVolume(const Element& element, Energy energy, const Material& material,
+bool respondWithMeanVolume(const Element& element, StrainEnergy energy, const Material& material,
   const VectorXd& displacement, ElementResponse& out)
 {
   const auto size = displacement.size();
@@ -100,7 +100,7 @@ bool respondWithMeanVolume(const Element& element, Energy energy, const Material
     const double scale = std::cbrt(deformed / volume / v.j);
     const VectorXd turn = (slope - v.slope) / 3.0; // d ln(scale) / du
     const MatrixXd bend = (curvature - v.curvature) / 3.0;
-    const StressResponse stress = respond(energy, material, scale * v.f);
+    const StressResponse stress = evaluate(energy, material, scale * v.f);
     add(out, point.weight, scale * (point.gradient + vec(v.f) * turn.transpose()), stress);
 
     // stress times the second derivative of scale * F
@@ -114,13 +114,13 @@ bool respondWithMeanVolume(const Element& element, Energy energy, const Material
 
 } // namespace
 
-std::optional<ElementResponse> respond(const Element& element, Energy energy,
+std::optional<ElementResponse> evaluate(const Element& element, StrainEnergy energy,
   const Material& material, const VectorXd& displacement, const VectorXd* guess)
 {
   ElementResponse out;
   out.force = VectorXd::Zero(displacement.size());
   out.stiffness = MatrixXd::Zero(displacement.size(), displacement.size());
-  if (element.meanDilatation && energy != Energy::Linear)
+  if (element.meanDilatation && energy != StrainEnergy::Linear)
   {
     const bool valid = respondWithMeanVolume(element, energy, material, displacement, out);
     out.pressureSlope.resize(0, displacement.size());
@@ -137,13 +137,13 @@ std::optional<ElementResponse> respond(const Element& element, Energy energy,
     const Gradient b =
       element.meanDilatation ? withMeanTrace(element, point.gradient) : point.gradient;
     const Matrix3d f = deformation(b, displacement);
-    const bool inverted = energy != Energy::Linear && !(f.determinant() > 0.0);
+    const bool inverted = energy != StrainEnergy::Linear && !(f.determinant() > 0.0);
     out.inverted = out.inverted || inverted;
-    if (inverted && energy != Energy::Corotated)
+    if (inverted && energy != StrainEnergy::Corotated)
     {
       return std::nullopt;
     }
-    StressResponse local = respond(energy, material, f);
+    StressResponse local = evaluate(energy, material, f);
     out.pressure[i] = local.pressure;
     out.pressureSlope.row(i) = local.bulk * local.volumeSlope.transpose() * b;
     if (guess != nullptr)

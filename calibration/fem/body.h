@@ -75,7 +75,7 @@ struct ElementResponse
 /// @return              nothing where the element is turned inside out
 /// @source              mean dilatation: Nagtegaal, Parks and Rice 1974, as an energy of
 ///                      (Jmean / J)^(1/3) F
-[[nodiscard]] std::optional<ElementResponse> respond(const Element& element, Energy energy,
+[[nodiscard]] std::optional<ElementResponse> evaluate(const Element& element, StrainEnergy energy,
   const Material& material, const Eigen::VectorXd& displacement,
   const Eigen::VectorXd* guess = nullptr);
 

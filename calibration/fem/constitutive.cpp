@@ -137,32 +137,33 @@ StressResponse corotated(const Lame& m, const Matrix3d& gradient)
 
 struct Known
 {
-  Energy energy;
+  StrainEnergy energy;
   std::string_view name;
   std::string_view formula;
 };
 
 constexpr std::array kKnown{
-  Known{ Energy::Linear, "linear", "small strain, gap at the undeformed radius" },
-  Known{ Energy::Corotated, "corotated", "W = mu |F - R|^2 + lambda/2 (tr U - 3)^2" },
-  Known{ Energy::NeoHookean, "neo-hookean", "W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2" },
-  Known{ Energy::NeoHookeanIsochoric, "neo-hookean-isochoric",
+  Known{ StrainEnergy::Linear, "linear", "small strain, gap at the undeformed radius" },
+  Known{ StrainEnergy::Corotated, "corotated", "W = mu |F - R|^2 + lambda/2 (tr U - 3)^2" },
+  Known{
+    StrainEnergy::NeoHookean, "neo-hookean", "W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2" },
+  Known{ StrainEnergy::NeoHookeanIsochoric, "neo-hookean-isochoric",
     "W = mu/2 (J^(-2/3) I1 - 3) + K/2 (J - 1)^2" },
 };
 
 } // namespace
 
-std::string_view name(Energy energy) noexcept
+std::string_view name(StrainEnergy energy) noexcept
 {
   return kKnown[static_cast<std::size_t>(energy)].name;
 }
 
-std::string_view formula(Energy energy) noexcept
+std::string_view formula(StrainEnergy energy) noexcept
 {
   return kKnown[static_cast<std::size_t>(energy)].formula;
 }
 
-std::optional<Energy> energyNamed(std::string_view name) noexcept
+std::optional<StrainEnergy> energyNamed(std::string_view name) noexcept
 {
   for (const Known& known : kKnown)
   {
@@ -174,18 +175,18 @@ std::optional<Energy> energyNamed(std::string_view name) noexcept
   return std::nullopt;
 }
 
-StressResponse respond(Energy energy, const Material& material, const Matrix3d& gradient)
+StressResponse evaluate(StrainEnergy energy, const Material& material, const Matrix3d& gradient)
 {
   const Lame moduli = lame(material);
   switch (energy)
   {
-    case Energy::Linear:
+    case StrainEnergy::Linear:
       return linear(moduli, gradient);
-    case Energy::Corotated:
+    case StrainEnergy::Corotated:
       return corotated(moduli, gradient);
-    case Energy::NeoHookean:
+    case StrainEnergy::NeoHookean:
       return neoHookean(moduli, gradient);
-    case Energy::NeoHookeanIsochoric:
+    case StrainEnergy::NeoHookeanIsochoric:
       return neoHookeanIsochoric(moduli, gradient);
   }
   return {}; // every energy returned above

@@ -10,7 +10,7 @@ namespace palp::fem
 {
 
 /// Strain energy of the tissue; two that share E and nu differ once strains are large.
-enum class Energy
+enum class StrainEnergy
 {
   Linear,     ///< small strain, the gap taken at the undeformed radius: the limit of theory
   Corotated,  ///< mu |F - R|^2 + lambda/2 (tr U - 3)^2; what the paper's program calls linear
@@ -20,13 +20,13 @@ enum class Energy
 
 /// The name on the command line and in files: linear, corotated, neo-hookean,
 /// neo-hookean-isochoric.
-[[nodiscard]] std::string_view name(Energy energy) noexcept;
+[[nodiscard]] std::string_view name(StrainEnergy energy) noexcept;
 
 /// The formula, for the head of a table.
-[[nodiscard]] std::string_view formula(Energy energy) noexcept;
+[[nodiscard]] std::string_view formula(StrainEnergy energy) noexcept;
 
 /// @return  nothing where no energy has that name
-[[nodiscard]] std::optional<Energy> energyNamed(std::string_view name) noexcept;
+[[nodiscard]] std::optional<StrainEnergy> energyNamed(std::string_view name) noexcept;
 
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
@@ -57,7 +57,7 @@ struct StressResponse
 /// @param gradient  F = I + grad u, det F > 0 (any F for Linear)
 /// @param material  nu < 0.5
 /// @source          Bonet and Wood 2008, Secs. 6.4 and 6.5; McAdams et al. 2011 for dR/dF
-[[nodiscard]] StressResponse respond(
-  Energy energy, const Material& material, const Eigen::Matrix3d& gradient);
+[[nodiscard]] StressResponse evaluate(
+  StrainEnergy energy, const Material& material, const Eigen::Matrix3d& gradient);
 
 } // namespace palp::fem

@@ -20,7 +20,7 @@ public:
   /// @param stiffness  of the body's edges, balanced [N/m]; where the body is undeformed, or
   ///                   turned as a whole, the second derivative of the energy
   /// @return           the energy [J]
-  virtual double respond(
+  virtual double evaluate(
     const Eigen::Matrix3Xd& positions, Eigen::Matrix3Xd& forces, BlockMatrix& stiffness) = 0;
 
   /// Forgets what was kept from earlier calls to start from.

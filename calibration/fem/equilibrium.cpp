@@ -28,7 +28,7 @@ void checkPoisson(const Material& material)
 
 } // namespace
 
-Equilibrium::Equilibrium(const Body& body, Energy energy, const Material& material)
+Equilibrium::Equilibrium(const Body& body, StrainEnergy energy, const Material& material)
   : body_(body)
   , energy_(energy)
   , material_(material)
@@ -120,7 +120,7 @@ bool Equilibrium::assembleAll(const VectorXd& displacement, bool guessed)
   for (std::size_t e = 0; e < body_.elements.size(); ++e)
   {
     const Element& element = body_.elements[e];
-    auto response = respond(element, energy_, element.material.value_or(material_),
+    auto response = evaluate(element, energy_, element.material.value_or(material_),
       gather(element, displacement), guessed ? &pressures_[e] : nullptr);
     if (!response)
     {

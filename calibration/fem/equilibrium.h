@@ -18,12 +18,14 @@ struct ContactConstraint
   Eigen::Matrix2d curvature; ///< [1/m]
 };
 
-/// Sparse linear systems of a body, whose pattern is analyzed once.
+/// Sparse linear systems of a body, whose pattern is analyzed once. The elements are of our own,
+/// for pressing tissue to large strain, nearly without change of volume, is what the tables are
+/// made of.
 class Equilibrium
 {
 public:
   /// @throws Error  BadValue: nu outside [0, 0.5)
-  Equilibrium(const Body& body, Energy energy, const Material& material);
+  Equilibrium(const Body& body, StrainEnergy energy, const Material& material);
 
   /// Internal forces dW/du [N] and their derivative at a displacement of all dofs [m].
   /// @return  false where an element is turned inside out
@@ -77,7 +79,7 @@ private:
     const std::vector<ContactConstraint>& sliding, Eigen::VectorXd& residual);
 
   const Body& body_;
-  Energy energy_;
+  StrainEnergy energy_;
   Material material_;
   std::vector<char> held_;                 // per dof
   std::vector<ElementResponse> responses_; // per element

@@ -58,7 +58,7 @@ std::string Indenter::surfaceFault() const
   const auto at = [](double radius)
   { return " at " + units::inMillimeters(radius) + " from the axis"; };
   const auto& line = body_.profile;
-  for (std::size_t i = 1; energy_ != Energy::Linear && i < line.size(); ++i)
+  for (std::size_t i = 1; energy_ != StrainEnergy::Linear && i < line.size(); ++i)
   {
     if (!(radiusOf(line[i]) > radiusOf(line[i - 1])))
     {

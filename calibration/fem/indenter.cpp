@@ -39,7 +39,7 @@ constexpr std::array kAddedStiffness{ 0.0, 0.01, 0.1, 1.0 }; // to the diagonal 
 
 } // namespace
 
-Indenter::Indenter(const Body& body, const Tip& tip, Energy energy, const Material& material)
+Indenter::Indenter(const Body& body, const Tip& tip, StrainEnergy energy, const Material& material)
   : body_(body)
   , tip_(tip)
   , energy_(energy)
@@ -63,7 +63,7 @@ Indenter::ToolPoint Indenter::toolAt(int node) const
   const int horizontal = body_.dimension - 1;
   Vector2d at = Vector2d::Zero();
   at.head(horizontal) = body_.positions.col(node).head(horizontal);
-  if (energy_ != Energy::Linear)
+  if (energy_ != StrainEnergy::Linear)
   {
     at.head(horizontal) += displacement_.segment(body_.dofOf(node), horizontal);
   }
@@ -73,7 +73,7 @@ Indenter::ToolPoint Indenter::toolAt(int node) const
     .slope = Vector2d::Zero(),
     .curvature = Matrix2d::Zero(),
     .below = radius < kNearBase * base };
-  if (energy_ == Energy::Linear)
+  if (energy_ == StrainEnergy::Linear)
   {
     return point;
   }

@@ -51,7 +51,7 @@ class Indenter
 public:
   /// @param body    borrowed; must outlive this
   /// @throws Error  BadValue: see Equilibrium
-  Indenter(const Body& body, const Tip& tip, Energy energy, const Material& material);
+  Indenter(const Body& body, const Tip& tip, StrainEnergy energy, const Material& material);
 
   /// Goes from the present depth to a deeper one, in smaller steps where needed.
   /// @param depth   delta [m], more than before
@@ -104,7 +104,7 @@ private:
 
   const Body& body_;
   Tip tip_;
-  Energy energy_;
+  StrainEnergy energy_;
   Equilibrium equilibrium_;
   Eigen::VectorXd displacement_;
   std::vector<char> touching_; // per node of body_.surface

@@ -143,7 +143,7 @@ void check(const Case& study)
   const auto* cone = std::get_if<ConeTip>(&study.tip);
   const auto* blunt = std::get_if<BluntConeTip>(&study.tip);
   const double angle = cone ? cone->halfAngle : blunt ? blunt->halfAngle : 90.0_deg;
-  require(study.energy == Energy::Linear || angle >= kSharpest,
+  require(study.energy == StrainEnergy::Linear || angle >= kSharpest,
     "--tip: under a cone of less than 25 degrees no mesh follows the surface; give 25 degrees or "
     "more, or --material linear");
   require(study.width > 0.0 && study.length > 0.0 && study.height > 0.0,

@@ -28,7 +28,7 @@ struct Case
   Tip tip = SphereTip{ 0.01 };
   Material material{ 50e3, 0.33 };
   Coatings coatings{}; ///< on top of it; axisymmetric only
-  Energy energy = Energy::NeoHookean;
+  StrainEnergy energy = StrainEnergy::NeoHookean;
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]
   BodyModel model = BodyModel::Axisymmetric;

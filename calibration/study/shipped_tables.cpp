@@ -53,7 +53,7 @@ Case layer(const std::string& name, const Tip& tip, double thickness, double poi
     .elementSize = 0.5_mm };
 }
 
-Outcome with(Energy energy, Case study, const std::stop_token& stop)
+Outcome with(StrainEnergy energy, Case study, const std::stop_token& stop)
 {
   study.energy = energy;
   return calibrate(study, stop);
@@ -63,7 +63,7 @@ Outcome with(Energy energy, Case study, const std::stop_token& stop)
 std::vector<double> ratios(
   const Case& study, const Outcome& large, std::string& notes, const std::stop_token& stop)
 {
-  const Outcome small = with(Energy::Linear, study, stop);
+  const Outcome small = with(StrainEnergy::Linear, study, stop);
   std::vector<double> result;
   for (std::size_t i = 0; i < study.depths.size(); ++i)
   {
@@ -178,7 +178,7 @@ void makeSphereTables(
       {
         study.depths.push_back(depth * kRadius);
       }
-      const Outcome large = with(Energy::NeoHookean, study, stop);
+      const Outcome large = with(StrainEnergy::NeoHookean, study, stop);
       const auto ratioOf = ratios(study, large, notes, stop);
       // the thickest layer also stands for the half-space
       const bool thickest = ratio == kRadiusOverThickness.front();
@@ -237,7 +237,7 @@ void makeConeTable(
       {
         study.depths.push_back(depth * kConeThickness);
       }
-      const auto ratioOf = ratios(study, with(Energy::NeoHookean, study, stop), notes, stop);
+      const auto ratioOf = ratios(study, with(StrainEnergy::NeoHookean, study, stop), notes, stop);
       addRatios(forces, ratioOf.front(), kDepthOverThickness, degrees, poisson, ratioOf);
     }
   }

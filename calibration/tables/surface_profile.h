@@ -1,5 +1,7 @@
 #pragma once
 
+#include "haptics/numerics/roots.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,14 +45,8 @@ struct SurfaceProfile
   /// Radius where the sink ends, the outer one at most [m].
   [[nodiscard]] double reach() const noexcept
   {
-    double within = inner;
-    double beyond = outer;
-    for (int i = 0; i < 30; ++i)
-    {
-      const double middle = 0.5 * (within + beyond);
-      (sinkAt(middle) > 0.0 ? within : beyond) = middle;
-    }
-    return beyond;
+    const auto sinks = [this](double radius) { return sinkAt(radius) > 0.0; };
+    return bisect(sinks, { inner, outer }, 30).high;
   }
 
   /// 0 at the outer end to 1 at the inner end, linear in 1/radius.

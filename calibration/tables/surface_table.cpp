@@ -84,7 +84,7 @@ SurfaceTable SurfaceTable::read(const std::filesystem::path& file)
     }
     if (seen[at] != 0)
     {
-      throw Error(ErrorCode::BadFile, where(file, line) + "given twice; give each place once");
+      throw Error(ErrorCode::BadFile, where(file, line) + "given twice; give each row once");
     }
     seen[at] = 1;
     std::copy(values.begin() + 3, values.end(), table.rows_[at].begin());

@@ -24,7 +24,7 @@ constexpr double kMinThickness = 0.1_mm; // thinner bodies are answered as this
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Eqs. (2)-(4): F = 8 G sqrt(R) delta^(3/2) / (3 (1 - nu)), r = sqrt(R delta)
-Response respond(const SphereTip& tip, const Material& m, double depth) noexcept
+Response responseOf(const SphereTip& tip, const Material& m, double depth) noexcept
 {
   const double stiffness =
     4.0 * m.shearModulus() / (1.0 - m.poissonRatio) * std::sqrt(tip.radius * depth);
@@ -34,7 +34,7 @@ Response respond(const SphereTip& tip, const Material& m, double depth) noexcept
 }
 
 // Eq. (5): F = 4 G delta^2 / (pi (1 - nu) cot(alpha)), r = (2 / pi) delta tan(alpha)
-Response respond(const ConeTip& tip, const Material& m, double depth) noexcept
+Response responseOf(const ConeTip& tip, const Material& m, double depth) noexcept
 {
   const double stiffness = 8.0 * m.shearModulus() * std::tan(tip.halfAngle) /
     (std::numbers::pi * (1.0 - m.poissonRatio)) * depth;
@@ -157,11 +157,11 @@ Response ForceLaw::paper(double depth) const noexcept
 {
   if (const auto* sphere = std::get_if<SphereTip>(&tip_))
   {
-    return respond(*sphere, material_, depth);
+    return responseOf(*sphere, material_, depth);
   }
   if (const auto* cone = std::get_if<ConeTip>(&tip_))
   {
-    return respond(*cone, material_, depth);
+    return responseOf(*cone, material_, depth);
   }
   const LinearContact contact = halfSpace_(depth);
   return { .force = material_.contactModulus() * contact.force,

@@ -5,8 +5,8 @@
 namespace palp
 {
 
-/// Force on a frictionless tip, which acts along the surface's normal, as
-/// an inclined tool feels it.
+/// Force on a frictionless tip, which acts along the surface's normal, as an inclined tool feels
+/// it.
 struct InclinedForce
 {
   double axial;   ///< along the tool [N]

@@ -70,7 +70,7 @@ LargeStrainGrid readGrid(
     }
     if (ratios[index] != 0.0)
     {
-      throw Error(ErrorCode::BadFile, where(file, row.line) + "given twice; give each place once");
+      throw Error(ErrorCode::BadFile, where(file, row.line) + "given twice; give each row once");
     }
     ratios[index] = row.values[3];
   }

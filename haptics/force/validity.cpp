@@ -75,7 +75,7 @@ double thinnestBody(const ForceLaw& law)
   const Coatings& coatings = law.settings().coatings;
   return coatings.empty()
     ? 0.0
-    : coatings.thickness() + CoatedBody::kThinnestBody * baseRadius(law.tip());
+    : coatings.thickness() + CoatedBody::kMinBodyThickness * baseRadius(law.tip());
 }
 
 bool isRound(const Tip& tip) noexcept

@@ -6,6 +6,8 @@
 namespace palp
 {
 
+// Of our own: they run in the servo thread, where a library's may allocate or throw.
+
 /// Where something changes: it is still so at low, and no longer at high.
 struct RootBracket
 {

@@ -11,7 +11,7 @@ class DepthLaw
 public:
   /// @param ask  callable as Response(double depth) noexcept; must outlive this
   template <typename Ask>
-  DepthLaw(const Ask& ask) noexcept // NOLINT(google-explicit-constructor): a view, as string_view
+  DepthLaw(const Ask& ask) noexcept // a view, as string_view
     : ask_(&ask)
     , call_([](const void* self, double depth) noexcept
         { return (*static_cast<const Ask*>(self))(depth); })

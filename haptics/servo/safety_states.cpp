@@ -17,7 +17,7 @@ constexpr double kLatestTicks = 5.0;
 constexpr int kMaxRestarts = 5; // of a force that late ticks let never become whole
 
 // an age of the heartbeat that is borne at first, then lets the force fade, then ends it [s]
-struct Silence
+struct HeartbeatAge
 {
   double borne;
   double ends;
@@ -27,8 +27,8 @@ struct Silence
     return age < ends ? std::min(1.0, (ends - age) / (ends - borne)) : 0.0;
   }
 };
-constexpr Silence kDeviceSilence{ 0.003, 0.020 };
-constexpr Silence kMainThreadSilence{ 0.200, 0.300 };
+constexpr HeartbeatAge kDeviceHeartbeat{ 0.003, 0.020 };
+constexpr HeartbeatAge kMainThreadHeartbeat{ 0.200, 0.300 };
 constexpr double kMainThreadGone = 2.0; // [s]
 
 } // namespace
@@ -117,14 +117,14 @@ bool SafetyChain::plausible(const ToolPose& pose, double age) noexcept
 
 void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept
 {
-  watchdogGain_ = std::min(
-    kDeviceSilence.watchdogGain(status.age), kMainThreadSilence.watchdogGain(orders.heartbeatAge));
-  if (!(status.age < kDeviceSilence.ends))
+  watchdogGain_ = std::min(kDeviceHeartbeat.watchdogGain(status.age),
+    kMainThreadHeartbeat.watchdogGain(orders.heartbeatAge));
+  if (!(status.age < kDeviceHeartbeat.ends))
   {
     fault(Flag::Stale);
   }
-  const bool watched = orders.heartbeatAge < kMainThreadSilence.ends;
-  if (!(orders.heartbeatAge < kMainThreadSilence.borne))
+  const bool watched = orders.heartbeatAge < kMainThreadHeartbeat.ends;
+  if (!(orders.heartbeatAge < kMainThreadHeartbeat.borne))
   {
     raise(Flag::WatchdogExpired);
   }

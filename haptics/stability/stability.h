@@ -24,7 +24,7 @@ enum class StabilityOutcome
   Stable,   ///< and the law was felt as it is
   Limited,  ///< stable, because a stage of the chain acted
   Refused,  ///< pressed, but no force was given, or a fault of the chain ended it
-  Unstable, ///< gave energy, did not come to rest, or hummed
+  Unstable, ///< gave energy, did not come to rest, or went on in a limit cycle
 };
 
 /// What became of a case.

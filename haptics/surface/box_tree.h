@@ -26,7 +26,9 @@ struct Facet
 /// Flat tree of boxes over triangles, nodes and facets in depth-first order.
 ///
 /// Boxes are single precision, rounded outwards: half the bytes, never too small. A triangle
-/// without area has no normal and is left out; its edges belong to its neighbors as well.
+/// without area has no normal and is left out; its edges belong to its neighbors as well. Of our
+/// own: the servo thread walks it without a lock or an allocation, which VTK's locators do not
+/// promise.
 class BoxTree
 {
 public:

@@ -10,12 +10,13 @@ namespace palp
 
 /// The newest value, handed from one writer thread to one reader thread.
 ///
-/// A triple buffer: the writer owns one slot, the reader owns one, and the third
-/// changes hands by a single atomic exchange. Both sides are wait-free. The reader
-/// may skip values but never sees a torn or an older one.
+/// A triple buffer: the writer owns one slot, the reader owns one, and the third changes hands by a
+/// single atomic exchange. Both sides are wait-free. The reader may skip values but never sees a
+/// torn or an older one.
 ///
-/// A value is only ever destroyed by the writer, when it reuses the slot. The servo
-/// thread can therefore read shared_ptr<const Surface> without ever freeing memory.
+/// A value is only ever destroyed by the writer, when it reuses the slot. The servo thread can
+/// therefore read shared_ptr<const Surface> without ever freeing memory, which no library's queue
+/// or mailbox promises.
 ///
 /// @tparam T  copyable
 template <typename T>

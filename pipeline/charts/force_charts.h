@@ -37,8 +37,8 @@ public:
   /// Takes a sample; the charts follow at the next refresh().
   void add(const Sample& sample);
 
-  /// Brings plots and axes up to the samples that are seen; the cost does
-  /// not depend on their number.
+  /// Brings plots and axes up to the samples that are seen; the cost does not depend on their
+  /// number.
   void refresh();
 
   /// Forgets the samples.

@@ -213,7 +213,7 @@ void Dent::computeNormal(std::int32_t point, const DentArrays& arrays) const noe
   const Lanes center = position(point);
   Lanes sum{};
   Lanes last{};
-  for (const std::int32_t next : region_.umbrella().around(point))
+  for (const std::int32_t next : region_.rings().around(point))
   {
     const Lanes edge = next == VertexRings::kEnd ? Lanes{} : position(next) - center;
     sum += last * turned(edge) - turned(last) * edge;

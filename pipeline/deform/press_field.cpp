@@ -211,9 +211,9 @@ inline double PressField::smoothSink(double distance, const RingCurve& curve) co
   const double toTool = body.lowest(rest, normal_);
   const double below = std::max(0.0, -heightOverFit(geodesic));
   const double above = std::isfinite(toTool) ? std::min(below - toTool, deepest_) : 0.0;
-  const double travelled = std::min(1.0, geodesic.distance / curve.outer);
-  const double left = std::max(0.0, 1.0 - below / curve.outer) *
-    (1.0 - travelled * travelled * travelled * travelled);
+  const double traveled = std::min(1.0, geodesic.distance / curve.outer);
+  const double left =
+    std::max(0.0, 1.0 - below / curve.outer) * (1.0 - traveled * traveled * traveled * traveled);
   return std::max(smoothSink(geodesic.distance, curve), above * left);
 }
 

@@ -29,7 +29,7 @@ inline bool facesTool(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexce
 
 PressRegion::PressRegion(std::span<const float> rest, std::span<const Triangle> triangles)
   : rest_(rest)
-  , umbrella_(rest.size() / 3, triangles)
+  , rings_(rest.size() / 3, triangles)
   , slot_(rest.size() / 3, kNowhere)
 {
   for (std::size_t i = 0; i < slot_.size(); ++i)
@@ -54,7 +54,7 @@ bool PressRegion::isSharpAt(std::int32_t point) const noexcept
 double PressRegion::longestEdge(std::int32_t point) const noexcept
 {
   double square = 0.0;
-  for (const std::int32_t next : umbrella_.around(point))
+  for (const std::int32_t next : rings_.around(point))
   {
     if (next != VertexRings::kEnd)
     {
@@ -74,7 +74,7 @@ bool PressRegion::isNear(std::int32_t point, const ToolBody& body) const noexcep
 
 std::size_t PressRegion::bytes() const noexcept
 {
-  return umbrella_.bytes() + slot_.capacity() * sizeof(slot_[0]);
+  return rings_.bytes() + slot_.capacity() * sizeof(slot_[0]);
 }
 
 void PressRegion::clear() noexcept
@@ -94,7 +94,7 @@ double PressRegion::edgeLength() const noexcept
 {
   double sum = 0.0;
   int count = 0;
-  for (const std::int32_t next : umbrella_.around(seed_))
+  for (const std::int32_t next : rings_.around(seed_))
   {
     if (next != VertexRings::kEnd)
     {
@@ -143,7 +143,7 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
     const auto from = static_cast<std::size_t>(queue_[first++]);
     std::int32_t before = VertexRings::kEnd;
     bool isOpen = false; // what was before has no settled place
-    for (const std::int32_t next : umbrella_.around(points_[from]))
+    for (const std::int32_t next : rings_.around(points_[from]))
     {
       const bool wasOpen = isOpen;
       isOpen = next != VertexRings::kEnd && !isSettled(next);

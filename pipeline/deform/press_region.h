@@ -104,8 +104,8 @@ public:
     return slot_[static_cast<std::size_t>(point)] >> kBits;
   }
 
-  /// Calls a function with every triangle that has a corner within the
-  /// dent, as indices into points().
+  /// Calls a function with every triangle that has a corner within the dent, as indices into
+  /// points().
   template <typename Function>
   void forEachTriangle(Function function) const;
 
@@ -169,9 +169,9 @@ public:
   {
     return slot_.size();
   }
-  [[nodiscard]] const VertexRings& umbrella() const noexcept
+  [[nodiscard]] const VertexRings& rings() const noexcept
   {
-    return umbrella_;
+    return rings_;
   }
   [[nodiscard]] std::size_t bytes() const noexcept;
 
@@ -204,7 +204,7 @@ private:
     std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;
 
   std::span<const float> rest_;
-  VertexRings umbrella_;
+  VertexRings rings_;
   std::vector<std::int32_t> slot_; // of every point its index in points_, above kBits
 
   // of one press; capacity is kept from frame to frame
@@ -228,7 +228,7 @@ void PressRegion::forEachAreaAround(std::int32_t point, Function function) const
 {
   const Eigen::Vector3d p = rest(point);
   std::int32_t before = VertexRings::kEnd;
-  for (const std::int32_t next : umbrella_.around(point))
+  for (const std::int32_t next : rings_.around(point))
   {
     if (before != VertexRings::kEnd && next != VertexRings::kEnd)
     {
@@ -250,7 +250,7 @@ void PressRegion::forEachTriangle(Function function) const
       continue;
     }
     std::int32_t before = VertexRings::kEnd;
-    for (const std::int32_t next : umbrella_.around(points_[static_cast<std::size_t>(owner)]))
+    for (const std::int32_t next : rings_.around(points_[static_cast<std::size_t>(owner)]))
     {
       if (before != VertexRings::kEnd && next != VertexRings::kEnd)
       {

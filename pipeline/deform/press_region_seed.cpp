@@ -49,7 +49,7 @@ std::int32_t PressRegion::descentStep(std::int32_t start, const Contact& contact
     better = false;
     longestEdge = 0.0;
     const std::int32_t from = best;
-    for (const std::int32_t next : umbrella_.around(from))
+    for (const std::int32_t next : rings_.around(from))
     {
       if (next == VertexRings::kEnd)
       {

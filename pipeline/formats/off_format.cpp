@@ -93,7 +93,7 @@ vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
       const int corner = lines.number<int>("the corners of a face");
       if (corner < 0 || corner >= pointCount)
       {
-        lines.refuse("a face refers to point " + std::to_string(corner) + ", out of range (0 to " +
+        lines.refuse("a face refers to vertex " + std::to_string(corner) + ", out of range (0 to " +
           std::to_string(pointCount - 1) + ")");
       }
       faces->InsertCellPoint(corner);

@@ -116,7 +116,8 @@ std::optional<std::string> run(const std::vector<std::string>& command, bool kee
     close(ends[0]);
     throw Error(ErrorCode::BadFile,
       command[0] + ": cannot be started (" + std::generic_category().message(why) + "); " +
-        (why == ENOENT || why == EACCES ? "build or install it" : "close some programs"));
+        (why == ENOENT || why == EACCES ? "build or install it, or name its prefix in PALP_PREFIX"
+                                        : "close some programs"));
   }
   std::string output = readAll(ends[0]);
   close(ends[0]);

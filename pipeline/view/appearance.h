@@ -64,8 +64,8 @@ void setFont(vtkTextProperty& text, int size, const Color& color = kInk, bool bo
 /// A number for people, with a point whatever the user's locale.
 [[nodiscard]] std::string fixedText(double value, int decimals);
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below a
-/// value; 1 for values below 1e-12.
+/// The smallest of 1, 2, 5 times a power of ten that is not below a value; 1 for values below
+/// 1e-12.
 [[nodiscard]] double roundUp(double value) noexcept;
 
 void setColor(vtkProperty& property, const Color& color);

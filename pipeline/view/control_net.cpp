@@ -25,9 +25,9 @@ ControlNet::ControlNet(vtkRenderer& renderer)
   ControlNet::hide();
 }
 
-void ControlNet::show(const OverlayState& moment)
+void ControlNet::show(const OverlayState& state)
 {
-  fillControlNet(moment.press.GetDent(), *net_);
+  fillControlNet(state.press.GetDent(), *net_);
   actor_->VisibilityOn();
 }
 

@@ -14,7 +14,7 @@ class ControlNet : public OverlayProps
 {
 public:
   explicit ControlNet(vtkRenderer& renderer);
-  void show(const OverlayState& moment) override;
+  void show(const OverlayState& state) override;
   void hide() override;
 
 private:

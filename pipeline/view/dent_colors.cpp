@@ -69,10 +69,10 @@ void DentColors::setLaw(const ForceLaw& law)
   validity_.emplace(law);
 }
 
-void DentColors::show(const OverlayState& moment, By by)
+void DentColors::show(const OverlayState& state, By by)
 {
-  const Contact& contact = moment.sample.contact;
-  mapper_->SetInputConnection(moment.press.GetOutputPort(1));
+  const Contact& contact = state.sample.contact;
+  mapper_->SetInputConnection(state.press.GetOutputPort(1));
   mapper_->ScalarVisibilityOff();
   actor_->SetProperty(plain_);
   actor_->VisibilityOn();
@@ -83,9 +83,9 @@ void DentColors::show(const OverlayState& moment, By by)
   }
   else if (by == By::Pressure)
   {
-    const Response& response = moment.sample.response;
+    const Response& response = state.sample.response;
     const ContactPressure pressure(
-      moment.tip, contact.depth, response.contactRadius, response.force);
+      state.tip, contact.depth, response.contactRadius, response.force);
     pressure_->SetPressure(pressure);
     mapper_->SetInputConnection(pressure_->GetOutputPort());
     // a sharp apex and a flat edge have no largest value: twice the one half way says enough
@@ -93,7 +93,7 @@ void DentColors::show(const OverlayState& moment, By by)
     colorBy("Pressure [kPa]", "contact\npressure\n[kPa]",
       units::toKilopascals(std::min(std::max(pressure.at(0.0), half), 2.0 * half)));
   }
-  else if (const auto worst = worstRule(moment); by == By::Validity && worst)
+  else if (const auto worst = worstRule(state); by == By::Validity && worst)
   {
     const appearance::Color& color = !worst->holds() ? appearance::kBad
       : worst->fraction() > Rule::kDoubtful          ? appearance::kDoubtful
@@ -114,21 +114,21 @@ void DentColors::colorBy(const char* array, const char* title, double top)
   legend_->VisibilityOn();
 }
 
-std::optional<Rule> DentColors::worstRule(const OverlayState& moment) const
+std::optional<Rule> DentColors::worstRule(const OverlayState& state) const
 {
   if (!validity_)
   {
     return std::nullopt;
   }
-  const Contact& contact = moment.sample.contact;
+  const Contact& contact = state.sample.contact;
   const Rules rules = (*validity_)(contactGeometryOf(contact), contact.edgeDistance);
   return *std::max_element(rules.begin(), rules.end(),
     [](const Rule& a, const Rule& b) { return a.fraction() < b.fraction(); });
 }
 
-std::string DentColors::rule(const OverlayState& moment) const
+std::string DentColors::rule(const OverlayState& state) const
 {
-  const auto worst = worstRule(moment);
+  const auto worst = worstRule(state);
   if (!worst)
   {
     return {};

@@ -32,7 +32,7 @@ public:
   /// @param property  of the surface around it
   DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property);
 
-  void show(const OverlayState& moment, By by);
+  void show(const OverlayState& state, By by);
   void hide();
 
   /// The law whose rules are shown; without one there are none.
@@ -45,10 +45,10 @@ public:
   }
 
   /// The rule nearest to its limit, with the fraction of it that is used; empty without a law.
-  [[nodiscard]] std::string rule(const OverlayState& moment) const;
+  [[nodiscard]] std::string rule(const OverlayState& state) const;
 
 private:
-  [[nodiscard]] std::optional<Rule> worstRule(const OverlayState& moment) const;
+  [[nodiscard]] std::optional<Rule> worstRule(const OverlayState& state) const;
   void colorBy(const char* array, const char* title, double top);
 
   std::optional<Validity> validity_;

@@ -68,18 +68,18 @@ ForceArrow::ForceArrow(vtkRenderer& renderer)
   ForceArrow::hide();
 }
 
-void ForceArrow::show(const OverlayState& moment)
+void ForceArrow::show(const OverlayState& state)
 {
-  const double diagonal = vtkPolyData::SafeDownCast(moment.press.GetInput())->GetLength();
-  const double force = moment.sample.response.force;
+  const double diagonal = vtkPolyData::SafeDownCast(state.press.GetInput())->GetLength();
+  const double force = state.sample.response.force;
   const double length = lengthOf(force, diagonal);
   const double thickness =
-    std::min({ 0.15 * baseRadius(moment.tip), 0.12 * length, kMaxThickness * diagonal });
+    std::min({ 0.15 * baseRadius(state.tip), 0.12 * length, kMaxThickness * diagonal });
   source_->SetShaftRadius(thickness / length);
   source_->SetTipRadius(2.6 * thickness / length);
   source_->SetTipLength(std::min(0.5, 7.0 * thickness / length));
 
-  const Contact& contact = moment.sample.contact;
+  const Contact& contact = state.sample.contact;
   const Eigen::Vector3d start = contact.center - contact.depth * contact.normal;
   arrow_->SetUserMatrix(
     appearance::placement(start, length * appearance::axesAlong(contact.normal, 0)));

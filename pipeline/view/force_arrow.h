@@ -25,7 +25,7 @@ public:
   /// @return          [m]
   [[nodiscard]] static double lengthOf(double force, double diagonal) noexcept;
 
-  void show(const OverlayState& moment) override;
+  void show(const OverlayState& state) override;
   void hide() override;
 
 private:

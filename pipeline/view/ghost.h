@@ -14,7 +14,7 @@ class Ghost : public OverlayProps
 {
 public:
   Ghost(vtkRenderer& renderer, vtkPalpDeformFilter& press);
-  void show(const OverlayState& moment) override;
+  void show(const OverlayState& state) override;
   void hide() override;
 
 private:

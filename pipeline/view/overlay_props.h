@@ -8,7 +8,7 @@ class vtkRenderer;
 namespace palp
 {
 
-/// The moment that an overlay shows.
+/// What an overlay shows.
 struct OverlayState
 {
   const Sample& sample;
@@ -26,8 +26,8 @@ public:
   OverlayProps(const OverlayProps&) = delete;
   OverlayProps& operator=(const OverlayProps&) = delete;
 
-  /// Takes up a moment of contact.
-  virtual void show(const OverlayState& moment) = 0;
+  /// Takes up a state of contact.
+  virtual void show(const OverlayState& state) = 0;
 
   /// Draws nothing and computes nothing until the next show().
   virtual void hide() = 0;

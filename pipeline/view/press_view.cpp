@@ -180,19 +180,19 @@ void PressView::show(const Sample& sample)
   deform_->SetPress(pressOf(sample, tip_, extent, style_));
   deform_->SetGeneratePatch(sample.contact.touching());
   deform_->Update();
-  const OverlayState moment{ sample, tip_, extent, *deform_ };
+  const OverlayState state{ sample, tip_, extent, *deform_ };
   placeTool(sample.pose);
-  placeDent(moment);
+  placeDent(state);
   const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
   above_ = std::max(
     toolHeight(tip_), isPushed ? ForceArrow::lengthOf(sample.response.force, diagonal_) : 0.0);
   readings_->setKeys(isVisible(Overlay::ContactCircle), isVisible(Overlay::ExtentCircle),
-    isVisible(Overlay::ValidityColors) ? dent_->rule(moment) : std::string{});
+    isVisible(Overlay::ValidityColors) ? dent_->rule(state) : std::string{});
   for (std::size_t i = 0; i < kOverlayCount; ++i)
   {
     if (overlays_[i])
     {
-      visible_[i] && sample.contact.touching() ? overlays_[i]->show(moment) : overlays_[i]->hide();
+      visible_[i] && sample.contact.touching() ? overlays_[i]->show(state) : overlays_[i]->hide();
     }
   }
 }
@@ -216,15 +216,15 @@ DentColors::By PressView::colors() const
 }
 
 // the dent is drawn by itself where it is finer than the mesh or has colors
-void PressView::placeDent(const OverlayState& moment)
+void PressView::placeDent(const OverlayState& state)
 {
   const DentColors::By by = colors();
-  const bool apart = moment.sample.contact.touching() &&
+  const bool apart = state.sample.contact.touching() &&
     (by != DentColors::By::Nothing || deform_->GetUsedPatchLevel() > 0);
   surfaceMapper_->SetHideDent(apart);
   if (apart)
   {
-    dent_->show(moment, by);
+    dent_->show(state, by);
   }
   else
   {

@@ -89,7 +89,7 @@ private:
   void addTool();
   void addOverlays();
   void placeTool(const ToolPose& pose);
-  void placeDent(const OverlayState& moment);
+  void placeDent(const OverlayState& state);
   [[nodiscard]] DentColors::By colors() const;
 
   vtkRenderer& renderer_;

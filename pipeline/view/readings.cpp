@@ -53,19 +53,19 @@ void Readings::setKeys(bool contactCircle, bool extentCircle, std::string validi
   validity_ = std::move(validity);
 }
 
-void Readings::show(const OverlayState& moment)
+void Readings::show(const OverlayState& state)
 {
-  const Response& response = moment.sample.response;
+  const Response& response = state.sample.response;
   std::array<std::string, kLines> texts;
   texts[0] = " force " + appearance::fixedText(response.force, 2) + " N   depth " +
-    millimeters(moment.sample.contact.depth);
+    millimeters(state.sample.contact.depth);
   if (contactCircle_)
   {
-    texts[1] = " \u25cb contact circle r = " + millimeters(moment.press.GetPress().contactRadius);
+    texts[1] = " \u25cb contact circle r = " + millimeters(state.press.GetPress().contactRadius);
   }
-  if (extentCircle_ && moment.extentRadius > 0.0)
+  if (extentCircle_ && state.extentRadius > 0.0)
   {
-    texts[2] = " \u25cb extent circle R_d = " + millimeters(moment.extentRadius);
+    texts[2] = " \u25cb extent circle R_d = " + millimeters(state.extentRadius);
   }
   texts[3] = validity_.empty() ? std::string{} : " " + validity_ + " ";
   for (std::size_t i = 0; i < kLines; ++i)

@@ -16,7 +16,7 @@ class Readings : public OverlayProps
 {
 public:
   explicit Readings(vtkRenderer& renderer);
-  void show(const OverlayState& moment) override;
+  void show(const OverlayState& state) override;
   void hide() override;
 
   /// Which keys are wanted, and a line about the law's validity; empty for none.

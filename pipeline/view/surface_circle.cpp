@@ -41,14 +41,14 @@ SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, 
   SurfaceCircle::hide();
 }
 
-void SurfaceCircle::show(const OverlayState& moment)
+void SurfaceCircle::show(const OverlayState& state)
 {
   const double radius =
-    of_ == Of::Contact ? moment.press.GetPress().contactRadius : moment.extentRadius;
+    of_ == Of::Contact ? state.press.GetPress().contactRadius : state.extentRadius;
   contour_->SetValue(0, radius);
   contour_->Update();
   line_->ShallowCopy(contour_->GetOutput());
-  putOnField(moment.press.GetDent(), radius);
+  putOnField(state.press.GetDent(), radius);
   actor_->SetVisibility(radius > 0.0);
 }
 

@@ -22,7 +22,7 @@ public:
   };
 
   SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, Of of);
-  void show(const OverlayState& moment) override;
+  void show(const OverlayState& state) override;
   void hide() override;
 
 private:

@@ -24,7 +24,7 @@ inline std::vector<double> depthRange(double first, double last, double step)
 }
 
 /// The paper's calibration: R = 10 mm, block 100 x 100 x 50 mm, 50 kPa, 0.33.
-inline Case paperCase(Energy energy = Energy::NeoHookean)
+inline Case paperCase(StrainEnergy energy = StrainEnergy::NeoHookean)
 {
   return { .name = "paper",
     .tip = SphereTip{ 10.0_mm },

@@ -33,7 +33,10 @@ def folder(path):
 
 
 def included(path):
-    return re.findall(r'^#include "([^"]+)"', path.read_text(), re.M)
+    """What is included of the tree, in whatever brackets, and whatever else stands in quotes."""
+    inside = "|".join(LAYERS + ["tests"])
+    found = re.findall(rf'^\s*#\s*include\s*(?:"([^"]+)"|<((?:{inside})/[^>]+)>)', path.read_text(), re.M)
+    return [quoted or angled for quoted, angled in found]
 
 
 def calls(text, function):
@@ -121,11 +124,31 @@ def circles(arrows):
     return [name for name in arrows if name in reached(name)]
 
 
+def stray_links(found):
+    """Links of libraries beside palp_library, which nothing would compare with their includes."""
+    names = {f"palp_{name}" for name, *_ in found}
+    for path in sorted(ROOT.rglob("CMakeLists.txt")):
+        if ".build" not in path.parts:
+            for words in calls(path.read_text(), "target_link_libraries"):
+                if words[0] in names and any(word.startswith("palp::") for word in words[1:]):
+                    yield f"{folder(path)}: {words[0]} links beside palp_library"
+
+
+def scripts():
+    for path in sorted(ROOT.rglob("*")):
+        hidden = any(part.startswith(".") for part in path.relative_to(ROOT).parts)
+        if path.is_file() and not hidden and path.suffix in ("", ".txt", ".cmake", ".in", ".sh"):
+            yield path
+
+
 def upward(arrows):
     found = []
     for start, ends in arrows.items():
         for end, file in ends.items():
             low, high = start.split("/")[0], end.split("/")[0]
+            if high not in LAYERS:
+                found.append(f"{file} includes what lies in {end}, no layer: name it from the root")
+                continue
             forbidden = low == "pipeline" and high == "calibration" and end not in RUN_TIME_CALIBRATION
             if forbidden or LAYERS.index(high) > LAYERS.index(low):
                 found.append(f"{file} includes {end}")
@@ -137,7 +160,7 @@ def bodies(path):
     start = None
     lines = path.read_text().splitlines()
     for number, line in enumerate(lines):
-        indent = re.match(r"( {0,2})\{$", line)
+        indent = re.match(r"( {0,8})\{$", line)
         if indent and start is None:
             head = lines[number - 1]
             first = number - 1
@@ -146,17 +169,21 @@ def bodies(path):
             opening = " ".join(re.sub(r"^\s*(///?|\*).*|//.*", "", line) for line in lines[first:number])
             if "(" in opening and not re.match(r"\s*(namespace|struct|class|enum|union)\b", opening):
                 start = (number, indent[1], first)
-        elif start and re.match(rf"{start[1]}\}};?$", line):
+        elif start and re.match(rf"{start[1]}\}}(\(.*\))?;?$", line):
             yield number - start[0] - 1, f"{path.relative_to(ROOT)}:{start[2] + 1}"
             start = None
 
 
 def comments(path):
     """Lines of each run of whole-line comments, without those that document a header."""
-    run = 0
+    run, block = 0, False
+    sign = r"\s*//(?!/)" if path.suffix == ".h" else r"\s*//" if path.suffix in SUFFIXES else r"\s*#(?!!)"
+    opening = r"\s*/\*(?!\*)" if path.suffix == ".h" else r"\s*/\*"
     for number, line in enumerate(path.read_text().splitlines() + [""]):
-        if re.match(r"\s*//(?!/)" if path.suffix == ".h" else r"\s*//", line):
+        begins = path.suffix in SUFFIXES and re.match(opening, line)
+        if block or begins or re.match(sign, line):
             run += 1
+            block = "*/" not in line and bool(block or begins)
         elif run:
             yield run, f"{path.relative_to(ROOT)}:{number - run + 1}"
             run = 0
@@ -181,7 +208,9 @@ def main():
     everything = list(sources(*LAYERS, "tests"))
     lines = [(len(path.read_text().splitlines()), path.relative_to(ROOT).as_posix()) for path in everything]
     readme = len((ROOT / "README.md").read_text().splitlines())
-    loops, up, links = circles(arrows), upward(arrows), check_links(found)
+    links = check_links(found) + list(stray_links(found))
+    loops = circles(graph(lambda path: path.parent.as_posix(), *LAYERS, "tests"))
+    up = upward(arrows)
     pairs = circles(graph(lambda path: path.with_suffix("").as_posix(), *LAYERS, "tests"))
 
     rows = [
@@ -195,7 +224,7 @@ def main():
          longest((body for path in everything for body in bodies(path)), MOST_BODY), MOST_BODY),
         ("lines of the longest file", longest(lines, MOST_LINES), MOST_LINES),
         ("lines of the longest comment",
-         longest((run for path in everything for run in comments(path)), MOST_COMMENT), MOST_COMMENT),
+         longest((run for path in [*everything, *scripts()] for run in comments(path)), MOST_COMMENT), MOST_COMMENT),
         ("lines of README.md", (readme, ""), MOST_README),
     ]
     failed = False

@@ -45,7 +45,7 @@ GuidedTool::GuidedTool(const ToolPose& start)
 {
   if (!start.apex.allFinite() || !start.axis.allFinite())
   {
-    throw Error(ErrorCode::BadValue, "tool: its start is not finite; give a place in meters");
+    throw Error(ErrorCode::BadValue, "tool: its start is not finite; give a position in meters");
   }
 }
 

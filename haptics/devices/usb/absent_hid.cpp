@@ -7,7 +7,7 @@
 namespace palp
 {
 
-const char* hidHurdle() noexcept
+const char* hidUnusableReason() noexcept
 {
   return "this build has no hidapi; install libhidapi-dev and build again";
 }
@@ -19,7 +19,7 @@ std::vector<FoundDevice> listHid()
 
 std::unique_ptr<Transport> openHid(const std::string& path)
 {
-  throw Error(ErrorCode::NoDevice, path + ": " + hidHurdle());
+  throw Error(ErrorCode::NoDevice, path + ": " + hidUnusableReason());
 }
 
 } // namespace palp

@@ -7,7 +7,7 @@
 namespace palp
 {
 
-const char* usbHurdle() noexcept
+const char* usbUnusableReason() noexcept
 {
   return "this build has no libusb; install libusb-1.0-0-dev and build again";
 }
@@ -19,7 +19,7 @@ std::vector<FoundDevice> listUsb()
 
 std::unique_ptr<SerialTransport> openFalcon()
 {
-  throw Error(ErrorCode::NoDevice, std::string("Novint Falcon: ") + usbHurdle());
+  throw Error(ErrorCode::NoDevice, std::string("Novint Falcon: ") + usbUnusableReason());
 }
 
 } // namespace palp

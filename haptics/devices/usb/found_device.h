@@ -25,8 +25,8 @@ struct FoundDevice
 };
 
 /// Why no such device can be found whatever is plugged in, and what to do; empty where it can.
-[[nodiscard]] const char* hidHurdle() noexcept;
-[[nodiscard]] const char* usbHurdle() noexcept;
+[[nodiscard]] const char* hidUnusableReason() noexcept;
+[[nodiscard]] const char* usbUnusableReason() noexcept;
 
 /// HID devices that are known, one for each interface that may talk.
 [[nodiscard]] std::vector<FoundDevice> listHid();

@@ -22,7 +22,7 @@ namespace
 {
 
 // hidapi keeps its last error in one place: one thread at a time may look or open
-std::mutex gLibrary; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::mutex gLibrary;
 
 struct Close
 {
@@ -138,7 +138,7 @@ std::string narrow(const wchar_t* text)
 
 } // namespace
 
-const char* hidHurdle() noexcept
+const char* hidUnusableReason() noexcept
 {
   return "";
 }

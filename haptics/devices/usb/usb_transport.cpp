@@ -114,7 +114,7 @@ private:
 
 } // namespace
 
-const char* usbHurdle() noexcept
+const char* usbUnusableReason() noexcept
 {
   return openContext() ? "" : kNoUsb;
 }

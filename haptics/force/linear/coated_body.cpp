@@ -19,7 +19,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector2d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kNarrowest = 1.0 / CoatedBody::kThinnestBody;
+constexpr double kNarrowest = 1.0 / CoatedBody::kMinBodyThickness;
 
 // Two states at one height, as columns: displacement (along, down) and traction over 2 k and a
 // common shear modulus (along, down). Every state there is a sum of the two.

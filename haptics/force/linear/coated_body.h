@@ -28,8 +28,8 @@ namespace palp
 class CoatedBody
 {
 public:
-  static constexpr double kMinThickness = 0.05; ///< uppermost coating, over the widest contact
-  static constexpr double kThinnestBody = 0.2;  ///< below the coatings, as well
+  static constexpr double kMinThickness = 0.05;    ///< uppermost coating, over the widest contact
+  static constexpr double kMinBodyThickness = 0.2; ///< below the coatings, as well
   static constexpr double kStiffest = 20.0; ///< E* of a coating, over that of the softest below it;
                                             ///< stiffer, the contact is no longer a single circle
   static constexpr double kSoftest = 0.001;
@@ -41,7 +41,7 @@ public:
   CoatedBody(const Coatings& coatings, const Material& body, Base base, double widest);
 
   /// @param radius     a [m], 0 to the widest
-  /// @param thickness  of the body with its coatings [m]; below them at least kThinnestBody is
+  /// @param thickness  of the body with its coatings [m]; below them at least kMinBodyThickness is
   ///                   taken
   /// @return           phi, relative to a half-space of the body; slopes by the radius [1/m]
   /// @realtime         pure; no allocation, no lock, no exception

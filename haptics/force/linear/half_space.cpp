@@ -14,7 +14,7 @@ namespace
 
 // the answer before the base is in contact
 
-LinearContact respond(const SphereTip& tip, double depth) noexcept
+LinearContact contactOf(const SphereTip& tip, double depth) noexcept
 {
   // a = R tanh(p), depth = R p tanh(p); small p by the series, where the difference loses digits
   const double ratio = depth / tip.radius;
@@ -32,18 +32,18 @@ LinearContact respond(const SphereTip& tip, double depth) noexcept
   return { tip.radius * tip.radius * area, tip.radius * t };
 }
 
-LinearContact respond(const ConeTip& tip, double depth) noexcept
+LinearContact contactOf(const ConeTip& tip, double depth) noexcept
 {
   const double a = 2.0 / std::numbers::pi * depth * std::tan(tip.halfAngle);
   return { a * depth, a };
 }
 
-LinearContact respond(const PunchTip& tip, double depth) noexcept
+LinearContact contactOf(const PunchTip& tip, double depth) noexcept
 {
   return { 2.0 * tip.radius * depth, tip.radius };
 }
 
-LinearContact respond(const TruncatedConeTip& tip, double depth) noexcept
+LinearContact contactOf(const TruncatedConeTip& tip, double depth) noexcept
 {
   // a = b / sin(q), where q + k sin(q) = pi / 2; concave, so it converges from below
   const double k = depth / (tip.flatRadius * cot(tip.halfAngle));
@@ -54,7 +54,7 @@ LinearContact respond(const TruncatedConeTip& tip, double depth) noexcept
   return { cot(tip.halfAngle) * (a * a * (right - q) + tip.flatRadius * a * std::cos(q)), a };
 }
 
-LinearContact respond(const BluntConeTip& tip, double depth) noexcept
+LinearContact contactOf(const BluntConeTip& tip, double depth) noexcept
 {
   const CappedCone cone(tip);
   const double rho = cone.rho;
@@ -62,7 +62,7 @@ LinearContact respond(const BluntConeTip& tip, double depth) noexcept
   const double n = cone.n;
   if (depth <= contactDepth(SphereTip{ rho }, b))
   {
-    return respond(SphereTip{ rho }, depth);
+    return contactOf(SphereTip{ rho }, depth);
   }
   // g is concave beyond the cap and below its asymptote, so it converges from the left
   const double lift = rho * rho / n - rho; // of the tip over the apex of the sharp cone
@@ -81,18 +81,18 @@ LinearContact respond(const BluntConeTip& tip, double depth) noexcept
 }
 
 // Hertz
-LinearContact respond(const ParaboloidTip& tip, double depth) noexcept
+LinearContact contactOf(const ParaboloidTip& tip, double depth) noexcept
 {
   const double a = std::sqrt(tip.radius * depth);
   return { 4.0 / 3.0 * a * depth, a };
 }
 
-LinearContact respond(const ProfileTip&, double) noexcept
+LinearContact contactOf(const ProfileTip&, double) noexcept
 {
   return {}; // from its table
 }
 
-LinearContact respond(const ContactTable& table, double depth) noexcept
+LinearContact contactOf(const ContactTable& table, double depth) noexcept
 {
   const ContactTable::Entry entry = table(depth);
   return { entry.force, entry.radius };
@@ -115,8 +115,8 @@ LinearContact HalfSpace::operator()(double depth) const noexcept
 {
   const double before = std::min(depth, baseDepth_);
   LinearContact contact = table_ != nullptr
-    ? respond(*table_, before)
-    : onTip(tip_, [before](const auto& shape) { return respond(shape, before); });
+    ? contactOf(*table_, before)
+    : onTip(tip_, [before](const auto& shape) { return contactOf(shape, before); });
   if (depth >= baseDepth_)
   {
     contact.radius = baseRadius_;

@@ -95,7 +95,7 @@ protected:
     {
       text += kBefore;
     }
-    std::mt19937 random(1); // NOLINT: the same moments each time
+    std::mt19937 random(1); // the same moments each time
     std::uniform_real_distribution<double> fraction(0.0, 1.0);
     int news = 0;
     for (int i = 0; i < kills(); ++i)
@@ -199,7 +199,7 @@ TEST_F(Killed, Tables)
 {
   const Files old{ { "sphere_r10_h50.csv", "mine" }, { "other.txt", "mine" } };
   restore(out_, old);
-  std::mt19937 random(1); // NOLINT: the same moments each time
+  std::mt19937 random(1); // the same moments each time
   std::uniform_real_distribution<double> wait(0.0, 2.0);
   for (int i = 0; i < kills(); ++i)
   {
@@ -224,7 +224,7 @@ TEST_F(Killed, Report)
       (file.first.ends_with(".json") && !file.second.ends_with("}\n")) ||
       (file.first.ends_with(".csv") && !file.second.ends_with('\n'));
   };
-  std::mt19937 random(1);                          // NOLINT: the same moments each time
+  std::mt19937 random(1);                          // the same moments each time
   std::exponential_distribution<double> wait(0.5); // [1/s]
   std::string how = " --overwrite";
   int reports = 0;

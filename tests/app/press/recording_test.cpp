@@ -56,7 +56,7 @@ TEST(Recording, ThatGrowsIsBoundedAndKeepsItsExtremesAndEachContact)
   std::size_t most = 0;
   double deepest = 0.0;
   double strongest = 0.0;
-  std::mt19937 random(1); // NOLINT: the same samples each time
+  std::mt19937 random(1); // the same samples each time
   std::uniform_real_distribution<double> noise(0.0, 1e-4);
   for (int i = 0; i < 1'000'000; ++i)
   {

@@ -51,16 +51,21 @@ protected:
     EXPECT_TRUE(QTest::qWaitFor(begun, kPatience));
   }
 
-  // until the tool rests, and not since before
-  void waitForRest() const
+  // until the servo has gone on for a while and something is so
+  void waitFor(const std::function<bool(const Sample&)>& isSo) const
   {
     const double before = session_->newest().time;
-    const auto rests = [this, before]
+    const auto isNow = [&]
     {
       const Sample sample = session_->newest();
-      return sample.pose.velocity.norm() < 1e-5 && sample.time > before + 0.1;
+      return sample.time > before + 0.1 && isSo(sample);
     };
-    EXPECT_TRUE(QTest::qWaitFor(rests, kPatience));
+    EXPECT_TRUE(QTest::qWaitFor(isNow, kPatience));
+  }
+
+  void waitForRest() const
+  {
+    waitFor([](const Sample& sample) { return sample.pose.velocity.norm() < 1e-5; });
   }
 
   [[nodiscard]] bool waitForLift() const
@@ -73,12 +78,11 @@ protected:
   {
     const QPoint middle = canvas_->rect().center();
     QTest::mouseMove(canvas_, middle);
-    waitForRest();
+    waitFor([](const Sample&) { return true; });
     QTest::mousePress(canvas_, Qt::LeftButton, {}, middle);
     QTest::mouseMove(canvas_, middle + QPoint(0, pixelsDown));
-    EXPECT_TRUE(
-      QTest::qWaitFor([this] { return session_->newest().contact.touching(); }, kPatience));
-    waitForRest();
+    waitFor([](const Sample& sample)
+      { return sample.contact.touching() && sample.pose.velocity.norm() < 1e-5; });
   }
 
   void release()

@@ -211,7 +211,7 @@ TEST(Stepper, CorotationalForceTendsToThatOfTheStaticElements)
 {
   const double depth = 2.0_mm;
   const Body body = cylinderBody(60.0_mm / std::sqrt(std::numbers::pi), 30.0_mm, 15.0_mm, 1.0_mm);
-  Indenter indenter(body, SphereTip{ 10.0_mm }, Energy::Corotated, kTissue);
+  Indenter indenter(body, SphereTip{ 10.0_mm }, StrainEnergy::Corotated, kTissue);
   indenter.press(depth);
   const double exact = indenter.state().force;
   double error = 2.0;

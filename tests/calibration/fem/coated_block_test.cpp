@@ -38,7 +38,7 @@ Case coatedCase(const Coatings& coatings)
     .tip = SphereTip{ 10.0_mm },
     .material = kTissue,
     .coatings = coatings,
-    .energy = Energy::Linear,
+    .energy = StrainEnergy::Linear,
     .depths = { 0.5_mm, 1.0_mm, 2.0_mm, 4.0_mm },
     .elementSize = 0.25_mm };
 }
@@ -84,7 +84,7 @@ TEST_P(CoatedBlock, NeoHookeanSheetsBeginAsLinearOnes)
   study.depths = { 0.05_mm };
   study.threshold = 0.01_mm;
   const double linear = completed(study).steps.front().force;
-  study.energy = Energy::NeoHookean;
+  study.energy = StrainEnergy::NeoHookean;
   EXPECT_NEAR(completed(study).steps.front().force, linear, 0.03 * linear);
 }
 
@@ -92,7 +92,7 @@ TEST_P(CoatedBlock, NeoHookeanSheetsBeginAsLinearOnes)
 TEST(CoatedBlocks, StiffSkinOnFatStretchesOncePressedDeeperThanItIsThick)
 {
   Case study = coatedCase(coatings({ { 1.0_mm, kSkin }, { 8.0_mm, kFat } }));
-  study.energy = Energy::NeoHookean;
+  study.energy = StrainEnergy::NeoHookean;
   study.elementSize = 0.5_mm;
   study.depths = { 0.5_mm, 1.0_mm, 2.0_mm, 3.0_mm };
   const ForceLaw law(

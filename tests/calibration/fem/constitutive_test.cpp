@@ -22,12 +22,12 @@ Matrix3d stretchedAndTurned()
   return f;
 }
 
-class AnyEnergy : public testing::TestWithParam<Energy>
+class AnyEnergy : public testing::TestWithParam<StrainEnergy>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Constitutive, AnyEnergy,
-  testing::Values(
-    Energy::Linear, Energy::Corotated, Energy::NeoHookean, Energy::NeoHookeanIsochoric),
+  testing::Values(StrainEnergy::Linear, StrainEnergy::Corotated, StrainEnergy::NeoHookean,
+    StrainEnergy::NeoHookeanIsochoric),
   [](const auto& tested)
   {
     std::string text(name(tested.param));
@@ -55,9 +55,9 @@ auto derivative(Function function, const Matrix3d& at, int component)
 
 TEST_P(AnyEnergy, StressIsTheDerivativeOfTheEnergy)
 {
-  const auto energy = [](const Matrix3d& f) { return respond(GetParam(), kTissue, f).energy; };
+  const auto energy = [](const Matrix3d& f) { return evaluate(GetParam(), kTissue, f).energy; };
   const Matrix3d f = stretchedAndTurned();
-  const Matrix3d stress = respond(GetParam(), kTissue, f).stress;
+  const Matrix3d stress = evaluate(GetParam(), kTissue, f).stress;
   for (int i = 0; i < 9; ++i)
   {
     EXPECT_NEAR(stress.data()[i], derivative(energy, f, i), 1e-8 * kTissue.youngModulus);
@@ -67,9 +67,9 @@ TEST_P(AnyEnergy, StressIsTheDerivativeOfTheEnergy)
 TEST_P(AnyEnergy, TangentIsTheDerivativeOfTheStress)
 {
   const auto stress = [](const Matrix3d& f) -> Matrix3d
-  { return respond(GetParam(), kTissue, f).stress; };
+  { return evaluate(GetParam(), kTissue, f).stress; };
   const Matrix3d f = stretchedAndTurned();
-  const Matrix9d tangent = respond(GetParam(), kTissue, f).tangent;
+  const Matrix9d tangent = evaluate(GetParam(), kTissue, f).tangent;
   for (int i = 0; i < 9; ++i)
   {
     const Matrix3d expected = derivative(stress, f, i);
@@ -82,10 +82,10 @@ TEST_P(AnyEnergy, TangentIsTheDerivativeOfTheStress)
 
 TEST_P(AnyEnergy, IsAtRestUndeformedAndStiffensAsHookeSays)
 {
-  const auto rest = respond(GetParam(), kTissue, Matrix3d::Identity());
+  const auto rest = evaluate(GetParam(), kTissue, Matrix3d::Identity());
   EXPECT_NEAR(rest.energy, 0.0, 1e-12);
   EXPECT_LT(rest.stress.norm(), 1e-12 * kTissue.youngModulus);
-  const auto hooke = respond(Energy::Linear, kTissue, Matrix3d::Identity());
+  const auto hooke = evaluate(StrainEnergy::Linear, kTissue, Matrix3d::Identity());
   EXPECT_LT((rest.tangent - hooke.tangent).norm(), 1e-12 * hooke.tangent.norm());
 }
 
@@ -94,16 +94,16 @@ TEST_P(AnyEnergy, FeelsARotationOnlyInSmallStrainTheory)
 {
   const Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
   const Matrix3d f = stretchedAndTurned();
-  const auto before = respond(GetParam(), kTissue, f);
-  const auto after = respond(GetParam(), kTissue, turn * f);
+  const auto before = evaluate(GetParam(), kTissue, f);
+  const auto after = evaluate(GetParam(), kTissue, turn * f);
   const double change = (after.stress - turn * before.stress).norm() / kTissue.youngModulus;
-  EXPECT_EQ(change > 1e-12, GetParam() == Energy::Linear);
+  EXPECT_EQ(change > 1e-12, GetParam() == StrainEnergy::Linear);
 }
 
 TEST(Constitutive, NamesAreReadBack)
 {
-  EXPECT_EQ(energyNamed("neo-hookean-isochoric"), Energy::NeoHookeanIsochoric);
-  EXPECT_EQ(energyNamed(name(Energy::Corotated)), Energy::Corotated);
+  EXPECT_EQ(energyNamed("neo-hookean-isochoric"), StrainEnergy::NeoHookeanIsochoric);
+  EXPECT_EQ(energyNamed(name(StrainEnergy::Corotated)), StrainEnergy::Corotated);
   EXPECT_EQ(energyNamed("mooney"), std::nullopt);
 }
 

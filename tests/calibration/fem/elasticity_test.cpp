@@ -76,7 +76,7 @@ struct Model
   Answer operator()(const Matrix3Xd& x)
   {
     Matrix3Xd forces(3, x.cols());
-    const double energy = elasticity->respond(x, forces, matrix);
+    const double energy = elasticity->evaluate(x, forces, matrix);
     return { energy, forces };
   }
 
@@ -203,7 +203,8 @@ TEST(CorotationalTets, LinearFieldsGiveTheEnergyOfTheMaterialAndBalance)
   {
     Model model("tetrahedra", tissue);
     const Answer answer = model(f * model.mesh.positions);
-    const double exact = respond(Energy::Corotated, tissue, f).energy * wholeVolume(model.mesh);
+    const double exact =
+      evaluate(StrainEnergy::Corotated, tissue, f).energy * wholeVolume(model.mesh);
     EXPECT_NEAR(answer.energy, exact, 1e-9 * exact);
     const int inner = (1 * 4 + 1) * 4 + 1;
     EXPECT_LT(answer.forces.col(inner).norm(), 1e-9 * answer.forces.norm());

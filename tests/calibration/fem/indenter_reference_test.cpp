@@ -23,11 +23,11 @@ class AgainstReference : public testing::TestWithParam<Compared>
 protected:
   static double tolerance(const Case& study, double depth)
   {
-    return study.energy == Energy::Corotated || depth < 1.0001_mm ? 0.05 : 0.03;
+    return study.energy == StrainEnergy::Corotated || depth < 1.0001_mm ? 0.05 : 0.03;
   }
 };
 
-Case cone(Energy energy, double height, double deepest)
+Case cone(StrainEnergy energy, double height, double deepest)
 {
   return { .name = "cone",
     .height = height,
@@ -37,7 +37,7 @@ Case cone(Energy energy, double height, double deepest)
     .elementSize = 0.5_mm };
 }
 
-Case sphere(Energy energy, double radius, double height, double deepest)
+Case sphere(StrainEnergy energy, double radius, double height, double deepest)
 {
   return { .name = "sphere",
     .height = height,
@@ -48,21 +48,27 @@ Case sphere(Energy energy, double radius, double height, double deepest)
 }
 
 INSTANTIATE_TEST_SUITE_P(Indenter, AgainstReference,
-  testing::Values(
-    Compared{ "calib_sphere_R10__LINS_h0.25", sphere(Energy::Linear, 10.0_mm, 50.0_mm, 10.0_mm) },
-    Compared{ "calib_sphere_R10__NH_h0.5", sphere(Energy::NeoHookean, 10.0_mm, 50.0_mm, 10.0_mm) },
-    Compared{ "calib_sphere_R10__NHCCX_h1",
-      sphere(Energy::NeoHookeanIsochoric, 10.0_mm, 50.0_mm, 10.0_mm) },
-    Compared{ "calib_sphere_R10__COROT_h1", sphere(Energy::Corotated, 10.0_mm, 50.0_mm, 10.0_mm) },
-    Compared{ "fig15_sphere_R6__LINS_h0.25", sphere(Energy::Linear, 6.0_mm, 30.0_mm, 8.0_mm) },
-    Compared{ "fig15_sphere_R6__NH_h0.25", sphere(Energy::NeoHookean, 6.0_mm, 30.0_mm, 8.0_mm) },
+  testing::Values(Compared{ "calib_sphere_R10__LINS_h0.25",
+                    sphere(StrainEnergy::Linear, 10.0_mm, 50.0_mm, 10.0_mm) },
     Compared{
-      "fig15_sphere_R6__NHCCX_h0.5", sphere(Energy::NeoHookeanIsochoric, 6.0_mm, 30.0_mm, 8.0_mm) },
-    Compared{ "fig15_sphere_R6__COROT_h1", sphere(Energy::Corotated, 6.0_mm, 30.0_mm, 6.0_mm) },
-    Compared{ "calib_cone45__LINS_h0.25", cone(Energy::Linear, 50.0_mm, 10.0_mm) },
-    Compared{ "calib_cone45__NH_h0.5", cone(Energy::NeoHookean, 50.0_mm, 10.0_mm) },
-    Compared{ "fig15_cone45__NHCCX_h0.5", cone(Energy::NeoHookeanIsochoric, 30.0_mm, 7.0_mm) },
-    Compared{ "fig15_cone45__COROT_h0.5", cone(Energy::Corotated, 30.0_mm, 6.5_mm) }),
+      "calib_sphere_R10__NH_h0.5", sphere(StrainEnergy::NeoHookean, 10.0_mm, 50.0_mm, 10.0_mm) },
+    Compared{ "calib_sphere_R10__NHCCX_h1",
+      sphere(StrainEnergy::NeoHookeanIsochoric, 10.0_mm, 50.0_mm, 10.0_mm) },
+    Compared{
+      "calib_sphere_R10__COROT_h1", sphere(StrainEnergy::Corotated, 10.0_mm, 50.0_mm, 10.0_mm) },
+    Compared{
+      "fig15_sphere_R6__LINS_h0.25", sphere(StrainEnergy::Linear, 6.0_mm, 30.0_mm, 8.0_mm) },
+    Compared{
+      "fig15_sphere_R6__NH_h0.25", sphere(StrainEnergy::NeoHookean, 6.0_mm, 30.0_mm, 8.0_mm) },
+    Compared{ "fig15_sphere_R6__NHCCX_h0.5",
+      sphere(StrainEnergy::NeoHookeanIsochoric, 6.0_mm, 30.0_mm, 8.0_mm) },
+    Compared{
+      "fig15_sphere_R6__COROT_h1", sphere(StrainEnergy::Corotated, 6.0_mm, 30.0_mm, 6.0_mm) },
+    Compared{ "calib_cone45__LINS_h0.25", cone(StrainEnergy::Linear, 50.0_mm, 10.0_mm) },
+    Compared{ "calib_cone45__NH_h0.5", cone(StrainEnergy::NeoHookean, 50.0_mm, 10.0_mm) },
+    Compared{
+      "fig15_cone45__NHCCX_h0.5", cone(StrainEnergy::NeoHookeanIsochoric, 30.0_mm, 7.0_mm) },
+    Compared{ "fig15_cone45__COROT_h0.5", cone(StrainEnergy::Corotated, 30.0_mm, 6.5_mm) }),
   [](const auto& tested)
   {
     std::string text;
@@ -95,7 +101,7 @@ TEST_P(AgainstReference, ForceAndExtentAgree)
     worstPenetration = std::max(worstPenetration, step.penetration / step.depth);
 
     const double force = rows[i].number("F_N");
-    if (step.contactRadius >= 4.0 * study.elementSize || study.energy == Energy::Corotated)
+    if (step.contactRadius >= 4.0 * study.elementSize || study.energy == StrainEnergy::Corotated)
     {
       EXPECT_NEAR(step.force, force, tolerance(study, step.depth) * force) << step.depth;
       worstForce = std::max(worstForce, std::abs(step.force / force - 1.0));
@@ -117,12 +123,13 @@ class SurfaceAgainstReference : public testing::TestWithParam<Compared>
 };
 INSTANTIATE_TEST_SUITE_P(Indenter, SurfaceAgainstReference,
   testing::Values(Compared{ "calib_sphere_R10__NH_h0.5__profiles",
-                    sphere(Energy::NeoHookean, 10.0_mm, 50.0_mm, 10.0_mm) },
+                    sphere(StrainEnergy::NeoHookean, 10.0_mm, 50.0_mm, 10.0_mm) },
+    Compared{ "calib_sphere_R10__LINS_h0.25__profiles",
+      sphere(StrainEnergy::Linear, 10.0_mm, 50.0_mm, 10.0_mm) },
+    Compared{ "fig15_sphere_R6__NH_h0.25__profiles",
+      sphere(StrainEnergy::NeoHookean, 6.0_mm, 30.0_mm, 8.0_mm) },
     Compared{
-      "calib_sphere_R10__LINS_h0.25__profiles", sphere(Energy::Linear, 10.0_mm, 50.0_mm, 10.0_mm) },
-    Compared{
-      "fig15_sphere_R6__NH_h0.25__profiles", sphere(Energy::NeoHookean, 6.0_mm, 30.0_mm, 8.0_mm) },
-    Compared{ "calib_cone45__NH_h0.5__profiles", cone(Energy::NeoHookean, 50.0_mm, 10.0_mm) }));
+      "calib_cone45__NH_h0.5__profiles", cone(StrainEnergy::NeoHookean, 50.0_mm, 10.0_mm) }));
 
 TEST_P(SurfaceAgainstReference, ProfilesAgree)
 {
@@ -169,7 +176,7 @@ TEST(Indenter, ElasticSpheresAgreeWithReference)
   {
     const Body body = sphereBody(one.radius, one.support, 11.0_mm, one.cone ? 0.5_mm : 1.0_mm);
     Indenter indenter(body, one.cone ? cappedCone() : Tip{ SphereTip{ 10.0_mm } },
-      Energy::NeoHookean, { 50.0_kPa, 0.33 });
+      StrainEnergy::NeoHookean, { 50.0_kPa, 0.33 });
     const auto rows = referenceTable(one.reference);
     ASSERT_EQ(rows.size(), 10U);
     for (const auto& row : rows)
@@ -206,7 +213,7 @@ TEST(Indenter, CoarseVolumetricBlockAgreesWithTheCylinder)
 TEST(Indenter, TheSurfaceNeitherFoldsNorHangsUnderASharpCone)
 {
   const auto rows = referenceTable("calib_cone45__NH_h0.25");
-  Case study = cone(Energy::NeoHookean, 50.0_mm, 4.0_mm);
+  Case study = cone(StrainEnergy::NeoHookean, 50.0_mm, 4.0_mm);
   study.depths = { 1.0_mm, 2.0_mm, 3.0_mm, 4.0_mm };
   study.elementSize = 0.25_mm;
   for (const IndentationStep& step : completed(study).steps)

@@ -11,7 +11,7 @@ using test::referenceTable;
 struct Compared
 {
   const char* reference;
-  Energy energy;
+  StrainEnergy energy;
   double radius;
   double height;
   double deepest;
@@ -22,12 +22,12 @@ class SlowBlock : public testing::TestWithParam<Compared>
 };
 INSTANTIATE_TEST_SUITE_P(Block, SlowBlock,
   testing::Values(
-    Compared{ "fig15_sphere_R6__NH_h0.25", Energy::NeoHookean, 6.0_mm, 30.0_mm, 6.0_mm },
-    Compared{ "fig15_sphere_R6__COROT_h1", Energy::Corotated, 6.0_mm, 30.0_mm, 6.0_mm },
-    Compared{ "fig15_sphere_R6__LINS_h0.25", Energy::Linear, 6.0_mm, 30.0_mm, 6.0_mm },
-    Compared{ "calib_sphere_R10__NH_h0.5", Energy::NeoHookean, 10.0_mm, 50.0_mm, 10.0_mm },
-    Compared{ "calib_sphere_R10__COROT_h1", Energy::Corotated, 10.0_mm, 50.0_mm, 10.0_mm },
-    Compared{ "calib_sphere_R10__LINS_h0.25", Energy::Linear, 10.0_mm, 50.0_mm, 10.0_mm }));
+    Compared{ "fig15_sphere_R6__NH_h0.25", StrainEnergy::NeoHookean, 6.0_mm, 30.0_mm, 6.0_mm },
+    Compared{ "fig15_sphere_R6__COROT_h1", StrainEnergy::Corotated, 6.0_mm, 30.0_mm, 6.0_mm },
+    Compared{ "fig15_sphere_R6__LINS_h0.25", StrainEnergy::Linear, 6.0_mm, 30.0_mm, 6.0_mm },
+    Compared{ "calib_sphere_R10__NH_h0.5", StrainEnergy::NeoHookean, 10.0_mm, 50.0_mm, 10.0_mm },
+    Compared{ "calib_sphere_R10__COROT_h1", StrainEnergy::Corotated, 10.0_mm, 50.0_mm, 10.0_mm },
+    Compared{ "calib_sphere_R10__LINS_h0.25", StrainEnergy::Linear, 10.0_mm, 50.0_mm, 10.0_mm }));
 
 TEST_P(SlowBlock, ForceIsWithinEightPercentFromOneMillimeterOn)
 {

@@ -22,7 +22,7 @@ TEST(Indenter, LargeLinearBlockIsHertzsHalfSpace)
     .length = 600.0_mm,
     .height = 300.0_mm,
     .tip = ParaboloidTip{ 10.0_mm },
-    .energy = Energy::Linear,
+    .energy = StrainEnergy::Linear,
     .depths = { 0.5_mm, 1.0_mm, 2.0_mm },
     .elementSize = 0.25_mm };
   for (const IndentationStep& step : completed(study).steps)
@@ -35,7 +35,7 @@ TEST(Indenter, LargeLinearBlockIsHertzsHalfSpace)
 
 TEST(Indenter, HalvingTheMeshChangesTheForceByLessThanTwoPercent)
 {
-  for (const Case& coarse : { paperCase(Energy::Linear), paperCase() })
+  for (const Case& coarse : { paperCase(StrainEnergy::Linear), paperCase() })
   {
     Case fine = coarse;
     fine.elementSize = 0.5 * coarse.elementSize;
@@ -51,7 +51,7 @@ TEST(Indenter, HalvingTheMeshChangesTheForceByLessThanTwoPercent)
 // nothing but Young's modulus sets the scale of stress: F follows it, shapes do not
 TEST(Indenter, ForceFollowsYoungsModulusAndTheExtentDoesNot)
 {
-  for (const Energy energy : { Energy::NeoHookean, Energy::Corotated })
+  for (const StrainEnergy energy : { StrainEnergy::NeoHookean, StrainEnergy::Corotated })
   {
     Case soft = paperCase(energy);
     Case stiff = soft;
@@ -69,7 +69,7 @@ TEST(Indenter, ForceFollowsYoungsModulusAndTheExtentDoesNot)
 // a wide linear layer under a paraboloid against its series
 void expectLayer(double poisson, Base base, double m0, double m2, double tolerance)
 {
-  Case study = paperCase(Energy::Linear);
+  Case study = paperCase(StrainEnergy::Linear);
   study.material.poissonRatio = poisson;
   study.base = base;
   study.tip = ParaboloidTip{ 10.0_mm };
@@ -117,7 +117,7 @@ TEST(Indenter, TissueLikeWaterIsTheIncompressibleHalfSpace)
 TEST(Indenter, StopsWhereTheSurfaceWouldFold)
 {
   const Body body = cylinderBody(25.0_mm, 20.0_mm, 4.0_mm, 0.25_mm, {}, Integration::Reduced);
-  Indenter indenter(body, cappedCone(), Energy::NeoHookean, { 50.0_kPa, 0.33 });
+  Indenter indenter(body, cappedCone(), StrainEnergy::NeoHookean, { 50.0_kPa, 0.33 });
   std::string why;
   try
   {
@@ -148,7 +148,7 @@ TEST(Indenter, ASlippingBaseIsSofterAsTheLayerSays)
 // 2 E* a d, and the layer's series 1 + 2 m0 a / (pi h) + ...: m0 = 1.41177 at nu = 0.33
 TEST(Indenter, AFlatPunchIsTheExactOne)
 {
-  Case study = paperCase(Energy::Linear);
+  Case study = paperCase(StrainEnergy::Linear);
   study.tip = PunchTip{ 5.0_mm };
   study.depths = depthRange(1.0_mm, 5.0_mm, 1.0_mm);
   study.width = study.length = 150.0_mm;
@@ -185,7 +185,7 @@ TEST(Indenter, AFlatPunchGoesAsDeepAsItIsWide)
 // a cone deeper than it is long: the surface would have to fold around a sharp edge
 TEST(Indenter, SaysThatTheContactReachedTheRim)
 {
-  Case study = paperCase(Energy::NeoHookeanIsochoric);
+  Case study = paperCase(StrainEnergy::NeoHookeanIsochoric);
   study.tip = BluntConeTip{ .halfAngle = 60.0_deg, .tipRadius = 0.3_mm, .baseRadius = 2.0_mm };
   study.width = study.length = 20.0_mm;
   study.height = 8.0_mm;

@@ -48,7 +48,7 @@ TEST(Study, RefusesAbsurdGeometryBeforeAnyWork)
   study = quick();
   study.tip = withCap(ConeTip{ .halfAngle = 24.0_deg, .baseRadius = 10.0_mm }, 0.3_mm);
   EXPECT_NE(refusal(study).find("give 25 degrees or more"), std::string::npos);
-  study.energy = Energy::Linear;
+  study.energy = StrainEnergy::Linear;
   EXPECT_EQ(refusal(study), "");
 }
 

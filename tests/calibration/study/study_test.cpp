@@ -117,7 +117,7 @@ TEST(Study, StopsWithinADepth)
   std::stop_source source;
   source.request_stop();
   const Body body = bodyOf(quick());
-  Indenter indenter(body, quick().tip, Energy::NeoHookean, quick().material);
+  Indenter indenter(body, quick().tip, StrainEnergy::NeoHookean, quick().material);
   EXPECT_THROW(indenter.press(3.0_mm, source.get_token()), Error);
   EXPECT_EQ(indenter.checkpoint().depth, 0.0);
   indenter.press(3.0_mm);

@@ -115,7 +115,7 @@ TEST_F(LargeStrainFile, IsReadInAnyOrder)
 
 TEST_F(LargeStrainFile, IsRefusedWithTheLine)
 {
-  EXPECT_EQ(refusal("0,0,0.33,1\n0,0,0.33,1\n"), ":3: given twice; give each place once");
+  EXPECT_EQ(refusal("0,0,0.33,1\n0,0,0.33,1\n"), ":3: given twice; give each row once");
   EXPECT_EQ(refusal("0,0,0.33\n"),
     ":2: 3 columns; give depth_over_radius,radius_over_thickness,poisson_ratio,force_ratio");
   EXPECT_EQ(refusal("0,0,0.33,1\n1,0.2,0.33,1\n").substr(0, 4), ":3: ");

@@ -8,9 +8,9 @@ namespace palp
 namespace
 {
 
-std::vector<std::int32_t> around(const VertexRings& umbrella, int point)
+std::vector<std::int32_t> around(const VertexRings& rings, int point)
 {
-  const auto chains = umbrella.around(point);
+  const auto chains = rings.around(point);
   return { chains.begin(), chains.end() };
 }
 
@@ -19,8 +19,8 @@ const std::vector<Triangle> kFan{ { 0, 1, 2 }, { 3, 0, 2 }, { 4, 0, 3 }, { 0, 4,
 
 TEST(VertexRings, ClosesAroundAnInnerPoint)
 {
-  const VertexRings umbrella(5, kFan);
-  auto chain = around(umbrella, 0);
+  const VertexRings rings(5, kFan);
+  auto chain = around(rings, 0);
   ASSERT_EQ(chain.size(), 5U);
   EXPECT_EQ(chain.front(), chain.back());
   chain.pop_back();
@@ -30,14 +30,14 @@ TEST(VertexRings, ClosesAroundAnInnerPoint)
 
 TEST(VertexRings, EndsAtTheRimOfAnOpenSurface)
 {
-  const VertexRings umbrella(5, kFan);
-  EXPECT_EQ(around(umbrella, 2), (std::vector<std::int32_t>{ 3, 0, 1 }));
+  const VertexRings rings(5, kFan);
+  EXPECT_EQ(around(rings, 2), (std::vector<std::int32_t>{ 3, 0, 1 }));
 }
 
 TEST(VertexRings, SeparatesSheetsThatShareAPoint)
 {
-  const VertexRings umbrella(5, std::vector<Triangle>{ { 0, 1, 2 }, { 0, 3, 4 } });
-  EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2, VertexRings::kEnd, 3, 4 }));
+  const VertexRings rings(5, std::vector<Triangle>{ { 0, 1, 2 }, { 0, 3, 4 } });
+  EXPECT_EQ(around(rings, 0), (std::vector<std::int32_t>{ 1, 2, VertexRings::kEnd, 3, 4 }));
 }
 
 // a book of pages, and a fan, each with more triangles than their squares could be looked at
@@ -61,14 +61,14 @@ TEST(VertexRings, TakesAnyNumberOfTrianglesAtAPoint)
 
 TEST(VertexRings, LeavesOutTrianglesThatNameAPointTwice)
 {
-  const VertexRings umbrella(3, std::vector<Triangle>{ { 0, 0, 1 }, { 0, 1, 2 } });
-  EXPECT_EQ(around(umbrella, 0), (std::vector<std::int32_t>{ 1, 2 }));
+  const VertexRings rings(3, std::vector<Triangle>{ { 0, 0, 1 }, { 0, 1, 2 } });
+  EXPECT_EQ(around(rings, 0), (std::vector<std::int32_t>{ 1, 2 }));
 }
 
 TEST(VertexRings, HasNothingAroundALonePoint)
 {
-  const VertexRings umbrella(4, std::vector<Triangle>{ { 0, 1, 2 } });
-  EXPECT_TRUE(umbrella.around(3).empty());
+  const VertexRings rings(4, std::vector<Triangle>{ { 0, 1, 2 } });
+  EXPECT_TRUE(rings.around(3).empty());
 }
 
 } // namespace

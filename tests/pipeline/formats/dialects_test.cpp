@@ -1,6 +1,6 @@
-#include "tests/pipeline/surface_io/surface_files.h"
+#include "tests/pipeline/surface_files.h"
 
-#include "tests/pipeline/formats/sample_files.h"
+#include "tests/pipeline/sample_files.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
-#include "tests/pipeline/surface_io/surface_files.h"
+#include "tests/pipeline/surface_files.h"
 
 #include "haptics/units.h"
-#include "tests/pipeline/formats/sample_files.h"
+#include "tests/pipeline/sample_files.h"
 
 #include <random>
 

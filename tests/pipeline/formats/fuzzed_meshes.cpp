@@ -1,6 +1,6 @@
 #include "tests/pipeline/formats/fuzzed_parts.h"
 
-#include "tests/pipeline/formats/sample_files.h"
+#include "tests/pipeline/sample_files.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,7 +1,7 @@
-#include "tests/pipeline/surface_io/surface_files.h"
+#include "tests/pipeline/surface_files.h"
 
 #include "haptics/units.h"
-#include "tests/pipeline/formats/sample_files.h"
+#include "tests/pipeline/sample_files.h"
 
 #include <random>
 
@@ -40,7 +40,7 @@ std::vector<BadFile> badFiles()
     { "nan.stl", notANumber, ErrorCode::BadMesh, "not a usable number" },
     { "inf.obj", infinite, ErrorCode::BadMesh, "inf.obj:3: 'inf' is not a usable number" },
     { "range.off", outOfRange, ErrorCode::BadFile,
-      "range.off:12: a face refers to point 9, out of range (0 to 3)" },
+      "range.off:12: a face refers to vertex 9, out of range (0 to 3)" },
     { "negative.ply", negative, ErrorCode::BadFile, "export" },
     { "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ErrorCode::BadMesh, "no triangles" },
     { "zero.off", "OFF\n0 0 0\n", ErrorCode::BadMesh, "no triangles" },
