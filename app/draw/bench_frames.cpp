@@ -87,7 +87,7 @@ Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
 }
 
 // where the tool is in a frame, there and back [m]
-double wayOf(int frame, double outer)
+double offsetOf(int frame, double outer)
 {
   const int step = frame % kSteps - kSteps / 2;
   return 0.05 * outer * step;
@@ -110,7 +110,7 @@ std::vector<BenchRow> benchSurface(
   const auto window = context.makeWindow(160, 120);
   window->AddRenderer(renderer);
   const Frames frames =
-    measure(*window, [&](int i) { press->SetPress(dome.press(outer, wayOf(i, outer))); });
+    measure(*window, [&](int i) { press->SetPress(dome.press(outer, offsetOf(i, outer))); });
   return { benchRow("frame", mesh.points.size(), "still", frames.still),
     benchRow("frame", mesh.points.size(), mode, frames.above) };
 }
@@ -136,7 +136,7 @@ BenchRow benchOverlay(
   const Frames frames = measure(*window,
     [&](int i)
     {
-      const Press press = dome.press(outer, wayOf(i, outer));
+      const Press press = dome.press(outer, offsetOf(i, outer));
       Sample sample;
       sample.pose = press.pose;
       sample.contact = press.contact;

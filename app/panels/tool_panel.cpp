@@ -187,7 +187,7 @@ void ToolPanel::chooseFile()
 // a flat or a cap that was meant for a wider base would refuse the shape as a whole
 void ToolPanel::fitTip()
 {
-  constexpr double kShare = 0.5;
+  constexpr double kFraction = 0.5;
   const int kind = kind_->currentIndex();
   if (kind != TruncatedCone && kind != BluntCone)
   {
@@ -200,7 +200,7 @@ void ToolPanel::fitTip()
   catch (const Error&)
   {
     QuantityBox* end = kind == TruncatedCone ? flatRadius_ : tipRadius_;
-    end->setSi(kShare * radius_->si());
+    end->setSi(kFraction * radius_->si());
     Q_EMIT end->refused(tr("Wider than the base before; half of the base is taken."));
   }
 }

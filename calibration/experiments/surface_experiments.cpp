@@ -89,7 +89,7 @@ double addExtents(Experiment& result, bool sphere, const std::vector<double>& de
   return apart;
 }
 
-struct Shares
+struct Fractions
 {
   double paper = 0.0; // largest rms over depth [-]
   double fitted = 0.0;
@@ -97,7 +97,7 @@ struct Shares
 
 // one depth of Fig. 7
 void addProfile(
-  Experiment& result, const Case& study, const IndentationStep& step, Shares& fractions)
+  Experiment& result, const Case& study, const IndentationStep& step, Fractions& fractions)
 {
   const double extent = extentRadius(step.profile, study.threshold);
   const SurfaceProfile fit = fitSurface(step, study.tip);
@@ -175,7 +175,7 @@ Experiment profiles(Resolution resolution, const std::stop_token& stop)
           ", R = 10 mm, at 2.5, 5, 7.5 and 10 mm",
         .bottom = "distance from the axis [mm]",
         .left = "height [mm]" });
-    Shares fractions;
+    Fractions fractions;
     for (const IndentationStep& step : calibrate(study, stop).steps)
     {
       addProfile(result, study, step, fractions);

@@ -156,7 +156,7 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
   const LargeStrainGrid::Ratio ratio = best_.largeStrain(local);
   const double strain = depth > 0.0 ? strain_ : 0.0;
   const double radius = response.contactRadius;
-  const double ball = shareOfBall(local.thickness, local.surfaceCurvature);
+  const double ball = fractionOfBall(local.thickness, local.surfaceCurvature);
   const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
   const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
 

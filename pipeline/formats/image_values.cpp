@@ -73,7 +73,7 @@ bool fillsRegions(
   return 2 * equal > pairs;
 }
 
-std::array<int, 3> placeOf(vtkImageData& image, vtkIdType voxel)
+std::array<int, 3> indexOf(vtkImageData& image, vtkIdType voxel)
 {
   const int* size = image.GetDimensions();
   const vtkIdType row = voxel / size[0];
@@ -99,7 +99,7 @@ ImageValues valuesOf(vtkImageData& image)
         {
           if (values.notFinite++ == 0)
           {
-            values.firstOf = placeOf(image, i);
+            values.firstOf = indexOf(image, i);
           }
           continue;
         }

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 inline const std::string kName = std::string("wooden:") + kNode;
 
-inline Vector3d placeAt(int reach)
+inline Vector3d positionAt(int reach)
 {
   const auto& start = Board::kStart;
   return woodenTool(WoodenCounts{ start[0], start[1], start[2] + reach });
@@ -32,9 +32,9 @@ inline Vector3d placeAt(int reach)
 // counts after which the arm is so much lower than at its start
 inline int reachFor(double travel)
 {
-  const int down = placeAt(1).z() < placeAt(0).z() ? 1 : -1;
+  const int down = positionAt(1).z() < positionAt(0).z() ? 1 : -1;
   int reach = 0;
-  while (placeAt(0).z() - placeAt(reach).z() < travel)
+  while (positionAt(0).z() - positionAt(reach).z() < travel)
   {
     reach += down;
   }
@@ -154,7 +154,7 @@ protected:
   // the tool stands 5 mm above a block, and 4 mm deep in it once the arm has reached down
   [[nodiscard]] static DevicePlacement placement()
   {
-    return { .origin = Vector3d(0, 0, -4.0_mm) - placeAt(reachFor(9.0_mm)) };
+    return { .origin = Vector3d(0, 0, -4.0_mm) - positionAt(reachFor(9.0_mm)) };
   }
 
   void start(std::unique_ptr<Device> device)

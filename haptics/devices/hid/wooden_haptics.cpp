@@ -149,7 +149,7 @@ Eigen::Vector3d forwardKinematics(const WoodenArm& arm, const Eigen::Vector3d& a
     shoulder + upper * std::cos(angles[1]) - fore * std::cos(angles[2]) - arm.origin[2] };
 }
 
-Eigen::Matrix3d placeJacobian(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept
+Eigen::Matrix3d positionJacobian(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept
 {
   const double upper = arm.length[1];
   const double fore = arm.length[2];
@@ -166,7 +166,7 @@ Eigen::Matrix3d placeJacobian(const WoodenArm& arm, const Eigen::Vector3d& angle
 std::array<double, 3> motorCurrents(
   const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept
 {
-  const Eigen::Vector3d torques = placeJacobian(arm, angles).transpose() * force;
+  const Eigen::Vector3d torques = positionJacobian(arm, angles).transpose() * force;
   std::array<double, 3> currents{};
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i)

@@ -67,7 +67,7 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 
 /// Derivative of the place by the angles of the bodies [m/rad].
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Eigen::Matrix3d placeJacobian(
+[[nodiscard]] Eigen::Matrix3d positionJacobian(
   const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
 
 /// Currents that push the hand with a force, all shortened alike where one exceeds its largest.

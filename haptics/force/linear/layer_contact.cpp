@@ -20,7 +20,7 @@ constexpr double kHollowSpacing = 0.99;
 
 } // namespace
 
-double shareOfBall(double thickness, double curvature) noexcept
+double fractionOfBall(double thickness, double curvature) noexcept
 {
   return curvature > 0.0 ? std::min(1.0, 0.5 * thickness * curvature) : 0.0;
 }
@@ -63,7 +63,7 @@ double LayerContact::allowedCurvature(double curvature) const noexcept
 
 double LayerContact::layerThickness(double thickness, double curvature) const noexcept
 {
-  return thickness / (1.0 - (1.0 - ball_) * shareOfBall(thickness, curvature));
+  return thickness / (1.0 - (1.0 - ball_) * fractionOfBall(thickness, curvature));
 }
 
 PunchSolution LayerContact::solution(double radius, double thickness) const noexcept

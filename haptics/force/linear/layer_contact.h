@@ -10,12 +10,12 @@
 namespace palp
 {
 
-/// Share of a ball in the shape of a body: 0 where its surface is flat or hollow, 1 where it bends
-/// so much that it closes within the thickness.
+/// Fraction of a ball in the shape of a body: 0 where its surface is flat or hollow, 1 where it
+/// bends so much that it closes within the thickness.
 /// @param thickness  [m], more than 0; infinite where it is not known
 /// @param curvature  of the surface [1/m], convex positive
 /// @realtime         pure; no allocation, no lock, no exception
-[[nodiscard]] double shareOfBall(double thickness, double curvature) noexcept;
+[[nodiscard]] double fractionOfBall(double thickness, double curvature) noexcept;
 
 /// Exact linear solution for a rigid frictionless tip on a layer, coated or of one material, with a
 /// curved surface.

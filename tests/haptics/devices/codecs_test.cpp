@@ -163,7 +163,7 @@ TEST(WoodenHaptics, JacobianIsTheDerivative)
   for (int i = 0; i < 1000; ++i)
   {
     const Vector3d angles(angle(random), angle(random), 1.5 + 0.5 * angle(random));
-    const Eigen::Matrix3d jacobian = placeJacobian(arm, angles);
+    const Eigen::Matrix3d jacobian = positionJacobian(arm, angles);
     for (int axis = 0; axis < 3; ++axis)
     {
       const Vector3d step = 1e-5 * Vector3d::Unit(axis);

@@ -221,10 +221,10 @@ EdgeStep stepOnEdge(
   const ToolBody body(press.tip, press.pose);
   const Eigen::Vector3d start = region.toSurface(a.local);
   const Eigen::Vector3d edge = region.toSurface(b.local) - start;
-  const auto placeAt = [&](double fraction)
+  const auto geodesicAt = [&](double fraction)
   { return region.geodesicBetween(a, b, fraction, start + fraction * edge); };
   const auto sinkAt = [&](double fraction)
-  { return dent.sinkAt(placeAt(fraction), start + fraction * edge).depth; };
+  { return dent.sinkAt(geodesicAt(fraction), start + fraction * edge).depth; };
   const auto [size, low, width] = largestStep(sinkAt, edge.norm());
   const auto isOverTool = [&](double fraction)
   { return std::isfinite(body.lowest(start + fraction * edge, region.normal())); };
@@ -234,7 +234,7 @@ EdgeStep stepOnEdge(
   {
     return { .size = 0.0, .isRim = false };
   }
-  return { .size = size, .isRim = placeAt(low).distance > 0.99 * region.outer() };
+  return { .size = size, .isRim = geodesicAt(low).distance > 0.99 * region.outer() };
 }
 
 // The displacement along every edge of the pressed mesh, sides and ridges included: the largest
@@ -248,15 +248,15 @@ TEST_P(RandomPress, IsContinuousAlongEveryEdge)
     const Press press = next(i);
     surface.press(press);
     const PressRegion& region = surface.dent.region();
-    const auto placeOf = [&](int corner)
+    const auto geodesicOf = [&](int corner)
     { return region.geodesics()[static_cast<std::size_t>(corner)]; };
     region.forEachTriangle(
       [&](const Triangle& triangle)
       {
         for (std::size_t k = 0; k < 3; ++k)
         {
-          const EdgeStep found =
-            stepOnEdge(surface.dent, press, placeOf(triangle[k]), placeOf(triangle[(k + 1) % 3]));
+          const EdgeStep found = stepOnEdge(
+            surface.dent, press, geodesicOf(triangle[k]), geodesicOf(triangle[(k + 1) % 3]));
           step = std::max(step, found.size);
           stepAtRd = std::max(stepAtRd, found.isRim ? found.size : 0.0);
         }

@@ -106,7 +106,7 @@ TEST(FalconKinematics, ReachesThePublishedHeights)
   EXPECT_EQ(height(1500.0), -1.0); // out of reach
 }
 
-Vector3d randomPlace(std::mt19937& random)
+Vector3d randomPosition(std::mt19937& random)
 {
   std::uniform_real_distribution<double> aside(-0.03, 0.03);
   std::uniform_real_distribution<double> up(0.09, 0.16);
@@ -120,7 +120,7 @@ TEST(FalconKinematics, PlaceAndAnglesAreInverse)
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i)
   {
-    const Vector3d position = randomPlace(random);
+    const Vector3d position = randomPosition(random);
     const auto angles = falconAngles(position);
     ASSERT_TRUE(angles);
     const auto back = falconPosition(*angles, falconCenter());
@@ -134,7 +134,7 @@ TEST(FalconKinematics, JacobianIsTheDerivative)
   std::mt19937 random(2);
   for (int i = 0; i < 2000; ++i)
   {
-    const Vector3d position = randomPlace(random);
+    const Vector3d position = randomPosition(random);
     const auto jacobian = falconJacobian(position);
     ASSERT_TRUE(jacobian);
     for (int axis = 0; axis < 3; ++axis)
