@@ -13,7 +13,7 @@ namespace palp
 /// @throws std::filesystem::filesystem_error  no /proc
 [[nodiscard]] inline std::filesystem::path prefix()
 {
-  const char* chosen = std::getenv("PALP_PREFIX");
+  const char* chosen = std::getenv("PALP_PREFIX"); // NOLINT(concurrency-mt-unsafe): nobody sets it
   return chosen != nullptr && *chosen != '\0'
     ? std::filesystem::path(chosen)
     : std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();

@@ -134,9 +134,8 @@ void openLegacy(const std::filesystem::path& file, vtkDataSetReader& reader)
     reader.SetFileName(file.c_str());
     return;
   }
-  const auto rest =
-    std::ranges::unique(text, [&](char a, char b) { return isBlank(a) && isBlank(b); });
-  text.erase(rest.begin(), rest.end());
+  const auto areBlank = [&](char a, char b) { return isBlank(a) && isBlank(b); };
+  text.erase(std::unique(text.begin(), text.end(), areBlank), text.end());
   text.erase(text.find_last_not_of(" \r\n") + 1);
   reader.ReadFromInputStringOn();
   reader.SetInputString(text + '\n');

@@ -62,7 +62,7 @@ public:
   double* GetBounds() override;
   void GetBounds(double bounds[6]) override
   {
-    this->vtkAbstractMapper3D::GetBounds(bounds);
+    this->Superclass::GetBounds(bounds);
   }
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
