@@ -28,8 +28,6 @@ double fractionOfBall(double thickness, double curvature) noexcept
 LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)
   : table_(tip)
   , body_(Layer(poissonRatio, base))
-  , mostHollow_(0.0)
-  , ball_(0.0)
 {
   const double m0 = 0.5 * std::numbers::pi * std::get_if<Layer>(&body_)->operator()(0.0).slope[0];
   ball_ = (3.0 - 2.0 * poissonRatio) / (4.0 * (1.0 - poissonRatio) * m0);

@@ -76,8 +76,8 @@ private:
 
   ContactTable table_;
   std::variant<Layer, CoatedBody> body_;
-  double mostHollow_; // [1/m], 0 or more
-  double ball_;       // of a ball: its thickness over that of the layer that stands for it [-]
+  double mostHollow_ = 0.0; // [1/m], 0 or more
+  double ball_ = 0.0; // of a ball: its thickness over that of the layer that stands for it [-]
 };
 
 } // namespace palp

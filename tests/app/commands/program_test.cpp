@@ -1,5 +1,7 @@
 #include "tests/app/commands/run_rig.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <regex>
 
@@ -36,6 +38,33 @@ TEST(Program, TellsOfARemovedFolderInOneSentence)
     gone + " && " PALP_PROGRAM " run --no-picture --out k");
   EXPECT_EQ(finished.code, 2) << finished.err;
   EXPECT_EQ(finished.err.find("internal error"), std::string::npos) << finished.err;
+}
+
+// an installation from which the programs for pictures and window were left out
+TEST(Program, WithoutItsSiblingsNamesTheMissingOneAndGoesOnWithoutPictures)
+{
+  const test::TemporaryFolder folder;
+  const std::filesystem::path bin = folder.path() / "bin";
+  std::filesystem::create_directories(bin);
+  std::filesystem::copy_file(PALP_PROGRAM, bin / "palp");
+  const auto run = [&](const std::string& arguments)
+  {
+    return test::runCommand("cd " + folder.path().string() +
+      " && PALP_DATA=" PALP_SHARE " DISPLAY=:0 bin/palp " + arguments);
+  };
+  const std::string experiment = "experiment inclination --quick --out out";
+  for (const auto& [arguments, sibling] :
+    { std::pair(experiment, "palp-draw"), std::pair(std::string("view"), "palp-view"),
+      std::pair(std::string("devices"), "palp-devices") })
+  {
+    const Finished refused = run(arguments);
+    EXPECT_NE(refused.code, 0) << arguments;
+    EXPECT_NE(
+      refused.err.find("/bin/" + std::string(sibling) + ": cannot be started"), std::string::npos)
+      << refused.err;
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  }
+  EXPECT_EQ(run(experiment + " --no-picture").code, 0);
 }
 
 TEST(Program, ShowsNoControlCharacterOfAnOption)
