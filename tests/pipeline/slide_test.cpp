@@ -5,14 +5,13 @@
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
+#include "tests/pipeline/given_meshes.h"
 #include "tests/pipeline/segmented.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <vector>
 #include <vtkPolyData.h>
@@ -287,21 +286,18 @@ TEST(Slide, IsSmoothOverACoarseMeshAtConstantDepth)
   expectSmooth(liver, Held::Depth, 0.05);
 }
 
-// every mesh in the folder of PALP_TEST_MESHES, where nothing is known about how smooth it is
+// nothing is known about how smooth they are
 TEST(Slide, IsSmoothOnOtherMeshesAtConstantDepth)
 {
-  const char* folder = std::getenv("PALP_TEST_MESHES");
-  if (folder == nullptr)
+  const auto files = test::givenMeshes();
+  if (files.empty())
   {
-    GTEST_SKIP() << "PALP_TEST_MESHES names no folder";
+    GTEST_SKIP() << "PALP_TEST_MESHES names no folder with meshes";
   }
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const auto& file : files)
   {
-    if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
-    {
-      SCOPED_TRACE(entry.path());
-      expectSmooth(surfaceOf(*readSurface(entry.path()).mesh), Held::Depth, 0.2);
-    }
+    SCOPED_TRACE(file);
+    expectSmooth(surfaceOf(*test::readGiven(file)), Held::Depth, 0.2);
   }
 }
 

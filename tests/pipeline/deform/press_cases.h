@@ -3,12 +3,12 @@
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
+#include "tests/pipeline/given_meshes.h"
 #include "tests/pipeline/segmented.h"
 #include "tests/pipeline/surfaces.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ inline void PrintTo(const Case& with, std::ostream* out)
   *out << with.name;
 }
 
-/// Those made here, and every mesh in the folder of PALP_TEST_MESHES.
+/// Those made here, and the given meshes.
 inline std::vector<Case> cases()
 {
   std::vector<Case> all{
@@ -108,19 +108,12 @@ inline std::vector<Case> cases()
     { "sheet", [] { return shaken(plane(60, 1.5_mm), 1.5_mm); } },
     { "segmented", segmented },
   };
-  if (const char* folder = std::getenv("PALP_TEST_MESHES"))
+  for (const std::filesystem::path& file : givenMeshes())
   {
-    std::error_code failure; // of a folder that is not there
-    for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
-    {
-      if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
-      {
-        std::string name = "file_" + entry.path().stem().string();
-        std::replace_if(
-          name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-        all.push_back({ name, [file = entry.path()] { return read(file); } });
-      }
-    }
+    std::string name = "file_" + file.stem().string();
+    std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+    all.push_back({ name, [file] { return dented(*readGiven(file)); } });
   }
   return all;
 }
