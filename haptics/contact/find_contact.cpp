@@ -12,7 +12,11 @@ namespace palp
 namespace
 {
 
-constexpr double kSmoothing = 1.8; // [-] edge lengths; below 1.5 the facets come through
+// Facets are smoothed out over a part of the contact, for what a scanner stepped comes through when
+// the mesh is fine, but over enough of them to vanish and no more than the tick has time for
+constexpr double kSmoothed = 0.6;  // [-] of the contact's radius
+constexpr double kFewest = 1.8;    // [-] edge lengths; below 1.5 the facets come through
+constexpr double kMost = 5.0;      // [-] edge lengths
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
@@ -82,9 +86,10 @@ struct Neighborhood
 Neighborhood look(
   const Surface& surface, const Tip& tip, const Eigen::Vector3d& position, double distance) noexcept
 {
-  // facets are smoothed out over the scale of the mesh, within the contact
+  const double contact = contactRadius(tip, noseRadius(tip), distance);
+  const double edge = surface.edgeLength();
   const double radius =
-    std::min(kSmoothing * surface.edgeLength(), contactRadius(tip, noseRadius(tip), distance));
+    std::min(contact, std::clamp(kSmoothed * contact, kFewest * edge, kMost * edge));
   const double squaredBall = distance * distance + radius * radius;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
   return { distance, radius, squaredBall,

@@ -19,9 +19,10 @@ enum class ContactRule
 ///
 /// depth is how far the tool's deepest point along the contact normal lies below the surface
 /// (sphere: R minus the distance from its center to the surface; cone: its apex). Exact: the
-/// distance to the triangles, from which the facets are smoothed out over 1.8 edge lengths, but
-/// never beyond the contact itself. So it is a continuous function of the pose, starts where the
-/// tool touches a triangle, and is that of the true plane or sphere under a mesh of one.
+/// distance to the triangles, from which the facets are smoothed out over 0.6 of the contact's
+/// radius, at least 1.8 and at most 5 edge lengths, but never beyond the contact. So it is a
+/// continuous function of the pose, starts where the tool touches a triangle, and is that of the
+/// true plane or sphere under a mesh of one.
 ///
 /// Two lobes at once share the normal and, where they press against each other, fade the depth.
 /// A tool whose reference point is inside a body is pushed out the nearest way; where a triangle is

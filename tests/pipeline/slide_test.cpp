@@ -124,21 +124,27 @@ std::vector<Pose> slide(
 std::vector<bool> folds(const std::vector<Pose>& poses, const Tool& tool)
 {
   const double window = 0.5 * std::sqrt(tool.depth * (2.0 * tool.radius - tool.depth));
+  const auto count = static_cast<int>(poses.size());
+  const double length = poses.back().along + (poses.back().middle - poses.front().middle).norm();
+  // the path is closed: one pose after the last comes the first
+  const auto at = [&](int i) -> const Pose&
+  { return poses[static_cast<std::size_t>((i + count) % count)]; };
+  const auto along = [&](int i) {
+    return at(i).along + (i < 0 ? -length : i < count ? 0.0 : length);
+  };
   std::vector<bool> result(poses.size());
-  std::size_t first = 0;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i)
+  for (int i = 0, first = -count, last = 0; i < count; ++i)
   {
-    while (poses[i].along - poses[first].along > window)
+    while (along(i) - along(first) > window)
     {
       ++first;
     }
-    while (last + 1 < poses.size() && poses[last].along - poses[i].along < window)
+    while (along(last + 1) - along(i) < window)
     {
       ++last;
     }
-    const double turn = std::acos(std::clamp(poses[first].away.dot(poses[last].away), -1.0, 1.0));
-    result[i] = turn * tool.radius > poses[last].along - poses[first].along;
+    const double turn = std::acos(std::clamp(at(first).away.dot(at(last).away), -1.0, 1.0));
+    result[static_cast<std::size_t>(i)] = turn * tool.radius > along(last) - along(first);
   }
   return result;
 }
@@ -278,6 +284,17 @@ TEST(Slide, IsSmoothOverVoxels)
   expectSmooth(liver, Held::Distance, 0.04);
 }
 
+// voxels as scanners have them, small against the contact
+TEST(Slide, IsSmoothOverVoxelsOfEachSizeAtConstantDepth)
+{
+  for (const double voxel : { 0.8_mm, 1.5_mm })
+  {
+    SCOPED_TRACE(voxel);
+    const Surface liver = surfaceOf(*test::contouredFromVoxels(*bundledLiver(), voxel));
+    expectSmooth(liver, Held::Depth, 0.04);
+  }
+}
+
 // edges of 6 mm: a distance to them leads the tool over each of them, the depth over none
 TEST(Slide, IsSmoothOverACoarseMeshAtConstantDepth)
 {
@@ -297,7 +314,7 @@ TEST(Slide, IsSmoothOnOtherMeshesAtConstantDepth)
   for (const auto& file : files)
   {
     SCOPED_TRACE(file);
-    expectSmooth(surfaceOf(*test::readGiven(file)), Held::Depth, 0.2);
+    expectSmooth(surfaceOf(*test::readGiven(file)), Held::Depth, 0.25);
   }
 }
 
