@@ -243,20 +243,21 @@ private:
     for (const double turns : { 0.1, 0.9, 2.3, 3.4 })
     {
       const Eigen::Vector2d to = directionOf(turns);
-      double before = -1.0;
+      std::optional<double> before;
       for (double r = h; r < region.outer() + 5.0 * h; r += h)
       {
-        const Eigen::Vector3d point = region.toSurface(
-          { r * to.x(), r * to.y(), dent.field().surface().height(r * to.x(), r * to.y()) });
+        const double height = dent.field().surface().height(r * to.x(), r * to.y());
+        const Eigen::Vector3d point = region.toSurface({ r * to.x(), r * to.y(), height });
         const GeodesicCoordinates position = region.geodesicInFront(point);
         const double sink =
           position.distance < region.outer() ? dent.sinkAt(position, point).depth : 0.0;
-        if (before >= 0.0 && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
+        const double drawn = height - sink;
+        if (before && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
         {
           findings.wall.see(
-            std::abs(sink - before) / h / steepest, where + ", r " + std::to_string(r / 1.0_mm));
+            std::abs(drawn - *before) / h / steepest, where + ", r " + std::to_string(r / 1.0_mm));
         }
-        before = sink;
+        before = drawn;
       }
     }
   }
