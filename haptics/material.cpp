@@ -19,6 +19,7 @@ Material makeMaterial(double youngModulus, double poissonRatio)
   if (!(poissonRatio >= 0.0 && poissonRatio <= 0.5))
   {
     std::ostringstream text;
+    text.precision(12);
     text << "Poisson's ratio: " << poissonRatio << "; give 0 to 0.5";
     throw Error(ErrorCode::BadValue, text.str());
   }

@@ -104,7 +104,7 @@ void runSweep(const CalibrateOptions& options, Interrupt& interrupt, const Rende
 
 void calibrateOne(const CalibrateOptions& options, Interrupt& interrupt, const Renderer* pictures)
 {
-  const Case study = caseOf(options.out.filename().string(), options.text);
+  const Case study = caseOf((options.out / "").parent_path().filename().string(), options.text);
   const auto folder = openFolder(options.out, options);
   const bool goesOn = options.resume && std::filesystem::exists(options.out / "table.csv");
   interrupt.endWhatDoesNotStop(goesOn ? kStopped : kNothingYet);
@@ -206,10 +206,18 @@ void addCalibrateCommand(CLI::App& app, const Renderer* pictures)
   command->add_option("--sweep", options->sweep,
     "A list of cases in JSON: the names above with their values, and a \"name\" each");
   command->add_option("--jobs", options->jobs, "Cases of a sweep at a time")
-    ->check(CLI::PositiveNumber)
+    ->check(CLI::Range(1, 1'000'000))
     ->needs("--sweep")
     ->capture_default_str();
-  command->add_option("--tables", options->tables, "Make the shipped tables in this folder");
+  CLI::Option* tables =
+    command->add_option("--tables", options->tables, "Make the shipped tables in this folder");
+  for (CLI::Option* other : command->get_options())
+  {
+    if (other != tables && !other->check_lname("overwrite") && !other->check_lname("help"))
+    {
+      tables->excludes(other);
+    }
+  }
   command->footer(
     "Examples:\n"
     "  palp calibrate --tip sphere:10mm --block 100x100x50mm --out sphere\n"

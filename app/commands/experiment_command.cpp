@@ -3,6 +3,7 @@
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
+#include "app/program/progress_line.h"
 #include "calibration/experiments/experiments.h"
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
@@ -25,16 +26,20 @@ struct Named
 {
   const char* name;
   const char* what;
+  std::array<const char*, 3> figures; // as they are named in it
   fem::Experiment (*run)(fem::Resolution, const std::stop_token&);
 };
 
 constexpr std::array kExperiments{
-  Named{ "curvature", "Fig. 3: elastic spheres against the block", fem::curvature },
-  Named{ "inclination", "Eq. (7): angles at which inclination is felt",
+  Named{ "curvature", "Fig. 3: elastic spheres against the block",
+    { "curvature_sphere", "curvature_cone" }, fem::curvature },
+  Named{ "inclination", "Eq. (7): angles at which inclination is felt", { "inclination" },
     [](fem::Resolution, const std::stop_token&) { return fem::inclination(); } },
-  Named{ "extents", "Fig. 8: R_d over the depth", fem::extents },
-  Named{ "profiles", "Fig. 7: surface profiles", fem::profiles },
-  Named{ "forces", "Figs. 15 and 16: laws against finite elements", fem::forces },
+  Named{ "extents", "Fig. 8: R_d over the depth", { "extents" }, fem::extents },
+  Named{
+    "profiles", "Fig. 7: surface profiles", { "profiles_sphere", "profiles_cone" }, fem::profiles },
+  Named{ "forces", "Figs. 15 and 16: laws against finite elements",
+    { "forces_sphere", "forces_cone", "force_difference" }, fem::forces },
 };
 
 struct ExperimentOptions
@@ -55,17 +60,37 @@ std::vector<Named> wantedOf(const std::vector<std::string>& names)
   return wanted;
 }
 
+std::vector<std::string> filesOf(const std::vector<Named>& wanted)
+{
+  std::vector<std::string> names;
+  for (const Named& named : wanted)
+  {
+    names.push_back(std::string(named.name) + ".csv");
+    for (const char* figure : named.figures)
+    {
+      if (figure != nullptr)
+      {
+        names.push_back(std::string(figure) + ".png");
+      }
+    }
+  }
+  return names;
+}
+
 // what is finished; where earlier files would be replaced by some of the new ones only, nothing
 void endEarly(const char* name, OutputFolder& output)
 {
   const bool fresh = output.found().empty();
-  if (fresh)
+  const bool some = fresh && !std::filesystem::is_empty(output.stage());
+  if (some)
   {
     output.publish();
   }
   throw Error(ErrorCode::NoSolution,
-    std::string(name) + ": interrupted; " + output.path().string() +
-      (fresh ? " holds what was finished before it" : " is as it was"));
+    std::string(name) + ": interrupted; " +
+      (some       ? output.path().string() + " holds what was finished before it"
+          : fresh ? "nothing was finished before it"
+                  : output.path().string() + " is as it was"));
 }
 
 void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
@@ -75,16 +100,17 @@ void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   const std::vector<Named> wanted = wantedOf(options.names);
-  std::vector<std::string> tables(wanted.size());
-  std::ranges::transform(
-    wanted, tables.begin(), [](const Named& named) { return std::string(named.name) + ".csv"; });
-  const auto output = openOutput(options.out, tables, options.overwrite);
+  const auto output = openOutput(options.out, filesOf(wanted), options.overwrite);
   const Interrupt interrupt;
   for (const Named& named : wanted)
   {
     std::cerr << "palp: " << named.what << '\n';
-    const fem::Experiment experiment =
-      named.run(options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
+    const fem::Experiment experiment = [&]
+    {
+      const ProgressLine progress(named.name);
+      return named.run(
+        options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
+    }();
     if (interrupt.token().stop_requested())
     {
       endEarly(named.name, *output);

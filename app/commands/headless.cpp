@@ -158,6 +158,7 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
     });
   const Calibration* known = calibration ? &*calibration : nullptr;
   tell(recording, known);
+  const ProgressLine progress("writing");
   if (plan.samples)
   {
     trace.build(

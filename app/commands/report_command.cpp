@@ -5,6 +5,7 @@
 #include "app/program/interrupt.h"
 #include "app/program/machine.h"
 #include "app/program/output.h"
+#include "app/program/progress_line.h"
 #include "app/report/folder.h"
 #include "app/report/html_page.h"
 #include "app/report/parts.h"
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <unistd.h>
 
 namespace palp
 {
@@ -56,37 +56,6 @@ struct ReportOptions
   bool overwrite = false;
 };
 
-// one line that is written over itself on a terminal; elsewhere one line for a finished part
-class Progress
-{
-public:
-  Progress(std::size_t part, const char* title)
-    : head_("palp: part " + std::to_string(part + 1) + " of " + std::to_string(kParts.size()) +
-        ", " + title)
-  {
-  }
-
-  void tell(double fraction) const
-  {
-    if (isatty(STDERR_FILENO) != 0)
-    {
-      std::cerr << '\r' << head_ << ": " << std::lround(100.0 * fraction) << " % " << std::flush;
-    }
-  }
-
-  void finish() const
-  {
-    const std::chrono::duration<double> spent = Clock::now() - start_;
-    const bool over = isatty(STDERR_FILENO) != 0;
-    std::cerr << (over ? "\r" : "") << head_ << ": " << std::lround(spent.count()) << " s"
-              << (over ? "    \n" : "\n");
-  }
-
-private:
-  std::string head_;
-  Clock::time_point start_ = Clock::now();
-};
-
 // the parts that are finished, in their order; the rest is left where the user stops it
 std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& interrupt)
 {
@@ -102,26 +71,30 @@ std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& inte
     {
       continue;
     }
-    const Progress progress(i, kParts[i].title);
+    const std::string part = "part " + std::to_string(i + 1) + " of " +
+      std::to_string(kParts.size()) + ", " + kParts[i].title;
+    const Clock::time_point start = Clock::now();
+    ProgressLine progress(part);
     try
     {
       Section section =
         kParts[i].make({ .quick = quick, .stop = interrupt.token(), .tell = [&](double fraction) {
-                          progress.tell(fraction);
+                          progress(fraction);
                         } });
       section.name = kParts[i].name;
       section.title = kParts[i].title;
       folder.keep(section);
       sections.push_back(std::move(section));
-      progress.finish();
+      const std::chrono::duration<double> spent = Clock::now() - start;
+      progress.tell(part + ": " + std::to_string(std::lround(spent.count())) + " s");
     }
-    catch (const Interrupted&)
+    catch (const Interrupted&) // goes on to the page
     {
-      std::cerr << '\n';
+      continue;
     }
     catch (const Error& error) // the other parts stand without it
     {
-      std::cerr << "\npalp: " << error.what() << '\n';
+      progress.tell(error.what());
     }
   }
   return sections;

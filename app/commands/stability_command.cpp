@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
+#include "app/program/progress_line.h"
 #include "app/report/stability_map.h"
 #include "app/report/stability_study.h"
 #include "haptics/files/replace_file.h"
@@ -30,7 +31,11 @@ void studyStability(const StabilityOptions& options)
   const auto output =
     openOutput(options.out, { "stability.csv", "stability.svg" }, options.overwrite);
   const Interrupt interrupt([&output] { output->discard(); });
-  const std::vector<JudgedCase> cases = judgeAll(options.quick);
+  const std::vector<JudgedCase> cases = [&]
+  {
+    ProgressLine progress("closed loops");
+    return judgeAll(options.quick, {}, [&](double part) { progress(part); });
+  }();
   std::ostringstream map;
   drawStabilityMap(map, cases);
   replaceFile(output->stage() / "stability.csv", figures::csv(stabilityTable(cases)));

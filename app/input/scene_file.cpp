@@ -101,6 +101,10 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
 {
   MeshSource mesh;
   mesh.bundled = object.text("bundled", "");
+  if (mesh.bundled.find('/') != std::string::npos)
+  {
+    object.refuse("bundled", "is the name of a bundled surface, as in liver; give a path as file");
+  }
   const std::string file = object.text("file", "");
   parseAt(
     object, "level",

@@ -37,6 +37,12 @@ void ProgressLine::operator()(std::size_t done, std::size_t total)
   total_ = total;
 }
 
+void ProgressLine::operator()(double fraction)
+{
+  const std::lock_guard lock(mutex_);
+  fraction_ = fraction;
+}
+
 void ProgressLine::tell(const std::string& line)
 {
   const std::lock_guard lock(mutex_);
@@ -47,9 +53,11 @@ void ProgressLine::print() const
 {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   const std::string count = std::to_string(done_) + " of " + std::to_string(total_) + ' ';
+  const std::string part =
+    fraction_ > 0.0 ? ": " + std::to_string(std::lround(100.0 * fraction_)) + " %" : "";
   std::cerr << (terminal_ ? "\r\033[Kpalp: " : "palp: ")
-            << (total_ > 0 ? count + what_ + " done" : what_) << ", " << std::lround(spent.count())
-            << " s" << (terminal_ ? "" : "\n") << std::flush;
+            << (total_ > 0 ? count + what_ + " done" : what_ + part) << ", "
+            << std::lround(spent.count()) << " s" << (terminal_ ? "" : "\n") << std::flush;
 }
 
 } // namespace palp

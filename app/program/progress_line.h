@@ -14,7 +14,7 @@ namespace palp
 class ProgressLine
 {
 public:
-  /// @param what  that is counted, as "depths"; or what is done, as long as nothing is counted
+  /// @param what  that is counted, as "depths"; or what is done, where nothing is counted
   explicit ProgressLine(std::string what);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
@@ -22,6 +22,9 @@ public:
 
   /// From any thread.
   void operator()(std::size_t done, std::size_t total);
+
+  /// The part of what is done, 0 to 1. From any thread.
+  void operator()(double fraction);
 
   /// A line of its own, above the one that is written over. From any thread.
   void tell(const std::string& line);
@@ -36,6 +39,7 @@ private:
   std::condition_variable_any wakeUp_;
   std::size_t done_ = 0;
   std::size_t total_ = 0;
+  double fraction_ = 0.0;
   std::jthread writer_;
 };
 

@@ -78,11 +78,34 @@ std::vector<std::string> filesIn(const std::filesystem::path& folder)
   return names;
 }
 
+// A report's files have the names of those that other commands write, so it has a folder of its
+// own; what a user puts beside a report stays.
+const std::filesystem::path& requireOwn(const std::filesystem::path& folder)
+{
+  std::error_code missing;
+  if (std::filesystem::exists(folder / kMachine, missing))
+  {
+    return folder;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+  {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("."))
+    {
+      throw Error(ErrorCode::BadFile,
+        folder.string() + ": holds " + printable(name) +
+          ", which is of no report; choose another --out, for a report has a folder of its own");
+    }
+  }
+  return folder;
+}
+
 } // namespace
 
 Folder::Folder(const std::filesystem::path& path, bool quick, const Json& machine, Before before)
   : before_(before)
-  , output_(path, before == Before::Replace ? filesIn(path) : std::vector<std::string>{},
+  , output_(requireOwn(path),
+      before == Before::Replace ? filesIn(path) : std::vector<std::string>{},
       before == Before::Replace ? OutputFolder::Earlier::Replace : OutputFolder::Earlier::Keep)
   , machine_(machine)
 {

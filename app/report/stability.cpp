@@ -58,7 +58,7 @@ std::string inOneParagraph(const std::string& summary)
 
 Section stability(const Effort& effort)
 {
-  const std::vector<JudgedCase> cases = judgeAll(effort.quick, effort.stop);
+  const std::vector<JudgedCase> cases = judgeAll(effort.quick, effort.stop, effort.tell);
   effort.reached(1.0);
   std::ostringstream map;
   drawStabilityMap(map, cases);

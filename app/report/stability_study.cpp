@@ -35,7 +35,8 @@ std::ptrdiff_t count(
 } // namespace
 
 // each case depends on nothing but itself, so their order of work does not matter
-std::vector<JudgedCase> judgeAll(bool quick, std::stop_token stop)
+std::vector<JudgedCase> judgeAll(
+  bool quick, std::stop_token stop, const std::function<void(double)>& tell)
 {
   std::vector<JudgedCase> cases;
   for (StabilityCase& what : stabilityCases(quick))
@@ -49,6 +50,10 @@ std::vector<JudgedCase> judgeAll(bool quick, std::stop_token stop)
     {
       cases[i].chain = judge(cases[i].what, true);
       cases[i].bare = judge(cases[i].what, false);
+      if (tell)
+      {
+        tell(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
+      }
     }
   };
   std::vector<std::jthread> others;

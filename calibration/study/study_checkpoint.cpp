@@ -186,12 +186,14 @@ Saved StudyFiles::load() const
   }
   if (!begins(in, kMagic + key_ + '\n'))
   {
-    refuse(file, "is of another case");
+    refuse(file, in ? "is of another case" : "is cut off");
   }
   for (const char* name : { kTable, kProfiles })
   {
     std::ifstream table(folder_.path() / name, std::ios::binary);
-    if (!begins(table, header_))
+    std::string named; // the first line, which names the case as the folder was called
+    std::getline(table, named);
+    if (!begins(table, header_.substr(header_.find('\n') + 1)))
     {
       refuse(folder_.path() / name, "is of another case than the checkpoint beside it");
     }

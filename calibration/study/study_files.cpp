@@ -169,11 +169,23 @@ std::vector<IndentationStep> readSteps(const std::filesystem::path& folder)
   return steps;
 }
 
+namespace
+{
+
+// a folder may be copied or renamed, and the case, which is named like it, is the same
+Case unnamed(Case study)
+{
+  study.name.clear();
+  return study;
+}
+
+} // namespace
+
 StudyFiles::StudyFiles(OutputFolder& folder, const Case& study, const Body& body)
   : folder_(folder)
   , study_(study)
   , header_(describe(study, body))
-  , key_(describe(study, body, std::numeric_limits<double>::max_digits10) +
+  , key_(describe(unnamed(study), body, std::numeric_limits<double>::max_digits10) +
       "# squared distances of the nodes: " + shortest(body.positions.squaredNorm()))
 {
 }

@@ -1,6 +1,7 @@
 #include "calibration/tables/extent_table.h"
 
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/number_table.h"
 #include "haptics/units.h"
 
@@ -8,11 +9,22 @@
 
 namespace palp
 {
+namespace
+{
+constexpr double kMost = 1000.0; // [mm] of R_d
+}
+
 ExtentTable ExtentTable::read(const std::filesystem::path& file)
 {
   std::vector<Extent> rows;
   for (const auto& [values, line] : NumberTable::readFinite(file, kHeader).rows)
   {
+    if (!(values[1] >= 0.0 && values[1] <= kMost))
+    {
+      throw Error(ErrorCode::BadFile,
+        where(file, line) + shortest(values[1]) + " mm is no radius of a dent; give 0 to " +
+          shortest(kMost) + " mm");
+    }
     rows.push_back({ .depth = units::fromMillimeters(values[0]),
       .extentRadius = units::fromMillimeters(values[1]),
       .force = values[2],

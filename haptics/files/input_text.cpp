@@ -1,48 +1,75 @@
 #include "haptics/files/input_text.h"
 
 #include "haptics/error.h"
+#include "haptics/files/descriptor.h"
 
 #include <algorithm>
-#include <fstream>
-#include <system_error>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
 #include <vector>
 
 namespace palp
 {
+namespace
+{
+
+constexpr std::size_t kMost = 512U << 20; // [bytes]
+
+std::string whatIsNoFile(const struct stat& is, const std::string& what)
+{
+  if (S_ISDIR(is.st_mode))
+  {
+    return "a folder; give " + what + " in it";
+  }
+  const bool isDevice = S_ISCHR(is.st_mode) || S_ISBLK(is.st_mode) || S_ISSOCK(is.st_mode);
+  return isDevice ? "a device, not a file; give " + what : "";
+}
+
+// whether there is anything to read, or the end; a pipe waits for who writes into it
+bool hasMore(const Descriptor& in)
+{
+  constexpr int kPatience = 5000; // [ms]
+  pollfd wanted{ .fd = in.get(), .events = POLLIN, .revents = 0 };
+  return poll(&wanted, 1, kPatience) > 0;
+}
+
+} // namespace
 
 std::string readText(const std::filesystem::path& file, const std::string& what)
 {
   const auto refuse = [&](const std::string& why)
   { throw Error(ErrorCode::BadFile, printable(file.string()) + ": " + why); };
-  std::error_code unknown; // opening says why
-  const auto kind = std::filesystem::status(file, unknown).type();
-  using Kind = std::filesystem::file_type;
-  if (kind == Kind::directory)
+  struct stat is = {};
+  (void)stat(file.c_str(), &is); // opening says why
+  if (const std::string why = whatIsNoFile(is, what); !why.empty())
   {
-    refuse("a folder; give " + what + " in it");
+    refuse(why);
   }
-  if (kind == Kind::character || kind == Kind::block || kind == Kind::socket)
-  {
-    refuse("a device, not a file; give " + what);
-  }
-  std::ifstream stream(file, std::ios::binary);
-  constexpr std::size_t most = 512U << 20;
+  const Descriptor in(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   std::string text;
   std::vector<char> piece(1 << 16);
-  while (stream)
+  for (ssize_t count = 1; count > 0;)
   {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > most)
+    if (std::max(text.size(), static_cast<std::size_t>(is.st_size)) > kMost)
     {
       refuse("larger than 512 MB; give less of it");
     }
+    if (S_ISFIFO(is.st_mode) && !hasMore(in))
+    {
+      refuse("a pipe into which nothing is written; give a file");
+    }
+    count = read(in.get(), piece.data(), piece.size());
+    if (count < 0)
+    {
+      refuse("cannot be read; check name and permission");
+    }
+    text.append(piece.data(), static_cast<std::size_t>(count));
   }
-  if (!stream.eof())
-  {
-    refuse("cannot be read; check name and permission");
-  }
-  return text;
+  constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF"; // as spreadsheets begin a CSV file
+  return text.starts_with(byteOrderMark) ? text.substr(byteOrderMark.size()) : text;
 }
 
 std::string shortened(const std::string& text)

@@ -7,10 +7,11 @@
 namespace palp
 {
 
-/// All of a text that somebody names: a file, or a pipe.
+/// All of a text that somebody names, without a byte order mark: a file, or a pipe.
 ///
 /// @param what    it should be, for the message: "a CSV file"
-/// @throws Error  BadFile: missing, not permitted, a folder or a device, or larger than 512 MB
+/// @throws Error  BadFile: missing, not permitted, a folder or a device, larger than 512 MB, or a
+///                pipe into which nothing is written for 5 s
 [[nodiscard]] std::string readText(const std::filesystem::path& file, const std::string& what);
 
 /// The first 200 bytes of a text for a message, printable, and dots where it goes on.

@@ -116,7 +116,8 @@ NumberTable NumberTable::read(const std::filesystem::path& file, const std::stri
     {
       if (line != header)
       {
-        throw Error(ErrorCode::BadFile, "no header; begin with " + header);
+        throw Error(
+          ErrorCode::BadFile, inQuotes(line) + " is not the header; begin with " + header);
       }
     });
 }
@@ -142,7 +143,13 @@ NumberTable NumberTable::readColumns(
       if (found == names.end())
       {
         throw Error(ErrorCode::BadFile,
-          "no column " + std::string(column) + "; begin with a line that names it");
+          "no column " + std::string(column) + " in " + inQuotes(line) +
+            "; begin with a line that names it, with commas between");
+      }
+      if (std::ranges::count(names, column) > 1)
+      {
+        throw Error(
+          ErrorCode::BadFile, "two columns " + std::string(column) + "; leave one of them out");
       }
       positions.push_back(static_cast<std::size_t>(found - names.begin()));
     }

@@ -22,6 +22,7 @@ constexpr double kLongestPath = 0.060; // along the surface [m]
 constexpr double kCloser = 1e-4;       // less is no progress [m]
 constexpr double kBlocked = 0.050;     // without progress far from the place [s]
 constexpr double kSettled = 0.300;     // without progress near it [s]
+constexpr double kMostTilt = 1.1;      // to the surface; beyond, the tool slips over an edge [rad]
 constexpr double kStill = 1e-10;       // motion of a tick that is none [m]
 
 // what is left of a vector without its part along a unit vector
@@ -158,6 +159,11 @@ double GuidedTool::deepest(const Contact& contact) const noexcept
   return std::min(goal_->depth, 0.5 * thickness);
 }
 
+bool GuidedTool::mayBe(const Contact& contact) const noexcept
+{
+  return contact.depth <= deepest(contact) + kTolerance && !(contact.tilt > kMostTilt);
+}
+
 void GuidedTool::move(double dt, bool mayAppear) noexcept
 {
   const bool pressing = goal_->depth > 0.0;
@@ -208,6 +214,10 @@ bool GuidedTool::isAbove() const noexcept
 // whether the path along the surface is none
 bool GuidedTool::mustLift() const noexcept
 {
+  if (now_.contact.tilt > kMostTilt)
+  {
+    return true;
+  }
   const Eigen::Vector3d offset = goal_->position - now_.contact.center;
   const double length = offset.norm();
   if (length < kNear || approached_)
@@ -310,7 +320,7 @@ void GuidedTool::descend(double dt) noexcept
   const Trial next = settled(
     at(now_.pose.apex + fraction * offset, turned(now_.pose.axis, -goal_->normal, fraction)),
     HUGE_VAL, 0.0);
-  if (next.contact.depth <= deepest(next.contact) + kTolerance)
+  if (mayBe(next.contact))
   {
     now_ = next;
   }
@@ -333,8 +343,7 @@ void GuidedTool::slide(double dt) noexcept
     const Eigen::Vector3d axis = turned(now_.pose.axis, -goal_->normal, part * fraction);
     const Trial next = settled(at(apex, axis), depth, reach);
     const bool keepsPace = (next.pose.apex - now_.pose.apex).norm() <= 2.0 * reach;
-    if (next.contact.touching() && keepsPace &&
-      next.contact.depth <= deepest(next.contact) + kTolerance)
+    if (next.contact.touching() && keepsPace && mayBe(next.contact))
     {
       now_ = next;
       break;

@@ -26,8 +26,9 @@ struct PressTarget
 /// place and comes down along its normal. In contact it slides along the surface at the depth of
 /// the target; where that way is blocked, too long or leads around the body, it lifts and presses
 /// anew. Each pose is tried with findContact before it is taken, so that none is deeper than the
-/// target, or than half the body's thickness below the contact; a tool that is too deep because its
-/// target was lifted withdraws first. It stays away from a place where it does not fit.
+/// target, or than half the body's thickness below the contact, and none lies on its side against
+/// the surface, as over the edge of a thin lobe; a tool that is too deep because its target was
+/// lifted withdraws first. It stays away from a place where it does not fit.
 ///
 /// The main thread steers; one other thread advances.
 class GuidedTool
@@ -69,6 +70,7 @@ private:
 
   [[nodiscard]] Trial at(const Eigen::Vector3d& apex, const Eigen::Vector3d& axis) const noexcept;
   [[nodiscard]] double deepest(const Contact& contact) const noexcept;
+  [[nodiscard]] bool mayBe(const Contact& contact) const noexcept;
   [[nodiscard]] Trial settled(Trial trial, double depth, double reach) const noexcept;
   [[nodiscard]] Eigen::Vector3d gap() const noexcept;
   void watch(double dt) noexcept;

@@ -135,6 +135,10 @@ private:
         fail("no column " + std::string(names[i]) + "; give " + std::string(kHeaderWithAxis) +
           ", or a samples.csv that Palp has exported");
       }
+      if (std::ranges::count(cells, names[i]) > 1)
+      {
+        fail("two columns " + std::string(names[i]) + "; leave one of them out");
+      }
       columns_[i] = static_cast<std::size_t>(std::ranges::find(cells, names[i]) - cells.begin());
     }
     width_ = cells.size();
@@ -248,11 +252,6 @@ ToolPose ScriptedPath::poseAt(double time, const Eigen::Vector3d& missingAxis) c
 
 ScriptedPath parsePath(std::string_view text, const std::string& name)
 {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark))
-  {
-    text.remove_prefix(kByteOrderMark.size());
-  }
   return ScriptedPath(Reader(name).read(text));
 }
 

@@ -162,7 +162,7 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine)
   for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--threshold 10mm",
          "--block 100x100mm", "--block 100x100x50", "--material rubber", "--poisson 0.5",
          "--depth 0:90:1mm", "--model cube", "--sweep /no/such/file.json", "--jobs 2",
-         "--sweep /no/such/file.json --jobs 0" })
+         "--sweep /no/such/file.json --jobs 0", "--tables /no/such/folder --tip sphere:3mm" })
   {
     const Finished finished = calibrate(bad);
     EXPECT_EQ(finished.code, 2) << bad;

@@ -1,5 +1,6 @@
 #include "tests/support/process.h"
 
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -32,6 +33,17 @@ TEST(ExperimentCommand, WritesDataFindingAndEveryFigure)
   const std::string again = "inclination --no-picture --out " + folder.path().string();
   EXPECT_EQ(experiment(again).code, 2);
   EXPECT_EQ(experiment(again + " --overwrite").code, 0);
+}
+
+// before the work, whichever of its files is there
+TEST(ExperimentCommand, ReplacesAPictureOnlyWhenAsked)
+{
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "profiles_cone.png") << "mine";
+  const Finished refused = experiment("profiles --no-picture --out " + folder.path().string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("holds profiles_cone.png"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::readAll(folder.path() / "profiles_cone.png"), "mine");
 }
 
 TEST(ExperimentCommand, RefusesAnUnknownNameAndAFolderThatCannotBe)

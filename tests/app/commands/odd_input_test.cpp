@@ -79,6 +79,49 @@ TEST_F(OddInput, OfTextsIsRefused)
   }
 }
 
+// a spreadsheet begins a CSV file with a byte order mark, and some write semicolons
+TEST_F(OddInput, OfSpreadsheetsIsTakenOrTold)
+{
+  const auto curve = [&](const char* name, const std::string& text)
+  {
+    std::ofstream(folder_.path() / name) << text;
+    return test::runCommand("cd " + folder_.path().string() +
+      " && " PALP_PROGRAM
+      " run --plots comparison --plot-files csv --out out --path " PALP_SOURCE_DIR
+      "/data/paths/block_press.csv --reference " +
+      name + " " PALP_SHARE "/meshes/block_50.vtp");
+  };
+  EXPECT_EQ(curve("marked.csv",
+              "\xEF\xBB\xBF"
+              "depth_mm,force_N\r\n1,0.2\r\n2,0.6\r\n")
+              .code,
+    0);
+  const test::Finished semicolons = curve("semicolons.csv", "depth_mm;force_N\n1;0.2\n");
+  EXPECT_EQ(semicolons.code, 2);
+  EXPECT_NE(semicolons.err.find("in 'depth_mm;force_N'"), std::string::npos) << semicolons.err;
+  const test::Finished twice = curve("twice.csv", "depth_mm,force_N,force_N\n1,0.2,0.3\n");
+  EXPECT_NE(twice.err.find("two columns force_N"), std::string::npos) << twice.err;
+}
+
+TEST_F(OddInput, OfSilentPipesIsRefused)
+{
+  expectRefused("scene --out out pipeodd.json");
+  const test::Finished piped = test::runCommand("cd " + folder_.path().string() +
+    " && (sleep 1; cat " PALP_SOURCE_DIR "/data/scenes/block_force.json) | " PALP_PROGRAM
+    " scene /dev/stdin --out out");
+  EXPECT_EQ(piped.err.find("palp: /dev/stdin"), std::string::npos) << piped.err;
+}
+
+TEST_F(OddInput, OfRadiiThatAreNoneIsRefused)
+{
+  for (const char* radius : { "-5", "1e6" })
+  {
+    std::ofstream(folder_.path() / "radii.csv")
+      << "depth_mm,extent_radius_mm,force_N,contact_radius_mm\n1," << radius << ",1,1\n2,6,2,2\n";
+    expectRefused("run --no-picture --out out --table radii.csv");
+  }
+}
+
 TEST_F(OddInput, OfFoldersToWriteIsRefused)
 {
   for (const char* out : { "/dev/zero", "odd.csv", "pipeodd.csv", "beside.mhd", "/proc/here" })

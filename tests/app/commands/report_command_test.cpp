@@ -128,6 +128,20 @@ TEST_F(QuickReport, FolderOfAnotherReportIsRefusedInOneSentence)
   }
 }
 
+TEST(ReportCommand, LeavesAloneWhatIsOfNoReport)
+{
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "curvature.csv") << "of an experiment";
+  for (const char* how : { "", "--overwrite", "--resume" })
+  {
+    const test::Finished refused = test::runCommand(
+      PALP_PROGRAM " report --quick " + std::string(how) + " --out " + folder.path().string());
+    EXPECT_EQ(refused.code, 2) << how;
+    EXPECT_NE(refused.err.find("holds curvature.csv"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(readAll(folder.path() / "curvature.csv"), "of an experiment");
+}
+
 TEST(ReportCommand, SaysInItsOwnWordsWhatIsNoReport)
 {
   const test::TemporaryFolder folder;

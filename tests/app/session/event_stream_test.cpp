@@ -118,7 +118,7 @@ TEST_P(EventStream, RecordsNoSampleDeeperThanAskedForOrThanHalfTheThickness)
 {
   const Shared surface = GetParam().surface();
   const std::vector<Tip> tips{ SphereTip{ 10.0_mm }, SphereTip{ 3.0_mm }, ConeTip{ 0.7, 10.0_mm },
-    PunchTip{ 5.0_mm } };
+    ConeTip{ 0.7, 5.0_mm }, PunchTip{ 5.0_mm } };
   std::mt19937 random(7);
   std::normal_distribution<double> component;
   unsigned seed = 0;
@@ -136,6 +136,7 @@ TEST_P(EventStream, RecordsNoSampleDeeperThanAskedForOrThanHalfTheThickness)
       if (contact.depth > bench.ticks[i - 1].sample.contact.depth)
       {
         ASSERT_LT(contact.depth, 0.5 * contact.thickness + kAllowed) << bench.ticks[i].time;
+        ASSERT_LT(contact.tilt, 65.0_deg) << bench.ticks[i].time; // it presses, with its end
       }
     }
   }

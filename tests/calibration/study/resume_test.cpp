@@ -135,6 +135,19 @@ TEST(Study, ResumeRefusesAnotherTool)
   }
 }
 
+// the case is named like its folder, which may be copied or renamed
+TEST(Study, ResumeGoesOnInACopyOfTheFolder)
+{
+  const auto folder = test::freshFolder();
+  Case study = quick();
+  study.depths = { 1.0_mm };
+  (void)calibrateInto(folder, study, false);
+  study.name = "copy";
+  EXPECT_EQ(resumeRefusal(folder, study), "");
+  std::filesystem::resize_file(folder / "checkpoint.bin", 200);
+  EXPECT_NE(resumeRefusal(folder, study).find("cut off"), std::string::npos);
+}
+
 // and not only another one to the six digits that people read
 TEST(Study, ResumeComparesEveryDigit)
 {

@@ -64,7 +64,7 @@ TEST_F(ProfileFile, IsReadInMillimeters)
 TEST_F(ProfileFile, IsRefusedWithTheLine)
 {
   const std::string head = "radius_mm,height_mm\n0,0\n";
-  EXPECT_EQ(refusal("r,z\n0,0\n"), ":1: no header; begin with radius_mm,height_mm");
+  EXPECT_EQ(refusal("r,z\n0,0\n"), ":1: 'r,z' is not the header; begin with radius_mm,height_mm");
   EXPECT_EQ(refusal(head + "1,x\n"), ":3: 'x' is not a number; give radius_mm,height_mm");
   EXPECT_EQ(refusal(head + "1\n"), ":3: 1 columns; give radius_mm,height_mm");
   EXPECT_EQ(refusal(head + "1,nan\n"), ":3: not finite; give numbers");

@@ -86,7 +86,7 @@ TEST(ScriptedPath, HasAnAxisEvenBetweenOppositeOnes)
 
 TEST(ScriptedPath, OneRowIsAToolThatRests)
 {
-  const ScriptedPath path = parsePath("\xEF\xBB\xBFtime_s,x_mm,y_mm,z_mm\n2,1,2,3", "rest.csv");
+  const ScriptedPath path = parsePath("time_s,x_mm,y_mm,z_mm\n2,1,2,3", "rest.csv");
   EXPECT_EQ(path.duration(), 0.0);
   EXPECT_TRUE(path.poseAt(2.0, kDown).apex.isApprox(Vector3d(1.0_mm, 2.0_mm, 3.0_mm)));
   EXPECT_EQ(path.poseAt(2.0, kDown).velocity, Vector3d::Zero());
@@ -201,7 +201,8 @@ TEST(Recording, SaysInOneSentenceWhatIsWrong)
   const std::string header = "time_s,tool_x_mm,tool_y_mm,tool_z_mm,axis_x,axis_y,axis_z\n";
   const std::pair<std::string, const char*> all[] = { { "time_s,tool_x_mm,z_mm\n",
                                                         "no column tool_y_mm" },
-    { "time_s,x_mm,force_N\n", "no column y_mm" }, { header, "no row" },
+    { "time_s,x_mm,force_N\n", "no column y_mm" },
+    { "time_s,x_mm,y_mm,z_mm,y_mm\n", "two columns y_mm" }, { header, "no row" },
     { header + "0,1,2,3,0,0\n", "samples.csv:2: a row of 6 columns below a header of 7" },
     { header + "0,1,2,three,0,0,-1\n", "\"three\" is not a number" },
     { header + "0,1,2,nan,0,0,-1\n", "samples.csv:2: \"nan\" is not a number" },
