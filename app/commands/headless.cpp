@@ -99,6 +99,23 @@ void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
     !plan.validity && !corrected);
 }
 
+// what is pressed, and what there is to tell of it
+SceneBody loadTold(const ScenePlan& plan, BuildTrace& trace)
+{
+  const bool shown = plan.deformed || plan.picture || plan.has(PlotKind::Section);
+  SceneBody body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
+    [&] { return loadBody(plan.meshes, shown); });
+  for (const std::string& note : body.notes)
+  {
+    std::cerr << "palp: " << note << '\n';
+  }
+  if (const std::string other = noteOfPath(plan.device.file, body.files); !other.empty())
+  {
+    std::cerr << "palp: " << other << '\n';
+  }
+  return body;
+}
+
 } // namespace
 
 std::vector<std::string> pressFiles()
@@ -133,13 +150,7 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
     calibration = trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
-  const bool shown = plan.deformed || plan.picture || plan.has(PlotKind::Section);
-  const SceneBody body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
-    [&] { return loadBody(plan.meshes, shown); });
-  for (const std::string& note : body.notes)
-  {
-    std::cerr << "palp: " << note << '\n';
-  }
+  const SceneBody body = loadTold(plan, trace);
   if (calibration && !calibration->note.empty())
   {
     std::cerr << "palp: " << calibration->note << '\n';

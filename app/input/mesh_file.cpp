@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,8 @@ namespace palp
 
 namespace
 {
+
+constexpr std::string_view kHash = ", SHA-256 ";
 
 void addBytes(sha256_ctx& hash, const std::filesystem::path& file)
 {
@@ -86,8 +89,31 @@ std::string describe(const MeshFile& mesh)
   {
     part += ", label " + shortest(label);
   }
-  return mesh.name + ", SHA-256 " + mesh.sha256 + ", read in " + mesh.unit + ", frame " +
-    (frame.empty() ? "of the file" : frame) + (mesh.moved ? ", moved by the scene" : "") + part;
+  return std::string(mesh.name).append(kHash) + mesh.sha256 + ", read in " + mesh.unit +
+    ", frame " + (frame.empty() ? "of the file" : frame) +
+    (mesh.moved ? ", moved by the scene" : "") + part;
+}
+
+std::string noteOfPath(const std::filesystem::path& path, const std::vector<MeshFile>& felt)
+{
+  std::ifstream in(path);
+  std::string other;
+  for (std::string line; std::getline(in, line) && line.starts_with('#');)
+  {
+    const std::string_view text = line;
+    if (text.starts_with(kFelt) && text.find(kHash) != text.npos)
+    {
+      if (std::ranges::any_of(
+            felt, [&](const MeshFile& mesh) { return text.find(mesh.sha256) != text.npos; }))
+      {
+        return "";
+      }
+      other = line.substr(kFelt.size(), line.find(kHash) - kFelt.size());
+    }
+  }
+  return other.empty() ? ""
+                       : path.string() + ": recorded on " + printable(other) +
+      ", another surface than this; depths and forces are not those of the recording";
 }
 
 } // namespace palp

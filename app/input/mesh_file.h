@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace palp
 {
@@ -25,7 +27,14 @@ struct MeshFile
 /// Axes of its coordinates, for people and programs: "LPS" of a patient's image, else empty.
 [[nodiscard]] std::string frameOf(const MeshFile& mesh);
 
+/// Begins the line of a recording that tells what was felt.
+inline constexpr std::string_view kFelt = "# felt: ";
+
 /// One line for people and programs: name, hash, unit, frame and level.
 [[nodiscard]] std::string describe(const MeshFile& mesh);
+
+/// What to tell of a path that was recorded on another surface; empty where nothing says so.
+[[nodiscard]] std::string noteOfPath(
+  const std::filesystem::path& path, const std::vector<MeshFile>& felt);
 
 } // namespace palp

@@ -210,6 +210,10 @@ void readDevice(JsonObject& object, ScenePlan& plan, const std::filesystem::path
   const std::string name = object.text("device", "mouse");
   plan.device = parseDevice(name);
   const bool scripted = plan.device.isScript();
+  if (scripted && plan.device.file.empty())
+  {
+    object.refuse("device", inQuotes(name) + " names no file; write " + name + "FILE.csv");
+  }
   if (scripted)
   {
     plan.device = parseDevice(

@@ -36,7 +36,7 @@ std::string origin(const Recording& recording)
   std::string lines = recording.command.empty() ? "" : "# command: " + recording.command + '\n';
   for (const MeshFile& file : recording.files)
   {
-    lines += "# felt: " + describe(file) + '\n';
+    lines.append(kFelt).append(describe(file)).append("\n");
   }
   return lines;
 }

@@ -21,7 +21,8 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kFirstForce = 1.0; // [N], of the empty chart
+constexpr double kFirstForce = 1.0;  // [N], of the empty chart
+constexpr double kLeastForce = 0.05; // [N], of one with a press
 constexpr double kFirstDepth = 5.0_mm;
 constexpr double kFirstTime = 2.0; // [s]
 constexpr int kLawPoints = 201;
@@ -176,7 +177,7 @@ void ForceCharts::refresh()
     : last < span                    ? std::min(span, roomFor(last, kFirstTime))
                                      : last;
   setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
-  setRange(*overTime_, vtkAxis::LEFT, 0.0, roomFor(force, kFirstForce));
+  setRange(*overTime_, vtkAxis::LEFT, 0.0, force > 0.0 ? roomFor(force, kLeastForce) : kFirstForce);
   setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimeters(depthLimit));
   setRange(*overDepth_, vtkAxis::LEFT, 0.0,
     roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));

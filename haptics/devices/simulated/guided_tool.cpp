@@ -159,7 +159,7 @@ double GuidedTool::deepest(const Contact& contact) const noexcept
   return std::min(goal_->depth, 0.5 * thickness);
 }
 
-bool GuidedTool::mayBe(const Contact& contact) const noexcept
+bool GuidedTool::mayStay(const Contact& contact) const noexcept
 {
   return contact.depth <= deepest(contact) + kTolerance && !(contact.tilt > kMostTilt);
 }
@@ -191,8 +191,7 @@ void GuidedTool::move(double dt, bool mayAppear) noexcept
     return;
   }
   lifting_ = pressing && (lifting_ || mustLift());
-  const bool tooDeep = now_.contact.depth > deepest(now_.contact) + kTolerance;
-  if (!pressing || lifting_ || tooDeep)
+  if (!pressing || lifting_ || !mayStay(now_.contact))
   {
     withdraw(kSpeed * dt);
   }
@@ -214,10 +213,6 @@ bool GuidedTool::isAbove() const noexcept
 // whether the path along the surface is none
 bool GuidedTool::mustLift() const noexcept
 {
-  if (now_.contact.tilt > kMostTilt)
-  {
-    return true;
-  }
   const Eigen::Vector3d offset = goal_->position - now_.contact.center;
   const double length = offset.norm();
   if (length < kNear || approached_)
@@ -320,7 +315,7 @@ void GuidedTool::descend(double dt) noexcept
   const Trial next = settled(
     at(now_.pose.apex + fraction * offset, turned(now_.pose.axis, -goal_->normal, fraction)),
     HUGE_VAL, 0.0);
-  if (mayBe(next.contact))
+  if (mayStay(next.contact))
   {
     now_ = next;
   }
@@ -343,7 +338,7 @@ void GuidedTool::slide(double dt) noexcept
     const Eigen::Vector3d axis = turned(now_.pose.axis, -goal_->normal, part * fraction);
     const Trial next = settled(at(apex, axis), depth, reach);
     const bool keepsPace = (next.pose.apex - now_.pose.apex).norm() <= 2.0 * reach;
-    if (next.contact.touching() && keepsPace && mayBe(next.contact))
+    if (next.contact.touching() && keepsPace && mayStay(next.contact))
     {
       now_ = next;
       break;

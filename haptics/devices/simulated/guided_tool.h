@@ -70,7 +70,7 @@ private:
 
   [[nodiscard]] Trial at(const Eigen::Vector3d& apex, const Eigen::Vector3d& axis) const noexcept;
   [[nodiscard]] double deepest(const Contact& contact) const noexcept;
-  [[nodiscard]] bool mayBe(const Contact& contact) const noexcept;
+  [[nodiscard]] bool mayStay(const Contact& contact) const noexcept;
   [[nodiscard]] Trial settled(Trial trial, double depth, double reach) const noexcept;
   [[nodiscard]] Eigen::Vector3d gap() const noexcept;
   void watch(double dt) noexcept;
