@@ -2,7 +2,7 @@
 
 #include "pipeline/formats/inflate.h"
 #include "pipeline/formats/meta_image.h"
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 

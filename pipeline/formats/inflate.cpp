@@ -1,6 +1,6 @@
 #include "pipeline/formats/inflate.h"
 
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
 #include <istream>

@@ -2,7 +2,7 @@
 
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/inflate.h"
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
 #include <charconv>

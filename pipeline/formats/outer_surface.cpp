@@ -94,10 +94,10 @@ struct Face
 
 std::vector<int> sortedCorners(vtkCell& cell, const std::vector<int>& first)
 {
-  std::vector<int> corners;
-  for (int i = 0; i < static_cast<int>(cell.GetNumberOfPoints()); ++i)
+  std::vector<int> corners(static_cast<std::size_t>(cell.GetNumberOfPoints()));
+  for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    corners.push_back(first[static_cast<std::size_t>(cell.GetPointId(i))]);
+    corners[i] = first[static_cast<std::size_t>(cell.GetPointId(static_cast<int>(i)))];
   }
   std::ranges::sort(corners);
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());

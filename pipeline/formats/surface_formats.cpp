@@ -5,8 +5,8 @@
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
 #include "pipeline/formats/read_limits.h"
-#include "pipeline/formats/refuse.h"
-#include "pipeline/formats/surface_readers.h"
+#include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
 
