@@ -18,6 +18,14 @@ void refuseCut(const std::filesystem::path& file, std::uintmax_t there, std::uin
       " bytes; export or copy it again");
 }
 
+void refuseMore(const std::filesystem::path& file, std::uintmax_t there, std::uintmax_t claimed,
+  const std::string& remedy)
+{
+  refuse(file,
+    "its data have " + std::to_string(there) + " bytes, more than the " + std::to_string(claimed) +
+      " that its header claims; " + remedy + ", or export it again");
+}
+
 void inflateInto(std::span<unsigned char> voxels, std::istream& in, std::uintmax_t most,
   const std::filesystem::path& file)
 {
@@ -65,6 +73,10 @@ void inflateInto(std::span<unsigned char> voxels, std::istream& in, std::uintmax
   if (done < voxels.size())
   {
     refuseCut(file, done, voxels.size());
+  }
+  if (stream.avail_in > 0 || (most > 0 && in.peek() != std::istream::traits_type::eof()))
+  {
+    refuse(file, "more follows behind its compressed data; export or copy it again");
   }
 }
 
