@@ -1,5 +1,6 @@
 #include "pipeline/formats/image_formats.h"
 
+#include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meta_image.h"
 #include "pipeline/formats/nifti_header.h"
@@ -13,6 +14,8 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -221,6 +224,43 @@ PatientImage readNifti(const std::filesystem::path& file)
   return result;
 }
 
+namespace
+{
+
+// the one array of numbers at the points, where none is marked as the scalars
+void findScalars(const std::filesystem::path& file, vtkImageData& image)
+{
+  vtkPointData& points = *image.GetPointData();
+  if (points.GetScalars())
+  {
+    return;
+  }
+  std::vector<std::string> names;
+  for (int i = 0; i < points.GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = points.GetArray(i))
+    {
+      names.emplace_back(array->GetName() ? array->GetName() : "");
+    }
+  }
+  if (names.empty())
+  {
+    refuse(file,
+      image.GetCellData()->GetNumberOfArrays() > 0
+        ? "its values are those of cells, not of points; save them as point data"
+        : "no values at its points; export it again");
+  }
+  if (names.size() > 1)
+  {
+    refuse(file,
+      std::to_string(names.size()) + " arrays at its points, as " + inQuotes(names[0]) + " and " +
+        inQuotes(names[1]) + ", and none is marked as Scalars; save the one to press");
+  }
+  points.SetActiveScalars(names[0].c_str());
+}
+
+} // namespace
+
 PatientImage readVti(const std::filesystem::path& file)
 {
   checkVtiHeader(file);
@@ -231,6 +271,7 @@ PatientImage readVti(const std::filesystem::path& file)
   {
     refuseTurned(file);
   }
+  findScalars(file, *reader->GetOutput());
   PatientImage result = straight(reader->GetOutput());
   if (auto* unit =
         vtkStringArray::SafeDownCast(result.image->GetFieldData()->GetAbstractArray(kUnitArray)))

@@ -36,7 +36,7 @@ struct PatientImage
 [[nodiscard]] PatientImage readNifti(const std::filesystem::path& file);
 
 /// VTI, in its own axes.
-/// @throws Error  BadFile: turned axes
+/// @throws Error  BadFile: turned axes; no values at its points, or several with none marked
 [[nodiscard]] PatientImage readVti(const std::filesystem::path& file);
 
 /// Bytes of the voxels that the header of an image claims; 0 where it cannot be read.

@@ -175,7 +175,9 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
   checkFile(file, format);
   if (format.read && (part.level || !part.labels.empty()))
   {
-    refuse(file, "a surface, not an image; leave the level out");
+    refuse(file,
+      std::string("a surface, not an image; leave the ") + (part.level ? "level" : "label") +
+        " out");
   }
   FileSurface surface;
   const vtkSmartPointer<vtkPolyData> data = readData(file, format, part, surface);

@@ -1,7 +1,10 @@
 #include "tests/pipeline/formats/ball_images.h"
 
 #include <tuple>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkXMLImageDataWriter.h>
 #include <zlib.h>
 
 namespace palp::test
@@ -148,6 +151,39 @@ TEST_F(Images, MetaImageAsItkWritesItIsRead)
       voxelsOf(*ball(false)));
   const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
   EXPECT_LT(farthest(*surface.mesh, kCenterMm + Eigen::Vector3d(10, 20, -30)), 0.2);
+}
+
+TEST_F(Images, VtiIsTakenByItsOneArrayAndRefusedByWhatItHasInstead)
+{
+  const auto image = ball(false);
+  vtkPointData& points = *image->GetPointData();
+  points.GetScalars()->SetName("distance");
+  points.SetActiveScalars(nullptr);
+  const auto one = write<vtkXMLImageDataWriter>("one.vti", *image);
+  const LoadedSurface surface = readSurface(one, LengthUnit::Millimeter, { 0.0, {} });
+  EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2);
+
+  vtkNew<vtkDoubleArray> other;
+  other->SetName("other");
+  other->SetNumberOfTuples(image->GetNumberOfPoints());
+  other->Fill(0.0);
+  points.AddArray(other);
+  EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("two.vti", *image), { 0.0, {} })
+              .find("2 arrays at its points, as 'distance' and 'other'"),
+    std::string::npos);
+  points.SetActiveScalars("distance");
+  const auto two = write<vtkXMLImageDataWriter>("two.vti", *image);
+  EXPECT_LT(farthest(*readSurface(two, LengthUnit::Millimeter, { 0.0, {} }).mesh, kCenterMm), 0.2);
+
+  points.Initialize();
+  EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("none.vti", *image), { 0.0, {} })
+              .find("no values at its points"),
+    std::string::npos);
+  other->SetNumberOfTuples(image->GetNumberOfCells());
+  image->GetCellData()->AddArray(other);
+  EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("cells.vti", *image), { 0.0, {} })
+              .find("those of cells, not of points"),
+    std::string::npos);
 }
 
 } // namespace

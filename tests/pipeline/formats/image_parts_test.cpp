@@ -52,6 +52,7 @@ TEST_F(Images, RefusesWithTheValuesThatThereAre)
   const std::filesystem::path stl = folder_.path() / "a.stl";
   std::ofstream(stl) << "solid a\nendsolid a\n";
   EXPECT_NE(refusal(stl, { 1.0, {} }).find("leave the level out"), std::string::npos);
+  EXPECT_NE(refusal(stl, { {}, { 5.0 } }).find("leave the label out"), std::string::npos);
 
   std::string turned = readAll(mask);
   const std::string axes = "TransformMatrix = 1 0 0 0 1 0 0 0 1";
