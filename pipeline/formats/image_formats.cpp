@@ -1,8 +1,9 @@
 #include "pipeline/formats/image_formats.h"
 
-#include "pipeline/formats/inflate.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meta_image.h"
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/nifti_header.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 
@@ -11,9 +12,10 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <string_view>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -24,7 +26,6 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkXMLImageDataReader.h>
-#include <zlib.h>
 
 namespace palp
 {
@@ -63,73 +64,6 @@ double niftiUnit(int code)
     default:
       return 0.0;
   }
-}
-
-struct NiftiClaim
-{
-  std::uintmax_t bytes = 0; // of the voxels
-  std::string fault{};      // of the header, and what to do; empty: none
-};
-
-constexpr std::size_t kNiftiHeader = 348; // [bytes]
-
-NiftiClaim niftiClaim(const std::filesystem::path& file)
-{
-  std::array<unsigned char, kNiftiHeader> start{};
-  const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> in(gzopen(file.c_str(), "rb"), &gzclose_r);
-  const int got = in ? gzread(in.get(), start.data(), kNiftiHeader) : 0; // packed or not
-  int state = Z_OK;
-  if (in && (static_cast<void>(gzerror(in.get(), &state)), state == Z_DATA_ERROR))
-  {
-    return { .fault =
-               "its compressed data are damaged, by their checksum; export or copy it again" };
-  }
-  const auto number = [&](std::size_t at, bool swapped)
-  {
-    const unsigned low = start[swapped ? at + 1 : at];
-    const unsigned high = start[swapped ? at : at + 1];
-    return low + 256 * high;
-  };
-  const bool swapped = start[0] == 0;
-  const unsigned size = number(swapped ? 2 : 0, swapped);
-  constexpr unsigned second = 540; // [bytes], the header of NIfTI-2
-  if (got > 4 && size == second)
-  {
-    return { .fault = "a file of NIfTI-2, which is not read here; save it as NIfTI-1" };
-  }
-  if (got < static_cast<int>(kNiftiHeader))
-  {
-    return { .fault = "not a NIfTI file, or cut off in its header; export or copy it again" };
-  }
-  const std::string_view magic(reinterpret_cast<const char*>(start.data()) + 344, 3);
-  if (size != kNiftiHeader || (magic != "n+1" && magic != "ni1"))
-  {
-    return { .fault = "not a NIfTI file, whatever its name; rename or convert it" };
-  }
-  if (magic == "ni1")
-  {
-    return { .fault =
-               "a NIfTI header whose voxels are in a file of their own; save it as one .nii" };
-  }
-  constexpr std::array<unsigned, 12> kTypes{ 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024, 1280 };
-  const unsigned type = number(70, swapped);
-  if (std::ranges::find(kTypes, type) == kTypes.end())
-  {
-    return { .fault = "its datatype is " + std::to_string(type) +
-        ", which is none of NIfTI's; export it again" };
-  }
-  NiftiClaim claim{ .bytes = (number(72, swapped) + 7) / 8 };
-  const unsigned dimensions = number(40, swapped);
-  if (dimensions < 1 || dimensions > 7)
-  {
-    return { .fault = "its header is damaged, it has " + std::to_string(dimensions) +
-        " dimensions; export it again" };
-  }
-  for (unsigned i = 1; i <= dimensions; ++i)
-  {
-    claim.bytes *= std::max(1U, number(40 + 2 * i, swapped));
-  }
-  return claim;
 }
 
 // voxels' cells in extents: each after a key, as Extent="0 9 0 9 0 9"
@@ -219,7 +153,9 @@ PatientImage readMetaImage(const std::filesystem::path& file)
 {
   const MetaHeader header = readMetaHeader(file);
   PatientImage result = straight(readMetaVolume(file, header));
-  result.unit = "mm";
+  result.slope = header.slope;
+  result.intercept = header.intercept;
+  result.unit = header.unit.empty() ? "" : "mm";
   const double factor = header.unit == "um" ? 1e-3 : header.unit == "cm" ? 10.0 : 1.0;
   for (int i = 0; i < 12; ++i)
   {
@@ -246,7 +182,7 @@ void placeInPatient(vtkNIFTIImageReader& reader, PatientImage& image)
       : "the header tells no place in the patient; axes and corner of the voxels are taken");
 }
 
-// into mm; only the first volume was read
+// into mm, where it names a unit; only the first volume was read
 void applyUnit(vtkNIFTIImageHeader& header, PatientImage& image)
 {
   const double factor = niftiUnit(header.GetXYZTUnits());
@@ -254,10 +190,7 @@ void applyUnit(vtkNIFTIImageHeader& header, PatientImage& image)
   {
     image.toPatient[i] *= factor > 0.0 ? factor : 1.0;
   }
-  if (factor == 0.0)
-  {
-    image.notes.emplace_back("warning: the header names no unit; mm are taken, as is the custom");
-  }
+  image.unit = factor > 0.0 ? "mm" : "";
   if (header.GetDim(0) > 3 && header.GetDim(4) > 1)
   {
     image.notes.emplace_back(
@@ -267,19 +200,7 @@ void applyUnit(vtkNIFTIImageHeader& header, PatientImage& image)
 
 PatientImage readNifti(const std::filesystem::path& file)
 {
-  const NiftiClaim claim = niftiClaim(file);
-  if (!claim.fault.empty())
-  {
-    refuse(file, claim.fault);
-  }
-  const std::uintmax_t size = std::filesystem::file_size(file);
-  const bool packed = file.string().ends_with("z") || file.string().ends_with("Z");
-  if (claim.bytes > (packed ? kDeflateRatio * size : size))
-  {
-    refuse(file,
-      "cut off, its header claims " + std::to_string(claim.bytes) +
-        " bytes of voxels; export or copy it again");
-  }
+  checkNiftiLength(file, readNiftiHeader(file));
   vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -296,13 +217,49 @@ PatientImage readNifti(const std::filesystem::path& file)
     result.slope = 1.0;
     result.intercept = 0.0;
   }
-  result.unit = "mm";
   if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
   {
     applyUnit(*header, result);
   }
   return result;
 }
+
+namespace
+{
+
+// the one array of numbers at the points, where none is marked as the scalars
+void findScalars(const std::filesystem::path& file, vtkImageData& image)
+{
+  vtkPointData& points = *image.GetPointData();
+  if (points.GetScalars())
+  {
+    return;
+  }
+  std::vector<std::string> names;
+  for (int i = 0; i < points.GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = points.GetArray(i))
+    {
+      names.emplace_back(array->GetName() ? array->GetName() : "");
+    }
+  }
+  if (names.empty())
+  {
+    refuse(file,
+      image.GetCellData()->GetNumberOfArrays() > 0
+        ? "its values are those of cells, not of points; save them as point data"
+        : "no values at its points; export it again");
+  }
+  if (names.size() > 1)
+  {
+    refuse(file,
+      std::to_string(names.size()) + " arrays at its points, as " + inQuotes(names[0]) + " and " +
+        inQuotes(names[1]) + ", and none is marked as Scalars; save the one to press");
+  }
+  points.SetActiveScalars(names[0].c_str());
+}
+
+} // namespace
 
 PatientImage readVti(const std::filesystem::path& file)
 {
@@ -314,6 +271,7 @@ PatientImage readVti(const std::filesystem::path& file)
   {
     refuseTurned(file);
   }
+  findScalars(file, *reader->GetOutput());
   PatientImage result = straight(reader->GetOutput());
   if (auto* unit =
         vtkStringArray::SafeDownCast(result.image->GetFieldData()->GetAbstractArray(kUnitArray)))
@@ -330,7 +288,7 @@ std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept
     const std::string name = file.filename().string();
     const auto ends = [&](const char* ending) { return name.ends_with(ending); };
     return ends(".mha") || ends(".mhd") ? readMetaHeader(file).bytes
-      : ends(".nii") || ends(".nii.gz") ? niftiClaim(file).bytes
+      : ends(".nii") || ends(".nii.gz") ? readNiftiHeader(file).bytes
       : ends(".vti")                    ? vtiBytes(file)
                                         : 0;
   }

@@ -21,20 +21,22 @@ struct PatientImage
   double toPatient[16]; ///< row by row, applied to the image's own points [unit]
   double slope = 1.0;   ///< a voxel's value is slope times what is stored, plus intercept
   double intercept = 0.0;
-  std::string unit{};               ///< "mm"; empty: the format knows none
+  std::string unit{};               ///< "mm"; empty: the file names none
   std::vector<std::string> notes{}; ///< how it was taken, for people
 };
 
-/// MetaImage, whose axes are the patient's as ITK and Slicer write it.
+/// MetaImage, whose axes are the patient's as ITK and Slicer write it, its value scaled by the
+/// header.
 /// @throws Error  as readMetaHeader and readMetaVolume
 [[nodiscard]] PatientImage readMetaImage(const std::filesystem::path& file);
 
 /// NIfTI, its value scaled and its unit taken by the header.
-/// @throws Error  BadFile: of more bytes than it has; no number to scale by
+/// @throws Error  BadFile: of more or fewer bytes than it has; as readNiftiHeader; no number to
+///                scale by
 [[nodiscard]] PatientImage readNifti(const std::filesystem::path& file);
 
 /// VTI, in its own axes.
-/// @throws Error  BadFile: turned axes
+/// @throws Error  BadFile: turned axes; no values at its points, or several with none marked
 [[nodiscard]] PatientImage readVti(const std::filesystem::path& file);
 
 /// Bytes of the voxels that the header of an image claims; 0 where it cannot be read.

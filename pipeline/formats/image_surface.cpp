@@ -185,9 +185,13 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
   { throw Error(ErrorCode::BadMesh, name + ": " + what); };
   const int* size = volume.image->GetDimensions();
   vtkDataArray* voxels = volume.image->GetPointData()->GetScalars();
-  if (!voxels || std::min({ size[0], size[1], size[2] }) < 2)
+  if (std::min({ size[0], size[1], size[2] }) < 2)
   {
     refuse("no volume in it; give an image of two slices or more");
+  }
+  if (!voxels)
+  {
+    refuse("no values at its voxels; export it again");
   }
   if (voxels->GetNumberOfComponents() != 1)
   {

@@ -1,6 +1,6 @@
 #include "pipeline/formats/inflate.h"
 
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
 #include <istream>
@@ -16,6 +16,14 @@ void refuseCut(const std::filesystem::path& file, std::uintmax_t there, std::uin
   refuse(file,
     "cut off, its data have " + std::to_string(there) + " of " + std::to_string(needed) +
       " bytes; export or copy it again");
+}
+
+void refuseMore(const std::filesystem::path& file, std::uintmax_t there, std::uintmax_t claimed,
+  const std::string& remedy)
+{
+  refuse(file,
+    "its data have " + std::to_string(there) + " bytes, more than the " + std::to_string(claimed) +
+      " that its header claims; " + remedy + ", or export it again");
 }
 
 void inflateInto(std::span<unsigned char> voxels, std::istream& in, std::uintmax_t most,
@@ -65,6 +73,10 @@ void inflateInto(std::span<unsigned char> voxels, std::istream& in, std::uintmax
   if (done < voxels.size())
   {
     refuseCut(file, done, voxels.size());
+  }
+  if (stream.avail_in > 0 || (most > 0 && in.peek() != std::istream::traits_type::eof()))
+  {
+    refuse(file, "more follows behind its compressed data; export or copy it again");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <span>
+#include <string>
 
 namespace palp
 {
@@ -13,6 +14,11 @@ constexpr std::uintmax_t kDeflateRatio = 1032; ///< the most that deflate packs 
 /// @throws Error  BadFile: cut off, with the sizes [bytes]
 [[noreturn]] void refuseCut(
   const std::filesystem::path& file, std::uintmax_t there, std::uintmax_t needed);
+
+/// @param remedy  what to mend in the header
+/// @throws Error  BadFile: more data than the header claims, with the sizes [bytes]
+[[noreturn]] void refuseMore(const std::filesystem::path& file, std::uintmax_t there,
+  std::uintmax_t claimed, const std::string& remedy);
 
 /// Fills all voxels from compressed bytes, zlib's or gzip's, and compares their checksum.
 ///

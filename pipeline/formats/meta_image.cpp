@@ -2,7 +2,8 @@
 
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/inflate.h"
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meta_fields.h"
 
 #include <algorithm>
 #include <charconv>
@@ -10,7 +11,6 @@
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <vector>
 #include <vtkByteSwap.h>
 #include <vtkDataArray.h>
@@ -22,92 +22,55 @@ namespace palp
 namespace
 {
 
-using Fields = std::map<std::string, std::string>;
-
-std::string trimmed(std::string_view text)
+void readSpacing(const std::filesystem::path& file, const MetaFields& fields, MetaHeader& header)
 {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == text.npos
-    ? std::string()
-    : std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
-}
-
-// "key = value" with or without blanks, to the line that names the data; end: of that line
-Fields readFields(const std::filesystem::path& file, std::uintmax_t& end)
-{
-  constexpr std::size_t most = 1 << 16; // [bytes], of a header
-  std::string text(most, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(text.data(), most);
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  Fields fields;
-  for (std::size_t begin = 0; begin < text.size();)
+  if (!readThree(file, fields, { "ElementSpacing", "ElementSize" }, header.spacing))
   {
-    const std::size_t stop = text.find('\n', begin);
-    const std::string_view line = std::string_view(text).substr(begin, stop - begin);
-    const std::size_t equals = line.find_first_of("=:");
-    if (stop == text.npos || equals == line.npos)
-    {
-      break;
-    }
-    const std::string key = trimmed(line.substr(0, equals));
-    fields[key] = trimmed(line.substr(equals + 1));
-    begin = stop + 1;
-    if (key == "ElementDataFile")
-    {
-      end = begin;
-      return fields;
-    }
+    refuse(file, "its header has no ElementSpacing, the size of a voxel; write it there");
   }
-  refuse(file,
-    fields.contains("NDims") || fields.contains("ObjectType")
-      ? "cut off, its header names no ElementDataFile; export or copy it again"
-      : "not a MetaImage file, whatever its name; rename or convert it");
-}
-
-std::vector<double> numbers(
-  const std::filesystem::path& file, const Fields& fields, const std::string& key)
-{
-  std::vector<double> values;
-  const auto field = fields.find(key);
-  std::istringstream words(field == fields.end() ? "" : field->second);
-  for (std::string word; words >> word;)
+  if (std::ranges::any_of(header.spacing, [](double side) { return !(side > 0.0); }))
   {
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(value))
-    {
-      refuse(file, key + " is " + inQuotes(field->second) + ", not numbers; export it again");
-    }
-    values.push_back(value);
+    refuse(file, "its ElementSpacing is not positive; export it again");
   }
-  return values;
-}
-
-// the first of these keys that is there, three numbers; none: as they are
-void read3(const std::filesystem::path& file, const Fields& fields,
-  std::initializer_list<const char*> keys, std::array<double, 3>& values)
-{
-  for (const char* key : keys)
+  const auto unit = fields.find("DistanceUnits");
+  const std::string name = unit == fields.end() ? "" : unit->second;
+  if (name == "um" || name == "mm" || name == "cm")
   {
-    const std::vector<double> found = numbers(file, fields, key);
-    if (!found.empty() && found.size() != 3)
-    {
-      refuse(file, std::string(key) + " has not three numbers; export it again");
-    }
-    if (!found.empty())
-    {
-      std::copy_n(found.begin(), 3, values.begin());
-      return;
-    }
+    header.unit = name;
+  }
+  else if (!name.empty() && name != "?") // as MetaIO writes it where it knows none
+  {
+    refuse(file,
+      "its DistanceUnits is " + inQuotes(name) + ", none of MetaImage's; write um, mm or cm there");
   }
 }
 
-void checkStraight(const std::filesystem::path& file, const Fields& fields)
+// what is stored times the slope, plus the offset
+void readScale(const std::filesystem::path& file, const MetaFields& fields, MetaHeader& header)
+{
+  const auto read = [&](const std::string& key, double& value)
+  {
+    const std::vector<double> found = numbersOf(file, fields, key);
+    if (found.size() > 1)
+    {
+      refuse(file, key + " is more than one number; export it again");
+    }
+    value = found.empty() ? value : found[0];
+  };
+  read("ElementToIntensityFunctionSlope", header.slope);
+  read("ElementToIntensityFunctionOffset", header.intercept);
+  if (header.slope == 0.0)
+  {
+    refuse(
+      file, "ElementToIntensityFunctionSlope is 0, which makes all values alike; export it again");
+  }
+}
+
+void checkStraight(const std::filesystem::path& file, const MetaFields& fields)
 {
   for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
   {
-    const std::vector<double> turn = numbers(file, fields, key);
+    const std::vector<double> turn = numbersOf(file, fields, key);
     constexpr double rounding = 1e-6;
     bool straight = turn.empty() || turn.size() == 9;
     for (std::size_t i = 0; straight && i < turn.size(); ++i)
@@ -121,13 +84,7 @@ void checkStraight(const std::filesystem::path& file, const Fields& fields)
   }
 }
 
-bool isTrue(const Fields& fields, const char* key)
-{
-  const auto field = fields.find(key);
-  return field != fields.end() && (field->second.starts_with('T') || field->second == "1");
-}
-
-int typeOf(const std::filesystem::path& file, const Fields& fields)
+int typeOf(const std::filesystem::path& file, const MetaFields& fields)
 {
   static const std::map<std::string, int> kTypes{ { "MET_CHAR", VTK_SIGNED_CHAR },
     { "MET_UCHAR", VTK_UNSIGNED_CHAR }, { "MET_SHORT", VTK_SHORT },
@@ -148,7 +105,7 @@ int typeOf(const std::filesystem::path& file, const Fields& fields)
 }
 
 // where the data are, for LOCAL or the name of a file beside
-void findData(const std::filesystem::path& file, const Fields& fields, std::uintmax_t headerEnd,
+void findData(const std::filesystem::path& file, const MetaFields& fields, std::uintmax_t headerEnd,
   MetaHeader& header)
 {
   const std::string& name = fields.at("ElementDataFile");
@@ -170,7 +127,7 @@ void findData(const std::filesystem::path& file, const Fields& fields, std::uint
     refuse(file, "its data, " + inQuotes(name) + ", are not beside it; copy both");
   }
   header.begin = local ? headerEnd : 0;
-  const std::vector<double> skip = numbers(file, fields, "HeaderSize");
+  const std::vector<double> skip = numbersOf(file, fields, "HeaderSize");
   if (!skip.empty() && skip[0] == -1.0 && !header.compressed && there >= header.bytes)
   {
     header.begin = there - header.bytes; // at the end of their file
@@ -200,6 +157,12 @@ void readWords(vtkDataArray& voxels, std::ifstream& in, const std::filesystem::p
       "cut off, it holds " + std::to_string(count) + " of " +
         std::to_string(voxels.GetNumberOfTuples()) + " voxels; export or copy it again");
   }
+  if (std::string word; in >> word)
+  {
+    refuse(file,
+      "it holds more than the " + std::to_string(count) +
+        " voxels that its header claims; mend its DimSize, or export it again");
+  }
 }
 
 } // namespace
@@ -207,14 +170,14 @@ void readWords(vtkDataArray& voxels, std::ifstream& in, const std::filesystem::p
 MetaHeader readMetaHeader(const std::filesystem::path& file)
 {
   std::uintmax_t end = 0;
-  const Fields fields = readFields(file, end);
-  const std::vector<double> size = numbers(file, fields, "DimSize");
-  const std::vector<double> dimensions = numbers(file, fields, "NDims");
+  const MetaFields fields = readMetaFields(file, end);
+  const std::vector<double> size = numbersOf(file, fields, "DimSize");
+  const std::vector<double> dimensions = numbersOf(file, fields, "NDims");
   if (dimensions != std::vector{ 3.0 } || size.size() != 3)
   {
     refuse(file, "not a volume of three dimensions; save one volume");
   }
-  const std::vector<double> channels = numbers(file, fields, "ElementNumberOfChannels");
+  const std::vector<double> channels = numbersOf(file, fields, "ElementNumberOfChannels");
   if (!channels.empty() && channels[0] != 1.0)
   {
     refuse(file, "several values at each voxel; give an image of one");
@@ -233,22 +196,14 @@ MetaHeader readMetaHeader(const std::filesystem::path& file)
     header.bytes *= static_cast<std::uintmax_t>(size[i]);
   }
   checkStraight(file, fields);
-  read3(file, fields, { "ElementSpacing", "ElementSize" }, header.spacing);
-  read3(file, fields, { "Offset", "Position", "Origin" }, header.origin);
-  if (std::ranges::any_of(header.spacing, [](double side) { return !(side > 0.0); }))
-  {
-    refuse(file, "its ElementSpacing is not positive; export it again");
-  }
-  if (const auto unit = fields.find("DistanceUnits");
-      unit != fields.end() && (unit->second == "um" || unit->second == "cm"))
-  {
-    header.unit = unit->second;
-  }
+  readSpacing(file, fields, header);
+  readScale(file, fields, header);
+  readThree(file, fields, { "Offset", "Position", "Origin" }, header.origin);
   header.text = fields.contains("BinaryData") && !isTrue(fields, "BinaryData");
   header.bigEndian =
     isTrue(fields, "BinaryDataByteOrderMSB") || isTrue(fields, "ElementByteOrderMSB");
   header.compressed = isTrue(fields, "CompressedData");
-  const std::vector<double> packed = numbers(file, fields, "CompressedDataSize");
+  const std::vector<double> packed = numbersOf(file, fields, "CompressedDataSize");
   header.compressedSize =
     packed.empty() ? 0 : static_cast<std::uintmax_t>(std::clamp(packed[0], 0.0, 1e15));
   findData(file, fields, end, header);
@@ -269,6 +224,14 @@ vtkSmartPointer<vtkImageData> readMetaVolume(
   if (failure || there < needed)
   {
     refuseCut(file, there, needed);
+  }
+  const std::uintmax_t claimed = header.compressed ? header.compressedSize : header.bytes;
+  if (!header.text && claimed > 0 && there > claimed)
+  {
+    refuseMore(file, there, claimed,
+      header.compressed
+        ? "mend its CompressedDataSize"
+        : "mend its DimSize or ElementType, or name what stands before the voxels in HeaderSize");
   }
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(header.size.data());

@@ -19,7 +19,9 @@ struct MetaHeader
   std::array<double, 3> origin{};                 ///< center of the first voxel [unit]
   int type = 0;                                   ///< of a voxel, as VTK numbers them
   std::uintmax_t bytes = 0;                       ///< of all voxels
-  std::string unit = "mm";                        ///< "um", "mm" or "cm"
+  std::string unit{};                             ///< "um", "mm" or "cm"; empty: none
+  double slope = 1.0;                             ///< a value is slope times what is stored,
+  double intercept = 0.0;                         ///< plus intercept
   bool text = false;                              ///< the voxels are numbers in words
   bool bigEndian = false;
   bool compressed = false;
@@ -28,13 +30,17 @@ struct MetaHeader
   std::uintmax_t begin = 0; ///< of the data in its file [bytes]
 };
 
-/// @throws Error  BadFile: not such a header, turned axes, or what is not read here
+/// @throws Error  BadFile: not such a header, a key given twice, no size of a voxel, turned axes,
+/// or
+///                what is not read here
 [[nodiscard]] MetaHeader readMetaHeader(const std::filesystem::path& file);
 
 /// Reads a volume, and every byte of it: VTK's reader takes half of one, or a damaged one, for
 /// whole.
 ///
-/// @throws Error  BadFile: as readMetaHeader; cut off; compressed data that are damaged
+/// @throws Error  BadFile: as readMetaHeader; fewer or more data than it claims; compressed data
+/// that
+///                are damaged
 [[nodiscard]] vtkSmartPointer<vtkImageData> readMetaVolume(
   const std::filesystem::path& file, const MetaHeader& header);
 

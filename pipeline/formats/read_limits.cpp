@@ -2,7 +2,7 @@
 
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/inflate.h"
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
 #include <string>

@@ -4,9 +4,9 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
+#include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/read_limits.h"
-#include "pipeline/formats/refuse.h"
-#include "pipeline/formats/surface_readers.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
 
@@ -48,7 +48,7 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".nii", "NIfTI", "", nullptr, readNifti },
-  Format{ ".nii.gz", "NIfTI", "\x1f\x8b", nullptr, readNifti },
+  Format{ ".nii.gz", "NIfTI", "", nullptr, readNifti },
   Format{ ".vti", "VTI", "<", nullptr, readVti } };
 
 const Format& formatOf(const std::filesystem::path& file)
@@ -175,7 +175,9 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
   checkFile(file, format);
   if (format.read && (part.level || !part.labels.empty()))
   {
-    refuse(file, "a surface, not an image; leave the level out");
+    refuse(file,
+      std::string("a surface, not an image; leave the ") + (part.level ? "level" : "label") +
+        " out");
   }
   FileSurface surface;
   const vtkSmartPointer<vtkPolyData> data = readData(file, format, part, surface);

@@ -1,6 +1,7 @@
 #include "pipeline/formats/vtk_formats.h"
 
 #include "haptics/error.h"
+#include "pipeline/formats/outer_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +12,7 @@
 #include <regex>
 #include <string>
 #include <string_view>
-#include <vtkCellArray.h>
 #include <vtkDataSetReader.h>
-#include <vtkDataSetSurfaceFilter.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -34,28 +33,6 @@ vtkSmartPointer<vtkPolyData> readWith(const std::filesystem::path& file)
   reader->SetFileName(file.c_str());
   reader->Update();
   return reader->GetOutput();
-}
-
-// the faces that belong to one cell only, curved ones in flat pieces
-vtkSmartPointer<vtkPolyData> outerSurface(
-  const std::filesystem::path& file, vtkUnstructuredGrid& grid)
-{
-  vtkCellArray* cells = grid.GetCells();
-  const vtkIdType points = grid.GetNumberOfPoints();
-  vtkDataArray* corners = cells ? cells->GetConnectivityArray() : nullptr;
-  for (vtkIdType i = 0; corners && i < corners->GetNumberOfValues(); ++i)
-  {
-    const double corner = corners->GetComponent(i, 0);
-    if (!(corner >= 0.0 && corner < static_cast<double>(points)))
-    {
-      throw Error(ErrorCode::BadFile,
-        file.string() + ": a cell names a point that is not there; export it again");
-    }
-  }
-  vtkNew<vtkDataSetSurfaceFilter> outside;
-  outside->SetInputData(&grid);
-  outside->Update();
-  return outside->GetOutput();
 }
 
 // VTK asks for the name of each component, for hours where a damaged count is believed
@@ -156,7 +133,7 @@ vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
   reader->Update();
   if (vtkUnstructuredGrid* grid = reader->GetUnstructuredGridOutput())
   {
-    return outerSurface(file, *grid);
+    return outerSurface(*grid, file.string());
   }
   if (!reader->GetPolyDataOutput() && reader->GetOutput())
   {
@@ -180,7 +157,7 @@ vtkSmartPointer<vtkPolyData> readVtu(const std::filesystem::path& file)
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
-  return outerSurface(file, *reader->GetOutput());
+  return outerSurface(*reader->GetOutput(), file.string());
 }
 
 namespace

@@ -3,11 +3,11 @@
 #include "haptics/error.h"
 #include "haptics/surface/box_tree.h"
 #include "haptics/surface/edges.h"
+#include "pipeline/model/coincident_points.h"
 #include "pipeline/model/poly_data.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vtkPolyData.h>
 
@@ -33,27 +33,6 @@ struct Merged
   std::vector<Triangle> triangles;
   std::size_t dropped = 0;
 };
-
-// the first of the points that coincide with each, found by sorting: far points or crowded places
-// cost no more than others
-std::vector<int> firstOfEach(std::span<const Eigen::Vector3d> points)
-{
-  using Shown = std::array<float, 3>;
-  std::vector<std::pair<Shown, int>> numbered(points.size()); // and which point it is
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const Eigen::Vector3f x = points[i].cast<float>();
-    numbered[i] = { { x[0], x[1], x[2] }, static_cast<int>(i) };
-  }
-  std::ranges::sort(numbered);
-  std::vector<int> first(points.size());
-  for (std::size_t i = 0; i < numbered.size(); ++i)
-  {
-    const bool same = i > 0 && numbered[i].first == numbered[i - 1].first;
-    first[at(numbered[i].second)] = same ? first[at(numbered[i - 1].second)] : numbered[i].second;
-  }
-  return first;
-}
 
 Merged merged(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {

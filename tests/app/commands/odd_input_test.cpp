@@ -29,7 +29,8 @@ protected:
       mkfifo((folder / ("pipe" + name)).c_str(), 0600);
     }
     std::ofstream(folder / "beside.mhd")
-      << "NDims = 3\nDimSize = 9 9 9\nElementType = MET_UCHAR\nElementDataFile = odd.csv\n";
+      << "NDims = 3\nDimSize = 9 9 9\nElementSpacing = 2 2 2\nElementType = MET_UCHAR\n"
+         "ElementDataFile = odd.csv\n";
   }
 
   void expectRefused(const std::string& arguments)

@@ -123,7 +123,7 @@ std::string writeMask(const std::filesystem::path& file)
   constexpr int kSide = 40;
   std::ofstream out(file, std::ios::binary);
   out << "ObjectType = Image\nNDims = 3\nDimSize = 40 40 40\nElementSpacing = 2 2 2\n"
-         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+         "DistanceUnits = mm\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
   for (int i = 0; i < kSide * kSide * kSide; ++i)
   {
     const Eigen::Vector3d from(

@@ -26,7 +26,7 @@ TEST_F(Images, TheLevelOfADistanceIsTheBall)
 TEST_F(Images, AMaskLosesItsStairsAndKeepsItsVolume)
 {
   const auto file = write<vtkMetaImageWriter>("mask.mha", *ball(true));
-  const LoadedSurface surface = readSurface(file, {}, { 0.5, {} });
+  const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.5, {} });
   EXPECT_TRUE(surface.closed);
   EXPECT_LT(farthest(*surface.mesh, kCenterMm), 2.2); // half the diagonal of a voxel
   const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadiusMm, 3);
@@ -37,8 +37,8 @@ TEST_F(Images, OnlyTheLargestPieceIsTaken)
 {
   const auto image = ball(true);
   image->SetScalarComponentFromDouble(1, 1, 1, 0, 1.0);
-  const LoadedSurface surface =
-    readSurface(write<vtkMetaImageWriter>("speck.mha", *image), {}, { 0.5, {} });
+  const LoadedSurface surface = readSurface(
+    write<vtkMetaImageWriter>("speck.mha", *image), LengthUnit::Millimeter, { 0.5, {} });
   EXPECT_LT(farthest(*surface.mesh, kCenterMm), 2.2);
 }
 
@@ -52,6 +52,7 @@ TEST_F(Images, RefusesWithTheValuesThatThereAre)
   const std::filesystem::path stl = folder_.path() / "a.stl";
   std::ofstream(stl) << "solid a\nendsolid a\n";
   EXPECT_NE(refusal(stl, { 1.0, {} }).find("leave the level out"), std::string::npos);
+  EXPECT_NE(refusal(stl, { {}, { 5.0 } }).find("leave the label out"), std::string::npos);
 
   std::string turned = readAll(mask);
   const std::string axes = "TransformMatrix = 1 0 0 0 1 0 0 0 1";
@@ -88,10 +89,10 @@ TEST_F(Images, ALabelMapIsTakenByItsLabelsAndNotByALevel)
     EXPECT_NE(refusal(file, { level, {} }).find("its labels are 0, 2, 5, 7"), std::string::npos);
   }
   EXPECT_NE(refusal(file, { {}, { 4.0 } }).find("no label 4 in it"), std::string::npos);
-  const LoadedSurface inner = readSurface(file, {}, { {}, { 2.0 } });
+  const LoadedSurface inner = readSurface(file, LengthUnit::Millimeter, { {}, { 2.0 } });
   const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(20.0, 3);
   EXPECT_NEAR(volumeMm3(*inner.mesh), exact, 0.03 * exact);
-  const LoadedSurface both = readSurface(file, {}, { {}, { 2.0, 5.0 } });
+  const LoadedSurface both = readSurface(file, LengthUnit::Millimeter, { {}, { 2.0, 5.0 } });
   EXPECT_TRUE(both.closed);
   EXPECT_LT(farthest(*both.mesh, kCenterMm), 2.2);
 }
@@ -105,8 +106,8 @@ TEST_F(Images, AMaskHasOneSurfaceWhateverLevelLiesBetween)
     voxels->SetComponent(i, 0, 255.0 * voxels->GetComponent(i, 0));
   }
   const auto file = write<vtkMetaImageWriter>("mask.mha", *image);
-  const LoadedSurface middle = readSurface(file, {}, { 127.5, {} });
-  const LoadedSurface low = readSurface(file, {}, { 0.5, {} });
+  const LoadedSurface middle = readSurface(file, LengthUnit::Millimeter, { 127.5, {} });
+  const LoadedSurface low = readSurface(file, LengthUnit::Millimeter, { 0.5, {} });
   EXPECT_EQ(pointsOf(*low.mesh), pointsOf(*middle.mesh));
   EXPECT_NE(low.notes[2].find("its surface is taken at 127.5, their middle"), std::string::npos);
 }

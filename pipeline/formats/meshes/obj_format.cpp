@@ -1,8 +1,8 @@
-#include "pipeline/formats/surface_readers.h"
+#include "pipeline/formats/meshes/surface_readers.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
-#include "pipeline/formats/text_lines.h"
+#include "pipeline/formats/meshes/text_lines.h"
 
 #include <string>
 #include <vtkCellArray.h>

@@ -1,8 +1,8 @@
-#include "pipeline/formats/surface_readers.h"
+#include "pipeline/formats/meshes/surface_readers.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
-#include "pipeline/formats/refuse.h"
+#include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
 #include <cctype>

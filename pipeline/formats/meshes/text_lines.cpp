@@ -1,4 +1,4 @@
-#include "pipeline/formats/text_lines.h"
+#include "pipeline/formats/meshes/text_lines.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"

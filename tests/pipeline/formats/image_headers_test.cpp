@@ -1,0 +1,190 @@
+#include "tests/pipeline/formats/ball_images.h"
+
+#include <tuple>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkXMLImageDataWriter.h>
+#include <zlib.h>
+
+namespace palp::test
+{
+namespace
+{
+
+std::string voxelsOf(vtkImageData& image)
+{
+  vtkDataArray& voxels = *image.GetPointData()->GetScalars();
+  return { static_cast<const char*>(voxels.GetVoidPointer(0)),
+    static_cast<std::size_t>(voxels.GetNumberOfTuples() * voxels.GetDataTypeSize()) };
+}
+
+// by hand: a header of MetaImage with more lines
+std::string meta(const std::string& more, const std::string& data = "LOCAL",
+  const std::string& spacing = "ElementSpacing = 2 2.5 3\n")
+{
+  return "ObjectType = Image\nNDims = 3\nDimSize = 41 41 31\n" + spacing + more +
+    "ElementType = MET_FLOAT\nElementDataFile = " + data + "\n";
+}
+
+TEST_F(Images, MetaImageValuesAreScaledAsTheHeaderSays)
+{
+  // the ball's surface, where the distance is 0, has the value slope * 0 - 1000
+  for (const char* slope :
+    { "", "ElementToIntensityFunctionSlope = 2\n", "ElementToIntensityFunctionSlope = -2\n" })
+  {
+    const auto file = write("scaled.mha",
+      meta(slope + std::string("ElementToIntensityFunctionOffset = -1000\n")) +
+        voxelsOf(*ball(false)));
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { -1000.0, {} });
+    EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2) << slope;
+    EXPECT_GT(volumeMm3(*surface.mesh), 0.0) << slope; // turned outwards
+    EXPECT_NE(refusal(file, { 5000.0, {} }).find("its values go from -"), std::string::npos);
+  }
+  for (const char* slope : { "0", "nan", "1 2", "two" })
+  {
+    const auto file = write("wrong.mha",
+      meta("ElementToIntensityFunctionSlope = " + std::string(slope) + "\n") +
+        voxelsOf(*ball(false)));
+    EXPECT_NE(refusal(file, { 0.0, {} }).find("ElementToIntensityFunctionSlope"), std::string::npos)
+      << slope;
+  }
+}
+
+// which few files name; a body of 30 mm could be one of 300 mm in cm
+TEST_F(Images, MetaImageIsTakenInTheUnitThatItNames)
+{
+  const std::string voxels = voxelsOf(*ball(false));
+  const auto unit = [&](const std::string& name, const std::string& spacing)
+  {
+    return write("unit.mha",
+      meta(name.empty() ? "" : "DistanceUnits = " + name + "\n", "LOCAL",
+        "ElementSpacing = " + spacing + "\n") +
+        voxels);
+  };
+  for (const auto& [name, spacing] :
+    { std::pair("um", "2000 2500 3000"), { "mm", "2 2.5 3" }, { "cm", "0.2 0.25 0.3" } })
+  {
+    const LoadedSurface surface = readSurface(unit(name, spacing), {}, { 0.0, {} });
+    EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2) << name;
+    EXPECT_NE(surface.notes[0].find("taken in mm, as the file says"), std::string::npos);
+  }
+  const LoadedSurface guessed = readSurface(unit("", "0.002 0.0025 0.003"), {}, { 0.0, {} });
+  EXPECT_LT(farthest(*guessed.mesh, kCenterMm), 0.2);
+  EXPECT_NE(guessed.notes[0].find("taken in m, a guess"), std::string::npos);
+  for (const auto& [name, spacing, words] :
+    { std::tuple("", "1 1.25 1.5", "more than one unit"), { "?", "1 1.25 1.5", "more than one" },
+      { "", "2000 2500 3000", "no unit" }, { "inch", "2 2.5 3", "DistanceUnits is 'inch'" } })
+  {
+    const std::string message = refusal(unit(name, spacing), { 0.0, {} });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  }
+}
+
+TEST_F(Images, MetaImageHeadersAreRefusedByTheKeyThatIsWrong)
+{
+  const std::string voxels = voxelsOf(*ball(false));
+  EXPECT_NE(
+    refusal(write("a.mha", meta("", "LOCAL", "") + voxels), { 0.0, {} }).find("no ElementSpacing"),
+    std::string::npos);
+  for (const char* twice : { "ElementSpacing = 4 4 4\n", "DimSize: 41 41 31\n" })
+  {
+    const std::string message = refusal(write("b.mha", meta(twice) + voxels), { 0.0, {} });
+    const std::string key = std::string(twice).substr(0, std::string(twice).find_first_of(" :"));
+    EXPECT_NE(message.find("gives '" + key + "' twice"), std::string::npos) << message;
+  }
+}
+
+TEST_F(Images, MetaImageWithMoreVoxelsThanItClaimsIsRefusedWithBothSizes)
+{
+  const std::string voxels = voxelsOf(*ball(false));
+  const std::string more(100, '\0');
+  const std::string sizes =
+    std::to_string(voxels.size() + 100) + " bytes, more than the " + std::to_string(voxels.size());
+  write("voxels.raw", more + voxels);
+  for (const auto& file :
+    { write("a.mha", meta("") + voxels + more), write("a.mhd", meta("", "voxels.raw")) })
+  {
+    const std::string message = refusal(file, { 0.0, {} });
+    EXPECT_NE(message.find(sizes), std::string::npos) << message;
+    EXPECT_NE(message.find("HeaderSize"), std::string::npos) << message;
+  }
+  for (const char* size : { "HeaderSize = 100\n", "HeaderSize = -1\n" }) // -1: at the end
+  {
+    const auto file = write("b.mhd", meta(size, "voxels.raw"));
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
+    EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2) << size;
+  }
+
+  std::string packed(compressBound(voxels.size()), '\0');
+  uLongf size = packed.size();
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+    reinterpret_cast<const Bytef*>(voxels.data()), voxels.size());
+  packed.resize(size);
+  const std::string pack = "CompressedData = True\n";
+  const std::string known = "CompressedDataSize = " + std::to_string(size) + "\n";
+  EXPECT_EQ(refusal(write("c.mha", meta(pack + known) + packed), { 0.0, {} }), "accepted");
+  EXPECT_NE(refusal(write("c.mha", meta(pack + known) + packed + more), { 0.0, {} })
+              .find(std::to_string(size + 100) + " bytes, more than the " + std::to_string(size)),
+    std::string::npos);
+  EXPECT_NE(refusal(write("c.mha", meta(pack) + packed + more), { 0.0, {} }).find("more follows"),
+    std::string::npos);
+  std::string words;
+  for (int i = 0; i < 41 * 41 * 31 + 1; ++i)
+  {
+    words += "1 ";
+  }
+  EXPECT_NE(refusal(write("d.mha", meta("BinaryData = False\n") + words), { 0.0, {} })
+              .find("more than the 52111 voxels"), // 41 * 41 * 31
+    std::string::npos);
+}
+
+// as ITK, and with it SimpleITK and 3D Slicer, writes it
+TEST_F(Images, MetaImageAsItkWritesItIsRead)
+{
+  const auto file = write("itk.mha",
+    "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+    "CompressedData = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 10 20 -30\n"
+    "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nElementSpacing = 2 2.5 3\n"
+    "ITK_InputFilterName = NrrdImageIO\nDimSize = 41 41 31\nElementType = MET_FLOAT\n"
+    "ElementDataFile = LOCAL\n" +
+      voxelsOf(*ball(false)));
+  const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
+  EXPECT_LT(farthest(*surface.mesh, kCenterMm + Eigen::Vector3d(10, 20, -30)), 0.2);
+}
+
+TEST_F(Images, VtiIsTakenByItsOneArrayAndRefusedByWhatItHasInstead)
+{
+  const auto image = ball(false);
+  vtkPointData& points = *image->GetPointData();
+  points.GetScalars()->SetName("distance");
+  points.SetActiveScalars(nullptr);
+  const auto one = write<vtkXMLImageDataWriter>("one.vti", *image);
+  const LoadedSurface surface = readSurface(one, LengthUnit::Millimeter, { 0.0, {} });
+  EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2);
+
+  vtkNew<vtkDoubleArray> other;
+  other->SetName("other");
+  other->SetNumberOfTuples(image->GetNumberOfPoints());
+  other->Fill(0.0);
+  points.AddArray(other);
+  EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("two.vti", *image), { 0.0, {} })
+              .find("2 arrays at its points, as 'distance' and 'other'"),
+    std::string::npos);
+  points.SetActiveScalars("distance");
+  const auto two = write<vtkXMLImageDataWriter>("two.vti", *image);
+  EXPECT_LT(farthest(*readSurface(two, LengthUnit::Millimeter, { 0.0, {} }).mesh, kCenterMm), 0.2);
+
+  points.Initialize();
+  EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("none.vti", *image), { 0.0, {} })
+              .find("no values at its points"),
+    std::string::npos);
+  other->SetNumberOfTuples(image->GetNumberOfCells());
+  image->GetCellData()->AddArray(other);
+  EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("cells.vti", *image), { 0.0, {} })
+              .find("those of cells, not of points"),
+    std::string::npos);
+}
+
+} // namespace
+} // namespace palp::test
