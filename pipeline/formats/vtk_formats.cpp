@@ -1,6 +1,7 @@
 #include "pipeline/formats/vtk_formats.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "pipeline/formats/outer_surface.h"
 
 #include <algorithm>
@@ -47,7 +48,8 @@ void checkComponents(const std::filesystem::path& file, const std::string& tags)
     {
       throw Error(ErrorCode::BadFile,
         file.string() + ": damaged, one of its arrays has " +
-          tags.substr(at + kKey.size(), tags.find('"', at + kKey.size()) - at - kKey.size()) +
+          inQuotes(std::string_view(tags).substr(
+            at + kKey.size(), tags.find('"', at + kKey.size()) - at - kKey.size())) +
           " components; export it again");
     }
   }

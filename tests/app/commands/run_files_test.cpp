@@ -125,6 +125,19 @@ TEST_F(RunCommand, TakesItsOwnTablesAndRecordings)
   }
 }
 
+TEST_F(RunCommand, SaysThatAPathWasRecordedOnAnotherSurface)
+{
+  ASSERT_EQ(press("--no-picture", "first").code, 0);
+  const std::string samples = " --path " + (folder_.path() / "first/samples.csv").string();
+  const Finished same =
+    palp("run " + block() + samples + " --no-picture --out " + (folder_.path() / "same").string());
+  EXPECT_EQ(same.err.find("recorded on"), std::string::npos) << same.err;
+  const Finished other = palp("run " PALP_SHARE "/meshes/sphere_50.vtp" + samples +
+    " --no-picture --out " + (folder_.path() / "other").string());
+  EXPECT_NE(other.err.find("recorded on block_50.vtp, another surface"), std::string::npos)
+    << other.err;
+}
+
 TEST_F(RunCommand, DrawsPicturesWithoutADisplay)
 {
   const Finished finished = press("--size 800x600", "out");
