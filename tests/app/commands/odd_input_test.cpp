@@ -87,10 +87,10 @@ TEST_F(OddInput, OfSpreadsheetsIsTakenOrTold)
   {
     std::ofstream(folder_.path() / name) << text;
     return test::runCommand("cd " + folder_.path().string() +
-      " && " PALP_PROGRAM
-      " run --plots comparison --plot-files csv --out out --path " PALP_SOURCE_DIR
-      "/data/paths/block_press.csv --reference " +
-      name + " " PALP_SHARE "/meshes/block_50.vtp");
+      " && " PALP_PROGRAM " run " PALP_SHARE "/meshes/block_50.vtp --path " PALP_SOURCE_DIR
+      "/data/paths/block_press.csv --plots comparison --plot-files csv --overwrite --out out "
+      "--reference " +
+      name);
   };
   EXPECT_EQ(curve("marked.csv",
               "\xEF\xBB\xBF"
