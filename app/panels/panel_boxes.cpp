@@ -103,11 +103,16 @@ void QuantityBox::forget()
   Q_EMIT refused({});
 }
 
-void QuantityBox::showNumber(double shown)
+QString QuantityBox::inUnit(double shown) const
 {
   constexpr int kDigits = 10;
   const QString unit = QString::fromStdString(unit_.name);
-  read_ = (QString::number(shown, 'g', kDigits) + ' ' + unit).trimmed();
+  return (QString::number(shown, 'g', kDigits) + ' ' + unit).trimmed();
+}
+
+void QuantityBox::showNumber(double shown)
+{
+  read_ = inUnit(shown);
   lineEdit()->setText(read_);
 }
 
@@ -136,7 +141,8 @@ void QuantityBox::take()
   catch (const Error& error)
   {
     si_ = before;
-    Q_EMIT refused(QString::fromStdString(error.what()));
+    Q_EMIT refused(
+      QString::fromStdString(error.what()) + "; still in use: " + inUnit(unit_.fromSi(si_)));
     return;
   }
   forget();

@@ -66,6 +66,7 @@ protected:
 private:
   [[nodiscard]] double read() const;
   void take();
+  [[nodiscard]] QString inUnit(double shown) const;
   void showNumber(double shown);
 
   ShownUnit unit_;

@@ -82,6 +82,8 @@ TEST_P(TypedTexts, AreTakenAsWrittenOrRefusedInWords)
     {
       EXPECT_EQ(box(entry.field).si(), before) << field << ": " << entry.text;
       EXPECT_EQ(box(entry.field).text(), entry.text) << "stays to be mended";
+      EXPECT_TRUE(reason(field).text().contains("still in use: "))
+        << reason(field).text().toStdString();
       EXPECT_EQ(changes.count(), 0) << field << ": " << entry.text;
     }
   }
