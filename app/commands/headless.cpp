@@ -10,7 +10,7 @@
 #include "app/program/interrupt.h"
 #include "app/program/progress_line.h"
 #include "haptics/contact/contact_geometry_of.h"
-#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
 #include "haptics/files/output_folder.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
@@ -100,7 +100,7 @@ void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
 }
 
 // what is pressed, and what there is to tell of it
-SceneBody loadTold(const ScenePlan& plan, BuildTrace& trace)
+SceneBody loadTold(const ScenePlan& plan, std::string_view path, BuildTrace& trace)
 {
   const bool shown = plan.deformed || plan.picture || plan.has(PlotKind::Section);
   SceneBody body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
@@ -109,7 +109,7 @@ SceneBody loadTold(const ScenePlan& plan, BuildTrace& trace)
   {
     std::cerr << "palp: " << note << '\n';
   }
-  if (const std::string other = noteOfPath(plan.device.file, body.files); !other.empty())
+  if (const std::string other = noteOfPath(path, body.files); !other.empty())
   {
     std::cerr << "palp: " << other << '\n';
   }
@@ -140,17 +140,19 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
   Recording recording;
   recording.rated = plan.validity;
   recording.scene = trace.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
+  const std::filesystem::path& file = plan.device.file;
+  const std::string text = readText(file, "the CSV file"); // once: it may be a pipe
   const ScriptedPath path =
-    trace.build("path", "moves the tool", [&] { return readPath(plan.device.file); });
+    trace.build("path", "moves the tool", [&] { return parsePath(text, file.string()); });
   const std::string& device = plan.device.name;
-  recording.device = device.substr(0, device.find(':') + 1) + plan.device.file.filename().string();
+  recording.device = device.substr(0, device.find(':') + 1) + file.filename().string();
   std::optional<Calibration> calibration;
   if (plan.dents())
   {
     calibration = trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
-  const SceneBody body = loadTold(plan, trace);
+  const SceneBody body = loadTold(plan, text, trace);
   if (calibration && !calibration->note.empty())
   {
     std::cerr << "palp: " << calibration->note << '\n';

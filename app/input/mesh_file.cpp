@@ -94,17 +94,17 @@ std::string describe(const MeshFile& mesh)
     (mesh.moved ? ", moved by the scene" : "") + part;
 }
 
-std::string noteOfPath(const std::filesystem::path& path, const std::vector<MeshFile>& felt)
+std::string noteOfPath(std::string_view path, const std::vector<MeshFile>& felt)
 {
-  std::ifstream in(path);
   std::string other;
-  for (std::string line; std::getline(in, line) && line.starts_with('#');)
+  while (path.starts_with('#'))
   {
-    const std::string_view text = line;
-    if (text.starts_with(kFelt) && text.find(kHash) != text.npos)
+    const std::string_view line = path.substr(0, path.find('\n'));
+    path.remove_prefix(std::min(path.size(), line.size() + 1));
+    if (line.starts_with(kFelt) && line.find(kHash) != line.npos)
     {
       if (std::ranges::any_of(
-            felt, [&](const MeshFile& mesh) { return text.find(mesh.sha256) != text.npos; }))
+            felt, [&](const MeshFile& mesh) { return line.find(mesh.sha256) != line.npos; }))
       {
         return "";
       }
@@ -112,7 +112,7 @@ std::string noteOfPath(const std::filesystem::path& path, const std::vector<Mesh
     }
   }
   return other.empty() ? ""
-                       : path.string() + ": recorded on " + printable(other) +
+                       : "the path was recorded on " + printable(other) +
       ", another surface than this; depths and forces are not those of the recording";
 }
 

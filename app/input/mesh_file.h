@@ -34,7 +34,7 @@ inline constexpr std::string_view kFelt = "# felt: ";
 [[nodiscard]] std::string describe(const MeshFile& mesh);
 
 /// What to tell of a path that was recorded on another surface; empty where nothing says so.
-[[nodiscard]] std::string noteOfPath(
-  const std::filesystem::path& path, const std::vector<MeshFile>& felt);
+/// @param path  text of the file, whose comments may name the surface
+[[nodiscard]] std::string noteOfPath(std::string_view path, const std::vector<MeshFile>& felt);
 
 } // namespace palp

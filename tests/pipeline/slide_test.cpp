@@ -314,7 +314,7 @@ TEST(Slide, IsSmoothOnOtherMeshesAtConstantDepth)
   for (const auto& file : files)
   {
     SCOPED_TRACE(file);
-    expectSmooth(surfaceOf(*test::readGiven(file)), Held::Depth, 0.25);
+    expectSmooth(surfaceOf(*test::readGiven(file)), Held::Depth, 0.21);
   }
 }
 

@@ -113,6 +113,15 @@ TEST_F(OddInput, OfSilentPipesIsRefused)
   EXPECT_EQ(piped.err.find("palp: /dev/stdin"), std::string::npos) << piped.err;
 }
 
+TEST_F(OddInput, IsReadOnceWhereItIsAPipe)
+{
+  const test::Finished run = test::runCommand("cd " + folder_.path().string() +
+    " && (cat " PALP_SOURCE_DIR
+    "/data/paths/block_press.csv > pipeodd.csv &) && timeout 20 " PALP_PROGRAM " run " PALP_SHARE
+    "/meshes/block_50.vtp --no-picture --out out --path pipeodd.csv");
+  EXPECT_EQ(run.code, 0) << run.err;
+}
+
 TEST_F(OddInput, OfRadiiThatAreNoneIsRefused)
 {
   for (const char* radius : { "-5", "1e6" })

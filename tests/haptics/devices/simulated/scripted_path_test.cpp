@@ -152,6 +152,21 @@ TEST(ScriptedPath, ReadsWhatWasWritten)
   EXPECT_EQ(readPath(file).knots().size(), 3U);
 }
 
+std::filesystem::path write(const test::TemporaryFolder& folder, const std::string& text)
+{
+  const std::filesystem::path file = folder.path() / "samples.csv";
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(ScriptedPath, MayBeginWithAByteOrderMark)
+{
+  const test::TemporaryFolder folder;
+  const ScriptedPath path = readPath(write(folder, "\xEF\xBB\xBFtime_s,x_mm,y_mm,z_mm\n2,1,2,3"));
+  EXPECT_EQ(path.startTime(), 2.0);
+  EXPECT_EQ(path.knots().size(), 1U);
+}
+
 TEST(ScriptedPath, RefusesKnotsThatBreakTheRules)
 {
   EXPECT_THROW(ScriptedPath({}), Error);
@@ -172,13 +187,6 @@ TEST(ScriptedDevice, PlaysThePathOnItsOwnClockAndCannotBePushed)
   const auto pose = device.exchange(Vector3d::Zero(), 0.0);
   ASSERT_TRUE(pose);
   EXPECT_NEAR(pose->apex.z(), 2.5_mm, 1e-12);
-}
-
-std::filesystem::path write(const test::TemporaryFolder& folder, const std::string& text)
-{
-  const std::filesystem::path file = folder.path() / "samples.csv";
-  std::ofstream(file) << text;
-  return file;
 }
 
 TEST(Recording, IsReadByTheNamesOfItsColumns)
