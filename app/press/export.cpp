@@ -32,21 +32,6 @@ Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibrati
 namespace
 {
 
-// halves the edges of the dent further than a picture needs, so that they hardly cut the tool
-void refine(vtkPalpDeformFilter& filter)
-{
-  constexpr int finest = 4;
-  constexpr vtkIdType most = 500'000; // triangles
-  filter.Update();
-  int level = filter.GetUsedPatchLevel();
-  auto* patch = vtkPolyData::SafeDownCast(filter.GetOutputDataObject(1));
-  for (vtkIdType count = 4 * patch->GetNumberOfPolys(); level < finest && count <= most; count *= 4)
-  {
-    ++level;
-  }
-  filter.SetPatchLevel(level);
-}
-
 // axes that all bodies have in common; empty: unknown
 std::string spaceOf(const Recording& recording)
 {
@@ -63,13 +48,10 @@ void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
   vtkNew<vtkPalpDeformFilter> filter;
   filter->SetInputData(body.display);
   filter->SetGeneratePatch(refined);
+  filter->SetPatchTolerance(units::fromMillimeters(0.01));
   if (const Sample* deepest = recording.deepest())
   {
     filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
-  }
-  if (refined)
-  {
-    refine(*filter);
   }
   filter->Update();
 

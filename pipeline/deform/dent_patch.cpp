@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace palp
 {
@@ -11,9 +12,8 @@ namespace
 {
 
 constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's center to its circle
-constexpr int kMaxLevel = 4;
-constexpr int kWhole = -1;                   // stands for the middle of an edge that is not halved
-constexpr std::size_t kMaxTriangles = 24000; // as many as a picture is quick with
+constexpr int kMaxLevel = 6;
+constexpr double kMaxTriangles = 24000.0; // as many as a picture is quick with
 
 } // namespace
 
@@ -26,24 +26,34 @@ int DentPatch::levelFor(const Dent& dent)
   }
   int level = 0;
   double edge = region.edgeLength();
-  std::size_t count = 2 * region.points().size();
-  while (level < kMaxLevel && edge * kEdgesOnRadius > region.inner() && 4 * count <= kMaxTriangles)
+  // equilateral triangles in and around the dent
+  const auto countFor = [&](double length)
+  {
+    const double width = region.outer() / length + 1.0;
+    return 4.0 * std::numbers::pi / std::numbers::sqrt3 * width * width;
+  };
+  while (level < kMaxLevel && edge * kEdgesOnRadius > region.inner() &&
+    countFor(0.5 * edge) <= kMaxTriangles)
   {
     ++level;
     edge *= 0.5;
-    count *= 4;
   }
   return level;
 }
 
-void DentPatch::build(const Dent& dent, int level)
+void DentPatch::build(const Dent& dent, int level, double tolerance)
 {
   takeCorners(dent);
   for (int i = 0; i < level; ++i)
   {
-    halveEdges(dent);
+    halveEdges(dent, 0.0);
   }
   displace(dent);
+  for (int i = 0; i < kMaxLevel && tolerance > 0.0; ++i)
+  {
+    halveEdges(dent, tolerance);
+    displace(dent);
+  }
   turnNormals();
 }
 
@@ -61,8 +71,8 @@ void DentPatch::takeCorners(const Dent& dent)
   region.forEachTriangle([&](const Triangle& triangle) { triangles.push_back(triangle); });
 }
 
-// an edge between two points at rest stays whole: the surface beside the patch has it whole
-void DentPatch::halveEdges(const Dent& dent)
+// all edges of a triangle or none, so that it keeps its shape, and those of its neighbors with them
+void DentPatch::halveEdges(const Dent& dent, double tolerance)
 {
   coarse_.swap(triangles);
   triangles.clear();
@@ -70,10 +80,17 @@ void DentPatch::halveEdges(const Dent& dent)
     std::bit_ceil(4 * coarse_.size() + 1), Middle{}); // there are fewer edges than that
   for (const Triangle& corners : coarse_)
   {
+    for (std::size_t k = 0; k < 3 && (tolerance == 0.0 || isFar(corners, dent, tolerance)); ++k)
+    {
+      addMiddle(corners[k], corners[(k + 1) % 3], dent);
+    }
+  }
+  for (const Triangle& corners : coarse_)
+  {
     std::array<int, 3> middle{}; // of the edge after each corner
     for (std::size_t k = 0; k < 3; ++k)
     {
-      middle[k] = middleOf(corners[k], corners[(k + 1) % 3], dent);
+      middle[k] = middleOf(corners[k], corners[(k + 1) % 3]).corner;
     }
     const auto whole = std::find(middle.begin(), middle.end(), kWhole) - middle.begin();
     if (whole == 3)
@@ -84,53 +101,83 @@ void DentPatch::halveEdges(const Dent& dent)
         triangles.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
       continue;
     }
-    // two corners at rest share the one whole edge; with three at rest all edges are whole
+    // from the first whole edge on
     const auto first = static_cast<std::size_t>(whole);
     const int a = corners[first];
     const int b = corners[(first + 1) % 3];
     const int c = corners[(first + 2) % 3];
     const int bc = middle[(first + 1) % 3];
     const int ca = middle[(first + 2) % 3];
-    if (bc == kWhole || ca == kWhole)
+    if (bc == kWhole && ca == kWhole)
     {
       triangles.push_back(corners);
-      continue;
     }
-    triangles.insert(triangles.end(), { { a, b, bc }, { a, bc, ca }, { ca, bc, c } });
+    else if (bc == kWhole || ca == kWhole)
+    {
+      const bool atB = ca == kWhole;
+      triangles.insert(triangles.end(),
+        { atB ? Triangle{ a, b, bc } : Triangle{ a, b, ca },
+          atB ? Triangle{ a, bc, c } : Triangle{ b, c, ca } });
+    }
+    else
+    {
+      triangles.insert(triangles.end(), { { a, b, bc }, { a, bc, ca }, { ca, bc, c } });
+    }
   }
 }
 
-int DentPatch::middleOf(int a, int b, const Dent& dent)
+// an edge at rest stays whole: the surface beside the patch has it whole
+void DentPatch::addMiddle(int a, int b, const Dent& dent)
 {
-  if (rests(a, dent) && rests(b, dent))
-  {
-    return kWhole;
-  }
-  const auto [low, high] = std::minmax(a, b);
-  Middle& middle = entryOf(low, high);
-  if (middle.corner < 0)
+  Middle& middle = middleOf(a, b);
+  if (middle.corner == kWhole && !restsBetween(a, b, dent))
   {
     const Corner& first = corners_[static_cast<std::size_t>(a)];
     const Corner& second = corners_[static_cast<std::size_t>(b)];
     const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
-    GeodesicCoordinates geodesic =
-      dent.region().geodesicBetween(first.geodesic, second.geodesic, 0.5, rest);
-    geodesic.within = dent.isInsideTool(rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
-    middle = { low, high, static_cast<int>(corners_.size()) };
-    corners_.push_back({ rest, normal, geodesic });
+    middle = { std::min(a, b), std::max(a, b), static_cast<int>(corners_.size()) };
+    corners_.push_back({ rest, normal, geodesicBetween(a, b, rest, dent) });
   }
-  return middle.corner;
 }
 
-// where an edge is, or is to be put
-DentPatch::Middle& DentPatch::entryOf(int low, int high)
+GeodesicCoordinates DentPatch::geodesicBetween(
+  int a, int b, const Eigen::Vector3d& rest, const Dent& dent) const noexcept
+{
+  GeodesicCoordinates geodesic =
+    dent.region().geodesicBetween(geodesicOf(a), geodesicOf(b), 0.5, rest);
+  geodesic.within = dent.isInsideTool(rest);
+  return geodesic;
+}
+
+// whether an edge between two displaced corners spans the contact, or is farther from the displaced
+// surface
+bool DentPatch::isFar(const Triangle& corners, const Dent& dent, double tolerance) const noexcept
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto a = static_cast<std::size_t>(corners[k]);
+    const auto b = static_cast<std::size_t>(corners[(k + 1) % 3]);
+    const Eigen::Vector3d rest = 0.5 * (corners_[a].rest + corners_[b].rest);
+    const auto geodesic = geodesicBetween(corners[k], corners[(k + 1) % 3], rest, dent);
+    if (dent.region().spansContact(corners_[a].geodesic, corners_[b].geodesic) ||
+      std::abs(dent.sinkAt(geodesic, rest).depth - 0.5 * (sink[a] + sink[b])) > tolerance)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// where that of an edge is, or is to be put
+DentPatch::Middle& DentPatch::middleOf(int a, int b)
 {
   constexpr std::size_t kScatter = 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
+  const auto [low, high] = std::minmax(a, b);
   const std::size_t mask = middles_.size() - 1;
   const std::size_t key = static_cast<std::size_t>(low) << 32U | static_cast<std::size_t>(high);
   std::size_t at = (key * kScatter) >> 40U & mask;
-  while (middles_[at].corner >= 0 && (middles_[at].low != low || middles_[at].high != high))
+  while (middles_[at].corner != kWhole && (middles_[at].low != low || middles_[at].high != high))
   {
     at = (at + 1) & mask;
   }
@@ -139,8 +186,13 @@ DentPatch::Middle& DentPatch::entryOf(int low, int high)
 
 bool DentPatch::rests(int corner, const Dent& dent) const noexcept
 {
-  const GeodesicCoordinates& geodesic = corners_[static_cast<std::size_t>(corner)].geodesic;
+  const GeodesicCoordinates& geodesic = geodesicOf(corner);
   return !geodesic.within && !(geodesic.distance < dent.region().outer()) && !geodesic.isBetween();
+}
+
+bool DentPatch::restsBetween(int a, int b, const Dent& dent) const noexcept
+{
+  return rests(a, dent) && rests(b, dent) && !dent.region().crosses(geodesicOf(a), geodesicOf(b));
 }
 
 void DentPatch::displace(const Dent& dent)

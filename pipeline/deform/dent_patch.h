@@ -16,11 +16,13 @@ namespace palp
 class DentPatch
 {
 public:
-  /// How often the triangles must be halved so that edges are short against the contact, 0 to 4.
+  /// How often the triangles must be halved so that edges are short against the contact, 0 to 6.
   [[nodiscard]] static int levelFor(const Dent& dent);
 
-  /// @param level  halvings of every edge, 0 to 4
-  void build(const Dent& dent, int level);
+  /// @param level      halvings of every edge, 0 to 6
+  /// @param tolerance  edges that are farther from the displaced surface are halved further, up to
+  ///                   6 times [m]; 0: none
+  void build(const Dent& dent, int level, double tolerance = 0.0);
 
   std::vector<Eigen::Vector3f> points;  ///< [m]
   std::vector<Eigen::Vector3f> normals; ///< unit
@@ -38,19 +40,30 @@ private:
     GeodesicCoordinates geodesic;
   };
 
+  static constexpr int kWhole = -1;
+
   // the corner half way along an edge, which is known by its ends
   struct Middle
   {
     int low = -1;
     int high = -1;
-    int corner = -1;
+    int corner = kWhole;
   };
 
   void takeCorners(const Dent& dent);
-  void halveEdges(const Dent& dent);
-  [[nodiscard]] Middle& entryOf(int low, int high);
-  [[nodiscard]] int middleOf(int a, int b, const Dent& dent);
+  void halveEdges(const Dent& dent, double tolerance);
+  void addMiddle(int a, int b, const Dent& dent);
+  [[nodiscard]] Middle& middleOf(int a, int b);
+  [[nodiscard]] GeodesicCoordinates geodesicBetween(
+    int a, int b, const Eigen::Vector3d& rest, const Dent& dent) const noexcept;
+  [[nodiscard]] bool isFar(
+    const Triangle& corners, const Dent& dent, double tolerance) const noexcept;
+  [[nodiscard]] const GeodesicCoordinates& geodesicOf(int corner) const noexcept
+  {
+    return corners_[static_cast<std::size_t>(corner)].geodesic;
+  }
   [[nodiscard]] bool rests(int corner, const Dent& dent) const noexcept;
+  [[nodiscard]] bool restsBetween(int a, int b, const Dent& dent) const noexcept;
   void displace(const Dent& dent);
   void turnNormals();
 

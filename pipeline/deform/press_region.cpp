@@ -137,10 +137,18 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
     geodesics_.front().within = true;
     queue_.push_back(0);
   }
-  std::size_t first = 0; // the queue grows meanwhile
-  while (first < queue_.size())
+  spread(body);
+  while (isCoarse() && reachAcrossEdges())
   {
-    const auto from = static_cast<std::size_t>(queue_[first++]);
+    spread(body);
+  }
+}
+
+void PressRegion::spread(const ToolBody& body)
+{
+  for (std::size_t first = 0; first < queue_.size(); ++first) // the queue grows meanwhile
+  {
+    const auto from = static_cast<std::size_t>(queue_[first]);
     std::int32_t before = VertexRings::kEnd;
     bool isOpen = false; // what was before has no settled place
     for (const std::int32_t next : rings_.around(points_[from]))
@@ -155,6 +163,7 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
       before = next;
     }
   }
+  queue_.clear();
 }
 
 // meets the corners of a triangle that has one within the dent

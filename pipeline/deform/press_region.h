@@ -121,6 +121,15 @@ public:
     geodesics_[index].extra += static_cast<float>(more);
   }
 
+  /// Whether the edge between two points leads through the dent, seen along the normal; never of a
+  /// mesh whose edges are short against the dent, for they cross no more than its rim.
+  [[nodiscard]] bool crosses(
+    const GeodesicCoordinates& a, const GeodesicCoordinates& b) const noexcept;
+
+  /// Whether the edge between two points crosses the contact and is longer than its radius.
+  [[nodiscard]] bool spansContact(
+    const GeodesicCoordinates& a, const GeodesicCoordinates& b) const noexcept;
+
   /// Of a point that faces the tool.
   [[nodiscard]] GeodesicCoordinates geodesicInFront(const Eigen::Vector3d& point) const noexcept;
 
@@ -195,6 +204,9 @@ private:
   [[nodiscard]] bool isSharpAt(std::int32_t point) const noexcept;
   [[nodiscard]] double longestEdge(std::int32_t point) const noexcept;
   [[nodiscard]] bool isNear(std::int32_t point, const ToolBody& body) const noexcept;
+  [[nodiscard]] bool isCoarse() const noexcept;
+  void spread(const ToolBody& body);
+  [[nodiscard]] bool reachAcrossEdges();
   void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
   [[nodiscard]] std::size_t indexOf(std::int32_t point);
   void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);

@@ -71,7 +71,8 @@ void vtkPalpDeformFilter::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "ExtentRadius: " << this->Press.extentRadius << " m\n"
      << indent << "RingRadius: " << this->Dent.region().outer() << " m\n"
      << indent << "GeneratePatch: " << this->GeneratePatch << "\n"
-     << indent << "PatchLevel: " << this->PatchLevel << "\n";
+     << indent << "PatchLevel: " << this->PatchLevel << "\n"
+     << indent << "PatchTolerance: " << this->PatchTolerance << "\n";
 }
 
 void vtkPalpDeformFilter::SetPress(const palp::Press& press)
@@ -178,7 +179,7 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
 {
   this->UsedPatchLevel =
     this->PatchLevel < 0 ? palp::DentPatch::levelFor(this->Dent) : this->PatchLevel;
-  this->Patch.build(this->Dent, this->UsedPatchLevel);
+  this->Patch.build(this->Dent, this->UsedPatchLevel, this->PatchTolerance);
   const auto count = static_cast<vtkIdType>(this->Patch.points.size());
   for (vtkDataArray* array : { static_cast<vtkDataArray*>(this->PatchPositions),
          static_cast<vtkDataArray*>(this->PatchNormals),

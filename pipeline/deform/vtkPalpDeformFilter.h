@@ -64,11 +64,20 @@ public:
 
   ///@{
   /**
-   * How often the edges of output 1 are halved, 0 to 4; -1 takes what makes the contact look
+   * How often the edges of output 1 are halved, 0 to 6; -1 takes what makes the contact look
    * round. Default: -1.
    */
-  vtkSetClampMacro(PatchLevel, int, -1, 4);
+  vtkSetClampMacro(PatchLevel, int, -1, 6);
   vtkGetMacro(PatchLevel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Edges of output 1 that are farther from the displaced surface are halved further, up to 6
+   * times [m]; 0: none. Default: 0.
+   */
+  vtkSetClampMacro(PatchTolerance, double, 0.0, 1.0);
+  vtkGetMacro(PatchTolerance, double);
   ///@}
 
   /**
@@ -105,6 +114,7 @@ private:
   palp::DentPatch Patch;
   bool GeneratePatch = false;
   int PatchLevel = -1;
+  double PatchTolerance = 0.0;
   int UsedPatchLevel = 0;
 
   // what the dent was built from

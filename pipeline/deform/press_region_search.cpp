@@ -1,4 +1,6 @@
-// Where a press region begins to grow: the point of the surface that is nearest to the contact.
+// Where a press region begins to grow, the point of the surface that is nearest to the contact, and
+// where it goes on between the points of a coarse mesh: edges through the dent from outside to
+// outside.
 
 #include "pipeline/deform/press_region.h"
 
@@ -12,6 +14,17 @@ namespace
 {
 
 constexpr double kFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
+constexpr double kCoarse = 0.5; // [-] outer radii: shorter edges cross no more than the rim
+constexpr double kTiny = 1e-24; // [m^2]
+
+// from the contact's center, seen along its normal [m]
+double distanceOfEdge(const GeodesicCoordinates& a, const GeodesicCoordinates& b) noexcept
+{
+  const Eigen::Vector2d from = a.local.head<2>();
+  const Eigen::Vector2d edge = b.local.head<2>() - from;
+  const double along = std::clamp(-from.dot(edge) / std::max(edge.squaredNorm(), kTiny), 0.0, 1.0);
+  return (from + along * edge).norm();
+}
 
 } // namespace
 
@@ -83,6 +96,46 @@ std::int32_t PressRegion::findClosestPoint(const Contact& contact, std::size_t e
     }
   }
   return best;
+}
+
+// takes an end of each edge that leads through the dent from one point outside to another, so that
+// a finer patch has both of its triangles; whether there was one
+bool PressRegion::reachAcrossEdges()
+{
+  forEachTriangle(
+    [&](const Triangle& corners)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const auto& a = geodesics_[static_cast<std::size_t>(corners[k])];
+        const auto& b = geodesics_[static_cast<std::size_t>(corners[(k + 1) % 3])];
+        if (!a.within && !b.within && crosses(a, b))
+        {
+          queue_.push_back(corners[k]);
+        }
+      }
+    });
+  for (const std::int32_t index : queue_)
+  {
+    geodesics_[static_cast<std::size_t>(index)].within = true;
+  }
+  return !queue_.empty();
+}
+
+bool PressRegion::isCoarse() const noexcept
+{
+  return longestEdge_ > kCoarse * outer_;
+}
+
+bool PressRegion::crosses(const GeodesicCoordinates& a, const GeodesicCoordinates& b) const noexcept
+{
+  return isCoarse() && a.isFront() && b.isFront() && distanceOfEdge(a, b) < outer_;
+}
+
+bool PressRegion::spansContact(
+  const GeodesicCoordinates& a, const GeodesicCoordinates& b) const noexcept
+{
+  return (a.local - b.local).norm() > inner_ && distanceOfEdge(a, b) < inner_;
 }
 
 } // namespace palp
