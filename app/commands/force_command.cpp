@@ -48,8 +48,8 @@ void tellFactors(const ForceLaw& law, const ContactGeometry& deepest)
   if (bare)
   {
     std::cerr << (law.settings().coatings.empty()
-        ? "palp: no table of large strain covers this tool and place; its border counts there, or "
-          "no such factor\n"
+        ? "palp: this tool and place are outside what finite elements of large strain were made "
+          "for\n"
         : "palp: coated tissue counts as linear at large strain\n");
   }
 }

@@ -72,17 +72,6 @@ ContactGeometry sanitized(const ContactGeometry& local, const LawSettings& setti
   return clean;
 }
 
-// 0 for a tip that is no cone
-double coneAngle(const Tip& tip) noexcept
-{
-  if (const auto* cone = std::get_if<ConeTip>(&tip))
-  {
-    return cone->halfAngle;
-  }
-  const auto* blunt = std::get_if<BluntConeTip>(&tip);
-  return blunt != nullptr ? blunt->halfAngle : 0.0;
-}
-
 // 1 where there is too little to divide by
 double ratio(double part, double whole) noexcept
 {
@@ -218,18 +207,36 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const ContactGeometry& local) const
   const ContactGeometry geometry = sanitized(local, settings_);
   const LargeStrain& table = *settings_.largeStrain;
   const double nu = material_.poissonRatio;
-  LargeStrainGrid::Ratio ratio;
   if (const auto* sphere = std::get_if<SphereTip>(&tip_))
   {
-    ratio = table.sphere(geometry.depth / sphere->radius, sphere->radius / geometry.thickness, nu);
+    auto ratio =
+      table.sphere(geometry.depth / sphere->radius, sphere->radius / geometry.thickness, nu);
     ratio.slope /= sphere->radius;
+    return ratio;
   }
-  else if (const double halfAngle = coneAngle(tip_); table.cone.coversShape(halfAngle))
+  if (const auto* cone = std::get_if<ConeTip>(&tip_);
+      cone && table.cone.covers(cone->halfAngle, nu))
   {
-    ratio = table.cone(geometry.depth / geometry.thickness, halfAngle, nu);
+    auto ratio = table.cone(geometry.depth / geometry.thickness, cone->halfAngle, nu);
     ratio.slope /= geometry.thickness;
+    return ratio;
   }
-  return ratio;
+  return largeStrainByRadius(geometry);
+}
+
+LargeStrainGrid::Ratio ForceLaw::largeStrainByRadius(const ContactGeometry& local) const noexcept
+{
+  constexpr double kStep = 1e-4; // [-] of the depth
+  const auto at = [&](double depth)
+  {
+    ContactGeometry there = local;
+    there.depth = depth;
+    return largeStrainOf(depth, uncoated(there).radius, local.thickness, material_.poissonRatio);
+  };
+  const double value = at(local.depth);
+  return { .value = value,
+    .slope = (at((1.0 + kStep) * local.depth) - value) / (kStep * local.depth),
+    .inside = local.depth <= kLargeStrainReach * uncoated(local).radius };
 }
 
 Factors ForceLaw::factors(const ContactGeometry& local) const noexcept

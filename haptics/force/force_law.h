@@ -122,6 +122,8 @@ private:
   struct Corrections;
 
   [[nodiscard]] Response paper(double depth) const noexcept;
+  [[nodiscard]] LargeStrainGrid::Ratio largeStrainByRadius(
+    const ContactGeometry& local) const noexcept;
   [[nodiscard]] LinearContact uncoated(const ContactGeometry& local) const noexcept;
   [[nodiscard]] LinearContact linear(const ContactGeometry& local) const noexcept;
   [[nodiscard]] double layerThickness(const ContactGeometry& local) const noexcept;

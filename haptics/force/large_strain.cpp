@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -150,9 +151,27 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
   return result;
 }
 
-bool LargeStrainGrid::coversShape(double second) const noexcept
+bool LargeStrainGrid::covers(double second, double poisson) const noexcept
 {
-  return near(second_, second);
+  return within(second_, second) && within(poisson_, poisson);
+}
+
+double largeStrainOf(double depth, double contactRadius, double thickness, double poisson) noexcept
+{
+  constexpr double kMaxDepth = 0.5; // [-] of the thickness
+  const double strain = depth / contactRadius;
+  const double local = 0.28 - poisson * (0.52 + 0.52 * poisson);
+  const double layer = 0.29 - poisson * (0.27 + 0.87 * poisson);
+  return 1.0 + local * strain / (1.0 + 0.76 * strain) +
+    layer * std::min(depth / thickness, kMaxDepth);
+}
+
+double errorOfLinear(double depth, double contactRadius, double poisson) noexcept
+{
+  constexpr double kScatter = 0.025; // [-] from tip to tip
+  constexpr double kHalfSpace = std::numeric_limits<double>::infinity();
+  return std::abs(largeStrainOf(depth, contactRadius, kHalfSpace, poisson) - 1.0) +
+    kScatter * depth / contactRadius;
 }
 
 LargeStrainTable readLargeStrain(

@@ -30,9 +30,8 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] Ratio operator()(double first, double second, double poisson) const noexcept;
 
-  /// The second axis reaches this value but for 0.05.
   /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] bool coversShape(double second) const noexcept;
+  [[nodiscard]] bool covers(double second, double poisson) const noexcept;
 
 private:
   [[nodiscard]] Ratio along(std::size_t row, double first) const noexcept;
@@ -54,6 +53,28 @@ struct LargeStrain
   LargeStrainGrid sphere; ///< first: depth / R; second: R / thickness, 0 for a half-space
   LargeStrainGrid cone;   ///< first: depth / thickness; second: half angle [rad]
 };
+
+/// The same ratio for a tip without a table of its own: 1 + c e / (1 + 0.76 e) + k depth /
+/// thickness with e = depth / contact radius and quadratics c, k of nu.
+///
+/// Fitted to `palp calibrate`: within 3.3 % of neo-Hookean over linear elements for punch,
+/// paraboloid, cones of 45 to 80 degrees, blunt and truncated ones, and spheres, nu 0 to 0.49, e to
+/// 1.6, depth to half the thickness.
+///
+/// @param depth          [m], more than 0
+/// @param contactRadius  of the linear law [m]
+/// @param thickness      [m], more than 0; infinite for a half-space
+/// @realtime             pure; no allocation, no lock, no exception
+[[nodiscard]] double largeStrainOf(
+  double depth, double contactRadius, double thickness, double poisson) noexcept;
+
+/// depth / contact radius to which it was fitted [-].
+inline constexpr double kLargeStrainReach = 1.6;
+
+/// How far, at most, the linear law is from neo-Hookean elements on a half-space, under any tip
+/// [-].
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] double errorOfLinear(double depth, double contactRadius, double poisson) noexcept;
 
 using LargeStrainTable = std::shared_ptr<const LargeStrain>; ///< null: none, the ratio is 1
 

@@ -23,17 +23,17 @@ constexpr double kVerifiedWidth = 0.6;        // a / thickness to which the laye
 constexpr double kEdge = 0.2;                 // a / distance, at 90 degrees: 7 % (elements)
 constexpr double kSupport = 0.08;             // a / R0 of a ball: 5 % from support to support
 constexpr double kMaxDepth = 0.5;             // depth / thickness that was compared
+constexpr double kLinearError = 0.03;         // of neo-Hookean elements
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
 constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
 
-// Depth over base radius to which a linear law holds where no table of large strain does. What is
-// five times as stiff as something below stretches as a membrane once it is pressed deeper than it
-// is thick, which adds 3 to 8 % there and 20 % later (neo-Hookean elements, 5 to 20 times).
-double linearReach(const ForceLaw& law)
+// Depth to which a stiff coating does not stretch as a membrane: what is five times as stiff as
+// something below does so once it is pressed deeper than it is thick, which adds 3 to 8 % there and
+// 20 % later (neo-Hookean elements, 5 to 20 times) [m].
+double membraneReach(const ForceLaw& law)
 {
-  constexpr double uncoated = 0.3;
   constexpr double membrane = 5.0;
-  double reach = uncoated;
+  double reach = std::numeric_limits<double>::infinity();
   const auto sheets = law.settings().coatings.all();
   for (auto sheet = sheets.begin(); sheet != sheets.end(); ++sheet)
   {
@@ -44,29 +44,12 @@ double linearReach(const ForceLaw& law)
       const Material& next = below + 1 != sheets.end() ? below[1].material : law.material();
       if (sheet->material.contactModulus() > membrane * next.contactModulus())
       {
-        reach = std::min(reach, thickness / baseRadius(law.tip()));
+        reach = std::min(reach, thickness);
         break;
       }
     }
   }
   return reach;
-}
-
-// The strain under a cone does not depend on the depth, and nor does what a linear law errs by:
-// 0.6 cot(alpha) (0.38 - nu) to within 0.04 cot(alpha) of neo-Hookean elements at 30 to 60 degrees.
-double strainOfCone(const ForceLaw& law)
-{
-  const auto cotOf = [](const auto& tip) { return cot(tip.halfAngle); };
-  const Tip& tip = law.tip();
-  const auto* sharp = std::get_if<ConeTip>(&tip);
-  const auto* blunt = std::get_if<BluntConeTip>(&tip);
-  const auto* truncated = std::get_if<TruncatedConeTip>(&tip);
-  const double slope = sharp ? cotOf(*sharp)
-    : blunt                  ? cotOf(*blunt)
-    : truncated              ? cotOf(*truncated)
-                             : 0.0;
-  return slope * (0.6 * std::abs(0.38 - law.material().poissonRatio) + 0.04) /
-    Validity::kJustNoticeable;
 }
 
 // of a coated body: thinner ones are answered as this [m]
@@ -129,8 +112,7 @@ Validity::Validity(const ForceLaw& law, const Limits& limits)
   , limits_(limits)
   , thickness_(kVerifiedWidth)
   , tilt_(tiltLimit(law))
-  , linear_(linearReach(law))
-  , strain_(strainOfCone(law))
+  , membrane_(membraneReach(law))
   , thinnest_(thinnestBody(law))
 {
   if (law.settings().mode != LawMode::Corrected || !law.settings().thickness)
@@ -154,8 +136,9 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
   const double maximum = std::max(best_(deepest).force, truth);
   const double depth = std::max(0.0, local.depth);
   const LargeStrainGrid::Ratio ratio = best_.largeStrain(local);
-  const double strain = depth > 0.0 ? strain_ : 0.0;
   const double radius = response.contactRadius;
+  const double linear =
+    depth > 0.0 ? errorOfLinear(depth, radius, law_.material().poissonRatio) : 0.0;
   const double ball = fractionOfBall(local.thickness, local.surfaceCurvature);
   const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
   const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
@@ -174,10 +157,11 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
     { "depth", "-", shown(depth / base), !corrected && isRound(tip) ? kPaperDepth : 1.0,
       corrected ? "deeper than the tip's radius nothing was compared with finite elements"
                 : "deeper, the law departs from neo-Hookean finite elements by 7 % (Sec. 4.3)" },
-    { "large_strain", "-", ratio.inside ? 0.0 : shown(std::max(depth / base, strain * linear_)),
+    { "large_strain", "-",
+      ratio.inside ? 0.0 : shown(std::max(linear, kLinearError * depth / membrane_)),
       settings.constitution == ConstitutiveModel::Linear ? std::numeric_limits<double>::infinity()
-                                                         : linear_,
-      "at large strain and outside the table of finite elements the tissue counts as linear" },
+                                                         : kLinearError,
+      "outside what finite elements were fitted to, large strain may add 3 % and more" },
     { "thickness", "-", shown(radius / local.thickness),
       local.thickness < thinnest_ ? 0.0 : thickness_,
       corrected ? "a wider contact than 0.6 of the thickness was not compared with finite elements"

@@ -69,8 +69,7 @@ private:
   Limits limits_;
   double thickness_; // limit of a / thickness
   double tilt_;      // limit for the force's magnitude [rad]
-  double linear_;    // depth / base radius to which the law holds without a table of large strain
-  double strain_;    // of a cone without such a table: error over what is just noticeable
+  double membrane_;  // depth to which a stiff coating does not stretch as a membrane [m]
   double thinnest_;  // body that the law tells from thinner ones [m]
 };
 

@@ -109,8 +109,8 @@ TEST_F(LargeStrainFile, IsReadInAnyOrder)
   const LargeStrainTable table = readLargeStrain(sphere_, cone_);
   EXPECT_DOUBLE_EQ(table->sphere(1.0, 0.1, 0.33).value, 1.06);
   EXPECT_DOUBLE_EQ(table->cone(0.2, std::acos(-1.0) / 4.0, 0.33).value, 1.05);
-  EXPECT_TRUE(table->cone.coversShape(std::acos(-1.0) / 4.0));
-  EXPECT_FALSE(table->cone.coversShape(0.5));
+  EXPECT_TRUE(table->cone.covers(std::acos(-1.0) / 4.0, 0.33));
+  EXPECT_FALSE(table->cone.covers(0.5, 0.33));
 }
 
 TEST_F(LargeStrainFile, IsRefusedWithTheLine)

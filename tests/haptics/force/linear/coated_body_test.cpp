@@ -253,24 +253,20 @@ TEST(CoatedLaw, IsNotBelievedOnABodyTooThinForIt)
 // a graded stack stretches as the one sheet that it stands for
 TEST(CoatedLaw, IsNotBelievedWhereItsSkinStretches)
 {
-  const auto reach = [](const Coatings& coatings)
+  const auto believed = [](const Coatings& coatings, double depth)
   {
-    const Validity validity(ForceLaw(SphereTip{ 10.0_mm }, { 2.0_kPa, 0.45 },
+    const Validity validity(ForceLaw(SphereTip{ 10.0_mm }, { 2.0_kPa, 0.38 },
       { .mode = LawMode::Corrected, .coatings = coatings }));
-    for (const Rule& rule : validity({ .depth = 0.1_mm }))
-    {
-      if (std::string_view(rule.name) == "large_strain")
-      {
-        return rule.limit * 10.0_mm;
-      }
-    }
-    return 0.0;
+    const Rules rules = validity({ .depth = depth });
+    return std::ranges::find(rules, std::string("large_strain"), &Rule::name)->holds();
   };
-  Coatings graded = one(1.0_mm, { 40.0_kPa, 0.45 });
+  Coatings graded = one(1.0_mm, { 30.0_kPa, 0.45 });
   graded.add({ 1.0_mm, { 9.0_kPa, 0.45 } });
-  EXPECT_NEAR(reach(one(1.0_mm, { 40.0_kPa, 0.45 })), 1.0_mm, 1e-12);
-  EXPECT_NEAR(reach(graded), 2.0_mm, 1e-12);
-  EXPECT_NEAR(reach(one(1.0_mm, { 8.0_kPa, 0.45 })), 3.0_mm, 1e-12);
+  EXPECT_TRUE(believed(one(1.0_mm, { 30.0_kPa, 0.45 }), 0.99_mm));
+  EXPECT_FALSE(believed(one(1.0_mm, { 30.0_kPa, 0.45 }), 1.01_mm));
+  EXPECT_TRUE(believed(graded, 1.99_mm));
+  EXPECT_FALSE(believed(graded, 2.01_mm));
+  EXPECT_TRUE(believed(one(1.0_mm, { 8.0_kPa, 0.45 }), 3.0_mm));
 }
 
 TEST(Coatings, RefuseWhatCannotBeComputed)
