@@ -21,6 +21,8 @@ using namespace fem;
 namespace
 {
 
+constexpr double kSharpest = 0.01; // edge of a flat over its radius
+
 // A x B x C; a unit on the last number counts for all
 std::array<double, 3> parseBlock(const std::string& text)
 {
@@ -129,12 +131,20 @@ Case caseOf(const std::string& name, const CaseText& text)
   const Tip tip = parseTip(value("tip"));
   // small-strain theory knows the undeformed surface, which meets the edge of a flat at a node
   const bool sharp = *energy == StrainEnergy::Linear && flatRadius(tip) > 0.0;
+  const double cap = length("cap");
+  if (!sharp && cap < kSharpest * flatRadius(tip))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--cap: " + inQuotes(value("cap")) +
+        " leaves the edge of a flat so sharp that large strain has no solution at it; give 1 % of "
+        "its radius or more, or --material linear");
+  }
   const auto [width, depth, height] = parseBlock(value("block"));
   Case study{ .name = name,
     .width = width,
     .length = depth,
     .height = height,
-    .tip = sharp ? tip : withCap(tip, length("cap")),
+    .tip = sharp ? tip : withCap(tip, cap),
     .material = makeMaterial(parseQuantity(value("young"), Quantity::Pressure, "--young"),
       parseNumber(value("poisson"), "--poisson")),
     .coatings = parseCoatings(value("coating")),

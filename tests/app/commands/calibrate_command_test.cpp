@@ -159,10 +159,12 @@ TEST(CalibrateCommand, ManyJobsAreNoMoreThanTheCases)
 
 TEST(CalibrateCommand, RefusesBadInputInOneLine)
 {
-  for (const char* bad : { "--tip sphere:60mm", "--threshold 12mm", "--threshold 10mm",
-         "--block 100x100mm", "--block 100x100x50", "--material rubber", "--poisson 0.5",
-         "--depth 0:90:1mm", "--model cube", "--sweep /no/such/file.json", "--jobs 2",
-         "--sweep /no/such/file.json --jobs 0", "--tables /no/such/folder --tip sphere:3mm" })
+  for (const char* bad :
+    { "--tip sphere:60mm", "--threshold 12mm", "--threshold 10mm", "--block 100x100mm",
+      "--block 100x100x50", "--material rubber", "--poisson 0.5", "--depth 0:90:1mm",
+      "--model cube", "--tip punch:6mm --cap 0mm",
+      "--tip truncated-cone:30deg:2mm:8mm --cap 0.01mm", "--sweep /no/such/file.json", "--jobs 2",
+      "--sweep /no/such/file.json --jobs 0", "--tables /no/such/folder --tip sphere:3mm" })
   {
     const Finished finished = calibrate(bad);
     EXPECT_EQ(finished.code, 2) << bad;
