@@ -34,10 +34,9 @@ void tellFactors(const ForceLaw& law, const ContactGeometry& deepest)
   std::string acting;
   for (const Factor& factor : law.factors(deepest))
   {
-    if (factor.value != 1.0)
+    if (const double value = std::round(factor.value * 1e4) / 1e4; value != 1.0)
     {
-      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" +
-        shortest(std::round(factor.value * 1e4) / 1e4);
+      acting += (acting.empty() ? "" : ", ") + std::string(factor.name) + " x" + shortest(value);
     }
   }
   std::cerr << "palp: factors at the largest depth: " << (acting.empty() ? "none acts" : acting)
