@@ -68,6 +68,27 @@ TEST(Study, RefusesTheForcesThatDependOnTheMesh)
   EXPECT_EQ(resumeRefusal(folder, study), "");
 }
 
+// under a steep cone forces leap by 2 % from mesh to mesh, where two coarse ones agree
+TEST(Study, KeepsNoRowUnderASteepConeThatAFinerMeshChanges)
+{
+  Case study{ .name = "steep",
+    .width = 60.0_mm,
+    .length = 60.0_mm,
+    .height = 30.0_mm,
+    .tip = withCap(ConeTip{ 30.0_deg, 8.0_mm }, 0.3_mm),
+    .material = { 50.0_kPa, 0.49 },
+    .depths = { 1.0_mm },
+    .elementSize = 0.2_mm };
+  const Outcome kept = calibrateInto(test::freshFolder(), study, false);
+  study.elementSize = 0.1_mm;
+  const Outcome finer = calibrate(study);
+  ASSERT_EQ(finer.steps.size(), 1U);
+  for (const IndentationStep& step : kept.steps)
+  {
+    EXPECT_NEAR(step.force, finer.steps[0].force, 0.01 * finer.steps[0].force);
+  }
+}
+
 // the contact spans a few elements of the case: those rows come from smaller ones
 TEST(Study, PressesShallowDepthsOnSmallerElements)
 {
