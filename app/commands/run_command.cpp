@@ -128,8 +128,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures)
   command->add_flag("--chain", options->chain,
     "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
   command->add_flag("--refined", options->refined,
-    "Divide the triangles of the dent in deformed.vtp as in the picture, so that none cuts the "
-    "tool");
+    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm");
   command->add_flag("--no-picture", options->noPicture, "Write the data only")->excludes("--plots");
   command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
                   "Examples:\n"

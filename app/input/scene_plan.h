@@ -70,7 +70,7 @@ struct ScenePlan
   std::vector<ReferenceCurve> references{};    ///< forces [N] over depth [m] to compare with
   bool samples = true;                         ///< exported: samples.csv
   bool deformed = true;                        ///< exported: deformed.vtp
-  bool refined = false;                        ///< its dent as fine as in the picture
+  bool refined = false;                        ///< its dent followed to 0.01 mm
   bool picture = true;                         ///< exported: press.png
   ImageSize size{};                            ///< of press.png
 

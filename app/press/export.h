@@ -18,8 +18,8 @@ namespace palp
 /// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
 /// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.
 ///
-/// @param refined  with the triangles of the dent divided as in the picture: between the points of
-///                 the body's own triangles the tool shows through
+/// @param refined  with the triangles of the dent divided until they follow it to 0.01 mm: between
+///                 the points of the body's own triangles the tool shows through
 /// @throws Error  BadFile: cannot be written
 void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
   const Recording& recording, const Calibration& calibration, bool refined = false);

@@ -58,7 +58,7 @@ struct LargeStrain
 /// thickness with e = depth / contact radius and quadratics c, k of nu.
 ///
 /// Fitted to `palp calibrate`: within 3.3 % of neo-Hookean over linear elements for punch,
-/// paraboloid, cones of 45 to 80 degrees, blunt and truncated ones, and spheres, nu 0 to 0.49, e to
+/// paraboloid, cones of 45 to 80 degrees, blunt and truncated ones, and spheres, nu 0 to 0.5, e to
 /// 1.6, depth to half the thickness.
 ///
 /// @param depth          [m], more than 0

@@ -8,7 +8,8 @@ class vtkPolyData;
 namespace palp
 {
 
-/// The pressed surface with the triangles of its dent divided as in the picture, without a gap.
+/// The pressed surface with the triangles of its dent divided as in its second output, without a
+/// gap.
 ///
 /// The points of the surface come first, in their order; arrays Normals, Displacement and Zone.
 ///
