@@ -146,9 +146,10 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
 
 void PressRegion::spread(const ToolBody& body)
 {
-  for (std::size_t first = 0; first < queue_.size(); ++first) // the queue grows meanwhile
+  std::size_t first = 0; // the queue grows meanwhile
+  while (first < queue_.size())
   {
-    const auto from = static_cast<std::size_t>(queue_[first]);
+    const auto from = static_cast<std::size_t>(queue_[first++]);
     std::int32_t before = VertexRings::kEnd;
     bool isOpen = false; // what was before has no settled place
     for (const std::int32_t next : rings_.around(points_[from]))
