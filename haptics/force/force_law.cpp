@@ -227,16 +227,22 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const ContactGeometry& local) const
 LargeStrainGrid::Ratio ForceLaw::largeStrainByRadius(const ContactGeometry& local) const noexcept
 {
   constexpr double kStep = 1e-4; // [-] of the depth
+  constexpr double kFlatPoisson = 0.3;
   const auto at = [&](double depth)
   {
     ContactGeometry there = local;
     there.depth = depth;
     return largeStrainOf(depth, uncoated(there).radius, local.thickness, material_.poissonRatio);
   };
+  // elements under a flat punch follow its edge, more so the less the volume can change
+  const bool isFlat =
+    std::holds_alternative<PunchTip>(tip_) && material_.poissonRatio > kFlatPoisson;
   const double value = at(local.depth);
   return { .value = value,
     .slope = (at((1.0 + kStep) * local.depth) - value) / (kStep * local.depth),
-    .inside = local.depth <= kLargeStrainReach * uncoated(local).radius };
+    .inside = !isFlat &&
+      isLargeStrainKnown(
+        local.depth, uncoated(local).radius, local.thickness, material_.poissonRatio) };
 }
 
 Factors ForceLaw::factors(const ContactGeometry& local) const noexcept

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 
@@ -166,12 +165,11 @@ double largeStrainOf(double depth, double contactRadius, double thickness, doubl
     layer * std::min(depth / thickness, kMaxDepth);
 }
 
-double errorOfLinear(double depth, double contactRadius, double poisson) noexcept
+bool isLargeStrainKnown(
+  double depth, double contactRadius, double thickness, double poisson) noexcept
 {
-  constexpr double kScatter = 0.025; // [-] from tip to tip
-  constexpr double kHalfSpace = std::numeric_limits<double>::infinity();
-  return std::abs(largeStrainOf(depth, contactRadius, kHalfSpace, poisson) - 1.0) +
-    kScatter * depth / contactRadius;
+  const double nearlyKept = std::clamp((poisson - 0.3) / 0.15, 0.0, 1.0); // the volume
+  return depth <= 1.6 * contactRadius && depth <= (0.4 - 0.2 * nearlyKept) * thickness;
 }
 
 LargeStrainTable readLargeStrain(

@@ -58,8 +58,7 @@ struct LargeStrain
 /// thickness with e = depth / contact radius and quadratics c, k of nu.
 ///
 /// Fitted to `palp calibrate`: within 3.3 % of neo-Hookean over linear elements for punch,
-/// paraboloid, cones of 45 to 80 degrees, blunt and truncated ones, and spheres, nu 0 to 0.5, e to
-/// 1.6, depth to half the thickness.
+/// paraboloid, cones of 45 to 80 degrees, blunt and truncated ones, and spheres, nu 0 to 0.5.
 ///
 /// @param depth          [m], more than 0
 /// @param contactRadius  of the linear law [m]
@@ -68,13 +67,11 @@ struct LargeStrain
 [[nodiscard]] double largeStrainOf(
   double depth, double contactRadius, double thickness, double poisson) noexcept;
 
-/// depth / contact radius to which it was fitted [-].
-inline constexpr double kLargeStrainReach = 1.6;
-
-/// How far, at most, the linear law is from neo-Hookean elements on a half-space, under any tip
-/// [-].
+/// Whether it was fitted there: e to 1.6; depth to 0.4 of the thickness at nu to 0.3, to 0.2 from
+/// 0.45 on, where a thin layer that keeps its volume stiffens.
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] double errorOfLinear(double depth, double contactRadius, double poisson) noexcept;
+[[nodiscard]] bool isLargeStrainKnown(
+  double depth, double contactRadius, double thickness, double poisson) noexcept;
 
 using LargeStrainTable = std::shared_ptr<const LargeStrain>; ///< null: none, the ratio is 1
 

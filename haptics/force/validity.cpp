@@ -52,6 +52,17 @@ double membraneReach(const ForceLaw& law)
   return reach;
 }
 
+// how far, at most, a linear law is from neo-Hookean elements on a half-space
+double errorOfLinear(const ForceLaw& law, double depth, double contactRadius) noexcept
+{
+  constexpr double scatter = 0.025; // from tip to tip, over depth / contact radius
+  constexpr double ofFlat = 0.1;    // with how sharp its edge is
+  const double ratio = largeStrainOf(
+    depth, contactRadius, std::numeric_limits<double>::infinity(), law.material().poissonRatio);
+  return std::abs(ratio - 1.0) +
+    (std::holds_alternative<PunchTip>(law.tip()) ? ofFlat : scatter) * depth / contactRadius;
+}
+
 // of a coated body: thinner ones are answered as this [m]
 double thinnestBody(const ForceLaw& law)
 {
@@ -137,8 +148,7 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
   const double depth = std::max(0.0, local.depth);
   const LargeStrainGrid::Ratio ratio = best_.largeStrain(local);
   const double radius = response.contactRadius;
-  const double linear =
-    depth > 0.0 ? errorOfLinear(depth, radius, law_.material().poissonRatio) : 0.0;
+  const double linear = depth > 0.0 ? errorOfLinear(law_, depth, radius) : 0.0;
   const double ball = fractionOfBall(local.thickness, local.surfaceCurvature);
   const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
   const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;

@@ -36,6 +36,7 @@ struct Tool
   Tip tip;
   double nu;
   double deepest;
+  double height = 75.0_mm;
 };
 
 class LargeStrainBlock : public ::testing::TestWithParam<Tool>
@@ -51,7 +52,12 @@ INSTANTIATE_TEST_SUITE_P(Tools, LargeStrainBlock,
     Tool{ "SteepConeAtNu49", BluntConeTip{ 30.0_deg, 1.0_mm, 6.0_mm }, 0.49, 4.5_mm },
     Tool{ "BluntConeAtNu2", BluntConeTip{ 60.0_deg, 2.0_mm, 10.0_mm }, 0.2, 4.5_mm },
     Tool{ "TruncatedConeAtNu0", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm }, 0.0, 4.5_mm },
-    Tool{ "TruncatedConeAtNu49", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm }, 0.49, 4.5_mm }),
+    Tool{ "TruncatedConeAtNu49", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm }, 0.49, 4.5_mm },
+    Tool{ "PunchAtNu0", PunchTip{ 8.0_mm }, 0.0, 3.0_mm },
+    Tool{ "PunchOnALayer", PunchTip{ 4.0_mm }, 0.49, 3.0_mm, 12.0_mm },
+    Tool{ "WideConeOnALayer", BluntConeTip{ 70.0_deg, 0.3_mm, 12.0_mm }, 0.49, 3.0_mm, 12.0_mm },
+    Tool{ "ConeOnALayerAtNu45", BluntConeTip{ 60.0_deg, 0.3_mm, 9.0_mm }, 0.45, 4.5_mm, 10.0_mm },
+    Tool{ "ConeOnALayerAtNu3", BluntConeTip{ 60.0_deg, 0.3_mm, 9.0_mm }, 0.3, 4.5_mm, 10.0_mm }),
   [](const auto& tool) { return tool.param.name; });
 
 TEST_P(LargeStrainBlock, IsThatOfTheLawOrFlagged)
@@ -60,12 +66,12 @@ TEST_P(LargeStrainBlock, IsThatOfTheLawOrFlagged)
   const Case study{ .name = "strain",
     .width = 150.0_mm,
     .length = 150.0_mm,
-    .height = 75.0_mm,
-    .tip = tool.tip,
+    .height = tool.height,
+    .tip = withCap(tool.tip, 0.3_mm),
     .material = { 50.0_kPa, tool.nu },
     .depths = depthRange(tool.deepest / 3.0, tool.deepest, tool.deepest / 3.0) };
   const ForceLaw law(
-    study.tip, study.material, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
+    tool.tip, study.material, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
   const Validity validity(law);
   const auto steps = completed(study).steps;
   ASSERT_EQ(steps.size(), 3U);

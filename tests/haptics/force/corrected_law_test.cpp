@@ -170,9 +170,11 @@ TEST(CorrectedLaw, AppliesTheRatioOfLargeStrain)
   EXPECT_FALSE(sphere.largeStrain({ .depth = 25.0_mm }).inside);
   const ForceLaw cone(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, settings);
   EXPECT_NEAR(cone.largeStrain({ .depth = 5.0_mm, .thickness = 30.0_mm }).value, 1.05, 1e-12);
-  const ForceLaw punch(PunchTip{ 10.0_mm }, kLiver, settings);
-  EXPECT_TRUE(punch.largeStrain({ .depth = 5.0_mm }).inside);
-  EXPECT_FALSE(punch.largeStrain({ .depth = 16.1_mm }).inside);
+  const ForceLaw blunt(PunchTip{ 10.0_mm }, { 5.0_kPa, 0.2 }, settings);
+  EXPECT_TRUE(blunt.largeStrain({ .depth = 5.0_mm }).inside);
+  EXPECT_FALSE(blunt.largeStrain({ .depth = 16.1_mm }).inside);
+  EXPECT_FALSE(
+    ForceLaw(PunchTip{ 10.0_mm }, kLiver, settings).largeStrain({ .depth = 5.0_mm }).inside);
 }
 
 LargeStrainTable shippedRatios()
