@@ -226,23 +226,25 @@ LargeStrainGrid::Ratio ForceLaw::largeStrain(const ContactGeometry& local) const
 
 LargeStrainGrid::Ratio ForceLaw::largeStrainByRadius(const ContactGeometry& local) const noexcept
 {
-  constexpr double kStep = 1e-4; // [-] of the depth
+  constexpr double kStep = 1e-4;       // [-] of the depth
+  constexpr double kShallowest = 1e-9; // [m] so that no quotient loses its value
   constexpr double kFlatPoisson = 0.3;
-  const auto at = [&](double depth)
+  const double depth = std::max(local.depth, kShallowest);
+  const auto radiusAt = [&](double deep)
   {
     ContactGeometry there = local;
-    there.depth = depth;
-    return largeStrainOf(depth, uncoated(there).radius, local.thickness, material_.poissonRatio);
+    there.depth = deep;
+    return uncoated(there).radius;
   };
+  const double nu = material_.poissonRatio;
+  const auto at = [&](double deep)
+  { return largeStrainOf(deep, radiusAt(deep), local.thickness, nu); };
   // elements under a flat punch follow its edge, more so the less the volume can change
-  const bool isFlat =
-    std::holds_alternative<PunchTip>(tip_) && material_.poissonRatio > kFlatPoisson;
-  const double value = at(local.depth);
+  const bool isFlat = std::holds_alternative<PunchTip>(tip_) && nu > kFlatPoisson;
+  const double value = at(depth);
   return { .value = value,
-    .slope = (at((1.0 + kStep) * local.depth) - value) / (kStep * local.depth),
-    .inside = !isFlat &&
-      isLargeStrainKnown(
-        local.depth, uncoated(local).radius, local.thickness, material_.poissonRatio) };
+    .slope = (at((1.0 + kStep) * depth) - value) / (kStep * depth),
+    .inside = !isFlat && isLargeStrainKnown(depth, radiusAt(depth), local.thickness, nu) };
 }
 
 Factors ForceLaw::factors(const ContactGeometry& local) const noexcept
