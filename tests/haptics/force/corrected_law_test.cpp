@@ -183,25 +183,6 @@ LargeStrainTable shippedRatios()
   return readLargeStrain(folder + "large_strain_sphere.csv", folder + "large_strain_cone.csv");
 }
 
-TEST(CorrectedLaw, IsFiniteHoweverShallowTheContactIs)
-{
-  const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = shippedRatios() };
-  for (const Tip& tip : { Tip{ PunchTip{ 5.0_mm } }, Tip{ ConeTip{ 70.0_deg, 5.0_mm } },
-         Tip{ ParaboloidTip{ 5.0_mm } }, Tip{ BluntConeTip{ 30.0_deg, 1.0_mm, 5.0_mm } },
-         Tip{ TruncatedConeTip{ 30.0_deg, 1.0_mm, 5.0_mm } } })
-  {
-    const ForceLaw law(tip, kLiver, settings);
-    const Validity validity(law);
-    for (const double depth : { 5e-324, 1e-310, 1e-200, 1e-30, 1e-17, 1e-12, 1e-9, 1e-6 })
-    {
-      const Response response = law({ .depth = depth, .thickness = 50.0_mm });
-      EXPECT_TRUE(std::isfinite(response.force) && response.force >= 0.0) << depth;
-      EXPECT_TRUE(std::isfinite(response.stiffness) && response.stiffness >= 0.0) << depth;
-      EXPECT_EQ(brokenRules(validity({ .depth = depth })), 0U) << tip.index() << ' ' << depth;
-    }
-  }
-}
-
 // what the shipped tables say they cover, as `palp calibrate --tables` presses it
 TEST(CorrectedLaw, OutsideItsTablesLargeStrainIsFlaggedForAnyPoissonsRatio)
 {

@@ -1,6 +1,8 @@
 #include "haptics/force/large_strain.h"
 
 #include "haptics/error.h"
+#include "haptics/force/validity.h"
+#include "haptics/units.h"
 #include "tests/support/process.h"
 
 #include <cmath>
@@ -12,6 +14,8 @@ namespace palp
 {
 namespace
 {
+
+using namespace units::literals;
 
 // two thicknesses, two Poisson's ratios, depths up to the radius
 LargeStrainGrid grid()
@@ -127,6 +131,28 @@ TEST_F(LargeStrainFile, IsRefusedWhereANumberIsNotFinite)
   EXPECT_EQ(refusal("0,0,0.33,1\nnan,0,0.33,1\n"), ":3: not finite; give numbers");
   EXPECT_EQ(refusal("0,0,0.33,1\n1,0,inf,1\n"), ":3: not finite; give numbers");
   EXPECT_EQ(refusal("0,0,0.33,1\n1,0,0.33,nan\n"), ":3: not finite; give numbers");
+}
+
+TEST(LargeStrain, IsFiniteHoweverShallowTheContactIs)
+{
+  const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/";
+  const LawSettings settings{ .mode = LawMode::Corrected,
+    .largeStrain =
+      readLargeStrain(folder + "large_strain_sphere.csv", folder + "large_strain_cone.csv") };
+  for (const Tip& tip : { Tip{ PunchTip{ 5.0_mm } }, Tip{ ConeTip{ 70.0_deg, 5.0_mm } },
+         Tip{ ParaboloidTip{ 5.0_mm } }, Tip{ BluntConeTip{ 30.0_deg, 1.0_mm, 5.0_mm } },
+         Tip{ TruncatedConeTip{ 30.0_deg, 1.0_mm, 5.0_mm } } })
+  {
+    const ForceLaw law(tip, Material{ 5.0_kPa, 0.33 }, settings);
+    const Validity validity(law);
+    for (const double depth : { 5e-324, 1e-310, 1e-200, 1e-30, 1e-17, 1e-12, 1e-9, 1e-6 })
+    {
+      const Response response = law({ .depth = depth, .thickness = 50.0_mm });
+      EXPECT_TRUE(std::isfinite(response.force) && response.force >= 0.0) << depth;
+      EXPECT_TRUE(std::isfinite(response.stiffness) && response.stiffness >= 0.0) << depth;
+      EXPECT_EQ(brokenRules(validity({ .depth = depth })), 0U) << tip.index() << ' ' << depth;
+    }
+  }
 }
 
 } // namespace
