@@ -5,10 +5,12 @@
 #include "calibration/study/surface_fit.h"
 #include "calibration/tables/surface_table.h"
 #include "haptics/files/replace_file.h"
+#include "haptics/numerics/polynomial_fit.h"
 #include "haptics/units.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <span>
 #include <sstream>
@@ -105,6 +107,25 @@ void addSurfaces(std::ostream& out, const Outcome& large, double ratio, double p
   }
 }
 
+// The contact's radius scatters over the depth by some percent of an element, which a picture
+// would show as a shiver from depth to depth.
+void smoothContactRadii(std::vector<IndentationStep>& steps)
+{
+  constexpr int kDegree = 4;
+  std::vector<double> depths;
+  std::vector<double> radii;
+  for (const IndentationStep& step : steps)
+  {
+    depths.push_back(std::log(step.depth));
+    radii.push_back(std::log(step.contactRadius));
+  }
+  const PolynomialFit power = fitPolynomial(depths, radii, kDegree);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    steps[i].contactRadius = std::exp(power(depths[i]));
+  }
+}
+
 void makeExtentTables(
   const std::filesystem::path& folder, const std::stop_token& stop, const Tell& tell)
 {
@@ -128,7 +149,7 @@ void makeExtentTables(
     {
       study.depths.push_back(i * 0.5_mm);
     }
-    const Outcome outcome = calibrate(study, stop);
+    Outcome outcome = calibrate(study, stop);
     if (stop.stop_requested())
     {
       return; // the table that is there is better than half of a new one
@@ -142,6 +163,7 @@ void makeExtentTables(
       "# fitted surface: Bezier curve of degree 5 over 1/radius, "
       "calibration/tables/surface_profile.h\n"
       "depth_mm,inner_mm,outer_mm,sink_mm,slope,control_outer_mm,control_inner_mm\n");
+    smoothContactRadii(outcome.steps);
     for (const IndentationStep& step : outcome.steps)
     {
       const SurfaceProfile curve = fitSurface(step, study.tip);

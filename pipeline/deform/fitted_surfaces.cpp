@@ -5,6 +5,7 @@
 #include "haptics/units.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp
 {
@@ -105,8 +106,23 @@ SurfaceProfile FittedSurfaces::profileAt(double depth) const noexcept
     return between(
       below.profile, above->profile, (depth - below.depth) / (above->depth - below.depth));
   }
-  SurfaceProfile nothing{ .outer = above->profile.outer, .slope = above->profile.slope };
-  return between(nothing, above->profile, depth / above->depth);
+  return shallower(depth / above->depth);
+}
+
+// Below the first row the contact narrows by the power of the depth by which it does between the
+// first two, about 1/2 for a sphere and 1 for a cone; narrower, it would overtake a bent surface
+SurfaceProfile FittedSurfaces::shallower(double fraction) const noexcept
+{
+  const DepthProfile& first = rows_[0];
+  const DepthProfile& second = rows_[1];
+  const double power = std::clamp(std::log(second.profile.inner / first.profile.inner) /
+      std::log(second.depth / first.depth), 0.0, 1.0);
+  SurfaceProfile profile = first.profile;
+  profile.inner *= std::pow(fraction, power);
+  profile.sink *= fraction;
+  profile.slope *= std::pow(fraction, 1.0 - power);
+  profile.control = { fraction * profile.control[0], fraction * profile.control[1] };
+  return profile;
 }
 
 } // namespace palp

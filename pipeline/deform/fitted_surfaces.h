@@ -29,9 +29,10 @@ public:
   /// @throws Error  BadValue: fewer than two rows, other columns, or depths not increasing
   explicit FittedSurfaces(const std::vector<std::vector<double>>& rows);
 
-  /// Linear between the rows, in proportion to the depth below the first, nothing at 0. Beyond the
-  /// last row the contact stays as it was there, and everything sinks with the tool: by how much
-  /// follows the sink at the contact. What sinks by less than a hundredth of the depth is at rest.
+  /// Linear between the rows; below the first the sink is in proportion to the depth, and the
+  /// contact follows the power of it that leads to the second row. Beyond the last row the contact
+  /// stays as it was there, and everything sinks with the tool: by how much follows the sink at the
+  /// contact. What sinks by less than a hundredth of the depth is at rest.
   ///
   /// @param depth  delta [m]
   [[nodiscard]] std::optional<SurfaceProfile> at(double depth) const noexcept;
@@ -50,6 +51,7 @@ private:
   };
 
   [[nodiscard]] SurfaceProfile profileAt(double depth) const noexcept;
+  [[nodiscard]] SurfaceProfile shallower(double fraction) const noexcept;
 
   std::vector<DepthProfile> rows_;
 };

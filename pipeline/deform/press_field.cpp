@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace palp
 {
@@ -17,7 +16,6 @@ constexpr double kLedge = 0.1;             // [-] of the depth: a base that ends
 constexpr double kWithinBase = 1.0 - 1e-7; // [-]
 constexpr double kRim = 1.0 - 1e-6;        // [-] of the base: as far as contact goes
 constexpr double kSlopeStep = 1e-3;        // [-] of the contact radius
-constexpr double kCornerStep = 0.05;       // [-] a corner turns the tangent within a while
 constexpr double kFitReach = 1.5;          // [-] of the contact radius
 constexpr double kFilledPit = 0.1;         // [-] of the contact radius: pressed onto the tool
 constexpr double kOpenPit = 0.4;           // [-] of the contact radius: not reached by the tool
@@ -136,16 +134,22 @@ RingCurve PressField::curveAlong(
   const double ledge = ledgeOf(atExit);
   const double flat = body.flat() < exit ? endBefore(body.flat(), ledgeOf(gap(body.flat()))) : 0.0;
   const double contact = std::min(region.inner(), std::max(flat, endBefore(exit, ledge)));
-  const double step = (body.hasCorners() ? kCornerStep : kSlopeStep) * contact;
   const double height = gap(contact);
-  const double before = height - gap(contact - step);
-  const double after = gap(contact + step) - height;
-  // at the rim the flank goes on
-  double slope = (std::isfinite(after) ? 0.5 * (before + after) : before) / step;
-  if (body.hasFlatBase())
+  const double step = kSlopeStep * contact;
+  double slope = 0.0;
+  if (body.hasCorners() || body.hasFlatBase())
   {
-    // however tilted, it ends in its shaft
-    slope = std::tan(std::lerp(std::atan(slope), 0.5 * std::numbers::pi, ledge));
+    // to where it leaves the surface, which goes outwards with the depth: a tangent that turns at a
+    // corner would draw back. A flat base leaves it in its shaft.
+    const double from = std::min(contact, exit - step);
+    slope = ((body.hasFlatBase() ? 0.0 : atExit) - gap(from)) / (exit - from);
+  }
+  else
+  {
+    const double before = height - gap(contact - step);
+    const double after = gap(contact + step) - height;
+    // at the rim the flank goes on
+    slope = (std::isfinite(after) ? 0.5 * (before + after) : before) / step;
   }
   if (slope > 0.0)
   {

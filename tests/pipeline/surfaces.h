@@ -78,14 +78,19 @@ inline DentedSurface plane(int n, double width)
 }
 
 /// An ellipsoid of given half axes, of 20 x 4^splits triangles.
-inline DentedSurface ellipsoid(int splits, const Eigen::Vector3d& axes)
+inline Mesh makeEllipsoid(int splits, const Eigen::Vector3d& axes)
 {
   Mesh mesh = makeSphere(1.0, splits);
   for (Eigen::Vector3d& point : mesh.points)
   {
     point = point.cwiseProduct(axes);
   }
-  return dented(mesh);
+  return mesh;
+}
+
+inline DentedSurface ellipsoid(int splits, const Eigen::Vector3d& axes)
+{
+  return dented(makeEllipsoid(splits, axes));
 }
 
 /// A tool pressed along a normal at a point of the surface, its axis turned by an angle.

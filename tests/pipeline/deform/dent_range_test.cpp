@@ -83,13 +83,12 @@ void expectSound(const Findings& findings)
   EXPECT_LE(findings.wall.value, 1.3) << findings.wall.where;
 }
 
-// From 0.02 to 2 base radii.
-// step:  of the depth [-] of the base radius
-void pressDeeper(const RangeCase& with, double step)
+// first, last, step:  of the depth [-] of the base radius
+void pressDeeper(const RangeCase& with, double first, double last, double step)
 {
   Presser presser(bodyOf(with.body), with.tip.tip, with.law, with.surface);
   Findings findings;
-  for (double fraction = 0.02; fraction < 2.0 + 0.5 * step; fraction += step)
+  for (double fraction = first; fraction < last + 0.5 * step; fraction += step)
   {
     presser.press(fraction * baseRadius(with.tip.tip), 0.0, findings);
   }
@@ -113,11 +112,11 @@ void slide(const RangeCase& with, int steps)
 
 #ifdef PALP_SLOW // every tool, body, law and picture
 const auto kCases =
-  rangeCases({ "block", "ball", "liver", "coarse" }, { "paper", "exact", "corrected" });
+  rangeCases({ "block", "ball", "ridge", "liver", "coarse" }, { "paper", "exact", "corrected" });
 constexpr double kStep = 0.01;
 constexpr int kSlides = 200;
 #else
-const auto kCases = rangeCases({ "block", "ball" }, { "paper" });
+const auto kCases = rangeCases({ "block", "ball", "ridge" }, { "paper" });
 constexpr double kStep = 0.03;
 constexpr int kSlides = 10;
 #endif
@@ -130,7 +129,13 @@ INSTANTIATE_TEST_SUITE_P(Dent, DentRange, ::testing::ValuesIn(kCases),
 
 TEST_P(DentRange, PressingDeeper)
 {
-  pressDeeper(GetParam(), kStep);
+  pressDeeper(GetParam(), 0.02, 2.0, kStep);
+}
+
+// up to where a table begins
+TEST_P(DentRange, FirstTouch)
+{
+  pressDeeper(GetParam(), 0.002, 0.06, 0.002);
 }
 
 TEST_P(DentRange, Sliding)

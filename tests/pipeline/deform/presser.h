@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -55,6 +56,11 @@ inline PressedBody madeBody(const std::string& name)
     // where data/paths/liver_press.csv begins
     return pressedBody(name, { pointsOf(*read), trianglesOf(*read) },
       { -45.57_mm, -47.3_mm, 5.2_mm }, { -0.132335, -0.986613, 0.095300 });
+  }
+  if (name == "ridge") // bent as much as the tools one way, hardly the other
+  {
+    return pressedBody(name, makeEllipsoid(5, { 120.0_mm, 24.0_mm, 30.0_mm }),
+      { 3.0_mm, 0.0, 29.990623_mm }, { 0, 0, 1 });
   }
   const Eigen::Vector3d outward = Eigen::Vector3d(0.3, 0.2, 1.0).normalized();
   return pressedBody(
@@ -238,12 +244,14 @@ private:
     {
       return; // a shaft cuts, or the mesh is too coarse to know the surface
     }
-    const double steepest = std::max(1.0, tipSlope(law_.tip(), inner)) + std::tan(now.contact.tilt);
+    const double leaving = std::min(inner / 0.9, 0.999 * base_); // the tool the surface
+    const double steepest =
+      std::max(1.0, tipSlope(law_.tip(), leaving)) + std::tan(now.contact.tilt);
     const double h = base_ / 400.0;
     for (const double turns : { 0.1, 0.9, 2.3, 3.4 })
     {
       const Eigen::Vector2d to = directionOf(turns);
-      std::optional<double> before;
+      std::optional<std::array<double, 2>> before; // height, drawn height
       for (double r = h; r < region.outer() + 5.0 * h; r += h)
       {
         const double height = dent.field().surface().height(r * to.x(), r * to.y());
@@ -254,10 +262,11 @@ private:
         const double drawn = height - sink;
         if (before && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
         {
-          findings.wall.see(
-            std::abs(drawn - *before) / h / steepest, where + ", r " + std::to_string(r / 1.0_mm));
+          const double own = std::abs(height - (*before)[0]) / h;
+          findings.wall.see(std::abs(drawn - (*before)[1]) / h / (steepest + own),
+            where + ", r " + std::to_string(r / 1.0_mm));
         }
-        before = drawn;
+        before = { height, drawn };
       }
     }
   }
