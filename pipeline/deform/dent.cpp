@@ -118,7 +118,8 @@ PressField::Sink Dent::sinkAt(
   PressField::Sink sink = field_.sinkAt(geodesic, rest, *body_);
   if (geodesic.isBetween())
   {
-    const PressField::Sink front = field_.sinkAt(region_.geodesicInFront(rest), rest, *body_);
+    const PressField::Sink front =
+      field_.sinkAt(region_.geodesicInFront(rest, geodesic.steepness), rest, *body_);
     sink.depth += geodesic.facing * (front.depth - sink.depth);
   }
   sink.depth += geodesic.extra;

@@ -115,8 +115,9 @@ SurfaceProfile FittedSurfaces::shallower(double fraction) const noexcept
 {
   const DepthProfile& first = rows_[0];
   const DepthProfile& second = rows_[1];
-  const double power = std::clamp(std::log(second.profile.inner / first.profile.inner) /
-      std::log(second.depth / first.depth), 0.0, 1.0);
+  const double power = std::clamp(
+    std::log(second.profile.inner / first.profile.inner) / std::log(second.depth / first.depth),
+    0.0, 1.0);
   SurfaceProfile profile = first.profile;
   profile.inner *= std::pow(fraction, power);
   profile.sink *= fraction;

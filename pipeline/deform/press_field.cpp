@@ -15,10 +15,13 @@ constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool l
 constexpr double kLedge = 0.1;             // [-] of the depth: a base that ends below the surface
 constexpr double kWithinBase = 1.0 - 1e-7; // [-]
 constexpr double kRim = 1.0 - 1e-6;        // [-] of the base: as far as contact goes
+constexpr double kLeast = 1e-4;            // [-] of the radius: width of the ring's first piece
 constexpr double kSlopeStep = 1e-3;        // [-] of the contact radius
-constexpr double kFitReach = 1.5;          // [-] of the contact radius
-constexpr double kFilledPit = 0.1;         // [-] of the contact radius: pressed onto the tool
-constexpr double kOpenPit = 0.4;           // [-] of the contact radius: not reached by the tool
+constexpr double kDeepest = 0.99;          // [-] of the depth: sink where a contact ends
+constexpr int kHalvings = 30;
+constexpr double kFitReach = 1.5;  // [-] of the contact radius
+constexpr double kFilledPit = 0.1; // [-] of the contact radius: pressed onto the tool
+constexpr double kOpenPit = 0.4;   // [-] of the contact radius: not reached by the tool
 
 // 0 to 1 between 0 and 1, level at both ends
 double smoothStep(double t) noexcept
@@ -133,19 +136,27 @@ RingCurve PressField::curveAlong(
   { return radius * std::lerp(kStillOnTool, 1.0, ledge); };
   const double ledge = ledgeOf(atExit);
   const double flat = body.flat() < exit ? endBefore(body.flat(), ledgeOf(gap(body.flat()))) : 0.0;
-  const double contact = std::min(region.inner(), std::max(flat, endBefore(exit, ledge)));
+  double end = endBefore(exit, ledge);
+  if (fittedCurve_ && !body.hasFlatBase())
+  {
+    // as deep as on a plane, like the contact of two spheres, however the surface is bent
+    const double sink = atCenter * std::min(kDeepest, fittedCurve_->sink / deepest_);
+    const auto isDeeper = [&](double radius) { return gap(radius) < sink; };
+    end = std::min(end, bisect(isDeeper, { 0.0, exit }, kHalvings).high);
+  }
+  const double contact = std::min(region.inner(), std::max(flat, end));
   const double height = gap(contact);
-  const double step = kSlopeStep * contact;
   double slope = 0.0;
   if (body.hasCorners() || body.hasFlatBase())
   {
     // to where it leaves the surface, which goes outwards with the depth: a tangent that turns at a
     // corner would draw back. A flat base leaves it in its shaft.
-    const double from = std::min(contact, exit - step);
+    const double from = std::min(contact, (1.0 - kLeast) * exit);
     slope = ((body.hasFlatBase() ? 0.0 : atExit) - gap(from)) / (exit - from);
   }
   else
   {
+    const double step = kSlopeStep * contact;
     const double before = height - gap(contact - step);
     const double after = gap(contact + step) - height;
     // at the rim the flank goes on

@@ -9,20 +9,23 @@ namespace palp
 namespace
 {
 
-constexpr double kFront = 0.5;     // [-] cosine to the contact normal: steeper surface is unrolled
-constexpr double kSharp = 0.966;   // [-] cosine of 15 degrees, half of what kFront leaves to a side
+constexpr double kFront = 0.5;   // [-] cosine to the contact normal: steeper surface is unrolled
+constexpr double kSteep = 0.75;  // [-] cosine from which on a way is as long as in space
+constexpr double kGentle = 0.91; // [-] cosine of 15 degrees less: no point is steep but a sharp one
+constexpr double kSharp = 0.966; // [-] cosine of 15 degrees, half of what kFront leaves to a side
 constexpr double kShorter = 0.999; // [-] of the distance: ends the search for still shorter ways
 constexpr double kTurn = 10.0;     // [-] inner radii to the one where lengths are true, inverted
 constexpr double kTiny = 1e-12;    // [m]
 
 // of a triangle by two of its edges in the frame of the contact; scalars, for a vector would go
 // through memory
-inline bool facesTool(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept
+inline bool facesTool(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, double cosine = kFront) noexcept
 {
   const double x = a.y() * b.z() - a.z() * b.y();
   const double y = a.z() * b.x() - a.x() * b.z();
   const double z = a.x() * b.y() - a.y() * b.x();
-  return z > 0.0 && z * z > kFront * kFront * (x * x + y * y + z * z);
+  return z > 0.0 && z * z > cosine * cosine * (x * x + y * y + z * z);
 }
 
 } // namespace
@@ -130,7 +133,7 @@ void PressRegion::grow(const Contact& contact, const ToolBody& body, double inne
   }
   seed_ = seed;
   queue_.clear();
-  settle(seed, toLocal(rest(seed)), body);
+  settle(seed, toLocal(rest(seed)), body, false);
   if (!geodesics_.front().within)
   {
     // a tool between the points of a coarse mesh: a finer patch can still show its dent
@@ -177,8 +180,9 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
     const Eigen::Vector3d atB = toLocal(rest(b));
     if (facesTool(atA - p, atB - p))
     {
-      settle(a, atA, body);
-      settle(b, atB, body);
+      const bool isGentle = facesTool(atA - p, atB - p, kGentle);
+      settle(a, atA, body, isGentle);
+      settle(b, atB, body, isGentle);
       return;
     }
   }
@@ -189,7 +193,7 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
 
 // takes a point that faces the tool; inlined, for most of the time of growing is spent here
 [[gnu::always_inline]] inline void PressRegion::settle(
-  std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body)
+  std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body, bool isGentle)
 {
   if (isSettled(point))
   {
@@ -197,11 +201,13 @@ void PressRegion::expand(std::size_t from, std::int32_t a, std::int32_t b, const
   }
   const std::size_t index = indexOf(point);
   slot_[static_cast<std::size_t>(point)] |= kSettledBit;
-  hasSides_ = hasSides_ || (slot_[static_cast<std::size_t>(point)] & kSharpBit) != 0;
+  const bool isSharp = (slot_[static_cast<std::size_t>(point)] & kSharpBit) != 0;
+  hasSides_ = hasSides_ || isSharp;
   GeodesicCoordinates& geodesic = geodesics_[index];
   geodesic.local = local;
   geodesic.turns = diamondAngle(local.x(), local.y());
-  geodesic.distance = distanceInFront(local);
+  geodesic.steepness = isGentle && !isSharp ? 0.0F : steepnessAt(point);
+  geodesic.distance = distanceInFront(local, geodesic.steepness);
   geodesic.facing = 1.0F;
   geodesic.within = geodesic.distance < outer_ || body.contains(rest(point));
   if (geodesic.within || isNear(point, body))
@@ -246,7 +252,16 @@ void PressRegion::meetAround(
   return static_cast<std::size_t>(slot >> kBits);
 }
 
-inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const noexcept
+// what turns away is unrolled: the way to it must not grow at once
+[[gnu::noinline]] float PressRegion::steepnessAt(std::int32_t point) const noexcept
+{
+  const double facing = normal().dot(areaAround(point).normalized());
+  const double t = std::clamp((kSteep - facing) / (kSteep - kFront), 0.0, 1.0);
+  return static_cast<float>(t * t * (3.0 - 2.0 * t));
+}
+
+inline double PressRegion::distanceInFront(
+  const Eigen::Vector3d& local, double steepness) const noexcept
 {
   const double square = local.head<2>().squaredNorm();
   const double seen = std::sqrt(square);
@@ -257,31 +272,35 @@ inline double PressRegion::distanceInFront(const Eigen::Vector3d& local) const n
   const double straight = std::sqrt(square + local.z() * local.z());
   const double t = std::min(1.0, (straight - inner_) * perWidth_);
   const double s = std::min(1.0, perTurn_ * (seen - inner_));
-  return seen + t * t * s * (straight - seen);
+  return seen + std::lerp(t * t, 1.0, steepness) * s * (straight - seen);
 }
 
-GeodesicCoordinates PressRegion::geodesicInFront(const Eigen::Vector3d& point) const noexcept
+GeodesicCoordinates PressRegion::geodesicInFront(
+  const Eigen::Vector3d& point, float steepness) const noexcept
 {
   const Eigen::Vector3d local = toLocal(point);
   return { .local = local,
-    .distance = distanceInFront(local),
+    .distance = distanceInFront(local, steepness),
     .turns = diamondAngle(local.x(), local.y()),
     .facing = 1.0F,
+    .steepness = steepness,
     .within = false };
 }
 
 GeodesicCoordinates PressRegion::geodesicBetween(const GeodesicCoordinates& a,
   const GeodesicCoordinates& b, double fraction, const Eigen::Vector3d& point) const noexcept
 {
-  GeodesicCoordinates geodesic = geodesicInFront(point);
+  const auto t = static_cast<float>(fraction);
+  GeodesicCoordinates geodesic =
+    geodesicInFront(point, a.steepness + t * (b.steepness - a.steepness));
   if (!a.isFront() || !b.isFront())
   {
     const Eigen::Vector2d log = a.logMap() + fraction * (b.logMap() - a.logMap());
     geodesic.turns = diamondAngle(log.x(), log.y());
     geodesic.distance = a.distance + fraction * (b.distance - a.distance);
-    geodesic.facing = a.facing + static_cast<float>(fraction) * (b.facing - a.facing);
+    geodesic.facing = a.facing + t * (b.facing - a.facing);
   }
-  geodesic.extra = a.extra + static_cast<float>(fraction) * (b.extra - a.extra);
+  geodesic.extra = a.extra + t * (b.extra - a.extra);
   return geodesic;
 }
 
@@ -321,6 +340,7 @@ GeodesicCoordinates PressRegion::geodesicAround(
     .distance = std::max(distance, local.norm()),
     .turns = turns,
     .facing = 0.0F,
+    .steepness = 1.0F,
     .within = false };
 }
 

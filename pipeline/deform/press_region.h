@@ -38,6 +38,7 @@ struct GeodesicCoordinates
   float turns;           ///< direction in which it leaves the contact, see diamondAngle()
   float facing;          ///< 1 where the surface faces the tool all along it, 0 where it does
                          ///< not, between on an edge from the one to the other
+  float steepness;       ///< 0 where the surface lies across the normal, to 1 where it turns away
   float extra = 0.0F;    ///< sinks further than the field by this, so that no side turns over [m]
   bool within;           ///< within the dent; else next to it
 
@@ -61,8 +62,9 @@ struct GeodesicCoordinates
 ///
 /// Where the surface faces the tool, a geodesic is the straight line to the point: as seen along
 /// the normal at the contact circle, as r is, and as long as the distance in space at the outer
-/// circle. Where it turns away, geodesics go on along the triangles, laid flat one by one; the far
-/// side of a thin lobe is therefore as far as the path around its edge.
+/// circle and where the surface is about to turn away. Where it has turned away, geodesics go on
+/// along the triangles, laid flat one by one; the far side of a thin lobe is therefore as far as
+/// the path around its edge.
 class PressRegion
 {
 public:
@@ -131,7 +133,8 @@ public:
     const GeodesicCoordinates& a, const GeodesicCoordinates& b) const noexcept;
 
   /// Of a point that faces the tool.
-  [[nodiscard]] GeodesicCoordinates geodesicInFront(const Eigen::Vector3d& point) const noexcept;
+  [[nodiscard]] GeodesicCoordinates geodesicInFront(
+    const Eigen::Vector3d& point, float steepness = 0.0F) const noexcept;
 
   /// Of a point on the edge between two others, at a fraction of the way from a to b.
   [[nodiscard]] GeodesicCoordinates geodesicBetween(const GeodesicCoordinates& a,
@@ -209,9 +212,12 @@ private:
   [[nodiscard]] bool reachAcrossEdges();
   void expand(std::size_t from, std::int32_t a, std::int32_t b, const ToolBody& body);
   [[nodiscard]] std::size_t indexOf(std::int32_t point);
-  void settle(std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body);
+  void settle(
+    std::int32_t point, const Eigen::Vector3d& local, const ToolBody& body, bool isGentle);
   void meetAround(std::int32_t point, std::int32_t from, std::int32_t beside, const ToolBody& body);
-  [[nodiscard]] double distanceInFront(const Eigen::Vector3d& local) const noexcept;
+  [[nodiscard]] float steepnessAt(std::int32_t point) const noexcept;
+  [[nodiscard]] double distanceInFront(
+    const Eigen::Vector3d& local, double steepness) const noexcept;
   [[nodiscard]] GeodesicCoordinates geodesicAround(
     std::int32_t from, std::int32_t beside, std::int32_t point) const noexcept;
 
