@@ -12,7 +12,6 @@ namespace
 {
 
 constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool leaves the surface
-constexpr double kLedge = 0.1;             // [-] of the depth: a base that ends below the surface
 constexpr double kWithinBase = 1.0 - 1e-7; // [-]
 constexpr double kRim = 1.0 - 1e-6;        // [-] of the base: as far as contact goes
 constexpr double kLeast = 1e-4;            // [-] of the radius: width of the ring's first piece
@@ -129,14 +128,17 @@ RingCurve PressField::curveAlong(
     exit = rootBefore(exit, atCenter, atExit, gap);
     atExit = gap(exit);
   }
-  // contact ends before the tool leaves the surface at an angle, but at the rim of a base, and not
-  // within a flat whose edge is below the surface
-  const auto ledgeOf = [&](double height) { return smoothStep(height / (kLedge * atCenter)); };
-  const auto endBefore = [](double radius, double ledge)
-  { return radius * std::lerp(kStillOnTool, 1.0, ledge); };
-  const double ledge = ledgeOf(atExit);
-  const double flat = body.flat() < exit ? endBefore(body.flat(), ledgeOf(gap(body.flat()))) : 0.0;
-  double end = endBefore(exit, ledge);
+  // contact ends before the tool leaves the surface at an angle. An edge below the surface is
+  // reached by and by: as if the tool went on as it rises to there, for no place may come up again
+  const auto endBefore = [&](double edge)
+  {
+    const double height = gap(edge);
+    const double rise = height - gap(kStillOnTool * edge);
+    const double further = -height * (1.0 - kStillOnTool) / rise; // [-] of the edge
+    return rise > 0.0 ? std::min(1.0, kStillOnTool * (1.0 + further)) * edge : edge;
+  };
+  const double flat = body.flat() < exit ? endBefore(body.flat()) : 0.0;
+  double end = endBefore(exit);
   if (fittedCurve_ && !body.hasFlatBase())
   {
     // as deep as on a plane, like the contact of two spheres, however the surface is bent
