@@ -3,6 +3,7 @@
 #include "haptics/contact/paper_contact.h"
 #include "haptics/contact/patch.h"
 #include "haptics/surface/closest_point.h"
+#include "haptics/tip/profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,10 @@ double noseRadius(const Tip& tip) noexcept
   if (const auto* paraboloid = std::get_if<ParaboloidTip>(&tip))
   {
     return paraboloid->radius;
+  }
+  if (const auto* profile = std::get_if<ProfileTip>(&tip))
+  {
+    return profile->profile->noseRadius();
   }
   return 0.0;
 }

@@ -197,6 +197,14 @@ double Profile::slope(double radius) const noexcept
   return std::max(0.0, pieceAt(r).slope(r));
 }
 
+double Profile::noseRadius() const noexcept
+{
+  constexpr double kPointed = 0.1; // [-] of the slope at a quarter
+  const double quarter = 0.25 * baseRadius();
+  return flatRadius() > 0.0 || slope(0.0) > kPointed * slope(quarter) ? 0.0
+                                                                      : quarter / slope(quarter);
+}
+
 double Profile::flatRadius() const noexcept
 {
   double radius = 0.0;

@@ -53,6 +53,10 @@ public:
   /// Radius of the flat at the apex [m]; 0 where there is none.
   [[nodiscard]] double flatRadius() const noexcept;
 
+  /// Radius of the ball that stands for the round end of a profile [m]: r / f'(r) at a quarter of
+  /// the base; 0 where it is pointed or flat.
+  [[nodiscard]] double noseRadius() const noexcept;
+
   /// Depth at which the circle of contact on a half-space has this radius.
   ///
   /// @param radius  a [m], 0 to baseRadius()

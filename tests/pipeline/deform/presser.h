@@ -50,6 +50,11 @@ inline PressedBody madeBody(const std::string& name)
     return pressedBody(
       name, makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.0_mm), { 0.3_mm, 0.2_mm, 0.0 }, { 0, 0, 1 });
   }
+  if (name == "oblique")
+  {
+    return pressedBody(name, makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.0_mm),
+      { 0.3_mm, 0.2_mm, 0.0 }, { 0.3, 0.2, 1.0 });
+  }
   if (name == "liver")
   {
     const auto read = readSurface(PALP_SHARE "/meshes/liver.vtp").mesh;
@@ -199,19 +204,20 @@ private:
     const Eigen::Vector3d went = b.center - a.center;
     const double aside =
       (went - went.dot(b.normal) * b.normal).norm() + fromAxis(last_->pose, now.pose.apex);
+    const double flank = b.tilt > kUpright ? std::max(kSteepest, steepest(now)) : kSteepest;
     for (std::size_t i = 0; i < sinks.size(); ++i)
     {
       const Eigen::Vector3d rest = DentedSurface::at(body_.surface.rest, i);
       const double change = sinks[i] - sinks_[i];
       const double lever = turn * std::min((rest - b.center).norm(), 3.0 * base_);
-      const double motion = 1.5 * std::abs(deeper) + kSteepest * aside + kSteepest * lever;
+      const double motion = 1.5 * std::abs(deeper) + flank * (aside + lever);
       const std::string here =
         where + ", " + std::to_string((rest - b.center).norm() / 1.0_mm) + " mm away";
       const bool isContact = body_.surface.zone[i] == 2 || zones_[i] == 2;
       const bool isPassed = isShaft(now, rest, aside);
       if (deeper > 0.0 && !isContact && !(isPassed && aside > 0.1 * deeper))
       {
-        findings.rise.see(-change - kSteepest * (aside + lever), here);
+        findings.rise.see(-change - flank * (aside + lever), here);
       }
       if (!isPassed)
       {
@@ -229,6 +235,15 @@ private:
       beside < 1.0_mm + aside + blurred;
   }
 
+  // slope of the tool over the surface where it leaves it [-], 1 at least
+  [[nodiscard]] double steepest(const Press& now) const
+  {
+    const double inner = now.fitted ? now.fitted->inner : now.contactRadius;
+    const double leaving = std::min(inner / 0.9, 0.999 * base_);
+    const double slope = std::atan(std::max(1.0, tipSlope(law_.tip(), leaving)));
+    return std::tan(std::min(slope + now.contact.tilt, 89.0_deg));
+  }
+
   void lookForWalls(const Press& now, Findings& findings, const std::string& where) const
   {
     const Dent& dent = body_.surface.dent;
@@ -244,9 +259,6 @@ private:
     {
       return; // a shaft cuts, or the mesh is too coarse to know the surface
     }
-    const double leaving = std::min(inner / 0.9, 0.999 * base_); // the tool the surface
-    const double steepest =
-      std::max(1.0, tipSlope(law_.tip(), leaving)) + std::tan(now.contact.tilt);
     const double h = base_ / 400.0;
     for (const double turns : { 0.1, 0.9, 2.3, 3.4 })
     {
@@ -257,13 +269,16 @@ private:
         const double height = dent.field().surface().height(r * to.x(), r * to.y());
         const Eigen::Vector3d point = region.toSurface({ r * to.x(), r * to.y(), height });
         const GeodesicCoordinates position = region.geodesicInFront(point);
-        const double sink =
-          position.distance < region.outer() ? dent.sinkAt(position, point).depth : 0.0;
+        const double sink = dent.sinkAt(position, point).depth;
         const double drawn = height - sink;
-        if (before && std::abs(fromAxis(now.pose, point) - base_) > 0.03 * base_)
+        const double atRest = fromAxis(now.pose, point) - base_;
+        const double sunk = fromAxis(now.pose, point - sink * region.normal()) - base_;
+        const bool isByShaft = std::min(atRest, sunk) < 0.03 * base_ &&
+          std::max(atRest, sunk) > -0.03 * base_; // on its way
+        if (before && !isByShaft)
         {
           const double own = std::abs(height - (*before)[0]) / h;
-          findings.wall.see(std::abs(drawn - (*before)[1]) / h / (steepest + own),
+          findings.wall.see(std::abs(drawn - (*before)[1]) / h / (steepest(now) + own),
             where + ", r " + std::to_string(r / 1.0_mm));
         }
         before = { height, drawn };
@@ -272,6 +287,7 @@ private:
   }
 
   static constexpr double kSteepest = 5.0; // [-] of a sphere of 2 R depth: 3.9
+  static constexpr double kUpright = 0.1;  // [rad]
 
   PressedBody& body_;
   ForceLaw law_;
