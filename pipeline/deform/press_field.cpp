@@ -54,6 +54,17 @@ public:
   {
   }
 
+  // radius up to which the tool over the surface is as near to its axis as this, the end at most
+  [[nodiscard]] double edgeOf(double fromAxis, double end) const noexcept
+  {
+    const auto isWithin = [&](double radius)
+    {
+      const Eigen::Vector3d foot = center_ + radius * outwards_;
+      return body_.fromAxis(foot + body_.lowest(foot, normal_) * normal_) < fromAxis;
+    };
+    return bisect(isWithin, { 0.0, end }, kHalvings).low;
+  }
+
   // infinite where a tool whose tip is below the center has its shaft, which leans over the
   // surface by next to nothing
   double operator()(double radius) const noexcept
@@ -137,7 +148,8 @@ RingCurve PressField::curveAlong(
     const double further = -height * (1.0 - kStillOnTool) / rise; // [-] of the edge
     return rise > 0.0 ? std::min(1.0, kStillOnTool * (1.0 + further)) * edge : edge;
   };
-  const double flat = body.flat() < exit ? endBefore(body.flat()) : 0.0;
+  const bool isCut = body.flat() > 0.0 && !body.hasFlatBase();
+  const double flat = isCut ? endBefore(gap.edgeOf(body.flat(), exit)) : 0.0;
   double end = endBefore(exit);
   if (fittedCurve_ && !body.hasFlatBase())
   {

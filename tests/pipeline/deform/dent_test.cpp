@@ -100,6 +100,38 @@ TEST(Dent, FollowsAFittedSurfaceOnAPlane)
   EXPECT_LE(deepestInside(surface, press), kInside);
 }
 
+// straight down with a flat end askew, whose edges go in one after the other
+TEST(Dent, ComesUpNowhereAsATiltedFlatSinks)
+{
+  for (const Tip& tip :
+    { Tip(TruncatedConeTip{ 40.0_deg, 2.0_mm, 9.0_mm }), Tip(PunchTip{ 3.0_mm }) })
+  {
+    for (double tilt = 4.0_deg; tilt < 25.0_deg; tilt += 4.0_deg)
+    {
+      DentedSurface surface = test::plane(60, 0.5_mm);
+      std::vector<float> before = surface.displacement;
+      std::vector<unsigned char> zones = surface.zone;
+      for (double depth = 0.1_mm; depth < 3.0_mm; depth += 0.02_mm)
+      {
+        Press press = test::pressAt(Eigen::Vector3d::Zero(), kUp, tip, depth, 8.0_mm);
+        press.contact.tilt = tilt;
+        press.pose.apex.z() += flatRadius(tip) * std::sin(tilt); // the lowest edge is at the depth
+        press.pose.axis = { std::sin(tilt), 0.0, -std::cos(tilt) };
+        surface.press(press);
+        for (std::size_t i = 0; i < surface.count(); ++i)
+        {
+          const double change =
+            DentedSurface::at(before, i).z() - DentedSurface::at(surface.displacement, i).z();
+          ASSERT_TRUE(change > -1.0_um || surface.zone[i] == 2 || zones[i] == 2)
+            << depth << " at " << DentedSurface::at(surface.rest, i).transpose() << ": " << change;
+        }
+        before = surface.displacement;
+        zones = surface.zone;
+      }
+    }
+  }
+}
+
 TEST(Dent, IsTheExactRestStateAgainOnRelease)
 {
   DentedSurface surface = test::ellipsoid(5, { 50.0_mm, 40.0_mm, 30.0_mm });
