@@ -4,8 +4,12 @@
 #include "tests/app/session/pressed_bodies.h"
 #include "tests/support/surfaces.h"
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <random>
 #include <string>
@@ -103,6 +107,97 @@ void play(test::PointerBench& bench, double rate, unsigned seed, double duration
   }
 }
 
+// One line of a recorded minute of a person at a mouse.
+struct MouseEvent
+{
+  double time; // [s]
+  std::string what;
+  Eigen::Vector2d at; // [pixels], from the bottom left
+};
+
+std::vector<MouseEvent> recorded(const std::string& user)
+{
+  std::ifstream in(std::string(PALP_SOURCE_DIR) + "/data/reference/mouse_" + user + ".csv");
+  std::vector<MouseEvent> events;
+  for (std::string line; std::getline(in, line);)
+  {
+    double x = 0.0;
+    double y = 0.0;
+    double time = 0.0;
+    std::array<char, 16> button{};
+    std::array<char, 16> state{};
+    if (std::sscanf(line.c_str(), "%lf,%15[^,],%15[^,],%lf,%lf", &time, button.data(), state.data(),
+          &x, &y) == 5)
+    {
+      events.push_back({ time, std::string(button.data()) + ' ' + state.data(), { x, -y } });
+    }
+  }
+  return events;
+}
+
+// the recorded minute over the middle of the view, so many times as fast
+void replay(test::PointerBench& bench, const std::vector<MouseEvent>& events, double speed)
+{
+  Eigen::AlignedBox2d box;
+  for (const MouseEvent& event : events)
+  {
+    box.extend(event.at);
+  }
+  const double scale = 600.0 / box.sizes().maxCoeff();
+  int down = 0; // y of the button
+  for (const auto& [time, what, at] : events)
+  {
+    bench.runTo(time / speed);
+    const int x = static_cast<int>(400.0 + scale * (at.x() - box.center().x()));
+    const int y = static_cast<int>(400.0 + scale * (at.y() - box.center().y()));
+    if (what == "Left Pressed")
+    {
+      down = y;
+      bench.pointer.press(x, y, bench.now);
+    }
+    else if (what == "Left Released")
+    {
+      bench.pointer.release(bench.now);
+    }
+    else if (what == "NoButton Drag")
+    {
+      bench.pointer.drag(down - y);
+    }
+    else if (what == "Scroll Up" || what == "Scroll Down")
+    {
+      bench.pointer.wheel(what == "Scroll Up" ? 1 : -1);
+    }
+    else
+    {
+      bench.pointer.hover(x, y);
+    }
+  }
+}
+
+// no deeper than asked for, nor than half the thickness; number of samples that touch
+int expectSound(const test::PointerBench& bench, const std::string& where)
+{
+  int touching = 0;
+  EXPECT_LT(bench.excess(), kAllowed) << where;
+  for (std::size_t i = 1; i < bench.ticks.size(); ++i)
+  {
+    const Contact& contact = bench.ticks[i].sample.contact;
+    touching += contact.touching() ? 1 : 0;
+    if (contact.depth > bench.ticks[i - 1].sample.contact.depth)
+    {
+      // it presses, with its end
+      const bool isSound =
+        contact.depth < 0.5 * contact.thickness + kAllowed && contact.tilt < 65.0_deg;
+      EXPECT_TRUE(isSound) << where << " at " << bench.ticks[i].time;
+      if (!isSound)
+      {
+        break;
+      }
+    }
+  }
+  return touching;
+}
+
 struct Stream
 {
   std::string name;
@@ -128,17 +223,8 @@ TEST_P(EventStream, RecordsNoSampleDeeperThanAskedForOrThanHalfTheThickness)
     test::PointerBench bench(
       surface, tip, Vector3d(component(random), component(random), component(random)));
     play(bench, GetParam().rate, ++seed, 6.0);
-    EXPECT_LT(bench.excess(), kAllowed) << "tip " << tip.index() << ", seed " << seed;
-    for (std::size_t i = 1; i < bench.ticks.size(); ++i)
-    {
-      const Contact& contact = bench.ticks[i].sample.contact;
-      touching += contact.touching() ? 1 : 0;
-      if (contact.depth > bench.ticks[i - 1].sample.contact.depth)
-      {
-        ASSERT_LT(contact.depth, 0.5 * contact.thickness + kAllowed) << bench.ticks[i].time;
-        ASSERT_LT(contact.tilt, 65.0_deg) << bench.ticks[i].time; // it presses, with its end
-      }
-    }
+    touching +=
+      expectSound(bench, "tip " + std::to_string(tip.index()) + ", seed " + std::to_string(seed));
   }
   EXPECT_GT(touching, 1000);
 }
@@ -150,6 +236,25 @@ INSTANTIATE_TEST_SUITE_P(All, EventStream,
     Stream{ "BlockFast", block, 200.0 }, Stream{ "IrregularSlow", irregular, 5.0 },
     Stream{ "Irregular", irregular, 60.0 }),
   [](const auto& each) { return each.param.name; });
+
+// people at a mouse, at 17 to 32 events/s, a third, and six times as many
+TEST(Person, RecordsNoSampleDeeperThanAskedFor)
+{
+  for (const char* user : { "user7", "user9" })
+  {
+    const std::vector<MouseEvent> events = recorded(user);
+    ASSERT_GT(events.size(), 1000U);
+    for (const auto& surface : { liver(), thinLobe(), irregular() })
+    {
+      for (const double speed : { 1.0 / 3.0, 1.0, 6.0 })
+      {
+        test::PointerBench bench(surface, SphereTip{ 5.0_mm }, Vector3d(0.3, 0.2, 1.0));
+        replay(bench, events, speed);
+        EXPECT_GT(expectSound(bench, std::string(user) + " x " + std::to_string(speed)), 200);
+      }
+    }
+  }
+}
 
 // what a held press did on the liver: jumps of one event each, and strokes in steps of 4 pixels
 TEST(HeldPress, FollowsTheLiverOverJumpsAndStrokes)
