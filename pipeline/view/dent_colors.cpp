@@ -22,14 +22,7 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
   : map_(appearance::viridisOn(appearance::kLiver))
   , plain_(property)
   , layOut_(renderer,
-      [this](double width, double, double scale)
-      {
-        constexpr double kHalfTitle = 60.0; // [pixels]
-        const double half = 0.5 * kLegendWidth;
-        legend_->SetPosition(
-          std::max(0.0, std::min(0.82, 1.0 - half - kHalfTitle * scale / width)), 0.30);
-        legend_->SetVerticalTitleSeparation(static_cast<int>(10.0 * scale));
-      })
+      [this](double width, double height, double scale) { placeLegend(width, height, scale); })
 {
   pressure_->SetInputConnection(press.GetOutputPort(1));
   mapper_->SetInputConnection(press.GetOutputPort(1));
@@ -45,8 +38,6 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
   legend_->SetLabelFormat("%.3g");
   legend_->SetUnconstrainedFontSize(true);
   legend_->SetBarRatio(0.25);
-  legend_->SetWidth(kLegendWidth);
-  legend_->SetHeight(0.5);
   appearance::setFont(*legend_->GetTitleTextProperty(), 14, appearance::kInk, true);
   appearance::setFont(*legend_->GetLabelTextProperty(), 14);
   for (vtkTextProperty* text : { legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty() })
@@ -56,6 +47,20 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
   }
   renderer.AddActor2D(legend_);
   hide();
+}
+
+// beside the body; in a picture that is narrow, and full of it from side to side, above it
+void DentColors::placeLegend(double width, double height, double scale)
+{
+  constexpr double kNarrow = 0.8;     // [-] of the height
+  constexpr double kHalfTitle = 60.0; // [pixels]
+  const bool isAbove = width < kNarrow * height;
+  const double left = 1.0 - 0.5 * kLegendWidth - kHalfTitle * scale / width;
+  legend_->SetOrientation(isAbove ? VTK_ORIENT_HORIZONTAL : VTK_ORIENT_VERTICAL);
+  legend_->SetPosition(isAbove ? 0.1 : std::max(0.0, std::min(0.82, left)), isAbove ? 0.86 : 0.30);
+  legend_->SetWidth(isAbove ? 0.8 : kLegendWidth);
+  legend_->SetHeight(isAbove ? kLegendWidth : 0.5);
+  legend_->SetVerticalTitleSeparation(static_cast<int>(10.0 * scale));
 }
 
 void DentColors::hide()

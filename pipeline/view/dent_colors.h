@@ -49,6 +49,7 @@ public:
 
 private:
   [[nodiscard]] std::optional<Rule> worstRule(const OverlayState& state) const;
+  void placeLegend(double width, double height, double scale);
   void colorBy(const char* array, const char* title, double top);
 
   std::optional<Validity> validity_;
