@@ -12,6 +12,7 @@
 #include <vector>
 #include <vtkActor2DCollection.h>
 #include <vtkProperty.h>
+#include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
 
 namespace palp
@@ -158,6 +159,37 @@ TEST(PressView, KeepsItsTextsInThePictureAndApart)
       }
     }
   }
+}
+
+// the whole liver in sight, as in a small window
+TEST(PressView, CoversNoBodyWithItsColorBarInANarrowPicture)
+{
+  const Specimen body = liver();
+  View view(body, kSphere);
+  view.window->SetSize(376, 724);
+  view.picture(body, pressed(body, kSphere, 5.0_mm));
+  view.renderer->ResetCamera(body.surface->GetBounds());
+  view.window->Render();
+  double top = 0.0; // of the body [-] of the picture
+  for (vtkIdType i = 0; i < body.surface->GetNumberOfPoints(); ++i)
+  {
+    view.renderer->SetWorldPoint(body.surface->GetPoint(i)[0], body.surface->GetPoint(i)[1],
+      body.surface->GetPoint(i)[2], 1.0);
+    view.renderer->WorldToDisplay();
+    top = std::max(top, view.renderer->GetDisplayPoint()[1] / 724.0);
+  }
+  vtkActor2DCollection& flat = *view.renderer->GetActors2D();
+  flat.InitTraversal();
+  int bars = 0;
+  while (vtkActor2D* actor = flat.GetNextActor2D())
+  {
+    if (vtkScalarBarActor::SafeDownCast(actor) != nullptr && actor->GetVisibility() != 0)
+    {
+      ++bars;
+      EXPECT_GT(actor->GetPosition()[1], top);
+    }
+  }
+  EXPECT_EQ(bars, 1);
 }
 
 // of the arrow, from its color
