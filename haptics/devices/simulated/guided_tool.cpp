@@ -97,7 +97,8 @@ const ToolPose& GuidedTool::advance(double dt, bool mayAppear) noexcept
   }
   watch(tick);
   const bool isStill = motion.norm() < kStill && (now_.pose.axis - axis).norm() < kStill;
-  const bool isPressed = stalled_ > kSettled && target->depth > 0.0 && !lifting_;
+  const bool isPressed =
+    stalled_ > kSettled && target->depth > 0.0 && !lifting_ && mayStay(now_.contact);
   resting_ = mayAppear && (now_.contact.touching() ? isPressed : isStill);
   return now_.pose;
 }

@@ -1,4 +1,5 @@
 #include "app/press/body.h"
+#include "haptics/surface/ray.h"
 #include "haptics/units.h"
 #include "tests/app/session/pointer_bench.h"
 #include "tests/app/session/pressed_bodies.h"
@@ -175,7 +176,7 @@ void replay(test::PointerBench& bench, const std::vector<MouseEvent>& events, do
 }
 
 // no deeper than asked for, nor than half the thickness; number of samples that touch
-int expectSound(const test::PointerBench& bench, const std::string& where)
+int expectSound(const test::PointerBench& bench, const Surface& surface, const std::string& where)
 {
   int touching = 0;
   EXPECT_LT(bench.excess(), kAllowed) << where;
@@ -185,9 +186,9 @@ int expectSound(const test::PointerBench& bench, const std::string& where)
     touching += contact.touching() ? 1 : 0;
     if (contact.depth > bench.ticks[i - 1].sample.contact.depth)
     {
+      const double below = rayExit(surface.tree(), contact.center, -contact.normal).distance;
       // it presses, with its end
-      const bool isSound =
-        contact.depth < 0.5 * contact.thickness + kAllowed && contact.tilt < 65.0_deg;
+      const bool isSound = contact.depth < 0.5 * below + kAllowed && contact.tilt < 65.0_deg;
       EXPECT_TRUE(isSound) << where << " at " << bench.ticks[i].time;
       if (!isSound)
       {
@@ -223,8 +224,8 @@ TEST_P(EventStream, RecordsNoSampleDeeperThanAskedForOrThanHalfTheThickness)
     test::PointerBench bench(
       surface, tip, Vector3d(component(random), component(random), component(random)));
     play(bench, GetParam().rate, ++seed, 6.0);
-    touching +=
-      expectSound(bench, "tip " + std::to_string(tip.index()) + ", seed " + std::to_string(seed));
+    touching += expectSound(
+      bench, *surface, "tip " + std::to_string(tip.index()) + ", seed " + std::to_string(seed));
   }
   EXPECT_GT(touching, 1000);
 }
@@ -237,20 +238,21 @@ INSTANTIATE_TEST_SUITE_P(All, EventStream,
     Stream{ "Irregular", irregular, 60.0 }),
   [](const auto& each) { return each.param.name; });
 
-// people at a mouse, at 17 to 32 events/s, a third, and six times as many
+// people at a mouse, at 6 and 32 events/s on average, a third, and six times as many
 TEST(Person, RecordsNoSampleDeeperThanAskedFor)
 {
-  for (const char* user : { "user7", "user9" })
+  for (const char* user : { "user15", "user9" })
   {
     const std::vector<MouseEvent> events = recorded(user);
-    ASSERT_GT(events.size(), 1000U);
+    ASSERT_GT(events.size(), 300U);
     for (const auto& surface : { liver(), thinLobe(), irregular() })
     {
       for (const double speed : { 1.0 / 3.0, 1.0, 6.0 })
       {
         test::PointerBench bench(surface, SphereTip{ 5.0_mm }, Vector3d(0.3, 0.2, 1.0));
         replay(bench, events, speed);
-        EXPECT_GT(expectSound(bench, std::string(user) + " x " + std::to_string(speed)), 200);
+        EXPECT_GT(
+          expectSound(bench, *surface, std::string(user) + " x " + std::to_string(speed)), 200);
       }
     }
   }
