@@ -1,6 +1,7 @@
 // What the window reads and writes, and says of it.
 
 #include "app/panels/device_panel.h"
+#include "app/panels/folder_dialog.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/plot_panel.h"
 #include "app/press/export.h"
@@ -59,10 +60,10 @@ void Window::makeFileMenu()
   QAction* exporting = file->addAction(tr("&Export data…"), this,
     [this]
     {
-      const QString name = QFileDialog::getExistingDirectory(this, tr("Export data into"));
-      if (!name.isEmpty())
+      FolderDialog dialog(tr("Export data into"), "palp_export", this);
+      if (dialog.exec() == QDialog::Accepted)
       {
-        exportData(name);
+        exportData(dialog.folder());
       }
     });
   refinedExport_ = file->addAction(tr("Export the dent &refined"));
