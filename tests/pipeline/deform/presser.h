@@ -231,8 +231,9 @@ private:
   {
     const double beside = fromAxis(now.pose, rest) - base_;
     const double blurred = std::sqrt(std::max(0.0, now.contact.tilt)) * now.contact.depth;
-    return now.contactRadius > 0.999 * base_ && beside > -0.2_mm - aside - blurred &&
-      beside < 1.0_mm + aside + blurred;
+    const bool isCut = now.fitted ? now.contact.depth > tipHeight(law_.tip(), 0.999 * base_)
+                                  : now.contactRadius > 0.999 * base_;
+    return isCut && beside > -0.2_mm - aside - blurred && beside < 1.0_mm + aside + blurred;
   }
 
   // slope of the tool over the surface where it leaves it [-], 1 at least
