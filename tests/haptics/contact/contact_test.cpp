@@ -1,12 +1,16 @@
 #include "haptics/contact/find_contact.h"
 
 #include "haptics/surface/closest_point.h"
+#include "haptics/tip/profile.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <memory>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -24,6 +28,19 @@ ToolPose at(const Eigen::Vector3d& apex, const Eigen::Vector3d& axis = -Eigen::V
   return { .apex = apex, .axis = axis, .velocity = Eigen::Vector3d::Zero() };
 }
 
+// a tip given by so many of its points, as a file gives it
+Tip sampled(const Tip& tip, double upTo)
+{
+  constexpr int kCount = 21;
+  std::vector<Profile::Point> points;
+  for (int i = 0; i < kCount; ++i)
+  {
+    const double radius = upTo * i / (kCount - 1);
+    points.push_back({ radius, tipHeight(tip, radius) });
+  }
+  return ProfileTip{ std::make_shared<const Profile>(std::move(points)) };
+}
+
 // each tip, straight down on a flat face: the depth is that of the apex, the normal the face's
 class OnABlock : public ::testing::TestWithParam<std::tuple<Tip, double>>
 {
@@ -33,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Tips, OnABlock,
     ::testing::Values(kSphere, kCone, Tip{ PunchTip{ .radius = 5.0_mm } },
       Tip{ TruncatedConeTip{ .halfAngle = 45.0_deg, .flatRadius = 2.0_mm, .baseRadius = 8.0_mm } },
       Tip{ BluntConeTip{ .halfAngle = 45.0_deg, .tipRadius = 2.0_mm, .baseRadius = 8.0_mm } },
-      Tip{ ParaboloidTip{ .radius = 5.0_mm } }),
+      Tip{ ParaboloidTip{ .radius = 5.0_mm } }, sampled(kSphere, 8.0_mm), sampled(kCone, 8.0_mm)),
     ::testing::Values(1e-9, 0.1_mm, 1.0_mm, 5.0_mm, 9.0_mm, 12.0_mm)));
 
 TEST_P(OnABlock, DepthIsThatOfTheApex)
@@ -47,6 +64,23 @@ TEST_P(OnABlock, DepthIsThatOfTheApex)
   EXPECT_NEAR(contact.center.z(), 0.0, 1e-12);
   EXPECT_NEAR(contact.surfaceCurvature, 0.0, 1e-3);
   EXPECT_NEAR(contact.tilt, 0.0, 1e-6);
+}
+
+// a round end touches beside its apex
+TEST(Contact, ATiltedProfileIsMetAsTheTipThatItSamples)
+{
+  const Surface block = test::makeSurface(test::block({ 100.0_mm, 100.0_mm, 50.0_mm }, 8));
+  for (const Tip& tip : { kSphere, Tip{ ParaboloidTip{ .radius = 5.0_mm } }, kCone })
+  {
+    for (const double tilt : { 5.0_deg, 15.0_deg, 30.0_deg })
+    {
+      const ToolPose pose =
+        at({ 3.0_mm, 1.3_mm, -0.5_mm }, { std::sin(tilt), 0.0, -std::cos(tilt) });
+      const double expected = findContact(block, tip, pose, ContactRule::Exact).depth;
+      const double found = findContact(block, sampled(tip, 5.0_mm), pose, ContactRule::Exact).depth;
+      EXPECT_NEAR(found, expected, 0.03 * expected) << tip.index() << " tilted by " << tilt;
+    }
+  }
 }
 
 TEST(Contact, ApartIsNoContact)
