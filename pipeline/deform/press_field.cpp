@@ -1,23 +1,16 @@
 #include "pipeline/deform/press_field.h"
 
-#include "haptics/numerics/roots.h"
+#include "pipeline/deform/tool_gap.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace palp
 {
 namespace
 {
 
-constexpr double kStillOnTool = 0.9;       // [-] of the radius where the tool leaves the surface
-constexpr double kWithinBase = 1.0 - 1e-7; // [-]
-constexpr double kRim = 1.0 - 1e-6;        // [-] of the base: as far as contact goes
-constexpr double kLeast = 1e-4;            // [-] of the radius: width of the ring's first piece
-constexpr double kSlopeStep = 1e-3;        // [-] of the contact radius
-constexpr double kDeepest = 0.99;          // [-] of the depth: sink where a contact ends
-constexpr int kHalvings = 30;
+constexpr double kDeepest = 0.99;  // [-] of the depth: sink where a contact ends
 constexpr double kFitReach = 1.5;  // [-] of the contact radius
 constexpr double kFilledPit = 0.1; // [-] of the contact radius: pressed onto the tool
 constexpr double kOpenPit = 0.4;   // [-] of the contact radius: not reached by the tool
@@ -28,68 +21,6 @@ double smoothStep(double t) noexcept
   const double within = std::clamp(t, 0.0, 1.0);
   return within * within * (3.0 - 2.0 * within);
 }
-
-// root of a function that is negative at 0 and positive at the end
-template <typename Function>
-double rootBefore(double end, double atZero, double atEnd, Function function) noexcept
-{
-  const auto limited = [&](double at) noexcept { return std::min(function(at), end); };
-  return falsePosition(limited, { 0.0, end }, atZero, std::min(atEnd, end), 1e-6 * end, 40).low;
-}
-
-// how far the tool is above the undeformed surface at a distance from the contact's center, less
-// than zero where it is pressed in
-class Gap
-{
-public:
-  Gap(const LocalQuadric& surface, const PressRegion& region, const ToolBody& body,
-    const Eigen::Vector2d& towards) noexcept
-    : surface_(surface)
-    , body_(body)
-    , towards_(towards)
-    , normal_(region.normal())
-    , center_(region.toSurface(Eigen::Vector3d::Zero()))
-    , outwards_(region.toSurface({ towards.x(), towards.y(), 0.0 }) - center_)
-    , onTip_(isOnTip(center_ + body.lowest(center_, normal_) * normal_))
-  {
-  }
-
-  // radius up to which the tool over the surface is as near to its axis as this, the end at most
-  [[nodiscard]] double edgeOf(double fromAxis, double end) const noexcept
-  {
-    const auto isWithin = [&](double radius)
-    {
-      const Eigen::Vector3d foot = center_ + radius * outwards_;
-      return body_.fromAxis(foot + body_.lowest(foot, normal_) * normal_) < fromAxis;
-    };
-    return bisect(isWithin, { 0.0, end }, kHalvings).low;
-  }
-
-  // infinite where a tool whose tip is below the center has its shaft, which leans over the
-  // surface by next to nothing
-  double operator()(double radius) const noexcept
-  {
-    const Eigen::Vector3d foot = center_ + radius * outwards_;
-    const double up = body_.lowest(foot, normal_);
-    return onTip_ && !isOnTip(foot + up * normal_)
-      ? std::numeric_limits<double>::infinity()
-      : up - surface_.height(radius * towards_.x(), radius * towards_.y());
-  }
-
-private:
-  [[nodiscard]] bool isOnTip(const Eigen::Vector3d& point) const noexcept
-  {
-    return body_.fromAxis(point) < kWithinBase * body_.base();
-  }
-
-  const LocalQuadric& surface_;
-  const ToolBody& body_;
-  Eigen::Vector2d towards_;
-  Eigen::Vector3d normal_;
-  Eigen::Vector3d center_;
-  Eigen::Vector3d outwards_;
-  bool onTip_;
-};
 
 } // namespace
 
@@ -114,7 +45,7 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
     const RingCurve& a = curves_[static_cast<std::size_t>(k)];
     const RingCurve& b = curves_[static_cast<std::size_t>(k) + 1];
     const double exact =
-      -Gap(surface_, region, body, directionOf(turns))(0.5 * (a.inner + b.inner));
+      -ToolGap(surface_, region, body, directionOf(turns))(0.5 * (a.inner + b.inner));
     bulges_[static_cast<std::size_t>(k)] = a.sink > 0.0 && b.sink > 0.0 && std::isfinite(exact)
       ? 4.0 * (std::max(0.0, exact) - 0.5 * (a.sink + b.sink))
       : 0.0;
@@ -125,62 +56,29 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
 RingCurve PressField::curveAlong(
   const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept
 {
-  const Gap gap(surface_, region, body, towards);
+  const ToolGap gap(surface_, region, body, towards);
   const double atCenter = gap(0.0);
   if (!(atCenter < 0.0))
   {
     return makeRingCurve(0.0, 0.0, 0.0, region.outer());
   }
-  // where the tool leaves the surface, or its base ends below it
-  double exit = std::min(region.inner() / kStillOnTool, kRim * body.base());
-  double atExit = gap(exit);
-  if (atExit > 0.0)
-  {
-    exit = rootBefore(exit, atCenter, atExit, gap);
-    atExit = gap(exit);
-  }
-  // contact ends before the tool leaves the surface at an angle. An edge below the surface is
-  // reached by and by: as if the tool went on as it rises to there, for no place may come up again
-  const auto endBefore = [&](double edge)
-  {
-    const double height = gap(edge);
-    const double rise = height - gap(kStillOnTool * edge);
-    const double further = -height * (1.0 - kStillOnTool) / rise; // [-] of the edge
-    return rise > 0.0 ? std::min(1.0, kStillOnTool * (1.0 + further)) * edge : edge;
-  };
-  const bool isCut = body.flat() > 0.0 && !body.hasFlatBase();
-  const double flat = isCut ? endBefore(gap.edgeOf(body.flat(), exit)) : 0.0;
-  double end = endBefore(exit);
+  const double exit = gap.exit(atCenter, region.inner());
+  double end = gap.contactBefore(exit);
   if (fittedCurve_ && !body.hasFlatBase())
   {
     // as deep as on a plane, like the contact of two spheres, however the surface is bent
     const double sink = atCenter * std::min(kDeepest, fittedCurve_->sink / deepest_);
-    const auto isDeeper = [&](double radius) { return gap(radius) < sink; };
-    end = std::min(end, bisect(isDeeper, { 0.0, exit }, kHalvings).high);
+    end = std::min(end, gap.radiusAt(sink, exit));
   }
+  const double flat = gap.contactBefore(gap.flatEdge(exit));
   const double contact = std::min(region.inner(), std::max(flat, end));
-  const double height = gap(contact);
-  double slope = 0.0;
-  if (body.hasCorners() || body.hasFlatBase())
-  {
-    // to where it leaves the surface, which goes outwards with the depth: a tangent that turns at a
-    // corner would draw back. A flat base leaves it in its shaft.
-    const double from = std::min(contact, (1.0 - kLeast) * exit);
-    slope = ((body.hasFlatBase() ? 0.0 : atExit) - gap(from)) / (exit - from);
-  }
-  else
-  {
-    const double step = kSlopeStep * contact;
-    const double before = height - gap(contact - step);
-    const double after = gap(contact + step) - height;
-    // at the rim the flank goes on
-    slope = (std::isfinite(after) ? 0.5 * (before + after) : before) / step;
-  }
+  const double sink = -gap(contact);
+  const double slope = gap.slopeAt(contact, exit);
   if (slope > 0.0)
   {
-    reach_ = std::max(reach_, contact - height / slope);
+    reach_ = std::max(reach_, contact + sink / slope);
   }
-  return makeRingCurve(contact, -height, slope, region.outer());
+  return makeRingCurve(contact, sink, slope, region.outer());
 }
 
 inline RingCurve PressField::curveTowards(double turns) const noexcept
