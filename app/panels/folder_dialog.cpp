@@ -30,7 +30,7 @@ void FolderDialog::accept()
     return;
   }
   folder_ = QDir::cleanPath(directory().absoluteFilePath(typed));
-  QDialog::accept();
+  done(Accepted);
 }
 
 } // namespace palp

@@ -8,7 +8,7 @@
 
 #pragma once
 
-#include "pipeline/deform/contact_pressure.h"
+#include "haptics/force/linear/contact_pressure.h"
 
 #include <vtkPolyDataAlgorithm.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/deform/contact_pressure.h"
+#include "haptics/force/linear/contact_pressure.h"
 
 #include "haptics/force/linear/contact_depth.h"
 
