@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/force/linear/half_space.h"
+#include "haptics/numerics/roots.h"
 #include "haptics/tip/tip.h"
 
 #include <Eigen/Core>
@@ -132,7 +133,13 @@ struct RingCurve
   constexpr double kLeast = 1.2; // [-] of the contact radius
   const double slope = tipSlope(tip, contactRadius);
   const double sink = std::max(0.0, depth - tipHeight(tip, contactRadius));
-  const double meet = slope > 0.0 ? contactRadius + sink / slope : 0.0;
+  double meet = slope > 0.0 ? contactRadius + sink / slope : 0.0;
+  if (std::holds_alternative<ProfileTip>(
+        tip)) // its tangent may turn at once, and the ring draw back
+  {
+    const auto isBelow = [&](double radius) { return tipHeight(tip, radius) < depth; };
+    meet = bisect(isBelow, { 0.0, baseRadius(tip) }, 30).high;
+  }
   return std::max({ extentRadius, kLeast * contactRadius, ringRadiusFor(meet, contactRadius) });
 }
 

@@ -62,7 +62,7 @@ RingCurve PressField::curveAlong(
   {
     return makeRingCurve(0.0, 0.0, 0.0, region.outer());
   }
-  const double exit = gap.exit(atCenter, region.inner());
+  const double exit = gap.exit(atCenter, body.base());
   double end = gap.contactBefore(exit);
   if (fittedCurve_ && !body.hasFlatBase())
   {

@@ -74,12 +74,13 @@ double ToolBody::lowest(const Eigen::Vector3d& origin, const Eigen::Vector3d& up
   return march(start, height, climb, radial, drift);
 }
 
-// Newton's method on a concave function from its negative side: it never steps over the root,
-// so that the point it ends at is outside, if only by the tolerance
+// Newton's method on a function that is concave but for what a profile's cubics leave of that: it
+// steps over the root by next to nothing, and then half its way back, so that the point is outside
 double ToolBody::march(double start, double height, double climb, const Eigen::Vector3d& radial,
   const Eigen::Vector3d& drift) const noexcept
 {
   double t = start;
+  double outside = start;
   for (int i = 0; i < kIterations; ++i)
   {
     const Eigen::Vector3d across = radial + t * drift;
@@ -88,6 +89,11 @@ double ToolBody::march(double start, double height, double climb, const Eigen::V
     const double overTip = height + t * climb - heightAt(radius);
     const double inShaft = base_ - radius;
     const double value = std::min(overTip, inShaft);
+    if (value > kTolerance && t > outside)
+    {
+      t = 0.5 * (outside + t);
+      continue;
+    }
     if (value > -kTolerance)
     {
       return t;
@@ -98,6 +104,7 @@ double ToolBody::march(double start, double height, double climb, const Eigen::V
     {
       return kMiss;
     }
+    outside = t;
     t -= value / growth;
   }
   return t;

@@ -56,7 +56,7 @@ double ToolGap::operator()(double radius) const noexcept
 
 double ToolGap::exit(double atCenter, double most) const noexcept
 {
-  const double end = std::min(most / kStillOnTool, kRim * body_.base());
+  const double end = std::min(most, kRim * body_.base());
   const double atEnd = (*this)(end);
   return atEnd > 0.0 ? rootBefore(end, atCenter, atEnd, *this) : end;
 }

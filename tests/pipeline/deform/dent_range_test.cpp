@@ -27,12 +27,15 @@ std::vector<NamedTip> everyTip()
   {
     egg.push_back({ r * 1.0_mm, (0.08 * r * r + 0.002 * r * r * r * r) * 1.0_mm });
   }
+  const std::vector<Profile::Point> kinks{ { 0.0, 0.0 }, { 1.0_mm, 0.2_mm }, { 2.0_mm, 0.6_mm },
+    { 3.0_mm, 2.0_mm }, { 4.0_mm, 6.0_mm } };
   return { { "sphere_10", SphereTip{ 10.0_mm }, true }, { "sphere_4", SphereTip{ 4.0_mm }, true },
     { "cone_45", ConeTip{ 45.0_deg, 10.0_mm }, true }, { "cone_60", ConeTip{ 60.0_deg, 6.0_mm } },
     { "punch", PunchTip{ 5.0_mm } }, { "truncated", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm } },
     { "blunt", BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm } },
     { "paraboloid", ParaboloidTip{ 8.0_mm } },
-    { "profile", ProfileTip{ std::make_shared<const Profile>(egg) } } };
+    { "profile", ProfileTip{ std::make_shared<const Profile>(egg) } },
+    { "kinks", ProfileTip{ std::make_shared<const Profile>(kinks) } } };
 }
 
 // A tool, a body, a law and a picture.

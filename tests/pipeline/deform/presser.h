@@ -240,7 +240,12 @@ private:
   [[nodiscard]] double steepest(const Press& now) const
   {
     const double inner = now.fitted ? now.fitted->inner : now.contactRadius;
-    const double leaving = std::min(inner / 0.9, 0.999 * base_);
+    double leaving = std::min(inner / 0.9, 0.999 * base_);
+    while (std::holds_alternative<ProfileTip>(law_.tip()) && leaving < 0.99 * base_ &&
+      tipHeight(law_.tip(), leaving) < now.contact.depth)
+    {
+      leaving += 0.01 * base_; // it may bend anywhere
+    }
     const double slope = std::atan(std::max(1.0, tipSlope(law_.tip(), leaving)));
     return std::tan(std::min(slope + now.contact.tilt, 89.0_deg));
   }
@@ -256,9 +261,9 @@ private:
     const double inner = now.fitted ? now.fitted->inner : now.contactRadius;
     const bool isSurface =
       std::abs(dent.field().surface().height(0.0, 0.0)) < 0.1 * now.contact.depth;
-    if (inner > 0.999 * base_ || !isSurface)
+    if (inner > 0.999 * base_ || !isSurface || steepest(now) > kUprightWall)
     {
-      return; // a shaft cuts, or the mesh is too coarse to know the surface
+      return; // a shaft or flank cuts, or the mesh is too coarse to know the surface
     }
     const double h = base_ / 400.0;
     for (const double turns : { 0.1, 0.9, 2.3, 3.4 })
@@ -287,8 +292,9 @@ private:
     }
   }
 
-  static constexpr double kSteepest = 5.0; // [-] of a sphere of 2 R depth: 3.9
-  static constexpr double kUpright = 0.1;  // [rad]
+  static constexpr double kSteepest = 5.0;     // [-] of a sphere of 2 R depth: 3.9
+  static constexpr double kUpright = 0.1;      // [rad]
+  static constexpr double kUprightWall = 50.0; // [-] slope of a flank that stands upright
 
   PressedBody& body_;
   ForceLaw law_;
