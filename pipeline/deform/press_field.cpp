@@ -12,6 +12,8 @@ namespace
 
 constexpr double kDeepest = 0.99;  // [-] of the depth: sink where a contact ends
 constexpr double kFitReach = 1.5;  // [-] of the contact radius
+constexpr double kPressedOn = 0.8; // [-] of the contact radius
+constexpr double kTiny = 1e-12;    // [m]
 constexpr double kFilledPit = 0.1; // [-] of the contact radius: pressed onto the tool
 constexpr double kOpenPit = 0.4;   // [-] of the contact radius: not reached by the tool
 
@@ -154,8 +156,11 @@ inline double PressField::frontSink(const GeodesicCoordinates& geodesic,
   double fade = 1.0;
   if (geodesic.distance <= curve.inner)
   {
+    // what lies lower than the fit comes onto the tool within the contact, not before it
+    const double within = 1.0 - geodesic.distance / std::max(curve.inner, kTiny);
+    const double open = std::max(0.0, -left) * (1.0 - smoothStep(within / kPressedOn));
     const double toTool = body.lowest(rest, normal_);
-    sink = std::isfinite(toTool) ? std::max(0.0, -toTool) : curve.sink;
+    sink = std::isfinite(toTool) ? std::max(0.0, open - toTool) : curve.sink;
   }
   else
   {
@@ -166,7 +171,7 @@ inline double PressField::frontSink(const GeodesicCoordinates& geodesic,
       return sink;
     }
     fade = 1.0 - smoothStep((geodesic.distance - curve.inner) / (end - curve.inner));
-    sink += fade * std::max(left, -sink);
+    sink += fade * std::max(0.0, left);
   }
   if (-left > kFilledPit * curve.inner)
   {

@@ -114,12 +114,12 @@ void slide(const RangeCase& with, int steps)
 }
 
 #ifdef PALP_SLOW // every tool, body, law and picture
-const auto kCases = rangeCases(
-  { "block", "oblique", "ball", "ridge", "liver", "coarse" }, { "paper", "exact", "corrected" });
+const auto kCases = rangeCases({ "block", "oblique", "rough", "ball", "ridge", "liver", "coarse" },
+  { "paper", "exact", "corrected" });
 constexpr double kStep = 0.01;
 constexpr int kSlides = 200;
 #else
-const auto kCases = rangeCases({ "block", "oblique", "ball", "ridge" }, { "paper" });
+const auto kCases = rangeCases({ "block", "oblique", "rough", "ball", "ridge" }, { "paper" });
 constexpr double kStep = 0.03;
 constexpr int kSlides = 10;
 #endif

@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 #include <vtkPolyData.h>
@@ -54,6 +55,17 @@ inline PressedBody madeBody(const std::string& name)
   {
     return pressedBody(name, makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.0_mm),
       { 0.3_mm, 0.2_mm, 0.0 }, { 0.3, 0.2, 1.0 });
+  }
+  if (name == "rough") // as a scan
+  {
+    Mesh mesh = makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.0_mm);
+    std::mt19937 random(4);
+    std::normal_distribution<double> noise(0.0, 0.1_mm);
+    for (Eigen::Vector3d& point : mesh.points)
+    {
+      point.z() += point.z() > -1.0_um ? noise(random) : 0.0;
+    }
+    return pressedBody(name, mesh, { 0.3_mm, 0.2_mm, 0.0 }, { 0, 0, 1 });
   }
   if (name == "liver")
   {
