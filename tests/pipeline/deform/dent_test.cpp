@@ -132,6 +132,40 @@ TEST(Dent, ComesUpNowhereAsATiltedFlatSinks)
   }
 }
 
+// a point of a scan that lies low stays down with its neighbors until the contact has reached it
+TEST(Dent, LiftsNoLowPointBeforeTheContactIsThere)
+{
+  const DentedSurface flat = test::plane(60, 0.5_mm);
+  DentedSurface surface;
+  std::vector<std::size_t> low;
+  for (std::size_t i = 0; i < flat.count(); ++i)
+  {
+    const Eigen::Vector3d at = DentedSurface::at(flat.rest, i);
+    const bool isLow = i % 7 == 0 && at.norm() > 1.0_mm && at.norm() < 5.0_mm;
+    surface.add(at - (isLow ? 0.1_mm : 0.0) * kUp);
+    if (isLow)
+    {
+      low.push_back(i);
+    }
+  }
+  surface.triangles = flat.triangles;
+  surface.finish();
+  ASSERT_GT(low.size(), 20U);
+  std::vector<float> before = surface.displacement;
+  for (double depth = 0.02_mm; depth < 2.0_mm; depth += 0.02_mm)
+  {
+    surface.press(test::pressAt(Eigen::Vector3d::Zero(), kUp, SphereTip{ 10.0_mm }, depth, 8.0_mm));
+    for (const std::size_t i : low)
+    {
+      const double change =
+        DentedSurface::at(before, i).z() - DentedSurface::at(surface.displacement, i).z();
+      EXPECT_TRUE(surface.zone[i] == 2 || change > -1.0_um)
+        << depth << " at " << DentedSurface::at(surface.rest, i).transpose() << ": " << change;
+    }
+    before = surface.displacement;
+  }
+}
+
 TEST(Dent, IsTheExactRestStateAgainOnRelease)
 {
   DentedSurface surface = test::ellipsoid(5, { 50.0_mm, 40.0_mm, 30.0_mm });

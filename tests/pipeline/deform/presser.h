@@ -60,7 +60,7 @@ inline PressedBody madeBody(const std::string& name)
   {
     Mesh mesh = makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.0_mm);
     std::mt19937 random(4);
-    std::normal_distribution<double> noise(0.0, 0.1_mm);
+    std::normal_distribution<double> noise(0.0, 0.25_mm);
     for (Eigen::Vector3d& point : mesh.points)
     {
       point.z() += point.z() > -1.0_um ? noise(random) : 0.0;
