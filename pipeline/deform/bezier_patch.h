@@ -134,9 +134,9 @@ struct RingCurve
   const double slope = tipSlope(tip, contactRadius);
   const double sink = std::max(0.0, depth - tipHeight(tip, contactRadius));
   double meet = slope > 0.0 ? contactRadius + sink / slope : 0.0;
-  if (std::holds_alternative<ProfileTip>(
-        tip)) // its tangent may turn at once, and the ring draw back
+  if (std::holds_alternative<ProfileTip>(tip))
   {
+    // its tangent may turn at once, and the ring would draw back
     const auto isBelow = [&](double radius) { return tipHeight(tip, radius) < depth; };
     meet = bisect(isBelow, { 0.0, baseRadius(tip) }, 30).high;
   }

@@ -64,7 +64,7 @@ RingCurve PressField::curveAlong(
   {
     return makeRingCurve(0.0, 0.0, 0.0, region.outer());
   }
-  const double exit = gap.exit(atCenter, body.base());
+  const double exit = gap.exit(atCenter);
   double end = gap.contactBefore(exit);
   if (fittedCurve_ && !body.hasFlatBase())
   {

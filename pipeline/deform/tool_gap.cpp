@@ -54,9 +54,9 @@ double ToolGap::operator()(double radius) const noexcept
                  : up - surface_.height(radius * towards_.x(), radius * towards_.y());
 }
 
-double ToolGap::exit(double atCenter, double most) const noexcept
+double ToolGap::exit(double atCenter) const noexcept
 {
-  const double end = std::min(most, kRim * body_.base());
+  const double end = kRim * body_.base();
   const double atEnd = (*this)(end);
   return atEnd > 0.0 ? rootBefore(end, atCenter, atEnd, *this) : end;
 }

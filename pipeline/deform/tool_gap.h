@@ -23,10 +23,10 @@ public:
   /// center has its shaft, which leans over the surface by next to nothing [m].
   [[nodiscard]] double operator()(double radius) const noexcept;
 
-  /// Where the tool leaves the surface, its base ends below it, or at the most.
+  /// Where the tool leaves the surface, or its base ends below it.
   ///
   /// @param atCenter  the gap at radius 0, less than 0 [m]
-  [[nodiscard]] double exit(double atCenter, double most) const noexcept;
+  [[nodiscard]] double exit(double atCenter) const noexcept;
 
   /// Where contact ends before an edge of the tool, which may be the exit.
   ///

@@ -226,6 +226,14 @@ TEST_P(EventStream, RecordsNoSampleDeeperThanAskedForOrThanHalfTheThickness)
     play(bench, GetParam().rate, ++seed, 6.0);
     touching += expectSound(
       bench, *surface, "tip " + std::to_string(tip.index()) + ", seed " + std::to_string(seed));
+    for (std::size_t i = 1; i < bench.ticks.size(); ++i)
+    {
+      const Contact& contact = bench.ticks[i].sample.contact;
+      if (contact.depth > bench.ticks[i - 1].sample.contact.depth)
+      {
+        ASSERT_LT(contact.depth, 0.5 * contact.thickness + kAllowed) << bench.ticks[i].time;
+      }
+    }
   }
   EXPECT_GT(touching, 1000);
 }
