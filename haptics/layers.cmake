@@ -30,6 +30,9 @@ function(palp_library name)
   set(target palp_${name})
   add_library(${target} STATIC ${palp_SOURCES})
   add_library(palp::${name} ALIAS ${target})
+  # classes of VTK's dialect are checked by rules of their own, so each is compiled by itself
+  list(FILTER palp_SOURCES INCLUDE REGEX "\\.cxx$")
+  set_source_files_properties(${palp_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<INSTALL_INTERFACE:include/palp>)

@@ -10,13 +10,13 @@ namespace
 using namespace units::literals;
 
 constexpr int kFrames = 1000;
-constexpr int kSteps = 20; // frames of the tool's way to one side
+constexpr int kFramesAside = 20; // frames of the tool's way to one side
 
 // the times of a frame, once what it needs has been seen
 template <typename Frame>
 BenchRow benchFrames(const char* work, std::size_t vertices, const char* mode, Frame frame)
 {
-  for (int i = 0; i < kSteps; ++i)
+  for (int i = 0; i < kFramesAside; ++i)
   {
     frame(i);
   }
@@ -32,9 +32,9 @@ BenchRow benchDent(
 {
   const double outer = dome.radiusOf(touched);
   const double step = jump ? dome.size / 40.0 : outer / 20.0;
-  constexpr int kMiddle = kSteps / 2;
+  constexpr int kMiddle = kFramesAside / 2;
   const auto frame = [&](int i)
-  { drawn.press(dome.press(outer, step * ((jump ? 7 * i : i) % kSteps - kMiddle))); };
+  { drawn.press(dome.press(outer, step * ((jump ? 7 * i : i) % kFramesAside - kMiddle))); };
   return benchFrames("dent", drawn.zone.size(), mode, frame);
 }
 

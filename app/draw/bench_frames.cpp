@@ -28,6 +28,8 @@ using namespace units::literals;
 constexpr int kFrames = 200;
 constexpr int kSteps = 20; // frames of the tool's way to one side
 
+constexpr int kOverlaySide = 100; // points along a side of the mesh that overlays are drawn on
+
 // Draws some of the triangles, of all the points that it keeps in graphics memory. Software takes
 // 100 ms to draw a million, and what differs between two such pictures is not to be seen beside it.
 class SomeTriangles : public vtkPalpPatchMapper
@@ -119,7 +121,7 @@ std::vector<BenchRow> benchSurface(
 BenchRow benchOverlay(
   const OffscreenContext& context, const char* name, const std::vector<Overlay>& overlays)
 {
-  const BenchDome dome{ 100, 100.0_mm };
+  const BenchDome dome{ kOverlaySide, 100.0_mm };
   const Mesh mesh = dome.mesh();
   const double outer = dome.radiusOf(500);
   vtkNew<vtkRenderer> renderer;
@@ -165,6 +167,10 @@ std::vector<BenchRow> OffscreenRenderer::benchFrames(std::size_t most) const
         rows.insert(rows.end(), two.begin(), two.end());
       }
     }
+  }
+  if (most < kOverlaySide * kOverlaySide)
+  {
+    return rows;
   }
   const std::vector<Overlay> usual{ Overlay::ForceArrow, Overlay::ContactCircle,
     Overlay::ExtentCircle, Overlay::DisplacementColors, Overlay::Readings };

@@ -34,7 +34,7 @@ bool haveSameLegend(const std::vector<Figure>& all)
 }
 
 /// @param see  what to see in the figures
-Section sectionOf(Experiment experiment, const Effort& effort, const std::string& see)
+Section experimentSection(Experiment experiment, const Effort& effort, const std::string& see)
 {
   effort.reached(1.0); // an interrupted experiment lacks rows
   Section section;
@@ -84,7 +84,7 @@ double firstToDepart(const Experiment& experiment, const std::string& tool, cons
 Section curvature(const Effort& effort)
 {
   const Experiment found = fem::curvature(resolutionOf(effort), effort.stop);
-  Section section = sectionOf(found, effort,
+  Section section = experimentSection(found, effort,
     "How far the force on a ball departs from that on the block: where a curve leaves the gray "
     "band a hand notices. The two supports lie further apart than the three radii.");
   const double most = largest(found.numbers.column("sphere_block_N"));
@@ -114,7 +114,7 @@ Section curvature(const Effort& effort)
 Section inclination(const Effort& effort)
 {
   const Experiment found = fem::inclination();
-  Section section = sectionOf(found, effort,
+  Section section = experimentSection(found, effort,
     "A tool may tilt until its curve leaves the gray band; the cone's does so at half the "
     "sphere's angle.");
   const auto tilts = found.numbers.column("tilt_deg");
@@ -135,7 +135,7 @@ Section inclination(const Effort& effort)
 
 Section profiles(const Effort& effort)
 {
-  Section section = sectionOf(fem::profiles(resolutionOf(effort), effort.stop), effort,
+  Section section = experimentSection(fem::profiles(resolutionOf(effort), effort.stop), effort,
     "The paper's curve leaves the surface of the finite elements at once and ends at R_d; the "
     "fitted one lies on it.");
   section.claims = { { .of = "Fig. 7",
@@ -150,7 +150,7 @@ Section profiles(const Effort& effort)
 Section extents(const Effort& effort)
 {
   const Experiment found = fem::extents(resolutionOf(effort), effort.stop);
-  Section section = sectionOf(found, effort,
+  Section section = experimentSection(found, effort,
     "The points of both moduli are the same. A line serves shallow presses, a parabola all.");
   const auto soft = found.numbers.column("sphere_50kPa_mm");
   const auto stiff = found.numbers.column("sphere_1500kPa_mm");
@@ -175,7 +175,7 @@ Section extents(const Effort& effort)
 Section forces(const Effort& effort)
 {
   const Experiment found = fem::forces(resolutionOf(effort), effort.stop);
-  Section section = sectionOf(
+  Section section = experimentSection(
     found, effort, "The material of the elements decides on which side of the law they lie.");
   const auto depths = found.numbers.column("depth_mm");
   const auto at = [&](const std::string& name, double depth)

@@ -124,23 +124,24 @@ void addTrial(Tables& tables, const BlockPress& press, const Trial& trial)
 }
 
 // the same mark for a method in every figure
-struct Mark
+struct ForceMark
 {
   const char* method;
   Curve::Style style;
   int color;
 };
-constexpr std::array kMarks{ Mark{ "paper law", Curve::Style::Circles, 2 },
-  Mark{ "exact half-space", Curve::Style::Circles, 6 },
-  Mark{ "corrected law", Curve::Style::Circles, 1 }, Mark{ "table", Curve::Style::Squares, 3 },
-  Mark{ "finite elements linear", Curve::Style::Diamonds, 4 },
-  Mark{ "finite elements corotated", Curve::Style::Diamonds, 5 },
-  Mark{ "finite elements neo-hookean", Curve::Style::Diamonds, 0 },
-  Mark{ "mass-spring", Curve::Style::Squares, 5 },
-  Mark{ "mass-spring-volume", Curve::Style::Squares, 6 },
-  Mark{ "corotational", Curve::Style::Squares, 2 } };
+constexpr std::array kForceMarks{ ForceMark{ "paper law", Curve::Style::Circles, 2 },
+  ForceMark{ "exact half-space", Curve::Style::Circles, 6 },
+  ForceMark{ "corrected law", Curve::Style::Circles, 1 },
+  ForceMark{ "table", Curve::Style::Squares, 3 },
+  ForceMark{ "finite elements linear", Curve::Style::Diamonds, 4 },
+  ForceMark{ "finite elements corotated", Curve::Style::Diamonds, 5 },
+  ForceMark{ "finite elements neo-hookean", Curve::Style::Diamonds, 0 },
+  ForceMark{ "mass-spring", Curve::Style::Squares, 5 },
+  ForceMark{ "mass-spring-volume", Curve::Style::Squares, 6 },
+  ForceMark{ "corotational", Curve::Style::Squares, 2 } };
 
-void addFigures(Section& section, const BlockPress& press)
+void addForceFigures(Section& section, const BlockPress& press)
 {
   const std::string setting = settingOf(press, StrainEnergy::NeoHookean, "");
   for (const Regime& regime : kRegimes)
@@ -155,7 +156,7 @@ void addFigures(Section& section, const BlockPress& press)
       .group = "RMS error of the force against the time of one evaluation, " + press.name +
         ". Lower and further left is better; what no other method beats in both lies on the front."
     };
-    for (const Mark& mark : kMarks)
+    for (const ForceMark& mark : kForceMarks)
     {
       figure.curves.push_back({ .label = mark.method,
         .table = "error_vs_time",
@@ -314,7 +315,7 @@ Section forceAgainstTime(const Effort& effort)
     std::move(tables.spread) };
   for (const BlockPress& press : wanted)
   {
-    addFigures(section, press);
+    addForceFigures(section, press);
   }
   return section;
 }

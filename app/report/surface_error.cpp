@@ -125,16 +125,16 @@ std::vector<double> profileDepths(const BlockPress& press)
 
 using Style = Curve::Style;
 
-struct Mark
+struct SurfaceMark
 {
   const char* method;
   Style point;
   Style line;
   int color;
 };
-constexpr std::array kMarks{ Mark{ "paper Bezier", Style::Circles, Style::Line, 2 },
-  Mark{ "fitted Bezier", Style::Circles, Style::Line, 1 },
-  Mark{ "finite elements", Style::Diamonds, Style::Dashed, 0 } };
+constexpr std::array kSurfaceMarks{ SurfaceMark{ "paper Bezier", Style::Circles, Style::Line, 2 },
+  SurfaceMark{ "fitted Bezier", Style::Circles, Style::Line, 1 },
+  SurfaceMark{ "finite elements", Style::Diamonds, Style::Dashed, 0 } };
 
 using Words = std::vector<std::pair<std::string, std::string>>; // column, cell
 
@@ -154,7 +154,7 @@ Figure errorFigure(const BlockPress& press, const Regime& regime)
     figure.curves.push_back(
       { label, table, "time_us", "error_rms_mm", std::move(where), style, color });
   };
-  for (const Mark& mark : kMarks)
+  for (const SurfaceMark& mark : kSurfaceMarks)
   {
     add(mark.method, "surface_error_vs_time",
       { { "method", mark.method }, { "setting", press.name } }, mark.point, mark.color);
@@ -182,14 +182,14 @@ Figure profileFigure(const BlockPress& press, double depth)
       { label, "surface_profiles", "radius_mm", "height_mm", where, style, color });
   };
   add("independent elements", "reference", Style::Circles, 7);
-  for (const Mark& mark : kMarks)
+  for (const SurfaceMark& mark : kSurfaceMarks)
   {
     add(mark.method, mark.method, mark.line, mark.color);
   }
   return figure;
 }
 
-void addFigures(Section& section, const BlockPress& press)
+void addSurfaceFigures(Section& section, const BlockPress& press)
 {
   for (const Regime& regime : kRegimes)
   {
@@ -240,7 +240,7 @@ void measurePress(
       tryElementSurface(press, references, kResolutions[i], effort), i + 1 == kResolutions.size());
     effort.reached(begin + fraction * static_cast<double>(i + 1) / kResolutions.size());
   }
-  addFigures(section, press);
+  addSurfaceFigures(section, press);
 }
 
 } // namespace

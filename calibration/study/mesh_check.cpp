@@ -16,7 +16,7 @@ namespace
 // their slope
 constexpr double kAtTheEdge = 0.07;
 constexpr double kSharper = 6.0;
-constexpr double kSharpest = 2.0;
+constexpr double kSteepest = 2.0;
 constexpr double kNextChange = 1.0 / 3.0; // 1/4 for the second order of a smooth contact [-]
 constexpr double kFinest = 0.1;           // elements for a shallow contact, over those of the case
 constexpr double kFewest = 2.0; // elements across a contact, before its force is looked at
@@ -45,7 +45,7 @@ double MeshCheck::changeOnHalving(const IndentationStep& step, const std::stop_t
       const double seen = kNextChange * std::abs(indenter_.state().force / step.force - 1.0);
       const double elements = step.contactRadius / body_.elementSize * 2.0;
       const double slope = 2.0 / std::numbers::pi * step.depth / step.contactRadius; // of a cone
-      const double leap = std::pow(std::clamp(slope, 1.0, kSharpest), kSharper);
+      const double leap = std::pow(std::clamp(slope, 1.0, kSteepest), kSharper);
       return std::max(seen, kAtTheEdge * leap / (elements * elements));
     }
   }

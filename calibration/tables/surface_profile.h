@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/numerics/roots.h"
+#include "haptics/numerics/smooth_step.h"
 
 #include <algorithm>
 #include <array>
@@ -79,8 +80,7 @@ private:
     {
       return full;
     }
-    const double t = std::max(0.0, (full / rest - 1.0) / (kFadedFrom - 1.0));
-    return full * t * t * (3.0 - 2.0 * t);
+    return full * smoothStep((full / rest - 1.0) / (kFadedFrom - 1.0));
   }
 };
 

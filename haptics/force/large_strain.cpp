@@ -157,12 +157,12 @@ bool LargeStrainGrid::covers(double second, double poisson) const noexcept
 
 double largeStrainOf(double depth, double contactRadius, double thickness, double poisson) noexcept
 {
-  constexpr double kMaxDepth = 0.5; // [-] of the thickness
+  constexpr double kLargestShare = 0.5; // [-] of the thickness
   const double strain = depth / contactRadius;
   const double local = 0.28 - poisson * (0.52 + 0.52 * poisson);
   const double layer = 0.29 - poisson * (0.27 + 0.87 * poisson);
   return 1.0 + local * strain / (1.0 + 0.76 * strain) +
-    layer * std::min(depth / thickness, kMaxDepth);
+    layer * std::min(depth / thickness, kLargestShare);
 }
 
 bool isLargeStrainKnown(

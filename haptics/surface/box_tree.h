@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,6 +11,12 @@ namespace palp
 {
 
 using Triangle = std::array<int, 3>; ///< point indices, counter-clockwise from outside
+
+/// Where an index of a point or triangle leads in a vector.
+[[nodiscard]] constexpr std::size_t at(int index) noexcept
+{
+  return static_cast<std::size_t>(index);
+}
 
 /// Outward unit normal of a triangle; zero where it has no area, but for rounding.
 /// @realtime  pure; no allocation, no lock, no exception

@@ -7,11 +7,6 @@ namespace palp
 namespace
 {
 
-std::size_t at(int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 // one side of a triangle, from its corner k, kept at the lower of its two points
 struct Side
 {

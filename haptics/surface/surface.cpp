@@ -16,11 +16,6 @@ namespace palp
 namespace
 {
 
-std::size_t at(int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 void check(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -13,7 +13,7 @@ namespace palp
 namespace
 {
 
-constexpr int kSteps = 200;
+constexpr int kCurveSteps = 200;
 
 std::vector<double> inMillimeters(std::vector<double> meters)
 {
@@ -24,9 +24,9 @@ std::vector<double> inMillimeters(std::vector<double> meters)
 std::vector<double> depthsTo(double deepest)
 {
   std::vector<double> depths;
-  for (int i = 0; i <= kSteps; ++i)
+  for (int i = 0; i <= kCurveSteps; ++i)
   {
-    depths.push_back(deepest * i / kSteps);
+    depths.push_back(deepest * i / kCurveSteps);
   }
   return depths;
 }

@@ -2,6 +2,7 @@
 
 #include "haptics/force/linear/half_space.h"
 #include "haptics/numerics/roots.h"
+#include "haptics/numerics/smooth_step.h"
 #include "haptics/tip/tip.h"
 
 #include <Eigen/Core>
@@ -97,9 +98,8 @@ struct RingCurve
   {
     return lawRadius;
   }
-  const double t = std::min(1.0, 2.0 * depth / sphere->radius - 1.0);
   const double most = std::min(lawRadius, HalfSpace(tip)(depth).radius);
-  return std::lerp(lawRadius, most, t * t * (3.0 - 2.0 * t));
+  return std::lerp(lawRadius, most, smoothStep(2.0 * depth / sphere->radius - 1.0));
 }
 
 /// Least outer radius of a ring whose tangents L1 and L2 meet at a distance from its center.

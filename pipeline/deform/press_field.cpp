@@ -1,5 +1,6 @@
 #include "pipeline/deform/press_field.h"
 
+#include "haptics/numerics/smooth_step.h"
 #include "pipeline/deform/tool_gap.h"
 
 #include <algorithm>
@@ -10,19 +11,12 @@ namespace palp
 namespace
 {
 
-constexpr double kDeepest = 0.99;  // [-] of the depth: sink where a contact ends
-constexpr double kFitReach = 1.5;  // [-] of the contact radius
-constexpr double kPressedOn = 0.8; // [-] of the contact radius
-constexpr double kTiny = 1e-12;    // [m]
-constexpr double kFilledPit = 0.1; // [-] of the contact radius: pressed onto the tool
-constexpr double kOpenPit = 0.4;   // [-] of the contact radius: not reached by the tool
-
-// 0 to 1 between 0 and 1, level at both ends
-double smoothStep(double t) noexcept
-{
-  const double within = std::clamp(t, 0.0, 1.0);
-  return within * within * (3.0 - 2.0 * within);
-}
+constexpr double kDeepest = 0.99;     // [-] of the depth: sink where a contact ends
+constexpr double kFitReach = 1.5;     // [-] of the contact radius
+constexpr double kPressedOn = 0.8;    // [-] of the contact radius
+constexpr double kTinyRadius = 1e-12; // [m]
+constexpr double kFilledPit = 0.1;    // [-] of the contact radius: pressed onto the tool
+constexpr double kOpenPit = 0.4;      // [-] of the contact radius: not reached by the tool
 
 } // namespace
 
@@ -157,7 +151,7 @@ inline double PressField::frontSink(const GeodesicCoordinates& geodesic,
   if (geodesic.distance <= curve.inner)
   {
     // what lies lower than the fit comes onto the tool within the contact, not before it
-    const double within = 1.0 - geodesic.distance / std::max(curve.inner, kTiny);
+    const double within = 1.0 - geodesic.distance / std::max(curve.inner, kTinyRadius);
     const double open = std::max(0.0, -left) * (1.0 - smoothStep(within / kPressedOn));
     const double toTool = body.lowest(rest, normal_);
     sink = std::isfinite(toTool) ? std::max(0.0, open - toTool) : curve.sink;

@@ -1,5 +1,7 @@
 #include "pipeline/deform/press_region.h"
 
+#include "haptics/numerics/smooth_step.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -256,8 +258,7 @@ void PressRegion::meetAround(
 [[gnu::noinline]] float PressRegion::steepnessAt(std::int32_t point) const noexcept
 {
   const double facing = normal().dot(areaAround(point).normalized());
-  const double t = std::clamp((kSteep - facing) / (kSteep - kFront), 0.0, 1.0);
-  return static_cast<float>(t * t * (3.0 - 2.0 * t));
+  return static_cast<float>(smoothStep((kSteep - facing) / (kSteep - kFront)));
 }
 
 inline double PressRegion::distanceInFront(

@@ -13,16 +13,17 @@ namespace palp
 namespace
 {
 
-constexpr double kFacing = 0.2; // [-] cosine: the surface that was touched, not its far side
-constexpr double kCoarse = 0.5; // [-] outer radii: shorter edges cross no more than the rim
-constexpr double kTiny = 1e-24; // [m^2]
+constexpr double kFacing = 0.2;     // [-] cosine: the surface that was touched, not its far side
+constexpr double kCoarse = 0.5;     // [-] outer radii: shorter edges cross no more than the rim
+constexpr double kTinyArea = 1e-24; // [m^2]
 
 // from the contact's center, seen along its normal [m]
 double distanceOfEdge(const GeodesicCoordinates& a, const GeodesicCoordinates& b) noexcept
 {
   const Eigen::Vector2d from = a.local.head<2>();
   const Eigen::Vector2d edge = b.local.head<2>() - from;
-  const double along = std::clamp(-from.dot(edge) / std::max(edge.squaredNorm(), kTiny), 0.0, 1.0);
+  const double along =
+    std::clamp(-from.dot(edge) / std::max(edge.squaredNorm(), kTinyArea), 0.0, 1.0);
   return (from + along * edge).norm();
 }
 

@@ -21,11 +21,6 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-std::size_t at(int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 // points that are used, each once; triangles that have three corners
 struct Merged
 {

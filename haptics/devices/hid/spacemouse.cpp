@@ -10,7 +10,7 @@ namespace
 
 constexpr double kFullScale = 350.0;
 
-enum Report : std::uint8_t
+enum ReportId : std::uint8_t
 {
   Translation = 1, // with the rotation behind it in long reports
   Rotation = 2,
