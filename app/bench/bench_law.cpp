@@ -52,6 +52,7 @@ std::vector<BenchRow> benchLaw()
   return { benchOne("", paper), benchOne("cone", ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, tissue)),
     benchOne("exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
     benchOne("corrected", ForceLaw(paper.tip(), tissue, everything)),
+    benchOne("paraboloid", ForceLaw(ParaboloidTip{ 10.0_mm }, tissue, everything)),
     benchOne("coated", ForceLaw(paper.tip(), tissue, coated)) };
 }
 
