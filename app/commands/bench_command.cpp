@@ -47,7 +47,7 @@ Bench measure(const BenchOptions& options, const Renderer* pictures)
   std::vector<double> sweeps{ benchSweep() };
   Bench bench;
   bench.rows = options.baselines ? benchBaselines()
-    : options.frames             ? pictures->benchFrames(options.most)
+    : options.frames             ? pictures->benchFrames(options.most, options.quick ? 20 : 200)
                                  : benchServo(options.most, options.quick ? 400 : 4000);
   sweeps.push_back(benchSweep());
   if (!options.baselines && !options.frames)

@@ -46,8 +46,9 @@ struct Renderer
   /// What a moved dent costs a picture beyond drawing the same scene again, upload included.
   ///
   /// @param most    points of the largest surface
+  /// @param frames  pictures of each kind
   /// @throws Error  as drawPress
-  [[nodiscard]] virtual std::vector<BenchRow> benchFrames(std::size_t most) const = 0;
+  [[nodiscard]] virtual std::vector<BenchRow> benchFrames(std::size_t most, int frames) const = 0;
 };
 
 } // namespace palp

@@ -25,10 +25,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kFrames = 200;
 constexpr int kSteps = 20; // frames of the tool's way to one side
-
-constexpr int kOverlaySide = 100; // points along a side of the mesh that overlays are drawn on
 
 // Draws some of the triangles, of all the points that it keeps in graphics memory. Software takes
 // 100 ms to draw a million, and what differs between two such pictures is not to be seen beside it.
@@ -51,6 +48,13 @@ protected:
 };
 vtkStandardNewMacro(SomeTriangles);
 
+// where pictures are drawn, and how many of each kind
+struct Setting
+{
+  OffscreenContext context;
+  int frames;
+};
+
 struct Frames
 {
   std::vector<double> still; ///< a picture drawn again [us]
@@ -58,7 +62,7 @@ struct Frames
 };
 
 // in turns, for other work on the machine comes and goes
-Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
+Frames measure(int count, vtkRenderWindow& window, const std::function<void(int)>& move)
 {
   const auto draw = [&]
   {
@@ -82,7 +86,7 @@ Frames measure(vtkRenderWindow& window, const std::function<void(int)>& move)
     const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
     frames.still.push_back(time.count());
   };
-  frames.above = timed(kFrames, redraw, drawMoved);
+  frames.above = timed(count, redraw, drawMoved);
   std::transform(frames.above.begin(), frames.above.end(), frames.still.begin(),
     frames.above.begin(), std::minus<>());
   return frames;
@@ -97,7 +101,7 @@ double offsetOf(int frame, double outer)
 
 // the surface alone
 std::vector<BenchRow> benchSurface(
-  const OffscreenContext& context, const BenchDome& dome, double touched, const char* mode)
+  const Setting& setting, const BenchDome& dome, double touched, const char* mode)
 {
   const Mesh mesh = dome.mesh();
   const double outer = dome.radiusOf(touched);
@@ -109,19 +113,19 @@ std::vector<BenchRow> benchSurface(
   actor->SetMapper(mapper);
   vtkNew<vtkRenderer> renderer;
   renderer->AddActor(actor);
-  const auto window = context.makeWindow(160, 120);
+  const auto window = setting.context.makeWindow(160, 120);
   window->AddRenderer(renderer);
-  const Frames frames =
-    measure(*window, [&](int i) { press->SetPress(dome.press(outer, offsetOf(i, outer))); });
+  const Frames frames = measure(setting.frames, *window,
+    [&](int i) { press->SetPress(dome.press(outer, offsetOf(i, outer))); });
   return { benchRow("frame", mesh.points.size(), "still", frames.still),
     benchRow("frame", mesh.points.size(), mode, frames.above) };
 }
 
 // the whole view of a dent of 500 points with one overlay
 BenchRow benchOverlay(
-  const OffscreenContext& context, const char* name, const std::vector<Overlay>& overlays)
+  const Setting& setting, const char* name, const std::vector<Overlay>& overlays)
 {
-  const BenchDome dome{ kOverlaySide, 100.0_mm };
+  const BenchDome dome{ 100, 100.0_mm };
   const Mesh mesh = dome.mesh();
   const double outer = dome.radiusOf(500);
   vtkNew<vtkRenderer> renderer;
@@ -133,9 +137,9 @@ BenchRow benchOverlay(
     { middle.contact.depth, outer, 0.0, 0.0 } }));
   view.setVisible(overlays);
   view.lookAtSurface();
-  const auto window = context.makeWindow(160, 120);
+  const auto window = setting.context.makeWindow(160, 120);
   window->AddRenderer(renderer);
-  const Frames frames = measure(*window,
+  const Frames frames = measure(setting.frames, *window,
     [&](int i)
     {
       const Press press = dome.press(outer, offsetOf(i, outer));
@@ -151,9 +155,9 @@ BenchRow benchOverlay(
 
 } // namespace
 
-std::vector<BenchRow> OffscreenRenderer::benchFrames(std::size_t most) const
+std::vector<BenchRow> OffscreenRenderer::benchFrames(std::size_t most, int frames) const
 {
-  const OffscreenContext context;
+  const Setting setting{ .context = {}, .frames = frames };
   std::vector<BenchRow> rows;
   for (const int n : { 40, 100, 316, 1000 })
   {
@@ -163,27 +167,23 @@ std::vector<BenchRow> OffscreenRenderer::benchFrames(std::size_t most) const
       const auto count = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
       if (count <= most && (touched == 500 || n == 1000))
       {
-        const auto two = benchSurface(context, dome, touched, mode);
+        const auto two = benchSurface(setting, dome, touched, mode);
         rows.insert(rows.end(), two.begin(), two.end());
       }
     }
   }
-  if (most < kOverlaySide * kOverlaySide)
-  {
-    return rows;
-  }
   const std::vector<Overlay> usual{ Overlay::ForceArrow, Overlay::ContactCircle,
     Overlay::ExtentCircle, Overlay::DisplacementColors, Overlay::Readings };
-  rows.push_back(benchOverlay(context, "none", {}));
-  rows.push_back(benchOverlay(context, "arrow", { Overlay::ForceArrow }));
-  rows.push_back(benchOverlay(context, "circle", { Overlay::ContactCircle }));
-  rows.push_back(benchOverlay(context, "extent", { Overlay::ExtentCircle }));
-  rows.push_back(benchOverlay(context, "colors", { Overlay::DisplacementColors }));
-  rows.push_back(benchOverlay(context, "readings", { Overlay::Readings }));
-  rows.push_back(benchOverlay(context, "pressure", { Overlay::PressureColors }));
-  rows.push_back(benchOverlay(context, "net", { Overlay::ControlNet }));
-  rows.push_back(benchOverlay(context, "ghost", { Overlay::Ghost }));
-  rows.push_back(benchOverlay(context, "usual", usual));
+  rows.push_back(benchOverlay(setting, "none", {}));
+  rows.push_back(benchOverlay(setting, "arrow", { Overlay::ForceArrow }));
+  rows.push_back(benchOverlay(setting, "circle", { Overlay::ContactCircle }));
+  rows.push_back(benchOverlay(setting, "extent", { Overlay::ExtentCircle }));
+  rows.push_back(benchOverlay(setting, "colors", { Overlay::DisplacementColors }));
+  rows.push_back(benchOverlay(setting, "readings", { Overlay::Readings }));
+  rows.push_back(benchOverlay(setting, "pressure", { Overlay::PressureColors }));
+  rows.push_back(benchOverlay(setting, "net", { Overlay::ControlNet }));
+  rows.push_back(benchOverlay(setting, "ghost", { Overlay::Ghost }));
+  rows.push_back(benchOverlay(setting, "usual", usual));
   return rows;
 }
 

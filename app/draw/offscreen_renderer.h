@@ -15,7 +15,7 @@ public:
     const std::filesystem::path& directory) const override;
   void drawFigures(std::span<const figures::Figure> figures, std::span<const figures::Table> tables,
     figures::Layout layout, const std::filesystem::path& directory) const override;
-  [[nodiscard]] std::vector<BenchRow> benchFrames(std::size_t most) const override;
+  [[nodiscard]] std::vector<BenchRow> benchFrames(std::size_t most, int frames) const override;
 };
 
 } // namespace palp

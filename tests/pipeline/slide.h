@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 namespace palp::test
@@ -129,26 +130,13 @@ inline std::vector<bool> folds(const std::vector<Pose>& poses, const Tool& tool)
 // away as it does over the rim of a lobe.
 inline bool hasEdgeWithin(const Surface& surface, const Tool& tool, const Pose& pose)
 {
-  constexpr int kParts = 16; // of a side of a facet, each of whose points is tried
-  const auto reaches = [&](const Facet& facet)
-  {
-    const auto& [a, b, c] = facet.corners;
-    for (int i = 0; i <= kParts; ++i)
-    {
-      for (int j = 0; i + j <= kParts; ++j)
-      {
-        const Eigen::Vector3d point = a + (i * (b - a) + j * (c - a)) / kParts;
-        if ((point - pose.middle).norm() < tool.radius)
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  };
-  return std::ranges::any_of(surface.tree().facets(),
-    [&](const Facet& facet)
-    { return facet.normal.dot(pose.contact.normal) < std::cos(kEdge) && reaches(facet); });
+  const std::vector<Eigen::Vector3d> points(surface.points().begin(), surface.points().end());
+  std::vector<Triangle> turned;
+  std::ranges::copy_if(surface.triangles(), std::back_inserter(turned),
+    [&](const Triangle& triangle)
+    { return unitNormal(points, triangle).dot(pose.contact.normal) < std::cos(kEdge); });
+  return !turned.empty() &&
+    findClosestPoint(Surface(points, turned), pose.middle, tool.radius).triangle >= 0;
 }
 
 } // namespace palp::test
