@@ -154,7 +154,8 @@ inline double PressField::frontSink(const GeodesicCoordinates& geodesic,
     const double within = 1.0 - geodesic.distance / std::max(curve.inner, kTinyRadius);
     const double open = std::max(0.0, -left) * (1.0 - smoothStep(within / kPressedOn));
     const double toTool = body.lowest(rest, normal_);
-    sink = std::isfinite(toTool) ? std::max(0.0, open - toTool) : curve.sink;
+    // past the tool's rim by a hair as the ring begins
+    sink = std::isfinite(toTool) ? std::max(0.0, open - toTool) : curve.sink + std::max(0.0, left);
   }
   else
   {

@@ -146,5 +146,17 @@ TEST_P(DentRange, Sliding)
   slide(GetParam(), kSlides);
 }
 
+// a point of a rough surface, above the fit of it, comes under the rim of the tool
+TEST(DentSlide, APointThatStandsOutMovesOnUnderTheRim)
+{
+  Presser presser(bodyOf("rough"), BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm }, "paper", "paper");
+  Findings findings;
+  for (int i = 0; i <= 30; ++i)
+  {
+    presser.press(15.0_mm, 1.2_mm + 0.005_mm * i, findings);
+  }
+  expectSound(findings);
+}
+
 } // namespace
 } // namespace palp::test
