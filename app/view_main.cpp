@@ -24,7 +24,8 @@ namespace
 
 // stops the force in the next tick of the servo, though the window may hang
 std::atomic<bool> gEnded = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> gSignal = 0; // that asked for it
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 // then ends the program in order, so that the last force sent is zero
 void endOnSignals(QApplication& application)
@@ -32,7 +33,12 @@ void endOnSignals(QApplication& application)
   constexpr int kCheckEvery = 20; // [ms]
   for (const int number : { SIGTERM, SIGINT, SIGHUP })
   {
-    std::signal(number, [](int) { gEnded = true; });
+    std::signal(number,
+      [](int signal)
+      {
+        gSignal = signal;
+        gEnded = true;
+      });
   }
   auto* timer = new QTimer(&application);
   QObject::connect(timer, &QTimer::timeout, &application,
@@ -110,7 +116,9 @@ int view(const palp::ViewOptions& options)
     return 0;
   }
   endOnSignals(application);
-  return QApplication::exec();
+  const int code = QApplication::exec();
+  constexpr int kSignaled = 128; // as a shell tells of a program that a signal ended
+  return gEnded ? kSignaled + gSignal : code;
 }
 
 } // namespace

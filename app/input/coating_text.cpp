@@ -35,7 +35,7 @@ Coatings parseCoatings(std::string_view text, std::string_view what)
     {
       throw Error(ErrorCode::BadValue,
         std::string(what) + ": " + inQuotes(one) +
-          "' has not the form 2mm:200kPa:0.45 (thickness, Young's modulus, Poisson's ratio); write "
+          " has not the form 2mm:200kPa:0.45 (thickness, Young's modulus, Poisson's ratio); write "
           "it like that");
     }
     const double thickness = parseQuantity(cut(one, ':'), Quantity::Length, what);

@@ -4,7 +4,9 @@
 #include "app/input/quantity.h"
 #include "app/program/data_files.h"
 #include "calibration/tables/surface_table.h"
+#include "calibration/tables/table_tool.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
 #include <cmath>
@@ -146,6 +148,14 @@ void add(std::string& notes, const std::string& note)
   notes += (notes.empty() ? "" : "; ") + note;
 }
 
+// that a table of the user's was computed for, where it is another
+std::string toolOfOther(const DentOptions& options, const Tip& tip)
+{
+  constexpr int kDigits = 6; // of the tables
+  const std::string tool = options.table.empty() ? "" : toolOfTable(options.table);
+  return tool.empty() || isToolOfTable(tip, tool, kDigits) ? "" : printable(tool);
+}
+
 // shipped tables are of tissue without any, the user's of the tissue that was asked for at first
 bool isOfTheseCoatings(const PressOptions& options, const LawSettings& settings)
 {
@@ -173,6 +183,14 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     // the same picture for a layer as many radii thick
     calibration.elements = FittedSurfaces::read(
       dataFile(bundled + "_surface.csv"), baseRadius(tip) / shipped, baseRadius(tip));
+  }
+  if (const std::string other = toolOfOther(dent, tip); !other.empty())
+  {
+    calibration.reach = 0.0;
+    calibration.young.reset();
+    add(calibration.note,
+      dent.table.filename().string() + ": R_d is that of another tool (" + other +
+        ") and may be wrong by half; palp calibrate makes that of this one");
   }
   if (!isOfTheseCoatings(options, law.settings()))
   {

@@ -2,12 +2,11 @@
 
 #include "calibration/study/curve_fit.h"
 #include "calibration/tables/extent_table.h"
+#include "calibration/tables/table_tool.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/number_table.h"
 #include "haptics/files/replace_file.h"
-#include "haptics/force/linear/contact_depth.h"
-#include "haptics/tip/profile.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -23,47 +22,6 @@ namespace
 {
 
 using units::toMillimeters;
-
-std::string tipText(const Tip& tip, int digits)
-{
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(digits);
-  const double base = toMillimeters(baseRadius(tip));
-  if (std::holds_alternative<SphereTip>(tip))
-  {
-    out << "sphere, R = " << base << " mm";
-  }
-  else if (const auto* cone = std::get_if<ConeTip>(&tip))
-  {
-    out << "cone, " << units::toDegrees(cone->halfAngle) << " deg, base " << base << " mm";
-  }
-  else if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
-  {
-    out << "cone, " << units::toDegrees(blunt->halfAngle) << " deg, tangent cap "
-        << toMillimeters(blunt->tipRadius) << " mm, base " << base << " mm";
-  }
-  else if (const auto* truncated = std::get_if<TruncatedConeTip>(&tip))
-  {
-    out << "truncated cone, " << units::toDegrees(truncated->halfAngle) << " deg, flat "
-        << toMillimeters(truncated->flatRadius) << " mm, base " << base << " mm";
-  }
-  else if (const auto* profile = std::get_if<ProfileTip>(&tip))
-  {
-    // every point has its part in the depth at which the whole of it is in contact
-    const auto file = std::filesystem::path(profile->profile->name()).filename();
-    out << "profile of revolution " << file.string() << (file.empty() ? "" : ", ") << "base "
-        << base << " mm, height " << toMillimeters(tipHeight(tip, baseRadius(tip)))
-        << " mm, all in contact with a half-space at "
-        << toMillimeters(contactDepth(tip, baseRadius(tip))) << " mm";
-  }
-  else
-  {
-    out << (std::holds_alternative<PunchTip>(tip) ? "flat punch" : "paraboloid") << ", R = " << base
-        << " mm";
-  }
-  return out.str();
-}
 
 std::ostringstream text(const std::string& header, const char* columns)
 {
@@ -108,7 +66,7 @@ std::string describe(const Case& study, const Body& body, int digits)
   out.imbue(std::locale::classic());
   out.precision(digits);
   out << "# palp " << PALP_VERSION << ": " << study.name
-      << "\n# tool: " << tipText(study.tip, digits)
+      << "\n# tool: " << toolInWords(study.tip, digits)
       << "; depth counted from its tip\n# block: " << toMillimeters(study.width) << " x "
       << toMillimeters(study.length) << " x " << toMillimeters(study.height) << " mm, base "
       << (study.base == Base::Bonded ? "bonded" : "slipping")

@@ -95,8 +95,9 @@ int vtkPalpSampleSource::RequestData(
   this->Time.forEach(
     [&](const palp::SampleColumns::Column& at)
     {
-      for (const double force : { at.least, at.largest })
+      for (const bool isFirst : { true, false })
       {
+        const double force = isFirst == at.isFalling ? at.largest : at.least;
         times->InsertNextValue(static_cast<float>(at.start));
         forces->InsertNextValue(static_cast<float>(force));
       }

@@ -3,7 +3,8 @@
  * @brief   the samples of the servo loop as tables for charts
  *
  * Output 0, force against time: float columns "time [s]" and "force [N]", two rows for each of
- * Columns intervals of the last seconds, Span of them, the least and the largest force in it.
+ * Columns intervals of the last seconds, Span of them, the least and the largest force in it, in
+ * the order in which they came.
  * Output 1, force against depth: float columns "depth [mm]" and "force [N]", the last Points
  * samples of the same seconds that differ from the one before by something that can be seen.
  *

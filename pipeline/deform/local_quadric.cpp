@@ -23,6 +23,7 @@ void LocalQuadric::fit(const PressRegion& region, double reach)
     {
       continue;
     }
+    const double weight = left * left * (1.0 - static_cast<double>(geodesic.steepness));
     const double xx = x * x;
     const double xy = x * y;
     const double yy = y * y;
@@ -30,11 +31,11 @@ void LocalQuadric::fit(const PressRegion& region, double reach)
       xx * xx, xx * xy, xx * yy, xy * yy, yy * yy };
     for (std::size_t i = 0; i < moments.size(); ++i)
     {
-      moments[i] += left * left * terms[i];
+      moments[i] += weight * terms[i];
     }
     for (std::size_t i = 0; i < 6; ++i)
     {
-      heights[static_cast<Eigen::Index>(i)] += left * left * geodesic.local.z() * terms[i];
+      heights[static_cast<Eigen::Index>(i)] += weight * geodesic.local.z() * terms[i];
     }
   }
   const auto& m = moments;

@@ -11,7 +11,8 @@ namespace palp
 class LocalQuadric
 {
 public:
-  /// Least squares over the points that face the tool, weighted so that none enters with a jump.
+  /// Least squares over the points that face the tool, weighted so that none enters with a jump,
+  /// neither with its distance nor as it turns to the tool.
   ///
   /// @param reach  radius within which points count [m]
   void fit(const PressRegion& region, double reach);

@@ -22,6 +22,7 @@ public:
     double start; ///< of the column [s]
     double least;
     double largest;
+    bool isFalling; ///< the least came last, so that a line through both goes on from where it was
   };
 
   /// @param span   of time kept [s], more than 0
@@ -58,7 +59,7 @@ public:
       slots_[static_cast<std::size_t>(i % count)] = Slot{};
     }
     newest_ = index;
-    slots_[static_cast<std::size_t>(index % count)].join({ value, value, true });
+    slots_[static_cast<std::size_t>(index % count)].join({ value, value, false, true });
   }
 
   /// Forgets everything.
@@ -79,7 +80,8 @@ public:
       const Slot& slot = slots_[static_cast<std::size_t>(i % count)];
       if (slot.filled)
       {
-        function(Column{ static_cast<double>(i) * width_, slot.least, slot.largest });
+        function(
+          Column{ static_cast<double>(i) * width_, slot.least, slot.largest, slot.isFalling });
       }
     }
   }
@@ -91,16 +93,22 @@ private:
   {
     double least = 0.0;
     double largest = 0.0;
+    bool isFalling = false;
     bool filled = false;
 
-    void join(const Slot& other) noexcept
+    // with what came after it
+    void join(const Slot& later) noexcept
     {
-      if (other.filled)
+      if (!filled || !later.filled)
       {
-        least = filled ? std::min(least, other.least) : other.least;
-        largest = filled ? std::max(largest, other.largest) : other.largest;
-        filled = true;
+        *this = filled ? *this : later;
+        return;
       }
+      const bool isLess = later.least <= least;
+      const bool isMore = later.largest >= largest;
+      isFalling = isLess == isMore ? (isLess ? later.isFalling : isFalling) : isLess;
+      least = std::min(least, later.least);
+      largest = std::max(largest, later.largest);
     }
   };
 

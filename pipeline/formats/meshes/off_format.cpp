@@ -100,6 +100,11 @@ vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
     }
     faces->UpdateCellCount(corners);
   }
+  if (lines.next())
+  {
+    lines.refuse(
+      "the file goes on behind the " + std::to_string(faceCount) + " faces that its head counts");
+  }
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
   mesh->SetPolys(faces);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -86,6 +87,7 @@ public:
         readOne(element);
       }
     }
+    refuseMore();
     if (farthest_ >= static_cast<double>(points_->GetNumberOfPoints()))
     {
       refuseIndex(farthest_, farthestFace_); // faces may stand before vertices
@@ -292,6 +294,16 @@ private:
   {
     lines_.refuse("cut off, or its header damaged: it counts " + std::to_string(element.count) +
       " of " + shortened(element.name) + ", and ends after " + std::to_string(at_ - 1));
+  }
+
+  // a line or byte more than the header counts, but for blanks
+  void refuseMore()
+  {
+    const auto isBlank = [](unsigned char c) { return c == 0 || std::isspace(c) != 0; };
+    if (coding_ == Coding::Text ? lines_.next() : !std::ranges::all_of(body_, isBlank))
+    {
+      lines_.refuse("the file goes on behind all that its header counts");
+    }
   }
 
   [[noreturn]] void refuseHere(const Element& element, const std::string& what) const

@@ -213,11 +213,18 @@ vtkSmartPointer<vtkPolyData> readStl(const std::filesystem::path& file)
   {
     refuse(file, "too short for a binary STL file; export the surface again");
   }
-  if ((size - kHeader) / kFacet < count)
+  const std::size_t held = (size - kHeader) / kFacet;
+  if (held < count)
   {
     refuse(file,
-      "cut off, it holds " + std::to_string((size - kHeader) / kFacet) + " of " +
-        std::to_string(count) + " triangles, or no STL file; export or copy it again");
+      "cut off, it holds " + std::to_string(held) + " of " + std::to_string(count) +
+        " triangles, or no STL file; export or copy it again");
+  }
+  if (held > count)
+  {
+    refuse(file,
+      "it holds " + std::to_string(held) + " triangles where its header counts " +
+        std::to_string(count) + "; export it again");
   }
   return readBinary(file, count);
 }

@@ -54,6 +54,29 @@ TEST(LoadCalibration, LayerAndThresholdActAsTheyMust)
   EXPECT_GT(load(SphereTip{ 8.0_mm }, fine).extents.extentRadius(depth), 1.1 * usual);
 }
 
+TEST(LoadCalibration, SaysThatATableIsOfAnotherTool)
+{
+  const auto ofTable = [](const char* name, const Tip& tip)
+  {
+    PressOptions options;
+    options.dent.table = dataFile(std::string("tables/") + name + ".csv");
+    return load(tip, options);
+  };
+  EXPECT_EQ(ofTable("sphere_r6_h30", SphereTip{ 6.0_mm }).note, "");
+  EXPECT_EQ(ofTable("cone45_r6_h30", ConeTip{ 45.0_deg, 6.0_mm }).note, "");
+  EXPECT_EQ(ofTable("cone45_r6_h30", BluntConeTip{ 45.0_deg, 0.3_mm, 6.0_mm }).note, "");
+  for (const auto& [name, tip] :
+    { std::pair<const char*, Tip>("sphere_r6_h30", SphereTip{ 9.0_mm }),
+      { "cone45_r6_h30", SphereTip{ 6.0_mm } }, { "cone45_r6_h30", ConeTip{ 40.0_deg, 6.0_mm } },
+      { "cone45_r6_h30", ConeTip{ 45.0_deg, 9.0_mm } }, { "sphere_r6_h30", PunchTip{ 6.0_mm } } })
+  {
+    const Calibration calibration = ofTable(name, tip);
+    EXPECT_NE(calibration.note.find("of another tool"), std::string::npos) << name;
+    EXPECT_FALSE(calibration.covers(1.0_mm));
+    EXPECT_FALSE(calibration.young);
+  }
+}
+
 TEST(LoadCalibration, SaysWhatStandsInForWhat)
 {
   EXPECT_EQ(load(SphereTip{ 8.0_mm }).note, "");

@@ -36,14 +36,18 @@ TEST(ViewProgram, WithoutAUsableDisplayEndsWithItsExitCode)
   EXPECT_NE(finished.err.find("palp run"), std::string::npos) << finished.err;
 }
 
-TEST(ViewProgram, EndsInOrderOnSigterm)
+TEST(ViewProgram, EndsInOrderOnASignalAndTellsIt)
 {
-  // once it takes the signal, bit 14 of those it has a handler for
-  const test::Finished finished = test::runCommand(
-    "PALP_DATA=" PALP_SHARE " " PALP_VIEW " view & running=$!; until grep -q "
-    "'^SigCgt:.*[4567cdef][0-9a-f]\\{3\\}$' /proc/$running/status; do kill -0 $running || exit; "
-    "sleep 0.05; done; sleep 1; kill -TERM $running; wait $running");
-  EXPECT_EQ(finished.code, 0) << finished.err;
+  for (const auto& [signal, code] : { std::pair("TERM", 143), std::pair("INT", 130) })
+  {
+    // once it takes the signal, bit 14 of those it has a handler for
+    const test::Finished finished = test::runCommand(
+      "PALP_DATA=" PALP_SHARE " " PALP_VIEW " view & running=$!; until grep -q "
+      "'^SigCgt:.*[4567cdef][0-9a-f]\\{3\\}$' /proc/$running/status; do kill -0 $running || exit; "
+      "sleep 0.05; done; sleep 1; kill -" +
+      std::string(signal) + " $running; wait $running");
+    EXPECT_EQ(finished.code, code) << finished.err;
+  }
 }
 
 } // namespace

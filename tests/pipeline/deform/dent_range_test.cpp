@@ -146,6 +146,53 @@ TEST_P(DentRange, Sliding)
   slide(GetParam(), kSlides);
 }
 
+// through the edge of a thin plate, where the contact's normal turns past the side of the tool
+TEST(DentSlide, AToolThroughAnEdgeLeavesNoPointInIt)
+{
+  for (const double lean : { -0.1, -0.3 })
+  {
+    for (const double beside : { 44.0_mm, 46.0_mm, 48.0_mm })
+    {
+      PressedBody plate = pressedBody("plate", makeBox({ 100.0_mm, 100.0_mm, 8.0_mm }, 2.0_mm),
+        { beside, 0.2_mm, 0.0 }, { lean, 0.02, 1.0 });
+      for (const Tip& tip : { Tip(ConeTip{ 40.0_deg, 8.0_mm }), Tip(ConeTip{ 60.0_deg, 8.0_mm }),
+             Tip(TruncatedConeTip{ 40.0_deg, 2.0_mm, 8.0_mm }), Tip(PunchTip{ 4.0_mm }) })
+      {
+        Presser presser(plate, tip, "paper", "paper");
+        bool isThrough = false; // the apex came out: no contact is left
+        for (int i = 1; i <= 80 && !isThrough; ++i)
+        {
+          Findings findings;
+          presser.press(0.1_mm * i, 0.0, findings);
+          isThrough = !presser.last()->contact.touching();
+          EXPECT_TRUE(isThrough || findings.inside.value <= 1.0_um)
+            << tip.index() << " " << beside << " " << findings.inside.value
+            << findings.inside.where;
+        }
+      }
+    }
+  }
+}
+
+// as long as no flank stands along it the surface goes the way of the contact
+TEST(DrawnNormal, LeavesTwelveDegreesToAFlank)
+{
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.2, -0.5, -1.0).normalized();
+  const Eigen::Vector3d across = axis.unitOrthogonal();
+  for (const double flank : { 20.0_deg, 45.0_deg, 70.0_deg })
+  {
+    const Tip tip = ConeTip{ flank, 8.0_mm };
+    for (double tilt = 0.0; tilt < 170.0_deg; tilt += 0.5_deg)
+    {
+      const Eigen::Vector3d normal = std::sin(tilt) * across - std::cos(tilt) * axis;
+      const Eigen::Vector3d drawn = drawnNormal(normal, axis, tip);
+      const double expected = std::min(tilt, flank - 12.0_deg);
+      EXPECT_NEAR(
+        (drawn - (std::sin(expected) * across - std::cos(expected) * axis)).norm(), 0.0, 1e-12);
+    }
+  }
+}
+
 // a point of a rough surface, above the fit of it, comes under the rim of the tool
 TEST(DentSlide, APointThatStandsOutMovesOnUnderTheRim)
 {

@@ -83,6 +83,30 @@ TEST(SampleColumns, LeavesAGapWhereNothingWasMeasured)
   EXPECT_EQ(all[0].least, 3.0);
 }
 
+// a press, then nothing for a while: a line through the extremes may not leave the zero in between
+TEST(SampleColumns, EndWhereTheSignalEnds)
+{
+  for (const double lift : { 0.01, 0.02, 0.04, 0.3, 7.0 }) // the columns are as wide as 0.1 s
+  {
+    SampleColumns columns(60.0, 600);
+    double time = 0.0;
+    for (; time < 20.0; time += 1e-3) // presses, between which the tool rests
+    {
+      columns.add(time, std::max(0.0, std::sin(time / lift)));
+    }
+    columns.add(time, 0.0);
+    const std::vector<SampleColumns::Column> all = columnsOf(columns);
+    const SampleColumns::Column& last = all.back();
+    EXPECT_EQ(last.isFalling ? last.least : last.largest, 0.0) << lift;
+  }
+  SampleColumns rising(60.0, 600);
+  for (const double force : { 1.0, 0.0, 0.4, 2.0 })
+  {
+    rising.add(59.0, force);
+  }
+  EXPECT_FALSE(columnsOf(rising).back().isFalling);
+}
+
 TEST(SampleColumns, TakesNoValueThatIsNotFinite)
 {
   SampleColumns columns(60.0, 600);

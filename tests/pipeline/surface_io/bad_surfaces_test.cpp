@@ -35,7 +35,17 @@ std::vector<BadFile> badFiles()
   std::string negative = kPly;
   negative.replace(negative.find("3 1 2 3"), 7, "3 1 -2 3");
 
+  std::string moreInPly = kPly;
+  moreInPly.replace(moreInPly.find("element face 4"), 14, "element face 3");
+  std::string moreInOff = kOff;
+  moreInOff.replace(moreInOff.find("4 4 6"), 5, "4 3 6");
+  std::string moreInStl(84 + 2 * 50, '\0'); // two triangles
+  moreInStl[80] = 1;
+
   std::vector<BadFile> cases = {
+    { "more.ply", moreInPly, ErrorCode::BadFile, "goes on behind all that its header counts" },
+    { "more.off", moreInOff, ErrorCode::BadFile, "goes on behind the 3 faces" },
+    { "more.stl", moreInStl, ErrorCode::BadFile, "2 triangles where its header counts 1" },
     { "empty.stl", "", ErrorCode::BadFile, "empty" },
     { "nan.stl", notANumber, ErrorCode::BadMesh, "not a usable number" },
     { "inf.obj", infinite, ErrorCode::BadMesh, "inf.obj:3: 'inf' is not a usable number" },
