@@ -16,16 +16,6 @@ struct DentStyle
   bool isLiteral = false; ///< with the radius of Eq. (2) also where no sphere can have it
 };
 
-/// The way that a surface goes below a tool: against the contact's normal, unless a straight flank
-/// or the shaft of a tool that leans would stand along it as a wall; then as near to it as leaves
-/// 12 degrees between them.
-///
-/// @param normal  unit
-/// @param axis    of the tool, unit
-/// @return        unit, in the plane of both
-[[nodiscard]] Eigen::Vector3d drawnNormal(
-  const Eigen::Vector3d& normal, const Eigen::Vector3d& axis, const Tip& tip) noexcept;
-
 /// The press of a sample, alike in every picture and file made of it.
 ///
 /// @param extentRadius  R_d of the table at the sample's depth [m]

@@ -94,4 +94,14 @@ private:
   double flank_;           // slope of a sharp cone [-], 0 for other tips
 };
 
+/// The way that a surface goes below a tool: against the contact's normal, unless a straight flank
+/// or the shaft of a tool that leans would stand along it as a wall; then as near to it as leaves
+/// 12 degrees between them.
+///
+/// @param normal  unit
+/// @param axis    of the tool, unit
+/// @return        unit, in the plane of both
+[[nodiscard]] Eigen::Vector3d drawnNormal(
+  const Eigen::Vector3d& normal, const Eigen::Vector3d& axis, const Tip& tip) noexcept;
+
 } // namespace palp
