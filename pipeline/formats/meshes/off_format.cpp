@@ -44,6 +44,15 @@ void readKeyword(TextLines& lines)
   }
 }
 
+void refuseMore(TextLines& lines, int faceCount)
+{
+  if (lines.next())
+  {
+    lines.refuse(
+      "the file goes on behind the " + std::to_string(faceCount) + " faces that its head counts");
+  }
+}
+
 } // namespace
 
 vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
@@ -100,11 +109,7 @@ vtkSmartPointer<vtkPolyData> readOff(const std::filesystem::path& file)
     }
     faces->UpdateCellCount(corners);
   }
-  if (lines.next())
-  {
-    lines.refuse(
-      "the file goes on behind the " + std::to_string(faceCount) + " faces that its head counts");
-  }
+  refuseMore(lines, faceCount);
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
   mesh->SetPolys(faces);
