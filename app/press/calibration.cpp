@@ -151,9 +151,8 @@ void add(std::string& notes, const std::string& note)
 // that a table of the user's was computed for, where it is another
 std::string toolOfOther(const DentOptions& options, const Tip& tip)
 {
-  constexpr int kDigits = 6; // of the tables
   const std::string tool = options.table.empty() ? "" : toolOfTable(options.table);
-  return tool.empty() || isToolOfTable(tip, tool, kDigits) ? "" : printable(tool);
+  return tool.empty() || isToolOfTable(tip, tool) ? "" : printable(tool);
 }
 
 // shipped tables are of tissue without any, the user's of the tissue that was asked for at first

@@ -74,9 +74,9 @@ std::string toolOfTable(const std::filesystem::path& file)
   return text.substr(first, text.find_first_of(";\r\n", first) - first);
 }
 
-bool isToolOfTable(const Tip& tip, const std::string& inTable, int digits)
+bool isToolOfTable(const Tip& tip, const std::string& inTable)
 {
-  const std::string words = toolInWords(tip, digits);
+  const std::string words = toolInWords(tip);
   if (!std::holds_alternative<ConeTip>(tip))
   {
     return words == inTable;
