@@ -39,6 +39,16 @@ struct Union
   }
 };
 
+std::string describeCrossing(const Eigen::Vector3d& place)
+{
+  std::ostringstream note;
+  note << "the surface crosses itself, at " << std::setprecision(4)
+       << units::toMillimeters(place.x()) << ", " << units::toMillimeters(place.y()) << ", "
+       << units::toMillimeters(place.z()) << " mm for one; what is inside is told from all of it, "
+       << "but forces near such folds are doubtful: repair the mesh";
+  return note.str();
+}
+
 std::string describe(const Deviation& apart, std::size_t points)
 {
   std::ostringstream note;
@@ -80,6 +90,10 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     origin.moved = !source.frame.isApprox(Eigen::Isometry3d::Identity());
   }
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
+  if (body.haptic->crossing())
+  {
+    body.notes.push_back(describeCrossing(*body.haptic->crossing()));
+  }
   if (shown)
   {
     body.display = makePolyData(display.points, display.triangles);

@@ -124,7 +124,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
     return {};
   }
   Neighborhood here = look(surface, tip, position, nearest.distance);
-  if (isOrientationFlipped(here, position - nearest.point))
+  if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
   {
     here = look(surface, tip, position, -nearest.distance);
     if (here.distance >= reach)

@@ -15,7 +15,8 @@ struct ClosestPoint
   double distance = 0.0;                           ///< [m], negative inside the body
 };
 
-/// The nearest point of the triangles, and on which side of them a place is.
+/// The nearest point of the triangles, and on which side of them a place is: by the nearest
+/// feature, or, of a surface that crosses itself, by all of it.
 ///
 /// Beside an open edge the inside ends gradually: behind the plane of the sheet, the distance
 /// past its edge counts against the depth.

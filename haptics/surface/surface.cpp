@@ -1,6 +1,7 @@
 #include "haptics/surface/surface.h"
 
 #include "haptics/error.h"
+#include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "haptics/surface/facet_part.h"
 
@@ -82,6 +83,15 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
     throw Error(ErrorCode::BadMesh, "surface: no triangle with an area; choose another file");
   }
   normals_ = angleWeightedNormals(points_, triangles_);
+  linkEdges();
+  if (!closed())
+  {
+    spreadOpenEdges();
+  }
+  else if (crossing_ = findCrossing(tree_, triangles_); crossing_)
+  {
+    dropWhatIsBuried();
+  }
   firstTriangle_.assign(points_.size(), -1);
   for (int facet = static_cast<int>(tree_.facets().size()) - 1; facet >= 0; --facet)
   {
@@ -89,11 +99,6 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
     {
       firstTriangle_[at(point)] = tree_.triangle(facet);
     }
-  }
-  linkEdges();
-  if (!closed())
-  {
-    spreadOpenEdges();
   }
   shape_ = ShapeField(tree_, { points_, triangles_, across_ }, edgeLength_);
 }
@@ -126,6 +131,29 @@ void Surface::linkEdges()
   {
     neighbors_[at(next[at(a)]++)] = b;
     neighbors_[at(next[at(b)]++)] = a;
+  }
+}
+
+// what is felt is the boundary of all that is inside
+void Surface::dropWhatIsBuried()
+{
+  constexpr double kAside = 1e-4; // [-] edge lengths
+  const Winding& winding = winding_.emplace(tree_);
+  for (int i = 0; at(i) < tree_.facets().size(); ++i)
+  {
+    const Facet& facet = tree_.facets()[at(i)];
+    const auto& [a, b, c] = facet.corners;
+    const Eigen::Vector3d middle = (a + b + c) / 3.0;
+    const Eigen::Vector3d aside = kAside * edgeLength_ * facet.normal;
+    if ((winding(middle + aside) > 0.5) == (winding(middle - aside) > 0.5))
+    {
+      triangles_[at(tree_.triangle(i))].fill(triangles_[at(tree_.triangle(i))][0]);
+    }
+  }
+  tree_ = BoxTree(points_, triangles_);
+  if (tree_.empty())
+  {
+    throw Error(ErrorCode::BadMesh, "surface: encloses nothing; repair the mesh");
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include "haptics/surface/box_tree.h"
 #include "haptics/surface/shape_field.h"
+#include "haptics/surface/winding.h"
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,7 +19,9 @@ class Surface
 public:
   /// Checks the triangles, computes normals and neighbors, builds the box tree.
   ///
-  /// Degenerate triangles and points without a triangle are allowed and ignored by the search.
+  /// Degenerate triangles and points without a triangle are allowed and ignored by the search. Of a
+  /// closed surface that crosses itself, triangles with the inside or the outside on both sides
+  /// become degenerate: they bound nothing.
   ///
   /// @param points     [m]
   /// @param triangles  indices into points, outward oriented
@@ -66,6 +70,21 @@ public:
   /// Whether a point ends an edge that has not exactly two triangles.
   [[nodiscard]] bool onOpenEdge(int point) const noexcept;
 
+  /// A place where a closed surface crosses itself; none: it does so nowhere, or is open.
+  [[nodiscard]] const std::optional<Eigen::Vector3d>& crossing() const noexcept
+  {
+    return crossing_;
+  }
+
+  /// How often a surface with a crossing() goes round about a place; 0 of any other, where the
+  /// nearest triangle tells inside from outside at a tenth of the cost.
+  ///
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double winding(const Eigen::Vector3d& position) const noexcept
+  {
+    return winding_ ? (*winding_)(position) : 0.0;
+  }
+
   /// Distance to the nearest open edge; infinity where the surface is closed.
   ///
   /// @param position  near the triangle [m]
@@ -93,6 +112,7 @@ public:
 private:
   void linkEdges();
   void spreadOpenEdges();
+  void dropWhatIsBuried();
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<Triangle> triangles_;
@@ -106,6 +126,8 @@ private:
   double edgeLength_ = 0.0;
   BoxTree tree_;
   ShapeField shape_;
+  std::optional<Eigen::Vector3d> crossing_;
+  std::optional<Winding> winding_; // none: the surface does not cross itself
 };
 
 } // namespace palp

@@ -1,6 +1,7 @@
 #include "tests/support/process.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -102,6 +103,36 @@ TEST_F(OddInput, OfSpreadsheetsIsTakenOrTold)
   EXPECT_NE(semicolons.err.find("in 'depth_mm;force_N'"), std::string::npos) << semicolons.err;
   const test::Finished twice = curve("twice.csv", "depth_mm,force_N,force_N\n1,0.2,0.3\n");
   EXPECT_NE(twice.err.find("two columns force_N"), std::string::npos) << twice.err;
+}
+
+// two blocks that overlap, as segmentations leave folds
+TEST_F(OddInput, OfASurfaceThatCrossesItselfIsTakenAndTold)
+{
+  std::ofstream mesh(folder_.path() / "two.obj");
+  for (const double shift : { 0.0, 33.0 })
+  {
+    for (int i = 0; i < 8; ++i)
+    {
+      mesh << "v " << 40 * (i & 1) - 20 + shift << ' ' << 20 * (i & 2) - 20 + 0.1 * shift << ' '
+           << 10 * (i & 4) - 40 + 0.05 * shift << '\n';
+    }
+  }
+  for (const int first : { 1, 9 })
+  {
+    for (const auto& [a, b, c, d] :
+      { std::array{ 0, 2, 3, 1 }, std::array{ 4, 5, 7, 6 }, std::array{ 0, 1, 5, 4 },
+        std::array{ 2, 6, 7, 3 }, std::array{ 0, 4, 6, 2 }, std::array{ 1, 3, 7, 5 } })
+    {
+      mesh << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n'
+           << "f " << first + a << ' ' << first + c << ' ' << first + d << '\n';
+    }
+  }
+  mesh.close();
+  const test::Finished run = test::runCommand("cd " + folder_.path().string() +
+    " && " PALP_PROGRAM " run two.obj --unit mm --no-picture --out out --path " PALP_SOURCE_DIR
+    "/data/paths/block_press.csv");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("the surface crosses itself, at "), std::string::npos) << run.err;
 }
 
 TEST_F(OddInput, OfSilentPipesIsRefused)

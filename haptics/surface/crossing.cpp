@@ -1,0 +1,78 @@
+#include "haptics/surface/crossing.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kTouching = 1e-6; // [-] of an edge or an area: less is rounding
+
+// where the line from a to b passes through the middle of a facet
+std::optional<Eigen::Vector3d> pierced(
+  const Facet& facet, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  const double above = facet.normal.dot(a - facet.corners[0]);
+  const double below = facet.normal.dot(b - facet.corners[0]);
+  const double least = kTouching * (b - a).norm();
+  if (above * below >= 0.0 || std::min(std::abs(above), std::abs(below)) < least)
+  {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d x = a + above / (above - below) * (b - a);
+  const auto& [p, q, r] = facet.corners;
+  const double slack = kTouching * (q - p).cross(r - p).norm();
+  const bool isWithin = (q - p).cross(x - p).dot(facet.normal) > slack &&
+    (r - q).cross(x - q).dot(facet.normal) > slack &&
+    (p - r).cross(x - r).dot(facet.normal) > slack;
+  return isWithin ? std::optional(x) : std::nullopt;
+}
+
+bool overlaps(const BoxTree::Node& box, const Facet& facet) noexcept
+{
+  const auto& [a, b, c] = facet.corners;
+  const Eigen::Array3d low = a.cwiseMin(b).cwiseMin(c).array();
+  const Eigen::Array3d high = a.cwiseMax(b).cwiseMax(c).array();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto axis = static_cast<Eigen::Index>(k);
+    if (low[axis] > static_cast<double>(box.high[k]) ||
+      high[axis] < static_cast<double>(box.low[k]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+std::optional<Eigen::Vector3d> findCrossing(
+  const BoxTree& tree, std::span<const Triangle> triangles)
+{
+  std::optional<Eigen::Vector3d> found;
+  for (int i = 0; at(i) < tree.facets().size() && !found; ++i)
+  {
+    const Facet& facet = tree.facets()[at(i)];
+    const Triangle& own = triangles[at(tree.triangle(i))];
+    tree.search([&](const BoxTree::Node& box) { return !found && overlaps(box, facet); },
+      [&](int j)
+      {
+        const Triangle& other = triangles[at(tree.triangle(j))];
+        const auto isShared = [&](int point) { return std::ranges::count(other, point) > 0; };
+        for (std::size_t k = 0; k < 3 && !found; ++k)
+        {
+          const std::size_t next = (k + 1) % 3;
+          if (!isShared(own[k]) && !isShared(own[next]))
+          {
+            found = pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]);
+          }
+        }
+      });
+  }
+  return found;
+}
+
+} // namespace palp

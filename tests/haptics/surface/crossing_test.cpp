@@ -1,0 +1,116 @@
+// Surfaces that cross themselves: folds of a scanner, bodies that overlap.
+
+#include "haptics/contact/find_contact.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/surface.h"
+#include "haptics/units.h"
+#include "tests/support/surfaces.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kRadius = 30.0_mm;
+
+// a ball whose cap was turned inside out in its place, as segmentations leave it
+test::Mesh foldedBall(double capRadius, double factor)
+{
+  test::Mesh mesh = test::ball(kRadius, 24);
+  for (Eigen::Vector3d& point : mesh.first)
+  {
+    if (point.z() > 0.0 && point.head<2>().norm() < capRadius)
+    {
+      point.head<2>() *= factor;
+    }
+  }
+  return mesh;
+}
+
+double signedDistance(const Surface& surface, const Eigen::Vector3d& place)
+{
+  return findClosestPoint(surface, place, std::numeric_limits<double>::infinity()).distance;
+}
+
+TEST(Crossing, IsFoundWhereTrianglesPassThroughEachOther)
+{
+  const auto crossing = [](test::Mesh mesh)
+  { return test::makeSurface(std::move(mesh)).crossing(); };
+  const test::Mesh block = test::block(Eigen::Vector3d::Constant(20.0_mm), 5);
+  EXPECT_FALSE(crossing(block));
+  EXPECT_FALSE(crossing(test::ball(kRadius, 12)));
+  EXPECT_FALSE(crossing(test::sheet(50.0_mm, 9)));
+  EXPECT_FALSE(crossing(test::withCopyAt(block, { 20.0_mm, 0.0, 0.0 }))) << "they touch";
+  EXPECT_FALSE(crossing(test::withCopyAt(block, { 20.0_mm, 7.0_mm, 0.0 }))) << "and slide";
+  const auto overlap = crossing(test::withCopyAt(block, { 13.0_mm, 7.3_mm, 1.7_mm }));
+  ASSERT_TRUE(overlap);
+  EXPECT_GT(overlap->x(), 3.0_mm - 1e-9); // of the copy's near side
+  EXPECT_LT(overlap->x(), 10.0_mm + 1e-9);
+  EXPECT_TRUE(crossing(foldedBall(3.0_mm, -0.9)));
+  EXPECT_TRUE(crossing(foldedBall(8.0_mm, -1.1)));
+}
+
+// of two blocks, each a product of intervals, it is known who is inside how many
+TEST(Crossing, WhatIsInsideOfOverlappingBlocksIsInside)
+{
+  const double side = 20.0_mm;
+  const Eigen::Vector3d shift(13.0_mm, 7.3_mm, 1.7_mm);
+  const Surface both =
+    test::makeSurface(test::withCopyAt(test::block(Eigen::Vector3d::Constant(side), 5), shift));
+  const auto isIn = [&](const Eigen::Vector3d& place)
+  {
+    return (place.array().head<2>().abs() < 0.5 * side).all() && place.z() < 0.0 &&
+      place.z() > -side;
+  };
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-30.0_mm, 40.0_mm);
+  int inside = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Eigen::Vector3d place(anywhere(random), anywhere(random), anywhere(random) - 10.0_mm);
+    const int expected = int{ isIn(place) } + int{ isIn(place - shift) };
+    const double winding = both.winding(place);
+    const double distance = signedDistance(both, place);
+    if (std::abs(distance) > 1e-6)
+    {
+      ASSERT_NEAR(winding, expected, 0.05) << place.transpose();
+      ASSERT_EQ(distance<0.0, expected> 0) << place.transpose();
+    }
+    inside += expected > 0 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 500);
+}
+
+// under the top of a block the walls of another that stand in it are not felt
+TEST(Crossing, AToolFeelsNoWallWithinTheBody)
+{
+  const Surface both = test::makeSurface(test::withCopyAt(
+    test::block(Eigen::Vector3d::Constant(40.0_mm), 20), { 23.0_mm, 0.7_mm, -6.0_mm }));
+  for (const Tip& tip : { Tip(ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm }),
+         Tip(SphereTip{ .radius = 2.0_mm }), Tip(PunchTip{ .radius = 3.0_mm }) })
+  {
+    for (const double depth : { 1.0_mm, 3.0_mm, 5.0_mm, 7.0_mm, 9.0_mm })
+    {
+      for (double x = -8.0_mm; x < 8.0_mm; x += 0.1_mm) // the wall stands at 3 mm
+      {
+        const Contact contact = findContact(both, tip,
+          { .apex = { x, 1.3_mm, -depth },
+            .axis = -Eigen::Vector3d::UnitZ(),
+            .velocity = Eigen::Vector3d::Zero() },
+          ContactRule::Exact);
+        ASSERT_NEAR(contact.depth, depth, 0.02 * depth) << x;
+        ASSERT_GT(contact.normal.z(), 0.999) << x;
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace palp
