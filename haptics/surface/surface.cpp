@@ -138,7 +138,8 @@ void Surface::linkEdges()
 void Surface::dropWhatIsBuried()
 {
   constexpr double kAside = 1e-4; // [-] edge lengths
-  const Winding& winding = winding_.emplace(tree_);
+  Winding winding(tree_);
+  std::vector<Triangle> triangles = triangles_;
   for (int i = 0; at(i) < tree_.facets().size(); ++i)
   {
     const Facet& facet = tree_.facets()[at(i)];
@@ -147,14 +148,19 @@ void Surface::dropWhatIsBuried()
     const Eigen::Vector3d aside = kAside * edgeLength_ * facet.normal;
     if ((winding(middle + aside) > 0.5) == (winding(middle - aside) > 0.5))
     {
-      triangles_[at(tree_.triangle(i))].fill(triangles_[at(tree_.triangle(i))][0]);
+      Triangle& triangle = triangles[at(tree_.triangle(i))];
+      triangle.fill(triangle[0]);
     }
   }
-  tree_ = BoxTree(points_, triangles_);
-  if (tree_.empty())
+  BoxTree boundary(points_, triangles);
+  if (boundary.empty()) // it encloses nothing: the nearest triangle tells what it can
   {
-    throw Error(ErrorCode::BadMesh, "surface: encloses nothing; repair the mesh");
+    crossing_.reset();
+    return;
   }
+  winding_ = std::move(winding);
+  triangles_ = std::move(triangles);
+  tree_ = std::move(boundary);
 }
 
 // each point takes over the nearest open edge that one of its neighbors knows, nearest first
