@@ -167,13 +167,13 @@ ClosestPoint findClosestPoint(
   }
   const OnFacet& hit = best.hit;
   const int triangle = tree.triangle(best.facet);
-  const auto [normal, open] =
-    sideOf(surface, tree.facets()[static_cast<std::size_t>(best.facet)], triangle, hit);
   const double distance = std::sqrt(best.squared);
   if (surface.crossing()) // the nearest triangle may be one of a fold
   {
     return { triangle, hit.point, surface.winding(position) > 0.5 ? -distance : distance };
   }
+  const auto [normal, open] =
+    sideOf(surface, tree.facets()[static_cast<std::size_t>(best.facet)], triangle, hit);
   const double height = normal.dot(position - hit.point);
   if (height >= 0.0)
   {
