@@ -21,6 +21,7 @@ struct Curve
     Circles,
     Squares,
     Diamonds,
+    Cells, ///< of a map: its color is a shade
   };
 
   std::string label;                                        ///< empty: not in the legend

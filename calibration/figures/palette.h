@@ -16,6 +16,17 @@ namespace palp::figures
   return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
 }
 
+inline constexpr int kShades = 8;
+
+/// A color of values that rise, the darkest first; even in lightness.
+/// @source  viridis, Smith and van der Walt 2015
+[[nodiscard]] constexpr const char* shadeColor(int index) noexcept
+{
+  constexpr std::array<const char*, kShades> kRising{ "#440154", "#46327e", "#365c8d", "#277f8e",
+    "#1fa187", "#4ac16d", "#a0da39", "#fde725" };
+  return kRising[static_cast<std::size_t>(index) % kRising.size()];
+}
+
 /// Of the band that a hand does not notice; curves lie over it.
 inline constexpr const char* kBandColor = "#b8bfc9";
 

@@ -12,21 +12,6 @@ namespace palp::figures
 namespace
 {
 
-// its line break and the likes are kept within quotes
-std::string field(const std::string& text)
-{
-  if (text.find_first_of(",\"\n") == std::string::npos)
-  {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text)
-  {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + '"';
-}
-
 std::string formatted(double value, std::chars_format format, int digits)
 {
   char text[64];
@@ -107,7 +92,7 @@ std::string csv(const Table& table, int digits)
     const char* separator = "";
     for (const Cell& cell : row)
     {
-      text.append(separator).append(field(textOf(cell, digits)));
+      text.append(separator).append(csvField(textOf(cell, digits)));
       separator = ",";
     }
     text += '\n';

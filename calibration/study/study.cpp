@@ -5,13 +5,9 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <mutex>
 #include <optional>
-#include <thread>
 
 namespace palp::fem
 {
@@ -140,38 +136,6 @@ Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume,
     files.write(outcome);
   }
   return outcome;
-}
-
-void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
-  const std::vector<Case>& cases, bool resume, unsigned jobs, const std::stop_token& stop,
-  const std::function<void(const std::string& name, const std::string& failure)>& tell)
-{
-  std::atomic<std::size_t> next{ 0 };
-  std::mutex telling;
-  const auto work = [&]
-  {
-    for (std::size_t i = next++; i < cases.size(); i = next++)
-    {
-      std::string failure;
-      try
-      {
-        failure = calibrateInto(*folders[i], cases[i], resume, stop).error;
-      }
-      catch (const std::exception& error)
-      {
-        failure = error.what();
-      }
-      const std::lock_guard lock(telling);
-      tell(cases[i].name, failure);
-    }
-  };
-  std::vector<std::jthread> threads;
-  const std::size_t most =
-    std::min<std::size_t>(cases.size(), std::max(1U, std::thread::hardware_concurrency()));
-  for (std::size_t i = 0; i < std::clamp<std::size_t>(jobs, 1, std::max<std::size_t>(1, most)); ++i)
-  {
-    threads.emplace_back(work);
-  }
 }
 
 } // namespace palp::fem

@@ -37,13 +37,4 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 [[nodiscard]] Outcome calibrateInto(OutputFolder& folder, const Case& study, bool resume,
   const std::stop_token& stop = {}, const Progress& progress = {});
 
-/// Several cases at a time, each into its folder; a case that fails leaves the others.
-///
-/// @param folders  one for each case, see calibrateInto
-/// @param jobs  how many at a time, 1 or more; never more than there are cases or cores
-/// @param tell  called with a case's name and its failure (empty: none), one call at a time
-void sweep(const std::vector<std::unique_ptr<OutputFolder>>& folders,
-  const std::vector<Case>& cases, bool resume, unsigned jobs, const std::stop_token& stop,
-  const std::function<void(const std::string& name, const std::string& failure)>& tell);
-
 } // namespace palp::fem

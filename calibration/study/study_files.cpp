@@ -65,8 +65,8 @@ std::string describe(const Case& study, const Body& body, int digits)
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(digits);
-  out << "# palp " << PALP_VERSION << ": " << study.name
-      << "\n# tool: " << toolInWords(study.tip, digits)
+  out << "# palp " << PALP_VERSION << ": " << study.name << '\n'
+      << kToolLine << toolInWords(study.tip, digits)
       << "; depth counted from its tip\n# block: " << toMillimeters(study.width) << " x "
       << toMillimeters(study.length) << " x " << toMillimeters(study.height) << " mm, base "
       << (study.base == Base::Bonded ? "bonded" : "slipping")

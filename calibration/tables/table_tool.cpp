@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <sstream>
-#include <string_view>
 #include <variant>
 
 namespace palp
@@ -16,8 +15,6 @@ namespace
 {
 
 using units::toMillimeters;
-
-constexpr std::string_view kTool = "# tool: ";
 
 } // namespace
 
@@ -65,12 +62,12 @@ std::string toolInWords(const Tip& tip, int digits)
 std::string toolOfTable(const std::filesystem::path& file)
 {
   const std::string text = readText(file, "a table of palp calibrate");
-  const std::size_t begin = text.find(kTool);
+  const std::size_t begin = text.find(kToolLine);
   if (begin == std::string::npos)
   {
     return "";
   }
-  const std::size_t first = begin + kTool.size();
+  const std::size_t first = begin + kToolLine.size();
   return text.substr(first, text.find_first_of(";\r\n", first) - first);
 }
 

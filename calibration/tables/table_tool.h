@@ -4,11 +4,14 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace palp
 {
 
 // the tool that a table of finite elements was computed for, as its header tells it
+
+inline constexpr std::string_view kToolLine = "# tool: "; ///< how its line begins
 
 /// @param digits  of its numbers; a table has the default
 [[nodiscard]] std::string toolInWords(const Tip& tip, int digits = 6);

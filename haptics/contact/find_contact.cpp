@@ -15,9 +15,9 @@ namespace
 
 // Facets are smoothed out over a part of the contact, for what a scanner stepped comes through when
 // the mesh is fine, but over enough of them to vanish and no more than the tick has time for
-constexpr double kSmoothed = 0.6;  // [-] of the contact's radius
+constexpr double kSmoothed = 0.63; // [-] of the contact's radius
 constexpr double kFewest = 1.8;    // [-] edge lengths; below 1.5 the facets come through
-constexpr double kMost = 5.0;      // [-] edge lengths
+constexpr double kMost = 6.5;      // [-] edge lengths
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
@@ -71,9 +71,11 @@ double contactRadius(const Tip& tip, double nose, double distance) noexcept
 // where a triangle leaves the ball. Along the mean normal, so that a wall behind does not count.
 double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
 {
-  const double reached = 1.5 * patch.square.dot(patch.normal) / patch.normal.squaredNorm();
-  const double excess =
-    squaredBall - std::max(0.0, reached) - distance * distance; // h^2 - distance^2
+  // no w is more than the ball's square over the nearest point's, whatever rounding makes of a ball
+  // that a corner or an edge only just enters
+  const double reached = std::clamp(
+    1.5 * patch.square.dot(patch.normal) / patch.normal.squaredNorm(), 0.0, 1.5 * radius * radius);
+  const double excess = squaredBall - reached - distance * distance; // h^2 - distance^2
   // close to the surface the square says little: the correction fades there
   const double scale = std::max(distance * distance, radius * radius / 16.0);
   return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));

@@ -113,7 +113,8 @@ public:
     double turn = sine_ == 0.0 && cosine_ > 0.0 ? 0.0 : std::atan2(sine_, cosine_);
     if (!middleInside)
     {
-      turn = std::max(0.0, turn);
+      // from a middle upon a side half of the disc is seen, and rounding says in which sense
+      turn = turn < -0.5 * std::numbers::pi ? turn + 2.0 * std::numbers::pi : std::max(0.0, turn);
     }
     else if (!crossed_)
     {

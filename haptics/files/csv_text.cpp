@@ -26,4 +26,45 @@ void writeCsvRow(std::ostream& out, std::span<const double> values)
   out << '\n';
 }
 
+std::string csvField(const std::string& text)
+{
+  if (text.find_first_of(",\"\n") == std::string::npos)
+  {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text)
+  {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return quoted + '"';
+}
+
+std::vector<std::string> csvFields(std::string_view line)
+{
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+  {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+    {
+      fields.back() += line[i++];
+    }
+    else if (c == '"' && (quoted || fields.back().empty())) // elsewhere it stands for itself
+    {
+      quoted = !quoted;
+    }
+    else if (c == ',' && !quoted)
+    {
+      fields.emplace_back();
+    }
+    else
+    {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
 } // namespace palp

@@ -3,6 +3,8 @@
 #include <iosfwd>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace palp
 {
@@ -12,5 +14,11 @@ namespace palp
 
 /// Writes one line of comma-separated numbers, shortest digits.
 void writeCsvRow(std::ostream& out, std::span<const double> values);
+
+/// A word as RFC 4180 has it: in quotes where it holds a comma, a quote or a line break.
+[[nodiscard]] std::string csvField(const std::string& text);
+
+/// The words of one line, without their quotes.
+[[nodiscard]] std::vector<std::string> csvFields(std::string_view line);
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace palp
 {
@@ -23,5 +24,8 @@ namespace palp
 
 /// The same text without control characters, which a terminal would obey.
 [[nodiscard]] std::string printable(std::string text);
+
+/// The parts of a text between separators; one more than there are of them.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
 } // namespace palp

@@ -72,6 +72,17 @@ ContactGeometry sanitized(const ContactGeometry& local, const LawSettings& setti
   return clean;
 }
 
+// fine down to the diameter of the tool
+ContactRows makeRows(const ForceLaw& law)
+{
+  const auto elastic = [&](double depth)
+  {
+    const Response at = law({ .depth = depth });
+    return ElasticForce{ at.force, at.stiffness };
+  };
+  return { elastic, std::min(2.0 * baseRadius(law.tip()), 0.5 * kMaxDepth) };
+}
+
 // 1 where there is too little to divide by
 double ratio(double part, double whole) noexcept
 {
@@ -86,6 +97,7 @@ struct ForceLaw::Corrections
   LayerContact layer;
   std::optional<LayerContact> coated;
   EllipseFactor ellipse;
+  std::optional<ContactRows> rows; // of a law with memory
 };
 
 ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings settings)
@@ -96,15 +108,27 @@ ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings setting
 {
   if (settings_.mode == LawMode::Corrected)
   {
-    Corrections corrections{ .layer = LayerContact(tip_, material_.poissonRatio, settings_.base),
-      .coated = std::nullopt,
-      .ellipse = EllipseFactor() };
+    const auto corrections = std::make_shared<Corrections>(
+      Corrections{ .layer = LayerContact(tip_, material_.poissonRatio, settings_.base),
+        .coated = std::nullopt,
+        .ellipse = EllipseFactor(),
+        .rows = std::nullopt });
     if (!settings_.coatings.empty())
     {
-      corrections.coated = corrections.layer.coated(settings_.coatings, material_, settings_.base);
+      corrections->coated =
+        corrections->layer.coated(settings_.coatings, material_, settings_.base);
     }
-    corrections_ = std::make_shared<const Corrections>(std::move(corrections));
+    corrections_ = corrections;
+    if (!settings_.relaxation.empty() || settings_.friction > 0.0)
+    {
+      corrections->rows = makeRows(*this);
+    }
   }
+}
+
+const ContactRows* ForceLaw::rows() const noexcept
+{
+  return corrections_ != nullptr && corrections_->rows ? &*corrections_->rows : nullptr;
 }
 
 ForceLaw ForceLaw::corrected() const

@@ -4,6 +4,8 @@
 #include "haptics/force/linear/coating.h"
 #include "haptics/force/linear/half_space.h"
 #include "haptics/force/linear/layer.h"
+#include "haptics/force/relaxation/contact_rows.h"
+#include "haptics/force/relaxation/prony_series.h"
 #include "haptics/material.h"
 #include "haptics/tip/tip.h"
 
@@ -59,6 +61,8 @@ struct LawSettings
   bool curvature = true;
   bool thickness = true;
   bool inclination = true;
+  PronySeries relaxation{}; ///< of the modulus, whose instantaneous value the material has
+  double friction = 0.0; ///< mu between tool and tissue [-], 0 or more; no liver's value is known
 };
 
 /// One named correction: the force with it over the force without it.
@@ -117,6 +121,9 @@ public:
   {
     return settings_;
   }
+
+  /// The law on a half-space as rows, in which tissue relaxes and rubs; null where it does neither.
+  [[nodiscard]] const ContactRows* rows() const noexcept;
 
 private:
   struct Corrections;

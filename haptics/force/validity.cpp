@@ -102,7 +102,7 @@ double shown(double value) noexcept
 
 } // namespace
 
-std::uint32_t brokenRules(const Rules& rules) noexcept
+std::uint32_t brokenRules(std::span<const Rule> rules) noexcept
 {
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < rules.size(); ++i)

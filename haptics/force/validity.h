@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace palp
 {
@@ -36,7 +37,7 @@ using Rules = std::array<Rule, 13>;
 
 /// A bit for each rule that does not hold, the first rule the lowest.
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] std::uint32_t brokenRules(const Rules& rules) noexcept;
+[[nodiscard]] std::uint32_t brokenRules(std::span<const Rule> rules) noexcept;
 
 /// Tells for each sample how far the law in use may be believed.
 ///

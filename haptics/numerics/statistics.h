@@ -19,4 +19,11 @@ struct Statistics
 /// @param values  at least one, in any order; finite
 [[nodiscard]] Statistics statisticsOf(std::vector<double> values);
 
+/// What the size of Student's t stays below with a probability.
+/// @param probability  more than 0, less than 1
+/// @param freedom      degrees of freedom, 1 or more
+/// @source             Abramowitz and Stegun 1964, 26.7.1: 1 - I_x(freedom / 2, 1 / 2) with
+///                     x = freedom / (freedom + t^2)
+[[nodiscard]] double studentQuantile(double probability, double freedom);
+
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "haptics/servo/safety.h"
 
+#include "haptics/contact/embed_nodules.h"
 #include "haptics/error.h"
 
 #include <algorithm>
@@ -81,9 +82,10 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
   return settings_.stiffnessFraction * std::max(without, stableStiffness(loop));
 }
 
-void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene) noexcept
+void SafetyChain::limit(
+  Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept
 {
-  const Eigen::Vector3d wanted = rendered(sample, law, scene);
+  const Eigen::Vector3d wanted = rendered(sample, law, scene, memory);
   const Eigen::Vector3d damping = passivity_.damp(last_.apex, last_.velocity, dt_);
   sample.force.setZero();
   if (forceOn())
@@ -125,7 +127,7 @@ double SafetyChain::largestForce(const Scene& scene) const noexcept
 
 // the law through the coupling, with damping along the normal
 Eigen::Vector3d SafetyChain::rendered(
-  Sample& sample, const DepthLaw& law, const Scene& scene) noexcept
+  Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept
 {
   const double depth = sample.contact.depth;
   const double stiffest = stiffnessLimit(scene.damping);
@@ -147,12 +149,20 @@ Eigen::Vector3d SafetyChain::rendered(
   }
   normalForce_ = felt.force;
   sample.proxyDepth = felt.proxyDepth;
+  const Eigen::Vector3d friction =
+    memory != nullptr ? memory->settle(felt, stiffest, sample) : Eigen::Vector3d::Zero();
   if (std::isnan(sample.response.force) || !(scene.damping >= 0.0) || !(scene.forceLimit >= 0.0))
   {
     fault(Flag::NotFinite);
     return Eigen::Vector3d::Zero();
   }
-  return push(sample.contact.normal, felt, scene);
+  Eigen::Vector3d force = push(sample.contact.normal, felt, scene);
+  if (scene.nodules != nullptr)
+  {
+    sample.lateral = (*scene.nodules)(noduleContactOf(sample.contact), felt.proxyDepth).lateral;
+    force += sample.lateral;
+  }
+  return memory != nullptr ? Eigen::Vector3d(force + friction) : force;
 }
 
 // where contact is felt to begin, so that no force jumps

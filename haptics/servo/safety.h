@@ -6,6 +6,7 @@
 #include "haptics/servo/period_monitor.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
+#include "haptics/servo/tissue_memory.h"
 
 #include <optional>
 
@@ -66,8 +67,10 @@ public:
   /// @param sample  pose and contact of this tick
   /// @param law     at this contact
   /// @param scene   for damping, largest force and version
+  /// @param memory  of tissue whose law this is, to settle where the tool is felt to be; null: none
   /// @realtime      no allocation, no lock, no exception
-  void limit(Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
+  void limit(Sample& sample, const DepthLaw& law, const Scene& scene,
+    TissueMemory* memory = nullptr) noexcept;
 
   [[nodiscard]] DeviceState state() const noexcept
   {
@@ -90,7 +93,7 @@ private:
   void fault(Flag flag) noexcept;
   void forceOff(DeviceState state) noexcept;
   [[nodiscard]] Eigen::Vector3d rendered(
-    Sample& sample, const DepthLaw& law, const Scene& scene) noexcept;
+    Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept;
   void rebase(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
   void resumeFraction() noexcept;
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;

@@ -50,10 +50,13 @@ struct Sample
   double time = 0.0; ///< since the start of the loop [s]
   ToolPose pose;
   Contact contact;
-  Response response;       ///< of the law, before damping and limits
+  Response response;                                 ///< of the law, before damping and limits
+  Eigen::Vector3d lateral = Eigen::Vector3d::Zero(); ///< of nodules, besides the response [N]
   double proxyDepth = 0.0; ///< depth at which the law gives the rendered force [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< sent to the device [N]
-  std::uint32_t flags = 0;                         ///< of Flag
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< sent to the device [N]
+  Eigen::Vector3d friction = Eigen::Vector3d::Zero(); ///< on the tool, before limits [N]
+  double surfaceDepth = 0.0; ///< of relaxing tissue at the tool, also of what is left [m]
+  std::uint32_t flags = 0;   ///< of Flag
   DeviceState state = DeviceState::Active;
 };
 

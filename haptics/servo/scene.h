@@ -2,6 +2,7 @@
 
 #include "haptics/contact/find_contact.h"
 #include "haptics/force/force_law.h"
+#include "haptics/force/nodules/nodule_field.h"
 
 #include <cstdint>
 #include <memory>
@@ -20,6 +21,7 @@ struct Scene
   double forceLimit = 4.0;   ///< [N], at most what the device can bear
   std::uint64_t version = 0; ///< another number with another surface or law
   bool armed = false;        ///< the user wants to feel force; after a fault: off, then on again
+  std::shared_ptr<const NoduleField> nodules{}; ///< felt by the law's tool; null: none
 };
 
 } // namespace palp

@@ -65,12 +65,12 @@ Sample Servo::computeSample(
   if (chain_)
   {
     const ToolPose held{ .apex = held_.apex, .axis = held_.axis };
-    Sample sample = step(scene, *chain_, pose, device_.status(), orders, elapsed, held);
+    Sample sample = step(scene, memory_, *chain_, pose, device_.status(), orders, elapsed, held);
     held_ = sample.pose;
     return sample;
   }
   held_ = pose.value_or(ToolPose{ .apex = held_.apex, .axis = held_.axis });
-  Sample sample = pose ? step(scene, held_) : Sample{};
+  Sample sample = pose ? step(scene, memory_, held_, elapsed) : Sample{};
   sample.pose = held_;
   sample.flags |= pose ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
   if (stopped)

@@ -5,6 +5,7 @@
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 #include "haptics/servo/timing.h"
+#include "haptics/servo/tissue_memory.h"
 #include "haptics/threads/latest.h"
 #include "haptics/threads/ring.h"
 
@@ -100,6 +101,7 @@ private:
   ServoOptions options_;
   Latest<Scene> scene_;
   std::optional<SafetyChain> chain_; // where a hand can feel the force
+  TissueMemory memory_;              // where the tissue relaxes or rubs
   ToolPose held_;                    // where the tool was last, for a device that is gone
   Latest<Sample> newest_;
   Ring<Sample> history_;

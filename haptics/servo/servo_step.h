@@ -3,6 +3,7 @@
 #include "haptics/servo/safety.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
+#include "haptics/servo/tissue_memory.h"
 
 namespace palp
 {
@@ -28,13 +29,18 @@ namespace palp
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Sample step(const Scene& scene, const ToolPose& pose) noexcept;
 
+/// The same of tissue that relaxes or rubs, which it may also do along the surface.
+/// @param dt  since the last tick [s]
+[[nodiscard]] Sample step(
+  const Scene& scene, TissueMemory& memory, const ToolPose& pose, double dt) noexcept;
+
 /// A tick through a safety chain: admit the pose, contact and law there, limit the force.
 ///
 /// @param pose     of Device::exchange; nothing: the device gave none
 /// @param held     pose of the sample where none is admitted
 /// @param dt       since the last tick [s]
 /// @realtime       no allocation, no lock, no exception
-[[nodiscard]] Sample step(const Scene& scene, SafetyChain& chain,
+[[nodiscard]] Sample step(const Scene& scene, TissueMemory& memory, SafetyChain& chain,
   const std::optional<ToolPose>& pose, const DeviceStatus& status, const SafetyOrders& orders,
   double dt, const ToolPose& held = {}) noexcept;
 

@@ -104,6 +104,15 @@ void split(std::vector<BoxTree::Node>& nodes, std::span<Entry> entries, int firs
 
 } // namespace
 
+bool isWithin(const Facet& facet, const Eigen::Vector3d& position, double margin) noexcept
+{
+  const auto& [a, b, c] = facet.corners;
+  const double least = margin * (b - a).cross(c - a).norm();
+  return (b - a).cross(position - a).dot(facet.normal) >= least &&
+    (c - b).cross(position - b).dot(facet.normal) >= least &&
+    (a - c).cross(position - c).dot(facet.normal) >= least;
+}
+
 Eigen::Vector3d unitNormal(
   std::span<const Eigen::Vector3d> points, const Triangle& triangle) noexcept
 {

@@ -30,6 +30,14 @@ struct Facet
   Eigen::Vector3d normal;                 ///< outward unit normal
 };
 
+/// Whether a place in the plane of a facet is on it.
+///
+/// @param margin  by which it must lie within each edge, as a share of the facet's height over that
+///                edge [-]; negative: as far outside still counts
+/// @realtime      pure; no allocation, no lock, no exception
+[[nodiscard]] bool isWithin(
+  const Facet& facet, const Eigen::Vector3d& position, double margin) noexcept;
+
 /// Flat tree of boxes over triangles, nodes and facets in depth-first order.
 ///
 /// Boxes are single precision, rounded outwards: half the bytes, never too small. A triangle

@@ -168,9 +168,9 @@ ClosestPoint findClosestPoint(
   const OnFacet& hit = best.hit;
   const int triangle = tree.triangle(best.facet);
   const double distance = std::sqrt(best.squared);
-  if (surface.crossing()) // the nearest triangle may be one of a fold
+  if (const auto& winding = surface.winding()) // the nearest triangle may be one of a fold
   {
-    return { triangle, hit.point, surface.winding(position) > 0.5 ? -distance : distance };
+    return { triangle, hit.point, (*winding)(position) > 0.5 ? -distance : distance };
   }
   const auto [normal, open] =
     sideOf(surface, tree.facets()[static_cast<std::size_t>(best.facet)], triangle, hit);

@@ -1,6 +1,5 @@
 #include "haptics/surface/crossing.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace palp
@@ -22,12 +21,7 @@ std::optional<Eigen::Vector3d> pierced(
     return std::nullopt;
   }
   const Eigen::Vector3d x = a + above / (above - below) * (b - a);
-  const auto& [p, q, r] = facet.corners;
-  const double slack = kTouching * (q - p).cross(r - p).norm();
-  const bool isWithin = (q - p).cross(x - p).dot(facet.normal) > slack &&
-    (r - q).cross(x - q).dot(facet.normal) > slack &&
-    (p - r).cross(x - r).dot(facet.normal) > slack;
-  return isWithin ? std::optional(x) : std::nullopt;
+  return isWithin(facet, x, kTouching) ? std::optional(x) : std::nullopt;
 }
 
 bool overlaps(const BoxTree::Node& box, const Facet& facet) noexcept

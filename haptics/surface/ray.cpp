@@ -1,6 +1,5 @@
 #include "haptics/surface/ray.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace palp
@@ -9,16 +8,6 @@ namespace
 {
 
 constexpr double kOverlap = 1e-9; // of triangles under a ray, by their height [-]
-
-// is x, in the plane of a facet, on it?
-bool isWithin(const Facet& facet, const Eigen::Vector3d& x) noexcept
-{
-  const auto& [a, b, c] = facet.corners;
-  const double slack = -kOverlap * (b - a).cross(c - a).norm();
-  return (b - a).cross(x - a).dot(facet.normal) >= slack &&
-    (c - b).cross(x - b).dot(facet.normal) >= slack &&
-    (a - c).cross(x - c).dot(facet.normal) >= slack;
-}
 
 // side: 1 where the ray leaves through a facet, -1 where it enters
 RayHit firstHit(const BoxTree& tree, const Eigen::Vector3d& origin,
@@ -50,7 +39,7 @@ RayHit firstHit(const BoxTree& tree, const Eigen::Vector3d& origin,
       return;
     }
     const double t = facet.normal.dot(facet.corners[0] - origin) / along;
-    if (t > 0.0 && t < first.distance && isWithin(facet, origin + t * direction))
+    if (t > 0.0 && t < first.distance && isWithin(facet, origin + t * direction, -kOverlap))
     {
       first = { tree.triangle(i), t };
     }

@@ -76,13 +76,11 @@ public:
     return crossing_;
   }
 
-  /// How often a surface with a crossing() goes round about a place; 0 of any other, where the
-  /// nearest triangle tells inside from outside at a tenth of the cost.
-  ///
-  /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] double winding(const Eigen::Vector3d& position) const noexcept
+  /// Of a surface with a crossing(); none of any other, where the nearest triangle tells inside
+  /// from outside at a tenth of the cost.
+  [[nodiscard]] const std::optional<Winding>& winding() const noexcept
   {
-    return winding_ ? (*winding_)(position) : 0.0;
+    return winding_;
   }
 
   /// Distance to the nearest open edge; infinity where the surface is closed.
@@ -127,7 +125,7 @@ private:
   BoxTree tree_;
   ShapeField shape_;
   std::optional<Eigen::Vector3d> crossing_;
-  std::optional<Winding> winding_; // none: the surface does not cross itself
+  std::optional<Winding> winding_;
 };
 
 } // namespace palp

@@ -57,6 +57,7 @@ TEST_F(HidServo, TheBoardPushesAsTheChainSays)
 
   auto from = samples_.cbegin();
   double strongest = 0.0;
+  double turned = 0.0; // [rad] the most that the nearest force of the chain is away
   for (std::size_t i = 0; i < board_->pushed.size(); ++i)
   {
     const auto& [at, currents] = board_->pushed[i];
@@ -67,9 +68,20 @@ TEST_F(HidServo, TheBoardPushesAsTheChainSays)
     const auto found = std::find_if(from, samples_.cend(), isFelt);
     ASSERT_NE(found, samples_.cend()) << "packet " << i << ": felt " << felt.transpose();
     from = found;
+    if (felt.norm() > 0.5)
+    {
+      double least = 1.0;
+      for (auto sample = samples_.cbegin(); sample != samples_.cend(); ++sample)
+      {
+        const double sine = felt.cross(sample->force).norm() / (felt.norm() * sample->force.norm());
+        least = isFelt(*sample) ? std::min(least, sine) : least;
+      }
+      turned = std::max(turned, least);
+    }
     strongest = std::max(strongest, felt.norm());
   }
   EXPECT_GT(strongest, 0.5);
+  RecordProperty("turned_deg", std::to_string(turned / 1.0_deg));
 }
 
 // counted in ticks, not on a clock: the force that the servo has just found goes out, and in the

@@ -18,6 +18,7 @@ namespace
 constexpr double kShortestPiece = 1e-6; // [s]
 constexpr double kFarthest = 10.0;      // [m]
 constexpr double kAxisTolerance = 0.01;
+constexpr double kGap = 0.01; // between two samples of a recording that leaves something out [s]
 
 constexpr std::string_view kHeader = "time_s,x_mm,y_mm,z_mm";
 constexpr std::string_view kHeaderWithAxis = "time_s,x_mm,y_mm,z_mm,ax,ay,az";
@@ -25,6 +26,7 @@ constexpr std::string_view kHeaderWithAxis = "time_s,x_mm,y_mm,z_mm,ax,ay,az";
 constexpr std::size_t kShortRow = 4;
 constexpr std::size_t kLongRow = 7;
 
+constexpr std::string_view kDepth = "depth_mm";
 using Names = std::array<std::string_view, kLongRow>;
 constexpr Names kOfPaths{ "time_s", "x_mm", "y_mm", "z_mm", "ax", "ay", "az" };
 constexpr Names kOfRecordings{ "time_s", "tool_x_mm", "tool_y_mm", "tool_z_mm", "axis_x", "axis_y",
@@ -89,7 +91,16 @@ public:
       {
         continue;
       }
-      knots.push_back(knot(cellsOf(row)));
+      const Cells cells = cellsOf(row);
+      PathKnot next = knot(cells);
+      const bool isApart = depthOf(cells) == 0.0;
+      if (wasApart_ && isApart && next.time > knots.back().time + kGap)
+      {
+        knots.push_back(knots.back()); // nobody knows the way: it may lead through the body
+        knots.back().time = next.time - 2.0 * kShortestPiece;
+      }
+      wasApart_ = isApart;
+      knots.push_back(std::move(next));
       const PathKnot* previous = knots.size() > 1 ? &knots[knots.size() - 2] : nullptr;
       if (const std::string what = fault(previous, knots.back()); !what.empty())
       {
@@ -142,7 +153,15 @@ private:
       columns_[i] = static_cast<std::size_t>(std::ranges::find(cells, names[i]) - cells.begin());
     }
     width_ = cells.size();
+    const auto depth = std::ranges::find(cells, kDepth);
+    depth_ = depth == cells.end() ? std::nullopt : std::optional(depth - cells.begin());
     return true;
+  }
+
+  // of a recording; none of a path
+  [[nodiscard]] std::optional<double> depthOf(const Cells& cells) const
+  {
+    return depth_ ? std::optional(number(cells[static_cast<std::size_t>(*depth_)])) : std::nullopt;
   }
 
   [[nodiscard]] PathKnot knot(const Cells& cells) const
@@ -191,8 +210,10 @@ private:
 
   std::string name_;
   int line_ = 0;
-  std::vector<std::size_t> columns_; // of time, position and axis below a header
-  std::size_t width_ = 0;            // of the header; 0 without one
+  std::vector<std::size_t> columns_;      // of time, position and axis below a header
+  std::size_t width_ = 0;                 // of the header; 0 without one
+  std::optional<std::ptrdiff_t> depth_{}; // column
+  bool wasApart_ = false;                 // the tool in the row before, of a recording
 };
 
 } // namespace

@@ -110,28 +110,6 @@ TEST(Study, PressesShallowDepthsOnSmallerElements)
   }
 }
 
-TEST(Study, SweepKeepsWhatWorksAndReportsWhatDoesNot)
-{
-  Case bad = quick();
-  bad.name = "too large";
-  bad.tip = SphereTip{ 60.0_mm };
-  Case good = quick();
-  good.name = "good";
-  std::map<std::string, std::string> told;
-  const auto folder = test::freshFolder();
-  std::vector<std::unique_ptr<OutputFolder>> folders;
-  for (const Case& study : { bad, good })
-  {
-    folders.push_back(std::make_unique<OutputFolder>(
-      folder / study.name, calibrationFiles(), OutputFolder::Earlier::Refuse));
-  }
-  sweep(folders, { bad, good }, false, 2, {},
-    [&](const std::string& name, const std::string& failure) { told[name] = failure; });
-  EXPECT_NE(told.at("too large"), "");
-  EXPECT_EQ(told.at("good"), "");
-  EXPECT_EQ(ExtentTable::read(folder / "good" / "table.csv").rows().size(), 3U);
-}
-
 // also in the middle of a depth
 TEST(Study, StopsWithinADepth)
 {

@@ -95,6 +95,56 @@ TEST(Contact, ApartIsNoContact)
   }
 }
 
+// straight above the diagonal of a side of the mesh and its crossings, where a middle lies upon
+// sides
+TEST(Contact, OnTheSidesOfTrianglesIsAsBesideThem)
+{
+  for (const int n : { 1, 2, 3, 4, 7 })
+  {
+    const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, n));
+    for (int i = -60; i <= 60; ++i)
+    {
+      const double along = i * 0.5_mm;
+      for (const Eigen::Vector3d& place :
+        { Eigen::Vector3d(along, along, 0.0), Eigen::Vector3d(along, -along, 0.0),
+          Eigen::Vector3d(along, 0.0, 0.0), Eigen::Vector3d(along, 0.1 / n, 0.0) })
+      {
+        if (std::abs(place.y()) > 35.0_mm)
+        {
+          continue; // near the rim
+        }
+        const Contact contact = findContact(block, kSphere,
+          at(place - 2.0_mm * Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitZ()),
+          ContactRule::Exact);
+        EXPECT_NEAR(contact.depth, 2.0_mm, 1e-9) << n << " at " << place.transpose();
+        EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+// as a ball only just meets a corner or an edge, rounding alone says how much of it is within
+TEST(Contact, ACornerOrAnEdgeThatIsOnlyJustMetIsFeltAsThat)
+{
+  const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 10));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> part(0.01, 1.0);
+  for (int i = 0; i < 300; ++i)
+  {
+    const bool isCorner = i % 2 == 0;
+    const Eigen::Vector3d place(0.05, isCorner ? 0.05 : 0.1 * part(random) - 0.05, 0.0);
+    const Eigen::Vector3d out =
+      Eigen::Vector3d(part(random), isCorner ? part(random) : 0.0, part(random)).normalized();
+    for (const double within : { -1e-17, 0.0, 1e-17, 1e-14, 1e-11, 1e-8, 1e-6 })
+    {
+      // the apex of a ball whose middle is over the place
+      const Contact contact = findContact(block, kSphere,
+        at(place + (10.0_mm - within) * out - 10.0_mm * out, -out), ContactRule::Exact);
+      EXPECT_LE(contact.depth, 2.0 * std::max(0.0, within) + 1e-12) << i << ' ' << within;
+    }
+  }
+}
+
 // Sphere on a sphere: R minus the distance of the centers beyond R0, whatever the side it comes
 // from. An inscribed mesh lies below by at most its sagitta.
 TEST(Contact, OnASphereTheDepthIsThatOfTheSphere)

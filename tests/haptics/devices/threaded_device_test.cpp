@@ -234,7 +234,14 @@ TEST(ThreadedDevice, TellsALossThatTheServoSlept)
   {
     std::this_thread::sleep_for(1ms);
   }
-  std::this_thread::sleep_for(50ms);
+  for (int tick = 0; tick < 2; ++tick) // a pose of the new driver is there
+  {
+    fake.last = -1.0;
+    while (fake.last < 0.0)
+    {
+      std::this_thread::sleep_for(1ms);
+    }
+  }
   EXPECT_FALSE(device.exchange(Vector3d::Zero(), 1.0_ms));
 }
 

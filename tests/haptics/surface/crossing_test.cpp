@@ -76,7 +76,7 @@ TEST(Crossing, WhatIsInsideOfOverlappingBlocksIsInside)
   {
     const Eigen::Vector3d place(anywhere(random), anywhere(random), anywhere(random) - 10.0_mm);
     const int expected = int{ isIn(place) } + int{ isIn(place - shift) };
-    const double winding = both.winding(place);
+    const double winding = (*both.winding())(place);
     const double distance = signedDistance(both, place);
     if (std::abs(distance) > 1e-6)
     {

@@ -236,5 +236,25 @@ TEST(Recording, SaysInOneSentenceWhatIsWrong)
   EXPECT_THROW((void)readPath("/nowhere/samples.csv"), Error);
 }
 
+// of two presses the way between is not in the file, and could lead through the body
+TEST(ScriptedPath, StaysWhereARecordingLeavesSamplesOut)
+{
+  const std::string rows = "0.000,0,0,1,0\n0.001,0,0,-1,1\n0.002,0,0,1,0\n"
+                           "5.000,90,0,1,0\n5.001,90,0,-1,1\n";
+  const std::string names = "tool_x_mm,tool_y_mm,tool_z_mm,depth_mm\n";
+  const ScriptedPath recorded = parsePath("time_s," + names + rows, "samples.csv");
+  for (const double time : { 0.002, 1.0, 4.999 })
+  {
+    EXPECT_EQ(recorded.poseAt(time, kDown).apex, Vector3d(0.0, 0.0, 1.0_mm)) << time;
+  }
+  EXPECT_EQ(recorded.poseAt(5.0, kDown).apex, Vector3d(90.0_mm, 0.0, 1.0_mm));
+  // in contact, and in a path that somebody wrote, the way is straight
+  const ScriptedPath written = parsePath("0,0,0,1\n1,90,0,1\n", "press.csv");
+  EXPECT_NEAR(written.poseAt(0.5, kDown).apex.x(), 45.0_mm, 1e-15);
+  const ScriptedPath held =
+    parsePath("time_s," + names + "0,0,0,-1,1\n1,90,0,-1,1\n", "samples.csv");
+  EXPECT_NEAR(held.poseAt(0.5, kDown).apex.x(), 45.0_mm, 1e-15);
+}
+
 } // namespace
 } // namespace palp

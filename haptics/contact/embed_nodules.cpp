@@ -1,0 +1,72 @@
+#include "haptics/contact/embed_nodules.h"
+
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/find_contact.h"
+#include "haptics/error.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/surface_point.h"
+
+#include <limits>
+#include <string>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kProbe = 0.05; // depth over base radius at which a place is looked at
+
+EmbeddedNodule embedded(
+  const Surface& surface, const Tip& tip, const PlacedNodule& nodule, const std::string& name)
+{
+  const ClosestPoint nearest =
+    findClosestPoint(surface, nodule.center, std::numeric_limits<double>::infinity());
+  const double depth = -nearest.distance;
+  if (nearest.triangle < 0 || !(depth > nodule.radius))
+  {
+    throw Error(ErrorCode::BadValue,
+      name + (depth > 0.0 ? ": it stands out of the surface" : ": its center is not in the body") +
+        "; move its center deeper than its radius");
+  }
+  const Eigen::Vector3d normal = surfacePoint(surface, nearest.triangle, nearest.point).normal;
+  ToolPose pose;
+  pose.apex = nearest.point - kProbe * baseRadius(tip) * normal;
+  pose.axis = -normal;
+  const Contact contact = findContact(surface, tip, pose, ContactRule::Exact);
+  ContactGeometry place = contactGeometryOf(contact);
+  place.tilt = 0.0;
+  place.depth = 0.0;
+  return { .nodule = nodule, .depth = depth, .place = place };
+}
+
+} // namespace
+
+std::shared_ptr<const NoduleField> embedNodules(
+  const Surface& surface, const ForceLaw& law, std::span<const PlacedNodule> nodules)
+{
+  if (nodules.empty())
+  {
+    return nullptr;
+  }
+  if (law.rows() != nullptr)
+  {
+    throw Error(ErrorCode::BadValue,
+      "nodules: not known in tissue that relaxes or rubs; leave out relaxation and friction, or "
+      "the "
+      "nodules");
+  }
+  std::vector<EmbeddedNodule> found;
+  std::vector<Nodule> balls;
+  std::vector<Eigen::Vector3d> places;
+  for (const PlacedNodule& nodule : nodules)
+  {
+    const std::string name = "nodules/" + std::to_string(found.size());
+    found.push_back(embedded(surface, law.tip(), nodule, name));
+    balls.push_back(checkedNodule(found.back().below(), name));
+    places.push_back(nodule.center);
+  }
+  checkApart(balls, places);
+  return std::make_shared<const NoduleField>(law, std::move(found));
+}
+
+} // namespace palp

@@ -1,0 +1,56 @@
+#include "haptics/force/relaxation/contact_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kFarthest = 1.0; // [m]; no law answers deeper
+
+// fine where the contact begins, since dF/ddepth there goes with the root of the depth
+double edgeAt(std::size_t j, double deepest)
+{
+  if (j <= ContactRows::kFine)
+  {
+    const double fraction = static_cast<double>(j) / ContactRows::kFine;
+    return deepest * fraction * fraction;
+  }
+  const double fraction =
+    static_cast<double>(j - ContactRows::kFine) / (ContactRows::kCount - ContactRows::kFine);
+  return deepest * std::pow(std::max(2.0, kFarthest / deepest), fraction);
+}
+
+} // namespace
+
+ContactRows::ContactRows(const std::function<ElasticForce(double)>& law, double deepest)
+{
+  double force = 0.0;
+  for (std::size_t j = 0; j < kCount; ++j)
+  {
+    edges[j + 1] = edgeAt(j + 1, deepest);
+    const ElasticForce at = law(edges[j + 1]);
+    const double width = edges[j + 1] - edges[j];
+    total[j + 1] = std::max(total[j], at.stiffness);
+    stiffness[j] = total[j + 1] - total[j];
+    // where the row must be met for the force at its lower edge to be the law's
+    const double rest = at.force - force - total[j] * width;
+    depth[j] = edges[j + 1] - (rest > 0.0 ? std::min(rest / stiffness[j], width) : 0.0);
+    force = at.force;
+  }
+}
+
+void ContactRows::scaleBlock(
+  const ContactRows& usual, std::size_t begin, double above, double below) noexcept
+{
+  for (std::size_t j = begin; j < begin + kBlock; ++j)
+  {
+    const double fraction = static_cast<double>(j + 1 - begin) / kBlock;
+    total[j + 1] = std::max(total[j], usual.total[j + 1] * (above + fraction * (below - above)));
+    stiffness[j] = total[j + 1] - total[j];
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "haptics/force/relaxation/friction_rows.h"
+#include "haptics/force/relaxation/relaxing_contact.h"
+#include "haptics/servo/coupling.h"
+#include "haptics/servo/sample.h"
+#include "haptics/servo/scene.h"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+namespace palp
+{
+
+/// What the tissue of a scene remembers from tick to tick, where its law relaxes or rubs.
+///
+/// What is remembered goes with the tool while it touches; what a lifted tool has left fades with
+/// the distance at which it comes back, and is gone beyond the radius of the contact that left it.
+/// A tick is begin, any number of questions, settle. Belongs to the thread that steps the scene.
+class TissueMemory
+{
+public:
+  /// Takes time and the tool's motion from the tissue; forgets all where the scene is another.
+  ///
+  /// @param sample    pose and contact of this tick
+  /// @param dt        since the last tick [s]
+  /// @return          whether the law of the scene has a memory; if not, nothing else is to do
+  /// @realtime        no allocation, no lock, no exception
+  bool begin(const Scene& scene, const Sample& sample, double dt) noexcept;
+
+  /// The law of this tick; without a contact radius.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] Response at(double depth) const noexcept;
+
+  /// Ends the tick.
+  ///
+  /// @param felt       what the tool feels of the law, at its proxy
+  /// @param stiffest   that may be rendered [N/m]; 0 or less: no friction
+  /// @param sample     gets the friction, the depth of the surface, the radius of the contact
+  /// @return           friction on the tool [N]
+  /// @realtime         no allocation, no lock, no exception
+  Eigen::Vector3d settle(const Rendered& felt, double stiffest, Sample& sample) noexcept;
+
+private:
+  void forget(const Scene& scene) noexcept;
+  void returnTo(const Contact& contact) noexcept;
+  [[nodiscard]] Eigen::Vector3d drag(
+    const Rendered& felt, double stiffest, const Eigen::Vector3d& normal) noexcept;
+  [[nodiscard]] Response elastic(double depth) const noexcept;
+
+  RelaxingContact contact_;
+  FrictionRows friction_;
+  std::optional<ContactRows> rows_; // of this place; none: nothing has begun
+  std::uint64_t version_ = 0;
+  const ForceLaw* law_ = nullptr;                   // of this tick
+  ContactGeometry place_;                           // of this tick
+  Eigen::Vector3d apex_ = Eigen::Vector3d::Zero();  // last known [m]
+  Eigen::Vector3d moved_ = Eigen::Vector3d::Zero(); // since the last tick [m]
+  Eigen::Vector3d left_ = Eigen::Vector3d::Zero();  // apex when it last touched [m]
+  double radius_ = 0.0;                             // of the widest contact that the dent is of [m]
+  bool touched_ = false;                            // last tick
+};
+
+} // namespace palp
