@@ -23,7 +23,9 @@ appearance::Color colorOf(const char* hex)
 
 void addCurve(Plot& plot, const Curve& curve, const figures::Points& points)
 {
-  const appearance::Color color = colorOf(figures::paletteColor(curve.color));
+  const bool isShade = curve.style == Curve::Style::Cells;
+  const appearance::Color color =
+    colorOf(isShade ? figures::shadeColor(curve.color) : figures::paletteColor(curve.color));
   const auto mark = [&](Plot::Mark shape, float size)
   { plot.addPoints(curve.label, points.x, points.y, color, shape, size); };
   switch (curve.style)
@@ -44,6 +46,9 @@ void addCurve(Plot& plot, const Curve& curve, const figures::Points& points)
       break;
     case Curve::Style::Diamonds:
       mark(Plot::Mark::Diamond, 10.0F);
+      break;
+    case Curve::Style::Cells:
+      mark(Plot::Mark::Square, 12.0F);
       break;
   }
 }

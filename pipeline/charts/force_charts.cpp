@@ -47,27 +47,6 @@ vtkPlot* addLine(vtkChartXY& chart, const char* name, const appearance::Color& c
   return line;
 }
 
-// ranges come from refresh(), not from the plots
-void fixAxes(vtkChartXY& chart)
-{
-  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
-  {
-    chart.GetAxis(side)->SetBehavior(vtkAxis::FIXED);
-  }
-}
-
-void setRange(vtkChartXY& chart, int side, double from, double to)
-{
-  vtkAxis* axis = chart.GetAxis(side);
-  if (axis->GetMinimum() != from || axis->GetMaximum() != to)
-  {
-    axis->SetRange(from, to);
-    axis->SetNumberOfTicks(-1);
-    axis->AutoScale();
-    axis->SetRange(from, to);
-  }
-}
-
 // room above the largest value, in steps that do not change from frame to frame
 double roomFor(double value, double least)
 {
@@ -109,9 +88,8 @@ ForceCharts::ForceCharts(std::optional<double> duration)
   {
     source->SetSpan(std::max(duration_, vtkPalpSampleSource::Minute));
   }
-  fixAxes(*overTime_);
-  timePlot_ = addLine(*overTime_, "law", appearance::kLaw, 3.0F);
-  renderedPlot_ = addLine(*overTime_, "rendered", appearance::kMeasured, 1.0F);
+  timePlot_ = addLine(*overTime_, "model", appearance::kLaw, 3.0F);
+  renderedPlot_ = addLine(*overTime_, "sent to device", appearance::kMeasured, 1.0F);
 
   for (const char* name : { "depth [mm]", "force [N]" })
   {
@@ -121,10 +99,9 @@ ForceCharts::ForceCharts(std::optional<double> duration)
     lawTable_->AddColumn(column);
   }
   appearance::setUpChart(*overDepth_, duration ? kOverDepth : "", kDepth, kForce);
-  fixAxes(*overDepth_);
-  addLine(*overDepth_, "law", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
+  addLine(*overDepth_, "model", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
   auto* points = vtkPlotPoints::SafeDownCast(overDepth_->AddPlot(vtkChart::POINTS));
-  points->SetLabel("measured");
+  points->SetLabel("recorded");
   points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
   points->SetMarkerSize(3.0F);
   setPen(*points->GetPen(), appearance::kMeasured, 1.0F);
@@ -152,16 +129,37 @@ void ForceCharts::add(const Sample& sample)
 
 void ForceCharts::refresh()
 {
+  if (!isPaused_)
+  {
+    update();
+  }
+}
+
+void ForceCharts::setPaused(bool paused)
+{
+  isPaused_ = paused;
+}
+
+void ForceCharts::update()
+{
+  const double first = duration_ > 0.0 ? 0.0 : std::floor(samples_->GetFirstTime());
+  const double past = samples_->GetLastTime() - first;
+  const double span = samples_->GetSpan();
+  const double end = duration_ > 0.0 ? duration_
+    : past < span                    ? first + std::min(span, roomFor(past, kFirstTime))
+                                     : first + past;
+  overTime_->SetFollowed(vtkAxis::BOTTOM, std::max(first, end - span), end);
+  vtkAxis& time = *overTime_->GetAxis(vtkAxis::BOTTOM);
+  for (vtkPalpSampleSource* source : { samples_.Get(), rendered_.Get() })
+  {
+    source->LookAt(time.GetMinimum(), time.GetMaximum());
+  }
   // a plot knows tables, not connections
   samples_->Update();
   rendered_->Update();
   timePlot_->SetInputData(samples_->GetOutput(0), 0, 1);
   depthPlot_->SetInputData(samples_->GetOutput(1), 0, 1);
   renderedPlot_->SetInputData(rendered_->GetOutput(0), 0, 1);
-  for (vtkPlot* plot : { timePlot_, renderedPlot_ })
-  {
-    plot->SetVisible(samples_->GetOutput(0)->GetNumberOfRows() > 1); // else VTK complains
-  }
   const double force =
     std::max(largest(*samples_->GetOutput(0), 1), largest(*rendered_->GetOutput(0), 1));
   const double depthLimit = units::fromMillimeters(
@@ -171,29 +169,25 @@ void ForceCharts::refresh()
     drawLaw(depthLimit);
   }
   const double law = law_({ .depth = depthLimit }).force;
-  const double last = samples_->GetLastTime();
-  const double span = samples_->GetSpan();
-  const double end = duration_ > 0.0 ? duration_
-    : last < span                    ? std::min(span, roomFor(last, kFirstTime))
-                                     : last;
-  setRange(*overTime_, vtkAxis::BOTTOM, std::max(0.0, end - span), end);
-  setRange(*overTime_, vtkAxis::LEFT, 0.0, force > 0.0 ? roomFor(force, kLeastForce) : kFirstForce);
-  setRange(*overDepth_, vtkAxis::BOTTOM, 0.0, units::toMillimeters(depthLimit));
-  setRange(*overDepth_, vtkAxis::LEFT, 0.0,
-    roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));
+  overTime_->SetFollowed(
+    vtkAxis::LEFT, 0.0, force > 0.0 ? roomFor(force, kLeastForce) : kFirstForce);
+  overDepth_->SetFollowed(vtkAxis::BOTTOM, 0.0, units::toMillimeters(depthLimit));
+  overDepth_->SetFollowed(
+    vtkAxis::LEFT, 0.0, roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));
 }
 
 void ForceCharts::clear()
 {
   samples_->Clear();
   rendered_->Clear();
+  update();
 }
 
 void ForceCharts::setLaw(const ForceLaw& law)
 {
   law_ = law;
   lawLimit_ = 0.0;
-  refresh();
+  update();
 }
 
 std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
@@ -202,13 +196,15 @@ std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
   Plot& time = *plots.emplace_back(std::make_unique<Plot>(kOverTime, kTime, kForce));
   vtkTable& law = *samples_->GetOutput(0);
   vtkTable& sent = *rendered_->GetOutput(0);
-  time.addLine("law", columnOf(law, 0), columnOf(law, 1), appearance::kLaw, 3.0F);
-  time.addLine("rendered", columnOf(sent, 0), columnOf(sent, 1), appearance::kMeasured, 1.0F);
+  time.addLine("model", columnOf(law, 0), columnOf(law, 1), appearance::kLaw, 3.0F);
+  time.addLine("sent to device", columnOf(sent, 0), columnOf(sent, 1), appearance::kMeasured, 1.0F);
   Plot& depth = *plots.emplace_back(std::make_unique<Plot>(kOverDepth, kDepth, kForce));
   vtkTable& measured = *samples_->GetOutput(1);
-  depth.addLine("law", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
-  depth.addPoints("measured", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
+  depth.addLine("model", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
+  depth.addPoints("recorded", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
     Plot::Mark::Circle, 3.0F);
+  time.chart().TakeViewOf(*overTime_);
+  depth.chart().TakeViewOf(*overDepth_);
   return plots;
 }
 

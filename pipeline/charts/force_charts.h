@@ -38,10 +38,13 @@ public:
   void add(const Sample& sample);
 
   /// Brings plots and axes up to the samples that are seen; the cost does not depend on their
-  /// number.
+  /// number. Does nothing while it is paused.
   void refresh();
 
-  /// Forgets the samples.
+  /// Whether the charts stay as they are; samples are taken all the same. At first they do not.
+  void setPaused(bool paused);
+
+  /// Forgets the samples, and shows so even while it is paused.
   void clear();
 
   /// The law drawn under the measured points.
@@ -51,17 +54,19 @@ public:
   [[nodiscard]] std::vector<std::unique_ptr<Plot>> plots() const;
 
 private:
+  void update();
   void drawLaw(double depthLimit);
 
   vtkNew<vtkPalpSampleSource> samples_;
   vtkNew<vtkPalpSampleSource> rendered_; // the force that was sent in the place of the law's
   vtkNew<vtkTable> lawTable_;
-  vtkNew<vtkPalpChart> overTime_;
-  vtkNew<vtkPalpChart> overDepth_;
+  vtkNew<vtkPalpPointedChart> overTime_;
+  vtkNew<vtkPalpPointedChart> overDepth_;
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
   vtkPlot* renderedPlot_ = nullptr;
   vtkPlot* depthPlot_ = nullptr;
   double duration_; // of a press that is known from the start [s]; else 0
+  bool isPaused_ = false;
   ForceLaw law_;
   double lawLimit_ = 0.0; // depth to which the law is drawn [m]
 };

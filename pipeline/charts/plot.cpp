@@ -92,7 +92,6 @@ void Plot::addLine(const std::string& name, std::span<const double> x, std::span
   vtkPlot* plot = chart_->AddPlot(vtkChart::LINE);
   plot->SetInputData(addTable(name, x, y, {}), 0, 1);
   plot->SetLabel(name);
-  plot->SetVisible(x.size() > 1); // else it is complained of at every picture
   plot->GetPen()->SetColorF(color[0], color[1], color[2]);
   plot->SetWidth(width);
   plot->GetPen()->SetLineType(dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
@@ -183,9 +182,9 @@ void Plot::addTo(vtkContextScene& scene)
   scene.AddItem(chart_);
 }
 
-void Plot::addTo(vtkContextScene& scene, const vtkRectf& rectangle)
+void Plot::addTo(vtkContextScene& scene, double bottom, double top)
 {
-  chart_->SetRectangle(rectangle);
+  chart_->SetShare(bottom, top);
   addTo(scene);
 }
 
@@ -208,27 +207,31 @@ void Plot::writeCsv(std::ostream& out) const
   }
 }
 
-void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots)
+vtkContextScene* showEmptyScene(vtkRenderWindow& window)
 {
-  // in one scene, for the exporter of lines and text knows no other place than the whole window
   window.GetRenderers()->RemoveAllItems();
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1.0, 1.0, 1.0);
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->SetRenderer(renderer);
+  renderer->AddActor(actor);
+  window.AddRenderer(renderer);
+  return actor->GetScene();
+}
+
+vtkContextScene* showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots)
+{
+  // in one scene, for the exporter of lines and text knows no other place than the whole window
+  vtkContextScene* scene = showEmptyScene(window);
   constexpr double kFirst = 0.6; // of the height
-  const int* size = window.GetSize();
-  double top = size[1];
+  double top = 1.0;
   for (const auto& plot : plots)
   {
     const double bottom = &plot == &plots.back() ? 0.0 : (1.0 - kFirst) * top;
-    plot->addTo(*actor->GetScene(),
-      vtkRectf(0.0F, static_cast<float>(bottom), static_cast<float>(size[0]),
-        static_cast<float>(top - bottom)));
+    plot->addTo(*scene, bottom, top);
     top = bottom;
   }
-  renderer->AddActor(actor);
-  window.AddRenderer(renderer);
+  return scene;
 }
 
 } // namespace palp

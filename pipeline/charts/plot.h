@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/charts/vtkPalpChart.h"
+#include "pipeline/charts/vtkPalpPointedChart.h"
 #include "pipeline/view/appearance.h"
 
 #include <filesystem>
@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 #include <vtkNew.h>
-#include <vtkRect.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
@@ -58,8 +57,14 @@ public:
   /// Puts the chart into a scene, which then draws it, the legend below.
   void addTo(vtkContextScene& scene);
 
-  /// The same in a part of the scene [pixels].
-  void addTo(vtkContextScene& scene, const vtkRectf& rectangle);
+  /// The same in a part of the scene.
+  /// @param bottom, top  [-] of its height
+  void addTo(vtkContextScene& scene, double bottom, double top);
+
+  [[nodiscard]] vtkPalpChart& chart()
+  {
+    return *chart_;
+  }
 
   /// The curves in the order in which they were added; the first column is x.
   [[nodiscard]] const std::vector<vtkSmartPointer<vtkTable>>& tables() const
@@ -78,10 +83,14 @@ private:
   std::string bottom_;
   std::string left_;
   std::vector<vtkSmartPointer<vtkTable>> tables_;
-  vtkNew<vtkPalpChart> chart_;
+  vtkNew<vtkPalpPointedChart> chart_;
 };
 
+/// Puts an empty white scene into a window in the place of what it showed.
+vtkContextScene* showEmptyScene(vtkRenderWindow& window);
+
 /// Puts charts into a window in the place of what it showed, one below the other.
-void showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots);
+/// @return  the scene that they are in
+vtkContextScene* showPlots(vtkRenderWindow& window, std::span<const std::unique_ptr<Plot>> plots);
 
 } // namespace palp

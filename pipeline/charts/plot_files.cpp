@@ -36,6 +36,22 @@ bool uniform(vtkImageData& image)
   return true;
 }
 
+// What is drawn over nothing has its color weakened by its own share of the pixel; a file has the
+// color itself beside the share.
+void restoreColors(vtkImageData& image)
+{
+  auto* pixels = static_cast<unsigned char*>(image.GetScalarPointer());
+  for (vtkIdType i = 0; i < image.GetNumberOfPoints(); ++i)
+  {
+    unsigned char* pixel = pixels + 4 * i;
+    const int share = pixel[3];
+    for (int k = 0; k < 3 && share > 0; ++k)
+    {
+      pixel[k] = static_cast<unsigned char>(std::min(255, (255 * pixel[k] + share / 2) / share));
+    }
+  }
+}
+
 // blanked out, as a PDF counts its bytes; false for a file that does not end as it should
 bool removeDate(const std::filesystem::path& file, std::string_view end)
 {
@@ -93,11 +109,17 @@ void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesyste
   replaceFile(file, out.view());
 }
 
-void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
+void writePng(vtkRenderWindow& window, const std::filesystem::path& file, Background background)
 {
+  const bool isTransparent = background == Background::Transparent;
+  if (isTransparent)
+  {
+    window.SetAlphaBitPlanes(1);
+  }
   window.Render();
   vtkNew<vtkWindowToImageFilter> grab;
   grab->SetInput(&window);
+  isTransparent ? grab->SetInputBufferTypeToRGBA() : grab->SetInputBufferTypeToRGB();
   grab->ReadFrontBufferOff();
   grab->Update();
   if (uniform(*grab->GetOutput()))
@@ -105,6 +127,10 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file)
     throw Error(ErrorCode::NoPicture,
       shownName(file) +
         ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
+  }
+  if (isTransparent)
+  {
+    restoreColors(*grab->GetOutput());
   }
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(grab->GetOutputPort());

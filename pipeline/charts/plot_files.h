@@ -11,9 +11,16 @@ namespace palp
 /// @throws Error  BadFile: cannot be written
 void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file);
 
+enum class Background
+{
+  Opaque,
+  Transparent ///< where the window's renderer leaves it so, black
+};
+
 /// Writes what a window shows.
 /// @throws Error  BadFile: cannot be written; NoPicture: every pixel is alike
-void writePng(vtkRenderWindow& window, const std::filesystem::path& file);
+void writePng(vtkRenderWindow& window, const std::filesystem::path& file,
+  Background background = Background::Opaque);
 
 /// Writes what a window of charts shows as lines and text, not pixels; without a date, so that the
 /// same picture gives the same bytes.

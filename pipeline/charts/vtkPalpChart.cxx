@@ -4,6 +4,7 @@
 
 #include <string>
 #include <vtkAxis.h>
+#include <vtkBrush.h>
 #include <vtkContext2D.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -15,11 +16,18 @@
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
+namespace
+{
+
+constexpr double kLeastHeight =
+  80.0; // [pixels at a scale of 1]: title and numbers below, and a curve
+
+} // namespace
+
 vtkStandardNewMacro(vtkPalpChart);
 
 vtkPalpChart::vtkPalpChart()
 {
-  this->Rectangle.Set(0.0F, 0.0F, 0.0F, 0.0F); // its own constructor leaves it undefined
   this->SetShowLegend(false);
   this->SetAutoSize(false);
 }
@@ -27,14 +35,16 @@ vtkPalpChart::vtkPalpChart()
 void vtkPalpChart::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Rectangle: " << this->Rectangle[0] << ' ' << this->Rectangle[1] << ' '
-     << this->Rectangle[2] << ' ' << this->Rectangle[3] << " pixels\n"
-     << indent << "Keyed: " << this->Keyed << '\n';
+  os << indent << "Bottom: " << this->Bottom << '\n'
+     << indent << "Top: " << this->Top << '\n'
+     << indent << "Keyed: " << this->Keyed << '\n'
+     << indent << "Hidden: " << this->Hidden.size() << " curves\n";
 }
 
-void vtkPalpChart::SetRectangle(const vtkRectf& rectangle)
+void vtkPalpChart::SetShare(double bottom, double top)
 {
-  this->Rectangle = rectangle;
+  this->Bottom = bottom;
+  this->Top = top;
   this->Modified();
 }
 
@@ -72,21 +82,29 @@ void vtkPalpChart::ScaleTo(double scale)
     static_cast<int>(growth * static_cast<float>(this->GetHiddenAxisBorder())));
 }
 
+vtkRectf vtkPalpChart::Whole() const
+{
+  const double height = this->Scene->GetSceneHeight();
+  return { 0.0F, static_cast<float>(this->Bottom * height),
+    static_cast<float>(this->Scene->GetSceneWidth()),
+    static_cast<float>((this->Top - this->Bottom) * height) };
+}
+
 bool vtkPalpChart::Paint(vtkContext2D* painter)
 {
   if (vtkRenderer* renderer = this->Scene->GetRenderer())
   {
     this->ScaleTo(renderer->GetRenderWindow()->GetDPI() / palp::appearance::kDpi);
   }
-  vtkRectf rectangle = this->Rectangle;
-  if (!(rectangle.GetWidth() > 0.0F))
-  {
-    rectangle = vtkRectf(0.0F, 0.0F, static_cast<float>(this->Scene->GetSceneWidth()),
-      static_cast<float>(this->Scene->GetSceneHeight()));
-  }
+  this->ShowCurves();
+  const vtkRectf rectangle = this->Whole();
   const float legend = this->Keyed ? this->PaintLegend(painter, rectangle, false) : 0.0F;
   const vtkRectf chart(rectangle.GetX(), rectangle.GetY() + legend, rectangle.GetWidth(),
     rectangle.GetHeight() - legend);
+  if (chart.GetHeight() < kLeastHeight * this->Scale)
+  {
+    return false; // its axes would have no length, and its curves no finite scale
+  }
   if (this->GetSize() != chart)
   {
     this->SetSize(chart);
@@ -113,6 +131,7 @@ float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& rectangle
   const float mark = 1.6F * bounds[3];
   const float gap = 0.5F * bounds[3];
 
+  this->Names.clear();
   float x = gap;
   float row = 1.0F;
   for (vtkIdType i = 0; i < this->GetNumberOfPlots(); ++i)
@@ -132,12 +151,30 @@ float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& rectangle
     if (draw)
     {
       const float y = this->GetSize().GetY() - (row - 0.5F) * line; // down from the chart
-      this->GetPlot(i)->PaintLegend(
-        painter, vtkRectf(rectangle.GetX() + x, y - 0.3F * line, mark, 0.6F * line), 0);
+      const float left = rectangle.GetX() + x;
+      this->Names.emplace_back(label, vtkRectf(left, y - 0.5F * line, width, line));
+      this->PaintEntry(painter, i, vtkRectf(left, y - 0.3F * line, mark, 0.6F * line));
+      const bool isShown = this->IsCurveShown(label);
+      isShown ? text->SetColor(0.10, 0.11, 0.13) : text->SetColor(0.6, 0.6, 0.6);
       painter->ApplyTextProp(text);
-      painter->DrawString(rectangle.GetX() + x + mark + gap, y, label);
+      painter->DrawString(left + mark + gap, y, label);
     }
     x += width + 2.0F * gap;
   }
   return x > gap ? row * line + gap : 0.0F;
+}
+
+// of a hidden curve an empty box
+void vtkPalpChart::PaintEntry(vtkContext2D* painter, vtkIdType plot, const vtkRectf& mark)
+{
+  if (this->IsCurveShown(this->GetPlot(plot)->GetLabel()))
+  {
+    this->GetPlot(plot)->PaintLegend(painter, mark, 0);
+    return;
+  }
+  painter->GetPen()->SetColor(160, 160, 160);
+  painter->GetPen()->SetWidth(1.0F);
+  painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter->GetBrush()->SetColor(255, 255, 255, 0);
+  painter->DrawRect(mark.GetX(), mark.GetY(), mark.GetWidth(), mark.GetHeight());
 }

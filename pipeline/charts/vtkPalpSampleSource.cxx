@@ -3,6 +3,7 @@
 #include "haptics/units.h"
 
 #include <cmath>
+#include <utility>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -37,6 +38,9 @@ void vtkPalpSampleSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Span: " << this->Span << " s\n"
+     << indent << "From: " << this->From << " s\n"
+     << indent << "To: " << this->To << " s\n"
+     << indent << "FirstTime: " << this->FirstTime << " s\n"
      << indent << "LastTime: " << this->LastTime << " s\n"
      << indent << "Depths: " << this->Depths.size() << " points\n";
 }
@@ -44,8 +48,19 @@ void vtkPalpSampleSource::PrintSelf(ostream& os, vtkIndent indent)
 void vtkPalpSampleSource::SetSpan(double seconds)
 {
   this->Span = seconds;
-  this->Time = palp::SampleColumns(seconds, Columns);
+  this->Time = palp::SampleColumns(seconds, Finest);
+  this->LookAt(0.0, seconds);
   this->Modified();
+}
+
+void vtkPalpSampleSource::LookAt(double from, double to)
+{
+  if (this->From != from || this->To != to)
+  {
+    this->From = from;
+    this->To = to;
+    this->Modified();
+  }
 }
 
 void vtkPalpSampleSource::AddSample(const palp::Sample& sample)
@@ -57,6 +72,7 @@ void vtkPalpSampleSource::AddSample(const palp::Sample& sample)
     return;
   }
   this->Time.add(sample.time, force);
+  this->FirstTime = std::exchange(this->Empty, false) ? sample.time : this->FirstTime;
   this->LastTime = sample.time;
 
   constexpr double kVisible = 2e-5; // [m], a tenth of a pixel where 10 mm fill a chart
@@ -82,7 +98,8 @@ void vtkPalpSampleSource::Clear()
   this->Time.clear();
   this->Depths.clear();
   this->NextDepth = 0;
-  this->LastTime = 0.0;
+  this->Empty = true;
+  this->FirstTime = this->LastTime = 0.0;
   this->Modified();
 }
 
@@ -92,7 +109,7 @@ int vtkPalpSampleSource::RequestData(
   vtkTable* overTime = vtkTable::GetData(outputVector, 0);
   const auto times = column(overTime, "time [s]", 2 * Columns);
   const auto forces = column(overTime, "force [N]", 2 * Columns);
-  this->Time.forEach(
+  this->Time.forEach(this->From, this->To, (this->To - this->From) / Columns,
     [&](const palp::SampleColumns::Column& at)
     {
       for (const bool isFirst : { true, false })

@@ -2,9 +2,10 @@
  * @class   vtkPalpSampleSource
  * @brief   the samples of the servo loop as tables for charts
  *
- * Output 0, force against time: float columns "time [s]" and "force [N]", two rows for each of
- * Columns intervals of the last seconds, Span of them, the least and the largest force in it, in
- * the order in which they came.
+ * Output 0, force against time: float columns "time [s]" and "force [N]", two rows for each
+ * interval, the least and the largest force in it, in the order in which they came. About Columns
+ * intervals fill the part of the last seconds, Span of them, that is looked at; they are no shorter
+ * than a Finest of the span.
  * Output 1, force against depth: float columns "depth [mm]" and "force [N]", the last Points
  * samples of the same seconds that differ from the one before by something that can be seen.
  *
@@ -26,9 +27,10 @@ public:
   static vtkPalpSampleSource* New();
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  static constexpr double Minute = 60.0;      ///< [s]
-  static constexpr std::size_t Columns = 800; ///< of output 0
-  static constexpr std::size_t Points = 2000; ///< of output 1
+  static constexpr double Minute = 60.0;       ///< [s]
+  static constexpr std::size_t Columns = 800;  ///< of output 0
+  static constexpr std::size_t Finest = 12000; ///< of the span: 5 ms of a minute
+  static constexpr std::size_t Points = 2000;  ///< of output 1
 
   ///@{
   /**
@@ -37,6 +39,11 @@ public:
   void SetSpan(double seconds);
   vtkGetMacro(Span, double);
   ///@}
+
+  /**
+   * The part of the span that output 0 is of [s]. Default: all of it.
+   */
+  void LookAt(double from, double to);
 
   /**
    * Appends one sample; its time must not be less than that of the one before.
@@ -48,10 +55,13 @@ public:
    */
   void Clear();
 
+  ///@{
   /**
-   * Time of the last sample [s]; 0 without one.
+   * Time of the first and of the last sample since Clear [s]; 0 without one.
    */
+  vtkGetMacro(FirstTime, double);
   vtkGetMacro(LastTime, double);
+  ///@}
 
 protected:
   vtkPalpSampleSource();
@@ -72,8 +82,12 @@ private:
   };
 
   double Span = Minute;
-  palp::SampleColumns Time{ Minute, Columns };
+  palp::SampleColumns Time{ Minute, Finest };
+  double From = 0.0;
+  double To = Minute;
   std::vector<Point> Depths; // ring of Points
   std::size_t NextDepth = 0;
+  bool Empty = true;
+  double FirstTime = 0.0;
   double LastTime = 0.0;
 };

@@ -96,7 +96,7 @@ void Dent::lay(const Press& press, double outer)
 {
   const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
   region_.grow(press.contact, *body_, inner, outer);
-  field_.lay(region_, *body_, press.contact.depth, press.fitted);
+  field_.lay(region_, *body_, press.contact.depth, press.fitted, press.isLiteral);
 }
 
 void Dent::forgetPress(const DentArrays& arrays)

@@ -25,6 +25,8 @@ struct Press
 
   /// The surface of finite elements at this depth, in place of the paper's ring and its radii.
   std::optional<SurfaceProfile> fitted{};
+
+  bool isLiteral = false; ///< contactRadius is drawn also where it leaves the surface at an angle
 };
 
 /// The arrays of a surface as drawn, three floats a point, one byte a zone.

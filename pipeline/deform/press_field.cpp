@@ -21,9 +21,10 @@ constexpr double kOpenPit = 0.4;      // [-] of the contact radius: not reached 
 } // namespace
 
 void PressField::lay(const PressRegion& region, const ToolBody& body, double depth,
-  const std::optional<SurfaceProfile>& fitted)
+  const std::optional<SurfaceProfile>& fitted, bool isLiteral)
 {
   fittedCurve_ = fitted;
+  isLiteral_ = isLiteral;
   normal_ = region.normal();
   deepest_ = depth;
   reach_ = 0.0;
@@ -59,7 +60,7 @@ RingCurve PressField::curveAlong(
     return makeRingCurve(0.0, 0.0, 0.0, region.outer());
   }
   const double exit = gap.exit(atCenter);
-  double end = gap.contactBefore(exit);
+  double end = isLiteral_ ? exit : gap.contactBefore(exit);
   if (fittedCurve_ && !body.hasFlatBase())
   {
     // as deep as on a plane, like the contact of two spheres, however the surface is bent

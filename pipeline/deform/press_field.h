@@ -45,9 +45,12 @@ public:
 
   /// Fits the undeformed surface around the contact and finds the control points.
   ///
-  /// @param fitted  of the same depth on a plane; none for the paper's ring
+  /// @param fitted     of the same depth on a plane; none for the paper's ring
+  /// @param isLiteral  contact as wide as region.inner() up to where the tool leaves the surface,
+  /// not
+  ///                   to a little before it, where the surface would leave at an angle
   void lay(const PressRegion& region, const ToolBody& body, double depth,
-    const std::optional<SurfaceProfile>& fitted = std::nullopt);
+    const std::optional<SurfaceProfile>& fitted = std::nullopt, bool isLiteral = false);
 
   /// How far from the center the tool's tangents at the contact circle meet the surface, at most.
   ///
@@ -99,6 +102,7 @@ private:
   std::array<RingCurve, kDirections + 1> curves_{}; // the last is the first
   std::array<double, kDirections> bulges_{};        // of the sink between two of them [m], times 4
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
+  bool isLiteral_ = false;
   double deepest_ = 0.0; // delta [m]
   double reach_ = 0.0;   // [m]
 };

@@ -31,7 +31,8 @@ struct DentStyle
     .tip = tip,
     .contactRadius = style.isLiteral ? radius : drawnContactRadius(tip, depth, radius),
     .extentRadius = extentRadius,
-    .fitted = style.fitted ? style.fitted->at(depth) : std::nullopt };
+    .fitted = style.fitted ? style.fitted->at(depth) : std::nullopt,
+    .isLiteral = style.isLiteral };
 }
 
 } // namespace palp

@@ -28,7 +28,7 @@ void withVoxels(vtkImageData& image, Work work)
   }
 }
 
-// how often each value occurs; nothing when there are too many
+// how often each finite value occurs; nothing when there are too many
 template <typename Voxel>
 std::map<Voxel, vtkIdType> histogram(const Voxel* voxels, vtkIdType count)
 {
@@ -41,7 +41,7 @@ std::map<Voxel, vtkIdType> histogram(const Voxel* voxels, vtkIdType count)
     {
       ++next;
     }
-    if (voxels[i] == voxels[i]) // not NaN
+    if (std::isfinite(static_cast<double>(voxels[i])))
     {
       often[voxels[i]] += next - i;
     }

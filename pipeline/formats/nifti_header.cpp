@@ -157,7 +157,14 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& file)
   }
   for (unsigned i = 1; i <= dimensions; ++i)
   {
-    header.bytes *= std::max(1U, start.whole(40 + 2 * std::size_t{ i }));
+    const unsigned count = start.whole(40 + 2 * std::size_t{ i });
+    if (const auto read = static_cast<std::int16_t>(count); read < 0)
+    {
+      refuse(file,
+        "its dim[" + std::to_string(i) + "] is " + std::to_string(read) +
+          ", no number of voxels; export it again");
+    }
+    header.bytes *= std::max(1U, count);
   }
   checkSpacing(file, start, dimensions);
   const double begin = start.real(108);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace palp
@@ -17,8 +18,20 @@ enum class Overlay
   ValidityColors, ///< instead of both: green, amber, red
   ControlNet,     ///< of the Bezier patches
   Ghost,          ///< the undeformed surface
+  IsoLines,       ///< of equal displacement
 };
 
-inline constexpr std::size_t kOverlayCount = 9;
+inline constexpr std::size_t kOverlayCount = 10;
+
+/// Whether it is a color of the dent itself rather than something over it.
+constexpr bool isColoring(Overlay overlay) noexcept
+{
+  return overlay == Overlay::DisplacementColors || overlay == Overlay::PressureColors ||
+    overlay == Overlay::ValidityColors;
+}
+
+/// Those that are shown at first.
+inline constexpr std::array kUsualOverlays{ Overlay::ForceArrow, Overlay::ContactCircle,
+  Overlay::ExtentCircle, Overlay::DisplacementColors, Overlay::IsoLines, Overlay::Readings };
 
 } // namespace palp

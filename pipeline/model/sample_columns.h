@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace palp
@@ -74,14 +75,38 @@ public:
   template <typename Function>
   void forEach(Function function) const
   {
+    forEach(0.0, std::numeric_limits<double>::infinity(), 0.0, function);
+  }
+
+  /// Calls with those of a part of the signal, joined to columns that are no wider than asked for
+  /// and stay the same while the part moves on; the first and the last reach beyond it.
+  ///
+  /// @param from   [s]
+  /// @param to     [s]
+  /// @param width  of a column [s]; those kept are not divided
+  template <typename Function>
+  void forEach(double from, double to, double width, Function function) const
+  {
     const auto count = static_cast<std::int64_t>(slots_.size());
-    for (std::int64_t i = std::max<std::int64_t>(0, newest_ - count + 1); i <= newest_; ++i)
+    const std::int64_t oldest = std::max<std::int64_t>(0, newest_ - count + 1);
+    const auto joined = std::max<std::int64_t>(1, static_cast<std::int64_t>(width / width_));
+    const auto within = [&](double time)
     {
-      const Slot& slot = slots_[static_cast<std::size_t>(i % count)];
+      const double index = std::floor(time / width_ / static_cast<double>(joined));
+      return static_cast<std::int64_t>(std::clamp(index, -1.0, static_cast<double>(newest_ + 1)));
+    };
+    const std::int64_t last = within(to) + 1;
+    for (std::int64_t i = std::max<std::int64_t>(0, within(from) - 1); i <= last; ++i)
+    {
+      Slot slot;
+      for (std::int64_t k = std::max(oldest, i * joined); k < (i + 1) * joined && k <= newest_; ++k)
+      {
+        slot.join(slots_[static_cast<std::size_t>(k % count)]);
+      }
       if (slot.filled)
       {
-        function(
-          Column{ static_cast<double>(i) * width_, slot.least, slot.largest, slot.isFalling });
+        function(Column{
+          static_cast<double>(i * joined) * width_, slot.least, slot.largest, slot.isFalling });
       }
     }
   }

@@ -1,42 +1,34 @@
 #include "pipeline/view/appearance.h"
 
+#include "pipeline/color/even_map.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <locale>
 #include <sstream>
+#include <vtkActor2D.h>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
+#include <vtkCellArray.h>
 #include <vtkChartXY.h>
-#include <vtkColorTransferFunction.h>
 #include <vtkLookupTable.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
+#include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
 
 namespace palp::appearance
 {
 namespace
 {
-
-// the map at 0, 0.1 ... 1
-constexpr std::array<Color, 11> kViridis{ {
-  { 0.267004, 0.004874, 0.329415 },
-  { 0.282623, 0.140926, 0.457517 },
-  { 0.253935, 0.265254, 0.529983 },
-  { 0.206756, 0.371758, 0.553117 },
-  { 0.163625, 0.471133, 0.558148 },
-  { 0.127568, 0.566949, 0.550556 },
-  { 0.134692, 0.658636, 0.517649 },
-  { 0.266941, 0.748751, 0.440573 },
-  { 0.477504, 0.821444, 0.318195 },
-  { 0.741388, 0.873449, 0.149561 },
-  { 0.993248, 0.906157, 0.143936 },
-} };
 
 constexpr const char* kRegular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
@@ -58,27 +50,14 @@ void setFont(vtkTextProperty& text, int size, const Color& color, bool bold)
   text.SetColor(color[0], color[1], color[2]);
 }
 
-vtkSmartPointer<vtkLookupTable> viridisOn(const Color& base)
+vtkSmartPointer<vtkLookupTable> evenMapOn(const Color& base)
 {
-  vtkNew<vtkColorTransferFunction> function;
-  for (std::size_t i = 0; i < kViridis.size(); ++i)
-  {
-    const double at = static_cast<double>(i) / (kViridis.size() - 1);
-    function->AddRGBPoint(at, kViridis[i][0], kViridis[i][1], kViridis[i][2]);
-  }
-  auto table = vtkSmartPointer<vtkLookupTable>::New();
   constexpr int kColors = 256;
-  constexpr double kFadeIn = 0.06; // [-] of the range
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
   table->SetNumberOfTableValues(kColors);
   for (int i = 0; i < kColors; ++i)
   {
-    Color color{};
-    function->GetColor(static_cast<double>(i) / (kColors - 1), color.data());
-    const double fraction = std::min(1.0, i / (kFadeIn * (kColors - 1)));
-    for (std::size_t k = 0; k < color.size(); ++k)
-    {
-      color[k] = base[k] + fraction * (color[k] - base[k]);
-    }
+    const Color color = color::evenMap(base, static_cast<double>(i) / (kColors - 1));
     table->SetTableValue(i, color[0], color[1], color[2]);
   }
   return table;
@@ -90,6 +69,15 @@ std::string fixedText(double value, int decimals)
   out.imbue(std::locale::classic());
   out.precision(decimals);
   out << std::fixed << value;
+  return out.str();
+}
+
+std::string roundText(double value)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(3);
+  out << value;
   return out.str();
 }
 
@@ -108,6 +96,24 @@ double roundUp(double value) noexcept
     }
   }
   return 10.0 * power;
+}
+
+void makeInkLine(vtkPolyData& line, vtkActor2D& actor, int points)
+{
+  vtkNew<vtkPoints> places;
+  places->SetNumberOfPoints(points);
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(points);
+  for (int i = 0; i < points; ++i)
+  {
+    cells->InsertCellPoint(i);
+  }
+  line.SetPoints(places);
+  line.SetLines(cells);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(&line);
+  actor.SetMapper(mapper);
+  actor.GetProperty()->SetColor(kInk[0], kInk[1], kInk[2]);
 }
 
 void setColor(vtkProperty& property, const Color& color)

@@ -5,10 +5,12 @@
 #include <string>
 #include <vtkSmartPointer.h>
 
+class vtkActor2D;
 class vtkChartXY;
 class vtkLookupTable;
 class vtkMapper;
 class vtkMatrix4x4;
+class vtkPolyData;
 class vtkProperty;
 class vtkTextProperty;
 
@@ -21,7 +23,7 @@ using Color = std::array<double, 3>; // red, green, blue, 0 to 1
 
 inline constexpr Color kLiver{ 0.55, 0.20, 0.16 };
 inline constexpr Color kTool{ 0.80, 0.83, 0.86 };
-inline constexpr Color kForce{ 0.98, 0.75, 0.10 };
+inline constexpr Color kForce{ 0.05, 0.42, 0.78 };
 inline constexpr Color kContact{ 1.0, 1.0, 1.0 };
 inline constexpr Color kExtent{ 0.35, 0.85, 1.0 };
 inline constexpr Color kNet{ 1.0, 0.85, 0.2 };
@@ -55,20 +57,26 @@ inline constexpr Color kLaw{ 0.85, 0.37, 0.01 };
 /// @param size  [points]
 void setFont(vtkTextProperty& text, int size, const Color& color = kInk, bool bold = false);
 
-/// The map "viridis": perceptually uniform, and readable without color vision.
-///
-/// Begins with the color of what it is drawn on, so that a coloring ends there without an edge.
-/// @source Smith, van der Walt and Firing 2015, matplotlib's default map
-[[nodiscard]] vtkSmartPointer<vtkLookupTable> viridisOn(const Color& base);
+/// The table of color::evenMap: the color of what it is drawn on at its lower end, so that a
+/// coloring ends there without an edge.
+[[nodiscard]] vtkSmartPointer<vtkLookupTable> evenMapOn(const Color& base);
 
 /// A number for people, with a point whatever the user's locale.
 [[nodiscard]] std::string fixedText(double value, int decimals);
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below a value; 1 for values below
+/// The same with three digits at most, as of a round number.
+[[nodiscard]] std::string roundText(double value);
+
+/// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten not below a value; 1 below
 /// 1e-12.
 [[nodiscard]] double roundUp(double value) noexcept;
 
 void setColor(vtkProperty& property, const Color& color);
+
+/// A line of ink over the picture.
+/// @param line   gets as many points, which it connects in their order [pixels]
+/// @param actor  draws it
+void makeInkLine(vtkPolyData& line, vtkActor2D& actor, int points);
 
 /// What lies on a surface is drawn in front of it.
 void drawInFront(vtkMapper& mapper);

@@ -19,7 +19,7 @@ constexpr double kLegendWidth = 0.10; // of the picture
 } // namespace
 
 DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
-  : map_(appearance::viridisOn(appearance::kLiver))
+  : map_(appearance::evenMapOn(appearance::kLiver))
   , plain_(property)
   , layOut_(renderer,
       [this](double width, double height, double scale) { placeLegend(width, height, scale); })
@@ -116,7 +116,7 @@ void DentColors::colorBy(const char* array, const char* title, double top)
   mapper_->ScalarVisibilityOn();
   map_->SetTableRange(0.0, fixedTop_ > 0.0 ? fixedTop_ : appearance::roundUp(top));
   legend_->SetTitle(title);
-  legend_->VisibilityOn();
+  legend_->SetVisibility(hasLegend_);
 }
 
 std::optional<Rule> DentColors::worstRule(const OverlayState& state) const

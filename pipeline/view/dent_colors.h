@@ -44,6 +44,12 @@ public:
     fixedTop_ = top;
   }
 
+  /// Whether the legend is shown with the colors.
+  void setLegend(bool shown)
+  {
+    hasLegend_ = shown;
+  }
+
   /// The rule nearest to its limit, with the fraction of it that is used; empty without a law.
   [[nodiscard]] std::string rule(const OverlayState& state) const;
 
@@ -54,6 +60,7 @@ private:
 
   std::optional<Validity> validity_;
   double fixedTop_ = 0.0;
+  bool hasLegend_ = true;
   vtkNew<vtkPalpPressureFilter> pressure_;
   vtkSmartPointer<vtkLookupTable> map_;
   vtkNew<vtkPolyDataMapper> mapper_;

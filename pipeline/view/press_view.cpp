@@ -2,19 +2,21 @@
 
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"
+#include "pipeline/model/tool_surface.h"
 #include "pipeline/view/appearance.h"
 #include "pipeline/view/control_net.h"
 #include "pipeline/view/force_arrow.h"
 #include "pipeline/view/ghost.h"
+#include "pipeline/view/iso_lines.h"
 #include "pipeline/view/surface_circle.h"
-#include "pipeline/view/tool_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vtkCamera.h>
-#include <vtkLightKit.h>
+#include <vtkLight.h>
 #include <vtkMatrix4x4.h>
 #include <vtkProperty.h>
 
@@ -33,6 +35,29 @@ double toolHeight(const Tip& tip)
   return std::max(2.2 * baseRadius(tip), 20.0_mm);
 }
 
+// The key stands at the side, so that the walls of a dent have a light half and a dark one; the rim
+// lights the body's edge from behind.
+void addLights(vtkRenderer& renderer)
+{
+  struct Lamp
+  {
+    Eigen::Vector3d from; // right, up and towards the eye
+    double intensity;
+  };
+  const std::array<Lamp, 3> lamps{ { { { -1.0, 0.75, 0.55 }, 0.95 },
+    { { 0.7, -0.6, 1.0 }, 0.6 * 0.95 }, { { 0.3, 0.8, -0.9 }, 0.3 * 0.95 } } };
+  renderer.AutomaticLightCreationOff();
+  for (const Lamp& lamp : lamps)
+  {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(lamp.from.data());
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    light->SetIntensity(lamp.intensity);
+    renderer.AddLight(light);
+  }
+}
+
 constexpr std::size_t indexOf(Overlay overlay)
 {
   return static_cast<std::size_t>(overlay);
@@ -48,19 +73,14 @@ PressView::PressView(vtkRenderer& renderer)
   renderer_.SetBackground(ground[0], ground[1], ground[2]);
   renderer_.SetBackground2(sky[0], sky[1], sky[2]);
   renderer_.GradientBackgroundOn();
-  vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.85);
-  lights->SetKeyToFillRatio(2.0);
-  lights->SetKeyToHeadRatio(2.5);
-  lights->AddLightsToRenderer(&renderer_);
+  addLights(renderer_);
   renderer_.GetActiveCamera()->SetViewAngle(units::toDegrees(kViewAngle));
 
   // what is translucent comes last
   addSurface();
   addOverlays();
   addTool();
-  for (const Overlay overlay : { Overlay::ForceArrow, Overlay::ContactCircle, Overlay::ExtentCircle,
-         Overlay::DisplacementColors, Overlay::Readings })
+  for (const Overlay overlay : kUsualOverlays)
   {
     setVisible(overlay, true);
   }
@@ -72,8 +92,8 @@ void PressView::addSurface()
 {
   surface_->SetMapper(surfaceMapper_);
   appearance::setColor(*surface_->GetProperty(), appearance::kLiver);
-  surface_->GetProperty()->SetSpecular(0.25);
-  surface_->GetProperty()->SetSpecularPower(25.0);
+  surface_->GetProperty()->SetSpecular(0.35); // wet
+  surface_->GetProperty()->SetSpecularPower(40.0);
   renderer_.AddActor(surface_);
   dent_.emplace(renderer_, *deform_, surface_->GetProperty());
 }
@@ -85,7 +105,7 @@ void PressView::addTool()
   toolMapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 8.0);
   tool_->SetMapper(toolMapper_);
   appearance::setColor(*tool_->GetProperty(), appearance::kTool);
-  tool_->GetProperty()->SetOpacity(0.4);
+  tool_->GetProperty()->SetOpacity(0.25); // the dent is seen through it
   tool_->GetProperty()->BackfaceCullingOn();
   tool_->GetProperty()->SetSpecular(0.6);
   tool_->GetProperty()->SetSpecularPower(40.0);
@@ -103,6 +123,7 @@ void PressView::addOverlays()
     std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Contact));
   put(Overlay::ExtentCircle,
     std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Extent));
+  put(Overlay::IsoLines, std::make_unique<IsoLines>(renderer_, *deform_));
   put(Overlay::ControlNet, std::make_unique<ControlNet>(renderer_));
   put(Overlay::Ghost, std::make_unique<Ghost>(renderer_, *deform_));
   auto readings = std::make_unique<Readings>(renderer_);
@@ -142,6 +163,11 @@ void PressView::setLaw(const ForceLaw& law)
 void PressView::setColorRange(double top)
 {
   dent_->setRange(top);
+}
+
+void PressView::setColorBar(bool shown)
+{
+  dent_->setLegend(shown);
 }
 
 double PressView::extentRadius(double depth) const noexcept
@@ -186,8 +212,11 @@ void PressView::show(const Sample& sample)
   const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
   above_ = std::max(
     toolHeight(tip_), isPushed ? ForceArrow::lengthOf(sample.response.force, diagonal_) : 0.0);
-  readings_->setKeys(isVisible(Overlay::ContactCircle), isVisible(Overlay::ExtentCircle),
-    isVisible(Overlay::ValidityColors) ? dent_->rule(state) : std::string{});
+  readings_->setKeys({ .arrow = isPushed,
+    .contactCircle = isVisible(Overlay::ContactCircle),
+    .extentCircle = isVisible(Overlay::ExtentCircle),
+    .isoLines = isVisible(Overlay::IsoLines),
+    .validity = isVisible(Overlay::ValidityColors) ? dent_->rule(state) : std::string{} });
   for (std::size_t i = 0; i < kOverlayCount; ++i)
   {
     if (overlays_[i])
@@ -234,10 +263,15 @@ void PressView::placeDent(const OverlayState& state)
 
 void PressView::lookAtSurface()
 {
+  lookFrom({ -0.35, -1.0, 0.75 }, Eigen::Vector3d::UnitZ());
+}
+
+void PressView::lookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up)
+{
   vtkCamera& camera = *renderer_.GetActiveCamera();
   camera.SetFocalPoint(0.0, 0.0, 0.0);
-  camera.SetPosition(-0.35, -1.0, 0.75);
-  camera.SetViewUp(0.0, 0.0, 1.0);
+  camera.SetPosition(eye.data());
+  camera.SetViewUp(up.data());
   double bounds[6];
   surfaceMapper_->GetBounds(bounds);
   renderer_.ResetCamera(bounds);

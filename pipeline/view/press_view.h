@@ -53,7 +53,8 @@ public:
   /// Moves the tool, presses the surface, and sets the overlays. Does not render.
   void show(const Sample& sample);
 
-  /// At first: arrow, circles, colors of the displacement and readings. Takes effect in show().
+  /// At first: arrow, circles, colors and lines of the displacement, readings. Takes effect in
+  /// show().
   void setVisible(Overlay overlay, bool visible);
   [[nodiscard]] bool isVisible(Overlay overlay) const;
 
@@ -63,8 +64,17 @@ public:
   /// Upper end of the colors [mm or kPa]; 0, the default, lets it follow the press.
   void setColorRange(double top);
 
+  /// Whether colors have their bar beside them; at first they do. Takes effect in show().
+  void setColorBar(bool shown);
+
   /// The whole surface, from the front and above.
   void lookAtSurface();
+
+  /// The whole surface from a side, as from -y, its front where it stands in LPS.
+  ///
+  /// @param eye  direction from the surface to the eye
+  /// @param up   of the picture; not along the other
+  void lookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
 
   /// The whole surface with a place on it, head up where it is pressed from a side.
   ///

@@ -2,8 +2,11 @@
 
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
+#include "pipeline/view/force_arrow.h"
+#include "pipeline/view/iso_lines.h"
 
 #include <utility>
+#include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
@@ -33,8 +36,8 @@ Readings::Readings(vtkRenderer& renderer)
         }
       })
 {
-  const std::array<appearance::Color, kLines> inks{ appearance::kPaper, appearance::kContact,
-    appearance::kExtent, appearance::kPaper };
+  const std::array<appearance::Color, kLines> inks{ appearance::kPaper, appearance::kPaper,
+    appearance::kContact, appearance::kExtent, appearance::kPaper, appearance::kPaper };
   for (std::size_t i = 0; i < kLines; ++i)
   {
     vtkTextProperty& text = *lines_[i]->GetTextProperty();
@@ -46,11 +49,9 @@ Readings::Readings(vtkRenderer& renderer)
   Readings::hide();
 }
 
-void Readings::setKeys(bool contactCircle, bool extentCircle, std::string validity)
+void Readings::setKeys(Keys keys)
 {
-  contactCircle_ = contactCircle;
-  extentCircle_ = extentCircle;
-  validity_ = std::move(validity);
+  keys_ = std::move(keys);
 }
 
 void Readings::show(const OverlayState& state)
@@ -59,15 +60,27 @@ void Readings::show(const OverlayState& state)
   std::array<std::string, kLines> texts;
   texts[0] = " force " + appearance::fixedText(response.force, 2) + " N   depth " +
     millimeters(state.sample.contact.depth);
-  if (contactCircle_)
+  if (keys_.arrow)
   {
-    texts[1] = " \u25cb contact circle r = " + millimeters(state.press.GetPress().contactRadius);
+    const double diagonal = vtkPolyData::SafeDownCast(state.press.GetInput())->GetLength();
+    const double ring = ForceArrow::scaleOf(response.force, diagonal).ring;
+    texts[1] = " \u2191 arrow: a ring each " + appearance::roundText(ring) + " N ";
   }
-  if (extentCircle_ && state.extentRadius > 0.0)
+  if (keys_.contactCircle)
   {
-    texts[2] = " \u25cb extent circle R_d = " + millimeters(state.extentRadius);
+    texts[2] = " \u25cb contact circle r = " + millimeters(state.press.GetPress().contactRadius);
   }
-  texts[3] = validity_.empty() ? std::string{} : " " + validity_ + " ";
+  if (keys_.extentCircle && state.extentRadius > 0.0)
+  {
+    texts[3] = " \u25cb extent circle R_d = " + millimeters(state.extentRadius);
+  }
+  if (keys_.isoLines)
+  {
+    const double step = IsoLines::stepOf(state.sample.contact.depth);
+    texts[4] = " \u2012 equal displacement each " +
+      appearance::roundText(units::toMillimeters(step)) + " mm ";
+  }
+  texts[5] = keys_.validity.empty() ? std::string{} : " " + keys_.validity + " ";
   for (std::size_t i = 0; i < kLines; ++i)
   {
     lines_[i]->SetVisibility(!texts[i].empty());

@@ -19,16 +19,23 @@ public:
   void show(const OverlayState& state) override;
   void hide() override;
 
-  /// Which keys are wanted, and a line about the law's validity; empty for none.
-  void setKeys(bool contactCircle, bool extentCircle, std::string validity);
+  /// What is drawn and wants its key.
+  struct Keys
+  {
+    bool arrow = false;
+    bool contactCircle = false;
+    bool extentCircle = false;
+    bool isoLines = false;
+    std::string validity{}; ///< a line about the law's; empty for none
+  };
+
+  void setKeys(Keys keys);
 
 private:
-  static constexpr std::size_t kLines = 4;
+  static constexpr std::size_t kLines = 6;
 
   std::array<vtkNew<vtkTextActor>, kLines> lines_;
-  bool contactCircle_ = false;
-  bool extentCircle_ = false;
-  std::string validity_;
+  Keys keys_;
   BeforeRender layOut_; // the lines, one over the other
 };
 

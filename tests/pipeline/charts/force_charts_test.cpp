@@ -3,6 +3,7 @@
 #include "haptics/units.h"
 
 #include <gtest/gtest.h>
+#include <vector>
 #include <vtkAxis.h>
 #include <vtkContextView.h>
 #include <vtkNew.h>
@@ -66,6 +67,56 @@ TEST_F(Charts, ShrinkOnceASpikeIsNoLongerSeen)
   EXPECT_LE(top(*view_, vtkAxis::LEFT), 4.0);
   EXPECT_GE(top(*depthView_, vtkAxis::BOTTOM), 4.0);
   EXPECT_LE(top(*depthView_, vtkAxis::BOTTOM), 8.0);
+}
+
+TEST_F(Charts, StayWhileTheyArePausedAndForgetWhatIsCleared)
+{
+  add(2.0, 4.0_mm);
+  charts_.setPaused(true);
+  add(30.0, 14.0_mm);
+  EXPECT_LE(top(*view_, vtkAxis::LEFT), 4.0);
+  EXPECT_LE(top(*depthView_, vtkAxis::BOTTOM), 8.0);
+  charts_.setPaused(false);
+  charts_.refresh();
+  EXPECT_GE(top(*view_, vtkAxis::LEFT), 30.0);
+  charts_.setPaused(true);
+  charts_.clear();
+  EXPECT_LE(top(*view_, vtkAxis::LEFT), 4.0);
+  EXPECT_EQ(charts_.plots()[0]->tables()[0]->GetNumberOfRows(), 0);
+}
+
+// a spike of one sample among a minute of them, at the time of that sample
+TEST_F(Charts, ShowMoreOfLessTime)
+{
+  constexpr int kSpike = 31'417; // [ms]
+  for (int i = 0; i < 60'000; ++i)
+  {
+    Sample sample;
+    sample.time = 0.001 * i;
+    sample.response.force = i == kSpike ? 7.0 : 1.0;
+    charts_.add(sample);
+  }
+  const auto spikeTimes = [this]
+  {
+    std::vector<double> times;
+    const auto plots = charts_.plots();
+    vtkTable& table = *plots[0]->tables()[0];
+    for (vtkIdType row = 0; row < table.GetNumberOfRows(); ++row)
+    {
+      if (table.GetValue(row, 1).ToDouble() > 6.9)
+      {
+        times.push_back(table.GetValue(row, 0).ToDouble());
+      }
+    }
+    return times;
+  };
+  charts_.refresh();
+  ASSERT_EQ(spikeTimes().size(), 1U);
+  EXPECT_NEAR(spikeTimes()[0], 0.001 * kSpike, 0.080); // a minute over 800 columns
+  vtkPalpChart::SafeDownCast(view_->GetScene()->GetItem(0))->Hold(vtkAxis::BOTTOM, 31.0, 32.0);
+  charts_.refresh();
+  ASSERT_EQ(spikeTimes().size(), 1U);
+  EXPECT_NEAR(spikeTimes()[0], 0.001 * kSpike, 0.005);
 }
 
 // the legend stands below, the curves above

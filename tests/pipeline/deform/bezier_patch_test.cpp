@@ -156,5 +156,29 @@ TEST(RingRadius, IsContinuousInTheDepth)
   }
 }
 
+// the law's to half of a sphere's radius; at delta = R 0.834 R, and never more than Sneddon's
+// beyond
+TEST(DrawnContactRadius, IsOneThatASphereCanHave)
+{
+  const double radius = 10.0_mm;
+  const auto drawn = [&](double depth)
+  { return drawnContactRadius(SphereTip{ radius }, depth, std::sqrt(radius * depth)); };
+  const auto depthOf = [&](double a) // Sneddon 1965
+  { return 0.5 * a * std::log((radius + a) / (radius - a)); };
+  EXPECT_NEAR(drawn(radius), 0.834 * radius, 0.0005 * radius);
+  for (double depth = 0.1_mm; depth < 2.0 * radius; depth += 0.01_mm)
+  {
+    const double a = drawn(depth);
+    EXPECT_LE(a, std::sqrt(radius * depth)) << depth;
+    EXPECT_GE(depthOf(a), depth * (1.0 - 1e-6)) << depth; // where a linear half-space lets go
+    EXPECT_LE(depthOf(a), depth > radius ? depth * (1.0 + 1e-6) : 2.0 * depth) << depth;
+    EXPECT_GT(drawn(depth + 0.01_mm), a) << depth;
+    if (depth <= 0.5 * radius)
+    {
+      EXPECT_EQ(a, std::sqrt(radius * depth)) << depth;
+    }
+  }
+}
+
 } // namespace
 } // namespace palp

@@ -80,6 +80,12 @@ std::vector<RangeCase> rangeCases(
 
 void expectSound(const Findings& findings)
 {
+  const auto record = [](const char* what, double value)
+  { ::testing::Test::RecordProperty(what, std::to_string(value)); };
+  record("inside_um", findings.inside.value / 1.0_um);
+  record("rise_um", findings.rise.value / 1.0_um);
+  record("jump_um", findings.jump.value / 1.0_um);
+  record("wall", findings.wall.value);
   EXPECT_LE(findings.inside.value, 1.0_um) << findings.inside.where;
   EXPECT_LE(findings.rise.value, 2.0_um) << findings.rise.where;
   EXPECT_LE(findings.jump.value, 20.0_um) << findings.jump.where;
@@ -101,16 +107,16 @@ void pressDeeper(const RangeCase& with, double first, double last, double step)
 // By steps of 0.02 mm at three depths.
 void slide(const RangeCase& with, int steps)
 {
+  Findings findings;
   for (const double fraction : { 0.4, 0.9, 1.5 })
   {
     Presser presser(bodyOf(with.body), with.tip.tip, with.law, with.surface);
-    Findings findings;
     for (int i = 0; i <= steps; ++i)
     {
       presser.press(fraction * baseRadius(with.tip.tip), 0.02_mm * i, findings);
     }
-    expectSound(findings);
   }
+  expectSound(findings);
 }
 
 #ifdef PALP_SLOW // every tool, body, law and picture
@@ -202,6 +208,37 @@ TEST(DentSlide, APointThatStandsOutMovesOnUnderTheRim)
   {
     presser.press(15.0_mm, 1.2_mm + 0.005_mm * i, findings);
   }
+  expectSound(findings);
+}
+
+// across the edge of a block, where the nearest way out turns from the face to its side
+TEST(DentSlide, AConeCrossesAnEdgeByItsOwnSteps)
+{
+  PressedBody block = pressedBody(
+    "edge", makeBox({ 60.0_mm, 60.0_mm, 30.0_mm }, 2.0_mm), { 0.3_mm, 0.2_mm, 0.0 }, { 0, 0, 1 });
+  Findings findings;
+  double most = 0.0; // [m] that a point moves in one step
+  for (const double depth : { 2.0_mm, 4.0_mm })
+  {
+    Presser presser(block, ConeTip{ 40.0_deg, 8.0_mm }, "paper", "paper");
+    std::vector<float> before;
+    for (int i = 0; i <= 60; ++i)
+    {
+      presser.press(depth, 30.1_mm - depth + 0.02_mm * i, findings);
+      const std::vector<float>& now = block.surface.displacement;
+      for (std::size_t k = 0; k < before.size(); k += 3)
+      {
+        const Eigen::Vector3f step(
+          now[k] - before[k], now[k + 1] - before[k + 1], now[k + 2] - before[k + 2]);
+        most = std::max<double>(most, step.norm());
+      }
+      before = now;
+      EXPECT_TRUE(presser.last()->contact.touching()) << depth << " " << i;
+    }
+  }
+  RecordProperty("most_mm", std::to_string(most / 1.0_mm));
+  EXPECT_LE(most, 1.0_mm);
+  EXPECT_GE(most, 0.1_mm); // or no edge was crossed
   expectSound(findings);
 }
 

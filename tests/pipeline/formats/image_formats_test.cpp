@@ -150,7 +150,17 @@ TEST_F(Images, NiftiWithMoreVoxelsThanItsHeaderClaimsIsRefusedWithBothSizes)
   }
 }
 
-// pixdim, of which an sform needs no sign; datatypes as nifti1.h lists them
+// its header is 540 bytes and says so first, as nifti2.h lays it out
+TEST_F(Images, NiftiOfTheSecondVersionIsRefusedByName)
+{
+  std::string bytes(544 + 4 * 27, '\0');
+  const std::int32_t size = 540;
+  std::memcpy(bytes.data(), &size, sizeof size);
+  std::memcpy(bytes.data() + 4, "n+2\0\r\n\032\n", 8);
+  EXPECT_NE(refusal(write("second.nii", bytes), { 0.0, {} }).find("NIfTI-2"), std::string::npos);
+}
+
+// dim; pixdim, of which an sform needs no sign; datatypes as nifti1.h lists them
 TEST_F(Images, NiftiHeadersAreRefusedByTheFieldThatIsWrong)
 {
   const auto with = [&](std::size_t at, const auto& value, short sform)
@@ -166,6 +176,7 @@ TEST_F(Images, NiftiHeadersAreRefusedByTheFieldThatIsWrong)
     EXPECT_NE(with(80, 0.0F, sform).find("pixdim[1] is 0, no size"), std::string::npos);
     EXPECT_NE(with(84, nan, sform).find("pixdim[2] is nan, no size"), std::string::npos);
   }
+  EXPECT_NE(with(44, short{ -48 }, 1).find("dim[2] is -48, no number"), std::string::npos);
   EXPECT_NE(with(88, -3.0F, 0).find("pixdim[3] is -3, no size"), std::string::npos);
   EXPECT_EQ(with(88, -3.0F, 1), "accepted");
   for (const auto& [type, words] : { std::pair(1, "single bits (datatype 1)"),

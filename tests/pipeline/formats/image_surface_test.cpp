@@ -154,6 +154,13 @@ TEST_F(ImageSurface, OfVoxelsThatAreNoNumbersIsRefusedByTheirNumberAndPlace)
     EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("odd.vti", *image))
                 .find("infinite): 2, the first at 3, 4, 5"),
       std::string::npos);
+    // nor is a mask with such a voxel a map of three labels
+    const auto mask = imageOf([](const Vector3d& p) { return p.norm() < 30.0 ? -1.0 : 1.0; },
+      Array3d::Constant(2.0), false);
+    *static_cast<float*>(mask->GetScalarPointer(3, 4, 5)) = odd;
+    EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("mask.vti", *mask))
+                .find("infinite): 1, the first at 3, 4, 5"),
+      std::string::npos);
   }
 }
 

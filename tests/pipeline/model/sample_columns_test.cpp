@@ -50,6 +50,40 @@ TEST(SampleColumns, KeepsTheExtremesOfEveryColumnOfTheLastMinute)
   }
 }
 
+// a part that moves on shows the same columns
+TEST(SampleColumns, JoinsAPartToColumnsThatStay)
+{
+  SampleColumns columns(60.0, 12'000);
+  constexpr int kSamples = 100'000;
+  for (int i = 0; i < kSamples; ++i)
+  {
+    columns.add(0.001 * i, signal(i));
+  }
+  for (const double from : { 70.0, 70.003, 70.1 })
+  {
+    int inside = 0;
+    columns.forEach(from, from + 10.0, 0.05,
+      [&](const SampleColumns::Column& column)
+      {
+        const double index = column.start / 0.05;
+        EXPECT_NEAR(index, std::round(index), 1e-6);
+        const int first = static_cast<int>(std::lround(1000.0 * column.start));
+        double least = 1e9;
+        double largest = -1e9;
+        for (int i = first; i < first + 50; ++i)
+        {
+          least = std::min(least, signal(i));
+          largest = std::max(largest, signal(i));
+        }
+        EXPECT_EQ(column.least, least);
+        EXPECT_EQ(column.largest, largest);
+        inside += column.start >= from && column.start + 0.05 <= from + 10.0 ? 1 : 0;
+      });
+    EXPECT_GE(inside, 198);
+    EXPECT_LE(inside, 200);
+  }
+}
+
 TEST(SampleColumns, BeginsNarrowAndLosesNothingWhenItWidens)
 {
   SampleColumns columns(60.0, 800);

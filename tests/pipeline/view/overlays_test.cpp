@@ -1,16 +1,22 @@
 #include "pipeline/charts/comparison.h"
 #include "pipeline/view/control_net.h"
+#include "pipeline/view/force_arrow.h"
+#include "pipeline/view/iso_lines.h"
 #include "tests/pipeline/picture.h"
 #include "tests/pipeline/view/press_pictures.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 #include <vtkActor2DCollection.h>
+#include <vtkBoundingBox.h>
+#include <vtkMapper.h>
+#include <vtkPointData.h>
 #include <vtkProperty.h>
 #include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
@@ -34,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(PressView, EachOverlay,
     std::pair{ Overlay::DisplacementColors, "displacement" },
     std::pair{ Overlay::Readings, "readings" }, std::pair{ Overlay::PressureColors, "pressure" },
     std::pair{ Overlay::ValidityColors, "validity" }, std::pair{ Overlay::ControlNet, "net" },
-    std::pair{ Overlay::Ghost, "ghost" }));
+    std::pair{ Overlay::Ghost, "ghost" }, std::pair{ Overlay::IsoLines, "iso_lines" }));
 
 TEST_P(EachOverlay, IsDrawnWhenWantedAndNotOtherwise)
 {
@@ -144,7 +150,7 @@ TEST(PressView, KeepsItsTextsInThePictureAndApart)
     {
       view.picture(body, pressed(body, kSphere, depth));
       const std::vector<Box> texts = shownTexts(*view.renderer);
-      ASSERT_EQ(texts.size(), 4U);
+      ASSERT_EQ(texts.size(), 5U); // of the arrow its force and its rings
       for (std::size_t i = 0; i < texts.size(); ++i)
       {
         EXPECT_GE(texts[i].low[0], 0.0) << width << " text " << i;
@@ -192,8 +198,8 @@ TEST(PressView, CoversNoBodyWithItsColorBarInANarrowPicture)
   EXPECT_EQ(bars, 1);
 }
 
-// of the arrow, from its color
-double lengthOfArrow(vtkRenderer& renderer)
+// the actor is known by its color
+const double* boundsOfArrow(vtkRenderer& renderer)
 {
   vtkActorCollection& actors = *renderer.GetActors();
   actors.InitTraversal();
@@ -202,10 +208,94 @@ double lengthOfArrow(vtkRenderer& renderer)
     const double* color = actor->GetProperty()->GetDiffuseColor();
     if (std::equal(color, color + 3, appearance::kForce.begin()))
     {
-      return actor->GetLength();
+      return actor->GetBounds();
     }
   }
-  return 0.0;
+  static constexpr double kNone[6]{};
+  return kNone;
+}
+
+double lengthOfArrow(vtkRenderer& renderer)
+{
+  return vtkBoundingBox(boundsOfArrow(renderer)).GetDiagonalLength();
+}
+
+// at any depth a few lines, at round numbers of millimeters
+TEST(IsoLines, AreFewAndAtRoundNumbers)
+{
+  EXPECT_NEAR(IsoLines::stepOf(2.0_mm), 0.5_mm, 1e-9);
+  EXPECT_NEAR(IsoLines::stepOf(5.0_mm), 1.0_mm, 1e-9);
+  EXPECT_NEAR(IsoLines::stepOf(8.0_mm), 1.0_mm, 1e-9);
+  for (double depth = 0.01_mm; depth < 50.0_mm; depth *= 1.03)
+  {
+    const double lines = depth / IsoLines::stepOf(depth);
+    EXPECT_LE(lines, 8.0 + 1e-6) << depth;
+    EXPECT_GE(lines, 3.0) << depth;
+  }
+}
+
+TEST(IsoLines, RunWhereTheSurfaceMovedAsFar)
+{
+  const Specimen body = ball();
+  View view(body, kSphere);
+  view.picture(body, pressed(body, kSphere, 5.0_mm));
+  vtkActorCollection& actors = *view.renderer->GetActors();
+  actors.InitTraversal();
+  int points = 0;
+  while (vtkActor* actor = actors.GetNextActor())
+  {
+    const double* color = actor->GetProperty()->GetDiffuseColor();
+    if (!std::equal(color, color + 3, appearance::kInk.begin()))
+    {
+      continue;
+    }
+    vtkPolyData& lines = *vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput());
+    vtkDataArray& moved = *lines.GetPointData()->GetArray("Displacement");
+    for (vtkIdType i = 0; i < lines.GetNumberOfPoints(); ++i, ++points)
+    {
+      const double* by = moved.GetTuple3(i);
+      const double mm = units::toMillimeters(std::hypot(by[0], by[1], by[2]));
+      EXPECT_NEAR(mm, std::round(mm), 0.05) << mm; // between corners its length is not linear
+      EXPECT_GE(std::round(mm), 1.0);
+    }
+  }
+  EXPECT_GT(points, 100);
+}
+
+// the shaft is a ruler, to one scale while it fits
+TEST(ForceArrow, IsAsLongAsTheForceIsLarge)
+{
+  constexpr double kDiagonal = 250.0_mm;
+  const double none = ForceArrow::lengthOf(0.0, kDiagonal);
+  EXPECT_NEAR(ForceArrow::lengthOf(2.0, kDiagonal) - none, 30.0_mm, 1e-9); // 15 mm/N
+  EXPECT_NEAR(ForceArrow::lengthOf(4.0, kDiagonal) - none, 60.0_mm, 1e-9);
+  for (double force = 1e-3; force < 1e6; force *= 1.5)
+  {
+    const ForceArrow::Scale scale = ForceArrow::scaleOf(force, kDiagonal);
+    EXPECT_LE(force * scale.length, 0.27 * kDiagonal + 1e-9) << force;
+    const double ring = scale.ring * scale.length; // of rings that can be told apart
+    EXPECT_GE(ring, 0.02 * kDiagonal - 1e-9) << force;
+    EXPECT_LE(ring, 0.05 * kDiagonal + 1e-9) << force;
+  }
+}
+
+// and what is pressed is seen, whatever side it is looked at from
+TEST(ForceArrow, StandsBesideTheTool)
+{
+  const Specimen body = ball();
+  for (const Tip& tip : { kSphere, kSmall })
+  {
+    View view(body, tip);
+    view.picture(body, pressed(body, tip, 2.0_mm));
+    for (const double angle : { 0.0, 1.0, 2.0, 4.0 })
+    {
+      view.renderer->GetActiveCamera()->Azimuth(units::toDegrees(angle));
+      view.window->Render();
+      const double* box = boundsOfArrow(*view.renderer);
+      const Eigen::Vector2d middle(0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]));
+      EXPECT_GT(middle.norm(), 1.2 * baseRadius(tip)) << angle;
+    }
+  }
 }
 
 // the same press with a tool that is larger than the body

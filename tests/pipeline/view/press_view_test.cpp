@@ -1,6 +1,6 @@
 #include "pipeline/view/press_view.h"
 
-#include "pipeline/view/tool_surface.h"
+#include "pipeline/model/tool_surface.h"
 #include "tests/pipeline/picture.h"
 #include "tests/pipeline/view/press_pictures.h"
 

@@ -2,6 +2,8 @@
 
 #include "haptics/tip/tip.h"
 
+#include <Eigen/Core>
+#include <span>
 #include <vtkSmartPointer.h>
 
 class vtkPolyData;
@@ -14,5 +16,10 @@ namespace palp
 /// @param tip     checked
 /// @param length  of the shaft above the base [m]
 [[nodiscard]] vtkSmartPointer<vtkPolyData> toolSurface(const Tip& tip, double length);
+
+/// A surface of revolution about z, closed and outward, with creases at its edges.
+///
+/// @param profile  distance from z and height, from below; begins and ends on z
+[[nodiscard]] vtkSmartPointer<vtkPolyData> revolved(std::span<const Eigen::Vector2d> profile);
 
 } // namespace palp

@@ -1,4 +1,4 @@
-#include "pipeline/view/tool_surface.h"
+#include "pipeline/model/tool_surface.h"
 
 #include <Eigen/Core>
 #include <cmath>
@@ -13,25 +13,14 @@
 namespace palp
 {
 
-vtkSmartPointer<vtkPolyData> toolSurface(const Tip& tip, double length)
+vtkSmartPointer<vtkPolyData> revolved(std::span<const Eigen::Vector2d> profile)
 {
-  constexpr int kRings = 32;
   constexpr int kSides = 64;
   constexpr double kCrease = 50.0; // [deg] an edge, not a curve
-
-  // the profile, closer where a sphere's flank is steep, then the shaft and its end
-  const double base = baseRadius(tip);
-  std::vector<Eigen::Vector2d> profile;
-  for (int i = 1; i <= kRings; ++i)
-  {
-    const double radius = base * std::sin(0.5 * std::numbers::pi * i / kRings);
-    profile.emplace_back(radius, tipHeight(tip, radius));
-  }
-  profile.emplace_back(base, profile.back().y() + length);
-
+  const std::span<const Eigen::Vector2d> around = profile.subspan(1, profile.size() - 2);
   vtkNew<vtkPoints> points;
-  points->InsertNextPoint(0.0, 0.0, 0.0);
-  for (const Eigen::Vector2d& at : profile)
+  points->InsertNextPoint(0.0, 0.0, profile.front().y());
+  for (const Eigen::Vector2d& at : around)
   {
     for (int k = 0; k < kSides; ++k)
     {
@@ -42,7 +31,7 @@ vtkSmartPointer<vtkPolyData> toolSurface(const Tip& tip, double length)
   const vtkIdType top = points->InsertNextPoint(0.0, 0.0, profile.back().y());
 
   vtkNew<vtkCellArray> triangles;
-  const auto rings = static_cast<vtkIdType>(profile.size());
+  const auto rings = static_cast<vtkIdType>(around.size());
   for (vtkIdType k = 0; k < kSides; ++k)
   {
     const vtkIdType next = (k + 1) % kSides;
@@ -66,6 +55,23 @@ vtkSmartPointer<vtkPolyData> toolSurface(const Tip& tip, double length)
   normals->ConsistencyOff();
   normals->Update();
   return normals->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> toolSurface(const Tip& tip, double length)
+{
+  constexpr int kRings = 32;
+  // the profile, closer where a sphere's flank is steep, then the shaft and its end
+  const double base = baseRadius(tip);
+  std::vector<Eigen::Vector2d> profile{ Eigen::Vector2d::Zero() };
+  for (int i = 1; i <= kRings; ++i)
+  {
+    const double radius = base * std::sin(0.5 * std::numbers::pi * i / kRings);
+    profile.emplace_back(radius, tipHeight(tip, radius));
+  }
+  const double end = profile.back().y() + length;
+  profile.emplace_back(base, end);
+  profile.emplace_back(0.0, end);
+  return revolved(profile);
 }
 
 } // namespace palp

@@ -1,0 +1,96 @@
+#include "pipeline/figure/orientation.h"
+
+#include "pipeline/view/appearance.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::array<const char*, 6> kSides{ "L", "R", "P", "A", "S", "I" };
+constexpr std::array<const char*, 6> kAxes{ "x", "", "y", "", "z", "" };
+
+} // namespace
+
+Orientation::Orientation(vtkRenderer& renderer)
+  : layOut_(renderer,
+      [this, &renderer](double width, double, double scale) { place(renderer, width, scale); })
+{
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(static_cast<vtkIdType>(2 * kEnds));
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = 0; i < kEnds; ++i)
+  {
+    cells->InsertNextCell({ static_cast<vtkIdType>(2 * i), static_cast<vtkIdType>(2 * i + 1) });
+    vtkTextProperty& text = *letters_[i]->GetTextProperty();
+    appearance::setFont(text, 14, appearance::kInk, true);
+    text.SetJustificationToCentered();
+    text.SetVerticalJustificationToCentered();
+    renderer.AddActor2D(letters_[i]);
+  }
+  lines_->SetPoints(points);
+  lines_->SetLines(cells);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(lines_);
+  cross_->SetMapper(mapper);
+  const appearance::Color& ink = appearance::kInk;
+  cross_->GetProperty()->SetColor(ink[0], ink[1], ink[2]);
+  cross_->GetProperty()->SetLineWidth(2.0F);
+  renderer.AddActor2D(cross_);
+}
+
+void Orientation::setPatient(bool isPatient)
+{
+  isPatient_ = isPatient;
+}
+
+void Orientation::setVisible(bool visible)
+{
+  isVisible_ = visible;
+}
+
+void Orientation::place(vtkRenderer& renderer, double width, double scale)
+{
+  constexpr double kArm = 30.0;    // [pixels]
+  constexpr double kLetter = 41.0; // from the middle
+  constexpr double kMiddle = 54.0; // from the corner
+  constexpr double kSeen = 0.25;   // [-] of an axis: a shorter one would have its letter on others
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const Eigen::Vector3d sight(camera.GetDirectionOfProjection());
+  const Eigen::Vector3d right = sight.cross(Eigen::Vector3d(camera.GetViewUp())).normalized();
+  const Eigen::Vector3d up = right.cross(sight);
+  const Eigen::Vector2d middle(width - kMiddle * scale, kMiddle * scale);
+  for (std::size_t i = 0; i < kEnds; ++i)
+  {
+    const Eigen::Vector3d axis =
+      (i % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i / 2));
+    const Eigen::Vector2d seen(axis.dot(right), axis.dot(up));
+    const char* name = isPatient_ ? kSides[i] : kAxes[i];
+    const bool isNamed = *name != '\0';
+    const Eigen::Vector2d end = middle + (isNamed ? kArm * scale : 0.0) * seen;
+    const Eigen::Vector2d at = middle + kLetter * scale * seen;
+    lines_->GetPoints()->SetPoint(static_cast<vtkIdType>(2 * i), middle.x(), middle.y(), 0.0);
+    lines_->GetPoints()->SetPoint(static_cast<vtkIdType>(2 * i + 1), end.x(), end.y(), 0.0);
+    letters_[i]->SetInput(name);
+    letters_[i]->SetPosition(at.x(), at.y());
+    letters_[i]->SetVisibility(isVisible_ && isNamed && seen.norm() > kSeen);
+    // what points away from the eye is fainter
+    letters_[i]->GetTextProperty()->SetOpacity(axis.dot(sight) > 0.3 ? 0.45 : 1.0);
+  }
+  lines_->GetPoints()->Modified();
+  cross_->SetVisibility(isVisible_);
+}
+
+} // namespace palp

@@ -1,0 +1,76 @@
+#include "pipeline/figure/scale_bar.h"
+
+#include "haptics/units.h"
+#include "pipeline/view/appearance.h"
+
+#include <array>
+#include <cmath>
+#include <vtkCamera.h>
+#include <vtkMath.h>
+#include <vtkPoints.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+// the largest of 1, 2 or 5 times a power of ten that is not above a value
+double roundDown(double most)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  const double mantissa = most / power;
+  return power * (mantissa >= 5.0 ? 5.0 : mantissa >= 2.0 ? 2.0 : 1.0);
+}
+
+} // namespace
+
+ScaleBar::ScaleBar(vtkRenderer& renderer)
+  : layOut_(renderer,
+      [this, &renderer](double width, double height, double scale)
+      { place(renderer, width, height, scale); })
+{
+  appearance::makeInkLine(*bar_, *actor_, 6); // an end, the bar, an end
+  renderer.AddActor2D(actor_);
+  vtkTextProperty& text = *text_->GetTextProperty();
+  appearance::setFont(text, 14, appearance::kInk, true);
+  text.SetJustificationToCentered();
+  renderer.AddActor2D(text_);
+  setVisible(false);
+}
+
+void ScaleBar::setVisible(bool visible)
+{
+  actor_->SetVisibility(visible);
+  text_->SetVisibility(visible);
+}
+
+void ScaleBar::place(vtkRenderer& renderer, double width, double height, double scale)
+{
+  constexpr double kLongest = 160.0; // [pixels]
+  constexpr double kRight = 130.0;   // [pixels], beside the axes in the corner
+  constexpr double kBottom = 24.0;
+  constexpr double kEnd = 5.0;
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  const double seen =
+    2.0 * camera.GetDistance() * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.GetViewAngle()));
+  const double pixel = seen / height; // [m]
+  length_ = units::fromMillimeters(roundDown(units::toMillimeters(kLongest * scale * pixel)));
+  const double right = width - kRight * scale;
+  const double left = right - length_ / pixel;
+  const double y = kBottom * scale;
+  const double end = kEnd * scale;
+  const std::array<std::array<double, 2>, 6> corners{ { { left, y + end }, { left, y - end },
+    { left, y }, { right, y }, { right, y - end }, { right, y + end } } };
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    bar_->GetPoints()->SetPoint(static_cast<vtkIdType>(i), corners[i][0], corners[i][1], 0.0);
+  }
+  bar_->GetPoints()->Modified();
+  actor_->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
+  text_->SetInput((appearance::roundText(units::toMillimeters(length_)) + " mm").c_str());
+  text_->SetPosition(0.5 * (left + right), y + end + 2.0 * scale);
+}
+
+} // namespace palp

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "pipeline/view/before_render.h"
+
+#include <vtkActor2D.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkTextActor.h>
+
+class vtkRenderer;
+
+namespace palp
+{
+
+/// A bar of round length, true where the eye looks at: nearer things are larger.
+class ScaleBar
+{
+public:
+  /// It is not shown at first.
+  explicit ScaleBar(vtkRenderer& renderer);
+
+  void setVisible(bool visible);
+
+  /// Its length as last drawn [m].
+  [[nodiscard]] double length() const noexcept
+  {
+    return length_;
+  }
+
+private:
+  void place(vtkRenderer& renderer, double width, double height, double scale);
+
+  double length_ = 0.0;
+  vtkNew<vtkPolyData> bar_; // [pixels]
+  vtkNew<vtkActor2D> actor_;
+  vtkNew<vtkTextActor> text_;
+  BeforeRender layOut_;
+};
+
+} // namespace palp

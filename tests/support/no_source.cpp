@@ -1,0 +1,1 @@
+// a library has a source, also one that is of headers alone
