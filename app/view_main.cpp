@@ -101,6 +101,10 @@ int view(const palp::ViewOptions& options)
   {
     std::cerr << "palp: " << note << '\n';
   }
+  if (options.made)
+  {
+    session.addTake(*options.made);
+  }
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
   palp::Window window(session, trace);
   trace.build("first picture", "drawn on the display",

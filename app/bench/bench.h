@@ -15,7 +15,8 @@ namespace palp
 /// One figure of the benchmark, over many repetitions.
 struct BenchRow
 {
-  std::string work; ///< servo_step, law, update, dent, frame, query_brute, tree_build or baseline
+  /// servo_step, law, memory, update, dent, frame, query_brute, tree_build or baseline
+  std::string work;
   std::size_t vertices = 0; ///< of the mesh; 0 where there is none
   std::string mode;         ///< moving, jump, cold, paced, still, or how many points are displaced
   std::string variant{};    ///< of a law or baseline: which one, "" for the scene's own law
@@ -50,7 +51,7 @@ template <typename Before, typename Work>
 [[nodiscard]] double benchSweep();
 
 /// The law alone: the scene's own, which is the paper's for a sphere; then cone, exact sphere, and
-/// all factors of the corrected law for a sphere.
+/// all factors of the corrected law for a sphere; and what relaxation and friction add to a step.
 [[nodiscard]] std::vector<BenchRow> benchLaw();
 
 /// Contact, law and safety chain on the paper's surfaces and on larger ones, and what they are

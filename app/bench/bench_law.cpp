@@ -1,6 +1,7 @@
 #include "app/bench/bench.h"
 #include "app/program/data_files.h"
 #include "haptics/servo/scene.h"
+#include "haptics/servo/tissue_memory.h"
 #include "haptics/units.h"
 
 namespace palp
@@ -38,6 +39,34 @@ BenchRow benchOne(const char* variant, const ForceLaw& law)
   return row;
 }
 
+// what a tick of tissue that relaxes and rubs takes above one that does not
+BenchRow benchMemory(const Material& tissue, LawSettings settings)
+{
+  settings.relaxation.add({ 0.3, 50.0_ms });
+  settings.relaxation.add({ 0.2, 0.6 });
+  settings.friction = 0.3;
+  Scene scene;
+  scene.law = ForceLaw(scene.law.tip(), tissue, settings);
+  TissueMemory memory;
+  Sample sample;
+  sample.contact = { .depth = 5.0_mm,
+    .normal = Eigen::Vector3d::UnitZ(),
+    .surfaceCurvature = 1.0 / 50.0_mm,
+    .thickness = 30.0_mm };
+  double sum = 0.0;
+  std::vector<double> times = timed(
+    1000, [](int) {},
+    [&](int)
+    {
+      sample.pose.apex.x() += 0.1_mm;
+      (void)memory.begin(scene, sample, 1.0_ms);
+      const Response at = memory.at(sample.contact.depth);
+      const Rendered felt{ at.force, at.stiffness, sample.contact.depth };
+      sum += memory.settle(felt, 1e6, sample).x();
+    });
+  return benchRow("memory", 0, sum < 0.0 ? "moving" : "", std::move(times));
+}
+
 } // namespace
 
 std::vector<BenchRow> benchLaw()
@@ -53,7 +82,7 @@ std::vector<BenchRow> benchLaw()
     benchOne("exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
     benchOne("corrected", ForceLaw(paper.tip(), tissue, everything)),
     benchOne("paraboloid", ForceLaw(ParaboloidTip{ 10.0_mm }, tissue, everything)),
-    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)) };
+    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)), benchMemory(tissue, everything) };
 }
 
 } // namespace palp

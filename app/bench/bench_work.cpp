@@ -55,7 +55,7 @@ ServoTick::ServoTick(std::shared_ptr<const Surface> surface)
 
 Sample ServoTick::operator()(const ToolPose& pose)
 {
-  return step(scene_, chain_, pose, {}, { .armed = true }, 1.0_ms);
+  return step(scene_, memory_, chain_, pose, {}, { .armed = true }, 1.0_ms);
 }
 
 DrawnSurface::DrawnSurface(const Mesh& mesh)

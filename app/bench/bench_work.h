@@ -42,6 +42,7 @@ public:
 
 private:
   SafetyChain chain_;
+  TissueMemory memory_;
   Scene scene_;
 };
 

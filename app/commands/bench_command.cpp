@@ -1,4 +1,5 @@
 #include "app/bench/bench.h"
+#include "app/bench/bench_sweep.h"
 #include "app/commands/commands.h"
 #include "app/commands/renderer.h"
 #include "app/input/quantity.h"
@@ -30,6 +31,8 @@ struct BenchOptions
   bool frames = false;
   bool quick = false;
   std::string servo;
+  std::filesystem::path sweep;
+  std::size_t cases = BenchedSweep().planned;
   std::filesystem::path gate;
   double slack = 1.5;
   std::size_t most = 1'000'000;
@@ -166,6 +169,12 @@ void runBench(const BenchOptions& options, const Renderer* pictures)
     reportServo(std::cout, std::chrono::duration<double>(time));
     return;
   }
+  if (!options.sweep.empty())
+  {
+    reportSweep(std::cout, options.sweep,
+      { .planned = options.cases, .computed = options.quick ? 4 : BenchedSweep().computed });
+    return;
+  }
   const nlohmann::json recorded = options.gate.empty() ? nullptr : readGate(options.gate);
   const Bench bench = measure(options, pictures);
   if (options.json)
@@ -206,12 +215,18 @@ void addBenchCommand(CLI::App& app, const Renderer* pictures)
     "Instead: force error from the mesh, and smoothness, for each rule of contact");
   command->add_option("--servo", options->servo,
     "Instead: how well a servo thread keeps 1 kHz for so long, like 60s");
+  command->add_option("--sweep", options->sweep,
+    "Instead: what a sweep costs on the disk of this folder, which is made and removed");
+  command->add_option("--cases", options->cases, "Of that sweep; 16 kB of disk each")
+    ->check(CLI::Range(1, 10'000'000))
+    ->capture_default_str();
   command->footer("S is a scalar sweep over 10,000 points in the same run, by which machines "
                   "compare; x S is the median as a multiple of it.\n"
                   "Examples:\n"
                   "  palp bench\n"
                   "  palp bench --json > before.json && palp bench --gate before.json\n"
-                  "  palp bench --servo 60s");
+                  "  palp bench --servo 60s\n"
+                  "  palp bench --sweep /scratch/new --cases 100000");
   command->callback([options, pictures] { runBench(*options, pictures); });
 }
 

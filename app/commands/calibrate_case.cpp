@@ -1,16 +1,12 @@
 #include "app/commands/calibrate_case.h"
 
 #include "app/input/coating_text.h"
-#include "app/input/json_object.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
-#include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 namespace palp
@@ -48,58 +44,6 @@ std::array<double, 3> parseBlock(const std::string& text)
       "--block: " + inQuotes(text) + " has more than three sides; give three, as 100x100x50mm");
   }
   return sides;
-}
-
-// a folder of its own below --out, whatever the system
-bool isFolderName(const std::string& name)
-{
-  const bool plain = std::ranges::none_of(name,
-    [](char c)
-    { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
-  return plain && !name.empty() && name.size() <= 100 && name != "." && name != "..";
-}
-
-// one entry of a sweep, number `count`
-Case sweepCase(const nlohmann::json& entry, std::size_t count, const std::string& file,
-  const CaseText& defaults, std::set<std::string>& names)
-{
-  const auto refuse = [&](const std::string& what)
-  { throw Error(ErrorCode::BadFile, file + ": case " + std::to_string(count) + ' ' + what); };
-  if (!entry.is_object() || !entry.contains("name"))
-  {
-    refuse(R"(has no name; give each as {"name": "soft", "young": "5kPa"})");
-  }
-  CaseText text = defaults;
-  std::string name;
-  for (const auto& [key, value] : entry.items())
-  {
-    if (key != "name" && !text.values.contains(key))
-    {
-      refuse(
-        "has " + inQuotes(key) + ", which is no setting of a case; use the names of the options");
-    }
-    if (!value.is_string())
-    {
-      refuse("has a " + inQuotes(key) + " that is no text; put it in quotes, with its unit");
-    }
-    (key == "name" ? name : text.values[key]) = value.get<std::string>();
-  }
-  if (!isFolderName(name))
-  {
-    refuse("has a name that no folder can have; give a short one without / and \\");
-  }
-  if (!names.insert(name).second)
-  {
-    refuse("is called " + inQuotes(name) + " as another is; give each a name of its own");
-  }
-  try
-  {
-    return caseOf(name, text);
-  }
-  catch (const Error& error)
-  {
-    throw Error(ErrorCode::BadFile, file + ": case " + std::to_string(count) + ": " + error.what());
-  }
 }
 
 } // namespace
@@ -160,24 +104,6 @@ Case caseOf(const std::string& name, const CaseText& text)
   }
   check(study);
   return study;
-}
-
-std::vector<Case> readSweep(const std::filesystem::path& file, const CaseText& defaults)
-{
-  const nlohmann::json list = parseJson(readText(file, "a list of cases"), file.string());
-  if (!list.is_array() || list.empty())
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": not a list of cases in JSON; give one or more, as " +
-        R"([{"name": "soft", "young": "5kPa"}])");
-  }
-  std::vector<Case> cases;
-  std::set<std::string> names;
-  for (const auto& entry : list)
-  {
-    cases.push_back(sweepCase(entry, cases.size() + 1, file.string(), defaults, names));
-  }
-  return cases;
 }
 
 } // namespace palp

@@ -2,10 +2,8 @@
 
 #include "calibration/study/study.h"
 
-#include <filesystem>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace palp
 {
@@ -21,11 +19,5 @@ struct CaseText
 
 /// @throws Error  BadValue: names the option and what to give
 [[nodiscard]] fem::Case caseOf(const std::string& name, const CaseText& text);
-
-/// The cases of a sweep, each with a name of its own that a folder below --out can have.
-/// @param defaults  what an entry does not say
-/// @throws Error    BadFile: which case and why; BadValue: see caseOf
-[[nodiscard]] std::vector<fem::Case> readSweep(
-  const std::filesystem::path& file, const CaseText& defaults);
 
 } // namespace palp

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <set>
 
 namespace palp
 {
@@ -25,7 +26,7 @@ struct CalibrateOptions
 {
   CaseText text;
   std::filesystem::path out = "calibration";
-  std::filesystem::path sweep;
+  std::string sweep;
   std::filesystem::path tables;
   unsigned jobs = 1;
   bool resume = false;
@@ -47,10 +48,6 @@ constexpr const char* kStopped =
 constexpr const char* kNothingYet =
   "interrupted before the first depth was done; what is in --out is as before";
 
-constexpr const char* kSweepStopped =
-  "interrupted; the depths that were done are complete in the folders of their cases, --resume "
-  "goes on from there";
-
 constexpr const char* kTablesStopped =
   "interrupted; the tables that were not finished are as before, start again for them";
 
@@ -60,45 +57,6 @@ void refuseWhereStopped(const Interrupt& interrupt, const char* sentence)
   if (interrupt.token().stop_requested())
   {
     throw Error(ErrorCode::NoSolution, sentence);
-  }
-}
-
-void runSweep(const CalibrateOptions& options, Interrupt& interrupt, const Renderer* pictures)
-{
-  interrupt.endWhatDoesNotStop(kSweepStopped);
-  const auto cases = readSweep(options.sweep, options.text);
-  const OutputFolder whole(options.out, {}, OutputFolder::Earlier::Keep); // one sweep in a folder
-  std::vector<std::unique_ptr<OutputFolder>> folders;
-  folders.reserve(cases.size());
-  for (const Case& study : cases)
-  {
-    folders.push_back(openFolder(options.out / study.name, options));
-  }
-  std::size_t failed = 0;
-  std::size_t done = 0;
-  ProgressLine progress("cases");
-  progress(0, cases.size());
-  sweep(folders, cases, options.resume, options.jobs, interrupt.token(),
-    [&](const std::string& name, const std::string& failure)
-    {
-      failed += failure.empty() ? 0 : 1;
-      progress.tell(name + ": " + (failure.empty() ? "done" : failure));
-      progress(++done, cases.size());
-    });
-  refuseWhereStopped(interrupt, kSweepStopped);
-  for (std::size_t i = 0; i < cases.size(); ++i)
-  {
-    if (!options.noPicture && std::filesystem::exists(folders[i]->path() / "table.csv"))
-    {
-      pictures->drawCalibration(cases[i], readSteps(folders[i]->path()), folders[i]->stage());
-      folders[i]->publish();
-    }
-  }
-  if (failed > 0)
-  {
-    throw Error(ErrorCode::NoSolution,
-      std::to_string(failed) + " of " + std::to_string(cases.size()) +
-        " cases are incomplete; the depths that were reached are in " + options.out.string());
   }
 }
 
@@ -151,6 +109,11 @@ std::vector<std::string> tablesIn(const std::filesystem::path& folder)
 
 void runCalibration(const CalibrateOptions& options, const Renderer* pictures)
 {
+  if (!options.sweep.empty())
+  {
+    runCalibrations(options.sweep, options.out, options.jobs);
+    return;
+  }
   if (options.tables.empty() && !options.noPicture && !pictures)
   {
     execProgram("palp-draw");
@@ -166,13 +129,21 @@ void runCalibration(const CalibrateOptions& options, const Renderer* pictures)
     refuseWhereStopped(interrupt, kTablesStopped);
     folder->publish();
   }
-  else if (!options.sweep.empty())
-  {
-    runSweep(options, interrupt, pictures);
-  }
   else
   {
     calibrateOne(options, interrupt, pictures);
+  }
+}
+
+// what an option stands instead of
+void refuseBeside(CLI::App& command, CLI::Option& option, const std::set<std::string>& allowed)
+{
+  for (CLI::Option* other : command.get_options())
+  {
+    if (!allowed.contains(other->get_lnames().front()))
+    {
+      option.excludes(other);
+    }
   }
 }
 
@@ -203,29 +174,24 @@ void addCalibrateCommand(CLI::App& app, const Renderer* pictures)
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from what --out holds");
   addOverwrite(*command, options->overwrite);
-  command->add_option("--sweep", options->sweep,
-    "A list of cases in JSON: the names above with their values, and a \"name\" each");
-  command->add_option("--jobs", options->jobs, "Cases of a sweep at a time")
-    ->check(CLI::Range(1, 1'000'000))
-    ->needs("--sweep")
+  command->add_flag("--no-picture", options->noPicture, "Write the data only");
+  CLI::Option* sweep = command->add_option("--sweep", options->sweep,
+    "Instead: palp sweep plan of this file into --out, and palp sweep run of it");
+  command->add_option("--jobs", options->jobs, "Cases of the sweep at a time")
+    ->check(CLI::Range(1, 10'000))
+    ->needs(sweep)
     ->capture_default_str();
   CLI::Option* tables =
     command->add_option("--tables", options->tables, "Make the shipped tables in this folder");
-  for (CLI::Option* other : command->get_options())
-  {
-    if (other != tables && !other->check_lname("overwrite") && !other->check_lname("help"))
-    {
-      tables->excludes(other);
-    }
-  }
+  refuseBeside(*command, *sweep, { "help", "jobs", "out", "sweep" });
+  refuseBeside(*command, *tables, { "help", "overwrite", "tables" });
   command->footer(
     "Examples:\n"
     "  palp calibrate --tip sphere:10mm --block 100x100x50mm --out sphere\n"
     "  palp calibrate --tip cone:45deg:10mm --material corotated --depth 0.5:6:0.5mm --out cone\n"
     "  palp calibrate --young 5kPa --coating 2mm:50kPa:0.45 --out skin\n"
-    "  palp calibrate --sweep cases.json --jobs 2 --out sweep --resume\n"
+    "  palp calibrate --sweep extent --jobs 2 --out DIR; palp sweep merge DIR --out all.csv\n"
     "  palp calibrate --tables data/tables --overwrite   make the shipped tables again");
-  command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->callback([options, pictures] { runCalibration(*options, pictures); });
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 namespace CLI
 {
 class App;
@@ -19,11 +22,17 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
 void addRunCommand(CLI::App& app, const Renderer* pictures);
 void addSceneCommand(CLI::App& app, const Renderer* pictures, int (*view)(const ViewOptions&));
 void addForceCommand(CLI::App& app);
+void addFitCommand(CLI::App& app, const Renderer* pictures);
 void addCalibrateCommand(CLI::App& app, const Renderer* pictures);
+void addSweepCommand(CLI::App& app, const Renderer* pictures);
 void addExperimentCommand(CLI::App& app, const Renderer* pictures);
 void addReportCommand(CLI::App& app, const Renderer* pictures);
 void addStabilityCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app, const Renderer* pictures);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));
+
+/// palp sweep plan and palp sweep run in one, of a sweep of calibrations.
+/// @throws Error  BadFile: another kind of sweep; else as those
+void runCalibrations(const std::string& file, const std::filesystem::path& folder, unsigned jobs);
 
 } // namespace palp

@@ -1,8 +1,10 @@
 #include "app/commands/commands.h"
 #include "app/input/law_options.h"
+#include "app/input/nodule_options.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
+#include "app/press/force_history.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/force/inclination.h"
@@ -10,8 +12,13 @@
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <span>
 
 namespace palp
 {
@@ -24,7 +31,9 @@ struct ForceOptions
 {
   TissueOptions tissue;
   GeometryOptions geometry;
+  NoduleOptions nodules;
   Range depths;
+  std::filesystem::path history; // of depths over time, in place of depths
   bool validity = false;
 };
 
@@ -74,18 +83,39 @@ bool isPaper(const ForceLaw& law)
   return law.settings().mode == LawMode::Paper;
 }
 
+// A law at one place, with what lies below it.
+struct Pressed
+{
+  ForceLaw law;
+  std::optional<NodulesUnderTool> nodules;
+  Validity validity;
+
+  [[nodiscard]] std::vector<Rule> rules(const ContactGeometry& geometry) const
+  {
+    const Rules all = validity(geometry);
+    std::vector<Rule> rules(all.begin(), all.end());
+    if (nodules)
+    {
+      const NoduleRules more = nodules->rules(geometry.depth, law(geometry));
+      rules.insert(rules.end(), more.begin(), more.end());
+    }
+    return rules;
+  }
+};
+
 // what the columns are
-void printHead(const ForceLaw& law, const ContactGeometry& geometry, std::span<const Rule> rules)
+void printHead(const Pressed& pressed, const ContactGeometry& geometry, std::span<const Rule> rules)
 {
   std::string header = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm";
-  if (!isPaper(law))
+  if (!isPaper(pressed.law))
   {
-    for (const Factors factors = law.factors(geometry);
-         const Factor& factor : factorsOf(law, factors))
+    for (const Factors factors = pressed.law.factors(geometry);
+         const Factor& factor : factorsOf(pressed.law, factors))
     {
       header += ",factor_" + std::string(factor.name);
     }
-    header += ",axial_force_N,lateral_force_N";
+    header +=
+      (pressed.nodules ? ",factor_nodules" : "") + std::string(",axial_force_N,lateral_force_N");
   }
   for (const Rule& rule : rules)
   {
@@ -96,12 +126,16 @@ void printHead(const ForceLaw& law, const ContactGeometry& geometry, std::span<c
 }
 
 // after the depth
-void addForces(std::vector<double>& row, const ForceLaw& law, const ContactGeometry& geometry)
+void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGeometry& geometry)
 {
-  const Response response = law(geometry);
+  const auto& [law, nodules, validity] = pressed;
+  const Response plain = law(geometry);
+  const NodulesUnderTool::Felt below =
+    nodules ? nodules->at(geometry.depth) : NodulesUnderTool::Felt{};
+  const double force = plain.force + below.response.force;
   row.insert(row.end(),
-    { response.force, units::toMillimeters(response.contactRadius),
-      units::toNewtonsPerMillimeter(response.stiffness) });
+    { force, units::toMillimeters(plain.contactRadius),
+      units::toNewtonsPerMillimeter(plain.stiffness + below.response.stiffness) });
   if (!isPaper(law))
   {
     for (const Factors factors = law.factors(geometry);
@@ -109,8 +143,31 @@ void addForces(std::vector<double>& row, const ForceLaw& law, const ContactGeome
     {
       row.push_back(factor.value);
     }
-    const InclinedForce felt = inclinedForce(response.force, geometry.tilt);
-    row.insert(row.end(), { felt.axial, felt.lateral });
+    if (nodules)
+    {
+      row.push_back(plain.force > 0.0 ? force / plain.force : 1.0);
+    }
+    const InclinedForce felt = inclinedForce(force, geometry.tilt);
+    row.insert(row.end(), { felt.axial, felt.lateral + below.lateral });
+  }
+}
+
+// what else there is to know of the largest depth, on standard error
+void tellLimits(
+  const ForceLaw& law, std::span<const Rule> rules, const ContactGeometry& deepest, bool given)
+{
+  if (!isPaper(law))
+  {
+    tellFactors(law, deepest);
+  }
+  if (const std::string broken = brokenNames(rules); !broken.empty())
+  {
+    std::cerr << "palp: warning: at the largest depth the law is outside its limits (" << broken
+              << "); --validity tells how far at each\n";
+  }
+  if (given && law.settings().mode != LawMode::Corrected)
+  {
+    std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
   }
 }
 
@@ -119,38 +176,65 @@ void printForces(const ForceOptions& options)
   const ForceLaw law = options.tissue.law();
   const Range& depths = options.depths;
   ContactGeometry geometry = options.geometry.geometry;
-  const Validity validity(law, { .deepest = depths.si.back() });
-  const Rules rules = validity(geometry);
-  printHead(law, geometry, std::span(rules).first(options.validity ? rules.size() : 0));
+  const Pressed pressed{ .law = law,
+    .nodules = options.nodules.under(law, geometry, depths.si.back()),
+    .validity = Validity(law, { .deepest = depths.si.back() }) };
+  const std::vector<Rule> rules = pressed.rules(geometry);
+  printHead(pressed, geometry, std::span(rules).first(options.validity ? rules.size() : 0));
 
   std::vector<double> row;
   for (std::size_t i = 0; i < depths.si.size(); ++i)
   {
     geometry.depth = depths.si[i];
     row = { depths.given[i] * units::toMillimeters(depths.unit) };
-    addForces(row, law, geometry);
+    addForces(row, pressed, geometry);
     if (options.validity)
     {
-      for (const Rule& rule : validity(geometry))
+      for (const Rule& rule : pressed.rules(geometry))
       {
         row.push_back(rule.fraction());
       }
     }
     writeCsvRow(std::cout, row);
   }
-  if (!isPaper(law))
+  tellLimits(law, pressed.rules(geometry), geometry, options.geometry.given);
+}
+
+// force over time of a press that was given
+void printHistory(const ForceOptions& options)
+{
+  const ForceLaw law = options.tissue.law();
+  const ForceHistory history = readForceHistory(options.history);
+  ContactGeometry geometry = options.geometry.geometry;
+  const std::vector<double> forces = forcesOver(law, geometry, history);
+  std::cout << "time_s,depth_mm,force_N\n";
+  for (std::size_t i = 0; i < forces.size(); ++i)
   {
-    tellFactors(law, geometry);
+    writeCsvRow(std::cout, std::array{ history.points[i].time, history.depthsMm[i], forces[i] });
   }
-  if (const std::string broken = brokenNames(validity(geometry)); !broken.empty())
+  geometry.depth = std::max(0.0, history.deepest());
+  const Validity validity(law, { .deepest = geometry.depth });
+  tellLimits(law, validity(geometry), geometry, options.geometry.given);
+}
+
+void print(const ForceOptions& options)
+{
+  if (!options.history.empty())
   {
-    std::cerr << "palp: warning: at the largest depth the law is outside its limits (" << broken
-              << "); --validity tells how far at each\n";
+    if (!options.nodules.nodules.empty())
+    {
+      throw Error(ErrorCode::BadValue, "--nodule: not known over time; leave --history out");
+    }
+    printHistory(options);
+    return;
   }
-  if (options.geometry.given && law.settings().mode != LawMode::Corrected)
+  if (!options.tissue.options.relaxation.empty())
   {
-    std::cerr << "palp: thickness, surface and tilt change the force with --law corrected only\n";
+    throw Error(ErrorCode::BadValue,
+      "--relaxation: acts over time; add --history FILE.csv with columns time_s and depth_mm, or "
+      "leave it out");
   }
+  printForces(options);
 }
 
 } // namespace
@@ -161,19 +245,29 @@ void addForceCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
   options->tissue.addTo(*command);
   options->geometry.addTo(*command);
+  options->nodules.addTo(*command);
   const std::string usual = "0:10:0.5mm";
   options->depths = depthsOf(usual);
-  addParsed(*command, "--depth", "Indentation depths A:B:STEP, both ends included", usual,
-    [options = options.get()](const std::string& text) { options->depths = depthsOf(text); });
-  command->add_flag("--validity", options->validity,
+  CLI::Option* depth =
+    addParsed(*command, "--depth", "Indentation depths A:B:STEP, both ends included", usual,
+      [options = options.get()](const std::string& text) { options->depths = depthsOf(text); });
+  CLI::Option* validity = command->add_flag("--validity", options->validity,
     "Append for each condition of the law how much of its limit is used; above 1 it is broken");
+  command
+    ->add_option("--history", options->history,
+      "CSV time_s,depth_mm of a press, or an exported samples.csv: the force at each of its times, "
+      "for --relaxation")
+    ->excludes(depth)
+    ->excludes(validity);
   command->footer(
     "Examples:\n"
     "  palp force --tip cone:45deg:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm\n"
     "  palp force --tip sphere:6mm --law corrected --thickness 30mm --surface-radius 50mm\n"
     "  palp force --tip profile:tip.csv --law exact --validity\n"
-    "  palp force --young 5kPa --poisson 0.45 --law corrected --coating 2mm:50kPa:0.45");
-  command->callback([options] { printForces(*options); });
+    "  palp force --young 5kPa --poisson 0.45 --law corrected --coating 2mm:50kPa:0.45\n"
+    "  palp force --young 5kPa --law corrected --relaxation 0.3:50ms,0.2:1s --history press.csv\n"
+    "  palp force --law corrected --thickness 40mm --nodule 5mm:5mm:10:8mm");
+  command->callback([options] { print(*options); });
 }
 
 } // namespace palp

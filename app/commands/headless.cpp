@@ -1,15 +1,17 @@
 #include "app/commands/headless.h"
 
 #include "app/commands/renderer.h"
+#include "app/folder/export_folder.h"
+#include "app/folder/played_plan.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
-#include "app/press/playback.h"
+#include "app/press/presses.h"
 #include "app/press/recording.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/progress_line.h"
-#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/devices/simulated/scripted_path.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/output_folder.h"
 #include "haptics/force/validity.h"
@@ -18,6 +20,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <optional>
 
 namespace palp
 {
@@ -32,10 +35,9 @@ bool isWhole(const Sample& sample)
 }
 
 // names the conditions of the law that a contact breaks
-void tellLimits(const ForceLaw& law, const Contact& contact)
+void tellLimits(const Scene& scene, const Contact& contact)
 {
-  const std::string broken =
-    brokenNames(Validity(law)(contactGeometryOf(contact), contact.edgeDistance));
+  const std::string broken = brokenNames(rulesAt(scene, Validity(scene.law), contact));
   if (!broken.empty())
   {
     std::cerr << "palp: warning: there the law is outside its limits (" << broken
@@ -68,19 +70,25 @@ void tell(const Recording& recording, const Calibration* calibration)
               << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
+  if (calibration && !calibration->fits(deepest->contact))
+  {
+    std::cerr
+      << "palp: the surface is fitted to a flat layer of five tool radii, pressed level; at "
+         "the deepest place it may be wrong by more than 3 % of the depth\n";
+  }
   if (recording.rated)
   {
-    tellLimits(recording.scene.law, deepest->contact);
+    tellLimits(recording.scene, deepest->contact);
   }
 }
 
-Scene sceneOf(const ScenePlan& plan, bool chained)
+Scene sceneOf(const ScenePlan& plan)
 {
   Scene scene;
   scene.law = plan.press.tissue.law();
   scene.rule = plan.press.contact;
   scene.damping = plan.press.damping;
-  scene.forceLimit = chained ? scene.forceLimit : std::numeric_limits<double>::infinity();
+  scene.forceLimit = plan.chain ? scene.forceLimit : std::numeric_limits<double>::infinity();
   return scene;
 }
 
@@ -88,7 +96,7 @@ void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
 {
   const bool corrected = plan.press.tissue.options.mode == LawMode::Corrected;
   trace.skip("window, Qt", "\"window\" is false");
-  trace.skip("device, USB", "the tool follows a path");
+  trace.skip("device, USB", "what moves the tool is known");
   trace.skip("servo thread", "a path without a window is pressed in simulated time");
   trace.skip("live sample ring", "no servo thread fills it");
   trace.skip("OpenGL", "no picture and no plot is asked for", !plan.draws());
@@ -116,43 +124,97 @@ SceneBody loadTold(const ScenePlan& plan, std::string_view path, BuildTrace& tra
   return body;
 }
 
-} // namespace
-
-std::vector<std::string> pressFiles()
+struct GivenPath
 {
-  std::vector<std::string> names{ "samples.csv", "deformed.vtp", "press.png", "force_time.png",
-    "force_depth.png" };
-  for (const std::string plot : { "section", "comparison", "extent" })
+  std::string text; // empty: there is none
+  std::optional<ScriptedPath> path;
+};
+
+// before the work, and once, as it may be a pipe
+GivenPath readGiven(const ScenePlan& plan, BuildTrace& trace)
+{
+  GivenPath given;
+  if (!plan.presses && !plan.recording)
   {
-    for (const char* ending : { ".png", ".svg", ".pdf", ".csv" })
-    {
-      names.push_back(plot + ending);
-    }
+    const std::filesystem::path& file = plan.device.file;
+    given.text = readText(file, "the CSV file");
+    given.path =
+      trace.build("path", "moves the tool", [&] { return parsePath(given.text, file.string()); });
   }
-  return names;
+  return given;
 }
 
-void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Renderer* pictures,
+struct PlayedPress
+{
+  const ScenePlan& plan;
+  const SceneBody& body;
+  const Recording& recording;
+  const Calibration* calibration; // null: the surface does not give way
+  const std::string& path;        // its text; empty: there is none
+};
+
+void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Renderer* pictures,
   BuildTrace& trace)
 {
+  const ProgressLine progress("writing");
+  if (all.plan.samples)
+  {
+    trace.build("samples.csv", "exported",
+      [&]
+      {
+        writeSamples(out / "samples.csv", all.recording, all.calibration);
+        writePresses(out / "presses.csv", all.recording);
+      });
+  }
+  if (all.plan.deformed)
+  {
+    trace.build("deformed.vtp", "exported",
+      [&]
+      {
+        writeDeformed(
+          out / "deformed.vtp", all.body, all.recording, *all.calibration, all.plan.refined);
+      });
+  }
+  if (all.plan.draws())
+  {
+    trace.build("pictures", "exported",
+      [&] { pictures->drawPress(all.body, all.recording, all.calibration, all.plan, out); });
+  }
+  writeScene(out, all.plan, all.path);
+  writeProvenance(out, all.plan, all.recording);
+}
+
+void tellDifferences(const ExportFolder& repeated, const std::filesystem::path& out)
+{
+  const std::string other = differences(repeated, out);
+  std::cerr << "palp: " << repeated.folder.string()
+            << (other.empty()
+                   ? ": repeated to the byte"
+                   : ": made by palp " + repeated.version + ", comes out another in " + other)
+            << '\n';
+  if (const auto servo = repeated.folder / "servo.csv"; std::filesystem::exists(servo))
+  {
+    std::filesystem::copy_file(servo, out / "servo.csv");
+  }
+}
+
+} // namespace
+
+void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictures,
+  BuildTrace& trace, const ExportFolder* repeated)
+{
   const Interrupt interrupt([&output] { output.discard(); });
-  const std::filesystem::path out = output.stage();
   Recording recording;
   recording.rated = plan.validity;
-  recording.scene = trace.build("law", "tissue and tool", [&] { return sceneOf(plan, chained); });
-  const std::filesystem::path& file = plan.device.file;
-  const std::string text = readText(file, "the CSV file"); // once: it may be a pipe
-  const ScriptedPath path =
-    trace.build("path", "moves the tool", [&] { return parsePath(text, file.string()); });
-  const std::string& device = plan.device.name;
-  recording.device = device.substr(0, device.find(':') + 1) + file.filename().string();
+  recording.scene = trace.build("law", "tissue and tool", [&] { return sceneOf(plan); });
+  const GivenPath given = readGiven(plan, trace);
   std::optional<Calibration> calibration;
   if (plan.dents())
   {
     calibration = trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan.press, recording.scene.law); });
   }
-  const SceneBody body = loadTold(plan, text, trace);
+  const SceneBody body = loadTold(plan, given.text, trace);
   if (calibration && !calibration->note.empty())
   {
     std::cerr << "palp: " << calibration->note << '\n';
@@ -160,32 +222,30 @@ void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const R
   recording.mesh = body.name;
   recording.unit = body.unit;
   recording.files = body.files;
-  recording.command = commandLine();
+  recording.command = repeated ? repeated->command : commandLine();
   recording.scene.surface = body.haptic;
-
-  recording.samples = trace.build("press", "force at every millisecond",
+  if (!body.nodules.empty())
+  {
+    recording.scene.nodules =
+      trace.build("nodules", "felt", [&] { return feltNodules(body, recording.scene.law); });
+  }
+  if (repeated)
+  {
+    checkInputs(*repeated, plan, recording);
+  }
+  trace.build("press", "force at every millisecond",
     [&]
     {
-      const ProgressLine progress("pressing along the path");
-      return play(path, recording.scene, chained);
+      const ProgressLine progress("pressing");
+      playInto(recording, plan, given.path ? &*given.path : nullptr);
     });
+  recording.device = repeated ? repeated->device : recording.device;
   const Calibration* known = calibration ? &*calibration : nullptr;
   tell(recording, known);
-  const ProgressLine progress("writing");
-  if (plan.samples)
+  writeAll({ plan, body, recording, known, given.text }, output.stage(), pictures, trace);
+  if (repeated)
   {
-    trace.build(
-      "samples.csv", "exported", [&] { writeSamples(out / "samples.csv", recording, known); });
-  }
-  if (plan.deformed)
-  {
-    trace.build("deformed.vtp", "exported",
-      [&] { writeDeformed(out / "deformed.vtp", body, recording, *known, plan.refined); });
-  }
-  if (plan.draws())
-  {
-    trace.build(
-      "pictures", "exported", [&] { pictures->drawPress(body, recording, known, plan, out); });
+    tellDifferences(*repeated, output.stage());
   }
   output.publish();
   explainOmissions(plan, trace);

@@ -7,20 +7,20 @@ namespace palp
 
 class BuildTrace;
 class OutputFolder;
+struct ExportFolder;
 struct Renderer;
 
-/// The names of all files that playPlan may leave.
-[[nodiscard]] std::vector<std::string> pressFiles();
-
-/// Presses along the plan's path in simulated time and publishes what the plan exports.
+/// Presses as a plan says in simulated time and publishes what the plan exports, with the scene by
+/// which it can be repeated.
 ///
 /// Ctrl-C ends the program and leaves the folder as it was.
 ///
-/// @param plan      its device is scripted
-/// @param chained   the force goes through the safety chain of the paper's device, armed
+/// @param plan      all that moves its tool is known
 /// @param pictures  null only where the plan draws nothing
-/// @throws Error    as loadBody, readPath, loadCalibration, writeDeformed, Renderer, OutputFolder
-void playPlan(const ScenePlan& plan, bool chained, OutputFolder& output, const Renderer* pictures,
-  BuildTrace& trace);
+/// @param repeated  the folder that the plan is of; null: it is a new one
+/// @throws Error    as loadBody, playInto, loadCalibration, writeDeformed, Renderer, OutputFolder;
+///                  checkInputs
+void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictures,
+  BuildTrace& trace, const ExportFolder* repeated = nullptr);
 
 } // namespace palp

@@ -67,6 +67,7 @@ void refuseEmptyValues(CLI::App& app)
     "");
   for (CLI::App* command : app.get_subcommands({}))
   {
+    refuseEmptyValues(*command);
     for (CLI::Option* option : command->get_options())
     {
       if (option->get_expected_max() > 0 && option->get_type_size() > 0)
@@ -83,7 +84,9 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addRunCommand(app, parts.pictures);
   addSceneCommand(app, parts.pictures, parts.view);
   addForceCommand(app);
+  addFitCommand(app, parts.pictures);
   addCalibrateCommand(app, parts.pictures);
+  addSweepCommand(app, parts.pictures);
   addExperimentCommand(app, parts.pictures);
   addReportCommand(app, parts.pictures);
   addStabilityCommand(app);

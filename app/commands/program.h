@@ -3,6 +3,8 @@
 #include "app/input/scene_plan.h"
 #include "haptics/error.h"
 
+#include <optional>
+
 namespace palp
 {
 
@@ -13,7 +15,8 @@ struct Renderer;
 struct ViewOptions
 {
   ScenePlan plan;
-  bool explain = false; ///< tell what was built once the first picture stands, and end
+  std::optional<ScenePlan> made{}; ///< of an export that is opened: what was pressed before
+  bool explain = false;            ///< tell what was built once the first picture stands, and end
 };
 
 /// What one of the sibling programs carries beyond the common commands.

@@ -1,7 +1,10 @@
 #include "app/commands/commands.h"
+#include "app/commands/export_option.h"
 #include "app/commands/headless.h"
+#include "app/folder/export_folder.h"
 #include "app/input/force_curve.h"
 #include "app/input/option_values.h"
+#include "app/places/fiducial_file.h"
 #include "app/program/build_trace.h"
 #include "app/program/data_files.h"
 #include "app/program/exec_program.h"
@@ -23,6 +26,7 @@ struct RunOptions
 {
   MeshSource mesh{ .bundled = "liver" };
   PressOptions press;
+  PlaceOptions places;
   std::filesystem::path path;
   std::filesystem::path out;
   ImageSize size;
@@ -32,6 +36,8 @@ struct RunOptions
   bool refined = false;
   bool noPicture = false;
   bool chain = false;
+  bool allSamples = false;
+  bool samplesOnly = false;
   bool overwrite = false;
 };
 
@@ -52,42 +58,126 @@ void checkUsed(const RunOptions& options, const ScenePlan& plan)
   }
 }
 
+// the places of --at and of --points, or the path; one of both
+void addMotion(ScenePlan& plan, const RunOptions& options)
+{
+  PlacedPresses presses = options.places.presses;
+  if (!options.places.points.empty())
+  {
+    std::ranges::copy(readFiducials(options.places.points), std::back_inserter(presses.places));
+  }
+  if (!presses.places.empty())
+  {
+    plan.presses = presses;
+    return;
+  }
+  if (options.places.isSpoken)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--depth, --speed, --toward: say how --at and --points press; give a place, or leave them "
+      "out");
+  }
+  if (options.path.empty() && options.mesh.bundled.empty())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--at: nothing says where to press; give --at x,y,z in mm, --points, or --path with a CSV "
+      "time_s,x_mm,y_mm,z_mm[,ax,ay,az] in the frame of the surface");
+  }
+  const std::filesystem::path path =
+    options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
+  plan.device = parseDevice("path:" + path.string());
+}
+
+// an export folder once more
+void repeat(const RunOptions& options, const Renderer* pictures)
+{
+  const ExportFolder made = readExport(options.mesh.file);
+  if (made.plan.window)
+  {
+    throw Error(ErrorCode::BadValue,
+      made.folder.string() + ": its scene opens a window; use palp view, or palp scene");
+  }
+  if (made.plan.draws() && !pictures)
+  {
+    execProgram("palp-draw");
+  }
+  BuildTrace silent(false);
+  const auto output = openOutput(options.out, exportFiles(), options.overwrite);
+  playPlan(made.plan, *output, pictures, silent, &made);
+}
+
 void run(const RunOptions& options, const Renderer* pictures)
 {
-  if (!options.noPicture && !pictures)
+  const bool draws = !options.noPicture && !options.samplesOnly;
+  if (draws && !pictures)
   {
     execProgram("palp-draw");
   }
   checkExists(options.mesh);
-  if (options.path.empty() && options.mesh.bundled.empty())
-  {
-    throw Error(ErrorCode::BadValue,
-      "--path: missing; give a CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az] in the frame of the surface");
-  }
-  const std::filesystem::path path =
-    options.path.empty() ? dataFile("paths/liver_press.csv") : options.path;
   ScenePlan plan{ .meshes = { options.mesh },
     .press = options.press,
-    .device = parseDevice("path:" + path.string()),
+    .device = {},
+    .chain = options.chain,
     .window = false,
     .plots = {},
     .plotFiles = options.plotFiles.empty() ? std::vector<std::string>{ "png" } : options.plotFiles,
+    .allSamples = options.allSamples,
     .refined = options.refined,
-    .picture = !options.noPicture,
+    .picture = draws,
     .size = options.size };
+  if (options.samplesOnly)
+  {
+    plan.deformed = false;
+    plan.press.dent.surface = DentSurface::None;
+  }
+  addMotion(plan, options);
+  plan.referenceFiles = options.references;
   std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
   for (const std::string& name : options.plots)
   {
     const auto found = std::find(kPlotNames.begin(), kPlotNames.end(), name);
-    if (!options.noPicture)
+    if (draws)
     {
       plan.plots.push_back(static_cast<PlotKind>(found - kPlotNames.begin()));
     }
   }
   checkUsed(options, plan);
   BuildTrace silent(false);
-  const auto output = openOutput(options.out, pressFiles(), options.overwrite);
-  playPlan(plan, options.chain, *output, pictures, silent);
+  const auto output = openOutput(options.out, exportFiles(), options.overwrite);
+  playPlan(plan, *output, pictures, silent);
+}
+
+// what is drawn and kept of a press
+void addOutputs(CLI::App& command, RunOptions& options)
+{
+  command
+    .add_option("--plots", options.plots,
+      "Curves to draw, like section,comparison: force-time and force-depth; section (a cut through "
+      "the deepest contact); comparison (force over depth of the laws, this press, finite elements "
+      "and --reference); extent (R_d over depth)")
+    ->delimiter(',')
+    ->check(CLI::IsMember(kPlotNames))
+    ->capture_default_str();
+  command
+    .add_option("--plot-files", options.plotFiles,
+      "Kinds of files for section, comparison and extent: png, svg, pdf, csv; png if none")
+    ->delimiter(',')
+    ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }));
+  command.add_option("--reference", options.references,
+    "CSV with columns depth_mm and force_N for the comparison, from elsewhere or Palp's own (palp "
+    "force, samples.csv); several are allowed");
+  command.add_flag("--chain", options.chain,
+    "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
+  command.add_flag(
+    "--all-samples", options.allSamples, "Keep in samples.csv also the samples without contact");
+  command.add_flag("--refined", options.refined,
+    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm");
+  command.add_flag("--no-picture", options.noPicture, "Write the data only")->excludes("--plots");
+  command
+    .add_flag("--samples-only", options.samplesOnly,
+      "Write the samples only: the force, neither dent nor picture, in a tenth of the time")
+    ->excludes("--plots")
+    ->excludes("--refined");
 }
 
 } // namespace
@@ -96,46 +186,47 @@ void addRunCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand(
-    "run", "Press along a recorded path, without a display: data, picture and curves");
+    "run", "Press at places or along a path, without a display: data, picture and curves");
   options->mesh.addTo(*command);
   options->press.addTo(*command);
-  command->add_option("--path", options->path,
-    "CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az]: the tool's apex in the coordinates of FILE (LPS for "
-    "NIfTI: x and y of a RAS viewer change sign), and the unit vector from handle to apex (the "
-    "inward surface normal where it is missing); or a samples.csv that was exported");
-  command->add_option("--out", options->out, "Directory for samples.csv, deformed.vtp and pictures")
+  options->places.addTo(*command);
+  command
+    ->add_option("--path", options->path,
+      "CSV time_s,x_mm,y_mm,z_mm[,ax,ay,az]: the tool's apex in the coordinates of FILE (LPS for "
+      "NIfTI: x and y of a RAS viewer change sign), and the unit vector from handle to apex (the "
+      "inward surface normal where it is missing); or a samples.csv that was exported")
+    ->excludes("--at")
+    ->excludes("--points");
+  command
+    ->add_option(
+      "--out", options->out, "Directory for scene, samples, presses, deformed mesh and pictures")
     ->required();
   addOverwrite(*command, options->overwrite);
   addParsed(*command, "--size", "Size of press.png", "1280x960",
     [options = options.get()](const std::string& text)
     { options->size = parseSize(text, "--size"); });
-  command
-    ->add_option("--plots", options->plots,
-      "Curves to draw, like section,comparison: force-time and force-depth; section (a cut through "
-      "the deepest contact); comparison (force over depth of the laws, this press, finite elements "
-      "and --reference); extent (R_d over depth)")
-    ->delimiter(',')
-    ->check(CLI::IsMember(kPlotNames))
-    ->capture_default_str();
-  command
-    ->add_option("--plot-files", options->plotFiles,
-      "Kinds of files for section, comparison and extent: png, svg, pdf, csv; png if none")
-    ->delimiter(',')
-    ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }));
-  command->add_option("--reference", options->references,
-    "CSV with columns depth_mm and force_N for the comparison, from elsewhere or Palp's own (palp "
-    "force, samples.csv); several are allowed");
-  command->add_flag("--chain", options->chain,
-    "Send the force through the safety chain of the paper's device: 4 N, armed from the start");
-  command->add_flag("--refined", options->refined,
-    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm");
-  command->add_flag("--no-picture", options->noPicture, "Write the data only")->excludes("--plots");
-  command->footer("The path is played in simulated time, one row of samples.csv per millisecond.\n"
-                  "Examples:\n"
-                  "  palp run --out out                                  the bundled liver\n"
-                  "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm\n"
-                  "  palp run --out out --plots section,comparison --plot-files png,csv");
-  command->callback([options, pictures] { run(*options, pictures); });
+  addOutputs(*command, *options);
+  command->footer(
+    "The tool is moved in simulated time, one row of samples.csv per millisecond.\n"
+    "FILE may be a folder that palp run or the window has exported: it is repeated, and "
+    "compared to the byte.\n"
+    "Examples:\n"
+    "  palp run --out out                                  the bundled liver\n"
+    "  palp run liver.stl --at -48.5,38.4,39.5 --depth 5mm --out out\n"
+    "  palp run out --out again                            the same once more\n"
+    "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm\n"
+    "  palp run --out out --plots section,comparison --plot-files png,csv");
+  command->callback(
+    [options, pictures, command]
+    {
+      if (isExport(options->mesh.file))
+      {
+        refuseBeside(*command, options->mesh.file, { "FILE", "--out", "--overwrite" });
+        repeat(*options, pictures);
+        return;
+      }
+      run(*options, pictures);
+    });
 }
 
 } // namespace palp

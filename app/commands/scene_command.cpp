@@ -1,10 +1,11 @@
 #include "app/commands/commands.h"
 #include "app/commands/headless.h"
 #include "app/commands/program.h"
-#include "app/input/scene_file.h"
+#include "app/folder/export_folder.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/program/output.h"
+#include "app/scene/scene_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -33,15 +34,15 @@ void run(const SceneOptions& options, const Renderer* pictures, int (*view)(cons
     {
       execProgram("palp-view");
     }
-    throw CLI::RuntimeError(view({ plan, options.explain }));
+    throw CLI::RuntimeError(view({ .plan = plan, .explain = options.explain }));
   }
   if (plan.draws() && !pictures)
   {
     execProgram("palp-draw");
   }
   BuildTrace trace(options.explain);
-  const auto output = openOutput(options.out, pressFiles(), options.overwrite);
-  playPlan(plan, false, *output, pictures, trace);
+  const auto output = openOutput(options.out, exportFiles(), options.overwrite);
+  playPlan(plan, *output, pictures, trace);
   if (options.explain)
   {
     trace.write(std::cout);

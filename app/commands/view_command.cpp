@@ -1,14 +1,41 @@
 #include "app/commands/commands.h"
+#include "app/commands/export_option.h"
 #include "app/commands/program.h"
+#include "app/folder/export_folder.h"
 #include "app/input/option_values.h"
 #include "app/program/exec_program.h"
+#include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace palp
 {
+
+namespace
+{
+
+// the window of what was exported, with the tool held as the options say
+void openExport(ViewOptions& options, const std::filesystem::path& folder)
+{
+  options.made = readExport(folder).plan;
+  if (!options.made->dents())
+  {
+    throw Error(ErrorCode::BadValue,
+      folder.string() + ": its dent is 'none', which leaves nothing to see; name a surface there");
+  }
+  const ScenePlan given = std::exchange(options.plan, *options.made);
+  options.plan.device = given.device;
+  options.plan.deadMan = given.deadMan;
+  options.plan.window = true;
+  options.plan.plots = given.plots; // without any, no sample would be kept
+  options.plan.presses.reset();
+  options.plan.recording.reset();
+}
+
+} // namespace
 
 void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
 {
@@ -27,10 +54,16 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
     "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
   command->footer("Examples:\n"
                   "  palp                                       the bundled liver\n"
-                  "  palp liver.obj --unit cm --tip sphere:6mm  your own surface");
+                  "  palp liver.obj --unit cm --tip sphere:6mm  your own surface\n"
+                  "  palp view palp_export                      an exported folder, where it was");
   command->callback(
-    [options, view]
+    [options, view, command]
     {
+      if (const std::filesystem::path folder = options->plan.meshes.front().file; isExport(folder))
+      {
+        refuseBeside(*command, folder, { "FILE", "--device", "--dead-man" });
+        openExport(*options, folder);
+      }
       // a wrong value is told before a missing display
       (void)options->plan.press.tissue.law();
       checkExists(options->plan.meshes.front());

@@ -172,13 +172,13 @@ std::vector<BenchRow> OffscreenRenderer::benchFrames(std::size_t most, int frame
       }
     }
   }
-  const std::vector<Overlay> usual{ Overlay::ForceArrow, Overlay::ContactCircle,
-    Overlay::ExtentCircle, Overlay::DisplacementColors, Overlay::Readings };
+  const std::vector<Overlay> usual(kUsualOverlays.begin(), kUsualOverlays.end());
   rows.push_back(benchOverlay(setting, "none", {}));
   rows.push_back(benchOverlay(setting, "arrow", { Overlay::ForceArrow }));
   rows.push_back(benchOverlay(setting, "circle", { Overlay::ContactCircle }));
   rows.push_back(benchOverlay(setting, "extent", { Overlay::ExtentCircle }));
   rows.push_back(benchOverlay(setting, "colors", { Overlay::DisplacementColors }));
+  rows.push_back(benchOverlay(setting, "lines", { Overlay::IsoLines }));
   rows.push_back(benchOverlay(setting, "readings", { Overlay::Readings }));
   rows.push_back(benchOverlay(setting, "pressure", { Overlay::PressureColors }));
   rows.push_back(benchOverlay(setting, "net", { Overlay::ControlNet }));

@@ -1,6 +1,7 @@
 #include "app/draw/offscreen_renderer.h"
 
 #include "app/draw/offscreen.h"
+#include "app/plots/press_figure.h"
 #include "app/plots/press_plots.h"
 #include "app/press/export.h"
 #include "haptics/error.h"
@@ -46,25 +47,16 @@ void drawScene(const OffscreenContext& context, const SceneBody& body, const Rec
   const Calibration& calibration, const ScenePlan& plan, const std::filesystem::path& file)
 {
   const auto window = context.makeWindow(plan.size.width, plan.size.height);
-  vtkNew<vtkRenderer> renderer;
-  window->AddRenderer(renderer);
-  PressView view(*renderer);
-  view.setSurface(body.display);
-  view.setTip(recording.scene.law.tip());
-  view.setExtents(calibration.extents);
-  view.setStyle(calibration.style);
-  view.setLaw(recording.scene.law);
-  if (plan.overlays)
-  {
-    view.setVisible(*plan.overlays);
-  }
   const Sample* deepest = recording.deepest();
   const Sample& shown = deepest ? *deepest : recording.samples.back();
   const SurfacePoint point = subject(recording, shown);
-  view.show(shown);
-  view.lookAtWhole(point.position, point.normal);
-  view.show(shown); // labels take their place from the camera
-  writePng(*window, file);
+  const FigureLook look{ .hasAxes = true,
+    .hasScaleBar = true,
+    .overlays =
+      plan.overlays.value_or(std::vector<Overlay>(kUsualOverlays.begin(), kUsualOverlays.end())) };
+  writeFigure(
+    *window, { body, recording.scene.law, calibration, shown }, look,
+    [&](PressView& view, vtkRenderer&) { view.lookAtWhole(point.position, point.normal); }, file);
 }
 
 template <typename Add>

@@ -4,7 +4,6 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
-#include "haptics/units.h"
 
 #include <algorithm>
 
@@ -51,9 +50,9 @@ std::string describeCoatings(const Coatings& coatings)
   for (const Coating& coating : coatings.all())
   {
     text += text.empty() ? "" : ",";
-    text += shortest(units::toMillimeters(coating.thickness)) +
-      "mm:" + shortest(units::toKilopascals(coating.material.youngModulus)) +
-      "kPa:" + shortest(coating.material.poissonRatio);
+    text += quantityText(coating.thickness, Quantity::Length) + ':' +
+      quantityText(coating.material.youngModulus, Quantity::Pressure) + ':' +
+      shortest(coating.material.poissonRatio);
   }
   return text;
 }

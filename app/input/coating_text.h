@@ -16,7 +16,7 @@ namespace palp
 /// @throws Error  BadValue: not of this form, a value out of range, too many
 [[nodiscard]] Coatings parseCoatings(std::string_view text, std::string_view what = "--coating");
 
-/// The same text back, in mm and kPa.
+/// The same text back, which reads as the same coatings to the last bit.
 [[nodiscard]] std::string describeCoatings(const Coatings& coatings);
 
 } // namespace palp

@@ -7,14 +7,20 @@
 namespace palp
 {
 
+/// F(depth) as it stands in a CSV, row by row.
+struct ForceRows
+{
+  ReferenceCurve curve; ///< named as the file
+  bool recorded;        ///< has a column time_s
+};
+
 /// Reads F(depth) from a CSV whose header names depth_mm and force_N among any others: a table of
 /// `palp force`, of `palp calibrate`, an exported samples.csv, or a measurement.
-///
-/// Of a recording, which has a column time_s, the loading part is taken: each row that is deeper
-/// than all before it.
-///
-/// @return        named as the file
 /// @throws Error  BadFile: as NumberTable::readColumns; no row
+[[nodiscard]] ForceRows readForceRows(const std::filesystem::path& file);
+
+/// The same without what is no loading: of a recording each row that is deeper than all before it.
+/// @throws Error  as readForceRows
 [[nodiscard]] ReferenceCurve readForceCurve(const std::filesystem::path& file);
 
 } // namespace palp

@@ -5,10 +5,12 @@
 #include "app/input/quantity.h"
 #include "app/program/data_files.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 namespace palp
@@ -45,9 +47,20 @@ LargeStrainTable shippedTable(LawMode mode)
   }
 }
 
+// what only the corrected law takes
+void refuseUnless(bool absent, const std::string& option, LawMode mode)
+{
+  if (!absent)
+  {
+    throw Error(ErrorCode::BadValue,
+      option + ": the law '" + kLawModes.at(static_cast<std::size_t>(mode)) +
+        "' knows none; take the corrected law, or leave it out");
+  }
+}
+
 } // namespace
 
-void LawOptions::addTo(CLI::App& command)
+void LawOptions::addUncoatedTo(CLI::App& command)
 {
   addChoice(command, "--law",
     "paper: Eqs. (2)-(5); exact: linear half-space; corrected: every factor that acts", kLawModes,
@@ -55,27 +68,90 @@ void LawOptions::addTo(CLI::App& command)
   addChoice(command, "--base", "Under the body, for --law corrected: bonded or slip", kBases, base);
   addChoice(command, "--material", "Under large strain, for --law corrected: linear or neo-hookean",
     kMaterials, constitution);
+}
+
+void LawOptions::addTo(CLI::App& command)
+{
+  addUncoatedTo(command);
   addParsed(command, "--coating",
     "Skin, fat, a capsule on the tissue, for --law corrected: THICKNESS:YOUNG:NU from the surface "
     "down, as in 2mm:200kPa:0.45,10mm:20kPa:0.48",
     "", [this](const std::string& text) { coatings = parseCoatings(text); });
+  addParsed(command, "--relaxation",
+    "How the modulus falls while the tissue is held, for --law corrected: FRACTION:TIME of each "
+    "part of --young that decays, as in 0.3:50ms,0.2:1s",
+    "", [this](const std::string& text) { relaxation = parseRelaxation(text); });
 }
 
 LawSettings LawOptions::settings() const
 {
   const bool needed =
     constitution != ConstitutiveModel::Linear && (rated || mode == LawMode::Corrected);
-  if (!coatings.empty() && mode != LawMode::Corrected)
+  if (mode != LawMode::Corrected)
   {
-    throw Error(ErrorCode::BadValue,
-      "--coating: the law '" + kLawModes.at(static_cast<std::size_t>(mode)) +
-        "' knows none; take the corrected law, or leave it out");
+    refuseUnless(coatings.empty(), "--coating", mode);
+    refuseUnless(relaxation.empty(), "--relaxation", mode);
+    refuseUnless(friction == 0.0, "--friction", mode);
   }
   return { .mode = mode,
     .base = base,
     .constitution = constitution,
     .largeStrain = needed ? shippedTable(mode) : nullptr,
-    .coatings = coatings };
+    .coatings = coatings,
+    .relaxation = relaxation,
+    .friction = friction };
+}
+
+PronySeries parseRelaxation(std::string_view text, std::string_view what)
+{
+  PronySeries series;
+  for (std::size_t begin = 0; begin < text.size();)
+  {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view one = text.substr(begin, end - begin);
+    const std::size_t colon = one.find(':');
+    if (colon == one.npos || end + 1 == text.size())
+    {
+      throw Error(ErrorCode::BadValue,
+        std::string(what) + ": " + inQuotes(text) +
+          " has not the form 0.3:50ms,0.2:1s (fraction of the modulus that decays, time); write it "
+          "like that");
+    }
+    const double fraction = parseNumber(one.substr(0, colon), what);
+    const double time = parseQuantity(one.substr(colon + 1), Quantity::Time, what);
+    try
+    {
+      series.add({ fraction, time });
+    }
+    catch (const Error& error)
+    {
+      throw Error(error.code(), std::string(what) + ": " + error.what());
+    }
+    begin = end + 1;
+  }
+  return series;
+}
+
+double parseFriction(std::string_view text, std::string_view what)
+{
+  constexpr double kMost = 5.0; // of rubber on anything
+  const double friction = parseNumber(text, what);
+  if (!(friction >= 0.0 && friction <= kMost))
+  {
+    throw Error(ErrorCode::BadValue,
+      std::string(what) + ": " + inQuotes(text) + " is out of range; give 0 to 5");
+  }
+  return friction;
+}
+
+std::string describeRelaxation(const PronySeries& series)
+{
+  std::string text;
+  for (const PronyTerm& term : series.all())
+  {
+    text += (text.empty() ? "" : ",") + shortest(term.fraction) + ":" + shortest(term.time) + "s";
+  }
+  return text;
 }
 
 std::string describeLaw(const LawSettings& settings)
@@ -86,10 +162,13 @@ std::string describeLaw(const LawSettings& settings)
   }
   return std::string("corrected, ") + (settings.base == Base::Slip ? "slip" : "bonded") +
     " base, " + (settings.constitution == ConstitutiveModel::Linear ? "linear" : "neo-hookean") +
-    (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings));
+    (settings.coatings.empty() ? "" : ", coated by " + describeCoatings(settings.coatings)) +
+    (settings.relaxation.empty() ? ""
+                                 : ", relaxing by " + describeRelaxation(settings.relaxation)) +
+    (settings.friction > 0.0 ? ", friction " + shortest(settings.friction) : "");
 }
 
-std::string brokenNames(const Rules& rules)
+std::string brokenNames(std::span<const Rule> rules)
 {
   std::string names;
   for (const Rule& rule : rules)

@@ -2,9 +2,12 @@
 
 #include "haptics/force/force_law.h"
 #include "haptics/force/linear/coating.h"
+#include "haptics/force/relaxation/prony_series.h"
 #include "haptics/force/validity.h"
 
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace CLI
 {
@@ -21,16 +24,37 @@ struct LawOptions
   Base base = Base::Bonded;
   ConstitutiveModel constitution = ConstitutiveModel::NeoHookean;
   Coatings coatings{};
-  bool rated = true; ///< the law also tells how far it is off, which takes the same table
+  PronySeries relaxation{};
+  double friction = 0.0; ///< mu [-]
+  bool rated = true;     ///< the law also tells how far it is off, which takes the same table
 
   void addTo(CLI::App& command);
 
+  /// The same without coatings.
+  void addUncoatedTo(CLI::App& command);
+
   /// @throws Error  BadFile: the shipped table of large strain, where it is needed; BadValue:
-  ///                coatings under another law than the corrected one
+  ///                coatings, relaxation or friction under another law than the corrected one
   [[nodiscard]] LawSettings settings() const;
 };
 
-/// The same in words, as in `corrected, bonded base, neo-hookean`.
+/// Reads parts of the modulus that decay, as in `0.3:50ms,0.2:1s`: fraction of the instantaneous
+/// modulus, time.
+///
+/// @param text    empty: none
+/// @param what    name of the option or field, for the message
+/// @throws Error  BadValue: not of this form, as PronySeries::add
+[[nodiscard]] PronySeries parseRelaxation(
+  std::string_view text, std::string_view what = "--relaxation");
+
+/// The same text back, in s.
+[[nodiscard]] std::string describeRelaxation(const PronySeries& series);
+
+/// Reads mu, the coefficient of friction between tool and tissue.
+/// @throws Error  BadValue: not 0 to 5
+[[nodiscard]] double parseFriction(std::string_view text, std::string_view what = "--friction");
+
+/// A law in words, as in `corrected, bonded base, neo-hookean`.
 [[nodiscard]] std::string describeLaw(const LawSettings& settings);
 
 /// The place that is pressed, where no surface tells it.
@@ -43,6 +67,6 @@ struct GeometryOptions
 };
 
 /// The conditions of a law that a place breaks, for people; empty when it holds.
-[[nodiscard]] std::string brokenNames(const Rules& rules);
+[[nodiscard]] std::string brokenNames(std::span<const Rule> rules);
 
 } // namespace palp

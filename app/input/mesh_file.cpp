@@ -1,13 +1,12 @@
 #include "app/input/mesh_file.h"
 
-#include "haptics/error.h"
+#include "app/program/sha256.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nettle/sha2.h>
 
 namespace palp
 {
@@ -16,21 +15,6 @@ namespace
 {
 
 constexpr std::string_view kHash = ", SHA-256 ";
-
-void addBytes(sha256_ctx& hash, const std::filesystem::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 1 << 16> bytes{};
-  while (in.read(bytes.data(), bytes.size()), in.gcount() > 0)
-  {
-    sha256_update(&hash, static_cast<std::size_t>(in.gcount()),
-      reinterpret_cast<const std::uint8_t*>(bytes.data()));
-  }
-  if (!in.eof())
-  {
-    throw Error(ErrorCode::BadFile, file.string() + ": cannot be read; check name and permission");
-  }
-}
 
 // where the voxels of a MetaImage are; empty: in the file itself
 std::filesystem::path dataBeside(const std::filesystem::path& file)
@@ -55,22 +39,13 @@ std::filesystem::path dataBeside(const std::filesystem::path& file)
 
 MeshFile describeFile(const std::filesystem::path& file)
 {
-  sha256_ctx hash;
-  sha256_init(&hash);
-  addBytes(hash, file);
+  Sha256 hash;
+  hash.addFile(file);
   if (const auto data = dataBeside(file); !data.empty())
   {
-    addBytes(hash, data);
+    hash.addFile(data);
   }
-  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
-  sha256_digest(&hash, digest.size(), digest.data());
-  MeshFile mesh{ .name = file.filename().string(), .sha256 = {}, .unit = {}, .part = {} };
-  for (const unsigned byte : digest)
-  {
-    constexpr const char* kDigits = "0123456789abcdef";
-    mesh.sha256.append({ kDigits[byte / 16], kDigits[byte % 16] });
-  }
-  return mesh;
+  return { .name = file.filename().string(), .sha256 = hash.hex(), .unit = {}, .part = {} };
 }
 
 std::string frameOf(const MeshFile& mesh)

@@ -29,6 +29,13 @@ double parseDamping(const std::string& text)
   return checkedDamping(parseQuantity(text, Quantity::Damping, "--damping"), "--damping");
 }
 
+Eigen::Isometry3d MeshSource::frame() const
+{
+  using Turn = Eigen::AngleAxisd;
+  return Eigen::Translation3d(origin) * Turn(rotation.z(), Eigen::Vector3d::UnitZ()) *
+    Turn(rotation.y(), Eigen::Vector3d::UnitY()) * Turn(rotation.x(), Eigen::Vector3d::UnitX());
+}
+
 void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
@@ -52,18 +59,28 @@ void MeshSource::addTo(CLI::App& command)
     ->excludes(level);
 }
 
-void TissueOptions::addTo(CLI::App& command)
+CLI::Option* addTip(CLI::App& command, Tip& tip, const std::string& usual)
 {
-  addParsed(command, "--tip",
+  return addParsed(command, "--tip",
     "Tool: sphere:R, cone:ALPHA:BASE, punch:R, truncated-cone:ALPHA:FLAT:BASE, "
     "blunt-cone:ALPHA:TIP:BASE, paraboloid:R or profile:FILE.csv (ALPHA from axis to flank)",
-    describeTip(tip), [this](const std::string& text) { tip = parseTip(text); });
+    usual, [&tip](const std::string& text) { tip = parseTip(text); });
+}
+
+CLI::Option* addPoisson(CLI::App& command, double& poisson)
+{
+  return addParsed(command, "--poisson", "Poisson's ratio nu, 0 to 0.5, no unit", shortest(poisson),
+    [&poisson](const std::string& text) { poisson = parseNumber(text, "--poisson"); });
+}
+
+void TissueOptions::addTo(CLI::App& command)
+{
+  addTip(command, tip, describeTip(tip));
   addParsed(command, "--young", "Young's modulus E, 1Pa to 10GPa",
     shortest(young / 1.0_kPa) + "kPa",
     [this](const std::string& text)
     { young = parseQuantity(text, Quantity::Pressure, "--young"); });
-  addParsed(command, "--poisson", "Poisson's ratio nu, 0 to 0.5, no unit", shortest(poisson),
-    [this](const std::string& text) { poisson = parseNumber(text, "--poisson"); });
+  addPoisson(command, poisson);
   options.addTo(command);
 }
 
@@ -80,6 +97,9 @@ void PressOptions::addTo(CLI::App& command)
     kContactRules, contact);
   addParsed(command, "--damping", "Damping along the surface normal", "0N*s/m",
     [this](const std::string& text) { damping = parseDamping(text); });
+  addParsed(command, "--friction",
+    "mu between tool and tissue, 0 to 5, no unit, for --law corrected; no liver value known", "0",
+    [this](const std::string& text) { tissue.options.friction = parseFriction(text); });
   addChoice(command, "--surface",
     "paper: the ring of Eq. (8), beyond half a sphere's radius from the contact that a sphere can "
     "have; paper-literal: from r = sqrt(R depth) there, too; fitted: curves fitted to finite "

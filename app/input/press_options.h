@@ -3,6 +3,7 @@
 #include "app/input/law_options.h"
 #include "haptics/contact/find_contact.h"
 #include "haptics/force/force_law.h"
+#include "haptics/force/nodules/nodule_field.h"
 #include "pipeline/process/file_surface.h"
 #include "pipeline/surface_io/length_unit.h"
 
@@ -10,11 +11,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI
 {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace palp
 {
@@ -26,11 +29,21 @@ struct MeshSource
   std::filesystem::path file{};
   ImagePart part{};  ///< that is the surface, where the file is an image
   UnitChoice unit{}; ///< of the file's coordinates
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity(); ///< from the file's to the scene's [m]
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< in the scene [m]
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero(); ///< about its x, then y, then z [rad]
+  std::vector<PlacedNodule> nodules{};                ///< in the file's frame [m]
+
+  /// From the file's coordinates to the scene's [m].
+  [[nodiscard]] Eigen::Isometry3d frame() const;
 
   /// FILE and how it is read; the bundled liver without one.
   void addTo(CLI::App& command);
 };
+
+/// The tool, and the part of the tissue that a modulus is never told without.
+/// @param usual  what holds without the option, for the help; empty: not shown
+CLI::Option* addTip(CLI::App& command, Tip& tip, const std::string& usual);
+CLI::Option* addPoisson(CLI::App& command, double& poisson);
 
 /// What tissue is pressed with what: the options that every command shares.
 struct TissueOptions

@@ -1,6 +1,7 @@
 #include "app/input/quantity.h"
 
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ constexpr std::array kForce{ Unit{ "N", 1.0L }, Unit{ "mN", 1e-3L } };
 constexpr std::array kTime{ Unit{ "s", 1.0L }, Unit{ "ms", 1e-3L } };
 constexpr std::array kDamping{ Unit{ "N*s/m", 1.0L }, Unit{ "Ns/m", 1.0L }, Unit{ "N·s/m", 1.0L } };
 constexpr std::array kStiffness{ Unit{ "N/m", 1.0L }, Unit{ "N/mm", 1e3L } };
+constexpr std::array kSpeed{ Unit{ "mm/s", 1e-3L }, Unit{ "cm/s", 1e-2L }, Unit{ "m/s", 1.0L } };
 
 // the first unit is the one that messages recommend
 std::span<const Unit> unitsOf(Quantity kind)
@@ -54,6 +56,8 @@ std::span<const Unit> unitsOf(Quantity kind)
       return kDamping;
     case Quantity::Stiffness:
       return kStiffness;
+    case Quantity::Speed:
+      return kSpeed;
   }
   return {};
 }
@@ -139,6 +143,23 @@ double parseQuantity(
   const Split split = splitNumber(text, what);
   const Unit& unit = unitNamed(split.rest.empty() ? usual : split.rest, kind, what, text, text);
   return toSi(split.number, unit);
+}
+
+std::string quantityText(double value, Quantity kind)
+{
+  const std::span<const Unit> units = unitsOf(kind);
+  const Unit& usual = units.front();
+  const auto size = static_cast<double>(usual.size);
+  // a rounded quotient often misses the number by a digit that its float neighbors do not have
+  for (const double number : { value / size, std::round(value / size * 1e9) / 1e9 })
+  {
+    if (toSi(number, usual) == value)
+    {
+      return shortest(number).append(usual.name);
+    }
+  }
+  const auto si = std::ranges::find(units, 1.0L, &Unit::size);
+  return shortest(value).append(si->name);
 }
 
 double parseWithin(

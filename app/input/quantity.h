@@ -16,6 +16,7 @@ enum class Quantity
   Time,      ///< s ms
   Damping,   ///< N*s/m
   Stiffness, ///< N/m N/mm
+  Speed,     ///< mm/s cm/s m/s
 };
 
 /// Reads a number with its unit, as in `10mm`, `1.5e+06 Pa`, `45deg`; C locale whatever the user's.
@@ -27,6 +28,11 @@ enum class Quantity
 ///               or another quantity's unit
 [[nodiscard]] double parseQuantity(
   std::string_view text, Quantity kind, std::string_view what, std::string_view usual = {});
+
+/// The text that reads back as the same number, to the last bit: in the unit that messages
+/// recommend, or, where that rounds, in the SI unit.
+/// @param value  SI
+[[nodiscard]] std::string quantityText(double value, Quantity kind);
 
 /// What an option takes.
 struct Bounds

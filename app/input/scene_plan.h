@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/press_options.h"
+#include "app/input/press_places.h"
 #include "pipeline/model/overlay.h"
 #include "pipeline/model/reference_curve.h"
 
@@ -53,6 +54,26 @@ struct DeviceChoice
 /// mouse, hand, path:FILE, replay:FILE, or the name of a driver's device.
 [[nodiscard]] DeviceChoice parseDevice(const std::string& name);
 
+/// A press of before, which is repeated sample by sample.
+struct RecordedPress
+{
+  std::filesystem::path file{};     ///< samples.csv
+  std::string device = "mouse";     ///< that held the tool
+  std::vector<std::string> names{}; ///< of its presses, in their order, as far as they have one
+
+  bool operator==(const RecordedPress&) const = default;
+};
+
+/// From where the body is looked at.
+struct CameraPlace
+{
+  Eigen::Vector3d position = Eigen::Vector3d::UnitZ(); ///< [m]
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();     ///< that it looks at [m]
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();       ///< of the picture, any length
+
+  bool operator==(const CameraPlace&) const = default;
+};
+
 /// All that a press can be made of: what `run` and `view` take as options and a scene file as JSON,
 /// parsed. What is not named here is not built.
 struct ScenePlan
@@ -61,6 +82,9 @@ struct ScenePlan
   std::vector<MeshSource> meshes{ { .bundled = "liver" } };
   PressOptions press{};
   DeviceChoice device{};
+  std::optional<PlacedPresses> presses{};   ///< instead of a device
+  std::optional<RecordedPress> recording{}; ///< instead of a device
+  bool chain = false;   ///< through the safety chain of the paper's device, armed; simulated time
   bool deadMan = false; ///< force only while the first button of the device is held
   bool window = true;   ///< else: a path in simulated time, without servo thread
   bool validity = true; ///< each sample is rated by the rules of validity
@@ -68,15 +92,24 @@ struct ScenePlan
   std::vector<PlotKind> plots{ PlotKind::ForceOverTime, PlotKind::ForceOverDepth };
   std::vector<std::string> plotFiles{ "png" }; ///< endings: png, svg, pdf, csv
   std::vector<ReferenceCurve> references{};    ///< forces [N] over depth [m] to compare with
-  bool samples = true;                         ///< exported: samples.csv
-  bool deformed = true;                        ///< exported: deformed.vtp
-  bool refined = false;                        ///< its dent followed to 0.01 mm
-  bool picture = true;                         ///< exported: press.png
-  ImageSize size{};                            ///< of press.png
+  std::vector<std::filesystem::path> referenceFiles{}; ///< that they were read from
+  bool samples = true;                                 ///< exported: samples.csv
+  bool allSamples = false;                             ///< of them also those without contact
+  bool deformed = true;                                ///< exported: deformed.vtp
+  bool refined = false;                                ///< its dent followed to 0.01 mm
+  bool picture = true;                                 ///< exported: press.png
+  ImageSize size{};                                    ///< of press.png
+  std::optional<CameraPlace> camera{}; ///< of the window; none: all of the body is seen
 
   [[nodiscard]] bool has(PlotKind plot) const noexcept
   {
     return std::find(plots.begin(), plots.end(), plot) != plots.end();
+  }
+
+  /// Whether all that moves the tool is known, so that no window is needed.
+  [[nodiscard]] bool isKnown() const noexcept
+  {
+    return device.isScript() || presses || recording;
   }
 
   /// Whether the surface gives way, which needs a calibration.
@@ -100,6 +133,8 @@ struct ScenePlan
 
 /// The names of the plots in files and options, in the order of PlotKind.
 extern const std::vector<std::string> kPlotNames;
+
+extern const std::vector<std::string> kPlotEndings; ///< of plotFiles
 
 /// @throws Error  BadFile: there is no such file
 void checkExists(const MeshSource& mesh);

@@ -2,10 +2,8 @@
 
 #include "app/input/quantity.h"
 #include "haptics/error.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/tip/profile.h"
-#include "haptics/units.h"
 
 #include <vector>
 
@@ -14,28 +12,13 @@ namespace palp
 namespace
 {
 
-std::vector<std::string_view> split(std::string_view text)
-{
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0;;)
-  {
-    const std::size_t colon = text.find(':', begin);
-    parts.push_back(text.substr(begin, colon - begin));
-    if (colon == text.npos)
-    {
-      return parts;
-    }
-    begin = colon + 1;
-  }
-}
-
 // reads the numbers of one tool in turn
 class Reader
 {
 public:
   Reader(std::string_view text, std::size_t expected, const char* form)
     : text_(text)
-    , parts_(split(text))
+    , parts_(split(text, ':'))
   {
     if (parts_.size() != expected + 1)
     {
@@ -116,41 +99,42 @@ Tip parseShape(std::string_view text)
       "blunt-cone:45deg:0.3mm:10mm, paraboloid:10mm or profile:FILE.csv");
 }
 
-std::string mm(double meters)
+std::string length(double meters)
 {
-  return std::string(":").append(shortest(units::toMillimeters(meters))).append("mm");
+  return ':' + quantityText(meters, Quantity::Length);
 }
 
-std::string deg(double radians)
+std::string angle(double radians)
 {
-  return std::string(":").append(shortest(units::toDegrees(radians))).append("deg");
+  return ':' + quantityText(radians, Quantity::Angle);
 }
 
 struct Describe
 {
   std::string operator()(const SphereTip& tip) const
   {
-    return "sphere" + mm(tip.radius);
+    return "sphere" + length(tip.radius);
   }
   std::string operator()(const ConeTip& tip) const
   {
-    return "cone" + deg(tip.halfAngle) + mm(tip.baseRadius);
+    return "cone" + angle(tip.halfAngle) + length(tip.baseRadius);
   }
   std::string operator()(const PunchTip& tip) const
   {
-    return "punch" + mm(tip.radius);
+    return "punch" + length(tip.radius);
   }
   std::string operator()(const TruncatedConeTip& tip) const
   {
-    return "truncated-cone" + deg(tip.halfAngle) + mm(tip.flatRadius) + mm(tip.baseRadius);
+    return "truncated-cone" + angle(tip.halfAngle) + length(tip.flatRadius) +
+      length(tip.baseRadius);
   }
   std::string operator()(const BluntConeTip& tip) const
   {
-    return "blunt-cone" + deg(tip.halfAngle) + mm(tip.tipRadius) + mm(tip.baseRadius);
+    return "blunt-cone" + angle(tip.halfAngle) + length(tip.tipRadius) + length(tip.baseRadius);
   }
   std::string operator()(const ParaboloidTip& tip) const
   {
-    return "paraboloid" + mm(tip.radius);
+    return "paraboloid" + length(tip.radius);
   }
   std::string operator()(const ProfileTip& tip) const
   {

@@ -16,7 +16,7 @@ namespace palp
 /// @throws Error  BadValue: unknown kind, wrong number of parts, a dimension out of range
 [[nodiscard]] Tip parseTip(std::string_view text);
 
-/// The same text back, in mm and degrees.
+/// The same text back, which reads as the same tool to the last bit.
 [[nodiscard]] std::string describeTip(const Tip& tip);
 
 } // namespace palp

@@ -72,6 +72,8 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   arm_->setObjectName("arm");
   arm_->setCheckable(true);
   arm_->setToolTip(tr("Off until you turn it on"));
+  device_->setToolTip(tr("What moves the tool; a haptic device also pushes back"));
+  device_->setAccessibleName(tr("Input device"));
   stop_->setObjectName("stop");
   stop_->setToolTip(tr("Stops the force at once; turn it on again to continue"));
   stop_->setStyleSheet("QPushButton:enabled { background: #b3261e; color: white; "

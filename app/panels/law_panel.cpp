@@ -36,6 +36,8 @@ LawPanel::LawPanel(const LawSettings& inUse, bool rated, QWidget* parent)
 {
   mode_->setToolTip(tr("Paper: Eqs. (2)-(5)\nExact half-space: the linear solution for every tool\n"
                        "Corrected: thickness, curvature, tilt and large strain, where they act"));
+  base_->setAccessibleName(tr("Base"));
+  constitution_->setAccessibleName(tr("Material"));
   base_->setToolTip(tr("Under the body; acts where the body is thin"));
   constitution_->setToolTip(tr("Acts under large strain of spheres and cones"));
   coatings_->setObjectName("coatings");
@@ -109,6 +111,8 @@ LawSettings LawPanel::settings() const
     .base = shownIn<Base>(*base_),
     .constitution = shownIn<ConstitutiveModel>(*constitution_),
     .coatings = parseCoatings(coating),
+    .relaxation = isCorrected() ? inUse_.relaxation : PronySeries{},
+    .friction = isCorrected() ? inUse_.friction : 0.0,
     .rated = rated_ };
   const bool same = options.mode == inUse_.mode && coating == describeCoatings(inUse_.coatings) &&
     options.base == inUse_.base && options.constitution == inUse_.constitution;

@@ -44,6 +44,12 @@ TissuePanel::TissuePanel(const Scene& scene, bool rated, QWidget* parent)
 
 QGroupBox* TissuePanel::makeTissue()
 {
+  modulus_->setToolTip(tr("E [kPa], more than 0: the force is proportional to it, Eqs. (2)-(5)"));
+  poisson_->setToolTip(tr("\u03bd, 0 to less than 0.5: the force goes with 1/(1 - \u03bd\u00b2)"));
+  damping_->setToolTip(tr("[N s/m], 0 or more: added to the force against the motion"));
+  rule_->setToolTip(
+    tr("Where the tool is in the tissue\nExact: on the triangles, smoothed over the "
+       "contact\nPaper: the nearest vertex, Sec. 3.2"));
   auto* group = new QGroupBox(tr("Tissue"));
   QGridLayout& rows = *makeRows(*group);
   addRow(rows, tr("Young's modulus E"), modulus_);

@@ -67,9 +67,15 @@ ToolPanel::ToolPanel(const Tip& tip, QWidget* parent)
 
 void ToolPanel::addFields()
 {
-  halfAngle_->setToolTip(tr("Angle between the axis of the cone and its flank"));
-  flatRadius_->setToolTip(tr("Of the flat that the cone is cut off to"));
-  tipRadius_->setToolTip(tr("Of the spherical cap in which the cone ends"));
+  kind_->setToolTip(tr("What touches the tissue; each has its own force law"));
+  radius_->setToolTip(tr("R [mm], more than 0: of the sphere, or of the base of the others"));
+  fileName_->setToolTip(tr("Profile of the tool, a CSV file"));
+  fileName_->setAccessibleName(tr("Profile of the tool"));
+  halfAngle_->setToolTip(
+    tr("\u03b1 [\u00b0], 0 to 90: between the axis of the cone and its flank"));
+  flatRadius_->setToolTip(tr("[mm] Of the flat that the cone is cut off to; less than the radius"));
+  tipRadius_->setToolTip(
+    tr("[mm] Of the spherical cap in which the cone ends; less than the radius"));
 
   addRow(*rows_, tr("Shape"), kind_);
   addRow(*rows_, tr("Radius"), radius_);
@@ -229,7 +235,10 @@ void ToolPanel::showProfile()
     : profile_ != nullptr                ? QString::fromStdString(profile_->name())
                                          : QString();
   fileName_->setText(QFileInfo(path).fileName());
-  fileName_->setToolTip(path);
+  if (!path.isEmpty())
+  {
+    fileName_->setToolTip(path);
+  }
   fileName_->setCursorPosition(0);
 }
 

@@ -4,8 +4,6 @@
 #include "pipeline/view/appearance.h"
 
 #include <QColor>
-#include <QLabel>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <string_view>
@@ -32,47 +30,23 @@ QString number(const Rule& rule, double value)
     : QString::number(value, 'g', 3);
 }
 
-QString microseconds(Histogram::Duration duration)
-{
-  using Micro = std::chrono::duration<double, std::micro>;
-  return QString::number(Micro(duration).count(), 'f', 1);
-}
-
-QString timingRow(const QString& name, const Histogram& histogram)
-{
-  QString row = "<tr><td>" + name + "</td>";
-  for (const double fraction : { 0.5, 0.99, 0.999 })
-  {
-    row += "<td align=right>&nbsp;" + microseconds(histogram.quantile(fraction)) + "</td>";
-  }
-  return row + "<td align=right>&nbsp;" + microseconds(histogram.longest()) + "</td></tr>";
-}
-
 } // namespace
 
 ValidityPanel::ValidityPanel(QWidget* parent)
-  : QWidget(parent)
-  , rules_(new QLabel)
-  , timing_(new QLabel)
+  : QLabel(parent)
 {
-  rules_->setObjectName("rules");
-  timing_->setObjectName("timing");
-  auto* column = new QVBoxLayout(this);
-  for (QLabel* label : { rules_, timing_ })
-  {
-    label->setWordWrap(true);
-    label->setTextFormat(Qt::RichText);
-    label->setAlignment(Qt::AlignTop);
-    column->addWidget(label);
-  }
-  column->addStretch();
-  rules_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
+  setObjectName("rules");
+  setWordWrap(true);
+  setTextFormat(Qt::RichText);
+  setAlignment(Qt::AlignTop);
+  setMargin(6);
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // the panel keeps its width
   showNoContact();
 }
 
 void ValidityPanel::showNoContact()
 {
-  rules_->setText(tr("no contact"));
+  setText(tr("no contact"));
 }
 
 void ValidityPanel::showRules(const Rules& rules)
@@ -97,15 +71,7 @@ void ValidityPanel::showRules(const Rules& rules)
       text += QStringLiteral("&nbsp;&nbsp;<i>%1</i><br>").arg(rule.why);
     }
   }
-  rules_->setText(text);
-}
-
-void ValidityPanel::showTiming(const Timing& timing, const std::string& schedule)
-{
-  timing_->setText(tr("<b>Servo</b> [µs]<table><tr><td></td><td>&nbsp;p50</td><td>&nbsp;p99</td>"
-                      "<td>&nbsp;p99.9</td><td>&nbsp;max</td></tr>") +
-    timingRow(tr("late by"), timing.lateness) + timingRow(tr("step"), timing.step) + "</table>" +
-    QString::fromStdString(schedule));
+  setText(text);
 }
 
 } // namespace palp

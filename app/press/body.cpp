@@ -2,6 +2,7 @@
 
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
+#include "haptics/contact/embed_nodules.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/deviation.h"
 #include "haptics/units.h"
@@ -63,6 +64,7 @@ std::string describe(const Deviation& apart, std::size_t points)
 SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
 {
   SceneBody body;
+  body.sources = meshes;
   Union display;
   Union haptic;
   bool coarser = false;
@@ -78,16 +80,21 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
     if (shown)
     {
-      display.add(*loaded.mesh, source.frame);
+      display.add(*loaded.mesh, source.frame());
     }
     const bool liver = source.bundled == "liver";
     coarser = coarser || liver;
     const std::filesystem::path felt = liver ? dataFile("meshes/liver_haptic.vtp") : file;
-    haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame);
+    haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame());
     MeshFile& origin = body.files.emplace_back(describeFile(felt));
     origin.unit = body.unit;
     origin.part = source.part;
-    origin.moved = !source.frame.isApprox(Eigen::Isometry3d::Identity());
+    for (PlacedNodule nodule : source.nodules)
+    {
+      nodule.center = source.frame() * nodule.center;
+      body.nodules.push_back(nodule);
+    }
+    origin.moved = !source.frame().isApprox(Eigen::Isometry3d::Identity());
   }
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
   if (body.haptic->crossing())
@@ -104,6 +111,12 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     body.notes.push_back(describe(deviation(fine, *body.haptic), body.haptic->points().size()));
   }
   return body;
+}
+
+std::shared_ptr<const NoduleField> feltNodules(const SceneBody& body, const ForceLaw& law)
+{
+  const bool known = law.settings().mode == LawMode::Corrected && law.settings().coatings.empty();
+  return known ? embedNodules(*body.haptic, law, body.nodules) : nullptr;
 }
 
 } // namespace palp

@@ -2,6 +2,8 @@
 
 #include "app/input/mesh_file.h"
 #include "app/input/scene_plan.h"
+#include "haptics/force/force_law.h"
+#include "haptics/force/nodules/nodule_field.h"
 #include "haptics/surface/surface.h"
 
 #include <memory>
@@ -19,9 +21,11 @@ struct SceneBody
 {
   std::string name;                      ///< file name, for people
   std::string unit;                      ///< that the file's coordinates were read in
+  std::vector<MeshSource> sources;       ///< that it was loaded from
   std::vector<MeshFile> files;           ///< that are felt
   vtkSmartPointer<vtkPolyData> display;  ///< [m]; null where nobody looks
   std::shared_ptr<const Surface> haptic; ///< [m]
+  std::vector<PlacedNodule> nodules;     ///< in it [m]
   std::vector<std::string> notes;        ///< what was taken, and warnings; a line each
 };
 
@@ -32,5 +36,11 @@ struct SceneBody
 /// @param shown    whether a surface to look at is needed, too
 /// @throws Error   BadFile, BadMesh, BadValue
 [[nodiscard]] SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
+
+/// The nodules of a body, felt by the tool of a law; null where there are none, or the law does not
+/// know them.
+/// @throws Error  as embedNodules
+[[nodiscard]] std::shared_ptr<const NoduleField> feltNodules(
+  const SceneBody& body, const ForceLaw& law);
 
 } // namespace palp

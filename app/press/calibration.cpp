@@ -167,6 +167,26 @@ bool isOfTheseCoatings(const PressOptions& options, const LawSettings& settings)
 
 } // namespace
 
+bool Calibration::fits(const Contact& contact) const noexcept
+{
+  // A bent surface leaves a flat one by kappa a^2 / 2 at the rim of the contact, and a^2 < 2 R
+  // delta: by a part kappa R of the depth. A tool that leans moves its flank by the angle, of which
+  // a part as large is seen. Each 1 %, beside the 1.8 % of a flat layer.
+  constexpr double kBent = 0.01;    // [-] curvature times radius
+  constexpr double kLeaning = 0.01; // [rad]
+  constexpr double kThicker = 0.05; // [-]
+  constexpr double kAside = 0.9;    // [-] of the layer, as far as the paper's block reaches
+  if (!(layer > 0.0) || !contact.touching())
+  {
+    return true;
+  }
+  const double radius = layer / kLayer;
+  const double bent = std::abs(contact.surfaceCurvature) + contact.curvatureSpread;
+  return bent * radius <= kBent && contact.tilt <= kLeaning &&
+    std::abs(contact.thickness - layer) <= kThicker * layer &&
+    contact.edgeDistance >= kAside * layer;
+}
+
 Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
 {
   const Tip& tip = law.tip();
@@ -203,6 +223,7 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
   if (dent.surface == DentSurface::Fitted)
   {
     calibration.style.fitted = calibration.elements;
+    calibration.layer = calibration.elements ? kLayer * baseRadius(tip) : 0.0;
     if (!calibration.elements)
     {
       add(calibration.note, "the surface is the paper's, as none is fitted to this tool");

@@ -2,6 +2,7 @@
 
 #include "app/input/press_options.h"
 #include "calibration/tables/extent_table.h"
+#include "haptics/contact/contact.h"
 #include "pipeline/deform/press_of.h"
 
 #include <optional>
@@ -22,10 +23,17 @@ struct Calibration
   std::optional<FittedSurfaces> elements; ///< of a tool of this shape, scaled; none: not computed
   std::optional<double> young;            ///< E of the table's forces [Pa]; none: of another tool
 
+  double layer = 0.0; ///< thickness that a fitted style was computed for [m]; 0: nothing is fitted
+
   [[nodiscard]] bool covers(double depth) const noexcept
   {
     return depth <= reach;
   }
+
+  /// Whether the place is one that a fitted style was computed for: flat, level, as thick, and far
+  /// from edges. Elsewhere the picture may be off by more than 3 % of the depth; so true without
+  /// one.
+  [[nodiscard]] bool fits(const Contact& contact) const noexcept;
 };
 
 /// The table that the options name, the paper's two spheres and cones as they are, any other sphere

@@ -1,7 +1,6 @@
 #include "app/press/export.h"
 
 #include "haptics/files/csv_text.h"
-#include "haptics/files/output_folder.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"
@@ -18,7 +17,7 @@
 #include <array>
 #include <chrono>
 #include <sstream>
-#include <vector>
+#include <string>
 
 namespace palp
 {
@@ -93,29 +92,6 @@ void writeTiming(const std::filesystem::path& file, const Timing& timing)
         static_cast<double>(timing.ticks.load()), static_cast<double>(timing.skipped.load()) });
   }
   replaceFile(file, out.view());
-}
-
-bool exportRecording(const std::filesystem::path& directory, const SceneBody& body,
-  const Recording& recording, const Calibration& calibration, const ExportOptions& options)
-{
-  std::vector<std::string> files{ "samples.csv", "deformed.vtp" };
-  if (options.timing)
-  {
-    files.emplace_back("servo.csv");
-  }
-  OutputFolder output(directory, files, OutputFolder::Earlier::Replace);
-  if (!output.found().empty() && !options.mayReplace(output.found()))
-  {
-    return false;
-  }
-  writeSamples(output.stage() / "samples.csv", recording, &calibration);
-  writeDeformed(output.stage() / "deformed.vtp", body, recording, calibration, options.refined);
-  if (options.timing)
-  {
-    writeTiming(output.stage() / "servo.csv", *options.timing);
-  }
-  output.publish();
-  return true;
 }
 
 } // namespace palp

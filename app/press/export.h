@@ -6,8 +6,6 @@
 #include "pipeline/deform/dent.h"
 
 #include <filesystem>
-#include <functional>
-#include <string>
 
 namespace palp
 {
@@ -34,22 +32,5 @@ void writeSamples(
 ///
 /// @throws Error  BadFile: cannot be written
 void writeTiming(const std::filesystem::path& file, const Timing& timing);
-
-struct ExportOptions
-{
-  const Timing* timing = nullptr; ///< of the servo thread, for servo.csv
-  bool refined = false;           ///< as writeDeformed
-  /// asked with the names of files, as words, where some are there already
-  std::function<bool(const std::string& found)> mayReplace = [](const std::string&)
-  { return true; };
-};
-
-/// Writes samples.csv, deformed.vtp and servo.csv into a directory, which is made when it is
-/// missing: all of them or none.
-///
-/// @return        false where files may not be replaced
-/// @throws Error  as OutputFolder
-[[nodiscard]] bool exportRecording(const std::filesystem::path& directory, const SceneBody& body,
-  const Recording& recording, const Calibration& calibration, const ExportOptions& options);
 
 } // namespace palp

@@ -78,16 +78,39 @@ std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chai
   std::vector<Sample> samples;
   samples.reserve(times.size());
   SafetyChain chain(paperArm());
+  TissueMemory memory;
   double last = times.front() - 1.0 / kTicksPerSecond;
   for (const double time : times)
   {
     const ToolPose pose = path.poseAt(time, axis);
-    samples.push_back(
-      chained ? step(scene, chain, pose, {}, { .armed = true }, time - last) : step(scene, pose));
+    const double dt = time - last;
+    samples.push_back(chained ? step(scene, memory, chain, pose, {}, { .armed = true }, dt)
+                              : step(scene, memory, pose, dt));
     samples.back().time = time;
     last = time;
   }
   return samples;
+}
+
+std::vector<Sample> playEach(
+  const std::vector<ScriptedPath>& paths, const Scene& scene, bool chained)
+{
+  constexpr double kPause = 100.0; // ticks
+  double start = 0.0;              // of a path, in ticks
+  std::vector<Sample> all;
+  for (const ScriptedPath& path : paths)
+  {
+    for (Sample& sample : play(path, scene, chained))
+    {
+      // on the grid of milliseconds, so that no sum of two times rounds off it
+      const double ticks = (sample.time - path.startTime()) * kTicksPerSecond;
+      const double whole = std::round(ticks);
+      sample.time = (start + (std::abs(ticks - whole) < 1e-6 ? whole : ticks)) / kTicksPerSecond;
+      all.push_back(std::move(sample));
+    }
+    start += std::ceil(path.duration() * kTicksPerSecond) + kPause;
+  }
+  return all;
 }
 
 } // namespace palp

@@ -18,4 +18,9 @@ namespace palp
 [[nodiscard]] std::vector<Sample> play(
   const ScriptedPath& path, const Scene& scene, bool chained = false);
 
+/// Plays one path after the other, each as play() does, with 0.1 s between them in which the tool
+/// is taken to the next one's start.
+[[nodiscard]] std::vector<Sample> playEach(
+  const std::vector<ScriptedPath>& paths, const Scene& scene, bool chained = false);
+
 } // namespace palp

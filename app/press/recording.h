@@ -2,6 +2,7 @@
 
 #include "app/input/mesh_file.h"
 #include "app/press/calibration.h"
+#include "haptics/force/validity.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
@@ -18,16 +19,18 @@ namespace palp
 /// only the first and the last sample are kept; of a long recording, see bound().
 struct Recording
 {
-  std::string mesh;              ///< file name, for people
-  std::string unit;              ///< that its coordinates were read in
-  std::string device;            ///< hand, mouse, path:NAME
-  std::vector<MeshFile> files{}; ///< that were felt
-  std::string command{};         ///< see commandLine
-  Scene scene;
-  std::vector<Sample> samples;
-  std::size_t thinned = 0; ///< of these the first, between which others were left out
-  double interval = 0.1;   ///< of which of those only the extremes are kept [s]
-  bool rated = true;       ///< how far each sample may be believed is told, too
+  std::string mesh{};               ///< file name, for people
+  std::string unit{};               ///< that its coordinates were read in
+  std::string device{};             ///< hand, mouse, path:NAME
+  std::vector<MeshFile> files{};    ///< that were felt
+  std::string command{};            ///< see commandLine
+  std::vector<std::string> names{}; ///< of its presses, in their order; empty: none
+  Scene scene{};
+  std::vector<Sample> samples{};
+  std::size_t thinned = 0;  ///< of these the first, between which others were left out
+  double interval = 0.1;    ///< of which of those only the extremes are kept [s]
+  bool rated = true;        ///< how far each sample may be believed is told, too
+  bool contactOnly = false; ///< see keepContact
 
   /// The first sample of the largest depth; nothing when the tool never touched.
   [[nodiscard]] const Sample* deepest() const noexcept;
@@ -47,8 +50,16 @@ void bound(Recording& recording, std::size_t kept = kKeptWhole);
 /// The same of all samples of a recording that has ended.
 void thin(Recording& recording);
 
+/// Leaves the samples of contact, each with the one before and the one after it, and the header
+/// that says so; where nothing touches, the first and the last.
+void keepContact(Recording& recording);
+
 /// The first sample of the largest depth; null where none touches.
 [[nodiscard]] const Sample* deepestOf(std::span<const Sample> samples) noexcept;
+
+/// The conditions of the law at a contact, those of its nodules after them where there are any.
+[[nodiscard]] std::vector<Rule> rulesAt(
+  const Scene& scene, const Validity& validity, const Contact& contact);
 
 /// Writes samples.csv: a header of comment lines, the column names with units, one row per sample.
 ///
@@ -57,7 +68,8 @@ void thin(Recording& recording);
 /// the factors of the law there, by which force_N is the product of the paper's force and theirs.
 /// A tip without a paper's law begins with its exact one.
 ///
-/// The same recording gives the same bytes: no date, no host.
+/// Times, positions and forces sent read back to the last bit. The same recording gives the same
+/// bytes: no date, no host.
 ///
 /// @param calibration  R_d(depth) for the column extent_radius_mm, 0 when
 ///                     apart; null: no such column

@@ -20,7 +20,8 @@ std::string namesBeside(const std::filesystem::path& file)
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), failure))
   {
-    if (entry.path().extension() == file.extension())
+    if (entry.path().extension() == file.extension() &&
+      entry.path().stem().extension() != ".schema")
     {
       names.insert(entry.path().stem().string());
     }

@@ -16,7 +16,8 @@ namespace
 
 char** gArguments = nullptr; // of main
 
-// for a shell; on one line whatever it holds
+} // namespace
+
 std::string quoted(const std::string& word)
 {
   constexpr auto isPlain = [](unsigned char c)
@@ -33,8 +34,6 @@ std::string quoted(const std::string& word)
   }
   return text + "'";
 }
-
-} // namespace
 
 void setArguments(char** arguments)
 {

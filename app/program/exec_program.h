@@ -9,6 +9,9 @@ namespace palp
 /// @param arguments  as main gets them; they live as long as the process
 void setArguments(char** arguments);
 
+/// A word for a shell; on one line whatever it holds.
+[[nodiscard]] std::string quoted(const std::string& word);
+
 /// How this process was started, as for a shell, without --out and --overwrite; empty in a test.
 [[nodiscard]] std::string commandLine();
 

@@ -108,6 +108,9 @@ std::string markOf(const Curve& curve)
       return R"(<path d="M10 3h8v8h-8z" fill=")" + color + R"("/>)";
     case Curve::Style::Diamonds:
       return R"(<path d="M14 1l6 6-6 6-6-6z" fill=")" + color + R"("/>)";
+    case Curve::Style::Cells:
+      return R"(<path d="M9 2h10v10H9z" fill=")" + std::string(figures::shadeColor(curve.color)) +
+        R"("/>)";
   }
   return {};
 }

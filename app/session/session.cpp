@@ -1,5 +1,6 @@
 #include "app/session/session.h"
 
+#include "app/folder/played_plan.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/session/device_words.h"
@@ -49,6 +50,7 @@ Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trac
   recording.scene.damping = plan.press.damping;
   recording.scene.law =
     trace.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
+  recording.scene.nodules = feltNodules(body, recording.scene.law);
   return recording;
 }
 
@@ -85,6 +87,7 @@ void Session::open(const MeshSource& source)
   recording_.unit = body_.unit;
   recording_.files = body_.files;
   recording_.scene.surface = body_.haptic;
+  recording_.scene.nodules = nullptr; // a file has none
   ++recording_.scene.version;
   useDevice(choice, std::move(holder));
 }
@@ -92,9 +95,11 @@ void Session::open(const MeshSource& source)
 void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
 {
   Calibration calibration = loadCalibration(plan_.press, law); // may throw
+  auto nodules = feltNodules(body_, law);                      // too
   endRecording(body_);
   calibration_ = std::move(calibration);
   recording_.scene.law = law;
+  recording_.scene.nodules = std::move(nodules);
   recording_.scene.rule = rule;
   recording_.scene.damping = damping;
   ++recording_.scene.version;
@@ -292,6 +297,26 @@ void Session::endRecording(const SceneBody& body)
   recording_.thinned = 0;
   recording_.interval = Recording{}.interval;
   resting_.reset();
+}
+
+void Session::addTake(const ScenePlan& made)
+{
+  Take take{ .body = body_, .recording = {}, .calibration = calibration_ };
+  Recording& recording = take.recording;
+  recording.mesh = body_.name;
+  recording.unit = body_.unit;
+  recording.files = body_.files;
+  recording.command = commandLine();
+  recording.rated = made.validity;
+  recording.scene = recording_.scene;
+  recording.scene.forceLimit = std::numeric_limits<double>::infinity();
+  std::optional<ScriptedPath> path;
+  if (!made.presses && !made.recording)
+  {
+    path = readPath(made.device.file);
+  }
+  playInto(recording, made, path ? &*path : nullptr);
+  earlier_.push_back(std::move(take));
 }
 
 void Session::boundEarlier()

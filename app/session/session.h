@@ -129,6 +129,10 @@ public:
     return earlier_;
   }
 
+  /// Presses once more what a plan for this body knows of, as an earlier recording.
+  /// @throws Error  as playInto
+  void addTake(const ScenePlan& made);
+
 private:
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const SceneBody& body);

@@ -1,7 +1,9 @@
 #include "app/window/window.h"
 
+#include "app/graphs/chart_panel.h"
+#include "app/graphs/plot_panel.h"
 #include "app/panels/device_panel.h"
-#include "app/panels/plot_panel.h"
+#include "app/panels/diagnostics_panel.h"
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
 #include "app/program/build_trace.h"
@@ -11,8 +13,6 @@
 #include "haptics/units.h"
 
 #include <QVTKOpenGLNativeWidget.h>
-#include <vtkContextScene.h>
-#include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
 
@@ -31,7 +31,7 @@ namespace
 
 constexpr int kFrameMs = 16;    // the picture
 constexpr int kPlotMs = 100;    // the curves, which cost more and need less
-constexpr int kTimingMs = 1000; // what always changes a little, and draws the window anew
+constexpr int kTimingMs = 1000; // what always changes a little
 
 // whether nobody could tell their pictures apart
 bool looksAlike(const Sample& a, const Sample& b)
@@ -51,8 +51,10 @@ bool looksAlike(const Sample& a, const Sample& b)
 Window::Window(Session& session, BuildTrace& trace)
   : session_(session)
   , view_(*renderer_)
+  , orientation_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
   , validity_(session.recording().scene.law)
+  , takesKept_(session.earlier().size())
 {
   constexpr QSize kFrame{ 16, 48 }; // about what a title bar and borders take
   resize(QSize(1440, 860).boundedTo(screen()->availableSize() - kFrame));
@@ -64,13 +66,21 @@ Window::Window(Session& session, BuildTrace& trace)
       makeFileMenu();
       makeDeviceMenu();
       makeViewMenu();
+      makeHelpMenu();
+      makeToolBar();
     });
   if (session_.plan().records())
   {
     trace.build("plots", "named in the scene", [&] { makeCharts(); });
   }
+  memory_.restore(*this);
+  setAcceptDrops(true);
   showBody();
   applyTissue();
+  if (session_.plan().camera)
+  {
+    lookFrom(*session_.plan().camera);
+  }
 
   auto* frames = new QTimer(this);
   connect(frames, &QTimer::timeout, this, &Window::refresh);
@@ -89,6 +99,7 @@ void Window::showBody()
 {
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   view_.setSurface(session_.body().display);
+  orientation_.setPatient(isPatient(session_.body()));
   pointer_.setSurface(session_.body().haptic);
   fittedTo_ = std::pair(0, 0);
   isStale_ = true;
@@ -144,9 +155,12 @@ void Window::refresh()
     isStale_ = false;
     chartsAreStale_ = true; // the section
     view_.show(shown_);
+    still_ = 0;
+    renderer_->UseFXAAOff();
     renderWindow_->Render();
     showReadings();
   }
+  smoothen();
 }
 
 // all of the body, until the user looks at it in another way
@@ -164,6 +178,8 @@ void Window::fitView()
 void Window::keepView()
 {
   fittedTo_.reset();
+  still_ = 0;
+  renderer_->UseFXAAOff();
 }
 
 // all that tells of the press is of the one sample that the picture shows
@@ -181,7 +197,8 @@ void Window::showReadings()
           .arg(shown_.response.force, 0, 'f', 2)
           .arg(units::toMillimeters(contact.depth), 0, 'f', 1)
           .arg(units::toNewtonsPerMillimeter(shown_.response.stiffness), 0, 'f', 2) +
-        (session_.calibration().covers(contact.depth) ? QString() : tr("    R_d estimated")));
+        (session_.calibration().covers(contact.depth) ? QString() : tr("    R_d estimated")) +
+        (session_.calibration().fits(contact) ? QString() : tr("    dent estimated")));
 }
 
 void Window::refreshPanels()
@@ -194,20 +211,20 @@ void Window::refreshPanels()
   }
 }
 
+// a text that changes lays the whole window out and draws it: seldom while nothing else changes
 void Window::refreshTiming()
 {
-  const Timing& timing = session_.timing();
-  if (validityPanel_)
+  constexpr int kIdle = 120;  // pictures
+  constexpr int kSeldom = 10; // times
+  if (still_ > kIdle && ++timingsLeftOut_ < kSeldom)
   {
-    validityPanel_->showTiming(timing, session_.schedule());
+    return;
   }
-  const auto ticks = timing.ticks.load();
-  const auto late = timing.skipped.load();
-  const auto elapsed = static_cast<double>(ticks + late);
-  servoLabel_->setText(
-    tr("servo %1 Hz    late ticks %2")
-      .arg(elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0, 0, 'f', 0)
-      .arg(late));
+  timingsLeftOut_ = 0;
+  if (diagnostics_->isVisible())
+  {
+    diagnostics_->show(session_.timing(), session_.schedule());
+  }
 }
 
 void Window::refreshCharts()
@@ -215,17 +232,19 @@ void Window::refreshCharts()
   if (charts_)
   {
     charts_->refresh();
-    for (vtkContextView* view : { timeView_.Get(), depthView_.Get() })
-    {
-      if (view->GetScene()->GetNumberOfItems() > 0)
-      {
-        view->GetRenderWindow()->Render();
-      }
-    }
+    drawCharts();
   }
   if (plots_)
   {
     plots_->refresh();
+  }
+}
+
+void Window::drawCharts()
+{
+  for (ChartPanel* panel : chartPanels_)
+  {
+    panel->draw();
   }
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "app/plots/press_figure.h"
 #include "app/session/pointer_tool.h"
 #include "app/session/session.h"
+#include "app/shell/window_memory.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
+#include "pipeline/figure/orientation.h"
 #include "pipeline/view/press_view.h"
 
 #include <QMainWindow>
@@ -14,10 +17,10 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 class QLabel;
 class QVTKOpenGLNativeWidget;
-class vtkContextView;
 class vtkGenericOpenGLRenderWindow;
 class vtkPalpPressStyle;
 class vtkRenderer;
@@ -26,7 +29,9 @@ namespace palp
 {
 
 class DevicePanel;
+class DiagnosticsPanel;
 class BuildTrace;
+class ChartPanel;
 class PlotPanel;
 class ValidityPanel;
 class TissuePanel;
@@ -47,28 +52,41 @@ public:
 
   bool openFile(const QString& file); // asks for what the file does not tell
   bool saveScreenshot(const QString& file);
-  bool savePlots(const QString& file);
+  bool saveFigure(const QString& file, ImageSize size, const FigureLook& look);
+  bool savePlots(const QString& file, std::optional<ImageSize> size = std::nullopt);
   bool saveCurves(const QString& file);
+  bool saveChart(std::size_t chart, const QString& file, ImageSize size); // of charts_, counted
   bool exportData(const QString& directory);
 
 protected:
   void changeEvent(QEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
 private:
   static constexpr const char* kScan = "Scan for devices…";
   static constexpr const char* kHint =
     "Drag down: press    Wheel: hold a depth    Right-drag: rotate    Middle-drag: move    "
-    "Ctrl+wheel: zoom";
+    "Ctrl+wheel: zoom    H: all keys";
 
   void makeView();
   void makeDocks();
   void makeCharts();
+  ChartPanel* makeChartPanel(std::size_t chart);
   void makeDevicePanel();
   void makePlots(bool shown);
   void offerDevices();
   void makeFileMenu();
   void makeDeviceMenu();
   void makeViewMenu();
+  void addStandardViews(QMenu& menu);
+  void addOpening(QMenu& file);
+  void addPanels(QMenu& menu);
+  void addRecentFiles(QMenu& menu);
+  void openRecent(const QString& file);
+  void makeHelpMenu();
+  void makeToolBar();
   void showBody();
 
   // the pointer as a tool, in display pixels
@@ -79,9 +97,11 @@ private:
 
   void takeSamples();
   void clearCharts();
+  void drawCharts();
   void refresh();
   void fitView();
   void keepView();
+  void smoothen();
   void showReadings();
   void refreshPanels();
   void refreshCharts();
@@ -92,13 +112,19 @@ private:
   void sayWhatIsKept();
   void sayWhatIsThinned();
   void say(const QString& what);
+  void askFigure();
   bool attempt(const std::function<void()>& work);
+  void exportTake(const QString& directory, const SceneBody& body, Recording recording,
+    const Calibration& calibration, const Timing* timing);
+  [[nodiscard]] CameraPlace cameraPlace() const;
+  void lookFrom(const CameraPlace& place);
 
   Session& session_;
   vtkNew<vtkGenericOpenGLRenderWindow> renderWindow_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkPalpPressStyle> style_;
   PressView view_;
+  Orientation orientation_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
   PointerTool pointer_;
@@ -107,22 +133,25 @@ private:
   Validity validity_;        // of the law that the session uses
   Sample shown_;             // in the picture
   bool isStale_ = true;      // the picture, whatever the newest sample is
+  int still_ = 0;            // pictures since it last changed
+  int timingsLeftOut_ = 0;
   bool chartsAreStale_ = true;
   std::optional<std::pair<int, int>> fittedTo_ =
     std::pair(0, 0); // size that all of the body is seen in
-  std::size_t takesKept_ = 0;
+  std::size_t takesKept_;
+  WindowMemory memory_;
   bool saidThinned_ = false;
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
-  vtkNew<vtkContextView> timeView_;
-  vtkNew<vtkContextView> depthView_;
+  std::vector<ChartPanel*> chartPanels_; // of charts_
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;             // null: never shown
   QAction* refinedExport_ = nullptr;
+  QAction* allSamplesExport_ = nullptr;
   QLabel* forceLabel_ = nullptr;
-  QLabel* servoLabel_ = nullptr;
+  DiagnosticsPanel* diagnostics_ = nullptr;
 };
 
 } // namespace palp

@@ -1,10 +1,9 @@
 // What the window reads and writes, and says of it.
 
+#include "app/graphs/plot_panel.h"
 #include "app/panels/device_panel.h"
 #include "app/panels/folder_dialog.h"
 #include "app/panels/open_dialog.h"
-#include "app/panels/plot_panel.h"
-#include "app/press/export.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
@@ -23,10 +22,9 @@
 namespace palp
 {
 
-void Window::makeFileMenu()
+void Window::addOpening(QMenu& file)
 {
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  file->addAction(
+  QAction* opening = file.addAction(
     tr("&Open…"), this,
     [this]
     {
@@ -39,6 +37,14 @@ void Window::makeFileMenu()
       }
     },
     QKeySequence::Open);
+  opening->setObjectName("openAction");
+  addRecentFiles(file);
+}
+
+void Window::makeFileMenu()
+{
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  addOpening(*file);
   const auto addSave = [&](const QString& entry, const QString& title, const char* suggested,
                          const QString& kinds, bool (Window::*save)(const QString&))
   {
@@ -55,6 +61,11 @@ void Window::makeFileMenu()
   addSave(tr("Save &screenshot…"), tr("Save screenshot"), "palp.png", tr("PNG (*.png)"),
     &Window::saveScreenshot)
     ->setShortcut(QKeySequence::Save);
+  file
+    ->addAction(
+      tr("Save fi&gure…"), this, [this] { askFigure(); },
+      QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S))
+    ->setObjectName("figureAction");
   QAction* curves = addSave(tr("Save &curves…"), tr("Save curves"), "curves.png",
     tr("Plots (*.png *.svg *.pdf *.csv)"), &Window::saveCurves);
   QAction* exporting = file->addAction(tr("&Export data…"), this,
@@ -66,10 +77,15 @@ void Window::makeFileMenu()
         exportData(dialog.folder());
       }
     });
+  exporting->setObjectName("exportAction");
+  exporting->setShortcut(QKeySequence("Ctrl+E"));
   refinedExport_ = file->addAction(tr("Export the dent &refined"));
   refinedExport_->setObjectName("refinedExport");
   refinedExport_->setCheckable(true);
-  for (QAction* action : { curves, exporting, refinedExport_ })
+  allSamplesExport_ = file->addAction(tr("Export samples &without contact, too"));
+  allSamplesExport_->setObjectName("allSamplesExport");
+  allSamplesExport_->setCheckable(true);
+  for (QAction* action : { curves, exporting, refinedExport_, allSamplesExport_ })
   {
     action->setEnabled(session_.plan().records()); // without plots no sample is kept
   }
@@ -81,7 +97,7 @@ void Window::say(const QString& what)
 {
   constexpr int kLong = 15'000; // [ms], to be read
   const QFontMetrics font = statusBar()->fontMetrics();
-  const int room = statusBar()->width() - servoLabel_->width() - 4 * font.averageCharWidth();
+  const int room = statusBar()->width() - 4 * font.averageCharWidth();
   statusBar()->showMessage(font.elidedText(what, Qt::ElideRight, room), kLong);
   statusBar()->setToolTip(what);
 }
@@ -109,6 +125,7 @@ bool Window::openFile(const QString& file)
   devicePanel_->choose(QString::fromStdString(session_.recording().device));
   if (opened)
   {
+    memory_.addRecentFile(file);
     QStringList notes;
     for (const std::string& note : session_.body().notes)
     {
@@ -139,9 +156,10 @@ bool Window::saveScreenshot(const QString& file)
     });
 }
 
-bool Window::savePlots(const QString& file)
+bool Window::savePlots(const QString& file, std::optional<ImageSize> size)
 {
-  return attempt([&] { say(tr("Written to %1: %2").arg(file, plots_->save(file.toStdString()))); });
+  return attempt(
+    [&] { say(tr("Written to %1: %2").arg(file, plots_->save(file.toStdString(), size))); });
 }
 
 bool Window::saveCurves(const QString& file)
@@ -154,38 +172,16 @@ bool Window::saveCurves(const QString& file)
     });
 }
 
-bool Window::exportData(const QString& directory)
+bool Window::saveChart(std::size_t chart, const QString& file, ImageSize size)
 {
   return attempt(
     [&]
     {
-      takeSamples();
-      const std::filesystem::path folder = directory.toStdString();
-      const auto ask = [&](const std::string& found)
-      {
-        const QString text = tr("%1 holds %2 already. Replace?");
-        return QMessageBox::question(this, tr("Palp"),
-                 text.arg(directory, QString::fromStdString(found))) == QMessageBox::Yes;
-      };
-      const bool refined = refinedExport_->isChecked();
-      if (!exportRecording(folder, session_.body(), session_.recording(), session_.calibration(),
-            { .timing = &session_.timing(), .refined = refined, .mayReplace = ask }))
-      {
-        return;
-      }
-      QString more;
-      int count = 0;
-      for (const Session::Take& take : session_.earlier())
-      {
-        const std::string name = "earlier-" + std::to_string(++count);
-        (void)exportRecording(
-          folder / name, take.body, take.recording, take.calibration, { .refined = refined });
-        more += ", " + QString::fromStdString(name);
-      }
-      say(tr("Written to %1: samples.csv (%2 samples), deformed.vtp, servo.csv%3")
-            .arg(directory)
-            .arg(session_.recording().samples.size())
-            .arg(more));
+      charts_->refresh();
+      Plots plots = charts_->plots();
+      Plots one;
+      one.push_back(std::move(plots.at(chart)));
+      say(tr("Written to %1: %2").arg(file, palp::savePlots(one, file.toStdString(), size)));
     });
 }
 

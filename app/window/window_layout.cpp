@@ -1,8 +1,11 @@
 // What the window is made of; what it does is in window.cpp.
 
+#include "app/graphs/chart_panel.h"
+#include "app/graphs/figure_dialog.h"
+#include "app/graphs/plot_panel.h"
 #include "app/panels/device_panel.h"
+#include "app/panels/diagnostics_panel.h"
 #include "app/panels/panel_area.h"
-#include "app/panels/plot_panel.h"
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
 #include "app/window/vtkPalpPressStyle.h"
@@ -10,8 +13,6 @@
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkCommand.h>
-#include <vtkContextScene.h>
-#include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
@@ -19,7 +20,6 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
 #include <QScreen>
@@ -39,7 +39,6 @@ QDockWidget* addDock(
   auto* dock = new QDockWidget(title, window);
   dock->setObjectName(title);
   dock->setWidget(content);
-  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable);
   window->addDockWidget(area, dock);
   return dock;
 }
@@ -62,18 +61,6 @@ QStringList deviceNames(const Session& session, const std::vector<std::string>& 
   }
   names.removeDuplicates();
   return names;
-}
-
-QVTKOpenGLNativeWidget* makeChartCanvas(vtkContextView& view)
-{
-  auto* canvas = new QVTKOpenGLNativeWidget;
-  vtkNew<vtkGenericOpenGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  canvas->setRenderWindow(window);
-  canvas->setMinimumSize(260, 120);
-  view.SetRenderWindow(window);
-  view.GetRenderer()->SetBackground(1.0, 1.0, 1.0);
-  return canvas;
 }
 
 } // namespace
@@ -107,19 +94,26 @@ void Window::makeDocks()
   device->setMinimumHeight(std::min(usual, screen()->availableGeometry().height() / 6));
   device->setMaximumHeight(usual + kMore * devicePanel_->fontMetrics().lineSpacing());
   addDock(this, Qt::LeftDockWidgetArea, tr("Device"), device);
+  QDockWidget* validity = nullptr;
   if (session_.plan().validity)
   {
     validityPanel_ = new ValidityPanel;
-    addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(validityPanel_));
+    validity =
+      addDock(this, Qt::LeftDockWidgetArea, tr("Model validity"), scrolled(validityPanel_));
   }
+  diagnostics_ = new DiagnosticsPanel;
+  QDockWidget* diagnostics =
+    addDock(this, Qt::LeftDockWidgetArea, tr("Diagnostics"), scrolled(diagnostics_));
+  if (validity != nullptr)
+  {
+    tabifyDockWidget(validity, diagnostics); // which costs no height
+  }
+  diagnostics->hide();
 
   forceLabel_ = new QLabel;
   forceLabel_->setObjectName("force");
   forceLabel_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // cut, not the window's
-  servoLabel_ = new QLabel;
-  servoLabel_->setObjectName("servo");
   statusBar()->addWidget(forceLabel_, 1);
-  statusBar()->addPermanentWidget(servoLabel_);
 }
 
 void Window::makeCharts()
@@ -129,15 +123,53 @@ void Window::makeCharts()
   {
     if (plot == PlotKind::ForceOverTime)
     {
-      addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), makeChartCanvas(*timeView_));
-      charts_->addForceOverTime(*timeView_->GetScene());
+      ChartPanel* panel = makeChartPanel(0);
+      addDock(this, Qt::RightDockWidgetArea, tr("Force over time"), panel);
+      charts_->addForceOverTime(*panel->scene());
     }
     else if (plot == PlotKind::ForceOverDepth)
     {
-      addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), makeChartCanvas(*depthView_));
-      charts_->addForceOverDepth(*depthView_->GetScene());
+      ChartPanel* panel = makeChartPanel(1);
+      addDock(this, Qt::RightDockWidgetArea, tr("Force over depth"), panel);
+      charts_->addForceOverDepth(*panel->scene());
     }
   }
+}
+
+// both are paused and cleared together, as they show the same press
+ChartPanel* Window::makeChartPanel(std::size_t chart)
+{
+  auto* panel = new ChartPanel(chart == 0 ? "timeChart" : "depthChart");
+  panel->setScene(showEmptyScene(panel->window()));
+  panel->offerPause();
+  chartPanels_.push_back(panel);
+  connect(panel, &ChartPanel::pauseToggled, this,
+    [this](bool paused)
+    {
+      charts_->setPaused(paused);
+      for (ChartPanel* each : chartPanels_)
+      {
+        each->setPaused(paused);
+      }
+      chartsAreStale_ = true;
+    });
+  connect(panel, &ChartPanel::clearAsked, this,
+    [this]
+    {
+      clearCharts();
+      drawCharts();
+    });
+  connect(panel, &ChartPanel::saveAsked, this,
+    [this, chart]
+    {
+      FigureDialog dialog(tr("Save chart"), chart == 0 ? "force_time.png" : "force_depth.png",
+        tr("Plots (*.png *.svg *.pdf *.csv)"), ImageSize{ .width = 1600, .height = 1000 }, this);
+      if (dialog.exec() == QDialog::Accepted)
+      {
+        saveChart(chart, dialog.file(), dialog.size());
+      }
+    });
+  return panel;
 }
 
 // made when it is first shown
@@ -161,14 +193,17 @@ void Window::makePlots(bool shown)
   connect(plots_, &PlotPanel::saveAsked, this,
     [this]
     {
-      const QString name = QFileDialog::getSaveFileName(
-        this, tr("Save plots"), "plots.png", tr("Plots (*.png *.svg *.pdf *.csv)"));
-      if (!name.isEmpty())
+      FigureDialog dialog(tr("Save plots"), "plots.png", tr("Plots (*.png *.svg *.pdf *.csv)"),
+        plots_->usualSize(), this);
+      if (dialog.exec() == QDialog::Accepted)
       {
-        savePlots(name);
+        savePlots(dialog.file(), dialog.size());
       }
     });
-  addDock(this, Qt::RightDockWidgetArea, tr("Section and comparison"), plots_);
+  const QDockWidget* dock =
+    addDock(this, Qt::RightDockWidgetArea, tr("Section and comparison"), plots_);
+  auto* entry = findChild<QAction*>("plotsAction");
+  connect(dock->toggleViewAction(), &QAction::toggled, entry, &QAction::setChecked);
 }
 
 void Window::offerDevices()
@@ -217,8 +252,21 @@ void Window::makeDeviceMenu()
 void Window::makeViewMenu()
 {
   QMenu* view = menuBar()->addMenu(tr("&View"));
-  view->addAction(
-    tr("&Reset view"), this, [this] { fittedTo_ = std::pair(0, 0); }, QKeySequence(Qt::Key_Home));
+  view
+    ->addAction(
+      tr("&Reset view"), this, [this] { fittedTo_ = std::pair(0, 0); }, QKeySequence(Qt::Key_Home))
+    ->setObjectName("resetViewAction");
+  addStandardViews(*view);
+  view->addSeparator();
+  QAction* axes = view->addAction(tr("A&xes"));
+  axes->setCheckable(true);
+  axes->setChecked(true);
+  connect(axes, &QAction::toggled, this,
+    [this](bool on)
+    {
+      orientation_.setVisible(on);
+      isStale_ = true;
+    });
   const auto add = [&](const QString& name, Overlay overlay)
   {
     QAction* action = view->addAction(name);
@@ -235,6 +283,7 @@ void Window::makeViewMenu()
   add(tr("&Force arrow"), Overlay::ForceArrow);
   add(tr("&Contact circle"), Overlay::ContactCircle);
   add(tr("&Extent circle"), Overlay::ExtentCircle);
+  add(tr("&Lines of equal displacement"), Overlay::IsoLines);
   add(tr("&Readings"), Overlay::Readings);
   add(tr("Bézier control &net"), Overlay::ControlNet);
   add(tr("&Undeformed surface"), Overlay::Ghost);
@@ -245,6 +294,7 @@ void Window::makeViewMenu()
   colors->addAction(add(tr("&Pressure colors"), Overlay::PressureColors));
   colors->addAction(add(tr("&Validity colors"), Overlay::ValidityColors));
   view->addSeparator();
+  addPanels(*view);
   QAction* plots = view->addAction(tr("Section and comparison &plots"));
   plots->setObjectName("plotsAction");
   plots->setCheckable(true);

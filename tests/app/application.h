@@ -1,7 +1,9 @@
 #pragma once
 
 #include <QApplication>
+#include <QSettings>
 #include <QSurfaceFormat>
+#include <QTemporaryDir>
 #include <QVTKOpenGLNativeWidget.h>
 
 namespace palp::test
@@ -14,6 +16,9 @@ inline QApplication& application()
   static char name[] = "test";
   static char* words[] = { name, nullptr };
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  // what a user's windows remember is neither read nor changed
+  static const QTemporaryDir settings;
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
   static auto* instance =
     new QApplication(count, words); // stays, as it may not outlive Qt's statics
   return *instance;

@@ -39,8 +39,9 @@ TEST(BenchCommand, PrintsOnlyJsonAndComparesWithIt)
     EXPECT_GE(row.at("sd_us"), 0.0);
     EXPECT_NEAR(row.at("per_S"), median / sweep, 1e-9 * median);
   }
-  EXPECT_EQ(
-    works, (std::set<std::string>{ "law", "query_brute", "servo_step", "tree_build", "update" }));
+  EXPECT_EQ(works,
+    (std::set<std::string>{
+      "law", "memory", "query_brute", "servo_step", "tree_build", "update" }));
   EXPECT_EQ(cases, (std::set<std::string>{ "cold", "jump", "moving", "paced" }));
 
   // against figures a thousand times as large, and as small
@@ -86,6 +87,23 @@ TEST(BenchCommand, MeasuresPicturesByTheProgramThatDrawsThem)
   {
     EXPECT_EQ(rows[i].at("work"), "overlay");
   }
+}
+
+TEST(BenchCommand, MeasuresSweepsInAFolderOfItsOwn)
+{
+  const auto folder = test::freshFolder();
+  const std::string sweep = "--cases 100 --quick --sweep " + (folder / "new").string();
+  const test::Finished finished = bench(sweep);
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  for (const char* figure : { "ms a case", "times as fast", "plan of 100 cases: ", "status: ",
+         "merge into all.csv: ", "merge into all.vtt: ", "most entries in a folder: " })
+  {
+    EXPECT_NE(finished.out.find(figure), std::string::npos) << figure << finished.out;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+  std::filesystem::create_directory(folder / "new"); // of somebody else
+  EXPECT_EQ(bench(sweep).code, 2);
+  EXPECT_TRUE(std::filesystem::exists(folder / "new"));
 }
 
 TEST(BenchCommand, RefusesAGateThatIsNoReport)

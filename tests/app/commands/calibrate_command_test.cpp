@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <set>
+#include <sstream>
 
 namespace palp
 {
@@ -43,6 +45,40 @@ TEST(CalibrateCommand, WritesATableThatFollowsHertzWithinTheBlocksStiffening)
   }
 }
 
+// the base that the block stands on, against the series of Lebedev and Ufliand for a layer on each
+TEST(CalibrateCommand, ABaseThatSlipsIsAsMuchSofterAsTheLayerSays)
+{
+  const auto calibrated = [](const std::string& base)
+  {
+    const auto folder = test::freshFolder();
+    const Finished finished = calibrate("--no-picture --material linear --depth 1:2:1mm --base " +
+      base + " --out " + folder.string());
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    return rowsOf(folder / "table.csv").at(1).values[2];
+  };
+  const auto ofLaw = [](const std::string& base)
+  {
+    const Finished finished = test::runCommand(PALP_PROGRAM
+      " force --law corrected --thickness 50mm --material linear --depth 2:2:1mm --base " +
+      base);
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    std::istringstream lines(finished.out);
+    double force = 0.0;
+    for (std::string line; std::getline(lines, line);)
+    {
+      if (const auto comma = line.find(','); std::isdigit(line[0]) != 0)
+      {
+        force = std::stod(line.substr(comma + 1));
+      }
+    }
+    return force;
+  };
+  const double softer = calibrated("slip") / calibrated("bonded");
+  EXPECT_LT(softer, 0.99);
+  EXPECT_NEAR(softer, ofLaw("slip") / ofLaw("bonded"), 0.01);
+  EXPECT_EQ(calibrate("--base loose --out nowhere").code, 2);
+}
+
 TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
 {
   const auto folder = test::freshFolder();
@@ -64,29 +100,17 @@ TEST(CalibrateCommand, InterruptedLeavesATableThatResumeCompletes)
   EXPECT_EQ(after[0].values, before[0].values);
 }
 
-TEST(CalibrateCommand, SweepRefusesAFolderThatCannotBeBeforeTheWork)
+// a sphere three quarters into a layer: what was reached is kept
+TEST(CalibrateCommand, EndsWithFiveWhereNoSurfaceFollowsTheTool)
 {
   const auto folder = test::freshFolder();
-  std::ofstream(folder / "second") << "a file where the second case wants its folder";
-  std::ofstream(folder / "cases.json") << R"([
-    {"name": "good", "young": "5kPa", "depth": "1:2:1mm"},
-    {"name": "second", "depth": "1:2:1mm"}])";
-  const std::string sweep =
-    "--sweep " + (folder / "cases.json").string() + " --out " + folder.string();
-  const Finished blocked = calibrate(sweep);
-  EXPECT_EQ(blocked.code, 2);
-  EXPECT_NE(blocked.err.find("second: cannot be written"), std::string::npos) << blocked.err;
-  EXPECT_FALSE(std::filesystem::exists(folder / "good"));
-
-  std::filesystem::remove(folder / "second");
-  const Finished finished = calibrate(sweep);
-  EXPECT_EQ(finished.code, 0);
-  EXPECT_NE(finished.err.find("good: done"), std::string::npos);
-  EXPECT_EQ(rowsOf(folder / "good" / "table.csv").size(), 2U);
-  for (const char* name : { "extent.png", "force.png", "profiles.png" })
-  {
-    EXPECT_TRUE(std::filesystem::exists(folder / "good" / name)) << name;
-  }
+  const Finished finished = test::runCommand(PALP_PROGRAM
+    " calibrate --no-picture --tip sphere:10mm --block 60x60x20mm --element-size 2mm "
+    "--depth 8:15.5:7.5mm --out " +
+    folder.string());
+  EXPECT_EQ(finished.code, 5) << finished.err;
+  EXPECT_NE(finished.err.find("1 of 2 depths are in"), std::string::npos) << finished.err;
+  EXPECT_EQ(rowsOf(folder / "table.csv").size(), 1U);
 }
 
 TEST(CalibrateCommand, ReplacesAnEarlierCalibrationOnlyWhenAsked)
@@ -113,48 +137,57 @@ TEST(CalibrateCommand, SaysHowLargeAToolAndAThresholdMayBe)
 }
 
 // also where a factorization of minutes has no place to ask
-TEST(CalibrateCommand, EndsSoonAfterATermInTheMiddleOfADepth)
+TEST(CalibrateCommand, TellsHowFarItIsAndEndsSoonAfterATermInTheMiddleOfADepth)
 {
   const auto folder = test::freshFolder();
-  const Finished stopped = test::runCommand("timeout -k 20 -s TERM 1 " PALP_PROGRAM
-                                            " calibrate --no-picture --element-size 0.05mm --out " +
-    folder.string() + "; code=$?; [ $code = 124 ] || exit $code");
-  EXPECT_EQ(stopped.code, 0); // by the TERM, not by the KILL 20 s later, which is 137
+  const std::string told = (folder / "told").string();
+  const Finished stopped =
+    test::runCommand(PALP_PROGRAM " calibrate --no-picture --element-size 0.05mm --out " +
+      (folder / "out").string() + " 2> " + told + " & running=$!; until [ -s " + told +
+      " ]; do sleep 0.05; done; kill -TERM $running; (sleep 20; kill -KILL $running) & wait "
+      "$running; code=$?; kill $!; cat " +
+      told + " >&2; exit $code");
+  EXPECT_EQ(stopped.code, 5); // by itself, not by the KILL 20 s later, which is 137
+  EXPECT_TRUE(stopped.err.starts_with("palp: 0 of 20 depths done, 2 s\n")) << stopped.err;
   EXPECT_NE(stopped.err.find("interrupted before the first depth"), std::string::npos)
     << stopped.err;
   EXPECT_EQ(stopped.err.find("--resume"), std::string::npos) << stopped.err;
 }
 
-TEST(CalibrateCommand, SweepsStayBelowOutAndSayWhatIsWrong)
+TEST(CalibrateCommand, SweepMakesTheTablesOfItsCasesAndKeepsThem)
 {
   const auto folder = test::freshFolder();
-  const auto file = folder / "sweep.json";
-  for (const char* bad :
-    { "{}", "[]", "null", "[3]", "[{", "3", R"([{"name": "../../esc"}])",
-      R"([{"name": "/tmp/esc"}])", R"([{"name": ".."}])", R"([{"name": ""}])", R"([{"name": 3}])",
-      R"([{"young": "5kPa"}])", R"([{"name": "a", "depth": 3}])", R"([{"name": "a", "size": "3"}])",
-      R"([{"name": "a"}, {"name": "a"}])", R"([{"name": "a", "young": "5kPa", "young": "9kPa"}])",
-      R"([{"name": "a", "young": 1e999}])" })
-  {
-    std::ofstream(file) << bad;
-    const Finished finished =
-      calibrate("--sweep " + file.string() + " --out " + (folder / "out").string());
-    EXPECT_EQ(finished.code, 2) << bad;
-    EXPECT_EQ(finished.err.find("exception"), std::string::npos) << finished.err;
-    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
-    EXPECT_FALSE(std::filesystem::exists(folder / "out")) << bad;
-  }
-}
+  std::ofstream(folder / "sweep.json") << R"({"palp_sweep": 1, "kind": "calibrate", "fixed":
+    {"depth": "1:2:1mm", "element-size": "1mm"}, "grid": {"young": ["5kPa", "20kPa"]}})";
+  const std::string out = (folder / "out").string();
+  const std::string sweep =
+    PALP_PROGRAM " calibrate --sweep " + (folder / "sweep.json").string() + " --out " + out;
+  const Finished first = test::runCommand(sweep + " --jobs 2");
+  ASSERT_EQ(first.code, 0) << first.err;
+  const Finished again = test::runCommand(sweep);
+  EXPECT_NE(again.err.find("0 cases computed, 2 were"), std::string::npos) << again.err;
 
-TEST(CalibrateCommand, ManyJobsAreNoMoreThanTheCases)
-{
-  const auto folder = test::freshFolder();
-  const auto file = folder / "sweep.json";
-  std::ofstream(file) << R"([{"name": "a", "depth": "1:1:1mm", "threshold": "0.2mm"}])";
-  const Finished finished = calibrate(
-    "--no-picture --jobs 99999 --sweep " + file.string() + " --out " + (folder / "out").string());
-  EXPECT_EQ(finished.code, 0) << finished.err;
-  EXPECT_EQ(rowsOf(folder / "out" / "a" / "table.csv").size(), 1U);
+  const auto table = [](const std::filesystem::path& file) // without the line that names the case
+  {
+    const std::string text = test::readAll(file);
+    return text.substr(text.find('\n'));
+  };
+  std::set<std::string> tables;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out + "/results"))
+  {
+    if (entry.path().filename() == "table.csv")
+    {
+      tables.insert(table(entry.path()));
+    }
+  }
+  std::set<std::string> alone;
+  for (const std::string young : { "5kPa", "20kPa" })
+  {
+    const std::string one = (folder / young).string();
+    ASSERT_EQ(calibrate("--no-picture --depth 1:2:1mm --young " + young + " --out " + one).code, 0);
+    alone.insert(table(one + "/table.csv"));
+  }
+  EXPECT_EQ(tables, alone);
 }
 
 TEST(CalibrateCommand, RefusesBadInputInOneLine)
@@ -164,7 +197,8 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine)
       "--block 100x100x50", "--material rubber", "--poisson 0.5", "--depth 0:90:1mm",
       "--model cube", "--tip punch:6mm --cap 0mm",
       "--tip truncated-cone:30deg:2mm:8mm --cap 0.01mm", "--sweep /no/such/file.json", "--jobs 2",
-      "--sweep /no/such/file.json --jobs 0", "--tables /no/such/folder --tip sphere:3mm" })
+      "--sweep extent --jobs 0", "--sweep extent --young 5kPa", "--sweep extent --resume",
+      "--sweep stiffness_map", "--tables /no/such/folder --tip sphere:3mm" })
   {
     const Finished finished = calibrate(bad);
     EXPECT_EQ(finished.code, 2) << bad;

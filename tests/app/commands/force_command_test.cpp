@@ -114,5 +114,54 @@ TEST(ForceCommand, HelpTeachesByExample)
   EXPECT_NE(finished.out.find("palp force --tip"), std::string::npos);
 }
 
+// rows of data/reference/nodule_offaxis.csv: linear finite elements
+TEST(ForceCommand, FeelsANoduleBesideTheTool)
+{
+  const std::string body = "force --tip sphere:10mm --young 50kPa --poisson 0.33 --law corrected "
+                           "--material linear --thickness 30mm ";
+  const auto at = [&](const std::string& options)
+  { return table(palp(body + "--depth 0:4:2mm " + options)); };
+  struct Row
+  {
+    const char* nodule;
+    std::size_t depth;
+    double force;
+    double lateral;
+  };
+  for (const Row& row : { Row{ "5mm:5mm:5", 1, 0.8561874, 0.0 },
+         { "5mm:5mm:5:5mm", 2, 2.405091, 0.0484034 }, { "5mm:5mm:5:10mm", 2, 2.280519, 0.026565 } })
+  {
+    const test::CsvTable felt = at(std::string("--nodule ") + row.nodule);
+    EXPECT_NEAR(felt["force_N"][row.depth], row.force, 0.01 * row.force);
+    EXPECT_NEAR(felt["lateral_force_N"][row.depth], row.lateral, 0.002 * row.force);
+  }
+  const test::CsvTable plain = at("");
+  EXPECT_EQ(plain.columns.count("factor_nodules"), 0U);
+  const test::CsvTable far = at("--nodule 5mm:5mm:5:200mm");
+  EXPECT_NEAR(far["force_N"][2], plain["force_N"][2], 1e-4 * plain["force_N"][2]);
+  EXPECT_GT(at("--nodule 5mm:5mm:5 --nodule 2mm:15.5mm:5")["force_N"][2],
+    at("--nodule 5mm:5mm:5")["force_N"][2]);
+}
+
+TEST(ForceCommand, RefusesNodulesThatCannotBe)
+{
+  const std::string corrected = "--law corrected --thickness 30mm ";
+  for (const std::string& wrong :
+    { std::string("--nodule 5mm:5mm:5"), std::string("--law exact --nodule 5mm:5mm:5"),
+      corrected + "--nodule 5mm:5mm", corrected + "--nodule 5:5mm:5",
+      corrected + "--nodule 5mm:5mm:0", corrected + "--nodule 5mm:5mm:-2",
+      corrected + "--nodule 5mm:5mm:nan", corrected + "--nodule 5mm:-1mm:5",
+      corrected + "--nodule 5mm:25mm:5", corrected + "--nodule 5mm:5mm:5:-3mm",
+      corrected + "--nodule 5mm:5mm:5:3mm:1", corrected + "--nodule 5mm:5mm:5 --nodule 3mm:12mm:5",
+      corrected + "--coating 2mm:50kPa:0.45 --nodule 5mm:5mm:5" })
+  {
+    const Finished refused = palp("force " + wrong);
+    EXPECT_EQ(refused.code, 2) << wrong;
+    EXPECT_NE(refused.err.find("--nodule"), std::string::npos) << refused.err;
+    EXPECT_TRUE(refused.out.empty()) << refused.out;
+  }
+  EXPECT_NE(palp("force --nodule 5mm:5mm:5").err.find("'paper'"), std::string::npos);
+}
+
 } // namespace
 } // namespace palp

@@ -126,7 +126,7 @@ protected:
   }
 
   test::TemporaryFolder folder_;
-  test::TemporaryFolder cases_;
+  test::TemporaryFolder made_; // what a command reads
   std::filesystem::path out_ = folder_.path() / "out";
 };
 
@@ -138,6 +138,26 @@ TEST_F(Killed, RunOfDataOnly)
 TEST_F(Killed, RunWithPictures)
 {
   killOften("run --plots force-time,section --plot-files png,csv");
+}
+
+TEST_F(Killed, RunAtPlaces)
+{
+  killOften("run --no-picture --at -48.5,38.4,39.5 --depth 3mm");
+}
+
+TEST_F(Killed, RunOfAFolderAgain)
+{
+  const std::string made = (made_.path() / "made").string();
+  ASSERT_EQ(test::runCommand(PALP_PROGRAM " run --no-picture --out " + made).code, 0);
+  killOften("run " + made);
+}
+
+TEST_F(Killed, Fit)
+{
+  const std::string curve = (made_.path() / "curve.csv").string();
+  ASSERT_EQ(
+    test::runCommand(PALP_PROGRAM " force --tip sphere:4mm --poisson 0.45 > " + curve).code, 0);
+  killOften("fit " + curve + " --tip sphere:4mm --poisson 0.45");
 }
 
 TEST_F(Killed, Scene)
@@ -168,30 +188,6 @@ bool isNewCase(const Files& files)
 TEST_F(Killed, Calibration)
 {
   killOften("calibrate --no-picture --element-size 1mm --depth 1:3:0.5mm", isNewCase);
-}
-
-// each case of its own
-TEST_F(Killed, Sweep)
-{
-  const std::filesystem::path cases = cases_.path() / "cases.json";
-  std::ofstream(cases) << R"([{"name": "soft", "young": "5kPa"}, {"name": "hard"}])";
-  const auto isWhole = [](const Files& files)
-  {
-    std::map<std::string, Files> folders;
-    for (const auto& [name, text] : files)
-    {
-      const std::size_t slash = name.find('/');
-      folders[name.substr(0, slash)][name.substr(slash + 1)] = text;
-    }
-    return std::ranges::all_of(folders,
-      [](const auto& folder)
-      {
-        const auto isOld = [](const auto& file) { return file.second.ends_with(kBefore); };
-        return isNewCase(folder.second) || std::ranges::all_of(folder.second, isOld);
-      });
-  };
-  killOften("calibrate --no-picture --element-size 1mm --depth 1:3:0.5mm --sweep " + cases.string(),
-    isWhole);
 }
 
 // minutes each, of which the last moment alone writes: what was there stays

@@ -73,7 +73,7 @@ TEST_F(OddInput, OfTextsIsRefused)
       expectRefused("run --no-picture --out out " + option + name);
     }
     expectRefused("force --tip profile:" + name);
-    expectRefused("calibrate --no-picture --out out --sweep " + name);
+    expectRefused("calibrate --out out --sweep " + name);
   }
   for (const char* file : { "/dev/zero", "odd.json", "folder", "folderodd.json", "absent.json" })
   {

@@ -30,6 +30,23 @@ TEST(Program, HelpsByWordAndNamesTheCommands)
   EXPECT_NE(palp("view /nonexistent.stl").err.find("/nonexistent.stl"), std::string::npos);
 }
 
+TEST(Program, IsRunByTheReadmesFirstCommand)
+{
+  const std::filesystem::path built = PALP_SOURCE_DIR "/.build/release/bin/palp";
+  if (!std::filesystem::exists(built) || !std::filesystem::equivalent(built, PALP_PROGRAM))
+  {
+    GTEST_SKIP() << "built elsewhere";
+  }
+  const test::TemporaryFolder folder;
+  const Finished finished = test::runCommand(
+    "cd " + folder.path().string() + " && " PALP_SOURCE_DIR "/app/run --headless --out x");
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  for (const char* file : { "samples.csv", "deformed.vtp", "press.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "x" / file)) << file;
+  }
+}
+
 TEST(Program, TellsOfARemovedFolderInOneSentence)
 {
   const test::TemporaryFolder folder;
@@ -86,6 +103,7 @@ TEST(Program, IsHardenedLikeAllBesideIt)
     EXPECT_NE(told.out.find("GNU_RELRO"), std::string::npos) << name;
     EXPECT_NE(told.out.find("BIND_NOW"), std::string::npos) << name;
     EXPECT_NE(told.out.find("__stack_chk_fail"), std::string::npos) << name;
+    EXPECT_TRUE(std::regex_search(told.out, std::regex("__[a-z]+_chk@"))) << name; // fortified
   }
 }
 

@@ -24,7 +24,7 @@ using namespace test;
 
 TEST_F(RunCommand, MeasuresHertzOnTheBlock)
 {
-  const Finished finished = press("--no-picture", "out");
+  const Finished finished = press("--no-picture --all-samples", "out");
   ASSERT_EQ(finished.code, 0) << finished.err;
   const test::CsvTable samples = test::readCsv(folder_.path() / "out/samples.csv");
 
@@ -49,7 +49,7 @@ TEST_F(RunCommand, PressesThroughACoating)
 {
   const std::string law =
     " --law corrected --material linear --young 50kPa --poisson 0.33 --coating 2mm:200kPa:0.4";
-  const Finished finished = press("--no-picture" + law, "out");
+  const Finished finished = press("--no-picture --all-samples" + law, "out");
   ASSERT_EQ(finished.code, 0) << finished.err;
   const auto file = folder_.path() / "out/samples.csv";
   EXPECT_NE(test::readAll(file).find("coated by 2mm:200kPa:0.4\n"), std::string::npos);
@@ -137,7 +137,7 @@ TEST_F(RunCommand, EachFactorFollowsFromItsPlace)
 
 TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)
 {
-  ASSERT_EQ(press("--no-picture", "out").code, 0);
+  ASSERT_EQ(press("--no-picture --all-samples", "out").code, 0);
   const std::filesystem::path file = folder_.path() / "out/samples.csv";
   const test::CsvTable samples = test::readCsv(file);
   Scene scene;
@@ -163,7 +163,7 @@ TEST_F(RunCommand, ThroughTheChainTheForceIsWhatTheArmOfThePaperBears)
   for (const char* young : { "20kPa", "1.5MPa" })
   {
     const Finished finished = palp("run " + block() + " --path " + path.string() +
-      " --chain --no-picture --overwrite --young " + young + " --out " +
+      " --chain --no-picture --all-samples --overwrite --young " + young + " --out " +
       (folder_.path() / "out").string());
     ASSERT_EQ(finished.code, 0) << finished.err;
     const test::CsvTable samples = test::readCsv(folder_.path() / "out/samples.csv");
@@ -218,6 +218,64 @@ TEST_F(RunCommand, WritesTheDeepestMomentInMillimeters)
     lowest = std::min(lowest, displacement->GetComponent(i, 2));
   }
   EXPECT_NEAR(lowest, -5.0, 0.3); // a mesh point need not lie right below the apex
+}
+
+// Fig. 5(b): from P0 on the sphere at r = sqrt(R depth) along its tangent to P1 at rest, then to P2
+// at R_d; all in mm
+double ringOfThePaper(double depth, double extent, double radius)
+{
+  const double r = std::sqrt(10.0 * depth);
+  const double height = std::sqrt(100.0 - r * r); // of the sphere's middle over P0
+  const double sink = depth - (10.0 - height);
+  const double meet = r + sink * height / r;
+  const double bend = r - 2.0 * meet + extent;
+  const double first = meet - r;
+  const double u = (std::sqrt(first * first + bend * (radius - r)) - first) / bend;
+  return sink * (1.0 - u) * (1.0 - u);
+}
+
+// as is to half of the radius, where the usual picture is the same, and by its name beyond
+TEST_F(RunCommand, DrawsThePapersRing)
+{
+  const double top = topMm();
+  double furthest = 0.0; // [mm] of the usual picture from the paper's 7 mm deep
+  for (const char* surface : { "paper", "paper-literal" })
+  {
+    for (const double depth : { 2.0, 5.0, 7.0, 8.0, 9.0 })
+    {
+      const std::string name = surface + std::to_string(depth);
+      std::ostringstream rows;
+      rows << "0,0,0," << top + 1.0 << "\n0.01,0,0," << top - depth << '\n';
+      const auto path = writePath(folder_.path(), rows.str().c_str());
+      const Finished finished = palp("run " + block() + " --no-picture --path " + path.string() +
+        " --surface " + surface + " --out " + (folder_.path() / name).string());
+      ASSERT_EQ(finished.code, 0) << finished.err;
+      const double extent =
+        test::readCsv(folder_.path() / name / "samples.csv")["extent_radius_mm"].back();
+      vtkNew<vtkXMLPolyDataReader> reader;
+      reader->SetFileName((folder_.path() / name / "deformed.vtp").c_str());
+      reader->Update();
+      vtkPolyData* mesh = reader->GetOutput();
+      vtkDataArray* displacement = mesh->GetPointData()->GetArray("Displacement");
+      int compared = 0;
+      for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+      {
+        const double* point = mesh->GetPoint(i);
+        const double radius = std::hypot(point[0], point[1]);
+        const double sunk = -displacement->GetComponent(i, 2);
+        if (point[2] + sunk > top - 0.01 && radius > std::sqrt(10.0 * depth) && radius < extent)
+        {
+          const double off = std::abs(sunk - ringOfThePaper(depth, extent, radius));
+          const bool isTheirs = depth < 5.5 || name.starts_with("paper-literal");
+          EXPECT_LE(off, isTheirs ? 0.001 : 2.0) << name << " at " << radius;
+          furthest = std::max(furthest, isTheirs ? 0.0 : off);
+          ++compared;
+        }
+      }
+      EXPECT_GE(compared, 12) << name;
+    }
+  }
+  EXPECT_GT(furthest, 0.05); // or the name means nothing
 }
 
 // damping adds to the law's force: nothing is cut then

@@ -117,6 +117,40 @@ TEST_F(SceneCommand, AnAddedPartAddsOnlyItself)
 }
 
 // no library talks in between, in colors of a terminal
+// as palp force answers for the same nodule, which is compared with finite elements
+TEST_F(SceneCommand, FeelsANoduleInTheBody)
+{
+  const std::filesystem::path file = folder_.path() / "nodule.json";
+  const auto press = [&](const std::string& nodules)
+  {
+    std::ofstream(file) << R"({"palp_scene": 1, "meshes": [{"bundled": "block_50", "nodules": [)"
+                        << nodules << R"(]}], "law": {"mode": "corrected", "material": "linear"},
+      "device": "path:)" PALP_SHARE R"(/paths/block_press.csv", "dent": {"surface": "none"},
+      "plots": [], "exports": ["samples"]})";
+    return scene(file.string());
+  };
+  const auto deepest = [](const test::CsvTable& table)
+  { return *std::max_element(table["force_N"].begin(), table["force_N"].end()); };
+  ASSERT_EQ(press("").code, 0);
+  const test::CsvTable plain = samples();
+  EXPECT_EQ(plain.columns.count("factor_nodules"), 0U);
+  ASSERT_EQ(press(R"({"center": ["0mm", "0mm", "-10mm"], "radius": "5mm", "ratio": 5})").code, 0);
+  const test::CsvTable felt = samples();
+  std::istringstream answer(test::runCommand(PALP_PROGRAM
+    " force --tip sphere:10mm --young 50kPa --poisson 0.33 --law corrected --material linear "
+    "--thickness 50mm --nodule 5mm:5mm:5 --depth 10:10:1mm")
+                              .out);
+  const double expected = test::parseCsv(answer)["force_N"][0];
+  EXPECT_NEAR(deepest(felt), expected, 1e-3 * expected);
+  EXPECT_GT(deepest(felt), 1.03 * deepest(plain));
+  EXPECT_NEAR(felt["factor_nodules"].front(), 1.0, 1e-12);
+
+  const Finished outside =
+    press(R"({"center": ["0mm", "0mm", "10mm"], "radius": "5mm", "ratio": 5})");
+  EXPECT_EQ(outside.code, 2);
+  EXPECT_NE(outside.err.find("nodules/0"), std::string::npos) << outside.err;
+}
+
 TEST_F(SceneCommand, SpeaksInItsOwnWordsAlone)
 {
   const Finished finished = scene("paper_block");

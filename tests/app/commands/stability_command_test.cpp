@@ -158,7 +158,8 @@ TEST(DevicesCommand, TellsEachKindAndRefusesWhatIsNoDevice)
     EXPECT_NE(listed.out.find(sentence), std::string::npos) << listed.out;
   }
   const std::pair<const char*, int> refused[] = { { "nothing", 2 }, { "wooden", 2 },
-    { "phd1:/dev/nowhere", 3 }, { "wooden:/dev/nowhere,/nowhere.conf", 2 } };
+    { "phd1:/dev/nowhere", 3 }, { "phd1:/dev/null", 3 },
+    { "wooden:/dev/nowhere,/nowhere.conf", 2 } };
   for (const auto& [name, code] : refused)
   {
     const test::Finished finished =

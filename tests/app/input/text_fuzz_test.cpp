@@ -1,7 +1,7 @@
-#include "app/commands/calibrate_case.h"
 #include "app/input/force_curve.h"
-#include "app/input/scene_file.h"
 #include "app/input/tip_text.h"
+#include "app/scene/scene_file.h"
+#include "app/sweep/sweep_file.h"
 #include "calibration/tables/extent_table.h"
 #include "calibration/tables/surface_table.h"
 #include "haptics/devices/simulated/scripted_path.h"
@@ -81,7 +81,7 @@ void takeScene(const std::string& file)
 
 void takeSweep(const std::string& file)
 {
-  (void)readSweep(file, {});
+  (void)readSweepFile(file);
 }
 
 const std::string kData = PALP_SOURCE_DIR "/data/";
@@ -162,21 +162,23 @@ std::vector<Fuzzed> fuzzedJson()
   ofScenes.push_back(replaced("version", "(\"palp_scene\": )1", "$012", "palp_scene"));
   ofScenes.push_back(replaced("unit", "kPa\"", "kPq\"", "/tissue"));
   ofScenes.push_back(replaced("tool", "\"sphere", "\"spore", "/tool"));
-  const std::string sweep =
-    R"([{"name": "soft", "young": "5kPa"}, {"name": "hard", "young": "80kPa", "tip": "cone:45deg:10mm"}])";
   std::vector<Fault> ofSweeps = ofJson;
-  ofSweeps.push_back(replaced("key", "young", "old", "no setting"));
-  ofSweeps.push_back(replaced("name", "\"hard\"", "\"../hard\"", "no folder can have"));
-  ofSweeps.push_back(replaced("twice", "\"hard\"", "\"soft\"", "another"));
-  ofSweeps.push_back(replaced("type", "\"5kPa\"", "5", "no text"));
-  return {
-    { .file = "scene.json",
-      .whole = { scene, readAll(kData + "scenes/thin_lobe.json") },
-      .faults = ofScenes,
+  ofSweeps.push_back(
+    replaced("key", "\"(fixed|grid|plots|from|title)\"", "\"x$1\"", "unknown key|no number"));
+  ofSweeps.push_back(replaced("version", "(\"palp_sweep\": )1", "$012", "palp_sweep"));
+  ofSweeps.push_back(replaced("kind", "\"(calibrate|run)\"", "\"$1s\"", "/kind"));
+  ofSweeps.push_back(replaced("type", "(\"grid\": )", "$1[1], \"other\": ", "must be an object"));
+  return { { .file = "scene.json",
+             .whole = { scene, readAll(kData + "scenes/thin_lobe.json") },
+             .faults = ofScenes,
+             .read = {},
+             .take = takeScene },
+    { .file = "sweep.json",
+      .whole = { readAll(kData + "sweeps/extent.json"),
+        readAll(kData + "sweeps/stiffness_map.json") },
+      .faults = ofSweeps,
       .read = {},
-      .take = takeScene },
-    { .file = "sweep.json", .whole = { sweep }, .faults = ofSweeps, .read = {}, .take = takeSweep }
-  };
+      .take = takeSweep } };
 }
 
 // every kind of text that the program reads itself

@@ -117,6 +117,31 @@ TEST(LoadCalibration, SaysWhereAFittedSurfaceIsOfAnotherBody)
   EXPECT_NE(load(SphereTip{ 8.0_mm }, options).note.find("3 %"), std::string::npos);
 }
 
+// each by itself: a body of the size of a liver, a lean of a degree, half of the thickness, an edge
+TEST(LoadCalibration, SaysWhereAFittedSurfaceIsOnAnotherPlace)
+{
+  PressOptions options;
+  options.dent.surface = DentSurface::Fitted;
+  const Calibration fitted = load(SphereTip{ 10.0_mm }, options);
+  const Contact block{ .depth = 5.0_mm, .thickness = 50.0_mm, .edgeDistance = 50.0_mm };
+  EXPECT_TRUE(fitted.fits(block));
+  const auto changed = [&](auto Contact::*part, double value)
+  {
+    Contact other = block;
+    other.*part = value;
+    return other;
+  };
+  EXPECT_FALSE(fitted.fits(changed(&Contact::surfaceCurvature, 1.0 / 80.0_mm)));
+  EXPECT_FALSE(fitted.fits(changed(&Contact::surfaceCurvature, -1.0 / 80.0_mm)));
+  EXPECT_FALSE(fitted.fits(changed(&Contact::curvatureSpread, 1.0 / 80.0_mm)));
+  EXPECT_FALSE(fitted.fits(changed(&Contact::tilt, 1.0_deg)));
+  EXPECT_FALSE(fitted.fits(changed(&Contact::thickness, 25.0_mm)));
+  EXPECT_FALSE(fitted.fits(changed(&Contact::thickness, 1.0)));
+  EXPECT_FALSE(fitted.fits(changed(&Contact::edgeDistance, 20.0_mm)));
+  EXPECT_TRUE(load(SphereTip{ 10.0_mm }).fits(changed(&Contact::tilt, 1.0_deg))) << "not fitted";
+  EXPECT_TRUE(fitted.fits(Contact{})) << "apart";
+}
+
 TEST(LoadCalibration, KnowsNothingOfCoatedTissueButByItsOwnTable)
 {
   LawSettings settings{ .mode = LawMode::Corrected };

@@ -180,6 +180,8 @@ int expectSound(const test::PointerBench& bench, const Surface& surface, const s
 {
   int touching = 0;
   EXPECT_LT(bench.excess(), kAllowed) << where;
+  testing::Test::RecordProperty(
+    "excess_mm " + where.substr(0, 40), std::to_string(units::toMillimeters(bench.excess())));
   for (std::size_t i = 1; i < bench.ticks.size(); ++i)
   {
     const Contact& contact = bench.ticks[i].sample.contact;

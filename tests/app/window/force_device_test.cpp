@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace palp
 {
@@ -19,8 +20,7 @@ using test::WindowTest;
 TEST_F(WindowTest, TheSimulatedHandYieldsToTheForceUntilItIsStopped)
 {
   window_->findChild<QComboBox*>("device")->setCurrentText("hand");
-  pressWithForce(300);
-  const Sample felt = session_->newest();
+  const Sample felt = pressWithForce(300);
   EXPECT_GT(felt.contact.depth, 0.5e-3);
   EXPECT_LT(felt.contact.depth, 14e-3) << describeFlags(felt.flags); // asked for 16 mm
   EXPECT_GT(felt.force.norm(), 0.1) << describe(felt.state) << ": " << describeFlags(felt.flags);
@@ -38,7 +38,7 @@ TEST_F(WindowTest, ShowsThatTheHandFeelsLessThanTheLawAsksForAndWhy)
   type("young", "1GPa");
   const auto* limits = window_->findChild<QLabel*>("limits");
   bool told = false;
-  pressWithForce(100);
+  std::ignore = pressWithForce(100);
   EXPECT_TRUE(QTest::qWaitFor(
     [&] { return told = told || limits->text().contains("stiffness limited"); }, kPatience))
     << limits->text().toStdString();

@@ -1,6 +1,7 @@
 #include "tests/app/window/window_rig.h"
 
 #include <QAction>
+#include <QDockWidget>
 #include <QLabel>
 #include <QRegularExpression>
 #include <QWheelEvent>
@@ -177,6 +178,30 @@ TEST_F(WindowTest, AllReadingsAreOfOneSample)
 }
 
 // while the servo thread goes on
+// how often a widget's part of the window is drawn, and the window with it
+class PaintCount final : public QObject
+{
+public:
+  explicit PaintCount(QWidget* watched)
+  {
+    watched->installEventFilter(this);
+  }
+  [[nodiscard]] int within(int milliseconds)
+  {
+    painted_ = 0;
+    QTest::qWait(milliseconds);
+    return painted_;
+  }
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    painted_ += event->type() == QEvent::Paint ? 1 : 0;
+    return QObject::eventFilter(watched, event);
+  }
+
+private:
+  int painted_ = 0;
+};
+
 TEST_F(WindowTest, AnUntouchedWindowDrawsAndRecordsNothing)
 {
   window_->findChild<QAction*>("plotsAction")->setChecked(true);
@@ -189,6 +214,10 @@ TEST_F(WindowTest, AnUntouchedWindowDrawsAndRecordsNothing)
   const std::size_t recorded = session_->recording().samples.size();
   const std::uint64_t ticks = session_->timing().ticks;
   EXPECT_EQ(picturesIn(1500), 0);
+  window_->findChild<QDockWidget*>("Diagnostics")->show();
+  PaintCount timing(window_->findChild<QLabel*>("timing"));
+  const auto idles = [&] { return timing.within(2500) == 0; };
+  EXPECT_TRUE(QTest::qWaitFor(idles, kPatience)) << "the times that always change a little";
   EXPECT_EQ(session_->recording().samples.size(), recorded);
   EXPECT_GT(session_->timing().ticks, ticks + 100);
   EXPECT_FALSE(std::isnan(session_->newest().time));

@@ -1,4 +1,4 @@
-#include "app/panels/plot_panel.h"
+#include "app/graphs/plot_panel.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/window/window_rig.h"
 #include "tests/support/csv_table.h"
@@ -100,6 +100,7 @@ TEST_F(WindowTest, ThisPressIsNotTheDeepestOfTheRecording)
   }
   EXPECT_GT(deepest, 2.0);
   EXPECT_LT(deepest, 4.0);
+  RecordProperty("depth_mm", std::to_string(deepest));
 }
 
 TEST_F(WindowTest, SavesTheCurvesForPrintAndSaysSo)
@@ -129,7 +130,38 @@ TEST_F(WindowTest, ExportsWhatWasMeasured)
   ASSERT_GT(force.size(), 100u); // rest is not recorded
   EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peakForce(), 1e-12);
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "deformed.vtp"));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
+  for (const char* name : { "servo.csv", "scene.json", "presses.csv", "provenance.json",
+         "press.png", "force_time.png", "force_depth.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / name)) << name;
+  }
+}
+
+// by the command that anybody can give, in another process
+TEST_F(WindowTest, WhatItExportsIsRepeatedToTheByte)
+{
+  type("young", "33.3");
+  press(100);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return peakForce() > 0.5; }, kPatience));
+  release();
+  EXPECT_TRUE(waitForLift());
+  const std::filesystem::path first = folder_.path() / "first";
+  const std::filesystem::path again = folder_.path() / "again";
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(first.string())));
+  const test::Finished run =
+    test::runCommand(PALP_PROGRAM " run " + first.string() + " --out " + again.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("repeated to the byte"), std::string::npos) << run.err;
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(first))
+  {
+    const auto other = again / entry.path().filename();
+    EXPECT_TRUE(test::readAll(entry.path()) == test::readAll(other)) << other;
+    ++count;
+  }
+  EXPECT_EQ(count, 9U);
+  const test::CsvTable samples = test::readCsv(first / "samples.csv");
+  EXPECT_LE(std::ranges::count(samples["depth_mm"], 0.0), 4); // contact only
 }
 
 TEST_F(WindowTest, ExportsTheDentAsFineAsInThePicture)
@@ -141,6 +173,8 @@ TEST_F(WindowTest, ExportsTheDentAsFineAsInThePicture)
   {
     const auto folder = folder_.path() / name;
     EXPECT_TRUE(window_->exportData(QString::fromStdString(folder.string())));
+    const QString said = window_->statusBar()->currentMessage();
+    EXPECT_TRUE(said.contains(name)) << said.toStdString();
     return readSurface(folder / "deformed.vtp").mesh->GetNumberOfPoints();
   };
   EXPECT_EQ(pointsOfExport("as it is"), session_->body().display->GetNumberOfPoints());

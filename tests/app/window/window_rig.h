@@ -6,6 +6,7 @@
 #include "tests/support/process.h"
 
 #include <QAbstractSpinBox>
+#include <QDeadlineTimer>
 #include <QMessageBox>
 #include <QTest>
 #include <QTimer>
@@ -94,12 +95,14 @@ protected:
     QTest::mouseRelease(canvas_, Qt::LeftButton);
   }
 
-  // by the simulated hand, which a machine under load deprives of its force until it is asked for
-  // again, and felt whole once the tool has lifted
-  void pressWithForce(int pixelsDown)
+  // by the simulated hand, until it rests with its whole force; a machine under load deprives it of
+  // that by a late tick, and then it has to lift, and to be asked for again
+  Sample pressWithForce(int pixelsDown)
   {
+    const QDeadlineTimer patience(4 * kPatience);
     press(pixelsDown, true);
-    for (int again = 0; again < kAttempts && !isFelt(session_->newest()); ++again)
+    Sample felt = session_->newest();
+    while (!isFelt(felt) && !patience.hasExpired())
     {
       release();
       EXPECT_TRUE(waitForLift());
@@ -109,13 +112,15 @@ protected:
         QTest::qWaitFor([this, now] { return session_->newest().time > now + 0.05; }, kPatience));
       session_->arm(true);
       press(pixelsDown, true);
+      felt = session_->newest();
     }
+    return felt;
   }
 
   [[nodiscard]] static bool isFelt(const Sample& sample)
   {
-    return sample.state == DeviceState::Active && !has(sample, Flag::Rebased) &&
-      !has(sample, Flag::WatchdogExpired);
+    return sample.state == DeviceState::Active && sample.contact.touching() &&
+      !has(sample, Flag::Rebased) && !has(sample, Flag::WatchdogExpired);
   }
 
   // of the message that work ends in, which is closed

@@ -1,11 +1,14 @@
-#include "app/input/scene_file.h"
+#include "app/scene/scene_file.h"
 
 #include "app/input/coating_text.h"
+#include "app/input/force_curve.h"
 #include "app/input/json_object.h"
 #include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "app/program/data_files.h"
+#include "app/scene/scene_entries.h"
+#include "app/scene/scene_motion.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
@@ -14,7 +17,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 
 namespace palp
 {
@@ -23,78 +25,24 @@ namespace
 
 using namespace units::literals;
 
-const std::vector<std::string> kOverlays{ "force-arrow", "contact-circle", "extent-circle",
-  "displacement-colors", "readings", "pressure-colors", "validity-colors", "control-net",
-  "ghost" }; // in the order of Overlay
-static_assert(kOverlayCount == 9);
-const std::vector<std::string> kExports{ "samples", "deformed", "picture", "refined" };
-
-// the message of an option, "--young: what", told of a place in the document instead; a place that
-// ends in a slash goes on with the option's name
-template <typename Check>
-void checkAt(const JsonObject& object, std::string path, Check check)
+void readFrame(JsonObject object, MeshSource& mesh)
 {
-  try
-  {
-    check();
-  }
-  catch (const Error& error)
-  {
-    const std::string message = error.what();
-    const std::size_t end = message.starts_with("--") ? message.find(": ") : 0;
-    if (path.ends_with('/'))
-    {
-      path = end > 0 ? path + message.substr(2, end - 2) : path.substr(0, path.size() - 1);
-    }
-    object.refuse(path, message.substr(end > 0 ? end + 2 : 0));
-  }
-}
-
-// what stands under a key, if anything does, through the parser of its option
-template <typename Parse>
-void parseAt(JsonObject& object, const char* key, Parse parse,
-  std::string (JsonObject::*read)(const char*, const std::string&) = &JsonObject::text)
-{
-  if (object.has(key))
-  {
-    const std::string text = (object.*read)(key, "");
-    checkAt(object, key, [&] { parse(text); });
-  }
-}
-
-Eigen::Vector3d triple(JsonObject& object, const char* key, Quantity quantity, const Bounds& bounds)
-{
-  const std::vector<std::string> words = object.texts(key, {});
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();
-  if (words.empty())
-  {
-    return value;
-  }
-  if (words.size() != 3)
-  {
-    object.refuse(key, "must be three quantities, along or about x, y and z");
-  }
-  checkAt(object, key,
-    [&]
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        value[i] = parseWithin(words[static_cast<std::size_t>(i)], quantity, bounds, "--entry");
-      }
-    });
-  return value;
-}
-
-Eigen::Isometry3d readFrame(JsonObject object)
-{
-  const Eigen::Vector3d origin =
-    triple(object, "origin", Quantity::Length, { -10.0, 10.0, "-10m to 10m" }); // as far as a path
-  const Eigen::Vector3d angles =
+  mesh.origin = triple(object, "origin", Quantity::Length, kSceneReach);
+  mesh.rotation =
     triple(object, "rotation", Quantity::Angle, { -360.0_deg, 360.0_deg, "-360deg to 360deg" });
   object.finish();
-  using Turn = Eigen::AngleAxisd;
-  return Eigen::Translation3d(origin) * Turn(angles.z(), Eigen::Vector3d::UnitZ()) *
-    Turn(angles.y(), Eigen::Vector3d::UnitY()) * Turn(angles.x(), Eigen::Vector3d::UnitX());
+}
+
+PlacedNodule readNodule(JsonObject object)
+{
+  PlacedNodule nodule{ triple(object, "center", Quantity::Length, kSceneReach), 0.0, 0.0 };
+  const std::string radius = object.text("radius", "");
+  checkAt(
+    object, "radius", [&] { nodule.radius = parseQuantity(radius, Quantity::Length, "--radius"); });
+  const std::string ratio = object.number("ratio", "");
+  checkAt(object, "ratio", [&] { nodule.ratio = parseNumber(ratio, "--ratio"); });
+  object.finish();
+  return nodule;
 }
 
 MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
@@ -115,7 +63,11 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
     [&](const std::string& text) { mesh.part.labels = parseNumbers(text, "--label"); },
     &JsonObject::number);
   parseAt(object, "unit", [&](const std::string& text) { mesh.unit = parseUnit(text); });
-  mesh.frame = readFrame(object.object("frame"));
+  readFrame(object.object("frame"), mesh);
+  for (const JsonObject& nodule : object.objects("nodules"))
+  {
+    mesh.nodules.push_back(readNodule(nodule));
+  }
   object.finish();
   if (mesh.bundled.empty() == file.empty())
   {
@@ -141,18 +93,14 @@ void readTissue(JsonObject object, PressOptions& press)
     object, "poisson",
     [&](const std::string& text) { tissue.poisson = parseNumber(text, "--poisson"); },
     &JsonObject::number);
+  parseAt(object, "relaxation",
+    [&](const std::string& text) { tissue.options.relaxation = parseRelaxation(text); });
+  parseAt(
+    object, "friction",
+    [&](const std::string& text) { tissue.options.friction = parseFriction(text); },
+    &JsonObject::number);
   parseAt(object, "damping", [&](const std::string& text) { press.damping = parseDamping(text); });
   object.finish();
-}
-
-// one word for a value of an enumeration
-template <typename Enum>
-void readChoice(JsonObject& object, const char* key, const Words& words, Enum& value)
-{
-  if (object.has(key))
-  {
-    value = static_cast<Enum>(object.choice(key, object.text(key, ""), words));
-  }
 }
 
 void readLaw(JsonObject object, ScenePlan& plan)
@@ -180,24 +128,13 @@ void readDent(JsonObject object, ScenePlan& plan, const std::filesystem::path& f
   dent.table = table.empty() ? std::filesystem::path{} : (folder / table).lexically_normal();
 }
 
-// words of a list as what they stand for
-template <typename Kind>
-std::vector<Kind> kinds(JsonObject& object, const char* key, const std::vector<std::string>& words)
-{
-  std::vector<Kind> list;
-  for (const std::string& word : object.texts(key, {}))
-  {
-    list.push_back(static_cast<Kind>(object.choice(key, word, words)));
-  }
-  return list;
-}
-
 void readExports(JsonObject& object, ScenePlan& plan)
 {
   const auto wanted = kinds<int>(object, "exports", kExports);
   const auto has = [&](int which)
   { return std::find(wanted.begin(), wanted.end(), which) != wanted.end(); };
-  plan.samples = has(0);
+  plan.allSamples = has(4);
+  plan.samples = has(0) || plan.allSamples;
   plan.refined = has(3);
   plan.deformed = has(1) || plan.refined;
   plan.picture = has(2);
@@ -205,31 +142,17 @@ void readExports(JsonObject& object, ScenePlan& plan)
   checkAt(object, "size", [&] { plan.size = parseSize(size, "--size"); });
 }
 
-void readDevice(JsonObject& object, ScenePlan& plan, const std::filesystem::path& folder)
-{
-  const std::string name = object.text("device", "mouse");
-  plan.device = parseDevice(name);
-  const bool scripted = plan.device.isScript();
-  if (scripted && plan.device.file.empty())
-  {
-    object.refuse("device", inQuotes(name) + " names no file; write " + name + "FILE.csv");
-  }
-  if (scripted)
-  {
-    plan.device = parseDevice(
-      name.substr(0, name.find(':') + 1) + (folder / plan.device.file).lexically_normal().string());
-  }
-  plan.deadMan = object.flag("dead_man", false);
-  plan.window = object.flag("window", !scripted);
-  if (!plan.window && !scripted)
-  {
-    object.refuse("window", inQuotes(plan.device.name) + " moves in a window only; give true");
-  }
-}
-
 // what stands in one part and is needed by another
 void checkTogether(const JsonObject& object, const ScenePlan& plan)
 {
+  const LawOptions& law = plan.press.tissue.options;
+  const bool nodules =
+    std::ranges::any_of(plan.meshes, [](const MeshSource& mesh) { return !mesh.nodules.empty(); });
+  if (nodules && (law.mode != LawMode::Corrected || !law.coatings.empty()))
+  {
+    object.refuse("meshes",
+      "nodules take the law 'corrected' and no coating; give these, or leave the nodules out");
+  }
   if (!plan.dents() && (plan.window || plan.deformed || plan.picture))
   {
     object.refuse("dent",
@@ -264,7 +187,7 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
     meshes.push_back(readMesh(mesh, folder));
   }
   plan.meshes = meshes;
-  readDevice(object, plan, folder); // first: what follows depends on the window
+  readMotion(object, plan, folder); // first: what follows depends on the window
   readTissue(object.object("tissue"), plan.press);
   parseAt(object, "tool", [&](const std::string& text) { plan.press.tissue.tip = parseTip(text); });
   readLaw(object.object("law"), plan);
@@ -274,6 +197,20 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
     plan.overlays = kinds<Overlay>(object, "overlays", kOverlays);
   }
   plan.plots = kinds<PlotKind>(object, "plots", kPlotNames);
+  plan.plotFiles = object.texts("plot_files", plan.plotFiles);
+  for (const std::string& ending : plan.plotFiles)
+  {
+    (void)object.choice("plot_files", ending, kPlotEndings);
+  }
+  for (const std::string& file : object.texts("references", {}))
+  {
+    plan.referenceFiles.push_back((folder / file).lexically_normal());
+    plan.references.push_back(readForceCurve(plan.referenceFiles.back()));
+  }
+  if (object.has("camera"))
+  {
+    plan.camera = readCamera(object.object("camera"));
+  }
   readExports(object, plan);
   object.finish();
   if (meshes.empty())
@@ -313,12 +250,7 @@ ScenePlan parseScene(const std::string& text, const std::filesystem::path& file)
 {
   const std::string name = file.filename().string();
   const nlohmann::json document = parseJson(text, name);
-  ScenePlan plan = readPlan({ document, name }, file.parent_path());
-  if (plan.name.empty())
-  {
-    plan.name = name;
-  }
-  return plan;
+  return readPlan({ document, name }, file.parent_path());
 }
 
 ScenePlan readScene(const std::string& name)

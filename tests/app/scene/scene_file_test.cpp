@@ -1,4 +1,4 @@
-#include "app/input/scene_file.h"
+#include "app/scene/scene_file.h"
 
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -68,7 +68,7 @@ TEST_F(SceneFile, PlacesASurfaceByTurnsAboutFixedAxesAndAShift)
   json document = least();
   document["meshes"][0]["frame"] = { { "origin", { "10mm", "0mm", "-2cm" } },
     { "rotation", { "90deg", "0deg", "90deg" } } };
-  const Eigen::Isometry3d frame = parse(document).meshes[0].frame;
+  const Eigen::Isometry3d frame = parse(document).meshes[0].frame();
   // y goes to z about x, and stays there about z; x goes to y about z
   EXPECT_TRUE((frame * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d(0.01, 0.0, 0.98), 1e-12));
   EXPECT_TRUE(
@@ -94,6 +94,8 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
     { R"({"tissue": {"damping": "-1N*s/m"}})", "mine.json: /tissue/damping: " },
     { R"({"tissue": {"coating": "2mm:50kPa:0.45"}})", "mine.json: /tissue/" },
     { R"({"tissue": {"coating": "2mm"}, "law": {"mode": "corrected"}})", "mine.json: /tissue/" },
+    { R"({"tissue": {"relaxation": "0.5:1s"}})", "mine.json: /tissue/relaxation: the law 'paper'" },
+    { R"({"tissue": {"friction": -1}})", "mine.json: /tissue/friction: '-1' is out of range" },
     { R"({"tissue": []})", "mine.json: /tissue: must be an object" },
     { R"({"tool": "hammer:1mm"})", "mine.json: /tool: " },
     { R"({"law": {"mode": "guess"}})", "mine.json: /law/mode: 'guess' is not known; give paper" },

@@ -1,0 +1,186 @@
+#include "app/bench/bench_sweep.h"
+
+#include "app/sweep/case_folders.h"
+#include "app/sweep/cases/case_process.h"
+#include "app/sweep/cases/merge.h"
+#include "app/sweep/cases/runner.h"
+#include "app/sweep/cases/status.h"
+#include "app/sweep/plan.h"
+#include "haptics/error.h"
+#include "haptics/files/prefix.h"
+#include "haptics/files/replace_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <iomanip>
+#include <memory>
+#include <numeric>
+#include <ostream>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+
+namespace palp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kTools = 10; // of the varied ones
+
+double secondsOf(const std::function<void()>& work)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// most that this process held so far [MB]
+long memory()
+{
+  rusage used = {};
+  getrusage(RUSAGE_SELF, &used);
+  return used.ru_maxrss * 1024 / 1'000'000;
+}
+
+SweepAxis numbered(const std::string& name, const std::string& begin, std::size_t count)
+{
+  SweepAxis axis{ { name }, {} };
+  for (std::size_t i = 1; i <= count; ++i)
+  {
+    axis.rows.push_back({ begin + std::to_string(i) + (name == "young" ? "kPa" : "mm") });
+  }
+  return axis;
+}
+
+// values that palp takes, so that nothing has to check them
+Manifest planned(const fs::path& folder, const Sweep& sweep)
+{
+  const CommandOptions known{ { "young", "tip", "depth", "element-size" }, {} };
+  planSweep(
+    sweep, fs::current_path(), known, [](const auto&) {}, folder);
+  return Manifest(folder);
+}
+
+void simulateResults(Manifest& manifest)
+{
+  const CaseFolders folders{ manifest.folder() };
+  manifest.forEach(
+    [&](const PlannedCase& one)
+    {
+      const fs::path place = folders.result(one.name);
+      fs::create_directories(place);
+      std::ofstream(place / "force.csv")
+        << "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm\n1,0.1" << one.number
+        << ",2.23606797749979,0.2509334505105813\n";
+      std::ofstream(place / kCaseFile) << R"({"seconds": 2.0, "memory_MiB": 8})";
+      if (!std::ofstream(place / kLogFile))
+      {
+        refuseFile(place, errno);
+      }
+    });
+}
+
+void reportMany(std::ostream& out, const fs::path& folder, std::size_t count)
+{
+  const Sweep sweep{ .title = "many",
+    .kind = "force",
+    .fixed = { { "depth", "1:1:1mm" } },
+    .axes = {
+      numbered("young", "", (count + kTools - 1) / kTools), numbered("tip", "sphere:", kTools) } };
+  const double plan = secondsOf([&] { (void)planned(folder, sweep); });
+  Manifest manifest(folder);
+  out << "plan of " << sweep.count() << " cases: " << plan << " s, " << memory() << " MB\n";
+  out << "simulated in " << secondsOf([&] { simulateResults(manifest); }) << " s\n";
+  out << "status: " << secondsOf([&] { (void)statusOf(manifest); }) << " s, " << memory()
+      << " MB\n";
+  for (const char* name : { "all.csv", "all.vtt" })
+  {
+    out << "merge into " << name << ": "
+        << secondsOf([&] { mergeResults(manifest, {}, folder / name); }) << " s, " << memory()
+        << " MB\n";
+  }
+  std::ptrdiff_t most = 0;
+  for (const auto& part : fs::directory_iterator(CaseFolders{ folder }.results()))
+  {
+    most = std::max(most, std::distance(fs::directory_iterator(part), {}));
+  }
+  out << "most entries in a folder: " << std::max<std::ptrdiff_t>(most, 4096) << '\n';
+}
+
+// the commands of all cases, one after the other
+void runAlone(Manifest& manifest)
+{
+  manifest.forEach(
+    [&](const PlannedCase& one)
+    {
+      const SweepHead& head = manifest.head();
+      auto words = caseWords(head.kind, optionsOf(head, one.values), head.flags);
+      words.insert(words.begin(), (prefix() / "bin/palp").string());
+      if (head.kind == "calibrate")
+      {
+        words.insert(words.end(),
+          { "--no-picture", "--out=" + (manifest.folder() / "alone" / one.name).string() });
+      }
+      int status = 0;
+      const pid_t process = startProcess(words, "/dev/null", manifest.folder() / "alone.txt");
+      if (waitpid(process, &status, 0) != process || status != 0)
+      {
+        throw Error(ErrorCode::NoSolution, lastWords(manifest.folder() / "alone.txt", status));
+      }
+    });
+}
+
+double secondsBy(Manifest& manifest, unsigned jobs)
+{
+  std::vector<std::size_t> numbers(manifest.head().count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  fs::remove_all(CaseFolders{ manifest.folder() }.results());
+  return secondsOf([&] { (void)runCases(manifest, numbers, jobs); });
+}
+
+void reportFew(std::ostream& out, const fs::path& folder, std::size_t count)
+{
+  Sweep sweep{ .title = "short",
+    .kind = "force",
+    .fixed = { { "depth", "1:1:1mm" } },
+    .axes = { numbered("young", "", count) } };
+  Manifest brief = planned(folder / "brief", sweep);
+  (void)secondsBy(brief, 1); // the program comes from the disk
+  const double alone = secondsOf([&] { runAlone(brief); });
+  const double swept = secondsBy(brief, 1);
+  const auto cases = static_cast<double>(count);
+  out << count << " forces: " << alone << " s by themselves, " << swept
+      << " s as a sweep: " << 1e3 * (swept - alone) / cases << " ms a case\n";
+
+  sweep.kind = "calibrate";
+  sweep.fixed = { { "depth", "0.5:3:0.5mm" }, { "element-size", "1mm" } };
+  Manifest longer = planned(folder / "longer", sweep);
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  const double one = secondsBy(longer, 1);
+  const double all = secondsBy(longer, cores);
+  out << count << " calibrations: " << one << " s by one process, " << all << " s by " << cores
+      << ": " << one / all << " times as fast\n";
+}
+
+} // namespace
+
+void reportSweep(std::ostream& out, const fs::path& folder, const BenchedSweep& count)
+{
+  std::error_code failed;
+  if (!fs::create_directory(folder, failed))
+  {
+    throw Error(ErrorCode::BadFile,
+      folder.string() + ": is there or cannot be made; give a folder that is new");
+  }
+  const auto clean = [](const fs::path* made) { fs::remove_all(*made); };
+  const std::unique_ptr<const fs::path, decltype(clean)> cleaned(&folder, clean);
+  out << std::setprecision(3);
+  reportFew(out, folder, count.computed);
+  reportMany(out, folder / "many", count.planned);
+}
+
+} // namespace palp

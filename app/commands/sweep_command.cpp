@@ -1,0 +1,322 @@
+#include "app/commands/case_parser.h"
+#include "app/commands/commands.h"
+#include "app/commands/renderer.h"
+#include "app/program/exec_program.h"
+#include "app/sweep/case_folders.h"
+#include "app/sweep/cases/merge.h"
+#include "app/sweep/cases/runner.h"
+#include "app/sweep/cases/schedulers.h"
+#include "app/sweep/cases/status.h"
+#include "app/sweep/cases/sweep_figures.h"
+#include "app/sweep/plan.h"
+#include "app/sweep/sweep_file.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/files/output_folder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+namespace palp
+{
+namespace
+{
+
+struct SweepOptions
+{
+  std::string file;
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path out;
+  std::optional<std::size_t> number;
+  std::string shard;
+  std::size_t chunk = 1;
+  std::size_t pilot = 0;
+  std::size_t tasks = kMostTasks;
+  unsigned jobs = 1;
+  MergeOptions merge;
+  bool slurm = false;
+  bool parallel = false;
+  bool plots = false;
+};
+
+// "2/4" as the cases 1, 5, 9, ...
+std::vector<std::size_t> shardOf(const std::string& text, std::size_t count)
+{
+  std::size_t part = 0;
+  std::size_t parts = 0;
+  const char* end = text.data() + text.size();
+  const auto [slash, first] = std::from_chars(text.data(), end, part);
+  const bool apart = first == std::errc{} && slash != end && *slash == '/';
+  const auto last = apart ? std::from_chars(slash + 1, end, parts) : std::from_chars_result{};
+  if (!apart || last.ec != std::errc{} || last.ptr != end || part < 1 || part > parts)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--shard: " + inQuotes(text) + " is no part of a whole; give 1/4 to 4/4 for four of them");
+  }
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = part - 1; i < count; i += parts)
+  {
+    numbers.push_back(i);
+  }
+  return numbers;
+}
+
+std::optional<std::size_t> arrayTask()
+{
+  const char* text = std::getenv("SLURM_ARRAY_TASK_ID"); // NOLINT(concurrency-mt-unsafe)
+  return text == nullptr ? std::nullopt : std::optional(std::strtoull(text, nullptr, 10));
+}
+
+std::vector<std::size_t> numbersOf(const SweepOptions& options, std::size_t count)
+{
+  if (!options.shard.empty())
+  {
+    return shardOf(options.shard, count);
+  }
+  const auto task = options.number ? options.number : arrayTask();
+  const std::size_t chunks = (count + options.chunk - 1) / options.chunk;
+  if (task && *task >= chunks)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--case: there is no case " + std::to_string(*task) + "; give 0 to " +
+        std::to_string(chunks - 1));
+  }
+  const std::size_t begin = task ? *task * options.chunk : 0;
+  const std::size_t end = task ? std::min(count, begin + options.chunk) : count;
+  std::vector<std::size_t> numbers(end - begin);
+  std::iota(numbers.begin(), numbers.end(), begin);
+  return numbers;
+}
+
+void refuseFailed(const RunOutcome& outcome, const std::filesystem::path& folder)
+{
+  if (!outcome.failed.empty())
+  {
+    throw Error(ErrorCode::NoSolution,
+      std::to_string(outcome.failed.size()) + " cases failed, case " +
+        std::to_string(outcome.failed.front()) + " for one; palp sweep status " + folder.string() +
+        " tells why, the same command tries them again");
+  }
+}
+
+void run(Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs)
+{
+  const RunOutcome outcome = runCases(manifest, numbers, jobs);
+  refuseFailed(outcome, manifest.folder());
+  std::cerr << "palp: " << outcome.computed << " cases computed, " << outcome.before
+            << " were finished before\n";
+}
+
+void writeSlurmScript(const SweepOptions& options)
+{
+  Manifest manifest(options.folder);
+  const PlannedCase pilot = manifest.at(options.pilot);
+  refuseFailed(runCases(manifest, { options.pilot }, 1), options.folder);
+  const std::filesystem::path folder = CaseFolders{ options.folder }.result(pilot.name);
+  const auto cost = costOf(folder);
+  if (!cost)
+  {
+    throw Error(ErrorCode::BadFile,
+      (folder / kCaseFile).string() + ": is damaged; remove its folder and plan again");
+  }
+  const auto script = writeSlurm(options.folder,
+    { .count = manifest.head().count,
+      .tasks = options.tasks,
+      .seconds = cost->seconds,
+      .memory = cost->memory });
+  std::cerr << "palp: sbatch " << quoted(script.string()) << '\n';
+}
+
+void planInto(
+  const std::filesystem::path& folder, const Sweep& sweep, const std::filesystem::path& beside)
+{
+  CaseParser parser(sweep.kind);
+  const PlanTold told = planSweep(
+    sweep, beside, parser.options(),
+    [&](const std::vector<std::string>& words) { parser.check(words); }, folder);
+  std::cerr << "palp: " << told.count << " cases are planned in " << folder.string() << ", "
+            << told.done << " of them done\n";
+}
+
+std::filesystem::path folderOf(const std::string& file)
+{
+  return std::filesystem::absolute(sweepFile(file)).parent_path();
+}
+
+void plan(const SweepOptions& options)
+{
+  const Sweep sweep = readSweepFile(options.file);
+  planInto(options.folder, sweep, folderOf(options.file));
+  if (options.slurm)
+  {
+    writeSlurmScript(options);
+  }
+  if (options.parallel)
+  {
+    const auto script = writeParallel(options.folder, sweep.count());
+    std::cerr << "palp: sh " << quoted(script.string()) << " -j 2\n";
+  }
+}
+
+// NAME.png of each, in place of those before
+void draw(const SweepFigures& drawn, const std::filesystem::path& folder, const Renderer& pictures)
+{
+  std::vector<std::string> names;
+  for (const figures::Figure& figure : drawn.figures)
+  {
+    names.push_back(figure.name + ".png");
+  }
+  OutputFolder output(folder.empty() ? "." : folder, names, OutputFolder::Earlier::Keep);
+  pictures.drawFigures(drawn.figures, drawn.tables, figures::Layout::Alone, output.stage());
+  output.publish();
+}
+
+void merge(const SweepOptions& options, const Renderer* pictures)
+{
+  if (options.plots && !pictures)
+  {
+    execProgram("palp-draw");
+  }
+  Manifest manifest(options.folders.front());
+  MergeOptions how = options.merge;
+  how.others.assign(options.folders.begin() + 1, options.folders.end());
+  const Merged merged = mergeResults(manifest, how, options.out);
+  if (options.plots)
+  {
+    draw(sweepFigures(manifest, how), options.out.parent_path(), *pictures);
+  }
+  std::cerr << "palp: " << merged.cases << " cases, " << merged.rows << " rows are in "
+            << options.out.string() << '\n';
+}
+
+void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
+{
+  CLI::App* command = sweep.add_subcommand("plan", "Write the cases of a SWEEP.json into a folder");
+  command->add_option("SWEEP", options->file, "Sweep (JSON), or the name of a shipped one")
+    ->required();
+  command->add_option("DIR", options->folder, "Folder of the sweep; what it holds is kept")
+    ->required();
+  command->add_flag("--slurm", options->slurm,
+    "Run a pilot case, and write a job array for Slurm by what it took: DIR/sweep.sbatch");
+  command->add_option("--pilot", options->pilot, "The pilot case; take a long one")
+    ->capture_default_str();
+  command
+    ->add_option("--tasks", options->tasks,
+      "Most tasks of the array, less than MaxArraySize of the cluster; each takes several cases "
+      "where there are more")
+    ->check(CLI::Range(std::size_t{ 1 }, kMostCases))
+    ->capture_default_str();
+  command->add_flag(
+    "--parallel", options->parallel, "Write the line for GNU parallel: DIR/parallel.sh");
+  command->footer("data/sweeps/sweep.schema.json describes the file.\n"
+                  "Examples:\n"
+                  "  palp sweep plan SWEEP.json DIR\n"
+                  "  palp sweep plan extent DIR --slurm; sbatch DIR/sweep.sbatch\n"
+                  "  palp sweep plan extent DIR --parallel; sh DIR/parallel.sh -j 8");
+  command->callback([options] { plan(*options); });
+}
+
+void addRun(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
+{
+  CLI::App* command = sweep.add_subcommand(
+    "run", "Compute cases that are not finished: one, a part, or all that are planned");
+  command->add_option("DIR", options->folder, "Folder of the sweep")->required();
+  CLI::Option* number = command->add_option(
+    "--case", options->number, "One case, from 0; SLURM_ARRAY_TASK_ID where that is set");
+  command->add_option("--shard", options->shard, "A part of all, 2/4 for the second of four")
+    ->excludes(number);
+  command
+    ->add_option("--chunk", options->chunk,
+      "That many cases in a row instead of one, those of --case 2 after those of --case 1")
+    ->check(CLI::Range(std::size_t{ 1 }, kMostCases))
+    ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Cases at a time, each a process")
+    ->check(CLI::Range(1, 10'000))
+    ->capture_default_str();
+  command->footer(
+    "A finished case is never computed again; one that failed is tried again.\n"
+    "Examples:\n"
+    "  palp sweep run DIR --jobs 2                 all of it on this machine\n"
+    "  palp sweep run DIR --shard 1/2              half of it; the other half elsewhere\n"
+    "  palp sweep run DIR --case 17                one case\n"
+    "  sbatch --array=0-119 --requeue --wrap \"palp sweep run DIR\"\n"
+    "  seq 0 119 | parallel --joblog DIR/log --resume-failed palp sweep run DIR --case {}");
+  command->callback(
+    [options]
+    {
+      Manifest manifest(options->folder);
+      run(manifest, numbersOf(*options, manifest.head().count), options->jobs);
+    });
+}
+
+void addMerge(
+  CLI::App& sweep, const std::shared_ptr<SweepOptions>& options, const Renderer* pictures)
+{
+  CLI::App* command =
+    sweep.add_subcommand("merge", "All results as one table: what was varied, and what came out");
+  command
+    ->add_option(
+      "DIR", options->folders, "Folder of the sweep, and others with results of the same")
+    ->required();
+  command->add_option("--out", options->out, "Table to write, .csv or .vtt (VTK); replaced")
+    ->required();
+  command->add_option("--largest", options->merge.largest,
+    "Of each case only the row in which this column is largest");
+  command->add_flag("--partial", options->merge.partial, "Leave out the cases that have no result");
+  command->add_flag("--plots", options->plots, "Draw the plots of the SWEEP.json beside --out");
+  command->footer("Examples:\n"
+                  "  palp sweep merge DIR --out all.csv\n"
+                  "  palp sweep merge DIR --out peaks.vtt --largest force_N\n"
+                  "  palp sweep merge HERE THERE --out all.csv --plots");
+  command->callback([options, pictures] { merge(*options, pictures); });
+}
+
+} // namespace
+
+void runCalibrations(const std::string& file, const std::filesystem::path& folder, unsigned jobs)
+{
+  const Sweep sweep = readSweepFile(file);
+  if (sweep.kind != "calibrate")
+  {
+    throw Error(ErrorCode::BadFile,
+      "--sweep: " + inQuotes(file) + " is of palp " + sweep.kind + "; give it to palp sweep plan");
+  }
+  planInto(folder, sweep, folderOf(file));
+  Manifest manifest(folder);
+  std::vector<std::size_t> numbers(sweep.count());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  run(manifest, numbers, jobs);
+}
+
+void addSweepCommand(CLI::App& app, const Renderer* pictures)
+{
+  auto options = std::make_shared<SweepOptions>();
+  CLI::App* command =
+    app.add_subcommand("sweep", "Many cases of calibrate, force or run, on one machine or many");
+  command->require_subcommand(1);
+  addPlan(*command, options);
+  addRun(*command, options);
+  CLI::App* status = command->add_subcommand("status", "How far a sweep is, and what failed");
+  status->add_option("DIR", options->folder, "Folder of the sweep")->required();
+  status->callback(
+    [options]
+    {
+      Manifest manifest(options->folder);
+      std::cout << describe(statusOf(manifest), manifest.head());
+    });
+  addMerge(*command, options, pictures);
+  command->footer("Examples:\n"
+                  "  palp sweep plan extent DIR\n"
+                  "  palp sweep run DIR --jobs 2\n"
+                  "  palp sweep status DIR\n"
+                  "  palp sweep merge DIR --out all.csv");
+}
+
+} // namespace palp

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "app/input/mesh_file.h"
+#include "app/input/scene_plan.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+struct Recording;
+
+/// What an export folder tells of itself: scene.json, from which all else there follows, and
+/// provenance.json.
+struct ExportFolder
+{
+  std::filesystem::path folder{};
+  ScenePlan plan{};
+  std::string version{};           ///< of the program that wrote it
+  std::string command{};           ///< that made it, as for a shell
+  std::string device{};            ///< that held the tool
+  std::vector<MeshFile> inputs{};  ///< name and hash of what it was made from
+  std::vector<MeshFile> outputs{}; ///< and of what it holds
+};
+
+/// The names of all files that an export may leave.
+[[nodiscard]] std::vector<std::string> exportFiles();
+
+/// Whether a path names a folder with a scene.json.
+[[nodiscard]] bool isExport(const std::filesystem::path& folder);
+
+/// @throws Error  BadFile: a file is missing, is none of this kind, or as readScene
+[[nodiscard]] ExportFolder readExport(const std::filesystem::path& folder);
+
+/// Writes scene.json and the path that it names, path.csv.
+///
+/// @param stage   where the files wait
+/// @param path    text of the plan's path; empty where it has none
+/// @throws Error  BadFile: cannot be written
+void writeScene(const std::filesystem::path& stage, ScenePlan plan, const std::string& path);
+
+/// Writes provenance.json, of what the stage holds: last.
+///
+/// @throws Error  BadFile: cannot be read or written
+void writeProvenance(
+  const std::filesystem::path& stage, const ScenePlan& plan, const Recording& recording);
+
+/// Refuses to repeat what was made from other files.
+/// @throws Error  BadFile: names the first that has changed
+void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recording& recording);
+
+/// The files that differ from what the folder says they were, as words; empty: none.
+/// @param stage  what was made anew
+[[nodiscard]] std::string differences(const ExportFolder& made, const std::filesystem::path& stage);
+
+} // namespace palp

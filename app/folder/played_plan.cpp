@@ -1,0 +1,65 @@
+#include "app/folder/played_plan.h"
+
+#include "app/places/placed_press.h"
+#include "app/press/playback.h"
+#include "app/press/recorded_rows.h"
+
+namespace palp
+{
+
+void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* path)
+{
+  const std::string& device = plan.device.name;
+  if (plan.recording)
+  {
+    recording.device = plan.recording->device;
+    recording.names = plan.recording->names;
+    readRows(recording, plan.recording->file);
+  }
+  else if (plan.presses)
+  {
+    recording.device = "given places";
+    for (const PressPlace& place : plan.presses->places)
+    {
+      recording.names.push_back(place.name);
+    }
+    recording.samples =
+      playEach(pathsOf(*plan.presses, recording.scene), recording.scene, plan.chain);
+  }
+  else if (path)
+  {
+    recording.device =
+      device.substr(0, device.find(':') + 1) + plan.device.file.filename().string();
+    recording.samples = play(*path, recording.scene, plan.chain);
+  }
+  if (!plan.allSamples)
+  {
+    keepContact(recording);
+  }
+}
+
+ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording& recording)
+{
+  const ForceLaw& law = recording.scene.law;
+  const LawSettings& settings = law.settings();
+  ScenePlan plan = opened;
+  plan.meshes = body.sources;
+  plan.press.tissue = { .tip = law.tip(),
+    .young = law.material().youngModulus,
+    .poisson = law.material().poissonRatio,
+    .options = { .mode = settings.mode,
+      .base = settings.base,
+      .constitution = settings.constitution,
+      .coatings = settings.coatings,
+      .rated = recording.rated } };
+  plan.press.contact = recording.scene.rule;
+  plan.press.damping = recording.scene.damping;
+  plan.validity = recording.rated;
+  plan.device = {};
+  plan.recording = RecordedPress{ .device = recording.device, .names = recording.names };
+  plan.chain = false;
+  plan.window = false;
+  return plan;
+}
+
+} // namespace palp

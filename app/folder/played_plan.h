@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/input/scene_plan.h"
+#include "app/press/body.h"
+#include "app/press/recording.h"
+#include "haptics/devices/simulated/scripted_path.h"
+
+namespace palp
+{
+
+/// Presses as a plan says, in simulated time: at its places, along its path, or once more as it was
+/// recorded; and leaves the samples that the plan exports.
+///
+/// @param recording  its scene is pressed; its device, names and samples are filled
+/// @param path       of the plan's device; null where it has places or a recording
+/// @throws Error     as pathsOf, play, readRows
+void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* path);
+
+/// The plan by which a live recording is repeated and drawn: its body, tool, tissue and law.
+///
+/// @param opened  of the window: what a recording does not tell
+[[nodiscard]] ScenePlan planOf(
+  const ScenePlan& opened, const SceneBody& body, const Recording& recording);
+
+} // namespace palp

@@ -1,0 +1,50 @@
+#include "app/panels/diagnostics_panel.h"
+
+#include <chrono>
+
+namespace palp
+{
+namespace
+{
+
+QString microseconds(Histogram::Duration duration)
+{
+  using Micro = std::chrono::duration<double, std::micro>;
+  return QString::number(Micro(duration).count(), 'f', 1);
+}
+
+QString timingRow(const QString& name, const Histogram& histogram)
+{
+  QString row = "<tr><td>" + name + "</td>";
+  for (const double fraction : { 0.5, 0.99, 0.999 })
+  {
+    row += "<td align=right>&nbsp;" + microseconds(histogram.quantile(fraction)) + "</td>";
+  }
+  return row + "<td align=right>&nbsp;" + microseconds(histogram.longest()) + "</td></tr>";
+}
+
+} // namespace
+
+DiagnosticsPanel::DiagnosticsPanel(QWidget* parent)
+  : QLabel(parent)
+{
+  setObjectName("timing");
+  setWordWrap(true);
+  setTextFormat(Qt::RichText);
+  setAlignment(Qt::AlignTop);
+}
+
+void DiagnosticsPanel::show(const Timing& timing, const std::string& schedule)
+{
+  const auto ticks = timing.ticks.load();
+  const auto late = timing.skipped.load();
+  const auto elapsed = static_cast<double>(ticks + late);
+  const double rate = elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0;
+  setText(tr("Servo %1 Hz, %2 late ticks<br>").arg(rate, 0, 'f', 0).arg(late) +
+    tr("<b>Times</b> [µs]<table><tr><td></td><td>&nbsp;p50</td><td>&nbsp;p99</td>"
+       "<td>&nbsp;p99.9</td><td>&nbsp;max</td></tr>") +
+    timingRow(tr("late by"), timing.lateness) + timingRow(tr("step"), timing.step) + "</table>" +
+    QString::fromStdString(schedule));
+}
+
+} // namespace palp

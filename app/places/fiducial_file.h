@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/input/press_places.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace palp
+{
+
+/// The points of a list of 3D Slicer, in its order, in LPS: the axes in which 3D Slicer saves its
+/// models and Palp reads images. A list in RAS, by its header, has x and y turned round. The labels
+/// become names; points without a position are left out.
+///
+/// @param file    .fcsv or .mrk.json
+/// @throws Error  BadFile: unreadable, another ending, no point, no axes stated or others than LPS
+///                and RAS, not millimeters; names the line or the key
+[[nodiscard]] std::vector<PressPlace> readFiducials(const std::filesystem::path& file);
+
+} // namespace palp

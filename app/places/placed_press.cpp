@@ -1,0 +1,196 @@
+#include "app/places/placed_press.h"
+
+#include "app/input/quantity.h"
+#include "haptics/contact/find_contact.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/numerics/roots.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/ray.h"
+#include "haptics/surface/surface_point.h"
+#include "haptics/tip/tip.h"
+#include "haptics/units.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr double kAbove = 1.0_mm; // of the tool before and after
+constexpr double kRest = 0.1;     // at the depth [s]
+
+std::string inWords(const Eigen::Vector3d& place)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << units::toMillimeters(place.x()) << "," << units::toMillimeters(place.y()) << ","
+       << units::toMillimeters(place.z());
+  return text.str();
+}
+
+[[noreturn]] void refusePlace(const PressPlace& place, const std::string& what)
+{
+  const std::string name = place.name.empty() ? "" : printable(place.name) + ", ";
+  throw Error(ErrorCode::BadValue, "the place " + name + inWords(place.position) + " mm: " + what);
+}
+
+struct OnTriangle
+{
+  int triangle;
+  Eigen::Vector3d position;
+};
+
+// where the line from the place first meets the surface
+OnTriangle alongLine(const PressPlace& place, const Eigen::Vector3d& toward, const Surface& surface)
+{
+  const Eigen::Vector3d direction = toward.normalized();
+  const RayHit hit = rayEntry(surface.tree(), place.position, direction);
+  if (hit.triangle < 0)
+  {
+    refusePlace(place,
+      "the line from there along --toward does not meet the surface from outside; move it, or turn "
+      "it around");
+  }
+  return { hit.triangle, place.position + hit.distance * direction };
+}
+
+OnTriangle ontoSurface(const PressPlace& place, const Surface& surface)
+{
+  const ClosestPoint nearest =
+    findClosestPoint(surface, place.position, std::numeric_limits<double>::infinity());
+  const double off = (nearest.point - place.position).norm();
+  if (!(off <= kFarthestPlace))
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << units::toMillimeters(off) << " mm off the surface, whose nearest point is "
+         << inWords(nearest.point) << " mm; give a place within "
+         << units::toMillimeters(kFarthestPlace) << " mm of it, in the frame of the mesh";
+    refusePlace(place, text.str());
+  }
+  return { nearest.triangle, nearest.point };
+}
+
+// The normal that the tool feels at its depth. Those of a triangle's corners, as of a picture, lean
+// over the edges of a body of few triangles, and would lead the tool aside.
+SurfacePoint feltPoint(const OnTriangle& place, double depth, const Scene& scene)
+{
+  const Surface& surface = *scene.surface;
+  const Triangle& corners = surface.triangles()[static_cast<std::size_t>(place.triangle)];
+  const auto corner = [&](std::size_t k)
+  { return surface.points()[static_cast<std::size_t>(corners[k])]; };
+  const Eigen::Vector3d facet = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+  const Contact contact = findContact(surface, scene.law.tip(),
+    { .apex = place.position - depth * facet, .axis = -facet }, ContactRule::Exact);
+  const bool isInFront = contact.normal.dot(facet) > 0.0; // not through to the other side
+  return { place.position, isInFront ? contact.normal : facet };
+}
+
+// a tool that is moved along the inward normal, by a travel from the place on
+class Descent
+{
+public:
+  Descent(const Scene& scene, const SurfacePoint& point)
+    : scene_(scene)
+    , point_(point)
+  {
+  }
+
+  [[nodiscard]] Eigen::Vector3d apexAt(double travel) const
+  {
+    return point_.position - travel * point_.normal;
+  }
+
+  [[nodiscard]] double depthAt(double travel) const noexcept
+  {
+    return findContact(*scene_.surface, scene_.law.tip(),
+      { .apex = apexAt(travel), .axis = -point_.normal }, scene_.rule)
+      .depth;
+  }
+
+  // the last travel at which the tool is free; nothing: it is nowhere near
+  [[nodiscard]] std::optional<double> freeAt() const
+  {
+    const double farthest = -2.0 * baseRadius(scene_.law.tip());
+    double travel = 0.0;
+    while (depthAt(travel) > 0.0 && travel >= farthest)
+    {
+      travel -= kAbove;
+    }
+    const bool isFree = !(depthAt(travel) > 0.0) && !(depthAt(travel - kAbove) > 0.0);
+    return isFree ? std::optional(travel) : std::nullopt;
+  }
+
+  // where a contact gets as deep as asked; nothing: the tool cannot get that deep
+  [[nodiscard]] std::optional<double> travelTo(double depth, double from) const
+  {
+    double high = depth;
+    while (!(depthAt(high) >= depth))
+    {
+      high += 0.25 * depth;
+      if (high > 2.0 * depth + kAbove)
+      {
+        return std::nullopt;
+      }
+    }
+    constexpr int kHalvings = 60;
+    return bisect([&](double travel) { return depthAt(travel) < depth; }, { from, high }, kHalvings)
+      .high;
+  }
+
+private:
+  const Scene& scene_;
+  SurfacePoint point_;
+};
+
+ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+{
+  const SurfacePoint point =
+    feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
+                             : ontoSurface(place, *scene.surface),
+      presses.depth, scene);
+  const double thickness = rayExit(scene.surface->tree(), point.position, -point.normal).distance;
+  if (presses.depth > 0.5 * thickness)
+  {
+    refusePlace(place,
+      "a depth of " + quantityText(presses.depth, Quantity::Length) + " is more than half of the " +
+        units::inMillimeters(thickness) + " that the body is thick there; give less");
+  }
+  const Descent descent(scene, point);
+  const std::optional<double> free = descent.freeAt();
+  const std::optional<double> bottom = free ? descent.travelTo(presses.depth, *free) : std::nullopt;
+  if (!bottom)
+  {
+    refusePlace(place, "the tool does not fit there; give another place, or a smaller tool");
+  }
+  const double start = *free - kAbove;
+  const double down = (*bottom - start) / presses.speed;
+  std::vector<PathKnot> knots;
+  for (const auto& [time, travel] : { std::pair(0.0, start), std::pair(down, *bottom),
+         std::pair(down + kRest, *bottom), std::pair(2.0 * down + kRest, start) })
+  {
+    knots.push_back({ .time = time, .apex = descent.apexAt(travel), .axis = -point.normal });
+  }
+  return ScriptedPath(std::move(knots));
+}
+
+} // namespace
+
+std::vector<ScriptedPath> pathsOf(const PlacedPresses& presses, const Scene& scene)
+{
+  std::vector<ScriptedPath> paths;
+  for (const PressPlace& place : presses.places)
+  {
+    paths.push_back(pathOf(place, presses, scene));
+  }
+  return paths;
+}
+
+} // namespace palp

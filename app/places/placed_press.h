@@ -1,0 +1,23 @@
+#pragma once
+
+#include "app/input/press_places.h"
+#include "haptics/devices/simulated/scripted_path.h"
+#include "haptics/servo/scene.h"
+
+#include <vector>
+
+namespace palp
+{
+
+constexpr double kFarthestPlace = 5e-3; ///< of a place that is meant to be on the surface [m]
+
+/// The motion of each press: from 1 mm above the surface along the inward normal of the point that
+/// is nearest to the place, until the contact is as deep as asked; 0.1 s of rest; and back. Begins
+/// at time 0.
+///
+/// @param scene   with the surface and the tool
+/// @throws Error  BadValue: names the place; too far off the surface, deeper than half the body's
+///                thickness there, or the tool does not fit there
+[[nodiscard]] std::vector<ScriptedPath> pathsOf(const PlacedPresses& presses, const Scene& scene);
+
+} // namespace palp

@@ -1,0 +1,132 @@
+#include "app/plots/press_figure.h"
+
+#include "app/input/law_options.h"
+#include "app/input/tip_text.h"
+#include "haptics/units.h"
+#include "pipeline/charts/plot_files.h"
+#include "pipeline/figure/orientation.h"
+#include "pipeline/figure/scale_bar.h"
+#include "pipeline/view/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+namespace palp
+{
+namespace
+{
+
+// a sample takes 8 bytes of color and depth
+int samplesOf(double pixels)
+{
+  constexpr double kMost = 48e6; // samples
+  return pixels * 8.0 <= kMost ? 8 : pixels * 4.0 <= kMost ? 4 : 0;
+}
+
+// pens have their width in pixels
+void widenLines(vtkRenderer& renderer, double scale)
+{
+  vtkActorCollection& actors = *renderer.GetActors();
+  actors.InitTraversal();
+  while (vtkActor* actor = actors.GetNextActor())
+  {
+    vtkProperty& property = *actor->GetProperty();
+    property.SetLineWidth(static_cast<float>(scale * property.GetLineWidth()));
+  }
+}
+
+void addCaption(vtkRenderer& renderer, const std::string& caption, double scale)
+{
+  constexpr double kMargin = 16.0; // [pixels]
+  vtkNew<vtkTextActor> text;
+  text->SetInput(caption.c_str());
+  appearance::setFont(*text->GetTextProperty(), 14);
+  text->GetTextProperty()->SetVerticalJustificationToTop();
+  text->SetPosition(kMargin * scale, renderer.GetSize()[1] - kMargin * scale);
+  renderer.AddActor2D(text);
+}
+
+} // namespace
+
+void showMoment(PressView& view, const PressMoment& moment)
+{
+  view.setSurface(moment.body.display);
+  view.setTip(moment.law.tip());
+  view.setExtents(moment.calibration.extents);
+  view.setStyle(moment.calibration.style);
+  view.setLaw(moment.law);
+  view.show(moment.sample);
+}
+
+bool isPatient(const SceneBody& body)
+{
+  const auto isLps = [](const MeshFile& file) { return frameOf(file) == "LPS" && !file.moved; };
+  return !body.files.empty() && std::all_of(body.files.begin(), body.files.end(), isLps);
+}
+
+std::string captionOf(const PressMoment& moment)
+{
+  const Material& tissue = moment.law.material();
+  const auto number = [](double value, int decimals)
+  { return appearance::fixedText(value, decimals); };
+  return moment.body.name + ", " + describeTip(moment.law.tip()) +
+    ", E = " + number(units::toKilopascals(tissue.youngModulus), 1) +
+    " kPa, \u03bd = " + number(tissue.poissonRatio, 2) + ", " + describeLaw(moment.law.settings()) +
+    "\ndepth " + number(units::toMillimeters(moment.sample.contact.depth), 2) + " mm, force " +
+    number(moment.sample.response.force, 2) + " N";
+}
+
+int dpiOf(ImageSize size)
+{
+  constexpr ImageSize kUsual{}; // whose letters are those of a screen
+  const double area = static_cast<double>(size.width) * size.height / kUsual.width / kUsual.height;
+  return static_cast<int>(std::lround(appearance::kDpi * std::max(1.0, std::sqrt(area))));
+}
+
+void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
+  const std::function<void(PressView& view, vtkRenderer& renderer)>& look,
+  const std::filesystem::path& file)
+{
+  const ImageSize size{ .width = window.GetSize()[0], .height = window.GetSize()[1] };
+  const int samples = samplesOf(static_cast<double>(size.width) * size.height);
+  const int dpi = dpiOf(size);
+  const double scale = dpi / appearance::kDpi;
+  window.SetMultiSamples(samples);
+  window.SetDPI(dpi);
+  vtkNew<vtkRenderer> renderer;
+  window.AddRenderer(renderer);
+  PressView view(*renderer);
+  Orientation orientation(*renderer);
+  orientation.setPatient(isPatient(moment.body));
+  orientation.setVisible(figure.hasAxes);
+  ScaleBar bar(*renderer);
+  bar.setVisible(figure.hasScaleBar);
+  view.setVisible(figure.overlays);
+  view.setColorBar(figure.hasColorBar);
+  renderer->SetUseFXAA(samples == 0);
+  widenLines(*renderer, scale);
+  showMoment(view, moment);
+  look(view, *renderer);
+  if (figure.hasCaption)
+  {
+    addCaption(*renderer, captionOf(moment), scale);
+  }
+  if (figure.isTransparent)
+  {
+    renderer->GradientBackgroundOff();
+    renderer->SetBackground(0.0, 0.0, 0.0);
+    renderer->SetBackgroundAlpha(0.0);
+  }
+  writePng(window, file, figure.isTransparent ? Background::Transparent : Background::Opaque);
+  window.RemoveRenderer(renderer);
+}
+
+} // namespace palp

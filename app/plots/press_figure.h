@@ -1,0 +1,62 @@
+#pragma once
+
+#include "app/input/scene_plan.h"
+#include "app/press/body.h"
+#include "app/press/calibration.h"
+#include "haptics/servo/sample.h"
+#include "pipeline/model/overlay.h"
+#include "pipeline/view/press_view.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkRenderWindow;
+
+namespace palp
+{
+
+/// A press at one moment, to be drawn.
+struct PressMoment
+{
+  const SceneBody& body;
+  const ForceLaw& law;
+  const Calibration& calibration;
+  const Sample& sample;
+};
+
+/// What a figure of it has beside the body, the tool and their dent.
+struct FigureLook
+{
+  bool isTransparent = false; ///< no background
+  bool hasColorBar = true;
+  bool hasAxes = false;     ///< those of the scene, by the patient's sides where they are known
+  bool hasScaleBar = false; ///< true at the contact
+  bool hasCaption = false;  ///< tool, tissue, law, depth and force
+  std::vector<Overlay> overlays{};
+};
+
+/// A view as it is drawn for a moment.
+void showMoment(PressView& view, const PressMoment& moment);
+
+/// Whether the coordinates are a patient's: x to the left, y to the back, z to the head.
+[[nodiscard]] bool isPatient(const SceneBody& body);
+
+/// Tool, tissue, law, depth and force in a line.
+[[nodiscard]] std::string captionOf(const PressMoment& moment);
+
+/// The dots per inch at which a picture has the letters and lines of a smaller one, larger.
+[[nodiscard]] int dpiOf(ImageSize size);
+
+/// Draws a press into a window of no renderers yet, as large as the picture, and writes it.
+///
+/// Edges are smooth: several samples for each pixel, or in a picture too large for that a filter.
+/// @param look    places the camera; labels follow it
+/// @param file    .png
+/// @throws Error  as writePng
+void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
+  const std::function<void(PressView& view, vtkRenderer& renderer)>& look,
+  const std::filesystem::path& file);
+
+} // namespace palp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+#include "haptics/force/relaxation/press_history.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace palp
+{
+
+/// A press that was recorded or made up: depths of a tool over time.
+struct ForceHistory
+{
+  std::vector<PressPoint> points{}; ///< one at least
+  std::vector<double> depthsMm{};   ///< as the file has them
+
+  /// [m]
+  [[nodiscard]] double deepest() const noexcept;
+};
+
+/// Reads a CSV whose header names time_s and depth_mm among any others.
+///
+/// @throws Error  BadFile: as NumberTable::readColumns; no row, times that do not increase, a depth
+///                beyond 1 m
+[[nodiscard]] ForceHistory readForceHistory(const std::filesystem::path& file);
+
+/// The force at each point of a history, at one place.
+/// @param place  its depth does not matter
+/// @return       [N]
+[[nodiscard]] std::vector<double> forcesOver(
+  const ForceLaw& law, ContactGeometry place, const ForceHistory& history);
+
+} // namespace palp

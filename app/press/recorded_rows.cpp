@@ -1,0 +1,166 @@
+#include "app/press/recorded_rows.h"
+
+#include "app/press/sample_text.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/servo/servo_step.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::array kColumns{ "time_s", "tool_x_mm", "tool_y_mm", "tool_z_mm", "axis_x", "axis_y",
+  "axis_z", "force_x_N", "force_y_N", "force_z_N", "flags" };
+
+// whatever a double may be, also none; nothing else
+double numberOf(std::string_view text)
+{
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+  {
+    throw Error(ErrorCode::BadValue, inQuotes(text) + " is not a number; write it as -1.25");
+  }
+  return value;
+}
+
+class RowReader
+{
+public:
+  explicit RowReader(Recording& recording)
+    : recording_(recording)
+  {
+  }
+
+  void read(const std::string& line)
+  {
+    if (line.starts_with('#'))
+    {
+      readComment(line);
+    }
+    else if (columns_.empty())
+    {
+      readHeader(line);
+    }
+    else if (!line.empty())
+    {
+      readRow(split(line, ','));
+    }
+  }
+
+  void end()
+  {
+    if (recording_.samples.empty())
+    {
+      throw Error(ErrorCode::BadValue, "no row; give a samples.csv that Palp has exported");
+    }
+    const auto isOld = [this](const Sample& sample) { return sample.time < thinnedUntil_; };
+    const auto old = std::ranges::count_if(recording_.samples, isOld);
+    const bool all = recording_.samples.back().time == thinnedUntil_;
+    recording_.thinned = all ? recording_.samples.size() : static_cast<std::size_t>(old);
+  }
+
+private:
+  void readComment(const std::string& line)
+  {
+    recording_.contactOnly = recording_.contactOnly || line == kContactOnly;
+    if (line.starts_with(kThinned))
+    {
+      const std::string_view rest = std::string_view(line).substr(kThinned.size());
+      const std::size_t middle = std::min(rest.find(kThinnedTo), rest.size());
+      thinnedUntil_ = numberOf(rest.substr(0, middle));
+      const std::string_view interval =
+        rest.substr(std::min(middle + kThinnedTo.size(), rest.size()));
+      recording_.interval = numberOf(interval.substr(0, interval.find(' ')));
+    }
+  }
+
+  void readHeader(const std::string& line)
+  {
+    const std::vector<std::string_view> names = split(line, ',');
+    for (const char* column : kColumns)
+    {
+      const auto found = std::ranges::find(names, column);
+      if (found == names.end())
+      {
+        throw Error(ErrorCode::BadValue,
+          std::string("no column ") + column + "; give a samples.csv that Palp has exported");
+      }
+      columns_.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    width_ = names.size();
+  }
+
+  void readRow(const std::vector<std::string_view>& cells)
+  {
+    if (cells.size() != width_)
+    {
+      throw Error(ErrorCode::BadValue,
+        "a row of " + std::to_string(cells.size()) + " columns below a header of " +
+          std::to_string(width_));
+    }
+    const auto cell = [&](std::size_t column) { return cells[columns_[column]]; };
+    const auto triple = [&](std::size_t first)
+    {
+      return Eigen::Vector3d(
+        numberOf(cell(first)), numberOf(cell(first + 1)), numberOf(cell(first + 2)));
+    };
+    ToolPose pose;
+    for (int i = 0; i < 3; ++i)
+    {
+      pose.apex[i] = fromExactMillimeters(cell(static_cast<std::size_t>(i) + 1));
+    }
+    pose.axis = triple(4);
+    const double flags = numberOf(cell(10));
+    if (!(flags >= 0.0 && flags <= std::numeric_limits<std::uint32_t>::max()))
+    {
+      throw Error(
+        ErrorCode::BadValue, "the flags are " + std::string(cell(10)) + "; give 0 or more");
+    }
+    Sample& sample = recording_.samples.emplace_back(evaluateContact(recording_.scene, pose));
+    sample.time = numberOf(cell(0));
+    sample.force = triple(7);
+    sample.flags = static_cast<std::uint32_t>(flags);
+  }
+
+  Recording& recording_;
+  std::vector<std::size_t> columns_; // in the order of kColumns
+  std::size_t width_ = 0;
+  double thinnedUntil_ = -std::numeric_limits<double>::infinity(); // [s]
+};
+
+} // namespace
+
+void readRows(Recording& recording, const std::filesystem::path& file)
+{
+  recording.samples.clear();
+  std::istringstream lines(readText(file, "a samples.csv"));
+  RowReader reader(recording);
+  int number = 0;
+  try
+  {
+    for (std::string line; std::getline(lines, line);)
+    {
+      ++number;
+      line.erase(line.find_last_not_of('\r') + 1);
+      reader.read(line);
+    }
+    reader.end();
+  }
+  catch (const Error& error)
+  {
+    throw Error(
+      ErrorCode::BadFile, file.string() + ":" + std::to_string(number) + ": " + error.what());
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,113 @@
+#include "app/scene/scene_motion.h"
+
+#include "app/scene/scene_entries.h"
+#include "haptics/files/input_text.h"
+
+namespace palp
+{
+namespace
+{
+
+PressPlace readPlace(JsonObject object)
+{
+  PressPlace place{ .name = object.text("name", ""), .position = {} };
+  if (!object.has("at"))
+  {
+    object.refuse("at", R"(missing; give the place, as in ["-45mm", "12.5mm", "30mm"])");
+  }
+  place.position = triple(object, "at", Quantity::Length, kSceneReach);
+  object.finish();
+  return place;
+}
+
+PlacedPresses readPresses(JsonObject object)
+{
+  PlacedPresses presses;
+  for (const JsonObject& place : object.objects("places"))
+  {
+    presses.places.push_back(readPlace(place));
+  }
+  parseAt(object, "depth", [&](const std::string& text) { presses.depth = parsePressDepth(text); });
+  parseAt(
+    object, "toward", [&](const std::string& text) { presses.toward = parseDirection(text); });
+  parseAt(object, "speed", [&](const std::string& text) { presses.speed = parsePressSpeed(text); });
+  object.finish();
+  if (presses.places.empty())
+  {
+    object.refuse("places", R"(give at least one, as in [{"at": ["1mm", "2mm", "3mm"]}])");
+  }
+  return presses;
+}
+
+RecordedPress readRecording(JsonObject object, const std::filesystem::path& folder)
+{
+  const RecordedPress recording{ .file =
+                                   (folder / object.text("file", "samples.csv")).lexically_normal(),
+    .device = object.text("device", "mouse"),
+    .names = object.texts("names", {}) };
+  object.finish();
+  return recording;
+}
+
+// what moves the tool in the place of a device
+void readReplacement(JsonObject& object, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  if (object.has("presses"))
+  {
+    plan.presses = readPresses(object.object("presses"));
+  }
+  if (object.has("recording"))
+  {
+    plan.recording = readRecording(object.object("recording"), folder);
+  }
+  if (object.has("device") + object.has("presses") + object.has("recording") > 1)
+  {
+    object.refuse(
+      "device", "one thing moves the tool; give a device, or presses, or a recording, not two");
+  }
+}
+
+} // namespace
+
+CameraPlace readCamera(JsonObject object)
+{
+  const CameraPlace camera{ .position = triple(object, "position", Quantity::Length, kCameraReach),
+    .focus = triple(object, "focus", Quantity::Length, kCameraReach),
+    .up = triple(object, "up", Quantity::Length, kCameraReach) };
+  object.finish();
+  if (camera.up.cross(camera.position - camera.focus).isZero(0.0))
+  {
+    object.refuse("up", "lies along the line of sight; give another position, focus or up");
+  }
+  return camera;
+}
+
+void readMotion(JsonObject& scene, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  readReplacement(scene, plan, folder);
+  const std::string name = scene.text("device", "mouse");
+  plan.device = parseDevice(name);
+  const bool scripted = plan.device.isScript();
+  if (scripted && plan.device.file.empty())
+  {
+    scene.refuse("device", inQuotes(name) + " names no file; write " + name + "FILE.csv");
+  }
+  if (scripted)
+  {
+    plan.device = parseDevice(
+      name.substr(0, name.find(':') + 1) + (folder / plan.device.file).lexically_normal().string());
+  }
+  plan.deadMan = scene.flag("dead_man", false);
+  plan.window = scene.flag("window", !plan.isKnown());
+  plan.chain = scene.flag("chain", false);
+  if (plan.chain && plan.window)
+  {
+    scene.refuse("chain", "a window has the chain of its device; leave this out");
+  }
+  if (!plan.window && !plan.isKnown())
+  {
+    scene.refuse("window", inQuotes(plan.device.name) + " moves in a window only; give true");
+  }
+}
+
+} // namespace palp

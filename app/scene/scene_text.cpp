@@ -1,0 +1,271 @@
+#include "app/scene/scene_text.h"
+
+#include "app/input/coating_text.h"
+#include "app/input/law_options.h"
+#include "app/input/tip_text.h"
+#include "app/scene/scene_entries.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/tip/profile.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// one scene on its way to text
+class Writer
+{
+public:
+  explicit Writer(const fs::path& folder)
+    : folder_(fs::absolute(folder).lexically_normal())
+  {
+  }
+
+  [[nodiscard]] Json scene(const ScenePlan& plan) const
+  {
+    Json scene{ { "palp_scene", 1 } };
+    if (!plan.name.empty())
+    {
+      scene["title"] = plan.name;
+    }
+    for (const MeshSource& source : plan.meshes)
+    {
+      scene["meshes"].push_back(mesh(source));
+    }
+    scene["tissue"] = tissue(plan.press);
+    scene["tool"] = tool(plan.press.tissue.tip);
+    scene["law"] = law(plan);
+    addMotion(scene, plan);
+    scene["dent"] = dent(plan.press.dent);
+    addPictures(scene, plan);
+    return scene;
+  }
+
+private:
+  [[nodiscard]] std::string file(const fs::path& path) const
+  {
+    const fs::path whole = fs::absolute(path).lexically_normal();
+    const fs::path inside = whole.lexically_relative(folder_);
+    return (inside.empty() || *inside.begin() == ".." ? whole : inside).string();
+  }
+
+  static Json triple(const Eigen::Vector3d& value, Quantity quantity)
+  {
+    return { quantityText(value.x(), quantity), quantityText(value.y(), quantity),
+      quantityText(value.z(), quantity) };
+  }
+
+  template <typename Enum>
+  static std::string word(const Words& words, Enum value)
+  {
+    return words.at(static_cast<std::size_t>(value));
+  }
+
+  [[nodiscard]] Json mesh(const MeshSource& source) const
+  {
+    Json mesh;
+    if (source.bundled.empty())
+    {
+      mesh["file"] = file(source.file);
+    }
+    else
+    {
+      mesh["bundled"] = source.bundled;
+    }
+    if (source.part.level)
+    {
+      mesh["level"] = shortest(*source.part.level);
+    }
+    if (!source.part.labels.empty())
+    {
+      std::string labels;
+      for (const double label : source.part.labels)
+      {
+        labels.append(labels.empty() ? "" : ",").append(shortest(label));
+      }
+      mesh["label"] = labels;
+    }
+    if (source.unit)
+    {
+      mesh["unit"] = unitName(*source.unit);
+    }
+    if (!source.origin.isZero(0.0) || !source.rotation.isZero(0.0))
+    {
+      mesh["frame"] = { { "origin", triple(source.origin, Quantity::Length) },
+        { "rotation", triple(source.rotation, Quantity::Angle) } };
+    }
+    for (const PlacedNodule& nodule : source.nodules)
+    {
+      mesh["nodules"].push_back({ { "center", triple(nodule.center, Quantity::Length) },
+        { "radius", quantityText(nodule.radius, Quantity::Length) },
+        { "ratio", shortest(nodule.ratio) } });
+    }
+    return mesh;
+  }
+
+  static Json tissue(const PressOptions& press)
+  {
+    Json tissue{ { "young", quantityText(press.tissue.young, Quantity::Pressure) },
+      { "poisson", shortest(press.tissue.poisson) } };
+    if (const Coatings& coatings = press.tissue.options.coatings; !coatings.empty())
+    {
+      tissue["coating"] = describeCoatings(coatings);
+    }
+    if (const PronySeries& series = press.tissue.options.relaxation; !series.empty())
+    {
+      tissue["relaxation"] = describeRelaxation(series);
+    }
+    if (press.tissue.options.friction > 0.0)
+    {
+      tissue["friction"] = shortest(press.tissue.options.friction);
+    }
+    tissue["damping"] = quantityText(press.damping, Quantity::Damping);
+    return tissue;
+  }
+
+  [[nodiscard]] std::string tool(const Tip& tip) const
+  {
+    const auto* own = std::get_if<ProfileTip>(&tip);
+    return own == nullptr
+      ? describeTip(tip)
+      : std::string("profile:").append(fs::absolute(own->profile->name()).string());
+  }
+
+  static Json law(const ScenePlan& plan)
+  {
+    const LawOptions& law = plan.press.tissue.options;
+    return { { "mode", word(kLawModes, law.mode) }, { "base", word(kBases, law.base) },
+      { "material", word(kMaterials, law.constitution) },
+      { "contact", word(kContactRules, plan.press.contact) }, { "validity", plan.validity } };
+  }
+
+  void addMotion(Json& scene, const ScenePlan& plan) const
+  {
+    if (plan.presses)
+    {
+      scene["presses"] = presses(*plan.presses);
+    }
+    else if (plan.recording)
+    {
+      scene["recording"] = { { "file", file(plan.recording->file) },
+        { "device", plan.recording->device }, { "names", plan.recording->names } };
+    }
+    else
+    {
+      const std::string& name = plan.device.name;
+      scene["device"] =
+        plan.device.isScript() ? name.substr(0, name.find(':') + 1) + file(plan.device.file) : name;
+    }
+    scene["dead_man"] = plan.deadMan;
+    scene["window"] = plan.window;
+    scene["chain"] = plan.chain;
+  }
+
+  static Json presses(const PlacedPresses& presses)
+  {
+    Json places = Json::array();
+    for (const PressPlace& place : presses.places)
+    {
+      Json& entry = places.emplace_back(Json::object());
+      if (!place.name.empty())
+      {
+        entry["name"] = place.name;
+      }
+      entry["at"] = triple(place.position, Quantity::Length);
+    }
+    Json json{ { "places", places }, { "depth", quantityText(presses.depth, Quantity::Length) },
+      { "speed", quantityText(presses.speed, Quantity::Speed) } };
+    if (const auto& toward = presses.toward)
+    {
+      json["toward"] =
+        shortest(toward->x()) + ',' + shortest(toward->y()) + ',' + shortest(toward->z());
+    }
+    return json;
+  }
+
+  [[nodiscard]] Json dent(const DentOptions& options) const
+  {
+    Json dent{ { "surface",
+      options.surface == DentSurface::None ? "none" : word(kDentSurfaces, options.surface) } };
+    if (!options.table.empty())
+    {
+      dent["table"] = file(options.table);
+    }
+    if (options.layer)
+    {
+      dent["layer"] = quantityText(*options.layer, Quantity::Length);
+    }
+    dent["threshold"] = quantityText(options.threshold, Quantity::Length);
+    return dent;
+  }
+
+  void addPictures(Json& scene, const ScenePlan& plan) const
+  {
+    if (plan.overlays)
+    {
+      scene["overlays"] = Json::array();
+      for (const Overlay overlay : *plan.overlays)
+      {
+        scene["overlays"].push_back(word(kOverlays, overlay));
+      }
+    }
+    scene["plots"] = Json::array();
+    for (const PlotKind plot : plan.plots)
+    {
+      scene["plots"].push_back(word(kPlotNames, plot));
+    }
+    scene["plot_files"] = plan.plotFiles;
+    for (const fs::path& reference : plan.referenceFiles)
+    {
+      scene["references"].push_back(file(reference));
+    }
+    if (!plan.window)
+    {
+      scene["exports"] = exports(plan);
+      scene["size"] =
+        std::to_string(plan.size.width).append("x").append(std::to_string(plan.size.height));
+    }
+    if (plan.camera)
+    {
+      scene["camera"] = { { "position", triple(plan.camera->position, Quantity::Length) },
+        { "focus", triple(plan.camera->focus, Quantity::Length) },
+        { "up", triple(plan.camera->up, Quantity::Length) } };
+    }
+  }
+
+  static Json exports(const ScenePlan& plan)
+  {
+    Json exports = Json::array();
+    if (plan.samples)
+    {
+      exports.push_back(plan.allSamples ? "all-samples" : "samples");
+    }
+    if (plan.deformed)
+    {
+      exports.push_back(plan.refined ? "refined" : "deformed");
+    }
+    if (plan.picture)
+    {
+      exports.push_back("picture");
+    }
+    return exports;
+  }
+
+  fs::path folder_;
+};
+
+} // namespace
+
+std::string sceneText(const ScenePlan& plan, const std::filesystem::path& folder)
+{
+  return Writer(folder).scene(plan).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+} // namespace palp

@@ -1,0 +1,58 @@
+#include "app/shell/window_memory.h"
+
+#include <QFileInfo>
+#include <QMainWindow>
+#include <QSettings>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kLayout = 1; // counted up when panels change names or meaning
+constexpr const char* kRecent = "recentFiles";
+
+QSettings settings()
+{
+  return { QSettings::IniFormat, QSettings::UserScope, "palp", "window" };
+}
+
+} // namespace
+
+void WindowMemory::save(const QMainWindow& window) const
+{
+  QSettings kept = settings();
+  kept.setValue("geometry", window.saveGeometry());
+  kept.setValue("layout", window.saveState(kLayout));
+}
+
+void WindowMemory::restore(QMainWindow& window) const
+{
+  const QSettings kept = settings();
+  window.restoreGeometry(kept.value("geometry").toByteArray());
+  window.restoreState(kept.value("layout").toByteArray(), kLayout);
+}
+
+QStringList WindowMemory::recentFiles() const
+{
+  return settings().value(kRecent).toStringList();
+}
+
+void WindowMemory::addRecentFile(const QString& file) const
+{
+  constexpr int kMost = 10;
+  const QString path = QFileInfo(file).absoluteFilePath();
+  QStringList files = recentFiles();
+  files.removeAll(path);
+  files.prepend(path);
+  settings().setValue(kRecent, QStringList(files.mid(0, kMost)));
+}
+
+void WindowMemory::forgetRecentFile(const QString& file) const
+{
+  QStringList files = recentFiles();
+  files.removeAll(QFileInfo(file).absoluteFilePath());
+  settings().setValue(kRecent, files);
+}
+
+} // namespace palp

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <QStringList>
+
+class QMainWindow;
+
+namespace palp
+{
+
+/// What a window knows of the last time it was open, kept in the user's configuration folder.
+///
+/// All of it is a convenience: what cannot be read or written is as if it had never been.
+class WindowMemory
+{
+public:
+  /// Size, place, and which panels are open where.
+  void save(const QMainWindow& window) const;
+  void restore(QMainWindow& window) const;
+
+  /// The newest first, ten at most, by absolute path; also those that are gone by now.
+  [[nodiscard]] QStringList recentFiles() const;
+  void addRecentFile(const QString& file) const;
+  void forgetRecentFile(const QString& file) const;
+};
+
+} // namespace palp

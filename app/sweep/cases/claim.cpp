@@ -1,0 +1,212 @@
+#include "app/sweep/cases/claim.h"
+
+#include "haptics/error.h"
+#include "haptics/files/replace_file.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <sys/stat.h>
+
+namespace palp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOwner = "owner";
+
+std::string contentOf(const fs::path& file)
+{
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// the kernel that counts the processes, by its start and, in a container, its numbering
+std::string machine()
+{
+  std::string boot = contentOf("/proc/sys/kernel/random/boot_id");
+  std::error_code unknown;
+  return boot.substr(0, boot.find('\n')) + ' ' +
+    fs::read_symlink("/proc/self/ns/pid", unknown).string();
+}
+
+// when a process began, by the kernel's clock, since numbers of processes come again
+std::string beginOf(const std::string& process)
+{
+  const std::string stat = contentOf("/proc/" + process + "/stat");
+  const std::size_t name = stat.rfind(')');
+  std::istringstream rest(name == stat.npos ? "" : stat.substr(name + 1));
+  constexpr int kStartTime = 20; // of the words after the name
+  std::string word;
+  for (int i = 0; i < kStartTime; ++i)
+  {
+    rest >> word;
+  }
+  return word;
+}
+
+struct Owner
+{
+  std::string machine;
+  std::string process;
+  std::string begin;
+};
+
+std::string textOf(const Owner& owner)
+{
+  return owner.machine + '\n' + owner.process + '\n' + owner.begin + '\n';
+}
+
+Owner ownerOf(const std::string& text)
+{
+  std::istringstream lines(text);
+  Owner owner;
+  for (std::string* part : { &owner.machine, &owner.process, &owner.begin })
+  {
+    std::getline(lines, *part);
+  }
+  return owner;
+}
+
+// a moment of the disk's clock [s]; opening makes a network ask anew
+double beatOf(const fs::path& file)
+{
+  const Descriptor in(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat is = {};
+  return in && fstat(in.get(), &is) == 0
+    ? static_cast<double>(is.st_mtim.tv_sec) + 1e-9 * static_cast<double>(is.st_mtim.tv_nsec)
+    : 0.0;
+}
+
+double diskTime(const fs::path& folder)
+{
+  const fs::path probe = makeHidden(folder);
+  const double now = beatOf(probe);
+  rmdir(probe.c_str());
+  return now;
+}
+
+// whether a folder or file was left alone for long
+bool isSilent(const fs::path& file, double now)
+{
+  const double beat = beatOf(file);
+  return beat > 0.0 && now - beat > kSilence;
+}
+
+// text: of its owner; empty where one ended while it gave the claim up
+bool isGone(const fs::path& claim, const std::string& text)
+{
+  const Owner owner = ownerOf(text);
+  return owner.machine == machine()
+    ? beginOf(owner.process) != owner.begin
+    : isSilent(text.empty() ? claim : claim / kOwner, diskTime(claim.parent_path()));
+}
+
+// out of the way of others first, as a whole; only if it is still that owner's
+void removeClaim(const fs::path& claim, const std::string& text)
+{
+  const fs::path hidden = makeHidden(claim.parent_path());
+  std::error_code ignored;
+  if (hidden.empty()) // a full disk
+  {
+    fs::remove_all(claim, ignored);
+    return;
+  }
+  if (rename(claim.c_str(), (hidden / kOwner).c_str()) == 0 &&
+    contentOf(hidden / kOwner / kOwner) != text)
+  {
+    rename((hidden / kOwner).c_str(), claim.c_str()); // of one that took it over in between
+  }
+  fs::remove_all(hidden, ignored);
+}
+
+bool tryRename(const fs::path& from, const fs::path& to)
+{
+  if (rename(from.c_str(), to.c_str()) == 0)
+  {
+    return true;
+  }
+  if (errno != ENOTEMPTY && errno != EEXIST)
+  {
+    refuseFile(to, errno);
+  }
+  return false;
+}
+
+} // namespace
+
+Claim::Claim(fs::path folder, std::string owner)
+  : folder_(std::move(folder))
+  , owner_(std::move(owner))
+  , file_(open((folder_ / kOwner).c_str(), O_RDWR | O_CLOEXEC))
+{
+}
+
+std::optional<Claim> Claim::take(const fs::path& claims, const std::string& name)
+{
+  const fs::path claim = claims / name;
+  const std::string process = std::to_string(getpid());
+  const std::string mine = textOf({ machine(), process, beginOf(process) });
+  const fs::path fresh = makeHidden(claims);
+  if (fresh.empty())
+  {
+    refuseFile(claim, errno);
+  }
+  std::error_code ignored;
+  if (!(std::ofstream(fresh / kOwner) << mine).flush())
+  {
+    const int reason = errno;
+    fs::remove_all(fresh, ignored);
+    refuseFile(claim, reason);
+  }
+  bool taken = tryRename(fresh, claim);
+  const std::string other = taken ? "" : contentOf(claim / kOwner);
+  if (!taken && isGone(claim, other))
+  {
+    removeClaim(claim, other);
+    taken = tryRename(fresh, claim);
+  }
+  if (!taken)
+  {
+    fs::remove_all(fresh, ignored);
+    return std::nullopt;
+  }
+  return Claim(claim, mine);
+}
+
+bool Claim::isHeld(const fs::path& claims, const std::string& name)
+{
+  return fs::exists(claims / name) && !isGone(claims / name, contentOf(claims / name / kOwner));
+}
+
+void Claim::tidy(const fs::path& claims)
+{
+  const double now = diskTime(claims);
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(claims, ignored))
+  {
+    if (isHidden(entry.path().filename().string()) && isSilent(entry.path(), now))
+    {
+      fs::remove_all(entry.path(), ignored);
+    }
+  }
+}
+
+void Claim::beat() const
+{
+  futimens(file_.get(), nullptr); // by the clock of the disk
+}
+
+void Claim::release() const
+{
+  removeClaim(folder_, owner_);
+}
+
+} // namespace palp

@@ -1,0 +1,256 @@
+#include "app/sweep/cases/merge.h"
+
+#include "app/sweep/case_folders.h"
+#include "app/sweep/cases/result_rows.h"
+#include "app/sweep/cases/table_writer.h"
+#include "app/sweep/sweep_range.h"
+#include "haptics/error.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+#include "haptics/files/replace_file.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace palp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// thrown away and begun again: a case has a column that none before it had, or words in one
+struct BeginAgain
+{
+};
+
+// a pass over all results
+class Merger
+{
+public:
+  Merger(Manifest& manifest, const MergeOptions& options)
+    : manifest_(manifest)
+    , options_(options)
+  {
+    folders_.push_back({ manifest.folder() });
+    for (const fs::path& other : options.others)
+    {
+      folders_.push_back({ other });
+    }
+    for (const SweepColumn& column : manifest.head().columns)
+    {
+      columns_.push_back({ column.title(), column.isNumber });
+    }
+  }
+
+  [[nodiscard]] const std::vector<WrittenColumn>& columns() const
+  {
+    return columns_;
+  }
+
+  template <typename Begin, typename Add>
+  Merged pass(Begin begin, Add add)
+  {
+    for (;;)
+    {
+      try
+      {
+        begin();
+        return passOnce(add);
+      }
+      catch (const BeginAgain&)
+      {
+      }
+    }
+  }
+
+private:
+  template <typename Add>
+  Merged passOnce(Add add)
+  {
+    Merged merged;
+    missing_ = 0;
+    manifest_.forEach(
+      [&](const PlannedCase& one)
+      {
+        const fs::path folder = find(one.name);
+        if (folder.empty())
+        {
+          first_ = missing_++ == 0 ? one : first_;
+          return;
+        }
+        manifest_.refuseEdited(one, optionsOf(manifest_.head(), one.values));
+        const ResultRows result = readResult(folder, manifest_.head().kind, options_.largest);
+        const std::vector<std::size_t> places = placesOf(result.titles);
+        std::vector<std::string> cells(columns_.size());
+        fillVaried(one, cells);
+        for (const auto& row : result.rows)
+        {
+          for (std::size_t i = 0; i < row.size(); ++i)
+          {
+            cells[places[i]] = row[i];
+          }
+          if (!add(cells))
+          {
+            demote(result.rows);
+          }
+          ++merged.rows;
+        }
+        ++merged.cases;
+      });
+    refuseMissing();
+    return merged;
+  }
+
+  [[nodiscard]] fs::path find(const std::string& name) const
+  {
+    const auto found = std::ranges::find_if(
+      folders_, [&](const CaseFolders& folders) { return folders.isDone(name); });
+    return found == folders_.end() ? fs::path() : found->result(name);
+  }
+
+  // where the columns of a result stand
+  std::vector<std::size_t> placesOf(const std::vector<std::string>& titles)
+  {
+    if (titles == titles_)
+    {
+      return places_;
+    }
+    const std::size_t before = columns_.size();
+    const std::size_t varied = manifest_.head().columns.size();
+    places_.clear();
+    for (const std::string& title : titles)
+    {
+      auto found = std::find_if(columns_.begin() + static_cast<std::ptrdiff_t>(varied),
+        columns_.end(), [&](const WrittenColumn& column) { return column.title == title; });
+      if (found == columns_.end())
+      {
+        columns_.push_back({ title, true });
+        found = columns_.end() - 1;
+      }
+      places_.push_back(static_cast<std::size_t>(found - columns_.begin()));
+    }
+    titles_ = titles;
+    if (columns_.size() > before)
+    {
+      throw BeginAgain();
+    }
+    return places_;
+  }
+
+  // columns that hold words after all
+  void demote(const std::vector<std::vector<std::string>>& rows)
+  {
+    for (const auto& row : rows)
+    {
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        WrittenColumn& column = columns_[places_[i]];
+        column.isNumber = column.isNumber && numberOf(row[i]);
+      }
+    }
+    throw BeginAgain();
+  }
+
+  void fillVaried(const PlannedCase& one, std::vector<std::string>& cells) const
+  {
+    const auto& varied = manifest_.head().columns;
+    for (std::size_t i = 0; i < varied.size(); ++i)
+    {
+      const auto number = varied[i].isNumber ? numberText(one.values[i]) : std::nullopt;
+      cells[i] = number ? shortest(number->number) : one.values[i];
+    }
+  }
+
+  void refuseMissing() const
+  {
+    if (missing_ == 0 || options_.partial)
+    {
+      return;
+    }
+    const fs::path failure = folders_.front().failure(first_.name);
+    throw Error(ErrorCode::NoSolution,
+      manifest_.folder().string() + ": " + std::to_string(missing_) + " of " +
+        std::to_string(manifest_.head().count) + " cases have no result, case " +
+        std::to_string(first_.number) + " for one" +
+        (fs::exists(failure) ? ", which failed (" + (failure / kLogFile).string() + ")" : "") +
+        "; palp sweep run them, or merge the others with --partial");
+  }
+
+  Manifest& manifest_;
+  const MergeOptions& options_;
+  std::vector<CaseFolders> folders_;
+  std::vector<WrittenColumn> columns_;
+  std::vector<std::string> titles_; // of the result before, mostly those of all
+  std::vector<std::size_t> places_;
+  std::size_t missing_ = 0; // cases
+  PlannedCase first_{};     // of these
+};
+
+} // namespace
+
+namespace
+{
+
+void refuseOwn(const Manifest& manifest, const MergeOptions& options, const fs::path& out)
+{
+  bool owned = CaseFolders{ manifest.folder() }.owns(out);
+  for (const fs::path& other : options.others)
+  {
+    owned = owned || CaseFolders{ other }.owns(out);
+  }
+  if (owned)
+  {
+    throw Error(ErrorCode::BadValue,
+      out.string() + ": is a part of the sweep, which would be lost; choose another --out");
+  }
+}
+
+} // namespace
+
+Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::path& out)
+{
+  refuseOwn(manifest, options, out);
+  if (out.extension() != ".csv" && out.extension() != ".vtt")
+  {
+    throw Error(ErrorCode::BadValue,
+      "--out: " + inQuotes(out.filename().string()) +
+        " is neither a table of numbers nor one of VTK; give a file that ends in .csv or .vtt");
+  }
+  Merger merger(manifest, options);
+  Merged merged;
+  replaceFile(out,
+    [&](const fs::path& fresh)
+    {
+      std::unique_ptr<TableWriter> writer;
+      merged = merger.pass(
+        [&]
+        {
+          writer.reset();
+          writer =
+            (out.extension() == ".csv" ? makeCsvWriter : makeVtkWriter)(fresh, merger.columns());
+        },
+        [&](const std::vector<std::string>& cells) { return writer->add(cells); });
+      writer->finish();
+    });
+  return merged;
+}
+
+std::vector<std::vector<std::string>> readResults(Manifest& manifest, const MergeOptions& options)
+{
+  Merger merger(manifest, options);
+  std::vector<std::vector<std::string>> rows;
+  merger.pass([&] { rows.assign(1, {}); },
+    [&](const std::vector<std::string>& cells)
+    {
+      rows.push_back(cells);
+      return true;
+    });
+  for (const WrittenColumn& column : merger.columns())
+  {
+    rows.front().push_back(column.title);
+  }
+  return rows;
+}
+
+} // namespace palp

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/sweep/manifest.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// Which results are merged.
+struct MergeOptions
+{
+  std::vector<std::filesystem::path> others{}; ///< folders of the same sweep with results, too
+  std::string largest{};                       ///< see readResult
+  bool partial = false;                        ///< cases without a result are left out
+};
+
+/// What was merged.
+struct Merged
+{
+  std::size_t cases = 0;
+  std::size_t rows = 0;
+};
+
+/// Writes the results of all cases as one table in the order of the cases: what is varied, then the
+/// columns of the case's own table; a column that only some cases have is empty in the others. The
+/// same bytes, however the cases were computed.
+///
+/// @param out      .csv, or .vtt for a VTK table; replaced as a whole
+/// @throws Error   BadValue: another ending; BadFile: a result that is damaged, `out` cannot be
+///                 written; NoSolution: cases without a result, unless they may be left out
+Merged mergeResults(
+  Manifest& manifest, const MergeOptions& options, const std::filesystem::path& out);
+
+/// The same rows of cells, the titles first.
+/// @throws Error  as mergeResults
+[[nodiscard]] std::vector<std::vector<std::string>> readResults(
+  Manifest& manifest, const MergeOptions& options);
+
+} // namespace palp

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace palp
+{
+
+/// How a Slurm job array runs a sweep.
+struct SlurmArray
+{
+  std::size_t count = 1; ///< of the cases
+  std::size_t tasks = 1; ///< of the array
+  double seconds = 0.0;  ///< of the pilot case
+  double memory = 0.0;   ///< of the pilot case [bytes]
+
+  /// Cases of one task.
+  [[nodiscard]] std::size_t chunk() const
+  {
+    return (count + tasks - 1) / tasks;
+  }
+};
+
+constexpr std::size_t kMostTasks = 1000; ///< that Slurm takes in an array by default, MaxArraySize
+
+/// Writes sweep.sbatch into the folder of a sweep: a task for each chunk of cases, with twice the
+/// memory and four times the time of the pilot case.
+/// @return        the file
+/// @throws Error  BadFile: cannot be written
+[[nodiscard]] std::filesystem::path writeSlurm(
+  const std::filesystem::path& folder, const SlurmArray& array);
+
+/// Writes parallel.sh there: a line of GNU parallel, a job for each case, that begins again where
+/// it ended.
+[[nodiscard]] std::filesystem::path writeParallel(
+  const std::filesystem::path& folder, std::size_t count);
+
+} // namespace palp

@@ -1,0 +1,230 @@
+#include "app/sweep/plan.h"
+
+#include "app/input/mesh_file.h"
+#include "app/sweep/case_folders.h"
+#include "app/sweep/manifest.h"
+#include "app/sweep/sweep_range.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/files/replace_file.h"
+
+#include <algorithm>
+#include <system_error>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::size_t kMostChecks = 1000; // of one axis
+
+// every name of a sweep and what it can be
+using Texts = std::map<std::string, std::vector<std::string>>;
+
+Texts textsOf(const Sweep& sweep)
+{
+  Texts texts;
+  for (const auto& [name, value] : sweep.fixed)
+  {
+    texts[name] = { value };
+  }
+  for (const SweepAxis& axis : sweep.axes)
+  {
+    for (std::size_t i = 0; i < axis.names.size(); ++i)
+    {
+      for (const auto& row : axis.rows)
+      {
+        texts[axis.names[i]].push_back(row[i]);
+      }
+    }
+  }
+  return texts;
+}
+
+// a name that neither the command nor another value knows would change nothing
+void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions& options)
+{
+  std::set<std::string> used;
+  for (const auto& [name, values] : texts)
+  {
+    for (const std::string& value : values)
+    {
+      const auto names = namesIn(value);
+      used.insert(names.begin(), names.end());
+    }
+  }
+  std::string known;
+  for (const auto* part : { &options.values, &options.flags })
+  {
+    for (const std::string& name : *part)
+    {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+  }
+  for (const auto& [name, values] : texts)
+  {
+    if (!options.values.contains(name) && !options.flags.contains(name) && !used.contains(name))
+    {
+      throw Error(ErrorCode::BadFile,
+        inQuotes(name) + ": palp " + sweep.kind + " has no such option, and no value holds " +
+          inQuotes("{" + name + "}") + "; known here: " + known);
+    }
+    const auto isWord = [](const std::string& value)
+    { return value == "true" || value == "false"; };
+    if (options.flags.contains(name) && !std::ranges::all_of(values, isWord))
+    {
+      throw Error(ErrorCode::BadFile, inQuotes(name) + ": is there or not; give true or false");
+    }
+  }
+}
+
+SweepColumn columnOf(const std::string& name, const std::vector<std::string>& values)
+{
+  const auto first = numberText(values.front());
+  const auto isAlike = [&](const std::string& value)
+  {
+    const auto number = numberText(value);
+    return number && number->unit == first->unit;
+  };
+  if (!first || !std::ranges::all_of(values, isAlike))
+  {
+    return { name };
+  }
+  return { name, first->unit, true };
+}
+
+// a sweep as its plan: files by absolute path, with what they hold
+class Planner
+{
+public:
+  Planner(const Sweep& sweep, const std::filesystem::path& beside, const CommandOptions& options)
+    : sweep_(sweep)
+    , head_{ .title = sweep.title,
+      .kind = sweep.kind,
+      .count = sweep.count(),
+      .beside = beside.lexically_normal(),
+      .fixed = sweep.fixed,
+      .plots = sweep.plots }
+  {
+    const Texts texts = textsOf(sweep_);
+    refuseUnknown(sweep_, texts, options);
+    bool names = false; // a file
+    for (const auto& [name, values] : texts)
+    {
+      const bool isFlag = options.flags.contains(name);
+      if (isFlag || options.values.contains(name))
+      {
+        head_.options.insert(name);
+      }
+      if (isFlag)
+      {
+        head_.flags.insert(name);
+      }
+      names |= std::ranges::any_of(
+        values, [&](const std::string& value) { return mayNameFile(name, value); });
+    }
+    for (const std::string& name : sweep_.names())
+    {
+      head_.columns.push_back(columnOf(name, texts.at(name)));
+    }
+    for (std::size_t i = 0; names && i < head_.count; ++i)
+    {
+      addFiles(optionsOf(head_, sweep_.values(i)));
+    }
+  }
+
+  [[nodiscard]] const SweepHead& head() const
+  {
+    return head_;
+  }
+
+  [[nodiscard]] PlannedCase caseAt(std::size_t number) const
+  {
+    PlannedCase one{ number, {}, sweep_.values(number) };
+    one.name = caseName(sweep_.kind, optionsOf(head_, one.values), head_.files);
+    return one;
+  }
+
+  void check(std::size_t number, const CheckCase& check) const
+  {
+    try
+    {
+      check(caseWords(sweep_.kind, optionsOf(head_, sweep_.values(number)), head_.flags));
+    }
+    catch (const Error& error)
+    {
+      throw Error(error.code(), "case " + std::to_string(number) + ": " + error.what());
+    }
+  }
+
+  // the numbers of cases in which every row of every axis stands
+  [[nodiscard]] std::vector<std::size_t> samples() const
+  {
+    std::vector<std::size_t> numbers{ 0 };
+    std::size_t stride = head_.count;
+    for (const SweepAxis& axis : sweep_.axes)
+    {
+      stride /= axis.rows.size();
+      const std::size_t checks = std::min(axis.rows.size(), kMostChecks);
+      for (std::size_t i = 1; i < checks; ++i)
+      {
+        numbers.push_back(
+          i * (axis.rows.size() - 1) / std::max<std::size_t>(1, checks - 1) * stride);
+      }
+    }
+    return numbers;
+  }
+
+private:
+  // the value of another name may become one of these
+  static bool mayNameFile(const std::string& name, const std::string& value)
+  {
+    return !fileOf(name, value).empty() || !fileOf("tip", value).empty();
+  }
+
+  void addFiles(const SweepValues& options)
+  {
+    for (const auto& [name, value] : options)
+    {
+      const std::string file = fileOf(name, value);
+      if (!file.empty() && !head_.files.contains(file))
+      {
+        head_.files[file] = describeFile(file).sha256;
+      }
+    }
+  }
+
+  const Sweep& sweep_;
+  SweepHead head_;
+};
+
+} // namespace
+
+PlanTold planSweep(const Sweep& sweep, const std::filesystem::path& beside,
+  const CommandOptions& options, const CheckCase& check, const std::filesystem::path& folder)
+{
+  Planner planner(sweep, beside, options);
+  for (const std::size_t number : planner.samples())
+  {
+    planner.check(number, check);
+  }
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed)
+  {
+    refuseFile(folder, failed.value());
+  }
+  const CaseFolders folders{ folder };
+  const bool earlier = std::filesystem::exists(folders.results());
+  PlanTold told{ .count = planner.head().count };
+  Manifest::write(folder, planner.head(),
+    [&](std::size_t number)
+    {
+      PlannedCase one = planner.caseAt(number);
+      told.done += earlier && folders.isDone(one.name) ? 1 : 0;
+      return one;
+    });
+  return told;
+}
+
+} // namespace palp

@@ -1,0 +1,333 @@
+#include "app/sweep/sweep_file.h"
+
+#include "app/input/json_object.h"
+#include "app/program/data_files.h"
+#include "app/sweep/sweep_range.h"
+#include "haptics/error.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace palp
+{
+namespace
+{
+
+using nlohmann::json;
+
+const std::vector<std::string> kKinds{ "calibrate", "force", "run" };
+
+// a value as an option takes it; a flag is true or false
+std::string valueText(const JsonObject& at, const std::string& key, const json& value)
+{
+  if (value.is_boolean())
+  {
+    return value.get<bool>() ? "true" : "false";
+  }
+  if (value.is_number())
+  {
+    return shortest(value.get<double>());
+  }
+  if (!value.is_string())
+  {
+    at.refuse(key, "must be a value: a text with its unit, a number, true or false");
+  }
+  const std::string text = value.get<std::string>();
+  if (text.empty() || text != printable(text))
+  {
+    at.refuse(key, "is empty or has control characters; write the value as on the command line");
+  }
+  return text;
+}
+
+std::vector<std::string> valueList(const JsonObject& at, const std::string& key, const json& list)
+{
+  std::vector<std::string> values;
+  for (const json& value : list)
+  {
+    values.push_back(valueText(at, key, value));
+  }
+  if (values.empty())
+  {
+    at.refuse(key, "is an empty list; give one value or more");
+  }
+  return values;
+}
+
+NumberText endOf(JsonObject& object, const char* key)
+{
+  const std::string text = object.number(key, "");
+  const auto end = numberText(text);
+  if (!end)
+  {
+    object.refuse(key, inQuotes(text) + " is no number with a unit; write one, as in 10mm");
+  }
+  return *end;
+}
+
+std::size_t countOf(JsonObject& object, const char* key)
+{
+  const auto count = numberText(object.number(key, ""));
+  if (!count || !count->unit.empty() || count->number != std::floor(count->number) ||
+    count->number < 1 || count->number > static_cast<double>(kMostCases))
+  {
+    object.refuse(key, "must be a whole number, 1 to " + std::to_string(kMostCases));
+  }
+  return static_cast<std::size_t>(count->number);
+}
+
+SweepRange rangeOf(JsonObject& object)
+{
+  const NumberText from = endOf(object, "from");
+  const NumberText to = endOf(object, "to");
+  if (from.unit != to.unit)
+  {
+    object.refuse("to", "has another unit than \"from\"; write both in one");
+  }
+  SweepRange range{ from.number, to.number, from.unit };
+  range.logarithmic =
+    object.choice("scale", object.text("scale", "linear"), { "linear", "log" }) == 1;
+  if (!(range.to > range.from) || (range.logarithmic && range.from <= 0.0))
+  {
+    object.refuse("to", "must be more than \"from\", and both more than 0 on a log scale");
+  }
+  return range;
+}
+
+// by a count, or by a step that meets both ends
+std::vector<std::string> rangeValues(JsonObject object)
+{
+  const SweepRange range = rangeOf(object);
+  std::size_t count = 0;
+  if (object.has("step") == object.has("count"))
+  {
+    object.refuse("count", "give the count of values, or the step between them");
+  }
+  if (object.has("count"))
+  {
+    count = countOf(object, "count");
+  }
+  else
+  {
+    const NumberText step = endOf(object, "step");
+    const double steps = (range.to - range.from) / step.number;
+    const double whole = std::round(steps);
+    if (step.unit != range.unit || !(whole >= 1.0 && whole < static_cast<double>(kMostCases)) ||
+      range.logarithmic || std::abs(steps - whole) > 1e-9 * whole)
+    {
+      object.refuse("step", "must lead from \"from\" to \"to\" in whole steps, in their unit");
+    }
+    count = static_cast<std::size_t>(whole) + 1;
+  }
+  object.finish();
+  return evenly(range, count);
+}
+
+std::vector<std::string> valuesOf(const JsonObject& at, const std::string& path,
+  const std::string& key, const json& value, const std::string& file)
+{
+  if (value.is_array())
+  {
+    return valueList(at, key, value);
+  }
+  if (value.is_object())
+  {
+    return rangeValues({ value, file, path + "/" + key });
+  }
+  at.refuse(key, R"(must be a list of values, or a range {"from": .., "to": .., "count": ..})");
+}
+
+// the parts of a sweep, and whether a name stands in two of them
+class Reader
+{
+public:
+  Reader(const json& document, std::string file)
+    : document_(document)
+    , file_(std::move(file))
+  {
+  }
+
+  void readFixed(Sweep& sweep)
+  {
+    forEach("fixed",
+      [&](const JsonObject& at, const std::string& key, const json& value)
+      { sweep.fixed[key] = valueText(at, key, value); });
+  }
+
+  void readGrid(Sweep& sweep)
+  {
+    forEach("grid",
+      [&](const JsonObject& at, const std::string& key, const json& value)
+      {
+        SweepAxis& axis = sweep.axes.emplace_back(SweepAxis{ { key }, {} });
+        for (const std::string& one : valuesOf(at, "/grid", key, value, file_))
+        {
+          axis.rows.push_back({ one });
+        }
+      });
+  }
+
+  void readZip(Sweep& sweep)
+  {
+    SweepAxis axis;
+    forEach("zip",
+      [&](const JsonObject& at, const std::string& key, const json& value)
+      {
+        const auto values = valuesOf(at, "/zip", key, value, file_);
+        if (!axis.names.empty() && values.size() != axis.rows.size())
+        {
+          at.refuse(key,
+            "has " + std::to_string(values.size()) + " values and '" + axis.names.front() + "' " +
+              std::to_string(axis.rows.size()) + "; what is zipped has as many of each");
+        }
+        axis.names.push_back(key);
+        axis.rows.resize(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+        {
+          axis.rows[i].push_back(values[i]);
+        }
+      });
+    keep(sweep, std::move(axis));
+  }
+
+  void readHypercube(Sweep& sweep)
+  {
+    if (!document_.contains("latin_hypercube"))
+    {
+      return;
+    }
+    const char* path = "/latin_hypercube";
+    JsonObject object(document_["latin_hypercube"], file_, path);
+    const std::size_t count = countOf(object, "count");
+    const std::size_t seed = countOf(object, "seed");
+    (void)object.object("ranges");
+    object.finish();
+    SweepAxis axis;
+    std::vector<SweepRange> ranges;
+    const json& parts = document_["latin_hypercube"].value("ranges", json::object());
+    for (const auto& [key, value] : parts.items())
+    {
+      once(object, key);
+      JsonObject range(value, file_, std::string(path) + "/ranges/" + key);
+      ranges.push_back(rangeOf(range));
+      range.finish();
+      axis.names.push_back(key);
+    }
+    axis.rows = latinHypercube(ranges, axis.names.empty() ? 0 : count, seed);
+    keep(sweep, std::move(axis));
+  }
+
+private:
+  template <typename Take>
+  void forEach(const char* part, Take take)
+  {
+    if (document_.contains(part))
+    {
+      const JsonObject at(document_[part], file_, "/" + std::string(part));
+      for (const auto& [key, value] : document_[part].items())
+      {
+        once(at, key);
+        take(at, key, value);
+      }
+    }
+  }
+
+  void once(const JsonObject& at, const std::string& key)
+  {
+    if (!names_.insert(key).second)
+    {
+      at.refuse(key, "stands in another part, too; keep one");
+    }
+  }
+
+  static void keep(Sweep& sweep, SweepAxis axis)
+  {
+    if (!axis.names.empty())
+    {
+      sweep.axes.push_back(std::move(axis));
+    }
+  }
+
+  const json& document_;
+  std::string file_;
+  std::set<std::string> names_;
+};
+
+SweepPlot readPlot(JsonObject object, const json& value)
+{
+  SweepPlot plot{ .name = object.text("name", ""),
+    .title = object.text("title", ""),
+    .x = object.text("x", ""),
+    .y = object.text("y", ""),
+    .curves = object.text("curves", ""),
+    .colors = object.text("colors", "") };
+  JsonObject where = object.object("where");
+  object.finish();
+  if (plot.name.empty() || plot.x.empty() || plot.y.empty() ||
+    plot.name.find('/') != plot.name.npos)
+  {
+    object.refuse("name", "a plot has a name for its file, and the columns x and y");
+  }
+  if (!plot.curves.empty() && !plot.colors.empty())
+  {
+    object.refuse("colors", "a plot has curves or is a map of colors; give one of them");
+  }
+  const json rows = value.value("where", json::object());
+  for (const auto& [key, cell] : rows.items())
+  {
+    plot.where[key] = valueText(where, key, cell);
+  }
+  return plot;
+}
+
+} // namespace
+
+std::filesystem::path sweepFile(const std::string& name)
+{
+  const bool shipped = !std::filesystem::exists(name) && name.find_first_of("./") == name.npos;
+  return shipped ? dataFile("sweeps/" + name + ".json") : std::filesystem::path(name);
+}
+
+Sweep readSweepFile(const std::string& name)
+{
+  const std::filesystem::path path = sweepFile(name);
+  const std::string file = path.filename().string();
+  const json document = parseJson(readText(path, "a sweep in JSON"), file);
+  JsonObject object(document, file);
+  if (!object.isNumber("palp_sweep", 1.0))
+  {
+    object.refuse("palp_sweep", "must be 1, the version of sweeps that this program reads");
+  }
+  (void)object.text("$schema", "");
+  Sweep sweep;
+  sweep.title = object.text("title", path.stem().string());
+  sweep.kind = kKinds[object.choice("kind", object.text("kind", ""), kKinds)];
+  for (const char* part : { "fixed", "grid", "zip", "latin_hypercube" })
+  {
+    (void)object.object(part);
+  }
+  const auto plots = object.objects("plots");
+  object.finish();
+  Reader reader(document, file);
+  reader.readFixed(sweep);
+  reader.readGrid(sweep);
+  reader.readZip(sweep);
+  reader.readHypercube(sweep);
+  for (std::size_t i = 0; i < plots.size(); ++i)
+  {
+    sweep.plots.push_back(readPlot(plots[i], document["plots"][i]));
+  }
+  if (sweep.count() > kMostCases)
+  {
+    object.refuse(
+      "grid", "more than " + std::to_string(kMostCases) + " cases; make several sweeps");
+  }
+  return sweep;
+}
+
+} // namespace palp

@@ -1,0 +1,165 @@
+// The folder that the window exports: what was recorded is repeated and drawn by palp run, so that
+// the same command gives the same bytes later.
+
+#include "app/folder/export_folder.h"
+#include "app/folder/played_plan.h"
+#include "app/press/export.h"
+#include "app/window/window.h"
+#include "haptics/error.h"
+#include "haptics/files/prefix.h"
+
+#include <vtkCamera.h>
+#include <vtkRenderer.h>
+
+#include <QAction>
+#include <QEventLoop>
+#include <QMessageBox>
+#include <QProcess>
+#include <QTemporaryDir>
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kNoPicture = 4; // exit code of a run that cannot draw
+
+struct Ended
+{
+  int code;
+  QString said; // in one sentence
+};
+
+// palp run, while the window goes on
+Ended runPalp(const QStringList& arguments)
+{
+  QProcess palp;
+  QEventLoop untilEnd;
+  QObject::connect(
+    &palp, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), &untilEnd, &QEventLoop::quit);
+  QObject::connect(&palp, &QProcess::errorOccurred, &untilEnd, &QEventLoop::quit);
+  palp.start(QString::fromStdString((prefix() / "bin" / "palp").string()),
+    QStringList{ "run" } << arguments);
+  if (palp.state() != QProcess::NotRunning)
+  {
+    untilEnd.exec(QEventLoop::ExcludeUserInputEvents);
+  }
+  const bool isWell =
+    palp.error() == QProcess::UnknownError && palp.exitStatus() == QProcess::NormalExit;
+  const QStringList lines =
+    QString::fromLocal8Bit(palp.readAllStandardError()).split('\n', Qt::SkipEmptyParts);
+  return { isWell ? palp.exitCode() : -1, lines.isEmpty() ? palp.errorString() : lines.last() };
+}
+
+QString filesFoundIn(const std::filesystem::path& directory)
+{
+  QStringList found;
+  for (const std::string& name : exportFiles())
+  {
+    if (std::filesystem::exists(directory / name))
+    {
+      found << QString::fromStdString(name);
+    }
+  }
+  return found.join(", ");
+}
+
+} // namespace
+
+CameraPlace Window::cameraPlace() const
+{
+  vtkCamera& camera = *renderer_->GetActiveCamera();
+  return { .position = Eigen::Vector3d(camera.GetPosition()),
+    .focus = Eigen::Vector3d(camera.GetFocalPoint()),
+    .up = Eigen::Vector3d(camera.GetViewUp()) };
+}
+
+void Window::lookFrom(const CameraPlace& place)
+{
+  vtkCamera& camera = *renderer_->GetActiveCamera();
+  camera.SetPosition(place.position.data());
+  camera.SetFocalPoint(place.focus.data());
+  camera.SetViewUp(place.up.data());
+  renderer_->ResetCameraClippingRange();
+  keepView();
+  isStale_ = true;
+}
+
+// what was recorded goes into a folder of its own, from which the exported one is made
+void Window::exportTake(const QString& directory, const SceneBody& body, Recording recording,
+  const Calibration& calibration, const Timing* timing)
+{
+  const QTemporaryDir stage;
+  const std::filesystem::path folder = stage.path().toStdString();
+  if (!stage.isValid())
+  {
+    throw Error(ErrorCode::BadFile, "no temporary folder can be made; free some space in /tmp");
+  }
+  ScenePlan plan = planOf(session_.plan(), body, recording);
+  plan.allSamples = allSamplesExport_->isChecked();
+  plan.refined = refinedExport_->isChecked();
+  plan.camera = cameraPlace();
+  if (!plan.allSamples)
+  {
+    keepContact(recording);
+  }
+  writeSamples(folder / "samples.csv", recording, &calibration);
+  if (timing)
+  {
+    writeTiming(folder / "servo.csv", *timing);
+  }
+  writeProvenance(folder, plan, recording);
+  Ended ended{ kNoPicture, {} };
+  for (const bool draws : { true, false })
+  {
+    if (ended.code == kNoPicture)
+    {
+      plan.picture = draws;
+      plan.plots = draws ? plan.plots : std::vector<PlotKind>{};
+      writeScene(folder, plan, "");
+      ended = runPalp({ stage.path(), "--overwrite", "--out", directory });
+    }
+  }
+  if (ended.code != 0)
+  {
+    throw Error(ErrorCode::BadFile, ended.said.toStdString());
+  }
+}
+
+bool Window::exportData(const QString& directory)
+{
+  return attempt(
+    [&]
+    {
+      takeSamples();
+      const std::filesystem::path folder = directory.toStdString();
+      if (const QString found = filesFoundIn(folder); !found.isEmpty())
+      {
+        const QString text = tr("%1 holds %2 already. Replace?").arg(directory, found);
+        if (QMessageBox::question(this, tr("Palp"), text) != QMessageBox::Yes)
+        {
+          return;
+        }
+      }
+      say(tr("Exporting…"));
+      QStringList written;
+      if (session_.recording().deepest() != nullptr || session_.earlier().empty())
+      {
+        exportTake(directory, session_.body(), session_.recording(), session_.calibration(),
+          &session_.timing());
+        written << tr("scene, samples, presses, deformed mesh and pictures");
+      }
+      for (std::size_t i = 0; i < session_.earlier().size(); ++i)
+      {
+        const QString name = QString("earlier-%1").arg(i + 1);
+        const Session::Take take = session_.earlier()[i]; // the window goes on
+        exportTake(directory + '/' + name, take.body, take.recording, take.calibration, nullptr);
+        written << name;
+      }
+      say(tr("Written to %1: %2").arg(directory, written.join(", ")));
+    });
+}
+
+} // namespace palp

@@ -1,0 +1,112 @@
+// How the window's picture is looked at, and saved to print.
+
+#include "app/graphs/figure_dialog.h"
+#include "app/window/window.h"
+
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <QMenu>
+
+#include <array>
+#include <cmath>
+
+namespace palp
+{
+
+// by the sides of a patient in LPS, which other surfaces are looked at by, too
+void Window::addStandardViews(QMenu& menu)
+{
+  struct Standard
+  {
+    QString name;
+    Eigen::Vector3d eye;
+    Eigen::Vector3d up;
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const std::array<Standard, 6> views{ { { tr("&Anterior, from -y"), -y, z },
+    { tr("&Posterior, from +y"), y, z }, { tr("&Left, from +x"), x, z },
+    { tr("&Right, from -x"), -x, z }, { tr("&Superior, from +z"), z, -y },
+    { tr("&Inferior, from -z"), -z, -y } } };
+  QMenu* standard = menu.addMenu(tr("&Standard views"));
+  int key = Qt::Key_1;
+  const auto add = [&](const QString& name, const std::function<void()>& look)
+  {
+    standard->addAction(
+      name, this,
+      [this, look]
+      {
+        keepView();
+        look();
+        isStale_ = true;
+      },
+      QKeySequence(Qt::CTRL | key++));
+  };
+  for (const Standard& view : views)
+  {
+    add(view.name, [this, view] { view_.lookFrom(view.eye, view.up); });
+  }
+  add(tr("From the &tool"),
+    [this]
+    {
+      const Eigen::Vector3d eye = -shown_.pose.axis.normalized();
+      const bool isUpright = std::abs(eye.z()) > 0.9;
+      view_.lookFrom(eye, { 0.0, isUpright ? -1.0 : 0.0, isUpright ? 0.0 : 1.0 });
+    });
+}
+
+// what moves is drawn as soon as can be, what stands still with smooth edges
+void Window::smoothen()
+{
+  constexpr int kStill = 12; // pictures
+  if (++still_ == kStill)
+  {
+    renderer_->UseFXAAOn();
+    renderWindow_->Render();
+  }
+}
+
+void Window::askFigure()
+{
+  FigureDialog dialog(tr("Save figure"), "press_figure.png", tr("PNG (*.png)"), ImageSize{}, this);
+  FigureLook look{ .hasAxes = true, .hasScaleBar = true };
+  for (std::size_t i = 0; i < kOverlayCount; ++i)
+  {
+    if (const auto overlay = static_cast<Overlay>(i); view_.isVisible(overlay))
+    {
+      look.overlays.push_back(overlay);
+    }
+  }
+  dialog.offerParts(look);
+  if (dialog.exec() == QDialog::Accepted)
+  {
+    saveFigure(dialog.file(), dialog.size(), dialog.look());
+  }
+}
+
+bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& look)
+{
+  return attempt(
+    [&]
+    {
+      vtkNew<vtkRenderWindow> window;
+      window->SetShowWindow(false);
+      window->SetOffScreenRendering(1);
+      window->SetSize(size.width, size.height);
+      const auto asHere = [this](PressView&, vtkRenderer& renderer)
+      {
+        renderer.GetActiveCamera()->DeepCopy(renderer_->GetActiveCamera());
+        renderer.ResetCameraClippingRange();
+      };
+      writeFigure(*window,
+        { session_.body(), session_.recording().scene.law, session_.calibration(), shown_ }, look,
+        asHere, file.toStdString());
+      say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height));
+    });
+}
+
+} // namespace palp

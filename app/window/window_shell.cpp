@@ -1,0 +1,165 @@
+// What a window of any program has: recent files, drag and drop, panels, help, a bar of tools.
+
+#include "app/shell/key_sheet.h"
+#include "app/window/window.h"
+
+#include <QAction>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QStyle>
+#include <QToolBar>
+#include <QUrl>
+#include <vtkVersion.h>
+
+namespace palp
+{
+namespace
+{
+
+QStringList filesOf(const QMimeData& dragged)
+{
+  QStringList files;
+  for (const QUrl& url : dragged.urls())
+  {
+    if (url.isLocalFile())
+    {
+      files << url.toLocalFile();
+    }
+  }
+  return files;
+}
+
+} // namespace
+
+void Window::closeEvent(QCloseEvent* event)
+{
+  memory_.save(*this);
+  QMainWindow::closeEvent(event);
+}
+
+void Window::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (!filesOf(*event->mimeData()).isEmpty())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+void Window::dropEvent(QDropEvent* event)
+{
+  const QStringList files = filesOf(*event->mimeData());
+  if (files.isEmpty())
+  {
+    return;
+  }
+  event->acceptProposedAction();
+  if (openFile(files.front()) && files.size() > 1)
+  {
+    say(tr("Opened %1, the first of %2 files: one body is pressed at a time")
+          .arg(QFileInfo(files.front()).fileName())
+          .arg(files.size()));
+  }
+}
+
+// listed when it is looked at, as another window may have opened more
+void Window::addRecentFiles(QMenu& menu)
+{
+  QMenu* recent = menu.addMenu(tr("Open &recent"));
+  recent->setObjectName("recentFiles");
+  connect(recent, &QMenu::aboutToShow, this,
+    [this, recent]
+    {
+      recent->clear();
+      for (const QString& file : memory_.recentFiles())
+      {
+        QAction* entry = recent->addAction(
+          QFileInfo(file).fileName().replace('&', "&&"), this, [this, file] { openRecent(file); });
+        entry->setToolTip(file);
+      }
+      if (recent->isEmpty())
+      {
+        recent->addAction(tr("none so far"))->setEnabled(false);
+      }
+    });
+  recent->setToolTipsVisible(true);
+}
+
+void Window::openRecent(const QString& file)
+{
+  if (QFileInfo::exists(file))
+  {
+    openFile(file);
+    return;
+  }
+  memory_.forgetRecentFile(file);
+  say(tr("%1 is there no longer; it is off the list").arg(file));
+}
+
+void Window::addPanels(QMenu& menu)
+{
+  QMenu* panels = menu.addMenu(tr("Pa&nels"));
+  panels->setObjectName("panels");
+  for (const QDockWidget* dock : findChildren<QDockWidget*>())
+  {
+    panels->addAction(dock->toggleViewAction());
+  }
+}
+
+void Window::makeHelpMenu()
+{
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  QAction* keys = help->addAction(tr("&Mouse and keys"), this,
+    [this]
+    {
+      const std::vector<KeyEntry> mouse{ { tr("Left button, drag down"), tr("Press, and deeper") },
+        { tr("Click"), tr("Press 1 mm") },
+        { tr("Wheel"), tr("Hold a depth while the tool slides") },
+        { tr("Right-drag"), tr("Rotate the view") }, { tr("Middle-drag"), tr("Move the view") },
+        { tr("Ctrl+wheel"), tr("Zoom") } };
+      showKeySheet(*this, mouse, *menuBar());
+    });
+  keys->setObjectName("keysAction");
+  keys->setShortcuts({ QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_H) });
+  help->addAction(tr("&About Palp"), this,
+    [this]
+    {
+      QMessageBox::about(this, tr("About Palp"),
+        tr("<b>Palp " PALP_VERSION "</b><p>Press a liver on the screen: see the dent, feel the "
+           "reaction, watch the force, keep every number.<p>VTK %1, Qt %2")
+          .arg(QString(vtkVersion::GetVTKVersion()), qVersion()));
+    });
+}
+
+// what is used most
+void Window::makeToolBar()
+{
+  QToolBar* bar = addToolBar(tr("Tools"));
+  bar->setObjectName("toolBar");
+  bar->setIconSize(QSize(16, 16));
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  struct Entry
+  {
+    const char* action;
+    QString name;
+    QStyle::StandardPixmap icon;
+  };
+  for (const Entry& entry : { Entry{ "openAction", tr("Open"), QStyle::SP_DialogOpenButton },
+         Entry{ "figureAction", tr("Save figure"), QStyle::SP_DialogSaveButton },
+         Entry{ "exportAction", tr("Export data"), QStyle::SP_DriveHDIcon },
+         Entry{ "resetViewAction", tr("Reset view"), QStyle::SP_BrowserReload },
+         Entry{ "plotsAction", tr("Plots"), QStyle::SP_FileDialogDetailedView } })
+  {
+    auto* action = findChild<QAction*>(entry.action);
+    action->setIconText(entry.name);
+    action->setIcon(style()->standardIcon(entry.icon));
+    action->setIconVisibleInMenu(false);
+    bar->addAction(action);
+  }
+}
+
+} // namespace palp

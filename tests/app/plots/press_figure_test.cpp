@@ -1,0 +1,134 @@
+#include "app/plots/press_figure.h"
+
+#include "haptics/units.h"
+#include "tests/pipeline/view/press_pictures.h"
+#include "tests/support/process.h"
+
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vtkRenderWindow.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+class PressFigure : public ::testing::Test
+{
+protected:
+  [[nodiscard]] vtkSmartPointer<vtkImageData> figure(
+    const FigureLook& look, int width = 480, int height = 360)
+  {
+    vtkNew<vtkRenderWindow> window;
+    window->SetOffScreenRendering(1);
+    window->SetSize(width, height);
+    const std::filesystem::path file = folder_.path() / "figure.png";
+    writeFigure(
+      *window, moment_, look,
+      [this](PressView& view, vtkRenderer&) { view.lookAtWhole(ball_.position, ball_.normal); },
+      file);
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    return reader->GetOutput();
+  }
+
+  [[nodiscard]] static SceneBody named(vtkPolyData* surface)
+  {
+    SceneBody body;
+    body.name = "ball";
+    body.display = surface;
+    return body;
+  }
+
+  [[nodiscard]] static Calibration ofThreeDepths()
+  {
+    Calibration calibration{ .extents = ExtentTable(
+                               { { 1.0_mm, 3.5_mm, 0.2, 3.0_mm }, { 5.0_mm, 18.4_mm, 2.9, 7.0_mm },
+                                 { 10.0_mm, 30.0_mm, 8.0, 10.0_mm } }),
+      .style = {},
+      .note = {},
+      .elements = {},
+      .young = {} };
+    return calibration;
+  }
+
+  test::TemporaryFolder folder_;
+  const test::Specimen ball_ = test::ball();
+  const SceneBody body_ = named(ball_.surface);
+  const ForceLaw law_{ test::kSphere, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 } };
+  const Calibration calibration_ = ofThreeDepths();
+  const Sample sample_ = test::pressed(ball_, test::kSphere, 5.0_mm);
+  const PressMoment moment_{ body_, law_, calibration_, sample_ };
+};
+
+// laid over the background of the opaque one it is that one, at the edges and under the tool, too
+TEST_F(PressFigure, WithoutABackgroundIsTheSameOverAnyOther)
+{
+  const auto opaque = figure({ .overlays = { Overlay::DisplacementColors } });
+  const auto clear = figure({ .isTransparent = true, .overlays = { Overlay::DisplacementColors } });
+  ASSERT_EQ(opaque->GetNumberOfScalarComponents(), 3);
+  ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
+  EXPECT_EQ(clear->GetScalarComponentAsDouble(0, 0, 0, 3), 0.0);
+  double sum = 0.0;
+  int partly = 0;
+  for (int y = 0; y < 360; ++y)
+  {
+    for (int x = 0; x < 480; ++x)
+    {
+      const double share = clear->GetScalarComponentAsDouble(x, y, 0, 3) / 255.0;
+      partly += share > 0.1 && share < 0.9 ? 1 : 0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const double behind = opaque->GetScalarComponentAsDouble(0, y, 0, k);
+        const double over = std::lerp(behind, clear->GetScalarComponentAsDouble(x, y, 0, k), share);
+        const double off = std::abs(over - opaque->GetScalarComponentAsDouble(x, y, 0, k));
+        EXPECT_LT(off, 16.0) << x << ' ' << y;
+        sum += off;
+      }
+    }
+  }
+  EXPECT_GT(partly, 100) << "smooth edges";
+  EXPECT_LT(sum / (3.0 * 480 * 360), 0.5);
+}
+
+// letters and lines keep their share of the picture
+TEST_F(PressFigure, IsTheSamePictureLarger)
+{
+  EXPECT_EQ(dpiOf({ .width = 1280, .height = 960 }), 72);
+  EXPECT_EQ(dpiOf({ .width = 2560, .height = 1920 }), 144);
+  EXPECT_EQ(dpiOf({ .width = 7680, .height = 5760 }), 432);
+  EXPECT_EQ(dpiOf({ .width = 320, .height = 240 }), 72) << "never smaller than can be read";
+}
+
+TEST_F(PressFigure, HasWhatIsAskedFor)
+{
+  const auto plain = figure({ .hasColorBar = false });
+  FigureLook look{ .hasColorBar = false };
+  for (bool FigureLook::*part :
+    { &FigureLook::hasAxes, &FigureLook::hasScaleBar, &FigureLook::hasCaption })
+  {
+    FigureLook with = look;
+    with.*part = true;
+    EXPECT_GT(test::differenceOf(*figure(with), *plain).changed, 0.0002);
+  }
+  look.overlays = { Overlay::DisplacementColors };
+  FigureLook bar = look;
+  bar.hasColorBar = true;
+  EXPECT_GT(test::differenceOf(*figure(bar), *figure(look)).changed, 0.005);
+}
+
+TEST_F(PressFigure, CaptionTellsWhatWasPressedAndHow)
+{
+  const std::string caption = captionOf(moment_);
+  for (const char* part : { "ball", "sphere:10mm", "50.0 kPa", "0.33", "5.00 mm", " N" })
+  {
+    EXPECT_NE(caption.find(part), std::string::npos) << part << " in " << caption;
+  }
+}
+
+} // namespace
+} // namespace palp

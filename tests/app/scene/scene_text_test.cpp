@@ -1,0 +1,193 @@
+#include "app/scene/scene_text.h"
+
+#include "app/input/coating_text.h"
+#include "app/input/quantity.h"
+#include "app/input/tip_text.h"
+#include "app/scene/scene_file.h"
+#include "haptics/units.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+class SceneText : public ::testing::Test
+{
+protected:
+  SceneText()
+  {
+    setenv("PALP_DATA", PALP_SHARE, 1);
+  }
+
+  double between(double low, double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  std::size_t below(std::size_t count)
+  {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
+  }
+  Eigen::Vector3d place(double size)
+  {
+    return { between(-size, size), between(-size, size), between(-size, size) };
+  }
+
+  // whatever a run or a window may leave, with numbers of all their digits
+  ScenePlan plan()
+  {
+    ScenePlan plan;
+    plan.name = "a \"title\" é";
+    plan.meshes = { { .bundled = "liver" },
+      { .file = "/data/liver.nii.gz",
+        .part = { .level = between(-1.0, 200.0), .labels = {} },
+        .unit = LengthUnit::Centimeter,
+        .origin = place(10.0),
+        .rotation = place(6.2) } };
+    const std::vector<Tip> tips{ SphereTip{ between(1e-3, 0.01) },
+      ConeTip{ between(0.2, 1.4), between(2e-3, 0.01) }, PunchTip{ between(1e-3, 0.01) },
+      ParaboloidTip{ between(1e-3, 0.01) } };
+    TissueOptions& tissue = plan.press.tissue;
+    tissue.tip = tips[below(4)];
+    tissue.young = between(1e3, 1e6);
+    tissue.poisson = between(0.0, 0.5);
+    tissue.options.mode = LawMode::Corrected;
+    tissue.options.base = static_cast<Base>(below(2));
+    tissue.options.constitution = ConstitutiveModel::Linear;
+    if (i_++ % 2 == 0) // nodules are known neither below coatings nor over time
+    {
+      plan.meshes[1].nodules = { { place(0.3), between(2e-3, 0.02), between(1.1, 40.0) } };
+    }
+    else
+    {
+      tissue.options.coatings.add(
+        { between(3e-3, 5e-3), { between(0.5, 2.0) * tissue.young, 0.45 } });
+      tissue.options.relaxation.add({ between(0.1, 0.4), between(1e-3, 10.0) });
+      tissue.options.relaxation.add({ between(0.1, 0.4), between(1e-3, 10.0) });
+      tissue.options.friction = between(0.0, 2.0);
+    }
+    plan.press.contact = static_cast<ContactRule>(below(2));
+    plan.press.damping = between(0.0, 100.0);
+    plan.press.dent = { .surface = static_cast<DentSurface>(below(3)),
+      .layer = between(0.01, 0.2),
+      .threshold = between(1e-5, 1e-3) };
+    plan.window = false;
+    plan.presses = PlacedPresses{ .places = { { "F-1", place(0.3) }, { "", place(0.3) } },
+      .depth = between(1e-5, 0.1),
+      .speed = between(1e-5, 1.0) };
+    if (i_ % 3 == 0)
+    {
+      plan.presses->toward = place(1.0);
+    }
+    plan.chain = below(2) == 1;
+    plan.overlays = { { Overlay::ForceArrow, Overlay::Ghost } };
+    plan.plots = { PlotKind::Section, PlotKind::ForceOverTime };
+    plan.plotFiles = { "svg", "csv" };
+    plan.allSamples = below(2) == 1;
+    plan.refined = below(2) == 1;
+    plan.size = { 640, 481 };
+    plan.camera = CameraPlace{ place(1.0), place(1.0), place(1.0) };
+    return plan;
+  }
+
+  std::mt19937 random_{ 3 };
+  int i_ = 0;
+};
+
+TEST_F(SceneText, ReadsBackToTheLastBit)
+{
+  for (int i = 0; i < 30; ++i)
+  {
+    const ScenePlan before = plan();
+    const std::string text = sceneText(before, "/out");
+    const ScenePlan after = parseScene(text, "/out/scene.json");
+    ASSERT_EQ(sceneText(after, "/out"), text);
+    EXPECT_EQ(after.name, before.name);
+    ASSERT_EQ(after.meshes.size(), 2U);
+    EXPECT_EQ(after.meshes[0].bundled, "liver");
+    EXPECT_EQ(after.meshes[1].file, before.meshes[1].file);
+    EXPECT_EQ(after.meshes[1].part.level, before.meshes[1].part.level);
+    EXPECT_EQ(after.meshes[1].unit, before.meshes[1].unit);
+    EXPECT_EQ(after.meshes[1].origin, before.meshes[1].origin);
+    EXPECT_EQ(after.meshes[1].rotation, before.meshes[1].rotation);
+    const TissueOptions& was = before.press.tissue;
+    const TissueOptions& is = after.press.tissue;
+    EXPECT_EQ(is.tip.index(), was.tip.index());
+    EXPECT_EQ(baseRadius(is.tip), baseRadius(was.tip));
+    EXPECT_EQ(describeTip(is.tip), describeTip(was.tip));
+    EXPECT_EQ(is.young, was.young);
+    EXPECT_EQ(is.poisson, was.poisson);
+    ASSERT_EQ(is.options.coatings.all().size(), was.options.coatings.all().size());
+    for (std::size_t k = 0; k < was.options.coatings.all().size(); ++k)
+    {
+      EXPECT_EQ(is.options.coatings.all()[k].thickness, was.options.coatings.all()[k].thickness);
+      EXPECT_EQ(is.options.coatings.all()[k].material.youngModulus,
+        was.options.coatings.all()[k].material.youngModulus);
+    }
+    EXPECT_EQ(is.options.friction, was.options.friction);
+    ASSERT_EQ(is.options.relaxation.all().size(), was.options.relaxation.all().size());
+    for (std::size_t k = 0; k < was.options.relaxation.all().size(); ++k)
+    {
+      EXPECT_EQ(is.options.relaxation.all()[k].fraction, was.options.relaxation.all()[k].fraction);
+      EXPECT_EQ(is.options.relaxation.all()[k].time, was.options.relaxation.all()[k].time);
+    }
+    ASSERT_EQ(after.meshes[1].nodules.size(), before.meshes[1].nodules.size());
+    for (std::size_t k = 0; k < before.meshes[1].nodules.size(); ++k)
+    {
+      EXPECT_EQ(after.meshes[1].nodules[k].center, before.meshes[1].nodules[k].center);
+      EXPECT_EQ(after.meshes[1].nodules[k].radius, before.meshes[1].nodules[k].radius);
+      EXPECT_EQ(after.meshes[1].nodules[k].ratio, before.meshes[1].nodules[k].ratio);
+    }
+    EXPECT_EQ(after.press.damping, before.press.damping);
+    EXPECT_EQ(after.press.dent.layer, before.press.dent.layer);
+    EXPECT_EQ(after.press.dent.threshold, before.press.dent.threshold);
+    EXPECT_EQ(after.presses, before.presses);
+    EXPECT_EQ(after.camera, before.camera);
+    EXPECT_EQ(after.chain, before.chain);
+    EXPECT_EQ(after.allSamples, before.allSamples);
+  }
+}
+
+TEST_F(SceneText, NamesFilesBesideItAsSuchAndOthersWhole)
+{
+  ScenePlan plan;
+  plan.meshes = { { .file = "/data/liver.stl" } };
+  plan.window = false;
+  plan.recording = RecordedPress{ "/out/samples.csv", "hand", { "first", "" } };
+  const std::string text = sceneText(plan, "/out");
+  EXPECT_NE(text.find("\"/data/liver.stl\""), std::string::npos) << text;
+  EXPECT_NE(text.find("\"samples.csv\""), std::string::npos) << text;
+  const ScenePlan moved = parseScene(text, "/elsewhere/scene.json");
+  EXPECT_EQ(moved.recording->file, "/elsewhere/samples.csv");
+  EXPECT_EQ(moved.recording->names, plan.recording->names);
+  EXPECT_EQ(moved.recording->device, "hand");
+}
+
+// a quantity is written as people would, where that loses nothing
+TEST(QuantityText, IsInTheUsualUnitWhereThatIsExact)
+{
+  EXPECT_EQ(quantityText(0.01, Quantity::Length), "10mm");
+  EXPECT_EQ(quantityText(0.0003, Quantity::Length), "0.3mm");
+  EXPECT_EQ(quantityText(50e3, Quantity::Pressure), "50kPa");
+  EXPECT_EQ(quantityText(45.0_deg, Quantity::Angle), "45deg");
+  EXPECT_EQ(quantityText(0.025, Quantity::Speed), "25mm/s");
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> value(0.0, 1.0);
+  for (int i = 0; i < 100'000; ++i)
+  {
+    const double x = value(random);
+    for (const Quantity kind : { Quantity::Length, Quantity::Pressure, Quantity::Angle })
+    {
+      ASSERT_EQ(parseQuantity(quantityText(x, kind), kind, "x"), x);
+    }
+  }
+}
+
+} // namespace
+} // namespace palp

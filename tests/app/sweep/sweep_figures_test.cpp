@@ -1,0 +1,103 @@
+#include "app/sweep/case_folders.h"
+#include "app/sweep/cases/sweep_figures.h"
+#include "app/sweep/plan.h"
+#include "haptics/error.h"
+#include "tests/support/process.h"
+
+#include <cstdio>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace palp
+{
+namespace
+{
+
+// forces over E and nu that nobody computed
+class SweepMap : public testing::Test
+{
+protected:
+  static constexpr int kSide = 7;
+
+  [[nodiscard]] SweepFigures drawn(const SweepPlot& plot, double (*force)(int, int))
+  {
+    Sweep sweep{ .title = "simulated", .kind = "force", .fixed = { { "depth", "1:1:1mm" } } };
+    sweep.axes.push_back({ { "young" }, {} });
+    sweep.axes.push_back({ { "poisson" }, {} });
+    for (int i = 0; i < kSide; ++i)
+    {
+      sweep.axes[0].rows.push_back({ std::to_string(i + 1) + "kPa" });
+      sweep.axes[1].rows.push_back({ "0." + std::to_string(i + 1) });
+    }
+    sweep.plots.push_back(plot);
+    planSweep(
+      sweep, "/", { { "young", "poisson", "depth" }, {} }, [](const auto&) {}, folder_.path());
+    Manifest manifest(folder_.path());
+    for (std::size_t i = 0; i < manifest.head().count; ++i)
+    {
+      const auto place = CaseFolders{ folder_.path() }.result(manifest.at(i).name);
+      std::filesystem::create_directories(place);
+      const int at = static_cast<int>(i);
+      std::ofstream(place / "force.csv")
+        << "depth_mm,force_N\n1," << force(at / kSide, at % kSide) << '\n';
+      std::ofstream(place / kCaseFile) << R"({"seconds": 2.0, "memory_MiB": 8})";
+    }
+    return sweepFigures(manifest, {});
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SweepMap, EachCellHasTheShadeWhoseValuesItsLabelTells)
+{
+  const auto force = [](int i, int j) { return 0.25 * i - 0.1 * j; };
+  const SweepFigures map = drawn(
+    { .name = "map", .title = "t", .x = "young_kPa", .y = "poisson", .colors = "force_N" }, force);
+  ASSERT_EQ(map.figures.size(), 1U);
+  int cells = 0;
+  for (const figures::Curve& curve : map.figures[0].curves)
+  {
+    EXPECT_EQ(curve.style, figures::Curve::Style::Cells);
+    double from = 0.0;
+    double to = 0.0;
+    ASSERT_EQ(std::sscanf(curve.label.c_str(), "%lf to %lf", &from, &to), 2) << curve.label;
+    const figures::Points points = figures::pointsOf(map.tables, curve);
+    for (std::size_t k = 0; k < points.x.size(); ++k, ++cells)
+    {
+      const double value =
+        force(static_cast<int>(points.x[k]) - 1, static_cast<int>(10.0 * points.y[k] + 0.5) - 1);
+      EXPECT_GE(value, from - 0.006) << "rounded to three digits";
+      EXPECT_LE(value, to + 0.006);
+    }
+  }
+  EXPECT_EQ(cells, kSide * kSide);
+  EXPECT_EQ(figures::pointsOf(map.tables, map.figures[0].curves.front()).x.size(), 4U);
+  EXPECT_EQ(figures::pointsOf(map.tables, map.figures[0].curves.back()).x.size(), 4U);
+}
+
+TEST_F(SweepMap, OfOneValueHasOneShade)
+{
+  const SweepFigures map =
+    drawn({ .name = "map", .title = "t", .x = "young_kPa", .y = "poisson", .colors = "force_N" },
+      [](int, int) { return 2.0; });
+  EXPECT_EQ(figures::pointsOf(map.tables, map.figures[0].curves.front()).x.size(),
+    std::size_t{ kSide } * kSide);
+}
+
+TEST_F(SweepMap, LeavesOutWhatIsNoNumberAndRefusesPlacesThatAreNone)
+{
+  const auto some = [](int i, int j)
+  { return i == j ? std::numeric_limits<double>::quiet_NaN() : 1.0 * i; };
+  const SweepFigures map = drawn(
+    { .name = "map", .title = "t", .x = "young_kPa", .y = "poisson", .colors = "force_N" }, some);
+  std::size_t cells = 0;
+  for (const figures::Curve& curve : map.figures[0].curves)
+  {
+    cells += figures::pointsOf(map.tables, curve).x.size();
+  }
+  EXPECT_EQ(cells, std::size_t{ kSide } * (kSide - 1));
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,113 @@
+#include "app/sweep/case_inputs.h"
+#include "app/sweep/sweep_file.h"
+#include "haptics/error.h"
+#include "tests/support/process.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+class SweepFile : public testing::Test
+{
+protected:
+  [[nodiscard]] Sweep read(const std::string& rest) const
+  {
+    const std::filesystem::path file = folder_.path() / "sweep.json";
+    std::ofstream(file) << R"({"palp_sweep": 1, "kind": "force", )" << rest << "}";
+    return readSweepFile(file.string());
+  }
+
+private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SweepFile, MultipliesGridZipAndSamples)
+{
+  const Sweep sweep = read(R"("grid": {"tip": ["sphere:5mm", "sphere:10mm"],
+    "poisson": {"from": 0.3, "to": 0.5, "step": 0.1}},
+    "zip": {"a": [1, 2], "b": ["x", "y"]},
+    "latin_hypercube": {"count": 5, "seed": 1, "ranges": {"young": {"from": "1kPa", "to": "9kPa"}}})");
+  EXPECT_EQ(sweep.count(), 2U * 3U * 2U * 5U);
+  const std::vector<std::string> names{ "poisson", "tip", "a", "b", "young" };
+  EXPECT_EQ(sweep.names(), names);
+  const auto first = sweep.values(0);
+  const auto last = sweep.values(sweep.count() - 1);
+  EXPECT_EQ(std::vector(first.begin(), first.begin() + 4),
+    (std::vector<std::string>{ "0.3", "sphere:5mm", "1", "x" }));
+  EXPECT_EQ(std::vector(last.begin(), last.begin() + 4),
+    (std::vector<std::string>{ "0.5", "sphere:10mm", "2", "y" }));
+  EXPECT_EQ(sweep.values(5)[2], "2"); // the last axis changes first
+}
+
+TEST_F(SweepFile, SaysWhatIsWrongInOneSentence)
+{
+  for (const auto& [bad, word] :
+    std::initializer_list<std::pair<const char*, const char*>>{ { R"("grids": {})", "unknown key" },
+      { R"("grid": {"tip": []})", "empty list" },
+      { R"("grid": {"tip": [[1]]})", "must be a value" },
+      { R"("grid": {"tip": "sphere:1mm"})", "list of values" },
+      { R"("fixed": {"tip": "sphere:1mm"}, "grid": {"tip": ["sphere:2mm"]})", "another part" },
+      { R"("zip": {"a": [1, 2], "b": [1]})", "as many of each" },
+      { R"("grid": {"a": {"from": "1mm", "to": "2cm", "count": 2}})", "another unit" },
+      { R"("grid": {"a": {"from": "1mm", "to": "2mm", "step": "0.3mm"}})", "whole steps" },
+      { R"("grid": {"a": {"from": "2mm", "to": "1mm", "count": 2}})", "more than" },
+      { R"("grid": {"a": {"from": 0, "to": 1, "count": 2, "scale": "log"}})", "log scale" },
+      { R"("grid": {"a": {"from": 1, "to": 2}})", "count" },
+      { R"("grid": {"a": {"from": 1, "to": 2, "count": 2.5}})", "whole number" },
+      { R"("latin_hypercube": {"count": 3, "seed": 1, "range": {}})", "unknown key" },
+      { R"("latin_hypercube": {"count": 3, "ranges": {}})", "seed" },
+      { R"("grid": {"a": {"from": 1, "to": 2, "count": 9999}, "b": {"from": 1, "to": 2, "count": 9999}})",
+        "cases" },
+      { R"("fixed": {"tip": "a\nb"})", "control characters" },
+      { R"("plots": [{"name": "../x", "x": "a", "y": "b"}])", "plot" } })
+  {
+    try
+    {
+      (void)read(bad);
+      FAIL() << bad;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(CaseInputs, FillInNamesAndRefuseCircles)
+{
+  const SweepValues full = filledIn({ { "block", "{w}x{w}x{height}" }, { "w", "{side}" },
+    { "side", "100" }, { "height", "50mm" } });
+  EXPECT_EQ(full.at("block"), "100x100x50mm");
+  for (const SweepValues& bad : { SweepValues{ { "a", "{a}" } },
+         SweepValues{ { "a", "{b}" }, { "b", "{c}" }, { "c", "{a}" } } })
+  {
+    try
+    {
+      (void)filledIn(bad);
+      FAIL();
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("circle"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW((void)filledIn({ { "a", "{nobody}" } }), Error);
+}
+
+TEST(CaseInputs, NameACaseByContentNotByPlace)
+{
+  const SweepValues here{ { "path", "/here/a.csv" }, { "young", "5kPa" } };
+  const SweepValues there{ { "path", "/there/b.csv" }, { "young", "5kPa" } };
+  const std::string name = caseName("run", here, { { "/here/a.csv", "12" } });
+  EXPECT_EQ(name.size(), 32U);
+  EXPECT_EQ(name, caseName("run", there, { { "/there/b.csv", "12" } }));
+  EXPECT_NE(name, caseName("run", here, { { "/here/a.csv", "13" } }));
+  EXPECT_NE(name, caseName("force", here, { { "/here/a.csv", "12" } }));
+}
+
+} // namespace
+} // namespace palp

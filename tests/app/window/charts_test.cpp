@@ -1,0 +1,125 @@
+#include "app/graphs/chart_panel.h"
+#include "app/graphs/figure_dialog.h"
+#include "tests/app/window/window_rig.h"
+
+#include <QComboBox>
+#include <QImage>
+#include <QToolButton>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <vtkAxis.h>
+#include <vtkPlot.h>
+#include <vtkTable.h>
+
+namespace palp
+{
+namespace
+{
+
+class WindowCharts : public test::WindowTest
+{
+protected:
+  [[nodiscard]] QVTKOpenGLNativeWidget* canvas(const char* name) const
+  {
+    return window_->findChild<QVTKOpenGLNativeWidget*>(name);
+  }
+
+  [[nodiscard]] ChartPanel* panel(const char* name) const
+  {
+    return qobject_cast<ChartPanel*>(canvas(name)->parentWidget());
+  }
+
+  [[nodiscard]] vtkPalpChart& chart(const char* name) const
+  {
+    return *panel(name)->charts().at(0);
+  }
+
+  void click(const char* chart, const char* button) const
+  {
+    panel(chart)->findChild<QToolButton*>(button)->click();
+  }
+
+  [[nodiscard]] static double width(vtkPalpChart& chart, int side)
+  {
+    return chart.GetAxis(side)->GetMaximum() - chart.GetAxis(side)->GetMinimum();
+  }
+};
+
+TEST_F(WindowCharts, AreZoomedByTheWheelAndFitAgain)
+{
+  press(100);
+  release();
+  EXPECT_TRUE(waitForLift());
+  waitForRest();
+  vtkPalpChart& depth = chart("depthChart");
+  const double before = width(depth, vtkAxis::BOTTOM);
+  const QPoint middle = canvas("depthChart")->rect().center();
+  QTest::mouseMove(canvas("depthChart"), middle);
+  QWheelEvent wheel(middle, canvas("depthChart")->mapToGlobal(middle), {}, QPoint(0, 120),
+    Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(canvas("depthChart"), &wheel);
+  EXPECT_LT(width(depth, vtkAxis::BOTTOM), 0.9 * before);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return picturesIn(200) == 0; }, kPatience)) << "drawn for ever";
+  click("depthChart", "fit");
+  EXPECT_NEAR(width(depth, vtkAxis::BOTTOM), before, 1e-9);
+}
+
+TEST_F(WindowCharts, ArePausedAndClearedTogether)
+{
+  click("timeChart", "pause");
+  EXPECT_TRUE(panel("depthChart")->findChild<QToolButton*>("pause")->isChecked());
+  const auto points = [this](const char* name)
+  { return chart(name).GetPlot(1)->GetInput()->GetNumberOfRows(); };
+  const vtkIdType before = points("depthChart");
+  press(100);
+  release();
+  EXPECT_TRUE(waitForLift());
+  EXPECT_EQ(points("depthChart"), before);
+  click("depthChart", "pause");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return points("depthChart") > before + 10; }, kPatience));
+  waitForRest();
+  click("timeChart", "clear");
+  EXPECT_EQ(points("depthChart"), 0);
+  EXPECT_GT(session_->recording().samples.size(), 10U) << "the recording keeps them";
+}
+
+TEST_F(WindowCharts, AreSavedAtTheSizeThatIsAskedFor)
+{
+  press(100);
+  release();
+  for (const std::size_t which : { 0U, 1U })
+  {
+    for (const char* name : { "chart.png", "chart.svg", "chart.pdf", "chart.csv" })
+    {
+      const std::filesystem::path file = folder_.path() / name;
+      ASSERT_TRUE(window_->saveChart(
+        which, QString::fromStdString(file.string()), { .width = 2400, .height = 1200 }));
+      EXPECT_GT(std::filesystem::file_size(file), 2000U) << name;
+    }
+    const QImage picture(QString::fromStdString((folder_.path() / "chart.png").string()));
+    EXPECT_EQ(picture.size(), QSize(2400, 1200));
+    std::ifstream svg(folder_.path() / "chart.svg");
+    const std::string text{ std::istreambuf_iterator<char>(svg), {} };
+    EXPECT_NE(text.find(which == 0 ? "time [s]" : "depth"), std::string::npos);
+  }
+}
+
+TEST(FigureDialog, TakesAnySizeUpToItsLimit)
+{
+  test::application();
+  const test::TemporaryFolder folder;
+  FigureDialog dialog("Save", "figure.png", "Figures (*.png)", { .width = 1600, .height = 1000 });
+  dialog.setDirectory(QString::fromStdString(folder.path().string()));
+  dialog.findChild<QComboBox*>("size")->setEditText("7680x4320");
+  dialog.accept();
+  EXPECT_EQ(dialog.size().width, 7680);
+  EXPECT_EQ(dialog.size().height, 4320);
+  EXPECT_TRUE(dialog.file().endsWith("figure.png")) << dialog.file().toStdString();
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,221 @@
+#include "app/shell/key_sheet.h"
+#include "tests/app/window/window_rig.h"
+
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QDialog>
+#include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QUrl>
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+class Manners : public WindowTest
+{
+protected:
+  [[nodiscard]] QDockWidget* dock(const char* name) const
+  {
+    return window_->findChild<QDockWidget*>(name);
+  }
+  [[nodiscard]] QStringList recent() const
+  {
+    auto* menu = window_->findChild<QMenu*>("recentFiles");
+    Q_EMIT menu->aboutToShow();
+    QStringList names;
+    for (const QAction* action : menu->actions())
+    {
+      names << action->text();
+    }
+    return names;
+  }
+  void chooseRecent(int entry) const
+  {
+    window_->findChild<QMenu*>("recentFiles")->actions().at(entry)->trigger();
+  }
+  void drop(const QList<QUrl>& urls) const
+  {
+    QMimeData dragged;
+    dragged.setUrls(urls);
+    QDragEnterEvent enter({ 400, 300 }, Qt::CopyAction, &dragged, Qt::LeftButton, {});
+    QApplication::sendEvent(window_.get(), &enter);
+    EXPECT_EQ(enter.isAccepted(), !urls.isEmpty());
+    QDropEvent event({ 400, 300 }, Qt::CopyAction, &dragged, Qt::LeftButton, {});
+    QApplication::sendEvent(window_.get(), &event);
+  }
+  void openAnew()
+  {
+    window_->close();
+    window_.reset();
+    session_.reset();
+    session_ = std::make_unique<Session>(ScenePlan{}, silent_);
+    window_ = std::make_unique<Window>(*session_, silent_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+  }
+
+  const QString block_ = PALP_SHARE "/meshes/block_50.vtp";
+};
+
+// every key that a menu has, found by walking the menus by another way
+TEST_F(Manners, TheKeySheetNamesEveryKeyOfTheMenus)
+{
+  std::size_t keys = 0;
+  for (const QAction* action : window_->findChildren<QAction*>())
+  {
+    keys += action->shortcut().isEmpty() ? 0 : 1;
+  }
+  EXPECT_GE(keys, 12U);
+  EXPECT_EQ(keysOf(*window_->menuBar()).size(), keys);
+
+  QTest::keyClick(window_.get(), Qt::Key_F1);
+  auto* sheet = window_->findChild<QDialog*>("keySheet");
+  ASSERT_NE(sheet, nullptr);
+  QString text;
+  for (const QLabel* label : sheet->findChildren<QLabel*>())
+  {
+    text += label->text() + '\n';
+  }
+  for (const char* said : { "Left button, drag down", "Wheel", "Esc", "Ctrl+S", "F1 or H", "Home" })
+  {
+    EXPECT_TRUE(text.contains(said)) << said;
+  }
+  EXPECT_LE(sheet->sizeHint().height(), 700) << "on a screen of 768 pixels";
+  QTest::keyClick(window_.get(), Qt::Key_H);
+  EXPECT_TRUE(QTest::qWaitFor([this] { return !window_->findChild<QDialog*>("keySheet"); }));
+}
+
+TEST_F(Manners, PanelsThatWereClosedStayClosedAndTheWindowKeepsItsSize)
+{
+  const QSize size(1100, 780);
+  window_->resize(size);
+  EXPECT_FALSE(dock("Diagnostics")->isVisible()) << "at first";
+  dock("Diagnostics")->toggleViewAction()->trigger();
+  EXPECT_TRUE(dock("Diagnostics")->isVisible());
+  dock("Force over depth")->close();
+  openAnew();
+  EXPECT_TRUE(dock("Diagnostics")->isVisible());
+  EXPECT_FALSE(dock("Force over depth")->isVisible());
+  EXPECT_TRUE(dock("Force over time")->isVisible());
+  EXPECT_EQ(window_->size(), size);
+
+  dock("Force over depth")->toggleViewAction()->trigger();
+  EXPECT_TRUE(dock("Force over depth")->isVisible());
+}
+
+TEST_F(Manners, TellsThePunctualityOfTheServoOnlyToWhoAsks)
+{
+  const auto* text = window_->findChild<QLabel*>("timing");
+  QTest::qWait(50);
+  EXPECT_TRUE(text->text().isEmpty());
+  dock("Diagnostics")->show();
+  EXPECT_TRUE(QTest::qWaitFor([text] { return text->text().contains("late ticks"); }, kPatience));
+}
+
+TEST_F(Manners, OpensAgainWhatWasOpenedAndDropsWhatIsGone)
+{
+  EXPECT_EQ(recent(), QStringList("none so far"));
+  const auto copy = folder_.path() / "a & b.vtp";
+  std::filesystem::copy_file(block_.toStdString(), copy);
+  ASSERT_TRUE(window_->openFile(QString::fromStdString(copy.string())));
+  ASSERT_TRUE(window_->openFile(block_));
+  EXPECT_EQ(recent(), QStringList({ "block_50.vtp", "a && b.vtp" }));
+  chooseRecent(1);
+  EXPECT_EQ(session_->body().name, "a & b.vtp");
+  EXPECT_EQ(recent(), QStringList({ "a && b.vtp", "block_50.vtp" })) << "the newest first";
+
+  std::filesystem::remove(copy);
+  chooseRecent(0);
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("no longer"));
+  EXPECT_EQ(session_->body().name, "a & b.vtp") << "is kept";
+  EXPECT_EQ(recent(), QStringList("block_50.vtp"));
+}
+
+TEST_F(Manners, TakesWhatIsDropped)
+{
+  drop({});
+  drop({ QUrl::fromLocalFile(block_) });
+  EXPECT_EQ(session_->body().name, "block_50.vtp");
+  EXPECT_TRUE(window_->windowTitle().contains("block_50.vtp"));
+  drop({ QUrl::fromLocalFile(PALP_SHARE "/meshes/liver.vtp"), QUrl::fromLocalFile(block_) });
+  EXPECT_EQ(session_->body().name, "liver.vtp");
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("one body")) << "says so";
+}
+
+TEST_F(Manners, TheBarOfToolsDoesWhatTheMenusDo)
+{
+  auto* bar = window_->findChild<QToolBar*>("toolBar");
+  ASSERT_EQ(bar->actions().size(), 5);
+  for (QAction* action : bar->actions())
+  {
+    EXPECT_FALSE(action->icon().isNull());
+    EXPECT_FALSE(action->toolTip().isEmpty());
+    bool isInMenu = false;
+    for (const QWidget* widget : action->associatedWidgets())
+    {
+      isInMenu = isInMenu || qobject_cast<const QMenu*>(widget) != nullptr;
+    }
+    EXPECT_TRUE(isInMenu) << action->text().toStdString();
+  }
+  bar->actions().back()->trigger();
+  EXPECT_TRUE(
+    QTest::qWaitFor([this] { return dock("Section and comparison")->isVisible(); }, kPatience));
+  dock("Section and comparison")->close();
+  EXPECT_FALSE(bar->actions().back()->isChecked());
+}
+
+// for those who cannot see it, or do not know it yet
+TEST_F(Manners, EveryControlHasANameAndSaysWhatItDoes)
+{
+  int controls = 0;
+  const auto check = [&](const QWidget* control)
+  {
+    const bool isPart = qobject_cast<const QLineEdit*>(control) != nullptr &&
+      control->objectName().startsWith("qt_"); // of a spin box
+    if (!isPart && control->focusPolicy() != Qt::NoFocus)
+    {
+      const auto* button = qobject_cast<const QAbstractButton*>(control);
+      const bool isNamed =
+        !control->accessibleName().isEmpty() || (button && !button->text().isEmpty());
+      EXPECT_TRUE(isNamed) << control->objectName().toStdString();
+      EXPECT_FALSE(control->toolTip().isEmpty()) << control->objectName().toStdString();
+      ++controls;
+    }
+  };
+  for (const QDockWidget* panel : window_->findChildren<QDockWidget*>())
+  {
+    for (const QWidget* control : panel->widget()->findChildren<QAbstractSpinBox*>())
+    {
+      check(control);
+    }
+    for (const QWidget* control : panel->widget()->findChildren<QComboBox*>())
+    {
+      check(control);
+    }
+    for (const QWidget* control : panel->widget()->findChildren<QAbstractButton*>())
+    {
+      check(control);
+    }
+    for (const QWidget* control : panel->widget()->findChildren<QLineEdit*>())
+    {
+      check(control);
+    }
+  }
+  EXPECT_GE(controls, 20);
+}
+
+} // namespace
+} // namespace palp
