@@ -10,10 +10,12 @@
 #include "app/program/exec_program.h"
 #include "app/program/output.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iostream>
 #include <iterator>
 #include <memory>
 
@@ -64,7 +66,13 @@ void addMotion(ScenePlan& plan, const RunOptions& options)
   PlacedPresses presses = options.places.presses;
   if (!options.places.points.empty())
   {
-    std::ranges::copy(readFiducials(options.places.points), std::back_inserter(presses.places));
+    Fiducials points = readFiducials(options.places.points);
+    std::ranges::move(points.places, std::back_inserter(presses.places));
+    if (points.unplaced > 0)
+    {
+      std::cerr << "palp: " << options.places.points.string() << ": "
+                << counted(points.unplaced, "point") << " without a place left out\n";
+    }
   }
   if (!presses.places.empty())
   {

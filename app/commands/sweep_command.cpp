@@ -34,7 +34,7 @@ struct SweepOptions
   std::filesystem::path folder;
   std::vector<std::filesystem::path> folders;
   std::filesystem::path out;
-  std::optional<std::size_t> number;
+  std::string number; // as given
   std::string shard;
   std::size_t chunk = 1;
   std::size_t pilot = 0;
@@ -68,10 +68,25 @@ std::vector<std::size_t> shardOf(const std::string& text, std::size_t count)
   return numbers;
 }
 
-std::optional<std::size_t> arrayTask()
+// of --case, or of the task that Slurm runs; chunks: how many there are
+std::optional<std::size_t> taskOf(const std::string& given, std::size_t chunks)
 {
-  const char* text = std::getenv("SLURM_ARRAY_TASK_ID"); // NOLINT(concurrency-mt-unsafe)
-  return text == nullptr ? std::nullopt : std::optional(std::strtoull(text, nullptr, 10));
+  const char* task = std::getenv("SLURM_ARRAY_TASK_ID"); // NOLINT(concurrency-mt-unsafe)
+  if (given.empty() && task == nullptr)
+  {
+    return std::nullopt;
+  }
+  const std::string text = given.empty() ? task : given;
+  const char* end = text.data() + text.size();
+  std::size_t number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || rest != end || number >= chunks)
+  {
+    throw Error(ErrorCode::BadValue,
+      (given.empty() ? "SLURM_ARRAY_TASK_ID" : "--case") +
+        (": there is no case " + inQuotes(text)) + "; give 0 to " + std::to_string(chunks - 1));
+  }
+  return number;
 }
 
 std::vector<std::size_t> numbersOf(const SweepOptions& options, std::size_t count)
@@ -80,14 +95,7 @@ std::vector<std::size_t> numbersOf(const SweepOptions& options, std::size_t coun
   {
     return shardOf(options.shard, count);
   }
-  const auto task = options.number ? options.number : arrayTask();
-  const std::size_t chunks = (count + options.chunk - 1) / options.chunk;
-  if (task && *task >= chunks)
-  {
-    throw Error(ErrorCode::BadValue,
-      "--case: there is no case " + std::to_string(*task) + "; give 0 to " +
-        std::to_string(chunks - 1));
-  }
+  const auto task = taskOf(options.number, (count + options.chunk - 1) / options.chunk);
   const std::size_t begin = task ? *task * options.chunk : 0;
   const std::size_t end = task ? std::min(count, begin + options.chunk) : count;
   std::vector<std::size_t> numbers(end - begin);
@@ -100,8 +108,9 @@ void refuseFailed(const RunOutcome& outcome, const std::filesystem::path& folder
   if (!outcome.failed.empty())
   {
     throw Error(ErrorCode::NoSolution,
-      std::to_string(outcome.failed.size()) + " cases failed, case " +
-        std::to_string(outcome.failed.front()) + " for one; palp sweep status " + folder.string() +
+      counted(outcome.failed.size(), "case") + " failed, " +
+        (outcome.failed.size() > 1 ? "the first is case " : "case ") +
+        std::to_string(outcome.failed.front()) + "; palp sweep status " + folder.string() +
         " tells why, the same command tries them again");
   }
 }
@@ -110,8 +119,8 @@ void run(Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned j
 {
   const RunOutcome outcome = runCases(manifest, numbers, jobs);
   refuseFailed(outcome, manifest.folder());
-  std::cerr << "palp: " << outcome.computed << " cases computed, " << outcome.before
-            << " were finished before\n";
+  std::cerr << "palp: " << counted(outcome.computed, "case") << " computed, " << outcome.before
+            << " finished before\n";
 }
 
 void writeSlurmScript(const SweepOptions& options)
@@ -141,8 +150,8 @@ void planInto(
   const PlanTold told = planSweep(
     sweep, beside, parser.options(),
     [&](const std::vector<std::string>& words) { parser.check(words); }, folder);
-  std::cerr << "palp: " << told.count << " cases are planned in " << folder.string() << ", "
-            << told.done << " of them done\n";
+  std::cerr << "palp: " << counted(told.count, "case") << " planned in " << folder.string() << ", "
+            << told.done << " done\n";
 }
 
 std::filesystem::path folderOf(const std::string& file)
@@ -192,8 +201,8 @@ void merge(const SweepOptions& options, const Renderer* pictures)
   {
     draw(sweepFigures(manifest, how), options.out.parent_path(), *pictures);
   }
-  std::cerr << "palp: " << merged.cases << " cases, " << merged.rows << " rows are in "
-            << options.out.string() << '\n';
+  std::cerr << "palp: " << counted(merged.cases, "case") << ", " << counted(merged.rows, "row")
+            << " in " << options.out.string() << '\n';
 }
 
 void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)

@@ -138,7 +138,7 @@ struct Describe
   }
   std::string operator()(const ProfileTip& tip) const
   {
-    return "profile:" + tip.profile->name();
+    return "profile:" + std::filesystem::path(tip.profile->name()).filename().string();
   }
 };
 

@@ -16,7 +16,8 @@ namespace palp
 /// @throws Error  BadValue: unknown kind, wrong number of parts, a dimension out of range
 [[nodiscard]] Tip parseTip(std::string_view text);
 
-/// The same text back, which reads as the same tool to the last bit.
+/// The same text back, which reads as the same tool to the last bit; a profile by its file's name
+/// alone.
 [[nodiscard]] std::string describeTip(const Tip& tip);
 
 } // namespace palp

@@ -150,28 +150,30 @@ std::string unitOf(const Json& list)
   return unit.is_string() ? unit.get<std::string>() : unit.dump();
 }
 
-void addPoints(std::vector<PressPlace>& places, const Json& list, const std::string& where)
+void addPoints(Fiducials& points, const Json& list, const std::string& where)
 {
   const Eigen::Vector3d signs = signsOf(textAt(list, "coordinateSystem"), where);
   if (const std::string unit = unitOf(list); unit != "mm")
   {
     refuseFiducials(where, "the unit is " + inQuotes(unit) + "; save the list in mm");
   }
+  std::size_t number = 0;
   for (const Json& point : listAt(list, "controlPoints", where))
   {
     const std::string status = point.is_object() ? textAt(point, "positionStatus") : "";
+    const std::string here = where + "/controlPoints/" + std::to_string(number++);
     if (!status.empty() && status != "defined")
     {
+      ++points.unplaced;
       continue;
     }
-    const std::string here = where + "/controlPoints/" + std::to_string(places.size());
     const Json& position = listAt(point, "position", here);
     if (position.size() != 3 ||
       !std::ranges::all_of(position, [](const Json& number) { return number.is_number(); }))
     {
       refuseFiducials(here + "/position", "must be three numbers, in mm");
     }
-    PressPlace& place = places.emplace_back(PressPlace{ .name = textAt(point, "label") });
+    PressPlace& place = points.places.emplace_back(PressPlace{ .name = textAt(point, "label") });
     for (int i = 0; i < 3; ++i)
     {
       place.position[i] =
@@ -180,10 +182,10 @@ void addPoints(std::vector<PressPlace>& places, const Json& list, const std::str
   }
 }
 
-std::vector<PressPlace> readMarkups(const std::string& text, const std::string& name)
+Fiducials readMarkups(const std::string& text, const std::string& name)
 {
   const Json document = parseJson(text, name);
-  std::vector<PressPlace> places;
+  Fiducials points;
   int count = 0;
   for (const Json& list : listAt(document, "markups", name))
   {
@@ -192,14 +194,14 @@ std::vector<PressPlace> readMarkups(const std::string& text, const std::string& 
     {
       refuseFiducials(where, "must be an object, { ... }");
     }
-    addPoints(places, list, where);
+    addPoints(points, list, where);
   }
-  return places;
+  return points;
 }
 
 } // namespace
 
-std::vector<PressPlace> readFiducials(const std::filesystem::path& file)
+Fiducials readFiducials(const std::filesystem::path& file)
 {
   const std::string name = file.string();
   const bool isJson = name.ends_with(".json");
@@ -208,14 +210,16 @@ std::vector<PressPlace> readFiducials(const std::filesystem::path& file)
     refuseFiducials(name, "not a list of points; give .fcsv or .mrk.json of 3D Slicer");
   }
   const std::string text = readText(file, "a list of points");
-  std::vector<PressPlace> places =
-    isJson ? readMarkups(text, file.filename().string()) : FcsvReader(name).read(text);
-  if (places.empty())
+  Fiducials points =
+    isJson ? readMarkups(text, file.filename().string()) : Fiducials{ FcsvReader(name).read(text) };
+  if (points.places.empty())
   {
-    refuseFiducials(name, "no point; give a list with at least one");
+    refuseFiducials(name,
+      points.unplaced == 0 ? "no point; give a list with at least one"
+                           : "none of its points is placed; place one in 3D Slicer and save again");
   }
   constexpr double kFarthest = 10.0; // [m], as of --at
-  for (const PressPlace& place : places)
+  for (const PressPlace& place : points.places)
   {
     if (!(place.position.cwiseAbs().maxCoeff() <= kFarthest))
     {
@@ -223,7 +227,7 @@ std::vector<PressPlace> readFiducials(const std::filesystem::path& file)
         "the point " + inQuotes(place.name) + " is farther than 10 m from the origin; give mm");
     }
   }
-  return places;
+  return points;
 }
 
 } // namespace palp

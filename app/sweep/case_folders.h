@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -12,6 +13,10 @@ struct CaseFolders
 {
   std::filesystem::path sweep;
 
+  [[nodiscard]] std::filesystem::path plan() const
+  {
+    return sweep / "cases.csv";
+  }
   [[nodiscard]] std::filesystem::path results() const
   {
     return sweep / "results";
@@ -42,7 +47,7 @@ struct CaseFolders
         .lexically_relative(std::filesystem::weakly_canonical(sweep, unknown));
     const std::filesystem::path first = below.empty() ? below : *below.begin();
     return first == results().filename() || first == failures().filename() ||
-      first == claims().filename() || first == "cases.csv";
+      first == claims().filename() || first == plan().filename();
   }
 
   [[nodiscard]] bool isDone(const std::string& name) const
@@ -60,5 +65,12 @@ private:
 
 constexpr const char* kCaseFile = "case.json"; ///< of a finished or failed case: what, how long
 constexpr const char* kLogFile = "log.txt";    ///< what its command said
+
+constexpr const char* kSlurmFile = "sweep.sbatch";
+constexpr const char* kParallelFile = "parallel.sh";
+constexpr const char* kJobLog = "parallel.log"; ///< of GNU parallel, which counts cases as jobs
+
+/// What stands for the numbers of one plan, and is wrong for another.
+constexpr std::array kOfOnePlan{ kSlurmFile, kParallelFile, kJobLog };
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "app/sweep/manifest.h"
 
+#include "app/sweep/case_folders.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/replace_file.h"
@@ -16,7 +17,6 @@ namespace
 
 using nlohmann::json;
 
-constexpr const char* kFile = "cases.csv";
 constexpr const char* kFirst = "# palp sweep 1: all that its cases share, then a line for each";
 
 json toJson(const SweepHead& head)
@@ -72,7 +72,7 @@ std::size_t lineNumber(const std::string& line)
 
 [[noreturn]] void refusePlan(const std::filesystem::path& folder, const std::string& what)
 {
-  throw Error(ErrorCode::BadFile, (folder / kFile).string() + ": " + what);
+  throw Error(ErrorCode::BadFile, CaseFolders{ folder }.plan().string() + ": " + what);
 }
 
 } // namespace
@@ -105,7 +105,7 @@ SweepValues optionsOf(const SweepHead& head, const std::vector<std::string>& val
 
 Manifest::Manifest(std::filesystem::path folder)
   : folder_(std::move(folder))
-  , file_(folder_ / kFile)
+  , file_(CaseFolders{ folder_ }.plan())
 {
   std::string first;
   std::string shared;
@@ -145,7 +145,8 @@ Manifest::Manifest(std::filesystem::path folder)
 void Manifest::write(const std::filesystem::path& folder, const SweepHead& head,
   const std::function<PlannedCase(std::size_t)>& caseAt)
 {
-  replaceFile(folder / kFile,
+  const std::filesystem::path file = CaseFolders{ folder }.plan();
+  replaceFile(file,
     [&](const std::filesystem::path& fresh)
     {
       std::ofstream out(fresh);
@@ -166,7 +167,7 @@ void Manifest::write(const std::filesystem::path& folder, const SweepHead& head,
       out << '\n';
       if (!out.flush())
       {
-        refuseFile(folder / kFile, errno);
+        refuseFile(file, errno);
       }
     });
 }
@@ -202,7 +203,7 @@ PlannedCase Manifest::at(std::size_t number)
   if (number >= head_.count)
   {
     throw Error(ErrorCode::BadValue,
-      "--case: there is no case " + std::to_string(number) + "; give 0 to " +
+      "there is no case " + std::to_string(number) + "; give 0 to " +
         std::to_string(head_.count - 1));
   }
   std::streamoff low = begin_; // begins a line at or before the case's

@@ -200,6 +200,18 @@ private:
 
 } // namespace
 
+namespace
+{
+
+std::string planned(const std::filesystem::path& folder)
+{
+  std::error_code none;
+  const std::filesystem::path file = CaseFolders{ folder }.plan();
+  return std::filesystem::exists(file, none) ? describeFile(file).sha256 : "";
+}
+
+} // namespace
+
 PlanTold planSweep(const Sweep& sweep, const std::filesystem::path& beside,
   const CommandOptions& options, const CheckCase& check, const std::filesystem::path& folder)
 {
@@ -216,6 +228,7 @@ PlanTold planSweep(const Sweep& sweep, const std::filesystem::path& beside,
   }
   const CaseFolders folders{ folder };
   const bool earlier = std::filesystem::exists(folders.results());
+  const std::string before = planned(folder);
   PlanTold told{ .count = planner.head().count };
   Manifest::write(folder, planner.head(),
     [&](std::size_t number)
@@ -224,6 +237,13 @@ PlanTold planSweep(const Sweep& sweep, const std::filesystem::path& beside,
       told.done += earlier && folders.isDone(one.name) ? 1 : 0;
       return one;
     });
+  if (!before.empty() && planned(folder) != before)
+  {
+    for (const char* ofBefore : kOfOnePlan)
+    {
+      std::filesystem::remove(folder / ofBefore, failed);
+    }
+  }
   return told;
 }
 

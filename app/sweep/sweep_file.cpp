@@ -298,6 +298,13 @@ Sweep readSweepFile(const std::string& name)
   const std::filesystem::path path = sweepFile(name);
   const std::string file = path.filename().string();
   const json document = parseJson(readText(path, "a sweep in JSON"), file);
+  if (document.is_array())
+  {
+    throw Error(ErrorCode::BadFile,
+      file +
+        ": is a list of cases, as sweeps once were; write {\"palp_sweep\": 1, \"kind\": "
+        "\"calibrate\", \"zip\": {...}}, as data/sweeps/sweep.schema.json describes");
+  }
   JsonObject object(document, file);
   if (!object.isNumber("palp_sweep", 1.0))
   {
@@ -320,7 +327,12 @@ Sweep readSweepFile(const std::string& name)
   reader.readHypercube(sweep);
   for (std::size_t i = 0; i < plots.size(); ++i)
   {
-    sweep.plots.push_back(readPlot(plots[i], document["plots"][i]));
+    SweepPlot plot = readPlot(plots[i], document["plots"][i]);
+    if (std::ranges::find(sweep.plots, plot.name, &SweepPlot::name) != sweep.plots.end())
+    {
+      plots[i].refuse("name", "is another plot's, too; each has a file of its own");
+    }
+    sweep.plots.push_back(std::move(plot));
   }
   if (sweep.count() > kMostCases)
   {

@@ -101,6 +101,11 @@ std::string printable(std::string text)
   return text;
 }
 
+std::string counted(std::size_t number, const std::string& one, const std::string& many)
+{
+  return std::to_string(number) + ' ' + (number == 1 ? one : many.empty() ? one + 's' : many);
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator)
 {
   std::vector<std::string_view> parts;

@@ -25,6 +25,11 @@ namespace palp
 /// The same text without control characters, which a terminal would obey.
 [[nodiscard]] std::string printable(std::string text);
 
+/// A number with what it counts: 1 case, 2 cases.
+/// @param many  of a word whose plural has not just an s
+[[nodiscard]] std::string counted(
+  std::size_t number, const std::string& one, const std::string& many = "");
+
 /// The parts of a text between separators; one more than there are of them.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 

@@ -2,6 +2,7 @@
 
 #include "calibration/figures/palette.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,9 @@ void addCurve(Plot& plot, const Curve& curve, const figures::Points& points)
       {
         plot.addLine(
           curve.label, points.x, points.y, color, 2.0F, curve.style == Curve::Style::Dashed);
+        break;
       }
-      break;
+      [[fallthrough]]; // a point is no line
     case Curve::Style::Circles:
       mark(Plot::Mark::Circle, 8.0F);
       break;
@@ -69,6 +71,11 @@ std::unique_ptr<Plot> figurePlot(
   for (const Curve& curve : figure.curves)
   {
     addCurve(*plot, curve, figures::pointsOf(tables, curve));
+  }
+  if (std::ranges::any_of(
+        figure.curves, [](const Curve& curve) { return curve.style == Curve::Style::Cells; }))
+  {
+    plot->keepMarksWhole();
   }
   plot->setLogarithmic(figure.logBottom, figure.logLeft);
   if (!alone)

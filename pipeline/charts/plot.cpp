@@ -123,10 +123,10 @@ void Plot::addBand(const std::string& name, std::span<const double> x, std::span
   plot->GetPen()->SetLineType(vtkPen::NO_PEN);
 }
 
-void Plot::setDecades(vtkAxis& axis, bool isBottom)
+std::pair<double, double> Plot::rangeOf(bool isBottom) const
 {
   double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
+  double high = -low;
   for (const auto& table : tables_)
   {
     for (vtkIdType column = isBottom ? 0 : 1; column < (isBottom ? 1 : table->GetNumberOfColumns());
@@ -139,7 +139,13 @@ void Plot::setDecades(vtkAxis& axis, bool isBottom)
       }
     }
   }
-  if (!(low > 0.0 && high < std::numeric_limits<double>::infinity()))
+  return { low, high };
+}
+
+void Plot::setDecades(vtkAxis& axis, bool isBottom)
+{
+  const auto [low, high] = rangeOf(isBottom);
+  if (!(low > 0.0 && high >= low && high < std::numeric_limits<double>::infinity()))
   {
     return; // nothing there, or nothing that has a logarithm
   }
@@ -169,6 +175,22 @@ void Plot::setLogarithmic(bool bottom, bool left)
   if (left)
   {
     setDecades(*chart_->GetAxis(vtkAxis::LEFT), false);
+  }
+}
+
+void Plot::keepMarksWhole()
+{
+  constexpr double kMargin = 0.04; // of the range, more than half a mark
+  for (const bool isBottom : { true, false })
+  {
+    const auto [low, high] = rangeOf(isBottom);
+    const double margin = high > low ? kMargin * (high - low) : 1.0;
+    if (std::isfinite(low) && std::isfinite(high))
+    {
+      vtkAxis* axis = chart_->GetAxis(isBottom ? vtkAxis::BOTTOM : vtkAxis::LEFT);
+      axis->SetBehavior(vtkAxis::FIXED);
+      axis->SetUnscaledRange(low - margin, high + margin);
+    }
   }
 }
 

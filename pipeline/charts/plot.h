@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -52,6 +53,9 @@ public:
   /// Logarithmic axes over whole decades, once all curves are in; all numbers positive there.
   void setLogarithmic(bool bottom, bool left);
 
+  /// Axes that reach beyond all points, so that no mark is cut; once all curves are in.
+  void keepMarksWhole();
+
   void hideLegend();
 
   /// Puts the chart into a scene, which then draws it, the legend below.
@@ -78,6 +82,7 @@ public:
 private:
   vtkTable* addTable(const std::string& name, std::span<const double> x,
     std::span<const double> first, std::span<const double> second);
+  [[nodiscard]] std::pair<double, double> rangeOf(bool isBottom) const;
   void setDecades(vtkAxis& axis, bool isBottom);
 
   std::string bottom_;

@@ -16,11 +16,6 @@ namespace palp
 namespace
 {
 
-std::string counted(std::size_t n, const std::string& one, const std::string& many)
-{
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
 // points that are used, each once; triangles that have three corners
 struct Merged
 {
@@ -160,7 +155,7 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   }
   if (changed > 0)
   {
-    result.notes.push_back(counted(changed, "triangle", "triangles") +
+    result.notes.push_back(counted(changed, "triangle") +
       (result.closed ? " turned to face outwards" : " turned to face as their neighbors"));
   }
   result.mesh = makePolyData(mesh.points, mesh.triangles);

@@ -8,6 +8,7 @@
 #include "tests/pipeline/given_meshes.h"
 #include "tests/pipeline/segmented.h"
 #include "tests/pipeline/slide.h"
+#include "tests/support/shipped_ratios.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -38,9 +39,8 @@ constexpr Tool kSmall{ 4.0_mm, 2.0_mm };
 
 ForceLaw lawOf(double radius, LawMode mode)
 {
-  const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/large_strain_";
   return ForceLaw(SphereTip{ radius }, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 },
-    { .mode = mode, .largeStrain = readLargeStrain(folder + "sphere.csv", folder + "cone.csv") });
+    { .mode = mode, .largeStrain = shippedRatios() });
 }
 
 // largest changes from one step to the next outside folds

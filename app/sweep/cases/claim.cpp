@@ -104,9 +104,8 @@ bool isSilent(const fs::path& file, double now)
 bool isGone(const fs::path& claim, const std::string& text)
 {
   const Owner owner = ownerOf(text);
-  return owner.machine == machine()
-    ? beginOf(owner.process) != owner.begin
-    : isSilent(text.empty() ? claim : claim / kOwner, diskTime(claim.parent_path()));
+  return (owner.machine == machine() && beginOf(owner.process) != owner.begin) ||
+    isSilent(text.empty() ? claim : claim / kOwner, diskTime(claim.parent_path()));
 }
 
 // out of the way of others first, as a whole; only if it is still that owner's
@@ -142,10 +141,11 @@ bool tryRename(const fs::path& from, const fs::path& to)
 
 } // namespace
 
-Claim::Claim(fs::path folder, std::string owner)
-  : folder_(std::move(folder))
+Claim::Claim(fs::path claim, fs::path folder, std::string owner)
+  : claim_(std::move(claim))
+  , folder_(std::move(folder))
   , owner_(std::move(owner))
-  , file_(open((folder_ / kOwner).c_str(), O_RDWR | O_CLOEXEC))
+  , file_(open((claim_ / kOwner).c_str(), O_RDWR | O_CLOEXEC))
 {
 }
 
@@ -153,14 +153,18 @@ std::optional<Claim> Claim::take(const fs::path& claims, const std::string& name
 {
   const fs::path claim = claims / name;
   const std::string process = std::to_string(getpid());
-  const std::string mine = textOf({ machine(), process, beginOf(process) });
+  const std::string begin = beginOf(process);
+  const std::string mine = textOf({ machine(), process, begin });
+  // of nobody else, for one that was taken for gone may go on in its own
+  const std::string work = process + '-' + begin;
   const fs::path fresh = makeHidden(claims);
   if (fresh.empty())
   {
     refuseFile(claim, errno);
   }
   std::error_code ignored;
-  if (!(std::ofstream(fresh / kOwner) << mine).flush())
+  if (!fs::create_directory(fresh / work, ignored) ||
+    !(std::ofstream(fresh / kOwner) << mine).flush())
   {
     const int reason = errno;
     fs::remove_all(fresh, ignored);
@@ -178,7 +182,7 @@ std::optional<Claim> Claim::take(const fs::path& claims, const std::string& name
     fs::remove_all(fresh, ignored);
     return std::nullopt;
   }
-  return Claim(claim, mine);
+  return Claim(claim, claim / work, mine);
 }
 
 bool Claim::isHeld(const fs::path& claims, const std::string& name)
@@ -206,7 +210,7 @@ void Claim::beat() const
 
 void Claim::release() const
 {
-  removeClaim(folder_, owner_);
+  removeClaim(claim_, owner_);
 }
 
 } // namespace palp

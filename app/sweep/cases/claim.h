@@ -14,8 +14,8 @@ namespace palp
 ///
 /// It appears by a rename, which one of several runners can do, on a network, too; no lock. It is
 /// beaten as long as the runner lives. One whose runner is gone is taken over: on the same machine
-/// at once, from elsewhere when its last beat is two minutes behind one of ours, both by the clock
-/// of the disk, so that clocks of nodes may differ.
+/// at once; where it is elsewhere or was stopped, when its last beat is two minutes behind one of
+/// ours, both by the clock of the disk, so that clocks of nodes may differ.
 ///
 /// A claim only saves work: what is finished is renamed into its place, which one runner can do.
 class Claim
@@ -38,7 +38,7 @@ public:
   /// Removes what runners left that ended before they had a case, two minutes ago or earlier.
   static void tidy(const std::filesystem::path& claims);
 
-  /// Where the work of the case is, until it is renamed into its place.
+  /// Where the work of the case is, until it is renamed into its place; gone with the claim.
   [[nodiscard]] const std::filesystem::path& folder() const noexcept
   {
     return folder_;
@@ -48,13 +48,14 @@ public:
   void release() const;
 
 private:
-  Claim(std::filesystem::path folder, std::string owner);
+  Claim(std::filesystem::path claim, std::filesystem::path folder, std::string owner);
 
+  std::filesystem::path claim_;
   std::filesystem::path folder_;
   std::string owner_;
   Descriptor file_;
 };
 
-constexpr int kSilence = 120; ///< of a runner elsewhere that counts as gone [s]
+constexpr int kSilence = 120; ///< of a runner that counts as gone [s]
 
 } // namespace palp

@@ -119,8 +119,9 @@ private:
     const std::size_t before = columns_.size();
     const std::size_t varied = manifest_.head().columns.size();
     places_.clear();
-    for (const std::string& title : titles)
+    for (const std::string& given : titles)
     {
+      const std::string title = (isVaried(given) ? "result_" : "") + given;
       auto found = std::find_if(columns_.begin() + static_cast<std::ptrdiff_t>(varied),
         columns_.end(), [&](const WrittenColumn& column) { return column.title == title; });
       if (found == columns_.end())
@@ -136,6 +137,14 @@ private:
       throw BeginAgain();
     }
     return places_;
+  }
+
+  // a case's own column may have the title of one that is varied
+  [[nodiscard]] bool isVaried(const std::string& title) const
+  {
+    const auto& varied = manifest_.head().columns;
+    return std::ranges::any_of(
+      varied, [&](const SweepColumn& column) { return column.title() == title; });
   }
 
   // columns that hold words after all
@@ -171,8 +180,8 @@ private:
     const fs::path failure = folders_.front().failure(first_.name);
     throw Error(ErrorCode::NoSolution,
       manifest_.folder().string() + ": " + std::to_string(missing_) + " of " +
-        std::to_string(manifest_.head().count) + " cases have no result, case " +
-        std::to_string(first_.number) + " for one" +
+        counted(manifest_.head().count, "case") + " without a result, the first is case " +
+        std::to_string(first_.number) +
         (fs::exists(failure) ? ", which failed (" + (failure / kLogFile).string() + ")" : "") +
         "; palp sweep run them, or merge the others with --partial");
   }
@@ -192,6 +201,23 @@ private:
 namespace
 {
 
+// results of other cases would be left out in silence
+void refuseOthers(const SweepHead& head, const MergeOptions& options)
+{
+  for (const fs::path& other : options.others)
+  {
+    const SweepHead its = Manifest(other).head();
+    const auto same = [](const SweepColumn& a, const SweepColumn& b) { return a.name == b.name; };
+    if (its.kind != head.kind || its.fixed != head.fixed ||
+      !std::ranges::equal(its.columns, head.columns, same))
+    {
+      throw Error(ErrorCode::BadValue,
+        other.string() + ": is of another sweep, " + inQuotes(its.title) +
+          "; merge folders in which the same one was planned");
+    }
+  }
+}
+
 void refuseOwn(const Manifest& manifest, const MergeOptions& options, const fs::path& out)
 {
   bool owned = CaseFolders{ manifest.folder() }.owns(out);
@@ -210,6 +236,7 @@ void refuseOwn(const Manifest& manifest, const MergeOptions& options, const fs::
 
 Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::path& out)
 {
+  refuseOthers(manifest.head(), options);
   refuseOwn(manifest, options, out);
   if (out.extension() != ".csv" && out.extension() != ".vtt")
   {

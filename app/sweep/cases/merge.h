@@ -25,11 +25,13 @@ struct Merged
 };
 
 /// Writes the results of all cases as one table in the order of the cases: what is varied, then the
-/// columns of the case's own table; a column that only some cases have is empty in the others. The
-/// same bytes, however the cases were computed.
+/// columns of the case's own table, `result_` before a title that one of the varied has; a column
+/// that only some cases have is empty in the others. The same bytes, however the cases were
+/// computed.
 ///
 /// @param out      .csv, or .vtt for a VTK table; replaced as a whole
-/// @throws Error   BadValue: another ending; BadFile: a result that is damaged, `out` cannot be
+/// @throws Error   BadValue: another ending, a folder of another sweep; BadFile: a result that is
+/// damaged, `out` cannot be
 ///                 written; NoSolution: cases without a result, unless they may be left out
 Merged mergeResults(
   Manifest& manifest, const MergeOptions& options, const std::filesystem::path& out);

@@ -126,6 +126,7 @@ public:
       {
         break;
       }
+      tellWaiting(waiting.empty());
       pause(elsewhere_.empty() ? kBeat : kLook);
       tellProgress(numbers.size());
       if (waiting.empty() && running_.size() < jobs_)
@@ -140,6 +141,17 @@ private:
   void tellProgress(std::size_t total)
   {
     progress_(outcome_.before + outcome_.computed + outcome_.failed.size(), total);
+  }
+
+  // once, for it may take long
+  void tellWaiting(bool lastOnes)
+  {
+    if (lastOnes && running_.empty() && !waits_)
+    {
+      waits_ = true;
+      progress_.tell("case " + std::to_string(elsewhere_.front()) +
+        " is being computed by another runner; waiting for it");
+    }
   }
 
   // until something ends, or for some time
@@ -316,6 +328,7 @@ private:
   std::map<pid_t, Work> running_;
   std::set<std::string> unchanged_;   // files
   std::deque<std::size_t> elsewhere_; // cases that another runner has
+  bool waits_ = false;                // for these, and said so
   RunOutcome outcome_;
 };
 

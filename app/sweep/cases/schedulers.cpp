@@ -2,6 +2,7 @@
 
 #include "app/program/exec_program.h"
 #include "app/sweep/case_folders.h"
+#include "haptics/files/input_text.h"
 #include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
 
@@ -49,7 +50,7 @@ fs::path writeSlurm(const fs::path& folder, const SlurmArray& array)
   char pilot[96];
   std::snprintf(pilot, sizeof pilot, "%.1f s and %.0f MiB", array.seconds,
     std::ceil(array.memory / 1024.0 / 1024.0));
-  const std::string text = "#!/bin/sh\n# " + std::to_string(array.count) + " cases, " +
+  const std::string text = "#!/bin/sh\n# " + counted(array.count, "case") + ", " +
     std::to_string(chunk) + " a task; the pilot case took " + pilot +
     ". Submit again for what is missing.\n"
     "#SBATCH --job-name=palp-sweep\n"
@@ -60,8 +61,8 @@ fs::path writeSlurm(const fs::path& folder, const SlurmArray& array)
     "\n#SBATCH --open-mode=append\n#SBATCH --output=" +
     quoted((place / "logs" / "%a.txt").string()) + "\nexec " + program() + " sweep run " +
     quoted(place.string()) + " --chunk " + std::to_string(chunk) + '\n';
-  replaceFile(place / "sweep.sbatch", text);
-  return folder / "sweep.sbatch";
+  replaceFile(place / kSlurmFile, text);
+  return folder / kSlurmFile;
 }
 
 fs::path writeParallel(const fs::path& folder, std::size_t count)
@@ -70,11 +71,11 @@ fs::path writeParallel(const fs::path& folder, std::size_t count)
   const std::string text = "#!/bin/sh\n# GNU parallel: a job for each case; run it again for what "
                            "failed or is missing. \"$@\": -j 8, -S node1,node2\n"
                            "seq 0 " +
-    std::to_string(count - 1) + " | exec parallel --joblog " +
-    quoted((place / "parallel.log").string()) + " --resume-failed \"$@\" " +
+    std::to_string(count - 1) + " | exec parallel --joblog " + quoted((place / kJobLog).string()) +
+    " --resume-failed \"$@\" " +
     quoted(program() + " sweep run " + quoted(place.string()) + " --case {}") + '\n';
-  replaceFile(place / "parallel.sh", text);
-  return folder / "parallel.sh";
+  replaceFile(place / kParallelFile, text);
+  return folder / kParallelFile;
 }
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/claim.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
 
 #include <nlohmann/json.hpp>
@@ -137,7 +138,7 @@ SweepStatus statusOf(Manifest& manifest)
 std::string describe(const SweepStatus& status, const SweepHead& head)
 {
   std::string text = head.title + ": " + std::to_string(status.done) + " of " +
-    std::to_string(status.count) + " cases done, " + std::to_string(status.running) + " running, " +
+    counted(status.count, "case") + " done, " + std::to_string(status.running) + " running, " +
     std::to_string(status.failed.size()) + " failed, " + std::to_string(status.waiting()) +
     " waiting";
   const std::size_t left = status.running + status.waiting();

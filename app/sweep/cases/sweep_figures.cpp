@@ -3,11 +3,12 @@
 #include "app/sweep/cases/table_writer.h"
 #include "calibration/figures/palette.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <utility>
 
 namespace palp
 {
@@ -44,6 +45,7 @@ figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
   curve.where.assign(plot.where.begin(), plot.where.end());
   if (plot.curves.empty())
   {
+    curve.style = figures::Curve::Style::Circles; // a line would go from one case to another
     figure.curves.push_back(curve);
     return figure;
   }
@@ -67,18 +69,25 @@ figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
   return figure;
 }
 
-// the least and the largest of a column's numbers; none: the same twice
-std::pair<double, double> rangeOf(const std::vector<double>& values)
-{
-  const auto [least, most] = std::ranges::minmax_element(values);
-  return values.empty() ? std::pair(0.0, 0.0) : std::pair(*least, *most);
-}
-
+// with as many decimals as tell a class from the next
 std::string classLabel(double from, double to)
 {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.3g to %.3g", from, to);
+  constexpr int kMostDecimals = 9;
+  const double decimals = to > from ? std::ceil(1.0 - std::log10(to - from)) : 2.0;
+  const int shown = static_cast<int>(std::clamp(decimals, 0.0, 1.0 + kMostDecimals));
+  std::array<char, 96> text{};
+  const char* format = shown > kMostDecimals ? "%.*g to %.*g" : "%.*f to %.*f";
+  std::snprintf(text.data(), text.size(), format, shown, from, shown, to);
   return text.data();
+}
+
+void refuseEmpty(const SweepPlot& plot)
+{
+  throw Error(ErrorCode::BadFile,
+    "plot " + inQuotes(plot.name) + ": no row has numbers in " + inQuotes(plot.x) + " and " +
+      inQuotes(plot.y) + (plot.colors.empty() ? "" : " and " + inQuotes(plot.colors)) +
+      (plot.where.empty() ? "" : " and is one of its \"where\"") +
+      "; change the plot and plan again, which keeps what is finished");
 }
 
 // as many classes of equal width as there are shades, each of which is a curve of cells
@@ -93,10 +102,14 @@ figures::Figure mapOf(const SweepPlot& plot, const figures::Table& table, figure
   if (heights.x != values.y)
   {
     throw Error(ErrorCode::BadFile,
-      plot.name + ": " + plot.x + " or " + plot.y +
+      "plot " + inQuotes(plot.name) + ": " + plot.x + " or " + plot.y +
         " is no number in some rows; choose others by \"where\"");
   }
-  const auto [least, most] = rangeOf(values.y);
+  if (values.y.empty())
+  {
+    refuseEmpty(plot);
+  }
+  const auto [least, most] = std::ranges::minmax(values.y);
   const double width = (most - least) / figures::kShades;
   std::array<figures::Points, figures::kShades> classes;
   for (std::size_t i = 0; i < values.y.size(); ++i)
@@ -131,7 +144,14 @@ SweepFigures sweepFigures(Manifest& manifest, const MergeOptions& options)
     drawn.tables.push_back(tableOf(plot, rows));
     if (plot.colors.empty())
     {
-      drawn.figures.push_back(figureOf(plot, drawn.tables.back()));
+      const figures::Figure& figure =
+        drawn.figures.emplace_back(figureOf(plot, drawn.tables.back()));
+      if (std::ranges::all_of(figure.curves,
+            [&](const figures::Curve& curve)
+            { return figures::pointsOf(drawn.tables, curve).x.empty(); }))
+      {
+        refuseEmpty(plot);
+      }
       continue;
     }
     figures::Table own;

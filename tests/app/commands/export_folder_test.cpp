@@ -70,6 +70,18 @@ TEST_F(ExportFolders, AreRepeatedToTheByte)
     block() + " --no-picture --all-samples --chain --damping 3N*s/m --path " + path.string(), 6);
 }
 
+// as a user names them who stands beside them
+TEST_F(ExportFolders, OfFilesByRelativePathsAreRepeatedToTheByte)
+{
+  std::filesystem::copy_file(block(), folder("block.vtp"));
+  std::ofstream(folder("tip.csv")) << "radius_mm,height_mm\n0,0\n2,0.3\n4,1.2\n8,4.8\n";
+  const auto relative = [&](const std::string& name)
+  { return std::filesystem::relative(folder(name)).string(); };
+  expectRepeated(relative("block.vtp") + onTop() +
+      " --no-picture --samples-only --tip profile:" + relative("tip.csv"),
+    4);
+}
+
 // a hand's motion, told by a file of rows: what the device got stays, what follows from it is anew
 TEST_F(ExportFolders, OfARecordingAreRepeatedRowByRow)
 {

@@ -49,7 +49,7 @@ TEST_F(FiducialFile, TurnsRasRoundByItsHeader)
 {
   for (const char* axes : { "LPS", "1" })
   {
-    const auto places = readFiducials(
+    const auto [places, unplaced] = readFiducials(
       written("a.fcsv", kHead + "# CoordinateSystem = " + axes + "\n" + kColumns + kPoints));
     ASSERT_EQ(places.size(), 2U);
     EXPECT_EQ(places[0], (PressPlace{ "F-1", { -0.0455, 0.01225, 0.03 } }));
@@ -57,7 +57,7 @@ TEST_F(FiducialFile, TurnsRasRoundByItsHeader)
   }
   for (const char* axes : { "RAS", "0" })
   {
-    const auto places = readFiducials(
+    const auto [places, unplaced] = readFiducials(
       written("a.fcsv", kHead + "# CoordinateSystem = " + axes + "\n" + kColumns + kPoints));
     EXPECT_EQ(places.at(0), (PressPlace{ "F-1", { 0.0455, -0.01225, 0.03 } }));
   }
@@ -74,11 +74,12 @@ TEST_F(FiducialFile, ReadsMarkups)
       {"id": "2", "label": "lost", "position": [0, 0, 0], "positionStatus": "undefined"},
       {"id": "3", "label": "F-2", "position": [1, -2.0, 3e0]}]}]})";
   };
-  const auto lps = readFiducials(written("a.mrk.json", text("LPS")));
+  const auto [lps, unplaced] = readFiducials(written("a.mrk.json", text("LPS")));
+  EXPECT_EQ(unplaced, 1U);
   ASSERT_EQ(lps.size(), 2U);
   EXPECT_EQ(lps[0], (PressPlace{ "F-1", { -0.0455, 0.01225, 0.03 } }));
   EXPECT_EQ(lps[1], (PressPlace{ "F-2", { 0.001, -0.002, 0.003 } }));
-  const auto ras = readFiducials(written("a.mrk.json", text("RAS")));
+  const auto ras = readFiducials(written("a.mrk.json", text("RAS"))).places;
   EXPECT_EQ(ras.at(1), (PressPlace{ "F-2", { -0.001, 0.002, 0.003 } }));
 }
 

@@ -1,8 +1,11 @@
 #include "app/sweep/cases/claim.h"
 #include "tests/support/process.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <thread>
@@ -76,6 +79,36 @@ TEST_F(ClaimOfACase, OfAProcessThatWasKilledIsTakenOverAtOnce)
   const auto claim = Claim::take(claims(), "case");
   ASSERT_TRUE(claim);
   EXPECT_FALSE(fs::exists(claim->folder() / "half a result"));
+}
+
+// asleep with its machine, or by Ctrl-Z: what it does when it goes on is its own
+TEST_F(ClaimOfACase, OfAProcessThatWasStoppedIsTakenOverWhenItIsSilentForLong)
+{
+  std::array<int, 2> line{};
+  ASSERT_EQ(pipe(line.data()), 0);
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const auto claim = Claim::take(claims(), "case");
+    (void)!write(line[1], "x", 1);
+    pause();
+    _exit(claim ? 0 : 1);
+  }
+  char ready = 0;
+  ASSERT_EQ(read(line[0], &ready, 1), 1);
+  EXPECT_FALSE(Claim::take(claims(), "case"));
+  const fs::path its = *std::ranges::find_if(fs::directory_iterator(claims() / "case"),
+    [](const fs::directory_entry& entry) { return entry.is_directory(); });
+  fs::last_write_time(claims() / "case" / "owner",
+    fs::file_time_type::clock::now() - std::chrono::seconds(kSilence + 60));
+  EXPECT_FALSE(Claim::isHeld(claims(), "case"));
+  const auto claim = Claim::take(claims(), "case");
+  ASSERT_TRUE(claim);
+  EXPECT_TRUE(fs::is_directory(claim->folder()));
+  EXPECT_NE(claim->folder(), its);
+  EXPECT_FALSE(fs::exists(its));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 TEST_F(ClaimOfACase, FromElsewhereHoldsUntilItIsSilentForLong)

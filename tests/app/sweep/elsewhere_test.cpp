@@ -1,5 +1,6 @@
 #include "tests/app/sweep/sweep_rig.h"
 
+#include <chrono>
 #include <fcntl.h>
 #include <seccomp.h>
 #include <sys/file.h>
@@ -76,6 +77,46 @@ TEST_F(Sweeping, NeedsNoLocks)
   EXPECT_EQ(merged("none"), merged("locks"));
 }
 
+// a runner that was stopped for long and goes on, as with the node it is on
+TEST_F(Sweeping, WaitsForNoRunnerThatWasStopped)
+{
+  plan("grid.json", "grid");
+  countStarts("until [ -e " + at("go") + " ]; do sleep 0.02; done");
+  const std::string one = " run --case 3 " + at("grid");
+  const auto owner = [&]() -> std::filesystem::path
+  {
+    std::error_code none;
+    const std::filesystem::directory_iterator claims(folder() / "grid/running", none);
+    return claims == end(claims) ? "" : claims->path() / "owner";
+  };
+  const pid_t first = fork();
+  if (first == 0)
+  {
+    const Finished run = counted(one);
+    _exit(run.code);
+  }
+  std::string machine;
+  pid_t process = 0;
+  while (starts() == 0 || !(std::ifstream(owner()) >> machine >> machine >> process))
+  {
+    usleep(20'000);
+  }
+  kill(process, SIGSTOP);
+  std::filesystem::last_write_time(
+    owner(), std::filesystem::file_time_type::clock::now() - std::chrono::minutes(10));
+  write("go", "");
+  const Finished second = counted(one);
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.err.find("1 case computed"), std::string::npos) << second.err;
+  kill(process, SIGCONT);
+  int status = -1;
+  waitpid(first, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(results("grid").size(), 1U);
+  EXPECT_NE(sweep("status " + at("grid")).out.find("1 of 40 cases done, 0 running, 0 failed"),
+    std::string::npos);
+}
+
 TEST_F(Sweeping, OnAFullDiskLosesNothing)
 {
   if (!mayUnshare())
@@ -105,7 +146,7 @@ TEST_F(Sweeping, OnAFullDiskLosesNothing)
     ++sentences;
   }
   EXPECT_EQ(sentences, 3U + 1U) << full.err; // of palp, and of head
-  EXPECT_NE(full.err.find("20 cases computed, 20 were"), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find("20 cases computed, 20 finished"), std::string::npos) << full.err;
   EXPECT_EQ(test::readAll(folder() / "disk.csv"), merged("serial"));
 }
 

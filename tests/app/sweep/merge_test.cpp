@@ -85,6 +85,14 @@ TEST_F(SimulatedSweep, ColumnsOfSomeCasesAreEmptyInTheOthers)
     "1,sphere:3mm,5,4,\n");
 }
 
+TEST_F(SimulatedSweep, TellsAResultFromAVariedValueOfTheSameName)
+{
+  Manifest manifest = planned(1, 1);
+  finish(manifest.at(0), "young_kPa,result,tip\n7,8,sphere\n");
+  EXPECT_EQ(merged(manifest, "all.csv"),
+    "young_kPa,tip,result_young_kPa,result,result_tip\n1,sphere:1mm,7,8,sphere\n");
+}
+
 // what VTK itself reads of it
 TEST_F(SimulatedSweep, TheTableOfVtkIsTheCsv)
 {

@@ -247,6 +247,37 @@ TEST_F(Sweeping, MergesOverNoFileOfItsOwn)
   EXPECT_EQ(sweep("merge " + at("grid") + " --out " + at("grid/all.csv")).code, 0);
 }
 
+TEST_F(Sweeping, MergesNoFoldersOfOtherSweeps)
+{
+  plan("grid.json", "grid");
+  ASSERT_EQ(sweep("run --jobs 2 " + at("grid")).code, 0);
+  expectRefused("merge " + at("grid") + " " + at("nowhere") + " --out " + at("x.csv"),
+    "nowhere/cases.csv: no sweep is planned there");
+  write("other.json", R"({"palp_sweep": 1, "kind": "force", "fixed": {"depth": "2:2:1mm",
+    "tip": "sphere:{radius}"}, "grid": {"poisson": [0.3], "radius": ["1mm"]}})");
+  plan("other.json", "other");
+  expectRefused("merge " + at("grid") + " " + at("other") + " --out " + at("x.csv"),
+    "other: is of another sweep, 'other'");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "x.csv"));
+}
+
+// the log of GNU parallel counts cases, which are others now
+TEST_F(Sweeping, PlannedAnewForgetsTheScriptsOfThePlanBefore)
+{
+  plan("grid.json", "grid", "--parallel --slurm");
+  write("grid/parallel.log", "as GNU parallel leaves it");
+  const auto there = [&](const char* file)
+  { return std::filesystem::exists(folder() / "grid" / file); };
+  plan("grid.json", "grid");
+  EXPECT_TRUE(there("parallel.sh") && there("parallel.log") && there("sweep.sbatch"));
+  write("grid.json", R"({"palp_sweep": 1, "kind": "force", "fixed": {"depth": "1:1:1mm"},
+    "grid": {"poisson": [0.3, 0.35, 0.4]}})");
+  plan("grid.json", "grid", "--parallel");
+  EXPECT_FALSE(there("parallel.log") || there("sweep.sbatch"));
+  ASSERT_EQ(test::runCommand("sh " + at("grid/parallel.sh")).code, 0);
+  EXPECT_NE(sweep("status " + at("grid")).out.find("3 of 3 cases done"), std::string::npos);
+}
+
 TEST_F(Sweeping, RefusesBadInputInOneLine)
 {
   write("unknown.json", R"({"palp_sweep": 1, "kind": "force", "grid": {"yuong": ["5kPa"]}})");
@@ -265,6 +296,12 @@ TEST_F(Sweeping, RefusesBadInputInOneLine)
   expectRefused("plan nothing " + at("x"), "there are");
   expectRefused("run " + at("x"), "no sweep is planned there");
   plan("grid.json", "grid");
+  expectRefused("run --case -1 " + at("grid"), "no case '-1'; give 0 to 39");
+  expectRefused("run --case=1e3 " + at("grid"), "no case '1e3'");
+  const Finished odd =
+    test::runCommand("SLURM_ARRAY_TASK_ID=x " PALP_PROGRAM " sweep run " + at("grid"));
+  EXPECT_EQ(odd.code, 2);
+  EXPECT_NE(odd.err.find("SLURM_ARRAY_TASK_ID: there is no case 'x'"), std::string::npos);
   for (const char* bad :
     { "run --case 40 ", "run --shard 0/2 ", "run --shard 3/2 ", "run --shard a ",
       "run --case 1 --shard 1/2 ", "run --jobs 0 ", "merge --out x.txt ", "merge ", "status --x " })

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
+#include <set>
 
 namespace palp
 {
@@ -83,6 +84,67 @@ TEST_F(SweepMap, OfOneValueHasOneShade)
       [](int, int) { return 2.0; });
   EXPECT_EQ(figures::pointsOf(map.tables, map.figures[0].curves.front()).x.size(),
     std::size_t{ kSide } * kSide);
+}
+
+TEST_F(SweepMap, LabelsTellClassesApartWhateverTheirSize)
+{
+  const SweepPlot plot{
+    .name = "map", .title = "t", .x = "young_kPa", .y = "poisson", .colors = "force_N"
+  };
+  const auto large = [](int i, int j) { return 123456.0 + 0.02 * (7 * i + j); };
+  const auto small = [](int i, int j) { return 1e-12 * (7 * i + j); };
+  for (const auto force : { +large, +small })
+  {
+    std::set<std::string> labels;
+    const SweepFigures map = drawn(plot, force);
+    for (const figures::Curve& curve : map.figures[0].curves)
+    {
+      double from = 0.0;
+      double to = 0.0;
+      ASSERT_EQ(std::sscanf(curve.label.c_str(), "%lf to %lf", &from, &to), 2) << curve.label;
+      EXPECT_LT(from, to) << curve.label;
+      EXPECT_TRUE(labels.insert(curve.label).second) << curve.label;
+    }
+  }
+}
+
+// without a column for curves no line leads from one case to another
+TEST_F(SweepMap, PlotsWithoutCurvesAreOfPoints)
+{
+  const SweepFigures points = drawn({ .name = "p", .title = "t", .x = "young_kPa", .y = "force_N" },
+    [](int i, int j) { return 1.0 * i * j; });
+  ASSERT_EQ(points.figures[0].curves.size(), 1U);
+  EXPECT_EQ(points.figures[0].curves[0].style, figures::Curve::Style::Circles);
+}
+
+TEST_F(SweepMap, RefusesAPlotOfNothingByItsName)
+{
+  const auto force = [](int i, int j) { return 1.0 * i * j; };
+  const auto refusal = [&](const SweepPlot& plot) -> std::string
+  {
+    try
+    {
+      (void)drawn(plot, force);
+      return "drawn";
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+  };
+  for (const std::string colors : { "", "force_N" })
+  {
+    const std::string none = refusal({ .name = "none",
+      .title = "t",
+      .x = "young_kPa",
+      .y = "force_N",
+      .colors = colors,
+      .where = { { "poisson", "9" } } });
+    EXPECT_NE(none.find("plot 'none': no row"), none.npos) << none;
+    EXPECT_NE(none.find("where"), none.npos) << none;
+  }
+  const std::string words = refusal({ .name = "w", .title = "t", .x = "depth_m", .y = "force_N" });
+  EXPECT_NE(words.find("depth_m"), words.npos) << words;
 }
 
 TEST_F(SweepMap, LeavesOutWhatIsNoNumberAndRefusesPlacesThatAreNone)

@@ -63,7 +63,9 @@ TEST_F(SweepFile, SaysWhatIsWrongInOneSentence)
       { R"("grid": {"a": {"from": 1, "to": 2, "count": 9999}, "b": {"from": 1, "to": 2, "count": 9999}})",
         "cases" },
       { R"("fixed": {"tip": "a\nb"})", "control characters" },
-      { R"("plots": [{"name": "../x", "x": "a", "y": "b"}])", "plot" } })
+      { R"("plots": [{"name": "../x", "x": "a", "y": "b"}])", "plot" },
+      { R"("plots": [{"name": "p", "x": "a", "y": "b"}, {"name": "p", "x": "a", "y": "c"}])",
+        "another plot's" } })
   {
     try
     {

@@ -3,6 +3,7 @@
 #include "haptics/force/force_law.h"
 #include "haptics/force/validity.h"
 #include "tests/calibration/indentation_case.h"
+#include "tests/support/shipped_ratios.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,12 +43,11 @@ TEST_P(Ball, IsThatOfTheLawOrFlagged)
   const double radius = 50.0_mm;
   const Material tissue{ 50.0_kPa, 0.33 };
   const Tip tip = with.cone ? cappedCone() : Tip{ SphereTip{ 10.0_mm } };
-  const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/large_strain_";
   const ForceLaw law(tip, tissue,
     { .mode = LawMode::Corrected,
       .constitution = with.energy == StrainEnergy::Linear ? ConstitutiveModel::Linear
                                                           : ConstitutiveModel::NeoHookean,
-      .largeStrain = readLargeStrain(folder + "sphere.csv", folder + "cone.csv") });
+      .largeStrain = test::shippedRatios() });
   const Validity validity(law);
   const Body body = sphereBody(radius, with.support, 7.0_mm, with.cone ? 0.5_mm : 1.0_mm);
   Indenter indenter(body, tip, with.energy, tissue);

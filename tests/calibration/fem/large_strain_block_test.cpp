@@ -2,6 +2,7 @@
 #include "haptics/force/validity.h"
 #include "haptics/tip/profile.h"
 #include "tests/calibration/indentation_case.h"
+#include "tests/support/shipped_ratios.h"
 
 #include <cmath>
 
@@ -12,12 +13,6 @@ namespace palp::fem
 {
 namespace
 {
-
-LargeStrainTable shippedRatios()
-{
-  const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/";
-  return readLargeStrain(folder + "large_strain_sphere.csv", folder + "large_strain_cone.csv");
-}
 
 Tip quartic()
 {
@@ -71,7 +66,7 @@ TEST_P(LargeStrainBlock, IsThatOfTheLawOrFlagged)
     .material = { 50.0_kPa, tool.nu },
     .depths = depthRange(tool.deepest / 3.0, tool.deepest, tool.deepest / 3.0) };
   const ForceLaw law(
-    tool.tip, study.material, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
+    tool.tip, study.material, { .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() });
   const Validity validity(law);
   const auto steps = completed(study).steps;
   ASSERT_EQ(steps.size(), 3U);

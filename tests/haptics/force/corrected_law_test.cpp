@@ -5,6 +5,7 @@
 #include "tests/haptics/force/reference_table.h"
 #include "tests/haptics/force/tips.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/shipped_ratios.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,16 +178,10 @@ TEST(CorrectedLaw, AppliesTheRatioOfLargeStrain)
     ForceLaw(PunchTip{ 10.0_mm }, kLiver, settings).largeStrain({ .depth = 5.0_mm }).inside);
 }
 
-LargeStrainTable shippedRatios()
-{
-  const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/";
-  return readLargeStrain(folder + "large_strain_sphere.csv", folder + "large_strain_cone.csv");
-}
-
 // what the shipped tables say they cover, as `palp calibrate --tables` presses it
 TEST(CorrectedLaw, OutsideItsTablesLargeStrainIsFlaggedForAnyPoissonsRatio)
 {
-  const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = shippedRatios() };
+  const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() };
   const auto isFlagged = [&](const Tip& tip, double nu)
   {
     const Validity validity(ForceLaw(tip, { 50.0_kPa, nu }, settings));
@@ -223,7 +218,7 @@ TEST_P(NeoHookeanBlock, IsMetWithin3PercentWherePapersLawIsOffBy10)
   const auto rows = test::referenceTable(GetParam().table);
   ASSERT_GE(rows.size(), 13U);
   const ForceLaw corrected(
-    GetParam().tip, kLiver, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
+    GetParam().tip, kLiver, { .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() });
   const ForceLaw paper(GetParam().tip, kLiver);
   double worst = 0.0;
   double worstPaper = 0.0;
@@ -289,7 +284,9 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
       const Tip tip =
         cone ? Tip{ BluntConeTip{ 45.0_deg, 0.3_mm, 20.0_mm } } : SphereTip{ 10.0_mm };
       const ForceLaw law(tip, kLiver,
-        { .mode = LawMode::Corrected, .constitution = tissue, .largeStrain = shippedRatios() });
+        { .mode = LawMode::Corrected,
+          .constitution = tissue,
+          .largeStrain = test::shippedRatios() });
       const Validity validity(law);
       for (const int ball : { 30, 100 })
       {
@@ -321,8 +318,8 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
 
 TEST(CorrectedLaw, DoesNotAllocate)
 {
-  const ForceLaw law(
-    SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected, .largeStrain = shippedRatios() });
+  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver,
+    { .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() });
   const Validity validity(law);
   const ContactGeometry position{ .depth = 3.0_mm,
     .tilt = 9.0_deg,

@@ -4,6 +4,7 @@
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 #include "tests/support/process.h"
+#include "tests/support/shipped_ratios.h"
 
 #include <cmath>
 #include <filesystem>
@@ -135,10 +136,7 @@ TEST_F(LargeStrainFile, IsRefusedWhereANumberIsNotFinite)
 
 TEST(LargeStrain, IsFiniteHoweverShallowTheContactIs)
 {
-  const std::string folder = std::string(PALP_SOURCE_DIR) + "/data/tables/";
-  const LawSettings settings{ .mode = LawMode::Corrected,
-    .largeStrain =
-      readLargeStrain(folder + "large_strain_sphere.csv", folder + "large_strain_cone.csv") };
+  const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() };
   for (const Tip& tip : { Tip{ PunchTip{ 5.0_mm } }, Tip{ ConeTip{ 70.0_deg, 5.0_mm } },
          Tip{ ParaboloidTip{ 5.0_mm } }, Tip{ BluntConeTip{ 30.0_deg, 1.0_mm, 5.0_mm } },
          Tip{ TruncatedConeTip{ 30.0_deg, 1.0_mm, 5.0_mm } } })
