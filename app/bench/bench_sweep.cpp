@@ -30,6 +30,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t kTools = 10; // of the varied ones
+constexpr int kRounds = 5;
 
 double secondsOf(const std::function<void()>& work)
 {
@@ -111,25 +112,41 @@ void reportMany(std::ostream& out, const fs::path& folder, std::size_t count)
   out << "most entries in a folder: " << std::max<std::ptrdiff_t>(most, 4096) << '\n';
 }
 
-// the commands of all cases, one after the other
-void runAlone(Manifest& manifest)
+// the commands of all cases, some at a time, and nothing else
+double secondsAlone(Manifest& manifest, unsigned jobs)
 {
-  manifest.forEach(
-    [&](const PlannedCase& one)
+  const fs::path log = manifest.folder() / "alone.txt";
+  unsigned running = 0;
+  const auto await = [&]
+  {
+    int status = 0;
+    if (wait(&status) < 0 || status != 0)
     {
-      const SweepHead& head = manifest.head();
-      auto words = caseWords(head.kind, optionsOf(head, one.values), head.flags);
-      words.insert(words.begin(), (prefix() / "bin/palp").string());
-      if (head.kind == "calibrate")
+      throw Error(ErrorCode::NoSolution, lastWords(log, status));
+    }
+    --running;
+  };
+  fs::remove_all(manifest.folder() / "alone");
+  return secondsOf(
+    [&]
+    {
+      manifest.forEach(
+        [&](const PlannedCase& one)
+        {
+          const SweepHead& head = manifest.head();
+          auto words = caseWords(head.kind, optionsOf(head, one.values), head.flags);
+          words.insert(words.begin(), (prefix() / "bin/palp").string());
+          if (head.kind == "calibrate")
+          {
+            words.insert(words.end(),
+              { "--no-picture", "--out=" + (manifest.folder() / "alone" / one.name).string() });
+          }
+          (void)startProcess(words, "/dev/null", log);
+          ++running == jobs ? await() : void();
+        });
+      while (running > 0)
       {
-        words.insert(words.end(),
-          { "--no-picture", "--out=" + (manifest.folder() / "alone" / one.name).string() });
-      }
-      int status = 0;
-      const pid_t process = startProcess(words, "/dev/null", manifest.folder() / "alone.txt");
-      if (waitpid(process, &status, 0) != process || status != 0)
-      {
-        throw Error(ErrorCode::NoSolution, lastWords(manifest.folder() / "alone.txt", status));
+        await();
       }
     });
 }
@@ -142,6 +159,45 @@ double secondsBy(Manifest& manifest, unsigned jobs)
   return secondsOf([&] { (void)runCases(manifest, numbers, jobs); });
 }
 
+// how often one time is in another, over the rounds
+struct Ratio
+{
+  void add(double one, double all)
+  {
+    least = std::min(least, one / all);
+    most = std::max(most, one / all);
+    ones += one;
+    alls += all;
+  }
+
+  double least = 1e9;
+  double most = 0.0;
+  double ones = 0.0;
+  double alls = 0.0;
+};
+
+std::ostream& operator<<(std::ostream& out, const Ratio& ratio)
+{
+  return out << ratio.ones / ratio.alls << " times as fast (" << ratio.least << " to " << ratio.most
+             << ')';
+}
+
+// in turn, for what else a machine does changes from second to second
+void reportSpeedUp(std::ostream& out, Manifest manifest)
+{
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  Ratio swept;
+  Ratio alone;
+  for (int round = 0; round < kRounds; ++round)
+  {
+    swept.add(secondsBy(manifest, 1), secondsBy(manifest, cores));
+    alone.add(secondsAlone(manifest, 1), secondsAlone(manifest, cores));
+  }
+  out << manifest.head().count << " calibrations, " << kRounds << " times: by " << cores
+      << " processes " << swept << " than by one; the same commands without a sweep " << alone
+      << '\n';
+}
+
 void reportFew(std::ostream& out, const fs::path& folder, std::size_t count)
 {
   Sweep sweep{ .title = "short",
@@ -150,20 +206,15 @@ void reportFew(std::ostream& out, const fs::path& folder, std::size_t count)
     .axes = { numbered("young", "", count) } };
   Manifest brief = planned(folder / "brief", sweep);
   (void)secondsBy(brief, 1); // the program comes from the disk
-  const double alone = secondsOf([&] { runAlone(brief); });
+  const double alone = secondsAlone(brief, 1);
   const double swept = secondsBy(brief, 1);
   const auto cases = static_cast<double>(count);
   out << count << " forces: " << alone << " s by themselves, " << swept
       << " s as a sweep: " << 1e3 * (swept - alone) / cases << " ms a case\n";
-
   sweep.kind = "calibrate";
-  sweep.fixed = { { "depth", "0.5:3:0.5mm" }, { "element-size", "1mm" } };
-  Manifest longer = planned(folder / "longer", sweep);
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  const double one = secondsBy(longer, 1);
-  const double all = secondsBy(longer, cores);
-  out << count << " calibrations: " << one << " s by one process, " << all << " s by " << cores
-      << ": " << one / all << " times as fast\n";
+  sweep.axes = { numbered("young", "", (count + kRounds - 1) / kRounds) };
+  sweep.fixed = { { "depth", "0.5:1.5:0.5mm" }, { "element-size", "1mm" } };
+  reportSpeedUp(out, planned(folder / "longer", sweep));
 }
 
 } // namespace

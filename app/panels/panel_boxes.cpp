@@ -64,6 +64,11 @@ ShownUnit ShownUnit::damping()
   return { "N·s/m", Quantity::Damping, same };
 }
 
+ShownUnit ShownUnit::speed()
+{
+  return { "mm/s", Quantity::Speed, units::toMillimeters };
+}
+
 ShownUnit ShownUnit::none()
 {
   return { "", std::nullopt, same };

@@ -26,6 +26,7 @@ struct ShownUnit
   [[nodiscard]] static ShownUnit degrees();
   [[nodiscard]] static ShownUnit kilopascals();
   [[nodiscard]] static ShownUnit damping();
+  [[nodiscard]] static ShownUnit speed();
   [[nodiscard]] static ShownUnit none();
 };
 

@@ -157,11 +157,11 @@ void addPoints(Fiducials& points, const Json& list, const std::string& where)
   {
     refuseFiducials(where, "the unit is " + inQuotes(unit) + "; save the list in mm");
   }
-  std::size_t number = 0;
+  std::size_t index = 0;
   for (const Json& point : listAt(list, "controlPoints", where))
   {
     const std::string status = point.is_object() ? textAt(point, "positionStatus") : "";
-    const std::string here = where + "/controlPoints/" + std::to_string(number++);
+    const std::string here = where + "/controlPoints/" + std::to_string(index++);
     if (!status.empty() && status != "defined")
     {
       ++points.unplaced;

@@ -152,17 +152,7 @@ private:
 
 ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
-  const SurfacePoint point =
-    feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
-                             : ontoSurface(place, *scene.surface),
-      presses.depth, scene);
-  const double thickness = rayExit(scene.surface->tree(), point.position, -point.normal).distance;
-  if (presses.depth > 0.5 * thickness)
-  {
-    refusePlace(place,
-      "a depth of " + quantityText(presses.depth, Quantity::Length) + " is more than half of the " +
-        units::inMillimeters(thickness) + " that the body is thick there; give less");
-  }
+  const SurfacePoint point = pressedPoint(place, presses, scene);
   const Descent descent(scene, point);
   const std::optional<double> free = descent.freeAt();
   const std::optional<double> bottom = free ? descent.travelTo(presses.depth, *free) : std::nullopt;
@@ -182,6 +172,22 @@ ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const
 }
 
 } // namespace
+
+SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+{
+  const SurfacePoint point =
+    feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
+                             : ontoSurface(place, *scene.surface),
+      presses.depth, scene);
+  const double thickness = rayExit(scene.surface->tree(), point.position, -point.normal).distance;
+  if (presses.depth > 0.5 * thickness)
+  {
+    refusePlace(place,
+      "a depth of " + quantityText(presses.depth, Quantity::Length) + " is more than half of the " +
+        units::inMillimeters(thickness) + " that the body is thick there; give less");
+  }
+  return point;
+}
 
 std::vector<ScriptedPath> pathsOf(const PlacedPresses& presses, const Scene& scene)
 {

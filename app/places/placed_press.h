@@ -3,6 +3,7 @@
 #include "app/input/press_places.h"
 #include "haptics/devices/simulated/scripted_path.h"
 #include "haptics/servo/scene.h"
+#include "haptics/surface/surface_point.h"
 
 #include <vector>
 
@@ -10,6 +11,15 @@ namespace palp
 {
 
 constexpr double kFarthestPlace = 5e-3; ///< of a place that is meant to be on the surface [m]
+
+/// The point of the surface that a place stands for, with the normal along which a tool is pressed
+/// there.
+///
+/// @param presses  their depth and direction
+/// @param scene    with the surface and the tool
+/// @throws Error   BadValue: as pathsOf, but for the fit of the tool
+[[nodiscard]] SurfacePoint pressedPoint(
+  const PressPlace& place, const PlacedPresses& presses, const Scene& scene);
 
 /// The motion of each press: from 1 mm above the surface along the inward normal of the point that
 /// is nearest to the place, until the contact is as deep as asked; 0.1 s of rest; and back. Begins

@@ -66,8 +66,8 @@ void PointerTool::hover(int x, int y)
     letGo();
   }
   last_ = pixel;
-  const bool isClick = pressed_ > 0.0; // still shown, at its own place
-  if (const auto point = below(pixel); point && !isClick)
+  const bool stays = pressed_ > 0.0 || given_; // a click that is shown, or a press by itself
+  if (const auto point = below(pixel); point && !stays)
   {
     moveTo(*point);
   }
@@ -76,6 +76,7 @@ void PointerTool::hover(int x, int y)
 void PointerTool::press(int x, int y, double time)
 {
   pressed_ = 0.0;
+  given_.reset();
   hover(x, y);
   if (below(*last_))
   {
@@ -111,6 +112,7 @@ void PointerTool::wheel(int notches)
   {
     return;
   }
+  given_.reset();
   double& depth = pressing_ ? pressed_ : held_;
   const double before = std::min(depth, deepest_);
   depth = std::clamp(before + notches * kDepthPerNotch, 0.0, deepest_);
@@ -122,8 +124,16 @@ void PointerTool::turnView()
   last_.reset();
 }
 
+void PointerTool::pressAt(const SurfacePoint& point, double depth, double speed, double time)
+{
+  letGo();
+  moveTo(point);
+  given_ = { .depth = depth, .speed = speed, .begin = time, .now = 0.0 };
+}
+
 void PointerTool::letGo()
 {
+  given_.reset();
   pressing_ = false;
   held_ = 0.0;
   pressed_ = 0.0;
@@ -136,6 +146,17 @@ void PointerTool::update(double time)
   {
     pressed_ = 0.0;
   }
+  if (given_)
+  {
+    const double down = given_->depth / given_->speed;
+    const double since = time - given_->begin;
+    const double left = 2.0 * down + kShortest - since;
+    given_->now = given_->speed * std::min({ since, down, left });
+    if (left <= 0.0)
+    {
+      given_.reset();
+    }
+  }
 }
 
 std::optional<PressTarget> PointerTool::target() const
@@ -144,7 +165,7 @@ std::optional<PressTarget> PointerTool::target() const
   {
     return std::nullopt;
   }
-  const double wanted = pressing_ || pressed_ > 0.0 ? pressed_ : held_;
+  const double wanted = given_ ? given_->now : pressing_ || pressed_ > 0.0 ? pressed_ : held_;
   return PressTarget{
     .position = point_->position, .normal = point_->normal, .depth = std::min(wanted, deepest_)
   };

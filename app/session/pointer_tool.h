@@ -47,19 +47,42 @@ public:
   void release(double time);
   void wheel(int notches);
 
+  /// Presses once at a place, whatever the pointer does meanwhile: down, kShortest of rest, and up.
+  /// A button, the wheel or letGo() ends it.
+  /// @param point  on the surface
+  /// @param depth  [m]
+  /// @param speed  [m/s], more than 0
+  /// @param time   now [s]
+  void pressAt(const SurfacePoint& point, double depth, double speed, double time);
+
+  /// Whether such a press goes on.
+  [[nodiscard]] bool pressesByItself() const noexcept
+  {
+    return given_.has_value();
+  }
+
   /// The view turned below the pointer: nothing is known of the way to its next place.
   void turnView();
 
   /// Ends each press: Escape, another window, a pointer that is no longer in the view.
   void letGo();
 
-  /// Ends a click that was shown long enough.
+  /// Ends a click that was shown long enough; leads a press that goes by itself.
   void update(double time);
 
   /// Nothing until the pointer has been over the body.
   [[nodiscard]] std::optional<PressTarget> target() const;
 
 private:
+  // a press that goes by itself
+  struct Given
+  {
+    double depth; // [m]
+    double speed; // [m/s]
+    double begin; // [s]
+    double now;   // depth at this moment [m]
+  };
+
   struct Pixel
   {
     double x;
@@ -80,6 +103,7 @@ private:
   double from_ = 0.0;                 // depth that the drag started from [m]
   bool pressing_ = false;             // the button is down
   double pressedAt_ = 0.0;            // [s]
+  std::optional<Given> given_;
 };
 
 } // namespace palp

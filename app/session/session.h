@@ -65,6 +65,12 @@ public:
   /// Zero force at once and until taken back; then the device must be armed again.
   void stop(bool stopped);
 
+  /// False for devices that move the tool themselves.
+  [[nodiscard]] bool isLed() const noexcept
+  {
+    return guided_ != nullptr;
+  }
+
   /// False for devices that no hand can feel.
   [[nodiscard]] bool rendersForce() const
   {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 
@@ -69,8 +68,5 @@ constexpr const char* kLogFile = "log.txt";    ///< what its command said
 constexpr const char* kSlurmFile = "sweep.sbatch";
 constexpr const char* kParallelFile = "parallel.sh";
 constexpr const char* kJobLog = "parallel.log"; ///< of GNU parallel, which counts cases as jobs
-
-/// What stands for the numbers of one plan, and is wrong for another.
-constexpr std::array kOfOnePlan{ kSlurmFile, kParallelFile, kJobLog };
 
 } // namespace palp

@@ -239,9 +239,9 @@ PlanTold planSweep(const Sweep& sweep, const std::filesystem::path& beside,
     });
   if (!before.empty() && planned(folder) != before)
   {
-    for (const char* ofBefore : kOfOnePlan)
+    for (const char* numbered : { kSlurmFile, kParallelFile, kJobLog }) // as the cases were before
     {
-      std::filesystem::remove(folder / ofBefore, failed);
+      std::filesystem::remove(folder / numbered, failed);
     }
   }
   return told;

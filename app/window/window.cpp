@@ -68,6 +68,7 @@ Window::Window(Session& session, BuildTrace& trace)
       makeViewMenu();
       makeHelpMenu();
       makeToolBar();
+      makePressBar();
     });
   if (session_.plan().records())
   {

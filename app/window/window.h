@@ -30,6 +30,7 @@ namespace palp
 
 class DevicePanel;
 class DiagnosticsPanel;
+class PressBar;
 class BuildTrace;
 class ChartPanel;
 class PlotPanel;
@@ -91,6 +92,8 @@ private:
 
   // the pointer as a tool, in display pixels
   void makePointer();
+  void makePressBar();
+  void pressAtPlace();
   [[nodiscard]] SightLine sightLine(double x, double y);
   void aim();
   void letGo();
@@ -148,6 +151,7 @@ private:
   DevicePanel* devicePanel_ = nullptr;
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;             // null: never shown
+  PressBar* pressBar_ = nullptr;
   QAction* refinedExport_ = nullptr;
   QAction* allSamplesExport_ = nullptr;
   QLabel* forceLabel_ = nullptr;

@@ -1,7 +1,10 @@
 // The mouse pointer in the view of the window, as a tool.
 
+#include "app/panels/press_bar.h"
+#include "app/places/placed_press.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
+#include "haptics/error.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkRenderWindowInteractor.h>
@@ -51,6 +54,10 @@ void Window::makePointer()
   {
     pointer_.press(x, y, now());
     aim();
+    if (const auto target = pointer_.target(); target && target->depth > 0.0)
+    {
+      pressBar_->showPlace(target->position);
+    }
   };
   style_->Drag = [this](int pixelsDown)
   {
@@ -68,8 +75,41 @@ void Window::makePointer()
     aim();
   };
   style_->Turn = [this] { pointer_.turnView(); };
-  style_->Leave = [this] { letGo(); };
+  style_->Leave = [this]
+  {
+    if (!pointer_.pressesByItself())
+    {
+      letGo();
+    }
+  };
   canvas_->interactor()->SetInteractorStyle(style_);
+}
+
+void Window::makePressBar()
+{
+  pressBar_ = new PressBar(this);
+  addToolBar(pressBar_);
+  connect(pressBar_, &PressBar::pressAsked, this, &Window::pressAtPlace);
+  connect(pressBar_, &PressBar::refused, this, &Window::say);
+}
+
+void Window::pressAtPlace()
+{
+  attempt(
+    [this]
+    {
+      const PlacedPresses presses = pressBar_->presses();
+      if (!session_.isLed())
+      {
+        throw Error(ErrorCode::BadValue,
+          "the tool is held by " + session_.recording().device +
+            "; choose mouse or hand as the device, which can be led to a place");
+      }
+      const SurfacePoint point =
+        pressedPoint(presses.places.front(), presses, session_.recording().scene);
+      pointer_.pressAt(point, presses.depth, presses.speed, now());
+      aim();
+    });
 }
 
 void Window::aim()

@@ -119,6 +119,7 @@ void Window::makeHelpMenu()
       const std::vector<KeyEntry> mouse{ { tr("Left button, drag down"), tr("Press, and deeper") },
         { tr("Click"), tr("Press 1 mm") },
         { tr("Wheel"), tr("Hold a depth while the tool slides") },
+        { tr("Place, Return"), tr("Press at a place that is typed above the picture") },
         { tr("Right-drag"), tr("Rotate the view") }, { tr("Middle-drag"), tr("Move the view") },
         { tr("Ctrl+wheel"), tr("Zoom") } };
       showKeySheet(*this, mouse, *menuBar());

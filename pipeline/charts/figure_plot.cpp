@@ -33,13 +33,16 @@ void addCurve(Plot& plot, const Curve& curve, const figures::Points& points)
   {
     case Curve::Style::Line:
     case Curve::Style::Dashed:
-      if (points.x.size() > 1)
+      if (points.x.size() == 1) // is no line
+      {
+        mark(Plot::Mark::Circle, 8.0F);
+      }
+      else if (!points.x.empty())
       {
         plot.addLine(
           curve.label, points.x, points.y, color, 2.0F, curve.style == Curve::Style::Dashed);
-        break;
       }
-      [[fallthrough]]; // a point is no line
+      break;
     case Curve::Style::Circles:
       mark(Plot::Mark::Circle, 8.0F);
       break;

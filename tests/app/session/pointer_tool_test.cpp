@@ -226,5 +226,61 @@ TEST(PointerTool, IsNoDeeperThanAskedForByTheGeometryOfABall)
   EXPECT_LT(bench.excess(depth), kAllowed);
 }
 
+// down, a rest, and up, as deep as it was told and no deeper
+TEST_F(PointerToolTest, APressByItselfGoesToItsDepthAndBack)
+{
+  pointer.hover(400, 400);
+  bench.run(0.5);
+  for (const auto& [depth, speed] :
+    { std::pair(4.0_mm, 0.01), std::pair(0.3_mm, 0.002), std::pair(8.0_mm, 0.2) })
+  {
+    bench.ticks.clear();
+    const double begin = bench.now;
+    const SurfacePoint place{ .position = { 6.0_mm, -3.0_mm, pointer.target()->position.z() },
+      .normal = Eigen::Vector3d::UnitZ() };
+    pointer.pressAt(place, depth, speed, begin);
+    bench.run(0.5 * depth / speed);
+    EXPECT_TRUE(pointer.pressesByItself());
+    pointer.hover(500, 300); // which leads it nowhere
+    bench.run(1.5 * depth / speed + PointerTool::kShortest + 0.2);
+    EXPECT_FALSE(pointer.pressesByItself());
+    double deepest = 0.0;
+    for (const Tick& tick : bench.ticks)
+    {
+      deepest = std::max(deepest, tick.sample.contact.depth);
+      if (tick.sample.contact.touching())
+      {
+        EXPECT_LT((tick.sample.pose.apex - place.position).head<2>().norm(), 1e-6);
+      }
+    }
+    EXPECT_LE(deepest, depth + 1e-6);
+    EXPECT_NEAR(deepest, depth, 0.01_mm);
+    EXPECT_FALSE(bench.newest().contact.touching());
+  }
+}
+
+TEST_F(PointerToolTest, APressByItselfEndsWhenTheHandTakesOver)
+{
+  const auto begin = [&]
+  {
+    pointer.hover(400, 400);
+    bench.run(0.2);
+    pointer.pressAt(
+      { pointer.target()->position, pointer.target()->normal }, 4.0_mm, 0.01, bench.now);
+    bench.run(0.3);
+    EXPECT_GT(asked(), 2.0_mm);
+  };
+  begin();
+  pointer.letGo();
+  EXPECT_EQ(asked(), 0.0);
+  begin();
+  pointer.press(420, 400, bench.now);
+  EXPECT_DOUBLE_EQ(asked(), PointerTool::kTouch);
+  pointer.letGo();
+  begin();
+  pointer.wheel(1);
+  EXPECT_DOUBLE_EQ(asked(), PointerTool::kDepthPerNotch);
+}
+
 } // namespace
 } // namespace palp

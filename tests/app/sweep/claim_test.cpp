@@ -97,8 +97,11 @@ TEST_F(ClaimOfACase, OfAProcessThatWasStoppedIsTakenOverWhenItIsSilentForLong)
   char ready = 0;
   ASSERT_EQ(read(line[0], &ready, 1), 1);
   EXPECT_FALSE(Claim::take(claims(), "case"));
-  const fs::path its = *std::ranges::find_if(fs::directory_iterator(claims() / "case"),
-    [](const fs::directory_entry& entry) { return entry.is_directory(); });
+  const fs::path its = std::find_if(fs::directory_iterator(claims() / "case"),
+    fs::directory_iterator(),
+    [](const auto& entry) {
+      return entry.is_directory();
+    })->path();
   fs::last_write_time(claims() / "case" / "owner",
     fs::file_time_type::clock::now() - std::chrono::seconds(kSilence + 60));
   EXPECT_FALSE(Claim::isHeld(claims(), "case"));

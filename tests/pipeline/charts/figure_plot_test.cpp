@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 
 #include <gtest/gtest.h>
+#include <vtkPlotLine.h>
 #include <vtkVariant.h>
 
 namespace palp
@@ -59,10 +60,12 @@ TEST_F(FigurePlot, LaysItsBandUnderTheFirstCurve)
   EXPECT_EQ(band.GetValue(2, 2).ToDouble(), 7.0);
 }
 
-TEST_F(FigurePlot, LeavesOutALineOfOnePointAndRefusesAMissingTable)
+TEST_F(FigurePlot, ShowsALineOfOnePointAsAMarkAndRefusesAMissingTable)
 {
   figure.curves[1].style = Curve::Style::Line;
-  EXPECT_EQ(plot(Layout::OnPage)->tables().size(), 1U);
+  const auto drawn = plot(Layout::OnPage);
+  ASSERT_EQ(drawn->tables().size(), 2U);
+  EXPECT_EQ(vtkPlotLine::SafeDownCast(drawn->chart().GetPlot(1)), nullptr);
   figure.curves[1].table = "elsewhere";
   EXPECT_THROW(plot(Layout::OnPage), Error);
 }

@@ -1,0 +1,71 @@
+#include "app/panels/press_bar.h"
+
+#include "app/input/quantity.h"
+#include "app/panels/panel_boxes.h"
+#include "haptics/units.h"
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+
+namespace palp
+{
+
+PressBar::PressBar(QWidget* parent)
+  : QToolBar(tr("Press at a place"), parent)
+  , place_(new QLineEdit)
+  , depth_(new QuantityBox("pressDepth", ShownUnit::millimeters()))
+  , speed_(new QuantityBox("pressSpeed", ShownUnit::speed()))
+{
+  setObjectName("pressBar");
+  place_->setObjectName("pressPlace");
+  place_->setPlaceholderText(tr("x, y, z"));
+  place_->setMinimumWidth(place_->fontMetrics().horizontalAdvance("-000.00, -000.00, -000.00  "));
+  addField(tr("Place [mm]"),
+    tr("x, y, z [mm] in the frame of the surface, within 5 mm of it; a press of the mouse fills it "
+       "in"),
+    place_);
+  addField(tr("Depth"), tr("d [mm] of the contact, up to half of the body's thickness"), depth_);
+  addField(tr("Speed"), tr("[mm/s], down and up; at the depth the tool rests for 0.3 s"), speed_);
+  const PlacedPresses usual;
+  depth_->setSi(usual.depth);
+  speed_->setSi(usual.speed);
+  depth_->setCheck([this] { (void)parsePressDepth(quantityText(depth_->si(), Quantity::Length)); });
+  speed_->setCheck([this] { (void)parsePressSpeed(quantityText(speed_->si(), Quantity::Speed)); });
+  connect(depth_, &QuantityBox::refused, this, &PressBar::refused);
+  connect(speed_, &QuantityBox::refused, this, &PressBar::refused);
+  connect(place_, &QLineEdit::returnPressed, this, &PressBar::pressAsked);
+
+  auto* press = new QPushButton(tr("Press"));
+  press->setObjectName("pressButton");
+  press->setToolTip(tr("Press there and come back, with the tool and the tissue in use"));
+  connect(press, &QPushButton::clicked, this, &PressBar::pressAsked);
+  addWidget(press);
+}
+
+void PressBar::addField(const QString& label, const QString& what, QWidget* field)
+{
+  addWidget(new QLabel(' ' + label + ' '));
+  addWidget(field);
+  field->setAccessibleName(label);
+  field->setToolTip(what);
+}
+
+PlacedPresses PressBar::presses() const
+{
+  return { .places = { parsePlace(place_->text().toStdString(), "Place") },
+    .depth = depth_->si(),
+    .speed = speed_->si() };
+}
+
+void PressBar::showPlace(const Eigen::Vector3d& place)
+{
+  QStringList numbers;
+  for (const double coordinate : place)
+  {
+    numbers << QString::number(units::toMillimeters(coordinate), 'f', 2);
+  }
+  place_->setText(numbers.join(", "));
+}
+
+} // namespace palp

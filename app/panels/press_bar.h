@@ -1,0 +1,41 @@
+#pragma once
+
+#include "app/input/press_places.h"
+
+#include <QToolBar>
+
+class QLineEdit;
+
+namespace palp
+{
+
+class QuantityBox;
+
+/// Where to press, how deep and how fast, to be typed; the place of the last press stands there.
+class PressBar : public QToolBar
+{
+  Q_OBJECT
+
+public:
+  explicit PressBar(QWidget* parent = nullptr);
+
+  /// One place.
+  /// @throws Error  BadValue: what is typed is no place
+  [[nodiscard]] PlacedPresses presses() const;
+
+  /// @param place  on the surface [m]
+  void showPlace(const Eigen::Vector3d& place);
+
+Q_SIGNALS:
+  void pressAsked();
+  void refused(const QString& why); ///< of a depth or a speed; empty: no longer
+
+private:
+  void addField(const QString& label, const QString& what, QWidget* field);
+
+  QLineEdit* place_;
+  QuantityBox* depth_;
+  QuantityBox* speed_;
+};
+
+} // namespace palp

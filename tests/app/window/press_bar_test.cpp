@@ -1,0 +1,119 @@
+#include "tests/app/window/window_rig.h"
+
+#include <QLineEdit>
+#include <QPushButton>
+
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+class PressBarTest : public WindowTest
+{
+protected:
+  void typePlace(const std::string& place) const
+  {
+    auto* field = window_->findChild<QLineEdit*>("pressPlace");
+    field->selectAll();
+    QTest::keyClicks(field, QString::fromStdString(place));
+  }
+  void pressButton() const
+  {
+    QTest::mouseClick(window_->findChild<QPushButton*>("pressButton"), Qt::LeftButton);
+  }
+
+  // of the recording so far, where it was deepest
+  [[nodiscard]] Sample deepest() const
+  {
+    Sample most;
+    for (const Sample& sample : session_->recording().samples)
+    {
+      most = sample.contact.depth > most.contact.depth ? sample : most;
+    }
+    return most;
+  }
+
+  void waitForPress() const
+  {
+    EXPECT_TRUE(
+      QTest::qWaitFor([this] { return session_->newest().contact.touching(); }, kPatience));
+    EXPECT_TRUE(waitForLift());
+    QTest::qWait(200); // the last samples
+  }
+};
+
+// the command line presses there by a path of its own
+TEST_F(PressBarTest, PressesWhereAndAsDeepAsTyped)
+{
+  typePlace("-48.5, 38.4, 39.5");
+  type("pressDepth", "3.2");
+  type("pressSpeed", "20 mm/s");
+  pressButton();
+  waitForPress();
+  const Sample most = deepest();
+  EXPECT_NEAR(most.contact.depth, 3.2e-3, 0.02e-3);
+
+  const std::string out = (folder_.path() / "out").string();
+  const test::Finished run = test::runCommand(PALP_PROGRAM
+    " run --at -48.5,38.4,39.5 --depth 3.2mm --speed 20mm/s --no-picture --out " +
+    out);
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::istringstream presses(test::readAll(out + "/presses.csv"));
+  std::string titles;
+  std::string line;
+  while (std::getline(presses, line) && line.starts_with('#'))
+  {
+  }
+  titles = line;
+  std::getline(presses, line);
+  const auto cell = [](const std::string& row, std::size_t at)
+  { return QString::fromStdString(row).split(',').at(static_cast<int>(at)); };
+  const auto column =
+    static_cast<std::size_t>(QString::fromStdString(titles).split(',').indexOf("force_N"));
+  EXPECT_NEAR(most.response.force, cell(line, column).toDouble(), 0.01 * most.response.force)
+    << titles;
+}
+
+TEST_F(PressBarTest, KnowsThePlaceOfAPressByTheMouse)
+{
+  press(60);
+  release();
+  EXPECT_TRUE(waitForLift());
+  const Sample byHand = deepest();
+  const double asked = byHand.contact.depth;
+  type("pressDepth", QString::number(1e3 * asked, 'f', 3).toUtf8());
+  window_->findChild<QLineEdit*>("pressPlace")->setFocus();
+  QTest::keyClick(window_->findChild<QLineEdit*>("pressPlace"), Qt::Key_Return);
+  QTest::mouseMove(canvas_, canvas_->rect().center() + QPoint(60, 20)); // which leads it nowhere
+  const double before = session_->newest().time;
+  waitForPress();
+  Sample again;
+  for (const Sample& sample : session_->recording().samples)
+  {
+    again = sample.time > before && sample.contact.depth > again.contact.depth ? sample : again;
+  }
+  EXPECT_NEAR(again.contact.depth, asked, 0.02e-3);
+  EXPECT_LT((again.pose.apex - byHand.pose.apex).norm(), 0.5e-3);
+}
+
+TEST_F(PressBarTest, RefusesInOneSentence)
+{
+  const auto said = [this] { return whatIsSaidOf([this] { pressButton(); }); };
+  EXPECT_TRUE(said().contains("Place")) << said().toStdString(); // none is typed
+  typePlace("1,2");
+  EXPECT_TRUE(said().contains("Place"));
+  typePlace("0,0,900");
+  EXPECT_TRUE(said().contains("off the surface")) << said().toStdString();
+  typePlace("-48.5,38.4,39.5");
+  type("pressDepth", "99");
+  EXPECT_TRUE(said().contains("half of the")) << said().toStdString();
+  EXPECT_FALSE(session_->newest().contact.touching());
+}
+
+} // namespace
+} // namespace palp
