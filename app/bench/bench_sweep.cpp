@@ -29,8 +29,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kTools = 10; // of the varied ones
-constexpr int kRounds = 5;
+constexpr std::size_t kTools = 10; // of the varied alone
 
 double secondsOf(const std::function<void()>& work)
 {
@@ -166,55 +165,55 @@ struct Ratio
   {
     least = std::min(least, one / all);
     most = std::max(most, one / all);
-    ones += one;
-    alls += all;
+    alone += one;
+    together += all;
   }
 
   double least = 1e9;
   double most = 0.0;
-  double ones = 0.0;
-  double alls = 0.0;
+  double alone = 0.0;
+  double together = 0.0;
 };
 
 std::ostream& operator<<(std::ostream& out, const Ratio& ratio)
 {
-  return out << ratio.ones / ratio.alls << " times as fast (" << ratio.least << " to " << ratio.most
-             << ')';
+  return out << ratio.alone / ratio.together << " times as fast (" << ratio.least << " to "
+             << ratio.most << ')';
 }
 
 // in turn, for what else a machine does changes from second to second
-void reportSpeedUp(std::ostream& out, Manifest manifest)
+void reportSpeedUp(std::ostream& out, Manifest manifest, unsigned rounds)
 {
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
   Ratio swept;
   Ratio alone;
-  for (int round = 0; round < kRounds; ++round)
+  for (unsigned round = 0; round < rounds; ++round)
   {
     swept.add(secondsBy(manifest, 1), secondsBy(manifest, cores));
     alone.add(secondsAlone(manifest, 1), secondsAlone(manifest, cores));
   }
-  out << manifest.head().count << " calibrations, " << kRounds << " times: by " << cores
+  out << manifest.head().count << " calibrations, " << rounds << " times: by " << cores
       << " processes " << swept << " than by one; the same commands without a sweep " << alone
       << '\n';
 }
 
-void reportFew(std::ostream& out, const fs::path& folder, std::size_t count)
+void reportFew(std::ostream& out, const fs::path& folder, const BenchedSweep& how)
 {
   Sweep sweep{ .title = "short",
     .kind = "force",
     .fixed = { { "depth", "1:1:1mm" } },
-    .axes = { numbered("young", "", count) } };
+    .axes = { numbered("young", "", how.computed) } };
   Manifest brief = planned(folder / "brief", sweep);
   (void)secondsBy(brief, 1); // the program comes from the disk
   const double alone = secondsAlone(brief, 1);
   const double swept = secondsBy(brief, 1);
-  const auto cases = static_cast<double>(count);
-  out << count << " forces: " << alone << " s by themselves, " << swept
+  const auto cases = static_cast<double>(how.computed);
+  out << how.computed << " forces: " << alone << " s by themselves, " << swept
       << " s as a sweep: " << 1e3 * (swept - alone) / cases << " ms a case\n";
   sweep.kind = "calibrate";
-  sweep.axes = { numbered("young", "", (count + kRounds - 1) / kRounds) };
+  sweep.axes = { numbered("young", "", how.timed) };
   sweep.fixed = { { "depth", "0.5:1.5:0.5mm" }, { "element-size", "1mm" } };
-  reportSpeedUp(out, planned(folder / "longer", sweep));
+  reportSpeedUp(out, planned(folder / "longer", sweep), how.rounds);
 }
 
 } // namespace
@@ -230,7 +229,7 @@ void reportSweep(std::ostream& out, const fs::path& folder, const BenchedSweep& 
   const auto clean = [](const fs::path* made) { fs::remove_all(*made); };
   const std::unique_ptr<const fs::path, decltype(clean)> cleaned(&folder, clean);
   out << std::setprecision(3);
-  reportFew(out, folder, count.computed);
+  reportFew(out, folder, count);
   reportMany(out, folder / "many", count.planned);
 }
 

@@ -172,7 +172,9 @@ void runBench(const BenchOptions& options, const Renderer* pictures)
   if (!options.sweep.empty())
   {
     reportSweep(std::cout, options.sweep,
-      { .planned = options.cases, .computed = options.quick ? 4 : BenchedSweep().computed });
+      options.quick
+        ? BenchedSweep{ .planned = options.cases, .computed = 4, .timed = 2, .rounds = 1 }
+        : BenchedSweep{ .planned = options.cases });
     return;
   }
   const nlohmann::json recorded = options.gate.empty() ? nullptr : readGate(options.gate);

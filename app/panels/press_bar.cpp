@@ -10,6 +10,12 @@
 
 namespace palp
 {
+namespace
+{
+
+constexpr int kArrows = 28; // of a box [pixels]
+
+} // namespace
 
 PressBar::PressBar(QWidget* parent)
   : QToolBar(tr("Press at a place"), parent)
@@ -19,14 +25,22 @@ PressBar::PressBar(QWidget* parent)
 {
   setObjectName("pressBar");
   place_->setObjectName("pressPlace");
+  place_->setAccessibleName(tr("Place"));
+  depth_->setAccessibleName(tr("Depth"));
+  speed_->setAccessibleName(tr("Speed"));
   place_->setPlaceholderText(tr("x, y, z"));
-  place_->setMinimumWidth(place_->fontMetrics().horizontalAdvance("-000.00, -000.00, -000.00  "));
+  // narrow, as a window of 1024 columns has to show all of the bar
+  place_->setFixedWidth(place_->fontMetrics().horizontalAdvance("-000.00, -00.00, -000.00"));
+  for (QuantityBox* box : { depth_, speed_ })
+  {
+    box->setFixedWidth(box->fontMetrics().horizontalAdvance("00.00 mm/s") + kArrows);
+  }
   addField(tr("Place [mm]"),
     tr("x, y, z [mm] in the frame of the surface, within 5 mm of it; a press of the mouse fills it "
        "in"),
     place_);
   addField(tr("Depth"), tr("d [mm] of the contact, up to half of the body's thickness"), depth_);
-  addField(tr("Speed"), tr("[mm/s], down and up; at the depth the tool rests for 0.3 s"), speed_);
+  addField("", tr("Speed [mm/s], down and up; at the depth the tool rests for 0.3 s"), speed_);
   const PlacedPresses usual;
   depth_->setSi(usual.depth);
   speed_->setSi(usual.speed);
@@ -45,9 +59,8 @@ PressBar::PressBar(QWidget* parent)
 
 void PressBar::addField(const QString& label, const QString& what, QWidget* field)
 {
-  addWidget(new QLabel(' ' + label + ' '));
+  addWidget(new QLabel(label.isEmpty() ? label : ' ' + label + ' '));
   addWidget(field);
-  field->setAccessibleName(label);
   field->setToolTip(what);
 }
 

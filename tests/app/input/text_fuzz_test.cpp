@@ -1,5 +1,6 @@
 #include "app/input/force_curve.h"
 #include "app/input/tip_text.h"
+#include "app/places/fiducial_file.h"
 #include "app/scene/scene_file.h"
 #include "app/sweep/sweep_file.h"
 #include "calibration/tables/extent_table.h"
@@ -82,6 +83,14 @@ void takeScene(const std::string& file)
 void takeSweep(const std::string& file)
 {
   (void)readSweepFile(file);
+}
+
+void takePoints(const std::string& file)
+{
+  for (const PressPlace& place : readFiducials(file).places)
+  {
+    expectFinite(place.position.norm());
+  }
 }
 
 const std::string kData = PALP_SOURCE_DIR "/data/";
@@ -181,6 +190,35 @@ std::vector<Fuzzed> fuzzedJson()
       .take = takeSweep } };
 }
 
+// lists of points as 3D Slicer writes them
+std::vector<Fuzzed> fuzzedPoints()
+{
+  const std::string table = "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
+                            "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc\n"
+                            "a,-45.5,12.25,30,0,0,0,1,1,1,0,F-1,\nb,1,-2,3,0,0,0,1,1,1,0,F-2,\n";
+  const std::string markups = R"({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
+    "coordinateUnits": "mm", "controlPoints": [
+    {"id": "1", "label": "F-1", "position": [-45.5, 12.25, 30.0], "positionStatus": "defined"},
+    {"id": "2", "label": "F-2", "position": [1.0, -2.0, 3.0]}]}]})";
+  const Fault axes = replaced("axes", "LPS", "LPX", "the axes are");
+  return { { .file = "points.fcsv",
+             .whole = { table },
+             .faults = { axes, replaced("word", "(\n[ab],)[-0-9.]+", "$1one", kNumber),
+               replaced("NaN", "(\n[ab],)[-0-9.]+", "$1nan", kNumber),
+               replaced("far", "(\n[ab],)[-0-9.]+", "$0199999", "farther"),
+               foreign("solid corner\nfacet normal 0 0 1\n", "axes") },
+             .read = {},
+             .take = takePoints },
+    { .file = "points.mrk.json",
+      .whole = { markups },
+      .faults = { axes, replaced("unit", "\"mm\"", "\"m\"", "the unit is"),
+        replaced("key", "\"(markups|controlPoints)\"", "\"x$1\"", "no list"),
+        replaced("type", "(\"position\": )\\[[^\\]]*\\]", "$1[1, 2]", "three numbers"),
+        cutOff("line [0-9]+, column|parse", 2) },
+      .read = {},
+      .take = takePoints } };
+}
+
 // every kind of text that the program reads itself
 const std::vector<Fuzzed>& fuzzedTexts()
 {
@@ -188,12 +226,13 @@ const std::vector<Fuzzed>& fuzzedTexts()
   {
     std::vector<Fuzzed> every = fuzzedTables();
     std::ranges::move(fuzzedJson(), std::back_inserter(every));
+    std::ranges::move(fuzzedPoints(), std::back_inserter(every));
     return every;
   }();
   return all;
 }
 
-constexpr std::size_t kFuzzedTexts = 8;
+constexpr std::size_t kFuzzedTexts = 10;
 
 class Fuzz : public testing::TestWithParam<std::size_t>
 {
