@@ -4,6 +4,7 @@
 #include "app/program/exec_program.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/merge.h"
+#include "app/sweep/cases/pilot.h"
 #include "app/sweep/cases/runner.h"
 #include "app/sweep/cases/schedulers.h"
 #include "app/sweep/cases/status.h"
@@ -16,6 +17,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <iostream>
@@ -37,7 +39,7 @@ struct SweepOptions
   std::string number; // as given
   std::string shard;
   std::size_t chunk = 1;
-  std::size_t pilot = 0;
+  std::string pilot; // as given
   std::size_t tasks = kMostTasks;
   unsigned jobs = 1;
   MergeOptions merge;
@@ -68,6 +70,20 @@ std::vector<std::size_t> shardOf(const std::string& text, std::size_t count)
   return numbers;
 }
 
+// what: the option, or another that says it
+std::size_t numberBelow(const std::string& text, std::size_t count, const std::string& what)
+{
+  const char* end = text.data() + text.size();
+  std::size_t number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || rest != end || number >= count)
+  {
+    throw Error(ErrorCode::BadValue,
+      what + ": there is no case " + inQuotes(text) + "; give 0 to " + std::to_string(count - 1));
+  }
+  return number;
+}
+
 // of --case, or of the task that Slurm runs; chunks: how many there are
 std::optional<std::size_t> taskOf(const std::string& given, std::size_t chunks)
 {
@@ -76,17 +92,8 @@ std::optional<std::size_t> taskOf(const std::string& given, std::size_t chunks)
   {
     return std::nullopt;
   }
-  const std::string text = given.empty() ? task : given;
-  const char* end = text.data() + text.size();
-  std::size_t number = 0;
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || rest != end || number >= chunks)
-  {
-    throw Error(ErrorCode::BadValue,
-      (given.empty() ? "SLURM_ARRAY_TASK_ID" : "--case") +
-        (": there is no case " + inQuotes(text)) + "; give 0 to " + std::to_string(chunks - 1));
-  }
-  return number;
+  return given.empty() ? numberBelow(task, chunks, "SLURM_ARRAY_TASK_ID")
+                       : numberBelow(given, chunks, "--case");
 }
 
 std::vector<std::size_t> numbersOf(const SweepOptions& options, std::size_t count)
@@ -103,43 +110,42 @@ std::vector<std::size_t> numbersOf(const SweepOptions& options, std::size_t coun
   return numbers;
 }
 
-void refuseFailed(const RunOutcome& outcome, const std::filesystem::path& folder)
-{
-  if (!outcome.failed.empty())
-  {
-    throw Error(ErrorCode::NoSolution,
-      counted(outcome.failed.size(), "case") + " failed, " +
-        (outcome.failed.size() > 1 ? "the first is case " : "case ") +
-        std::to_string(outcome.failed.front()) + "; palp sweep status " + folder.string() +
-        " tells why, the same command tries them again");
-  }
-}
-
 void run(Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs)
 {
   const RunOutcome outcome = runCases(manifest, numbers, jobs);
+  if (!outcome.warned.empty())
+  {
+    const PlannedCase first = manifest.at(outcome.warned.front());
+    std::cerr << "palp: warning: " << counted(outcome.warned.size(), "case")
+              << " computed with a warning, as case " << first.number << ", see "
+              << (CaseFolders{ manifest.folder() }.result(first.name) / kLogFile).string() << '\n';
+  }
   refuseFailed(outcome, manifest.folder());
   std::cerr << "palp: " << counted(outcome.computed, "case") << " computed, " << outcome.before
             << " finished before\n";
 }
 
+// the first, the middle and the last case, one of which mostly is long
+std::vector<std::size_t> pilotsOf(const std::string& given, std::size_t count)
+{
+  if (!given.empty())
+  {
+    return { numberBelow(given, count, "--pilot") };
+  }
+  std::vector<std::size_t> pilots{ 0, count / 2, count - 1 };
+  pilots.erase(std::unique(pilots.begin(), pilots.end()), pilots.end());
+  return pilots;
+}
+
 void writeSlurmScript(const SweepOptions& options)
 {
   Manifest manifest(options.folder);
-  const PlannedCase pilot = manifest.at(options.pilot);
-  refuseFailed(runCases(manifest, { options.pilot }, 1), options.folder);
-  const std::filesystem::path folder = CaseFolders{ options.folder }.result(pilot.name);
-  const auto cost = costOf(folder);
-  if (!cost)
-  {
-    throw Error(ErrorCode::BadFile,
-      (folder / kCaseFile).string() + ": is damaged; remove its folder and plan again");
-  }
+  const CaseCost cost = runPilots(manifest, pilotsOf(options.pilot, manifest.head().count));
   const auto script = writeSlurm(options.folder,
     { .count = manifest.head().count,
       .tasks = options.tasks,
-      .seconds = cost->seconds,
-      .memory = cost->memory });
+      .seconds = cost.seconds,
+      .memory = cost.memory });
   std::cerr << "palp: sbatch " << quoted(script.string()) << '\n';
 }
 
@@ -197,12 +203,12 @@ void merge(const SweepOptions& options, const Renderer* pictures)
   MergeOptions how = options.merge;
   how.others.assign(options.folders.begin() + 1, options.folders.end());
   const Merged merged = mergeResults(manifest, how, options.out);
+  std::cerr << "palp: " << counted(merged.cases, "case") << ", " << counted(merged.rows, "row")
+            << " in " << options.out.string() << '\n';
   if (options.plots)
   {
     draw(sweepFigures(manifest, how), options.out.parent_path(), *pictures);
   }
-  std::cerr << "palp: " << counted(merged.cases, "case") << ", " << counted(merged.rows, "row")
-            << " in " << options.out.string() << '\n';
 }
 
 void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
@@ -213,9 +219,9 @@ void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
   command->add_option("DIR", options->folder, "Folder of the sweep; what it holds is kept")
     ->required();
   command->add_flag("--slurm", options->slurm,
-    "Run a pilot case, and write a job array for Slurm by what it took: DIR/sweep.sbatch");
-  command->add_option("--pilot", options->pilot, "The pilot case; take a long one")
-    ->capture_default_str();
+    "Run pilot cases, and write a job array for Slurm by what they took: DIR/sweep.sbatch");
+  command->add_option("--pilot", options->pilot,
+    "The pilot case, a long one; else the first, the middle and the last");
   command
     ->add_option("--tasks", options->tasks,
       "Most tasks of the array, less than MaxArraySize of the cluster; each takes several cases "

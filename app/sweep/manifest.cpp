@@ -17,6 +17,7 @@ namespace
 
 using nlohmann::json;
 
+constexpr const char* kAnyFirst = "# palp sweep ";
 constexpr const char* kFirst = "# palp sweep 1: all that its cases share, then a line for each";
 
 json toJson(const SweepHead& head)
@@ -140,6 +141,13 @@ Manifest::Manifest(std::filesystem::path folder)
   std::getline(file_, first); // the titles
   begin_ = file_.tellg();
   end_ = file_.seekg(0, std::ios::end).tellg();
+}
+
+bool Manifest::isOne(const std::filesystem::path& file)
+{
+  std::string first;
+  std::getline(std::ifstream(file), first);
+  return first.starts_with(kAnyFirst);
 }
 
 void Manifest::write(const std::filesystem::path& folder, const SweepHead& head,

@@ -61,6 +61,9 @@ public:
   /// @throws Error  BadFile: none there, damaged, or of another version of palp
   explicit Manifest(std::filesystem::path folder);
 
+  /// Whether a file is a plan, of whatever version.
+  [[nodiscard]] static bool isOne(const std::filesystem::path& file);
+
   /// Writes the plan as a whole.
   /// @param caseAt  for 0 to head.count - 1, in this order
   static void write(const std::filesystem::path& folder, const SweepHead& head,

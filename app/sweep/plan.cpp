@@ -81,6 +81,16 @@ void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions&
 SweepColumn columnOf(const std::string& name, const std::vector<std::string>& values)
 {
   const auto first = numberText(values.front());
+  for (const std::string& value : values)
+  {
+    const auto number = numberText(value);
+    if (first && number && number->unit != first->unit)
+    {
+      throw Error(ErrorCode::BadFile,
+        inQuotes(name) + ": has values in different units, " + inQuotes(values.front()) + " and " +
+          inQuotes(value) + "; write all of them in one");
+    }
+  }
   const auto isAlike = [&](const std::string& value)
   {
     const auto number = numberText(value);
@@ -125,7 +135,7 @@ public:
     }
     for (const std::string& name : sweep_.names())
     {
-      head_.columns.push_back(columnOf(name, texts.at(name)));
+      addColumn(columnOf(name, texts.at(name)));
     }
     for (std::size_t i = 0; names && i < head_.count; ++i)
     {
@@ -182,6 +192,20 @@ private:
     return !fileOf(name, value).empty() || !fileOf("tip", value).empty();
   }
 
+  void addColumn(const SweepColumn& column)
+  {
+    for (const SweepColumn& other : head_.columns)
+    {
+      if (other.title() == column.title())
+      {
+        throw Error(ErrorCode::BadFile,
+          inQuotes(other.name) + " and " + inQuotes(column.name) + ": would both be the column " +
+            inQuotes(column.title()) + " of the merged table; rename one");
+      }
+    }
+    head_.columns.push_back(column);
+  }
+
   void addFiles(const SweepValues& options)
   {
     for (const auto& [name, value] : options)
@@ -203,11 +227,21 @@ private:
 namespace
 {
 
+// what tells one plan in a folder from another; empty: there is none
 std::string planned(const std::filesystem::path& folder)
 {
   std::error_code none;
   const std::filesystem::path file = CaseFolders{ folder }.plan();
-  return std::filesystem::exists(file, none) ? describeFile(file).sha256 : "";
+  if (!std::filesystem::exists(file, none))
+  {
+    return "";
+  }
+  if (!Manifest::isOne(file))
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": is no plan of a sweep and would be lost; give another folder");
+  }
+  return describeFile(file).sha256;
 }
 
 } // namespace

@@ -200,8 +200,12 @@ void Window::makePlots(bool shown)
         savePlots(dialog.file(), dialog.size());
       }
     });
-  const QDockWidget* dock =
-    addDock(this, Qt::RightDockWidgetArea, tr("Section and comparison"), plots_);
+  QDockWidget* dock = addDock(this, Qt::RightDockWidgetArea, tr("Section and comparison"), plots_);
+  if (auto* charts = findChild<QDockWidget*>(tr("Force over depth")))
+  {
+    tabifyDockWidget(charts, dock); // below two charts it would be too low to draw
+    dock->raise();
+  }
   auto* entry = findChild<QAction*>("plotsAction");
   connect(dock->toggleViewAction(), &QAction::toggled, entry, &QAction::setChecked);
 }

@@ -90,7 +90,7 @@ private:
           {
             cells[places[i]] = row[i];
           }
-          if (!add(cells))
+          if (!add(one, cells))
           {
             demote(result.rows);
           }
@@ -225,6 +225,11 @@ void refuseOwn(const Manifest& manifest, const MergeOptions& options, const fs::
   {
     owned = owned || CaseFolders{ other }.owns(out);
   }
+  for (const auto& [input, hash] : manifest.head().files)
+  {
+    std::error_code none;
+    owned = owned || fs::equivalent(input, out, none);
+  }
   if (owned)
   {
     throw Error(ErrorCode::BadValue,
@@ -257,7 +262,8 @@ Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::p
           writer =
             (out.extension() == ".csv" ? makeCsvWriter : makeVtkWriter)(fresh, merger.columns());
         },
-        [&](const std::vector<std::string>& cells) { return writer->add(cells); });
+        [&](const PlannedCase&, const std::vector<std::string>& cells)
+        { return writer->add(cells); });
       writer->finish();
     });
   return merged;
@@ -268,11 +274,13 @@ std::vector<std::vector<std::string>> readResults(Manifest& manifest, const Merg
   Merger merger(manifest, options);
   std::vector<std::vector<std::string>> rows;
   merger.pass([&] { rows.assign(1, {}); },
-    [&](const std::vector<std::string>& cells)
+    [&](const PlannedCase& one, const std::vector<std::string>& cells)
     {
-      rows.push_back(cells);
+      rows.emplace_back(1, std::to_string(one.number));
+      rows.back().insert(rows.back().end(), cells.begin(), cells.end());
       return true;
     });
+  rows.front().emplace_back(kCaseColumn);
   for (const WrittenColumn& column : merger.columns())
   {
     rows.front().push_back(column.title);

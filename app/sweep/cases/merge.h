@@ -36,7 +36,9 @@ struct Merged
 Merged mergeResults(
   Manifest& manifest, const MergeOptions& options, const std::filesystem::path& out);
 
-/// The same rows of cells, the titles first.
+constexpr const char* kCaseColumn = "# case"; ///< as no other column can be named
+
+/// The same rows of cells, the titles first, each after the number of its case.
 /// @throws Error  as mergeResults
 [[nodiscard]] std::vector<std::vector<std::string>> readResults(
   Manifest& manifest, const MergeOptions& options);

@@ -1,11 +1,12 @@
 #include "app/sweep/cases/runner.h"
 
-#include "app/input/mesh_file.h"
 #include "app/program/machine.h"
 #include "app/program/progress_line.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/case_process.h"
 #include "app/sweep/cases/claim.h"
+#include "app/sweep/cases/input_watch.h"
+#include "app/sweep/cases/waiting_signals.h"
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
@@ -13,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -32,46 +32,14 @@ namespace
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array kEnding{ SIGINT, SIGTERM, SIGHUP };
 constexpr timespec kBeat{ .tv_sec = 5, .tv_nsec = 0 };           // far below Claim's silence
 constexpr timespec kLook{ .tv_sec = 0, .tv_nsec = 200'000'000 }; // at what another runner has
-
-// signals wait for sigtimedwait() while it lives
-class WaitingSignals
-{
-public:
-  WaitingSignals()
-  {
-    sigemptyset(&signals_);
-    sigaddset(&signals_, SIGCHLD);
-    for (const int signal : kEnding)
-    {
-      sigaddset(&signals_, signal);
-    }
-    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-  }
-  ~WaitingSignals()
-  {
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  WaitingSignals(const WaitingSignals&) = delete;
-  WaitingSignals& operator=(const WaitingSignals&) = delete;
-
-  // @return  the signal; -1: none came
-  [[nodiscard]] int wait(const timespec& most) const
-  {
-    return sigtimedwait(&signals_, nullptr, &most);
-  }
-
-private:
-  sigset_t signals_{};
-  sigset_t before_{};
-};
 
 struct Work
 {
   PlannedCase planned;
   std::vector<std::string> words;
+  std::vector<std::string> files; // that it reads
   Claim claim;
   Clock::time_point begin;
 };
@@ -83,6 +51,7 @@ public:
     : manifest_(manifest)
     , folders_{ manifest.folder() }
     , jobs_(jobs)
+    , inputs_(manifest.head().files)
   {
     std::error_code failed;
     fs::create_directories(folders_.claims(), failed);
@@ -140,7 +109,7 @@ public:
 private:
   void tellProgress(std::size_t total)
   {
-    progress_(outcome_.before + outcome_.computed + outcome_.failed.size(), total);
+    progress_(outcome_.before + outcome_.computed, total);
   }
 
   // once, for it may take long
@@ -219,9 +188,18 @@ private:
     {
       full.insert(full.end(), { "--no-picture", "--out=" + result.string() });
     }
+    std::vector<std::string> files;
+    for (const auto& [option, value] : options)
+    {
+      if (std::string file = fileOf(option, value); !file.empty())
+      {
+        files.push_back(std::move(file));
+      }
+    }
     const pid_t process = startProcess(full, out, claim.folder() / kLogFile);
-    running_.emplace(
-      process, Work{ std::move(planned), std::move(words), std::move(claim), Clock::now() });
+    running_.emplace(process,
+      Work{
+        std::move(planned), std::move(words), std::move(files), std::move(claim), Clock::now() });
   }
 
   // the case's options; it and its files are what they were when it was planned
@@ -231,20 +209,27 @@ private:
     SweepValues options = optionsOf(head, planned.values);
     for (const auto& [option, value] : options)
     {
-      const std::string file = fileOf(option, value);
-      if (!file.empty() && !unchanged_.contains(file))
+      if (const std::string file = fileOf(option, value); !file.empty())
       {
-        const auto known = head.files.find(file);
-        if (known == head.files.end() || describeFile(file).sha256 != known->second)
-        {
-          throw Error(ErrorCode::BadFile,
-            file + ": was edited after planning; plan again, which keeps what is finished");
-        }
-        unchanged_.insert(file);
+        inputs_.check(file);
       }
     }
     manifest_.refuseEdited(planned, options);
     return options;
+  }
+
+  // nobody can tell which of both was read
+  void refuseTouched(const Work& work) const
+  {
+    for (const std::string& file : work.files)
+    {
+      if (inputs_.isTouched(file))
+      {
+        throw Error(ErrorCode::BadFile,
+          file + ": was edited while case " + std::to_string(work.planned.number) +
+            " was computed, which is thrown away; plan again, which keeps what is finished");
+      }
+    }
   }
 
   void finish(Work& work, const Ended& ended)
@@ -255,6 +240,7 @@ private:
       elsewhere_.push_back(work.planned.number);
       return;
     }
+    refuseTouched(work);
     const bool good = ended.status == 0;
     const double seconds = std::chrono::duration<double>(Clock::now() - work.begin).count();
     const fs::path result = work.claim.folder() / work.planned.name;
@@ -266,8 +252,25 @@ private:
     fs::create_directories(result); // a failed one may have none
     fs::rename(log, result / kLogFile);
     describe(work, result / kCaseFile, seconds, ended.memory, sentence);
+    if (good && warns(result / kLogFile))
+    {
+      outcome_.warned.push_back(work.planned.number);
+    }
     good ? keepResult(work, result) : keepFailure(work, result, sentence);
     work.claim.release();
+  }
+
+  static bool warns(const fs::path& log)
+  {
+    std::ifstream in(log);
+    for (std::string line; std::getline(in, line);)
+    {
+      if (line.starts_with("palp: warning:"))
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
   static void describe(const Work& work, const fs::path& file, double seconds, double memory,
@@ -323,10 +326,10 @@ private:
   Manifest& manifest_;
   CaseFolders folders_;
   std::size_t jobs_;
+  InputWatch inputs_;
   WaitingSignals signals_;
   ProgressLine progress_{ "cases" }; // its thread leaves the signals to us, too
   std::map<pid_t, Work> running_;
-  std::set<std::string> unchanged_;   // files
   std::deque<std::size_t> elsewhere_; // cases that another runner has
   bool waits_ = false;                // for these, and said so
   RunOutcome outcome_;

@@ -13,6 +13,7 @@ struct RunOutcome
   std::size_t computed = 0;
   std::size_t before = 0; ///< were finished already, or by another runner meanwhile
   std::vector<std::size_t> failed{};
+  std::vector<std::size_t> warned{}; ///< computed, but the command had a warning
 };
 
 /// Computes cases that are not finished, each by a process of its own, several at a time; tells on

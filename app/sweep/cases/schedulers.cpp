@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr double kMoreMemory = 2.0; // than the pilot's, as cases differ
 constexpr double kMoreTime = 4.0;
-constexpr double kLeastMemory = 128.0; // [MiB]
+constexpr double kLeastMemory = 256.0; // [MiB]
 constexpr double kLeastTime = 5.0;     // [min], a node may be slow to begin
 
 std::string program()
@@ -51,7 +51,7 @@ fs::path writeSlurm(const fs::path& folder, const SlurmArray& array)
   std::snprintf(pilot, sizeof pilot, "%.1f s and %.0f MiB", array.seconds,
     std::ceil(array.memory / 1024.0 / 1024.0));
   const std::string text = "#!/bin/sh\n# " + counted(array.count, "case") + ", " +
-    std::to_string(chunk) + " a task; the pilot case took " + pilot +
+    std::to_string(chunk) + " a task; the pilot cases took at most " + pilot +
     ". Submit again for what is missing.\n"
     "#SBATCH --job-name=palp-sweep\n"
     "#SBATCH --array=0-" +
@@ -69,7 +69,7 @@ fs::path writeParallel(const fs::path& folder, std::size_t count)
 {
   const fs::path place = fs::absolute(folder).lexically_normal();
   const std::string text = "#!/bin/sh\n# GNU parallel: a job for each case; run it again for what "
-                           "failed or is missing. \"$@\": -j 8, -S node1,node2\n"
+                           "failed.\n# \"$@\": -j 8, -S node1,node2\n"
                            "seq 0 " +
     std::to_string(count - 1) + " | exec parallel --joblog " + quoted((place / kJobLog).string()) +
     " --resume-failed \"$@\" " +

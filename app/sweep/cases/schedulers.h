@@ -12,8 +12,8 @@ struct SlurmArray
 {
   std::size_t count = 1; ///< of the cases
   std::size_t tasks = 1; ///< of the array
-  double seconds = 0.0;  ///< of the pilot case
-  double memory = 0.0;   ///< of the pilot case [bytes]
+  double seconds = 0.0;  ///< of the longest pilot case
+  double memory = 0.0;   ///< of the largest one [bytes]
 
   /// Cases of one task.
   [[nodiscard]] std::size_t chunk() const
@@ -25,7 +25,7 @@ struct SlurmArray
 constexpr std::size_t kMostTasks = 1000; ///< that Slurm takes in an array by default, MaxArraySize
 
 /// Writes sweep.sbatch into the folder of a sweep: a task for each chunk of cases, with twice the
-/// memory and four times the time of the pilot case.
+/// memory and four times the time of the pilot cases.
 /// @return        the file
 /// @throws Error  BadFile: cannot be written
 [[nodiscard]] std::filesystem::path writeSlurm(

@@ -9,6 +9,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <set>
+#include <utility>
 
 namespace palp
 {
@@ -28,12 +31,60 @@ figures::Table tableOf(const SweepPlot& plot, const Rows& rows)
     for (std::size_t i = 0; i < row->size(); ++i)
     {
       const std::string& column = table.columns[i];
-      const bool drawn = column == plot.x || column == plot.y || column == plot.colors;
+      const bool drawn =
+        column == plot.x || column == plot.y || column == plot.colors || column == kCaseColumn;
       const auto number = drawn ? numberOf((*row)[i]) : std::nullopt;
       cells.push_back(number ? figures::Cell(*number) : figures::Cell((*row)[i]));
     }
   }
   return table;
+}
+
+[[noreturn]] void refusePlot(const SweepPlot& plot, const std::string& what)
+{
+  throw Error(ErrorCode::BadFile, "plot " + inQuotes(plot.name) + ": " + what);
+}
+
+void refuseMissing(const SweepPlot& plot, const std::vector<std::string>& columns)
+{
+  std::vector<std::string> needed{ plot.x, plot.y, plot.curves, plot.colors };
+  for (const auto& [column, value] : plot.where)
+  {
+    needed.push_back(column);
+  }
+  for (const std::string& column : needed)
+  {
+    if (!column.empty() && std::ranges::find(columns, column) == columns.end())
+    {
+      std::string all;
+      for (auto each = columns.begin() + 1; each != columns.end(); ++each)
+      {
+        all.append(all.empty() ? "" : ", ").append(*each);
+      }
+      refusePlot(plot,
+        "there is no column " + inQuotes(column) + " but " + all +
+          "; change the plot and plan again, which keeps what is finished");
+    }
+  }
+}
+
+constexpr const char* kTellApart =
+  R"(; tell them apart by "curves" or "where", or merge one row of each case by --largest COLUMN)";
+
+// a line that leads from one case to another is of no press, unless it goes on in x
+void refuseMixed(const SweepPlot& plot, const figures::Table& table, figures::Curve curve)
+{
+  const std::vector<double> x = figures::pointsOf({ &table, 1 }, curve).x;
+  curve.y = kCaseColumn;
+  const std::vector<double> cases = figures::pointsOf({ &table, 1 }, curve).y;
+  const bool isOfOne = std::ranges::adjacent_find(cases, std::not_equal_to()) == cases.end();
+  const bool goesOn = std::ranges::adjacent_find(x, std::greater_equal()) == x.end() ||
+    std::ranges::adjacent_find(x, std::less_equal()) == x.end();
+  if (!isOfOne && !goesOn)
+  {
+    refusePlot(
+      plot, "a curve would lead through the rows of several cases" + std::string(kTellApart));
+  }
 }
 
 figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
@@ -64,6 +115,7 @@ figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
       one.color = static_cast<int>((seen.size() - 1) % kColors);
       one.style =
         seen.size() > kColors ? figures::Curve::Style::Dashed : figures::Curve::Style::Line;
+      refuseMixed(plot, table, one);
     }
   }
   return figure;
@@ -83,9 +135,9 @@ std::string classLabel(double from, double to)
 
 void refuseEmpty(const SweepPlot& plot)
 {
-  throw Error(ErrorCode::BadFile,
-    "plot " + inQuotes(plot.name) + ": no row has numbers in " + inQuotes(plot.x) + " and " +
-      inQuotes(plot.y) + (plot.colors.empty() ? "" : " and " + inQuotes(plot.colors)) +
+  refusePlot(plot,
+    "no row has numbers in " + inQuotes(plot.x) + " and " + inQuotes(plot.y) +
+      (plot.colors.empty() ? "" : " and " + inQuotes(plot.colors)) +
       (plot.where.empty() ? "" : " and is one of its \"where\"") +
       "; change the plot and plan again, which keeps what is finished");
 }
@@ -101,9 +153,16 @@ figures::Figure mapOf(const SweepPlot& plot, const figures::Table& table, figure
   const figures::Points heights = figures::pointsOf({ &table, 1 }, all);
   if (heights.x != values.y)
   {
-    throw Error(ErrorCode::BadFile,
-      "plot " + inQuotes(plot.name) + ": " + plot.x + " or " + plot.y +
-        " is no number in some rows; choose others by \"where\"");
+    refusePlot(
+      plot, plot.x + " or " + plot.y + " is no number in some rows; choose others by \"where\"");
+  }
+  std::set<std::pair<double, double>> places;
+  for (std::size_t i = 0; i < values.x.size(); ++i)
+  {
+    if (!places.emplace(values.x[i], heights.y[i]).second)
+    {
+      refusePlot(plot, "several rows would be at one place of the map" + std::string(kTellApart));
+    }
   }
   if (values.y.empty())
   {
@@ -141,6 +200,7 @@ SweepFigures sweepFigures(Manifest& manifest, const MergeOptions& options)
   SweepFigures drawn;
   for (const SweepPlot& plot : manifest.head().plots)
   {
+    refuseMissing(plot, rows.front());
     drawn.tables.push_back(tableOf(plot, rows));
     if (plot.colors.empty())
     {

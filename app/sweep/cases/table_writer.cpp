@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 
 void finishFile(std::ofstream& out, const fs::path& file)
 {
+  const int before = errno;
   if (!out.flush())
   {
-    refuseFile(file, errno != 0 ? errno : EIO);
+    refuseFile(file, before != 0 ? before : errno != 0 ? errno : EIO);
   }
 }
 
@@ -48,17 +49,20 @@ public:
       separator = ",";
     }
     out_ << '\n';
+    reason_ = out_ || reason_ != 0 ? reason_ : errno; // before others fail for reasons of theirs
     return true;
   }
 
   void finish() override
   {
+    errno = reason_;
     finishFile(out_, file_);
   }
 
 private:
   fs::path file_;
   std::ofstream out_;
+  int reason_ = 0;
 };
 
 std::string escaped(const std::string& text)

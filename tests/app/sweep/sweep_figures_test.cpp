@@ -4,6 +4,7 @@
 #include "haptics/error.h"
 #include "tests/support/process.h"
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -145,6 +146,31 @@ TEST_F(SweepMap, RefusesAPlotOfNothingByItsName)
   }
   const std::string words = refusal({ .name = "w", .title = "t", .x = "depth_m", .y = "force_N" });
   EXPECT_NE(words.find("depth_m"), words.npos) << words;
+}
+
+// a line may go from case to case only where x goes on
+TEST_F(SweepMap, RefusesCurvesAndPlacesOfSeveralCases)
+{
+  const auto force = [](int i, int j) { return 1.0 * i * j; };
+  const SweepPlot line{
+    .name = "p", .title = "t", .x = "young_kPa", .y = "force_N", .curves = "poisson"
+  };
+  EXPECT_EQ(drawn(line, force).figures[0].curves.size(), std::size_t{ kSide });
+  for (const auto& [x, y, curves, colors] :
+    { std::array<std::string, 4>{ "depth_mm", "force_N", "poisson", "" },
+      std::array<std::string, 4>{ "depth_mm", "poisson", "", "force_N" } })
+  {
+    try
+    {
+      (void)drawn(
+        { .name = "p", .title = "t", .x = x, .y = y, .curves = curves, .colors = colors }, force);
+      FAIL() << curves << colors;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("--largest"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(SweepMap, LeavesOutWhatIsNoNumberAndRefusesPlacesThatAreNone)

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ctime>
+#include <map>
+#include <string>
+#include <sys/types.h>
+#include <tuple>
+
+namespace palp
+{
+
+/// Whether files that cases read are what they were when these were planned, while a sweep runs.
+class InputWatch
+{
+public:
+  /// @param hashes  SHA-256 by path, as planned; outlives this object
+  explicit InputWatch(const std::map<std::string, std::string>& hashes);
+
+  /// Before a case reads it: by its content where it may have changed since the last look.
+  /// @throws Error  BadFile: it was edited after planning
+  void check(const std::string& file);
+
+  /// After a case has read it: whether anybody touched it since check().
+  [[nodiscard]] bool isTouched(const std::string& file) const;
+
+private:
+  // device, node, size, and times of content and of entry
+  using Stamp = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
+
+  [[nodiscard]] static Stamp stampOf(const std::string& file);
+
+  const std::map<std::string, std::string>& hashes_;
+  std::map<std::string, Stamp> seen_;
+};
+
+} // namespace palp

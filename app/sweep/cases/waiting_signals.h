@@ -1,0 +1,41 @@
+#pragma once
+
+#include <csignal>
+#include <ctime>
+
+namespace palp
+{
+
+/// Lets the end of a child, and what asks this process to end, wait for wait() while it lives.
+class WaitingSignals
+{
+public:
+  WaitingSignals()
+  {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGCHLD);
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+    {
+      sigaddset(&signals_, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~WaitingSignals()
+  {
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  WaitingSignals(const WaitingSignals&) = delete;
+  WaitingSignals& operator=(const WaitingSignals&) = delete;
+
+  /// @return  the signal; -1: none came
+  [[nodiscard]] int wait(const timespec& most) const
+  {
+    return sigtimedwait(&signals_, nullptr, &most);
+  }
+
+private:
+  sigset_t signals_{};
+  sigset_t before_{};
+};
+
+} // namespace palp
