@@ -137,10 +137,10 @@ std::vector<std::size_t> pilotsOf(const std::string& given, std::size_t count)
   return pilots;
 }
 
-void writeSlurmScript(const SweepOptions& options)
+void writeSlurmScript(const SweepOptions& options, const std::vector<std::size_t>& pilots)
 {
   Manifest manifest(options.folder);
-  const CaseCost cost = runPilots(manifest, pilotsOf(options.pilot, manifest.head().count));
+  const CaseCost cost = runPilots(manifest, pilots);
   const auto script = writeSlurm(options.folder,
     { .count = manifest.head().count,
       .tasks = options.tasks,
@@ -168,10 +168,11 @@ std::filesystem::path folderOf(const std::string& file)
 void plan(const SweepOptions& options)
 {
   const Sweep sweep = readSweepFile(options.file);
+  const std::vector<std::size_t> pilots = pilotsOf(options.pilot, sweep.count());
   planInto(options.folder, sweep, folderOf(options.file));
   if (options.slurm)
   {
-    writeSlurmScript(options);
+    writeSlurmScript(options, pilots);
   }
   if (options.parallel)
   {
