@@ -150,8 +150,8 @@ void Window::makeToolBar()
     QStyle::StandardPixmap icon;
   };
   for (const Entry& entry : { Entry{ "openAction", tr("Open"), QStyle::SP_DialogOpenButton },
-         Entry{ "figureAction", tr("Save figure"), QStyle::SP_DialogSaveButton },
-         Entry{ "exportAction", tr("Export data"), QStyle::SP_DriveHDIcon },
+         Entry{ "figureAction", tr("Figure"), QStyle::SP_DialogSaveButton },
+         Entry{ "exportAction", tr("Export"), QStyle::SP_DriveHDIcon },
          Entry{ "resetViewAction", tr("Reset view"), QStyle::SP_BrowserReload },
          Entry{ "plotsAction", tr("Plots"), QStyle::SP_FileDialogDetailedView } })
   {
