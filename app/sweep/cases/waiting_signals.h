@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <csignal>
 #include <ctime>
 
@@ -14,7 +15,7 @@ public:
   {
     sigemptyset(&signals_);
     sigaddset(&signals_, SIGCHLD);
-    for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+    for (const int signal : std::array{ SIGINT, SIGTERM, SIGHUP })
     {
       sigaddset(&signals_, signal);
     }
