@@ -86,6 +86,19 @@ std::string fileOf(const std::string& option, const std::string& value)
   return kFiles.contains(option) ? value : "";
 }
 
+std::vector<std::string> filesOf(const SweepValues& options)
+{
+  std::vector<std::string> files;
+  for (const auto& [option, value] : options)
+  {
+    if (std::string file = fileOf(option, value); !file.empty())
+    {
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
 std::string besideFolder(
   const std::string& option, const std::string& value, const std::filesystem::path& folder)
 {

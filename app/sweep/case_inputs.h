@@ -28,6 +28,9 @@ struct CommandOptions
 /// The file that a value names; empty: none.
 [[nodiscard]] std::string fileOf(const std::string& option, const std::string& value);
 
+/// All files that the options of a case name.
+[[nodiscard]] std::vector<std::string> filesOf(const SweepValues& options);
+
 /// The same value with its file beside a folder, unless that is an absolute path.
 [[nodiscard]] std::string besideFolder(
   const std::string& option, const std::string& value, const std::filesystem::path& folder);

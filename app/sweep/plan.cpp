@@ -208,10 +208,9 @@ private:
 
   void addFiles(const SweepValues& options)
   {
-    for (const auto& [name, value] : options)
+    for (const std::string& file : filesOf(options))
     {
-      const std::string file = fileOf(name, value);
-      if (!file.empty() && !head_.files.contains(file))
+      if (!head_.files.contains(file))
       {
         head_.files[file] = describeFile(file).sha256;
       }

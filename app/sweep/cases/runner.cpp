@@ -188,18 +188,10 @@ private:
     {
       full.insert(full.end(), { "--no-picture", "--out=" + result.string() });
     }
-    std::vector<std::string> files;
-    for (const auto& [option, value] : options)
-    {
-      if (std::string file = fileOf(option, value); !file.empty())
-      {
-        files.push_back(std::move(file));
-      }
-    }
     const pid_t process = startProcess(full, out, claim.folder() / kLogFile);
     running_.emplace(process,
       Work{
-        std::move(planned), std::move(words), std::move(files), std::move(claim), Clock::now() });
+        std::move(planned), std::move(words), filesOf(options), std::move(claim), Clock::now() });
   }
 
   // the case's options; it and its files are what they were when it was planned
@@ -207,12 +199,9 @@ private:
   {
     const SweepHead& head = manifest_.head();
     SweepValues options = optionsOf(head, planned.values);
-    for (const auto& [option, value] : options)
+    for (const std::string& file : filesOf(options))
     {
-      if (const std::string file = fileOf(option, value); !file.empty())
-      {
-        inputs_.check(file);
-      }
+      inputs_.check(file);
     }
     manifest_.refuseEdited(planned, options);
     return options;
