@@ -100,11 +100,22 @@ std::string exploit()
   return worked;
 }
 
-// the one file that it may read
+// a file that it may read
 std::string readAllowed()
 {
   std::ifstream in("/proc/version");
   return std::string{ std::istreambuf_iterator<char>(in), {} }.empty() ? "nothing" : "read";
+}
+
+// as the kernel tells of this process
+std::string privileges()
+{
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line) && !line.starts_with("NoNewPrivs:"))
+  {
+  }
+  return line;
 }
 
 } // namespace
@@ -126,6 +137,8 @@ int main(int, char** argv)
     { "greedy", takeTenGigabytes },
     { "exploit", exploit },
     { "read", readAllowed },
+    { "privileges", privileges },
   };
-  palp::answer(ways.at(argv[1]), { .memory = 200'000'000, .time = 1 }, { "/proc/version" });
+  palp::answer(ways.at(argv[1]), { .memory = 200'000'000, .time = 1 },
+    { "/proc/version", "/proc/self/status" });
 }

@@ -129,6 +129,7 @@ TEST(ChildProcess, CanDoNothingButReadItsFile)
   }
   EXPECT_EQ(answering("exploit"), allowed);
   EXPECT_EQ(answering("read"), "read");
+  EXPECT_EQ(answering("privileges"), "NoNewPrivs:\t1");
   close(9);
   close(inherited);
 }
