@@ -9,6 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <ranges>
+#include <span>
 #include <sstream>
 
 namespace palp
@@ -17,6 +21,7 @@ namespace
 {
 
 constexpr double kBounce = 0.02; // [s]
+constexpr double kCalm = 0.01;   // [s] over which the steps of a device are no motion
 constexpr double kNewton = 1.0;  // force at which stiffnesses are compared [N]
 
 // on the way in, where the force comes to 1 N, between two samples
@@ -28,6 +33,96 @@ void watchStiffness(PressSummary& press, const Response& before, const Response&
     const double part = gain > 0.0 ? std::clamp((kNewton - before.force) / gain, 0.0, 1.0) : 1.0;
     press.stiffness = before.stiffness + part * (now.stiffness - before.stiffness);
   }
+}
+
+void addSample(PressSummary& press, const Sample& last, const Sample& sample)
+{
+  const Contact& contact = sample.contact;
+  press.end = sample.time;
+  press.force = std::max(press.force, sample.response.force);
+  watchStiffness(press, last.response, sample.response);
+  if (contact.depth > press.deepest.depth)
+  {
+    // the way that is new, from the largest depth so far: what was given back counts once
+    const double from = std::max(press.deepest.depth, last.contact.depth);
+    press.energy += 0.5 * (last.response.force + sample.response.force) * (contact.depth - from);
+    press.deepest = contact;
+  }
+}
+
+// Fastest change of the depth from one sample on, over a time, or one step where that is longer.
+// Nothing where there is no other sample.
+template <typename Samples>
+std::optional<double> depthRate(const Samples& from, double within)
+{
+  std::optional<double> fastest;
+  std::size_t begin = 0; // of a step
+  for (std::size_t k = 1; k < from.size(); ++k)
+  {
+    if (fastest && std::abs(from[k].time - from[0].time) > within)
+    {
+      break;
+    }
+    const double time = std::abs(from[k].time - from[begin].time);
+    if (time >= kCalm || (!fastest && k + 1 == from.size()))
+    {
+      const double change = std::abs(from[k].contact.depth - from[begin].contact.depth);
+      fastest = std::max(fastest.value_or(0.0), time > 0.0 ? change / time : 0.0);
+      begin = k;
+    }
+  }
+  return fastest;
+}
+
+// of a depth, pressed or given back [s]
+double timeOf(double depth, double rate)
+{
+  return rate > 0.0 ? depth / rate : std::numeric_limits<double>::infinity();
+}
+
+// whether the tool had time to lift between two samples that touch, with none between them
+bool mayLift(std::span<const Sample> samples, std::size_t next)
+{
+  const Sample& before = samples[next - 1];
+  const Sample& after = samples[next];
+  const double gap = after.time - before.time;
+  const auto out = depthRate(samples.first(next) | std::views::reverse, gap);
+  const auto in = depthRate(samples.subspan(next), gap);
+  if (!out && !in)
+  {
+    return gap >= kBounce; // however fast it is
+  }
+  return timeOf(before.contact.depth, out ? *out : *in) + kBounce +
+    timeOf(after.contact.depth, in ? *in : *out) <=
+    gap;
+}
+
+// Whether samples that thinning left out after one may have been apart: only where an earlier one
+// of its interval is, for of those that are equally shallow the first is kept.
+bool mayHideLift(const Recording& recording, std::size_t last)
+{
+  const auto number = [&](std::size_t i)
+  { return std::floor(recording.samples[i].time / recording.interval); };
+  for (std::size_t i = last; i > 0 && number(i - 1) == number(last); --i)
+  {
+    if (!recording.samples[i - 1].contact.touching())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// whether a press ends between one sample that touches and the next that does
+bool isReleased(const Recording& recording, std::size_t last, std::size_t next)
+{
+  const std::span<const Sample> samples = recording.samples;
+  if (last + 1 < next)
+  {
+    return samples[next].time - samples[last].time >= kBounce;
+  }
+  const bool isThinned = last < recording.thinned;
+  return (!isThinned || mayHideLift(recording, last)) && mayLift(samples, next);
 }
 
 // in quotes, as a table takes it
@@ -55,34 +150,6 @@ void writePlace(std::ostream& out, const Contact& contact)
 
 } // namespace
 
-void PressFinder::add(const Sample& sample)
-{
-  const Contact& contact = sample.contact;
-  if (!contact.touching())
-  {
-    isOpen_ = isOpen_ && sample.time - last_.time < kBounce;
-    return;
-  }
-  if (!isOpen_ || sample.time - last_.time >= kBounce)
-  {
-    presses_.push_back({ .name = pressName(presses_.size()), .begin = sample.time });
-    last_ = {}; // of no force at the surface
-    isOpen_ = true;
-  }
-  PressSummary& press = presses_.back();
-  press.end = sample.time;
-  press.force = std::max(press.force, sample.response.force);
-  watchStiffness(press, last_.response, sample.response);
-  if (contact.depth > press.deepest.depth)
-  {
-    // the way that is new, from the largest depth so far: what was given back counts once
-    const double from = std::max(press.deepest.depth, last_.contact.depth);
-    press.energy += 0.5 * (last_.response.force + sample.response.force) * (contact.depth - from);
-    press.deepest = contact;
-  }
-  last_ = sample;
-}
-
 std::string pressName(std::size_t index)
 {
   return "press " + std::to_string(index + 1);
@@ -96,12 +163,25 @@ std::string outsideLimits(const Validity& validity, const PressSummary& press)
 
 std::vector<PressSummary> findPresses(const Recording& recording)
 {
-  PressFinder finder;
-  for (const Sample& sample : recording.samples)
+  const std::span<const Sample> samples = recording.samples;
+  std::vector<PressSummary> presses;
+  Sample last;                        // that touched
+  std::optional<std::size_t> touched; // its place
+  for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    finder.add(sample);
+    if (!samples[i].contact.touching())
+    {
+      continue;
+    }
+    if (!touched || isReleased(recording, *touched, i))
+    {
+      presses.push_back({ .name = pressName(presses.size()), .begin = samples[i].time });
+      last = {}; // of no force at the surface
+    }
+    addSample(presses.back(), last, samples[i]);
+    last = samples[i];
+    touched = i;
   }
-  std::vector<PressSummary> presses = finder.presses();
   for (std::size_t i = 0; i < presses.size(); ++i)
   {
     if (i < recording.names.size() && !recording.names[i].empty())

@@ -24,29 +24,6 @@ struct PressSummary
   Contact deepest{};   ///< where it was deepest: place, depth, thickness, curvature
 };
 
-/// Finds presses in samples as they come. A lift of less than 20 ms is a bounce of the same press.
-class PressFinder
-{
-public:
-  void add(const Sample& sample);
-
-  /// Also the one that goes on, whose end is not known yet.
-  [[nodiscard]] const std::vector<PressSummary>& presses() const noexcept
-  {
-    return presses_;
-  }
-  /// Whether the newest sample belongs to a press.
-  [[nodiscard]] bool isOpen() const noexcept
-  {
-    return isOpen_;
-  }
-
-private:
-  std::vector<PressSummary> presses_;
-  Sample last_; // that touched, of the press
-  bool isOpen_ = false;
-};
-
 /// Names a press that has none, by its place in the order, from 0: "press 1".
 [[nodiscard]] std::string pressName(std::size_t index);
 
@@ -54,6 +31,14 @@ private:
 [[nodiscard]] std::string outsideLimits(const Validity& validity, const PressSummary& press);
 
 /// The presses of a recording, with its names.
+///
+/// The tool releases where samples show it apart, for 20 ms or more: a shorter lift is a bounce of
+/// the same press. Where time passes between two samples that touch, with none between them, it
+/// releases only if there was time for it: to give back the first depth as fast as the depth
+/// changed before, to be apart for 20 ms, and to press the second one as fast as it changes after.
+/// These speeds are the largest over 10 ms or a sample, within as much time as passes without one.
+/// So a servo that skips ends no press. Nor do samples that thinning left out, since it keeps what
+/// is apart. Velocities do not count: a table has none.
 [[nodiscard]] std::vector<PressSummary> findPresses(const Recording& recording);
 
 /// Writes presses.csv: one row per press, with tool and law. The same recording gives the same

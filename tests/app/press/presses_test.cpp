@@ -7,7 +7,10 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -84,6 +87,136 @@ TEST(Presses, ABounceEndsNone)
   };
   EXPECT_EQ(countOf(5), 1U);
   EXPECT_EQ(countOf(30), 2U);
+}
+
+// the samples of some milliseconds are missing, as where a servo skips
+Recording without(Recording recording, std::ptrdiff_t from, std::ptrdiff_t count)
+{
+  const auto first = recording.samples.begin() + from;
+  recording.samples.erase(first, first + count);
+  return recording;
+}
+
+// every so many milliseconds, as somebody may thin a table
+Recording eachOf(Recording recording, std::size_t step, std::size_t from)
+{
+  std::vector<Sample> kept;
+  for (std::size_t i = from; i < recording.samples.size(); i += step)
+  {
+    kept.push_back(recording.samples[i]);
+  }
+  recording.samples = std::move(kept);
+  return recording;
+}
+
+// to a depth and, on a line, to the next, each in so many milliseconds
+std::vector<double> along(const std::vector<std::pair<double, int>>& knots)
+{
+  std::vector<double> depths;
+  double from = -1.0_mm;
+  for (const auto& [depth, time] : knots)
+  {
+    for (int i = 0; i < time; ++i)
+    {
+      depths.push_back(from + (depth - from) * i / time);
+    }
+    from = depth;
+  }
+  return depths;
+}
+
+// 3.3 mm deep, at rest, on the way down and on the way up
+TEST(Presses, AServoThatSkipsAtADepthEndsNone)
+{
+  const Recording whole =
+    pressed(along({ { 3.3_mm, 430 }, { 3.3_mm, 500 }, { -1.0_mm, 430 }, { -1.0_mm, 50 } }));
+  const PressSummary expected = findPresses(whole).at(0);
+  for (const int from : { 150, 300, 420, 500, 700, 900, 1000, 1100 })
+  {
+    for (const int count : { 19, 24, 60, 110 })
+    {
+      const auto presses = findPresses(without(whole, from, count));
+      ASSERT_EQ(presses.size(), 1U) << count << " ms from " << from << " ms on";
+      EXPECT_EQ(presses[0].begin, expected.begin);
+      EXPECT_EQ(presses[0].end, expected.end);
+      EXPECT_NEAR(presses[0].force, expected.force, 1e-12);
+      EXPECT_NEAR(presses[0].energy, expected.energy, 0.1 * expected.energy) << from;
+    }
+  }
+}
+
+// a device that tells places to 0.06 mm jumps between two of them
+TEST(Presses, TheStepsOfADeviceAreNoMotion)
+{
+  std::vector<double> depths = along({ { 1.0_mm, 200 }, { 1.0_mm, 400 }, { -1.0_mm, 200 } });
+  for (std::size_t i = 200; i < 600; ++i)
+  {
+    depths[i] += i % 3 == 0 ? 0.06_mm : 0.0;
+  }
+  EXPECT_EQ(findPresses(without(pressed(depths), 400, 80)).size(), 1U);
+}
+
+// apart for 80 ms, of which no sample is left
+TEST(Presses, ALiftThatAServoSkippedEndsOne)
+{
+  const Recording whole = pressed(along(
+    { { 3.0_mm, 400 }, { -0.4_mm, 340 }, { -0.4_mm, 2 }, { 3.0_mm, 340 }, { -1.0_mm, 400 } }));
+  ASSERT_EQ(findPresses(whole).size(), 2U);
+  EXPECT_EQ(findPresses(without(whole, 698, 86)).size(), 2U);  // from near the surface
+  EXPECT_EQ(findPresses(without(whole, 660, 162)).size(), 2U); // from 0.4 mm
+  const Recording bounce = pressed(along({ { 3.0_mm, 400 }, { -0.05_mm, 305 }, { 3.0_mm, 305 } }));
+  ASSERT_EQ(findPresses(bounce).size(), 1U);
+  EXPECT_EQ(findPresses(without(bounce, 699, 13)).size(), 1U);
+  EXPECT_EQ(findPresses(without(bounce, 690, 31)).size(), 1U); // from 0.1 mm: no time to lift
+}
+
+TEST(Presses, OfAThinnedRecordingAreThoseOfTheWhole)
+{
+  const Recording lifted = pressed(along({ { 3.0_mm, 4000 }, { -0.1_mm, 3100 }, { 3.0_mm, 3100 },
+    { 0.1_mm, 2900 }, { 3.0_mm, 2900 }, { -1.0_mm, 4000 } })); // once apart, once nearly so
+  ASSERT_EQ(findPresses(lifted).size(), 2U);
+  for (const double interval : { 0.1, 0.8, 3.2 })
+  {
+    Recording thinned = lifted;
+    thinned.interval = interval;
+    thin(thinned);
+    ASSERT_LT(thinned.samples.size(), 400 / interval);
+    EXPECT_EQ(findPresses(thinned).size(), 2U) << interval;
+    keepContact(thinned);
+    EXPECT_EQ(findPresses(thinned).size(), 2U) << interval;
+  }
+}
+
+// rows of 0.1 s, whatever their phase, none of which may show the tool apart
+TEST(Presses, OfATableOfFewRowsAreTold)
+{
+  const Recording lifted = pressed(along(
+    { { 3.0_mm, 400 }, { -0.45_mm, 345 }, { 3.0_mm, 345 }, { -1.0_mm, 400 }, { -1.0_mm, 99 } }));
+  const Recording held = pressed(along(
+    { { 3.0_mm, 400 }, { 0.3_mm, 270 }, { 0.3_mm, 400 }, { 3.0_mm, 270 }, { -1.0_mm, 400 } }));
+  for (std::size_t phase = 0; phase < 100; phase += 7)
+  {
+    EXPECT_EQ(findPresses(eachOf(lifted, 100, phase)).size(), 2U) << phase;
+    EXPECT_EQ(findPresses(eachOf(held, 100, phase)).size(), 1U) << phase;
+  }
+}
+
+// five a second, 2 mm deep, apart for 80 ms each
+TEST(Presses, FastTapsAreOneEachWhateverIsSkipped)
+{
+  std::vector<double> depths(100, -1.0_mm);
+  for (int i = 0; i < 1000; ++i)
+  {
+    depths.push_back(2.0_mm - 3.2_mm * std::pow(std::cos(i * 5e-3 * std::numbers::pi), 2));
+  }
+  depths.insert(depths.end(), 100, -1.0_mm);
+  const Recording taps = pressed(depths);
+  ASSERT_EQ(findPresses(taps).size(), 5U);
+  EXPECT_EQ(findPresses(without(taps, 385, 30)).size(), 5U); // at the deepest of the second
+  for (int from = 425; from < 460; from += 5)
+  {
+    EXPECT_EQ(findPresses(without(taps, from, 2 * (500 - from))).size(), 5U) << from; // a lift
+  }
 }
 
 // what is pressed again on the same way is work given back and done once more
