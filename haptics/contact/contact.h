@@ -18,6 +18,7 @@ struct Contact
   double curvatureSpread = 0.0;                     ///< half the difference [1/m]
   double thickness = std::numeric_limits<double>::infinity();    ///< of the body below [m]
   double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open or sharp edge [m]
+  double normalSpread = 0.0; ///< of the normals below the tool about their mean, rms [rad]
 
   [[nodiscard]] bool touching() const noexcept
   {

@@ -13,7 +13,8 @@ namespace palp
     .tilt = contact.tilt,
     .thickness = contact.thickness,
     .surfaceCurvature = contact.surfaceCurvature,
-    .curvatureSpread = contact.curvatureSpread };
+    .curvatureSpread = contact.curvatureSpread,
+    .normalSpread = contact.normalSpread };
 }
 
 } // namespace palp

@@ -142,6 +142,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   }
   Contact contact;
   contact.normal = patch.normal / length;
+  contact.normalSpread = std::acos(std::min(1.0, length / patch.weight));
   const double facing = -pose.axis.dot(contact.normal);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
   const double height = smoothed(distance, radius, squaredBall, patch);

@@ -63,6 +63,7 @@ Contact paperContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   }
 
   contact.normal = normal.normalized();
+  contact.normalSpread = std::acos(std::min(1.0, normal.norm() / count));
   const double depth = (center / count - pose.apex).dot(contact.normal);
   contact.center = pose.apex + depth * contact.normal;
   contact.depth = depth;

@@ -25,6 +25,7 @@ struct ContactGeometry
   double thickness = std::numeric_limits<double>::infinity(); ///< of the body under the tool [m]
   double surfaceCurvature = 0.0;                              ///< mean, 1/R0 [1/m], convex positive
   double curvatureSpread = 0.0; ///< half the difference of the principal curvatures [1/m]
+  double normalSpread = 0.0;    ///< of the normals below the tool, rms [rad]; told by Validity
 };
 
 /// What the tissue answers.

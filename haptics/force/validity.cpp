@@ -77,6 +77,32 @@ bool isRound(const Tip& tip) noexcept
   return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
 }
 
+bool isTiltCorrected(const ForceLaw& law) noexcept
+{
+  return law.settings().mode == LawMode::Corrected && law.settings().inclination &&
+    std::holds_alternative<ConeTip>(law.tip());
+}
+
+// Tilt of the surface to the tool: the factor of inclination is that of one plane, and where the
+// normals below the tool differ, some of the surface is inclined by more than their mean.
+double steepestTilt(const ForceLaw& law, const ContactGeometry& local) noexcept
+{
+  constexpr double kMost = 2.0; // [-] of the spread: the two sides of an edge, the rim of a dome
+  return std::abs(local.tilt) + (isTiltCorrected(law) ? kMost * std::abs(local.normalSpread) : 0.0);
+}
+
+const char* whyInclined(const ForceLaw& law) noexcept
+{
+  if (isRound(law.tip()))
+  {
+    return "beyond 21.6 degrees the axial share of the force is 7 % short (Eq. 7)";
+  }
+  return isTiltCorrected(law)
+    ? "the surface, or at an edge one side of it, is inclined more than boundary elements were "
+      "compared at"
+    : "a tilted tip no longer meets the surface as an upright one";
+}
+
 // tilt at which the force on this tip is wrong by a just noticeable difference
 double tiltLimit(const ForceLaw& law)
 {
@@ -84,9 +110,7 @@ double tiltLimit(const ForceLaw& law)
   {
     return tiltOfShare(Validity::kJustNoticeable);
   }
-  const bool corrected = law.settings().mode == LawMode::Corrected && law.settings().inclination &&
-    std::holds_alternative<ConeTip>(law.tip());
-  return corrected ? tiltReach(law.tip()) : kConeTilt;
+  return isTiltCorrected(law) ? tiltReach(law.tip()) : kConeTilt;
 }
 
 double fraction(double part, double whole) noexcept
@@ -159,9 +183,7 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
       "notices (Eq. 9)" },
     { "force_of_itself", "-", shown(fraction(response.force - truth, truth)), kJustNoticeable,
       "the force may differ from the best law known by 7 % of itself, which a hand just notices" },
-    { "inclination", "rad", shown(local.tilt), tilt_,
-      isRound(tip) ? "beyond 21.6 degrees the axial share of the force is 7 % short (Eq. 7)"
-                   : "a tilted tip no longer meets the surface as an upright one" },
+    { "inclination", "rad", shown(steepestTilt(law_, local)), tilt_, whyInclined(law_) },
     { "direction", "rad", shown(local.tilt), kDirection,
       "beyond 32 degrees a hand notices the direction of the force" },
     { "depth", "-", shown(depth / base), !corrected && isRound(tip) ? kPaperDepth : 1.0,

@@ -83,6 +83,29 @@ TEST(Contact, ATiltedProfileIsMetAsTheTipThatItSamples)
   }
 }
 
+// none on a plane; on a ridge half of what its sides turn; on a ball that of a disc as wide as the
+// contact, with the weight of the sum: r / (sqrt(3) R0)
+TEST(Contact, TellsHowFarTheNormalsBelowTheToolDiffer)
+{
+  const auto spreadOn = [](test::Mesh mesh, const Eigen::Vector3d& apex, ContactRule rule)
+  {
+    const Contact contact = findContact(test::makeSurface(std::move(mesh)), kCone, at(apex), rule);
+    EXPECT_TRUE(contact.touching());
+    return contact.normalSpread;
+  };
+  const auto roof = [](double x, double) { return -std::tan(20.0_deg) * std::abs(x); };
+  for (const ContactRule rule : { ContactRule::Exact, ContactRule::Paper })
+  {
+    const double flat =
+      spreadOn(test::block({ 0.1, 0.1, 0.05 }, 40), { 3.0_mm, 1.3_mm, -4.0_mm }, rule);
+    EXPECT_NEAR(flat, 0.0, 1e-6);
+    const double ridge = spreadOn(test::sheet(0.1, 201, roof), { 0.0, 1.3_mm, -4.0_mm }, rule);
+    EXPECT_NEAR(ridge, 20.0_deg, rule == ContactRule::Exact ? 0.1_deg : 4.0_deg);
+  }
+  const double dome = spreadOn(test::ball(50.0_mm, 60), { 0.0, 0.0, 47.0_mm }, ContactRule::Exact);
+  EXPECT_NEAR(dome, 3.0 / 50.0 / std::sqrt(3.0), 0.2_deg);
+}
+
 TEST(Contact, ApartIsNoContact)
 {
   const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 4));

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+#include <string>
 
 namespace palp
 {
@@ -51,6 +54,73 @@ TEST(Validity, CorrectedConeMayTiltAsFarAsTheBoundaryElements)
     ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, { .mode = LawMode::Corrected }));
   EXPECT_TRUE(rule(cone({ .depth = 1.0_mm, .tilt = 29.0_deg }), "inclination").holds());
   EXPECT_FALSE(rule(cone({ .depth = 1.0_mm, .tilt = 31.0_deg }), "inclination").holds());
+}
+
+// where its factor acts, and there only, the normals below the tool count
+TEST(Validity, CorrectedConeMayNotTiltOverAnEdge)
+{
+  const auto inclination = [](const Tip& tip, const LawSettings& settings, double spread)
+  {
+    const Validity validity(ForceLaw(tip, kLiver, settings));
+    return rule(
+      validity({ .depth = 1.0_mm, .tilt = 20.0_deg, .normalSpread = spread }), "inclination");
+  };
+  const ConeTip cone{ 45.0_deg, 10.0_mm };
+  const LawSettings corrected{ .mode = LawMode::Corrected };
+  EXPECT_TRUE(inclination(cone, corrected, 4.9_deg).holds());
+  EXPECT_FALSE(inclination(cone, corrected, 5.1_deg).holds());
+  EXPECT_NE(std::string(inclination(cone, corrected, 0.0).why).find("edge"), std::string::npos);
+  EXPECT_EQ(inclination(SphereTip{ 10.0_mm }, corrected, 1.0).value, 20.0_deg); // whose factor is 1
+  EXPECT_EQ(inclination(cone, { .mode = LawMode::Exact }, 1.0).value, 20.0_deg);
+  EXPECT_EQ(
+    inclination(cone, { .mode = LawMode::Corrected, .inclination = false }, 1.0).value, 20.0_deg);
+}
+
+// Slides of 0.02 mm a step over the rim of a lens 16 mm thick, where the normal turns by up to
+// 5 degrees a step; its top is told to be fine.
+TEST(Validity, SeesWhereTheFactorOfInclinationTurnsFast)
+{
+  test::Mesh mesh = test::ball(1.0, 40);
+  for (Eigen::Vector3d& point : mesh.first)
+  {
+    point = point.cwiseProduct(Eigen::Vector3d(40.0_mm, 30.0_mm, 8.0_mm));
+  }
+  const Surface lens = test::makeSurface(std::move(mesh));
+  const ForceLaw law(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  const Validity validity(law);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  const auto direction = [&] { return Eigen::Vector3d(part(random), part(random), part(random)); };
+  double fastest = 0.0; // of what holds, by a step
+  double worst = 0.0;   // of what does not
+  int fine = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const double height = i % 4 == 0 ? 1.0 : 0.6 * part(random); // the top, else about the rim
+    const double turn = std::numbers::pi * part(random);
+    const double around = std::sqrt(1.0 - height * height);
+    const Eigen::Vector3d on(
+      40.0_mm * around * std::cos(turn), 30.0_mm * around * std::sin(turn), 8.0_mm * height);
+    const Eigen::Vector3d out = on.cwiseQuotient(Eigen::Vector3d(1600.0, 900.0, 64.0)).normalized();
+    ToolPose pose{ .apex = on - 2.0_mm * out, .axis = (-out + 0.2 * direction()).normalized() };
+    const Eigen::Vector3d along = 0.02_mm * out.cross(direction()).normalized();
+    double last = 0.0;
+    for (int k = 0; k < 150; ++k)
+    {
+      pose.apex += along;
+      const Contact contact = findContact(lens, law.tip(), pose, ContactRule::Exact);
+      const ContactGeometry place = contactGeometryOf(contact);
+      const double factor = contact.touching() ? law.factors(place)[5].value : 0.0;
+      const double change = last > 0.0 && factor > 0.0 ? std::abs(factor / last - 1.0) : 0.0;
+      const bool holds = rule(validity(place), "inclination").holds();
+      (holds ? fastest : worst) = std::max(holds ? fastest : worst, change);
+      fine += holds && i % 4 == 0 ? 1 : 0;
+      last = factor;
+    }
+  }
+  EXPECT_LE(fastest, 0.005);
+  EXPECT_GE(worst, 0.04);
+  EXPECT_GE(fine, 50 * 150 * 9 / 10);
 }
 
 // Eq. (4) is above the exact sphere by 11 % at depth = R and by 5.3 % at R / 2
