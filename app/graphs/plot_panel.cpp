@@ -35,6 +35,7 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
     tabs_->addTab(page.name);
   }
   row().insertWidget(0, tabs_, 1);
+  setScene(showEmptyScene(window())); // before the first press
   connect(tabs_, &QTabBar::currentChanged, this, &PlotPanel::refresh);
 }
 

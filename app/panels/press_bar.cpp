@@ -34,8 +34,9 @@ PressBar::PressBar(QWidget* parent)
   depth_->setFixedWidth(depth_->fontMetrics().horizontalAdvance("00.00 mm") + kArrows);
   speed_->setFixedWidth(speed_->fontMetrics().horizontalAdvance("00.0 mm/s") + kArrows);
   addField(tr("Place [mm]"),
-    tr("x, y, z [mm] in the frame of the surface, within 5 mm of it; a press of the mouse fills it "
-       "in"),
+    tr("x, y, z [mm] in the frame of the surface (LPS for images), within 5 mm of it; a press of "
+       "the mouse "
+       "fills it in"),
     place_);
   addField(tr("Depth"), tr("d [mm] of the contact, up to half of the body's thickness"), depth_);
   addField("", tr("Speed [mm/s], down and up; at the depth the tool rests for 0.3 s"), speed_);

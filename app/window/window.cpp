@@ -7,6 +7,7 @@
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
 #include "app/program/build_trace.h"
+#include "app/shell/message_bar.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
@@ -17,9 +18,7 @@
 #include <vtkRenderer.h>
 
 #include <QLabel>
-#include <QMessageBox>
 #include <QScreen>
-#include <QStatusBar>
 #include <QTimer>
 
 #include <utility>
@@ -321,7 +320,7 @@ bool Window::attempt(const std::function<void()>& work)
   }
   catch (const std::exception& error)
   {
-    QMessageBox::warning(this, tr("Palp"), QString::fromStdString(error.what()));
+    message_->warn(QString::fromStdString(error.what()));
     return false;
   }
 }

@@ -30,6 +30,7 @@ namespace palp
 
 class DevicePanel;
 class DiagnosticsPanel;
+class MessageBar;
 class PressBar;
 class BuildTrace;
 class ChartPanel;
@@ -155,6 +156,7 @@ private:
   QAction* refinedExport_ = nullptr;
   QAction* allSamplesExport_ = nullptr;
   QLabel* forceLabel_ = nullptr;
+  MessageBar* message_ = nullptr;
   DiagnosticsPanel* diagnostics_ = nullptr;
 };
 

@@ -4,6 +4,7 @@
 #include "app/panels/device_panel.h"
 #include "app/panels/folder_dialog.h"
 #include "app/panels/open_dialog.h"
+#include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
@@ -16,8 +17,6 @@
 #include <QImage>
 #include <QLabel>
 #include <QMenuBar>
-#include <QMessageBox>
-#include <QStatusBar>
 
 namespace palp
 {
@@ -95,11 +94,7 @@ void Window::makeFileMenu()
 
 void Window::say(const QString& what)
 {
-  constexpr int kLong = 15'000; // [ms], to be read
-  const QFontMetrics font = statusBar()->fontMetrics();
-  const int room = statusBar()->width() - 4 * font.averageCharWidth();
-  statusBar()->showMessage(font.elidedText(what, Qt::ElideRight, room), kLong);
-  statusBar()->setToolTip(what);
+  message_->tell(what);
 }
 
 bool Window::openFile(const QString& file)

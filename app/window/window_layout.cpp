@@ -8,6 +8,7 @@
 #include "app/panels/panel_area.h"
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
+#include "app/shell/message_bar.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
 
@@ -73,6 +74,7 @@ void Window::makeView()
   renderWindow_->SetMultiSamples(0);
   renderWindow_->AddRenderer(renderer_);
   setCentralWidget(canvas_);
+  message_ = new MessageBar(canvas_);
   if (session_.plan().overlays)
   {
     view_.setVisible(*session_.plan().overlays);

@@ -12,6 +12,7 @@
 #include <QMimeData>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QToolButton>
 #include <QUrl>
 
 #include <filesystem>
@@ -139,7 +140,7 @@ TEST_F(Manners, OpensAgainWhatWasOpenedAndDropsWhatIsGone)
 
   std::filesystem::remove(copy);
   chooseRecent(0);
-  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("no longer"));
+  EXPECT_TRUE(said().contains("no longer"));
   EXPECT_EQ(session_->body().name, "a & b.vtp") << "is kept";
   EXPECT_EQ(recent(), QStringList("block_50.vtp"));
 }
@@ -152,7 +153,7 @@ TEST_F(Manners, TakesWhatIsDropped)
   EXPECT_TRUE(window_->windowTitle().contains("block_50.vtp"));
   drop({ QUrl::fromLocalFile(PALP_SHARE "/meshes/liver.vtp"), QUrl::fromLocalFile(block_) });
   EXPECT_EQ(session_->body().name, "liver.vtp");
-  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("one body")) << "says so";
+  EXPECT_TRUE(said().contains("one body")) << "says so";
 }
 
 TEST_F(Manners, TheBarOfToolsDoesWhatTheMenusDo)
@@ -215,6 +216,29 @@ TEST_F(Manners, EveryControlHasANameAndSaysWhatItDoes)
     }
   }
   EXPECT_GE(controls, 20);
+}
+
+TEST_F(WindowTest, AMessageIsReadWholeAndTakesNothingAway)
+{
+  const QSize canvas = canvas_->size();
+  const QString far = "/nowhere/" + QString("a long way off/").repeated(30) + "shot.png";
+  EXPECT_FALSE(window_->saveScreenshot(far)); // and goes on without a box that waits
+  EXPECT_TRUE(said().contains("shot.png") && said().contains("No such file"));
+  auto* bar = window_->findChild<MessageBar*>();
+  const auto* text = bar->findChild<QLabel*>("message");
+  const auto isWhole = [&]
+  {
+    return bar->width() == canvas_->width() && canvas_->rect().contains(bar->geometry()) &&
+      text->height() >= text->heightForWidth(text->width());
+  };
+  EXPECT_TRUE(QTest::qWaitFor(isWhole, kPatience));
+  EXPECT_GT(text->height(), 2 * text->fontMetrics().height());
+  EXPECT_EQ(canvas_->size(), canvas);
+  EXPECT_TRUE(window_->findChild<QLabel*>("force")->isVisible());
+  window_->resize(window_->size() - QSize(150, 0));
+  EXPECT_TRUE(QTest::qWaitFor(isWhole, kPatience));
+  bar->findChild<QToolButton*>("closeMessage")->click();
+  EXPECT_TRUE(said().isEmpty());
 }
 
 } // namespace

@@ -25,6 +25,25 @@ namespace
 
 using test::WindowTest;
 
+// the question that work comes to, which is closed
+QString whatIsAskedBy(const std::function<void()>& work)
+{
+  QString asked;
+  QTimer closer;
+  QObject::connect(&closer, &QTimer::timeout,
+    [&]
+    {
+      if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+      {
+        asked = message->text();
+        message->accept();
+      }
+    });
+  closer.start(100);
+  work();
+  return asked;
+}
+
 TEST_F(WindowTest, SavesAScreenshotOfTheDent)
 {
   const QString file = QString::fromStdString((folder_.path() / "shot.png").string());
@@ -112,7 +131,7 @@ TEST_F(WindowTest, SavesTheCurvesForPrintAndSaysSo)
     const std::filesystem::path file = folder_.path() / name;
     ASSERT_TRUE(window_->saveCurves(QString::fromStdString(file.string())));
     EXPECT_GT(std::filesystem::file_size(file), 4000U) << name;
-    EXPECT_TRUE(window_->statusBar()->currentMessage().contains(name));
+    EXPECT_TRUE(said().contains(name));
   }
   const QImage picture(QString::fromStdString((folder_.path() / "curves.png").string()));
   EXPECT_EQ(picture.size(), QSize(1600, 1500)); // two charts
@@ -173,7 +192,7 @@ TEST_F(WindowTest, ExportsTheDentAsFineAsInThePicture)
   {
     const auto folder = folder_.path() / name;
     EXPECT_TRUE(window_->exportData(QString::fromStdString(folder.string())));
-    const QString said = window_->statusBar()->currentMessage();
+    const QString said = WindowTest::said();
     EXPECT_TRUE(said.contains(name)) << said.toStdString();
     return readSurface(folder / "deformed.vtp").mesh->GetNumberOfPoints();
   };
@@ -188,7 +207,7 @@ TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)
   std::ofstream(file) << "mine";
   const auto exporting = [&]
   { EXPECT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string()))); };
-  EXPECT_TRUE(whatIsSaidOf(exporting).contains("samples.csv")); // and closed without a yes
+  EXPECT_TRUE(whatIsAskedBy(exporting).contains("samples.csv")); // and closed without a yes
   EXPECT_EQ(test::readAll(file), "mine");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
 
@@ -216,7 +235,7 @@ TEST_F(WindowTest, KeepsAndExportsWhatAChangeEnds)
   waitForRest();
   const double peak = peakForce();
   window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
-  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("kept"));
+  EXPECT_TRUE(said().contains("kept"));
   ASSERT_EQ(session_->earlier().size(), 1U);
   EXPECT_TRUE(std::holds_alternative<SphereTip>(session_->earlier()[0].recording.scene.law.tip()));
   ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));

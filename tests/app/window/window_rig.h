@@ -1,13 +1,13 @@
 #pragma once
 
 #include "app/program/build_trace.h"
+#include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "tests/app/application.h"
 #include "tests/support/process.h"
 
 #include <QAbstractSpinBox>
 #include <QDeadlineTimer>
-#include <QMessageBox>
 #include <QTest>
 #include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
@@ -123,23 +123,10 @@ protected:
       !has(sample, Flag::Rebased) && !has(sample, Flag::WatchdogExpired);
   }
 
-  // of the message that work ends in, which is closed
-  [[nodiscard]] static QString whatIsSaidOf(const std::function<void()>& work)
+  // in the bar of messages
+  [[nodiscard]] QString said() const
   {
-    QString said;
-    QTimer closer;
-    QObject::connect(&closer, &QTimer::timeout,
-      [&]
-      {
-        if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
-        {
-          said = message->text();
-          message->accept();
-        }
-      });
-    closer.start(100);
-    work();
-    return said;
+    return window_->findChild<MessageBar*>()->text();
   }
 
   void type(const char* name, const char* text) const

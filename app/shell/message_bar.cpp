@@ -1,0 +1,94 @@
+#include "app/shell/message_bar.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStyle>
+#include <QTimer>
+#include <QToolButton>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kLong = 15'000; // [ms], to be read
+
+} // namespace
+
+MessageBar::MessageBar(QWidget* over)
+  : QFrame(over)
+  , icon_(new QLabel)
+  , text_(new QLabel)
+  , end_(new QTimer(this))
+{
+  setObjectName("messageBar");
+  setAccessibleName(tr("Message"));
+  setAutoFillBackground(true);
+  setFrameShape(QFrame::StyledPanel);
+  text_->setObjectName("message");
+  text_->setTextFormat(Qt::PlainText);
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* close = new QToolButton;
+  close->setObjectName("closeMessage");
+  close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
+  close->setToolTip(tr("Close this message"));
+  close->setAccessibleName(close->toolTip());
+  close->setAutoRaise(true);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(6, 3, 6, 3);
+  row->addWidget(icon_, 0, Qt::AlignTop);
+  row->addWidget(text_, 1);
+  row->addWidget(close, 0, Qt::AlignTop);
+  end_->setSingleShot(true);
+  connect(end_, &QTimer::timeout, this, &QWidget::hide);
+  connect(close, &QToolButton::clicked, this, &QWidget::hide);
+  over->installEventFilter(this);
+  hide();
+}
+
+void MessageBar::tell(const QString& text)
+{
+  show(text, false);
+  end_->start(kLong);
+}
+
+void MessageBar::warn(const QString& text)
+{
+  show(text, true);
+  end_->stop();
+}
+
+QString MessageBar::text() const
+{
+  return isHidden() ? QString() : text_->text();
+}
+
+void MessageBar::show(const QString& text, bool isWarning)
+{
+  const auto icon = isWarning ? QStyle::SP_MessageBoxWarning : QStyle::SP_MessageBoxInformation;
+  icon_->setPixmap(style()->standardIcon(icon).pixmap(fontMetrics().height()));
+  text_->setText(text);
+  setVisible(true);
+  place();
+}
+
+bool MessageBar::eventFilter(QObject* over, QEvent* event)
+{
+  if (event->type() == QEvent::Resize)
+  {
+    place();
+  }
+  return QFrame::eventFilter(over, event);
+}
+
+void MessageBar::place()
+{
+  const QWidget* over = parentWidget();
+  const int height = heightForWidth(over->width());
+  setGeometry(0, over->height() - height, over->width(), height);
+  raise();
+}
+
+} // namespace palp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <QFrame>
+#include <QString>
+
+class QLabel;
+class QTimer;
+
+namespace palp
+{
+
+/// What the window has to say, over the lower edge of another widget, whose size it leaves alone: a
+/// press under the pointer stays where it is. All of the text is shown, in as many lines as it
+/// takes, until it was read or is closed.
+class MessageBar : public QFrame
+{
+  Q_OBJECT
+
+public:
+  /// @param over  where it stands; owns it
+  explicit MessageBar(QWidget* over);
+
+  /// What was done; goes away by itself.
+  void tell(const QString& text);
+
+  /// What went wrong, and what to do; stays until it is closed, or until there is something newer.
+  void warn(const QString& text);
+
+  /// What is shown; empty: nothing.
+  [[nodiscard]] QString text() const;
+
+  bool eventFilter(QObject* over, QEvent* event) override;
+
+private:
+  void show(const QString& text, bool isWarning);
+  void place();
+
+  QLabel* icon_;
+  QLabel* text_;
+  QTimer* end_;
+};
+
+} // namespace palp
