@@ -1,8 +1,11 @@
 #include "app/bench/bench_sweep.h"
 
+#include "app/program/sha256.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/case_process.h"
+#include "app/sweep/cases/case_record.h"
 #include "app/sweep/cases/merge.h"
+#include "app/sweep/cases/result_rows.h"
 #include "app/sweep/cases/runner.h"
 #include "app/sweep/cases/status.h"
 #include "app/sweep/plan.h"
@@ -16,7 +19,6 @@
 #include <functional>
 #include <iomanip>
 #include <memory>
-#include <numeric>
 #include <ostream>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -73,10 +75,11 @@ void simulateResults(Manifest& manifest)
     {
       const fs::path place = folders.result(one.name);
       fs::create_directories(place);
-      std::ofstream(place / "force.csv")
-        << "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm\n1,0.1" << one.number
-        << ",2.23606797749979,0.2509334505105813\n";
-      std::ofstream(place / kCaseFile) << R"({"seconds": 2.0, "memory_MiB": 8})";
+      const std::string table = "depth_mm,force_N,contact_radius_mm,stiffness_N_per_mm\n1,0.1" +
+        std::to_string(one.number) + ",2.23606797749979,0.2509334505105813\n";
+      std::ofstream(resultTable(place, "force")) << table;
+      writeRecord(
+        place, { .name = one.name, .seconds = 2.0, .memory = 8e6, .tableSha256 = sha256Of(table) });
       if (!std::ofstream(place / kLogFile))
       {
         refuseFile(place, errno);
@@ -152,10 +155,8 @@ double secondsAlone(Manifest& manifest, unsigned jobs)
 
 double secondsBy(Manifest& manifest, unsigned jobs)
 {
-  std::vector<std::size_t> numbers(manifest.head().count);
-  std::iota(numbers.begin(), numbers.end(), 0);
   fs::remove_all(CaseFolders{ manifest.folder() }.results());
-  return secondsOf([&] { (void)runCases(manifest, numbers, jobs); });
+  return secondsOf([&] { (void)runCases(manifest, manifest.numbers(), jobs); });
 }
 
 // how often one time is in another, over the rounds

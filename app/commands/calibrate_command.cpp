@@ -60,9 +60,14 @@ void refuseWhereStopped(const Interrupt& interrupt, const char* sentence)
   }
 }
 
+Case studyOf(const CalibrateOptions& options)
+{
+  return caseOf((options.out / "").parent_path().filename().string(), options.text);
+}
+
 void calibrateOne(const CalibrateOptions& options, Interrupt& interrupt, const Renderer* pictures)
 {
-  const Case study = caseOf((options.out / "").parent_path().filename().string(), options.text);
+  const Case study = studyOf(options);
   const auto folder = openFolder(options.out, options);
   const bool goesOn = options.resume && std::filesystem::exists(options.out / "table.csv");
   interrupt.endWhatDoesNotStop(goesOn ? kStopped : kNothingYet);
@@ -149,7 +154,7 @@ void refuseBeside(CLI::App& command, CLI::Option& option, const std::set<std::st
 
 } // namespace
 
-void addCalibrateCommand(CLI::App& app, const Renderer* pictures)
+void addCalibrateCommand(CLI::App& app, const Renderer* pictures, Work work)
 {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
@@ -192,7 +197,8 @@ void addCalibrateCommand(CLI::App& app, const Renderer* pictures)
     "  palp calibrate --young 5kPa --coating 2mm:50kPa:0.45 --out skin\n"
     "  palp calibrate --sweep extent --jobs 2 --out DIR; palp sweep merge DIR --out all.csv\n"
     "  palp calibrate --tables data/tables --overwrite   make the shipped tables again");
-  command->callback([options, pictures] { runCalibration(*options, pictures); });
+  command->callback([options, pictures, work]
+    { work == Work::Check ? (void)studyOf(*options) : runCalibration(*options, pictures); });
 }
 
 } // namespace palp

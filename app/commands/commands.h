@@ -15,15 +15,22 @@ struct DevicesOptions;
 struct Renderer;
 struct ViewOptions;
 
+/// What the command does with a line that is parsed.
+enum class Work
+{
+  Do,
+  Check ///< only refuse what it would refuse, as far as that is told without files' content
+};
+
 // Each adds one subcommand with its options and help; the command runs when the line is parsed.
 // A null part means that this program does not carry it and becomes the sibling that does.
 
 void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
-void addRunCommand(CLI::App& app, const Renderer* pictures);
+void addRunCommand(CLI::App& app, const Renderer* pictures, Work work = Work::Do);
 void addSceneCommand(CLI::App& app, const Renderer* pictures, int (*view)(const ViewOptions&));
-void addForceCommand(CLI::App& app);
+void addForceCommand(CLI::App& app, Work work = Work::Do);
 void addFitCommand(CLI::App& app, const Renderer* pictures);
-void addCalibrateCommand(CLI::App& app, const Renderer* pictures);
+void addCalibrateCommand(CLI::App& app, const Renderer* pictures, Work work = Work::Do);
 void addSweepCommand(CLI::App& app, const Renderer* pictures);
 void addExperimentCommand(CLI::App& app, const Renderer* pictures);
 void addReportCommand(CLI::App& app, const Renderer* pictures);

@@ -217,29 +217,36 @@ void printHistory(const ForceOptions& options)
   tellLimits(law, validity(geometry), geometry, options.geometry.given);
 }
 
-void print(const ForceOptions& options)
+void refuseTimeless(const ForceOptions& options)
 {
-  if (!options.history.empty())
+  const bool overTime = !options.history.empty();
+  if (overTime && !options.nodules.nodules.empty())
   {
-    if (!options.nodules.nodules.empty())
-    {
-      throw Error(ErrorCode::BadValue, "--nodule: not known over time; leave --history out");
-    }
-    printHistory(options);
-    return;
+    throw Error(ErrorCode::BadValue, "--nodule: not known over time; leave --history out");
   }
-  if (!options.tissue.options.relaxation.empty())
+  if (!overTime && !options.tissue.options.relaxation.empty())
   {
     throw Error(ErrorCode::BadValue,
       "--relaxation: acts over time; add --history FILE.csv with columns time_s and depth_mm, or "
       "leave it out");
   }
-  printForces(options);
+}
+
+void force(const ForceOptions& options, Work work)
+{
+  refuseTimeless(options);
+  if (work == Work::Check)
+  {
+    const ForceLaw law = options.tissue.law();
+    (void)options.nodules.under(law, options.geometry.geometry, options.depths.si.back());
+    return;
+  }
+  options.history.empty() ? printForces(options) : printHistory(options);
 }
 
 } // namespace
 
-void addForceCommand(CLI::App& app)
+void addForceCommand(CLI::App& app, Work work)
 {
   auto options = std::make_shared<ForceOptions>();
   CLI::App* command = app.add_subcommand("force", "Print the force law as CSV");
@@ -267,7 +274,7 @@ void addForceCommand(CLI::App& app)
     "  palp force --young 5kPa --poisson 0.45 --law corrected --coating 2mm:50kPa:0.45\n"
     "  palp force --young 5kPa --law corrected --relaxation 0.3:50ms,0.2:1s --history press.csv\n"
     "  palp force --law corrected --thickness 40mm --nodule 5mm:5mm:10:8mm");
-  command->callback([options] { print(*options); });
+  command->callback([options, work] { force(*options, work); });
 }
 
 } // namespace palp

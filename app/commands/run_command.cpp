@@ -114,13 +114,13 @@ void repeat(const RunOptions& options, const Renderer* pictures)
   playPlan(made.plan, *output, pictures, silent, &made);
 }
 
-void run(const RunOptions& options, const Renderer* pictures)
+bool draws(const RunOptions& options)
 {
-  const bool draws = !options.noPicture && !options.samplesOnly;
-  if (draws && !pictures)
-  {
-    execProgram("palp-draw");
-  }
+  return !options.noPicture && !options.samplesOnly;
+}
+
+ScenePlan planOf(const RunOptions& options)
+{
   checkExists(options.mesh);
   ScenePlan plan{ .meshes = { options.mesh },
     .press = options.press,
@@ -131,7 +131,7 @@ void run(const RunOptions& options, const Renderer* pictures)
     .plotFiles = options.plotFiles.empty() ? std::vector<std::string>{ "png" } : options.plotFiles,
     .allSamples = options.allSamples,
     .refined = options.refined,
-    .picture = draws,
+    .picture = draws(options),
     .size = options.size };
   if (options.samplesOnly)
   {
@@ -144,12 +144,22 @@ void run(const RunOptions& options, const Renderer* pictures)
   for (const std::string& name : options.plots)
   {
     const auto found = std::find(kPlotNames.begin(), kPlotNames.end(), name);
-    if (draws)
+    if (draws(options))
     {
       plan.plots.push_back(static_cast<PlotKind>(found - kPlotNames.begin()));
     }
   }
   checkUsed(options, plan);
+  return plan;
+}
+
+void run(const RunOptions& options, const Renderer* pictures)
+{
+  if (draws(options) && !pictures)
+  {
+    execProgram("palp-draw");
+  }
+  const ScenePlan plan = planOf(options);
   BuildTrace silent(false);
   const auto output = openOutput(options.out, exportFiles(), options.overwrite);
   playPlan(plan, *output, pictures, silent);
@@ -190,7 +200,7 @@ void addOutputs(CLI::App& command, RunOptions& options)
 
 } // namespace
 
-void addRunCommand(CLI::App& app, const Renderer* pictures)
+void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
 {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand(
@@ -225,8 +235,14 @@ void addRunCommand(CLI::App& app, const Renderer* pictures)
     "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm\n"
     "  palp run --out out --plots section,comparison --plot-files png,csv");
   command->callback(
-    [options, pictures, command]
+    [options, pictures, command, work]
     {
+      if (work == Work::Check)
+      {
+        (void)options->press.tissue.law();
+        (void)planOf(*options);
+        return;
+      }
       if (isExport(options->mesh.file))
       {
         refuseBeside(*command, options->mesh.file, { "FILE", "--out", "--overwrite" });

@@ -1,8 +1,9 @@
-#include "app/commands/case_parser.h"
 #include "app/commands/commands.h"
 #include "app/commands/renderer.h"
+#include "app/commands/sweep_case.h"
 #include "app/program/exec_program.h"
 #include "app/sweep/case_folders.h"
+#include "app/sweep/case_numbers.h"
 #include "app/sweep/cases/merge.h"
 #include "app/sweep/cases/pilot.h"
 #include "app/sweep/cases/runner.h"
@@ -18,11 +19,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 namespace palp
@@ -38,81 +37,54 @@ struct SweepOptions
   std::filesystem::path out;
   std::string number; // as given
   std::string shard;
-  std::size_t chunk = 1;
+  std::optional<std::size_t> chunk;
   std::string pilot; // as given
   std::size_t tasks = kMostTasks;
   unsigned jobs = 1;
   MergeOptions merge;
+  bool checks = false;
   bool slurm = false;
   bool parallel = false;
   bool plots = false;
 };
 
-// "2/4" as the cases 1, 5, 9, ...
-std::vector<std::size_t> shardOf(const std::string& text, std::size_t count)
-{
-  std::size_t part = 0;
-  std::size_t parts = 0;
-  const char* end = text.data() + text.size();
-  const auto [slash, first] = std::from_chars(text.data(), end, part);
-  const bool apart = first == std::errc{} && slash != end && *slash == '/';
-  const auto last = apart ? std::from_chars(slash + 1, end, parts) : std::from_chars_result{};
-  if (!apart || last.ec != std::errc{} || last.ptr != end || part < 1 || part > parts)
-  {
-    throw Error(ErrorCode::BadValue,
-      "--shard: " + inQuotes(text) + " is no part of a whole; give 1/4 to 4/4 for four of them");
-  }
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = part - 1; i < count; i += parts)
-  {
-    numbers.push_back(i);
-  }
-  return numbers;
-}
-
-// what: the option, or another that says it
-std::size_t numberBelow(const std::string& text, std::size_t count, const std::string& what)
-{
-  const char* end = text.data() + text.size();
-  std::size_t number = 0;
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || rest != end || number >= count)
-  {
-    throw Error(ErrorCode::BadValue,
-      what + ": there is no case " + inQuotes(text) + "; give 0 to " + std::to_string(count - 1));
-  }
-  return number;
-}
-
-// of --case, or of the task that Slurm runs; chunks: how many there are
-std::optional<std::size_t> taskOf(const std::string& given, std::size_t chunks)
+// of --case, or of the task that Slurm runs; chunks: how many there are, of one thing or several
+std::optional<std::size_t> taskOf(const std::string& given, std::size_t chunks, const char* thing)
 {
   const char* task = std::getenv("SLURM_ARRAY_TASK_ID"); // NOLINT(concurrency-mt-unsafe)
   if (given.empty() && task == nullptr)
   {
     return std::nullopt;
   }
-  return given.empty() ? numberBelow(task, chunks, "SLURM_ARRAY_TASK_ID")
-                       : numberBelow(given, chunks, "--case");
+  return given.empty() ? numberBelow(task, chunks, "SLURM_ARRAY_TASK_ID", thing)
+                       : numberBelow(given, chunks, "--case", thing);
 }
 
-std::vector<std::size_t> numbersOf(const SweepOptions& options, std::size_t count)
+std::vector<std::size_t> numbersOf(const SweepOptions& options, const Manifest& manifest)
 {
+  const std::size_t count = manifest.head().count;
   if (!options.shard.empty())
   {
     return shardOf(options.shard, count);
   }
-  const auto task = taskOf(options.number, (count + options.chunk - 1) / options.chunk);
-  const std::size_t begin = task ? *task * options.chunk : 0;
-  const std::size_t end = task ? std::min(count, begin + options.chunk) : count;
-  std::vector<std::size_t> numbers(end - begin);
-  std::iota(numbers.begin(), numbers.end(), begin);
-  return numbers;
+  const std::size_t chunk = options.chunk.value_or(1);
+  if (const auto task =
+        taskOf(options.number, (count + chunk - 1) / chunk, options.chunk ? "chunk" : "case"))
+  {
+    return manifest.numbers(*task * chunk, chunk);
+  }
+  if (options.chunk)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--chunk: says how many cases --case or SLURM_ARRAY_TASK_ID stands for; give one of them, or "
+      "leave it out for all cases");
+  }
+  return manifest.numbers();
 }
 
-void run(Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs)
+void run(Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs, bool checks)
 {
-  const RunOutcome outcome = runCases(manifest, numbers, jobs);
+  const RunOutcome outcome = runCases(manifest, numbers, jobs, checks);
   if (!outcome.warned.empty())
   {
     const PlannedCase first = manifest.at(outcome.warned.front());
@@ -152,10 +124,7 @@ void writeSlurmScript(const SweepOptions& options, const std::vector<std::size_t
 void planInto(
   const std::filesystem::path& folder, const Sweep& sweep, const std::filesystem::path& beside)
 {
-  CaseParser parser(sweep.kind);
-  const PlanTold told = planSweep(
-    sweep, beside, parser.options(),
-    [&](const std::vector<std::string>& words) { parser.check(words); }, folder);
+  const PlanTold told = planSweep(sweep, beside, caseOptions(sweep.kind), checkCase, folder);
   std::cerr << "palp: " << counted(told.count, "case") << " planned in " << folder.string() << ", "
             << told.done << " done\n";
 }
@@ -169,15 +138,19 @@ void plan(const SweepOptions& options)
 {
   const Sweep sweep = readSweepFile(options.file);
   const std::vector<std::size_t> pilots = pilotsOf(options.pilot, sweep.count());
-  planInto(options.folder, sweep, folderOf(options.file));
-  if (options.slurm)
+  if (options.slurm || options.parallel)
   {
-    writeSlurmScript(options, pilots);
+    (void)plainPlace(options.folder); // before anything is computed
   }
+  planInto(options.folder, sweep, folderOf(options.file));
   if (options.parallel)
   {
     const auto script = writeParallel(options.folder, sweep.count());
     std::cerr << "palp: sh " << quoted(script.string()) << " -j 2\n";
+  }
+  if (options.slurm)
+  {
+    writeSlurmScript(options, pilots);
   }
 }
 
@@ -192,6 +165,12 @@ void draw(const SweepFigures& drawn, const std::filesystem::path& folder, const 
   OutputFolder output(folder.empty() ? "." : folder, names, OutputFolder::Earlier::Keep);
   pictures.drawFigures(drawn.figures, drawn.tables, figures::Layout::Alone, output.stage());
   output.publish();
+  if (!drawn.refused.empty())
+  {
+    const std::size_t others = drawn.refused.size() - 1;
+    throw Error(ErrorCode::BadFile,
+      drawn.refused.front() + (others > 0 ? " (and " + counted(others, "plot") + " more)" : ""));
+  }
 }
 
 void merge(const SweepOptions& options, const Renderer* pictures)
@@ -201,6 +180,13 @@ void merge(const SweepOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   Manifest manifest(options.folders.front());
+  if (options.plots && manifest.head().plots.empty())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--plots: this sweep has none; write \"plots\" into its SWEEP.json and plan again, which "
+      "keeps "
+      "what is finished, or leave it out");
+  }
   MergeOptions how = options.merge;
   how.others.assign(options.folders.begin() + 1, options.folders.end());
   const Merged merged = mergeResults(manifest, how, options.out);
@@ -246,16 +232,19 @@ void addRun(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
   command->add_option("DIR", options->folder, "Folder of the sweep")->required();
   CLI::Option* number = command->add_option(
     "--case", options->number, "One case, from 0; SLURM_ARRAY_TASK_ID where that is set");
-  command->add_option("--shard", options->shard, "A part of all, 2/4 for the second of four")
-    ->excludes(number);
+  CLI::Option* shard =
+    command->add_option("--shard", options->shard, "A part of all, 2/4 for the second of four")
+      ->excludes(number);
   command
     ->add_option("--chunk", options->chunk,
       "That many cases in a row instead of one, those of --case 2 after those of --case 1")
     ->check(CLI::Range(std::size_t{ 1 }, kMostCases))
-    ->capture_default_str();
+    ->excludes(shard);
   command->add_option("--jobs", options->jobs, "Cases at a time, each a process")
     ->check(CLI::Range(1, 10'000))
     ->capture_default_str();
+  command->add_flag("--check", options->checks,
+    "Also those whose result is damaged: cut, edited, or of another case");
   command->footer(
     "A finished case is never computed again; one that failed is tried again.\n"
     "Examples:\n"
@@ -268,7 +257,7 @@ void addRun(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
     [options]
     {
       Manifest manifest(options->folder);
-      run(manifest, numbersOf(*options, manifest.head().count), options->jobs);
+      run(manifest, numbersOf(*options, manifest), options->jobs, options->checks);
     });
 }
 
@@ -306,9 +295,7 @@ void runCalibrations(const std::string& file, const std::filesystem::path& folde
   }
   planInto(folder, sweep, folderOf(file));
   Manifest manifest(folder);
-  std::vector<std::size_t> numbers(sweep.count());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  run(manifest, numbers, jobs);
+  run(manifest, manifest.numbers(), jobs, false);
 }
 
 void addSweepCommand(CLI::App& app, const Renderer* pictures)
@@ -321,6 +308,9 @@ void addSweepCommand(CLI::App& app, const Renderer* pictures)
   addRun(*command, options);
   CLI::App* status = command->add_subcommand("status", "How far a sweep is, and what failed");
   status->add_option("DIR", options->folder, "Folder of the sweep")->required();
+  status->footer("Examples:\n"
+                 "  palp sweep status DIR\n"
+                 "  watch palp sweep status DIR                 while others compute it");
   status->callback(
     [options]
     {

@@ -26,6 +26,17 @@ std::string joined(const std::vector<std::string>& words)
   return text;
 }
 
+// "[code] parse error at line 3, column 1: syntax error while parsing object key - unexpected '}'"
+std::string wordsOf(const std::string& what)
+{
+  const std::size_t at = what.find(" at line ");
+  const std::size_t colon = what.find(": ", std::min(at, what.size()));
+  const std::size_t dash = what.find(" - ", std::min(colon, what.size()));
+  return shortened(dash == what.npos
+      ? what.substr(what.find("] ") + 2)
+      : "is no JSON, " + what.substr(at + 4, colon - at - 4) + ": " + what.substr(dash + 3));
+}
+
 } // namespace
 
 nlohmann::json parseJson(const std::string& text, const std::string& file)
@@ -56,9 +67,7 @@ nlohmann::json parseJson(const std::string& text, const std::string& file)
   }
   catch (const nlohmann::json::exception& error)
   {
-    // its text names line, column and what was expected, after a code in brackets
-    const std::string what = error.what();
-    throw Error(ErrorCode::BadFile, file + ": " + shortened(what.substr(what.find("] ") + 2)));
+    throw Error(ErrorCode::BadFile, file + ": " + wordsOf(error.what()));
   }
 }
 
@@ -184,7 +193,8 @@ std::size_t JsonObject::choice(
   const auto found = std::find(words.begin(), words.end(), word);
   if (found == words.end())
   {
-    refuse(key, inQuotes(word) + " is not known; give " + joined(words));
+    refuse(key,
+      (word.empty() ? "is missing" : inQuotes(word) + " is not known") + "; give " + joined(words));
   }
   return static_cast<std::size_t>(found - words.begin());
 }

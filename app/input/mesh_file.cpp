@@ -19,8 +19,12 @@ constexpr std::string_view kHash = ", SHA-256 ";
 // where the voxels of a MetaImage are; empty: in the file itself
 std::filesystem::path dataBeside(const std::filesystem::path& file)
 {
+  if (file.extension() != ".mhd")
+  {
+    return {};
+  }
   std::ifstream in(file, std::ios::binary);
-  for (std::string line; file.extension() == ".mhd" && std::getline(in, line);)
+  for (std::string line; std::getline(in, line);)
   {
     constexpr std::string_view blanks = " \t\r";
     const std::size_t equals = line.find('=');
@@ -37,13 +41,22 @@ std::filesystem::path dataBeside(const std::filesystem::path& file)
 
 } // namespace
 
+std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file)
+{
+  std::vector<std::filesystem::path> files{ file };
+  if (auto data = dataBeside(file); !data.empty())
+  {
+    files.push_back(std::move(data));
+  }
+  return files;
+}
+
 MeshFile describeFile(const std::filesystem::path& file)
 {
   Sha256 hash;
-  hash.addFile(file);
-  if (const auto data = dataBeside(file); !data.empty())
+  for (const std::filesystem::path& one : filesBehind(file))
   {
-    hash.addFile(data);
+    hash.addFile(one);
   }
   return { .name = file.filename().string(), .sha256 = hash.hex(), .unit = {}, .part = {} };
 }

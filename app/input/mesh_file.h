@@ -20,6 +20,9 @@ struct MeshFile
   bool moved = false; ///< by the frame that a scene gives it
 };
 
+/// The file, and the one behind it that holds the voxels of an MHD.
+[[nodiscard]] std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file);
+
 /// @param file    as named by the user
 /// @throws Error  BadFile: cannot be read
 [[nodiscard]] MeshFile describeFile(const std::filesystem::path& file);

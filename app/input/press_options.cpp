@@ -39,9 +39,8 @@ Eigen::Isometry3d MeshSource::frame() const
 void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
-    "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ or VTI; the "
-    "bundled "
-    "liver if none",
+    "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ (all in "
+    "LPS) or VTI; the bundled liver if none",
     "",
     [this](const std::string& text)
     {

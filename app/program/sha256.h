@@ -32,4 +32,7 @@ private:
   std::unique_ptr<sha256_ctx> state_;
 };
 
+/// The hash of a text, as hex() has it.
+[[nodiscard]] std::string sha256Of(std::string_view text);
+
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace palp
 {
@@ -49,11 +50,8 @@ struct CaseFolders
       first == claims().filename() || first == plan().filename();
   }
 
-  [[nodiscard]] bool isDone(const std::string& name) const
-  {
-    std::error_code unknown;
-    return std::filesystem::is_directory(result(name), unknown);
-  }
+  /// @throws Error  BadFile: nobody may look
+  [[nodiscard]] bool isDone(const std::string& name) const;
 
 private:
   [[nodiscard]] static std::string shard(const std::string& name)
@@ -64,6 +62,10 @@ private:
 
 constexpr const char* kCaseFile = "case.json"; ///< of a finished or failed case: what, how long
 constexpr const char* kLogFile = "log.txt";    ///< what its command said
+
+/// Ends the reading of a folder or file with what the system said.
+/// @throws Error  BadFile
+[[noreturn]] void refuseUnread(const std::filesystem::path& place, const std::error_code& why);
 
 constexpr const char* kSlurmFile = "sweep.sbatch";
 constexpr const char* kParallelFile = "parallel.sh";

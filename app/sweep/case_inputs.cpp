@@ -22,6 +22,12 @@ std::string fill(const SweepValues& values, const std::string& text, std::vector
   {
     const std::size_t brace = std::min(text.find('{', at), text.size());
     full.append(text, at, brace - at);
+    if (text.substr(brace, 2) == "{{")
+    {
+      full += '{';
+      at = brace + 2;
+      continue;
+    }
     const std::size_t end = text.find('}', brace);
     if (brace == text.size() || end == text.npos)
     {
@@ -67,6 +73,11 @@ std::vector<std::string> namesIn(const std::string& text)
   std::vector<std::string> names;
   for (std::size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1))
   {
+    if (text.substr(at, 2) == "{{")
+    {
+      ++at;
+      continue;
+    }
     const std::size_t end = text.find('}', at);
     if (end != text.npos)
     {
@@ -126,9 +137,7 @@ std::string caseName(const std::string& kind, const SweepValues& options,
     }
     text += '\n';
   }
-  Sha256 hash;
-  hash.add(text);
-  return hash.hex().substr(0, kNameDigits);
+  return sha256Of(text).substr(0, kNameDigits);
 }
 
 std::vector<std::string> caseWords(

@@ -16,9 +16,10 @@ struct CommandOptions
 {
   std::set<std::string> values; ///< take a value
   std::set<std::string> flags;  ///< are there or not: true or false
+  std::set<std::string> own{};  ///< has, too, but no case may set them
 };
 
-/// The values with every {name} in them replaced by the value of that name.
+/// The values with every {name} in them replaced by the value of that name, and {{ by a brace.
 /// @throws Error  BadValue: a name that nothing has, or a circle of names
 [[nodiscard]] SweepValues filledIn(const SweepValues& values);
 

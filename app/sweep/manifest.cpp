@@ -1,14 +1,17 @@
 #include "app/sweep/manifest.h"
 
 #include "app/sweep/case_folders.h"
+#include "app/sweep/sweep_range.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/replace_file.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <numeric>
 
 namespace palp
 {
@@ -88,6 +91,12 @@ std::string SweepColumn::title() const
   return words.empty() ? name : name + "_" + words;
 }
 
+std::string SweepColumn::cell(const std::string& value) const
+{
+  const auto number = isNumber ? numberText(value) : std::nullopt;
+  return number ? shortest(number->number) : value;
+}
+
 SweepValues optionsOf(const SweepHead& head, const std::vector<std::string>& values)
 {
   SweepValues all = head.fixed;
@@ -106,12 +115,17 @@ SweepValues optionsOf(const SweepHead& head, const std::vector<std::string>& val
 
 Manifest::Manifest(std::filesystem::path folder)
   : folder_(std::move(folder))
-  , file_(CaseFolders{ folder_ }.plan())
 {
+  errno = 0;
+  file_.open(CaseFolders{ folder_ }.plan());
   std::string first;
   std::string shared;
   if (!std::getline(file_, first))
   {
+    if (errno == EACCES)
+    {
+      refuseUnread(CaseFolders{ folder_ }.plan(), { EACCES, std::generic_category() });
+    }
     refusePlan(folder_, "no sweep is planned there; begin with palp sweep plan SWEEP.json DIR");
   }
   if (first != kFirst)
@@ -244,6 +258,13 @@ PlannedCase Manifest::at(std::size_t number)
         "finished stays");
   }
   return parse(line);
+}
+
+std::vector<std::size_t> Manifest::numbers(std::size_t begin, std::size_t count) const
+{
+  std::vector<std::size_t> numbers(std::min(count, head_.count - begin));
+  std::iota(numbers.begin(), numbers.end(), begin);
+  return numbers;
 }
 
 void Manifest::forEach(const std::function<void(const PlannedCase&)>& take)

@@ -22,6 +22,9 @@ struct SweepColumn
 
   /// The name with the unit, as `young_kPa`.
   [[nodiscard]] std::string title() const;
+
+  /// A value as the merged table has it, without its unit.
+  [[nodiscard]] std::string cell(const std::string& value) const;
 };
 
 /// One case of a planned sweep.
@@ -81,6 +84,10 @@ public:
   /// A case by its number, found by bisection.
   /// @throws Error  BadValue: no such case; BadFile: its line is damaged
   [[nodiscard]] PlannedCase at(std::size_t number);
+
+  /// The numbers of cases in a row, at most those that there are.
+  [[nodiscard]] std::vector<std::size_t> numbers(
+    std::size_t begin = 0, std::size_t count = kMostCases) const;
 
   /// All of them in their order.
   void forEach(const std::function<void(const PlannedCase&)>& take);

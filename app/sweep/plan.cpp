@@ -44,6 +44,7 @@ Texts textsOf(const Sweep& sweep)
 // a name that neither the command nor another value knows would change nothing
 void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions& options)
 {
+  const std::string begin = sweep.file + ": ";
   std::set<std::string> used;
   for (const auto& [name, values] : texts)
   {
@@ -65,20 +66,29 @@ void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions&
   {
     if (!options.values.contains(name) && !options.flags.contains(name) && !used.contains(name))
     {
+      if (options.own.contains(name))
+      {
+        throw Error(ErrorCode::BadFile,
+          begin + inQuotes(name) +
+            ": changes no number of a case, or is set by the sweep itself; leave it out");
+      }
       throw Error(ErrorCode::BadFile,
-        inQuotes(name) + ": palp " + sweep.kind + " has no such option, and no value holds " +
-          inQuotes("{" + name + "}") + "; known here: " + known);
+        begin + inQuotes(name) + ": palp " + sweep.kind +
+          " has no such option, and no value holds " + inQuotes("{" + name + "}") +
+          "; known here: " + known);
     }
     const auto isWord = [](const std::string& value)
     { return value == "true" || value == "false"; };
     if (options.flags.contains(name) && !std::ranges::all_of(values, isWord))
     {
-      throw Error(ErrorCode::BadFile, inQuotes(name) + ": is there or not; give true or false");
+      throw Error(
+        ErrorCode::BadFile, begin + inQuotes(name) + ": is there or not; give true or false");
     }
   }
 }
 
-SweepColumn columnOf(const std::string& name, const std::vector<std::string>& values)
+SweepColumn columnOf(
+  const std::string& file, const std::string& name, const std::vector<std::string>& values)
 {
   const auto first = numberText(values.front());
   for (const std::string& value : values)
@@ -87,8 +97,8 @@ SweepColumn columnOf(const std::string& name, const std::vector<std::string>& va
     if (first && number && number->unit != first->unit)
     {
       throw Error(ErrorCode::BadFile,
-        inQuotes(name) + ": has values in different units, " + inQuotes(values.front()) + " and " +
-          inQuotes(value) + "; write all of them in one");
+        file + ": " + inQuotes(name) + ": has values in different units, " +
+          inQuotes(values.front()) + " and " + inQuotes(value) + "; write all of them in one");
     }
   }
   const auto isAlike = [&](const std::string& value)
@@ -135,7 +145,11 @@ public:
     }
     for (const std::string& name : sweep_.names())
     {
-      addColumn(columnOf(name, texts.at(name)));
+      addColumn(columnOf(sweep_.file, name, texts.at(name)));
+    }
+    for (const SweepPlot& plot : sweep_.plots)
+    {
+      refuseNowhere(plot, texts);
     }
     for (std::size_t i = 0; names && i < head_.count; ++i)
     {
@@ -163,7 +177,8 @@ public:
     }
     catch (const Error& error)
     {
-      throw Error(error.code(), "case " + std::to_string(number) + ": " + error.what());
+      throw Error(
+        error.code(), sweep_.file + ": case " + std::to_string(number) + ": " + error.what());
     }
   }
 
@@ -199,11 +214,30 @@ private:
       if (other.title() == column.title())
       {
         throw Error(ErrorCode::BadFile,
-          inQuotes(other.name) + " and " + inQuotes(column.name) + ": would both be the column " +
-            inQuotes(column.title()) + " of the merged table; rename one");
+          sweep_.file + ": " + inQuotes(other.name) + " and " + inQuotes(column.name) +
+            ": would both be the column " + inQuotes(column.title()) +
+            " of the merged table; rename one");
       }
     }
     head_.columns.push_back(column);
+  }
+
+  // what a column of results holds is not known yet
+  void refuseNowhere(const SweepPlot& plot, const Texts& texts) const
+  {
+    for (const SweepColumn& column : head_.columns)
+    {
+      const auto asked = plot.where.find(column.title());
+      const auto isAsked = [&](const std::string& value)
+      { return column.cell(value) == asked->second; };
+      if (asked != plot.where.end() && std::ranges::none_of(texts.at(column.name), isAsked))
+      {
+        throw Error(ErrorCode::BadFile,
+          sweep_.file + ": plot " + inQuotes(plot.name) + ": no " + column.title() + " is " +
+            inQuotes(asked->second) + "; they are written as " +
+            inQuotes(column.cell(texts.at(column.name).front())));
+      }
+    }
   }
 
   void addFiles(const SweepValues& options)

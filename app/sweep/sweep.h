@@ -35,6 +35,7 @@ struct SweepPlot
 /// Its cases are all combinations of the axes' rows; the last axis changes first.
 struct Sweep
 {
+  std::string file{}; ///< that says so, without its folder
   std::string title;
   std::string kind; ///< calibrate, force or run: the command that a case is
   SweepValues fixed{};

@@ -2,6 +2,7 @@
 
 #include "app/input/json_object.h"
 #include "app/program/data_files.h"
+#include "app/sweep/range_keys.h"
 #include "app/sweep/sweep_range.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
@@ -10,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <set>
 
 namespace palp
@@ -42,6 +43,16 @@ std::string valueText(const JsonObject& at, const std::string& key, const json& 
   {
     at.refuse(key, "is empty or has control characters; write the value as on the command line");
   }
+  for (std::size_t open = text.find('{'); open != text.npos; open = text.find('{', open))
+  {
+    const bool isBrace = text.substr(open, 2) == "{{";
+    const std::size_t end = isBrace ? open + 1 : text.find('}', open);
+    if (end == text.npos)
+    {
+      at.refuse(key, inQuotes(text) + " has { without }; write {name}, or {{ for a brace");
+    }
+    open = end + 1;
+  }
   return text;
 }
 
@@ -57,75 +68,6 @@ std::vector<std::string> valueList(const JsonObject& at, const std::string& key,
     at.refuse(key, "is an empty list; give one value or more");
   }
   return values;
-}
-
-NumberText endOf(JsonObject& object, const char* key)
-{
-  const std::string text = object.number(key, "");
-  const auto end = numberText(text);
-  if (!end)
-  {
-    object.refuse(key, inQuotes(text) + " is no number with a unit; write one, as in 10mm");
-  }
-  return *end;
-}
-
-std::size_t countOf(JsonObject& object, const char* key)
-{
-  const auto count = numberText(object.number(key, ""));
-  if (!count || !count->unit.empty() || count->number != std::floor(count->number) ||
-    count->number < 1 || count->number > static_cast<double>(kMostCases))
-  {
-    object.refuse(key, "must be a whole number, 1 to " + std::to_string(kMostCases));
-  }
-  return static_cast<std::size_t>(count->number);
-}
-
-SweepRange rangeOf(JsonObject& object)
-{
-  const NumberText from = endOf(object, "from");
-  const NumberText to = endOf(object, "to");
-  if (from.unit != to.unit)
-  {
-    object.refuse("to", "has another unit than \"from\"; write both in one");
-  }
-  SweepRange range{ from.number, to.number, from.unit };
-  range.logarithmic =
-    object.choice("scale", object.text("scale", "linear"), { "linear", "log" }) == 1;
-  if (!(range.to > range.from) || (range.logarithmic && range.from <= 0.0))
-  {
-    object.refuse("to", "must be more than \"from\", and both more than 0 on a log scale");
-  }
-  return range;
-}
-
-// by a count, or by a step that meets both ends
-std::vector<std::string> rangeValues(JsonObject object)
-{
-  const SweepRange range = rangeOf(object);
-  std::size_t count = 0;
-  if (object.has("step") == object.has("count"))
-  {
-    object.refuse("count", "give the count of values, or the step between them");
-  }
-  if (object.has("count"))
-  {
-    count = countOf(object, "count");
-  }
-  else
-  {
-    const NumberText step = endOf(object, "step");
-    const double steps = (range.to - range.from) / step.number;
-    const double whole = std::round(steps);
-    if (step.unit != range.unit || !(whole >= 1.0 && whole < static_cast<double>(kMostCases)) ||
-      range.logarithmic || std::abs(steps - whole) > 1e-9 * whole)
-    {
-      object.refuse("step", "must lead from \"from\" to \"to\" in whole steps, in their unit");
-    }
-    count = static_cast<std::size_t>(whole) + 1;
-  }
-  object.finish();
-  return evenly(range, count);
 }
 
 std::vector<std::string> valuesOf(const JsonObject& at, const std::string& path,
@@ -203,10 +145,11 @@ public:
     }
     const char* path = "/latin_hypercube";
     JsonObject object(document_["latin_hypercube"], file_, path);
-    const std::size_t count = countOf(object, "count");
-    const std::size_t seed = countOf(object, "seed");
+    refuseUnknown(object, { "count", "seed", "ranges" });
+    const std::size_t count = countOf(object, "count", 1, ", of the samples");
+    const std::size_t seed =
+      countOf(object, "seed", 0, "; each gives other samples, and always the same ones");
     (void)object.object("ranges");
-    object.finish();
     SweepAxis axis;
     std::vector<SweepRange> ranges;
     const json& parts = document_["latin_hypercube"].value("ranges", json::object());
@@ -214,8 +157,8 @@ public:
     {
       once(object, key);
       JsonObject range(value, file_, std::string(path) + "/ranges/" + key);
+      refuseUnknown(range, { "from", "to", "scale" });
       ranges.push_back(rangeOf(range));
-      range.finish();
       axis.names.push_back(key);
     }
     axis.rows = latinHypercube(ranges, axis.names.empty() ? 0 : count, seed);
@@ -258,6 +201,14 @@ private:
   std::set<std::string> names_;
 };
 
+// of a picture, before its ending
+bool isFileName(const std::string& name)
+{
+  const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0; };
+  return !name.empty() && isPlain(name.front()) &&
+    std::ranges::all_of(name, [&](char c) { return isPlain(c) || c == '-' || c == '_'; });
+}
+
 SweepPlot readPlot(JsonObject object, const json& value)
 {
   SweepPlot plot{ .name = object.text("name", ""),
@@ -268,10 +219,15 @@ SweepPlot readPlot(JsonObject object, const json& value)
     .colors = object.text("colors", "") };
   JsonObject where = object.object("where");
   object.finish();
-  if (plot.name.empty() || plot.x.empty() || plot.y.empty() ||
-    plot.name.find('/') != plot.name.npos)
+  if (!isFileName(plot.name))
   {
-    object.refuse("name", "a plot has a name for its file, and the columns x and y");
+    object.refuse("name",
+      inQuotes(plot.name) +
+        " names no file; give letters, digits, - and _, a letter or digit first");
+  }
+  if (plot.x.empty() || plot.y.empty())
+  {
+    object.refuse(plot.x.empty() ? "x" : "y", "is missing; give a column of the merged table");
   }
   if (!plot.curves.empty() && !plot.colors.empty())
   {
@@ -311,7 +267,7 @@ Sweep readSweepFile(const std::string& name)
     object.refuse("palp_sweep", "must be 1, the version of sweeps that this program reads");
   }
   (void)object.text("$schema", "");
-  Sweep sweep;
+  Sweep sweep{ .file = file, .title = {}, .kind = {} };
   sweep.title = object.text("title", path.stem().string());
   sweep.kind = kKinds[object.choice("kind", object.text("kind", ""), kKinds)];
   for (const char* part : { "fixed", "grid", "zip", "latin_hypercube" })

@@ -98,4 +98,17 @@ std::string lastWords(const std::filesystem::path& log, int status)
   return printable(words.starts_with(kBegin) ? words.substr(kBegin.size()) : words);
 }
 
+bool hasWarning(const std::filesystem::path& log)
+{
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);)
+  {
+    if (line.starts_with("palp: warning:"))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace palp

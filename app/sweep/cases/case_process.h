@@ -28,6 +28,9 @@ struct Ended
 /// One that has ended; process is -1 where none has.
 [[nodiscard]] Ended endedProcess();
 
+/// Whether a program that did its work had a warning.
+[[nodiscard]] bool hasWarning(const std::filesystem::path& log);
+
 /// Why a program failed, in one sentence: its last words, or the signal that ended it.
 [[nodiscard]] std::string lastWords(const std::filesystem::path& log, int status);
 

@@ -4,6 +4,7 @@
 #include "haptics/files/replace_file.h"
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
@@ -97,7 +98,7 @@ double diskTime(const fs::path& folder)
 bool isSilent(const fs::path& file, double now)
 {
   const double beat = beatOf(file);
-  return beat > 0.0 && now - beat > kSilence;
+  return beat > 0.0 && std::abs(now - beat) > kSilence; // ahead where the disk's clock was set back
 }
 
 // text: of its owner; empty where one ended while it gave the claim up

@@ -15,7 +15,7 @@ namespace palp
 /// It appears by a rename, which one of several runners can do, on a network, too; no lock. It is
 /// beaten as long as the runner lives. One whose runner is gone is taken over: on the same machine
 /// at once; where it is elsewhere or was stopped, when its last beat is two minutes behind one of
-/// ours, both by the clock of the disk, so that clocks of nodes may differ.
+/// ours, or ahead of it, both by the clock of the disk, so that clocks of nodes may differ.
 ///
 /// A claim only saves work: what is finished is renamed into its place, which one runner can do.
 class Claim

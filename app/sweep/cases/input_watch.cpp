@@ -13,17 +13,32 @@ InputWatch::InputWatch(const std::map<std::string, std::string>& hashes)
 {
 }
 
-InputWatch::Stamp InputWatch::stampOf(const std::string& file)
+std::vector<InputWatch::Stamp> InputWatch::stampsOf(const std::string& file)
 {
-  struct stat is = {};
-  (void)stat(file.c_str(), &is); // what is missing is like nothing that was there
-  return { is.st_dev, is.st_ino, is.st_size, is.st_mtim.tv_sec, is.st_mtim.tv_nsec,
-    is.st_ctim.tv_sec, is.st_ctim.tv_nsec };
+  std::vector<Stamp> stamps;
+  for (const std::filesystem::path& one : filesBehind(file))
+  {
+    struct stat is = {};
+    (void)stat(one.c_str(), &is); // what is missing is like nothing that was there
+    stamps.emplace_back(is.st_dev, is.st_ino, is.st_size, is.st_mtim.tv_sec, is.st_mtim.tv_nsec,
+      is.st_ctim.tv_sec, is.st_ctim.tv_nsec);
+  }
+  return stamps;
+}
+
+std::string InputWatch::shown(const std::string& file)
+{
+  std::string words;
+  for (const std::filesystem::path& one : filesBehind(file))
+  {
+    words += (words.empty() ? "" : " or ") + one.string();
+  }
+  return words;
 }
 
 void InputWatch::check(const std::string& file)
 {
-  const Stamp now = stampOf(file);
+  const std::vector<Stamp> now = stampsOf(file);
   if (const auto seen = seen_.find(file); seen != seen_.end() && seen->second == now)
   {
     return;
@@ -32,14 +47,14 @@ void InputWatch::check(const std::string& file)
   if (planned == hashes_.end() || describeFile(file).sha256 != planned->second)
   {
     throw Error(ErrorCode::BadFile,
-      file + ": was edited after planning; plan again, which keeps what is finished");
+      shown(file) + ": was edited after planning; plan again, which keeps what is finished");
   }
   seen_[file] = now;
 }
 
 bool InputWatch::isTouched(const std::string& file) const
 {
-  return stampOf(file) != seen_.at(file);
+  return stampsOf(file) != seen_.at(file);
 }
 
 } // namespace palp

@@ -5,6 +5,7 @@
 #include <string>
 #include <sys/types.h>
 #include <tuple>
+#include <vector>
 
 namespace palp
 {
@@ -23,14 +24,17 @@ public:
   /// After a case has read it: whether anybody touched it since check().
   [[nodiscard]] bool isTouched(const std::string& file) const;
 
+  /// A file in words, with the one behind it.
+  [[nodiscard]] static std::string shown(const std::string& file);
+
 private:
   // device, node, size, and times of content and of entry
   using Stamp = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
 
-  [[nodiscard]] static Stamp stampOf(const std::string& file);
+  [[nodiscard]] static std::vector<Stamp> stampsOf(const std::string& file);
 
   const std::map<std::string, std::string>& hashes_;
-  std::map<std::string, Stamp> seen_;
+  std::map<std::string, std::vector<Stamp>> seen_;
 };
 
 } // namespace palp

@@ -3,14 +3,11 @@
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/result_rows.h"
 #include "app/sweep/cases/table_writer.h"
-#include "app/sweep/sweep_range.h"
 #include "haptics/error.h"
-#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace palp
 {
@@ -77,6 +74,9 @@ private:
         if (folder.empty())
         {
           first_ = missing_++ == 0 ? one : first_;
+        }
+        if (folder.empty() || (missing_ > 0 && !options_.partial)) // only counts them
+        {
           return;
         }
         manifest_.refuseEdited(one, optionsOf(manifest_.head(), one.values));
@@ -166,14 +166,14 @@ private:
     const auto& varied = manifest_.head().columns;
     for (std::size_t i = 0; i < varied.size(); ++i)
     {
-      const auto number = varied[i].isNumber ? numberText(one.values[i]) : std::nullopt;
-      cells[i] = number ? shortest(number->number) : one.values[i];
+      cells[i] = varied[i].cell(one.values[i]);
     }
   }
 
   void refuseMissing() const
   {
-    if (missing_ == 0 || options_.partial)
+    const bool none = missing_ == manifest_.head().count;
+    if (missing_ == 0 || (options_.partial && !none))
     {
       return;
     }
@@ -183,7 +183,7 @@ private:
         counted(manifest_.head().count, "case") + " without a result, the first is case " +
         std::to_string(first_.number) +
         (fs::exists(failure) ? ", which failed (" + (failure / kLogFile).string() + ")" : "") +
-        "; palp sweep run them, or merge the others with --partial");
+        "; palp sweep run them" + (none ? "" : ", or merge the others with --partial"));
   }
 
   Manifest& manifest_;

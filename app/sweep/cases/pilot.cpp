@@ -1,6 +1,7 @@
 #include "app/sweep/cases/pilot.h"
 
 #include "app/sweep/case_folders.h"
+#include "app/sweep/cases/case_record.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -17,14 +18,14 @@ CaseCost runPilots(Manifest& manifest, const std::vector<std::size_t>& pilots)
   for (const std::size_t pilot : pilots)
   {
     const auto folder = CaseFolders{ manifest.folder() }.result(manifest.at(pilot).name);
-    const auto cost = costOf(folder);
-    if (!cost)
+    const auto record = readRecord(folder);
+    if (!record)
     {
       throw Error(ErrorCode::BadFile,
         (folder / kCaseFile).string() + ": is damaged; remove its folder and plan again");
     }
-    most.seconds = std::max(most.seconds, cost->seconds);
-    most.memory = std::max(most.memory, cost->memory);
+    most.seconds = std::max(most.seconds, record->seconds);
+    most.memory = std::max(most.memory, record->memory);
   }
   return most;
 }

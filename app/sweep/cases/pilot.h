@@ -1,12 +1,18 @@
 #pragma once
 
 #include "app/sweep/cases/runner.h"
-#include "app/sweep/cases/status.h"
 
 #include <vector>
 
 namespace palp
 {
+
+/// What a case took, in seconds and bytes of memory.
+struct CaseCost
+{
+  double seconds;
+  double memory;
+};
 
 /// Computes pilot cases one after the other.
 /// @return        the longest time and the largest memory of any of them

@@ -1,5 +1,7 @@
 #include "app/sweep/cases/result_rows.h"
 
+#include "app/program/sha256.h"
+#include "app/sweep/cases/case_record.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
@@ -8,15 +10,31 @@
 #include <charconv>
 #include <fstream>
 #include <limits>
+#include <optional>
+#include <sstream>
 
 namespace palp
 {
 namespace
 {
 
-std::string tableName(const std::string& kind)
+[[noreturn]] void refuseDamaged(const std::filesystem::path& file)
 {
-  return kind == "calibrate" ? "table.csv" : kind == "force" ? "force.csv" : "samples.csv";
+  throw Error(ErrorCode::BadFile,
+    file.string() +
+      ": is not what its case left, or gone; palp sweep run DIR --check computes it again");
+}
+
+// all of it, as the record of the case has it
+std::optional<std::string> wholeText(
+  const std::filesystem::path& folder, const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text{ std::istreambuf_iterator<char>(in), {} };
+  const auto record = readRecord(folder);
+  const bool isWhole = in && record && record->name == folder.filename() &&
+    record->failed.empty() && record->tableSha256 == sha256Of(text);
+  return isWhole ? std::optional(std::move(text)) : std::nullopt;
 }
 
 double valueOf(const std::string& cell)
@@ -50,11 +68,29 @@ void keepLargest(ResultRows& table, const std::string& largest, const std::strin
 
 } // namespace
 
+std::filesystem::path resultTable(const std::filesystem::path& folder, const std::string& kind)
+{
+  return folder /
+    (kind == "calibrate"  ? "table.csv"
+        : kind == "force" ? "force.csv"
+                          : "samples.csv");
+}
+
+bool isIntact(const std::filesystem::path& folder, const std::string& kind)
+{
+  return wholeText(folder, resultTable(folder, kind)).has_value();
+}
+
 ResultRows readResult(
   const std::filesystem::path& folder, const std::string& kind, const std::string& largest)
 {
-  const std::filesystem::path file = folder / tableName(kind);
-  std::ifstream in(file);
+  const std::filesystem::path file = resultTable(folder, kind);
+  const std::optional<std::string> text = wholeText(folder, file);
+  if (!text)
+  {
+    refuseDamaged(file);
+  }
+  std::istringstream in(*text);
   ResultRows table;
   for (std::string line; std::getline(in, line);)
   {
@@ -70,19 +106,13 @@ ResultRows readResult(
     }
     if (cells.size() != table.titles.size())
     {
-      throw Error(ErrorCode::BadFile,
-        file.string() + ": a row has " + std::to_string(cells.size()) + " cells instead of " +
-          std::to_string(table.titles.size()) +
-          "; remove the folder of this case and run it again");
+      refuseDamaged(file);
     }
     table.rows.push_back(std::move(cells));
   }
   if (table.titles.empty())
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() +
-        ": cannot be read or is empty; remove the folder of this case and run it "
-        "again");
+    refuseDamaged(file);
   }
   if (!largest.empty())
   {

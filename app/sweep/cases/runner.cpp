@@ -1,28 +1,27 @@
 #include "app/sweep/cases/runner.h"
 
-#include "app/program/machine.h"
 #include "app/program/progress_line.h"
+#include "app/program/sha256.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/case_process.h"
+#include "app/sweep/cases/case_record.h"
 #include "app/sweep/cases/claim.h"
 #include "app/sweep/cases/input_watch.h"
+#include "app/sweep/cases/result_rows.h"
 #include "app/sweep/cases/waiting_signals.h"
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <deque>
-#include <fstream>
 #include <map>
+#include <sys/wait.h>
 
 namespace palp
 {
@@ -33,6 +32,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr timespec kBeat{ .tv_sec = 5, .tv_nsec = 0 };           // far below Claim's silence
+constexpr int kLooks = 3;                                        // for a signal that is on its way
 constexpr timespec kLook{ .tv_sec = 0, .tv_nsec = 200'000'000 }; // at what another runner has
 
 struct Work
@@ -44,13 +44,23 @@ struct Work
   Clock::time_point begin;
 };
 
+struct Releasing // whatever happens
+{
+  const Claim& claim;
+  ~Releasing()
+  {
+    claim.release();
+  }
+};
+
 class Runner
 {
 public:
-  Runner(Manifest& manifest, unsigned jobs)
+  Runner(Manifest& manifest, unsigned jobs, bool checks)
     : manifest_(manifest)
     , folders_{ manifest.folder() }
     , jobs_(jobs)
+    , checks_(checks)
     , inputs_(manifest.head().files)
   {
     std::error_code failed;
@@ -123,21 +133,37 @@ private:
     }
   }
 
-  // until something ends, or for some time
-  void pause(const timespec& most)
+  static void refuseAsked(int signal)
   {
-    const int signal = signals_.wait(most);
     if (signal > 0 && signal != SIGCHLD)
     {
       throw Error(ErrorCode::NoSolution,
         "interrupted; the cases that were finished stay, the same command goes on with the others");
     }
+  }
+
+  // a case that ended by what asks us to end, too, for all of the group were asked
+  void endIfAsked(const Ended& ended) const
+  {
+    for (int i = 0; WIFSIGNALED(ended.status) && i < kLooks; ++i)
+    {
+      refuseAsked(signals_.wait(kLook));
+    }
+  }
+
+  // until something ends, or for some time
+  void pause(const timespec& most)
+  {
+    refuseAsked(signals_.wait(most));
     for (Ended ended = endedProcess(); ended.process >= 0; ended = endedProcess())
     {
       if (const auto found = running_.find(ended.process); found != running_.end())
       {
-        finish(found->second, ended);
-        running_.erase(found);
+        const Work work = std::move(found->second);
+        running_.erase(found); // its number may be another's from now on
+        const Releasing claim{ work.claim };
+        endIfAsked(ended);
+        finish(work, ended);
       }
     }
     for (const auto& [process, work] : running_)
@@ -146,10 +172,16 @@ private:
     }
   }
 
+  [[nodiscard]] bool isFinished(const std::string& name) const
+  {
+    return folders_.isDone(name) &&
+      (!checks_ || isIntact(folders_.result(name), manifest_.head().kind));
+  }
+
   void start(std::size_t number)
   {
     PlannedCase planned = manifest_.at(number);
-    if (folders_.isDone(planned.name))
+    if (isFinished(planned.name))
     {
       ++outcome_.before;
       return;
@@ -160,7 +192,7 @@ private:
     {
       elsewhere_.push_back(number);
     }
-    else if (folders_.isDone(planned.name)) // since we looked
+    else if (isFinished(planned.name)) // since we looked
     {
       claim->release();
       ++outcome_.before;
@@ -182,7 +214,7 @@ private:
     if (head.kind == "force")
     {
       fs::create_directory(result);
-      out = result / "force.csv";
+      out = resultTable(result, head.kind);
     }
     else
     {
@@ -215,13 +247,14 @@ private:
       if (inputs_.isTouched(file))
       {
         throw Error(ErrorCode::BadFile,
-          file + ": was edited while case " + std::to_string(work.planned.number) +
+          InputWatch::shown(file) + ": was edited while case " +
+            std::to_string(work.planned.number) +
             " was computed, which is thrown away; plan again, which keeps what is finished");
       }
     }
   }
 
-  void finish(Work& work, const Ended& ended)
+  void finish(const Work& work, const Ended& ended)
   {
     const fs::path log = work.claim.folder() / kLogFile;
     if (!fs::exists(log)) // we were silent for so long that another runner took it over
@@ -231,7 +264,6 @@ private:
     }
     refuseTouched(work);
     const bool good = ended.status == 0;
-    const double seconds = std::chrono::duration<double>(Clock::now() - work.begin).count();
     const fs::path result = work.claim.folder() / work.planned.name;
     std::string sentence = good ? "" : lastWords(log, ended.status);
     if (const std::size_t at = sentence.find(result.string()); at != sentence.npos)
@@ -240,44 +272,41 @@ private:
     }
     fs::create_directories(result); // a failed one may have none
     fs::rename(log, result / kLogFile);
-    describe(work, result / kCaseFile, seconds, ended.memory, sentence);
-    if (good && warns(result / kLogFile))
+    describe(work, result, ended, sentence);
+    if (good && hasWarning(result / kLogFile))
     {
       outcome_.warned.push_back(work.planned.number);
     }
     good ? keepResult(work, result) : keepFailure(work, result, sentence);
-    work.claim.release();
   }
 
-  static bool warns(const fs::path& log)
+  void describe(
+    const Work& work, const fs::path& result, const Ended& ended, const std::string& sentence) const
   {
-    std::ifstream in(log);
-    for (std::string line; std::getline(in, line);)
+    CaseRecord record{ .name = work.planned.name,
+      .number = work.planned.number,
+      .command = work.words,
+      .seconds = std::chrono::duration<double>(Clock::now() - work.begin).count(),
+      .memory = ended.memory,
+      .failed = sentence };
+    if (sentence.empty())
     {
-      if (line.starts_with("palp: warning:"))
-      {
-        return true;
-      }
+      Sha256 hash;
+      hash.addFile(resultTable(result, manifest_.head().kind));
+      record.tableSha256 = hash.hex();
     }
-    return false;
-  }
-
-  static void describe(const Work& work, const fs::path& file, double seconds, double memory,
-    const std::string& sentence)
-  {
-    const nlohmann::ordered_json about{ { "case", work.planned.number }, { "command", work.words },
-      { "seconds", seconds }, { "memory_MiB", std::ceil(memory / 1024.0 / 1024.0) },
-      { "processor", processorName() }, { "failed", sentence } };
-    if (!(std::ofstream(file) << about.dump(2) << '\n').flush())
-    {
-      refuseFile(file, errno);
-    }
+    writeRecord(result, record);
   }
 
   void keepResult(const Work& work, const fs::path& result)
   {
-    publish(result, folders_.result(work.planned.name));
+    const fs::path place = folders_.result(work.planned.name);
     std::error_code ignored;
+    if (!isFinished(work.planned.name)) // but damaged
+    {
+      fs::rename(place, work.claim.folder() / "before", ignored);
+    }
+    publishCase(result, place);
     fs::remove_all(folders_.failure(work.planned.name), ignored);
     ++outcome_.computed;
   }
@@ -287,34 +316,16 @@ private:
     const fs::path place = folders_.failure(work.planned.name);
     std::error_code ignored;
     fs::rename(place, work.claim.folder() / "before", ignored);
-    publish(result, place);
+    publishCase(result, place);
     outcome_.failed.push_back(work.planned.number);
     progress_.tell("case " + std::to_string(work.planned.number) + ": " + sentence + " (" +
       (place / kLogFile).string() + ")");
   }
 
-  // one of two runners is first; both have the same
-  static void publish(const fs::path& result, const fs::path& place)
-  {
-    std::error_code failed;
-    fs::create_directories(place.parent_path(), failed);
-    for (const auto& entry : fs::directory_iterator(result))
-    {
-      if (const int reason = syncToDisk(entry.path()))
-      {
-        refuseFile(place, reason);
-      }
-    }
-    if (rename(result.c_str(), place.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST)
-    {
-      refuseFile(place, errno);
-    }
-    syncToDisk(place.parent_path());
-  }
-
   Manifest& manifest_;
   CaseFolders folders_;
   std::size_t jobs_;
+  bool checks_; // finished ones, too
   InputWatch inputs_;
   WaitingSignals signals_;
   ProgressLine progress_{ "cases" }; // its thread leaves the signals to us, too
@@ -326,9 +337,10 @@ private:
 
 } // namespace
 
-RunOutcome runCases(Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs)
+RunOutcome runCases(
+  Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs, bool checks)
 {
-  return Runner(manifest, jobs).run(numbers);
+  return Runner(manifest, jobs, checks).run(numbers);
 }
 
 } // namespace palp

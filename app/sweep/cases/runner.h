@@ -24,9 +24,10 @@ struct RunOutcome
 ///
 /// @param numbers  of the cases
 /// @param jobs     how many at a time, 1 or more
+/// @param checks   whether finished ones count only where they are what their cases left
 /// @throws Error   BadFile: a case or a file of it was edited after planning, the folder cannot be
 ///                 written; NoSolution: Ctrl-C or SIGTERM
 [[nodiscard]] RunOutcome runCases(
-  Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs);
+  Manifest& manifest, const std::vector<std::size_t>& numbers, unsigned jobs, bool checks = false);
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "app/program/exec_program.h"
 #include "app/sweep/case_folders.h"
+#include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
@@ -37,9 +38,22 @@ std::string timeText(double minutes)
 
 } // namespace
 
+fs::path plainPlace(const fs::path& folder)
+{
+  fs::path place = fs::absolute(folder).lexically_normal();
+  if (place.string().find_first_of("{}%\n\\\"'") != std::string::npos)
+  {
+    throw Error(ErrorCode::BadValue,
+      inQuotes(place.string()) +
+        ": Slurm and GNU parallel read braces, %, quotes and line ends in another way; choose a "
+        "folder without them");
+  }
+  return place;
+}
+
 fs::path writeSlurm(const fs::path& folder, const SlurmArray& array)
 {
-  const fs::path place = fs::absolute(folder).lexically_normal();
+  const fs::path place = plainPlace(folder);
   const std::size_t chunk = array.chunk();
   const std::size_t last = (array.count + chunk - 1) / chunk - 1;
   const double each = static_cast<double>(chunk) * array.seconds;
@@ -67,7 +81,7 @@ fs::path writeSlurm(const fs::path& folder, const SlurmArray& array)
 
 fs::path writeParallel(const fs::path& folder, std::size_t count)
 {
-  const fs::path place = fs::absolute(folder).lexically_normal();
+  const fs::path place = plainPlace(folder);
   const std::string text = "#!/bin/sh\n# GNU parallel: a job for each case; run it again for what "
                            "failed.\n# \"$@\": -j 8, -S node1,node2\n"
                            "seq 0 " +

@@ -24,15 +24,21 @@ struct SlurmArray
 
 constexpr std::size_t kMostTasks = 1000; ///< that Slurm takes in an array by default, MaxArraySize
 
+/// The folder of a sweep as schedulers find it from everywhere.
+/// @return        its absolute path
+/// @throws Error  BadValue: it has characters that Slurm or GNU parallel read in another way
+[[nodiscard]] std::filesystem::path plainPlace(const std::filesystem::path& folder);
+
 /// Writes sweep.sbatch into the folder of a sweep: a task for each chunk of cases, with twice the
 /// memory and four times the time of the pilot cases.
 /// @return        the file
-/// @throws Error  BadFile: cannot be written
+/// @throws Error  BadFile: cannot be written; else as plainPlace
 [[nodiscard]] std::filesystem::path writeSlurm(
   const std::filesystem::path& folder, const SlurmArray& array);
 
 /// Writes parallel.sh there: a line of GNU parallel, a job for each case, that begins again where
 /// it ended.
+/// @throws Error  as writeSlurm
 [[nodiscard]] std::filesystem::path writeParallel(
   const std::filesystem::path& folder, std::size_t count);
 

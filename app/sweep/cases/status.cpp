@@ -1,16 +1,14 @@
 #include "app/sweep/cases/status.h"
 
 #include "app/sweep/case_folders.h"
+#include "app/sweep/cases/case_record.h"
 #include "app/sweep/cases/claim.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <unordered_set>
 
 namespace palp
@@ -24,12 +22,23 @@ using Names = std::unordered_set<std::string>;
 constexpr std::size_t kMostTimes = 200; // that are read for the median
 constexpr std::size_t kMostTold = 20;   // failures
 
+// nothing where there is none
+fs::directory_iterator entriesOf(const fs::path& folder)
+{
+  std::error_code why;
+  fs::directory_iterator entries(folder, why);
+  if (why && why != std::errc::no_such_file_or_directory)
+  {
+    refuseUnread(folder, why);
+  }
+  return entries;
+}
+
 void addNames(const fs::path& folder, Names& names)
 {
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder, missing))
+  for (const auto& entry : entriesOf(folder))
   {
-    if (std::string name = entry.path().filename(); !isHidden(name))
+    if (std::string name = entry.path().filename(); entry.is_directory() && !isHidden(name))
     {
       names.insert(std::move(name));
     }
@@ -40,18 +49,11 @@ void addNames(const fs::path& folder, Names& names)
 Names namesBelow(const fs::path& folder)
 {
   Names names;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder, missing))
+  for (const auto& entry : entriesOf(folder))
   {
     addNames(entry.path(), names);
   }
   return names;
-}
-
-nlohmann::json caseFile(const fs::path& folder)
-{
-  std::ifstream in(folder / kCaseFile);
-  return nlohmann::json::parse(in, nullptr, false); // what is damaged says nothing
 }
 
 double medianTime(const CaseFolders& folders, const Names& done)
@@ -61,9 +63,9 @@ double medianTime(const CaseFolders& folders, const Names& done)
   std::size_t at = 0;
   for (const std::string& name : done)
   {
-    if (const auto cost = at++ % step == 0 ? costOf(folders.result(name)) : std::nullopt)
+    if (const auto record = at++ % step == 0 ? readRecord(folders.result(name)) : std::nullopt)
     {
-      times.push_back(cost->seconds);
+      times.push_back(record->seconds);
     }
   }
   if (times.empty())
@@ -88,20 +90,6 @@ std::string inWords(double seconds)
 
 } // namespace
 
-std::optional<CaseCost> costOf(const fs::path& folder)
-{
-  const auto about = caseFile(folder);
-  try
-  {
-    return CaseCost{ about.at("seconds").get<double>(),
-      about.at("memory_MiB").get<double>() * 1024.0 * 1024.0 };
-  }
-  catch (const nlohmann::json::exception&)
-  {
-    return std::nullopt;
-  }
-}
-
 SweepStatus statusOf(Manifest& manifest)
 {
   const CaseFolders folders{ manifest.folder() };
@@ -125,9 +113,8 @@ SweepStatus statusOf(Manifest& manifest)
       }
       else if (failed.contains(one.name))
       {
-        const auto about = caseFile(folders.failure(one.name));
-        status.failed.push_back({ one.number,
-          about.is_object() ? about.value("failed", std::string()) : "its record is damaged",
+        const auto record = readRecord(folders.failure(one.name));
+        status.failed.push_back({ one.number, record ? record->failed : "its record is damaged",
           folders.failure(one.name) / kLogFile });
       }
     });

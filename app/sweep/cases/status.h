@@ -2,23 +2,11 @@
 
 #include "app/sweep/manifest.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace palp
 {
-
-/// What a case took, in seconds and bytes of memory.
-struct CaseCost
-{
-  double seconds;
-  double memory;
-};
-
-/// @param folder  of a finished case
-/// @return        nothing where its record is damaged
-[[nodiscard]] std::optional<CaseCost> costOf(const std::filesystem::path& folder);
 
 /// A case that failed the last time it was computed.
 struct FailedCase

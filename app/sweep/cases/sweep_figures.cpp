@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -18,7 +19,12 @@ namespace palp
 namespace
 {
 
-constexpr std::size_t kColors = 8;                  // of the palette
+constexpr std::size_t kColors = 8; // of the palette
+// of the first eight curves, of the next eight ...; kMarks where they have one point each
+constexpr std::array kMarks{ figures::Curve::Style::Circles, figures::Curve::Style::Squares,
+  figures::Curve::Style::Diamonds };
+constexpr std::array kStyles{ figures::Curve::Style::Line, figures::Curve::Style::Dashed,
+  figures::Curve::Style::Circles, figures::Curve::Style::Squares, figures::Curve::Style::Diamonds };
 using Rows = std::vector<std::vector<std::string>>; // the titles first
 
 // numbers where they are drawn, else words, by which rows are chosen
@@ -87,7 +93,8 @@ void refuseMixed(const SweepPlot& plot, const figures::Table& table, figures::Cu
   }
 }
 
-figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
+figures::Figure figureOf(
+  const SweepPlot& plot, const figures::Table& table, const std::vector<SweepColumn>& columns)
 {
   figures::Figure figure{
     .name = plot.name, .caption = plot.title, .bottom = plot.x, .left = plot.y
@@ -102,6 +109,11 @@ figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
   }
   const std::size_t column = table.indexOf(plot.curves);
   std::vector<std::string> seen;
+  std::string unit;
+  for (const SweepColumn& varied : columns)
+  {
+    unit = varied.title() == plot.curves && !varied.unit.empty() ? " " + varied.unit : unit;
+  }
   for (const auto& row : table.rows)
   {
     const std::string value = figures::textOf(row[column]);
@@ -109,14 +121,24 @@ figures::Figure figureOf(const SweepPlot& plot, const figures::Table& table)
     {
       seen.push_back(value);
       figures::Curve& one = figure.curves.emplace_back(curve);
-      one.label = value;
+      one.label = value + unit;
       one.where.emplace_back(plot.curves, value);
-      // the ninth looks like the first, but dashed
       one.color = static_cast<int>((seen.size() - 1) % kColors);
-      one.style =
-        seen.size() > kColors ? figures::Curve::Style::Dashed : figures::Curve::Style::Line;
+      const std::size_t round = (seen.size() - 1) / kColors;
+      one.style = kStyles[round % kStyles.size()];
+      if (figures::pointsOf({ &table, 1 }, one).x.size() == 1) // is no line
+      {
+        one.style = kMarks[round % kMarks.size()];
+      }
       refuseMixed(plot, table, one);
     }
+  }
+  if (seen.size() > kColors * kStyles.size())
+  {
+    refusePlot(plot,
+      "would have " + std::to_string(seen.size()) + " curves, of which " +
+        std::to_string(kColors * kStyles.size()) +
+        " can be told apart; choose some by \"where\", or draw a map by \"colors\"");
   }
   return figure;
 }
@@ -161,7 +183,9 @@ figures::Figure mapOf(const SweepPlot& plot, const figures::Table& table, figure
   {
     if (!places.emplace(values.x[i], heights.y[i]).second)
     {
-      refusePlot(plot, "several rows would be at one place of the map" + std::string(kTellApart));
+      refusePlot(plot,
+        "several rows would be at one place of the map; choose one of them by \"where\", or by "
+        "--largest COLUMN where they are of one case");
     }
   }
   if (values.y.empty())
@@ -192,6 +216,31 @@ figures::Figure mapOf(const SweepPlot& plot, const figures::Table& table, figure
   return figure;
 }
 
+void addPlot(SweepFigures& drawn, const SweepPlot& plot, const Rows& rows,
+  const std::vector<SweepColumn>& columns)
+{
+  refuseMissing(plot, rows.front());
+  std::vector<figures::Table> tables{ tableOf(plot, rows) };
+  figures::Figure figure;
+  if (plot.colors.empty())
+  {
+    figure = figureOf(plot, tables.front(), columns);
+    if (std::ranges::all_of(figure.curves,
+          [&](const figures::Curve& curve) { return figures::pointsOf(tables, curve).x.empty(); }))
+    {
+      refuseEmpty(plot);
+    }
+  }
+  else
+  {
+    figures::Table own;
+    figure = mapOf(plot, tables.front(), own);
+    tables.push_back(std::move(own));
+  }
+  drawn.figures.push_back(std::move(figure));
+  std::ranges::move(tables, std::back_inserter(drawn.tables));
+}
+
 } // namespace
 
 SweepFigures sweepFigures(Manifest& manifest, const MergeOptions& options)
@@ -200,23 +249,14 @@ SweepFigures sweepFigures(Manifest& manifest, const MergeOptions& options)
   SweepFigures drawn;
   for (const SweepPlot& plot : manifest.head().plots)
   {
-    refuseMissing(plot, rows.front());
-    drawn.tables.push_back(tableOf(plot, rows));
-    if (plot.colors.empty())
+    try
     {
-      const figures::Figure& figure =
-        drawn.figures.emplace_back(figureOf(plot, drawn.tables.back()));
-      if (std::ranges::all_of(figure.curves,
-            [&](const figures::Curve& curve)
-            { return figures::pointsOf(drawn.tables, curve).x.empty(); }))
-      {
-        refuseEmpty(plot);
-      }
-      continue;
+      addPlot(drawn, plot, rows, manifest.head().columns);
     }
-    figures::Table own;
-    drawn.figures.push_back(mapOf(plot, drawn.tables.back(), own));
-    drawn.tables.push_back(std::move(own));
+    catch (const Error& error)
+    {
+      drawn.refused.emplace_back(error.what());
+    }
   }
   return drawn;
 }

@@ -16,6 +16,12 @@ namespace
 
 namespace fs = std::filesystem;
 
+// of the first failure, before others fail for reasons of theirs
+void note(const std::ofstream& out, int& reason)
+{
+  reason = out || reason != 0 ? reason : errno;
+}
+
 void finishFile(std::ofstream& out, const fs::path& file)
 {
   const int before = errno;
@@ -49,7 +55,7 @@ public:
       separator = ",";
     }
     out_ << '\n';
-    reason_ = out_ || reason_ != 0 ? reason_ : errno; // before others fail for reasons of theirs
+    note(out_, reason_);
     return true;
   }
 
@@ -97,6 +103,7 @@ public:
       if (!columns_[i].isNumber)
       {
         spools_[i].write(cell.c_str(), static_cast<std::streamsize>(cell.size() + 1));
+        note(spools_[i], reason_);
         continue;
       }
       const std::optional<double> value = numberOf(cell);
@@ -105,6 +112,7 @@ public:
         return false;
       }
       spools_[i].write(reinterpret_cast<const char*>(&*value), sizeof *value);
+      note(spools_[i], reason_);
     }
     return true;
   }
@@ -119,6 +127,7 @@ public:
     std::uint64_t offset = 0;
     for (std::size_t i = 0; i < columns_.size(); ++i)
     {
+      errno = reason_;
       finishFile(spools_[i], file_);
       out << R"(<)" << (columns_[i].isNumber ? "DataArray" : "Array") << R"( type=")"
           << (columns_[i].isNumber ? "Float64" : "String") << R"(" Name=")"
@@ -133,9 +142,11 @@ public:
       if (size > 0) // else it would count as a failure
       {
         out << std::ifstream(spool(i), std::ios::binary).rdbuf();
+        note(out, reason_);
       }
     }
     out << "</AppendedData></VTKFile>\n";
+    errno = reason_;
     finishFile(out, file_);
   }
 
@@ -147,6 +158,7 @@ private:
 
   fs::path file_;
   std::vector<WrittenColumn> columns_;
+  int reason_ = 0;
   std::vector<std::ofstream> spools_;
   std::size_t rows_ = 0;
 };

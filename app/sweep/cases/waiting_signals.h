@@ -17,7 +17,12 @@ public:
     sigaddset(&signals_, SIGCHLD);
     for (const int signal : std::array{ SIGINT, SIGTERM, SIGHUP })
     {
-      sigaddset(&signals_, signal);
+      struct sigaction how = {};
+      sigaction(signal, nullptr, &how);
+      if (how.sa_handler != SIG_IGN) // as nohup has it
+      {
+        sigaddset(&signals_, signal);
+      }
     }
     pthread_sigmask(SIG_BLOCK, &signals_, &before_);
   }

@@ -74,12 +74,21 @@ constexpr const char* kBefore = "\nof the run before"; // ends each file of that
 class Killed : public testing::Test
 {
 protected:
+  /// A command that replaces all of a folder.
   /// @param isWhole  of the files: those before and those of a run that nobody killed are
   void killOften(
     const std::string& command,
     const std::function<bool(const Files&)>& isWhole = [](const Files&) { return false; })
   {
-    const std::string full = PALP_PROGRAM " " + command + " --overwrite --out " + out_.string();
+    killAnyOften(command + " --overwrite --out " + out_.string(), isWhole);
+  }
+
+  /// One that writes into that folder of itself.
+  void killAnyOften(
+    const std::string& command,
+    const std::function<bool(const Files&)>& isWhole = [](const Files&) { return false; })
+  {
+    const std::string full = PALP_PROGRAM " " + command;
     const auto start = Clock::now();
     int events = 0;
     {
@@ -163,6 +172,28 @@ TEST_F(Killed, Fit)
 TEST_F(Killed, Scene)
 {
   killOften("scene block_force");
+}
+
+// a plan of ten thousand cases, and a merge of forty
+TEST_F(Killed, SweepPlanAndMerge)
+{
+  const auto sweep = [&](const char* name, int steps)
+  {
+    const std::string file = (made_.path() / name).string();
+    std::ofstream(file)
+      << R"({"palp_sweep": 1, "kind": "force", "fixed": {"depth": "1:1:1mm"}, "grid": {"poisson":
+         [0.3, 0.4], "young": {"from": "1kPa", "to": "9kPa", "count": )"
+      << steps << "}}}";
+    return file;
+  };
+  killAnyOften("sweep plan " + sweep("many.json", 5000) + " " + out_.string());
+  const std::string folder = (made_.path() / "few").string();
+  ASSERT_EQ(
+    test::runCommand(PALP_PROGRAM " sweep plan " + sweep("few.json", 20) + " " + folder).code, 0);
+  ASSERT_EQ(test::runCommand(PALP_PROGRAM " sweep run " + folder).code, 0);
+  std::filesystem::remove_all(out_);
+  std::filesystem::create_directory(out_);
+  killAnyOften("sweep merge " + folder + " --out " + (out_ / "all.vtt").string());
 }
 
 #ifdef PALP_SLOW // seconds for each run

@@ -16,7 +16,8 @@ TEST(Program, HelpsByWordAndNamesTheCommands)
 {
   for (const char* arguments : { "help", "--help", "help run", "run --help" })
   {
-    const Finished finished = palp(arguments);
+    const Finished finished =
+      runCommand(std::string("env -u DISPLAY -u WAYLAND_DISPLAY " PALP_PROGRAM " ") + arguments);
     EXPECT_EQ(finished.code, 0) << arguments;
     EXPECT_NE(finished.out.find(std::string(arguments).find("run") < 9 ? "--path" : "calibrate"),
       std::string::npos)
@@ -28,6 +29,16 @@ TEST(Program, HelpsByWordAndNamesTheCommands)
   EXPECT_NE(slip.err.find("calibrate"), std::string::npos) << slip.err;
   // what is wrong with the file comes before the missing display
   EXPECT_NE(palp("view /nonexistent.stl").err.find("/nonexistent.stl"), std::string::npos);
+}
+
+// of a patient's image, where coordinates go in
+TEST(Program, TellsTheFrameOfCoordinates)
+{
+  for (const char* command : { "run", "view" })
+  {
+    const Finished help = palp(std::string(command) + " --help");
+    EXPECT_NE(help.out.find("LPS"), std::string::npos) << command;
+  }
 }
 
 TEST(Program, IsRunByTheReadmesFirstCommand)

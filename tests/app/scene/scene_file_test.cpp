@@ -128,8 +128,8 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
   {
     EXPECT_EQ(with(patch).substr(0, std::string(message).size()), message) << patch;
   }
-  EXPECT_NE(refusal("{\n  \"palp_scene\": 1,\n}").find("mine.json: parse error at line 3"),
-    std::string::npos);
+  EXPECT_NE(
+    refusal("{\n  \"palp_scene\": 1,\n}").find("mine.json: is no JSON, line 3"), std::string::npos);
   EXPECT_EQ(refusal(R"({"palp_scene": 1, "tool": "sphere:10mm", "tool": "sphere:3mm"})"),
     "mine.json: the key 'tool' stands twice in one object; keep one");
   const std::string huge = refusal(R"({"palp_scene": 1, "tissue": {"poisson": 1e999}})");

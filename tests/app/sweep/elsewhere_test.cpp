@@ -150,5 +150,32 @@ TEST_F(Sweeping, OnAFullDiskLosesNothing)
   EXPECT_EQ(test::readAll(folder() / "disk.csv"), merged("serial"));
 }
 
+// as over a line that is cut: the shell ends what has no nohup
+TEST_F(Sweeping, GoesOnUnderNohup)
+{
+  plan("grid.json", "grid");
+  countStarts("sleep 0.05");
+  const Finished done = test::runCommand("trap '' HUP; " + counting() + " run " + at("grid") +
+    " & running=$!; until [ -s " + at("starts") + " ]; do sleep 0.02; done; kill -HUP $running; " +
+    "wait $running");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(results("grid").size(), std::size_t{ kCases });
+}
+
+// scancel and timeout ask runner and cases alike; no case failed by that
+TEST_F(Sweeping, AGroupThatIsAskedToEndLeavesNoFailure)
+{
+  plan("grid.json", "grid");
+  countStarts("sleep 0.2");
+  for (int i = 0; i < 5; ++i)
+  {
+    const Finished asked = test::runCommand("setsid env " + counting() + " run --jobs 2 " +
+      at("grid") + " & running=$!; sleep 0.4; /bin/kill -TERM -- -$running; wait $running");
+    EXPECT_EQ(asked.code, 5) << asked.err;
+    EXPECT_NE(asked.err.find("interrupted"), std::string::npos) << asked.err;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "grid/failed")) << asked.err;
+  }
+}
+
 } // namespace
 } // namespace palp

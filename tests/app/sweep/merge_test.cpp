@@ -4,6 +4,7 @@
 #include "app/sweep/plan.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
+#include "tests/app/sweep/simulated_result.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
@@ -48,10 +49,7 @@ protected:
   // as a runner would leave it
   void finish(const PlannedCase& one, const std::string& table) const
   {
-    const fs::path place = CaseFolders{ folder_.path() }.result(one.name);
-    fs::create_directories(place);
-    std::ofstream(place / "force.csv") << table;
-    std::ofstream(place / kCaseFile) << R"({"seconds": 2.0, "memory_MiB": 8})";
+    test::leaveResult(folder_.path(), one.name, table);
   }
 
   [[nodiscard]] std::string merged(
@@ -140,6 +138,43 @@ TEST_F(SimulatedSweep, RefusesWhatIsMissingOrDamaged)
   finish(manifest.at(1), "a\n2\n");
   EXPECT_THROW((void)merged(manifest, "all.txt"), Error);
   EXPECT_THROW((void)merged(manifest, "all.csv", { .largest = "b" }), Error);
+}
+
+// a copy of another case's folder
+TEST_F(SimulatedSweep, MergesNoResultOfAnotherCase)
+{
+  Manifest manifest = planned(2, 1);
+  const CaseFolders folders{ folder_.path() };
+  manifest.forEach([&](const PlannedCase& one) { finish(one, "a\n1\n"); });
+  EXPECT_NO_THROW((void)merged(manifest, "all.csv"));
+  fs::copy(folders.result(manifest.at(0).name), folders.result(manifest.at(1).name),
+    fs::copy_options::overwrite_existing | fs::copy_options::recursive);
+  EXPECT_THROW((void)merged(manifest, "all.csv"), Error);
+}
+
+// by a disk, or by a hand: a digit, a row, all of it, or the record
+TEST_F(SimulatedSweep, MergesNoResultThatIsNotWhatItsCaseLeft)
+{
+  Manifest manifest = planned(1, 1);
+  const PlannedCase one = manifest.at(0);
+  const fs::path place = CaseFolders{ folder_.path() }.result(one.name);
+  for (const char* table : { "a\n1\n3\n", "a\n1\n", "", "gone", "a\n1\n2" })
+  {
+    finish(one, "a\n1\n2\n");
+    EXPECT_NO_THROW((void)merged(manifest, "all.csv"));
+    std::ofstream(place / "force.csv") << table;
+    if (std::string(table) == "gone")
+    {
+      fs::remove(place / "force.csv");
+    }
+    EXPECT_THROW((void)merged(manifest, "all.csv"), Error) << table;
+  }
+  for (const char* record : { "", "[]", "{}", R"({"table_sha256": 3})" })
+  {
+    finish(one, "a\n1\n2\n");
+    std::ofstream(place / kCaseFile) << record;
+    EXPECT_THROW((void)merged(manifest, "all.csv"), Error) << record;
+  }
 }
 
 TEST_F(SimulatedSweep, OfManyCasesKeepsFoldersSmallAndFindsEach)

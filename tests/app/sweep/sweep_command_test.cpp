@@ -1,6 +1,7 @@
 #include "tests/app/commands/victim.h"
 #include "tests/app/sweep/sweep_rig.h"
 
+#include <cstdlib>
 #include <functional>
 #include <random>
 #include <tuple>
@@ -17,10 +18,17 @@ using test::sweep;
 using test::Sweeping;
 
 #ifdef PALP_SLOW
-constexpr int kKills = 100;
+constexpr int kUsual = 100;
 #else
-constexpr int kKills = 4;
+constexpr int kUsual = 4;
 #endif
+
+// PALP_KILLS sets another number
+int kills()
+{
+  const char* asked = std::getenv("PALP_KILLS");
+  return asked ? std::atoi(asked) : kUsual;
+}
 
 class KilledSweeping : public Sweeping
 {
@@ -34,7 +42,7 @@ protected:
     std::mt19937 random(1); // the same choices each time
     std::string where;
     Results before;
-    for (int i = 0; i < kKills; ++i)
+    for (int i = 0; i < kills(); ++i)
     {
       if (i % 10 == 0) // else most is done; what parallel started lives on in the folder before
       {
@@ -90,6 +98,30 @@ TEST_F(Sweeping, SerialEqualsTheCommandsByThemselves)
   EXPECT_EQ(merged("serial"), expected);
 }
 
+TEST_F(Sweeping, ComputesDamagedResultsAgainWhereItIsAskedTo)
+{
+  plan("grid.json", "grid");
+  ASSERT_EQ(sweep("run --jobs 2 " + at("grid")).code, 0);
+  const std::string before = merged("grid");
+  std::vector<std::filesystem::path> places;
+  for (const auto& part : std::filesystem::directory_iterator(folder() / "grid/results"))
+  {
+    places.push_back(std::filesystem::directory_iterator(part.path())->path());
+  }
+  ASSERT_GT(places.size(), 4U);
+  std::filesystem::remove(places[0] / "case.json");
+  std::ofstream(places[1] / "force.csv") << "depth_mm,force_N\n";
+  std::filesystem::remove(places[2] / "force.csv");
+  std::filesystem::copy(places[4], places[3],
+    std::filesystem::copy_options::overwrite_existing | std::filesystem::copy_options::recursive);
+  EXPECT_EQ(counted("run " + at("grid")).code, 0);
+  EXPECT_EQ(starts(), 1); // what is no result
+  expectRefused("merge " + at("grid") + " --out " + at("x.csv"), "run DIR --check");
+  EXPECT_EQ(counted("run --check " + at("grid")).code, 0);
+  EXPECT_EQ(starts(), 1 + 3);
+  EXPECT_EQ(merged("grid"), before);
+}
+
 TEST_F(Sweeping, TwoShardsInTwoFoldersMakeTheSame)
 {
   plan("grid.json", "serial");
@@ -139,8 +171,10 @@ TEST_F(KilledSweeping, ByJobsMakesTheSame)
 
 TEST_F(Sweeping, NamesAFailedCaseWithItsLogAndGoesOn)
 {
-  write("some.json", R"({"palp_sweep": 1, "kind": "force", "fixed": {"depth": "1:1:1mm",
-    "law": "{law_of}", "coating": "2mm:20kPa:0.45"}, "grid": {"law_of": ["corrected", "exact"]}})");
+  write("good.csv", "time_s,depth_mm\n0,0\n1,2\n"); // nobody reads them before
+  write("bad.csv", "time_s,depth_mm\n0,0\n0,2\n");
+  write("some.json", R"({"palp_sweep": 1, "kind": "force",
+    "grid": {"history": ["good.csv", "bad.csv"]}})");
   plan("some.json", "some");
   const Finished run = sweep("run " + at("some"));
   EXPECT_EQ(run.code, 5);

@@ -2,6 +2,7 @@
 #include "app/sweep/cases/sweep_figures.h"
 #include "app/sweep/plan.h"
 #include "haptics/error.h"
+#include "tests/app/sweep/simulated_result.h"
 #include "tests/support/process.h"
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <set>
+#include <sstream>
 
 namespace palp
 {
@@ -38,14 +40,17 @@ protected:
     Manifest manifest(folder_.path());
     for (std::size_t i = 0; i < manifest.head().count; ++i)
     {
-      const auto place = CaseFolders{ folder_.path() }.result(manifest.at(i).name);
-      std::filesystem::create_directories(place);
       const int at = static_cast<int>(i);
-      std::ofstream(place / "force.csv")
-        << "depth_mm,force_N\n1," << force(at / kSide, at % kSide) << '\n';
-      std::ofstream(place / kCaseFile) << R"({"seconds": 2.0, "memory_MiB": 8})";
+      std::ostringstream table;
+      table << "depth_mm,force_N\n1," << force(at / kSide, at % kSide) << '\n';
+      test::leaveResult(folder_.path(), manifest.at(i).name, table.str());
     }
-    return sweepFigures(manifest, {});
+    SweepFigures drawn = sweepFigures(manifest, {});
+    if (!drawn.refused.empty())
+    {
+      throw Error(ErrorCode::BadFile, drawn.refused.front());
+    }
+    return drawn;
   }
 
   test::TemporaryFolder folder_;
@@ -140,7 +145,7 @@ TEST_F(SweepMap, RefusesAPlotOfNothingByItsName)
       .x = "young_kPa",
       .y = "force_N",
       .colors = colors,
-      .where = { { "poisson", "9" } } });
+      .where = { { "depth_mm", "9" } } });
     EXPECT_NE(none.find("plot 'none': no row"), none.npos) << none;
     EXPECT_NE(none.find("where"), none.npos) << none;
   }
@@ -155,22 +160,37 @@ TEST_F(SweepMap, RefusesCurvesAndPlacesOfSeveralCases)
   const SweepPlot line{
     .name = "p", .title = "t", .x = "young_kPa", .y = "force_N", .curves = "poisson"
   };
-  EXPECT_EQ(drawn(line, force).figures[0].curves.size(), std::size_t{ kSide });
-  for (const auto& [x, y, curves, colors] :
+  const auto curves = drawn(line, force).figures[0].curves;
+  EXPECT_EQ(curves.size(), std::size_t{ kSide });
+  std::set<std::pair<int, figures::Curve::Style>> looks;
+  for (const figures::Curve& curve : curves)
+  {
+    EXPECT_TRUE(looks.emplace(curve.color, curve.style).second) << curve.label;
+  }
+  for (const auto& [x, y, by, colors] :
     { std::array<std::string, 4>{ "depth_mm", "force_N", "poisson", "" },
       std::array<std::string, 4>{ "depth_mm", "poisson", "", "force_N" } })
   {
     try
     {
       (void)drawn(
-        { .name = "p", .title = "t", .x = x, .y = y, .curves = curves, .colors = colors }, force);
-      FAIL() << curves << colors;
+        { .name = "p", .title = "t", .x = x, .y = y, .curves = by, .colors = colors }, force);
+      FAIL() << by << colors;
     }
     catch (const Error& error)
     {
       EXPECT_NE(std::string(error.what()).find("--largest"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST_F(SweepMap, TellsTheUnitOfACurve)
+{
+  const SweepPlot plot{
+    .name = "p", .title = "t", .x = "poisson", .y = "force_N", .curves = "young_kPa"
+  };
+  const SweepFigures map = drawn(plot, [](int i, int j) { return 1.0 * i * j; });
+  EXPECT_EQ(map.figures[0].curves[2].label, "3 kPa");
 }
 
 TEST_F(SweepMap, LeavesOutWhatIsNoNumberAndRefusesPlacesThatAreNone)

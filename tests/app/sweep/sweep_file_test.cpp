@@ -59,11 +59,21 @@ TEST_F(SweepFile, SaysWhatIsWrongInOneSentence)
       { R"("grid": {"a": {"from": 1, "to": 2}})", "count" },
       { R"("grid": {"a": {"from": 1, "to": 2, "count": 2.5}})", "whole number" },
       { R"("latin_hypercube": {"count": 3, "seed": 1, "range": {}})", "unknown key" },
-      { R"("latin_hypercube": {"count": 3, "ranges": {}})", "seed" },
+      { R"("latin_hypercube": {"count": 3, "ranges": {}})", "seed: must be a whole number, 0 to" },
+      { R"("latin_hypercube": {"count": 3, "sed": 1, "ranges": {}})", "/sed: unknown key" },
+      { R"("grid": {"a": {"from": 1, "to": 2, "cuont": 3}})", "/cuont: unknown key" },
+      { R"("grid": {"a": {"from": 1, "to": 2, "count": 1}})", "write a list" },
+      { R"("fixed": {"tip": "sphere:{r"})", "has { without }" },
+      { R"("grid": {"a": {"from": 2, "to": 1, "count": 2}})", "more than \"from\"" },
+      { R"("grid": )", "is no JSON, line 1, column " },
       { R"("grid": {"a": {"from": 1, "to": 2, "count": 9999}, "b": {"from": 1, "to": 2, "count": 9999}})",
         "cases" },
       { R"("fixed": {"tip": "a\nb"})", "control characters" },
-      { R"("plots": [{"name": "../x", "x": "a", "y": "b"}])", "plot" },
+      { R"("plots": [{"name": "../x", "x": "a", "y": "b"}])", "names no file" },
+      { R"("plots": [{"name": "-x", "x": "a", "y": "b"}])", "names no file" },
+      { R"("plots": [{"name": "x.png", "x": "a", "y": "b"}])", "names no file" },
+      { R"("plots": [{"x": "a", "y": "b"}])", "names no file" },
+      { R"("plots": [{"name": "p", "x": "a"}])", "/y: is missing" },
       { R"("plots": [{"name": "p", "x": "a", "y": "b"}, {"name": "p", "x": "a", "y": "c"}])",
         "another plot's" } })
   {
@@ -84,6 +94,9 @@ TEST(CaseInputs, FillInNamesAndRefuseCircles)
   const SweepValues full = filledIn({ { "block", "{w}x{w}x{height}" }, { "w", "{side}" },
     { "side", "100" }, { "height", "50mm" } });
   EXPECT_EQ(full.at("block"), "100x100x50mm");
+  const SweepValues braces = filledIn({ { "path", "{{a}/{name}.csv" }, { "name", "{{a{{" } });
+  EXPECT_EQ(braces.at("path"), "{a}/{a{.csv");
+  EXPECT_EQ(namesIn("{{a}/{name}.csv"), std::vector<std::string>{ "name" });
   for (const SweepValues& bad : { SweepValues{ { "a", "{a}" } },
          SweepValues{ { "a", "{b}" }, { "b", "{c}" }, { "c", "{a}" } } })
   {

@@ -106,10 +106,24 @@ TEST_F(Sweeping, MergesNoFoldersOfOtherSweeps)
   EXPECT_FALSE(std::filesystem::exists(folder() / "x.csv"));
 }
 
+TEST_F(Sweeping, WritesNoScriptOfAFolderThatSchedulersReadInAnotherWay)
+{
+  for (const char* strange : { "a{}", "100%a", "it's" })
+  {
+    for (const char* scheduler : { "--slurm", "--parallel" })
+    {
+      expectRefused(
+        "plan " + std::string(scheduler) + " " + at("grid.json") + " \"" + at(strange) + "\"",
+        "choose a folder without them");
+    }
+  }
+}
+
 TEST_F(Sweeping, RefusesBadInputInOneLine)
 {
   write("unknown.json", R"({"palp_sweep": 1, "kind": "force", "grid": {"yuong": ["5kPa"]}})");
-  expectRefused("plan " + at("unknown.json") + " " + at("x"), "no such option");
+  expectRefused("plan " + at("unknown.json") + " " + at("x"),
+    "unknown.json: 'yuong': palp force has no such option");
   write("circle.json",
     R"({"palp_sweep": 1, "kind": "force", "fixed": {"a": "{b}", "b": "{a}", "young": "{a}kPa"}})");
   expectRefused("plan " + at("circle.json") + " " + at("x"), "circle");
@@ -122,6 +136,19 @@ TEST_F(Sweeping, RefusesBadInputInOneLine)
   expectRefused("plan " + at("value.json") + " " + at("x"), "case 1: --young");
   write("hard.json", R"({"palp_sweep": 1, "kind": "calibrate", "grid": {"poisson": [0.3, 0.5]}})");
   expectRefused("plan " + at("hard.json") + " " + at("x"), "case 1: ");
+  write("where.json", R"({"palp_sweep": 1, "kind": "force", "grid": {"young": ["5kPa", "6kPa"]},
+    "plots": [{"name": "p", "x": "depth_mm", "y": "force_N", "where": {"young_kPa": "5kPa"}}]})");
+  expectRefused("plan " + at("where.json") + " " + at("x"), "written as '5'");
+  // what only all values of a case together tell, before anything is computed
+  write("nu.json", R"({"palp_sweep": 1, "kind": "force", "grid": {"poisson": [0.3, 0.7]}})");
+  expectRefused("plan " + at("nu.json") + " " + at("x"), "nu.json: case 1: ");
+  write("late.json", R"({"palp_sweep": 1, "kind": "force", "grid": {"relaxation": ["0.3:1s"]},
+    "fixed": {"law": "corrected"}})");
+  expectRefused("plan " + at("late.json") + " " + at("x"), "late.json: case 0: --relaxation");
+  write("block.stl", "solid");
+  write("nowhere.json", R"({"palp_sweep": 1, "kind": "run", "fixed": {"mesh": "block.stl"},
+    "grid": {"young": ["5kPa", "6kPa"]}})");
+  expectRefused("plan " + at("nowhere.json") + " " + at("x"), "nothing says where to press");
   write("absent.json", R"({"palp_sweep": 1, "kind": "run", "fixed": {"path": "absent.csv"}})");
   expectRefused("plan " + at("absent.json") + " " + at("x"), "absent.csv");
   EXPECT_FALSE(std::filesystem::exists(folder() / "x"));
@@ -137,9 +164,17 @@ TEST_F(Sweeping, RefusesBadInputInOneLine)
     test::runCommand("SLURM_ARRAY_TASK_ID=x " PALP_PROGRAM " sweep run " + at("grid"));
   EXPECT_EQ(odd.code, 2);
   EXPECT_NE(odd.err.find("SLURM_ARRAY_TASK_ID: there is no case 'x'"), std::string::npos);
-  for (const char* bad :
-    { "run --case 40 ", "run --shard 0/2 ", "run --shard 3/2 ", "run --shard a ",
-      "run --case 1 --shard 1/2 ", "run --jobs 0 ", "merge --out x.txt ", "merge ", "status --x " })
+  expectRefused("run --chunk 5 " + at("grid"), "--chunk: says how many");
+  expectRefused("run --chunk 5 --case 8 " + at("grid"), "no chunk '8'; give 0 to 7");
+  write("out.json", R"({"palp_sweep": 1, "kind": "run", "fixed": {"out": "x"}})");
+  expectRefused("plan " + at("out.json") + " " + at("x"), "set by the sweep itself");
+  const Finished none = sweep("merge --partial " + at("grid") + " --out " + at("x.csv"));
+  EXPECT_EQ(none.code, 5);
+  EXPECT_NE(none.err.find("40 of 40 cases without a result"), std::string::npos) << none.err;
+  expectRefused("merge --plots " + at("grid") + " --out " + at("x.csv"), "--plots: this sweep");
+  for (const char* bad : { "run --case 40 ", "run --shard 0/2 ", "run --shard 3/2 ",
+         "run --shard a ", "run --case 1 --shard 1/2 ", "run --jobs 0 ", "run --jobs 99999 ",
+         "merge --out x.txt ", "merge ", "status --x " })
   {
     expectRefused(bad + at("grid"), "");
   }
