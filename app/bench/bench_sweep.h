@@ -12,8 +12,8 @@ struct BenchedSweep
 {
   std::size_t planned = 10'000; ///< with results that nobody computed
   std::size_t computed = 40;    ///< short ones, for what each costs
-  std::size_t timed = 8;        ///< long ones, for what several cores give
-  unsigned rounds = 5;          ///< of these
+  std::size_t timed = 40;       ///< long ones, for what several cores give
+  unsigned rounds = 2;          ///< of these
 };
 
 /// Writes what a sweep costs on the disk of a folder: to plan, to ask how far it is and to merge;

@@ -76,6 +76,7 @@ void drawForce(const OffscreenContext& context, const Recording& recording, cons
   const double start = recording.samples.front().time;
   ForceCharts charts(recording.samples.back().time - start);
   charts.setLaw(recording.scene.law);
+  charts.setSent(plan.chain);
   for (Sample sample : recording.samples)
   {
     sample.time -= start; // a clock may have counted from long ago

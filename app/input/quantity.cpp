@@ -204,7 +204,7 @@ std::vector<double> parseNumbers(std::string_view text, std::string_view what)
     const std::string_view one = text.substr(begin, end - begin);
     if (trimmed(one).empty())
     {
-      refuse(what, text, "has an empty place; give numbers with a comma between them");
+      refuse(what, text, "lacks a number; give numbers with a comma between them");
     }
     numbers.push_back(parseNumber(one, what));
     begin = end + 1;

@@ -135,6 +135,7 @@ void Window::clearCharts()
 {
   if (charts_)
   {
+    charts_->setSent(session_.rendersForce());
     charts_->clear();
   }
   chartsAreStale_ = true;

@@ -121,6 +121,7 @@ void Window::makeDocks()
 void Window::makeCharts()
 {
   charts_ = std::make_unique<ForceCharts>();
+  charts_->setSent(session_.rendersForce());
   for (const PlotKind plot : session_.plan().plots)
   {
     if (plot == PlotKind::ForceOverTime)

@@ -32,6 +32,7 @@ constexpr const char* kOverDepth = "force over depth";
 constexpr const char* kTime = "time [s]";
 constexpr const char* kDepth = "depth \u03b4 [mm]";
 constexpr const char* kForce = "force [N]";
+constexpr const char* kSent = "sent to device";
 
 void setPen(vtkPen& pen, const appearance::Color& color, float width)
 {
@@ -89,7 +90,7 @@ ForceCharts::ForceCharts(std::optional<double> duration)
     source->SetSpan(std::max(duration_, vtkPalpSampleSource::Minute));
   }
   timePlot_ = addLine(*overTime_, "model", appearance::kLaw, 3.0F);
-  renderedPlot_ = addLine(*overTime_, "sent to device", appearance::kMeasured, 1.0F);
+  renderedPlot_ = addLine(*overTime_, "", appearance::kMeasured, 1.0F);
 
   for (const char* name : { "depth [mm]", "force [N]" })
   {
@@ -119,12 +120,21 @@ void ForceCharts::addForceOverDepth(vtkContextScene& scene)
   scene.AddItem(overDepth_);
 }
 
+void ForceCharts::setSent(bool isSent)
+{
+  isSent_ = isSent;
+  renderedPlot_->SetLabel(isSent ? kSent : ""); // without one it has no entry in the legend
+}
+
 void ForceCharts::add(const Sample& sample)
 {
   samples_->AddSample(sample);
-  Sample sent = sample;
-  sent.response.force = sample.force.norm();
-  rendered_->AddSample(sent);
+  if (isSent_)
+  {
+    Sample sent = sample;
+    sent.response.force = sample.force.norm();
+    rendered_->AddSample(sent);
+  }
 }
 
 void ForceCharts::refresh()
@@ -197,7 +207,10 @@ std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
   vtkTable& law = *samples_->GetOutput(0);
   vtkTable& sent = *rendered_->GetOutput(0);
   time.addLine("model", columnOf(law, 0), columnOf(law, 1), appearance::kLaw, 3.0F);
-  time.addLine("sent to device", columnOf(sent, 0), columnOf(sent, 1), appearance::kMeasured, 1.0F);
+  if (isSent_)
+  {
+    time.addLine(kSent, columnOf(sent, 0), columnOf(sent, 1), appearance::kMeasured, 1.0F);
+  }
   Plot& depth = *plots.emplace_back(std::make_unique<Plot>(kOverDepth, kDepth, kForce));
   vtkTable& measured = *samples_->GetOutput(1);
   depth.addLine("model", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);

@@ -34,6 +34,9 @@ public:
   void addForceOverTime(vtkContextScene& scene);
   void addForceOverDepth(vtkContextScene& scene);
 
+  /// Whether a device is sent a force, which is drawn beside the law's. At first none is.
+  void setSent(bool isSent);
+
   /// Takes a sample; the charts follow at the next refresh().
   void add(const Sample& sample);
 
@@ -67,6 +70,7 @@ private:
   vtkPlot* depthPlot_ = nullptr;
   double duration_; // of a press that is known from the start [s]; else 0
   bool isPaused_ = false;
+  bool isSent_ = false;
   ForceLaw law_;
   double lawLimit_ = 0.0; // depth to which the law is drawn [m]
 };

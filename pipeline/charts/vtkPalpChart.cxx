@@ -30,6 +30,12 @@ vtkPalpChart::vtkPalpChart()
 {
   this->SetShowLegend(false);
   this->SetAutoSize(false);
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    vtkAxis* axis = this->GetAxis(side);
+    axis->SetTitleVisible(false); // which would be over the numbers at a large scale
+    axis->SetMargins(axis->GetMargins()[0] + 5, axis->GetMargins()[1]);
+  }
 }
 
 void vtkPalpChart::PrintSelf(ostream& os, vtkIndent indent)
@@ -111,11 +117,29 @@ bool vtkPalpChart::Paint(vtkContext2D* painter)
     this->GetAxis(vtkAxis::LEFT)->Modified(); // else the chart keeps its old layout
   }
   const bool painted = this->Superclass::Paint(painter);
+  this->PaintTitles(painter, chart);
   if (this->Keyed)
   {
     this->PaintLegend(painter, rectangle, true);
   }
   return painted;
+}
+
+// those of the axes, along the edge of the chart
+void vtkPalpChart::PaintTitles(vtkContext2D* painter, const vtkRectf& chart)
+{
+  for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
+  {
+    vtkAxis* axis = this->GetAxis(side);
+    painter->ApplyTextProp(axis->GetTitleProperties());
+    float bounds[4];
+    painter->ComputeStringBounds(axis->GetTitle(), bounds);
+    const float middle =
+      0.5F * (axis->GetPoint1()[side == vtkAxis::LEFT] + axis->GetPoint2()[side == vtkAxis::LEFT]);
+    side == vtkAxis::LEFT
+      ? painter->DrawString(chart.GetX() + 1.15F * bounds[2], middle, axis->GetTitle())
+      : painter->DrawString(middle, chart.GetY() + 1.15F * bounds[3], axis->GetTitle());
+  }
 }
 
 // its height, whether it is drawn or not

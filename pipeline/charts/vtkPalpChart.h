@@ -114,6 +114,7 @@ private:
     std::optional<Range> Followed;
   };
 
+  void PaintTitles(vtkContext2D* painter, const vtkRectf& chart);
   float PaintLegend(vtkContext2D* painter, const vtkRectf& rectangle, bool draw);
   void PaintEntry(vtkContext2D* painter, vtkIdType plot, const vtkRectf& mark);
   void ShowCurves();

@@ -2,12 +2,16 @@
 
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <utility>
 #include <vector>
 #include <vtkAxis.h>
 #include <vtkContextView.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkVariant.h>
 
 namespace palp
@@ -137,11 +141,62 @@ TEST_F(Charts, CanBeLaidOutAnewWithAllTheirCurves)
   add(2.0, 4.0_mm);
   const auto plots = charts_.plots();
   ASSERT_EQ(plots.size(), 2U);
-  EXPECT_EQ(plots[0]->tables().size(), 2U);
+  EXPECT_EQ(plots[0]->tables().size(), 1U) << "no device is sent a force";
   vtkTable& time = *plots[0]->tables()[0];
   EXPECT_NEAR(time.GetValue(time.GetNumberOfRows() - 1, 1).ToDouble(), 2.0, 1e-6);
   vtkTable& measured = *plots[1]->tables()[1];
   EXPECT_NEAR(measured.GetValue(0, 0).ToDouble(), 4.0, 1e-5);
+}
+
+TEST_F(Charts, DrawWhatIsSentBesideTheModelWhereADeviceIsSentIt)
+{
+  charts_.setSent(true);
+  add(2.0, 4.0_mm);
+  const auto plots = charts_.plots();
+  ASSERT_EQ(plots[0]->tables().size(), 2U);
+  EXPECT_NEAR(plots[0]->tables()[1]->GetValue(50, 1).ToDouble(), 2.0, 1e-6);
+}
+
+// [columns] where the left part of a picture is rather of one color than of another, least and most
+std::pair<int, int> columnsOf(vtkRenderWindow& window, int width, int color, int other)
+{
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window.GetPixelData(0, 0, width - 1, window.GetSize()[1] - 1, 0, pixels);
+  std::pair<int, int> columns{ width, -1 };
+  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+  {
+    if (pixels->GetComponent(i, color) > pixels->GetComponent(i, other) + 60)
+    {
+      const int column = static_cast<int>(i % width);
+      columns = { std::min(columns.first, column), std::max(columns.second, column) };
+    }
+  }
+  return columns;
+}
+
+TEST_F(Charts, KeepTheirTitlesOffTheNumbersAtEachScale)
+{
+  vtkAxis& axis = *vtkChartXY::SafeDownCast(view_->GetScene()->GetItem(0))->GetAxis(vtkAxis::LEFT);
+  axis.GetTitleProperties()->SetColor(1.0, 0.0, 0.0);
+  axis.GetLabelProperties()->SetColor(0.0, 1.0, 0.0);
+  for (const int scale : { 1, 2, 3 })
+  {
+    view_->GetRenderWindow()->SetDPI(72 * scale);
+    view_->GetRenderWindow()->SetSize(320 * scale, 200 * scale);
+    for (const double force : { 0.01, 2.0, 1234.0 })
+    {
+      charts_.clear();
+      add(force, 4.0_mm);
+      view_->GetRenderWindow()->Render();
+      const int left = static_cast<int>(axis.GetPoint1()[0]) - 2 * scale; // of the curves
+      const auto title = columnsOf(*view_->GetRenderWindow(), left, 0, 1);
+      const auto numbers = columnsOf(*view_->GetRenderWindow(), left, 1, 0);
+      ASSERT_GT(title.second, title.first);
+      ASSERT_GT(numbers.second, numbers.first);
+      EXPECT_GT(title.first, 0) << "cut at scale " << scale << ", " << force << " N";
+      EXPECT_GT(numbers.first, title.second) << "at scale " << scale << ", " << force << " N";
+    }
+  }
 }
 
 } // namespace
