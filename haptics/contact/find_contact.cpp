@@ -162,8 +162,8 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.surfaceCurvature = shape.meanCurvature;
   contact.curvatureSpread = shape.curvatureSpread;
   contact.thickness = shape.thickness;
-  contact.edgeDistance =
-    std::min(shape.edgeDistance, surface.edgeDistance(contact.center, contact.triangle));
+  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
+    surface.edgeDistance(contact.center, contact.triangle));
   return contact;
 }
 

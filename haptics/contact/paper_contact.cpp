@@ -68,10 +68,8 @@ Contact paperContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.center = pose.apex + depth * contact.normal;
   contact.depth = depth;
   contact.tilt = std::acos(std::clamp(-pose.axis.dot(contact.normal), -1.0, 1.0));
-  const ShapeField& shape = surface.shape();
-  contact.edgeDistance =
-    std::min(shape(contact.center, shape.finest(), contact.normal, 0.0).edgeDistance,
-      surface.edgeDistance(contact.center, contact.triangle));
+  contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
+    surface.edgeDistance(contact.center, contact.triangle));
   return contact;
 }
 

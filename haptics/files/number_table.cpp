@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -16,40 +17,75 @@ namespace palp
 namespace
 {
 
-// the numbers of one line; throws what is wrong without saying where
-std::vector<double> parseLine(std::string_view line, const std::string& header)
+std::string_view withoutBlanks(std::string_view text)
 {
-  std::vector<double> values;
-  for (std::size_t begin = 0; begin <= line.size();)
+  constexpr const char* kBlanks = " \t";
+  const std::size_t first = std::min(text.find_first_not_of(kBlanks), text.size());
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
+// of one line, without what stands around them; a comma in quotes ends none
+std::vector<std::string_view> cellsOf(std::string_view line)
+{
+  std::vector<std::string_view> cells;
+  bool quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i)
   {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::string_view cell = line.substr(begin, end - begin);
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc{} || stop != cell.data() + cell.size())
+    quoted = quoted != (i < line.size() && line[i] == '"');
+    if (i == line.size() || (line[i] == ',' && !quoted))
     {
-      throw Error(
-        ErrorCode::BadFile, inQuotes(cell) + " is not a number; give " + shortened(header));
+      std::string_view cell = withoutBlanks(line.substr(begin, i - begin));
+      if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+      {
+        cell = withoutBlanks(cell.substr(1, cell.size() - 2));
+      }
+      cells.push_back(cell);
+      begin = i + 1;
     }
-    values.push_back(value);
-    begin = end + 1;
   }
-  if (std::count(header.begin(), header.end(), ',') + 1 != std::ssize(values))
+  return cells;
+}
+
+double numberIn(std::string_view cell, const std::string& header)
+{
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || stop != cell.data() + cell.size())
+  {
+    throw Error(ErrorCode::BadFile, inQuotes(cell) + " is not a number; give " + shortened(header));
+  }
+  return value;
+}
+
+// which columns of a table are read, by its first line; throws what is wrong without saying where
+using ChooseColumns = std::function<std::vector<std::size_t>(const std::string& line)>;
+
+// the chosen numbers of one line; throws what is wrong without saying where
+std::vector<double> parseLine(
+  std::string_view line, const std::vector<std::size_t>& chosen, const std::string& header)
+{
+  const std::vector<std::string_view> cells = cellsOf(line);
+  if (cells.size() != cellsOf(header).size())
   {
     throw Error(
-      ErrorCode::BadFile, std::to_string(values.size()) + " columns; give " + shortened(header));
+      ErrorCode::BadFile, std::to_string(cells.size()) + " columns; give " + shortened(header));
+  }
+  std::vector<double> values;
+  values.reserve(chosen.size());
+  for (const std::size_t column : chosen)
+  {
+    values.push_back(numberIn(cells[column], header));
   }
   return values;
 }
 
-// what a table's first line says; throws what is wrong without saying where
-using CheckHeader = std::function<void(const std::string& line)>;
-
-NumberTable readRows(const std::filesystem::path& file, const CheckHeader& check)
+NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& choose)
 {
   std::istringstream stream(readText(file, "a CSV file"));
   NumberTable table;
   std::string header;
+  std::vector<std::size_t> chosen;
   int number = 0;
   for (std::string line; std::getline(stream, line);)
   {
@@ -58,19 +94,24 @@ NumberTable readRows(const std::filesystem::path& file, const CheckHeader& check
     {
       line.pop_back();
     }
-    if (line.empty() || line.front() == '#')
+    if (line.empty())
     {
+      continue;
+    }
+    if (line.front() == '#')
+    {
+      header.empty() ? table.comments.push_back(line) : void();
       continue;
     }
     try
     {
       if (header.empty())
       {
-        check(line);
+        chosen = choose(line);
         header = line;
         continue;
       }
-      table.rows.push_back({ parseLine(line, header), number });
+      table.rows.push_back({ parseLine(line, chosen, header), number });
     }
     catch (const Error& error)
     {
@@ -91,17 +132,6 @@ void refuseInfinite(const NumberTable& table, const std::filesystem::path& file)
   }
 }
 
-std::vector<std::string> namesIn(const std::string& header)
-{
-  std::vector<std::string> names;
-  std::istringstream text(header);
-  for (std::string name; std::getline(text, name, ',');)
-  {
-    names.push_back(name);
-  }
-  return names;
-}
-
 } // namespace
 
 std::string where(const std::filesystem::path& file, int line)
@@ -119,6 +149,9 @@ NumberTable NumberTable::read(const std::filesystem::path& file, const std::stri
         throw Error(
           ErrorCode::BadFile, inQuotes(line) + " is not the header; begin with " + header);
       }
+      std::vector<std::size_t> all(cellsOf(header).size());
+      std::iota(all.begin(), all.end(), 0);
+      return all;
     });
 }
 
@@ -132,46 +165,38 @@ NumberTable NumberTable::readFinite(const std::filesystem::path& file, const std
 NumberTable NumberTable::readColumns(
   const std::filesystem::path& file, std::span<const char* const> columns)
 {
-  std::vector<std::size_t> positions;
   std::vector<std::string> names;
-  const auto findColumns = [&](const std::string& line)
-  {
-    names = namesIn(line);
-    for (const char* column : columns)
+  NumberTable table = readRows(file,
+    [&](const std::string& line)
     {
-      const auto found = std::ranges::find(names, column);
-      if (found == names.end())
+      const std::vector<std::string_view> cells = cellsOf(line);
+      names.assign(cells.begin(), cells.end());
+      std::vector<std::size_t> chosen;
+      for (const char* column : columns)
       {
-        throw Error(ErrorCode::BadFile,
-          "no column " + std::string(column) + " in " + inQuotes(line) +
-            "; begin with a line that names it, with commas between");
+        const auto found = std::ranges::find(names, column);
+        if (found == names.end())
+        {
+          throw Error(ErrorCode::BadFile,
+            "no column " + std::string(column) + " in " + inQuotes(line) +
+              "; begin with a line that names it, with commas between");
+        }
+        if (std::ranges::count(names, column) > 1)
+        {
+          throw Error(
+            ErrorCode::BadFile, "two columns " + std::string(column) + "; leave one of them out");
+        }
+        chosen.push_back(static_cast<std::size_t>(found - names.begin()));
       }
-      if (std::ranges::count(names, column) > 1)
-      {
-        throw Error(
-          ErrorCode::BadFile, "two columns " + std::string(column) + "; leave one of them out");
-      }
-      positions.push_back(static_cast<std::size_t>(found - names.begin()));
-    }
-  };
-  NumberTable table = readRows(file, findColumns);
-  if (positions.empty())
+      return chosen;
+    });
+  if (names.empty())
   {
     throw Error(ErrorCode::BadFile,
       file.string() + ": no column " + columns.front() + "; begin with a line that names it");
   }
   table.names = std::move(names);
-  for (Row& row : table.rows)
-  {
-    std::vector<double> picked;
-    picked.reserve(positions.size());
-    for (const std::size_t position : positions)
-    {
-      picked.push_back(row.values[position]);
-    }
-    row.values = std::move(picked);
-  }
-  refuseInfinite(table, file); // what nobody asked for may be: a half-space is infinitely thick
+  refuseInfinite(table, file);
   return table;
 }
 

@@ -13,12 +13,13 @@ struct NumberTable
 {
   struct Row
   {
-    std::vector<double> values; ///< as many as the header has columns
+    std::vector<double> values; ///< of the columns that were asked for
     int line;                   ///< in the file, from 1
   };
 
   std::vector<Row> rows;
-  std::vector<std::string> names; ///< of all the file's columns; readColumns() only
+  std::vector<std::string> comments; ///< lines above the header, with their #
+  std::vector<std::string> names;    ///< of all the file's columns; readColumns() only
   int lastLine = 1;
 
   /// @throws Error  BadFile: missing, another header, not a number, too few columns; with the line
@@ -29,7 +30,8 @@ struct NumberTable
   [[nodiscard]] static NumberTable readFinite(
     const std::filesystem::path& file, const std::string& header);
 
-  /// Columns by their names, in the order asked for, wherever they stand among others.
+  /// Columns by their names, in the order asked for, wherever they stand among others, which may
+  /// hold words.
   /// @throws Error  BadFile: as readFinite; a column that is missing
   [[nodiscard]] static NumberTable readColumns(
     const std::filesystem::path& file, std::span<const char* const> columns);

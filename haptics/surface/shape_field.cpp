@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace palp
 {
@@ -21,7 +22,8 @@ constexpr double kCoarse = 0.25;       // the same where edges of the mesh set t
 constexpr double kMaxPieces = 100000.0; // of the triangles, beyond one each
 constexpr double kTurn = 3.0;           // cells to each side of an edge within which it turns
 constexpr double kSharp = 0.8;          // [rad] that a sharp one turns there: 55 degrees
-constexpr float kOneSide = 0.8F;        // length of the mean normal of one side of the surface
+constexpr float kOwnTurn = 0.25F; // of the most in a leaf, or of the mean: not of one beside it
+constexpr float kOneSide = 0.8F;  // length of the mean normal of one side of the surface
 
 // diagonal of the box about all triangles
 double diagonal(const BoxTree::Node& box)
@@ -88,20 +90,24 @@ ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double 
           if (part.sides[k] >= 0)
           {
             const double length = (p[(k + 1) % 3] - p[k]).norm();
-            piece.sums.bend +=
-              (length * turns[static_cast<std::size_t>(part.sides[k])]).cast<float>();
+            const Eigen::Matrix3d& turn = turns[static_cast<std::size_t>(part.sides[k])];
+            piece.sums.bend += (length * turn).cast<float>();
+            piece.sides.push_back(
+              { { (p[k] - origin_).cast<float>(), (p[(k + 1) % 3] - origin_).cast<float>() },
+                static_cast<float>(turn.trace()) });
           }
         }
         pieces.push_back(piece);
       });
   }
-  build(pieces, static_cast<float>(cell_));
-  measureLeaves(tree);
+  Leaves leaves;
+  build(pieces, static_cast<float>(cell_), leaves);
+  measureLeaves(tree, leaves);
   addUp();
 }
 
 // splits at the median of the widest of place and normal until both fit a cell
-void ShapeField::build(std::span<Piece> pieces, float cell)
+void ShapeField::build(std::span<Piece> pieces, float cell, Leaves& leaves)
 {
   using Coordinates = Eigen::Array<float, 6, 1>;
   const auto coordinatesOf = [cell](const Piece& piece)
@@ -138,6 +144,7 @@ void ShapeField::build(std::span<Piece> pieces, float cell)
   const std::size_t self = nodes_.size();
   nodes_.push_back(node);
   sums_.push_back(sums);
+  leaves.push_back(leaf ? pieces : std::span<Piece>());
   if (leaf)
   {
     return;
@@ -146,9 +153,9 @@ void ShapeField::build(std::span<Piece> pieces, float cell)
   std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(),
     [&](const Piece& a, const Piece& b)
     { return coordinatesOf(a)[widest] < coordinatesOf(b)[widest]; });
-  build(pieces.first(half), cell);
+  build(pieces.first(half), cell, leaves);
   nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
-  build(pieces.subspan(half), cell);
+  build(pieces.subspan(half), cell, leaves);
 }
 
 // visit(index, weight) for the parts in a ball; the weight falls smoothly to its rim
@@ -201,7 +208,6 @@ LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
         area += weight * across;
         sum.bend += facing * part.bend;
         sum.slenderness += facing * part.slenderness;
-        sum.edge += facing * part.edge;
       }
     });
   if (!(area > 0.0F))
@@ -218,18 +224,14 @@ LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
   shape.meanCurvature = 0.5 * (uu + vv);
   shape.curvatureSpread = std::hypot(0.5 * (uu - vv), u.dot(tensor * v));
   shape.thickness = root * root;
-  if (hasEdges_)
-  {
-    shape.edgeDistance = static_cast<double>(sum.edge) / static_cast<double>(area);
-  }
   return shape;
 }
 
 // thickness and sharpness of the leaves, from what is about them
-void ShapeField::measureLeaves(const BoxTree& tree)
+void ShapeField::measureLeaves(const BoxTree& tree, const Leaves& leaves)
 {
   const double around = kTurn * cell_;
-  sharp_.assign(nodes_.size(), 0);
+  std::vector<SharpEdges::Segment> sharp;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     Sums& leaf = sums_[i];
@@ -257,62 +259,49 @@ void ShapeField::measureLeaves(const BoxTree& tree)
     const double thickness = rayExit(tree, coordinates, inward).distance;
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(thickness));
     const float curvature = sum.bend.trace() / area;
-    const bool bends =
-      leaf.bend.trace() > 0.25F * curvature * leaf.area.norm(); // not one beside it
-    sharp_[i] = bends && static_cast<double>(curvature) * around > kSharp ? 1 : 0;
-    hasEdges_ = hasEdges_ || sharp_[i] != 0;
+    const bool bends = leaf.bend.trace() > kOwnTurn * curvature * leaf.area.norm();
+    if (bends && static_cast<double>(curvature) * around > kSharp)
+    {
+      addTurning(leaves[i], sharp);
+    }
+  }
+  edges_ = SharpEdges(std::move(sharp));
+}
+
+// the sides at which a leaf turns
+void ShapeField::addTurning(std::span<const Piece> leaf, std::vector<SharpEdges::Segment>& sharp)
+{
+  float most = 0.0F;
+  for (const Piece& piece : leaf)
+  {
+    for (const Side& side : piece.sides)
+    {
+      most = std::max(most, side.turn);
+    }
+  }
+  for (const Piece& piece : leaf)
+  {
+    for (const Side& side : piece.sides)
+    {
+      if (side.turn > kOwnTurn * most)
+      {
+        sharp.push_back(side.ends);
+      }
+    }
   }
 }
 
 // what the leaves measured, for every node
 void ShapeField::addUp()
 {
-  const auto fromBelow = [this](auto&& atLeaf, auto&& above)
+  for (std::size_t i = nodes_.size(); i-- > 0;)
   {
-    for (std::size_t i = nodes_.size(); i-- > 0;)
+    if (const std::int32_t right = nodes_[i].right; right != 0)
     {
-      const std::int32_t right = nodes_[i].right;
-      right == 0 ? atLeaf(i) : above(i, i + 1, static_cast<std::size_t>(right));
+      sums_[i].slenderness =
+        sums_[i + 1].slenderness + sums_[static_cast<std::size_t>(right)].slenderness;
     }
-  };
-  fromBelow([](std::size_t) {},
-    [this](std::size_t i, std::size_t left, std::size_t right)
-    { sharp_[i] = sharp_[left] != 0 || sharp_[right] != 0 ? 1 : 0; });
-  fromBelow(
-    [this](std::size_t i)
-    {
-      constexpr float far = std::numeric_limits<float>::infinity();
-      sums_[i].edge =
-        hasEdges_ ? sums_[i].area.norm() * toSharpEdge(0, nodes_[i].center, far) : 0.0F;
-    },
-    [this](std::size_t i, std::size_t left, std::size_t right)
-    {
-      sums_[i].slenderness = sums_[left].slenderness + sums_[right].slenderness;
-      sums_[i].edge = sums_[left].edge + sums_[right].edge;
-    });
-  sharp_ = {};
-}
-
-// the nearest leaf that holds some of a sharp edge, if nearer than the best so far
-float ShapeField::toSharpEdge(std::size_t at, const Eigen::Vector3f& from, float best) const
-{
-  const Node& node = nodes_[at];
-  const float distance = (node.center - from).norm();
-  if (sharp_[at] == 0 || distance - node.radius >= best)
-  {
-    return best;
   }
-  if (node.right == 0)
-  {
-    return std::min(best, distance);
-  }
-  std::array<std::size_t, 2> children = { at + 1, static_cast<std::size_t>(node.right) };
-  const auto far = [&](std::size_t child) { return (nodes_[child].center - from).squaredNorm(); };
-  if (far(children[1]) < far(children[0]))
-  {
-    std::swap(children[0], children[1]);
-  }
-  return toSharpEdge(children[1], from, toSharpEdge(children[0], from, best));
 }
 
 } // namespace palp

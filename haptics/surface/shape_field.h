@@ -1,5 +1,7 @@
 #pragma once
 
+#include "haptics/surface/sharp_edges.h"
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
@@ -15,13 +17,12 @@ struct LinkedTriangles; // haptics/surface/facet_part.h
 /// What a force law asks of the surface that a tool presses, averaged over the contact.
 struct LocalShape
 {
-  double meanCurvature = 0.0;                                    ///< [1/m], convex positive
-  double curvatureSpread = 0.0;                                  ///< half the difference [1/m]
-  double thickness = std::numeric_limits<double>::infinity();    ///< of the body [m]
-  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to a sharp edge [m]
+  double meanCurvature = 0.0;                                 ///< [1/m], convex positive
+  double curvatureSpread = 0.0;                               ///< half the difference [1/m]
+  double thickness = std::numeric_limits<double>::infinity(); ///< of the body [m]
 };
 
-/// Curvature, thickness and edge distance of a surface, averaged over any ball.
+/// Curvature and thickness of a surface, averaged over any ball, and its sharp edges.
 ///
 /// The surface is cut into cells of about a hundredth of its size, gathered in a tree of sums. An
 /// average weighs the cells by their area across a normal and by a smooth function of their
@@ -53,6 +54,16 @@ public:
   [[nodiscard]] LocalShape operator()(const Eigen::Vector3d& center, double radius,
     const Eigen::Vector3d& normal, double grain) const noexcept;
 
+  /// Distance to the nearest sharp edge, where the surface turns by 55 degrees within a few cells;
+  /// infinite where there is none [m].
+  ///
+  /// @param position  [m]
+  /// @realtime        pure; no allocation, no lock, no exception
+  [[nodiscard]] double edgeDistance(const Eigen::Vector3d& position) const noexcept
+  {
+    return static_cast<double>(edges_.distance((position - origin_).cast<float>()));
+  }
+
   /// Smallest radius over which an average is smooth [m].
   [[nodiscard]] double finest() const noexcept
   {
@@ -75,7 +86,13 @@ private:
     Eigen::Vector3f area = Eigen::Vector3f::Zero(); // along the outward normal [m^2]
     Eigen::Matrix3f bend = Eigen::Matrix3f::Zero(); // area times the tensor of curvature [m]
     float slenderness = 0.0F;                       // area over the root of the thickness [m^1.5]
-    float edge = 0.0F;                              // area times the distance to an edge [m^3]
+  };
+
+  // that two triangles have in common, or a part of it
+  struct Side
+  {
+    SharpEdges::Segment ends; // from the origin [m]
+    float turn;               // of the surface, convex positive [rad]
   };
 
   // of the surface, smaller than a cell
@@ -83,23 +100,25 @@ private:
   {
     Eigen::Vector3f center; // from the origin [m]
     Sums sums;
+    std::vector<Side> sides{};
   };
+
+  using Leaves = std::vector<std::span<const Piece>>; // of each node, empty where it is no leaf
 
   template <typename Visit>
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
-  void build(std::span<Piece> pieces, float cell);
-  void measureLeaves(const BoxTree& tree);
+  void build(std::span<Piece> pieces, float cell, Leaves& leaves);
+  void measureLeaves(const BoxTree& tree, const Leaves& leaves);
+  static void addTurning(std::span<const Piece> leaf, std::vector<SharpEdges::Segment>& sharp);
   void addUp();
-  [[nodiscard]] float toSharpEdge(std::size_t at, const Eigen::Vector3f& from, float best) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<Node> nodes_; // depth first
   std::vector<Sums> sums_;
-  std::vector<char> sharp_; // nodes that hold some of a sharp edge; while setting up
-  double cell_ = 0.0;       // longest side of a leaf [m]
+  SharpEdges edges_;  // from the origin
+  double cell_ = 0.0; // longest side of a leaf [m]
   double finest_ = 0.0;
-  bool hasEdges_ = false;
 };
 
 } // namespace palp

@@ -1,4 +1,4 @@
-#include "haptics/surface/decimate.h"
+#include "haptics/surface/decimation/decimate.h"
 
 #include "haptics/error.h"
 
