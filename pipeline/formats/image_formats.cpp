@@ -18,6 +18,7 @@
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNIFTIImageHeader.h>
@@ -165,9 +166,53 @@ PatientImage readMetaImage(const std::filesystem::path& file)
   return result;
 }
 
-// the better of the two forms a header may have; both lead to right, front, head
-void placeInPatient(vtkNIFTIImageReader& reader, PatientImage& image)
+// programs differ in which of the two forms they take: of another size one of them is wrong
+void compareForms(
+  const std::filesystem::path& file, vtkNIFTIImageReader& reader, std::vector<std::string>& notes)
 {
+  vtkMatrix4x4& rigid = *reader.GetQFormMatrix(); // of the sides that pixdim tells
+  vtkMatrix4x4& affine = *reader.GetSFormMatrix();
+  constexpr double kAlike = 0.01;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double growth =
+      std::hypot(affine.GetElement(0, k), affine.GetElement(1, k), affine.GetElement(2, k));
+    if (std::abs(growth - 1.0) > kAlike)
+    {
+      const double side = reader.GetOutput()->GetSpacing()[k];
+      std::ostringstream words;
+      words << "its qform has voxels of " << side << " and its sform of " << side * growth
+            << " along axis " << k + 1 << "; set the code of the wrong one to 0";
+      refuse(file, words.str());
+    }
+  }
+  const double* bounds = reader.GetOutput()->GetBounds();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double at[4] = { bounds[corner & 1], bounds[2 + (corner >> 1 & 1)],
+      bounds[4 + (corner >> 2)], 1.0 };
+    double one[4];
+    double other[4];
+    rigid.MultiplyPoint(at, one);
+    affine.MultiplyPoint(at, other);
+    if (std::sqrt(vtkMath::Distance2BetweenPoints(one, other)) >
+      0.5 * *reader.GetOutput()->GetSpacing())
+    {
+      notes.emplace_back(
+        "warning: its qform and its sform place it differently; the sform is taken");
+      return;
+    }
+  }
+}
+
+// the better of the two forms a header may have; both lead to right, front, head
+void placeInPatient(
+  const std::filesystem::path& file, vtkNIFTIImageReader& reader, PatientImage& image)
+{
+  if (reader.GetSFormMatrix() && reader.GetQFormMatrix())
+  {
+    compareForms(file, reader, image.notes);
+  }
   vtkMatrix4x4* form = reader.GetSFormMatrix() ? reader.GetSFormMatrix() : reader.GetQFormMatrix();
   if (form)
   {
@@ -205,7 +250,7 @@ PatientImage readNifti(const std::filesystem::path& file)
   reader->SetFileName(file.c_str());
   reader->Update();
   PatientImage result = straight(reader->GetOutput());
-  placeInPatient(*reader, result);
+  placeInPatient(file, *reader, result);
   result.slope = reader->GetRescaleSlope();
   result.intercept = reader->GetRescaleIntercept();
   if (!std::isfinite(result.slope) || !std::isfinite(result.intercept))

@@ -140,6 +140,21 @@ void checkSpacing(const std::filesystem::path& file, const Start& start, unsigne
   }
 }
 
+// of the voxels; some programs leave 0 there, which others take for 348 or 352
+std::uintmax_t beginOf(const std::filesystem::path& file, const Start& start)
+{
+  const double begin = start.real(108);
+  constexpr double farthest = 1e9; // [bytes]
+  if (!(begin >= kFirst && begin < farthest && begin == std::floor(begin)))
+  {
+    std::ostringstream words;
+    words << "its vox_offset is " << begin << ", but voxels begin at byte " << kFirst
+          << " or later; export it again";
+    refuse(file, words.str());
+  }
+  return static_cast<std::uintmax_t>(begin);
+}
+
 } // namespace
 
 NiftiHeader readNiftiHeader(const std::filesystem::path& file)
@@ -167,9 +182,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& file)
     header.bytes *= std::max(1U, count);
   }
   checkSpacing(file, start, dimensions);
-  const double begin = start.real(108);
-  constexpr double farthest = 1e9; // [bytes]
-  header.begin = begin > kFirst && begin < farthest ? static_cast<std::uintmax_t>(begin) : kFirst;
+  header.begin = beginOf(file, start);
   return header;
 }
 

@@ -5,6 +5,7 @@
 #include "haptics/surface/edges.h"
 #include "pipeline/model/coincident_points.h"
 #include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_facing.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -53,62 +54,6 @@ Merged merged(std::span<const Eigen::Vector3d> points, std::span<const Triangle>
   return result;
 }
 
-// whether a triangle goes along an edge from one point to another
-bool goes(const Triangle& t, int from, int to)
-{
-  return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) ||
-    (t[2] == from && t[0] == to);
-}
-
-// six times the volume below triangles, seen from a point
-double volumeSeen(
-  std::span<const Eigen::Vector3d> points, const Triangle& t, const Eigen::Vector3d& from)
-{
-  return (points[at(t[0])] - from).dot((points[at(t[1])] - from).cross(points[at(t[2])] - from));
-}
-
-// which triangles to turn, so that those across an edge agree, with the first of each piece or,
-// when closed, so that its volume is positive
-std::vector<bool> toTurn(const Merged& mesh, const Edges& edges, bool closed)
-{
-  const std::vector<Triangle>& triangles = mesh.triangles;
-  std::vector<bool> turn(triangles.size());
-  std::vector<bool> met(triangles.size());
-  std::vector<int> piece;
-  for (std::size_t start = 0; start < triangles.size(); ++start)
-  {
-    if (met[start])
-    {
-      continue;
-    }
-    met[start] = true;
-    piece.assign(1, static_cast<int>(start));
-    const Eigen::Vector3d& from = mesh.points[at(triangles[start][0])];
-    double volume = 0.0;
-    for (std::size_t next = 0; next < piece.size(); ++next)
-    {
-      const std::size_t self = at(piece[next]);
-      const Triangle& t = triangles[self];
-      volume += (turn[self] ? -1.0 : 1.0) * volumeSeen(mesh.points, t, from);
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const int other = edges.across[self][k];
-        if (other >= 0 && !met[at(other)])
-        {
-          met[at(other)] = true;
-          turn[at(other)] = turn[self] != goes(triangles[at(other)], t[k], t[(k + 1) % 3]);
-          piece.push_back(other);
-        }
-      }
-    }
-    for (const int triangle : piece)
-    {
-      turn[at(triangle)] = turn[at(triangle)] != (closed && volume < 0.0);
-    }
-  }
-  return turn;
-}
-
 } // namespace
 
 RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
@@ -143,11 +88,11 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
       " one triangle only; press it from the front");
   }
 
-  const std::vector<bool> turn = toTurn(mesh, edges, result.closed);
+  const Facing facing = facingOf(mesh.points, mesh.triangles, edges);
   std::size_t changed = 0;
-  for (std::size_t i = 0; i < turn.size(); ++i)
+  for (std::size_t i = 0; i < facing.turn.size(); ++i)
   {
-    if (turn[i])
+    if (facing.turn[i])
     {
       std::swap(mesh.triangles[i][0], mesh.triangles[i][2]);
       ++changed;
@@ -157,6 +102,11 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   {
     result.notes.push_back(counted(changed, "triangle") +
       (result.closed ? " turned to face outwards" : " turned to face as their neighbors"));
+  }
+  if (facing.cavities > 0)
+  {
+    result.notes.push_back(counted(facing.cavities, "closed piece") +
+      " within another, facing the other way: taken for hollow");
   }
   result.mesh = makePolyData(mesh.points, mesh.triangles);
   return result;

@@ -1,7 +1,7 @@
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/find_contact.h"
 #include "haptics/surface/closest_point.h"
-#include "haptics/surface/decimate.h"
+#include "haptics/surface/decimation/decimate.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"

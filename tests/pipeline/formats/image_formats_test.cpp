@@ -179,6 +179,10 @@ TEST_F(Images, NiftiHeadersAreRefusedByTheFieldThatIsWrong)
   EXPECT_NE(with(44, short{ -48 }, 1).find("dim[2] is -48, no number"), std::string::npos);
   EXPECT_NE(with(88, -3.0F, 0).find("pixdim[3] is -3, no size"), std::string::npos);
   EXPECT_EQ(with(88, -3.0F, 1), "accepted");
+  for (const float offset : { 0.0F, 348.0F, 352.5F, -1.0F, 1e30F, nan })
+  {
+    EXPECT_NE(with(108, offset, 1).find("its vox_offset is "), std::string::npos) << offset;
+  }
   for (const auto& [type, words] : { std::pair(1, "single bits (datatype 1)"),
          { 1536, "16 bytes (datatype 1536)" }, { 128, "several values at each voxel" },
          { 2304, "several values at each voxel" }, { 3, "none of NIfTI's" } })
@@ -186,6 +190,33 @@ TEST_F(Images, NiftiHeadersAreRefusedByTheFieldThatIsWrong)
     const std::string message = with(70, static_cast<short>(type), 1);
     EXPECT_NE(message.find(words), std::string::npos) << message;
   }
+}
+
+// ITK prefers the qform where nibabel takes the sform
+TEST_F(Images, NiftiWhoseTwoFormsDifferIsRefusedOrSaysSo)
+{
+  std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
+  const auto put = [&](std::size_t at, const auto& value)
+  { std::memcpy(bytes.data() + at, &value, sizeof value); };
+  const auto notes = [&]
+  {
+    std::string all;
+    for (const std::string& note : readSurface(write("two.nii", bytes), {}, { 0.0, {} }).notes)
+    {
+      all += note + '\n';
+    }
+    return all;
+  };
+  put(252, short{ 1 }); // a qform, at the same place
+  EXPECT_EQ(notes().find("differently"), std::string::npos) << notes();
+  put(268, 7.0F); // to the right [mm]
+  EXPECT_NE(notes().find("qform and its sform place it differently"), std::string::npos) << notes();
+  float side = 0.0F;
+  std::memcpy(&side, bytes.data() + 280, sizeof side);
+  put(280, 2.0F * side);
+  const std::string message = refusal(write("two.nii", bytes), { 0.0, {} });
+  EXPECT_NE(message.find("along axis 1; set the code of the wrong one to 0"), std::string::npos)
+    << message;
 }
 
 TEST_F(Images, SaysTheFrameAndWhatWasLeftOut)

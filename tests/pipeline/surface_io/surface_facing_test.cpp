@@ -1,0 +1,101 @@
+#include "pipeline/surface_io/surface_facing.h"
+
+#include "haptics/units.h"
+#include "tests/support/surfaces.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+#include <utility>
+
+namespace palp::test
+{
+namespace
+{
+
+using namespace units::literals;
+
+void add(Mesh& all, Mesh mesh, bool inward, const Eigen::Vector3d& center = Eigen::Vector3d::Zero())
+{
+  const auto first = static_cast<int>(all.first.size());
+  for (const Eigen::Vector3d& point : mesh.first)
+  {
+    all.first.push_back(center + point);
+  }
+  for (Triangle t : mesh.second)
+  {
+    inward ? std::swap(t[0], t[2]) : void();
+    all.second.push_back({ first + t[0], first + t[1], first + t[2] });
+  }
+}
+
+// [m^3], by the divergence theorem, in units of that of a sphere of the radius
+double ballsIn(const Mesh& mesh, const Facing& facing, double radius)
+{
+  double volume = 0.0;
+  for (std::size_t i = 0; i < mesh.second.size(); ++i)
+  {
+    const auto [a, b, c] = mesh.second[i];
+    volume += (facing.turn[i] ? -1.0 : 1.0) / 6.0 *
+      mesh.first[at(a)].dot(mesh.first[at(b)].cross(mesh.first[at(c)]));
+  }
+  return volume / (4.0 / 3.0 * std::numbers::pi * radius * radius * radius);
+}
+
+Facing facingOf(const Mesh& mesh)
+{
+  return palp::facingOf(mesh.first, mesh.second, edgesOf(mesh.first.size(), mesh.second));
+}
+
+// a wall of a tenth of the radius: whichever of both comes first, and faces which way
+TEST(Facing, OfAPieceWithinAnotherThatFacesTheOtherWayIsTowardTheHollow)
+{
+  for (const bool outerFirst : { true, false })
+  {
+    for (const bool inward : { true, false })
+    {
+      Mesh mesh;
+      add(mesh, ball(outerFirst ? 40.0_mm : 36.0_mm, 12), outerFirst == inward);
+      add(mesh, ball(outerFirst ? 36.0_mm : 40.0_mm, 12), outerFirst != inward);
+      const Facing facing = facingOf(mesh);
+      EXPECT_EQ(facing.cavities, 1U);
+      EXPECT_NEAR(ballsIn(mesh, facing, 40.0_mm), 1.0 - 0.9 * 0.9 * 0.9, 0.02);
+    }
+  }
+}
+
+TEST(Facing, OfPiecesThatFaceAlikeIsOutward)
+{
+  for (const bool inward : { true, false })
+  {
+    Mesh within;
+    add(within, ball(40.0_mm, 12), inward);
+    add(within, ball(20.0_mm, 12), inward);
+    EXPECT_EQ(facingOf(within).cavities, 0U);
+    EXPECT_NEAR(ballsIn(within, facingOf(within), 40.0_mm), 1.0 + 0.125, 0.04);
+    Mesh beside;
+    add(beside, ball(40.0_mm, 12), inward);
+    add(beside, ball(40.0_mm, 12), !inward, { 90.0_mm, 0.0, 0.0 });
+    EXPECT_EQ(facingOf(beside).cavities, 0U);
+    EXPECT_NEAR(ballsIn(beside, facingOf(beside), 40.0_mm), 2.0, 0.06);
+  }
+}
+
+// a stone in the hollow of a shell, and two hollows in one body
+TEST(Facing, OfSeveralIsThatOfTheirDepth)
+{
+  Mesh stone;
+  add(stone, ball(10.0_mm, 8), false);
+  add(stone, ball(36.0_mm, 12), true);
+  add(stone, ball(40.0_mm, 12), false);
+  EXPECT_EQ(facingOf(stone).cavities, 1U);
+  EXPECT_NEAR(ballsIn(stone, facingOf(stone), 40.0_mm), 1.0 - 0.729 + 1.0 / 64.0, 0.03);
+  Mesh holes;
+  add(holes, ball(40.0_mm, 12), false);
+  add(holes, ball(10.0_mm, 8), true, { 15.0_mm, 0.0, 0.0 });
+  add(holes, ball(10.0_mm, 8), true, { -15.0_mm, 0.0, 0.0 });
+  EXPECT_EQ(facingOf(holes).cavities, 2U);
+  EXPECT_NEAR(ballsIn(holes, facingOf(holes), 40.0_mm), 1.0 - 2.0 / 64.0, 0.03);
+}
+
+} // namespace
+} // namespace palp::test
