@@ -6,7 +6,7 @@
 #include "data/press_path.h"
 #include "data/shapes.h"
 #include "haptics/error.h"
-#include "haptics/surface/decimate.h"
+#include "haptics/surface/decimation/decimate.h"
 #include "haptics/surface/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"

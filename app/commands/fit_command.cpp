@@ -59,6 +59,7 @@ struct FileFit
   FittedCurve curve;
   fit::Rows rows;
   std::size_t rowsInFile;
+  std::string note;    // of a recording with another tool
   std::string outside; // rules that the deepest row breaks
 };
 
@@ -79,7 +80,8 @@ fit::ModulusQuestion questionOf(const FitOptions& options)
 
 FileFit fitFile(const std::filesystem::path& file, const fit::ModulusQuestion& question)
 {
-  const ReferenceCurve whole = readForceRows(file).curve;
+  const ForceRows read = readForceRows(file);
+  const ReferenceCurve& whole = read.curve;
   try
   {
     const fit::Rows rows = fit::loadingRows(whole.x);
@@ -94,6 +96,7 @@ FileFit fitFile(const std::filesystem::path& file, const fit::ModulusQuestion& q
     return { .curve = { .name = whole.name, .loading = std::move(loading), .fit = fitted },
       .rows = rows,
       .rowsInFile = whole.x.size(),
+      .note = noteOfTool(read, question.tip),
       .outside = brokenNames(validity(fitted.deepest)) };
   }
   catch (const Error& error)
@@ -251,6 +254,7 @@ void tellLimits(const FileFit& file, bool searchesOffset)
   const auto tell = [&](const std::string& what)
   { std::cerr << "palp: " << file.curve.name << ": " << what << '\n'; };
   const fit::ModulusFit& fitted = file.curve.fit;
+  file.note.empty() ? void() : tell(file.note);
   if (file.rows.count < file.rowsInFile)
   {
     tell("rows " + std::to_string(file.rows.first + 1) + " to " +
@@ -331,12 +335,10 @@ void addFitCommand(CLI::App& app, const Renderer* pictures)
   addOverwrite(*command, options->overwrite);
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer(
-    "Of each file the loading is fitted, up to its deepest row. Intervals of 95 % hold what is "
-    "not\n"
-    "known of contact, offset and thickness, for independent noise in the force; low and high are\n"
-    "null in fit.json where the curve does not tell them. exponent: of depth, by a power law of "
-    "its\n"
-    "own. laws: every law of the tool; the lowest aic explains the curve best.\n"
+    "Of each file the loading is fitted, up to its deepest row. Intervals of 95 % hold what is\n"
+    "not known of contact, offset and thickness, for independent noise in the force; low and\n"
+    "high are null in fit.json where the curve does not tell them. exponent: of depth, by a power\n"
+    "law of its own. laws: every law of the tool; the lowest aic explains the curve best.\n"
     "Examples:\n"
     "  palp fit press.csv --tip sphere:4mm --poisson 0.45 --out fit\n"
     "  palp fit day1.csv day2.csv --tip cone:45deg:10mm --law exact --offset 0N --out fit\n"

@@ -85,6 +85,12 @@ void addMotion(ScenePlan& plan, const RunOptions& options)
       "--depth, --speed, --toward: say how --at and --points press; give a place, or leave them "
       "out");
   }
+  if (options.mesh.file.extension() == ".json")
+  {
+    throw Error(ErrorCode::BadValue,
+      options.mesh.file.string() +
+        ": is a scene, not a surface; give it to palp scene, or its whole folder to palp run");
+  }
   if (options.path.empty() && options.mesh.bundled.empty())
   {
     throw Error(ErrorCode::BadValue,

@@ -1,15 +1,25 @@
 #include "app/input/force_curve.h"
 
+#include "app/input/tip_text.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/files/number_table.h"
 #include "haptics/units.h"
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace palp
 {
+
+namespace
+{
+
+constexpr std::string_view kTool = "# tool: ";
+
+} // namespace
 
 ForceRows readForceRows(const std::filesystem::path& file)
 {
@@ -19,13 +29,28 @@ ForceRows readForceRows(const std::filesystem::path& file)
     throw Error(ErrorCode::BadFile, file.string() + ": no row below the header; give a curve");
   }
   ForceRows rows{ .curve = { .name = file.stem().string(), .x = {}, .y = {} },
-    .recorded = std::ranges::find(table.names, "time_s") != table.names.end() };
+    .recorded = std::ranges::find(table.names, "time_s") != table.names.end(),
+    .tool = {} };
+  const auto tool = std::ranges::find_if(
+    table.comments, [](const std::string& line) { return line.starts_with(kTool); });
+  if (tool != table.comments.end())
+  {
+    rows.tool = tool->substr(kTool.size());
+  }
   for (const auto& [values, line] : table.rows)
   {
     rows.curve.x.push_back(units::fromMillimeters(values[0]));
     rows.curve.y.push_back(values[1]);
   }
   return rows;
+}
+
+std::string noteOfTool(const ForceRows& rows, const Tip& tip)
+{
+  const std::string taken = describeTip(tip);
+  return rows.tool.empty() || rows.tool == taken
+    ? ""
+    : "was recorded with the tool " + printable(rows.tool) + " and is taken as one of " + taken;
 }
 
 ReferenceCurve readForceCurve(const std::filesystem::path& file)

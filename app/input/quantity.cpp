@@ -151,7 +151,7 @@ std::string quantityText(double value, Quantity kind)
   const Unit& usual = units.front();
   const auto size = static_cast<double>(usual.size);
   // a rounded quotient often misses the number by a digit that its float neighbors do not have
-  for (const double number : { value / size, std::round(value / size * 1e9) / 1e9 })
+  for (const double number : { std::round(value / size * 1e9) / 1e9, value / size })
   {
     if (toSi(number, usual) == value)
     {

@@ -160,7 +160,12 @@ TEST_F(FitCommand, TakesTheOutputOfForceAndOfRun)
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_NEAR(fitted()["young_Pa"].get<double>(), 5e3, 5e3 * 1e-5) << file;
     EXPECT_NEAR(fitted()["contact_mm"].get<double>(), 0.0, 1e-4) << file;
+    EXPECT_EQ(run.err.find("recorded with"), std::string::npos) << run.err;
   }
+  const test::Finished other =
+    fit("run/samples.csv --tip sphere:5mm --poisson 0.45 --no-picture --overwrite");
+  EXPECT_NE(other.err.find("recorded with the tool cone:30deg:10mm"), std::string::npos)
+    << other.err;
 }
 
 TEST_F(FitCommand, SearchesTheThicknessOnRequest)

@@ -46,6 +46,18 @@ TEST(ForceCurve, IsFoundByItsColumnsAmongOthers)
   EXPECT_EQ(curve.y, (std::vector<double>{ 0.0, 0.5, 0.2 }));
 }
 
+TEST(ForceCurve, IsFoundBesideWordsBlanksAndQuotes)
+{
+  for (const char* text : { "specimen,depth_mm,force_N\nliver A,1,0.25\n\"fat, skin\",4,2\n",
+         "\"depth_mm\",\"force_N\"\n\"1\",0.25\n4,2\n", "depth_mm, force_N\n 1 ,\t0.25\n4, 2\n" })
+  {
+    const ReferenceCurve curve = readForceCurve(test::writtenCsv(text));
+    EXPECT_EQ(curve.x, (std::vector<double>{ 0.001, 0.004 })) << text;
+    EXPECT_EQ(curve.y, (std::vector<double>{ 0.25, 2.0 })) << text;
+  }
+  EXPECT_THROW((void)readForceCurve(test::writtenCsv("depth_mm,force_N\n1,deep\n")), Error);
+}
+
 TEST(ForceCurve, OfARecordingIsItsLoadingPart)
 {
   const ReferenceCurve curve = readForceCurve(test::writtenCsv(
