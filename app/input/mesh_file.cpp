@@ -1,12 +1,14 @@
 #include "app/input/mesh_file.h"
 
 #include "app/program/sha256.h"
+#include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <system_error>
 
 namespace palp
 {
@@ -56,6 +58,11 @@ MeshFile describeFile(const std::filesystem::path& file)
   Sha256 hash;
   for (const std::filesystem::path& one : filesBehind(file))
   {
+    if (std::error_code none; std::filesystem::is_other(one, none))
+    {
+      throw Error(
+        ErrorCode::BadFile, one.string() + ": is a pipe or a device, not a file; copy it into one");
+    }
     hash.addFile(one);
   }
   return { .name = file.filename().string(), .sha256 = hash.hex(), .unit = {}, .part = {} };

@@ -130,7 +130,9 @@ Manifest::Manifest(std::filesystem::path folder)
   }
   if (first != kFirst)
   {
-    refusePlan(folder_, "is of another version of sweeps; plan it again in another folder");
+    refusePlan(folder_,
+      "is of another version of sweeps, or was damaged; plan it again, which keeps what is "
+      "finished");
   }
   std::getline(file_, shared);
   try
@@ -253,9 +255,8 @@ PlannedCase Manifest::at(std::size_t number)
   if (lineNumber(line) != number)
   {
     refusePlan(folder_,
-      "case " + std::to_string(number) +
-        " is missing, the file was edited; plan again, what is "
-        "finished stays");
+      "is edited, case " + std::to_string(number) +
+        " is missing; plan again, which keeps what is finished");
   }
   return parse(line);
 }
@@ -280,12 +281,11 @@ void Manifest::forEach(const std::function<void(const PlannedCase&)>& take)
     }
     take(parse(line));
   }
-  if (expected != head_.count)
+  if (expected != head_.count || !file_.eof())
   {
     refusePlan(folder_,
-      "case " + std::to_string(expected) +
-        " is missing, the file was edited; plan again, what is "
-        "finished stays");
+      "is edited at case " + std::to_string(expected) +
+        "; plan again, which keeps what is finished");
   }
 }
 

@@ -24,15 +24,15 @@ NumberText endOf(JsonObject& object, const char* key)
 
 } // namespace
 
-std::size_t countOf(JsonObject& object, const char* key, std::size_t least, const std::string& why)
+std::size_t countOf(
+  JsonObject& object, const char* key, std::size_t least, const std::string& why, std::size_t most)
 {
   const auto count = numberText(object.number(key, ""));
   if (!count || !count->unit.empty() || count->number != std::floor(count->number) ||
-    count->number < static_cast<double>(least) || count->number > static_cast<double>(kMostCases))
+    count->number < static_cast<double>(least) || count->number > static_cast<double>(most))
   {
     object.refuse(key,
-      "must be a whole number, " + std::to_string(least) + " to " + std::to_string(kMostCases) +
-        why);
+      "must be a whole number, " + std::to_string(least) + " to " + std::to_string(most) + why);
   }
   return static_cast<std::size_t>(count->number);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/sweep/sweep.h"
 #include "app/sweep/sweep_range.h"
 
 #include <initializer_list>
@@ -16,11 +17,11 @@ class JsonObject;
 /// @throws Error  BadFile: names it
 void refuseUnknown(JsonObject& object, std::initializer_list<const char*> keys);
 
-/// A whole number up to kMostCases.
+/// A whole number.
 /// @param why     follows the message
-/// @throws Error  BadFile: none, or less than the least
-[[nodiscard]] std::size_t countOf(
-  JsonObject& object, const char* key, std::size_t least, const std::string& why);
+/// @throws Error  BadFile: none, or out of its range
+[[nodiscard]] std::size_t countOf(JsonObject& object, const char* key, std::size_t least,
+  const std::string& why, std::size_t most = kMostCases);
 
 /// "from" and "to" in one unit, "scale" linear or log.
 /// @throws Error  BadFile: no such range

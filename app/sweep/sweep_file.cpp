@@ -21,6 +21,8 @@ namespace
 
 using nlohmann::json;
 
+constexpr std::size_t kMostSeed = 1ULL << 53U; // that every program writes as it is
+
 const std::vector<std::string> kKinds{ "calibrate", "force", "run" };
 
 // a value as an option takes it; a flag is true or false
@@ -38,7 +40,9 @@ std::string valueText(const JsonObject& at, const std::string& key, const json& 
   {
     at.refuse(key, "must be a value: a text with its unit, a number, true or false");
   }
-  const std::string text = value.get<std::string>();
+  std::string text = value.get<std::string>();
+  text.erase(0, text.find_first_not_of(' '));
+  text.erase(text.find_last_not_of(' ') + 1);
   if (text.empty() || text != printable(text))
   {
     at.refuse(key, "is empty or has control characters; write the value as on the command line");
@@ -148,7 +152,7 @@ public:
     refuseUnknown(object, { "count", "seed", "ranges" });
     const std::size_t count = countOf(object, "count", 1, ", of the samples");
     const std::size_t seed =
-      countOf(object, "seed", 0, "; each gives other samples, and always the same ones");
+      countOf(object, "seed", 0, "; each gives other samples, and always the same ones", kMostSeed);
     (void)object.object("ranges");
     SweepAxis axis;
     std::vector<SweepRange> ranges;
@@ -268,7 +272,7 @@ Sweep readSweepFile(const std::string& name)
   }
   (void)object.text("$schema", "");
   Sweep sweep{ .file = file, .title = {}, .kind = {} };
-  sweep.title = object.text("title", path.stem().string());
+  sweep.title = printable(object.text("title", path.stem().string()));
   sweep.kind = kKinds[object.choice("kind", object.text("kind", ""), kKinds)];
   for (const char* part : { "fixed", "grid", "zip", "latin_hypercube" })
   {

@@ -98,6 +98,16 @@ std::string lastWords(const std::filesystem::path& log, int status)
   return printable(words.starts_with(kBegin) ? words.substr(kBegin.size()) : words);
 }
 
+void refuseFull(const std::string& sentence, std::size_t number)
+{
+  if (sentence.find(std::generic_category().message(ENOSPC)) != sentence.npos)
+  {
+    throw Error(ErrorCode::BadFile,
+      "case " + std::to_string(number) + ": " + sentence +
+        "; make room and run again, which keeps what is finished");
+  }
+}
+
 bool hasWarning(const std::filesystem::path& log)
 {
   std::ifstream in(log);

@@ -34,4 +34,10 @@ struct Ended
 /// Why a program failed, in one sentence: its last words, or the signal that ended it.
 [[nodiscard]] std::string lastWords(const std::filesystem::path& log, int status);
 
+/// Of a full disk the next case would fail, too.
+/// @param sentence  why a case failed; empty: it did not
+/// @param number    of the case
+/// @throws Error    BadFile: a full disk is why
+void refuseFull(const std::string& sentence, std::size_t number);
+
 } // namespace palp

@@ -38,19 +38,26 @@ std::string machine()
     fs::read_symlink("/proc/self/ns/pid", unknown).string();
 }
 
-// when a process began, by the kernel's clock, since numbers of processes come again
-std::string beginOf(const std::string& process)
+// what the kernel tells of a process
+struct Process
 {
-  const std::string stat = contentOf("/proc/" + process + "/stat");
+  std::string state; // T and t: stopped
+  std::string begin; // by the kernel's clock, since numbers of processes come again
+};
+
+Process processOf(const std::string& number)
+{
+  const std::string stat = contentOf("/proc/" + number + "/stat");
   const std::size_t name = stat.rfind(')');
   std::istringstream rest(name == stat.npos ? "" : stat.substr(name + 1));
-  constexpr int kStartTime = 20; // of the words after the name
-  std::string word;
-  for (int i = 0; i < kStartTime; ++i)
+  constexpr int kStartTime = 20; // of the words after the name, of which the state is the first
+  Process process;
+  rest >> process.state;
+  for (int i = 1; i < kStartTime; ++i)
   {
-    rest >> word;
+    rest >> process.begin;
   }
-  return word;
+  return process;
 }
 
 struct Owner
@@ -105,8 +112,16 @@ bool isSilent(const fs::path& file, double now)
 bool isGone(const fs::path& claim, const std::string& text)
 {
   const Owner owner = ownerOf(text);
-  return (owner.machine == machine() && beginOf(owner.process) != owner.begin) ||
-    isSilent(text.empty() ? claim : claim / kOwner, diskTime(claim.parent_path()));
+  if (owner.machine == machine())
+  {
+    const Process process = processOf(owner.process);
+    const bool isStopped = process.state == "T" || process.state == "t";
+    if (process.begin != owner.begin || !isStopped)
+    {
+      return process.begin != owner.begin;
+    }
+  }
+  return isSilent(text.empty() ? claim : claim / kOwner, diskTime(claim.parent_path()));
 }
 
 // out of the way of others first, as a whole; only if it is still that owner's
@@ -154,7 +169,7 @@ std::optional<Claim> Claim::take(const fs::path& claims, const std::string& name
 {
   const fs::path claim = claims / name;
   const std::string process = std::to_string(getpid());
-  const std::string begin = beginOf(process);
+  const std::string begin = processOf(process).begin;
   const std::string mine = textOf({ machine(), process, begin });
   // of nobody else, for one that was taken for gone may go on in its own
   const std::string work = process + '-' + begin;
@@ -207,6 +222,11 @@ void Claim::tidy(const fs::path& claims)
 void Claim::beat() const
 {
   futimens(file_.get(), nullptr); // by the clock of the disk
+}
+
+bool Claim::isOurs() const
+{
+  return contentOf(claim_ / kOwner) == owner_ && fs::exists(folder_);
 }
 
 void Claim::release() const

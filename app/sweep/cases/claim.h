@@ -14,8 +14,9 @@ namespace palp
 ///
 /// It appears by a rename, which one of several runners can do, on a network, too; no lock. It is
 /// beaten as long as the runner lives. One whose runner is gone is taken over: on the same machine
-/// at once; where it is elsewhere or was stopped, when its last beat is two minutes behind one of
-/// ours, or ahead of it, both by the clock of the disk, so that clocks of nodes may differ.
+/// at once, and not as long as its process goes on; where it is elsewhere or was stopped, when its
+/// last beat is two minutes behind one of ours, or ahead of it, both by the clock of the disk, so
+/// that clocks of nodes may differ.
 ///
 /// A claim only saves work: what is finished is renamed into its place, which one runner can do.
 class Claim
@@ -43,6 +44,9 @@ public:
   {
     return folder_;
   }
+
+  /// False where another runner took it over, or is about to.
+  [[nodiscard]] bool isOurs() const;
 
   void beat() const;
   void release() const;

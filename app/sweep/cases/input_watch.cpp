@@ -26,6 +26,7 @@ std::vector<InputWatch::Stamp> InputWatch::stampsOf(const std::string& file)
   return stamps;
 }
 
+// with the one behind it
 std::string InputWatch::shown(const std::string& file)
 {
   std::string words;
@@ -52,9 +53,17 @@ void InputWatch::check(const std::string& file)
   seen_[file] = now;
 }
 
-bool InputWatch::isTouched(const std::string& file) const
+void InputWatch::refuseTouched(const std::vector<std::string>& files, std::size_t number) const
 {
-  return stampsOf(file) != seen_.at(file);
+  for (const std::string& file : files)
+  {
+    if (stampsOf(file) != seen_.at(file))
+    {
+      throw Error(ErrorCode::BadFile,
+        shown(file) + ": was edited while case " + std::to_string(number) +
+          " was computed, which is thrown away; plan again, which keeps what is finished");
+    }
+  }
 }
 
 } // namespace palp

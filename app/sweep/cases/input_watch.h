@@ -21,17 +21,17 @@ public:
   /// @throws Error  BadFile: it was edited after planning
   void check(const std::string& file);
 
-  /// After a case has read it: whether anybody touched it since check().
-  [[nodiscard]] bool isTouched(const std::string& file) const;
-
-  /// A file in words, with the one behind it.
-  [[nodiscard]] static std::string shown(const std::string& file);
+  /// After a case has read them: nobody can tell what it read if they were touched since check().
+  /// @param number  of the case
+  /// @throws Error  BadFile: somebody touched one
+  void refuseTouched(const std::vector<std::string>& files, std::size_t number) const;
 
 private:
   // device, node, size, and times of content and of entry
   using Stamp = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
 
   [[nodiscard]] static std::vector<Stamp> stampsOf(const std::string& file);
+  [[nodiscard]] static std::string shown(const std::string& file);
 
   const std::map<std::string, std::string>& hashes_;
   std::map<std::string, std::vector<Stamp>> seen_;

@@ -121,7 +121,11 @@ private:
     places_.clear();
     for (const std::string& given : titles)
     {
-      const std::string title = (isVaried(given) ? "result_" : "") + given;
+      std::string title = given;
+      while (isVaried(title))
+      {
+        title.insert(0, "result_");
+      }
       auto found = std::find_if(columns_.begin() + static_cast<std::ptrdiff_t>(varied),
         columns_.end(), [&](const WrittenColumn& column) { return column.title == title; });
       if (found == columns_.end())

@@ -163,7 +163,7 @@ private:
         running_.erase(found); // its number may be another's from now on
         const Releasing claim{ work.claim };
         endIfAsked(ended);
-        finish(work, ended);
+        tryFinish(work, ended);
       }
     }
     for (const auto& [process, work] : running_)
@@ -239,30 +239,27 @@ private:
     return options;
   }
 
-  // nobody can tell which of both was read
-  void refuseTouched(const Work& work) const
+  // at any moment another runner may take over what was silent for long
+  void tryFinish(const Work& work, const Ended& ended)
   {
-    for (const std::string& file : work.files)
+    try
     {
-      if (inputs_.isTouched(file))
+      finish(work, ended);
+    }
+    catch (const std::exception&)
+    {
+      if (work.claim.isOurs())
       {
-        throw Error(ErrorCode::BadFile,
-          InputWatch::shown(file) + ": was edited while case " +
-            std::to_string(work.planned.number) +
-            " was computed, which is thrown away; plan again, which keeps what is finished");
+        throw;
       }
+      elsewhere_.push_back(work.planned.number);
     }
   }
 
   void finish(const Work& work, const Ended& ended)
   {
+    inputs_.refuseTouched(work.files, work.planned.number);
     const fs::path log = work.claim.folder() / kLogFile;
-    if (!fs::exists(log)) // we were silent for so long that another runner took it over
-    {
-      elsewhere_.push_back(work.planned.number);
-      return;
-    }
-    refuseTouched(work);
     const bool good = ended.status == 0;
     const fs::path result = work.claim.folder() / work.planned.name;
     std::string sentence = good ? "" : lastWords(log, ended.status);
@@ -270,6 +267,7 @@ private:
     {
       sentence.replace(at, result.string().size(), folders_.failure(work.planned.name).string());
     }
+    refuseFull(sentence, work.planned.number);
     fs::create_directories(result); // a failed one may have none
     fs::rename(log, result / kLogFile);
     describe(work, result, ended, sentence);

@@ -202,9 +202,10 @@ figures::Figure mapOf(const SweepPlot& plot, const figures::Table& table, figure
     one.x.push_back(values.x[i]);
     one.y.push_back(heights.y[i]);
   }
-  figures::Figure figure{
-    .name = plot.name, .caption = plot.title, .bottom = plot.x, .left = plot.y
-  };
+  figures::Figure figure{ .name = plot.name,
+    .caption = plot.title.empty() ? plot.colors : plot.title + ": " + plot.colors,
+    .bottom = plot.x,
+    .left = plot.y };
   own = figures::pointTable(figure);
   for (int k = 0; k < figures::kShades; ++k)
   {

@@ -97,13 +97,19 @@ TEST_F(ClaimOfACase, OfAProcessThatWasStoppedIsTakenOverWhenItIsSilentForLong)
   char ready = 0;
   ASSERT_EQ(read(line[0], &ready, 1), 1);
   EXPECT_FALSE(Claim::take(claims(), "case"));
+  fs::last_write_time(claims() / "case" / "owner",
+    fs::file_time_type::clock::now() - std::chrono::seconds(kSilence + 60));
+  EXPECT_TRUE(Claim::isHeld(claims(), "case")) << "it lives, whatever a clock says";
+  EXPECT_FALSE(Claim::take(claims(), "case"));
+  kill(child, SIGSTOP);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, WUNTRACED), child);
+  ASSERT_TRUE(WIFSTOPPED(status));
   const fs::path its = std::find_if(fs::directory_iterator(claims() / "case"),
     fs::directory_iterator(),
     [](const auto& entry) {
       return entry.is_directory();
     })->path();
-  fs::last_write_time(claims() / "case" / "owner",
-    fs::file_time_type::clock::now() - std::chrono::seconds(kSilence + 60));
   EXPECT_FALSE(Claim::isHeld(claims(), "case"));
   const auto claim = Claim::take(claims(), "case");
   ASSERT_TRUE(claim);

@@ -150,6 +150,30 @@ TEST_F(Sweeping, OnAFullDiskLosesNothing)
   EXPECT_EQ(test::readAll(folder() / "disk.csv"), merged("serial"));
 }
 
+// each case would be computed for nothing
+TEST_F(Sweeping, OnADiskThatIsTooSmallForACaseEndsAtTheFirst)
+{
+  if (!mayUnshare())
+  {
+    GTEST_SKIP() << "nothing may be mounted here";
+  }
+  write("run.json", R"({"palp_sweep": 1, "kind": "run", "fixed": {"at": "-48.5,38.4,39.5",
+    "depth": "3mm"}, "grid": {"young": ["1kPa", "2kPa", "3kPa", "4kPa", "5kPa", "6kPa"]}})");
+  const std::string disk = at("disk");
+  std::filesystem::create_directory(disk);
+  const std::string palp = PALP_PROGRAM " sweep ";
+  write("small.sh",
+    "mount -t tmpfs -o size=160k none " + disk + " || exit 77\ncd " + disk + "\n" + palp + "plan " +
+      at("run.json") + " s && " + palp + "run s; echo $?\n" + palp + "status s\n");
+  const Finished small = test::runCommand("unshare -rm sh " + at("small.sh"));
+  EXPECT_TRUE(small.out.ends_with("2\nrun: 0 of 6 cases done, 0 running, 0 failed, 6 waiting\n"))
+    << small.out << small.err;
+  const std::size_t first = small.err.find("No space left");
+  ASSERT_NE(first, small.err.npos) << small.err;
+  EXPECT_EQ(small.err.find("No space left", first + 1), small.err.npos) << small.err;
+  EXPECT_NE(small.err.find("make room and run again"), small.err.npos) << small.err;
+}
+
 // as over a line that is cut: the shell ends what has no nohup
 TEST_F(Sweeping, GoesOnUnderNohup)
 {
