@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
+#include <fstream>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
@@ -42,19 +43,6 @@ bool isFolder(const fs::path& file)
   return fs::is_directory(fs::symlink_status(file, unknown));
 }
 
-// what a killed run left in a folder; only who holds the lock may ask
-void removeHidden(const fs::path& folder, const std::string& start)
-{
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-  {
-    if (isHidden(entry.path().filename().string(), start))
-    {
-      fs::remove_all(entry.path(), ignored);
-    }
-  }
-}
-
 std::vector<std::string> namesIn(const fs::path& folder)
 {
   std::vector<std::string> names;
@@ -65,6 +53,47 @@ std::vector<std::string> namesIn(const fs::path& folder)
   }
   std::ranges::sort(names);
   return names;
+}
+
+// in a stage that is complete: the names of files that go without another in their place
+constexpr const char* kDropped = ".dropped";
+
+// @return  0, or the reason
+int renameAll(const fs::path& stage, const fs::path& folder)
+{
+  for (const std::string& name : namesIn(stage))
+  {
+    if (name != kDropped && rename((stage / name).c_str(), (folder / name).c_str()) != 0)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+// a complete stage, whose run was killed while it put its files into the folder
+void finishStage(const fs::path& stage, const fs::path& folder)
+{
+  std::ifstream dropped(stage / kDropped);
+  for (std::string name; std::getline(dropped, name);)
+  {
+    unlink((folder / name).c_str());
+  }
+  (void)renameAll(stage, folder);
+}
+
+// what killed runs left in a folder; only who holds the lock may ask
+void clearHidden(const fs::path& folder, const std::string& start)
+{
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+  {
+    if (isHidden(entry.path().filename().string(), start))
+    {
+      isThere(entry.path() / kDropped) ? finishStage(entry.path(), folder) : void();
+      fs::remove_all(entry.path(), ignored);
+    }
+  }
 }
 
 std::vector<fs::path> missingFolders(const fs::path& folder)
@@ -144,8 +173,8 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
   std::ranges::sort(own_);
   lock_ = lockFolder(shown_);
   folder_ = fs::canonical(shown_);
-  removeHidden(folder_, hiddenStart());
-  removeHidden(folder_.parent_path(), hiddenStart(folder_.filename()));
+  clearHidden(folder_, hiddenStart());
+  clearHidden(folder_.parent_path(), hiddenStart(folder_.filename()));
   for (const std::string& name : own_)
   {
     if (isFolder(folder_ / name))
@@ -217,7 +246,7 @@ void OutputFolder::publish()
   }
   if (earlier_ == Earlier::Keep || !exchange(gone))
   {
-    renameInto(staged, earlier_ == Earlier::Keep ? std::vector<std::string>{} : gone);
+    renameInto(earlier_ == Earlier::Keep ? std::vector<std::string>{} : gone);
   }
   std::error_code ignored;
   fs::remove_all(stage_, ignored);
@@ -252,19 +281,22 @@ bool OutputFolder::exchange(const std::vector<std::string>& gone)
   return true;
 }
 
-void OutputFolder::renameInto(
-  const std::vector<std::string>& staged, const std::vector<std::string>& gone) const
+// old files go before the first new one comes, so that no two runs are seen together
+void OutputFolder::renameInto(const std::vector<std::string>& gone) const
 {
+  std::string dropped;
+  for (const std::string& name : gone)
+  {
+    dropped += isThere(stage_ / name) ? "" : name + '\n';
+  }
+  replaceFile(stage_ / kDropped, dropped); // from here on the next run would finish this
   for (const std::string& name : gone)
   {
     unlink((folder_ / name).c_str());
   }
-  for (const std::string& name : staged)
+  if (const int failed = renameAll(stage_, folder_))
   {
-    if (rename((stage_ / name).c_str(), (folder_ / name).c_str()) != 0)
-    {
-      refuseFile(shown_ / name, errno);
-    }
+    refuseFile(shown_, failed);
   }
   syncToDisk(folder_);
 }

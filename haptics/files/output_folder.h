@@ -16,8 +16,8 @@ namespace palp
 /// A run writes into stage(), a hidden folder in it, and publishes at its end. The whole folder is
 /// then exchanged for the new one in one step. Where that cannot be (it holds other files, is the
 /// working directory, a mount point or of another owner) the earlier files are removed and the new
-/// ones renamed, one after the other: a crash in between may leave some missing, but never two
-/// runs' files beside each other.
+/// ones renamed, one after the other: a crash in between leaves some missing until the next run
+/// there, which ends that first, but never two runs' files beside each other.
 class OutputFolder
 {
 public:
@@ -29,7 +29,8 @@ public:
     Keep,    ///< the run goes on with them
   };
 
-  /// Locks the folder, which is made when it is missing, and clears what a killed run left.
+  /// Locks the folder, which is made when it is missing, and clears what a killed run left, or ends
+  /// its publishing.
   ///
   /// @param own     names of all files that such a run may leave
   /// @throws Error  BadFile: cannot be made or written, another run writes there, or Refuse and
@@ -66,8 +67,7 @@ public:
 
 private:
   [[nodiscard]] bool exchange(const std::vector<std::string>& gone);
-  void renameInto(
-    const std::vector<std::string>& staged, const std::vector<std::string>& gone) const;
+  void renameInto(const std::vector<std::string>& gone) const;
 
   std::filesystem::path shown_;  // as the user named it
   std::filesystem::path folder_; // absolute, no links

@@ -286,6 +286,12 @@ TEST_F(Output, KilledAtAnySystemCallTheFolderIsOldOrNew)
       {
         ASSERT_EQ(test::readAll(out_ / "notes.txt"), "mine");
       }
+      {
+        const OutputFolder next(out_, kOwn, Earlier::Keep);
+      }
+      const bool isNew = test::readAll(out_ / "a.csv") == "new";
+      ASSERT_EQ(test::readAll(out_ / "b.csv"), isNew ? "new" : "old") << stops;
+      ASSERT_EQ(std::filesystem::exists(out_ / "plot.png"), !isNew) << stops;
       seenOld += text == "old" ? 1 : 0;
       seenNew += text == "new" ? 1 : 0;
     }
