@@ -286,8 +286,8 @@ void runFit(const FitOptions& options, const Renderer* pictures)
   {
     execProgram("palp-draw");
   }
-  const auto output = openOutput(
-    options.out, { "fit.json", "fit.csv", "fit.png", "residuals.png" }, options.overwrite);
+  const auto output = openOutput(options.out, { "fit.json", "fit.csv", "fit.png", "residuals.png" },
+    options.overwrite, options.files);
   const Interrupt interrupt([&output] { output->discard(); });
   const std::vector<FileFit> fits = fitFiles(options);
   std::vector<FittedCurve> curves;

@@ -2,6 +2,7 @@
 #include "app/commands/export_option.h"
 #include "app/commands/headless.h"
 #include "app/folder/export_folder.h"
+#include "app/folder/played_plan.h"
 #include "app/input/force_curve.h"
 #include "app/input/option_values.h"
 #include "app/places/fiducial_file.h"
@@ -167,7 +168,7 @@ void run(const RunOptions& options, const Renderer* pictures)
   }
   const ScenePlan plan = planOf(options);
   BuildTrace silent(false);
-  const auto output = openOutput(options.out, exportFiles(), options.overwrite);
+  const auto output = openOutput(options.out, exportFiles(), options.overwrite, inputsOf(plan));
   playPlan(plan, *output, pictures, silent);
 }
 

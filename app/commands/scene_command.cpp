@@ -2,6 +2,7 @@
 #include "app/commands/headless.h"
 #include "app/commands/program.h"
 #include "app/folder/export_folder.h"
+#include "app/folder/played_plan.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/program/output.h"
@@ -41,7 +42,7 @@ void run(const SceneOptions& options, const Renderer* pictures, int (*view)(cons
     execProgram("palp-draw");
   }
   BuildTrace trace(options.explain);
-  const auto output = openOutput(options.out, exportFiles(), options.overwrite);
+  const auto output = openOutput(options.out, exportFiles(), options.overwrite, inputsOf(plan));
   playPlan(plan, *output, pictures, trace);
   if (options.explain)
   {

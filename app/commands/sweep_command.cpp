@@ -4,6 +4,7 @@
 #include "app/program/exec_program.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/case_numbers.h"
+#include "app/sweep/cases/input_watch.h"
 #include "app/sweep/cases/merge.h"
 #include "app/sweep/cases/pilot.h"
 #include "app/sweep/cases/runner.h"
@@ -155,7 +156,8 @@ void plan(const SweepOptions& options)
 }
 
 // NAME.png of each, in place of those before
-void draw(const SweepFigures& drawn, const std::filesystem::path& folder, const Renderer& pictures)
+void draw(const SweepFigures& drawn, const std::filesystem::path& folder, bool isPartial,
+  const Renderer& pictures)
 {
   std::vector<std::string> names;
   for (const figures::Figure& figure : drawn.figures)
@@ -169,7 +171,8 @@ void draw(const SweepFigures& drawn, const std::filesystem::path& folder, const 
   {
     const std::size_t others = drawn.refused.size() - 1;
     throw Error(ErrorCode::BadFile,
-      drawn.refused.front() + (others > 0 ? " (and " + counted(others, "plot") + " more)" : ""));
+      (isPartial ? "of what is finished so far: " : "") + drawn.refused.front() +
+        (others > 0 ? " (and " + counted(others, "plot") + " more)" : ""));
   }
 }
 
@@ -190,11 +193,16 @@ void merge(const SweepOptions& options, const Renderer* pictures)
   MergeOptions how = options.merge;
   how.others.assign(options.folders.begin() + 1, options.folders.end());
   const Merged merged = mergeResults(manifest, how, options.out);
+  for (const std::string& file : InputWatch::edited(manifest.head().files))
+  {
+    std::cerr << "palp: warning: " << file
+              << ": was edited after planning; these are the results of what it held before\n";
+  }
   std::cerr << "palp: " << counted(merged.cases, "case") << ", " << counted(merged.rows, "row")
             << " in " << options.out.string() << '\n';
   if (options.plots)
   {
-    draw(sweepFigures(manifest, how), options.out.parent_path(), *pictures);
+    draw(sweepFigures(manifest, how), options.out.parent_path(), how.partial, *pictures);
   }
 }
 
@@ -205,16 +213,19 @@ void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
     ->required();
   command->add_option("DIR", options->folder, "Folder of the sweep; what it holds is kept")
     ->required();
-  command->add_flag("--slurm", options->slurm,
+  CLI::Option* slurm = command->add_flag("--slurm", options->slurm,
     "Run pilot cases, and write a job array for Slurm by what they took: DIR/sweep.sbatch");
-  command->add_option("--pilot", options->pilot,
-    "The pilot case, a long one; else the first, the middle and the last");
+  command
+    ->add_option("--pilot", options->pilot,
+      "The pilot case, a long one; else the first, the middle and the last")
+    ->needs(slurm);
   command
     ->add_option("--tasks", options->tasks,
       "Most tasks of the array, less than MaxArraySize of the cluster; each takes several cases "
       "where there are more")
     ->check(CLI::Range(std::size_t{ 1 }, kMostCases))
-    ->capture_default_str();
+    ->capture_default_str()
+    ->needs(slurm);
   command->add_flag(
     "--parallel", options->parallel, "Write the line for GNU parallel: DIR/parallel.sh");
   command->footer("data/sweeps/sweep.schema.json describes the file.\n"

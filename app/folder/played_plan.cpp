@@ -4,6 +4,9 @@
 #include "app/press/playback.h"
 #include "app/press/recorded_rows.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace palp
 {
 
@@ -36,6 +39,15 @@ void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* p
   {
     keepContact(recording);
   }
+}
+
+std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
+{
+  std::vector<std::filesystem::path> inputs = plan.referenceFiles;
+  std::ranges::transform(plan.meshes, std::back_inserter(inputs), &MeshSource::file);
+  inputs.push_back(plan.device.file);
+  std::erase(inputs, std::filesystem::path());
+  return inputs;
 }
 
 ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording& recording)

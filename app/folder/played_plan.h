@@ -5,6 +5,9 @@
 #include "app/press/recording.h"
 #include "haptics/devices/simulated/scripted_path.h"
 
+#include <filesystem>
+#include <vector>
+
 namespace palp
 {
 
@@ -15,6 +18,9 @@ namespace palp
 /// @param path       of the plan's device; null where it has places or a recording
 /// @throws Error     as pathsOf, play, readRows
 void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* path);
+
+/// The files that a plan names.
+[[nodiscard]] std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan);
 
 /// The plan by which a live recording is repeated and drawn: its body, tool, tissue and law.
 ///

@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFileInfo>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -20,6 +21,7 @@ FigureDialog::FigureDialog(const QString& title, const QString& suggested, const
   setAcceptMode(AcceptSave);
   setNameFilter(kinds);
   selectFile(suggested);
+  setDefaultSuffix(QFileInfo(suggested).suffix());
   sizes_->setObjectName("size");
   sizes_->setEditable(true);
   sizes_->addItem(QString("%1x%2").arg(usual.width).arg(usual.height));

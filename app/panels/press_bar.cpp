@@ -80,4 +80,9 @@ void PressBar::showPlace(const Eigen::Vector3d& place)
   place_->setText(numbers.join(", "));
 }
 
+void PressBar::clearPlace()
+{
+  place_->clear();
+}
+
 } // namespace palp

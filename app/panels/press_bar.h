@@ -26,6 +26,9 @@ public:
   /// @param place  on the surface [m]
   void showPlace(const Eigen::Vector3d& place);
 
+  /// For another body, which has other places.
+  void clearPlace();
+
 Q_SIGNALS:
   void pressAsked();
   void refused(const QString& why); ///< of a depth or a speed; empty: no longer

@@ -1,8 +1,12 @@
 #include "app/program/output.h"
 
+#include "haptics/error.h"
+
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
+#include <system_error>
 
 namespace palp
 {
@@ -12,10 +16,23 @@ void addOverwrite(CLI::App& command, bool& overwrite)
   command.add_flag("--overwrite", overwrite, "Replace what an earlier run left in --out");
 }
 
-std::unique_ptr<OutputFolder> openOutput(
-  const std::filesystem::path& folder, std::vector<std::string> own, bool overwrite)
+std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
+  std::vector<std::string> own, bool overwrite, const std::vector<std::filesystem::path>& inputs)
 {
   using Earlier = OutputFolder::Earlier;
+  for (const std::filesystem::path& input : inputs)
+  {
+    const auto isInput = [&](const std::string& name)
+    {
+      std::error_code none;
+      return std::filesystem::equivalent(folder / name, input, none);
+    };
+    if (std::ranges::any_of(own, isInput))
+    {
+      throw Error(ErrorCode::BadValue,
+        input.string() + ": is read by this run, which would replace it; choose another --out");
+    }
+  }
   auto output = std::make_unique<OutputFolder>(
     folder, std::move(own), overwrite ? Earlier::Replace : Earlier::Refuse);
   if (!output->found().empty())

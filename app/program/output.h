@@ -19,8 +19,10 @@ void addOverwrite(CLI::App& command, bool& overwrite);
 ///
 /// @param own        names of all files that such a run may leave
 /// @param overwrite  says on standard error which files will be replaced; else they are refused
-/// @throws Error     as OutputFolder
-[[nodiscard]] std::unique_ptr<OutputFolder> openOutput(
-  const std::filesystem::path& folder, std::vector<std::string> own, bool overwrite);
+/// @param inputs     files that the run reads
+/// @throws Error     as OutputFolder; BadValue: an input would be replaced
+[[nodiscard]] std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
+  std::vector<std::string> own, bool overwrite,
+  const std::vector<std::filesystem::path>& inputs = {});
 
 } // namespace palp

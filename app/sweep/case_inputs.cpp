@@ -13,6 +13,18 @@ namespace
 
 constexpr std::size_t kNameDigits = 32; // 128 bits: no two of 10^7 cases in 10^24 sweeps
 constexpr const char* kProfile = "profile:";
+constexpr std::size_t kMostOpen = 32;     // values within values
+constexpr std::size_t kLongest = 100'000; // [bytes], of what a command takes as one word
+
+void refuseLong(const std::string& name, const std::string& text)
+{
+  if (text.size() > kLongest)
+  {
+    throw Error(ErrorCode::BadValue,
+      inQuotes(name) + " is longer than " + std::to_string(kLongest) +
+        " bytes; write less in one value");
+  }
+}
 
 // fills in one text; `open` are the names on the way to it
 std::string fill(const SweepValues& values, const std::string& text, std::vector<std::string>& open)
@@ -47,7 +59,14 @@ std::string fill(const SweepValues& values, const std::string& text, std::vector
           inQuotes("{" + open.back() + "}"));
     }
     open.push_back(name);
+    if (open.size() > kMostOpen)
+    {
+      throw Error(ErrorCode::BadValue,
+        inQuotes(open.front()) + " needs values within values more than " +
+          std::to_string(kMostOpen) + " deep; write some of them out");
+    }
     full += fill(values, found->second, open);
+    refuseLong(open.front(), full);
     open.pop_back();
     at = end + 1;
   }
@@ -63,7 +82,7 @@ SweepValues filledIn(const SweepValues& values)
   for (const auto& [name, text] : values)
   {
     open.assign(1, name);
-    full.emplace_hint(full.end(), name, fill(values, text, open));
+    refuseLong(name, full.emplace_hint(full.end(), name, fill(values, text, open))->second);
   }
   return full;
 }

@@ -138,7 +138,8 @@ bool Window::exportData(const QString& directory)
       if (const QString found = filesFoundIn(folder); !found.isEmpty())
       {
         const QString text = tr("%1 holds %2 already. Replace?").arg(directory, found);
-        if (QMessageBox::question(this, tr("Palp"), text) != QMessageBox::Yes)
+        if (QMessageBox::question(this, tr("Palp"), text, QMessageBox::Yes | QMessageBox::No,
+              QMessageBox::No) != QMessageBox::Yes)
         {
           return;
         }

@@ -4,6 +4,7 @@
 #include "app/panels/device_panel.h"
 #include "app/panels/folder_dialog.h"
 #include "app/panels/open_dialog.h"
+#include "app/panels/press_bar.h"
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
@@ -105,6 +106,7 @@ bool Window::openFile(const QString& file)
     session_.open(source);
     clearCharts();
     showBody();
+    pressBar_->clearPlace();
   };
   bool opened = false;
   try

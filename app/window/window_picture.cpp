@@ -2,6 +2,7 @@
 
 #include "app/graphs/figure_dialog.h"
 #include "app/window/window.h"
+#include "haptics/error.h"
 
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -93,6 +94,11 @@ bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& l
   return attempt(
     [&]
     {
+      if (!file.endsWith(".png", Qt::CaseInsensitive))
+      {
+        throw Error(
+          ErrorCode::BadFile, file.toStdString() + ": a figure is written as PNG; end it in .png");
+      }
       vtkNew<vtkRenderWindow> window;
       window->SetShowWindow(false);
       window->SetOffScreenRendering(1);

@@ -173,6 +173,7 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
   std::ranges::sort(own_);
   lock_ = lockFolder(shown_);
   folder_ = fs::canonical(shown_);
+  clearAbandoned(folder_);
   clearHidden(folder_, hiddenStart());
   clearHidden(folder_.parent_path(), hiddenStart(folder_.filename()));
   for (const std::string& name : own_)

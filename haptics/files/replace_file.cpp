@@ -4,10 +4,13 @@
 #include "haptics/files/descriptor.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <fcntl.h>
 #include <memory>
+#include <sys/file.h>
 #include <system_error>
+#include <utility>
 
 namespace palp
 {
@@ -19,6 +22,23 @@ namespace fs = std::filesystem;
 constexpr std::string_view kRandom = "XXXXXX"; // for mkdtemp
 
 constexpr std::string_view kHidden = ".palp-";
+
+constexpr std::string_view kWaiting = ".palp-file-"; // of a single file
+
+constexpr std::chrono::minutes kMoment{ 1 }; // far more than from making a folder to locking it
+
+fs::path makeNamed(const fs::path& folder, std::string_view start)
+{
+  std::string name = (folder / start).string().append(kRandom);
+  return mkdtemp(name.data()) == nullptr ? fs::path() : fs::path(name);
+}
+
+// as long as its process lives
+Descriptor locked(const fs::path& folder)
+{
+  Descriptor lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return lock && flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
+}
 
 // follows no link, as nobody can have one where only this process writes
 void writeNew(const fs::path& file, std::string_view content)
@@ -54,8 +74,21 @@ bool isHidden(const std::string& name, const std::string& start)
 
 fs::path makeHidden(const fs::path& folder)
 {
-  std::string name = (folder / kHidden).string().append(kRandom);
-  return mkdtemp(name.data()) == nullptr ? fs::path() : fs::path(name);
+  return makeNamed(folder, kHidden);
+}
+
+void clearAbandoned(const fs::path& folder)
+{
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+  {
+    const bool isWaiting = isHidden(entry.path().filename().string(), std::string(kWaiting));
+    if (isWaiting && fs::file_time_type::clock::now() - entry.last_write_time(ignored) > kMoment &&
+      locked(entry.path()))
+    {
+      fs::remove_all(entry.path(), ignored);
+    }
+  }
 }
 
 int syncToDisk(const fs::path& path)
@@ -70,7 +103,8 @@ std::string shownName(const fs::path& file)
   fs::path shown;
   for (const fs::path& part : file)
   {
-    shown /= isHidden(part.string()) ? fs::path() : part;
+    const std::string name = part.string();
+    shown /= isHidden(name) || isHidden(name, std::string(kWaiting)) ? fs::path() : part;
   }
   return shown.string();
 }
@@ -85,11 +119,12 @@ void refuseFile(const fs::path& file, int reason)
 void replaceFile(const fs::path& file, const std::function<void(const fs::path& fresh)>& write)
 {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const fs::path stage = makeHidden(folder);
+  const fs::path stage = makeNamed(folder, kWaiting);
   if (stage.empty())
   {
     refuseFile(file, errno);
   }
+  const Descriptor lock = locked(stage);
   const auto clean = [](const fs::path* hidden)
   {
     std::error_code ignored;

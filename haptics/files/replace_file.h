@@ -19,6 +19,10 @@ namespace palp
 /// @return  empty, with errno, where it cannot be made
 [[nodiscard]] std::filesystem::path makeHidden(const std::filesystem::path& folder);
 
+/// Removes from a folder what replaceFile() left there in processes that were killed, a minute ago
+/// or earlier; what is being written stays.
+void clearAbandoned(const std::filesystem::path& folder);
+
 /// Brings the content of a file, or the names of a folder, to the disk.
 /// @return  0, or errno
 int syncToDisk(const std::filesystem::path& path);

@@ -1,14 +1,18 @@
 #include "pipeline/formats/image_surface.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "pipeline/formats/image_values.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <vector>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -149,6 +153,37 @@ void checkPosition(const PatientImage& volume, const std::string& name)
   }
 }
 
+// how many pieces of a contour face the other way than the largest, as the walls of hollows do
+std::size_t hollowsIn(vtkPolyData& contour)
+{
+  vtkNew<vtkPolyDataConnectivityFilter> pieces;
+  pieces->SetInputData(&contour);
+  pieces->SetExtractionModeToAllRegions();
+  pieces->ColorRegionsOn();
+  pieces->Update();
+  vtkPolyData& colored = *pieces->GetOutput();
+  std::vector<double> volumes(static_cast<std::size_t>(pieces->GetNumberOfExtractedRegions()));
+  std::vector<std::size_t> sizes(volumes.size());
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = 0; i < colored.GetNumberOfCells(); ++i)
+  {
+    colored.GetCellPoints(i, corners);
+    const auto piece =
+      static_cast<std::size_t>(colored.GetPointData()->GetScalars()->GetTuple1(corners->GetId(0)));
+    std::array<Eigen::Vector3d, 3> p;
+    for (int k = 0; k < 3; ++k)
+    {
+      colored.GetPoint(corners->GetId(k), p[static_cast<std::size_t>(k)].data());
+    }
+    volumes[piece] += p[0].dot(p[1].cross(p[2]));
+    ++sizes[piece];
+  }
+  const double largest =
+    volumes[static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin())];
+  return static_cast<std::size_t>(
+    std::ranges::count_if(volumes, [&](double volume) { return volume * largest < 0.0; }));
+}
+
 // the largest piece, without the stairs of the voxels
 vtkSmartPointer<vtkPolyData> smoothSurface(const Contour& contour, std::vector<std::string>& notes)
 {
@@ -163,8 +198,10 @@ vtkSmartPointer<vtkPolyData> smoothSurface(const Contour& contour, std::vector<s
   largest->Update();
   if (largest->GetNumberOfExtractedRegions() > 1)
   {
+    const std::size_t hollows = hollowsIn(*templates->GetOutput());
     notes.push_back("the largest of its " + std::to_string(largest->GetNumberOfExtractedRegions()) +
-      " pieces is taken");
+      " pieces is taken" +
+      (hollows > 0 ? ", without " + counted(hollows, "hollow") + ", as if they were filled" : ""));
   }
   vtkNew<vtkWindowedSincPolyDataFilter> smooth;
   smooth->SetInputConnection(largest->GetOutputPort());

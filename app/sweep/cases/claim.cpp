@@ -84,28 +84,28 @@ Owner ownerOf(const std::string& text)
 }
 
 // a moment of the disk's clock [s]; opening makes a network ask anew
-double beatOf(const fs::path& file)
+std::optional<double> beatOf(const fs::path& file)
 {
   const Descriptor in(open(file.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat is = {};
-  return in && fstat(in.get(), &is) == 0
-    ? static_cast<double>(is.st_mtim.tv_sec) + 1e-9 * static_cast<double>(is.st_mtim.tv_nsec)
-    : 0.0;
+  return in && fstat(in.get(), &is) == 0 ? std::optional(static_cast<double>(is.st_mtim.tv_sec) +
+                                             1e-9 * static_cast<double>(is.st_mtim.tv_nsec))
+                                         : std::nullopt;
 }
 
-double diskTime(const fs::path& folder)
+std::optional<double> diskTime(const fs::path& folder)
 {
   const fs::path probe = makeHidden(folder);
-  const double now = beatOf(probe);
+  const auto now = beatOf(probe);
   rmdir(probe.c_str());
   return now;
 }
 
 // whether a folder or file was left alone for long
-bool isSilent(const fs::path& file, double now)
+bool isSilent(const fs::path& file, std::optional<double> now)
 {
-  const double beat = beatOf(file);
-  return beat > 0.0 && std::abs(now - beat) > kSilence; // ahead where the disk's clock was set back
+  const auto beat = beatOf(file);
+  return beat && now && std::abs(*now - *beat) > kSilence; // ahead where that clock was set back
 }
 
 // text: of its owner; empty where one ended while it gave the claim up
@@ -208,7 +208,7 @@ bool Claim::isHeld(const fs::path& claims, const std::string& name)
 
 void Claim::tidy(const fs::path& claims)
 {
-  const double now = diskTime(claims);
+  const auto now = diskTime(claims);
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(claims, ignored))
   {

@@ -3,6 +3,7 @@
 #include "app/input/mesh_file.h"
 #include "haptics/error.h"
 
+#include <algorithm>
 #include <sys/stat.h>
 
 namespace palp
@@ -35,6 +36,22 @@ std::string InputWatch::shown(const std::string& file)
     words += (words.empty() ? "" : " or ") + one.string();
   }
   return words;
+}
+
+std::vector<std::string> InputWatch::edited(const std::map<std::string, std::string>& hashes)
+{
+  std::vector<std::string> files;
+  for (const auto& [file, hash] : hashes)
+  {
+    const auto behind = filesBehind(file);
+    const bool isThere = std::ranges::all_of(behind,
+      [](const std::filesystem::path& one) { return std::filesystem::is_regular_file(one); });
+    if (isThere && describeFile(file).sha256 != hash)
+    {
+      files.push_back(shown(file));
+    }
+  }
+  return files;
 }
 
 void InputWatch::check(const std::string& file)

@@ -17,6 +17,11 @@ public:
   /// @param hashes  SHA-256 by path, as planned; outlives this object
   explicit InputWatch(const std::map<std::string, std::string>& hashes);
 
+  /// Those that hold something else than when they were planned; those that are gone are not meant.
+  /// @param hashes  as of the constructor
+  [[nodiscard]] static std::vector<std::string> edited(
+    const std::map<std::string, std::string>& hashes);
+
   /// Before a case reads it: by its content where it may have changed since the last look.
   /// @throws Error  BadFile: it was edited after planning
   void check(const std::string& file);

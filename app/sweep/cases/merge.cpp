@@ -1,5 +1,6 @@
 #include "app/sweep/cases/merge.h"
 
+#include "app/program/sha256.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/cases/result_rows.h"
 #include "app/sweep/cases/table_writer.h"
@@ -205,12 +206,21 @@ private:
 namespace
 {
 
-// results of other cases would be left out in silence
-void refuseOthers(const SweepHead& head, const MergeOptions& options)
+std::string hashOfNames(Manifest& manifest)
 {
+  Sha256 hash;
+  manifest.forEach([&](const PlannedCase& one) { hash.add(one.name); });
+  return hash.hex();
+}
+
+// results of other cases would be left out in silence
+void refuseOthers(Manifest& manifest, const MergeOptions& options)
+{
+  const SweepHead& head = manifest.head();
   for (const fs::path& other : options.others)
   {
-    const SweepHead its = Manifest(other).head();
+    Manifest others(other);
+    const SweepHead& its = others.head();
     const auto same = [](const SweepColumn& a, const SweepColumn& b) { return a.name == b.name; };
     if (its.kind != head.kind || its.fixed != head.fixed ||
       !std::ranges::equal(its.columns, head.columns, same))
@@ -218,6 +228,13 @@ void refuseOthers(const SweepHead& head, const MergeOptions& options)
       throw Error(ErrorCode::BadValue,
         other.string() + ": is of another sweep, " + inQuotes(its.title) +
           "; merge folders in which the same one was planned");
+    }
+    if (its.count != head.count || hashOfNames(others) != hashOfNames(manifest))
+    {
+      throw Error(ErrorCode::BadValue,
+        other.string() + ": plans other cases, " + std::to_string(its.count) + " beside " +
+          std::to_string(head.count) +
+          "; plan the same sweep in both folders, which keeps what is finished");
     }
   }
 }
@@ -245,7 +262,7 @@ void refuseOwn(const Manifest& manifest, const MergeOptions& options, const fs::
 
 Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::path& out)
 {
-  refuseOthers(manifest.head(), options);
+  refuseOthers(manifest, options);
   refuseOwn(manifest, options, out);
   if (out.extension() != ".csv" && out.extension() != ".vtt")
   {
@@ -253,6 +270,7 @@ Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::p
       "--out: " + inQuotes(out.filename().string()) +
         " is neither a table of numbers nor one of VTK; give a file that ends in .csv or .vtt");
   }
+  clearAbandoned(out.has_parent_path() ? out.parent_path() : ".");
   Merger merger(manifest, options);
   Merged merged;
   replaceFile(out,

@@ -103,6 +103,11 @@ TEST_F(Sweeping, MergesNoFoldersOfOtherSweeps)
   plan("other.json", "other");
   expectRefused("merge " + at("grid") + " " + at("other") + " --out " + at("x.csv"),
     "other: is of another sweep, 'other'");
+  write("more.json", R"({"palp_sweep": 1, "kind": "force", "fixed": {"depth": "1:1:1mm",
+    "tip": "sphere:{radius}"}, "grid": {"poisson": [0.3], "radius": ["1mm", "9mm"]}})");
+  plan("more.json", "more");
+  expectRefused("merge " + at("grid") + " " + at("more") + " --out " + at("x.csv"),
+    "more: plans other cases, 2 beside 40");
   EXPECT_FALSE(std::filesystem::exists(folder() / "x.csv"));
 }
 
