@@ -86,6 +86,24 @@ TEST_F(RunCommand, ReplacesWhatIsThereOnlyWhenAsked)
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/section.svg"));
 }
 
+TEST_F(RunCommand, ReplacesNoFileThatItReads)
+{
+  ASSERT_EQ(press("--no-picture", "out").code, 0);
+  const std::filesystem::path out = folder_.path() / "out";
+  for (const auto& [file, how] : { std::pair("deformed.vtp", " --at -48.5,38.4,39.5 "),
+         std::pair("path.csv", " --path "), std::pair("samples.csv", " --path ") })
+  {
+    const std::string before = test::readAll(out / file);
+    const Finished run = test::runCommand(PALP_PROGRAM " run" + std::string(how) +
+      (out / file).string() + " --no-picture --overwrite --out " + out.string());
+    EXPECT_EQ(run.code, 2) << file;
+    EXPECT_NE(run.err.find(std::string(file) + ": is read by this run, which would replace it"),
+      std::string::npos)
+      << run.err;
+    EXPECT_EQ(test::readAll(out / file), before);
+  }
+}
+
 // a limit on the size of files stands for a full disk
 TEST_F(RunCommand, AFullDiskLeavesTheEarlierFilesAndOneSentence)
 {

@@ -113,6 +113,22 @@ TEST(CaseInputs, FillInNamesAndRefuseCircles)
   EXPECT_THROW((void)filledIn({ { "a", "{nobody}" } }), Error);
 }
 
+// each of so many in two of the next would fill any memory
+TEST(CaseInputs, RefuseValuesThatGrowTooLong)
+{
+  for (const std::size_t levels : { std::size_t{ 20 }, std::size_t{ 60 }, std::size_t{ 5000 } })
+  {
+    SweepValues values{ { "v" + std::to_string(levels), "x" } };
+    for (std::size_t i = 0; i < levels; ++i)
+    {
+      const std::string next = "{v" + std::to_string(i + 1) + "}";
+      values["v" + std::to_string(i)] = levels > 1000 ? next : next + next;
+    }
+    EXPECT_THROW((void)filledIn(values), Error) << levels;
+  }
+  EXPECT_THROW((void)filledIn({ { "a", std::string(200'000, '1') } }), Error);
+}
+
 TEST(CaseInputs, NameACaseByContentNotByPlace)
 {
   const SweepValues here{ { "path", "/here/a.csv" }, { "young", "5kPa" } };

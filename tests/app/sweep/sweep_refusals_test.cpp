@@ -92,6 +92,18 @@ TEST_F(Sweeping, PlansOverNoFileOfOthers)
   EXPECT_EQ(test::readAll(folder() / "project/cases.csv"), "mine");
 }
 
+// who waits for what nobody writes, or reads without an end, plans nothing
+TEST_F(Sweeping, TakesNoPipeOrDeviceForAFile)
+{
+  ASSERT_EQ(test::runCommand("mkfifo " + at("tip.csv")).code, 0);
+  write("pipe.json", R"({"palp_sweep": 1, "kind": "force", "fixed": {"history": "tip.csv",
+    "relaxation": "0.3:50ms", "law": "corrected"}})");
+  expectRefused("plan " + at("pipe.json") + " " + at("pipe"), "is a pipe or a device");
+  std::filesystem::remove(folder() / "tip.csv");
+  std::filesystem::create_symlink("/dev/zero", folder() / "tip.csv");
+  expectRefused("plan " + at("pipe.json") + " " + at("pipe"), "is a pipe or a device");
+}
+
 TEST_F(Sweeping, MergesNoFoldersOfOtherSweeps)
 {
   plan("grid.json", "grid");
