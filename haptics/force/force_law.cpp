@@ -90,6 +90,14 @@ double ratio(double part, double whole) noexcept
   return std::isfinite(value) ? value : 1.0;
 }
 
+// half-angle of what is a cone further up; a right angle for other tips [rad]
+double flankOf(const Tip& tip) noexcept
+{
+  const auto* blunt = std::get_if<BluntConeTip>(&tip);
+  const auto* truncated = std::get_if<TruncatedConeTip>(&tip);
+  return blunt ? blunt->halfAngle : truncated ? truncated->halfAngle : 0.5 * std::numbers::pi;
+}
+
 } // namespace
 
 struct ForceLaw::Corrections
@@ -253,6 +261,8 @@ LargeStrainGrid::Ratio ForceLaw::largeStrainByRadius(const ContactGeometry& loca
   constexpr double kStep = 1e-4;       // [-] of the depth
   constexpr double kShallowest = 1e-9; // [m] so that no quotient loses its value
   constexpr double kFlatPoisson = 0.3;
+  constexpr double kSteepest = units::fromDegrees(44.9); // of the flanks that were compared
+  constexpr double kSteepStrain = 0.8;                   // to which the others are as those
   const double depth = std::max(local.depth, kShallowest);
   const auto radiusAt = [&](double deep)
   {
@@ -265,10 +275,12 @@ LargeStrainGrid::Ratio ForceLaw::largeStrainByRadius(const ContactGeometry& loca
   { return largeStrainOf(deep, radiusAt(deep), local.thickness, nu); };
   // elements under a flat punch follow its edge, more so the less the volume can change
   const bool isFlat = std::holds_alternative<PunchTip>(tip_) && nu > kFlatPoisson;
+  const bool isSteep = flankOf(tip_) < kSteepest && depth > kSteepStrain * radiusAt(depth);
   const double value = at(depth);
   return { .value = value,
     .slope = (at((1.0 + kStep) * depth) - value) / (kStep * depth),
-    .inside = !isFlat && isLargeStrainKnown(depth, radiusAt(depth), local.thickness, nu) };
+    .inside =
+      !isFlat && !isSteep && isLargeStrainKnown(depth, radiusAt(depth), local.thickness, nu) };
 }
 
 Factors ForceLaw::factors(const ContactGeometry& local) const noexcept

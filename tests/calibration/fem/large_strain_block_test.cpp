@@ -45,6 +45,10 @@ INSTANTIATE_TEST_SUITE_P(Tools, LargeStrainBlock,
     Tool{ "WideConeAtNu0", BluntConeTip{ 70.0_deg, 0.3_mm, 12.0_mm }, 0.0, 4.2_mm },
     Tool{ "WideConeAtNu49", BluntConeTip{ 70.0_deg, 0.3_mm, 12.0_mm }, 0.49, 4.2_mm },
     Tool{ "SteepConeAtNu49", BluntConeTip{ 30.0_deg, 1.0_mm, 6.0_mm }, 0.49, 4.5_mm },
+    Tool{
+      "SteepBluntConeOnALayer", BluntConeTip{ 30.0_deg, 3.0_mm, 6.0_mm }, 0.45, 5.1_mm, 25.0_mm },
+    Tool{
+      "SteepTruncatedCone", TruncatedConeTip{ 20.0_deg, 2.0_mm, 4.0_mm }, 0.4, 2.1_mm, 30.0_mm },
     Tool{ "BluntConeAtNu2", BluntConeTip{ 60.0_deg, 2.0_mm, 10.0_mm }, 0.2, 4.5_mm },
     Tool{ "TruncatedConeAtNu0", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm }, 0.0, 4.5_mm },
     Tool{ "TruncatedConeAtNu49", TruncatedConeTip{ 45.0_deg, 3.0_mm, 8.0_mm }, 0.49, 4.5_mm },

@@ -40,6 +40,25 @@ TEST_F(Images, OnlyTheLargestPieceIsTaken)
   const LoadedSurface surface = readSurface(
     write<vtkMetaImageWriter>("speck.mha", *image), LengthUnit::Millimeter, { 0.5, {} });
   EXPECT_LT(farthest(*surface.mesh, kCenterMm), 2.2);
+  EXPECT_EQ(surface.notes.back().find("hollow"), std::string::npos) << surface.notes.back();
+}
+
+TEST_F(Images, AHollowIsFilledAndToldOf)
+{
+  const auto image = ball(true);
+  const int middle[3] = { image->GetDimensions()[0] / 2, image->GetDimensions()[1] / 2,
+    image->GetDimensions()[2] / 2 };
+  image->SetScalarComponentFromDouble(middle[0], middle[1], middle[2], 0, 0.0);
+  const LoadedSurface surface = readSurface(
+    write<vtkMetaImageWriter>("hollow.mha", *image), LengthUnit::Millimeter, { 0.5, {} });
+  std::string all;
+  for (const std::string& note : surface.notes)
+  {
+    all += note + '\n';
+  }
+  EXPECT_NE(all.find("the largest of its 2 pieces is taken, without 1 hollow, as if they were"),
+    std::string::npos)
+    << all;
 }
 
 TEST_F(Images, RefusesWithTheValuesThatThereAre)
