@@ -310,9 +310,7 @@ TEST_F(Output, KilledAtAnySystemCallTheFolderIsOldOrNew)
       {
         ASSERT_EQ(test::readAll(out_ / "notes.txt"), "mine");
       }
-      {
-        const OutputFolder next(out_, kOwn, Earlier::Keep);
-      }
+      (void)OutputFolder(out_, kOwn, Earlier::Keep); // the next run
       const bool isNew = test::readAll(out_ / "a.csv") == "new";
       ASSERT_EQ(test::readAll(out_ / "b.csv"), isNew ? "new" : "old") << stops;
       ASSERT_EQ(std::filesystem::exists(out_ / "plot.png"), !isNew) << stops;
