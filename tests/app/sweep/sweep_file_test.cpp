@@ -116,13 +116,14 @@ TEST(CaseInputs, FillInNamesAndRefuseCircles)
 // each of so many in two of the next would fill any memory
 TEST(CaseInputs, RefuseValuesThatGrowTooLong)
 {
+  const auto name = [](std::size_t i) { return std::string("v").append(std::to_string(i)); };
   for (const std::size_t levels : { std::size_t{ 20 }, std::size_t{ 60 }, std::size_t{ 5000 } })
   {
-    SweepValues values{ { "v" + std::to_string(levels), "x" } };
+    SweepValues values{ { name(levels), "x" } };
     for (std::size_t i = 0; i < levels; ++i)
     {
-      const std::string next = "{v" + std::to_string(i + 1) + "}";
-      values["v" + std::to_string(i)] = levels > 1000 ? next : next + next;
+      const std::string next = std::string("{").append(name(i + 1)).append("}");
+      values[name(i)] = levels > 1000 ? next : next + next;
     }
     EXPECT_THROW((void)filledIn(values), Error) << levels;
   }
