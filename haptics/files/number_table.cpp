@@ -62,11 +62,11 @@ double numberIn(std::string_view cell, const std::string& header)
 using ChooseColumns = std::function<std::vector<std::size_t>(const std::string& line)>;
 
 // the chosen numbers of one line; throws what is wrong without saying where
-std::vector<double> parseLine(
-  std::string_view line, const std::vector<std::size_t>& chosen, const std::string& header)
+std::vector<double> parseLine(std::string_view line, std::size_t columns,
+  const std::vector<std::size_t>& chosen, const std::string& header)
 {
   const std::vector<std::string_view> cells = cellsOf(line);
-  if (cells.size() != cellsOf(header).size())
+  if (cells.size() != columns)
   {
     throw Error(
       ErrorCode::BadFile, std::to_string(cells.size()) + " columns; give " + shortened(header));
@@ -85,6 +85,7 @@ NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& cho
   std::istringstream stream(readText(file, "a CSV file"));
   NumberTable table;
   std::string header;
+  std::size_t columns = 0;
   std::vector<std::size_t> chosen;
   int number = 0;
   for (std::string line; std::getline(stream, line);)
@@ -109,9 +110,10 @@ NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& cho
       {
         chosen = choose(line);
         header = line;
+        columns = cellsOf(line).size();
         continue;
       }
-      table.rows.push_back({ parseLine(line, chosen, header), number });
+      table.rows.push_back({ parseLine(line, columns, chosen, header), number });
     }
     catch (const Error& error)
     {

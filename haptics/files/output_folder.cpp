@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace palp
@@ -71,13 +72,18 @@ int renameAll(const fs::path& stage, const fs::path& folder)
   return 0;
 }
 
-// a complete stage, whose run was killed while it put its files into the folder
+// a complete stage of this user, whose run was killed while it put its files into the folder
 void finishStage(const fs::path& stage, const fs::path& folder)
 {
+  struct stat is = {};
   std::ifstream dropped(stage / kDropped);
+  if (!dropped || lstat(stage.c_str(), &is) != 0 || !S_ISDIR(is.st_mode) || is.st_uid != geteuid())
+  {
+    return;
+  }
   for (std::string name; std::getline(dropped, name);)
   {
-    unlink((folder / name).c_str());
+    unlink((folder / fs::path(name).filename()).c_str()); // nowhere else
   }
   (void)renameAll(stage, folder);
 }
@@ -90,7 +96,7 @@ void clearHidden(const fs::path& folder, const std::string& start)
   {
     if (isHidden(entry.path().filename().string(), start))
     {
-      isThere(entry.path() / kDropped) ? finishStage(entry.path(), folder) : void();
+      finishStage(entry.path(), folder);
       fs::remove_all(entry.path(), ignored);
     }
   }

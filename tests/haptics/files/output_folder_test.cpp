@@ -4,7 +4,6 @@
 #include "haptics/files/replace_file.h"
 #include "tests/support/process.h"
 
-#include <chrono>
 #include <csignal>
 #include <functional>
 #include <gtest/gtest.h>
@@ -219,29 +218,6 @@ TEST_F(Output, ClearsWhatAKilledRunLeft)
   write("2", Earlier::Replace);
   EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv", ".palp-notes" }));
   EXPECT_EQ(namesIn(out_.parent_path()), (Names{ "out", ".other.palp-abcdef" }));
-}
-
-// a table that takes minutes is written beside what other runs leave
-TEST_F(Output, LeavesWhatAnotherProcessIsWriting)
-{
-  write("1");
-  const auto agesAgo = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
-  replaceFile(out_ / "table.csv",
-    [&](const std::filesystem::path& fresh)
-    {
-      std::ofstream(fresh) << "rows";
-      std::filesystem::last_write_time(fresh.parent_path(), agesAgo);
-      write("2", Earlier::Replace);
-      EXPECT_EQ(test::readAll(fresh), "rows");
-    });
-  EXPECT_EQ(test::readAll(out_ / "table.csv"), "rows");
-  const std::filesystem::path abandoned = out_ / ".palp-file-abcdef";
-  std::filesystem::create_directories(abandoned);
-  clearAbandoned(out_);
-  EXPECT_TRUE(std::filesystem::exists(abandoned)) << "it may be locked in a moment";
-  std::filesystem::last_write_time(abandoned, agesAgo);
-  clearAbandoned(out_);
-  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv", "table.csv" }));
 }
 
 // lets a child go on for so many stops at system calls, then kills it
