@@ -14,7 +14,8 @@ namespace palp
     .thickness = contact.thickness,
     .surfaceCurvature = contact.surfaceCurvature,
     .curvatureSpread = contact.curvatureSpread,
-    .normalSpread = contact.normalSpread };
+    .normalSpread = contact.normalSpread,
+    .hollow = contact.hollow };
 }
 
 } // namespace palp

@@ -162,6 +162,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.surfaceCurvature = shape.meanCurvature;
   contact.curvatureSpread = shape.curvatureSpread;
   contact.thickness = shape.thickness;
+  contact.hollow = shape.hollow;
   contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
     surface.edgeDistance(contact.center, contact.triangle));
   return contact;

@@ -26,6 +26,7 @@ struct ContactGeometry
   double surfaceCurvature = 0.0;                              ///< mean, 1/R0 [1/m], convex positive
   double curvatureSpread = 0.0; ///< half the difference of the principal curvatures [1/m]
   double normalSpread = 0.0;    ///< of the normals below the tool, rms [rad]; told by Validity
+  double hollow = 0.0;          ///< part of it above a hollow within the body [-]; likewise
 };
 
 /// What the tissue answers.

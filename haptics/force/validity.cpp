@@ -22,6 +22,7 @@ constexpr double kHollow = 0.5;               // R / R0 to which a hollow surfac
 constexpr double kVerifiedWidth = 0.6;        // a / thickness to which the layer is verified
 constexpr double kEdge = 0.2;                 // a / distance, at 90 degrees: 7 % (elements)
 constexpr double kSupport = 0.08;             // a / R0 of a ball: 5 % from support to support
+constexpr double kAboveHollow = 0.02;         // part of the contact
 constexpr double kComparedDepth = 0.5;        // depth / thickness that was compared
 constexpr double kLinearError = 0.03;         // of neo-Hookean elements
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
@@ -211,6 +212,8 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
       "how a convex body is held changes the force by more than 5 % either way" },
     { "penetration", "-", shown(depth / local.thickness), kComparedDepth,
       "deeper than half the body nothing was compared with finite elements" },
+    { "hollow", "-", shown(local.hollow), kAboveHollow,
+      "the wall above a hollow bends, so that it is softer than this" },
   } };
 }
 

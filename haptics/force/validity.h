@@ -33,7 +33,7 @@ struct Rule
   }
 };
 
-using Rules = std::array<Rule, 13>;
+using Rules = std::array<Rule, 14>;
 
 /// A bit for each rule that does not hold, the first rule the lowest.
 /// @realtime  pure; no allocation, no lock, no exception

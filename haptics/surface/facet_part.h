@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace palp
 {
@@ -54,5 +55,9 @@ struct LinkedTriangles
 /// @return          one symmetric tensor a side [rad], zero at an open one
 [[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(
   const LinkedTriangles& mesh, const Facet& facet, int triangle);
+
+/// How large a hollow each triangle bounds: the radius of a ball with as much surface as the closed
+/// piece that it belongs to, where that faces its own inside; else 0 [m].
+[[nodiscard]] std::vector<float> hollowRadii(const LinkedTriangles& mesh);
 
 } // namespace palp

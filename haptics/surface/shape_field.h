@@ -19,7 +19,8 @@ struct LocalShape
 {
   double meanCurvature = 0.0;                                 ///< [1/m], convex positive
   double curvatureSpread = 0.0;                               ///< half the difference [1/m]
-  double thickness = std::numeric_limits<double>::infinity(); ///< of the body [m]
+  double thickness = std::numeric_limits<double>::infinity(); ///< of the body, hollows filled [m]
+  double hollow = 0.0; ///< part of it below which a hollow lets the wall bend [-]
 };
 
 /// Curvature and thickness of a surface, averaged over any ball, and its sharp edges.
@@ -86,6 +87,7 @@ private:
     Eigen::Vector3f area = Eigen::Vector3f::Zero(); // along the outward normal [m^2]
     Eigen::Matrix3f bend = Eigen::Matrix3f::Zero(); // area times the tensor of curvature [m]
     float slenderness = 0.0F;                       // area over the root of the thickness [m^1.5]
+    float hollow = 0.0F;                            // area above a hollow [m^2]
   };
 
   // that two triangles have in common, or a part of it
@@ -109,7 +111,7 @@ private:
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
   void build(std::span<Piece> pieces, float cell, Leaves& leaves);
-  void measureLeaves(const BoxTree& tree, const Leaves& leaves);
+  void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Leaves& leaves);
   static void addTurning(std::span<const Piece> leaf, std::vector<SharpEdges::Segment>& sharp);
   void addUp();
 

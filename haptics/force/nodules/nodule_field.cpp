@@ -11,6 +11,7 @@ namespace
 
 constexpr double kDeepest = 1.5; // of the base radius; beyond the law's own limit of 1
 constexpr double kFelt = 2.0;    // lateral distance over depth, to which a nodule counts for rules
+constexpr double kUnfelt = 1e12; // square of a distance at which a nodule adds nothing [m^2]
 
 Nodules energyOf(const ForceLaw& law, const std::vector<EmbeddedNodule>& nodules)
 {
@@ -68,6 +69,21 @@ NoduleForce NoduleField::operator()(const NoduleContact& at, double depth) const
     force.lateral += answer.repulsion[i] * aside(nodules_[i], at);
   }
   return force;
+}
+
+std::vector<double> NoduleField::contrasts(const NoduleContact& at, const Response& plain) const
+{
+  const Squares here = squaresAt(at);
+  std::vector<double> contrasts;
+  for (std::size_t i = 0; i < nodules_.size(); ++i)
+  {
+    Squares alone{};
+    alone.fill(kUnfelt);
+    alone[i] = here[i];
+    const double added = energy_(at.depth, std::span(alone).first(nodules_.size())).response.force;
+    contrasts.push_back(plain.force > 0.0 ? added / plain.force : 0.0);
+  }
+  return contrasts;
 }
 
 NoduleRules NoduleField::rules(const NoduleContact& at, const Response& plain) const

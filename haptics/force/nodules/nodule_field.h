@@ -71,6 +71,10 @@ public:
   /// @realtime     pure; no allocation, no lock, no exception
   [[nodiscard]] NoduleForce operator()(const NoduleContact& at, double depth) const noexcept;
 
+  /// How much each nodule alone adds to the force without any, or takes, over that force [-].
+  /// @param plain  the law's answer without nodules there
+  [[nodiscard]] std::vector<double> contrasts(const NoduleContact& at, const Response& plain) const;
+
   /// @param plain  the law's answer without nodules there
   [[nodiscard]] NoduleRules rules(const NoduleContact& at, const Response& plain) const;
 

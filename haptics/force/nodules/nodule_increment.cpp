@@ -11,6 +11,10 @@ namespace palp
 namespace
 {
 
+// where the fit of higher orders ends
+constexpr double kBoundedFrom = 0.85;
+constexpr double kBound = 0.9;
+
 // Points in half a ball. Deeper than half a radius, strain varies little over it.
 struct Points
 {
@@ -95,6 +99,11 @@ increment::Series increment::bounded(double x, double from, double to) noexcept
   const double t = std::tanh(over / width);
   const double slope = 1.0 - t * t;
   return { std::copysign(from + width * t, x), slope, std::copysign(2.0 * t * slope / width, -x) };
+}
+
+double increment::ofNodule(double x) noexcept
+{
+  return ofFirstOrder(bounded(x, kBoundedFrom, kBound).value).value;
 }
 
 std::vector<double> firstOrderIncrements(

@@ -45,6 +45,9 @@ struct Series
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Series bounded(double x, double from, double to) noexcept;
 
+/// That of a nodule alone: bounded where the fit of higher orders ends.
+[[nodiscard]] double ofNodule(double x) noexcept;
+
 } // namespace increment
 
 /// Increments of first order at the knots of a press: how much more energy the tissue takes where

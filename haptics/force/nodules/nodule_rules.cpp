@@ -9,9 +9,8 @@ namespace palp
 namespace
 {
 
-// b / depth of the center: beyond, 7 to 18 % of the force were found, and 10 to 24 % of what the
-// nodule adds where the contact is narrower than the nodule is deep
-constexpr double kClose = 0.8;
+// b / depth of the center where the contact is narrower than the nodule is deep: beyond, 10 to 24 %
+// of what the nodule adds were found, and 7 to 18 % of the force where it is wider
 constexpr double kCloseToNarrow = 0.75;
 constexpr double kCloseToBase = 0.62; // b / height of the center over the base, the last compared
 
@@ -33,8 +32,9 @@ NoduleRules noduleRules(std::span<const Nodule> nodules, const NodulePress& pres
   for (const Nodule& nodule : nodules)
   {
     const bool narrow = press.contactRadius < nodule.top;
-    close = std::max({ close, nodule.radius / nodule.depth() / (narrow ? kCloseToNarrow : kClose),
-      nodule.radius / (press.thickness - nodule.depth()) / kCloseToBase });
+    close =
+      std::max({ close, nodule.radius / nodule.depth() / (narrow ? kCloseToNarrow : kClosestNodule),
+        nodule.radius / (press.thickness - nodule.depth()) / kCloseToBase });
     strain = std::max(strain, kAtOnce + kByDepth * press.depth / nodule.depth());
   }
   const double limit = constitution == ConstitutiveModel::Linear

@@ -10,6 +10,10 @@
 namespace palp
 {
 
+/// Radius over depth of the center up to which nodules were compared with finite elements. To there
+/// a larger one below the same cover adds more, or takes more.
+inline constexpr double kClosestNodule = 0.8;
+
 /// A press over nodules, as far as their validity depends on it.
 struct NodulePress
 {

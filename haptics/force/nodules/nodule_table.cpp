@@ -14,10 +14,6 @@ namespace
 // lateral^2 / (lateral^2 + reach^2), which takes all distances and is smooth at 0
 constexpr SplineAxis kLateral{ 0.0, 1.0, 48 };
 
-// where the fit of higher orders ends
-constexpr double kBoundedFrom = 0.85;
-constexpr double kBound = 0.9;
-
 double reachSquareOf(const HomogeneousPress& press, const Nodule& nodule)
 {
   if (nodule.depth() + nodule.radius > press.thickness())
@@ -40,10 +36,7 @@ std::vector<double> energiesOf(const HomogeneousPress& press, const Nodule& nodu
     const double t = i * kLateral.step();
     std::vector<double> increments =
       firstOrderIncrements(press, nodule, std::sqrt(reachSquare * t / (1.0 - t)));
-    for (double& x : increments)
-    {
-      x = increment::ofFirstOrder(increment::bounded(x, kBoundedFrom, kBound).value).value;
-    }
+    std::ranges::transform(increments, increments.begin(), increment::ofNodule);
     // a contact that is a point has no increment; a flat has the same at all small depths
     const std::vector<double> energies = press.weightedEnergies(increments);
     rows.push_back(

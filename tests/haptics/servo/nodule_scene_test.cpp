@@ -1,3 +1,4 @@
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/embed_nodules.h"
 #include "haptics/error.h"
 #include "haptics/servo/servo_step.h"
@@ -53,6 +54,26 @@ TEST(NoduleScene, ToolFeelsTheForceOfFiniteElements)
   EXPECT_NEAR(beside.response.force, 2.405091, 0.01 * 2.41);
   EXPECT_NEAR(beside.force.x(), 0.0484034, 0.002);
   EXPECT_NEAR(beside.force.y(), 0.0, 1e-6);
+}
+
+// as each alone in the body: above the one, the other soft and to the side
+TEST(NoduleScene, TellsWhatEachNoduleAddsAlone)
+{
+  const PlacedNodule soft{ { 12.0_mm, 0.0, -9.0_mm }, 4.0_mm, 0.25 };
+  const Scene stiffOnly = blockScene();
+  Scene softOnly = stiffOnly;
+  softOnly.nodules = embedNodules(*softOnly.surface, softOnly.law, std::array{ soft });
+  Scene both = stiffOnly;
+  both.nodules = embedNodules(*both.surface, both.law, std::array{ kStiff, soft });
+  const ToolPose pose = at({ 0.0, 0.0, -4.0_mm });
+  const Contact contact = step(both, pose).contact;
+  const Response plain = both.law(contactGeometryOf(contact));
+  const std::vector<double> told = both.nodules->contrasts(noduleContactOf(contact), plain);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_NEAR(told[0], step(stiffOnly, pose).response.force / plain.force - 1.0, 1e-9);
+  EXPECT_NEAR(told[1], step(softOnly, pose).response.force / plain.force - 1.0, 1e-9);
+  EXPECT_GT(told[0], 0.0);
+  EXPECT_LT(told[1], 0.0);
 }
 
 TEST(NoduleScene, SafetyChainSendsTheLateralForceToo)

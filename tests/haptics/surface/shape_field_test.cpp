@@ -1,5 +1,8 @@
 #include "haptics/surface/shape_field.h"
 
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/find_contact.h"
+#include "haptics/force/validity.h"
 #include "haptics/surface/surface.h"
 #include "haptics/units.h"
 #include "tests/support/allocation_guard.h"
@@ -43,6 +46,47 @@ TEST(ShapeField, OfASphereIsOneOverItsRadius)
         EXPECT_EQ(ball.shape().edgeDistance(radius * out), std::numeric_limits<double>::infinity());
       }
     }
+  }
+}
+
+// radius of a hollow, where its center is, and at which pole the wall above it bends
+TEST(ShapeField, AHollowIsFilledAndToldWhereItIsNearAndLarge)
+{
+  struct Hollow
+  {
+    double radius;
+    double z;
+    double above; // part of the surface there at the upper pole
+    double below; // and at the lower one
+  };
+  for (const auto& [radius, z, above, below] : { Hollow{ 40.0_mm, 0.0, 1.0, 1.0 },
+         Hollow{ 5.0_mm, 0.0, 0.0, 0.0 }, Hollow{ 10.0_mm, 35.0_mm, 1.0, 0.0 } })
+  {
+    test::Mesh mesh = test::ball(50.0_mm, 24);
+    const auto [points, triangles] = test::ball(radius, 24);
+    const auto first = static_cast<int>(mesh.first.size());
+    for (const Eigen::Vector3d& point : points)
+    {
+      mesh.first.push_back(point + z * Eigen::Vector3d::UnitZ());
+    }
+    for (const auto& [a, b, c] : triangles)
+    {
+      mesh.second.push_back({ first + a, first + c, first + b });
+    }
+    const Surface body = test::makeSurface(mesh);
+    const Surface solid = test::makeSurface(test::ball(50.0_mm, 24));
+    for (const double pole : { 1.0, -1.0 })
+    {
+      const Eigen::Vector3d out = pole * Eigen::Vector3d::UnitZ();
+      const LocalShape shape = shapeAt(body, 50.0_mm * out, 4.0_mm, out);
+      EXPECT_NEAR(shape.hollow, pole > 0.0 ? above : below, 0.1) << radius << ' ' << z;
+      EXPECT_NEAR(shape.thickness, shapeAt(solid, 50.0_mm * out, 4.0_mm, out).thickness, 2.0_mm);
+    }
+    const Contact contact = findContact(body, SphereTip{ 5.0_mm },
+      { .apex = { 0.0, 0.0, 49.0_mm }, .axis = -Eigen::Vector3d::UnitZ() }, ContactRule::Exact);
+    const Rules rules =
+      Validity(ForceLaw(SphereTip{ 5.0_mm }, { 50.0_kPa, 0.33 }))(contactGeometryOf(contact));
+    EXPECT_EQ(rules.back().holds(), above == 0.0) << rules.back().name;
   }
 }
 
