@@ -1,5 +1,6 @@
 #include "calibration/fit/modulus_fit.h"
 
+#include "calibration/figures/table.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -141,6 +142,17 @@ void judgeResiduals(ModulusFit& fit, const Measured& loading)
     2.0 - fit.durbinWatson > kRare * 2.0 / std::sqrt(static_cast<double>(rows));
 }
 
+// of what a law takes; see makeMaterial
+void refuseStrange(double modulus)
+{
+  if (!(modulus >= 1.0 && modulus <= 1e10))
+  {
+    throw Error(ErrorCode::BadValue,
+      "Young's modulus comes out as " + figures::shown(modulus) +
+        " Pa, not 1 Pa to 10 GPa; give depths in mm and forces in N, and the tool that pressed");
+  }
+}
+
 } // namespace
 
 const Estimate* ModulusFit::exponent() const noexcept
@@ -171,6 +183,7 @@ ModulusFit fitModulus(const Measured& loading, const ModulusQuestion& question)
   compare(fit);
   judgeResiduals(fit, loading);
   const CurveFit& answer = fit.asked().curve;
+  refuseStrange(answer.scale.value);
   fit.deepest = question.place;
   fit.deepest.depth = loading.depths.maxCoeff() - answer.contact.value;
   if (question.searchThickness)

@@ -58,7 +58,8 @@ struct ModulusFit
 /// E, contact and exponent of a measured loading curve, by every law that the tool has.
 ///
 /// @param loading  the rows in which the tool goes in
-/// @throws Error   BadValue: nu out of its range, no force above 0, and as fitForceCurve
+/// @throws Error   BadValue: nu out of its range, no force above 0, a modulus outside of 1 Pa to
+///                 10 GPa, and as fitForceCurve
 [[nodiscard]] ModulusFit fitModulus(const Measured& loading, const ModulusQuestion& question);
 
 } // namespace palp::fit

@@ -1,5 +1,7 @@
 #include "haptics/files/csv_text.h"
 
+#include "haptics/files/input_text.h"
+
 #include <array>
 #include <charconv>
 #include <ostream>
@@ -51,7 +53,7 @@ std::vector<std::string> csvFields(std::string_view line)
     {
       fields.back() += line[i++];
     }
-    else if (c == '"' && (quoted || fields.back().empty())) // elsewhere it stands for itself
+    else if (c == '"' && (quoted || trimmed(fields.back()).empty())) // else it stands for itself
     {
       quoted = !quoted;
     }
@@ -65,6 +67,16 @@ std::vector<std::string> csvFields(std::string_view line)
     }
   }
   return fields;
+}
+
+std::optional<double> csvNumber(std::string_view cell) noexcept
+{
+  std::string_view digits = trimmed(cell);
+  digits.remove_prefix(digits.starts_with('+') && !digits.starts_with("+-") ? 1 : 0);
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool isWhole = error == std::errc{} && stop == digits.data() + digits.size();
+  return isWhole ? std::optional(value) : std::nullopt;
 }
 
 } // namespace palp

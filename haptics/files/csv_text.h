@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,5 +21,9 @@ void writeCsvRow(std::ostream& out, std::span<const double> values);
 
 /// The words of one line, without their quotes.
 [[nodiscard]] std::vector<std::string> csvFields(std::string_view line);
+
+/// The number that a cell is, blanks around it aside, with or without a plus; C locale, `inf` and
+/// `nan` among them. None: it is something else.
+[[nodiscard]] std::optional<double> csvNumber(std::string_view cell) noexcept;
 
 } // namespace palp

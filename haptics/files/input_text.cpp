@@ -106,6 +106,13 @@ std::string counted(std::size_t number, const std::string& one, const std::strin
   return std::to_string(number) + ' ' + (number == 1 ? one : many.empty() ? one + 's' : many);
 }
 
+std::string_view trimmed(std::string_view text)
+{
+  constexpr const char* blanks = " \t\r";
+  const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
+  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator)
 {
   std::vector<std::string_view> parts;

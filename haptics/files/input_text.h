@@ -30,6 +30,9 @@ namespace palp
 [[nodiscard]] std::string counted(
   std::size_t number, const std::string& one, const std::string& many = "");
 
+/// A text without the blanks before and after it: spaces, tabs, carriage returns.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
 /// The parts of a text between separators; one more than there are of them.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 

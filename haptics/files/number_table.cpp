@@ -1,10 +1,10 @@
 #include "haptics/files/number_table.h"
 
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -17,65 +17,50 @@ namespace palp
 namespace
 {
 
-std::string_view withoutBlanks(std::string_view text)
+std::vector<std::string> namesIn(const std::string& line)
 {
-  constexpr const char* kBlanks = " \t";
-  const std::size_t first = std::min(text.find_first_not_of(kBlanks), text.size());
-  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
-// of one line, without what stands around them; a comma in quotes ends none
-std::vector<std::string_view> cellsOf(std::string_view line)
-{
-  std::vector<std::string_view> cells;
-  bool quoted = false;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= line.size(); ++i)
+  std::vector<std::string> names = csvFields(line);
+  for (std::string& name : names)
   {
-    quoted = quoted != (i < line.size() && line[i] == '"');
-    if (i == line.size() || (line[i] == ',' && !quoted))
-    {
-      std::string_view cell = withoutBlanks(line.substr(begin, i - begin));
-      if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
-      {
-        cell = withoutBlanks(cell.substr(1, cell.size() - 2));
-      }
-      cells.push_back(cell);
-      begin = i + 1;
-    }
+    name = trimmed(name);
   }
-  return cells;
+  return names;
 }
 
 double numberIn(std::string_view cell, const std::string& header)
 {
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || stop != cell.data() + cell.size())
+  const std::optional<double> value = csvNumber(cell);
+  if (!value)
   {
     throw Error(ErrorCode::BadFile, inQuotes(cell) + " is not a number; give " + shortened(header));
   }
-  return value;
+  return *value;
 }
 
-// which columns of a table are read, by its first line; throws what is wrong without saying where
-using ChooseColumns = std::function<std::vector<std::size_t>(const std::string& line)>;
+struct Header
+{
+  std::string line;
+  std::vector<std::string> names;
+};
+
+// which columns of a table are read; throws what is wrong without saying where
+using ChooseColumns = std::function<std::vector<std::size_t>(const Header& header)>;
 
 // the chosen numbers of one line; throws what is wrong without saying where
-std::vector<double> parseLine(std::string_view line, std::size_t columns,
-  const std::vector<std::size_t>& chosen, const std::string& header)
+std::vector<double> parseLine(
+  const std::string& line, const std::vector<std::size_t>& chosen, const Header& header)
 {
-  const std::vector<std::string_view> cells = cellsOf(line);
-  if (cells.size() != columns)
+  const std::vector<std::string> cells = csvFields(line);
+  if (cells.size() != header.names.size())
   {
-    throw Error(
-      ErrorCode::BadFile, std::to_string(cells.size()) + " columns; give " + shortened(header));
+    throw Error(ErrorCode::BadFile,
+      std::to_string(cells.size()) + " columns; give " + shortened(header.line));
   }
   std::vector<double> values;
   values.reserve(chosen.size());
   for (const std::size_t column : chosen)
   {
-    values.push_back(numberIn(cells[column], header));
+    values.push_back(numberIn(trimmed(cells[column]), header.line));
   }
   return values;
 }
@@ -84,8 +69,7 @@ NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& cho
 {
   std::istringstream stream(readText(file, "a CSV file"));
   NumberTable table;
-  std::string header;
-  std::size_t columns = 0;
+  Header header;
   std::vector<std::size_t> chosen;
   int number = 0;
   for (std::string line; std::getline(stream, line);)
@@ -101,19 +85,18 @@ NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& cho
     }
     if (line.front() == '#')
     {
-      header.empty() ? table.comments.push_back(line) : void();
+      header.names.empty() ? table.comments.push_back(line) : void();
       continue;
     }
     try
     {
-      if (header.empty())
+      if (header.names.empty())
       {
-        chosen = choose(line);
-        header = line;
-        columns = cellsOf(line).size();
+        header = { .line = line, .names = namesIn(line) };
+        chosen = choose(header);
         continue;
       }
-      table.rows.push_back({ parseLine(line, columns, chosen, header), number });
+      table.rows.push_back({ parseLine(line, chosen, header), number });
     }
     catch (const Error& error)
     {
@@ -144,14 +127,14 @@ std::string where(const std::filesystem::path& file, int line)
 NumberTable NumberTable::read(const std::filesystem::path& file, const std::string& header)
 {
   return readRows(file,
-    [&header](const std::string& line)
+    [&header](const Header& found)
     {
-      if (line != header)
+      if (found.line != header)
       {
         throw Error(
-          ErrorCode::BadFile, inQuotes(line) + " is not the header; begin with " + header);
+          ErrorCode::BadFile, inQuotes(found.line) + " is not the header; begin with " + header);
       }
-      std::vector<std::size_t> all(cellsOf(header).size());
+      std::vector<std::size_t> all(found.names.size());
       std::iota(all.begin(), all.end(), 0);
       return all;
     });
@@ -169,10 +152,9 @@ NumberTable NumberTable::readColumns(
 {
   std::vector<std::string> names;
   NumberTable table = readRows(file,
-    [&](const std::string& line)
+    [&](const Header& header)
     {
-      const std::vector<std::string_view> cells = cellsOf(line);
-      names.assign(cells.begin(), cells.end());
+      names = header.names;
       std::vector<std::size_t> chosen;
       for (const char* column : columns)
       {
@@ -180,7 +162,7 @@ NumberTable NumberTable::readColumns(
         if (found == names.end())
         {
           throw Error(ErrorCode::BadFile,
-            "no column " + std::string(column) + " in " + inQuotes(line) +
+            "no column " + std::string(column) + " in " + inQuotes(header.line) +
               "; begin with a line that names it, with commas between");
         }
         if (std::ranges::count(names, column) > 1)

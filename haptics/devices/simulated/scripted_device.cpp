@@ -8,6 +8,8 @@ namespace palp
 ScriptedDevice::ScriptedDevice(ScriptedPath path, const Eigen::Vector3d& missingAxis)
   : path_(std::move(path))
   , missingAxis_(missingAxis)
+  , head_(path_.duration())
+  , last_(path_.knots().front().apex)
 {
 }
 
@@ -18,8 +20,31 @@ DeviceLimits ScriptedDevice::limits() const
 
 std::optional<ToolPose> ScriptedDevice::exchange(const Eigen::Vector3d&, double dt) noexcept
 {
-  elapsed_ += dt > 0.0 ? dt : 0.0;
-  return path_.poseAt(path_.startTime() + elapsed_, missingAxis_);
+  bool jumps = head_.obey(order_.read());
+  if (lifted_ > 0.0)
+  {
+    lifted_ -= dt > 0.0 ? dt : 0.0;
+    (void)head_.advance(0.0);
+  }
+  else
+  {
+    jumps |= head_.advance(dt);
+  }
+  reached_.store(head_.time(), std::memory_order_relaxed);
+
+  ToolPose pose = path_.poseAt(path_.startTime() + head_.time(), missingAxis_);
+  pose.velocity *= head_.rate();
+  if (jumps && (pose.apex - last_).norm() > kNext)
+  {
+    lifted_ = kLiftTime;
+  }
+  last_ = pose.apex;
+  if (lifted_ > 0.0)
+  {
+    pose.apex -= kLift * pose.axis;
+    pose.velocity.setZero();
+  }
+  return pose;
 }
 
 } // namespace palp

@@ -1,13 +1,14 @@
 #include "haptics/devices/simulated/scripted_path.h"
 
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace palp
@@ -55,13 +56,6 @@ std::string fault(const PathKnot* previous, const PathKnot& knot)
   return {};
 }
 
-std::string_view trimmed(std::string_view text)
-{
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == text.npos ? std::string_view{}
-                            : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 // takes what stands before the separator, and shortens the text by both
 std::string_view cut(std::string_view& text, char separator)
 {
@@ -91,7 +85,7 @@ public:
       {
         continue;
       }
-      const Cells cells = cellsOf(row);
+      const Cells& cells = cellsOf(row);
       PathKnot next = knot(cells);
       const bool isApart = depthOf(cells) == 0.0;
       if (wasApart_ && isApart && next.time > knots.back().time + kGap)
@@ -118,14 +112,24 @@ public:
 private:
   using Cells = std::vector<std::string_view>;
 
-  static Cells cellsOf(std::string_view row)
+  // until the next row is read
+  const Cells& cellsOf(std::string_view row)
   {
-    Cells cells;
-    while (!row.empty())
+    cells_.clear();
+    if (row.find('"') != row.npos)
     {
-      cells.push_back(trimmed(cut(row, ',')));
+      fields_ = csvFields(row);
+      std::ranges::transform(fields_, std::back_inserter(cells_), trimmed);
     }
-    return cells;
+    else
+    {
+      std::ranges::transform(split(row, ','), std::back_inserter(cells_), trimmed);
+    }
+    if (cells_.size() != width_ && cells_.back().empty()) // behind a last comma
+    {
+      cells_.pop_back();
+    }
+    return cells_;
   }
 
   // finds the columns of a path, or of a recording among its others; false: a row of numbers
@@ -193,14 +197,13 @@ private:
 
   [[nodiscard]] double number(std::string_view text) const
   {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    const std::optional<double> value = csvNumber(text);
+    if (!value || !std::isfinite(*value))
     {
       fail(std::string{ '"' }.append(printable(std::string(text.substr(0, 40)))) +
         "\" is not a number; write it as -1.25, below a header " + std::string(kHeader));
     }
-    return value;
+    return *value;
   }
 
   [[noreturn]] void fail(const std::string& what) const
@@ -210,6 +213,8 @@ private:
 
   std::string name_;
   int line_ = 0;
+  Cells cells_;                           // of the row
+  std::vector<std::string> fields_;       // that own them where they were in quotes
   std::vector<std::size_t> columns_;      // of time, position and axis below a header
   std::size_t width_ = 0;                 // of the header; 0 without one
   std::optional<std::ptrdiff_t> depth_{}; // column

@@ -64,9 +64,9 @@ private:
 /// samples.csv, whose tool_x_mm to axis_z are found by name among its other columns. Where such a
 /// recording leaves samples out between two without contact, the tool stays and then appears.
 ///
-/// The header row of a path may be absent; lines that start with # and empty lines are skipped. The
-/// decimal point is a point in every locale. An axis is made exactly one long when it is so within
-/// 1 %.
+/// Names and words may stand in quotes. The header row of a path may be absent; lines that start
+/// with # and empty lines are skipped. The decimal point is a point in every locale. An axis is
+/// made exactly one long when it is so within 1 %.
 ///
 /// @param text    whole file
 /// @param name    stands before each message

@@ -1,6 +1,4 @@
-#include "haptics/files/output_folder.h"
-#include "haptics/files/replace_file.h"
-#include "tests/support/process.h"
+#include "tests/haptics/files/output_rig.h"
 
 #include <chrono>
 #include <filesystem>
@@ -13,28 +11,8 @@ namespace palp
 namespace
 {
 
-using Earlier = OutputFolder::Earlier;
-
-class LeftBehind : public testing::Test
+class LeftBehind : public OutputRig
 {
-protected:
-  // a run that leaves a.csv and b.csv
-  void write(const std::string& text, Earlier earlier = Earlier::Refuse)
-  {
-    OutputFolder output(out_, { "a.csv", "b.csv" }, earlier);
-    replaceFile(output.stage() / "a.csv", text);
-    replaceFile(output.stage() / "b.csv", text);
-    output.publish();
-  }
-
-  void expectBoth(const std::string& text) const
-  {
-    EXPECT_EQ(test::readAll(out_ / "a.csv"), text);
-    EXPECT_EQ(test::readAll(out_ / "b.csv"), text);
-  }
-
-  test::TemporaryFolder folder_;
-  std::filesystem::path out_ = folder_.path() / "some" / "out";
 };
 
 // somebody else may write into the folder, and name anything there

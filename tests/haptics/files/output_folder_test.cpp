@@ -1,8 +1,6 @@
-#include "haptics/files/output_folder.h"
+#include "tests/haptics/files/output_rig.h"
 
 #include "haptics/error.h"
-#include "haptics/files/replace_file.h"
-#include "tests/support/process.h"
 
 #include <csignal>
 #include <functional>
@@ -19,7 +17,6 @@ namespace palp
 namespace
 {
 
-using Earlier = OutputFolder::Earlier;
 using Names = std::set<std::string>;
 
 Names namesIn(const std::filesystem::path& folder)
@@ -67,27 +64,8 @@ private:
   rlimit before_{};
 };
 
-class Output : public testing::Test
+class Output : public OutputRig
 {
-protected:
-  // a run that leaves a.csv and b.csv
-  void write(const std::string& text, Earlier earlier = Earlier::Refuse)
-  {
-    OutputFolder output(out_, kOwn, earlier);
-    replaceFile(output.stage() / "a.csv", text);
-    replaceFile(output.stage() / "b.csv", text);
-    output.publish();
-  }
-
-  void expectBoth(const std::string& text) const
-  {
-    EXPECT_EQ(test::readAll(out_ / "a.csv"), text);
-    EXPECT_EQ(test::readAll(out_ / "b.csv"), text);
-  }
-
-  const std::vector<std::string> kOwn{ "a.csv", "b.csv", "plot.png" };
-  test::TemporaryFolder folder_;
-  std::filesystem::path out_ = folder_.path() / "some" / "out";
 };
 
 TEST_F(Output, ReplacesAFileWhole)

@@ -152,6 +152,22 @@ TEST(ScriptedPath, ReadsWhatWasWritten)
   EXPECT_EQ(readPath(file).knots().size(), 3U);
 }
 
+// as R and spreadsheets write it: names and words in quotes, a comma among them, a plus
+TEST(ScriptedPath, ReadsQuotedNamesAndWords)
+{
+  for (const char* text : { "\"time_s\",\"x_mm\",\"y_mm\",\"z_mm\"\n0,1,2,53\n\"0.5\",1,2,49\n",
+         "note,time_s,x_mm,y_mm,z_mm\n\"down, slow\",0,1,2,53\n\"the \"\"end\"\"\",0.5,1,2,49\n",
+         "time_s,x_mm,y_mm,z_mm,note\n0,1,2,53,\n0.5,1,2,49,end\n",
+         "time_s,x_mm,y_mm,z_mm,\r\n0,1,2,53,\r\n+0.5,+1,2,49,\r\n", "0,1,2,53,\n0.5,1,2,+49,\n" })
+  {
+    const ScriptedPath path = parsePath(text, "quoted.csv");
+    ASSERT_EQ(path.knots().size(), 2U) << text;
+    EXPECT_EQ(path.duration(), 0.5) << text;
+    EXPECT_TRUE(path.knots()[1].apex.isApprox(Vector3d(1.0_mm, 2.0_mm, 49.0_mm), 1e-15)) << text;
+  }
+  EXPECT_THROW((void)parsePath("0,1,2,+-3\n", "signs.csv"), Error);
+}
+
 std::filesystem::path write(const test::TemporaryFolder& folder, const std::string& text)
 {
   const std::filesystem::path file = folder.path() / "samples.csv";
