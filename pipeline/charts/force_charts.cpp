@@ -4,6 +4,8 @@
 #include "pipeline/view/appearance.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
@@ -13,6 +15,7 @@
 #include <vtkPlot.h>
 #include <vtkPlotPoints.h>
 #include <vtkTextProperty.h>
+#include <vtkVariant.h>
 
 namespace palp
 {
@@ -57,12 +60,23 @@ double roomFor(double value, double least)
   return std::max(least, step * std::ceil(1.05 * value / step));
 }
 
+// a float as people write it, 0.1125 for 0.11249999701976776
+double inDecimals(float value)
+{
+  std::array<char, 32> text{};
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double decimals = value;
+  (void)std::from_chars(text.data(), end, decimals);
+  return decimals;
+}
+
 std::vector<double> columnOf(vtkTable& table, vtkIdType column)
 {
   std::vector<double> values;
   for (vtkIdType row = 0; row < table.GetNumberOfRows(); ++row)
   {
-    values.push_back(table.GetValue(row, column).ToDouble());
+    const vtkVariant value = table.GetValue(row, column);
+    values.push_back(value.IsFloat() ? inDecimals(value.ToFloat()) : value.ToDouble());
   }
   return values;
 }
@@ -216,6 +230,11 @@ std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
   depth.addLine("model", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
   depth.addPoints("recorded", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
     Plot::Mark::Circle, 3.0F);
+  for (const auto& plot : plots)
+  {
+    plot->setNote("as drawn, of each short time the least and the largest force; the samples.csv "
+                  "of an export has each millisecond");
+  }
   time.chart().TakeViewOf(*overTime_);
   depth.chart().TakeViewOf(*overDepth_);
   return plots;

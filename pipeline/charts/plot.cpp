@@ -210,8 +210,14 @@ void Plot::addTo(vtkContextScene& scene, double bottom, double top)
   addTo(scene);
 }
 
+void Plot::setNote(const std::string& note)
+{
+  note_ = note;
+}
+
 void Plot::writeCsv(std::ostream& out) const
 {
+  out << (note_.empty() ? "" : "# " + note_ + '\n');
   out << "curve," << bottom_ << ',' << left_ << '\n';
   std::string name;
   for (const auto& table : tables_)

@@ -58,6 +58,9 @@ public:
 
   void hideLegend();
 
+  /// What a reader of the numbers has to know, one line; a comment above them in CSV.
+  void setNote(const std::string& note);
+
   /// Puts the chart into a scene, which then draws it, the legend below.
   void addTo(vtkContextScene& scene);
 
@@ -87,6 +90,7 @@ private:
 
   std::string bottom_;
   std::string left_;
+  std::string note_;
   std::vector<vtkSmartPointer<vtkTable>> tables_;
   vtkNew<vtkPalpPointedChart> chart_;
 };

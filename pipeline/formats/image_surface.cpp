@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 #include <vtkDataArray.h>
+#include <vtkFeatureEdges.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -72,6 +73,14 @@ vtkSmartPointer<vtkImageData> maskOf(vtkImageData& volume, const std::vector<dou
   return image;
 }
 
+// to choose from
+std::string knownOf(const ImageValues& values, const PatientImage& volume, double low, double high)
+{
+  return values.distinct.size() > 2 && values.labels
+    ? "its labels are " + listed(values.distinct, volume)
+    : "its values go from " + inWords(low) + " to " + inWords(high);
+}
+
 Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::string& name,
   std::vector<std::string>& notes)
 {
@@ -81,23 +90,27 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
   const auto scaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
   const double low = std::min(scaled(values.low), scaled(values.high));
   const double high = std::max(scaled(values.low), scaled(values.high));
-  const std::string known = values.distinct.size() > 2 && values.labels
-    ? "its labels are " + listed(values.distinct, volume)
-    : "its values go from " + inWords(low) + " to " + inWords(high);
+  const std::string known = knownOf(values, volume, low, high);
   if (!part.labels.empty())
   {
     std::vector<double> stored;
     for (const double label : part.labels)
     {
       const auto same = std::ranges::find_if(values.distinct,
-        [&](double value) { return std::abs(scaled(value) - label) < 1e-6 * (high - low); });
+        [&](double value) { return std::abs(scaled(value) - label) <= 1e-6 * (high - low); });
       if (same == values.distinct.end())
       {
         refuse("no label " + inWords(label) + " in it; " + known);
       }
       stored.push_back(*same);
     }
-    return { maskOf(*volume.image, stored), 0.5 };
+    auto mask = maskOf(*volume.image, stored);
+    if (mask->GetScalarRange()[0] > 0.5)
+    {
+      refuse("what is labeled so fills the whole image, so there is no surface; give an image "
+             "that goes on around the body");
+    }
+    return { mask, 0.5 };
   }
   if (values.labels)
   {
@@ -153,6 +166,19 @@ void checkPosition(const PatientImage& volume, const std::string& name)
   }
 }
 
+// six times the volume between a triangle and the origin
+double volumeBelow(vtkPolyData& surface, vtkIdType triangle)
+{
+  vtkNew<vtkIdList> corners;
+  surface.GetCellPoints(triangle, corners);
+  std::array<Eigen::Vector3d, 3> p;
+  for (int k = 0; k < 3; ++k)
+  {
+    surface.GetPoint(corners->GetId(k), p[static_cast<std::size_t>(k)].data());
+  }
+  return p[0].dot(p[1].cross(p[2]));
+}
+
 // how many pieces of a contour face the other way than the largest, as the walls of hollows do
 std::size_t hollowsIn(vtkPolyData& contour)
 {
@@ -170,18 +196,35 @@ std::size_t hollowsIn(vtkPolyData& contour)
     colored.GetCellPoints(i, corners);
     const auto piece =
       static_cast<std::size_t>(colored.GetPointData()->GetScalars()->GetTuple1(corners->GetId(0)));
-    std::array<Eigen::Vector3d, 3> p;
-    for (int k = 0; k < 3; ++k)
-    {
-      colored.GetPoint(corners->GetId(k), p[static_cast<std::size_t>(k)].data());
-    }
-    volumes[piece] += p[0].dot(p[1].cross(p[2]));
+    volumes[piece] += volumeBelow(colored, i);
     ++sizes[piece];
   }
   const double largest =
     volumes[static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin())];
   return static_cast<std::size_t>(
     std::ranges::count_if(volumes, [&](double volume) { return volume * largest < 0.0; }));
+}
+
+// whether a surface without an open edge faces its own inside
+bool facesInward(vtkPolyData& surface)
+{
+  vtkNew<vtkFeatureEdges> open;
+  open->SetInputData(&surface);
+  open->BoundaryEdgesOn();
+  open->FeatureEdgesOff();
+  open->NonManifoldEdgesOff();
+  open->ManifoldEdgesOff();
+  open->Update();
+  if (open->GetOutput()->GetNumberOfCells() > 0)
+  {
+    return false;
+  }
+  double volume = 0.0;
+  for (vtkIdType i = 0; i < surface.GetNumberOfCells(); ++i)
+  {
+    volume += volumeBelow(surface, i);
+  }
+  return volume < 0.0;
 }
 
 // the largest piece, without the stairs of the voxels
@@ -259,6 +302,17 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
   if ((toPatient->Determinant() < 0.0) != (part.labels.empty() && volume.slope < 0.0))
   {
     flip(*surface);
+  }
+  if (facesInward(*surface))
+  {
+    if (!part.labels.empty())
+    {
+      refuse(
+        "the label reaches the border of the image all around, so that its outer surface is not "
+        "in it; name the label that it surrounds");
+    }
+    notes.push_back("the body is what is below the level, as a distance is; what is above it "
+                    "reaches the border of the image all around");
   }
   return surface;
 }

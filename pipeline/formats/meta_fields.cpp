@@ -12,19 +12,6 @@
 
 namespace palp
 {
-namespace
-{
-
-std::string trimmed(std::string_view text)
-{
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == text.npos
-    ? std::string()
-    : std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
-}
-
-} // namespace
-
 MetaFields readMetaFields(const std::filesystem::path& file, std::uintmax_t& end)
 {
   constexpr std::size_t most = 1 << 16; // [bytes], of a header
@@ -42,7 +29,7 @@ MetaFields readMetaFields(const std::filesystem::path& file, std::uintmax_t& end
     {
       break;
     }
-    const std::string key = trimmed(line.substr(0, equals));
+    const std::string key(trimmed(line.substr(0, equals)));
     if (!fields.try_emplace(key, trimmed(line.substr(equals + 1))).second)
     {
       refuse(file, "its header gives " + inQuotes(key) + " twice; leave the one that is right");

@@ -77,35 +77,66 @@ void turnAll(const Piece& piece, std::vector<bool>& turn)
   }
 }
 
-// among how many others a piece lies, where all face outwards
+// among how many others a point of a piece lies, less the hollows
 int depthOf(const Winding& winding, const Eigen::Vector3d& point)
 {
   return static_cast<int>(std::floor(winding(point))); // its own part is between 0 and 1
 }
 
-// turns those back that face a hollow
-std::size_t openCavities(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, std::span<const Piece> pieces, std::vector<bool>& turn)
+std::vector<Triangle> turned(std::span<const Triangle> triangles, const std::vector<bool>& turn)
 {
-  std::vector<Triangle> outward(triangles.begin(), triangles.end());
-  for (std::size_t i = 0; i < outward.size(); ++i)
+  std::vector<Triangle> result(triangles.begin(), triangles.end());
+  for (std::size_t i = 0; i < result.size(); ++i)
   {
-    turn[i] ? std::swap(outward[i][0], outward[i][2]) : void();
+    turn[i] ? std::swap(result[i][0], result[i][2]) : void();
   }
-  const Winding winding(BoxTree(points, outward));
+  return result;
+}
+
+bool isOutward(const Piece& piece, const std::vector<bool>& turn)
+{
+  return (piece.volume < 0.0) == turn[at(piece.triangles.front())];
+}
+
+// turns those back that face a hollow
+void openCavities(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  std::span<const Piece> pieces, Facing& facing)
+{
+  const Winding winding(BoxTree(points, turned(triangles, facing.turn)));
   const auto size = [](const Piece& piece) { return std::abs(piece.volume); };
   const bool isOutermostTurned = std::ranges::max(pieces, {}, size).volume < 0.0;
-  std::size_t cavities = 0;
   for (const Piece& piece : pieces)
   {
     const Eigen::Vector3d& on = points[at(triangles[at(piece.triangles.front())][0])];
     if ((piece.volume < 0.0) != isOutermostTurned && depthOf(winding, on) % 2 == 1)
     {
-      turnAll(piece, turn);
-      ++cavities;
+      turnAll(piece, facing.turn);
+      ++facing.cavities;
     }
   }
-  return cavities;
+}
+
+// finds those that lie in the body itself
+void findInner(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  std::span<const Piece> pieces, Facing& facing)
+{
+  const Winding winding(BoxTree(points, turned(triangles, facing.turn)));
+  for (const Piece& piece : pieces)
+  {
+    const auto isWithin = [&](int triangle)
+    {
+      return std::ranges::all_of(triangles[at(triangle)],
+        [&](int corner) { return depthOf(winding, points[at(corner)]) > 0; });
+    };
+    if (isOutward(piece, facing.turn) && std::ranges::all_of(piece.triangles, isWithin))
+    {
+      ++facing.inner;
+      for (const int triangle : piece.triangles)
+      {
+        facing.within[at(triangle)] = true;
+      }
+    }
+  }
 }
 
 } // namespace
@@ -113,7 +144,8 @@ std::size_t openCavities(std::span<const Eigen::Vector3d> points,
 Facing facingOf(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, const Edges& edges)
 {
-  Facing facing{ std::vector<bool>(triangles.size()) };
+  Facing facing{ .turn = std::vector<bool>(triangles.size()),
+    .within = std::vector<bool>(triangles.size()) };
   const std::vector<Piece> pieces = piecesOf(points, triangles, edges, facing.turn);
   if (!edges.unpaired.empty())
   {
@@ -125,7 +157,8 @@ Facing facingOf(
   }
   if (pieces.size() > 1)
   {
-    facing.cavities = openCavities(points, triangles, pieces, facing.turn);
+    openCavities(points, triangles, pieces, facing);
+    findInner(points, triangles, pieces, facing);
   }
   return facing;
 }

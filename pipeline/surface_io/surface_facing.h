@@ -15,11 +15,13 @@ struct Facing
 {
   std::vector<bool> turn;   ///< of each triangle
   std::size_t cavities = 0; ///< closed pieces that face a hollow within another
+  std::vector<bool> within; ///< of each triangle: bounds nothing, as there is body on both sides
+  std::size_t inner = 0;    ///< closed pieces of such
 };
 
 /// Triangles across an edge are to face the same way: as the first of their piece or, where the
 /// surface is closed, away from the body. A piece within another that the file has facing the other
-/// way bounds a hollow, and faces that.
+/// way bounds a hollow, and faces that; one that faces alike is a part of the other.
 ///
 /// @param points  [m]
 /// @param edges   of the triangles

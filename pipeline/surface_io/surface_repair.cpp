@@ -108,6 +108,14 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
     result.notes.push_back(counted(facing.cavities, "closed piece") +
       " within another, facing the other way: taken for hollow");
   }
+  if (facing.inner > 0)
+  {
+    result.notes.push_back(counted(facing.inner, "closed piece") +
+      " within another, facing as it does: left out, as a part of it");
+    std::size_t i = 0;
+    std::erase_if(mesh.triangles, [&](const Triangle&) { return facing.within[i++]; });
+    mesh = merged(mesh.points, mesh.triangles);
+  }
   result.mesh = makePolyData(mesh.points, mesh.triangles);
   return result;
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 #include <vtkAxis.h>
@@ -146,6 +148,26 @@ TEST_F(Charts, CanBeLaidOutAnewWithAllTheirCurves)
   EXPECT_NEAR(time.GetValue(time.GetNumberOfRows() - 1, 1).ToDouble(), 2.0, 1e-6);
   vtkTable& measured = *plots[1]->tables()[1];
   EXPECT_NEAR(measured.GetValue(0, 0).ToDouble(), 4.0, 1e-5);
+}
+
+// 0.1 as it was recorded, not as the nearest float goes on
+TEST_F(Charts, GiveTheNumbersOfTheFloatsThatTheyKeep)
+{
+  add(0.1, 1.7_mm);
+  const auto plots = charts_.plots();
+  std::set<double> forces;
+  std::set<double> depths;
+  for (const auto& [values, table, column] : { std::tuple(&forces, plots[0]->tables()[0], 1),
+         std::tuple(&depths, plots[1]->tables()[1], 0) })
+  {
+    for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+    {
+      values->insert(table->GetValue(row, column).ToDouble());
+    }
+  }
+  EXPECT_EQ(forces.count(0.1), 1U);
+  EXPECT_EQ(forces.count(static_cast<double>(0.1F)), 0U);
+  EXPECT_EQ(depths.count(1.7), 1U);
 }
 
 TEST_F(Charts, DrawWhatIsSentBesideTheModelWhereADeviceIsSentIt)

@@ -61,6 +61,33 @@ TEST_F(Images, AHollowIsFilledAndToldOf)
     << all;
 }
 
+// the outer surface of what is around a ball is not in the image
+TEST_F(Images, RefusesALabelThatReachesTheBorderAllAround)
+{
+  const auto file = write<vtkMetaImageWriter>("around.mha", *ball(true));
+  EXPECT_NE(refusal(file, { {}, { 0.0 } }).find("the label reaches the border of the image all"),
+    std::string::npos);
+}
+
+// as a distance has it, negative within
+TEST_F(Images, TellsThatABodyIsBelowItsLevel)
+{
+  const auto notesOf = [&](const std::string& name, bool mask, double level)
+  {
+    std::string all;
+    for (const std::string& note : readSurface(write<vtkMetaImageWriter>(name, *ball(mask)),
+           LengthUnit::Millimeter,
+           { level, {} }).notes)
+    {
+      all += note + '\n';
+    }
+    return all;
+  };
+  const std::string told = "the body is what is below the level";
+  EXPECT_NE(notesOf("distance.mha", false, 0.0).find(told), std::string::npos);
+  EXPECT_EQ(notesOf("above.mha", true, 0.5).find(told), std::string::npos);
+}
+
 TEST_F(Images, RefusesWithTheValuesThatThereAre)
 {
   const auto mask = write<vtkMetaImageWriter>("mask.mha", *ball(true));
@@ -114,6 +141,18 @@ TEST_F(Images, ALabelMapIsTakenByItsLabelsAndNotByALevel)
   const LoadedSurface both = readSurface(file, LengthUnit::Millimeter, { {}, { 2.0, 5.0 } });
   EXPECT_TRUE(both.closed);
   EXPECT_LT(farthest(*both.mesh, kCenterMm), 2.2);
+}
+
+TEST_F(Images, ALabelThatFillsTheImageHasNoSurface)
+{
+  auto image = ball(true);
+  image->GetPointData()->GetScalars()->Fill(1.0);
+  const auto full = write<vtkMetaImageWriter>("full.mha", *image);
+  EXPECT_NE(refusal(full, { {}, { 1.0 } }).find("fills the whole image"), std::string::npos);
+  EXPECT_NE(refusal(full, { {}, { 2.0 } }).find("no label 2 in it"), std::string::npos);
+  const auto parts = write<vtkMetaImageWriter>("parts.mha", *labels());
+  EXPECT_NE(refusal(parts, { {}, { 0.0, 2.0, 5.0, 7.0 } }).find("fills the whole image"),
+    std::string::npos);
 }
 
 TEST_F(Images, AMaskHasOneSurfaceWhateverLevelLiesBetween)
