@@ -1,6 +1,7 @@
 // palp-view: palp with its window.
 
 #include "app/commands/program.h"
+#include "app/folder/autosave.h"
 #include "app/program/build_trace.h"
 #include "app/session/session.h"
 #include "app/window/window.h"
@@ -96,6 +97,7 @@ int view(const palp::ViewOptions& options)
   // Qt takes the user's; files and VTK want a decimal point
   std::setlocale(LC_NUMERIC, "C"); // NOLINT(concurrency-mt-unsafe): no other thread yet
 
+  palp::Autosave autosave(palp::Autosave::usualRoot());
   palp::Session session(options.plan, trace, &gEnded);
   for (const std::string& note : session.body().notes)
   {
@@ -107,6 +109,7 @@ int view(const palp::ViewOptions& options)
   }
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
   palp::Window window(session, trace);
+  window.saveTo(autosave);
   trace.build("first picture", "drawn on the display",
     [&]
     {

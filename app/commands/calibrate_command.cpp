@@ -1,6 +1,7 @@
 #include "app/commands/calibrate_case.h"
 #include "app/commands/commands.h"
 #include "app/commands/renderer.h"
+#include "app/input/tip_text.h"
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
@@ -35,11 +36,15 @@ struct CalibrateOptions
 };
 
 std::unique_ptr<OutputFolder> openFolder(
-  const std::filesystem::path& folder, const CalibrateOptions& options)
+  const std::filesystem::path& folder, const CalibrateOptions& options, const Tip& tip)
 {
-  return options.resume
-    ? std::make_unique<OutputFolder>(folder, calibrationFiles(), OutputFolder::Earlier::Keep)
-    : openOutput(folder, calibrationFiles(), options.overwrite);
+  const std::vector<std::filesystem::path> inputs{ fileOf(tip) };
+  if (!options.resume)
+  {
+    return openOutput(folder, calibrationFiles(), options.overwrite, inputs);
+  }
+  keepInputs(folder, calibrationFiles(), inputs);
+  return std::make_unique<OutputFolder>(folder, calibrationFiles(), OutputFolder::Earlier::Keep);
 }
 
 constexpr const char* kStopped =
@@ -68,7 +73,7 @@ Case studyOf(const CalibrateOptions& options)
 void calibrateOne(const CalibrateOptions& options, Interrupt& interrupt, const Renderer* pictures)
 {
   const Case study = studyOf(options);
-  const auto folder = openFolder(options.out, options);
+  const auto folder = openFolder(options.out, options, study.tip);
   const bool goesOn = options.resume && std::filesystem::exists(options.out / "table.csv");
   interrupt.endWhatDoesNotStop(goesOn ? kStopped : kNothingYet);
   Outcome outcome;

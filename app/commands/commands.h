@@ -36,6 +36,8 @@ void addExperimentCommand(CLI::App& app, const Renderer* pictures);
 void addReportCommand(CLI::App& app, const Renderer* pictures);
 void addStabilityCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app, const Renderer* pictures);
+void addDetectCommand(CLI::App& app, const Renderer* pictures);
+void addTissuesCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));
 
 /// palp sweep plan and palp sweep run in one, of a sweep of calibrations.

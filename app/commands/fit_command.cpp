@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/commands/renderer.h"
-#include "app/input/force_curve.h"
+#include "app/curves/force_curve.h"
 #include "app/input/law_options.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
@@ -178,13 +178,10 @@ Json fitJson(const FileFit& file, const std::filesystem::path& path)
   Json json{ { "curve", path.string() } };
   add(json, "young_Pa", asked.curve.scale);
   add(json, "contact_mm", asked.curve.contact, mm);
+  json["exponent"] = nullptr; // of too few rows
   if (const Estimate* exponent = fitted.exponent())
   {
     add(json, "exponent", *exponent);
-  }
-  else
-  {
-    json["exponent"] = nullptr; // too few rows
   }
   if (const auto thickness = fitted.thickness())
   {
@@ -286,8 +283,10 @@ void runFit(const FitOptions& options, const Renderer* pictures)
   {
     execProgram("palp-draw");
   }
-  const auto output = openOutput(options.out, { "fit.json", "fit.csv", "fit.png", "residuals.png" },
-    options.overwrite, options.files);
+  std::vector<std::filesystem::path> inputs = options.files;
+  inputs.push_back(fileOf(options.tip));
+  const auto output = openOutput(
+    options.out, { "fit.json", "fit.csv", "fit.png", "residuals.png" }, options.overwrite, inputs);
   const Interrupt interrupt([&output] { output->discard(); });
   const std::vector<FileFit> fits = fitFiles(options);
   std::vector<FittedCurve> curves;

@@ -5,6 +5,7 @@
 #include "app/folder/played_plan.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
+#include "app/press/playback.h"
 #include "app/press/presses.h"
 #include "app/press/recording.h"
 #include "app/program/build_trace.h"
@@ -45,14 +46,20 @@ void tellLimits(const Scene& scene, const Contact& contact)
   }
 }
 
-void tell(const Recording& recording, const Calibration* calibration)
+// path: null where places or a recording are pressed
+void tell(const Recording& recording, const Calibration* calibration, const ScriptedPath* path)
 {
   using units::toMillimeters;
   const Sample* deepest = recording.deepest();
   if (!deepest)
   {
+    const bool isFine = path && isFinerThanSamples(*path);
     std::cerr << "palp: warning: the tool never touched the surface; the path may be in another "
-                 "frame or unit\n";
+                 "frame or unit"
+              << (isFine ? ", or touch between whole milliseconds only, as it has rows closer "
+                           "than those at which it is pressed"
+                         : "")
+              << '\n';
     return;
   }
   std::cerr << "palp: deepest " << toMillimeters(deepest->contact.depth) << " mm, force "
@@ -233,15 +240,16 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   {
     checkInputs(*repeated, plan, recording);
   }
+  const ScriptedPath* path = given.path ? &*given.path : nullptr;
   trace.build("press", "force at every millisecond",
     [&]
     {
       const ProgressLine progress("pressing");
-      playInto(recording, plan, given.path ? &*given.path : nullptr);
+      playInto(recording, plan, path);
     });
   recording.device = repeated ? repeated->device : recording.device;
   const Calibration* known = calibration ? &*calibration : nullptr;
-  tell(recording, known);
+  tell(recording, known, path);
   writeAll({ plan, body, recording, known, given.text }, output.stage(), pictures, trace);
   if (repeated)
   {

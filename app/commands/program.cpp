@@ -91,6 +91,8 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addReportCommand(app, parts.pictures);
   addStabilityCommand(app);
   addBenchCommand(app, parts.pictures);
+  addDetectCommand(app, parts.pictures);
+  addTissuesCommand(app);
   addDevicesCommand(app, parts.devices);
   refuseEmptyValues(app);
 }

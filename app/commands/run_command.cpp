@@ -1,9 +1,9 @@
 #include "app/commands/commands.h"
-#include "app/commands/export_option.h"
 #include "app/commands/headless.h"
+#include "app/curves/force_curve.h"
 #include "app/folder/export_folder.h"
+#include "app/folder/export_option.h"
 #include "app/folder/played_plan.h"
-#include "app/input/force_curve.h"
 #include "app/input/option_values.h"
 #include "app/places/fiducial_file.h"
 #include "app/program/build_trace.h"
@@ -68,6 +68,7 @@ void addMotion(ScenePlan& plan, const RunOptions& options)
   if (!options.places.points.empty())
   {
     Fiducials points = readFiducials(options.places.points);
+    plan.sources.push_back(options.places.points);
     std::ranges::move(points.places, std::back_inserter(presses.places));
     if (points.unplaced > 0)
     {
@@ -117,7 +118,8 @@ void repeat(const RunOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   BuildTrace silent(false);
-  const auto output = openOutput(options.out, exportFiles(), options.overwrite);
+  const auto output =
+    openOutput(options.out, exportFiles(), options.overwrite, inputsOf(made.plan));
   playPlan(made.plan, *output, pictures, silent, &made);
 }
 

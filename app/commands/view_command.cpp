@@ -1,7 +1,7 @@
 #include "app/commands/commands.h"
-#include "app/commands/export_option.h"
 #include "app/commands/program.h"
 #include "app/folder/export_folder.h"
+#include "app/folder/export_option.h"
 #include "app/input/option_values.h"
 #include "app/program/exec_program.h"
 #include "haptics/error.h"

@@ -1,13 +1,13 @@
 #include "app/folder/export_folder.h"
 
 #include "app/input/json_object.h"
+#include "app/input/tip_text.h"
 #include "app/press/recording.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
-#include "haptics/tip/profile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -35,9 +35,9 @@ std::vector<MeshFile> inputsOf(const ScenePlan& plan, const Recording& recording
   {
     inputs.push_back(describeFile(plan.press.dent.table));
   }
-  if (const auto* own = std::get_if<ProfileTip>(&plan.press.tissue.tip))
+  if (const fs::path profile = fileOf(plan.press.tissue.tip); !profile.empty())
   {
-    inputs.push_back(describeFile(own->profile->name()));
+    inputs.push_back(describeFile(profile));
   }
   for (const fs::path& reference : plan.referenceFiles)
   {

@@ -1,5 +1,7 @@
 #include "app/folder/played_plan.h"
 
+#include "app/input/mesh_file.h"
+#include "app/input/tip_text.h"
 #include "app/places/placed_press.h"
 #include "app/press/playback.h"
 #include "app/press/recorded_rows.h"
@@ -43,9 +45,16 @@ void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* p
 
 std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
 {
-  std::vector<std::filesystem::path> inputs = plan.referenceFiles;
-  std::ranges::transform(plan.meshes, std::back_inserter(inputs), &MeshSource::file);
+  std::vector<std::filesystem::path> inputs = plan.sources;
+  std::ranges::copy(plan.referenceFiles, std::back_inserter(inputs));
+  for (const MeshSource& mesh : plan.meshes)
+  {
+    std::ranges::copy(filesBehind(mesh.file), std::back_inserter(inputs));
+  }
   inputs.push_back(plan.device.file);
+  inputs.push_back(plan.recording ? plan.recording->file : std::filesystem::path());
+  inputs.push_back(plan.press.dent.table);
+  inputs.push_back(fileOf(plan.press.tissue.tip));
   std::erase(inputs, std::filesystem::path());
   return inputs;
 }
@@ -63,6 +72,8 @@ ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording
       .base = settings.base,
       .constitution = settings.constitution,
       .coatings = settings.coatings,
+      .relaxation = settings.relaxation,
+      .friction = settings.friction,
       .rated = recording.rated } };
   plan.press.contact = recording.scene.rule;
   plan.press.damping = recording.scene.damping;

@@ -30,6 +30,7 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
 {
   tabs_->setObjectName("plotTabs");
   tabs_->setExpanding(false);
+  tabs_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // turned by its arrows
   for (const Page& page : pages_)
   {
     tabs_->addTab(page.name);
@@ -58,6 +59,17 @@ void PlotPanel::refresh()
     page_ = page;
   }
   draw();
+}
+
+void PlotPanel::turnTo(const QString& page)
+{
+  for (int i = 0; i < tabs_->count(); ++i)
+  {
+    if (tabs_->tabText(i) == page)
+    {
+      tabs_->setCurrentIndex(i);
+    }
+  }
 }
 
 void PlotPanel::put(Plots plots)

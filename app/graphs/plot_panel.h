@@ -28,6 +28,9 @@ public:
 
   explicit PlotPanel(std::vector<Page> pages, QWidget* parent = nullptr);
 
+  /// Brings a tab to the front.
+  void turnTo(const QString& page);
+
   /// Makes and draws the plots of the tab in front, if anybody sees them; where there is nothing to
   /// make them of, those before stay. So do the axes that are held and the curves that are hidden.
   void refresh();

@@ -46,7 +46,9 @@ std::filesystem::path dataBeside(const std::filesystem::path& file)
 std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file)
 {
   std::vector<std::filesystem::path> files{ file };
-  if (auto data = dataBeside(file); !data.empty())
+  std::error_code none; // a pipe would be waited for
+  const bool isFile = std::filesystem::is_regular_file(file, none);
+  if (auto data = isFile ? dataBeside(file) : std::filesystem::path(); !data.empty())
   {
     files.push_back(std::move(data));
   }

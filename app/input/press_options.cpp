@@ -3,6 +3,7 @@
 #include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
+#include "app/input/tissue_presets.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
 
@@ -74,13 +75,32 @@ CLI::Option* addPoisson(CLI::App& command, double& poisson)
 
 void TissueOptions::addTo(CLI::App& command)
 {
+  addMaterialTo(command);
+  options.addTo(command);
+}
+
+void TissueOptions::addMaterialTo(CLI::App& command)
+{
   addTip(command, tip, describeTip(tip));
-  addParsed(command, "--young", "Young's modulus E, 1Pa to 10GPa",
+  addParsed(command, "--tissue", // first, so that E and nu win over it wherever they stand
+    "Tissue whose E and nu are taken, as in hcc, by a name of palp tissues; --young and --poisson "
+    "win over it",
+    "", [this](const std::string& name) { take(name); });
+  addParsed(command, "--young",
+    "Young's modulus E, 1Pa to 10GPa; what holds without it is a tumor's, 7.5 times that of "
+    "healthy liver",
     shortest(young / 1.0_kPa) + "kPa",
     [this](const std::string& text)
     { young = parseQuantity(text, Quantity::Pressure, "--young"); });
   addPoisson(command, poisson);
-  options.addTo(command);
+}
+
+void TissueOptions::take(const std::string& name)
+{
+  const std::vector<TissuePreset> tissues = shippedTissues();
+  const Material& material = tissueNamed(name, tissues, "--tissue").material;
+  young = material.youngModulus;
+  poisson = material.poissonRatio;
 }
 
 ForceLaw TissueOptions::law() const

@@ -49,11 +49,18 @@ CLI::Option* addPoisson(CLI::App& command, double& poisson);
 struct TissueOptions
 {
   Tip tip = SphereTip{ .radius = 0.01 };
-  double young = 50e3;   ///< E [Pa]
+  double young = 50e3;   ///< E [Pa]; the paper's, a tumor's
   double poisson = 0.33; ///< nu [-]
   LawOptions options;
 
   void addTo(CLI::App& command);
+
+  /// The same without the options of the law.
+  void addMaterialTo(CLI::App& command);
+
+  /// Takes E and nu of a measured tissue.
+  /// @throws Error  BadValue: no such name; BadFile: as shippedTissues
+  void take(const std::string& name);
 
   /// @throws Error  as makeMaterial, LawOptions::settings
   [[nodiscard]] ForceLaw law() const;

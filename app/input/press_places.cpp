@@ -46,14 +46,14 @@ Eigen::Vector3d parseDirection(const std::string& text, const std::string& what)
   return Eigen::Vector3d(parts.data());
 }
 
-double parsePressDepth(const std::string& text)
+double parsePressDepth(const std::string& text, const std::string& what)
 {
-  return parseWithin(text, Quantity::Length, { 10.0_um, 100.0_mm, "0.01mm to 100mm" }, "--depth");
+  return parseWithin(text, Quantity::Length, { 10.0_um, 100.0_mm, "0.01mm to 100mm" }, what);
 }
 
-double parsePressSpeed(const std::string& text)
+double parsePressSpeed(const std::string& text, const std::string& what)
 {
-  return parseWithin(text, Quantity::Speed, { 10.0_um, 1.0, "0.01mm/s to 1m/s" }, "--speed");
+  return parseWithin(text, Quantity::Speed, { 10.0_um, 1.0, "0.01mm/s to 1m/s" }, what);
 }
 
 void PlaceOptions::addTo(CLI::App& command)

@@ -52,7 +52,9 @@ struct PlaceOptions
 [[nodiscard]] PressPlace parsePlace(const std::string& text, const std::string& what = "--at");
 [[nodiscard]] Eigen::Vector3d parseDirection(
   const std::string& text, const std::string& what = "--toward"); ///< `x,y,z`, of any length but 0
-[[nodiscard]] double parsePressDepth(const std::string& text);    ///< [m]
-[[nodiscard]] double parsePressSpeed(const std::string& text);    ///< [m/s]
+[[nodiscard]] double parsePressDepth(
+  const std::string& text, const std::string& what = "--depth"); ///< [m]
+[[nodiscard]] double parsePressSpeed(
+  const std::string& text, const std::string& what = "--speed"); ///< [m/s]
 
 } // namespace palp

@@ -74,13 +74,6 @@ struct Split
   std::string_view rest; // what follows the number
 };
 
-std::string_view trimmed(std::string_view text)
-{
-  const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
-  const std::size_t last = text.find_last_not_of(' ') + 1; // 0 where there is nothing else
-  return text.substr(first, last > first ? last - first : 0);
-}
-
 Split splitNumber(std::string_view text, std::string_view what)
 {
   std::string_view digits = trimmed(text);
@@ -205,6 +198,11 @@ std::vector<double> parseNumbers(std::string_view text, std::string_view what)
     if (trimmed(one).empty())
     {
       refuse(what, text, "lacks a number; give numbers with a comma between them");
+    }
+    const Split split = splitNumber(one, what);
+    if (split.rest.find_first_of("0123456789") != split.rest.npos)
+    {
+      refuse(what, text, "has no comma between its numbers; write them like -45, 12.5, 30");
     }
     numbers.push_back(parseNumber(one, what));
     begin = end + 1;

@@ -78,7 +78,8 @@ struct CameraPlace
 /// parsed. What is not named here is not built.
 struct ScenePlan
 {
-  std::string name{}; ///< for people
+  std::string name{};                           ///< for people
+  std::vector<std::filesystem::path> sources{}; ///< that it was read from: scene, list of points
   std::vector<MeshSource> meshes{ { .bundled = "liver" } };
   PressOptions press{};
   DeviceChoice device{};

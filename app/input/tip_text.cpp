@@ -138,7 +138,7 @@ struct Describe
   }
   std::string operator()(const ProfileTip& tip) const
   {
-    return "profile:" + std::filesystem::path(tip.profile->name()).filename().string();
+    return "profile:" + fileOf(tip).filename().string();
   }
 };
 
@@ -152,6 +152,12 @@ Tip parseTip(std::string_view text)
 std::string describeTip(const Tip& tip)
 {
   return std::visit(Describe{}, tip);
+}
+
+std::filesystem::path fileOf(const Tip& tip)
+{
+  const auto* own = std::get_if<ProfileTip>(&tip);
+  return own ? own->profile->name() : std::string();
 }
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "haptics/tip/tip.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -19,5 +20,8 @@ namespace palp
 /// The same text back, which reads as the same tool to the last bit; a profile by its file's name
 /// alone.
 [[nodiscard]] std::string describeTip(const Tip& tip);
+
+/// The file of a profile; empty for other tools.
+[[nodiscard]] std::filesystem::path fileOf(const Tip& tip);
 
 } // namespace palp

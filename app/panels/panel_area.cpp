@@ -48,7 +48,7 @@ bool PanelArea::eventFilter(QObject* object, QEvent* event)
 void PanelArea::fit()
 {
   const int height = widget()->sizeHint().height();
-  setMinimumHeight(std::min(height, screen()->availableGeometry().height() / 2));
+  setMinimumHeight(std::min(height, screen()->availableGeometry().height() / 3));
   setMaximumHeight(height);
   fitWidth(*this);
 }

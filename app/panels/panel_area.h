@@ -9,7 +9,7 @@ namespace palp
 /// @param content  becomes the area's
 void scrollDownOnly(QScrollArea& area, QWidget* content);
 
-/// A panel in a dock: as high as what it shows, up to half of the screen; then scrolled.
+/// A panel in a dock: as high as what it shows where there is room; scrolled where there is not.
 class PanelArea : public QScrollArea
 {
 public:

@@ -104,8 +104,14 @@ double QuantityBox::si() const
 
 void QuantityBox::forget()
 {
+  refusal_.clear();
   showNumber(unit_.fromSi(si_));
   Q_EMIT refused({});
+}
+
+QString QuantityBox::refusal() const
+{
+  return refusal_;
 }
 
 QString QuantityBox::inUnit(double shown) const
@@ -146,8 +152,8 @@ void QuantityBox::take()
   catch (const Error& error)
   {
     si_ = before;
-    Q_EMIT refused(
-      QString::fromStdString(error.what()) + "; still in use: " + inUnit(unit_.fromSi(si_)));
+    refusal_ = QString::fromStdString(error.what());
+    Q_EMIT refused(refusal_ + "; still in use: " + inUnit(unit_.fromSi(si_)));
     return;
   }
   forget();
@@ -251,14 +257,19 @@ QLabel* addReason(QGridLayout& rows, const QWidget& field)
   return reason;
 }
 
-void showReason(QLabel& row, QWidget& field, const QString& why)
+void markRefused(QWidget& field, bool isRefused)
 {
-  QPalette palette = row.parentWidget()->palette();
-  if (!why.isEmpty())
+  QPalette palette = field.parentWidget()->palette();
+  if (isRefused)
   {
     palette.setColor(QPalette::Text, colorOf(appearance::kBad));
   }
   field.setPalette(palette);
+}
+
+void showReason(QLabel& row, QWidget& field, const QString& why)
+{
+  markRefused(field, !why.isEmpty());
   row.setText(why);
   row.setVisible(!why.isEmpty());
 }

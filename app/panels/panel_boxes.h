@@ -52,6 +52,9 @@ public:
   /// Gives up what was refused.
   void forget();
 
+  /// Why what is typed is not in use; empty: it is.
+  [[nodiscard]] QString refusal() const;
+
   void stepBy(int steps) override;
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override;
@@ -74,6 +77,7 @@ private:
   std::function<void()> check_;
   double si_ = 0.0;
   QString read_; // text that was taken or refused
+  QString refusal_;
 };
 
 /// A list to choose from; the wheel as in QuantityBox.
@@ -100,6 +104,9 @@ void addRow(QGridLayout& rows, const QString& label, QuantityBox* field);
 
 /// A row that tells why the value of the field above is refused; see showReason.
 [[nodiscard]] QLabel* addReason(QGridLayout& rows, const QWidget& field);
+
+/// Marks a field whose value is refused.
+void markRefused(QWidget& field, bool isRefused);
 
 /// Marks a field as refused, with the reason in its row; with none it is marked no longer.
 void showReason(QLabel& row, QWidget& field, const QString& why);

@@ -2,6 +2,7 @@
 
 #include "app/input/quantity.h"
 #include "app/panels/panel_boxes.h"
+#include "haptics/error.h"
 #include "haptics/units.h"
 
 #include <QLabel>
@@ -35,18 +36,21 @@ PressBar::PressBar(QWidget* parent)
   speed_->setFixedWidth(speed_->fontMetrics().horizontalAdvance("00.0 mm/s") + kArrows);
   addField(tr("Place [mm]"),
     tr("x, y, z [mm] in the frame of the surface (LPS for images), within 5 mm of it; a press of "
-       "the mouse "
-       "fills it in"),
+       "the mouse fills it in"),
     place_);
   addField(tr("Depth"), tr("d [mm] of the contact, up to half of the body's thickness"), depth_);
   addField("", tr("Speed [mm/s], down and up; at the depth the tool rests for 0.3 s"), speed_);
   const PlacedPresses usual;
   depth_->setSi(usual.depth);
   speed_->setSi(usual.speed);
-  depth_->setCheck([this] { (void)parsePressDepth(quantityText(depth_->si(), Quantity::Length)); });
-  speed_->setCheck([this] { (void)parsePressSpeed(quantityText(speed_->si(), Quantity::Speed)); });
-  connect(depth_, &QuantityBox::refused, this, &PressBar::refused);
-  connect(speed_, &QuantityBox::refused, this, &PressBar::refused);
+  depth_->setCheck(
+    [this] { (void)parsePressDepth(quantityText(depth_->si(), Quantity::Length), "Depth"); });
+  speed_->setCheck(
+    [this] { (void)parsePressSpeed(quantityText(speed_->si(), Quantity::Speed), "Speed"); });
+  for (QuantityBox* field : { depth_, speed_ })
+  {
+    connect(field, &QuantityBox::refused, this, [this, field] { tellRefusal(*field); });
+  }
   connect(place_, &QLineEdit::returnPressed, this, &PressBar::pressAsked);
 
   auto* press = new QPushButton(tr("Press"));
@@ -63,8 +67,30 @@ void PressBar::addField(const QString& label, const QString& what, QWidget* fiel
   field->setToolTip(what);
 }
 
+// the newest one, or one that still stands
+void PressBar::tellRefusal(QuantityBox& field)
+{
+  markRefused(field, !field.refusal().isEmpty());
+  for (const QuantityBox* one : { &field, depth_, speed_ })
+  {
+    if (!one->refusal().isEmpty())
+    {
+      Q_EMIT refused(one->refusal());
+      return;
+    }
+  }
+  Q_EMIT refused({});
+}
+
 PlacedPresses PressBar::presses() const
 {
+  for (const QuantityBox* field : { depth_, speed_ })
+  {
+    if (!field->refusal().isEmpty())
+    {
+      throw Error(ErrorCode::BadValue, field->refusal().toStdString());
+    }
+  }
   return { .places = { parsePlace(place_->text().toStdString(), "Place") },
     .depth = depth_->si(),
     .speed = speed_->si() };
@@ -78,6 +104,13 @@ void PressBar::showPlace(const Eigen::Vector3d& place)
     numbers << QString::number(units::toMillimeters(coordinate), 'f', 2);
   }
   place_->setText(numbers.join(", "));
+}
+
+void PressBar::showPress(const Contact& deepest)
+{
+  showPlace(deepest.center);
+  depth_->setSi(deepest.depth);
+  depth_->forget();
 }
 
 void PressBar::clearPlace()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/press_places.h"
+#include "haptics/contact/contact.h"
 
 #include <QToolBar>
 
@@ -20,20 +21,24 @@ public:
   explicit PressBar(QWidget* parent = nullptr);
 
   /// One place.
-  /// @throws Error  BadValue: what is typed is no place
+  /// @throws Error  BadValue: what is typed is no place, or a field holds what was refused
   [[nodiscard]] PlacedPresses presses() const;
 
   /// @param place  on the surface [m]
   void showPlace(const Eigen::Vector3d& place);
+
+  /// Of a press: its place, and how deep it is.
+  void showPress(const Contact& deepest);
 
   /// For another body, which has other places.
   void clearPlace();
 
 Q_SIGNALS:
   void pressAsked();
-  void refused(const QString& why); ///< of a depth or a speed; empty: no longer
+  void refused(const QString& why); ///< while a depth or a speed is; empty: none is, any longer
 
 private:
+  void tellRefusal(QuantityBox& field);
   void addField(const QString& label, const QString& what, QWidget* field);
 
   QLineEdit* place_;

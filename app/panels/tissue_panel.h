@@ -1,9 +1,12 @@
 #pragma once
 
+#include "app/input/tissue_presets.h"
 #include "haptics/force/force_law.h"
 #include "haptics/servo/scene.h"
 
 #include <QWidget>
+
+#include <vector>
 
 class QGroupBox;
 
@@ -38,10 +41,14 @@ Q_SIGNALS:
 
 private:
   QGroupBox* makeTissue();
+  void takePreset();
+  void showPreset();
   void check() const;
 
   ToolPanel* tool_;
   LawPanel* law_;
+  std::vector<TissuePreset> presets_;
+  ChoiceBox* preset_; // in their order, then none of them
   QuantityBox* modulus_;
   QuantityBox* poisson_;
   QuantityBox* damping_;

@@ -1,12 +1,15 @@
 #include "app/panels/validity_panel.h"
 
+#include "haptics/force/nodules/detection.h"
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
 
 #include <QColor>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
+#include <vector>
 
 namespace palp
 {
@@ -30,6 +33,23 @@ QString number(const Rule& rule, double value)
     : QString::number(value, 'g', 3);
 }
 
+// a nodule in what people notice at least
+QString contrastText(std::size_t number, double contrast)
+{
+  QString text = QStringLiteral("nodule %1: %2%3 % of the force<br>")
+                   .arg(number)
+                   .arg(contrast < 0.0 ? "" : "+")
+                   .arg(100.0 * contrast, 0, 'f', 1);
+  for (const JustNoticeable& difference : kJustNoticeable)
+  {
+    text += QStringLiteral("&nbsp;&nbsp;%1 times the %2 % that people notice of %3<br>")
+              .arg(std::abs(contrast) / difference.fraction, 0, 'f', 1)
+              .arg(100.0 * difference.fraction, 0, 'f', 0)
+              .arg(difference.name);
+  }
+  return text;
+}
+
 } // namespace
 
 ValidityPanel::ValidityPanel(QWidget* parent)
@@ -49,12 +69,16 @@ void ValidityPanel::showNoContact()
   setText(tr("no contact"));
 }
 
-void ValidityPanel::showRules(const Rules& rules)
+void ValidityPanel::showRules(std::span<const Rule> rules, std::span<const double> contrasts)
 {
-  Rules sorted = rules;
+  std::vector<Rule> sorted(rules.begin(), rules.end());
   std::stable_sort(sorted.begin(), sorted.end(),
     [](const Rule& a, const Rule& b) { return a.fraction() > b.fraction(); });
   QString text;
+  for (std::size_t i = 0; i < contrasts.size(); ++i)
+  {
+    text += contrastText(i, contrasts[i]);
+  }
   for (const Rule& rule : sorted)
   {
     if (rule.fraction() == 0.0)

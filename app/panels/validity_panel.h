@@ -4,6 +4,8 @@
 
 #include <QLabel>
 
+#include <span>
+
 namespace palp
 {
 
@@ -16,7 +18,8 @@ public:
   explicit ValidityPanel(QWidget* parent = nullptr);
 
   /// Green, amber from 80 % of a limit, red where it is passed; the worst first.
-  void showRules(const Rules& rules);
+  /// @param contrasts  of each nodule with the tissue, as NoduleField::contrasts; they come first
+  void showRules(std::span<const Rule> rules, std::span<const double> contrasts = {});
   void showNoContact();
 };
 

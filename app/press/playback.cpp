@@ -7,6 +7,7 @@
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/surface_point.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -90,6 +91,15 @@ std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chai
     last = time;
   }
   return samples;
+}
+
+bool isFinerThanSamples(const ScriptedPath& path)
+{
+  constexpr double kNoLess = 0.999 / kTicksPerSecond; // rounded times of whole milliseconds
+  constexpr double kAppears = 3e-6;                   // in what recordings leave out, see parsePath
+  const auto isFine = [](const PathKnot& one, const PathKnot& next)
+  { return next.time - one.time < kNoLess && next.time - one.time > kAppears; };
+  return std::ranges::adjacent_find(path.knots(), isFine) != path.knots().end();
 }
 
 std::vector<Sample> playEach(

@@ -18,6 +18,9 @@ namespace palp
 [[nodiscard]] std::vector<Sample> play(
   const ScriptedPath& path, const Scene& scene, bool chained = false);
 
+/// Whether rows lie closer than the samples, so that a touch between two of these is missed.
+[[nodiscard]] bool isFinerThanSamples(const ScriptedPath& path);
+
 /// Plays one path after the other, each as play() does, with 0.1 s between them in which the tool
 /// is taken to the next one's start.
 [[nodiscard]] std::vector<Sample> playEach(

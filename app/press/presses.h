@@ -24,21 +24,23 @@ struct PressSummary
   Contact deepest{};   ///< where it was deepest: place, depth, thickness, curvature
 };
 
+constexpr double kBounce = 0.02; ///< that a tool is apart at least, to have released [s]
+
 /// Names a press that has none, by its place in the order, from 0: "press 1".
 [[nodiscard]] std::string pressName(std::size_t index);
 
 /// The rules of validity that the deepest contact breaks, in words; empty when all hold.
 [[nodiscard]] std::string outsideLimits(const Validity& validity, const PressSummary& press);
 
-/// The presses of a recording, with its names.
+/// The presses of a recording, with its names; of one that has begun, up to where it is.
 ///
-/// The tool releases where samples show it apart, for 20 ms or more: a shorter lift is a bounce of
-/// the same press. Where time passes between two samples that touch, with none between them, it
+/// The tool releases where samples show it apart, for kBounce or more: a shorter lift is a bounce
+/// of the same press. Where time passes between two samples that touch, with none between them, it
 /// releases only if there was time for it: to give back the first depth as fast as the depth
-/// changed before, to be apart for 20 ms, and to press the second one as fast as it changes after.
-/// These speeds are the largest over 10 ms or a sample, within as much time as passes without one.
-/// So a servo that skips ends no press. Nor do samples that thinning left out, since it keeps what
-/// is apart. Velocities do not count: a table has none.
+/// changed before, to be apart for kBounce, and to press the second one as fast as it changes
+/// after. These speeds are the largest over 10 ms or a sample, within as much time as passes
+/// without one. So a servo that skips ends no press. Nor do samples that thinning left out, since
+/// it keeps what is apart. Velocities do not count: a table has none.
 [[nodiscard]] std::vector<PressSummary> findPresses(const Recording& recording);
 
 /// Writes presses.csv: one row per press, with tool and law. The same recording gives the same

@@ -232,6 +232,13 @@ void thin(Recording& recording)
   recording.thinned = thinRange(recording.samples, 0, recording.samples.size(), recording.interval);
 }
 
+std::vector<double> contrastsAt(const Scene& scene, const Contact& contact)
+{
+  return scene.nodules == nullptr
+    ? std::vector<double>{}
+    : scene.nodules->contrasts(noduleContactOf(contact), scene.law(contactGeometryOf(contact)));
+}
+
 std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Contact& contact)
 {
   const ContactGeometry geometry = contactGeometryOf(contact);

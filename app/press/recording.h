@@ -57,6 +57,10 @@ void keepContact(Recording& recording);
 /// The first sample of the largest depth; null where none touches.
 [[nodiscard]] const Sample* deepestOf(std::span<const Sample> samples) noexcept;
 
+/// What each nodule of a scene alone adds to the force at a contact, over that without any [-];
+/// none where there are none.
+[[nodiscard]] std::vector<double> contrastsAt(const Scene& scene, const Contact& contact);
+
 /// The conditions of the law at a contact, those of its nodules after them where there are any.
 [[nodiscard]] std::vector<Rule> rulesAt(
   const Scene& scene, const Validity& validity, const Contact& contact);

@@ -16,10 +16,9 @@ void addOverwrite(CLI::App& command, bool& overwrite)
   command.add_flag("--overwrite", overwrite, "Replace what an earlier run left in --out");
 }
 
-std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
-  std::vector<std::string> own, bool overwrite, const std::vector<std::filesystem::path>& inputs)
+void keepInputs(const std::filesystem::path& folder, const std::vector<std::string>& own,
+  const std::vector<std::filesystem::path>& inputs)
 {
-  using Earlier = OutputFolder::Earlier;
   for (const std::filesystem::path& input : inputs)
   {
     const auto isInput = [&](const std::string& name)
@@ -33,6 +32,13 @@ std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
         input.string() + ": is read by this run, which would replace it; choose another --out");
     }
   }
+}
+
+std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
+  std::vector<std::string> own, bool overwrite, const std::vector<std::filesystem::path>& inputs)
+{
+  using Earlier = OutputFolder::Earlier;
+  keepInputs(folder, own, inputs);
   auto output = std::make_unique<OutputFolder>(
     folder, std::move(own), overwrite ? Earlier::Replace : Earlier::Refuse);
   if (!output->found().empty())

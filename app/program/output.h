@@ -15,12 +15,20 @@ namespace palp
 /// Adds --overwrite to a command that writes files.
 void addOverwrite(CLI::App& command, bool& overwrite);
 
+/// Refuses to replace what a command reads.
+///
+/// @param own     names of all files that it may leave in the folder
+/// @param inputs  files that it reads; an empty one is none
+/// @throws Error  BadValue: one of them is one of those, by whatever name or link
+void keepInputs(const std::filesystem::path& folder, const std::vector<std::string>& own,
+  const std::vector<std::filesystem::path>& inputs);
+
 /// Opens the folder that a command writes, before any work.
 ///
 /// @param own        names of all files that such a run may leave
 /// @param overwrite  says on standard error which files will be replaced; else they are refused
-/// @param inputs     files that the run reads
-/// @throws Error     as OutputFolder; BadValue: an input would be replaced
+/// @param inputs     as keepInputs
+/// @throws Error     as OutputFolder, keepInputs
 [[nodiscard]] std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
   std::vector<std::string> own, bool overwrite,
   const std::vector<std::filesystem::path>& inputs = {});

@@ -1,7 +1,7 @@
 #include "app/scene/scene_file.h"
 
+#include "app/curves/force_curve.h"
 #include "app/input/coating_text.h"
-#include "app/input/force_curve.h"
 #include "app/input/json_object.h"
 #include "app/input/option_values.h"
 #include "app/input/quantity.h"
@@ -86,6 +86,7 @@ void readTissue(JsonObject object, PressOptions& press)
   TissueOptions& tissue = press.tissue;
   parseAt(object, "coating",
     [&](const std::string& text) { tissue.options.coatings = parseCoatings(text); });
+  parseAt(object, "name", [&](const std::string& text) { tissue.take(text); }); // E and nu win
   parseAt(object, "young",
     [&](const std::string& text)
     { tissue.young = parseQuantity(text, Quantity::Pressure, "--young"); });
@@ -265,7 +266,9 @@ ScenePlan readScene(const std::string& name)
     throw Error(ErrorCode::BadFile,
       name + ": cannot be read; give a scene file or a shipped scene: " + shippedScenes());
   }
-  return parseScene(readText(file, "a scene file"), file);
+  ScenePlan plan = parseScene(readText(file, "a scene file"), file);
+  plan.sources.push_back(file);
+  return plan;
 }
 
 } // namespace palp

@@ -1,6 +1,5 @@
 #include "app/session/session.h"
 
-#include "app/folder/played_plan.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/session/device_words.h"
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vtkPolyData.h>
 
@@ -67,9 +65,11 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
   trace.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
-void Session::open(const MeshSource& source)
+void Session::open(const std::vector<MeshSource>& meshes)
 {
-  SceneBody old = std::exchange(body_, loadBody({ source }));
+  SceneBody body = loadBody(meshes);
+  auto nodules = feltNodules(body, recording_.scene.law);
+  SceneBody old = std::exchange(body_, std::move(body));
   const DeviceChoice choice = choice_;
   std::unique_ptr<Device> holder;
   try
@@ -87,7 +87,7 @@ void Session::open(const MeshSource& source)
   recording_.unit = body_.unit;
   recording_.files = body_.files;
   recording_.scene.surface = body_.haptic;
-  recording_.scene.nodules = nullptr; // a file has none
+  recording_.scene.nodules = std::move(nodules);
   ++recording_.scene.version;
   useDevice(choice, std::move(holder));
 }
@@ -191,6 +191,11 @@ void Session::useDevice(const DeviceChoice& choice, std::unique_ptr<Device> devi
   servo_ = std::make_unique<Servo>(*device_, recording_.scene, servoOptions_);
 }
 
+ScriptedDevice* Session::scripted() const noexcept
+{
+  return dynamic_cast<ScriptedDevice*>(device_.get());
+}
+
 std::vector<std::string> Session::devices()
 {
   std::vector<std::string> names{ "mouse", "hand" };
@@ -246,6 +251,11 @@ void Session::aim(const PressTarget& target)
 
 void Session::update(const std::function<void(const Sample&)>& each)
 {
+  drain(body_, each);
+}
+
+void Session::drain(const SceneBody& body, const std::function<void(const Sample&)>& each)
+{
   servo_->history().drain(
     [&](const Sample& sample)
     {
@@ -254,6 +264,7 @@ void Session::update(const std::function<void(const Sample&)>& each)
         record(sample, each);
       }
     });
+  save(body, presses_.keep(recording_));
   if (armed() && newest().time > armedAt_ && isFault(newest().state, newest().flags))
   {
     arm(false);
@@ -265,6 +276,7 @@ void Session::update(const std::function<void(const Sample&)>& each)
 // of a rest the first sample and the last, so that curves go level between them
 void Session::record(const Sample& sample, const std::function<void(const Sample&)>& each)
 {
+  presses_.follow(sample);
   std::vector<Sample>& kept = recording_.samples;
   if (!kept.empty() && restsAt(kept.back(), sample))
   {
@@ -279,64 +291,6 @@ void Session::record(const Sample& sample, const std::function<void(const Sample
   }
   kept.push_back(sample);
   each(sample);
-}
-
-void Session::endRecording(const SceneBody& body)
-{
-  if (servo_)
-  {
-    update([](const Sample&) {});
-  }
-  if (recording_.deepest())
-  {
-    std::vector<Sample> samples = std::exchange(recording_.samples, {});
-    earlier_.push_back({ body, recording_, calibration_ });
-    earlier_.back().recording.samples = std::move(samples);
-  }
-  recording_.samples.clear();
-  recording_.thinned = 0;
-  recording_.interval = Recording{}.interval;
-  resting_.reset();
-}
-
-void Session::addTake(const ScenePlan& made)
-{
-  Take take{ .body = body_, .recording = {}, .calibration = calibration_ };
-  Recording& recording = take.recording;
-  recording.mesh = body_.name;
-  recording.unit = body_.unit;
-  recording.files = body_.files;
-  recording.command = commandLine();
-  recording.rated = made.validity;
-  recording.scene = recording_.scene;
-  recording.scene.forceLimit = std::numeric_limits<double>::infinity();
-  std::optional<ScriptedPath> path;
-  if (!made.presses && !made.recording)
-  {
-    path = readPath(made.device.file);
-  }
-  playInto(recording, made, path ? &*path : nullptr);
-  earlier_.push_back(std::move(take));
-}
-
-void Session::boundEarlier()
-{
-  const auto samples = [this]
-  {
-    return std::accumulate(earlier_.begin(), earlier_.end(), recording_.samples.size(),
-      [](std::size_t sum, const Take& take) { return sum + take.recording.samples.size(); });
-  };
-  for (Take& take : earlier_)
-  {
-    if (samples() > kKeptWhole && take.recording.thinned == 0)
-    {
-      thin(take.recording);
-    }
-  }
-  while (!earlier_.empty() && samples() > 2 * kKeptWhole)
-  {
-    earlier_.erase(earlier_.begin());
-  }
 }
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/input/scene_plan.h"
 #include "app/press/body.h"
 #include "app/press/calibration.h"
+#include "app/press/press_log.h"
 #include "app/press/recording.h"
 #include "haptics/devices/device.h"
 #include "haptics/devices/simulated/guided_tool.h"
@@ -18,7 +19,9 @@
 namespace palp
 {
 
+class Autosave;
 class BuildTrace;
+class ScriptedDevice;
 
 /// A live press: body, tissue, the device that holds the tool, the servo thread, the recording.
 ///
@@ -39,8 +42,8 @@ public:
   }
 
   /// Replaces the body; tissue and device stay.
-  /// @throws Error  BadFile, BadMesh, or as useDevice; the old body then stays
-  void open(const MeshSource& source);
+  /// @throws Error  as loadBody, feltNodules, useDevice; the old body then stays
+  void open(const std::vector<MeshSource>& meshes);
 
   /// A recording begins, as its header tells of one tool and tissue; see earlier().
   /// @throws Error  as loadCalibration; everything then stays
@@ -70,6 +73,9 @@ public:
   {
     return guided_ != nullptr;
   }
+
+  /// The device that plays a path; null for any other.
+  [[nodiscard]] ScriptedDevice* scripted() const noexcept;
 
   /// False for devices that no hand can feel.
   [[nodiscard]] bool rendersForce() const
@@ -135,14 +141,29 @@ public:
     return earlier_;
   }
 
+  /// Those of all recordings, also of the ones that are gone.
+  [[nodiscard]] PressLog& presses() noexcept
+  {
+    return presses_;
+  }
+
+  /// Saves each press from now on as it ends.
+  /// @param autosave  outlives the session; null: no longer
+  void saveTo(Autosave* autosave) noexcept
+  {
+    autosave_ = autosave;
+  }
+
   /// Presses once more what a plan for this body knows of, as an earlier recording.
   /// @throws Error  as playInto
   void addTake(const ScenePlan& made);
 
 private:
+  void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const SceneBody& body);
   void boundEarlier();
+  void save(const SceneBody& body, std::optional<Recording> press);
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);
   void keepHolding();
   [[nodiscard]] ToolPose restingPose() const;
@@ -157,6 +178,8 @@ private:
   double recordedFrom_ = 0.0;     // and from which on a sample is of the tool and tissue in use [s]
   std::optional<Sample> resting_; // the last that was like the one recorded before it
   std::vector<Take> earlier_;
+  PressLog presses_;
+  Autosave* autosave_ = nullptr;
   std::unique_ptr<Device> device_;
   GuidedTool* guided_ = nullptr; // of the device; null where it moves by itself
   std::unique_ptr<Servo> servo_; // last: it uses the device

@@ -64,6 +64,7 @@ void showKeySheet(QWidget& window, const std::vector<KeyEntry>& mouse, const QMe
   sheet->setAttribute(Qt::WA_DeleteOnClose);
   auto* rows = new QGridLayout;
   rows->setHorizontalSpacing(24);
+  rows->setVerticalSpacing(2); // for a screen of 768 lines
   const auto add = [rows](const KeyEntry& entry)
   {
     const int row = rows->rowCount();

@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QStyle>
 #include <QTimer>
 #include <QToolButton>
@@ -20,6 +21,7 @@ MessageBar::MessageBar(QWidget* over)
   : QFrame(over)
   , icon_(new QLabel)
   , text_(new QLabel)
+  , choices_(new QHBoxLayout)
   , end_(new QTimer(this))
 {
   setObjectName("messageBar");
@@ -40,6 +42,7 @@ MessageBar::MessageBar(QWidget* over)
   row->setContentsMargins(6, 3, 6, 3);
   row->addWidget(icon_, 0, Qt::AlignTop);
   row->addWidget(text_, 1);
+  row->addLayout(choices_);
   row->addWidget(close, 0, Qt::AlignTop);
   end_->setSingleShot(true);
   connect(end_, &QTimer::timeout, this, &QWidget::hide);
@@ -60,6 +63,24 @@ void MessageBar::warn(const QString& text)
   end_->stop();
 }
 
+void MessageBar::ask(const QString& text, const std::vector<Choice>& choices)
+{
+  show(text, false);
+  end_->stop();
+  for (const Choice& choice : choices)
+  {
+    auto* button = new QPushButton(choice.name);
+    choices_->addWidget(button);
+    connect(button, &QPushButton::clicked, this,
+      [this, act = choice.act]
+      {
+        hide();
+        act();
+      });
+  }
+  place();
+}
+
 QString MessageBar::text() const
 {
   return isHidden() ? QString() : text_->text();
@@ -70,7 +91,12 @@ void MessageBar::show(const QString& text, bool isWarning)
   const auto icon = isWarning ? QStyle::SP_MessageBoxWarning : QStyle::SP_MessageBoxInformation;
   icon_->setPixmap(style()->standardIcon(icon).pixmap(fontMetrics().height()));
   text_->setText(text);
-  setVisible(true);
+  while (QLayoutItem* item = choices_->takeAt(0))
+  {
+    item->widget()->deleteLater(); // may be the one that was pressed
+    delete item;
+  }
+  setVisible(!text.isEmpty());
   place();
 }
 

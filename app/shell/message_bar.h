@@ -3,6 +3,10 @@
 #include <QFrame>
 #include <QString>
 
+#include <functional>
+#include <vector>
+
+class QHBoxLayout;
 class QLabel;
 class QTimer;
 
@@ -20,11 +24,21 @@ public:
   /// @param over  where it stands; owns it
   explicit MessageBar(QWidget* over);
 
-  /// What was done; goes away by itself.
+  /// What was done; goes away by itself. Here and below: an empty text shows nothing.
   void tell(const QString& text);
 
   /// What went wrong, and what to do; stays until it is closed, or until there is something newer.
   void warn(const QString& text);
+
+  /// What the user may choose.
+  struct Choice
+  {
+    QString name;
+    std::function<void()> act;
+  };
+
+  /// A question; stays until it is answered or closed, or until there is something newer.
+  void ask(const QString& text, const std::vector<Choice>& choices);
 
   /// What is shown; empty: nothing.
   [[nodiscard]] QString text() const;
@@ -37,6 +51,7 @@ private:
 
   QLabel* icon_;
   QLabel* text_;
+  QHBoxLayout* choices_;
   QTimer* end_;
 };
 

@@ -203,8 +203,7 @@ PlannedCase Manifest::parse(const std::string& line) const
   {
     refusePlan(folder_,
       "the line of case " + fields[0] +
-        " was edited after planning; plan again, what is finished "
-        "stays");
+        " was edited after planning; plan again, what is finished stays");
   }
   PlannedCase one{ lineNumber(line), fields[1], {} };
   one.values.assign(fields.begin() + 2, fields.end());

@@ -1,15 +1,17 @@
 #include "app/window/window.h"
 
+#include "app/folder/autosave.h"
 #include "app/graphs/chart_panel.h"
 #include "app/graphs/plot_panel.h"
 #include "app/panels/device_panel.h"
 #include "app/panels/diagnostics_panel.h"
+#include "app/panels/press_list.h"
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
+#include "app/press/recording.h"
 #include "app/program/build_trace.h"
 #include "app/shell/message_bar.h"
 #include "app/window/vtkPalpPressStyle.h"
-#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -63,17 +65,25 @@ Window::Window(Session& session, BuildTrace& trace)
     {
       makeDocks();
       makeFileMenu();
+      makeEditMenu();
       makeDeviceMenu();
       makeViewMenu();
+      makePlaying();
       makeHelpMenu();
       makeToolBar();
       makePressBar();
     });
   if (session_.plan().records())
   {
-    trace.build("plots", "named in the scene", [&] { makeCharts(); });
+    trace.build("plots", "named in the scene",
+      [&]
+      {
+        makeCharts();
+        makePressList();
+      });
   }
   memory_.restore(*this);
+  handPlayBar();
   setAcceptDrops(true);
   showBody();
   applyTissue();
@@ -97,6 +107,7 @@ Window::~Window() = default;
 
 void Window::showBody()
 {
+  endReview();
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   view_.setSurface(session_.body().display);
   orientation_.setPatient(isPatient(session_.body()));
@@ -147,7 +158,7 @@ void Window::refresh()
   sayWhatIsThinned();
   aim(); // a click ends by itself
   fitView();
-  const Sample& sample = session_.newest();
+  const Sample& sample = sampleToShow();
   shown_.flags = sample.flags;
   shown_.state = sample.state;
   if (isStale_ || !looksAlike(sample, shown_))
@@ -183,29 +194,32 @@ void Window::keepView()
   renderer_->UseFXAAOff();
 }
 
-// all that tells of the press is of the one sample that the picture shows
+// all that tells of the press is of the one sample that the picture shows; of the device, live
 void Window::showReadings()
 {
-  devicePanel_->show(session_, shown_, acted_ | shown_.flags);
+  const Sample& live = review_ ? session_.newest() : shown_;
+  devicePanel_->show(session_, live, acted_ | live.flags);
   if (validityPanel_)
   {
     showValidity(shown_);
   }
   const Contact& contact = shown_.contact;
+  const Calibration& calibration = pictured().calibration;
   forceLabel_->setText(!contact.touching()
       ? tr(kHint)
       : tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
           .arg(shown_.response.force, 0, 'f', 2)
           .arg(units::toMillimeters(contact.depth), 0, 'f', 1)
           .arg(units::toNewtonsPerMillimeter(shown_.response.stiffness), 0, 'f', 2) +
-        (session_.calibration().covers(contact.depth) ? QString() : tr("    R_d estimated")) +
-        (session_.calibration().fits(contact) ? QString() : tr("    dent estimated")));
+        (calibration.covers(contact.depth) ? QString() : tr("    R_d estimated")) +
+        (calibration.fits(contact) ? QString() : tr("    dent estimated")));
 }
 
 void Window::refreshPanels()
 {
   acted_ = std::exchange(acting_, 0);
   showReadings();
+  chartsAreStale_ |= pressList_ != nullptr && pressList_->refresh();
   if (std::exchange(chartsAreStale_, false))
   {
     refreshCharts();
@@ -215,6 +229,7 @@ void Window::refreshPanels()
 // a text that changes lays the whole window out and draws it: seldom while nothing else changes
 void Window::refreshTiming()
 {
+  attempt([this] { autosave_ != nullptr ? autosave_->check() : void(); });
   constexpr int kIdle = 120;  // pictures
   constexpr int kSeldom = 10; // times
   if (still_ > kIdle && ++timingsLeftOut_ < kSeldom)
@@ -254,7 +269,8 @@ void Window::showValidity(const Sample& sample)
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    validityPanel_->showRules(validity_(contactGeometryOf(contact), contact.edgeDistance));
+    const Scene& scene = session_.recording().scene;
+    validityPanel_->showRules(rulesAt(scene, validity_, contact), contrastsAt(scene, contact));
   }
   else
   {
@@ -268,21 +284,16 @@ void Window::applyTissue()
     [this]
     {
       const ForceLaw law = panel_->law();
+      endReview();
       takeSamples();
       session_.setTissue(law, panel_->rule(), panel_->damping());
-      validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
-      view_.setTip(law.tip());
-      view_.setLaw(law);
-      view_.setExtents(session_.calibration().extents);
-      view_.setStyle(session_.calibration().style);
+      showPictured();
       if (charts_)
       {
         charts_->setLaw(law);
       }
       clearCharts(); // as the recording
       sayWhatIsKept();
-      isStale_ = true;
-      forceLabel_->setToolTip(QString::fromStdString(session_.calibration().note));
     });
   panel_->setScene(session_.recording().scene); // what was refused is not in use
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/plots/press_figure.h"
+#include "app/press/review.h"
 #include "app/session/pointer_tool.h"
 #include "app/session/session.h"
 #include "app/shell/window_memory.h"
@@ -9,7 +10,9 @@
 #include "pipeline/figure/orientation.h"
 #include "pipeline/view/press_view.h"
 
+#include <QElapsedTimer>
 #include <QMainWindow>
+#include <QUndoStack>
 #include <vtkNew.h>
 
 #include <cstdint>
@@ -28,10 +31,13 @@ class vtkRenderer;
 namespace palp
 {
 
+class Autosave;
 class DevicePanel;
 class DiagnosticsPanel;
 class MessageBar;
+class PlayBar;
 class PressBar;
+class PressList;
 class BuildTrace;
 class ChartPanel;
 class PlotPanel;
@@ -49,6 +55,10 @@ public:
   /// @param session  outlives the window
   Window(Session& session, BuildTrace& trace);
   ~Window() override;
+
+  /// Saves each press as it ends, and offers those that a program left which was killed.
+  /// @param autosave  outlives the window and its session
+  void saveTo(Autosave& autosave);
 
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
 
@@ -78,14 +88,17 @@ private:
   ChartPanel* makeChartPanel(std::size_t chart);
   void makeDevicePanel();
   void makePlots(bool shown);
+  void showPlots(const QString& page);
   void offerDevices();
   void makeFileMenu();
+  void makeEditMenu();
   void makeDeviceMenu();
   void makeViewMenu();
   void addStandardViews(QMenu& menu);
   void addOpening(QMenu& file);
   void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);
+  void openBody(const std::vector<MeshSource>& meshes);
   void openRecent(const QString& file);
   void makeHelpMenu();
   void makeToolBar();
@@ -95,9 +108,37 @@ private:
   void makePointer();
   void makePressBar();
   void pressAtPlace();
+
+  void makePressList();
+  void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);
+  void fitPressed(int id);
+  void restorePresses();
+  void renamePress(int id, const QString& name);
+  void deletePresses(const std::vector<int>& ids);
   [[nodiscard]] SightLine sightLine(double x, double y);
   void aim();
   void letGo();
+
+  // what is played: a device's path, or what was recorded
+  struct Pictured
+  {
+    const SceneBody& body;
+    const Recording& recording;
+    const Calibration& calibration;
+  };
+  [[nodiscard]] Pictured recorded(std::size_t ago) const;
+  [[nodiscard]] Pictured pictured() const;
+  [[nodiscard]] const Sample& sampleToShow();
+  void makePlaying();
+  void handPlayBar();
+  [[nodiscard]] bool isPressing() const;
+  void followDevice();
+  void play(const PlayOrder& order);
+  void addEarlierTakes(QMenu& menu);
+  void reviewLatest();
+  void review(std::size_t ago);
+  void endReview();
+  void showPictured();
 
   void takeSamples();
   void clearCharts();
@@ -112,10 +153,12 @@ private:
   void refreshTiming();
   void showValidity(const Sample& sample);
   void applyTissue();
+  void changeTissue();
   void applyDevice(const QString& name);
   void sayWhatIsKept();
   void sayWhatIsThinned();
   void say(const QString& what);
+  void sayWritten(const QString& curves, const QString& what); // to that file
   void askFigure();
   bool attempt(const std::function<void()>& work);
   void exportTake(const QString& directory, const SceneBody& body, Recording recording,
@@ -145,6 +188,13 @@ private:
   std::size_t takesKept_;
   WindowMemory memory_;
   bool saidThinned_ = false;
+  std::optional<Review> review_; // none: the picture is live
+  std::size_t reviewed_ = 0;     // recordings ago
+  bool touched_ = false;         // the tool, in the picture before
+  QElapsedTimer sincePicture_;
+  const ScriptedDevice* scripted_ = nullptr; // that the bar plays
+  bool barIsStale_ = false;                  // plays what is no longer there
+  PlayOrder order_;                          // that it has
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   std::vector<ChartPanel*> chartPanels_; // of charts_
@@ -153,6 +203,10 @@ private:
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;             // null: never shown
   PressBar* pressBar_ = nullptr;
+  PressList* pressList_ = nullptr; // null: no sample is kept
+  QUndoStack undo_;
+  Autosave* autosave_ = nullptr; // null: nobody wants it
+  PlayBar* playBar_ = nullptr;
   QAction* refinedExport_ = nullptr;
   QAction* allSamplesExport_ = nullptr;
   QLabel* forceLabel_ = nullptr;

@@ -1,6 +1,7 @@
 // The folder that the window exports: what was recorded is repeated and drawn by palp run, so that
 // the same command gives the same bytes later.
 
+#include "app/folder/autosave.h"
 #include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
 #include "app/press/export.h"
@@ -159,6 +160,7 @@ bool Window::exportData(const QString& directory)
         exportTake(directory + '/' + name, take.body, take.recording, take.calibration, nullptr);
         written << name;
       }
+      autosave_ != nullptr ? autosave_->clear() : void();
       say(tr("Written to %1: %2").arg(directory, written.join(", ")));
     });
 }

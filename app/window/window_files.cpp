@@ -98,16 +98,18 @@ void Window::say(const QString& what)
   message_->tell(what);
 }
 
+void Window::openBody(const std::vector<MeshSource>& meshes)
+{
+  takeSamples();
+  session_.open(meshes);
+  clearCharts();
+  showBody();
+  pressBar_->clearPlace();
+}
+
 bool Window::openFile(const QString& file)
 {
-  const auto open = [this](const MeshSource& source)
-  {
-    takeSamples();
-    session_.open(source);
-    clearCharts();
-    showBody();
-    pressBar_->clearPlace();
-  };
+  const auto open = [this](const MeshSource& source) { openBody({ source }); };
   bool opened = false;
   try
   {
@@ -165,8 +167,14 @@ bool Window::saveCurves(const QString& file)
     [&]
     {
       charts_->refresh();
-      say(tr("Written to %1: %2").arg(file, palp::savePlots(charts_->plots(), file.toStdString())));
+      sayWritten(file, palp::savePlots(charts_->plots(), file.toStdString()));
     });
+}
+
+void Window::sayWritten(const QString& curves, const QString& what)
+{
+  const QString drawn = tr("; as drawn, each millisecond is in the samples.csv of Export data");
+  say(tr("Written to %1: %2").arg(curves, what) + (curves.endsWith(".csv") ? drawn : QString()));
 }
 
 bool Window::saveChart(std::size_t chart, const QString& file, ImageSize size)
@@ -178,7 +186,7 @@ bool Window::saveChart(std::size_t chart, const QString& file, ImageSize size)
       Plots plots = charts_->plots();
       Plots one;
       one.push_back(std::move(plots.at(chart)));
-      say(tr("Written to %1: %2").arg(file, palp::savePlots(one, file.toStdString(), size)));
+      sayWritten(file, palp::savePlots(one, file.toStdString(), size));
     });
 }
 

@@ -6,8 +6,11 @@
 #include "app/panels/device_panel.h"
 #include "app/panels/diagnostics_panel.h"
 #include "app/panels/panel_area.h"
+#include "app/panels/press_list.h"
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
+#include "app/plots/kept_presses.h"
+#include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
@@ -33,16 +36,6 @@ namespace palp
 {
 namespace
 {
-
-QDockWidget* addDock(
-  QMainWindow* window, Qt::DockWidgetArea area, const QString& title, QWidget* content)
-{
-  auto* dock = new QDockWidget(title, window);
-  dock->setObjectName(title);
-  dock->setWidget(content);
-  window->addDockWidget(area, dock);
-  return dock;
-}
 
 // for a screen that is too low for all panels
 QScrollArea* scrolled(QWidget* content)
@@ -87,7 +80,7 @@ void Window::makeView()
 void Window::makeDocks()
 {
   panel_ = new TissuePanel(session_.recording().scene, session_.plan().validity);
-  connect(panel_, &TissuePanel::tissueChanged, this, &Window::applyTissue);
+  connect(panel_, &TissuePanel::tissueChanged, this, &Window::changeTissue);
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), new PanelArea(panel_));
   makeDevicePanel();
   QScrollArea* device = scrolled(devicePanel_);
@@ -180,7 +173,9 @@ void Window::makePlots(bool shown)
 {
   if (plots_)
   {
-    plots_->parentWidget()->setVisible(shown);
+    auto* dock = qobject_cast<QDockWidget*>(plots_->parentWidget());
+    dock->setVisible(shown);
+    bringUp(dock);
     chartsAreStale_ = true;
     return;
   }
@@ -190,9 +185,11 @@ void Window::makePlots(bool shown)
     return forceComparison(recording.scene.law, recording.lastPress(), &session_.calibration());
   };
   plots_ = new PlotPanel(
-    { { tr("Section"), [this] { return sectionOf(view_.press(), session_.calibration()); } },
+    { { tr("Section"), [this] { return sectionOf(view_.press(), pictured().calibration); } },
       { tr("Forces"), forces },
-      { tr("Extent"), [this] { return extentComparison(session_.calibration()); } } });
+      { tr("Extent"), [this] { return extentComparison(session_.calibration()); } },
+      { tr("Presses"), [this] { return pressForces(pressList_->ticked()); } },
+      { tr("Differences"), [this] { return pressDifferences(pressList_->ticked()); } } });
   connect(plots_, &PlotPanel::saveAsked, this,
     [this]
     {
@@ -207,10 +204,21 @@ void Window::makePlots(bool shown)
   if (auto* charts = findChild<QDockWidget*>(tr("Force over depth")))
   {
     tabifyDockWidget(charts, dock); // below two charts it would be too low to draw
-    dock->raise();
+    bringUp(dock);
   }
   auto* entry = findChild<QAction*>("plotsAction");
   connect(dock->toggleViewAction(), &QAction::toggled, entry, &QAction::setChecked);
+}
+
+void Window::showPlots(const QString& page)
+{
+  findChild<QAction*>("plotsAction")->setChecked(true);
+  auto* dock = qobject_cast<QDockWidget*>(plots_->parentWidget());
+  resizeDocks({ dock }, { height() / 2 }, Qt::Vertical);
+  resizeDocks({ dock }, { std::max(dock->width(), width() * 3 / 10) }, Qt::Horizontal);
+  bringUp(dock);
+  plots_->turnTo(page);
+  chartsAreStale_ = true; // once it can be seen
 }
 
 void Window::offerDevices()
@@ -249,6 +257,7 @@ void Window::makeDeviceMenu()
     {
       letGo();
       session_.stop(true);
+      endReview();
     },
     QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is

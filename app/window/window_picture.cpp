@@ -108,8 +108,8 @@ bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& l
         renderer.GetActiveCamera()->DeepCopy(renderer_->GetActiveCamera());
         renderer.ResetCameraClippingRange();
       };
-      writeFigure(*window,
-        { session_.body(), session_.recording().scene.law, session_.calibration(), shown_ }, look,
+      const Pictured seen = pictured();
+      writeFigure(*window, { seen.body, seen.recording.scene.law, seen.calibration, shown_ }, look,
         asHere, file.toStdString());
       say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height));
     });

@@ -2,6 +2,7 @@
 
 #include "app/panels/press_bar.h"
 #include "app/places/placed_press.h"
+#include "app/shell/message_bar.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
@@ -90,7 +91,15 @@ void Window::makePressBar()
   pressBar_ = new PressBar(this);
   addToolBar(pressBar_);
   connect(pressBar_, &PressBar::pressAsked, this, &Window::pressAtPlace);
-  connect(pressBar_, &PressBar::refused, this, &Window::say);
+  connect(pressBar_, &PressBar::refused, this,
+    [this, before = QString()](const QString& why) mutable
+    {
+      if (!why.isEmpty() || message_->text() == before) // what else is told stays
+      {
+        message_->warn(why);
+      }
+      before = why;
+    });
 }
 
 void Window::pressAtPlace()

@@ -104,10 +104,15 @@ void Window::addPanels(QMenu& menu)
 {
   QMenu* panels = menu.addMenu(tr("Pa&nels"));
   panels->setObjectName("panels");
-  for (const QDockWidget* dock : findChildren<QDockWidget*>())
-  {
-    panels->addAction(dock->toggleViewAction());
-  }
+  connect(panels, &QMenu::aboutToShow, this,
+    [this, panels]
+    {
+      panels->clear();
+      for (const QDockWidget* dock : findChildren<QDockWidget*>())
+      {
+        panels->addAction(dock->toggleViewAction());
+      }
+    });
 }
 
 void Window::makeHelpMenu()

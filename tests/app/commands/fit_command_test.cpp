@@ -187,6 +187,8 @@ TEST_F(FitCommand, RefusesBadInputInOneSentence)
   write("norows.csv", "depth_mm,force_N\n");
   write("nan.csv", "depth_mm,force_N\n0,0\n1,nan\n2,1\n3,2\n4,4\n");
   write("negative.csv", "depth_mm,force_N\n0,-1\n1,-2\n2,-3\n3,-5\n4,-8\n");
+  write("huge.csv", "depth_mm,force_N\n0,0\n1,1e300\n2,3e300\n3,5e300\n4,8e300\n");
+  write("tiny.csv", "depth_mm,force_N\n0,0\n1,1e-300\n2,3e-300\n3,5e-300\n4,8e-300\n");
   write("names.csv", "depth,force\n0,0\n1,1\n");
   write("constant.csv", "depth_mm,force_N\n1,0\n1,1\n1,2\n1,3\n1,4\n");
   write("few.csv", "depth_mm,force_N\n0,0\n1,1\n");
@@ -195,6 +197,7 @@ TEST_F(FitCommand, RefusesBadInputInOneSentence)
     { "nan.csv", "nan.csv:3: not finite" }, { "negative.csv", "no force is above 0" },
     { "names.csv", "no column depth_mm" }, { "constant.csv", "one depth" },
     { "few.csv", "give more rows" }, { "back.csv", "only falls" }, { "absent.csv", "absent.csv" },
+    { "huge.csv", "e+30" }, { "tiny.csv", "not 1 Pa to 10 GPa" },
     { "press.csv --poisson 0.6", "give 0 to 0.5" },
     { "press.csv --thickness 5mm --fit thickness", "excludes" },
     { "press.csv negative.csv", "negative.csv: " } };

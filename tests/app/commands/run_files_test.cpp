@@ -189,6 +189,30 @@ TEST_F(RunCommand, SaysThatAPathWasRecordedOnAnotherSurface)
     << other.err;
 }
 
+// a press of 1.5 mm in 0.4 ms, between two samples; and one that stays away, row by millisecond
+TEST_F(RunCommand, TellsOfRowsThatAreFinerThanTheSamples)
+{
+  const auto said = [&](double lowest, double wait)
+  {
+    std::ostringstream rows;
+    rows << "0,0,0," << topMm() + 2 << "\n0.5,0,0," << topMm() + 1 << '\n'
+         << 0.5 + 0.4 * wait << ",0,0," << topMm() + lowest << '\n'
+         << 0.5 + 0.8 * wait << ",0,0," << topMm() + 1 << '\n';
+    const auto path = writePath(folder_.path(), rows.str().c_str());
+    const Finished run = palp("run " + block() + " --samples-only --overwrite --path " +
+      path.string() + " --out " + (folder_.path() / "out").string());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  const std::string fine = said(-1.5, 0.001);
+  EXPECT_NE(fine.find("never touched"), std::string::npos) << fine;
+  EXPECT_NE(fine.find("between whole milliseconds"), std::string::npos) << fine;
+  const std::string coarse = said(0.5, 0.0025);
+  EXPECT_NE(coarse.find("never touched"), std::string::npos) << coarse;
+  EXPECT_EQ(coarse.find("milliseconds"), std::string::npos) << coarse;
+  EXPECT_EQ(said(-1.5, 0.1).find("never touched"), std::string::npos);
+}
+
 TEST_F(RunCommand, DrawsPicturesWithoutADisplay)
 {
   const Finished finished = press("--size 800x600", "out");

@@ -145,6 +145,14 @@ TEST_F(SceneCommand, FeelsANoduleInTheBody)
   EXPECT_GT(deepest(felt), 1.03 * deepest(plain));
   EXPECT_NEAR(felt["factor_nodules"].front(), 1.0, 1e-12);
 
+  // the most of the force's factor is that of the deepest moment, which presses.csv tells
+  const std::string presses = test::readAll(folder_.path() / "out/presses.csv");
+  EXPECT_NE(presses.find(",law,nodule_0_percent\n"), std::string::npos) << presses;
+  const double told = std::stod(presses.substr(presses.rfind(',') + 1));
+  const auto& forces = felt["force_N"];
+  const auto at = std::ranges::max_element(forces) - forces.begin();
+  EXPECT_NEAR(told, 100.0 * (felt["factor_nodules"][static_cast<std::size_t>(at)] - 1.0), 1e-3);
+
   const Finished outside =
     press(R"({"center": ["0mm", "0mm", "10mm"], "radius": "5mm", "ratio": 5})");
   EXPECT_EQ(outside.code, 2);

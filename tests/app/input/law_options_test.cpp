@@ -117,7 +117,7 @@ TEST(LawOptions, ValidityIsAColumnForEachRule)
   const auto law = table(force("--tip sphere:10mm --depth 2:10:8mm --validity"));
   EXPECT_LT(law["force_of_itself_of_limit"][0], 1.0);
   EXPECT_GT(law["force_of_itself_of_limit"][1], 1.0);
-  EXPECT_EQ(law.comments.size(), 13U);
+  EXPECT_EQ(law.comments.size(), 14U);
 }
 
 TEST(LawOptions, RefusesWhatMakesNoSense)

@@ -1,4 +1,4 @@
-#include "app/input/force_curve.h"
+#include "app/curves/force_curve.h"
 #include "app/input/tip_text.h"
 #include "app/places/fiducial_file.h"
 #include "app/scene/scene_file.h"

@@ -191,6 +191,34 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesCoatings)
   EXPECT_TRUE(panel_->law().settings().coatings.empty());
 }
 
+TEST_F(TissuePanelTest, AMeasuredTissueSetsItsModulusAndAnotherOneIsCustom)
+{
+  QComboBox& tissues = list("tissue");
+  EXPECT_EQ(tissues.currentText(), "Custom"); // the paper's 50 kPa
+  const QSignalSpy changes(panel_.get(), &TissuePanel::tissueChanged);
+  tissues.setCurrentText("Hepatocellular carcinoma");
+  EXPECT_EQ(changes.count(), 1);
+  EXPECT_NEAR(panel_->law().material().youngModulus, 51.45_kPa, 1e-9);
+  EXPECT_EQ(panel_->law().material().poissonRatio, 0.49);
+  EXPECT_EQ(box("young").text(), "51.45 kPa");
+  for (const QString& part : { QString("36.49 to 66.41 kPa"), QString("10.1177/8756479317733713") })
+  {
+    EXPECT_TRUE(tissues.toolTip().contains(part)) << tissues.toolTip().toStdString();
+    EXPECT_TRUE(tissues.currentData(Qt::ToolTipRole).toString().contains(part));
+  }
+
+  type("young", "40");
+  EXPECT_EQ(tissues.currentText(), "Custom");
+  EXPECT_EQ(changes.count(), 2);
+  type("young", "51.45");
+  EXPECT_EQ(tissues.currentText(), "Hepatocellular carcinoma");
+  type("poisson", "0.45");
+  EXPECT_EQ(tissues.currentText(), "Custom");
+
+  panel_->setScene(sceneOf(SphereTip{ 10.0_mm }, { 6.63_kPa, 0.49 }));
+  EXPECT_EQ(tissues.currentText(), "Healthy liver");
+}
+
 TEST_F(TissuePanelTest, TheWheelChangesOnlyWhatWasClicked)
 {
   QuantityBox& radius = box("radius");

@@ -75,6 +75,24 @@ TEST_F(SceneFile, PlacesASurfaceByTurnsAboutFixedAxesAndAShift)
     (frame * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0.01, 1.0, -0.02), 1e-12));
 }
 
+TEST_F(SceneFile, TakesAMeasuredTissueByNameUnlessItSaysMore)
+{
+  json document = least();
+  document["device"] = "mouse";
+  document["tissue"] = { { "name", "hemangioma" } };
+  TissueOptions tissue = parse(document).press.tissue;
+  EXPECT_EQ(tissue.young, 13.8_kPa);
+  EXPECT_EQ(tissue.poisson, 0.49);
+  document["tissue"]["young"] = "9kPa";
+  tissue = parse(document).press.tissue;
+  EXPECT_EQ(tissue.young, 9.0_kPa);
+  EXPECT_EQ(tissue.poisson, 0.49);
+  document["tissue"]["name"] = "angioma";
+  EXPECT_TRUE(refusal(document.dump())
+                .starts_with("mine.json: /tissue/name: 'angioma' is not known; the nearest are "))
+    << refusal(document.dump());
+}
+
 TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
 {
   const auto with = [](const char* patch)

@@ -204,7 +204,7 @@ private:
 
 TEST_F(WindowTest, AnUntouchedWindowDrawsAndRecordsNothing)
 {
-  window_->findChild<QAction*>("plotsAction")->setChecked(true);
+  (void)showPlots();
   press(60);
   release();
   EXPECT_TRUE(
@@ -228,7 +228,7 @@ TEST_F(WindowTest, AnUntouchedWindowDrawsAndRecordsNothing)
   const std::vector<Sample>& samples = session_->recording().samples;
   ASSERT_GT(samples.size(), recorded + 1);
   EXPECT_GT(samples[recorded].time - samples[recorded - 1].time, 1.0);
-  EXPECT_EQ(samples[recorded].pose.apex, samples[recorded - 1].pose.apex);
+  EXPECT_LT((samples[recorded].pose.apex - samples[recorded - 1].pose.apex).norm(), 1e-7);
 }
 
 } // namespace

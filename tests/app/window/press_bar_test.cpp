@@ -111,5 +111,55 @@ TEST_F(PressBarTest, RefusesInOneSentence)
   EXPECT_FALSE(session_->newest().contact.touching());
 }
 
+TEST_F(PressBarTest, NamesWhatIsWrongWithAPlace)
+{
+  for (const char* place : { "-48.5;38.4;39.5", "-48.5 38.4 39.5", "-48,5;38,4;39,5" })
+  {
+    typePlace(place);
+    pressButton();
+    EXPECT_TRUE(said().contains("no comma between its numbers")) << said().toStdString();
+  }
+}
+
+// as long as a field holds it, whatever else is typed
+TEST_F(PressBarTest, PressesNothingWhileAFieldHoldsWhatWasRefused)
+{
+  typePlace("-48.5, 38.4, 39.5");
+  auto* depth = window_->findChild<QAbstractSpinBox*>("pressDepth");
+  auto* message = window_->findChild<MessageBar*>();
+  const QColor plain = depth->palette().color(QPalette::Text);
+  type("pressDepth", "12,5");
+  EXPECT_TRUE(said().contains("Depth: '12,5' has a comma")) << said().toStdString();
+  EXPECT_NE(depth->palette().color(QPalette::Text), plain);
+  type("pressSpeed", "20 mm/s");
+  EXPECT_TRUE(said().contains("'12,5'")) << said().toStdString();
+  type("pressSpeed", "0mm/s");
+  EXPECT_TRUE(said().startsWith("Speed: ")) << said().toStdString();
+  message->hide();
+  pressButton();
+  EXPECT_TRUE(said().contains("'12,5'")) << said().toStdString();
+  QTest::qWait(500); // in which a press would have begun
+  EXPECT_FALSE(session_->newest().contact.touching());
+  EXPECT_EQ(session_->recording().deepest(), nullptr);
+
+  type("pressSpeed", "20 mm/s");
+  type("pressDepth", "2.5");
+  EXPECT_FALSE(message->isVisible()) << "empty, over the picture";
+  EXPECT_EQ(depth->palette().color(QPalette::Text), plain);
+  pressButton();
+  waitForPress();
+  EXPECT_NEAR(deepest().contact.depth, 2.5e-3, 0.02e-3);
+}
+
+// what was told since then is not taken away
+TEST_F(PressBarTest, MendingAFieldLeavesOtherMessages)
+{
+  auto* message = window_->findChild<MessageBar*>();
+  type("pressDepth", "12,5");
+  message->tell("Something else");
+  type("pressDepth", "2.5");
+  EXPECT_EQ(said(), "Something else");
+}
+
 } // namespace
 } // namespace palp

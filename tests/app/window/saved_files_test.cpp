@@ -67,9 +67,7 @@ TEST_F(WindowTest, SavesAScreenshotOfTheDent)
 TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)
 {
   EXPECT_EQ(window_->findChild<PlotPanel*>(), nullptr);
-  window_->findChild<QAction*>("plotsAction")->setChecked(true);
-  auto* panel = window_->findChild<PlotPanel*>();
-  ASSERT_NE(panel, nullptr);
+  PlotPanel* panel = showPlots();
   press(80); // 5 mm
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "section.csv";
@@ -95,8 +93,7 @@ TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)
 
 TEST_F(WindowTest, ThisPressIsNotTheDeepestOfTheRecording)
 {
-  window_->findChild<QAction*>("plotsAction")->setChecked(true);
-  auto* panel = window_->findChild<PlotPanel*>();
+  PlotPanel* panel = showPlots();
   panel->findChild<QTabBar*>("plotTabs")->setCurrentIndex(1);
   for (const int pixels : { 160, 40 })
   {
@@ -133,8 +130,14 @@ TEST_F(WindowTest, SavesTheCurvesForPrintAndSaysSo)
     EXPECT_GT(std::filesystem::file_size(file), 4000U) << name;
     EXPECT_TRUE(said().contains(name));
   }
+  EXPECT_TRUE(said().contains("samples.csv")) << "each millisecond is elsewhere";
   const QImage picture(QString::fromStdString((folder_.path() / "curves.png").string()));
   EXPECT_EQ(picture.size(), QSize(1600, 1500)); // two charts
+
+  std::ifstream in(folder_.path() / "curves.csv");
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line.find("# as drawn"), 0U) << line;
 }
 
 TEST_F(WindowTest, ExportsWhatWasMeasured)

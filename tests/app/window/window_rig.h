@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/graphs/plot_panel.h"
 #include "app/program/build_trace.h"
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
@@ -7,6 +8,7 @@
 #include "tests/support/process.h"
 
 #include <QAbstractSpinBox>
+#include <QAction>
 #include <QDeadlineTimer>
 #include <QTest>
 #include <QTimer>
@@ -121,6 +123,15 @@ protected:
   {
     return sample.state == DeviceState::Active && sample.contact.touching() &&
       !has(sample, Flag::Rebased) && !has(sample, Flag::WatchdogExpired);
+  }
+
+  // in front, where the picture has its place beside them
+  [[nodiscard]] PlotPanel* showPlots() const
+  {
+    window_->findChild<QAction*>("plotsAction")->setChecked(true);
+    auto* panel = window_->findChild<PlotPanel*>();
+    EXPECT_TRUE(QTest::qWaitFor([panel] { return panel->isVisible(); }, kPatience));
+    return panel;
   }
 
   // in the bar of messages

@@ -1,4 +1,4 @@
-#include "app/input/force_curve.h"
+#include "app/curves/force_curve.h"
 
 #include "app/input/tip_text.h"
 #include "haptics/error.h"
@@ -13,7 +13,6 @@
 
 namespace palp
 {
-
 namespace
 {
 

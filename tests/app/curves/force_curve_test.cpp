@@ -1,4 +1,4 @@
-#include "app/input/force_curve.h"
+#include "app/curves/force_curve.h"
 
 #include "haptics/error.h"
 #include "tests/support/csv_table.h"

@@ -1,4 +1,4 @@
-#include "app/commands/export_option.h"
+#include "app/folder/export_option.h"
 
 #include "haptics/error.h"
 

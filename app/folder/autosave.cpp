@@ -1,0 +1,207 @@
+#include "app/folder/autosave.h"
+
+#include "app/folder/export_folder.h"
+#include "app/press/export.h"
+#include "haptics/files/replace_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <system_error>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// held as long as the program lives; nothing where another has it
+Descriptor lockOf(const fs::path& folder)
+{
+  Descriptor lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return lock && flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
+}
+
+// whole, or hidden
+bool isPress(const fs::path& folder)
+{
+  return folder.filename().string().front() != '.' && isExport(folder);
+}
+
+std::vector<fs::path> foldersIn(const fs::path& folder)
+{
+  std::error_code none;
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+  {
+    if (entry.is_directory(none) && !entry.is_symlink(none))
+    {
+      folders.push_back(entry.path());
+    }
+  }
+  std::ranges::sort(folders);
+  return folders;
+}
+
+void write(const fs::path& folder, const ScenePlan& plan, const Recording& press)
+{
+  const fs::path stage = makeHidden(folder.parent_path());
+  if (stage.empty())
+  {
+    refuseFile(folder, errno);
+  }
+  writeSamples(stage / "samples.csv", press, nullptr);
+  writeProvenance(stage, plan, press);
+  writeScene(stage, plan, "");
+  fs::rename(stage, folder);
+}
+
+} // namespace
+
+fs::path Autosave::usualRoot()
+{
+  const char* state = std::getenv("XDG_STATE_HOME"); // NOLINT(concurrency-mt-unsafe): none is set
+  const char* home = std::getenv("HOME");            // NOLINT(concurrency-mt-unsafe)
+  const fs::path base = state != nullptr && *state == '/' ? fs::path(state)
+    : home != nullptr                                     ? fs::path(home) / ".local/state"
+                                                          : fs::path();
+  return base.empty() ? base : base / "palp" / "presses";
+}
+
+Autosave::Autosave(fs::path root, int most)
+  : root_(std::move(root))
+  , most_(most)
+{
+  std::error_code none;
+  fs::create_directories(root_, none);
+  own_ = makeHidden(root_);
+  if (!own_.empty())
+  {
+    lock_ = lockOf(own_);
+  }
+}
+
+Autosave::~Autosave()
+{
+  if (written_.valid())
+  {
+    written_.wait();
+  }
+  std::error_code none;
+  fs::remove(own_, none); // where nothing is in it
+}
+
+// by their names in their order
+fs::path Autosave::folderOf(int press) const
+{
+  return own_ / std::to_string(1'000'000 + press);
+}
+
+fs::path Autosave::nextFolder()
+{
+  return folderOf(++count_);
+}
+
+// one after the other
+void Autosave::save(ScenePlan plan, Recording press)
+{
+  if (own_.empty())
+  {
+    return;
+  }
+  written_ = std::async(std::launch::async,
+    [before = std::move(written_), folder = nextFolder(), oldest = folderOf(count_ - most_),
+      plan = std::move(plan), press = std::move(press)]() mutable
+    {
+      std::exception_ptr failed;
+      try
+      {
+        before.valid() ? before.get() : void();
+      }
+      catch (...)
+      {
+        failed = std::current_exception(); // which is no reason not to try this one
+      }
+      write(folder, plan, press);
+      fs::remove_all(oldest);
+      failed ? std::rethrow_exception(failed) : void();
+    });
+}
+
+void Autosave::check()
+{
+  if (written_.valid() && written_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+  {
+    written_.get();
+  }
+}
+
+void Autosave::clear()
+{
+  if (written_.valid())
+  {
+    written_.wait();
+  }
+  std::error_code none;
+  for (const fs::path& press : foldersIn(own_))
+  {
+    fs::remove_all(press, none);
+  }
+}
+
+std::vector<fs::path> Autosave::left() const
+{
+  std::vector<fs::path> presses;
+  for (const fs::path& program : foldersIn(root_))
+  {
+    if (program != own_ && lockOf(program))
+    {
+      std::ranges::copy_if(foldersIn(program), std::back_inserter(presses), isPress);
+    }
+  }
+  const auto age = [](const fs::path& folder)
+  {
+    std::error_code none;
+    return fs::last_write_time(folder, none);
+  };
+  std::ranges::stable_sort(presses, {}, age);
+  return presses;
+}
+
+std::vector<fs::path> Autosave::adopt()
+{
+  std::vector<fs::path> presses;
+  for (const fs::path& folder : left())
+  {
+    std::error_code failed;
+    const fs::path here = nextFolder();
+    fs::rename(folder, here, failed);
+    if (!failed)
+    {
+      presses.push_back(here);
+    }
+  }
+  if (left().empty())
+  {
+    discard();
+  }
+  return presses;
+}
+
+void Autosave::discard()
+{
+  for (const fs::path& program : foldersIn(root_))
+  {
+    if (std::error_code none; program != own_ && lockOf(program))
+    {
+      fs::remove_all(program, none);
+    }
+  }
+}
+
+} // namespace palp

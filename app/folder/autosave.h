@@ -1,0 +1,64 @@
+#pragma once
+
+#include "app/input/scene_plan.h"
+#include "app/press/recording.h"
+#include "haptics/files/descriptor.h"
+
+#include <filesystem>
+#include <future>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// Leaves each press on the disk as it ends, until it is exported or discarded: a program that is
+/// killed loses the one in progress at most. Main thread only; writes on another.
+class Autosave
+{
+public:
+  /// Of the user's own presses: below XDG_STATE_HOME, or .local/state.
+  [[nodiscard]] static std::filesystem::path usualRoot();
+
+  /// @param root  made where it is not there; where that cannot be, nothing is saved
+  /// @param most  presses that it keeps; then the oldest goes
+  explicit Autosave(std::filesystem::path root, int most = 200);
+
+  ~Autosave();
+  Autosave(const Autosave&) = delete;
+  Autosave& operator=(const Autosave&) = delete;
+
+  /// @param plan   by which it is repeated
+  /// @param press  its samples
+  void save(ScenePlan plan, Recording press);
+
+  /// Tells once what could not be written; does not wait.
+  /// @throws Error  BadFile
+  void check();
+
+  /// Nothing of this program needs to be kept any longer.
+  void clear();
+
+  /// Folders of presses, each as an export, that programs left which have ended: the oldest first.
+  [[nodiscard]] std::vector<std::filesystem::path> left() const;
+
+  /// Takes those over, so that they are kept as this program's own.
+  /// @return  where they are now
+  std::vector<std::filesystem::path> adopt();
+
+  /// Removes those.
+  void discard();
+
+private:
+  [[nodiscard]] std::filesystem::path folderOf(int press) const;
+  [[nodiscard]] std::filesystem::path nextFolder();
+
+  std::filesystem::path root_;
+  std::filesystem::path own_; // in it; empty: could not be made
+  Descriptor lock_;           // of it
+  int most_;
+  int count_ = 0;             // of presses in it
+  std::future<void> written_; // all of them
+};
+
+} // namespace palp

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/plots/press_plots.h"
+#include "app/press/press_log.h"
+
+#include <span>
+
+namespace palp
+{
+
+/// How the curve of a press is drawn, wherever it is.
+struct PressPen
+{
+  appearance::Color color;
+  bool dashed; ///< one after as many presses as there are colors
+};
+
+/// By its number, so that a press keeps its color.
+[[nodiscard]] PressPen penOf(const KeptPress& press) noexcept;
+
+/// F(depth) of presses, from touch to release.
+[[nodiscard]] Plots pressForces(std::span<const KeptPress* const> presses);
+
+/// How far the force of the others is from that of the first, on the way in.
+[[nodiscard]] Plots pressDifferences(std::span<const KeptPress* const> presses);
+
+} // namespace palp

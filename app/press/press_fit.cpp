@@ -1,0 +1,31 @@
+#include "app/press/press_fit.h"
+
+#include "calibration/fit/loading_rows.h"
+#include "haptics/contact/contact_geometry_of.h"
+
+namespace palp
+{
+
+fit::ModulusFit fitPress(const KeptPress& press)
+{
+  std::vector<double> depths;
+  std::vector<double> forces;
+  for (const CurvePoint& point : press.curve)
+  {
+    depths.push_back(point.depth);
+    forces.push_back(point.force);
+  }
+  const fit::Rows rows = fit::loadingRows(depths);
+  const auto part = [&rows](const std::vector<double>& values) {
+    return Eigen::VectorXd::Map(values.data() + rows.first, static_cast<Eigen::Index>(rows.count));
+  };
+  return fit::fitModulus({ .depths = part(depths), .forces = part(forces) },
+    { .tip = press.law.tip(),
+      .poissonRatio = press.law.material().poissonRatio,
+      .settings = press.law.settings(),
+      .place = contactGeometryOf(press.summary.deepest),
+      .contact = 0.0,
+      .offset = 0.0 });
+}
+
+} // namespace palp

@@ -1,0 +1,135 @@
+#include "app/press/press_log.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+// from the last sample before a time on
+Recording partOf(const Recording& recording, double from)
+{
+  Recording part;
+  part.device = recording.device;
+  part.mesh = recording.mesh;
+  part.unit = recording.unit;
+  part.files = recording.files;
+  part.command = recording.command;
+  part.scene = recording.scene;
+  part.rated = recording.rated;
+  part.interval = recording.interval;
+  const std::vector<Sample>& all = recording.samples;
+  auto first = std::ranges::lower_bound(all, from, {}, &Sample::time);
+  first -= first == all.begin() ? 0 : 1;
+  const auto leftOut = static_cast<std::size_t>(first - all.begin());
+  part.thinned = recording.thinned - std::min(recording.thinned, leftOut);
+  part.samples.assign(first, all.end());
+  return part;
+}
+
+// one of so many of its samples, the deepest and the last
+std::vector<CurvePoint> curveOf(const PressSummary& press, const Recording& recording)
+{
+  const std::vector<Sample>& all = recording.samples;
+  const auto first = std::ranges::lower_bound(all, press.begin, {}, &Sample::time);
+  const auto end = std::ranges::upper_bound(all, press.end, {}, &Sample::time);
+  const Sample* deepest = deepestOf(std::span(first, end));
+  const auto step = 1 + (end - first) / static_cast<std::ptrdiff_t>(KeptPress::kCurve - 2);
+  std::vector<CurvePoint> curve;
+  for (auto sample = first; sample != end; ++sample)
+  {
+    if ((sample - first) % step == 0 || sample + 1 == end || &*sample == deepest)
+    {
+      curve.push_back({ sample->contact.depth, sample->response.force });
+    }
+  }
+  return curve;
+}
+
+} // namespace
+
+void PressLog::follow(const Sample& sample) noexcept
+{
+  now_ = sample.time;
+  if (sample.contact.touching())
+  {
+    begin_ = begin_.value_or(sample.time);
+    lastTouch_ = sample.time;
+  }
+}
+
+std::optional<Recording> PressLog::keep(const Recording& recording)
+{
+  return now_ - lastTouch_ >= kBounce ? end(recording) : std::nullopt;
+}
+
+std::optional<Recording> PressLog::end(const Recording& recording)
+{
+  if (!begin_)
+  {
+    return {};
+  }
+  Recording part = partOf(recording, *std::exchange(begin_, std::nullopt));
+  keepAll(part);
+  return part;
+}
+
+void PressLog::keepAll(const Recording& samples)
+{
+  const Scene& scene = samples.scene;
+  const std::vector<PressSummary> found = findPresses(samples);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    KeptPress press{ .id = ++found_,
+      .summary = found[i],
+      .law = scene.law,
+      .rule = scene.rule,
+      .damping = scene.damping };
+    if (samples.names.empty())
+    {
+      press.summary.name = pressName(static_cast<std::size_t>(found_) - 1);
+    }
+    if (samples.rated)
+    {
+      press.outside = outsideLimits(Validity(scene.law), found[i]);
+    }
+    press.curve = curveOf(found[i], samples);
+    presses_.push_back(std::move(press));
+    ++version_;
+  }
+  if (presses_.size() > kMost)
+  {
+    presses_.erase(presses_.begin(), presses_.end() - kMost);
+  }
+}
+
+const KeptPress* PressLog::find(int id) const noexcept
+{
+  const auto at = std::ranges::find(presses_, id, &KeptPress::id);
+  return at != presses_.end() ? &*at : nullptr;
+}
+
+void PressLog::rename(int id, const std::string& name)
+{
+  if (const auto at = std::ranges::find(presses_, id, &KeptPress::id); at != presses_.end())
+  {
+    at->summary.name = name;
+  }
+  ++version_;
+}
+
+void PressLog::remove(int id)
+{
+  std::erase_if(presses_, [id](const KeptPress& press) { return press.id == id; });
+  ++version_;
+}
+
+void PressLog::restore(KeptPress press)
+{
+  presses_.insert(std::ranges::lower_bound(presses_, press.id, {}, &KeptPress::id), press);
+  ++version_;
+}
+
+} // namespace palp

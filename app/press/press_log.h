@@ -1,0 +1,85 @@
+#pragma once
+
+#include "app/press/presses.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace palp
+{
+
+/// A moment of a press.
+struct CurvePoint
+{
+  double depth; ///< of the contact [m]
+  double force; ///< of the law [N]
+};
+
+/// A press that is kept with what it was made by, whatever becomes of its recording.
+struct KeptPress
+{
+  int id = 0; ///< of its own in a log, from 1
+  PressSummary summary{};
+  ForceLaw law;
+  ContactRule rule = ContactRule::Exact;
+  double damping = 0.0;            ///< b [N s/m]
+  std::string outside{};           ///< see outsideLimits; empty also where no sample is rated
+  std::vector<CurvePoint> curve{}; ///< from touch to release, kCurve of its samples at most
+
+  static constexpr std::size_t kCurve = 400;
+};
+
+/// The presses of a session, each found by itself when its tool is released. Main thread only.
+class PressLog
+{
+public:
+  static constexpr std::size_t kMost = 500; ///< presses; then the oldest goes
+
+  /// Takes the next sample of a recording; before that of keep(), whatever is kept of it.
+  void follow(const Sample& sample) noexcept;
+
+  /// Keeps the press that the tool was released of since, if any.
+  /// @return  its samples, with the one before
+  std::optional<Recording> keep(const Recording& recording);
+
+  /// The same of the press that the end of a recording ends.
+  std::optional<Recording> end(const Recording& recording);
+
+  /// Keeps all presses of a recording that is whole.
+  void keepAll(const Recording& recording);
+
+  /// The oldest first.
+  [[nodiscard]] const std::vector<KeptPress>& presses() const noexcept
+  {
+    return presses_;
+  }
+
+  /// Null where it is gone.
+  [[nodiscard]] const KeptPress* find(int id) const noexcept;
+
+  ///@{
+  /// Does nothing where it is gone.
+  void rename(int id, const std::string& name);
+  void remove(int id);
+  ///@}
+
+  /// Puts a removed press back to where it was.
+  void restore(KeptPress press);
+
+  /// Another number after each change.
+  [[nodiscard]] int version() const noexcept
+  {
+    return version_;
+  }
+
+private:
+  std::vector<KeptPress> presses_; // ids rise
+  std::optional<double> begin_;    // of the press that goes on [s]
+  double lastTouch_ = 0.0;         // of it [s]
+  double now_ = 0.0;               // of the last sample [s]
+  int found_ = 0;
+  int version_ = 0;
+};
+
+} // namespace palp

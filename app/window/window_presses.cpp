@@ -1,0 +1,264 @@
+// Presses as things of the window: listed, compared, repeated; and what is changed can be undone.
+
+#include "app/folder/autosave.h"
+#include "app/folder/export_folder.h"
+#include "app/input/law_options.h"
+#include "app/input/tip_text.h"
+#include "app/panels/press_bar.h"
+#include "app/panels/press_list.h"
+#include "app/panels/tissue_panel.h"
+#include "app/press/press_fit.h"
+#include "app/shell/change.h"
+#include "app/shell/dock.h"
+#include "app/shell/message_bar.h"
+#include "app/window/window.h"
+#include "haptics/files/input_text.h"
+#include "haptics/units.h"
+
+#include <QAction>
+#include <QMenu>
+#include <QMenuBar>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+// with every setting of a law but its mode
+ForceLaw inMode(const ForceLaw& law, LawMode mode)
+{
+  const LawSettings& before = law.settings();
+  LawOptions options{ .mode = mode, .base = before.base, .constitution = before.constitution };
+  if (mode == LawMode::Corrected)
+  {
+    options.coatings = before.coatings;
+    options.relaxation = before.relaxation;
+    options.friction = before.friction;
+  }
+  return { law.tip(), law.material(), options.settings() };
+}
+
+ForceLaw lawOf(const KeptPress& press, const ForceLaw& inUse, PressList::Again how)
+{
+  switch (how)
+  {
+    case PressList::Again::AsThen:
+      return press.law;
+    case PressList::Again::Paper:
+      return inMode(inUse, LawMode::Paper);
+    case PressList::Again::Exact:
+      return inMode(inUse, LawMode::Exact);
+    case PressList::Again::Corrected:
+      return inMode(inUse, LawMode::Corrected);
+    case PressList::Again::AsNow:
+      break;
+  }
+  return inUse;
+}
+
+} // namespace
+
+void Window::makePressList()
+{
+  pressList_ = new PressList(session_.presses());
+  QDockWidget* dock = addDock(this, Qt::RightDockWidgetArea, tr("Presses"), pressList_);
+  if (auto* chart = findChild<QDockWidget*>(tr("Force over time")))
+  {
+    tabifyDockWidget(chart, dock); // three below each other would be too low
+    chart->raise();
+  }
+  auto* edit = findChild<QMenu*>("editMenu");
+  edit->addSeparator();
+  edit->addActions(pressList_->actions());
+  connect(pressList_, &PressList::compareAsked, this, [this] { showPlots(tr("Presses")); });
+  connect(pressList_, &PressList::tickedChanged, this, [this] { chartsAreStale_ = true; });
+  connect(pressList_, &PressList::fitAsked, this, &Window::fitPressed);
+  connect(pressList_, &PressList::renamed, this, &Window::renamePress);
+  connect(pressList_, &PressList::deleteAsked, this, &Window::deletePresses);
+  connect(pressList_, &PressList::againAsked, this,
+    [this](int id, PressList::Again how)
+    {
+      pressAgain(id,
+        [&](const KeptPress& press) { return lawOf(press, session_.recording().scene.law, how); });
+    });
+  connect(pressList_, &PressList::againWithAsked, this,
+    [this](int id, const QString& tool)
+    {
+      const ForceLaw& law = session_.recording().scene.law;
+      pressAgain(id,
+        [&](const KeptPress&)
+        { return ForceLaw(parseTip(tool.toStdString()), law.material(), law.settings()); });
+    });
+}
+
+void Window::makeEditMenu()
+{
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  edit->setObjectName("editMenu");
+  QAction* undo = undo_.createUndoAction(this, tr("&Undo"));
+  undo->setShortcuts(QKeySequence::Undo);
+  QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
+  redo->setShortcuts({ QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y") });
+  edit->addActions({ undo, redo });
+}
+
+void Window::saveTo(Autosave& autosave)
+{
+  autosave_ = &autosave;
+  session_.saveTo(autosave_);
+  if (const std::size_t left = autosave.left().size(); left > 0)
+  {
+    const QString what = QString::fromStdString(counted(left, "press", "presses"));
+    message_->ask(tr("%1 of before were not exported").arg(what),
+      { { tr("Restore"), [this] { restorePresses(); } },
+        { tr("Discard"), [this] { autosave_->discard(); } } });
+  }
+}
+
+// as recordings of before, each on the body that was pressed
+void Window::restorePresses()
+{
+  std::size_t restored = 0;
+  for (const std::filesystem::path& folder : autosave_->adopt())
+  {
+    attempt(
+      [&]
+      {
+        const ExportFolder made = readExport(folder);
+        const std::vector<MeshFile>& open = session_.body().files;
+        if (open.empty() || made.inputs.empty() ||
+          open.front().sha256 != made.inputs.front().sha256)
+        {
+          openBody(made.plan.meshes);
+        }
+        session_.addTake(made.plan);
+        ++restored;
+      });
+  }
+  takesKept_ = session_.earlier().size();
+  if (restored > 0)
+  {
+    say(tr("%1 restored: in the list of presses, and exported with the data")
+          .arg(QString::fromStdString(counted(restored, "press", "presses"))));
+  }
+}
+
+// there, as deep as then
+void Window::pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf)
+{
+  attempt(
+    [&]
+    {
+      const KeptPress* press = session_.presses().find(id);
+      if (press == nullptr)
+      {
+        return;
+      }
+      Scene scene = session_.recording().scene;
+      scene.law = lawOf(*press);
+      pressBar_->showPress(press->summary.deepest);
+      panel_->setScene(scene);
+      changeTissue();
+      pressAtPlace();
+    });
+}
+
+void Window::fitPressed(int id)
+{
+  attempt(
+    [&]
+    {
+      const KeptPress* press = session_.presses().find(id);
+      if (press == nullptr)
+      {
+        return;
+      }
+      const fit::ModulusFit fit = fitPress(*press);
+      const auto text = [](double pascals)
+      { return QString::number(units::toKilopascals(pascals), 'g', 4); };
+      const fit::Estimate& modulus = fit.asked().curve.scale;
+      QString answer =
+        tr("%1: E = %2 kPa, 95 % interval %3 to %4 kPa, by the %5 law")
+          .arg(QString::fromStdString(press->summary.name), text(modulus.value), text(modulus.low),
+            text(modulus.high), QString::fromStdString(fit.asked().name));
+      if (const fit::Estimate* exponent = fit.exponent())
+      {
+        answer += tr("; F grows as δ^%1").arg(exponent->value, 0, 'f', 2);
+      }
+      say(answer +
+        tr("; explained best by the %1 law").arg(QString::fromStdString(fit.laws[fit.best].name)));
+    });
+}
+
+void Window::renamePress(int id, const QString& name)
+{
+  PressLog& log = session_.presses();
+  const KeptPress* press = log.find(id);
+  if (press == nullptr)
+  {
+    return;
+  }
+  const std::string before = press->summary.name;
+  const std::string after = name.isEmpty() ? before : name.toStdString();
+  log.rename(id, after);
+  if (after != before)
+  {
+    undo_.push(new Change(
+      tr("rename a press"), [&log, id, before] { log.rename(id, before); },
+      [&log, id, after] { log.rename(id, after); }));
+  }
+}
+
+void Window::deletePresses(const std::vector<int>& ids)
+{
+  PressLog& log = session_.presses();
+  std::vector<KeptPress> gone;
+  std::ranges::copy_if(log.presses(), std::back_inserter(gone),
+    [&ids](const KeptPress& press) { return std::ranges::find(ids, press.id) != ids.end(); });
+  const auto remove = [&log, gone]
+  {
+    for (const KeptPress& press : gone)
+    {
+      log.remove(press.id);
+    }
+  };
+  const auto restore = [&log, gone]
+  {
+    for (const KeptPress& press : gone)
+    {
+      log.restore(press);
+    }
+  };
+  remove();
+  const QString what = QString::fromStdString(counted(gone.size(), "press", "presses"));
+  undo_.push(new Change(tr("delete %1").arg(what), restore, remove));
+}
+
+// of the panel, by the user
+void Window::changeTissue()
+{
+  Scene before = session_.recording().scene;
+  applyTissue();
+  Scene after = session_.recording().scene;
+  if (after.version == before.version)
+  {
+    return; // refused
+  }
+  const auto use = [this](Scene scene)
+  {
+    scene.surface = nullptr; // whatever is open then
+    scene.nodules = nullptr;
+    return [this, scene]
+    {
+      panel_->setScene(scene);
+      applyTissue();
+    };
+  };
+  undo_.push(new Change(tr("tool, tissue or law"), use(std::move(before)), use(std::move(after))));
+}
+
+} // namespace palp

@@ -1,0 +1,31 @@
+#include "app/panels/validity_panel.h"
+
+#include "tests/app/application.h"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+TEST(ValidityPanel, TellsEachNoduleInWhatPeopleNotice)
+{
+  test::application();
+  ValidityPanel panel;
+  panel.showRules({}, std::array{ 0.14, -0.045 });
+  for (const char* line : { "nodule 0: +14.0 % of the force", "2.0 times the 7 %",
+         "0.9 times the 15 %", "nodule 1: -4.5 % of the force",
+         "0.1 times the 45 % that people notice of modulus by stylus" })
+  {
+    EXPECT_TRUE(panel.text().contains(line)) << line << ": " << panel.text().toStdString();
+  }
+  const Rule rule{ "depth", "-", 2.0, 1.0, "too deep" };
+  panel.showRules(std::span(&rule, 1));
+  EXPECT_FALSE(panel.text().contains("nodule"));
+  EXPECT_TRUE(panel.text().contains("depth: 200 % of its limit"));
+}
+
+} // namespace
+} // namespace palp
