@@ -139,8 +139,9 @@ TEST_F(PlayBarTest, StopsAtTheEndBeginsAnewAndLoops)
   usePath("0,0,0,4\n0.5,0,0,-4\n");
   const ScriptedDevice* device = session_->scripted();
   EXPECT_TRUE(QTest::qWaitFor([&] { return device->reached() == 0.5; }, kPatience));
-  EXPECT_TRUE(QTest::qWaitFor([this] { return time() == 0.5; }, kPatience));
-  EXPECT_EQ(window_->findChild<QAction*>("playAction")->iconText(), "Play");
+  const auto* play = window_->findChild<QAction*>("playAction");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return play->iconText() == "Play"; }, kPatience));
+  EXPECT_EQ(time(), 0.5);
   key(Qt::Key_Space);
   EXPECT_TRUE(QTest::qWaitFor([&] { return device->reached() < 0.4; }, kPatience));
   key(Qt::Key_L);
@@ -149,7 +150,7 @@ TEST_F(PlayBarTest, StopsAtTheEndBeginsAnewAndLoops)
     EXPECT_TRUE(QTest::qWaitFor([&] { return device->reached() > 0.4; }, kPatience));
     EXPECT_TRUE(QTest::qWaitFor([&] { return device->reached() < 0.3; }, kPatience));
   }
-  EXPECT_EQ(window_->findChild<QAction*>("playAction")->iconText(), "Pause");
+  EXPECT_EQ(play->iconText(), "Pause");
 }
 
 // while the bar is there, and they have no use of their own for it
