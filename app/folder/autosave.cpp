@@ -8,8 +8,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <fcntl.h>
-#include <sys/file.h>
 #include <system_error>
 #include <utility>
 
@@ -19,13 +17,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-// held as long as the program lives; nothing where another has it
-Descriptor lockOf(const fs::path& folder)
-{
-  Descriptor lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  return lock && flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
-}
 
 // whole, or hidden
 bool isPress(const fs::path& folder)
@@ -82,7 +73,7 @@ Autosave::Autosave(fs::path root, int most)
   own_ = makeHidden(root_);
   if (!own_.empty())
   {
-    lock_ = lockOf(own_);
+    lock_ = tryLockFolder(own_);
   }
 }
 
@@ -159,7 +150,7 @@ std::vector<fs::path> Autosave::left() const
   std::vector<fs::path> presses;
   for (const fs::path& program : foldersIn(root_))
   {
-    if (program != own_ && lockOf(program))
+    if (program != own_ && tryLockFolder(program))
     {
       std::ranges::copy_if(foldersIn(program), std::back_inserter(presses), isPress);
     }
@@ -175,8 +166,9 @@ std::vector<fs::path> Autosave::left() const
 
 std::vector<fs::path> Autosave::adopt()
 {
+  const std::vector<fs::path> found = left();
   std::vector<fs::path> presses;
-  for (const fs::path& folder : left())
+  for (const fs::path& folder : found)
   {
     std::error_code failed;
     const fs::path here = nextFolder();
@@ -186,7 +178,7 @@ std::vector<fs::path> Autosave::adopt()
       presses.push_back(here);
     }
   }
-  if (left().empty())
+  if (presses.size() == found.size())
   {
     discard();
   }
@@ -197,7 +189,7 @@ void Autosave::discard()
 {
   for (const fs::path& program : foldersIn(root_))
   {
-    if (std::error_code none; program != own_ && lockOf(program))
+    if (std::error_code none; program != own_ && tryLockFolder(program))
     {
       fs::remove_all(program, none);
     }

@@ -33,13 +33,6 @@ fs::path makeNamed(const fs::path& folder, std::string_view start)
   return mkdtemp(name.data()) == nullptr ? fs::path() : fs::path(name);
 }
 
-// as long as its process lives
-Descriptor locked(const fs::path& folder)
-{
-  Descriptor lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  return lock && flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
-}
-
 // follows no link, as nobody can have one where only this process writes
 void writeNew(const fs::path& file, std::string_view content)
 {
@@ -77,6 +70,12 @@ fs::path makeHidden(const fs::path& folder)
   return makeNamed(folder, kHidden);
 }
 
+Descriptor tryLockFolder(const fs::path& folder)
+{
+  Descriptor lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return lock && flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
+}
+
 void clearAbandoned(const fs::path& folder)
 {
   std::error_code ignored;
@@ -84,7 +83,7 @@ void clearAbandoned(const fs::path& folder)
   {
     const bool isWaiting = isHidden(entry.path().filename().string(), std::string(kWaiting));
     if (isWaiting && fs::file_time_type::clock::now() - entry.last_write_time(ignored) > kMoment &&
-      locked(entry.path()))
+      tryLockFolder(entry.path()))
     {
       fs::remove_all(entry.path(), ignored);
     }
@@ -124,7 +123,7 @@ void replaceFile(const fs::path& file, const std::function<void(const fs::path& 
   {
     refuseFile(file, errno);
   }
-  const Descriptor lock = locked(stage);
+  const Descriptor lock = tryLockFolder(stage);
   const auto clean = [](const fs::path* hidden)
   {
     std::error_code ignored;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "haptics/files/descriptor.h"
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -18,6 +20,10 @@ namespace palp
 /// Makes a hidden folder in another one, with a name that nobody had.
 /// @return  empty, with errno, where it cannot be made
 [[nodiscard]] std::filesystem::path makeHidden(const std::filesystem::path& folder);
+
+/// Locks a folder as long as what is returned lives, and its process.
+/// @return  none where another has it, or it cannot be opened
+[[nodiscard]] Descriptor tryLockFolder(const std::filesystem::path& folder);
 
 /// Removes from a folder what replaceFile() left there in processes that were killed, a minute ago
 /// or earlier; what is being written stays.
