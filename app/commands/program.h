@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/folder/export_folder.h"
 #include "app/input/scene_plan.h"
 #include "haptics/error.h"
 
@@ -15,8 +16,8 @@ struct Renderer;
 struct ViewOptions
 {
   ScenePlan plan;
-  std::optional<ScenePlan> made{}; ///< of an export that is opened: what was pressed before
-  bool explain = false;            ///< tell what was built once the first picture stands, and end
+  std::optional<ExportFolder> made{}; ///< of an export that is opened: what was pressed before
+  bool explain = false; ///< tell what was built once the first picture stands, and end
 };
 
 /// What one of the sibling programs carries beyond the common commands.

@@ -1,6 +1,5 @@
 #include "app/commands/commands.h"
 #include "app/commands/program.h"
-#include "app/folder/export_folder.h"
 #include "app/folder/export_option.h"
 #include "app/input/option_values.h"
 #include "app/program/exec_program.h"
@@ -20,13 +19,13 @@ namespace
 // the window of what was exported, with the tool held as the options say
 void openExport(ViewOptions& options, const std::filesystem::path& folder)
 {
-  options.made = readExport(folder).plan;
-  if (!options.made->dents())
+  options.made = readExport(folder);
+  if (!options.made->plan.dents())
   {
     throw Error(ErrorCode::BadValue,
       folder.string() + ": its dent is 'none', which leaves nothing to see; name a surface there");
   }
-  const ScenePlan given = std::exchange(options.plan, *options.made);
+  const ScenePlan given = std::exchange(options.plan, options.made->plan);
   options.plan.device = given.device;
   options.plan.deadMan = given.deadMan;
   options.plan.window = true;

@@ -121,6 +121,25 @@ ExportFolder readExport(const fs::path& folder)
   return made;
 }
 
+fs::path earlierTake(const fs::path& folder, std::size_t take)
+{
+  return folder / ("earlier-" + std::to_string(take));
+}
+
+std::vector<fs::path> takesIn(const fs::path& folder)
+{
+  std::vector<fs::path> takes;
+  while (isExport(earlierTake(folder, takes.size() + 1)))
+  {
+    takes.push_back(earlierTake(folder, takes.size() + 1));
+  }
+  if (takes.empty() || isExport(folder))
+  {
+    takes.push_back(folder);
+  }
+  return takes;
+}
+
 void writeScene(const fs::path& stage, ScenePlan plan, const std::string& path)
 {
   const std::string& name = plan.device.name;

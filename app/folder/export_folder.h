@@ -34,6 +34,15 @@ struct ExportFolder
 /// @throws Error  BadFile: a file is missing, is none of this kind, or as readScene
 [[nodiscard]] ExportFolder readExport(const std::filesystem::path& folder);
 
+/// Where an export of the window holds the recordings before its last.
+/// @param take  from 1, the first of all
+[[nodiscard]] std::filesystem::path earlierTake(
+  const std::filesystem::path& folder, std::size_t take);
+
+/// The exports that an export consists of, the first recording first; the folder itself where it
+/// is none.
+[[nodiscard]] std::vector<std::filesystem::path> takesIn(const std::filesystem::path& folder);
+
 /// Writes scene.json and the path that it names, path.csv.
 ///
 /// @param stage   where the files wait

@@ -76,7 +76,7 @@ std::optional<Recording> PressLog::end(const Recording& recording)
   return part;
 }
 
-void PressLog::keepAll(const Recording& samples)
+std::size_t PressLog::keepAll(const Recording& samples)
 {
   const Scene& scene = samples.scene;
   const std::vector<PressSummary> found = findPresses(samples);
@@ -103,6 +103,7 @@ void PressLog::keepAll(const Recording& samples)
   {
     presses_.erase(presses_.begin(), presses_.end() - kMost);
   }
+  return found.size();
 }
 
 const KeptPress* PressLog::find(int id) const noexcept

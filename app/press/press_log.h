@@ -47,7 +47,8 @@ public:
   std::optional<Recording> end(const Recording& recording);
 
   /// Keeps all presses of a recording that is whole.
-  void keepAll(const Recording& recording);
+  /// @return  how many
+  std::size_t keepAll(const Recording& recording);
 
   /// The oldest first.
   [[nodiscard]] const std::vector<KeptPress>& presses() const noexcept

@@ -22,6 +22,7 @@ namespace palp
 class Autosave;
 class BuildTrace;
 class ScriptedDevice;
+struct ExportFolder;
 
 /// A live press: body, tissue, the device that holds the tool, the servo thread, the recording.
 ///
@@ -154,14 +155,16 @@ public:
     autosave_ = autosave;
   }
 
-  /// Presses once more what a plan for this body knows of, as an earlier recording.
-  /// @throws Error  as playInto
-  void addTake(const ScenePlan& made);
+  /// Presses once more what an export holds, as an earlier recording on a body of its own.
+  /// @return        the presses that were found in it
+  /// @throws Error  as checkInputs, loadBody, playInto; nothing is added
+  std::size_t addTake(const ExportFolder& made);
 
 private:
   void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const SceneBody& body);
+  [[nodiscard]] SceneBody bodyOf(const std::vector<MeshSource>& meshes) const;
   void boundEarlier();
   void save(const SceneBody& body, std::optional<Recording> press);
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);

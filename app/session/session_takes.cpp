@@ -1,8 +1,10 @@
 // The recordings and presses of a session that have ended.
 
 #include "app/folder/autosave.h"
+#include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
 #include "app/program/exec_program.h"
+#include "app/scene/scene_text.h"
 #include "app/session/session.h"
 
 #include <limits>
@@ -42,21 +44,40 @@ void Session::endRecording(const SceneBody& body)
   resting_.reset();
 }
 
-void Session::addTake(const ScenePlan& made)
+// the one that is open, or was the last, where that is the same
+SceneBody Session::bodyOf(const std::vector<MeshSource>& meshes) const
 {
+  const auto text = [](const std::vector<MeshSource>& sources)
+  { return sceneText({ .meshes = sources }, "/"); };
+  const std::string asked = text(meshes);
+  if (text(body_.sources) == asked)
+  {
+    return body_;
+  }
+  const bool wasLast = !earlier_.empty() && text(earlier_.back().body.sources) == asked;
+  return wasLast ? earlier_.back().body : loadBody(meshes);
+}
+
+std::size_t Session::addTake(const ExportFolder& folder)
+{
+  const ScenePlan& made = folder.plan;
   const ForceLaw law = made.press.tissue.law();
-  Take take{ .body = body_, .recording = {}, .calibration = loadCalibration(made.press, law) };
+  Take take{
+    .body = bodyOf(made.meshes), .recording = {}, .calibration = loadCalibration(made.press, law)
+  };
   Recording& recording = take.recording;
-  recording.mesh = body_.name;
-  recording.unit = body_.unit;
-  recording.files = body_.files;
+  recording.mesh = take.body.name;
+  recording.unit = take.body.unit;
+  recording.files = take.body.files;
+  checkInputs(folder, made, recording);
   recording.command = commandLine();
   recording.rated = made.validity;
   recording.scene = recording_.scene;
+  recording.scene.surface = take.body.haptic;
   recording.scene.law = law;
   recording.scene.rule = made.press.contact;
   recording.scene.damping = made.press.damping;
-  recording.scene.nodules = feltNodules(body_, law);
+  recording.scene.nodules = feltNodules(take.body, law);
   recording.scene.forceLimit = std::numeric_limits<double>::infinity();
   std::optional<ScriptedPath> path;
   if (!made.presses && !made.recording)
@@ -64,8 +85,9 @@ void Session::addTake(const ScenePlan& made)
     path = readPath(made.device.file);
   }
   playInto(recording, made, path ? &*path : nullptr);
-  presses_.keepAll(recording);
+  const std::size_t found = presses_.keepAll(recording);
   earlier_.push_back(std::move(take));
+  return found;
 }
 
 void Session::boundEarlier()

@@ -247,6 +247,7 @@ void Window::refreshCharts()
 {
   if (charts_)
   {
+    charts_->mark(review_ && reviewed_ == 0 ? &shown_ : nullptr);
     charts_->refresh();
     drawCharts();
   }
@@ -269,7 +270,7 @@ void Window::showValidity(const Sample& sample)
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    const Scene& scene = session_.recording().scene;
+    const Scene& scene = pictured().recording.scene;
     validityPanel_->showRules(rulesAt(scene, validity_, contact), contrastsAt(scene, contact));
   }
   else

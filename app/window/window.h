@@ -62,7 +62,8 @@ public:
 
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
 
-  bool openFile(const QString& file); // asks for what the file does not tell
+  bool openFile(const QString& file);      // asks for what the file does not tell
+  bool loadPresses(const QString& folder); // of an export
   bool saveScreenshot(const QString& file);
   bool saveFigure(const QString& file, ImageSize size, const FigureLook& look);
   bool savePlots(const QString& file, std::optional<ImageSize> size = std::nullopt);
@@ -113,6 +114,7 @@ private:
   void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);
   void fitPressed(int id);
   void restorePresses();
+  void sayListed(const QString& how, std::size_t presses);
   void renamePress(int id, const QString& name);
   void deletePresses(const std::vector<int>& ids);
   [[nodiscard]] SightLine sightLine(double x, double y);

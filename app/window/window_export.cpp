@@ -155,10 +155,11 @@ bool Window::exportData(const QString& directory)
       }
       for (std::size_t i = 0; i < session_.earlier().size(); ++i)
       {
-        const QString name = QString("earlier-%1").arg(i + 1);
+        const std::filesystem::path name = earlierTake("", i + 1);
         const Session::Take take = session_.earlier()[i]; // the window goes on
-        exportTake(directory + '/' + name, take.body, take.recording, take.calibration, nullptr);
-        written << name;
+        exportTake(QString::fromStdString((folder / name).string()), take.body, take.recording,
+          take.calibration, nullptr);
+        written << QString::fromStdString(name.string());
       }
       autosave_ != nullptr ? autosave_->clear() : void();
       say(tr("Written to %1: %2").arg(directory, written.join(", ")));

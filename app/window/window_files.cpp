@@ -38,6 +38,16 @@ void Window::addOpening(QMenu& file)
     },
     QKeySequence::Open);
   opening->setObjectName("openAction");
+  file.addAction(tr("&Load presses…"), this,
+    [this]
+    {
+      const QString folder =
+        QFileDialog::getExistingDirectory(this, tr("Load presses of an exported folder"));
+      if (!folder.isEmpty())
+      {
+        loadPresses(folder);
+      }
+    });
   addRecentFiles(file);
 }
 

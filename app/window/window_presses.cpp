@@ -119,31 +119,41 @@ void Window::saveTo(Autosave& autosave)
   }
 }
 
+bool Window::loadPresses(const QString& folder)
+{
+  return attempt(
+    [&]
+    {
+      endReview(); // which counts recordings from the last
+      std::size_t loaded = 0;
+      for (const std::filesystem::path& take : takesIn(folder.toStdString()))
+      {
+        loaded += session_.addTake(readExport(take));
+      }
+      takesKept_ = session_.earlier().size();
+      sayListed(tr("loaded from %1").arg(folder), loaded);
+    });
+}
+
+void Window::sayListed(const QString& how, std::size_t presses)
+{
+  const QString what = QString::fromStdString(counted(presses, "press", "presses"));
+  say(tr("%1 %2: in the list of presses, and exported with the data").arg(what, how));
+}
+
 // as recordings of before, each on the body that was pressed
 void Window::restorePresses()
 {
+  endReview();
   std::size_t restored = 0;
   for (const std::filesystem::path& folder : autosave_->adopt())
   {
-    attempt(
-      [&]
-      {
-        const ExportFolder made = readExport(folder);
-        const std::vector<MeshFile>& open = session_.body().files;
-        if (open.empty() || made.inputs.empty() ||
-          open.front().sha256 != made.inputs.front().sha256)
-        {
-          openBody(made.plan.meshes);
-        }
-        session_.addTake(made.plan);
-        ++restored;
-      });
+    attempt([&] { restored += session_.addTake(readExport(folder)); });
   }
   takesKept_ = session_.earlier().size();
   if (restored > 0)
   {
-    say(tr("%1 restored: in the list of presses, and exported with the data")
-          .arg(QString::fromStdString(counted(restored, "press", "presses"))));
+    sayListed(tr("restored"), restored);
   }
 }
 

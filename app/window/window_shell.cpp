@@ -58,7 +58,11 @@ void Window::dropEvent(QDropEvent* event)
     return;
   }
   event->acceptProposedAction();
-  if (openFile(files.front()) && files.size() > 1)
+  if (QFileInfo(files.front()).isDir())
+  {
+    loadPresses(files.front());
+  }
+  else if (openFile(files.front()) && files.size() > 1)
   {
     say(tr("Opened %1, the first of %2 files: one body is pressed at a time")
           .arg(QFileInfo(files.front()).fileName())

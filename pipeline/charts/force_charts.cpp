@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
 #include <vtkDataArray.h>
@@ -29,6 +30,7 @@ constexpr double kLeastForce = 0.05; // [N], of one with a press
 constexpr double kFirstDepth = 5.0_mm;
 constexpr double kFirstTime = 2.0; // [s]
 constexpr int kLawPoints = 201;
+constexpr float kMark = 9.0F; // [pixels]
 
 constexpr const char* kOverTime = "force over time";
 constexpr const char* kOverDepth = "force over depth";
@@ -49,6 +51,28 @@ vtkPlot* addLine(vtkChartXY& chart, const char* name, const appearance::Color& c
   line->SetLabel(name);
   setPen(*line->GetPen(), color, width);
   return line;
+}
+
+// empty
+void addColumns(vtkTable& table, std::initializer_list<const char*> names)
+{
+  for (const char* name : names)
+  {
+    vtkNew<vtkFloatArray> column;
+    column->SetName(name);
+    table.AddColumn(column);
+  }
+}
+
+vtkPlotPoints* addPoints(
+  vtkChartXY& chart, const char* name, const appearance::Color& color, float size)
+{
+  auto* points = vtkPlotPoints::SafeDownCast(chart.AddPlot(vtkChart::POINTS));
+  points->SetLabel(name);
+  points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  points->SetMarkerSize(size);
+  setPen(*points->GetPen(), color, 1.0F);
+  return points;
 }
 
 // room above the largest value, in steps that do not change from frame to frame
@@ -106,21 +130,15 @@ ForceCharts::ForceCharts(std::optional<double> duration)
   timePlot_ = addLine(*overTime_, "model", appearance::kLaw, 3.0F);
   renderedPlot_ = addLine(*overTime_, "", appearance::kMeasured, 1.0F);
 
-  for (const char* name : { "depth [mm]", "force [N]" })
-  {
-    vtkNew<vtkFloatArray> column;
-    column->SetName(name);
-    column->SetNumberOfValues(kLawPoints);
-    lawTable_->AddColumn(column);
-  }
+  addColumns(*lawTable_, { "depth [mm]", "force [N]" });
+  lawTable_->SetNumberOfRows(kLawPoints);
   appearance::setUpChart(*overDepth_, duration ? kOverDepth : "", kDepth, kForce);
   addLine(*overDepth_, "model", appearance::kLaw, 5.0F)->SetInputData(lawTable_, 0, 1);
-  auto* points = vtkPlotPoints::SafeDownCast(overDepth_->AddPlot(vtkChart::POINTS));
-  points->SetLabel("recorded");
-  points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  points->SetMarkerSize(3.0F);
-  setPen(*points->GetPen(), appearance::kMeasured, 1.0F);
-  depthPlot_ = points;
+  depthPlot_ = addPoints(*overDepth_, "recorded", appearance::kMeasured, 3.0F);
+
+  addColumns(*marked_, { "time [s]", "depth [mm]", "force [N]" });
+  addPoints(*overTime_, "", appearance::kInk, kMark)->SetInputData(marked_, 0, 2);
+  addPoints(*overDepth_, "", appearance::kInk, kMark)->SetInputData(marked_, 1, 2);
   setLaw(law_);
 }
 
@@ -205,6 +223,22 @@ void ForceCharts::clear()
   samples_->Clear();
   rendered_->Clear();
   update();
+}
+
+void ForceCharts::mark(const Sample* moment)
+{
+  marked_->SetNumberOfRows(moment != nullptr ? 1 : 0);
+  if (moment != nullptr)
+  {
+    marked_->SetValue(0, 0, moment->time);
+    marked_->SetValue(0, 1, units::toMillimeters(moment->contact.depth));
+    marked_->SetValue(0, 2, moment->response.force);
+  }
+  for (vtkIdType column = 0; column < marked_->GetNumberOfColumns(); ++column)
+  {
+    marked_->GetColumn(column)->Modified();
+  }
+  marked_->Modified();
 }
 
 void ForceCharts::setLaw(const ForceLaw& law)

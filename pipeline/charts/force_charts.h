@@ -50,6 +50,9 @@ public:
   /// Forgets the samples, and shows so even while it is paused.
   void clear();
 
+  /// Marks a moment of the samples in both charts; null: none, as at first.
+  void mark(const Sample* moment);
+
   /// The law drawn under the measured points.
   void setLaw(const ForceLaw& law);
 
@@ -63,6 +66,7 @@ private:
   vtkNew<vtkPalpSampleSource> samples_;
   vtkNew<vtkPalpSampleSource> rendered_; // the force that was sent in the place of the law's
   vtkNew<vtkTable> lawTable_;
+  vtkNew<vtkTable> marked_; // a row of time [s], depth [mm] and force [N], or none
   vtkNew<vtkPalpPointedChart> overTime_;
   vtkNew<vtkPalpPointedChart> overDepth_;
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others

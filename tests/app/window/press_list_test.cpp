@@ -185,6 +185,57 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
   session_->saveTo(nullptr);
 }
 
+// on the surface that was pressed, whatever is open now
+TEST_F(PressListTest, LoadsWhatWasExported)
+{
+  const QString out = QString::fromStdString((folder_.path() / "out").string());
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
+  pressOnce(60);
+  type("young", "25");
+  pressOnce(40);
+  std::vector<QStringList> exported;
+  for (int row = 0; row < 2; ++row)
+  {
+    exported.push_back({ cell(row, "F max [N]"), cell(row, "δ max [mm]"), cell(row, "E [kPa]"),
+      cell(row, "Place [mm]") });
+  }
+  ASSERT_TRUE(window_->exportData(out));
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/block_50.vtp"));
+  EXPECT_TRUE(window_->loadPresses(out));
+  EXPECT_TRUE(said().startsWith("2 presses loaded from")) << said().toStdString();
+  waitForRows(4);
+  for (int row = 2; row < 4; ++row)
+  {
+    const QStringList loaded{ cell(row, "F max [N]"), cell(row, "δ max [mm]"), cell(row, "E [kPa]"),
+      cell(row, "Place [mm]") };
+    EXPECT_EQ(loaded, exported[static_cast<std::size_t>(row - 2)]);
+  }
+  EXPECT_EQ(session_->body().name, "block_50.vtp");
+  EXPECT_EQ(session_->earlier().back().body.name, "sphere_50.vtp");
+}
+
+TEST_F(PressListTest, LoadsNoPressesOfAnotherSurfaceOrOfNoExport)
+{
+  const std::filesystem::path mesh = folder_.path() / "mine.vtp";
+  const std::filesystem::path out = folder_.path() / "out";
+  std::filesystem::copy_file(PALP_SHARE "/meshes/sphere_50.vtp", mesh);
+  ASSERT_TRUE(window_->openFile(QString::fromStdString(mesh.string())));
+  pressOnce(60);
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(out.string())));
+  std::filesystem::copy_file(
+    PALP_SHARE "/meshes/sphere_30.vtp", mesh, std::filesystem::copy_options::overwrite_existing);
+  ASSERT_TRUE(window_->openFile(QString::fromStdString(mesh.string())));
+  const std::size_t before = session_->earlier().size();
+  for (const auto& [folder, why] :
+    { std::pair(out, "mine.vtp is another file"), std::pair(folder_.path(), "scene.json") })
+  {
+    EXPECT_FALSE(window_->loadPresses(QString::fromStdString(folder.string())));
+    EXPECT_TRUE(said().contains(why)) << said().toStdString();
+  }
+  EXPECT_EQ(session_->earlier().size(), before);
+  EXPECT_EQ(rows().topLevelItemCount(), 1);
+}
+
 TEST_F(PressListTest, ComparesAndFits)
 {
   pressOnce(60);

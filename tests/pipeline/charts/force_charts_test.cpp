@@ -91,6 +91,52 @@ TEST_F(Charts, StayWhileTheyArePausedAndForgetWhatIsCleared)
   EXPECT_EQ(charts_.plots()[0]->tables()[0]->GetNumberOfRows(), 0);
 }
 
+// dark pixels of one place more, in the middle of the curve's force
+TEST_F(Charts, MarkAMoment)
+{
+  const auto ink = [](vtkContextView& view)
+  {
+    std::vector<std::pair<int, int>> dark;
+    view.GetRenderWindow()->SetOffScreenRendering(1);
+    view.GetRenderWindow()->SetSize(320, 200);
+    view.Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    view.GetRenderWindow()->GetPixelData(0, 0, 319, 199, 0, pixels);
+    for (int i = 0; i < 320 * 200; ++i)
+    {
+      if (pixels->GetTypedComponent(i, 0) < 90 && pixels->GetTypedComponent(i, 2) < 90)
+      {
+        dark.emplace_back(i % 320, i / 320);
+      }
+    }
+    return dark;
+  };
+  add(2.0, 4.0_mm);
+  Sample moment;
+  moment.time = 0.5;
+  moment.contact.depth = 4.0_mm;
+  moment.response.force = 1.0;
+  for (vtkContextView* view : { view_.Get(), depthView_.Get() })
+  {
+    const auto before = ink(*view);
+    charts_.mark(&moment);
+    auto marked = ink(*view);
+    std::erase_if(marked, [&](const auto& at) { return std::ranges::count(before, at) > 0; });
+    ASSERT_GT(marked.size(), 9U);
+    auto* chart = vtkChartXY::SafeDownCast(view->GetScene()->GetItem(0));
+    const double left = chart->GetPoint1()[0];
+    const double right = chart->GetPoint2()[0];
+    const double value = view == view_.Get() ? moment.time : 4.0;
+    const double x = left + (right - left) * value / chart->GetAxis(vtkAxis::BOTTOM)->GetMaximum();
+    for (const auto& [column, row] : marked)
+    {
+      EXPECT_NEAR(column, x, 7.0);
+    }
+    charts_.mark(nullptr);
+    EXPECT_EQ(ink(*view), before);
+  }
+}
+
 // a spike of one sample among a minute of them, at the time of that sample
 TEST_F(Charts, ShowMoreOfLessTime)
 {
