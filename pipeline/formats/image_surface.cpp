@@ -12,7 +12,6 @@
 #include <sstream>
 #include <vector>
 #include <vtkDataArray.h>
-#include <vtkFeatureEdges.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -166,17 +165,24 @@ void checkPosition(const PatientImage& volume, const std::string& name)
   }
 }
 
-// six times the volume between a triangle and the origin
-double volumeBelow(vtkPolyData& surface, vtkIdType triangle)
+// the corners of a triangle
+std::array<Eigen::Vector3d, 3> cornersOf(vtkPolyData& surface, vtkIdType triangle)
 {
   vtkNew<vtkIdList> corners;
   surface.GetCellPoints(triangle, corners);
-  std::array<Eigen::Vector3d, 3> p;
+  std::array<Eigen::Vector3d, 3> points;
   for (int k = 0; k < 3; ++k)
   {
-    surface.GetPoint(corners->GetId(k), p[static_cast<std::size_t>(k)].data());
+    surface.GetPoint(corners->GetId(k), points[static_cast<std::size_t>(k)].data());
   }
-  return p[0].dot(p[1].cross(p[2]));
+  return points;
+}
+
+// six times the volume between a triangle and the origin
+double volumeBelow(vtkPolyData& surface, vtkIdType triangle)
+{
+  const auto [a, b, c] = cornersOf(surface, triangle);
+  return a.dot(b.cross(c));
 }
 
 // how many pieces of a contour face the other way than the largest, as the walls of hollows do
@@ -205,26 +211,23 @@ std::size_t hollowsIn(vtkPolyData& contour)
     std::ranges::count_if(volumes, [&](double volume) { return volume * largest < 0.0; }));
 }
 
-// whether a surface without an open edge faces its own inside
+// Whether a surface without an open edge faces its own inside. Its area vectors add up to nothing
+// then, and its volume is the same seen from wherever.
 bool facesInward(vtkPolyData& surface)
 {
-  vtkNew<vtkFeatureEdges> open;
-  open->SetInputData(&surface);
-  open->BoundaryEdgesOn();
-  open->FeatureEdgesOff();
-  open->NonManifoldEdgesOff();
-  open->ManifoldEdgesOff();
-  open->Update();
-  if (open->GetOutput()->GetNumberOfCells() > 0)
-  {
-    return false;
-  }
+  Eigen::Vector3d open = Eigen::Vector3d::Zero();
+  double area = 0.0;
   double volume = 0.0;
   for (vtkIdType i = 0; i < surface.GetNumberOfCells(); ++i)
   {
-    volume += volumeBelow(surface, i);
+    const auto [a, b, c] = cornersOf(surface, i);
+    const Eigen::Vector3d twice = (b - a).cross(c - a);
+    open += twice;
+    area += twice.norm();
+    volume += a.dot(b.cross(c));
   }
-  return volume < 0.0;
+  constexpr double rounding = 1e-9;
+  return open.norm() <= rounding * area && volume < 0.0;
 }
 
 // the largest piece, without the stairs of the voxels

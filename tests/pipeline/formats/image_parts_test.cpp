@@ -33,6 +33,30 @@ TEST_F(Images, AMaskLosesItsStairsAndKeepsItsVolume)
   EXPECT_NEAR(volumeMm3(*surface.mesh), exact, 0.02 * exact);
 }
 
+// a gyroid within a ball, half of which it fills, as a spongy body: many points of few voxels
+TEST_F(Images, AFoldedBodyIsReadWithinTheMemoryOfItsImage)
+{
+  constexpr int size = 96;
+  constexpr double radius = 0.45 * size;
+  constexpr double wave = 2.0 * std::numbers::pi / 8.0; // [1/mm]
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(size, size, size);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const Vector3d at = Vector3d(image->GetPoint(i)) - Vector3d::Constant(0.5 * size);
+    const Vector3d angle = wave * at;
+    const double gyroid = std::sin(angle.x()) * std::cos(angle.y()) +
+      std::sin(angle.y()) * std::cos(angle.z()) + std::sin(angle.z()) * std::cos(angle.x());
+    image->GetPointData()->GetScalars()->SetComponent(i, 0, std::min(gyroid, radius - at.norm()));
+  }
+  const LoadedSurface surface = readSurface(
+    write<vtkMetaImageWriter>("sponge.mha", *image), LengthUnit::Millimeter, { 0.0, {} });
+  EXPECT_GT(surface.mesh->GetNumberOfPoints(), 200'000);
+  const double half = 2.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
+  EXPECT_NEAR(volumeMm3(*surface.mesh), half, 0.05 * half);
+}
+
 TEST_F(Images, OnlyTheLargestPieceIsTaken)
 {
   const auto image = ball(true);
