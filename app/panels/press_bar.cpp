@@ -70,26 +70,21 @@ void PressBar::addField(const QString& label, const QString& what, QWidget* fiel
 // the newest one, or one that still stands
 void PressBar::tellRefusal(QuantityBox& field)
 {
-  markRefused(field, !field.refusal().isEmpty());
-  for (const QuantityBox* one : { &field, depth_, speed_ })
-  {
-    if (!one->refusal().isEmpty())
-    {
-      Q_EMIT refused(one->refusal());
-      return;
-    }
-  }
-  Q_EMIT refused({});
+  const QString newest = field.refusal();
+  markRefused(field, !newest.isEmpty());
+  Q_EMIT refused(newest.isEmpty() ? refusal() : newest);
+}
+
+QString PressBar::refusal() const
+{
+  return depth_->refusal().isEmpty() ? speed_->refusal() : depth_->refusal();
 }
 
 PlacedPresses PressBar::presses() const
 {
-  for (const QuantityBox* field : { depth_, speed_ })
+  if (const QString reason = refusal(); !reason.isEmpty())
   {
-    if (!field->refusal().isEmpty())
-    {
-      throw Error(ErrorCode::BadValue, field->refusal().toStdString());
-    }
+    throw Error(ErrorCode::BadValue, reason.toStdString());
   }
   return { .places = { parsePlace(place_->text().toStdString(), "Place") },
     .depth = depth_->si(),

@@ -39,6 +39,7 @@ Q_SIGNALS:
 
 private:
   void tellRefusal(QuantityBox& field);
+  [[nodiscard]] QString refusal() const; // that stands; empty: none
   void addField(const QString& label, const QString& what, QWidget* field);
 
   QLineEdit* place_;
