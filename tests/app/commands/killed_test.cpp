@@ -56,10 +56,8 @@ void restore(const std::filesystem::path& folder, const Files& files)
 
 #ifdef PALP_SLOW
 constexpr int kUsual = 1000;
-constexpr unsigned kMostEvents = 40; // of a report before it is killed
 #else
 constexpr int kUsual = 2;
-constexpr unsigned kMostEvents = 3;
 #endif
 
 // PALP_KILLS sets another number
@@ -264,7 +262,7 @@ TEST_F(Killed, Report)
       std::this_thread::sleep_for(std::chrono::duration<double>(wait(random)));
       if (i % 2 == 1)
       {
-        events.wait(static_cast<int>(random() % kMostEvents), victim);
+        events.wait(static_cast<int>(random() % 3), victim);
       }
       ended = victim.ended();
     }
