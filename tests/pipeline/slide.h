@@ -139,4 +139,30 @@ inline bool hasEdgeWithin(const Surface& surface, const Tool& tool, const Pose& 
     findClosestPoint(Surface(points, turned), pose.middle, tool.radius).triangle >= 0;
 }
 
+// Clefts between walls that lead back: over half of the contact's radius the nearest triangle turns
+// by more than the tool itself, but less over all of it.
+inline bool hasCleftAt(const std::vector<Pose>& poses, const Tool& tool, std::size_t place)
+{
+  const double stretch = 0.5 * std::sqrt(tool.depth * (2.0 * tool.radius - tool.depth));
+  for (std::size_t first = place; poses[place].along - poses[first].along < stretch; --first)
+  {
+    std::size_t last = place;
+    while (last + 1 < poses.size() && poses[last].along - poses[first].along < stretch)
+    {
+      ++last;
+    }
+    const double cosine = poses[first].away.dot(poses[last].away);
+    const double length = poses[last].along - poses[first].along;
+    if (std::acos(std::clamp(cosine, -1.0, 1.0)) * tool.radius > length)
+    {
+      return true;
+    }
+    if (first == 0)
+    {
+      break;
+    }
+  }
+  return false;
+}
+
 } // namespace palp::test
