@@ -27,6 +27,7 @@ enum class Work
 
 void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&));
 void addRunCommand(CLI::App& app, const Renderer* pictures, Work work = Work::Do);
+void addCheckCommand(CLI::App& app);
 void addSceneCommand(CLI::App& app, const Renderer* pictures, int (*view)(const ViewOptions&));
 void addForceCommand(CLI::App& app, Work work = Work::Do);
 void addFitCommand(CLI::App& app, const Renderer* pictures);

@@ -83,6 +83,7 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
   addSceneCommand(app, parts.pictures, parts.view);
+  addCheckCommand(app);
   addForceCommand(app);
   addFitCommand(app, parts.pictures);
   addCalibrateCommand(app, parts.pictures);

@@ -41,32 +41,65 @@ bool overlaps(const BoxTree::Node& box, const Facet& facet) noexcept
   return true;
 }
 
+// visits the places where an edge of a facet passes through another one, while that asks for more
+template <typename Visit>
+void forCrossings(const BoxTree& tree, std::span<const Triangle> triangles, Visit visit)
+{
+  bool more = true;
+  for (int i = 0; at(i) < tree.facets().size() && more; ++i)
+  {
+    const Facet& facet = tree.facets()[at(i)];
+    const Triangle& own = triangles[at(tree.triangle(i))];
+    tree.search([&](const BoxTree::Node& box) { return more && overlaps(box, facet); },
+      [&](int j)
+      {
+        const Triangle& other = triangles[at(tree.triangle(j))];
+        const auto isShared = [&](int point) { return std::ranges::count(other, point) > 0; };
+        for (std::size_t k = 0; k < 3 && more; ++k)
+        {
+          const std::size_t next = (k + 1) % 3;
+          if (isShared(own[k]) || isShared(own[next]))
+          {
+            continue;
+          }
+          if (const auto place =
+                pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]))
+          {
+            more = visit(tree.triangle(i), tree.triangle(j), *place);
+          }
+        }
+      });
+  }
+}
+
 } // namespace
 
 std::optional<Eigen::Vector3d> findCrossing(
   const BoxTree& tree, std::span<const Triangle> triangles)
 {
   std::optional<Eigen::Vector3d> found;
-  for (int i = 0; at(i) < tree.facets().size() && !found; ++i)
-  {
-    const Facet& facet = tree.facets()[at(i)];
-    const Triangle& own = triangles[at(tree.triangle(i))];
-    tree.search([&](const BoxTree::Node& box) { return !found && overlaps(box, facet); },
-      [&](int j)
-      {
-        const Triangle& other = triangles[at(tree.triangle(j))];
-        const auto isShared = [&](int point) { return std::ranges::count(other, point) > 0; };
-        for (std::size_t k = 0; k < 3 && !found; ++k)
-        {
-          const std::size_t next = (k + 1) % 3;
-          if (!isShared(own[k]) && !isShared(own[next]))
-          {
-            found = pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]);
-          }
-        }
-      });
-  }
+  forCrossings(tree, triangles,
+    [&](int, int, const Eigen::Vector3d& place)
+    {
+      found = place;
+      return false;
+    });
   return found;
+}
+
+std::vector<int> crossingTriangles(const BoxTree& tree, std::span<const Triangle> triangles)
+{
+  std::vector<int> all;
+  forCrossings(tree, triangles,
+    [&](int one, int other, const Eigen::Vector3d&)
+    {
+      all.insert(all.end(), { one, other });
+      return true;
+    });
+  std::ranges::sort(all);
+  const auto rest = std::ranges::unique(all);
+  all.erase(rest.begin(), rest.end());
+  return all;
 }
 
 } // namespace palp

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace palp
 {
@@ -14,6 +15,12 @@ namespace palp
 ///
 /// @param triangles  that the tree was built of
 [[nodiscard]] std::optional<Eigen::Vector3d> findCrossing(
+  const BoxTree& tree, std::span<const Triangle> triangles);
+
+/// The triangles that pass through others, or that others pass through, each once and in order.
+///
+/// @param triangles  that the tree was built of
+[[nodiscard]] std::vector<int> crossingTriangles(
   const BoxTree& tree, std::span<const Triangle> triangles);
 
 } // namespace palp

@@ -63,34 +63,6 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   return text.str();
 }
 
-FileSurface readElsewhere(const std::filesystem::path& file, const ImagePart& part)
-{
-  std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
-  const auto add = [&](const char* kind, double value)
-  {
-    char digits[32];
-    command.emplace_back(
-      kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
-  };
-  if (part.level)
-  {
-    add("level=", *part.level);
-  }
-  for (const double label : part.labels)
-  {
-    add("label=", label);
-  }
-  const auto answer = answerOf(command);
-  auto surface = answer ? unpack(*answer) : std::nullopt;
-  if (!surface)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() +
-        ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
-  }
-  return *std::move(surface);
-}
-
 // by way of memory, as VTK would tell of a full disk in its own words
 void writeVtp(const std::filesystem::path& file, vtkPolyData& data)
 {
@@ -123,9 +95,37 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 
 } // namespace
 
+FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
+{
+  std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
+  const auto add = [&](const char* kind, double value)
+  {
+    char digits[32];
+    command.emplace_back(
+      kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
+  };
+  if (part.level)
+  {
+    add("level=", *part.level);
+  }
+  for (const double label : part.labels)
+  {
+    add("label=", label);
+  }
+  const auto answer = answerOf(command);
+  auto surface = answer ? unpack(*answer) : std::nullopt;
+  if (!surface)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() +
+        ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
+  }
+  return *std::move(surface);
+}
+
 LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
 {
-  return madeReady(readElsewhere(file, part), file, unit);
+  return madeReady(readFileSurface(file, part), file, unit);
 }
 
 LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)

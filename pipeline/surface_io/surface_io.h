@@ -38,6 +38,11 @@ struct LoadedSurface
 [[nodiscard]] LoadedSurface readSurface(
   const std::filesystem::path& file, UnitChoice unit = {}, const ImagePart& part = {});
 
+/// What a file holds, as it stands there: read by a process of its own.
+/// @throws Error  BadFile: unreadable, or not of its format; BadMesh: no surface in it
+[[nodiscard]] FileSurface readFileSurface(
+  const std::filesystem::path& file, const ImagePart& part = {});
+
 /// What readSurface makes of what a file holds.
 /// @param file    its name, for messages
 /// @throws Error  BadMesh: as readSurface

@@ -3,7 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/surface/box_tree.h"
 #include "haptics/surface/edges.h"
-#include "pipeline/model/coincident_points.h"
+#include "pipeline/model/merged_mesh.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_facing.h"
 
@@ -14,57 +14,16 @@
 
 namespace palp
 {
-namespace
-{
-
-// points that are used, each once; triangles that have three corners
-struct Merged
-{
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Triangle> triangles;
-  std::size_t dropped = 0;
-};
-
-Merged merged(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
-{
-  const std::vector<int> first = firstOfEach(points);
-  std::vector<int> number(points.size(), -1);
-  Merged result;
-  result.triangles.reserve(triangles.size());
-  for (Triangle t : triangles)
-  {
-    std::ranges::transform(t, t.begin(), [&](int corner) { return first[at(corner)]; });
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-    {
-      ++result.dropped;
-      continue;
-    }
-    for (int& corner : t)
-    {
-      int& known = number[at(corner)];
-      if (known < 0)
-      {
-        known = static_cast<int>(result.points.size());
-        result.points.emplace_back(points[at(corner)].cast<float>().cast<double>());
-      }
-      corner = known;
-    }
-    result.triangles.push_back(t);
-  }
-  return result;
-}
-
-} // namespace
 
 RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   std::span<const Triangle> fileTriangles, const std::string& name)
 {
   RepairedSurface result;
-  Merged mesh = merged(filePoints, fileTriangles);
-  if (mesh.dropped > 0)
+  MergedMesh mesh = mergedMesh(filePoints, fileTriangles);
+  if (const std::size_t dropped = fileTriangles.size() - mesh.triangles.size(); dropped > 0)
   {
     result.notes.push_back(
-      counted(mesh.dropped, "triangle whose corners coincide", "triangles whose corners coincide") +
+      counted(dropped, "triangle whose corners coincide", "triangles whose corners coincide") +
       " dropped");
   }
   if (std::ranges::none_of(
@@ -114,7 +73,7 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
       " within another, facing as it does: left out, as a part of it");
     std::size_t i = 0;
     std::erase_if(mesh.triangles, [&](const Triangle&) { return facing.within[i++]; });
-    mesh = merged(mesh.points, mesh.triangles);
+    mesh = mergedMesh(mesh.points, mesh.triangles);
   }
   result.mesh = makePolyData(mesh.points, mesh.triangles);
   return result;

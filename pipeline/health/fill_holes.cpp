@@ -1,0 +1,138 @@
+#include "pipeline/health/fill_holes.h"
+
+#include "haptics/surface/edges.h"
+#include "pipeline/health/open_sides.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+constexpr std::size_t kMostEdges = 500;
+
+// the points around a border, against the way in which its triangles go
+std::vector<int> chainOf(std::span<const Triangle> triangles, const std::vector<Side>& border)
+{
+  std::vector<int> chain;
+  for (const auto& [triangle, k] : border)
+  {
+    chain.push_back(triangles[at(triangle)][at(k)]);
+  }
+  std::ranges::reverse(chain);
+  return chain;
+}
+
+// The edges within a filling, each once. None of them may be there already: the filling would lie
+// on the surface, or not be a manifold with it.
+std::vector<std::array<int, 2>> innerEdges(
+  const std::vector<Triangle>& filling, const std::vector<int>& chain)
+{
+  std::vector<std::array<int, 2>> all =
+    palp::edgesOf(static_cast<std::size_t>(std::ranges::max(chain)) + 1, filling).all;
+  for (std::size_t i = 0; i < chain.size(); ++i)
+  {
+    const auto [low, high] = std::minmax(chain[i], chain[(i + 1) % chain.size()]);
+    std::erase(all, std::array{ low, high });
+  }
+  return all;
+}
+
+// goes around once and ends where it began
+bool isClosed(std::span<const Triangle> triangles, const std::vector<Side>& border)
+{
+  const auto& [triangle, k] = border.back();
+  const auto& [firstTriangle, firstK] = border.front();
+  return border.size() >= 3 &&
+    triangles[at(triangle)][(at(k) + 1) % 3] == triangles[at(firstTriangle)][at(firstK)];
+}
+
+} // namespace
+
+double lengthAround(std::span<const Eigen::Vector3d> points, std::span<const int> chain)
+{
+  double length = 0.0;
+  for (std::size_t i = 0; i < chain.size(); ++i)
+  {
+    length += (points[at(chain[(i + 1) % chain.size()])] - points[at(chain[i])]).norm();
+  }
+  return length;
+}
+
+std::vector<Triangle> smallestFilling(
+  std::span<const Eigen::Vector3d> points, std::span<const int> chain)
+{
+  const std::size_t n = chain.size();
+  // of the part of the chain from i to j, closed by the line between them
+  std::vector<double> least(n * n, 0.0);
+  std::vector<std::size_t> apex(n * n, 0);
+  const auto position = [&](std::size_t i) -> const Eigen::Vector3d&
+  { return points[at(chain[i])]; };
+  for (std::size_t length = 2; length < n; ++length)
+  {
+    for (std::size_t i = 0, j = length; j < n; ++i, ++j)
+    {
+      least[i * n + j] = std::numeric_limits<double>::infinity();
+      for (std::size_t k = i + 1; k < j; ++k)
+      {
+        const double area = (position(k) - position(i)).cross(position(j) - position(i)).norm();
+        if (const double sum = least[i * n + k] + area + least[k * n + j]; sum < least[i * n + j])
+        {
+          least[i * n + j] = sum;
+          apex[i * n + j] = k;
+        }
+      }
+    }
+  }
+  std::vector<Triangle> result;
+  std::vector<std::pair<std::size_t, std::size_t>> parts{ { 0, n - 1 } };
+  while (!parts.empty())
+  {
+    const auto [i, j] = parts.back();
+    parts.pop_back();
+    if (j - i >= 2)
+    {
+      const std::size_t k = apex[i * n + j];
+      result.push_back({ chain[i], chain[k], chain[j] });
+      parts.insert(parts.end(), { { i, k }, { k, j } });
+    }
+  }
+  return result;
+}
+
+std::size_t fillHoles(
+  std::span<const Eigen::Vector3d> points, std::vector<Triangle>& triangles, double longest)
+{
+  const Edges edges = edgesOf(points.size(), triangles);
+  const std::vector<std::vector<Side>> holes = borders(triangles, edges);
+  std::set<std::array<int, 2>> known(edges.all.begin(), edges.all.end());
+  std::size_t count = 0;
+  for (const std::vector<Side>& border : holes)
+  {
+    const std::vector<int> chain = chainOf(triangles, border);
+    const bool isTriangle = std::ranges::all_of(
+      border, [&](const Side& side) { return side.triangle == border.front().triangle; });
+    if (isTriangle || chain.size() > kMostEdges || !isClosed(triangles, border) ||
+      lengthAround(points, chain) > longest)
+    {
+      continue;
+    }
+    const std::vector<Triangle> filling = smallestFilling(points, chain);
+    const std::vector<std::array<int, 2>> inner = innerEdges(filling, chain);
+    if (std::ranges::none_of(inner, [&](const auto& edge) { return known.contains(edge); }))
+    {
+      known.insert(inner.begin(), inner.end());
+      triangles.insert(triangles.end(), filling.begin(), filling.end());
+      ++count;
+    }
+  }
+  return count;
+}
+
+} // namespace palp

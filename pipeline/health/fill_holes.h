@@ -1,0 +1,33 @@
+#pragma once
+
+#include "haptics/surface/box_tree.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace palp
+{
+
+/// Length around a closed chain of points [m].
+[[nodiscard]] double lengthAround(
+  std::span<const Eigen::Vector3d> points, std::span<const int> chain);
+
+/// Closes a chain of points by triangles of the least area in all.
+///
+/// O(n^3); no point is added.
+///
+/// @param chain   3 points or more, in the order in which the triangles are to go around them
+/// @source        Barequet and Sharir, Computer Aided Geometric Design 12(2), 1995
+[[nodiscard]] std::vector<Triangle> smallestFilling(
+  std::span<const Eigen::Vector3d> points, std::span<const int> chain);
+
+/// Closes the holes that are not longer around than a limit, and have at most 500 edges.
+///
+/// @param triangles  turned alike; those that close holes are added
+/// @param longest    [m]
+/// @return           holes that were closed
+std::size_t fillHoles(
+  std::span<const Eigen::Vector3d> points, std::vector<Triangle>& triangles, double longest);
+
+} // namespace palp

@@ -1,0 +1,205 @@
+#include "pipeline/health/slivers.h"
+
+#include <Eigen/Geometry>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace palp
+{
+namespace
+{
+
+struct Traits : OpenMesh::DefaultTraits
+{
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using Halfedge = OpenMesh::HalfedgeHandle;
+using Vertex = OpenMesh::VertexHandle;
+
+constexpr double kTurn = 0.9; // cosine
+
+Eigen::Vector3d placeOf(const HalfEdges& mesh, Vertex vertex)
+{
+  return Eigen::Vector3d(mesh.point(vertex).data());
+}
+
+Eigen::Vector3d normalOf(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  return (b - a).cross(c - a).normalized();
+}
+
+// the sides of a triangle, the shortest first
+std::array<Halfedge, 3> sidesOf(const HalfEdges& mesh, OpenMesh::FaceHandle face)
+{
+  const Halfedge first = mesh.halfedge_handle(face);
+  const Halfedge second = mesh.next_halfedge_handle(first);
+  std::array<Halfedge, 3> sides{ first, second, mesh.next_halfedge_handle(second) };
+  std::ranges::sort(sides, {}, [&](Halfedge side) { return mesh.calc_edge_sqr_length(side); });
+  return sides;
+}
+
+double flatnessOf(const HalfEdges& mesh, OpenMesh::FaceHandle face)
+{
+  const Halfedge side = mesh.halfedge_handle(face);
+  return flatness(placeOf(mesh, mesh.from_vertex_handle(side)),
+    placeOf(mesh, mesh.to_vertex_handle(side)),
+    placeOf(mesh, mesh.to_vertex_handle(mesh.next_halfedge_handle(side))));
+}
+
+// whether the triangles around a point keep their normals when it goes to another
+bool keepsNormals(const HalfEdges& mesh, Vertex from, Vertex to)
+{
+  const Eigen::Vector3d there = placeOf(mesh, to);
+  for (const Halfedge out : mesh.voh_range(from))
+  {
+    if (mesh.is_boundary(out))
+    {
+      continue;
+    }
+    const Vertex b = mesh.to_vertex_handle(out);
+    const Vertex c = mesh.to_vertex_handle(mesh.next_halfedge_handle(out));
+    if (b == to || c == to)
+    {
+      continue; // goes away
+    }
+    const Eigen::Vector3d before =
+      normalOf(placeOf(mesh, from), placeOf(mesh, b), placeOf(mesh, c));
+    const Eigen::Vector3d after = normalOf(there, placeOf(mesh, b), placeOf(mesh, c));
+    if (before.dot(after) < kTurn)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool collapse(HalfEdges& mesh, Halfedge shortest)
+{
+  for (const Halfedge way : { shortest, mesh.opposite_halfedge_handle(shortest) })
+  {
+    const Vertex from = mesh.from_vertex_handle(way);
+    const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
+    if (!onBorder && mesh.is_collapse_ok(way) &&
+      keepsNormals(mesh, from, mesh.to_vertex_handle(way)))
+    {
+      mesh.collapse(way);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool flip(HalfEdges& mesh, Halfedge longest)
+{
+  const auto edge = mesh.edge_handle(longest);
+  if (mesh.is_boundary(edge) || !mesh.is_flip_ok(edge))
+  {
+    return false;
+  }
+  const Halfedge behind = mesh.opposite_halfedge_handle(longest);
+  const auto opposite = [&](Halfedge side)
+  { return placeOf(mesh, mesh.to_vertex_handle(mesh.next_halfedge_handle(side))); };
+  const Eigen::Vector3d a = placeOf(mesh, mesh.from_vertex_handle(longest));
+  const Eigen::Vector3d b = placeOf(mesh, mesh.to_vertex_handle(longest));
+  const Eigen::Vector3d c = opposite(longest);
+  const Eigen::Vector3d d = opposite(behind);
+  const Eigen::Vector3d normal = normalOf(b, a, d);
+  const double before = std::min(flatness(a, b, c), flatness(b, a, d));
+  const double after = std::min(flatness(c, a, d), flatness(d, b, c));
+  if (after <= before || normalOf(c, a, d).dot(normal) < kTurn ||
+    normalOf(d, b, c).dot(normal) < kTurn)
+  {
+    return false;
+  }
+  mesh.flip(edge);
+  return true;
+}
+
+std::optional<HalfEdges> halfEdgesOf(
+  const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles)
+{
+  HalfEdges mesh;
+  omerr().disable();
+  for (const Eigen::Vector3d& x : points)
+  {
+    mesh.add_vertex({ x.x(), x.y(), x.z() });
+  }
+  for (const Triangle& t : triangles)
+  {
+    if (!mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid())
+    {
+      return std::nullopt;
+    }
+  }
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
+  return mesh;
+}
+
+std::size_t countOf(const HalfEdges& mesh)
+{
+  return static_cast<std::size_t>(std::ranges::count_if(
+    mesh.faces(), [&](OpenMesh::FaceHandle face) { return flatnessOf(mesh, face) < kSliver; }));
+}
+
+void removeFrom(HalfEdges& mesh)
+{
+  constexpr int kPasses = 3; // one may make room for the next
+  for (int pass = 0; pass < kPasses; ++pass)
+  {
+    for (const OpenMesh::FaceHandle face : mesh.faces())
+    {
+      if (mesh.status(face).deleted() || !(flatnessOf(mesh, face) < kSliver))
+      {
+        continue;
+      }
+      const auto sides = sidesOf(mesh, face);
+      const bool isNeedle =
+        mesh.calc_edge_length(sides[0]) < 2.0 * kSliver * mesh.calc_edge_length(sides[2]);
+      (isNeedle && collapse(mesh, sides[0])) || flip(mesh, sides[2]);
+    }
+  }
+  mesh.garbage_collection();
+}
+
+} // namespace
+
+double flatness(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) noexcept
+{
+  const double longest =
+    std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() });
+  return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
+}
+
+std::size_t removeSlivers(std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles)
+{
+  std::optional<HalfEdges> mesh = halfEdgesOf(points, triangles);
+  const std::size_t before = mesh ? countOf(*mesh) : 0;
+  if (before == 0)
+  {
+    return 0;
+  }
+  removeFrom(*mesh);
+  points.clear();
+  triangles.clear();
+  for (const Vertex vertex : mesh->vertices())
+  {
+    points.push_back(placeOf(*mesh, vertex));
+  }
+  for (const OpenMesh::FaceHandle face : mesh->faces())
+  {
+    Triangle triangle{};
+    std::ranges::transform(mesh->fv_range(face), triangle.begin(), &Vertex::idx);
+    triangles.push_back(triangle);
+  }
+  return before - std::min(before, countOf(*mesh));
+}
+
+} // namespace palp

@@ -1,0 +1,58 @@
+#include "pipeline/model/merged_mesh.h"
+
+#include "pipeline/model/coincident_points.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palp
+{
+
+MergedMesh mergedMesh(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
+{
+  const std::vector<int> first = firstOfEach(points);
+  std::vector<int> number(points.size(), -1);
+  MergedMesh result;
+  result.triangles.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    Triangle t = triangles[i];
+    std::ranges::transform(t, t.begin(), [&](int corner) { return first[at(corner)]; });
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+    {
+      continue;
+    }
+    for (int& corner : t)
+    {
+      int& known = number[at(corner)];
+      if (known < 0)
+      {
+        known = static_cast<int>(result.points.size());
+        result.points.emplace_back(points[at(corner)].cast<float>().cast<double>());
+      }
+      corner = known;
+    }
+    result.triangles.push_back(t);
+    result.from.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles)
+{
+  std::vector<std::pair<Triangle, std::size_t>> sorted(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    sorted[i] = { triangles[i], i };
+    std::ranges::sort(sorted[i].first);
+  }
+  std::ranges::sort(sorted);
+  std::vector<bool> result(triangles.size());
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+  {
+    result[sorted[i].second] = sorted[i].first == sorted[i - 1].first;
+  }
+  return result;
+}
+
+} // namespace palp

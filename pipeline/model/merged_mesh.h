@@ -1,0 +1,30 @@
+#pragma once
+
+#include "haptics/surface/box_tree.h"
+
+#include <span>
+#include <vector>
+
+namespace palp
+{
+
+/// Triangles that share their corners.
+struct MergedMesh
+{
+  std::vector<Eigen::Vector3d> points; ///< each once, in single precision; all are used
+  std::vector<Triangle> triangles;     ///< of three different corners
+  std::vector<int> from;               ///< of each triangle: which one of those given it was
+};
+
+/// Merges points that coincide, and leaves out those without a triangle as well as triangles
+/// whose corners coincide.
+///
+/// @param points     finite
+/// @param triangles  indices in range
+[[nodiscard]] MergedMesh mergedMesh(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles);
+
+/// Which triangles stand between the same three points as an earlier one, however turned.
+[[nodiscard]] std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles);
+
+} // namespace palp

@@ -1,0 +1,72 @@
+#include "data/shapes.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "tests/support/process.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <vtkPolyData.h>
+
+namespace palp
+{
+namespace
+{
+
+class CheckCommand : public testing::Test
+{
+protected:
+  // a ball of 30 mm without a few of its triangles
+  std::filesystem::path holedBall()
+  {
+    Mesh ball = makeSphere(0.03, 3);
+    ball.triangles.erase(ball.triangles.begin() + 10);
+    ball.triangles.erase(ball.triangles.begin() + 500);
+    const std::filesystem::path file = folder_.path() / "holed.stl";
+    writeSurface(file, *makePolyData(ball.points, ball.triangles));
+    return file;
+  }
+
+  test::Finished check(const std::string& arguments)
+  {
+    return test::runCommand(PALP_PROGRAM " check " + arguments);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CheckCommand, NamesWhatDisturbsAPressAndWhere)
+{
+  const test::Finished finished = check(holedBall().string() + " --unit mm");
+  EXPECT_EQ(finished.code, 7) << finished.err;
+  EXPECT_NE(finished.out.find("\nhole,2,"), std::string::npos) << finished.out;
+  EXPECT_NE(finished.out.find("duplicate point"), std::string::npos) << finished.out;
+  EXPECT_EQ(finished.out.find("sliver"), std::string::npos) << finished.out;
+  EXPECT_EQ(check(PALP_SHARE "/meshes/liver.vtp").code, 0);
+}
+
+TEST_F(CheckCommand, RepairsIntoAnotherFileOnly)
+{
+  const std::filesystem::path ball = holedBall();
+  const std::string out = (folder_.path() / "whole.ply").string();
+  const std::string line = ball.string() + " --unit mm --close-holes 30mm --repair ";
+  const test::Finished finished = check(line + out);
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_NE(finished.out.find("2 holes closed"), std::string::npos) << finished.out;
+  EXPECT_TRUE(readSurface(out, LengthUnit::Millimeter).closed);
+  EXPECT_EQ(check(line + out).code, 2); // is there
+  EXPECT_EQ(check(line + out + " --overwrite").code, 0);
+  EXPECT_EQ(check(line + ball.string() + " --overwrite").code, 2); // is what is read
+  EXPECT_EQ(check(line + (folder_.path() / "whole.txt").string()).code, 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
+}
+
+TEST_F(CheckCommand, MarksTheFaultsOfTriangles)
+{
+  const std::string out = (folder_.path() / "faults.vtp").string();
+  EXPECT_EQ(check(holedBall().string() + " --unit mm --faults " + out).code, 7);
+  const std::string text = test::readAll(out);
+  EXPECT_NE(text.find("Name=\"fault\""), std::string::npos);
+}
+
+} // namespace
+} // namespace palp

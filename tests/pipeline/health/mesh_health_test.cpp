@@ -1,0 +1,202 @@
+#include "pipeline/health/mesh_health.h"
+
+#include "tests/pipeline/health/faulty_meshes.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+#include <set>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+MeshHealth healthOf(const Mesh& mesh)
+{
+  return palp::healthOf(mesh.points, mesh.triangles);
+}
+
+// what was found, by name and count
+std::string found(const MeshHealth& health)
+{
+  std::string all;
+  for (const Finding& one : health.findings)
+  {
+    all += std::string(nameOf(one.fault)) + " " + std::to_string(one.count) + "; ";
+  }
+  return all;
+}
+
+TEST(MeshHealth, OfASphereIsPerfect)
+{
+  const Mesh sphere = makeSphere(0.03, 4);
+  const MeshHealth health = healthOf(sphere);
+  EXPECT_EQ(found(health), "");
+  ASSERT_EQ(health.pieces.size(), 1U);
+  EXPECT_TRUE(health.pieces[0].closed);
+  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(0.03, 3);
+  EXPECT_LT(health.pieces[0].volume, ball);
+  EXPECT_GT(health.pieces[0].volume, 0.98 * ball);
+  EXPECT_EQ(health.edgeLengths.size(), 30U << 8U); // 30 of the icosahedron, four times as many each
+  EXPECT_NEAR((health.high - health.low).maxCoeff(), 0.06, 1e-4);
+}
+
+// as STL has it: three points a triangle
+TEST(MeshHealth, OfLooseTrianglesIsThatOfThoseThatShareTheirPoints)
+{
+  const Mesh sphere = makeSphere(0.03, 3);
+  Mesh loose;
+  for (const Triangle& triangle : sphere.triangles)
+  {
+    for (const int corner : triangle)
+    {
+      loose.points.push_back(sphere.points[at(corner)]);
+    }
+    const auto first = static_cast<int>(loose.points.size()) - 3;
+    loose.triangles.push_back({ first, first + 1, first + 2 });
+  }
+  const std::size_t doubles = 3 * sphere.triangles.size() - sphere.points.size();
+  EXPECT_EQ(found(healthOf(loose)), "duplicate point " + std::to_string(doubles) + "; ");
+}
+
+TEST(MeshHealth, CountsHolesAndMeasuresTheWidest)
+{
+  Mesh sphere = makeSphere(0.03, 3);
+  // one triangle here, all of a point's there
+  const Vector3d top = sphere.points[at(sphere.triangles[200][0])];
+  const Triangle gone = sphere.triangles[900];
+  sphere.triangles.erase(sphere.triangles.begin() + 900);
+  const int hub = sphere.triangles[200][0];
+  double around = 0.0;
+  std::erase_if(sphere.triangles,
+    [&](const Triangle& t)
+    {
+      const auto corner = std::ranges::find(t, hub) - t.begin();
+      if (corner == 3)
+      {
+        return false;
+      }
+      const auto k = static_cast<std::size_t>(corner);
+      around += (sphere.points[at(t[(k + 1) % 3])] - sphere.points[at(t[(k + 2) % 3])]).norm();
+      return true;
+    });
+  ASSERT_EQ(std::ranges::count(gone, hub), 0);
+  const MeshHealth health = healthOf(sphere);
+  EXPECT_EQ(found(health), "unused point 1; hole 2; ");
+  const Finding* holes = health.find(Fault::Hole);
+  ASSERT_NE(holes, nullptr);
+  EXPECT_NEAR(holes->size, around, 1e-6 * around);
+  EXPECT_LT((holes->place - top).norm(), 0.2 * around);
+  EXPECT_FALSE(health.pieces[0].closed);
+}
+
+TEST(MeshHealth, CountsWhatIsThereTwiceAndWhatFacesTheOtherWay)
+{
+  Mesh sphere = makeSphere(0.03, 3);
+  std::mt19937 random(3);
+  std::set<std::size_t> flipped;
+  while (flipped.size() < 40)
+  {
+    flipped.insert(random() % sphere.triangles.size());
+  }
+  for (const std::size_t i : flipped)
+  {
+    std::swap(sphere.triangles[i][0], sphere.triangles[i][1]);
+  }
+  for (std::size_t i = 0; i < 7; ++i)
+  {
+    Triangle again = sphere.triangles[100 * i];
+    std::ranges::rotate(again, again.begin() + static_cast<std::ptrdiff_t>(i % 3));
+    i % 2 == 0 ? void() : std::swap(again[0], again[1]);
+    sphere.triangles.push_back(again);
+  }
+  const MeshHealth health = healthOf(sphere);
+  EXPECT_EQ(found(health), "duplicate triangle 7; flipped triangle 40; ");
+  const Finding* turned = health.find(Fault::Flipped);
+  EXPECT_EQ(std::set<std::size_t>(turned->triangles.begin(), turned->triangles.end()), flipped);
+}
+
+TEST(MeshHealth, SeesWherePartsMeetInAnEdgeOrAPointOnly)
+{
+  Mesh edge = cube();
+  add(edge, cube(), { 1.0, 1.0, 0.0 });
+  EXPECT_EQ(found(healthOf(edge)), "duplicate point 2; non-manifold edge 1; ");
+  Mesh point = cube();
+  add(point, cube(), { 1.0, 1.0, 1.0 });
+  EXPECT_EQ(found(healthOf(point)), "duplicate point 1; non-manifold point 1; ");
+}
+
+TEST(MeshHealth, SeesThinTriangles)
+{
+  Mesh flat{ .points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0.009, 0 }, { 0.5, -0.011, 0 },
+               { 0.5, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } },
+    .triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 4, 5, 6 }, { 5, 5, 6 } } };
+  const MeshHealth health = healthOf(flat);
+  ASSERT_NE(health.find(Fault::Degenerate), nullptr);
+  EXPECT_EQ(health.find(Fault::Degenerate)->triangles, (std::vector{ 2, 3 }));
+  ASSERT_NE(health.find(Fault::Sliver), nullptr);
+  EXPECT_EQ(health.find(Fault::Sliver)->triangles, std::vector{ 0 });
+}
+
+// two balls that pass through each other meet in a circle
+TEST(MeshHealth, FindsTheTrianglesThatPassThroughOthers)
+{
+  constexpr double radius = 0.03;
+  constexpr double apart = 0.035;
+  Mesh balls = makeSphere(radius, 4);
+  const std::size_t first = balls.triangles.size();
+  add(balls, makeSphere(radius, 3), { apart, 0.0, 0.0 });
+  const MeshHealth health = healthOf(balls);
+  const Finding* crossing = health.find(Fault::SelfIntersection);
+  ASSERT_NE(crossing, nullptr);
+  const double circle = std::sqrt(radius * radius - 0.25 * apart * apart);
+  const std::set<int> marked(crossing->triangles.begin(), crossing->triangles.end());
+  const double edge = health.edgeLengths.back();
+  int sure = 0;
+  for (std::size_t i = 0; i < balls.triangles.size(); ++i)
+  {
+    int inside = 0;
+    int outside = 0;
+    for (const int corner : balls.triangles[i])
+    {
+      const Vector3d& x = balls.points[at(corner)];
+      const Vector3d other(i < first ? apart : 0.0, 0.0, 0.0);
+      constexpr double rough = 0.03; // of the radius, by which facets lie below the ball
+      inside += (x - other).norm() < (1.0 - rough) * radius;
+      outside += (x - other).norm() > radius;
+      if (marked.contains(static_cast<int>(i)))
+      {
+        const double off = std::hypot(x.x() - 0.5 * apart, std::hypot(x.y(), x.z()) - circle);
+        EXPECT_LT(off, 1.5 * edge) << i;
+      }
+    }
+    if (inside > 0 && outside > 0)
+    {
+      ++sure;
+      EXPECT_TRUE(marked.contains(static_cast<int>(i))) << i;
+    }
+  }
+  EXPECT_GT(sure, 20);
+}
+
+TEST(MeshHealth, TellsAPieceWithinAnotherFromAHollow)
+{
+  Mesh nested = makeSphere(0.03, 3);
+  Mesh inner = makeSphere(0.01, 2);
+  add(nested, inner, Vector3d::Zero());
+  EXPECT_EQ(found(healthOf(nested)), "inner piece 1; ");
+  Mesh hollow = makeSphere(0.03, 3);
+  for (Triangle& t : inner.triangles)
+  {
+    std::swap(t[0], t[1]);
+  }
+  add(hollow, inner, Vector3d::Zero());
+  EXPECT_EQ(found(healthOf(hollow)), "");
+  EXPECT_EQ(healthOf(hollow).pieces.size(), 2U);
+}
+
+} // namespace
+} // namespace palp::test

@@ -1,0 +1,228 @@
+#include "pipeline/health/mesh_repair.h"
+
+#include "pipeline/health/fill_holes.h"
+#include "pipeline/health/mesh_health.h"
+#include "tests/pipeline/health/faulty_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+RepairedMesh repaired(const Mesh& mesh, double largestHole = 0.0)
+{
+  return repairedMesh(mesh.points, mesh.triangles, largestHole);
+}
+
+MeshHealth healthOf(const RepairedMesh& mesh)
+{
+  return palp::healthOf(mesh.points, mesh.triangles);
+}
+
+TEST(MeshRepair, LeavesAPerfectSurfaceAlone)
+{
+  const Mesh sphere = makeSphere(0.03, 3);
+  const RepairedMesh same = repaired(sphere, 1.0);
+  ASSERT_EQ(same.triangles.size(), sphere.triangles.size());
+  for (std::size_t i = 0; i < sphere.triangles.size(); ++i)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Vector3d& before = sphere.points[at(sphere.triangles[i][k])];
+      EXPECT_LT((same.points[at(same.triangles[i][k])] - before).norm(), 1e-8); // single precision
+    }
+  }
+  EXPECT_EQ(same.merged + same.removed + same.slivers + same.split + same.filled + same.turned, 0U);
+}
+
+TEST(MeshRepair, MergesRemovesAndTurns)
+{
+  const Mesh sphere = makeSphere(0.03, 3);
+  Mesh faulty = sphere;
+  faulty.points.emplace_back(1.0, 2.0, 3.0); // unused
+  faulty.points.push_back(sphere.points[at(sphere.triangles[5][1])]);
+  faulty.triangles[5][1] = static_cast<int>(faulty.points.size()) - 1; // at the place of another
+  faulty.triangles.push_back(sphere.triangles[7]);
+  faulty.triangles.push_back({ 3, 3, 4 });
+  for (const std::size_t i : { 20U, 300U, 301U })
+  {
+    std::swap(faulty.triangles[i][1], faulty.triangles[i][2]);
+  }
+  const RepairedMesh mended = repaired(faulty);
+  EXPECT_EQ(mended.merged, 2U);
+  EXPECT_EQ(mended.removed, 2U);
+  EXPECT_EQ(mended.turned, 3U);
+  EXPECT_TRUE(healthOf(mended).findings.empty());
+  EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volumeOf(sphere.points, sphere.triangles),
+    1e-6 * std::pow(0.03, 3));
+}
+
+// of any simple polygon in a plane every triangulation has the area that the shoelace formula gives
+TEST(MeshRepair, FillsAStarByItsArea)
+{
+  std::vector<Vector3d> points;
+  std::vector<int> chain;
+  const Eigen::Matrix3d tilt =
+    Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  double twice = 0.0;
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  constexpr int corners = 17;
+  for (int i = 0; i <= 2 * corners; ++i)
+  {
+    const double angle = std::numbers::pi * i / corners;
+    const double r = i % 2 == 0 ? 1.0 : 0.35;
+    const Eigen::Vector2d x(r * std::cos(angle), r * std::sin(angle));
+    twice += i > 0 ? last.x() * x.y() - last.y() * x.x() : 0.0;
+    last = x;
+    if (i < 2 * corners)
+    {
+      points.emplace_back(tilt * Vector3d(x.x(), x.y(), 0.0));
+      chain.push_back(i);
+    }
+  }
+  const std::vector<Triangle> filling = smallestFilling(points, chain);
+  EXPECT_EQ(filling.size(), chain.size() - 2);
+  double area = 0.0;
+  for (const auto& [a, b, c] : filling)
+  {
+    area += 0.5 * (points[at(b)] - points[at(a)]).cross(points[at(c)] - points[at(a)]).norm();
+  }
+  EXPECT_NEAR(area, 0.5 * twice, 1e-12);
+}
+
+// the caps of a ball that is cut by planes; the lids are flat
+TEST(MeshRepair, ClosesHolesUpToALength)
+{
+  constexpr double radius = 0.03;
+  Mesh ball = makeSphere(radius, 4);
+  std::erase_if(ball.triangles,
+    [&](const Triangle& t)
+    {
+      const auto highest = [&](auto coordinate)
+      {
+        return std::max({ coordinate(ball.points[at(t[0])]), coordinate(ball.points[at(t[1])]),
+          coordinate(ball.points[at(t[2])]) });
+      };
+      return highest([](const Vector3d& x) { return x.z(); }) > 0.9 * radius ||
+        highest([](const Vector3d& x) { return -x.x(); }) > 0.6 * radius;
+    });
+  const double small = 2.0 * std::numbers::pi * radius * std::sqrt(1.0 - 0.9 * 0.9);
+  const double wide = 2.0 * std::numbers::pi * radius * 0.8;
+  EXPECT_EQ(repaired(ball, 0.5 * small).filled, 0U);
+  EXPECT_EQ(repaired(ball, 0.5 * (small + wide)).filled, 1U);
+  const RepairedMesh whole = repaired(ball, 2.0 * wide);
+  EXPECT_EQ(whole.filled, 2U);
+  EXPECT_TRUE(healthOf(whole).findings.empty());
+  const auto cap = [](double share) // of a unit ball beyond a plane, height h: pi h^2 (3 - h) / 3
+  { return std::numbers::pi * (1.0 - share) * (1.0 - share) * (2.0 + share) / 3.0; };
+  const double expected =
+    (4.0 / 3.0 * std::numbers::pi - cap(0.88) - cap(0.57)) * std::pow(radius, 3);
+  EXPECT_NEAR(volumeOf(whole.points, whole.triangles), expected, 0.03 * expected);
+}
+
+TEST(MeshRepair, PartsBodiesThatTouch)
+{
+  for (const Vector3d& offset : { Vector3d(1.0, 1.0, 0.0), Vector3d(1.0, 1.0, 1.0) })
+  {
+    Mesh touching = cube();
+    add(touching, cube(), offset);
+    const RepairedMesh apart = repaired(touching);
+    EXPECT_GT(apart.split, 0U);
+    const MeshHealth health = healthOf(apart);
+    EXPECT_TRUE(health.findings.empty()) << nameOf(health.findings.front().fault);
+    ASSERT_EQ(health.pieces.size(), 2U);
+    for (const MeshPiece& piece : health.pieces)
+    {
+      EXPECT_TRUE(piece.closed);
+      EXPECT_NEAR(piece.volume, 1.0, 2e-3);
+    }
+  }
+}
+
+// a fin on an edge of a cube, which bounds nothing
+TEST(MeshRepair, TakesAFinOffABody)
+{
+  Mesh mesh = cube();
+  const auto a = static_cast<int>(mesh.points.size());
+  const Triangle& side = mesh.triangles[0];
+  const Vector3d middle(0.0, 0.0, -0.5); // of the cube
+  const Vector3d edge = 0.5 * (mesh.points[at(side[0])] + mesh.points[at(side[1])]);
+  mesh.points.emplace_back(middle + 3.0 * (edge - middle));
+  mesh.triangles.push_back({ side[0], side[1], a });
+  const MeshHealth health = healthOf(repaired(mesh));
+  EXPECT_EQ(health.find(Fault::NonManifoldEdge), nullptr);
+  EXPECT_EQ(health.find(Fault::NonManifoldPoint), nullptr);
+  ASSERT_EQ(health.pieces.size(), 2U);
+  EXPECT_TRUE(health.pieces[0].closed);
+  EXPECT_NEAR(health.pieces[0].volume, 1.0, 2e-3);
+  EXPECT_EQ(health.pieces[1].triangles, 1U);
+}
+
+// a point on an edge that only one of its triangles knows, with a triangle of no area between, and
+// one that lies a hair beside another
+TEST(MeshRepair, RemovesFlatTrianglesAndNeedles)
+{
+  Mesh mesh = makeSphere(0.03, 2);
+  const double volume = volumeOf(mesh.points, mesh.triangles);
+  const auto [a, b, c] = mesh.triangles[10];
+  const auto m = static_cast<int>(mesh.points.size());
+  mesh.points.emplace_back(0.5 * (mesh.points[at(a)] + mesh.points[at(b)]));
+  mesh.triangles[10] = { a, m, c };
+  mesh.triangles.push_back({ m, b, c });
+  mesh.triangles.push_back({ a, b, m });
+  const auto [d, e, f] = mesh.triangles[100];
+  const auto n = m + 1;
+  mesh.points.emplace_back(mesh.points[at(d)] + 1e-3 * (mesh.points[at(e)] - mesh.points[at(d)]) +
+    1e-3 * (mesh.points[at(f)] - mesh.points[at(d)]));
+  mesh.triangles[100] = { n, e, f };
+  mesh.triangles.push_back({ d, e, n });
+  mesh.triangles.push_back({ d, n, f });
+  const MeshHealth before = palp::healthOf(mesh.points, mesh.triangles);
+  ASSERT_NE(before.find(Fault::Degenerate), nullptr);
+  ASSERT_NE(before.find(Fault::Sliver), nullptr);
+  const RepairedMesh mended = repaired(mesh);
+  EXPECT_GE(mended.slivers, 3U);
+  EXPECT_TRUE(healthOf(mended).findings.empty());
+  EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-3 * volume);
+}
+
+// whatever the triangles: what comes out is a manifold
+TEST(MeshRepair, OfRandomTrianglesIsAManifold)
+{
+  for (unsigned seed = 0; seed < 300; ++seed)
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-0.05, 0.05);
+    Mesh mesh;
+    const int points = std::uniform_int_distribution(4, 23)(random);
+    std::uniform_int_distribution corner(0, points - 1);
+    for (int i = 0; i < points; ++i)
+    {
+      mesh.points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    }
+    for (int i = 0; i < 3 * points; ++i)
+    {
+      mesh.triangles.push_back({ corner(random), corner(random), corner(random) });
+    }
+    const RepairedMesh mended = repaired(mesh, 0.2);
+    const MeshHealth health = healthOf(mended);
+    for (const Fault fault : { Fault::DuplicatePoint, Fault::UnusedPoint, Fault::DuplicateTriangle,
+           Fault::NonManifoldEdge, Fault::NonManifoldPoint })
+    {
+      const Finding* one = health.find(fault);
+      EXPECT_EQ(one, nullptr) << seed << ": " << nameOf(fault) << " " << (one ? one->count : 0);
+    }
+  }
+}
+
+} // namespace
+} // namespace palp::test
