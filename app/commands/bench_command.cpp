@@ -1,7 +1,7 @@
 #include "app/bench/bench.h"
 #include "app/bench/bench_sweep.h"
 #include "app/commands/commands.h"
-#include "app/commands/renderer.h"
+#include "app/headless/renderer.h"
 #include "app/input/quantity.h"
 #include "app/program/exec_program.h"
 #include "app/program/machine.h"

@@ -1,6 +1,6 @@
 #include "app/commands/calibrate_case.h"
 #include "app/commands/commands.h"
-#include "app/commands/renderer.h"
+#include "app/headless/renderer.h"
 #include "app/input/tip_text.h"
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"

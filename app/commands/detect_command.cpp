@@ -1,5 +1,5 @@
 #include "app/commands/commands.h"
-#include "app/commands/renderer.h"
+#include "app/headless/renderer.h"
 #include "app/input/law_options.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"

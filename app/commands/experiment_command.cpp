@@ -1,5 +1,5 @@
 #include "app/commands/commands.h"
-#include "app/commands/renderer.h"
+#include "app/headless/renderer.h"
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"

@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
-#include "app/commands/renderer.h"
 #include "app/curves/force_curve.h"
+#include "app/headless/renderer.h"
 #include "app/input/law_options.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"

@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/commands/program.h"
-#include "app/commands/renderer.h"
+#include "app/headless/renderer.h"
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/machine.h"

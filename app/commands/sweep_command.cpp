@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
-#include "app/commands/renderer.h"
 #include "app/commands/sweep_case.h"
+#include "app/headless/renderer.h"
 #include "app/program/exec_program.h"
 #include "app/sweep/case_folders.h"
 #include "app/sweep/case_numbers.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/commands/renderer.h"
+#include "app/headless/renderer.h"
 
 namespace palp
 {

@@ -1,8 +1,8 @@
-#include "app/commands/headless.h"
+#include "app/headless/headless.h"
 
-#include "app/commands/renderer.h"
 #include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
+#include "app/headless/renderer.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
 #include "app/press/playback.h"
