@@ -38,6 +38,7 @@ void addExperimentCommand(CLI::App& app, const Renderer* pictures);
 void addReportCommand(CLI::App& app, const Renderer* pictures);
 void addStabilityCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app, const Renderer* pictures);
+void addMapCommand(CLI::App& app);
 void addDetectCommand(CLI::App& app, const Renderer* pictures);
 void addTissuesCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&));

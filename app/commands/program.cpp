@@ -93,6 +93,7 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addStabilityCommand(app);
   addBenchCommand(app, parts.pictures);
   addDetectCommand(app, parts.pictures);
+  addMapCommand(app);
   addPhantomCommand(app);
   addTissuesCommand(app);
   addDevicesCommand(app, parts.devices);

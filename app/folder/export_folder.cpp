@@ -89,7 +89,8 @@ std::vector<MeshFile> readList(JsonObject& object, const char* key)
 std::vector<std::string> exportFiles()
 {
   std::vector<std::string> names{ kScene, kPath, kProvenance, kServo, "samples.csv", "presses.csv",
-    "deformed.vtp", "press.png", "force_time.png", "force_depth.png" };
+    "deformed.vtp", "stiffness_map.csv", "stiffness_map.vtp", "press.png", "force_time.png",
+    "force_depth.png" };
   for (const std::string plot : { "section", "comparison", "extent" })
   {
     for (const std::string& ending : kPlotEndings)

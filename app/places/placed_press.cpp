@@ -150,7 +150,16 @@ private:
   SurfacePoint point_;
 };
 
-ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+// how far a press leads from its place, along the inward normal
+struct Travel
+{
+  Descent descent;
+  Eigen::Vector3d axis;
+  double start;
+  double bottom;
+};
+
+Travel travelOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
   const SurfacePoint point = pressedPoint(place, presses, scene);
   const Descent descent(scene, point);
@@ -160,13 +169,18 @@ ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const
   {
     refusePlace(place, "the tool does not fit there; give another place, or a smaller tool");
   }
-  const double start = *free - kAbove;
-  const double down = (*bottom - start) / presses.speed;
+  return { descent, -point.normal, *free - kAbove, *bottom };
+}
+
+ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+{
+  const auto [descent, axis, start, bottom] = travelOf(place, presses, scene);
+  const double down = (bottom - start) / presses.speed;
   std::vector<PathKnot> knots;
-  for (const auto& [time, travel] : { std::pair(0.0, start), std::pair(down, *bottom),
-         std::pair(down + kRest, *bottom), std::pair(2.0 * down + kRest, start) })
+  for (const auto& [time, travel] : { std::pair(0.0, start), std::pair(down, bottom),
+         std::pair(down + kRest, bottom), std::pair(2.0 * down + kRest, start) })
   {
-    knots.push_back({ .time = time, .apex = descent.apexAt(travel), .axis = -point.normal });
+    knots.push_back({ .time = time, .apex = descent.apexAt(travel), .axis = axis });
   }
   return ScriptedPath(std::move(knots));
 }
@@ -187,6 +201,12 @@ SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses,
         units::inMillimeters(thickness) + " that the body is thick there; give less");
   }
   return point;
+}
+
+ToolPose pressedPose(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+{
+  const Travel travel = travelOf(place, presses, scene);
+  return { .apex = travel.descent.apexAt(travel.bottom), .axis = travel.axis };
 }
 
 std::vector<ScriptedPath> pathsOf(const PlacedPresses& presses, const Scene& scene)

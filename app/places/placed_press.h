@@ -21,6 +21,11 @@ constexpr double kFarthestPlace = 5e-3; ///< of a place that is meant to be on t
 [[nodiscard]] SurfacePoint pressedPoint(
   const PressPlace& place, const PlacedPresses& presses, const Scene& scene);
 
+/// The tool at rest at a place, with the contact as deep as asked; see pathsOf.
+/// @throws Error  BadValue: as pathsOf
+[[nodiscard]] ToolPose pressedPose(
+  const PressPlace& place, const PlacedPresses& presses, const Scene& scene);
+
 /// The motion of each press: from 1 mm above the surface along the inward normal of the point that
 /// is nearest to the place, until the contact is as deep as asked; 0.1 s of rest; and back. Begins
 /// at time 0.

@@ -63,6 +63,7 @@ void showMoment(PressView& view, const PressMoment& moment)
   view.setExtents(moment.calibration.extents);
   view.setStyle(moment.calibration.style);
   view.setLaw(moment.law);
+  view.setMap(moment.map);
   view.show(moment.sample);
 }
 

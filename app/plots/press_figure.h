@@ -24,6 +24,7 @@ struct PressMoment
   const ForceLaw& law;
   const Calibration& calibration;
   const Sample& sample;
+  const SurfaceMap* map = nullptr; ///< colors of the body; null: its own
 };
 
 /// What a figure of it has beside the body, the tool and their dent.

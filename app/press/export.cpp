@@ -28,18 +28,11 @@ Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibrati
   return pressOf(sample, tip, extent, calibration.style);
 }
 
-namespace
-{
-
-// axes that all bodies have in common; empty: unknown
-std::string spaceOf(const Recording& recording)
+std::string spaceOf(const std::vector<MeshFile>& files)
 {
   const auto isLps = [](const MeshFile& file) { return frameOf(file) == "LPS" && !file.moved; };
-  const bool all = !recording.files.empty() && std::ranges::all_of(recording.files, isLps);
-  return all ? "LPS" : "";
+  return !files.empty() && std::ranges::all_of(files, isLps) ? "LPS" : "";
 }
-
-} // namespace
 
 void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
   const Recording& recording, const Calibration& calibration, bool refined)
@@ -66,7 +59,7 @@ void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
   }
   displacement->SetName("Displacement");
   mesh->GetPointData()->AddArray(displacement);
-  writeSurface(file, *mesh, spaceOf(recording));
+  writeSurface(file, *mesh, spaceOf(recording.files));
 }
 
 void writeSamples(

@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QStyle>
 #include <QTimer>
@@ -22,6 +23,7 @@ MessageBar::MessageBar(QWidget* over)
   , icon_(new QLabel)
   , text_(new QLabel)
   , choices_(new QHBoxLayout)
+  , progress_(new QProgressBar)
   , end_(new QTimer(this))
 {
   setObjectName("messageBar");
@@ -38,10 +40,13 @@ MessageBar::MessageBar(QWidget* over)
   close->setToolTip(tr("Close this message"));
   close->setAccessibleName(close->toolTip());
   close->setAutoRaise(true);
+  progress_->setObjectName("progress");
+  progress_->setAccessibleName(tr("Progress"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 3, 6, 3);
   row->addWidget(icon_, 0, Qt::AlignTop);
   row->addWidget(text_, 1);
+  row->addWidget(progress_);
   row->addLayout(choices_);
   row->addWidget(close, 0, Qt::AlignTop);
   end_->setSingleShot(true);
@@ -81,6 +86,17 @@ void MessageBar::ask(const QString& text, const std::vector<Choice>& choices)
   place();
 }
 
+void MessageBar::follow(const QString& text, int percent, const std::function<void()>& cancel)
+{
+  if (progress_->isHidden() || isHidden() || text_->text() != text)
+  {
+    ask(text, { { tr("Cancel"), cancel } });
+    progress_->show();
+    place();
+  }
+  progress_->setValue(percent);
+}
+
 QString MessageBar::text() const
 {
   return isHidden() ? QString() : text_->text();
@@ -91,6 +107,7 @@ void MessageBar::show(const QString& text, bool isWarning)
   const auto icon = isWarning ? QStyle::SP_MessageBoxWarning : QStyle::SP_MessageBoxInformation;
   icon_->setPixmap(style()->standardIcon(icon).pixmap(fontMetrics().height()));
   text_->setText(text);
+  progress_->hide();
   while (QLayoutItem* item = choices_->takeAt(0))
   {
     item->widget()->deleteLater(); // may be the one that was pressed

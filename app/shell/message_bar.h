@@ -8,6 +8,7 @@
 
 class QHBoxLayout;
 class QLabel;
+class QProgressBar;
 class QTimer;
 
 namespace palp
@@ -40,6 +41,10 @@ public:
   /// A question; stays until it is answered or closed, or until there is something newer.
   void ask(const QString& text, const std::vector<Choice>& choices);
 
+  /// How far work is that goes on; stays until there is something newer. To be called again and
+  /// again, with the same text.
+  void follow(const QString& text, int percent, const std::function<void()>& cancel);
+
   /// What is shown; empty: nothing.
   [[nodiscard]] QString text() const;
 
@@ -52,6 +57,7 @@ private:
   QLabel* icon_;
   QLabel* text_;
   QHBoxLayout* choices_;
+  QProgressBar* progress_;
   QTimer* end_;
 };
 

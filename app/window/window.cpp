@@ -113,7 +113,7 @@ void Window::showBody()
   orientation_.setPatient(isPatient(session_.body()));
   pointer_.setSurface(session_.body().haptic);
   fittedTo_ = std::pair(0, 0);
-  isStale_ = true;
+  dropMap();
 }
 
 void Window::takeSamples()
@@ -218,6 +218,7 @@ void Window::showReadings()
 void Window::refreshPanels()
 {
   acted_ = std::exchange(acting_, 0);
+  followMap();
   showReadings();
   chartsAreStale_ |= pressList_ != nullptr && pressList_->refresh();
   if (std::exchange(chartsAreStale_, false))

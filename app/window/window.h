@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/map/map_work.h"
 #include "app/plots/press_figure.h"
 #include "app/press/review.h"
 #include "app/session/pointer_tool.h"
@@ -110,6 +111,16 @@ private:
   void makePressBar();
   void pressAtPlace();
 
+  // the map of stiffness
+  void addMap(QMenu& edit);
+  void askMap();
+  void followMap();
+  void takeMap();
+  void dropMap();
+  void showMap();
+  [[nodiscard]] const SurfaceMap* shownMap() const;
+  [[nodiscard]] const StiffnessMap* currentMap() const;
+
   void makePressList();
   void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);
   void fitPressed(int id);
@@ -207,6 +218,11 @@ private:
   PressBar* pressBar_ = nullptr;
   PressList* pressList_ = nullptr; // null: no sample is kept
   QUndoStack undo_;
+  std::optional<MapWork> mapWork_;   // none: no map is in work
+  std::optional<MapWork::Made> map_; // of the body that is open
+  bool mapIsStale_ = false;
+  QAction* mapColors_ = nullptr;
+  QAction* clearMap_ = nullptr;
   Autosave* autosave_ = nullptr; // null: nobody wants it
   PlayBar* playBar_ = nullptr;
   QAction* refinedExport_ = nullptr;

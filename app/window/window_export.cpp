@@ -4,6 +4,7 @@
 #include "app/folder/autosave.h"
 #include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
+#include "app/map/map_files.h"
 #include "app/press/export.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
@@ -160,6 +161,11 @@ bool Window::exportData(const QString& directory)
         exportTake(QString::fromStdString((folder / name).string()), take.body, take.recording,
           take.calibration, nullptr);
         written << QString::fromStdString(name.string());
+      }
+      if (const StiffnessMap* map = currentMap())
+      {
+        writeMap(folder, *map, session_.body(), session_.recording().rated);
+        written << tr("stiffness map");
       }
       autosave_ != nullptr ? autosave_->clear() : void();
       say(tr("Written to %1: %2").arg(directory, written.join(", ")));

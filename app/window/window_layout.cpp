@@ -309,6 +309,11 @@ void Window::makeViewMenu()
   colors->addAction(add(tr("&Displacement colors"), Overlay::DisplacementColors));
   colors->addAction(add(tr("&Pressure colors"), Overlay::PressureColors));
   colors->addAction(add(tr("&Validity colors"), Overlay::ValidityColors));
+  mapColors_ = view->addAction(tr("S&tiffness map")); // over the others
+  mapColors_->setObjectName("mapColors");
+  mapColors_->setCheckable(true);
+  mapColors_->setEnabled(false);
+  connect(mapColors_, &QAction::toggled, this, &Window::showMap);
   view->addSeparator();
   addPanels(*view);
   QAction* plots = view->addAction(tr("Section and comparison &plots"));

@@ -109,8 +109,9 @@ bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& l
         renderer.ResetCameraClippingRange();
       };
       const Pictured seen = pictured();
-      writeFigure(*window, { seen.body, seen.recording.scene.law, seen.calibration, shown_ }, look,
-        asHere, file.toStdString());
+      writeFigure(*window,
+        { seen.body, seen.recording.scene.law, seen.calibration, shown_, shownMap() }, look, asHere,
+        file.toStdString());
       say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height));
     });
 }

@@ -207,12 +207,13 @@ void Window::showPictured()
 {
   const Pictured seen = pictured();
   const ForceLaw& law = seen.recording.scene.law;
-  if (view_.press().GetInputDataObject(0, 0) != seen.body.display)
+  if (!view_.shows(*seen.body.display))
   {
     view_.setSurface(seen.body.display);
     fittedTo_ = std::pair(0, 0);
   }
   validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
+  view_.setMap(shownMap());
   view_.setTip(law.tip());
   view_.setLaw(law);
   view_.setExtents(seen.calibration.extents);

@@ -104,6 +104,7 @@ void Window::makeEditMenu()
   QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
   redo->setShortcuts({ QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y") });
   edit->addActions({ undo, redo });
+  addMap(*edit);
 }
 
 void Window::saveTo(Autosave& autosave)

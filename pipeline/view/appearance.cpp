@@ -60,6 +60,7 @@ vtkSmartPointer<vtkLookupTable> evenMapOn(const Color& base)
     const Color color = color::evenMap(base, static_cast<double>(i) / (kColors - 1));
     table->SetTableValue(i, color[0], color[1], color[2]);
   }
+  table->SetNanColor(kUnknown[0], kUnknown[1], kUnknown[2], 1.0);
   return table;
 }
 

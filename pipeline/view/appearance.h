@@ -27,6 +27,8 @@ inline constexpr Color kForce{ 0.05, 0.42, 0.78 };
 inline constexpr Color kContact{ 1.0, 1.0, 1.0 };
 inline constexpr Color kExtent{ 0.35, 0.85, 1.0 };
 inline constexpr Color kNet{ 1.0, 0.85, 0.2 };
+inline constexpr Color kLeast{ 0.03, 0.33, 0.36 };   // of a map over a surface, unlike all tissue
+inline constexpr Color kUnknown{ 0.62, 0.63, 0.65 }; // of a map of colors
 inline constexpr Color kGhost{ 0.75, 0.85, 0.95 };
 
 // apart for every kind of color vision (Okabe and Ito 2008)

@@ -5,6 +5,7 @@
 #include "pipeline/view/appearance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
@@ -20,6 +21,7 @@ constexpr double kLegendWidth = 0.10; // of the picture
 
 DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
   : map_(appearance::evenMapOn(appearance::kLiver))
+  , surfaceColors_(appearance::evenMapOn(appearance::kLeast))
   , plain_(property)
   , layOut_(renderer,
       [this](double width, double height, double scale) { placeLegend(width, height, scale); })
@@ -69,6 +71,25 @@ void DentColors::hide()
   legend_->VisibilityOff();
 }
 
+// between round bounds, with the values of a map that is one in their middle
+void DentColors::showLegend(const SurfaceMap& map)
+{
+  constexpr double kLeastSpread = 0.02; // of the largest, that colors are to tell apart
+  constexpr double kSteps = 10.0;
+  const double more = std::max(0.0, 0.5 * (kLeastSpread * map.high - (map.high - map.low)));
+  const double step = appearance::roundUp((map.high - map.low + 2.0 * more) / kSteps);
+  showLegend(*surfaceColors_, map.title.c_str(), step * std::floor((map.low - more) / step),
+    step * std::ceil((map.high + more) / step));
+}
+
+void DentColors::showLegend(vtkLookupTable& colors, const char* title, double low, double high)
+{
+  colors.SetTableRange(low, high);
+  legend_->SetLookupTable(&colors);
+  legend_->SetTitle(title);
+  legend_->SetVisibility(hasLegend_);
+}
+
 void DentColors::setLaw(const ForceLaw& law)
 {
   validity_.emplace(law);
@@ -114,9 +135,7 @@ void DentColors::colorBy(const char* array, const char* title, double top)
 {
   mapper_->SelectColorArray(array);
   mapper_->ScalarVisibilityOn();
-  map_->SetTableRange(0.0, fixedTop_ > 0.0 ? fixedTop_ : appearance::roundUp(top));
-  legend_->SetTitle(title);
-  legend_->SetVisibility(hasLegend_);
+  showLegend(*map_, title, 0.0, fixedTop_ > 0.0 ? fixedTop_ : appearance::roundUp(top));
 }
 
 std::optional<Rule> DentColors::worstRule(const OverlayState& state) const

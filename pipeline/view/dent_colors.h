@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/force/validity.h"
+#include "pipeline/model/surface_map.h"
 #include "pipeline/view/before_render.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/vtkPalpPressureFilter.h"
@@ -26,7 +27,8 @@ public:
     Nothing,
     Displacement,
     Pressure,
-    Validity
+    Validity,
+    Map ///< none of its own: those of the surface around it
   };
 
   /// @param property  of the surface around it
@@ -34,6 +36,15 @@ public:
 
   void show(const OverlayState& state, By by);
   void hide();
+
+  /// The legend of the colors of the whole surface.
+  void showLegend(const SurfaceMap& map);
+
+  /// From the values of such a map to colors.
+  [[nodiscard]] vtkLookupTable* surfaceColors() const
+  {
+    return surfaceColors_;
+  }
 
   /// The law whose rules are shown; without one there are none.
   void setLaw(const ForceLaw& law);
@@ -56,6 +67,7 @@ public:
 private:
   [[nodiscard]] std::optional<Rule> worstRule(const OverlayState& state) const;
   void placeLegend(double width, double height, double scale);
+  void showLegend(vtkLookupTable& colors, const char* title, double low, double high);
   void colorBy(const char* array, const char* title, double top);
 
   std::optional<Validity> validity_;
@@ -63,6 +75,7 @@ private:
   bool hasLegend_ = true;
   vtkNew<vtkPalpPressureFilter> pressure_;
   vtkSmartPointer<vtkLookupTable> map_;
+  vtkSmartPointer<vtkLookupTable> surfaceColors_;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkSmartPointer<vtkProperty> plain_;

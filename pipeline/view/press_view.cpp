@@ -18,6 +18,7 @@
 #include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
 #include <vtkProperty.h>
 
 namespace palp
@@ -28,6 +29,7 @@ namespace
 using namespace units::literals;
 
 constexpr double kViewAngle = 30.0_deg;
+constexpr double kWet = 0.35; // share of a highlight
 
 // that is drawn of a tool, from its apex [m]
 double toolHeight(const Tip& tip)
@@ -91,11 +93,13 @@ PressView::~PressView() = default;
 void PressView::addSurface()
 {
   surface_->SetMapper(surfaceMapper_);
+  surfaceMapper_->SetScalarModeToUsePointFieldData();
+  surfaceMapper_->UseLookupTableScalarRangeOn();
   appearance::setColor(*surface_->GetProperty(), appearance::kLiver);
-  surface_->GetProperty()->SetSpecular(0.35); // wet
   surface_->GetProperty()->SetSpecularPower(40.0);
   renderer_.AddActor(surface_);
   dent_.emplace(renderer_, *deform_, surface_->GetProperty());
+  surfaceMapper_->SetLookupTable(dent_->surfaceColors());
 }
 
 void PressView::addTool()
@@ -133,10 +137,42 @@ void PressView::addOverlays()
 
 void PressView::setSurface(vtkPolyData* surface)
 {
-  deform_->SetInputDataObject(surface);
+  map_.reset();
+  rest_->ShallowCopy(surface);
+  colorSurface();
+  deform_->SetInputDataObject(rest_);
   surfaceMapper_->SetInputConnection(deform_->GetOutputPort());
   diagonal_ = surface->GetLength();
   show(Sample{});
+}
+
+void PressView::setMap(const SurfaceMap* map)
+{
+  if (map_)
+  {
+    rest_->GetPointData()->RemoveArray(map_->values->GetName());
+    map_.reset();
+  }
+  if (map != nullptr)
+  {
+    map_ = *map;
+    rest_->GetPointData()->AddArray(map_->values);
+  }
+  rest_->Modified();
+  colorSurface();
+}
+
+void PressView::colorSurface()
+{
+  vtkProperty& property = *surface_->GetProperty();
+  property.SetSpecular(map_ ? 0.05 : kWet);
+  property.SetAmbient(map_ ? 0.4 : 0.0); // near the colors of the bar
+  property.SetDiffuse(map_ ? 0.75 : 1.0);
+  surfaceMapper_->SetScalarVisibility(map_.has_value());
+  if (map_)
+  {
+    surfaceMapper_->SelectColorArray(map_->values->GetName());
+  }
 }
 
 void PressView::setTip(const Tip& tip)
@@ -163,11 +199,6 @@ void PressView::setLaw(const ForceLaw& law)
 void PressView::setColorRange(double top)
 {
   dent_->setRange(top);
-}
-
-void PressView::setColorBar(bool shown)
-{
-  dent_->setLegend(shown);
 }
 
 double PressView::extentRadius(double depth) const noexcept
@@ -238,7 +269,8 @@ void PressView::placeTool(const ToolPose& pose)
 
 DentColors::By PressView::colors() const
 {
-  return isVisible(Overlay::ValidityColors)  ? DentColors::By::Validity
+  return map_                                ? DentColors::By::Map
+    : isVisible(Overlay::ValidityColors)     ? DentColors::By::Validity
     : isVisible(Overlay::PressureColors)     ? DentColors::By::Pressure
     : isVisible(Overlay::DisplacementColors) ? DentColors::By::Displacement
                                              : DentColors::By::Nothing;
@@ -248,7 +280,7 @@ DentColors::By PressView::colors() const
 void PressView::placeDent(const OverlayState& state)
 {
   const DentColors::By by = colors();
-  const bool apart = state.sample.contact.touching() &&
+  const bool apart = state.sample.contact.touching() && by != DentColors::By::Map &&
     (by != DentColors::By::Nothing || deform_->GetUsedPatchLevel() > 0);
   surfaceMapper_->SetHideDent(apart);
   if (apart)
@@ -258,6 +290,10 @@ void PressView::placeDent(const OverlayState& state)
   else
   {
     dent_->hide();
+  }
+  if (map_)
+  {
+    dent_->showLegend(*map_);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "pipeline/deform/press_of.h"
 #include "pipeline/deform/vtkPalpDeformFilter.h"
 #include "pipeline/model/overlay.h"
+#include "pipeline/model/surface_map.h"
 #include "pipeline/view/dent_colors.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/readings.h"
@@ -17,6 +18,7 @@
 #include <vector>
 #include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
 
@@ -37,6 +39,12 @@ public:
 
   /// @param surface  at rest [m], triangles only; shared, not copied
   void setSurface(vtkPolyData* surface);
+
+  /// Whether it is the surface that is shown.
+  [[nodiscard]] bool shows(vtkPolyData& surface) const
+  {
+    return rest_->GetPoints() == surface.GetPoints();
+  }
 
   /// @param tip  checked
   void setTip(const Tip& tip);
@@ -64,8 +72,16 @@ public:
   /// Upper end of the colors [mm or kPa]; 0, the default, lets it follow the press.
   void setColorRange(double top);
 
+  /// Shows the whole surface by these colors, and the dent by no others; null: by its own again.
+  /// Takes effect in show().
+  /// @param map  of as many values as the surface has points
+  void setMap(const SurfaceMap* map);
+
   /// Whether colors have their bar beside them; at first they do. Takes effect in show().
-  void setColorBar(bool shown);
+  void setColorBar(bool shown)
+  {
+    dent_->setLegend(shown);
+  }
 
   /// The whole surface, from the front and above.
   void lookAtSurface();
@@ -99,6 +115,7 @@ private:
   void addTool();
   void addOverlays();
   void placeTool(const ToolPose& pose);
+  void colorSurface();
   void placeDent(const OverlayState& state);
   [[nodiscard]] DentColors::By colors() const;
 
@@ -109,6 +126,9 @@ private:
   double diagonal_ = 0.0; // of the surface's box [m]
   double above_ = 0.0;    // the surface reach tool and arrow [m]
 
+  std::optional<SurfaceMap> map_; // none: the surface has its own color
+
+  vtkNew<vtkPolyData> rest_; // the surface, with the values of its map
   vtkNew<vtkPalpDeformFilter> deform_;
   vtkNew<vtkPalpPatchMapper> surfaceMapper_;
   vtkNew<vtkActor> surface_;
