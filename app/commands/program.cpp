@@ -94,6 +94,7 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addBenchCommand(app, parts.pictures);
   addDetectCommand(app, parts.pictures);
   addMapCommand(app);
+  addOrganCommand(app);
   addPhantomCommand(app);
   addTissuesCommand(app);
   addDevicesCommand(app, parts.devices);

@@ -1,0 +1,192 @@
+#include "app/commands/commands.h"
+#include "app/input/option_values.h"
+#include "app/input/press_options.h"
+#include "app/input/press_places.h"
+#include "app/input/quantity.h"
+#include "app/places/fiducial_file.h"
+#include "app/places/placed_press.h"
+#include "app/press/body.h"
+#include "app/supports/support_text.h"
+#include "calibration/figures/table.h"
+#include "calibration/organ/organ_compliance.h"
+#include "haptics/error.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+#include "haptics/force/linear/series_contact.h"
+#include "haptics/units.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using units::toMillimeters;
+
+struct OrganOptions
+{
+  MeshSource mesh;
+  Tip tip = SphereTip{ .radius = 10.0_mm };
+  double young = 50.0_kPa;
+  double poisson = 0.45;
+  double cell = 4.0_mm;
+  std::vector<std::string> supports;
+  std::vector<std::string> places;
+  std::filesystem::path points;
+  Range depths;
+};
+
+OrganModel modelOf(const OrganOptions& options, const Surface& surface)
+{
+  std::vector<Support> supports;
+  for (const std::string& text : options.supports)
+  {
+    supports.push_back(parseSupport(text, surface, options.cell));
+  }
+  return { CutGrid(surface, options.cell), options.young, options.poisson, supports };
+}
+
+std::vector<PressPlace> placesOf(const OrganOptions& options)
+{
+  std::vector<PressPlace> places;
+  for (const std::string& text : options.places)
+  {
+    places.push_back(parsePlace(text));
+  }
+  if (!options.points.empty())
+  {
+    const std::vector<PressPlace> listed = readFiducials(options.points).places;
+    places.insert(places.end(), listed.begin(), listed.end());
+  }
+  if (places.empty())
+  {
+    throw Error(ErrorCode::BadValue, "no place to press; give --at x,y,z in mm, or --points LIST");
+  }
+  return places;
+}
+
+// whose pressure moves aside where the body is softer on one side [m]; 0: another tip's
+double roundnessOf(const Tip& tip)
+{
+  const auto* sphere = std::get_if<SphereTip>(&tip);
+  const auto* paraboloid = std::get_if<ParaboloidTip>(&tip);
+  return sphere ? sphere->radius : paraboloid ? paraboloid->radius : 0.0;
+}
+
+// a place nearer to an edge than two cells is known by its neighbors only
+const char* remarkOf(const OrganModel& model, const Surface& surface, const SurfacePoint& point,
+  const SeriesContact& series)
+{
+  const double edge = surface.shape().edgeDistance(point.position);
+  return series.isBeyond ? "support too near" : edge < 2.0 * model.side() ? "edge" : "";
+}
+
+void addRows(const OrganOptions& options, const OrganModel& model, const Scene& scene,
+  const PressPlace& place, figures::Table& table)
+{
+  const SurfacePoint point = pressedPoint(place, {}, scene);
+  const auto compliance = complianceAt(model, *scene.surface, point.position, point.normal);
+  if (!compliance)
+  {
+    throw Error(ErrorCode::BadValue,
+      "too little of the surface is around the place " + units::inMillimeters(point.position.x()) +
+        "; give smaller cells, or another place");
+  }
+  const double modulus = model.contactModulus();
+  const HalfSpace law(options.tip);
+  const BodyCompliance body{ modulus * compliance->constant, modulus * compliance->slope.norm() };
+  for (const double depth : options.depths.si)
+  {
+    if (depth > 0.0)
+    {
+      const SeriesContact series = inSeries(law, body, depth, roundnessOf(options.tip));
+      table.rows.push_back({ toMillimeters(point.position.x()), toMillimeters(point.position.y()),
+        toMillimeters(point.position.z()), body.constant, body.slope, toMillimeters(depth),
+        modulus * series.contact.force, modulus * law(depth).force, toMillimeters(series.local),
+        std::string(remarkOf(model, *scene.surface, point, series)) });
+    }
+  }
+}
+
+void runOrgan(const OrganOptions& options)
+{
+  const std::vector<PressPlace> places = placesOf(options);
+  if (constexpr double most = 0.4999; options.poisson > most)
+  {
+    throw Error(ErrorCode::BadValue, "--poisson: no element of 0.5 gives way; give at most 0.4999");
+  }
+  checkExists(options.mesh);
+  const SceneBody body = loadBody({ options.mesh });
+  for (const std::string& note : body.notes)
+  {
+    std::cerr << "palp: " << note << '\n';
+  }
+  Scene scene;
+  scene.surface = body.haptic;
+  const OrganModel model = modelOf(options, *body.haptic);
+  std::cerr << "palp: " << counted(static_cast<std::size_t>(model.nodes()), "node") << '\n';
+  figures::Table table{ .name = "organ",
+    .caption = "A body in series with the contact",
+    .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
+      "half_space_N", "local_depth_mm", "remark" } };
+  for (const PressPlace& place : places)
+  {
+    addRows(options, model, scene, place, table);
+  }
+  constexpr int kShown = 5; // digits
+  std::cout << figures::csv(table, kShown);
+}
+
+} // namespace
+
+void addOrganCommand(CLI::App& app)
+{
+  auto options = std::make_shared<OrganOptions>();
+  OrganOptions* all = options.get();
+  CLI::App* command = app.add_subcommand(
+    "organ", "Tell the force where the whole body gives way: edges, lobes and what it rests on");
+  options->mesh.addTo(*command);
+  command->get_option("FILE")->required();
+  command
+    ->add_option("--support", options->supports,
+      "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, or "
+      "bonded:direction:X,Y,Z:30deg where the surface faces so; sliding holds across it only")
+    ->required()
+    ->allow_extra_args(false);
+  const auto add = [&](const char* name, const char* what, const char* usual, auto take)
+  { return addParsed(*command, name, what, usual, take); };
+  command->add_option("--at", options->places, "A place x,y,z in mm; may be given again")
+    ->allow_extra_args(false);
+  command->add_option("--points", options->points, "More places: a list of 3D Slicer");
+  addTip(*command, options->tip, "sphere:10mm");
+  const auto depths = [all](const std::string& text)
+  { all->depths = parseRange(text, Quantity::Length, "--depth"); };
+  depths("1:5:1mm");
+  add("--depth", "Depths A:B:STEP, both ends included", "1:5:1mm", depths);
+  add("--young", "Young's modulus E", "50kPa",
+    [all](const std::string& text) {
+      all->young = parseWithin(text, Quantity::Pressure, { 1.0, 1e12, "1Pa to 1TPa" }, "--young");
+    });
+  addPoisson(*command, options->poisson);
+  add("--cell", "Side of the cells of the body; twice this is as near as an edge is known", "4mm",
+    [all](const std::string& text) {
+      all->cell = parseWithin(text, Quantity::Length, { 0.1_mm, 0.1, "0.1mm to 100mm" }, "--cell");
+    });
+  command->footer(
+    "The law of the half-space in series with the body's own compliance, by finite elements in\n"
+    "cubes that its surface cuts: linear, frictionless, one material. constant and slope: E* "
+    "times\n"
+    "what the body adds. remark: edge where one is nearer than two cells, support too near where\n"
+    "the contact is too large for what is below. Not yet in run, scenes and window.\n"
+    "Examples:\n"
+    "  palp organ liver.stl --support bonded:direction:0,1,0:60deg --at -48.5,38.4,39.5\n"
+    "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm");
+  command->callback([options] { runOrgan(*options); });
+}
+
+} // namespace palp

@@ -1,0 +1,106 @@
+#include "app/supports/support_text.h"
+
+#include "app/input/press_places.h"
+#include "app/input/quantity.h"
+#include "haptics/error.h"
+#include "haptics/surface/closest_point.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+constexpr const char* kOption = "--support";
+constexpr double kAround = 0.33; // of a cell
+
+std::vector<std::string> wordsOf(const std::string& text)
+{
+  std::vector<std::string> words(1);
+  for (const char c : text)
+  {
+    c == ':' ? void(words.emplace_back()) : words.back().push_back(c);
+  }
+  return words;
+}
+
+// the sum of the area vectors of the triangles that it holds by their middles [m^2]
+template <typename Holds>
+Eigen::Vector3d areaOf(const Surface& surface, const Holds& holds)
+{
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < surface.triangles().size(); ++i)
+  {
+    const auto& [a, b, c] = surface.triangles()[i];
+    const Eigen::Vector3d& p = surface.points()[at(a)];
+    const Eigen::Vector3d& q = surface.points()[at(b)];
+    const Eigen::Vector3d& r = surface.points()[at(c)];
+    if (holds((p + q + r) / 3.0, static_cast<int>(i)))
+    {
+      area += 0.5 * (q - p).cross(r - p);
+    }
+  }
+  return area;
+}
+
+Support boxOf(const std::vector<std::string>& words, const Surface& surface, double cell)
+{
+  const Eigen::Vector3d one = parsePlace(words[2], kOption).position;
+  const Eigen::Vector3d other = parsePlace(words[3], kOption).position;
+  const Eigen::Vector3d low = one.cwiseMin(other).array() - kAround * cell;
+  const Eigen::Vector3d high = one.cwiseMax(other).array() + kAround * cell;
+  const auto holds = [low, high](const Eigen::Vector3d& x)
+  { return (x - low).minCoeff() >= 0.0 && (high - x).minCoeff() >= 0.0; };
+  return { holds,
+    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+}
+
+Support directionOf(const std::vector<std::string>& words, const Surface& surface, double cell)
+{
+  const Eigen::Vector3d way = parseDirection(words[2], kOption).normalized();
+  const double least = std::cos(parseQuantity(words[3], Quantity::Angle, kOption));
+  const auto faces = [&surface, way, least](int triangle)
+  {
+    const Triangle& corners = surface.triangles()[at(triangle)];
+    return unitNormal(surface.points(), corners).dot(way) >= least;
+  };
+  return { [&surface, faces, cell](const Eigen::Vector3d& x)
+    {
+      const ClosestPoint nearest =
+        findClosestPoint(surface, x, std::numeric_limits<double>::infinity());
+      return nearest.distance >= -kAround * cell && faces(nearest.triangle);
+    },
+    areaOf(surface, [&](const Eigen::Vector3d&, int triangle) { return faces(triangle); }) };
+}
+
+} // namespace
+
+Support parseSupport(const std::string& text, const Surface& surface, double cell)
+{
+  const std::vector<std::string> words = wordsOf(text);
+  const bool isKnown = words.size() == 4 && (words[0] == "bonded" || words[0] == "sliding") &&
+    (words[1] == "box" || words[1] == "direction");
+  if (!isKnown)
+  {
+    throw Error(ErrorCode::BadValue,
+      std::string(kOption) + ": '" + text +
+        "' is no support; write bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, or "
+        "bonded:direction:X,Y,Z:30deg, or either with sliding");
+  }
+  Support support =
+    words[1] == "box" ? boxOf(words, surface, cell) : directionOf(words, surface, cell);
+  if (support.along.isZero())
+  {
+    throw Error(ErrorCode::BadValue,
+      std::string(kOption) + ": '" + text + "' holds nothing of the surface; move or widen it");
+  }
+  support.along = words[0] == "sliding" ? Eigen::Vector3d(support.along.normalized())
+                                        : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return support;
+}
+
+} // namespace palp

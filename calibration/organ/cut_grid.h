@@ -1,0 +1,54 @@
+#pragma once
+
+#include "calibration/organ/cube_stiffness.h"
+#include "haptics/surface/surface.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace palp
+{
+
+/// Cubes over a body, each with the part of it that is inside.
+class CutGrid
+{
+public:
+  /// @param surface  closed
+  /// @param side     of the cubes [m]
+  /// @throws Error   BadMesh: the surface is open; BadValue: more than 20 million cubes
+  CutGrid(const Surface& surface, double side);
+
+  [[nodiscard]] double side() const noexcept
+  {
+    return side_;
+  }
+  [[nodiscard]] const std::array<int, 3>& size() const noexcept
+  {
+    return size_;
+  }
+  [[nodiscard]] const Eigen::Vector3d& low() const noexcept
+  {
+    return low_;
+  }
+
+  /// The points of a cube that are inside the body; none outside the grid.
+  [[nodiscard]] CubePoints inside(const std::array<int, 3>& cube) const noexcept;
+
+  /// Part of a cube that is inside the body, 0 to 1.
+  [[nodiscard]] double filled(const std::array<int, 3>& cube) const noexcept
+  {
+    const CubePoints points = inside(cube);
+    return static_cast<double>(points.count()) / static_cast<double>(points.size());
+  }
+
+private:
+  void fill(const Surface& surface);
+
+  double side_;
+  Eigen::Vector3d low_; // corner of the grid [m]
+  std::array<int, 3> size_{};
+  std::vector<CubePoints> points_; // of each cube
+};
+
+} // namespace palp

@@ -1,0 +1,49 @@
+#include "haptics/force/linear/series_contact.h"
+
+#include "haptics/numerics/roots.h"
+
+#include <algorithm>
+
+namespace palp
+{
+
+SeriesContact inSeries(
+  const HalfSpace& local, const BodyCompliance& body, double depth, double radius) noexcept
+{
+  // by which the tip has come down where it is so deep in the body
+  const auto total = [&](double deep)
+  {
+    const LinearContact contact = local(deep);
+    const double rigid = deep + contact.force * body.constant;
+    if (!(radius > 0.0))
+    {
+      return rigid;
+    }
+    const double aside = std::min(radius * body.slope * contact.force, 0.5 * contact.radius);
+    return rigid - 2.0 * contact.force * body.slope * aside + 0.5 * aside * aside / radius;
+  };
+  // the first root: over a near support the body would pull beyond the last
+  constexpr int kSteps = 64;
+  constexpr int kMost = 4 * kSteps; // four times as deep as the tip came down
+  RootBracket root{ 0.0, depth / kSteps };
+  double reached = 0.0;
+  int step = 1;
+  for (double there = total(root.high); there < depth && there > reached && step < kMost; ++step)
+  {
+    reached = there;
+    root = { root.high, root.high + depth / kSteps };
+    there = total(root.high);
+  }
+  const bool isFound = total(root.high) >= depth;
+  constexpr int kHalvings = 50;
+  const double deep = isFound
+    ? bisect([&](double one) { return total(one) < depth; }, root, kHalvings).high
+    : root.low;
+  SeriesContact result{ .contact = local(deep), .local = deep, .isBeyond = !isFound };
+  const double small = 1e-4 * deep;
+  const double slope = (total(deep + small) - total(deep - small)) / (2.0 * small);
+  result.contact.stiffness = slope > 0.0 ? result.contact.stiffness / slope : 0.0;
+  return result;
+}
+
+} // namespace palp

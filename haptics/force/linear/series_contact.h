@@ -1,0 +1,40 @@
+#pragma once
+
+#include "haptics/force/linear/half_space.h"
+
+namespace palp
+{
+
+/// What a body adds to the displacement of its own surface at a place, over its contact modulus:
+/// a load of F at p + x moves the surface at p + y by F / E* (constant + slope.(x + y)) more than
+/// that of a half-space.
+struct BodyCompliance
+{
+  double constant = 0.0; ///< E* G0 [1/m]; negative over a near support
+  double slope = 0.0;    ///< length of E* b, along the surface [1/m^2]
+};
+
+/// What a body of its own compliance answers.
+struct SeriesContact
+{
+  LinearContact contact; ///< stiffness as felt, with the body
+  double local = 0.0; ///< depth that the tip has in the body, without what the body gives way [m]
+  bool isBeyond = false; ///< the support is too near for so large a contact: the force is that of
+                         ///< the deepest for which this holds
+};
+
+/// A contact on a half-space in series with the body.
+///
+/// With a slope the middle of the pressure moves to the stiffer side, by at most half of the
+/// contact radius.
+///
+/// @param depth   of the tip [m], more than 0
+/// @param radius  of the tip at its apex [m]; 0: sharp or flat, whose pressure is taken to stay
+///                where it is
+/// @source        d = d(a) + F G0 - 2 F |b| x + x^2 / (2 R) with x = R |b| F, from the
+///                complementary energy of the body
+/// @realtime      pure; no allocation, no lock, no exception
+[[nodiscard]] SeriesContact inSeries(
+  const HalfSpace& local, const BodyCompliance& body, double depth, double radius) noexcept;
+
+} // namespace palp

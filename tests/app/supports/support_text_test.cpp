@@ -1,0 +1,122 @@
+#include "app/supports/support_text.h"
+
+#include "data/shapes.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+const Surface& block()
+{
+  static const Surface surface = []
+  {
+    Mesh mesh = makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 5.0_mm);
+    return Surface(std::move(mesh.points), std::move(mesh.triangles));
+  }();
+  return surface;
+}
+
+TEST(SupportText, HoldsAThirdOfACellAround)
+{
+  const Support box = parseSupport("bonded:box:-50,-50,-50:50,50,-45", block(), 6.0_mm);
+  EXPECT_TRUE(box.along.isZero());
+  EXPECT_TRUE(box.holds({ 0.0, 0.0, -43.1_mm }));
+  EXPECT_FALSE(box.holds({ 0.0, 0.0, -42.9_mm }));
+  const Support base = parseSupport("sliding:direction:0,0,-2:30deg", block(), 6.0_mm);
+  EXPECT_NEAR(base.along.z(), -1.0, 1e-12);
+  EXPECT_TRUE(base.holds({ 0.0, 10.0_mm, -48.1_mm }));
+  EXPECT_TRUE(base.holds({ 0.0, 10.0_mm, -53.0_mm })); // outside, as a node of a cut cell
+  EXPECT_FALSE(base.holds({ 0.0, 10.0_mm, -47.9_mm }));
+  EXPECT_FALSE(base.holds({ 0.0, 10.0_mm, 3.0_mm }));
+}
+
+TEST(SupportText, RefusesWhatItDoesNotKnow)
+{
+  for (const char* text : { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1",
+         "bonded:box:0,0:1,1,1", "bonded:box:200,200,200:210,210,210",
+         "bonded:direction:0,0,0:30deg", "bonded:direction:0,0,1:30", "bonded:box:0,0,0:1,1,1:2" })
+  {
+    EXPECT_THROW(parseSupport(text, block(), 4.0_mm), Error) << text;
+  }
+}
+
+class OrganCommand : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const std::string out = (folder_.path() / "made").string();
+    ASSERT_EQ(test::runCommand(PALP_PROGRAM " phantom block --voxel 5mm --out " + out).code, 0);
+    block_ = out + "/block.vtp";
+  }
+
+  test::Finished organ(const std::string& arguments)
+  {
+    return test::runCommand(PALP_PROGRAM " organ " + block_ + " --cell 5mm " + arguments);
+  }
+
+  static std::vector<double> columnOf(const std::string& csv, int column)
+  {
+    std::vector<double> values;
+    std::istringstream lines(csv);
+    std::string line;
+    for (std::getline(lines, line); std::getline(lines, line);)
+    {
+      std::istringstream cells(line);
+      std::string cell;
+      for (int i = 0; i <= column; ++i)
+      {
+        std::getline(cells, cell, ',');
+      }
+      values.push_back(std::stod(cell));
+    }
+    return values;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string block_;
+};
+
+// the middle of the paper's block, by elements of another program
+TEST_F(OrganCommand, TellsTheForceOfTheBlockAndThatOfAHalfSpace)
+{
+  for (const char* support :
+    { "bonded:direction:0,0,-1:30deg", "bonded:box:-50,-50,-51:50,50,-50" })
+  {
+    const test::Finished finished =
+      organ(std::string("--at 0,0,0 --depth 2:4:2mm --support ") + support);
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    const std::vector<double> forces = columnOf(finished.out, 6);
+    ASSERT_EQ(forces.size(), 2U);
+    EXPECT_NEAR(forces[0], 0.790771, 0.02 * forces[0]) << support;
+    EXPECT_NEAR(forces[1], 2.26695, 0.02 * forces[1]) << support;
+    const test::Finished two =
+      organ(std::string("--at 0,0,0 --at=-20,5,0 --depth 2:2:1mm --support ") + support);
+    EXPECT_EQ(columnOf(two.out, 0), (std::vector{ 0.0, -20.0 }));
+  }
+}
+
+TEST_F(OrganCommand, RefusesInOneSentence)
+{
+  const char* base = "--support bonded:direction:0,0,-1:30deg ";
+  for (const std::string& arguments :
+    { std::string(base), std::string("--at 0,0,0"), std::string(base) + "--at 0,0,30",
+      std::string("--at 0,0,0 --support sliding:direction:0,0,-1:30deg"),
+      std::string(base) + "--at 0,0,0 --poisson 0.5" })
+  {
+    const test::Finished finished = organ(arguments);
+    EXPECT_EQ(finished.code, 2) << arguments << finished.out;
+    EXPECT_EQ(finished.out, "") << arguments;
+  }
+}
+
+} // namespace
+} // namespace palp

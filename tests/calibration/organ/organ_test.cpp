@@ -1,0 +1,251 @@
+#include "calibration/organ/organ_compliance.h"
+
+#include "data/shapes.h"
+#include "haptics/error.h"
+#include "haptics/force/linear/series_contact.h"
+#include "haptics/units.h"
+#include "tests/support/csv_table.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using Eigen::Vector3d;
+
+constexpr double kYoung = 50e3;
+constexpr double kPoisson = 0.45;
+
+// strain energy of a linear displacement, by the moduli of an isotropic solid
+TEST(CubeStiffness, HasTheEnergyOfALinearField)
+{
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (const double nu : { 0.0, 0.3, 0.4999 })
+  {
+    const Eigen::Matrix3d gradient = Eigen::Matrix3d::NullaryExpr([&] { return number(random); });
+    const double side = 4.0_mm;
+    Eigen::Matrix<double, 24, 1> moved;
+    for (int corner = 0; corner < kCubeCorners; ++corner)
+    {
+      moved.segment<3>(3 * corner) =
+        gradient * side * Vector3d(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+    }
+    const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
+    const double lambda = kYoung * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    const double mu = kYoung / (2.0 * (1.0 + nu));
+    const double energy =
+      side * side * side * (0.5 * lambda * std::pow(strain.trace(), 2) + mu * strain.squaredNorm());
+    EXPECT_NEAR(0.5 * moved.dot(cubeStiffness(side, kYoung, nu) * moved), energy, 1e-9 * energy);
+    CubePoints half;
+    for (std::size_t i = 0; i < half.size() / 2; ++i)
+    {
+      half.set(i);
+    }
+    EXPECT_NEAR(moved.dot(cutCubeStiffness(side, kYoung, nu, half) * moved), energy, 1e-3 * energy);
+  }
+}
+
+double volumeOf(const CutGrid& grid)
+{
+  double cubes = 0.0;
+  for (int k = 0; k < grid.size()[2]; ++k)
+  {
+    for (int j = 0; j < grid.size()[1]; ++j)
+    {
+      for (int i = 0; i < grid.size()[0]; ++i)
+      {
+        cubes += grid.filled({ i, j, k });
+      }
+    }
+  }
+  return cubes * std::pow(grid.side(), 3);
+}
+
+TEST(CutGrid, HoldsTheVolumeOfABody)
+{
+  const Mesh sphere = makeSphere(30.0_mm, 5);
+  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(30.0_mm, 3);
+  EXPECT_NEAR(volumeOf(CutGrid({ sphere.points, sphere.triangles }, 4.0_mm)), ball, 0.01 * ball);
+  Mesh box = makeBox({ 60.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);
+  EXPECT_NEAR(volumeOf(CutGrid({ box.points, box.triangles }, 4.0_mm)), 48e-6, 1e-12);
+  for (Vector3d& point : box.points)
+  {
+    point = Eigen::AngleAxisd(0.6, Vector3d(1.0, 2.0, 0.5).normalized()) * point;
+  }
+  EXPECT_NEAR(volumeOf(CutGrid({ box.points, box.triangles }, 4.0_mm)), 48e-6, 0.01 * 48e-6);
+}
+
+TEST(CutGrid, RefusesAnOpenSurface)
+{
+  const Mesh grid = makeGrid(5, 0.1);
+  EXPECT_THROW(CutGrid({ grid.points, grid.triangles }, 4.0_mm), Error);
+}
+
+// a column that slides on its base and two sides, under a pressure on its top: u = p h / E
+TEST(OrganModel, ShortensAColumnByHookesLaw)
+{
+  const Mesh box = makeBox({ 20.0_mm, 20.0_mm, 40.0_mm }, 5.0_mm);
+  const Surface surface(box.points, box.triangles);
+  std::vector<Support> slides;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double low = axis == 2 ? -40.0_mm : -10.0_mm;
+    slides.push_back(
+      { [axis, low](const Vector3d& x) { return x[axis] < low + 0.1_mm; }, Vector3d::Unit(axis) });
+  }
+  const OrganModel model(CutGrid(surface, 5.0_mm), kYoung, kPoisson, slides);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * model.nodes());
+  OrganModel::Weights weights{};
+  constexpr int parts = 40;
+  const double part = 1.0 / (parts * parts); // of a newton
+  for (int i = 0; i < parts * parts; ++i)
+  {
+    const Vector3d place(20.0_mm * ((i % parts + 0.5) / parts - 0.5),
+      20.0_mm * ((i / parts + 0.5) / parts - 0.5), 0.0);
+    ASSERT_TRUE(model.weightsAt(place, Vector3d::UnitZ(), weights));
+    for (std::size_t k = 0; k < weights.nodes.size(); ++k)
+    {
+      load[3 * weights.nodes[k] + 2] -= part * weights.values[k];
+    }
+  }
+  const Eigen::MatrixXd moved = model.solve(load);
+  ASSERT_TRUE(model.weightsAt({ 3.0_mm, -4.0_mm, 0.0 }, Vector3d::UnitZ(), weights));
+  double down = 0.0;
+  for (std::size_t k = 0; k < weights.nodes.size(); ++k)
+  {
+    down -= weights.values[k] * moved(3 * weights.nodes[k] + 2, 0);
+  }
+  const double hooke = 1.0 / (20.0_mm * 20.0_mm) * 40.0_mm / kYoung;
+  EXPECT_NEAR(down, hooke, 2e-3 * hooke);
+}
+
+TEST(OrganModel, NamesAMotionThatItsSupportsLeaveFree)
+{
+  const Mesh box = makeBox({ 20.0_mm, 20.0_mm, 20.0_mm }, 5.0_mm);
+  const Surface surface(box.points, box.triangles);
+  const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm; }, Vector3d::UnitZ() };
+  try
+  {
+    const OrganModel model(CutGrid(surface, 5.0_mm), kYoung, kPoisson, std::span(&base, 1));
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("free to"), std::string::npos) << error.what();
+  }
+}
+
+// Boussinesq's displacement under Hertz's pressure, by a sum over rings and angles
+TEST(HertzDisplacement, IsThatOfItsPressure)
+{
+  constexpr double radius = 8.0_mm;
+  constexpr double modulus = 60e3;
+  for (const double distance : { 0.0, 5.0_mm, 8.01_mm, 10.0_mm, 13.0_mm, 300.0_mm })
+  {
+    double sum = 0.0;
+    constexpr int rings = 800;
+    constexpr int angles = 800;
+    for (int i = 0; i < rings; ++i)
+    {
+      const double r = radius * (i + 0.5) / rings;
+      const double pressure =
+        1.5 / (std::numbers::pi * radius * radius) * std::sqrt(1.0 - std::pow(r / radius, 2));
+      for (int j = 0; j < angles; ++j)
+      {
+        const double angle = 2.0 * std::numbers::pi * (j + 0.5) / angles;
+        const double away = std::hypot(r * std::cos(angle) - distance, r * std::sin(angle));
+        sum += pressure / (std::numbers::pi * modulus * away) * r * (radius / rings) *
+          (2.0 * std::numbers::pi / angles);
+      }
+    }
+    EXPECT_NEAR(hertzDisplacement(distance, radius, modulus), sum, 5e-3 * sum) << distance;
+  }
+}
+
+struct Body
+{
+  const char* file;    // of the reference
+  Vector3d size;       // [m]
+  double place;        // along x, from the middle [m]
+  bool isLobe = false; // held at its end instead of its base
+  double lean = 0.0;   // of the side face beside the place [rad]
+  double cell = 4.0_mm;
+  double limit = 0.05;
+};
+
+class AgainstElements : public testing::TestWithParam<Body>
+{
+};
+
+// forces of fine finite elements with contact, and of the exact layer
+TEST_P(AgainstElements, TheForceAgrees)
+{
+  const Body& body = GetParam();
+  Mesh mesh = makeBox(body.size, 2.5_mm);
+  for (Vector3d& point : mesh.points)
+  {
+    point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
+  }
+  const Surface surface(mesh.points, mesh.triangles);
+  const double around = 0.33 * body.cell;
+  const Support support{ [&](const Vector3d& x)
+    {
+      return body.isLobe ? x.x() >= 0.5 * body.size.x() - around : x.z() <= -body.size.z() + around;
+    } };
+  const OrganModel model(CutGrid(surface, body.cell), kYoung, kPoisson, std::span(&support, 1));
+  const auto found = complianceAt(model, surface, { body.place, 0.0, 0.0 }, Vector3d::UnitZ());
+  ASSERT_TRUE(found);
+  const double modulus = model.contactModulus();
+  const HalfSpace law(SphereTip{ 10.0_mm });
+  const test::CsvTable table =
+    test::readCsv(std::string(PALP_SOURCE_DIR "/data/reference/organ_") + body.file + ".csv");
+  double worst = 0.0;
+  double before = 0.0; // of the half-space
+  for (std::size_t i = 0; i < table["depth_m"].size(); ++i)
+  {
+    const double depth = table["depth_m"][i];
+    const double force = table["force_N"][i];
+    const SeriesContact series =
+      inSeries(law, { modulus * found->constant, modulus * found->slope.norm() }, depth, 10.0_mm);
+    EXPECT_NEAR(modulus * series.contact.force, force, body.limit * force) << depth;
+    worst = std::max(worst, std::abs(modulus * series.contact.force / force - 1.0));
+    before = std::max(before, std::abs(modulus * law(depth).force / force - 1.0));
+  }
+  RecordProperty("error_percent", std::to_string(100.0 * worst));
+  RecordProperty("half_space_percent", std::to_string(100.0 * before));
+  EXPECT_LT(worst, before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Organ, AgainstElements,
+  testing::Values(Body{ .file = "layer_50mm",
+                    .size = { 0.16, 0.16, 0.05 },
+                    .place = 0.0,
+                    .cell = 5.0_mm,
+                    .limit = 0.01 },
+    Body{ .file = "layer_20mm", .size = { 0.1, 0.1, 0.02 }, .place = 0.0, .limit = 0.07 },
+    Body{ .file = "edge90_centre", .size = { 0.1, 0.1, 0.05 }, .place = 0.0, .cell = 5.0_mm },
+    Body{ .file = "edge90_20mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.03, .cell = 5.0_mm },
+    Body{ .file = "edge90_8mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.042 },
+    Body{ .file = "edge90_6mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.044 },
+    Body{ .file = "edge120_8mm",
+      .size = { 0.1, 0.1, 0.05 },
+      .place = -0.042,
+      .lean = std::numbers::pi / 6.0,
+      .limit = 0.06 },
+    Body{ .file = "lobe30_20mm", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true },
+    Body{ .file = "lobe30_20mm",
+      .size = { 0.06, 0.1, 0.03 },
+      .place = -0.01,
+      .isLobe = true,
+      .cell = 6.0_mm }),
+  [](const auto& body) { return std::string(body.param.file) + "_" + std::to_string(body.index); });
+
+} // namespace
+} // namespace palp
