@@ -4,6 +4,7 @@
 #include "app/folder/autosave.h"
 #include "app/program/build_trace.h"
 #include "app/session/session.h"
+#include "app/shell/theme.h"
 #include "app/window/window.h"
 
 #include "haptics/error.h"
@@ -94,6 +95,10 @@ int view(const palp::ViewOptions& options)
   const QtMessageHandler before = qInstallMessageHandler(refuseToAbort);
   QApplication application(count, words);
   qInstallMessageHandler(before);
+  if (const palp::Theme theme = palp::rememberedTheme(); theme != palp::Theme::System)
+  {
+    palp::setTheme(theme);
+  }
   // Qt takes the user's; files and VTK want a decimal point
   std::setlocale(LC_NUMERIC, "C"); // NOLINT(concurrency-mt-unsafe): no other thread yet
 

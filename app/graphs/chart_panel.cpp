@@ -1,6 +1,8 @@
 #include "app/graphs/chart_panel.h"
 
 #include "app/graphs/axes_dialog.h"
+#include "app/graphs/chart_theme.h"
+#include "app/shell/theme.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkContextScene.h>
@@ -105,6 +107,12 @@ void ChartPanel::draw()
 {
   if (isVisible())
   {
+    const bool dark = isDark(palette());
+    for (vtkPalpChart* chart : charts())
+    {
+      paintChart(*chart, dark);
+    }
+    paintGround(*window_, dark);
     window_->Render();
   }
 }

@@ -1,5 +1,6 @@
 #include "app/graphs/plot_panel.h"
 
+#include "app/graphs/chart_theme.h"
 #include "haptics/error.h"
 
 #include <vtkRenderWindow.h>
@@ -113,6 +114,10 @@ QString savePlots(
   window->SetMultiSamples(isPicture ? 8 : 0);
   window->SetSize(width, height);
   window->SetDPI(static_cast<int>(std::lround(appearance::kDpi * growth / divisor)));
+  for (const auto& plot : plots)
+  {
+    paintChart(plot->chart(), false);
+  }
   showPlots(*window, plots);
   writePlots(plots, *window, file);
   window->GetRenderers()->RemoveAllItems(); // the charts outlive it

@@ -106,6 +106,23 @@ std::size_t PressLog::keepAll(const Recording& samples)
   return found.size();
 }
 
+std::vector<std::string> PressLog::namesIn(const Recording& recording) const
+{
+  std::vector<std::string> names;
+  for (const PressSummary& press : findPresses(recording))
+  {
+    const auto isSame = [&press](const KeptPress& kept) // no two have the same place to the bit
+    {
+      const Contact& deepest = kept.summary.deepest;
+      return kept.summary.begin == press.begin && deepest.depth == press.deepest.depth &&
+        deepest.center == press.deepest.center;
+    };
+    const auto kept = std::ranges::find_if(presses_, isSame);
+    names.push_back(kept != presses_.end() ? kept->summary.name : press.name);
+  }
+  return names;
+}
+
 const KeptPress* PressLog::find(int id) const noexcept
 {
   const auto at = std::ranges::find(presses_, id, &KeptPress::id);

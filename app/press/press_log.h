@@ -56,6 +56,10 @@ public:
     return presses_;
   }
 
+  /// The names of the presses of a recording, in their order, as they are here; of one that is
+  /// gone its own.
+  [[nodiscard]] std::vector<std::string> namesIn(const Recording& recording) const;
+
   /// Null where it is gone.
   [[nodiscard]] const KeptPress* find(int id) const noexcept;
 

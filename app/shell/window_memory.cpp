@@ -11,6 +11,7 @@ namespace
 
 constexpr int kLayout = 1; // counted up when panels change names or meaning
 constexpr const char* kRecent = "recentFiles";
+constexpr const char* kTheme = "theme";
 
 QSettings settings()
 {
@@ -53,6 +54,16 @@ void WindowMemory::forgetRecentFile(const QString& file) const
   QStringList files = recentFiles();
   files.removeAll(QFileInfo(file).absoluteFilePath());
   settings().setValue(kRecent, files);
+}
+
+int WindowMemory::theme() const
+{
+  return settings().value(kTheme).toInt();
+}
+
+void WindowMemory::setTheme(int theme) const
+{
+  settings().setValue(kTheme, theme);
 }
 
 } // namespace palp

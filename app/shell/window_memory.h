@@ -21,6 +21,10 @@ public:
   [[nodiscard]] QStringList recentFiles() const;
   void addRecentFile(const QString& file) const;
   void forgetRecentFile(const QString& file) const;
+
+  /// The number of a Theme; 0 where none was ever set.
+  [[nodiscard]] int theme() const;
+  void setTheme(int theme) const;
 };
 
 } // namespace palp

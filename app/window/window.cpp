@@ -87,6 +87,7 @@ Window::Window(Session& session, BuildTrace& trace)
   setAcceptDrops(true);
   showBody();
   applyTissue();
+  takeTheme();
   if (session_.plan().camera)
   {
     lookFrom(*session_.plan().camera);

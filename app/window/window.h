@@ -70,7 +70,7 @@ public:
   bool savePlots(const QString& file, std::optional<ImageSize> size = std::nullopt);
   bool saveCurves(const QString& file);
   bool saveChart(std::size_t chart, const QString& file, ImageSize size); // of charts_, counted
-  bool exportData(const QString& directory);
+  bool exportData(const QString& directory); // asks in the bar where files would be replaced
 
 protected:
   void changeEvent(QEvent* event) override;
@@ -158,6 +158,7 @@ private:
   void drawCharts();
   void refresh();
   void fitView();
+  void takeTheme();
   void keepView();
   void smoothen();
   void showReadings();
@@ -176,6 +177,7 @@ private:
   bool attempt(const std::function<void()>& work);
   void exportTake(const QString& directory, const SceneBody& body, Recording recording,
     const Calibration& calibration, const Timing* timing);
+  bool exportInto(const QString& directory);
   [[nodiscard]] CameraPlace cameraPlace() const;
   void lookFrom(const CameraPlace& place);
 

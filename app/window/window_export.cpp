@@ -6,6 +6,7 @@
 #include "app/folder/played_plan.h"
 #include "app/map/map_files.h"
 #include "app/press/export.h"
+#include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"
@@ -15,7 +16,6 @@
 
 #include <QAction>
 #include <QEventLoop>
-#include <QMessageBox>
 #include <QProcess>
 #include <QTemporaryDir>
 
@@ -99,6 +99,7 @@ void Window::exportTake(const QString& directory, const SceneBody& body, Recordi
   {
     throw Error(ErrorCode::BadFile, "no temporary folder can be made; free some space in /tmp");
   }
+  recording.names = session_.presses().namesIn(recording);
   ScenePlan plan = planOf(session_.plan(), body, recording);
   plan.allSamples = allSamplesExport_->isChecked();
   plan.refined = refinedExport_->isChecked();
@@ -132,20 +133,23 @@ void Window::exportTake(const QString& directory, const SceneBody& body, Recordi
 
 bool Window::exportData(const QString& directory)
 {
+  const QString found = filesFoundIn(directory.toStdString());
+  if (found.isEmpty())
+  {
+    return exportInto(directory);
+  }
+  message_->ask(tr("%1 holds %2 already").arg(directory, found),
+    { { tr("Replace"), [this, directory] { exportInto(directory); } } });
+  return false;
+}
+
+bool Window::exportInto(const QString& directory)
+{
   return attempt(
     [&]
     {
       takeSamples();
       const std::filesystem::path folder = directory.toStdString();
-      if (const QString found = filesFoundIn(folder); !found.isEmpty())
-      {
-        const QString text = tr("%1 holds %2 already. Replace?").arg(directory, found);
-        if (QMessageBox::question(this, tr("Palp"), text, QMessageBox::Yes | QMessageBox::No,
-              QMessageBox::No) != QMessageBox::Yes)
-        {
-          return;
-        }
-      }
       say(tr("Exporting…"));
       QStringList written;
       if (session_.recording().deepest() != nullptr || session_.earlier().empty())

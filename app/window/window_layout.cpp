@@ -12,6 +12,7 @@
 #include "app/plots/kept_presses.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
+#include "app/shell/theme.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
 
@@ -316,6 +317,7 @@ void Window::makeViewMenu()
   connect(mapColors_, &QAction::toggled, this, &Window::showMap);
   view->addSeparator();
   addPanels(*view);
+  addThemes(*view);
   QAction* plots = view->addAction(tr("Section and comparison &plots"));
   plots->setObjectName("plotsAction");
   plots->setCheckable(true);

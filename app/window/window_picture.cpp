@@ -1,8 +1,10 @@
 // How the window's picture is looked at, and saved to print.
 
 #include "app/graphs/figure_dialog.h"
+#include "app/shell/theme.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
+#include "pipeline/view/appearance.h"
 
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -58,6 +60,21 @@ void Window::addStandardViews(QMenu& menu)
       const bool isUpright = std::abs(eye.z()) > 0.9;
       view_.lookFrom(eye, { 0.0, isUpright ? -1.0 : 0.0, isUpright ? 0.0 : 1.0 });
     });
+}
+
+// of the picture and the charts, which know no palette
+void Window::takeTheme()
+{
+  using appearance::Color;
+  const bool dark = isDark(palette());
+  const Color ground = dark ? Color{ 0.16, 0.17, 0.19 } : appearance::kGround;
+  const Color sky = dark ? Color{ 0.30, 0.32, 0.35 } : appearance::kSky;
+  renderer_->SetBackground(ground[0], ground[1], ground[2]);
+  renderer_->SetBackground2(sky[0], sky[1], sky[2]);
+  orientation_.setInk(dark ? appearance::kSky : appearance::kInk);
+  isStale_ = true;
+  drawCharts();
+  chartsAreStale_ = true;
 }
 
 // what moves is drawn as soon as can be, what stands still with smooth edges

@@ -144,6 +144,10 @@ void Window::changeEvent(QEvent* event)
   {
     letGo();
   }
+  if (event->type() == QEvent::PaletteChange)
+  {
+    takeTheme();
+  }
 }
 
 } // namespace palp

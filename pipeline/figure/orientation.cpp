@@ -45,8 +45,7 @@ Orientation::Orientation(vtkRenderer& renderer)
   vtkNew<vtkPolyDataMapper2D> mapper;
   mapper->SetInputData(lines_);
   cross_->SetMapper(mapper);
-  const appearance::Color& ink = appearance::kInk;
-  cross_->GetProperty()->SetColor(ink[0], ink[1], ink[2]);
+  setInk(appearance::kInk);
   cross_->GetProperty()->SetLineWidth(2.0F);
   renderer.AddActor2D(cross_);
 }
@@ -54,6 +53,15 @@ Orientation::Orientation(vtkRenderer& renderer)
 void Orientation::setPatient(bool isPatient)
 {
   isPatient_ = isPatient;
+}
+
+void Orientation::setInk(const std::array<double, 3>& ink)
+{
+  for (auto& letter : letters_)
+  {
+    letter->GetTextProperty()->SetColor(ink[0], ink[1], ink[2]);
+  }
+  cross_->GetProperty()->SetColor(ink[0], ink[1], ink[2]);
 }
 
 void Orientation::setVisible(bool visible)

@@ -25,6 +25,9 @@ public:
 
   void setVisible(bool visible);
 
+  /// At first dark, as for a light picture.
+  void setInk(const std::array<double, 3>& ink);
+
 private:
   void place(vtkRenderer& renderer, double width, double scale);
 

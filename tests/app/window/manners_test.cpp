@@ -1,10 +1,12 @@
 #include "app/shell/key_sheet.h"
+#include "app/shell/theme.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QDialog>
 #include <QDockWidget>
+#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -216,6 +218,39 @@ TEST_F(Manners, EveryControlHasANameAndSaysWhatItDoes)
     }
   }
   EXPECT_GE(controls, 20);
+}
+
+// the corner of a picture, as it is on the screen
+TEST_F(Manners, ADarkThemeIsDarkEverywhereAndIsRemembered)
+{
+  const auto lightness = [](QWidget* widget, QPoint at)
+  { return widget->grab().toImage().pixelColor(at).lightness(); };
+  auto* chart = window_->findChild<QVTKOpenGLNativeWidget*>("timeChart");
+  const auto choose = [this](const char* theme)
+  {
+    window_->findChild<QAction*>(theme)->trigger();
+    waitFor([](const Sample&) { return true; });
+  };
+  choose("lightTheme");
+  const auto isAll = [&](const std::function<bool(int)>& is)
+  {
+    return is(lightness(canvas_, { 5, canvas_->height() / 2 })) &&
+      is(lightness(chart, { 2, chart->height() - 3 })) &&
+      is(lightness(chart, { chart->width() / 2, chart->height() / 2 })) &&
+      is(lightness(window_->statusBar(), { 3, 3 }));
+  };
+  const auto isLight = [](int value) { return value > 150; };
+  const auto isDim = [](int value) { return value < 100; };
+  EXPECT_TRUE(QTest::qWaitFor([&] { return isAll(isLight); }, kPatience));
+  choose("darkTheme");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return isAll(isDim); }, kPatience));
+  EXPECT_EQ(rememberedTheme(), Theme::Dark);
+
+  const QString file = QString::fromStdString((folder_.path() / "curves.png").string());
+  ASSERT_TRUE(window_->saveCurves(file));
+  EXPECT_TRUE(isLight(QImage(file).pixelColor(3, 3).lightness())) << "to print";
+  choose("systemTheme");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return isAll(isLight); }, kPatience));
 }
 
 TEST_F(WindowTest, AMessageIsReadWholeAndTakesNothingAway)

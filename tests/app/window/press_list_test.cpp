@@ -185,6 +185,20 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
   session_->saveTo(nullptr);
 }
 
+TEST_F(PressListTest, ExportsTheNamesThatWereGiven)
+{
+  pressOnce(50);
+  type("young", "25");
+  pressOnce(70);
+  rows().topLevelItem(0)->setText(0, "left lobe");
+  rows().topLevelItem(1)->setText(0, "tumor, \"A\"");
+  const auto out = folder_.path() / "out";
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(out.string())));
+  EXPECT_NE(test::readAll(out / "presses.csv").find("\"tumor, \"\"A\"\"\","), std::string::npos);
+  EXPECT_NE(
+    test::readAll(out / "earlier-1" / "presses.csv").find("\"left lobe\","), std::string::npos);
+}
+
 // on the surface that was pressed, whatever is open now
 TEST_F(PressListTest, LoadsWhatWasExported)
 {

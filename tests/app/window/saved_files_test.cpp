@@ -6,7 +6,6 @@
 #include <QAction>
 #include <QComboBox>
 #include <QImage>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTabBar>
@@ -24,25 +23,6 @@ namespace
 {
 
 using test::WindowTest;
-
-// the question that work comes to, which is closed
-QString whatIsAskedBy(const std::function<void()>& work)
-{
-  QString asked;
-  QTimer closer;
-  QObject::connect(&closer, &QTimer::timeout,
-    [&]
-    {
-      if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
-      {
-        asked = message->text();
-        message->accept();
-      }
-    });
-  closer.start(100);
-  work();
-  return asked;
-}
 
 TEST_F(WindowTest, SavesAScreenshotOfTheDent)
 {
@@ -208,23 +188,14 @@ TEST_F(WindowTest, AsksBeforeAnExportReplacesFiles)
 {
   const auto file = folder_.path() / "samples.csv";
   std::ofstream(file) << "mine";
-  const auto exporting = [&]
-  { EXPECT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string()))); };
-  EXPECT_TRUE(whatIsAskedBy(exporting).contains("samples.csv")); // and closed without a yes
+  EXPECT_FALSE(window_->exportData(QString::fromStdString(folder_.path().string())));
+  EXPECT_TRUE(said().contains("samples.csv")) << said().toStdString();
   EXPECT_EQ(test::readAll(file), "mine");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
-
-  QTimer yes;
-  QObject::connect(&yes, &QTimer::timeout,
-    []
-    {
-      if (auto* message = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
-      {
-        message->button(QMessageBox::Yes)->click();
-      }
-    });
-  yes.start(100);
-  exporting();
+  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
+  {
+    button->text() == "Replace" ? button->click() : void();
+  }
   EXPECT_TRUE(test::readAll(file).starts_with("# palp"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "servo.csv"));
 }
