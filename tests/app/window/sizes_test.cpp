@@ -1,0 +1,128 @@
+#include "app/shell/theme.h"
+#include "tests/app/window/window_rig.h"
+
+#include <QAbstractButton>
+#include <QDockWidget>
+#include <QLabel>
+#include <QScrollArea>
+#include <QStatusBar>
+#include <QToolBar>
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+// the window at the sizes of usual screens, less what title bar and borders take
+class Sizes : public WindowTest
+{
+protected:
+  // whether a widget is scrolled, so that what is not seen can be
+  [[nodiscard]] static bool isScrolled(const QWidget* widget)
+  {
+    for (const QWidget* above = widget; above != nullptr; above = above->parentWidget())
+    {
+      if (qobject_cast<const QScrollArea*>(above) != nullptr)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::string nameOf(const QWidget* widget) const
+  {
+    const auto* label = qobject_cast<const QLabel*>(widget);
+    const auto* button = qobject_cast<const QAbstractButton*>(widget);
+    return (widget->objectName() + ' ' +
+      (label       ? label->text()
+          : button ? button->text()
+                   : ""))
+      .toStdString();
+  }
+
+  // what a text of one line takes, and the widget has
+  void expectWhole(const QWidget* widget, const QString& text, int margin) const
+  {
+    const int needed = widget->fontMetrics().horizontalAdvance(QString(text).remove('&'));
+    EXPECT_LE(needed, widget->width() - margin) << nameOf(widget);
+  }
+
+  void expectNothingClipped() const
+  {
+    const QRect inside = window_->rect();
+    EXPECT_TRUE(inside.contains(window_->statusBar()->geometry()));
+    for (const QWidget* widget : window_->findChildren<QWidget*>())
+    {
+      if (widget->visibleRegion().isEmpty() || widget->window() != window_.get())
+      {
+        continue;
+      }
+      const QRect place(widget->mapTo(window_.get(), QPoint(0, 0)), widget->size());
+      const auto* label = qobject_cast<const QLabel*>(widget);
+      const auto* button = qobject_cast<const QAbstractButton*>(widget);
+      const bool isText =
+        (label && !label->text().isEmpty()) || (button && !button->text().isEmpty());
+      if (isText && !isScrolled(widget))
+      {
+        EXPECT_TRUE(inside.contains(place)) << nameOf(widget);
+      }
+      if (label && label->textFormat() != Qt::RichText && !label->wordWrap() &&
+        label->objectName() != "force")
+      {
+        expectWhole(label, label->text(), 0);
+      }
+      if (button && !button->text().isEmpty())
+      {
+        expectWhole(button, button->text(), 4);
+      }
+    }
+    for (QToolBar* bar : window_->findChildren<QToolBar*>())
+    {
+      const auto* more = bar->findChild<QWidget*>("qt_toolbar_ext_button");
+      EXPECT_FALSE(more && more->isVisible()) << bar->objectName().toStdString() << " is cut";
+    }
+    EXPECT_GE(canvas_->width(), 320);
+    EXPECT_GE(canvas_->height(), 320);
+  }
+};
+
+TEST_F(Sizes, NothingIsClippedInLightAndDark)
+{
+  const char* pictures = std::getenv("PALP_SIZES_PICTURES"); // a folder, to look at them
+  press(80);
+  release();
+  EXPECT_TRUE(waitForLift());
+  for (const Theme theme : { Theme::Light, Theme::Dark })
+  {
+    setTheme(theme);
+    for (const QSize screen :
+      { QSize(1024, 768), QSize(1280, 800), QSize(1440, 860), QSize(1920, 1080) })
+    {
+      const QSize size = screen - QSize(16, 48);
+      window_->resize(size);
+      EXPECT_TRUE(QTest::qWaitFor([&] { return window_->size() == size; }, kPatience))
+        << "the window is larger than a screen of " << screen.width() << " x " << screen.height();
+      waitFor([](const Sample&) { return true; });
+      SCOPED_TRACE(std::to_string(screen.width()) + " x " + std::to_string(screen.height()));
+      expectNothingClipped();
+      if (pictures != nullptr)
+      {
+        const QString name = QString("%1/%2_%3x%4.png")
+                               .arg(pictures, theme == Theme::Dark ? "dark" : "light")
+                               .arg(screen.width())
+                               .arg(screen.height());
+        EXPECT_TRUE(window_->grab().save(name));
+      }
+    }
+  }
+  setTheme(Theme::System);
+}
+
+} // namespace
+} // namespace palp
