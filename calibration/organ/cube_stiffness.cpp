@@ -46,7 +46,7 @@ CubeStiffness integrated(double side, double youngModulus, double poissonRatio,
     for (int corner = 0; corner < kCubeCorners; ++corner)
     {
       const Eigen::Vector3d g = gradients.col(corner);
-      strain.block<6, 3>(0, 3 * corner) << g.x(), 0, 0, 0, g.y(), 0, 0, 0, g.z(), //
+      strain.block<6, 3>(0, 3L * corner) << g.x(), 0, 0, 0, g.y(), 0, 0, 0, g.z(), //
         g.y(), g.x(), 0, 0, g.z(), g.y(), g.z(), 0, g.x();
     }
     const Eigen::Matrix<double, 1, 24> dilatation = strain.topRows<3>().colwise().sum();
@@ -65,6 +65,7 @@ CubeStiffness cubeStiffness(double side, double youngModulus, double poissonRati
 {
   const double gauss = 0.5 / std::sqrt(3.0);
   std::vector<Eigen::Vector3d> points;
+  points.reserve(kCubeCorners);
   for (int point = 0; point < kCubeCorners; ++point)
   {
     points.emplace_back(0.5 + ((point & 1) != 0 ? gauss : -gauss),
@@ -77,15 +78,17 @@ CubeStiffness cutCubeStiffness(
   double side, double youngModulus, double poissonRatio, const CubePoints& inside)
 {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(inside.count());
   for (std::size_t i = 0; i < inside.size(); ++i)
   {
     if (inside[i])
     {
       const auto part = static_cast<int>(i);
-      points.emplace_back(Eigen::Vector3d(part % kCubeParts, part / kCubeParts % kCubeParts,
-                            part / kCubeParts / kCubeParts) /
-          kCubeParts +
-        Eigen::Vector3d::Constant(0.5 / kCubeParts));
+      const int row = part / kCubeParts;
+      const int layer = row / kCubeParts;
+      points.emplace_back((Eigen::Vector3d(part % kCubeParts, row % kCubeParts, layer) +
+                            Eigen::Vector3d::Constant(0.5)) /
+        kCubeParts);
     }
   }
   const double filled = static_cast<double>(points.size()) / static_cast<double>(inside.size());

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <bitset>
+#include <cstddef>
 
 namespace palp
 {
@@ -14,7 +15,7 @@ constexpr int kCubeCorners = 8;
 constexpr int kCubeParts = 4; ///< points along a side of a cube at which it is known what is inside
 
 /// Which of these points are inside, x fastest, then y and z.
-using CubePoints = std::bitset<kCubeParts * kCubeParts * kCubeParts>;
+using CubePoints = std::bitset<std::size_t{ kCubeParts } * kCubeParts * kCubeParts>;
 
 /// Stiffness of a cube of eight nodes whose dilatation is the mean of the cube, so that it does not
 /// lock where nu comes near 1/2.

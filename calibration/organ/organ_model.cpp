@@ -31,7 +31,9 @@ Cube cornerOf(const Cube& cube, int corner)
 // the cubes that hang together by their faces, most of them
 std::vector<Cube> largestPiece(const CutGrid& grid)
 {
-  const auto& [nx, ny, nz] = grid.size();
+  const int nx = grid.size()[0];
+  const int ny = grid.size()[1];
+  const int nz = grid.size()[2];
   const auto index = [&](const Cube& c)
   { return (at(c[2]) * at(ny) + at(c[1])) * at(nx) + at(c[0]); };
   std::vector<bool> met(at(nx) * at(ny) * at(nz));
@@ -52,13 +54,15 @@ std::vector<Cube> largestPiece(const CutGrid& grid)
           }
         };
         visit({ i, j, k });
-        for (std::size_t next = 0; next < piece.size(); ++next)
+        std::size_t next = 0;
+        while (next < piece.size())
         {
+          const Cube cube = piece[next++];
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
             for (const int step : { -1, 1 })
             {
-              Cube beside = piece[next];
+              Cube beside = cube;
               beside[axis] += step;
               visit(beside);
             }

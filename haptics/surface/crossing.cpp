@@ -97,8 +97,7 @@ std::vector<int> crossingTriangles(const BoxTree& tree, std::span<const Triangle
       return true;
     });
   std::ranges::sort(all);
-  const auto rest = std::ranges::unique(all);
-  all.erase(rest.begin(), rest.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
