@@ -179,7 +179,7 @@ float vtkPalpChart::PaintLegend(vtkContext2D* painter, const vtkRectf& rectangle
       this->Names.emplace_back(label, vtkRectf(left, y - 0.5F * line, width, line));
       this->PaintEntry(painter, i, vtkRectf(left, y - 0.3F * line, mark, 0.6F * line));
       const bool isShown = this->IsCurveShown(label);
-      text->SetColor(this->GetAxis(vtkAxis::LEFT)->GetTitleProperties()->GetColor());
+      text->SetColor(this->GetAxis(vtkAxis::BOTTOM)->GetTitleProperties()->GetColor());
       text->SetOpacity(isShown ? 1.0 : 0.45);
       painter->ApplyTextProp(text);
       painter->DrawString(left + mark + gap, y, label);

@@ -182,7 +182,7 @@ bool vtkPalpPointedChart::MouseWheelEvent(const vtkContextMouseEvent& mouse, int
 bool vtkPalpPointedChart::Paint(vtkContext2D* painter)
 {
   const bool painted = this->Superclass::Paint(painter);
-  const double* ink = this->GetAxis(vtkAxis::LEFT)->GetTitleProperties()->GetColor();
+  const double* ink = this->GetAxis(vtkAxis::BOTTOM)->GetTitleProperties()->GetColor();
   painter->GetPen()->SetColorF(ink[0], ink[1], ink[2], 0.7);
   painter->GetPen()->SetWidth(1.0F);
   painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
