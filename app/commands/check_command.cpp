@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -222,8 +223,32 @@ std::string doneIn(const RepairedMesh& repaired)
   return line.empty() ? "nothing to repair" : line;
 }
 
+// before any work
+void checkNames(const CheckOptions& options)
+{
+  const auto refuse = [](const std::filesystem::path& file, const std::string& what)
+  { throw Error(ErrorCode::BadValue, printable(file.string()) + ": " + what); };
+  constexpr std::array kinds{ ".vtp", ".stl", ".ply", ".obj" };
+  const std::filesystem::path& repaired = options.repaired;
+  if (!repaired.empty() && std::ranges::count(kinds, repaired.extension().string()) == 0)
+  {
+    refuse(repaired, "not a kind of file written here; give .vtp, .stl, .ply or .obj");
+  }
+  if (!options.faults.empty() && options.faults.extension() != ".vtp")
+  {
+    refuse(options.faults, "only .vtp has a place for faults; give such a file");
+  }
+  if (!repaired.empty() && !options.faults.empty() &&
+    std::filesystem::absolute(repaired).lexically_normal() ==
+      std::filesystem::absolute(options.faults).lexically_normal())
+  {
+    refuse(repaired, "named by --repair and --faults; give two files");
+  }
+}
+
 void runCheck(const CheckOptions& options)
 {
+  checkNames(options);
   const std::filesystem::path& file = options.source.file;
   const FileSurface read = readFileSurface(file, options.source.part);
   const LoadedSurface loaded = madeReady(read, file, options.source.unit);

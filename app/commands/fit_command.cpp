@@ -265,6 +265,14 @@ void tellLimits(const FileFit& file, bool searchesOffset)
     tell("no rows before the contact tell the force of no contact, which widens the interval; "
          "--offset 0N where the sensor was set to zero");
   }
+  const auto depths = file.curve.loading.depths.array();
+  const double outside = depths.minCoeff() - fitted.asked().curve.contact.value;
+  if (outside > depths.maxCoeff() - depths.minCoeff())
+  {
+    tell("warning: the contact that fits best is " + figures::shown(units::toMillimeters(outside)) +
+      " mm before the first row, so E means nothing: a row may be wrong, or the depth is counted "
+      "from elsewhere; look at fit.png, or say --contact");
+  }
   if (fitted.isSystematic)
   {
     tell("what the law '" + fitted.asked().name +

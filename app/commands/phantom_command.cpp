@@ -1,4 +1,5 @@
 #include "app/commands/commands.h"
+#include "app/input/coating_text.h"
 #include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/input/scene_plan.h"
@@ -153,7 +154,13 @@ ScenePlan planOf(const Phantom& phantom, const std::filesystem::path& folder)
     mesh.nodules.push_back({ nodule.center, nodule.radius, ratio });
   }
   plan.press.tissue.young = 6.5_kPa;
-  plan.press.tissue.options.mode = phantom.nodules.empty() ? LawMode::Paper : LawMode::Corrected;
+  const bool isLayered = phantom.parts.front().name == "slab";
+  if (isLayered)
+  {
+    plan.press.tissue.options.coatings = parseCoatings("2mm:20kPa:0.45,10mm:5kPa:0.48");
+  }
+  const bool isPlain = phantom.nodules.empty() && !isLayered;
+  plan.press.tissue.options.mode = isPlain ? LawMode::Paper : LawMode::Corrected;
   return plan;
 }
 

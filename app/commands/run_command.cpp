@@ -35,6 +35,7 @@ struct RunOptions
   ImageSize size;
   std::vector<std::string> plots{ "force-time", "force-depth" };
   std::vector<std::string> plotFiles; // png where none is named
+  std::vector<std::string> movies;
   std::vector<std::filesystem::path> references;
   bool refined = false;
   bool noPicture = false;
@@ -104,10 +105,22 @@ void addMotion(ScenePlan& plan, const RunOptions& options)
   plan.device = parseDevice("path:" + path.string());
 }
 
+std::vector<MovieKind> moviesOf(const RunOptions& options)
+{
+  std::vector<MovieKind> movies;
+  for (const std::string& name : options.movies)
+  {
+    const auto found = std::ranges::find(kMovieNames, name);
+    movies.push_back(static_cast<MovieKind>(found - kMovieNames.begin()));
+  }
+  return movies;
+}
+
 // an export folder once more
 void repeat(const RunOptions& options, const Renderer* pictures)
 {
-  const ExportFolder made = readExport(options.mesh.file);
+  ExportFolder made = readExport(options.mesh.file);
+  made.plan.movies = moviesOf(options);
   if (made.plan.window)
   {
     throw Error(ErrorCode::BadValue,
@@ -141,6 +154,7 @@ ScenePlan planOf(const RunOptions& options)
     .allSamples = options.allSamples,
     .refined = options.refined,
     .picture = draws(options),
+    .movies = moviesOf(options),
     .size = options.size };
   if (options.samplesOnly)
   {
@@ -190,6 +204,12 @@ void addOutputs(CLI::App& command, RunOptions& options)
       "Kinds of files for section, comparison and extent: png, svg, pdf, csv; png if none")
     ->delimiter(',')
     ->check(CLI::IsMember({ "png", "svg", "pdf", "csv" }));
+  command
+    .add_option("--movie", options.movies,
+      "Movies to draw, by ffmpeg as .mp4, or where it is missing as .ogv: replay (of the press, as "
+      "long as it took), turntable (around its deepest moment)")
+    ->delimiter(',')
+    ->check(CLI::IsMember(kMovieNames));
   command.add_option("--reference", options.references,
     "CSV with columns depth_mm and force_N for the comparison, from elsewhere or Palp's own (palp "
     "force, samples.csv); several are allowed");
@@ -199,11 +219,14 @@ void addOutputs(CLI::App& command, RunOptions& options)
     "--all-samples", options.allSamples, "Keep in samples.csv also the samples without contact");
   command.add_flag("--refined", options.refined,
     "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm");
-  command.add_flag("--no-picture", options.noPicture, "Write the data only")->excludes("--plots");
+  command.add_flag("--no-picture", options.noPicture, "Write the data only")
+    ->excludes("--plots")
+    ->excludes("--movie");
   command
     .add_flag("--samples-only", options.samplesOnly,
       "Write the samples only: the force, neither dent nor picture, in a tenth of the time")
     ->excludes("--plots")
+    ->excludes("--movie")
     ->excludes("--refined");
 }
 
@@ -241,6 +264,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
     "  palp run --out out                                  the bundled liver\n"
     "  palp run liver.stl --at -48.5,38.4,39.5 --depth 5mm --out out\n"
     "  palp run out --out again                            the same once more\n"
+    "  palp run out --movie replay,turntable --out again   with two movies\n"
     "  palp run block.stl --path press.csv --out out --tip cone:45deg:10mm\n"
     "  palp run --out out --plots section,comparison --plot-files png,csv");
   command->callback(
@@ -254,7 +278,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
       }
       if (isExport(options->mesh.file))
       {
-        refuseBeside(*command, options->mesh.file, { "FILE", "--out", "--overwrite" });
+        refuseBeside(*command, options->mesh.file, { "FILE", "--out", "--overwrite", "--movie" });
         repeat(*options, pictures);
         return;
       }

@@ -1,9 +1,12 @@
 #include "app/draw/offscreen_renderer.h"
 
+#include "app/draw/movie_file.h"
 #include "app/draw/offscreen.h"
+#include "app/plots/movie.h"
 #include "app/plots/press_figure.h"
 #include "app/plots/press_plots.h"
 #include "app/press/export.h"
+#include "app/program/progress_line.h"
 #include "haptics/error.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/surface_point.h"
@@ -12,6 +15,7 @@
 #include "pipeline/charts/plot_files.h"
 #include "pipeline/view/press_view.h"
 
+#include <vtkCamera.h>
 #include <vtkContextScene.h>
 #include <vtkContextView.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -43,6 +47,14 @@ SurfacePoint subject(const Recording& recording, const Sample& shown)
   return surfacePoint(surface, nearest.triangle, nearest.point);
 }
 
+FigureLook lookOf(const ScenePlan& plan)
+{
+  return { .hasAxes = true,
+    .hasScaleBar = true,
+    .overlays =
+      plan.overlays.value_or(std::vector<Overlay>(kUsualOverlays.begin(), kUsualOverlays.end())) };
+}
+
 void drawScene(const OffscreenContext& context, const SceneBody& body, const Recording& recording,
   const Calibration& calibration, const ScenePlan& plan, const std::filesystem::path& file)
 {
@@ -50,13 +62,49 @@ void drawScene(const OffscreenContext& context, const SceneBody& body, const Rec
   const Sample* deepest = recording.deepest();
   const Sample& shown = deepest ? *deepest : recording.samples.back();
   const SurfacePoint point = subject(recording, shown);
-  const FigureLook look{ .hasAxes = true,
-    .hasScaleBar = true,
-    .overlays =
-      plan.overlays.value_or(std::vector<Overlay>(kUsualOverlays.begin(), kUsualOverlays.end())) };
   writeFigure(
-    *window, { body, recording.scene.law, calibration, shown }, look,
+    *window, { body, recording.scene.law, calibration, shown }, lookOf(plan),
     [&](PressView& view, vtkRenderer&) { view.lookAtWhole(point.position, point.normal); }, file);
+}
+
+void drawMovie(const OffscreenContext& context, const SceneBody& body, const Recording& recording,
+  const Calibration& calibration, const ScenePlan& plan, MovieKind kind,
+  const std::filesystem::path& directory)
+{
+  const auto window = context.makeWindow(plan.size.width, plan.size.height);
+  const Sample* deepest = recording.deepest();
+  const Sample& shown = deepest ? *deepest : recording.samples.back();
+  const SurfacePoint point = subject(recording, shown);
+  const auto frames = movieFrames(kind, recording.samples, shown);
+  MovieFile movie(*window, directory / kMovieNames[static_cast<std::size_t>(kind)], kMovieRate);
+  ProgressLine progress("pictures of the " + kMovieNames[static_cast<std::size_t>(kind)]);
+  const auto look = [&](PressView& view, vtkRenderer& renderer)
+  {
+    view.lookAtWhole(point.position, point.normal);
+    if (plan.camera)
+    {
+      vtkCamera& camera = *renderer.GetActiveCamera();
+      camera.SetPosition(plan.camera->position.data());
+      camera.SetFocalPoint(plan.camera->focus.data());
+      camera.SetViewUp(plan.camera->up.data());
+      renderer.ResetCameraClippingRange();
+    }
+  };
+  drawFigure(*window, { body, recording.scene.law, calibration, shown }, lookOf(plan), look,
+    [&](PressView& view, vtkRenderer& renderer)
+    {
+      double turn = 0.0;
+      for (std::size_t i = 0; i < frames.size(); ++i)
+      {
+        view.show(*frames[i].sample);
+        renderer.GetActiveCamera()->Azimuth(units::toDegrees(frames[i].turn - turn));
+        renderer.ResetCameraClippingRange();
+        turn = frames[i].turn;
+        movie.add();
+        progress(i + 1, frames.size());
+      }
+    });
+  movie.finish();
 }
 
 template <typename Add>
@@ -140,6 +188,10 @@ void OffscreenRenderer::drawPress(const SceneBody& body, const Recording& record
   if (plan.picture)
   {
     drawScene(context, body, recording, *calibration, plan, directory / "press.png");
+  }
+  for (const MovieKind kind : plan.movies)
+  {
+    drawMovie(context, body, recording, *calibration, plan, kind, directory);
   }
   drawForce(context, recording, plan, directory);
   const auto draw = [&](PlotKind plot, const char* name, const std::function<Plots()>& make)

@@ -26,6 +26,7 @@ constexpr const char* kScene = "scene.json";
 constexpr const char* kPath = "path.csv";
 constexpr const char* kProvenance = "provenance.json";
 constexpr const char* kServo = "servo.csv"; // of the live thread, which nothing repeats
+constexpr const char* kBeside = "beside";   // files that palp run does not repeat
 
 // what is pressed, as it was felt, and what else the plan reads from outside of the folder
 std::vector<MeshFile> inputsOf(const ScenePlan& plan, const Recording& recording)
@@ -46,13 +47,19 @@ std::vector<MeshFile> inputsOf(const ScenePlan& plan, const Recording& recording
   return inputs;
 }
 
+// made on request, by a program that may differ
+bool isMovie(const std::string& name)
+{
+  return name.ends_with(".mp4") || name.ends_with(".ogv");
+}
+
 std::vector<MeshFile> outputsIn(const fs::path& stage)
 {
   std::vector<MeshFile> outputs;
   for (const auto& entry : fs::directory_iterator(stage))
   {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file() && name != kProvenance && name != kServo)
+    if (entry.is_regular_file() && name != kProvenance && name != kServo && !isMovie(name))
     {
       outputs.push_back(describeFile(entry.path()));
     }
@@ -91,6 +98,10 @@ std::vector<std::string> exportFiles()
   std::vector<std::string> names{ kScene, kPath, kProvenance, kServo, "samples.csv", "presses.csv",
     "deformed.vtp", "stiffness_map.csv", "stiffness_map.vtp", "press.png", "force_time.png",
     "force_depth.png" };
+  for (const std::string& movie : kMovieNames)
+  {
+    names.insert(names.end(), { movie + ".mp4", movie + ".ogv" });
+  }
   for (const std::string plot : { "section", "comparison", "extent" })
   {
     for (const std::string& ending : kPlotEndings)
@@ -118,6 +129,7 @@ ExportFolder readExport(const fs::path& folder)
   made.device = object.text("device", "");
   made.inputs = readList(object, "inputs");
   made.outputs = readList(object, "outputs");
+  (void)readList(object, kBeside);
   object.finish();
   return made;
 }
@@ -165,6 +177,19 @@ void writeProvenance(const fs::path& stage, const ScenePlan& plan, const Recordi
     stage / kProvenance, provenance.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
+void addToProvenance(const fs::path& folder, const std::vector<std::string>& names)
+{
+  std::vector<MeshFile> files;
+  for (const std::string& name : names)
+  {
+    files.push_back(describeFile(folder / name));
+  }
+  Json provenance = Json::parse(readText(folder / kProvenance, "the provenance.json of an export"));
+  provenance[kBeside] = listOf(files);
+  replaceFile(
+    folder / kProvenance, provenance.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
 void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recording& recording)
 {
   const std::vector<MeshFile> now = inputsOf(plan, recording);
@@ -195,6 +220,11 @@ std::string differences(const ExportFolder& made, const fs::path& stage)
     }
   }
   return names;
+}
+
+std::string changedSince(const ExportFolder& made)
+{
+  return differences(made, made.folder);
 }
 
 } // namespace palp

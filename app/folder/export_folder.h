@@ -56,6 +56,13 @@ void writeScene(const std::filesystem::path& stage, ScenePlan plan, const std::s
 void writeProvenance(
   const std::filesystem::path& stage, const ScenePlan& plan, const Recording& recording);
 
+/// Adds name and hash of files that were written into the folder afterwards, which palp run does
+/// not repeat.
+///
+/// @param names   in the folder
+/// @throws Error  BadFile: cannot be read or written
+void addToProvenance(const std::filesystem::path& folder, const std::vector<std::string>& names);
+
 /// Refuses to repeat what was made from other files.
 /// @throws Error  BadFile: names the first that has changed
 void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recording& recording);
@@ -63,5 +70,8 @@ void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recordin
 /// The files that differ from what the folder says they were, as words; empty: none.
 /// @param stage  what was made anew
 [[nodiscard]] std::string differences(const ExportFolder& made, const std::filesystem::path& stage);
+
+/// The files that somebody changed or removed since the folder was written, as words; empty: none.
+[[nodiscard]] std::string changedSince(const ExportFolder& made);
 
 } // namespace palp

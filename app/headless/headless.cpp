@@ -199,6 +199,11 @@ void tellDifferences(const ExportFolder& repeated, const std::filesystem::path& 
                    ? ": repeated to the byte"
                    : ": made by palp " + repeated.version + ", comes out another in " + other)
             << '\n';
+  if (const std::string edited = changedSince(repeated); !edited.empty())
+  {
+    std::cerr << "palp: warning: " << repeated.folder.string()
+              << " is not as it was written; changed or removed since: " << edited << '\n';
+  }
   if (const auto servo = repeated.folder / "servo.csv"; std::filesystem::exists(servo))
   {
     std::filesystem::copy_file(servo, out / "servo.csv");

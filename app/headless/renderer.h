@@ -18,10 +18,10 @@ struct Renderer
 {
   virtual ~Renderer() = default;
 
-  /// Draws what the plan asks for of press.png (the deepest moment), force_time.png and
+  /// Draws what the plan asks for of press.png (the deepest moment), movies, force_time.png and
   /// force_depth.png.
   ///
-  /// @param calibration  null only where the plan has no press.png
+  /// @param calibration  null only where the plan has no press.png and no movie
   /// @throws Error  NoPicture: no context, or a picture that came out empty
   virtual void drawPress(const SceneBody& body, const Recording& recording,
     const Calibration* calibration, const ScenePlan& plan,

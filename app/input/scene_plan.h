@@ -30,6 +30,13 @@ enum class PlotKind
   Extent,     ///< R_d over the depth
 };
 
+/// What a movie shows.
+enum class MovieKind
+{
+  Replay,    ///< the recording, from just before the first contact to just after the last
+  Turntable, ///< the deepest moment, seen from all around
+};
+
 /// What moves the tool.
 struct DeviceChoice
 {
@@ -99,7 +106,8 @@ struct ScenePlan
   bool deformed = true;                                ///< exported: deformed.vtp
   bool refined = false;                                ///< its dent followed to 0.01 mm
   bool picture = true;                                 ///< exported: press.png
-  ImageSize size{};                                    ///< of press.png
+  std::vector<MovieKind> movies{};     ///< exported: those, where a run asks for them
+  ImageSize size{};                    ///< of press.png
   std::optional<CameraPlace> camera{}; ///< of the window; none: all of the body is seen
 
   [[nodiscard]] bool has(PlotKind plot) const noexcept
@@ -128,12 +136,14 @@ struct ScenePlan
   /// Whether pictures are made off screen.
   [[nodiscard]] bool draws() const noexcept
   {
-    return !window && (picture || !plots.empty());
+    return !window && (picture || !plots.empty() || !movies.empty());
   }
 };
 
 /// The names of the plots in files and options, in the order of PlotKind.
 extern const std::vector<std::string> kPlotNames;
+
+extern const std::vector<std::string> kMovieNames; ///< likewise
 
 extern const std::vector<std::string> kPlotEndings; ///< of plotFiles
 

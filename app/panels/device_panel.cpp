@@ -6,6 +6,7 @@
 
 #include <QColor>
 #include <QComboBox>
+#include <QEvent>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -89,6 +90,18 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   connect(arm_, &QPushButton::clicked, this, &DevicePanel::armAsked);
   connect(stop_, &QPushButton::clicked, this, &DevicePanel::stopAsked);
   connect(device_, &QComboBox::currentTextChanged, this, &DevicePanel::deviceChanged);
+}
+
+void DevicePanel::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    const QString sheet = stop_->styleSheet(); // which keeps the colors that it was made with
+    stop_->setStyleSheet({});
+    stop_->setPalette({});
+    stop_->setStyleSheet(sheet);
+  }
 }
 
 void DevicePanel::offer(const QStringList& devices)

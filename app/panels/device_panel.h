@@ -35,6 +35,9 @@ Q_SIGNALS:
   void stopAsked();
   void deviceChanged(const QString& name);
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 private:
   QComboBox* device_;
   QPushButton* arm_;

@@ -4,6 +4,7 @@
 #include "app/input/tip_text.h"
 #include "haptics/units.h"
 #include "pipeline/charts/plot_files.h"
+#include "pipeline/figure/ambient_occlusion.h"
 #include "pipeline/figure/orientation.h"
 #include "pipeline/figure/scale_bar.h"
 #include "pipeline/view/appearance.h"
@@ -13,6 +14,7 @@
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -92,9 +94,8 @@ int dpiOf(ImageSize size)
   return static_cast<int>(std::lround(appearance::kDpi * std::max(1.0, std::sqrt(area))));
 }
 
-void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
-  const std::function<void(PressView& view, vtkRenderer& renderer)>& look,
-  const std::filesystem::path& file)
+void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
+  const ViewUse& look, const ViewUse& use)
 {
   const ImageSize size{ .width = window.GetSize()[0], .height = window.GetSize()[1] };
   const int samples = samplesOf(static_cast<double>(size.width) * size.height);
@@ -116,6 +117,11 @@ void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const Figur
   widenLines(*renderer, scale);
   showMoment(view, moment);
   look(view, *renderer);
+  if (figure.hasOcclusion)
+  {
+    constexpr double kReach = 0.08; // of the body
+    addAmbientOcclusion(*renderer, kReach * moment.body.display->GetLength());
+  }
   if (figure.hasCaption)
   {
     addCaption(*renderer, captionOf(moment), scale);
@@ -126,8 +132,17 @@ void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const Figur
     renderer->SetBackground(0.0, 0.0, 0.0);
     renderer->SetBackgroundAlpha(0.0);
   }
-  writePng(window, file, figure.isTransparent ? Background::Transparent : Background::Opaque);
+  use(view, *renderer);
   window.RemoveRenderer(renderer);
+}
+
+void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
+  const ViewUse& look, const std::filesystem::path& file)
+{
+  drawFigure(window, moment, figure, look,
+    [&](PressView&, vtkRenderer&) {
+      writePng(window, file, figure.isTransparent ? Background::Transparent : Background::Opaque);
+    });
 }
 
 } // namespace palp

@@ -32,9 +32,10 @@ struct FigureLook
 {
   bool isTransparent = false; ///< no background
   bool hasColorBar = true;
-  bool hasAxes = false;     ///< those of the scene, by the patient's sides where they are known
-  bool hasScaleBar = false; ///< true at the contact
-  bool hasCaption = false;  ///< tool, tissue, law, depth and force
+  bool hasAxes = false;      ///< those of the scene, by the patient's sides where they are known
+  bool hasScaleBar = false;  ///< true at the contact
+  bool hasCaption = false;   ///< tool, tissue, law, depth and force
+  bool hasOcclusion = false; ///< what little light reaches is darker; takes a second
   std::vector<Overlay> overlays{};
 };
 
@@ -50,14 +51,20 @@ void showMoment(PressView& view, const PressMoment& moment);
 /// The dots per inch at which a picture has the letters and lines of a smaller one, larger.
 [[nodiscard]] int dpiOf(ImageSize size);
 
-/// Draws a press into a window of no renderers yet, as large as the picture, and writes it.
+using ViewUse = std::function<void(PressView& view, vtkRenderer& renderer)>;
+
+/// Shows a press in a window of no renderers yet, as large as the picture, while it is used.
 ///
 /// Edges are smooth: several samples for each pixel, or in a picture too large for that a filter.
-/// @param look    places the camera; labels follow it
+/// @param look  places the camera; labels follow it
+/// @param use   draws it, once or after changes
+void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
+  const ViewUse& look, const ViewUse& use);
+
+/// The same, written once.
 /// @param file    .png
 /// @throws Error  as writePng
 void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
-  const std::function<void(PressView& view, vtkRenderer& renderer)>& look,
-  const std::filesystem::path& file);
+  const ViewUse& look, const std::filesystem::path& file);
 
 } // namespace palp

@@ -43,7 +43,7 @@ struct Union
 std::string describeCrossing(const Eigen::Vector3d& place)
 {
   std::ostringstream note;
-  note << "the surface crosses itself, at " << std::setprecision(4)
+  note << "the surface crosses, overlaps or touches itself, at " << std::setprecision(4)
        << units::toMillimeters(place.x()) << ", " << units::toMillimeters(place.y()) << ", "
        << units::toMillimeters(place.z()) << " mm for one; what is inside is told from all of it, "
        << "but forces near such folds are doubtful: repair the mesh";

@@ -124,11 +124,35 @@ void PointerTool::turnView()
   last_.reset();
 }
 
-void PointerTool::pressAt(const SurfacePoint& point, double depth, double speed, double time)
+void PointerTool::pressAt(const SurfacePoint& point, double depth, double speed)
 {
   letGo();
   moveTo(point);
-  given_ = { .depth = depth, .speed = speed, .begin = time, .now = 0.0 };
+  given_ = { .depth = depth, .speed = speed };
+}
+
+void PointerTool::lead(double time)
+{
+  if (!given_)
+  {
+    return;
+  }
+  constexpr double kMost = 0.05; // [s]
+  const double passed = std::clamp(time - given_->last.value_or(time), 0.0, kMost);
+  given_->last = time;
+  if (given_->rested >= kShortest)
+  {
+    given_->now -= given_->speed * passed;
+    given_->now < 0.0 ? given_.reset() : void();
+  }
+  else if (given_->now < given_->depth)
+  {
+    given_->now = std::min(given_->depth, given_->now + given_->speed * passed);
+  }
+  else
+  {
+    given_->rested += passed;
+  }
 }
 
 void PointerTool::letGo()
@@ -145,17 +169,6 @@ void PointerTool::update(double time)
   if (!pressing_ && time - pressedAt_ >= kShortest)
   {
     pressed_ = 0.0;
-  }
-  if (given_)
-  {
-    const double down = given_->depth / given_->speed;
-    const double since = time - given_->begin;
-    const double left = 2.0 * down + kShortest - since;
-    given_->now = given_->speed * std::min({ since, down, left });
-    if (left <= 0.0)
-    {
-      given_.reset();
-    }
   }
 }
 

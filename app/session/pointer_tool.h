@@ -52,8 +52,12 @@ public:
   /// @param point  on the surface
   /// @param depth  [m]
   /// @param speed  [m/s], more than 0
-  /// @param time   now [s]
-  void pressAt(const SurfacePoint& point, double depth, double speed, double time);
+  void pressAt(const SurfacePoint& point, double depth, double speed);
+
+  /// Leads such a press on. Whoever is late stretches it and leaves out none of it: a call counts
+  /// for 50 ms at most, and for nothing while the tool is not led.
+  /// @param time  of the newest sample [s]
+  void lead(double time);
 
   /// Whether such a press goes on.
   [[nodiscard]] bool pressesByItself() const noexcept
@@ -67,7 +71,7 @@ public:
   /// Ends each press: Escape, another window, a pointer that is no longer in the view.
   void letGo();
 
-  /// Ends a click that was shown long enough; leads a press that goes by itself.
+  /// Ends a click that was shown long enough.
   void update(double time);
 
   /// Nothing until the pointer has been over the body.
@@ -77,10 +81,11 @@ private:
   // a press that goes by itself
   struct Given
   {
-    double depth; // [m]
-    double speed; // [m/s]
-    double begin; // [s]
-    double now;   // depth at this moment [m]
+    double depth;                 // [m]
+    double speed;                 // [m/s]
+    double now = 0.0;             // depth at this moment [m]
+    double rested = 0.0;          // [s]
+    std::optional<double> last{}; // time that it was led to [s]
   };
 
   struct Pixel

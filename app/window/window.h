@@ -67,6 +67,8 @@ public:
   bool loadPresses(const QString& folder); // of an export
   bool saveScreenshot(const QString& file);
   bool saveFigure(const QString& file, ImageSize size, const FigureLook& look);
+  bool saveReplay(const QString& file);    // a movie, which gets the ending of what it is
+  bool saveTurntable(const QString& file); // likewise
   bool savePlots(const QString& file, std::optional<ImageSize> size = std::nullopt);
   bool saveCurves(const QString& file);
   bool saveChart(std::size_t chart, const QString& file, ImageSize size); // of charts_, counted
@@ -175,8 +177,11 @@ private:
   void sayWritten(const QString& curves, const QString& what); // to that file
   void askFigure();
   bool attempt(const std::function<void()>& work);
+  [[nodiscard]] ScenePlan stageTake(const std::filesystem::path& folder, const SceneBody& body,
+    Recording& recording, const Calibration& calibration) const;
   void exportTake(const QString& directory, const SceneBody& body, Recording recording,
     const Calibration& calibration, const Timing* timing);
+  bool saveMovie(const QString& file, MovieKind kind);
   bool exportInto(const QString& directory);
   [[nodiscard]] CameraPlace cameraPlace() const;
   void lookFrom(const CameraPlace& place);
@@ -218,6 +223,7 @@ private:
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;             // null: never shown
   PressBar* pressBar_ = nullptr;
+  QString refusedPlace_;           // why the last press at a place was not made
   PressList* pressList_ = nullptr; // null: no sample is kept
   QUndoStack undo_;
   std::optional<MapWork> mapWork_;   // none: no map is in work

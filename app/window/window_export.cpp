@@ -9,7 +9,9 @@
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/files/prefix.h"
+#include "haptics/files/replace_file.h"
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
@@ -68,6 +70,15 @@ QString filesFoundIn(const std::filesystem::path& directory)
   return found.join(", ");
 }
 
+std::filesystem::path pathOf(const QTemporaryDir& folder)
+{
+  if (!folder.isValid())
+  {
+    throw Error(ErrorCode::BadFile, "no temporary folder can be made; free some space in /tmp");
+  }
+  return folder.path().toStdString();
+}
+
 } // namespace
 
 CameraPlace Window::cameraPlace() const
@@ -89,17 +100,9 @@ void Window::lookFrom(const CameraPlace& place)
   isStale_ = true;
 }
 
-// what was recorded goes into a folder of its own, from which the exported one is made
-void Window::exportTake(const QString& directory, const SceneBody& body, Recording recording,
-  const Calibration& calibration, const Timing* timing)
+ScenePlan Window::stageTake(const std::filesystem::path& folder, const SceneBody& body,
+  Recording& recording, const Calibration& calibration) const
 {
-  const QTemporaryDir stage;
-  const std::filesystem::path folder = stage.path().toStdString();
-  if (!stage.isValid())
-  {
-    throw Error(ErrorCode::BadFile, "no temporary folder can be made; free some space in /tmp");
-  }
-  recording.names = session_.presses().namesIn(recording);
   ScenePlan plan = planOf(session_.plan(), body, recording);
   plan.allSamples = allSamplesExport_->isChecked();
   plan.refined = refinedExport_->isChecked();
@@ -109,11 +112,22 @@ void Window::exportTake(const QString& directory, const SceneBody& body, Recordi
     keepContact(recording);
   }
   writeSamples(folder / "samples.csv", recording, &calibration);
+  writeProvenance(folder, plan, recording);
+  return plan;
+}
+
+// what was recorded goes into a folder of its own, from which the exported one is made
+void Window::exportTake(const QString& directory, const SceneBody& body, Recording recording,
+  const Calibration& calibration, const Timing* timing)
+{
+  const QTemporaryDir stage;
+  const std::filesystem::path folder = pathOf(stage);
+  recording.names = session_.presses().namesIn(recording);
+  ScenePlan plan = stageTake(folder, body, recording, calibration);
   if (timing)
   {
     writeTiming(folder / "servo.csv", *timing);
   }
-  writeProvenance(folder, plan, recording);
   Ended ended{ kNoPicture, {} };
   for (const bool draws : { true, false })
   {
@@ -129,6 +143,54 @@ void Window::exportTake(const QString& directory, const SceneBody& body, Recordi
   {
     throw Error(ErrorCode::BadFile, ended.said.toStdString());
   }
+}
+
+// drawn by palp run, while the window goes on
+bool Window::saveMovie(const QString& file, MovieKind kind)
+{
+  return attempt(
+    [&]
+    {
+      takeSamples();
+      const Pictured seen = pictured();
+      if (seen.recording.deepest() == nullptr)
+      {
+        throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
+      }
+      const QTemporaryDir stage;
+      const QTemporaryDir made;
+      const SceneBody body = seen.body;
+      const Calibration calibration = seen.calibration;
+      Recording recording = seen.recording;
+      ScenePlan plan = stageTake(pathOf(stage), body, recording, calibration);
+      plan.picture = plan.deformed = false;
+      plan.plots.clear();
+      writeScene(pathOf(stage), plan, "");
+      say(tr("Drawing the movie…"));
+      const std::string& name = kMovieNames[static_cast<std::size_t>(kind)];
+      const Ended ended = runPalp({ stage.path(), "--movie", QString::fromStdString(name),
+        "--overwrite", "--out", made.path() });
+      if (ended.code != 0)
+      {
+        throw Error(ErrorCode::BadFile, ended.said.toStdString());
+      }
+      std::filesystem::path from = pathOf(made) / (name + ".mp4");
+      from.replace_extension(std::filesystem::exists(from) ? ".mp4" : ".ogv");
+      std::filesystem::path to = file.toStdString();
+      to.replace_extension(from.extension());
+      replaceFile(to, readText(from, "the movie"));
+      say(tr("Written to %1").arg(QString::fromStdString(to.string())));
+    });
+}
+
+bool Window::saveReplay(const QString& file)
+{
+  return saveMovie(file, MovieKind::Replay);
+}
+
+bool Window::saveTurntable(const QString& file)
+{
+  return saveMovie(file, MovieKind::Turntable);
 }
 
 bool Window::exportData(const QString& directory)
@@ -169,6 +231,7 @@ bool Window::exportInto(const QString& directory)
       if (const StiffnessMap* map = currentMap())
       {
         writeMap(folder, *map, session_.body(), session_.recording().rated);
+        isExport(folder) ? addToProvenance(folder, { kMapTable, kMapSurface }) : void();
         written << tr("stiffness map");
       }
       autosave_ != nullptr ? autosave_->clear() : void();

@@ -76,6 +76,12 @@ void Window::makeFileMenu()
       tr("Save fi&gure…"), this, [this] { askFigure(); },
       QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S))
     ->setObjectName("figureAction");
+  addSave(tr("Save &movie of the press…"), tr("Save movie"), "press.mp4",
+    tr("Movies (*.mp4 *.ogv)"), &Window::saveReplay)
+    ->setObjectName("movieAction");
+  addSave(tr("Save &turntable…"), tr("Save turntable"), "turntable.mp4", tr("Movies (*.mp4 *.ogv)"),
+    &Window::saveTurntable)
+    ->setObjectName("turntableAction");
   QAction* curves = addSave(tr("Save &curves…"), tr("Save curves"), "curves.png",
     tr("Plots (*.png *.svg *.pdf *.csv)"), &Window::saveCurves);
   QAction* exporting = file->addAction(tr("&Export data…"), this,

@@ -104,7 +104,7 @@ void Window::makePressBar()
 
 void Window::pressAtPlace()
 {
-  attempt(
+  const bool isPressed = attempt(
     [this]
     {
       const PlacedPresses presses = pressBar_->presses();
@@ -116,14 +116,20 @@ void Window::pressAtPlace()
       }
       const SurfacePoint point =
         pressedPoint(presses.places.front(), presses, session_.recording().scene);
-      pointer_.pressAt(point, presses.depth, presses.speed, now());
+      pointer_.pressAt(point, presses.depth, presses.speed);
       aim();
     });
+  if (isPressed && message_->text() == refusedPlace_) // which is mended
+  {
+    message_->warn({});
+  }
+  refusedPlace_ = isPressed ? QString() : message_->text();
 }
 
 void Window::aim()
 {
   pointer_.update(now());
+  pointer_.lead(session_.newest().time);
   if (const auto target = pointer_.target())
   {
     session_.aim(*target);
@@ -140,7 +146,7 @@ void Window::letGo()
 void Window::changeEvent(QEvent* event)
 {
   QMainWindow::changeEvent(event);
-  if (event->type() == QEvent::ActivationChange && !isActiveWindow())
+  if (event->type() == QEvent::ActivationChange && !isActiveWindow() && !pointer_.pressesByItself())
   {
     letGo();
   }

@@ -87,6 +87,38 @@ std::optional<Eigen::Vector3d> findCrossing(
   return found;
 }
 
+bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept
+{
+  const auto& [a, b, c] = facet.corners;
+  const Eigen::Vector3d middle = (a + b + c) / 3.0;
+  const bool isInside = winding(middle - aside * facet.normal) > 0.5;
+  return isInside == (winding(middle + aside * facet.normal) > 0.5);
+}
+
+std::vector<int> buriedTriangles(
+  const BoxTree& tree, const Winding& winding, std::span<const int> pieces, double aside)
+{
+  std::vector<int> all;
+  if (std::ranges::all_of(pieces, [](int piece) { return piece == 0; }))
+  {
+    return all;
+  }
+  for (int i = 0; at(i) < tree.facets().size(); ++i)
+  {
+    const Facet& facet = tree.facets()[at(i)];
+    const int own = pieces[at(tree.triangle(i))];
+    bool isNear = false;
+    tree.search([&](const BoxTree::Node& box) { return !isNear && overlaps(box, facet); },
+      [&](int j) { isNear = isNear || pieces[at(tree.triangle(j))] != own; });
+    if (isNear && isBuried(winding, facet, aside))
+    {
+      all.push_back(tree.triangle(i));
+    }
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
 std::vector<int> crossingTriangles(const BoxTree& tree, std::span<const Triangle> triangles)
 {
   std::vector<int> all;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/surface/box_tree.h"
+#include "haptics/surface/winding.h"
 
 #include <Eigen/Core>
 #include <optional>
@@ -16,6 +17,19 @@ namespace palp
 /// @param triangles  that the tree was built of
 [[nodiscard]] std::optional<Eigen::Vector3d> findCrossing(
   const BoxTree& tree, std::span<const Triangle> triangles);
+
+/// The triangles near another piece that have the body, or nothing, on both sides: where pieces
+/// touch, or overlap and their walls meet in edges or planes, none passes through another.
+///
+/// @param tree    of all triangles of a closed surface
+/// @param pieces  of each triangle, by piecesOf
+/// @param aside   where the two sides are looked at [m]
+[[nodiscard]] std::vector<int> buriedTriangles(
+  const BoxTree& tree, const Winding& winding, std::span<const int> pieces, double aside);
+
+/// Whether the body, or nothing, is on both sides of a triangle: it bounds nothing.
+/// @param aside  where the two sides are looked at [m]
+[[nodiscard]] bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept;
 
 /// The triangles that pass through others, or that others pass through, each once and in order.
 ///

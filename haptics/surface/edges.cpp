@@ -65,10 +65,12 @@ Edges edgesOf(std::size_t points, std::span<const Triangle> triangles)
     for (auto side = at(sides.first[point]); side < end;)
     {
       const Side& one = sides.all[side];
-      std::size_t next = side + 1;
-      while (next < end && sides.all[next].other == one.other)
+      std::size_t next = side;
+      int ways = 0; // upward less downward
+      for (; next < end && sides.all[next].other == one.other; ++next)
       {
-        ++next;
+        const Side& each = sides.all[next];
+        ways += triangles[at(each.triangle)][at(each.k)] == static_cast<int>(point) ? 1 : -1;
       }
       edges.all.push_back({ static_cast<int>(point), one.other });
       if (next - side == 2)
@@ -81,11 +83,43 @@ Edges edgesOf(std::size_t points, std::span<const Triangle> triangles)
       {
         edges.unpaired.push_back(edges.all.back());
         edges.crowded += next - side > 2;
+        edges.unbalanced += ways != 0;
       }
       side = next;
     }
   }
   return edges;
+}
+
+std::vector<int> piecesOf(std::span<const std::array<int, 3>> across)
+{
+  std::vector<int> pieces(across.size(), -1);
+  std::vector<std::size_t> waiting;
+  int count = 0;
+  for (std::size_t start = 0; start < across.size(); ++start)
+  {
+    if (pieces[start] >= 0)
+    {
+      continue;
+    }
+    pieces[start] = count;
+    waiting.push_back(start);
+    while (!waiting.empty())
+    {
+      const std::size_t triangle = waiting.back();
+      waiting.pop_back();
+      for (const int other : across[triangle])
+      {
+        if (other >= 0 && pieces[at(other)] < 0)
+        {
+          pieces[at(other)] = count;
+          waiting.push_back(at(other));
+        }
+      }
+    }
+    ++count;
+  }
+  return pieces;
 }
 
 } // namespace palp

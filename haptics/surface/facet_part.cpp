@@ -1,6 +1,9 @@
 #include "haptics/surface/facet_part.h"
 
+#include "haptics/surface/edges.h"
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,44 +34,37 @@ std::array<Eigen::Matrix3d, 3> bendsOf(
 
 std::vector<float> hollowRadii(const LinkedTriangles& mesh)
 {
-  std::vector<float> radii(mesh.triangles.size());
-  std::vector<bool> met(radii.size());
-  for (std::size_t start = 0; start < radii.size(); ++start)
+  struct Piece
   {
-    if (met[start])
-    {
-      continue;
-    }
-    met[start] = true;
-    std::vector<std::size_t> piece{ start };
-    const Eigen::Vector3d& from = mesh.points[at(mesh.triangles[start][0])];
+    Eigen::Vector3d from;
     double volume = 0.0; // six times that [m^3]
     double area = 0.0;   // twice that [m^2]
     bool isClosed = true;
-    for (std::size_t next = 0; next < piece.size(); ++next)
+  };
+  const std::vector<int> pieceOf = piecesOf(mesh.across);
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    const auto [a, b, c] = mesh.triangles[i];
+    if (at(pieceOf[i]) == pieces.size())
     {
-      const auto [a, b, c] = mesh.triangles[piece[next]];
-      const Eigen::Vector3d u = mesh.points[at(a)] - from;
-      const Eigen::Vector3d v = mesh.points[at(b)] - from;
-      const Eigen::Vector3d w = mesh.points[at(c)] - from;
-      volume += u.dot(v.cross(w));
-      area += (v - u).cross(w - u).norm();
-      for (const int other : mesh.across[piece[next]])
-      {
-        isClosed = isClosed && other >= 0;
-        if (other >= 0 && !met[at(other)])
-        {
-          met[at(other)] = true;
-          piece.push_back(at(other));
-        }
-      }
+      pieces.push_back({ mesh.points[at(a)] });
     }
-    for (const std::size_t triangle : piece)
-    {
-      radii[triangle] = isClosed && volume < 0.0
-        ? static_cast<float>(std::sqrt(area / (8.0 * std::numbers::pi)))
-        : 0.0F;
-    }
+    Piece& piece = pieces[at(pieceOf[i])];
+    const Eigen::Vector3d u = mesh.points[at(a)] - piece.from;
+    const Eigen::Vector3d v = mesh.points[at(b)] - piece.from;
+    const Eigen::Vector3d w = mesh.points[at(c)] - piece.from;
+    piece.volume += u.dot(v.cross(w));
+    piece.area += (v - u).cross(w - u).norm();
+    piece.isClosed = piece.isClosed && std::ranges::count(mesh.across[i], -1) == 0;
+  }
+  std::vector<float> radii(mesh.triangles.size());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    const Piece& piece = pieces[at(pieceOf[i])];
+    radii[i] = piece.isClosed && piece.volume < 0.0
+      ? static_cast<float>(std::sqrt(piece.area / (8.0 * std::numbers::pi)))
+      : 0.0F;
   }
   return radii;
 }

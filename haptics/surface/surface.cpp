@@ -17,6 +17,8 @@ namespace palp
 namespace
 {
 
+constexpr double kAside = 1e-4; // [-] edge lengths from a triangle, where its two sides are told
+
 void check(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -83,14 +85,19 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
     throw Error(ErrorCode::BadMesh, "surface: no triangle with an area; choose another file");
   }
   normals_ = angleWeightedNormals(points_, triangles_);
-  linkEdges();
-  if (!closed())
+  isClosed_ = linkEdges();
+  if (!isClosed_)
   {
     spreadOpenEdges();
   }
-  else if (crossing_ = findCrossing(tree_, triangles_); crossing_)
+  else
   {
-    dropWhatIsBuried();
+    crossing_ = findCrossing(tree_, triangles_);
+    crossing_ = crossing_ ? crossing_ : findOverlap();
+    if (crossing_)
+    {
+      dropWhatIsBuried();
+    }
   }
   firstTriangle_.assign(points_.size(), -1);
   for (int facet = static_cast<int>(tree_.facets().size()) - 1; facet >= 0; --facet)
@@ -103,7 +110,8 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
   shape_ = ShapeField(tree_, { points_, triangles_, across_ }, edgeLength_);
 }
 
-void Surface::linkEdges()
+// whether they are closed
+bool Surface::linkEdges()
 {
   Edges edges = edgesOf(points_.size(), triangles_);
   across_ = std::move(edges.across);
@@ -132,21 +140,35 @@ void Surface::linkEdges()
     neighbors_[at(next[at(a)]++)] = b;
     neighbors_[at(next[at(b)]++)] = a;
   }
+  return edges.unbalanced == 0;
+}
+
+// of pieces whose walls meet without passing through each other
+std::optional<Eigen::Vector3d> Surface::findOverlap() const
+{
+  const std::vector<int> pieces = piecesOf(across_);
+  if (std::ranges::max(pieces) == 0)
+  {
+    return std::nullopt;
+  }
+  const std::vector<int> buried =
+    buriedTriangles(tree_, Winding(tree_), pieces, kAside * edgeLength_);
+  if (buried.empty())
+  {
+    return std::nullopt;
+  }
+  const Triangle& first = triangles_[at(buried.front())];
+  return (points_[at(first[0])] + points_[at(first[1])] + points_[at(first[2])]) / 3.0;
 }
 
 // what is felt is the boundary of all that is inside
 void Surface::dropWhatIsBuried()
 {
-  constexpr double kAside = 1e-4; // [-] edge lengths
   Winding winding(tree_);
   std::vector<Triangle> triangles = triangles_;
   for (int i = 0; at(i) < tree_.facets().size(); ++i)
   {
-    const Facet& facet = tree_.facets()[at(i)];
-    const auto& [a, b, c] = facet.corners;
-    const Eigen::Vector3d middle = (a + b + c) / 3.0;
-    const Eigen::Vector3d aside = kAside * edgeLength_ * facet.normal;
-    if ((winding(middle + aside) > 0.5) == (winding(middle - aside) > 0.5))
+    if (isBuried(winding, tree_.facets()[at(i)], kAside * edgeLength_))
     {
       Triangle& triangle = triangles[at(tree_.triangle(i))];
       triangle.fill(triangle[0]);
@@ -161,6 +183,7 @@ void Surface::dropWhatIsBuried()
   winding_ = std::move(winding);
   triangles_ = std::move(triangles);
   tree_ = std::move(boundary);
+  linkEdges(); // of what is left
 }
 
 // each point takes over the nearest open edge that one of its neighbors knows, nearest first

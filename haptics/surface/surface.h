@@ -20,8 +20,8 @@ public:
   /// Checks the triangles, computes normals and neighbors, builds the box tree.
   ///
   /// Degenerate triangles and points without a triangle are allowed and ignored by the search. Of a
-  /// closed surface that crosses itself, triangles with the inside or the outside on both sides
-  /// become degenerate: they bound nothing.
+  /// closed surface that crosses itself, or whose pieces overlap, triangles with the inside or the
+  /// outside on both sides become degenerate: they bound nothing.
   ///
   /// @param points     [m]
   /// @param triangles  indices into points, outward oriented
@@ -61,16 +61,18 @@ public:
     return firstTriangle_[static_cast<std::size_t>(point)];
   }
 
-  /// True when every edge has exactly two triangles.
+  /// True when every edge has two triangles, or is gone along as often one way as the other, as
+  /// where bodies touch: what is inside is known.
   [[nodiscard]] bool closed() const noexcept
   {
-    return openEdges_.empty();
+    return isClosed_;
   }
 
   /// Whether a point ends an edge that has not exactly two triangles.
   [[nodiscard]] bool onOpenEdge(int point) const noexcept;
 
-  /// A place where a closed surface crosses itself; none: it does so nowhere, or is open.
+  /// A place where a closed surface crosses itself, or its pieces overlap; none: it does so
+  /// nowhere, or is open.
   [[nodiscard]] const std::optional<Eigen::Vector3d>& crossing() const noexcept
   {
     return crossing_;
@@ -108,8 +110,9 @@ public:
   }
 
 private:
-  void linkEdges();
+  bool linkEdges();
   void spreadOpenEdges();
+  [[nodiscard]] std::optional<Eigen::Vector3d> findOverlap() const;
   void dropWhatIsBuried();
 
   std::vector<Eigen::Vector3d> points_;
@@ -121,6 +124,7 @@ private:
   std::vector<std::array<int, 3>> across_;
   std::vector<std::array<int, 2>> openEdges_;
   std::vector<int> nearestOpenEdge_; // per point, empty when closed
+  bool isClosed_ = false;
   double edgeLength_ = 0.0;
   BoxTree tree_;
   ShapeField shape_;

@@ -8,11 +8,8 @@ class vtkPolyData;
 namespace palp
 {
 
-/// Surface on which an image has one value, or of some of its labels: the largest connected piece,
-/// with the stairs of the voxels smoothed away (windowed sinc, which keeps the volume; Taubin
-/// 1996). An image of two values is taken at their middle, whatever level lies between them: its
-/// flat faces stand within 0.1 voxel of where the voxels end, a sharp edge, which is rounded,
-/// within 0.25 outside, and a masked ball within 0.6 with a mean of 0.1.
+/// Surface on which an image has one value, or of some of its labels, by imageContour. An image of
+/// two values is taken at their middle, whatever level lies between them.
 ///
 /// @param part   nothing: refused, with the values that there are
 /// @param name   stands before each message

@@ -208,6 +208,11 @@ void checkNiftiLength(const std::filesystem::path& file, const NiftiHeader& head
       beyond += static_cast<std::uintmax_t>(got);
     }
   }
+  int state = Z_OK; // also of what was read before
+  if (in && (static_cast<void>(gzerror(in.get(), &state)), state == Z_DATA_ERROR))
+  {
+    refuse(file, "its compressed data are damaged, by their checksum; export or copy it again");
+  }
   if (beyond > 0)
   {
     refuseMore(file, header.bytes + beyond, header.bytes, "mend its dim or datatype");

@@ -229,11 +229,17 @@ void findHoles(const Subject& subject, Findings& findings, std::vector<Finding>&
   }
 }
 
-// where it passes through itself, and what is within
+// where it passes through itself, or its pieces overlap from wall to wall
 void findInside(const Subject& subject, Findings& findings)
 {
   const BoxTree tree(subject.points, subject.triangles);
-  for (const int triangle : crossingTriangles(tree, subject.triangles))
+  std::vector<int> triangles = crossingTriangles(tree, subject.triangles);
+  if (triangles.empty() && subject.edges.unbalanced == 0 && subject.facing.inner == 0)
+  {
+    const double aside = 1e-4 * (tree.facets()[0].corners[1] - tree.facets()[0].corners[0]).norm();
+    triangles = buriedTriangles(tree, Winding(tree), piecesOf(subject.edges.across), aside);
+  }
+  for (const int triangle : triangles)
   {
     findings.add(Fault::SelfIntersection, middleOf(subject.points, subject.triangles[at(triangle)]),
       { subject.from[at(triangle)] });
@@ -256,41 +262,26 @@ void findInner(const Subject& subject, std::vector<Finding>& all)
   all.push_back(std::move(inner));
 }
 
-std::vector<MeshPiece> piecesOf(const Subject& subject)
+std::vector<MeshPiece> measuredPieces(const Subject& subject)
 {
+  const std::vector<int> pieceOf = piecesOf(subject.edges.across);
   std::vector<MeshPiece> pieces;
-  std::vector<bool> met(subject.triangles.size());
-  for (std::size_t start = 0; start < subject.triangles.size(); ++start)
+  std::vector<Eigen::Vector3d> from;
+  for (std::size_t i = 0; i < subject.triangles.size(); ++i)
   {
-    if (met[start])
+    const Triangle& t = subject.triangles[i];
+    const std::size_t k = at(pieceOf[i]);
+    if (k == pieces.size())
     {
-      continue;
+      pieces.emplace_back();
+      from.push_back(subject.points[at(t[0])]);
     }
-    MeshPiece piece;
-    std::vector<int> waiting{ static_cast<int>(start) };
-    met[start] = true;
-    const Eigen::Vector3d& from = subject.points[at(subject.triangles[start][0])];
-    while (!waiting.empty())
-    {
-      const std::size_t triangle = at(waiting.back());
-      waiting.pop_back();
-      const Triangle& t = subject.triangles[triangle];
-      ++piece.triangles;
-      piece.volume +=
-        (subject.points[at(t[0])] - from)
-          .dot((subject.points[at(t[1])] - from).cross(subject.points[at(t[2])] - from)) /
-        6.0;
-      for (const int other : subject.edges.across[triangle])
-      {
-        piece.closed &= other >= 0;
-        if (other >= 0 && !met[at(other)])
-        {
-          met[at(other)] = true;
-          waiting.push_back(other);
-        }
-      }
-    }
-    pieces.push_back(piece);
+    ++pieces[k].triangles;
+    pieces[k].volume +=
+      (subject.points[at(t[0])] - from[k])
+        .dot((subject.points[at(t[1])] - from[k]).cross(subject.points[at(t[2])] - from[k])) /
+      6.0;
+    pieces[k].closed &= std::ranges::count(subject.edges.across[i], -1) == 0;
   }
   std::ranges::sort(pieces, std::greater(), &MeshPiece::triangles);
   return pieces;
@@ -325,7 +316,7 @@ MeshHealth healthOf(std::span<const Eigen::Vector3d> points, std::span<const Tri
   findHoles(subject, findings, health.findings);
   findInside(subject, findings);
   findInner(subject, health.findings);
-  health.pieces = piecesOf(subject);
+  health.pieces = measuredPieces(subject);
   for (const auto& [a, b] : subject.edges.all)
   {
     health.edgeLengths.push_back((subject.points[at(a)] - subject.points[at(b)]).norm());

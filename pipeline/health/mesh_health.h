@@ -22,8 +22,8 @@ enum class Fault
   NonManifoldEdge,   ///< of three triangles or more
   NonManifoldPoint,  ///< where parts of the surface meet that no edge joins
   Hole,              ///< a closed chain of edges with one triangle each
-  SelfIntersection,  ///< a triangle that passes through another
-  InnerPiece,        ///< a closed piece within another one that faces alike
+  SelfIntersection, ///< a triangle that passes through another, or lies in or against another piece
+  InnerPiece,       ///< a closed piece within another one that faces alike
 };
 
 /// @return  in words, as "non-manifold edge"

@@ -68,5 +68,21 @@ TEST_F(CheckCommand, MarksTheFaultsOfTriangles)
   EXPECT_NE(text.find("Name=\"fault\""), std::string::npos);
 }
 
+TEST_F(CheckCommand, RefusesANameBeforeAnyWork)
+{
+  const std::string file = holedBall().string() + " --unit mm";
+  const std::string out = folder_.path().string();
+  for (const auto& [options, words] :
+    { std::pair(" --repair " + out + "/x.xyz", out + "/x.xyz: not a kind of file written here"),
+      { " --faults " + out + "/x.stl", "only .vtp has a place for faults" },
+      { " --repair " + out + "/x.vtp --faults " + out + "/./x.vtp", "give two files" } })
+  {
+    const test::Finished run = check(file + options);
+    EXPECT_EQ(run.code, 2) << options;
+    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+}
+
 } // namespace
 } // namespace palp

@@ -108,6 +108,18 @@ TEST_F(ExportFolders, OfARecordingAreRepeatedRowByRow)
     presses.substr(presses.find("\"first\"") + 7), before.substr(before.find("\"press 1\"") + 9));
 }
 
+TEST_F(ExportFolders, TellWhatWasChangedInThem)
+{
+  ASSERT_EQ(palp("run " + block() + onTop() + " --no-picture --out " + folder("first")).code, 0);
+  std::ofstream(folder("first") + "/samples.csv", std::ios::app) << "1,2,3\n";
+  std::filesystem::remove(folder("first") + "/deformed.vtp");
+  const Finished again = palp("run " + folder("first") + " --out " + folder("again"));
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(
+    again.err.find("changed or removed since: deformed.vtp, samples.csv"), std::string::npos)
+    << again.err;
+}
+
 TEST_F(ExportFolders, RefuseWhatContradictsThem)
 {
   ASSERT_EQ(palp("run " + block() + onTop() + " --no-picture --out " + folder("first")).code, 0);

@@ -215,5 +215,25 @@ TEST_F(FitCommand, RefusesBadInputInOneSentence)
   EXPECT_NE(toolless.err.find("--tip"), std::string::npos) << toolless.err;
 }
 
+// one row of 5 N among forces of 0.3 N pulls the contact to where nothing was measured
+TEST_F(FitCommand, TellsWhereTheContactIsNoWhereNearTheRows)
+{
+  std::string text = "depth_mm,force_N\n";
+  for (int i = 0; i < 200; ++i)
+  {
+    const double depth = 0.02 * i;
+    const double force =
+      4.0 / 3.0 * 12e3 / (1.0 - 0.45 * 0.45) * std::sqrt(4e-6 * depth) * 1e-3 * depth;
+    text += std::to_string(depth) + "," + std::to_string(i == 100 ? 5.0 : force) + "\n";
+  }
+  const std::string tool = " --tip sphere:4mm --poisson 0.45 --no-picture --overwrite";
+  const test::Finished spiked = fit(write("spike.csv", text) + tool);
+  EXPECT_EQ(spiked.code, 0) << spiked.err;
+  EXPECT_NE(spiked.err.find("before the first row, so E means nothing"), std::string::npos)
+    << spiked.err;
+  EXPECT_EQ(
+    fit(write("plain.csv", hertzian(1e-3, 1)) + tool).err.find("means nothing"), std::string::npos);
+}
+
 } // namespace
 } // namespace palp

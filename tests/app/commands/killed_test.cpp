@@ -172,6 +172,23 @@ TEST_F(Killed, Scene)
   killOften("scene block_force");
 }
 
+TEST_F(Killed, Phantom)
+{
+  killOften("phantom sphere --voxel 4mm");
+}
+
+TEST_F(Killed, Map)
+{
+  killOften("map " PALP_SHARE "/meshes/block_50.vtp --depth 2mm --spacing 20mm");
+}
+
+TEST_F(Killed, Check)
+{
+  std::filesystem::create_directory(out_);
+  killAnyOften("check " PALP_SHARE "/meshes/sphere_30.vtp --overwrite --faults " +
+    (out_ / "faults.vtp").string());
+}
+
 // a plan of ten thousand cases, and a merge of forty
 TEST_F(Killed, SweepPlanAndMerge)
 {

@@ -71,6 +71,7 @@ public:
     for (; now < time; now += tick)
     {
       pointer.update(now);
+      pointer.lead(now);
       const std::optional<PressTarget> target = pointer.target();
       if (target)
       {

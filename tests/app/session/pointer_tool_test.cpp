@@ -235,10 +235,9 @@ TEST_F(PointerToolTest, APressByItselfGoesToItsDepthAndBack)
     { std::pair(4.0_mm, 0.01), std::pair(0.3_mm, 0.002), std::pair(8.0_mm, 0.2) })
   {
     bench.ticks.clear();
-    const double begin = bench.now;
     const SurfacePoint place{ .position = { 6.0_mm, -3.0_mm, pointer.target()->position.z() },
       .normal = Eigen::Vector3d::UnitZ() };
-    pointer.pressAt(place, depth, speed, begin);
+    pointer.pressAt(place, depth, speed);
     bench.run(0.5 * depth / speed);
     EXPECT_TRUE(pointer.pressesByItself());
     pointer.hover(500, 300); // which leads it nowhere
@@ -259,14 +258,38 @@ TEST_F(PointerToolTest, APressByItselfGoesToItsDepthAndBack)
   }
 }
 
+// a machine that does much else leads it now and then
+TEST_F(PointerToolTest, APressByItselfLeavesOutNothingWhereItIsLedLate)
+{
+  pointer.hover(400, 400);
+  bench.run(0.5);
+  for (const double late : { 0.001, 0.03, 0.3, 2.0 })
+  {
+    pointer.pressAt({ pointer.target()->position, pointer.target()->normal }, 4.0_mm, 0.01);
+    double time = bench.now;
+    double rest = 0.0;
+    double before = 0.0;
+    for (int i = 0; i < 5000 && pointer.pressesByItself(); ++i)
+    {
+      pointer.lead(time);
+      pointer.lead(time); // nothing moved in between
+      EXPECT_LE(std::abs(asked() - before), 0.05 * 0.01 + 1e-12) << late;
+      rest += asked() == before && asked() == 4.0_mm ? std::min(late, 0.05) : 0.0;
+      before = asked();
+      time += late;
+    }
+    EXPECT_FALSE(pointer.pressesByItself());
+    EXPECT_GE(rest, PointerTool::kShortest - 1e-9) << late;
+  }
+}
+
 TEST_F(PointerToolTest, APressByItselfEndsWhenTheHandTakesOver)
 {
   const auto begin = [&]
   {
     pointer.hover(400, 400);
     bench.run(0.2);
-    pointer.pressAt(
-      { pointer.target()->position, pointer.target()->normal }, 4.0_mm, 0.01, bench.now);
+    pointer.pressAt({ pointer.target()->position, pointer.target()->normal }, 4.0_mm, 0.01);
     bench.run(0.3);
     EXPECT_GT(asked(), 2.0_mm);
   };

@@ -12,6 +12,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -245,6 +246,9 @@ TEST_F(Manners, ADarkThemeIsDarkEverywhereAndIsRemembered)
   choose("darkTheme");
   EXPECT_TRUE(QTest::qWaitFor([&] { return isAll(isDim); }, kPatience));
   EXPECT_EQ(rememberedTheme(), Theme::Dark);
+  auto* stop = window_->findChild<QPushButton*>("stop");
+  ASSERT_FALSE(stop->isEnabled());
+  EXPECT_TRUE(isDim(lightness(stop, { 3, stop->height() / 3 })));
 
   const QString file = QString::fromStdString((folder_.path() / "curves.png").string());
   ASSERT_TRUE(window_->saveCurves(file));

@@ -1,3 +1,4 @@
+#include "app/program/sha256.h"
 #include "haptics/files/csv_text.h"
 #include "tests/app/window/window_rig.h"
 
@@ -160,7 +161,15 @@ TEST_F(MapTest, IsExportedWithTheFolder)
     flat += std::abs(stiffness[i] - hertz) < 1e-4 * hertz ? 1 : 0;
   }
   EXPECT_GT(flat, 5);
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/stiffness_map.vtp"));
+  const std::string provenance = test::readAll(folder_.path() / "out/provenance.json");
+  for (const char* name : { "stiffness_map.csv", "stiffness_map.vtp" })
+  {
+    const std::string hash = sha256Of(test::readAll(folder_.path() / "out" / name));
+    EXPECT_NE(provenance.find(hash), std::string::npos) << name;
+  }
+  const test::Finished again = test::runCommand(PALP_PROGRAM " run " +
+    (folder_.path() / "out").string() + " --out " + (folder_.path() / "again").string());
+  EXPECT_EQ(again.code, 0) << again.err;
 }
 
 TEST_F(MapTest, OfAnotherToolIsMarkedAndNotExported)

@@ -109,6 +109,9 @@ TEST_F(PressBarTest, RefusesInOneSentence)
   type("pressDepth", "99");
   EXPECT_TRUE(said().contains("half of the")) << said().toStdString();
   EXPECT_FALSE(session_->newest().contact.touching());
+  type("pressDepth", "3");
+  EXPECT_EQ(said().toStdString(), "") << "what was refused is mended";
+  waitForPress();
 }
 
 TEST_F(PressBarTest, NamesWhatIsWrongWithAPlace)

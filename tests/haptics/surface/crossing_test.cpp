@@ -6,6 +6,7 @@
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -47,14 +48,94 @@ TEST(Crossing, IsFoundWhereTrianglesPassThroughEachOther)
   EXPECT_FALSE(crossing(block));
   EXPECT_FALSE(crossing(test::ball(kRadius, 12)));
   EXPECT_FALSE(crossing(test::sheet(50.0_mm, 9)));
-  EXPECT_FALSE(crossing(test::withCopyAt(block, { 20.0_mm, 0.0, 0.0 }))) << "they touch";
-  EXPECT_FALSE(crossing(test::withCopyAt(block, { 20.0_mm, 7.0_mm, 0.0 }))) << "and slide";
+  EXPECT_FALSE(crossing(test::withCopyAt(block, { 20.0_mm, 20.0_mm, 0.0 }))) << "edge to edge";
+  EXPECT_FALSE(crossing(test::withCopyAt(block, { 20.1_mm, 0.0, 0.0 }))) << "apart";
   const auto overlap = crossing(test::withCopyAt(block, { 13.0_mm, 7.3_mm, 1.7_mm }));
   ASSERT_TRUE(overlap);
   EXPECT_GT(overlap->x(), 3.0_mm - 1e-9); // of the copy's near side
   EXPECT_LT(overlap->x(), 10.0_mm + 1e-9);
   EXPECT_TRUE(crossing(foldedBall(3.0_mm, -0.9)));
   EXPECT_TRUE(crossing(foldedBall(8.0_mm, -1.1)));
+}
+
+// walls that meet exactly: no edge passes through the middle of a triangle
+TEST(Crossing, PiecesThatMeetInEdgesOrPlanesOverlap)
+{
+  const auto thickness = [](const Surface& surface, const Eigen::Vector3d& from)
+  { return surface.shape()(from, 4.0_mm, Eigen::Vector3d::UnitX(), 0.0).thickness; };
+  const test::Mesh block = test::block(Eigen::Vector3d::Constant(20.0_mm), 5);
+  for (const Eigen::Vector3d& shift :
+    { Eigen::Vector3d(13.0_mm, 0.0, 0.0), Eigen::Vector3d(12.0_mm, 0.0, 0.0),
+      Eigen::Vector3d(8.0_mm, 0.0, 0.0), Eigen::Vector3d(20.0_mm, 0.0, 0.0),
+      Eigen::Vector3d(20.0_mm - 1e-9, 0.0, 0.0), Eigen::Vector3d(20.0_mm - 1e-7, 0.0, 0.0) })
+  {
+    const Surface both = test::makeSurface(test::withCopyAt(block, shift));
+    ASSERT_TRUE(both.crossing()) << shift.transpose();
+    EXPECT_NEAR(
+      thickness(both, { 10.0_mm + shift.x(), 0.0, -10.0_mm }), 20.0_mm + shift.x(), 0.02 * 20.0_mm);
+  }
+  test::Mesh balls; // mirrored, so that their triangles meet edge to edge
+  const test::Mesh ball = test::ball(20.0_mm, 16);
+  const int count = static_cast<int>(ball.first.size());
+  for (const double side : { 1.0, -1.0 })
+  {
+    for (const Eigen::Vector3d& p : ball.first)
+    {
+      balls.first.emplace_back(side * (p.x() + 10.3_mm), p.y(), p.z());
+    }
+    for (const auto& [a, b, c] : ball.second)
+    {
+      side > 0.0 ? balls.second.push_back({ a, b, c })
+                 : balls.second.push_back({ c + count, b + count, a + count });
+    }
+  }
+  const Surface both = test::makeSurface(balls);
+  ASSERT_TRUE(both.crossing());
+  EXPECT_NEAR(thickness(both, { 30.3_mm, 0.0, 0.0 }), 59.0_mm, 2.0_mm); // 60.6 along the axis
+}
+
+// a block on another, coplanar at two sides, with points in common or not
+TEST(Crossing, WhatStandsOnABodyIsOneWithIt)
+{
+  const auto thickness = [](const Surface& surface, double x) {
+    return surface.shape()({ x, 0.0, 30.0_mm }, 4.0_mm, Eigen::Vector3d::UnitZ(), 0.0).thickness;
+  };
+  for (const int cells : { 4, 5, 8 }) // of the lower one, 80 mm wide; 10 mm each of the upper one
+  {
+    test::Mesh both = test::block({ 80.0_mm, 80.0_mm, 40.0_mm }, cells);
+    const test::Mesh upper = test::block({ 40.0_mm, 40.0_mm, 30.0_mm }, 4);
+    const int count = static_cast<int>(both.first.size());
+    for (const Eigen::Vector3d& p : upper.first)
+    {
+      both.first.emplace_back(p + Eigen::Vector3d(20.0_mm, 20.0_mm, 30.0_mm));
+    }
+    for (const auto& [a, b, c] : upper.second)
+    {
+      both.second.push_back({ a + count, b + count, c + count });
+    }
+    for (Triangle& triangle : both.second) // as a reader merges them
+    {
+      for (int& corner : triangle)
+      {
+        const auto isSame = [&](const Eigen::Vector3d& p)
+        { return (p - both.first[at(corner)]).norm() < 1e-12; };
+        corner = static_cast<int>(std::ranges::find_if(both.first, isSame) - both.first.begin());
+      }
+    }
+    const Surface surface = test::makeSurface(both);
+    EXPECT_TRUE(surface.closed());
+    ASSERT_TRUE(surface.crossing());
+    EXPECT_NEAR(thickness(surface, 20.0_mm), 70.0_mm, 1.0_mm) << cells;
+    for (const double depth : { 0.5_mm, 2.0_mm, 4.0_mm })
+    {
+      const Contact contact = findContact(surface, SphereTip{ 5.0_mm },
+        { .apex = { 20.0_mm, 20.0_mm, 30.0_mm - depth }, .axis = -Eigen::Vector3d::UnitZ() },
+        ContactRule::Exact);
+      EXPECT_NEAR(contact.depth, depth, 1e-6);
+      EXPECT_NEAR(contact.thickness, 70.0_mm, 1.0_mm);
+      EXPECT_NEAR(contact.surfaceCurvature, 0.0, 0.5);
+    }
+  }
 }
 
 // of two blocks, each a product of intervals, it is known who is inside how many

@@ -150,6 +150,24 @@ TEST_F(Images, NiftiWithMoreVoxelsThanItsHeaderClaimsIsRefusedWithBothSizes)
   }
 }
 
+// neither alone, nor both: more voxels, and a checksum that is not theirs
+TEST_F(Images, NiftiOfADamagedStreamIsRefusedWhateverItHolds)
+{
+  for (const std::size_t more : { 0U, 4U, 100U, 70'000U })
+  {
+    std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
+    bytes.append(more, '\0');
+    const auto file = write("damaged.nii.gz", "");
+    gzFile out = gzopen(file.c_str(), "wb");
+    ASSERT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())), bytes.size());
+    gzclose(out);
+    std::string packed = readAll(file);
+    packed[packed.size() - 6] = static_cast<char>(packed[packed.size() - 6] ^ 0x10); // of the CRC
+    const std::string message = refusal(write("damaged.nii.gz", packed), { 0.0, {} });
+    EXPECT_NE(message.find("damaged"), std::string::npos) << more << ": " << message;
+  }
+}
+
 // its header is 540 bytes and says so first, as nifti2.h lays it out
 TEST_F(Images, NiftiOfTheSecondVersionIsRefusedByName)
 {

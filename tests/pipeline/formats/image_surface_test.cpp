@@ -1,7 +1,12 @@
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/error.h"
+#include "haptics/force/force_law.h"
+#include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/support/process.h"
+#include "tests/support/surfaces.h"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -24,6 +29,7 @@ namespace
 
 using Eigen::Array3d;
 using Eigen::Vector3d;
+using namespace units::literals;
 
 constexpr int kSide = 48;     // of each image [voxels]
 constexpr double kMid = 23.5; // its center
@@ -64,7 +70,8 @@ protected:
   std::vector<Vector3d> surfaceOfMask(const Shape& distance, const Array3d& spacing)
   {
     const auto file = write<vtkXMLImageDataWriter>("mask.vti", *imageOf(distance, spacing, true));
-    const auto surface = readSurface(file, LengthUnit::Millimeter, { .level = 0.5, .labels = {} });
+    surface_ = readSurface(file, LengthUnit::Millimeter, { .level = 0.5, .labels = {} });
+    const auto& surface = surface_;
     std::vector<Vector3d> points;
     for (const Vector3d& point : pointsOf(*surface.mesh))
     {
@@ -87,6 +94,7 @@ protected:
   }
 
   TemporaryFolder folder_;
+  LoadedSurface surface_;
 };
 
 Shape blockOf(const Vector3d& half)
@@ -99,7 +107,7 @@ Shape ballOf(double radius)
   return [radius](const Vector3d& p) { return p.norm() - radius; };
 }
 
-TEST_F(ImageSurface, OfAMaskStandsWhereItsVoxelsEnd)
+TEST_F(ImageSurface, OfAMaskStandsWithinHalfAVoxelOfWhereItsVoxelsEnd)
 {
   const Array3d spacing(1.0, 2.0, 3.0);
   for (const Vector3d& half : { Vector3d(12, 12, 12), Vector3d(16, 10, 5), Vector3d(14, 12, 2) })
@@ -109,12 +117,12 @@ TEST_F(ImageSurface, OfAMaskStandsWhereItsVoxelsEnd)
     {
       Vector3d::Index face = 0;
       const double out = (point.cwiseAbs() - half).maxCoeff(&face);
-      EXPECT_LT(out, 0.25) << point.transpose();
-      const Vector3d rim = half - point.cwiseAbs();
-      constexpr double kFlat = 4.0; // voxels from an edge
-      if (rim[(face + 1) % 3] > kFlat && rim[(face + 2) % 3] > kFlat)
+      EXPECT_LT(out, 0.501) << point.transpose();
+      EXPECT_GT(out, -1.001) << point.transpose(); // at a corner of the voxels, which is cut
+      if ((half - point.cwiseAbs())[(face + 1) % 3] > 1.0 &&
+        (half - point.cwiseAbs())[(face + 2) % 3] > 1.0)
       {
-        EXPECT_NEAR(out, 0.0, 0.1) << point.transpose();
+        EXPECT_GT(out, -0.501) << point.transpose();
       }
     }
   }
@@ -132,7 +140,43 @@ TEST_F(ImageSurface, OfAMaskedBallIsTheBall)
       EXPECT_LT(std::abs(out), 0.6) << "radius " << radius;
       mean += out / static_cast<double>(points.size());
     }
-    EXPECT_NEAR(mean, 0.0, 0.1) << "radius " << radius;
+    EXPECT_NEAR(mean, 0.0, 0.12) << "radius " << radius;
+  }
+}
+
+// terraces of a mask, as wide as the contact where the ball faces along the voxels, are no planes
+TEST_F(ImageSurface, OfAMaskedBallAnswersAToolAsTheBall)
+{
+  const double voxel = 2.0; // [mm]
+  const ForceLaw law(SphereTip{ 10.0_mm }, makeMaterial(5.0_kPa, 0.45), { LawMode::Corrected });
+  for (const double radius : { 10.3, 13.2, 16.45, 19.6 }) // [voxels]
+  {
+    (void)surfaceOfMask(ballOf(voxel * radius), Array3d::Constant(voxel));
+    const Surface masked(pointsOf(*surface_.mesh), trianglesOf(*surface_.mesh));
+    const Surface exact = makeSurface(ball(1e-3 * voxel * radius, 40));
+    const Vector3d middle = Vector3d::Constant(1e-3 * voxel * kMid);
+    for (const double depth : { 2.0_mm, 4.0_mm })
+    {
+      const auto touch = [&](const Surface& surface, const Vector3d& center, const Vector3d& from)
+      {
+        const Vector3d apex = center + (1e-3 * voxel * radius - depth) * from;
+        return findContact(surface, law.tip(), { .apex = apex, .axis = -from }, ContactRule::Exact);
+      };
+      for (const Vector3d& toward : { Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0, 0, 1),
+             Vector3d(1, 1, 0), Vector3d(1, -1, 1), Vector3d(1, 2, 3), Vector3d(-5, 1, 0.5) })
+      {
+        const Vector3d from = toward.normalized();
+        const Contact found = touch(masked, middle, from);
+        Contact expected = touch(exact, Vector3d::Zero(), from);
+        EXPECT_NEAR(found.depth, expected.depth, 0.5e-3 * voxel);
+        expected.depth = found.depth; // the mask says no more of where it begins
+        EXPECT_NEAR(
+          law(contactGeometryOf(found)).force / law(contactGeometryOf(expected)).force, 1.0, 0.1)
+          << radius << " voxels, " << depth << " m, from " << toward.transpose() << ", curvature "
+          << found.surfaceCurvature << " of " << expected.surfaceCurvature << ", thickness "
+          << found.thickness << " of " << expected.thickness;
+      }
+    }
   }
 }
 

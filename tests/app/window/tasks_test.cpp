@@ -1,0 +1,252 @@
+// What a user wants of a session, by pointer and keys alone, each action counted: a click, a key,
+// or a line that is typed with its Return. When a stranger first tried the program, these took 15
+// actions (a), 21 (b) and 12 (e); three tools in one plot (c) and an organ out of an image of
+// labels (d) were impossible in the window.
+
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "tests/app/window/window_rig.h"
+#include "tests/support/csv_table.h"
+
+#include <QFileDialog>
+#include <QImage>
+#include <QLineEdit>
+#include <QMenu>
+#include <QTabBar>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+class Tasks : public WindowTest
+{
+protected:
+  // the program is started with a file
+  void launch(const std::string& file)
+  {
+    ++actions_;
+    ASSERT_TRUE(window_->openFile(QString::fromStdString(file)));
+  }
+
+  void key(Qt::Key code, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+  {
+    ++actions_;
+    QTest::keyClick(window_.get(), code, modifiers);
+  }
+
+  void click(QWidget* widget, QPoint at = {})
+  {
+    ++actions_;
+    QTest::mouseClick(widget, Qt::LeftButton, {}, at);
+  }
+
+  // a line that ends with Return
+  void line(QWidget* field, const QString& text)
+  {
+    ++actions_;
+    QTest::keyClick(field, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClicks(field, text);
+    QTest::keyClick(field, Qt::Key_Return);
+  }
+
+  // a key that opens a dialog, and lines for the fields of it, from the last to be answered on
+  void keyAndLines(Qt::Key code, Qt::KeyboardModifiers modifiers,
+    const std::vector<std::pair<QString, QString>>& lines)
+  {
+    std::size_t next = 0;
+    QTimer typist;
+    QObject::connect(&typist, &QTimer::timeout,
+      [&]
+      {
+        auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+        if (dialog == nullptr || !dialog->isVisible() || next == lines.size())
+        {
+          return;
+        }
+        const auto& [name, text] = lines[next];
+        if (auto* field = name.isEmpty() ? dialog->findChild<QLineEdit*>()
+                                         : dialog->findChild<QLineEdit*>(name))
+        {
+          ++next;
+          line(field, text);
+        }
+      });
+    typist.start(200);
+    key(code, modifiers);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return next == lines.size(); }, kPatience));
+  }
+
+  // at a place, 5 mm deep
+  void pressThere(const char* place)
+  {
+    line(window_->findChild<QAbstractSpinBox*>("pressDepth")->findChild<QLineEdit*>(), "5 mm");
+    line(window_->findChild<QLineEdit*>("pressPlace"), place);
+    waitForPresses(1);
+  }
+
+  // of the menu beside the button
+  void again(const QString& how, int presses)
+  {
+    auto* button = window_->findChild<QToolButton*>("pressAgain");
+    QTimer::singleShot(300, button,
+      [&]
+      {
+        QMenu* menu = button->menu();
+        for (QAction* action : menu->actions())
+        {
+          if (action->text() == how)
+          {
+            click(menu, menu->actionGeometry(action).center());
+          }
+        }
+      });
+    click(button, { button->width() - 4, button->height() / 2 });
+    waitForPresses(presses);
+  }
+
+  void compare()
+  {
+    for (auto* button : window_->findChildren<QToolButton*>())
+    {
+      if (button->text() == "Compare" && button->isVisible())
+      {
+        return click(button);
+      }
+    }
+    ADD_FAILURE() << "no button";
+  }
+
+  void waitForPresses(int count) const
+  {
+    auto* rows = window_->findChild<QTreeWidget*>("pressRows");
+    EXPECT_TRUE(QTest::qWaitFor([&] { return rows->topLevelItemCount() == count; }, 2 * kPatience))
+      << rows->topLevelItemCount();
+  }
+
+  [[nodiscard]] double force(std::size_t press) const
+  {
+    return session_->presses().presses().at(press).summary.force;
+  }
+
+  // a ball of 50 mm, as another program writes it
+  [[nodiscard]] std::string ownSurface() const
+  {
+    const auto file = folder_.path() / "own.stl";
+    writeSurface(file, *readSurface(PALP_SHARE "/meshes/sphere_50.vtp").mesh);
+    return file.string();
+  }
+
+  int actions_ = 0;
+};
+
+// F = E/(1 - nu^2) 4/3 sqrt(R) d^1.5, by hand
+constexpr double kSphereForce = 2.6448; // [N], 10 mm of radius, 5 mm deep, 50 kPa, 0.33
+
+TEST_F(Tasks, AnOwnSurfaceIsPressedAtAPlaceAndSavedAsAPicture)
+{
+  const auto picture = folder_.path() / "press.png";
+  launch(ownSurface());
+  pressThere("0, 0, 50");
+  keyAndLines(Qt::Key_S, Qt::ControlModifier, { { "", QString::fromStdString(picture.string()) } });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return std::filesystem::exists(picture); }, kPatience));
+  EXPECT_NEAR(force(0), kSphereForce, 0.02);
+  EXPECT_FALSE(QImage(QString::fromStdString(picture.string())).isNull());
+  EXPECT_LE(actions_, 15 / 3);
+}
+
+TEST_F(Tasks, TwoLawsAreComparedAtOnePlace)
+{
+  launch(ownSurface());
+  pressThere("0, 0, 50");
+  again("By the corrected law", 2);
+  compare();
+  auto* tabs = window_->findChild<QTabBar*>("plotTabs");
+  ASSERT_NE(tabs, nullptr);
+  EXPECT_EQ(tabs->tabText(tabs->currentIndex()), "Presses");
+  EXPECT_NEAR(force(0), kSphereForce, 0.02);
+  EXPECT_LT(force(1), 0.97 * force(0)) << "a ball gives way more than a plane";
+  EXPECT_GT(force(1), 0.85 * force(0));
+  EXPECT_LE(actions_, 21 / 3);
+}
+
+TEST_F(Tasks, ThreeToolsAreComparedInOnePlot)
+{
+  launch(ownSurface());
+  pressThere("0, 0, 50");
+  again("With cone:45deg:10mm", 2);
+  again("With punch:5mm", 3);
+  compare();
+  EXPECT_LE(actions_, 8);
+  const auto file = folder_.path() / "tools.csv";
+  EXPECT_TRUE(QTest::qWaitFor(
+    [&] { return window_->savePlots(QString::fromStdString(file.string())); }, kPatience));
+  const std::string curves = test::readAll(file);
+  for (const char* press : { "press 1", "press 2", "press 3" })
+  {
+    EXPECT_NE(curves.find(press), std::string::npos) << press;
+  }
+  // 2/pi E/(1 - nu^2) d^2 tan(45 degrees), and 2 E/(1 - nu^2) a d
+  const double modulus = 50e3 / (1.0 - 0.33 * 0.33);
+  EXPECT_NEAR(force(1), 2.0 / M_PI * modulus * 25e-6, 0.02);
+  EXPECT_NEAR(force(2), 2.0 * modulus * 25e-6, 0.05);
+}
+
+// two balls with labels of their own, the second off the middle
+TEST_F(Tasks, AnOrganIsTakenOutOfAnImageOfLabels)
+{
+  const auto image = folder_.path() / "abdomen.mha";
+  std::ofstream out(image, std::ios::binary);
+  out << "ObjectType = Image\nNDims = 3\nDimSize = 60 40 40\nElementSpacing = 2 2 2\n"
+         "Offset = -40 -40 100\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nDistanceUnits = mm\n"
+         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+  const Eigen::Vector3d small(10.0, 20.0, 20.0);
+  const Eigen::Vector3d large(38.0, 20.0, 20.0);
+  for (int i = 0; i < 60 * 40 * 40; ++i)
+  {
+    const Eigen::Vector3d at(i % 60, i / 60 % 40, i / 60 / 40);
+    out.put((at - small).norm() < 7.0 ? 2 : (at - large).norm() < 15.0 ? 5 : 0);
+  }
+  out.close();
+  keyAndLines(Qt::Key_O, Qt::ControlModifier,
+    { { "", QString::fromStdString(image.string()) }, { "label", "5" } });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return session_->body().name == "abdomen.mha"; }, kPatience));
+  EXPECT_LE(actions_, 3);
+  const double* box = session_->body().display->GetBounds(); // [m]
+  EXPECT_NEAR(0.5 * (box[0] + box[1]), 36e-3, 0.5e-3);
+  EXPECT_NEAR(0.5 * (box[4] + box[5]), 140e-3, 0.5e-3);
+  EXPECT_NEAR(box[1] - box[0], 60e-3, 2e-3);
+}
+
+TEST_F(Tasks, ASessionIsExportedAndRepeatedWithoutAWindow)
+{
+  launch(ownSurface());
+  pressThere("0, 0, 50");
+  const int before = actions_;
+  const auto folder = folder_.path() / "session";
+  keyAndLines(Qt::Key_E, Qt::ControlModifier, { { "", QString::fromStdString(folder.string()) } });
+  EXPECT_TRUE(
+    QTest::qWaitFor([&] { return std::filesystem::exists(folder / "scene.json"); }, kPatience));
+  const auto again = folder_.path() / "again";
+  ++actions_;
+  const test::Finished run =
+    test::runCommand(PALP_PROGRAM " run " + folder.string() + " --out " + again.string());
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_LE(actions_ - before, 12 / 3);
+  const auto largest = [](const std::filesystem::path& file)
+  { return std::ranges::max(test::readCsv(file)["force_N"]); };
+  EXPECT_NEAR(largest(again / "samples.csv"), largest(folder / "samples.csv"), 1e-6);
+}
+
+} // namespace
+} // namespace palp
