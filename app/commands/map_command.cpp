@@ -1,10 +1,12 @@
 #include "app/commands/commands.h"
+#include "app/input/law_options.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/press_places.h"
 #include "app/input/quantity.h"
 #include "app/input/scene_plan.h"
 #include "app/map/map_files.h"
+#include "app/press/recording.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
@@ -14,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -59,6 +62,16 @@ void tell(const StiffnessMap& map, const std::filesystem::path& out)
   std::cerr << "palp: pressed " << map.pressed() << " of " << counted(map.places.size(), "place")
             << " to " << units::inMillimeters(map.asked.depth) << ": " << (out / kMapTable).string()
             << ", " << kMapSurface << '\n';
+  const Validity validity(map.scene.law);
+  const auto outside = std::ranges::count_if(map.places,
+    [&](const MapPlace& place) {
+      return place.isPressed && !brokenNames(rulesAt(map.scene, validity, place.contact)).empty();
+    });
+  if (outside > 0)
+  {
+    std::cerr << "palp: warning: at " << outside
+              << " of them the law is outside its limits, column outside_limits\n";
+  }
 }
 
 void makeMap(const MapOptions& options)

@@ -13,10 +13,12 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/force/linear/series_contact.h"
+#include "haptics/surface/ray.h"
 #include "haptics/units.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -41,14 +43,14 @@ struct OrganOptions
   Range depths;
 };
 
-OrganModel modelOf(const OrganOptions& options, const Surface& surface)
+std::vector<Support> supportsOf(const OrganOptions& options, const Surface& surface)
 {
   std::vector<Support> supports;
   for (const std::string& text : options.supports)
   {
     supports.push_back(parseSupport(text, surface, options.cell));
   }
-  return { CutGrid(surface, options.cell), options.young, options.poisson, supports };
+  return supports;
 }
 
 std::vector<PressPlace> placesOf(const OrganOptions& options)
@@ -78,19 +80,38 @@ double roundnessOf(const Tip& tip)
   return sphere ? sphere->radius : paraboloid ? paraboloid->radius : 0.0;
 }
 
-// a place nearer to an edge than two cells is known by its neighbors only
-const char* remarkOf(const OrganModel& model, const Surface& surface, const SurfacePoint& point,
-  const SeriesContact& series)
+// what is pressed, and on what it rests
+struct PressedBody
 {
-  const double edge = surface.shape().edgeDistance(point.position);
-  return series.isBeyond ? "support too near" : edge < 2.0 * model.side() ? "edge" : "";
+  const Surface& surface;
+  std::vector<Support> supports;
+  OrganModel model;
+};
+
+// a place nearer to an edge than two cells is known by its neighbors only
+const char* remarkOf(
+  const PressedBody& body, const SurfacePoint& point, const SeriesContact& series)
+{
+  const auto holds = [&](const Support& support) { return support.holds(point.position); };
+  if (std::ranges::any_of(body.supports, holds))
+  {
+    return "on a support";
+  }
+  const double thickness = rayExit(body.surface.tree(), point.position, -point.normal).distance;
+  const double edge = body.surface.shape().edgeDistance(point.position);
+  return series.local > 0.5 * thickness ? "too deep"
+    : series.isBeyond                   ? "support too near"
+    : edge < 2.0 * body.model.side()    ? "edge"
+                                        : "";
 }
 
-void addRows(const OrganOptions& options, const OrganModel& model, const Scene& scene,
+void addRows(const OrganOptions& options, const PressedBody& pressed, const Scene& scene,
   const PressPlace& place, figures::Table& table)
 {
-  const SurfacePoint point = pressedPoint(place, {}, scene);
-  const auto compliance = complianceAt(model, *scene.surface, point.position, point.normal);
+  constexpr double kLightly = 1e-6; // [m]: each depth has a remark of its own
+  const OrganModel& model = pressed.model;
+  const SurfacePoint point = pressedPoint(place, { .depth = kLightly }, scene);
+  const auto compliance = complianceAt(model, pressed.surface, point.position, point.normal);
   if (!compliance)
   {
     throw Error(ErrorCode::BadValue,
@@ -108,7 +129,7 @@ void addRows(const OrganOptions& options, const OrganModel& model, const Scene& 
       table.rows.push_back({ toMillimeters(point.position.x()), toMillimeters(point.position.y()),
         toMillimeters(point.position.z()), body.constant, body.slope, toMillimeters(depth),
         modulus * series.contact.force, modulus * law(depth).force, toMillimeters(series.local),
-        std::string(remarkOf(model, *scene.surface, point, series)) });
+        std::string(remarkOf(pressed, point, series)) });
     }
   }
 }
@@ -128,15 +149,17 @@ void runOrgan(const OrganOptions& options)
   }
   Scene scene;
   scene.surface = body.haptic;
-  const OrganModel model = modelOf(options, *body.haptic);
-  std::cerr << "palp: " << counted(static_cast<std::size_t>(model.nodes()), "node") << '\n';
+  const std::vector<Support> supports = supportsOf(options, *body.haptic);
+  const PressedBody pressed{ *body.haptic, supports,
+    { CutGrid(*body.haptic, options.cell), options.young, options.poisson, supports } };
+  std::cerr << "palp: " << counted(static_cast<std::size_t>(pressed.model.nodes()), "node") << '\n';
   figures::Table table{ .name = "organ",
     .caption = "A body in series with the contact",
     .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
       "half_space_N", "local_depth_mm", "remark" } };
   for (const PressPlace& place : places)
   {
-    addRows(options, model, scene, place, table);
+    addRows(options, pressed, scene, place, table);
   }
   constexpr int kShown = 5; // digits
   std::cout << figures::csv(table, kShown);
@@ -181,8 +204,9 @@ void addOrganCommand(CLI::App& app)
     "The law of the half-space in series with the body's own compliance, by finite elements in\n"
     "cubes that its surface cuts: linear, frictionless, one material. constant and slope: E* "
     "times\n"
-    "what the body adds. remark: edge where one is nearer than two cells, support too near where\n"
-    "the contact is too large for what is below. Not yet in run, scenes and window.\n"
+    "what the body adds. remark: on a support; too deep beyond half of the thickness; support too\n"
+    "near where the contact is too large for what is below; edge where one is nearer than two\n"
+    "cells. Not yet in run, scenes and window.\n"
     "Examples:\n"
     "  palp organ liver.stl --support bonded:direction:0,1,0:60deg --at -48.5,38.4,39.5\n"
     "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm");

@@ -2,10 +2,12 @@
 
 #include "app/map/point_cells.h"
 #include "haptics/error.h"
+#include "haptics/surface/facet_part.h"
 #include "haptics/units.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -16,6 +18,17 @@ namespace
 
 constexpr double kDarts = 40.0; // in a square of the spacing; fewer leave gaps
 
+// 0 for those of the outside, where a tool gets
+std::vector<float> hollowsOf(const Surface& surface)
+{
+  std::vector<std::array<int, 3>> across;
+  for (int i = 0; at(i) < surface.triangles().size(); ++i)
+  {
+    across.push_back({ surface.across(i, 0), surface.across(i, 1), surface.across(i, 2) });
+  }
+  return hollowRadii({ surface.points(), surface.triangles(), across });
+}
+
 // triangles by their area, of those that may have a part in the region
 class Darts
 {
@@ -23,8 +36,13 @@ public:
   Darts(const Surface& surface, const std::optional<MapRegion>& region)
     : surface_(surface)
   {
+    const std::vector<float> hollows = hollowsOf(surface);
     for (std::size_t i = 0; i < surface.triangles().size(); ++i)
     {
+      if (hollows[i] > 0.0F)
+      {
+        continue;
+      }
       const auto [a, b, c] = corners(i);
       const double size = std::max((b - a).norm(), (c - a).norm());
       if (!region || (a - region->center).norm() <= region->radius + size)

@@ -25,8 +25,8 @@ constexpr std::size_t kMostPlaces = 20'000; ///< of a grid
 }
 
 /// Places spread evenly over a surface, a Poisson disk: no two of a side are nearer to each other
-/// than the spacing, and next to no point is farther than that from all of them. The same surface
-/// gives the same places.
+/// than the spacing, and next to no point is farther than that from all of them; none is on the
+/// wall of a hollow. The same surface gives the same places.
 ///
 /// @param spacing  along the straight line [m], above 0
 /// @param region   none: the whole surface

@@ -214,5 +214,24 @@ TEST(MapWork, GivesUpSoonAndTellsWhatWasRefused)
   EXPECT_NEAR(made.colors.high, units::toNewtonsPerMillimeter(hertz(2.0_mm)), 1e-3);
 }
 
+// whose inner wall no tool reaches
+TEST(PlaceGrid, OfAHollowBallIsOnItsOutside)
+{
+  test::Mesh hollow = test::ball(40.0_mm, 12);
+  const int count = static_cast<int>(hollow.first.size());
+  const test::Mesh inner = test::ball(20.0_mm, 12);
+  hollow.first.insert(hollow.first.end(), inner.first.begin(), inner.first.end());
+  for (const auto& [a, b, c] : inner.second)
+  {
+    hollow.second.push_back({ c + count, b + count, a + count });
+  }
+  const auto places = placeGrid(test::makeSurface(hollow), 8.0_mm);
+  EXPECT_GT(places.size(), 100U);
+  for (const SurfacePoint& place : places)
+  {
+    EXPECT_GT(place.position.norm(), 38.0_mm);
+  }
+}
+
 } // namespace
 } // namespace palp

@@ -130,5 +130,33 @@ TEST_F(PressFigure, CaptionTellsWhatWasPressedAndHow)
   }
 }
 
+// what is open to the sky stays as it is, what lies in a dent is darker
+TEST_F(PressFigure, OcclusionDarkensTheDentAndLeavesTheRest)
+{
+  const auto plain = figure({ .hasColorBar = false });
+  const auto shaded = figure({ .hasColorBar = false, .hasOcclusion = true });
+  const auto brightness = [](vtkImageData& image, int x, int y)
+  {
+    return image.GetScalarComponentAsDouble(x, y, 0, 0) +
+      image.GetScalarComponentAsDouble(x, y, 0, 1) + image.GetScalarComponentAsDouble(x, y, 0, 2);
+  };
+  for (const auto& [x, y] : { std::pair(3, 3), { 476, 3 }, { 3, 356 }, { 476, 356 } })
+  {
+    EXPECT_NEAR(brightness(*shaded, x, y), brightness(*plain, x, y), 6.0) << x << ' ' << y;
+  }
+  double darker = 0.0;
+  double brighter = 0.0;
+  for (int y = 0; y < 360; ++y)
+  {
+    for (int x = 0; x < 480; ++x)
+    {
+      const double change = brightness(*shaded, x, y) - brightness(*plain, x, y);
+      (change < 0.0 ? darker : brighter) += std::abs(change);
+    }
+  }
+  EXPECT_GT(darker, 3.0 * brighter);
+  EXPECT_GT(darker, 20'000.0);
+}
+
 } // namespace
 } // namespace palp
