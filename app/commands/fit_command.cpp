@@ -258,31 +258,25 @@ void tellLimits(const FileFit& file, bool searchesOffset)
       std::to_string(file.rows.first + file.rows.count) + " of " + std::to_string(file.rowsInFile) +
       " are the loading; the others are left out");
   }
-  const auto before =
-    (file.curve.loading.depths.array() <= fitted.asked().curve.contact.value).count();
-  if (searchesOffset && before < 2)
+  const Eigen::VectorXd& depths = file.curve.loading.depths;
+  const double contact = fitted.asked().curve.contact.value;
+  if (searchesOffset && (depths.array() <= contact).count() < 2)
   {
     tell("no rows before the contact tell the force of no contact, which widens the interval; "
          "--offset 0N where the sensor was set to zero");
   }
-  const auto depths = file.curve.loading.depths.array();
-  const double outside = depths.minCoeff() - fitted.asked().curve.contact.value;
-  if (outside > depths.maxCoeff() - depths.minCoeff())
+  if (depths.minCoeff() - contact > depths.maxCoeff() - depths.minCoeff())
   {
-    tell("warning: the contact that fits best is " + figures::shown(units::toMillimeters(outside)) +
-      " mm before the first row, so E means nothing: a row may be wrong, or the depth is counted "
-      "from elsewhere; look at fit.png, or say --contact");
+    tell("warning: the contact is far before the first row, so E means nothing; see fit.png");
   }
   if (fitted.isSystematic)
   {
     tell("what the law '" + fitted.asked().name +
-      "' leaves is not noise, so the interval is too narrow; see residuals.png, and best_law in "
-      "fit.json");
+      "' leaves is not noise, so the interval is too narrow; see residuals.png");
   }
-  if (!file.outside.empty())
-  {
-    tell("at the largest depth the law is outside its limits (" + file.outside + ")");
-  }
+  file.outside.empty()
+    ? void()
+    : tell("at the largest depth the law is outside its limits (" + file.outside + ")");
 }
 
 void runFit(const FitOptions& options, const Renderer* pictures)

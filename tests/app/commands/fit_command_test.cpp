@@ -229,7 +229,7 @@ TEST_F(FitCommand, TellsWhereTheContactIsNoWhereNearTheRows)
   const std::string tool = " --tip sphere:4mm --poisson 0.45 --no-picture --overwrite";
   const test::Finished spiked = fit(write("spike.csv", text) + tool);
   EXPECT_EQ(spiked.code, 0) << spiked.err;
-  EXPECT_NE(spiked.err.find("before the first row, so E means nothing"), std::string::npos)
+  EXPECT_NE(spiked.err.find("is far before the first row, so E means nothing"), std::string::npos)
     << spiked.err;
   EXPECT_EQ(
     fit(write("plain.csv", hertzian(1e-3, 1)) + tool).err.find("means nothing"), std::string::npos);

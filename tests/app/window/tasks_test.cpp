@@ -1,7 +1,6 @@
-// What a user wants of a session, by pointer and keys alone, each action counted: a click, a key,
-// or a line that is typed with its Return. When a stranger first tried the program, these took 15
-// actions (a), 21 (b) and 12 (e); three tools in one plot (c) and an organ out of an image of
-// labels (d) were impossible in the window.
+// What a user wants of a session, each action counted: a click, a key, or a line that is typed.
+// When strangers first tried the program, these took 15, 21, and, for the last, 12; the others were
+// impossible in the window.
 
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
