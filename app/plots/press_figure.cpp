@@ -98,7 +98,8 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   const ViewUse& look, const ViewUse& use)
 {
   const ImageSize size{ .width = window.GetSize()[0], .height = window.GetSize()[1] };
-  const int samples = samplesOf(static_cast<double>(size.width) * size.height);
+  const int samples = // occlusion brings a filter of its own
+    figure.hasOcclusion ? 0 : samplesOf(static_cast<double>(size.width) * size.height);
   const int dpi = dpiOf(size);
   const double scale = dpi / appearance::kDpi;
   window.SetMultiSamples(samples);
@@ -113,7 +114,7 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   bar.setVisible(figure.hasScaleBar);
   view.setVisible(figure.overlays);
   view.setColorBar(figure.hasColorBar);
-  renderer->SetUseFXAA(samples == 0);
+  renderer->SetUseFXAA(samples == 0 && !figure.hasOcclusion);
   widenLines(*renderer, scale);
   showMoment(view, moment);
   look(view, *renderer);

@@ -20,7 +20,7 @@ struct LocalShape
   double meanCurvature = 0.0;                                 ///< [1/m], convex positive
   double curvatureSpread = 0.0;                               ///< half the difference [1/m]
   double thickness = std::numeric_limits<double>::infinity(); ///< of the body, hollows filled [m]
-  double hollow = 0.0; ///< part of it below which a hollow lets the wall bend [-]
+  double hollow = 0.0; ///< part of it below which a hollow or a gap lets the wall bend [-]
 };
 
 /// Curvature and thickness of a surface, averaged over any ball, and its sharp edges.

@@ -16,7 +16,10 @@ std::vector<int> firstOfEach(std::span<const Eigen::Vector3d> points)
   numbered.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Eigen::Vector3f x = points[i].cast<float>();
+    // what is next to nothing beside the others is the rounding of 0, as sin(pi) has it
+    const double nothing = points[i].cwiseAbs().maxCoeff() * 0x1p-32;
+    const Eigen::Vector3f x =
+      (points[i].array().abs() <= nothing).select(0.0, points[i].array()).matrix().cast<float>();
     if (x.allFinite())
     {
       numbered.push_back({ { x[0], x[1], x[2] }, static_cast<int>(i) });

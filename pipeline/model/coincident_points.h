@@ -8,7 +8,8 @@ namespace palp
 {
 
 /// The first of the points that coincide with each, in the single precision in which they are
-/// shown; a point that is not finite stands alone.
+/// shown, a coordinate below 2^-32 of the point's largest being 0; a point that is not finite
+/// stands alone.
 ///
 /// Found by sorting: far points or crowded places cost no more than others.
 [[nodiscard]] std::vector<int> firstOfEach(std::span<const Eigen::Vector3d> points);

@@ -126,7 +126,7 @@ TEST_F(MovieFiles, AreMadeByFfmpegWhereItIsThere)
   std::ofstream(program) << "#!/bin/sh\nexit 1\n";
   const test::Finished failed =
     press(folder_.path().string() + ":/usr/bin:/bin", "replay --overwrite");
-  EXPECT_EQ(failed.code, 3) << failed.err;
+  EXPECT_EQ(failed.code, 2) << failed.err;
   EXPECT_NE(failed.err.find("replay.mp4: the movie cannot be written"), std::string::npos)
     << failed.err;
 }

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
+#include <tuple>
 
 namespace palp
 {
@@ -46,6 +48,39 @@ TEST(ShapeField, OfASphereIsOneOverItsRadius)
         EXPECT_EQ(ball.shape().edgeDistance(radius * out), std::numeric_limits<double>::infinity());
       }
     }
+  }
+}
+
+// what is through the ring from its outside, and whether the open middle lets that wall bend
+TEST(ShapeField, AGapInTheBodyIsToldAsAHollowIs)
+{
+  for (const auto& [middle, radius, isTold] : { std::tuple(40.0_mm, 15.0_mm, 1.0),
+         std::tuple(22.0_mm, 18.0_mm, 0.0), std::tuple(30.0_mm, 20.0_mm, 0.0) })
+  {
+    test::Mesh ring;
+    constexpr int kAround = 96;
+    constexpr int kAcross = 48;
+    for (int i = 0; i < kAround; ++i)
+    {
+      for (int j = 0; j < kAcross; ++j)
+      {
+        const double u = 2.0 * std::numbers::pi * i / kAround;
+        const double v = 2.0 * std::numbers::pi * j / kAcross;
+        const double far = middle + radius * std::cos(v);
+        ring.first.emplace_back(far * std::cos(u), far * std::sin(u), radius * std::sin(v));
+        const int a = i * kAcross + j;
+        const int b = i * kAcross + (j + 1) % kAcross;
+        const int c = (i + 1) % kAround * kAcross + j;
+        const int d = (i + 1) % kAround * kAcross + (j + 1) % kAcross;
+        ring.second.push_back({ a, c, d });
+        ring.second.push_back({ a, d, b });
+      }
+    }
+    const Surface body = test::makeSurface(ring);
+    const Eigen::Vector3d out = Eigen::Vector3d::UnitX();
+    const LocalShape shape = shapeAt(body, (middle + radius) * out, 0.3 * radius, out);
+    EXPECT_NEAR(shape.thickness, 2.0 * radius, 0.1 * radius);
+    EXPECT_NEAR(shape.hollow, isTold, 0.2) << middle;
   }
 }
 

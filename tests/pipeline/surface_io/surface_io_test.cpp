@@ -211,5 +211,47 @@ TEST(SurfaceLibrary, MapsNoWindowSystem)
   }
 }
 
+// as sin(pi) makes the pole of a ball out of longitudes and latitudes
+TEST_F(SurfaceFile, PointsThatRoundingPartsAreOne)
+{
+  for (const double ring : { 0.0, 5e-15, 1e-12, 1e-9 })
+  {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "ball.off";
+    {
+      constexpr int kAround = 24;
+      constexpr int kRings = 12; // the last of them is the pole
+      std::ofstream out(file);
+      out.precision(17);
+      out << "OFF\n" << 1 + kAround * kRings << ' ' << kAround * (2 * kRings - 1) << " 0\n0 0 40\n";
+      for (int i = 1; i <= kRings; ++i)
+      {
+        const double polar = std::numbers::pi * i / kRings;
+        const double radius = i == kRings ? ring : 40.0 * std::sin(polar);
+        for (int k = 0; k < kAround; ++k)
+        {
+          const double angle = 2.0 * std::numbers::pi * k / kAround;
+          out << radius * std::cos(angle) << ' ' << radius * std::sin(angle) << ' '
+              << 40.0 * std::cos(polar) << '\n';
+        }
+      }
+      for (int k = 0; k < kAround; ++k)
+      {
+        const int next = (k + 1) % kAround;
+        out << "3 0 " << 1 + k << ' ' << 1 + next << '\n';
+        for (int i = 0; i + 1 < kRings; ++i)
+        {
+          const int a = 1 + i * kAround;
+          out << "3 " << a + k << ' ' << a + kAround + k << ' ' << a + kAround + next << "\n3 "
+              << a + k << ' ' << a + kAround + next << ' ' << a + next << '\n';
+        }
+      }
+    }
+    const LoadedSurface ball = readSurface(file, LengthUnit::Millimeter);
+    EXPECT_TRUE(ball.closed) << ring;
+    EXPECT_EQ(ball.mesh->GetNumberOfPoints(), 2 + 24 * 11) << ring;
+  }
+}
+
 } // namespace
 } // namespace palp::test
