@@ -68,9 +68,8 @@ Below lookBelow(const BoxTree& tree, std::span<const float> hollows, const Eigen
       hit.triangle < 0 ? 0.0 : static_cast<double>(hollows[static_cast<std::size_t>(hit.triangle)]);
     if (radius == 0.0)
     {
-      // into the open, as in a duct; the body may go on beyond
       const Eigen::Vector3d beyond = from + (1.0 + kBeyond) * below.thickness * inward;
-      const double gap = rayEntry(tree, beyond, inward).distance;
+      const double gap = rayEntry(tree, beyond, inward).distance; // as the width of a duct
       below.isHollow = below.isHollow ||
         (std::isfinite(gap) && 0.5 * gap > kNearHollow * (below.thickness + 0.5 * gap));
       break;
