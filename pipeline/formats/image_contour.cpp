@@ -175,10 +175,11 @@ void smoothTerraces(vtkPolyData& surface, const Eigen::Array3d& most)
   Eigen::Matrix3Xd ahead = from;
   Eigen::Matrix3Xd bend(3, count);
   Eigen::Matrix3Xd slope(3, count);
-  constexpr int kSteps = 100;    // terraces of some ten voxels
+  constexpr Eigen::Index kWork = 100'000'000; // steps of a point, for half a minute at most
+  const auto steps = std::clamp<Eigen::Index>(kWork / count, 10, 100); // terraces of ten voxels
   constexpr double kStep = 0.25; // the inverse of the largest value of the Laplacian, squared
   double pace = 1.0;
-  for (int i = 0; i < kSteps; ++i)
+  for (Eigen::Index i = 0; i < steps; ++i)
   {
     laplacian(ahead, bend);
     laplacian(bend, slope);
@@ -212,7 +213,7 @@ vtkSmartPointer<vtkPolyData> imageContour(
   templates->Update();
   const Eigen::Array3d spacing = Eigen::Array3d(image.GetSpacing()).abs();
   const auto body = bodyOf(*templates->GetOutput(), spacing.prod(), notes);
-  if (mask)
+  if (mask && body->GetNumberOfPoints() > 0)
   {
     smoothTerraces(*body, 0.5 * spacing);
     return body;

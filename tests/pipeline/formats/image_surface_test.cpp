@@ -149,7 +149,7 @@ TEST_F(ImageSurface, OfAMaskedBallAnswersAToolAsTheBall)
 {
   const double voxel = 2.0; // [mm]
   const ForceLaw law(SphereTip{ 10.0_mm }, makeMaterial(5.0_kPa, 0.45), { LawMode::Corrected });
-  for (const double radius : { 10.3, 13.2, 16.45, 19.6 }) // [voxels]
+  for (const double radius : { 10.3, 16.45 }) // [voxels]
   {
     (void)surfaceOfMask(ballOf(voxel * radius), Array3d::Constant(voxel));
     const Surface masked(pointsOf(*surface_.mesh), trianglesOf(*surface_.mesh));
