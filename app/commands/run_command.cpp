@@ -105,22 +105,24 @@ void addMotion(ScenePlan& plan, const RunOptions& options)
   plan.device = parseDevice("path:" + path.string());
 }
 
-std::vector<MovieKind> moviesOf(const RunOptions& options)
+// of names that the option has checked
+template <typename Kind>
+std::vector<Kind> kindsOf(
+  const std::vector<std::string>& chosen, const std::vector<std::string>& names)
 {
-  std::vector<MovieKind> movies;
-  for (const std::string& name : options.movies)
+  std::vector<Kind> kinds;
+  for (const std::string& name : chosen)
   {
-    const auto found = std::ranges::find(kMovieNames, name);
-    movies.push_back(static_cast<MovieKind>(found - kMovieNames.begin()));
+    kinds.push_back(static_cast<Kind>(std::ranges::find(names, name) - names.begin()));
   }
-  return movies;
+  return kinds;
 }
 
 // an export folder once more
 void repeat(const RunOptions& options, const Renderer* pictures)
 {
   ExportFolder made = readExport(options.mesh.file);
-  made.plan.movies = moviesOf(options);
+  made.plan.movies = kindsOf<MovieKind>(options.movies, kMovieNames);
   if (made.plan.window)
   {
     throw Error(ErrorCode::BadValue,
@@ -154,7 +156,7 @@ ScenePlan planOf(const RunOptions& options)
     .allSamples = options.allSamples,
     .refined = options.refined,
     .picture = draws(options),
-    .movies = moviesOf(options),
+    .movies = kindsOf<MovieKind>(options.movies, kMovieNames),
     .size = options.size };
   if (options.samplesOnly)
   {
@@ -164,13 +166,9 @@ ScenePlan planOf(const RunOptions& options)
   addMotion(plan, options);
   plan.referenceFiles = options.references;
   std::ranges::transform(options.references, std::back_inserter(plan.references), readForceCurve);
-  for (const std::string& name : options.plots)
+  if (draws(options))
   {
-    const auto found = std::find(kPlotNames.begin(), kPlotNames.end(), name);
-    if (draws(options))
-    {
-      plan.plots.push_back(static_cast<PlotKind>(found - kPlotNames.begin()));
-    }
+    plan.plots = kindsOf<PlotKind>(options.plots, kPlotNames);
   }
   checkUsed(options, plan);
   return plan;

@@ -222,9 +222,4 @@ std::string differences(const ExportFolder& made, const fs::path& stage)
   return names;
 }
 
-std::string changedSince(const ExportFolder& made)
-{
-  return differences(made, made.folder);
-}
-
 } // namespace palp

@@ -68,10 +68,7 @@ void addToProvenance(const std::filesystem::path& folder, const std::vector<std:
 void checkInputs(const ExportFolder& made, const ScenePlan& plan, const Recording& recording);
 
 /// The files that differ from what the folder says they were, as words; empty: none.
-/// @param stage  what was made anew
+/// @param stage  what was made anew, or the folder itself, as it is now
 [[nodiscard]] std::string differences(const ExportFolder& made, const std::filesystem::path& stage);
-
-/// The files that somebody changed or removed since the folder was written, as words; empty: none.
-[[nodiscard]] std::string changedSince(const ExportFolder& made);
 
 } // namespace palp

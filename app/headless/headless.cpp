@@ -199,7 +199,7 @@ void tellDifferences(const ExportFolder& repeated, const std::filesystem::path& 
                    ? ": repeated to the byte"
                    : ": made by palp " + repeated.version + ", comes out another in " + other)
             << '\n';
-  if (const std::string edited = changedSince(repeated); !edited.empty())
+  if (const std::string edited = differences(repeated, repeated.folder); !edited.empty())
   {
     std::cerr << "palp: warning: " << repeated.folder.string()
               << " is not as it was written; changed or removed since: " << edited << '\n';

@@ -95,14 +95,14 @@ bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept
   return isInside == (winding(middle + aside * facet.normal) > 0.5);
 }
 
-std::vector<int> buriedTriangles(
-  const BoxTree& tree, const Winding& winding, std::span<const int> pieces, double aside)
+std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> pieces, double aside)
 {
   std::vector<int> all;
   if (std::ranges::all_of(pieces, [](int piece) { return piece == 0; }))
   {
     return all;
   }
+  const Winding winding(tree);
   for (int i = 0; at(i) < tree.facets().size(); ++i)
   {
     const Facet& facet = tree.facets()[at(i)];

@@ -25,7 +25,7 @@ namespace palp
 /// @param pieces  of each triangle, by piecesOf
 /// @param aside   where the two sides are looked at [m]
 [[nodiscard]] std::vector<int> buriedTriangles(
-  const BoxTree& tree, const Winding& winding, std::span<const int> pieces, double aside);
+  const BoxTree& tree, std::span<const int> pieces, double aside);
 
 /// Whether the body, or nothing, is on both sides of a triangle: it bounds nothing.
 /// @param aside  where the two sides are looked at [m]

@@ -146,13 +146,7 @@ bool Surface::linkEdges()
 // of pieces whose walls meet without passing through each other
 std::optional<Eigen::Vector3d> Surface::findOverlap() const
 {
-  const std::vector<int> pieces = piecesOf(across_);
-  if (std::ranges::max(pieces) == 0)
-  {
-    return std::nullopt;
-  }
-  const std::vector<int> buried =
-    buriedTriangles(tree_, Winding(tree_), pieces, kAside * edgeLength_);
+  const std::vector<int> buried = buriedTriangles(tree_, piecesOf(across_), kAside * edgeLength_);
   if (buried.empty())
   {
     return std::nullopt;

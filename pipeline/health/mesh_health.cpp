@@ -237,7 +237,7 @@ void findInside(const Subject& subject, Findings& findings)
   if (triangles.empty() && subject.edges.unbalanced == 0 && subject.facing.inner == 0)
   {
     const double aside = 1e-4 * (tree.facets()[0].corners[1] - tree.facets()[0].corners[0]).norm();
-    triangles = buriedTriangles(tree, Winding(tree), piecesOf(subject.edges.across), aside);
+    triangles = buriedTriangles(tree, piecesOf(subject.edges.across), aside);
   }
   for (const int triangle : triangles)
   {
