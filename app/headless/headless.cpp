@@ -18,6 +18,7 @@
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -35,14 +36,25 @@ bool isWhole(const Sample& sample)
   return std::abs(sample.force.norm() - sample.response.force) <= kSame * sample.response.force;
 }
 
-// names the conditions of the law that a contact breaks
-void tellLimits(const Scene& scene, const Contact& contact)
+// names the conditions of the law that are broken where it is pressed deepest, and counts the
+// presses that break any
+void tellLimits(const Recording& recording, const Contact& deepest)
 {
-  const std::string broken = brokenNames(rulesAt(scene, Validity(scene.law), contact));
-  if (!broken.empty())
+  const Scene& scene = recording.scene;
+  const Validity validity(scene.law);
+  if (const std::string broken = outsideLimits(scene, validity, deepest); !broken.empty())
   {
     std::cerr << "palp: warning: there the law is outside its limits (" << broken
               << "); samples.csv tells it of each sample, broken_rules\n";
+  }
+  const std::vector<PressSummary> presses = findPresses(recording);
+  const auto outside = std::ranges::count_if(presses,
+    [&](const PressSummary& press)
+    { return !outsideLimits(scene, validity, press.deepest).empty(); });
+  if (presses.size() > 1 && outside > 0)
+  {
+    std::cerr << "palp: warning: in " << outside << " of " << presses.size()
+              << " presses the law is outside its limits; presses.csv tells of each\n";
   }
 }
 
@@ -85,7 +97,7 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
   }
   if (recording.rated)
   {
-    tellLimits(recording.scene, deepest->contact);
+    tellLimits(recording, deepest->contact);
   }
 }
 

@@ -93,7 +93,7 @@ std::size_t PressLog::keepAll(const Recording& samples)
     }
     if (samples.rated)
     {
-      press.outside = outsideLimits(Validity(scene.law), found[i]);
+      press.outside = outsideLimits(scene, Validity(scene.law), found[i].deepest);
     }
     press.curve = curveOf(found[i], samples);
     presses_.push_back(std::move(press));

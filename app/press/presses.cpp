@@ -180,10 +180,9 @@ std::string pressName(std::size_t index)
   return "press " + std::to_string(index + 1);
 }
 
-std::string outsideLimits(const Validity& validity, const PressSummary& press)
+std::string outsideLimits(const Scene& scene, const Validity& validity, const Contact& contact)
 {
-  const Contact& deepest = press.deepest;
-  return brokenNames(validity(contactGeometryOf(deepest), deepest.edgeDistance));
+  return brokenNames(rulesAt(scene, validity, contact));
 }
 
 std::vector<PressSummary> findPresses(const Recording& recording)
@@ -246,7 +245,7 @@ void writePresses(std::ostream& out, const Recording& recording)
         << shortest(law.material().poissonRatio) << ',' << cell(describeLaw(law.settings()));
     if (validity)
     {
-      out << ',' << cell(outsideLimits(*validity, press));
+      out << ',' << cell(outsideLimits(recording.scene, *validity, press.deepest));
     }
     writeContrasts(out, recording.scene, press.deepest);
     out << '\n';

@@ -29,8 +29,9 @@ constexpr double kBounce = 0.02; ///< that a tool is apart at least, to have rel
 /// Names a press that has none, by its place in the order, from 0: "press 1".
 [[nodiscard]] std::string pressName(std::size_t index);
 
-/// The rules of validity that the deepest contact breaks, in words; empty when all hold.
-[[nodiscard]] std::string outsideLimits(const Validity& validity, const PressSummary& press);
+/// The rules of validity that a contact breaks, in words; empty when all hold.
+[[nodiscard]] std::string outsideLimits(
+  const Scene& scene, const Validity& validity, const Contact& contact);
 
 /// The presses of a recording, with its names; of one that has begun, up to where it is.
 ///

@@ -7,6 +7,8 @@
 #include "pipeline/model/merged_mesh.h"
 #include "pipeline/surface_io/surface_facing.h"
 
+#include <algorithm>
+#include <map>
 #include <utility>
 
 namespace palp
@@ -31,12 +33,43 @@ std::size_t turnAlike(RepairedMesh& mesh)
   return count;
 }
 
+// Bodies of one closed surface that share faces, there once each way: they bound nothing, and one
+// alone would be a wall within the body.
+void dropSharedFaces(MergedMesh& mesh)
+{
+  if (edgesOf(mesh.points.size(), mesh.triangles).unbalanced > 0)
+  {
+    return; // whether it encloses anything is not known
+  }
+  std::map<Triangle, std::vector<std::size_t>> facing; // by the corners from the lowest on
+  std::vector<bool> shared(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    Triangle own = mesh.triangles[i];
+    std::ranges::rotate(own, std::ranges::min_element(own));
+    const auto other = facing.find({ own[0], own[2], own[1] });
+    if (other == facing.end() || other->second.empty())
+    {
+      facing[own].push_back(i);
+      continue;
+    }
+    shared[i] = shared[other->second.back()] = true;
+    other->second.pop_back();
+  }
+  if (std::ranges::count(shared, false) > 0) // else a sheet of two sides, which is all there is
+  {
+    std::size_t i = 0;
+    std::erase_if(mesh.triangles, [&](const Triangle&) { return shared[i++]; });
+  }
+}
+
 } // namespace
 
 RepairedMesh repairedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
 {
   MergedMesh merged = mergedMesh(points, triangles);
+  dropSharedFaces(merged);
   const std::vector<bool> repeated = repeatedTriangles(merged.triangles);
   std::size_t i = 0;
   std::erase_if(merged.triangles, [&](const Triangle&) { return repeated[i++]; });

@@ -89,6 +89,17 @@ TEST_F(RunPlaces, TakesSeveralAndTheListsOfSlicer)
   EXPECT_NEAR(samples["tool_y_mm"].back(), 10.0, 1e-6);
 }
 
+// the deepest press is within the limits, the other one at an edge
+TEST_F(RunPlaces, CountsThePressesOutsideTheLimits)
+{
+  const std::string places = "--depth 1mm --speed 50mm/s --at " + point(0, 0, topMm());
+  EXPECT_EQ(at(places, "one").err.find("presses the law"), std::string::npos);
+  const Finished both = at(places + " --at " + point(49, 0, topMm()), "both");
+  EXPECT_NE(both.err.find("in 1 of 2 presses the law is outside its limits; presses.csv"),
+    std::string::npos)
+    << both.err;
+}
+
 TEST_F(RunPlaces, RefusesInOneSentence)
 {
   const std::string good = "--at " + point(0, 0, topMm());

@@ -66,6 +66,22 @@ TEST(MeshRepair, MergesRemovesAndTurns)
     1e-6 * std::pow(0.03, 3));
 }
 
+// two cubes side by side share a face, and a sheet of two sides encloses nothing
+TEST(MeshRepair, JoinsBodiesThatShareAFace)
+{
+  Mesh both = cube();
+  add(both, cube(), Vector3d::UnitX()); // its diagonals lie as those of the other
+  const RepairedMesh bar = repaired(both);
+  EXPECT_EQ(bar.removed, 4U);
+  EXPECT_TRUE(healthOf(bar).findings.empty());
+  EXPECT_EQ(healthOf(bar).pieces.size(), 1U);
+  EXPECT_NEAR(volumeOf(bar.points, bar.triangles), 2.0, 1e-6);
+
+  const Mesh sheet{ .points = { Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY() },
+    .triangles = { { 0, 1, 2 }, { 2, 1, 0 } } };
+  EXPECT_EQ(repaired(sheet).triangles.size(), 1U);
+}
+
 // of any simple polygon in a plane every triangulation has the area that the shoelace formula gives
 TEST(MeshRepair, FillsAStarByItsArea)
 {
