@@ -72,7 +72,7 @@ MeshFile describeFile(const std::filesystem::path& file)
 
 std::string frameOf(const MeshFile& mesh)
 {
-  constexpr std::array kPatient{ ".nii", ".nii.gz", ".mha", ".mhd" };
+  constexpr std::array kPatient{ ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd" };
   const bool patient =
     std::ranges::any_of(kPatient, [&](const char* ending) { return mesh.name.ends_with(ending); });
   return patient ? "LPS" : "";
@@ -82,9 +82,9 @@ std::string describe(const MeshFile& mesh)
 {
   const std::string frame = frameOf(mesh);
   std::string part = mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
-  for (const double label : mesh.part.labels)
+  for (const std::string& label : mesh.part.labels)
   {
-    part += ", label " + shortest(label);
+    part += ", label " + label;
   }
   return std::string(mesh.name).append(kHash) + mesh.sha256 + ", read in " + mesh.unit +
     ", frame " + (frame.empty() ? "of the file" : frame) +

@@ -40,8 +40,8 @@ Eigen::Isometry3d MeshSource::frame() const
 void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
-    "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ (all in "
-    "LPS) or VTI; the bundled liver if none",
+    "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ, NRRD (all "
+    "in LPS) or VTI; the bundled liver if none",
     "",
     [this](const std::string& text)
     {
@@ -54,8 +54,9 @@ void MeshSource::addTo(CLI::App& command)
   auto* level = addParsed(command, "--level",
     "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1", "",
     [this](const std::string& text) { part.level = parseNumber(text, "--level"); });
-  addParsed(command, "--label", "Value of a label map whose region is the body: 5, or 1,2 for both",
-    "", [this](const std::string& text) { part.labels = parseNumbers(text, "--label"); })
+  addParsed(command, "--label",
+    "Region of a label map that is the body, by value or name: 5, or 1,2 for both", "",
+    [this](const std::string& text) { part.labels = parseLabels(text, "--label"); })
     ->excludes(level);
 }
 

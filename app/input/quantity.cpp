@@ -210,6 +210,22 @@ std::vector<double> parseNumbers(std::string_view text, std::string_view what)
   return numbers;
 }
 
+std::vector<std::string> parseLabels(std::string_view text, std::string_view what)
+{
+  std::vector<std::string> labels;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    labels.emplace_back(trimmed(text.substr(begin, end - begin)));
+    if (labels.back().empty())
+    {
+      refuse(what, text, "lacks a label; give values or names with a comma between them");
+    }
+    begin = end + 1;
+  }
+  return labels;
+}
+
 Range parseRange(std::string_view text, Quantity kind, std::string_view what)
 {
   const std::size_t first = text.find(':');

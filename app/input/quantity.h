@@ -60,6 +60,10 @@ struct Bounds
 /// @throws Error BadValue: also where a place is empty
 [[nodiscard]] std::vector<double> parseNumbers(std::string_view text, std::string_view what);
 
+/// Reads values or names of labels with commas between them, as in `1,liver`.
+/// @throws Error BadValue: a place is empty
+[[nodiscard]] std::vector<std::string> parseLabels(std::string_view text, std::string_view what);
+
 /// A sequence of values that remembers them in the unit they were given in.
 struct Range
 {

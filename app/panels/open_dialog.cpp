@@ -16,7 +16,7 @@
 namespace palp
 {
 
-const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.vti";
+const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.vti";
 
 bool isImageFile(const QString& file)
 {
@@ -73,7 +73,7 @@ MeshSource OpenDialog::source() const
   }
   if (!labels.empty())
   {
-    source.part.labels = parseNumbers(labels, "Label");
+    source.part.labels = parseLabels(labels, "Label");
   }
   return source;
 }

@@ -60,7 +60,7 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
     &JsonObject::number);
   parseAt(
     object, "label",
-    [&](const std::string& text) { mesh.part.labels = parseNumbers(text, "--label"); },
+    [&](const std::string& text) { mesh.part.labels = parseLabels(text, "--label"); },
     &JsonObject::number);
   parseAt(object, "unit", [&](const std::string& text) { mesh.unit = parseUnit(text); });
   readFrame(object.object("frame"), mesh);

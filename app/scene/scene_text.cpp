@@ -86,9 +86,9 @@ private:
     if (!source.part.labels.empty())
     {
       std::string labels;
-      for (const double label : source.part.labels)
+      for (const std::string& label : source.part.labels)
       {
-        labels.append(labels.empty() ? "" : ",").append(shortest(label));
+        labels.append(labels.empty() ? "" : ",").append(label);
       }
       mesh["label"] = labels;
     }

@@ -129,14 +129,49 @@ private:
   Eigen::RowVectorXd weights_;
 };
 
-double volumeOf(const Eigen::Matrix3Xd& points, std::span<const Triangle> triangles)
+struct Extent
 {
-  double volume = 0.0;
+  double volume = 0.0; // [unit^3]
+  double area = 0.0;   // [unit^2]
+};
+
+Extent extentOf(const Eigen::Matrix3Xd& points, std::span<const Triangle> triangles)
+{
+  Extent extent;
   for (const auto& [a, b, c] : triangles)
   {
-    volume += points.col(a).dot(points.col(b).cross(points.col(c))) / 6.0;
+    extent.volume += points.col(a).dot(points.col(b).cross(points.col(c))) / 6.0;
+    extent.area +=
+      0.5 * (points.col(b) - points.col(a)).cross(points.col(c) - points.col(a)).norm();
   }
-  return volume;
+  return extent;
+}
+
+Eigen::Matrix3Xd matrixOf(const std::vector<Eigen::Vector3d>& points)
+{
+  return Eigen::Map<const Eigen::Matrix3Xd>(
+    points.front().data(), 3, static_cast<Eigen::Index>(points.size()));
+}
+
+// What a contour, which cuts the corners of voxels, lacks of their volume, for each area of it
+// [unit]; 0 where it is open.
+double bevelOf(vtkPolyData& contour, vtkImageData& mask, double voxel)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(contour);
+  const std::vector<Triangle> triangles = trianglesOf(contour);
+  if (!edgesOf(points.size(), triangles).unpaired.empty())
+  {
+    return 0.0;
+  }
+  vtkDataArray& values = *mask.GetPointData()->GetScalars();
+  const double middle = 0.5 * (values.GetRange()[0] + values.GetRange()[1]);
+  double inside = 0.0;
+  for (vtkIdType i = 0; i < values.GetNumberOfTuples(); ++i)
+  {
+    inside += values.GetTuple1(i) > middle ? voxel : 0.0;
+  }
+  const Extent extent = extentOf(matrixOf(points), triangles);
+  return (inside - std::abs(extent.volume)) / extent.area;
 }
 
 // moves all points outward, by as much for each, so that a volume is added
@@ -161,14 +196,15 @@ void swell(Eigen::Matrix3Xd& points, std::span<const Triangle> triangles, double
 
 // The surface that bends least among those that pass where the voxels say: the sum of the squared
 // Laplacians, by projected gradients (Beck and Teboulle, SIAM J. Imaging Sci. 2(1), 2009).
-void smoothTerraces(vtkPolyData& surface, const Eigen::Array3d& most)
+// bevel: what the volume lacks for each area [unit]
+void smoothTerraces(vtkPolyData& surface, const Eigen::Array3d& most, double bevel)
 {
   const std::vector<Eigen::Vector3d> points = pointsOf(surface);
   const std::vector<Triangle> triangles = trianglesOf(surface);
   const auto count = static_cast<Eigen::Index>(points.size());
   const Edges edges = edgesOf(points.size(), triangles);
   const Laplacian laplacian(edges, points.size());
-  const Eigen::Map<const Eigen::Matrix3Xd> from(points.front().data(), 3, count);
+  const Eigen::Matrix3Xd from = matrixOf(points);
   const Eigen::Matrix3Xd low = from.array().colwise() - most;
   const Eigen::Matrix3Xd high = from.array().colwise() + most;
   Eigen::Matrix3Xd now = from;
@@ -189,9 +225,11 @@ void smoothTerraces(vtkPolyData& surface, const Eigen::Array3d& most)
     now = next;
     pace = faster;
   }
-  if (edges.unpaired.empty())
+  const Extent before = extentOf(from, triangles);
+  const double volume = before.volume + std::copysign(bevel * before.area, before.volume);
+  for (int i = 0; i < 4 && edges.unpaired.empty(); ++i) // the bounds take some of it back
   {
-    swell(now, triangles, volumeOf(from, triangles) - volumeOf(now, triangles));
+    swell(now, triangles, volume - extentOf(now, triangles).volume);
     now = now.cwiseMax(low).cwiseMin(high);
   }
   for (Eigen::Index i = 0; i < count; ++i)
@@ -215,7 +253,8 @@ vtkSmartPointer<vtkPolyData> imageContour(
   const auto body = bodyOf(*templates->GetOutput(), spacing.prod(), notes);
   if (mask && body->GetNumberOfPoints() > 0)
   {
-    smoothTerraces(*body, 0.5 * spacing);
+    const double voxel = spacing.prod();
+    smoothTerraces(*body, 0.5 * spacing, bevelOf(*templates->GetOutput(), image, voxel));
     return body;
   }
   vtkNew<vtkWindowedSincPolyDataFilter> smooth;

@@ -15,7 +15,8 @@ namespace palp
 ///
 /// Of a mask the voxels tell only that the surface passes between two of them. Of all that do, the
 /// one is taken that bends least, so that terraces of many voxels vanish, too; no point leaves the
-/// half voxel to each side within which it is known. A hollow of less than 100 voxels is filled.
+/// half voxel to each side within which it is known, and the volume is that of the voxels. A hollow
+/// of less than 100 voxels is filled.
 ///
 /// @param mask   whether voxels are in or out, not values between which to interpolate
 /// @param notes  gets what was left out

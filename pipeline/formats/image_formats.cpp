@@ -1,9 +1,10 @@
 #include "pipeline/formats/image_formats.h"
 
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/images/meta_image.h"
+#include "pipeline/formats/images/nifti_header.h"
+#include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
-#include "pipeline/formats/meta_image.h"
-#include "pipeline/formats/nifti_header.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/process/file_surface.h"
 
@@ -335,6 +336,7 @@ std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept
     return ends(".mha") || ends(".mhd") ? readMetaHeader(file).bytes
       : ends(".nii") || ends(".nii.gz") ? readNiftiHeader(file).bytes
       : ends(".vti")                    ? vtiBytes(file)
+      : ends(".nrrd")                   ? nrrdBytes(file)
                                         : 0;
   }
   catch (const std::exception&)

@@ -1,29 +1,15 @@
 #pragma once
 
+#include "pipeline/formats/images/patient_image.h"
+
 #include <cstdint>
 #include <filesystem>
-#include <string>
-#include <vector>
-#include <vtkSmartPointer.h>
-
-class vtkImageData;
 
 namespace palp
 {
 
 // Images, each in the patient's axes: x to the left, y to the back, z to the head (LPS), where its
 // format knows them. As in vtk_formats.h: a damaged file may crash a reader of VTK.
-
-/// A volume, what its numbers mean, and what brings its points into the patient's axes.
-struct PatientImage
-{
-  vtkSmartPointer<vtkImageData> image;
-  double toPatient[16]; ///< row by row, applied to the image's own points [unit]
-  double slope = 1.0;   ///< a voxel's value is slope times what is stored, plus intercept
-  double intercept = 0.0;
-  std::string unit{};               ///< "mm"; empty: the file names none
-  std::vector<std::string> notes{}; ///< how it was taken, for people
-};
 
 /// MetaImage, whose axes are the patient's as ITK and Slicer write it, its value scaled by the
 /// header.

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "pipeline/formats/image_contour.h"
+#include "pipeline/formats/image_labels.h"
 #include "pipeline/formats/image_values.h"
 
 #include <Eigen/Dense>
@@ -31,15 +32,11 @@ std::string inWords(double value)
   return text.str();
 }
 
-std::string listed(const std::vector<double>& values, const PatientImage& volume)
+// the two of a mask
+std::string listed(const ImageValues& values, const PatientImage& volume)
 {
-  constexpr std::size_t most = 12;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(values.size(), most); ++i)
-  {
-    text += (i > 0 ? ", " : "") + inWords(volume.slope * values[i] + volume.intercept);
-  }
-  return text + (values.size() > most ? ", ..." : "");
+  return inWords(volume.slope * values.distinct[0] + volume.intercept) + ", " +
+    inWords(volume.slope * values.distinct[1] + volume.intercept);
 }
 
 void flip(vtkPolyData& surface)
@@ -59,49 +56,14 @@ struct Contour
   bool mask = false; // of two values
 };
 
-// 1 where an image has one of these values, else 0
-vtkSmartPointer<vtkImageData> maskOf(vtkImageData& volume, const std::vector<double>& values)
-{
-  const std::vector<std::uint8_t> inside = indicator(volume, values);
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->CopyStructure(&volume);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  std::ranges::copy(inside, static_cast<unsigned char*>(image->GetScalarPointer()));
-  return image;
-}
-
-// to choose from
-std::string knownOf(const ImageValues& values, const PatientImage& volume, double low, double high)
-{
-  return values.distinct.size() > 2 && values.labels
-    ? "its labels are " + listed(values.distinct, volume)
-    : "its values go from " + inWords(low) + " to " + inWords(high);
-}
-
 Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::string& name,
   std::vector<std::string>& notes)
 {
   const auto refuse = [&](const std::string& what)
   { throw Error(ErrorCode::BadMesh, name + ": " + what); };
-  const ImageValues values = valuesOf(*volume.image);
-  const auto scaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
-  const double low = std::min(scaled(values.low), scaled(values.high));
-  const double high = std::max(scaled(values.low), scaled(values.high));
-  const std::string known = knownOf(values, volume, low, high);
   if (!part.labels.empty())
   {
-    std::vector<double> stored;
-    for (const double label : part.labels)
-    {
-      const auto same = std::ranges::find_if(values.distinct,
-        [&](double value) { return std::abs(scaled(value) - label) <= 1e-6 * (high - low); });
-      if (same == values.distinct.end())
-      {
-        refuse("no label " + inWords(label) + " in it; " + known);
-      }
-      stored.push_back(*same);
-    }
-    auto mask = maskOf(*volume.image, stored);
+    auto mask = maskOfLabels(volume, part.labels, name);
     if (mask->GetScalarRange()[0] > 0.5)
     {
       refuse("what is labeled so fills the whole image, so there is no surface; give an image "
@@ -109,11 +71,18 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
     }
     return { mask, 0.5, true };
   }
-  if (values.labels)
+  const auto refuseLevel = [&]
   {
-    refuse("a label map, whose values have no order (" + known +
+    refuse("a label map, whose values have no order (" + labelsInWords(volume) +
       "); name one with --label, or several with commas, not a level");
-  }
+  };
+  volume.segments.empty() ? void() : refuseLevel();
+  const ImageValues values = valuesOf(*volume.image);
+  values.labels ? refuseLevel() : void();
+  const auto scaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
+  const double low = std::min(scaled(values.low), scaled(values.high));
+  const double high = std::max(scaled(values.low), scaled(values.high));
+  const std::string known = "its values go from " + inWords(low) + " to " + inWords(high);
   if (!part.level)
   {
     refuse("an image; name the value of the surface with a level, " + known);
@@ -135,8 +104,8 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
     const double middle = 0.5 * (values.low + values.high);
     if (std::abs(level - middle) > 1e-6 * (values.high - values.low))
     {
-      notes.push_back("a mask of " + listed(values.distinct, volume) +
-        "; its surface is taken at " + inWords(scaled(middle)) + ", their middle");
+      notes.push_back("a mask of " + listed(values, volume) + "; its surface is taken at " +
+        inWords(scaled(middle)) + ", their middle");
     }
     level = middle;
   }
@@ -228,7 +197,7 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
   {
     refuse("no values at its voxels; export it again");
   }
-  if (voxels->GetNumberOfComponents() != 1)
+  if (voxels->GetNumberOfComponents() != 1 && volume.segments.empty())
   {
     refuse("several values at each voxel; give an image of one");
   }

@@ -113,6 +113,7 @@ ImageValues valuesOf(vtkImageData& image)
       for (const auto& [value, times] : often)
       {
         values.distinct.push_back(static_cast<double>(value));
+        values.often.push_back(times);
         whole = whole && values.distinct.back() == std::floor(values.distinct.back());
       }
       values.labels = whole && fillsRegions(voxels, count, row, often);

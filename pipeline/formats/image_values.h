@@ -16,6 +16,7 @@ struct ImageValues
   double low = 0.0; ///< of those that are finite
   double high = 0.0;
   std::vector<double> distinct; ///< rising; empty: more than 256
+  std::vector<vtkIdType> often; ///< how many voxels have each of those
   vtkIdType notFinite = 0;      ///< how many are NaN or infinite
   std::array<int, 3> firstOf{}; ///< these, where
   bool labels = false; ///< three values or more, all whole, most voxels like those beside them

@@ -1,7 +1,7 @@
 #include "pipeline/formats/read_limits.h"
 
 #include "pipeline/formats/image_formats.h"
-#include "pipeline/formats/inflate.h"
+#include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>

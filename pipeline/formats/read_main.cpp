@@ -1,5 +1,5 @@
-// palp-read FILE [level=VALUE | label=VALUE...]: reads a surface for the program that started it.
-// Readers of other people's files may crash or run away, and here they do it alone.
+// palp-read FILE [level=VALUE | label=VALUE-OR-NAME...]: reads a surface for the program that
+// started it. Readers of other people's files may crash or run away, and here they do it alone.
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/process/child_process.h"
@@ -17,14 +17,14 @@ int main(int argc, char** argv)
   for (int i = 2; i < argc; ++i)
   {
     const std::string_view word = argv[i];
-    const double value = std::strtod(argv[i] + std::min<std::size_t>(6, word.size()), nullptr);
+    const std::string_view value = word.substr(std::min(word.find('=') + 1, word.size()));
     if (word.starts_with("level="))
     {
-      part.level = value;
+      part.level = std::strtod(value.data(), nullptr);
     }
     else
     {
-      part.labels.push_back(value);
+      part.labels.emplace_back(value);
     }
   }
   palp::answer([&] { return pack(palp::readFile(file, part)); }, palp::readLimits(file),

@@ -4,6 +4,7 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
+#include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/read_limits.h"
@@ -49,6 +50,7 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".nii", "NIfTI", "", nullptr, readNifti },
   Format{ ".nii.gz", "NIfTI", "", nullptr, readNifti },
+  Format{ ".nrrd", "NRRD", "NRRD000", nullptr, readNrrd },
   Format{ ".vti", "VTI", "<", nullptr, readVti } };
 
 const Format& formatOf(const std::filesystem::path& file)
@@ -66,7 +68,7 @@ const Format& formatOf(const std::filesystem::path& file)
   refuse(file,
     "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu) or "
     "an "
-    "image (.mha, .mhd, .nii, .nii.gz, .vti)");
+    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti)");
 }
 
 void checkFile(const std::filesystem::path& file, const Format& format)

@@ -13,8 +13,8 @@ namespace palp
 /// What of an image is the surface.
 struct ImagePart
 {
-  std::optional<double> level; ///< its value on the surface
-  std::vector<double> labels;  ///< or the regions of these values of a label map, together
+  std::optional<double> level;     ///< its value on the surface
+  std::vector<std::string> labels; ///< or these regions of a label map, by value or name, together
 };
 
 /// What a surface file holds, as it stands there.

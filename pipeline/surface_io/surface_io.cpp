@@ -98,19 +98,15 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
 {
   std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
-  const auto add = [&](const char* kind, double value)
-  {
-    char digits[32];
-    command.emplace_back(
-      kind + std::string(digits, std::to_chars(digits, std::end(digits), value).ptr));
-  };
   if (part.level)
   {
-    add("level=", *part.level);
+    char digits[32];
+    command.emplace_back("level=").append(
+      digits, std::to_chars(digits, std::end(digits), *part.level).ptr);
   }
-  for (const double label : part.labels)
+  for (const std::string& label : part.labels)
   {
-    add("label=", label);
+    command.push_back("label=" + label);
   }
   const auto answer = answerOf(command);
   auto surface = answer ? unpack(*answer) : std::nullopt;

@@ -122,6 +122,26 @@ std::vector<Fuzzed> metaKinds()
   return { image("ball.mha", { raw, compressed }, ofData), beside };
 }
 
+std::vector<Fuzzed> nrrdKinds()
+{
+  const auto header = [](const std::string& encoding)
+  {
+    return "NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\nsizes: 10 10 10\n"
+           "space directions: (5,0,0) (0,5,0) (0,0,6)\nkinds: domain domain domain\n"
+           "endian: little\nencoding: " +
+      encoding + "\nspace origin: (0,0,0)\n\n";
+  };
+  return { image("ball.nrrd",
+    { header("raw") + voxelBytes(), header("gzip") + zipped(voxelBytes()) },
+    { cutOff(kCut, 10), replaced("size", "(sizes: )[0-9]+", "$01999", kCount),
+      replaced("no size", "(sizes: )[0-9]+", "$01-1", "sizes"),
+      replaced("type", "float", "real", "type"), replaced("axes", "(\\()5,0", "$010,5", "space"),
+      replaced("dimension", "(dimension: )3", "$014", "dimension"),
+      replaced("space", "left-post", "up-post", "space"),
+      replaced("origin", "(origin: \\()0", "$01nan", "origin"),
+      replaced("end", "little", "middle", "endian"), foreign(offText(), kKind) }) };
+}
+
 std::vector<Fuzzed> otherImages()
 {
   const auto data = ballImage();
@@ -162,7 +182,7 @@ std::vector<Fuzzed> otherImages()
 std::vector<Fuzzed> fuzzedImages()
 {
   std::vector<Fuzzed> all;
-  for (auto* kinds : { metaKinds, otherImages })
+  for (auto* kinds : { metaKinds, nrrdKinds, otherImages })
   {
     std::ranges::move(kinds(), std::back_inserter(all));
   }

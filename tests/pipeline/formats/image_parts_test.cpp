@@ -101,7 +101,7 @@ TEST_F(Images, AHollowStaysAndAPoreIsFilled)
 TEST_F(Images, RefusesALabelThatReachesTheBorderAllAround)
 {
   const auto file = write<vtkMetaImageWriter>("around.mha", *ball(true));
-  EXPECT_NE(refusal(file, { {}, { 0.0 } }).find("the label reaches the border of the image all"),
+  EXPECT_NE(refusal(file, { {}, { "0" } }).find("the label reaches the border of the image all"),
     std::string::npos);
 }
 
@@ -134,7 +134,7 @@ TEST_F(Images, RefusesWithTheValuesThatThereAre)
   const std::filesystem::path stl = folder_.path() / "a.stl";
   std::ofstream(stl) << "solid a\nendsolid a\n";
   EXPECT_NE(refusal(stl, { 1.0, {} }).find("leave the level out"), std::string::npos);
-  EXPECT_NE(refusal(stl, { {}, { 5.0 } }).find("leave the label out"), std::string::npos);
+  EXPECT_NE(refusal(stl, { {}, { "5" } }).find("leave the label out"), std::string::npos);
 
   std::string turned = readAll(mask);
   const std::string axes = "TransformMatrix = 1 0 0 0 1 0 0 0 1";
@@ -168,13 +168,13 @@ TEST_F(Images, ALabelMapIsTakenByItsLabelsAndNotByALevel)
   const auto file = write<vtkMetaImageWriter>("labels.mha", *labels());
   for (const double level : { 0.5, 4.5, 5.0 })
   {
-    EXPECT_NE(refusal(file, { level, {} }).find("its labels are 0, 2, 5, 7"), std::string::npos);
+    EXPECT_NE(refusal(file, { level, {} }).find("its labels are 2 ("), std::string::npos);
   }
-  EXPECT_NE(refusal(file, { {}, { 4.0 } }).find("no label 4 in it"), std::string::npos);
-  const LoadedSurface inner = readSurface(file, LengthUnit::Millimeter, { {}, { 2.0 } });
+  EXPECT_NE(refusal(file, { {}, { "4" } }).find("no label 4 in it"), std::string::npos);
+  const LoadedSurface inner = readSurface(file, LengthUnit::Millimeter, { {}, { "2" } });
   const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(20.0, 3);
   EXPECT_NEAR(volumeMm3(*inner.mesh), exact, 0.03 * exact);
-  const LoadedSurface both = readSurface(file, LengthUnit::Millimeter, { {}, { 2.0, 5.0 } });
+  const LoadedSurface both = readSurface(file, LengthUnit::Millimeter, { {}, { "2", "5" } });
   EXPECT_TRUE(both.closed);
   EXPECT_LT(farthest(*both.mesh, kCenterMm), 2.2);
 }
@@ -184,10 +184,10 @@ TEST_F(Images, ALabelThatFillsTheImageHasNoSurface)
   auto image = ball(true);
   image->GetPointData()->GetScalars()->Fill(1.0);
   const auto full = write<vtkMetaImageWriter>("full.mha", *image);
-  EXPECT_NE(refusal(full, { {}, { 1.0 } }).find("fills the whole image"), std::string::npos);
-  EXPECT_NE(refusal(full, { {}, { 2.0 } }).find("no label 2 in it"), std::string::npos);
+  EXPECT_NE(refusal(full, { {}, { "1" } }).find("fills the whole image"), std::string::npos);
+  EXPECT_NE(refusal(full, { {}, { "2" } }).find("no label 2 in it"), std::string::npos);
   const auto parts = write<vtkMetaImageWriter>("parts.mha", *labels());
-  EXPECT_NE(refusal(parts, { {}, { 0.0, 2.0, 5.0, 7.0 } }).find("fills the whole image"),
+  EXPECT_NE(refusal(parts, { {}, { "0", "2", "5", "7" } }).find("fills the whole image"),
     std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-#include "pipeline/formats/meta_fields.h"
+#include "pipeline/formats/images/meta_fields.h"
 
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/refuse.h"

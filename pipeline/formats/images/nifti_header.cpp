@@ -1,6 +1,6 @@
-#include "pipeline/formats/nifti_header.h"
+#include "pipeline/formats/images/nifti_header.h"
 
-#include "pipeline/formats/inflate.h"
+#include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "pipeline/formats/inflate.h"
+#include "pipeline/formats/images/inflate.h"
 
 #include "pipeline/formats/meshes/refuse.h"
 

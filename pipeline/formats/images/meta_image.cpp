@@ -1,9 +1,9 @@
-#include "pipeline/formats/meta_image.h"
+#include "pipeline/formats/images/meta_image.h"
 
 #include "haptics/files/input_text.h"
-#include "pipeline/formats/inflate.h"
+#include "pipeline/formats/images/inflate.h"
+#include "pipeline/formats/images/meta_fields.h"
 #include "pipeline/formats/meshes/refuse.h"
-#include "pipeline/formats/meta_fields.h"
 
 #include <algorithm>
 #include <charconv>

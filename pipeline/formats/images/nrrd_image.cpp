@@ -1,0 +1,331 @@
+#include "pipeline/formats/images/nrrd_image.h"
+
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/images/inflate.h"
+#include "pipeline/formats/meshes/refuse.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string_view>
+#include <vector>
+#include <vtkByteSwap.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+
+namespace palp
+{
+namespace
+{
+
+using Fields = std::map<std::string, std::string>; // of the header, by their names
+
+struct Header
+{
+  Fields fields;
+  std::uintmax_t end = 0; // of its text, where the voxels begin [bytes]
+};
+
+Header readHeader(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  Header header;
+  std::string line;
+  constexpr std::size_t most = 1 << 20;
+  for (std::getline(in, line); std::getline(in, line) && !line.empty() && line != "\r";)
+  {
+    if (line.size() > most || header.fields.size() > most)
+    {
+      refuse(file, "no header of an NRRD; export it again");
+    }
+    line.erase(std::min(line.find('\r'), line.size()));
+    const std::size_t colon = line.find(':');
+    if (line.starts_with('#') || colon == line.npos)
+    {
+      continue;
+    }
+    std::size_t value = line.find_first_not_of(" =", colon + 1); // ":=" before Slicer's own
+    value = std::min(value, line.size());
+    if (!header.fields.emplace(line.substr(0, colon), line.substr(value)).second)
+    {
+      refuse(file, "its header has " + inQuotes(line.substr(0, colon)) + " twice; export it again");
+    }
+  }
+  if (!in)
+  {
+    refuse(file, "cut off in its header; export or copy it again");
+  }
+  header.end = static_cast<std::uintmax_t>(in.tellg());
+  return header;
+}
+
+std::string fieldOf(const Fields& fields, const std::string& name)
+{
+  const auto found = fields.find(name);
+  return found == fields.end() ? "" : found->second;
+}
+
+// what is not read here
+void checkHeader(const std::filesystem::path& file, const Fields& fields)
+{
+  for (const char* elsewhere : { "data file", "datafile" })
+  {
+    if (fields.contains(elsewhere))
+    {
+      refuse(file, "its voxels are in another file; save it as one .nrrd");
+    }
+  }
+  for (const char* skip : { "line skip", "lineskip", "byte skip", "byteskip" })
+  {
+    if (const std::string count = fieldOf(fields, skip); !count.empty() && count != "0")
+    {
+      refuse(file, std::string("its header has a ") + skip + "; save it without");
+    }
+  }
+  const std::string encoding = fieldOf(fields, "encoding");
+  if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
+  {
+    refuse(file, "its encoding is " + inQuotes(encoding) + "; save it raw or as gzip");
+  }
+}
+
+// what the definition calls them
+int vtkTypeOf(const std::filesystem::path& file, const std::string& type)
+{
+  static const std::map<std::string_view, int> types{ { "signed char", VTK_SIGNED_CHAR },
+    { "int8", VTK_SIGNED_CHAR }, { "int8_t", VTK_SIGNED_CHAR }, { "uchar", VTK_UNSIGNED_CHAR },
+    { "unsigned char", VTK_UNSIGNED_CHAR }, { "uint8", VTK_UNSIGNED_CHAR },
+    { "uint8_t", VTK_UNSIGNED_CHAR }, { "short", VTK_SHORT }, { "short int", VTK_SHORT },
+    { "signed short", VTK_SHORT }, { "signed short int", VTK_SHORT }, { "int16", VTK_SHORT },
+    { "int16_t", VTK_SHORT }, { "ushort", VTK_UNSIGNED_SHORT },
+    { "unsigned short", VTK_UNSIGNED_SHORT }, { "unsigned short int", VTK_UNSIGNED_SHORT },
+    { "uint16", VTK_UNSIGNED_SHORT }, { "uint16_t", VTK_UNSIGNED_SHORT }, { "int", VTK_INT },
+    { "signed int", VTK_INT }, { "int32", VTK_INT }, { "int32_t", VTK_INT },
+    { "uint", VTK_UNSIGNED_INT }, { "unsigned int", VTK_UNSIGNED_INT },
+    { "uint32", VTK_UNSIGNED_INT }, { "uint32_t", VTK_UNSIGNED_INT }, { "longlong", VTK_LONG_LONG },
+    { "long long", VTK_LONG_LONG }, { "long long int", VTK_LONG_LONG }, { "int64", VTK_LONG_LONG },
+    { "int64_t", VTK_LONG_LONG }, { "ulonglong", VTK_UNSIGNED_LONG_LONG },
+    { "unsigned long long", VTK_UNSIGNED_LONG_LONG }, { "uint64", VTK_UNSIGNED_LONG_LONG },
+    { "uint64_t", VTK_UNSIGNED_LONG_LONG }, { "float", VTK_FLOAT }, { "double", VTK_DOUBLE } };
+  const auto found = types.find(type);
+  if (found == types.end())
+  {
+    refuse(
+      file, "its type is " + inQuotes(type) + ", no number that is read here; save it as another");
+  }
+  return found->second;
+}
+
+double numberOf(const std::string& text, double otherwise)
+{
+  double number = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size() ? number : otherwise;
+}
+
+// the numbers of a text, whatever stands between them
+std::vector<double> numbersIn(std::string text)
+{
+  std::ranges::replace_if(
+    text, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  std::istringstream words(text);
+  std::vector<double> numbers;
+  for (std::string word; words >> word;)
+  {
+    numbers.push_back(numberOf(word, std::numeric_limits<double>::quiet_NaN()));
+  }
+  return numbers;
+}
+
+// the sizes of its axes: three of space, and before them that of the layers
+struct Sizes
+{
+  int layers = 1;
+  std::array<int, 3> voxels{};
+};
+
+Sizes sizesOf(const std::filesystem::path& file, const Fields& fields)
+{
+  const std::vector<double> sizes = numbersIn(fieldOf(fields, "sizes"));
+  const std::string axes = std::to_string(sizes.size());
+  if (fieldOf(fields, "dimension") != axes)
+  {
+    refuse(file, "its sizes are not as many as its dimension; export it again");
+  }
+  const std::string directions = fieldOf(fields, "space directions");
+  const bool isLayered = sizes.size() == 4 && directions.starts_with("none");
+  if (sizes.size() != 3 && !isLayered)
+  {
+    refuse(file, "an image of " + axes + " axes, not of three; save one volume of it");
+  }
+  constexpr double most = 100'000;
+  if (!std::ranges::all_of(
+        sizes, [](double size) { return size >= 1.0 && size <= most && size == std::floor(size); }))
+  {
+    refuse(file, "its sizes are " + inQuotes(fieldOf(fields, "sizes")) + "; export it again");
+  }
+  Sizes result{ .layers = isLayered ? static_cast<int>(sizes.front()) : 1 };
+  std::transform(sizes.end() - 3, sizes.end(), result.voxels.begin(),
+    [](double size) { return static_cast<int>(size); });
+  return result;
+}
+
+// what brings the file's own axes to left, back and head; nothing where it names others
+std::optional<std::array<double, 3>> toLps(std::string space)
+{
+  std::ranges::transform(space, space.begin(), [](char c) { return static_cast<char>(c | 32); });
+  using Turn = std::array<double, 3>;
+  return space == "left-posterior-superior" || space == "lps" ? std::optional(Turn{ 1, 1, 1 })
+    : space == "right-anterior-superior" || space == "ras"    ? std::optional(Turn{ -1, -1, 1 })
+    : space == "left-anterior-superior" || space == "las"     ? std::optional(Turn{ 1, -1, 1 })
+                                                              : std::nullopt;
+}
+
+void place(const std::filesystem::path& file, const Fields& fields, PatientImage& result)
+{
+  const std::string space = fieldOf(fields, "space");
+  const auto turn = toLps(space);
+  if (!space.empty() && !turn && space.find("xyz") == space.npos && !space.starts_with("3D"))
+  {
+    refuse(file, "its space is " + inQuotes(space) + "; save it in left-posterior-superior");
+  }
+  const std::string given = fieldOf(fields, "space directions");
+  std::vector<double> axes = numbersIn(given.substr(given.starts_with("none") ? 4 : 0));
+  std::vector<double> origin = numbersIn(fieldOf(fields, "space origin"));
+  if (given.empty()) // the older form
+  {
+    const std::vector<double> sides = numbersIn(fieldOf(fields, "spacings"));
+    axes.assign(9, 0.0);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      axes[4 * k] = sides.size() == 3 ? sides[k] : 1.0;
+    }
+  }
+  origin.resize(origin.empty() ? 3 : origin.size());
+  if (axes.size() != 9 || origin.size() != 3)
+  {
+    refuse(file, "its space directions are not three vectors; export it again");
+  }
+  double* row = result.toPatient;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double sign = turn ? (*turn)[i] : 1.0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      row[4 * i + k] = sign * axes[3 * k + i];
+    }
+    row[4 * i + 3] = sign * origin[i];
+  }
+  row[15] = 1.0;
+  const bool isMetric = fieldOf(fields, "space units").find("\"mm\"") != std::string::npos;
+  result.unit = turn || isMetric ? "mm" : "";
+  result.notes.emplace_back(turn ? "in the patient's axes to left, back and head (LPS)"
+                                 : "the header tells no place in the patient; its own axes are "
+                                   "taken");
+}
+
+// Segment0_Name and those beside it, as 3D Slicer writes them
+std::vector<Segment> segmentsOf(const Fields& fields, int layers)
+{
+  std::vector<Segment> segments;
+  for (int i = 0;; ++i)
+  {
+    const std::string key = "Segment" + std::to_string(i) + "_";
+    if (!fields.contains(key + "Name"))
+    {
+      return segments;
+    }
+    Segment segment{ .name = fieldOf(fields, key + "Name"),
+      .value = numberOf(fieldOf(fields, key + "LabelValue"), 1.0) };
+    const double layer = numberOf(fieldOf(fields, key + "Layer"), 0.0);
+    segment.layer = layer >= 0.0 && layer < layers ? static_cast<int>(layer) : 0;
+    segments.push_back(std::move(segment));
+  }
+}
+
+std::uintmax_t bytesOf(const std::filesystem::path& file, const Fields& fields)
+{
+  const Sizes sizes = sizesOf(file, fields);
+  auto bytes = static_cast<std::uintmax_t>(sizes.layers) *
+    static_cast<std::uintmax_t>(
+      vtkDataArray::GetDataTypeSize(vtkTypeOf(file, fieldOf(fields, "type"))));
+  for (const int size : sizes.voxels)
+  {
+    bytes *= static_cast<std::uintmax_t>(size);
+  }
+  return bytes;
+}
+
+// before there is room for what it claims
+void checkLength(const std::filesystem::path& file, const Header& header, std::uintmax_t bytes)
+{
+  const std::uintmax_t there = std::filesystem::file_size(file) - header.end;
+  const bool isRaw = fieldOf(header.fields, "encoding") == "raw";
+  if (there < (isRaw ? bytes : bytes / kDeflateRatio))
+  {
+    refuseCut(file, there, bytes);
+  }
+  if (isRaw && there > bytes)
+  {
+    refuseMore(file, there, bytes, "mend its sizes");
+  }
+}
+
+void readVoxels(
+  const std::filesystem::path& file, const Header& header, std::span<unsigned char> voxels)
+{
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(header.end));
+  if (fieldOf(header.fields, "encoding") == "raw")
+  {
+    in.read(reinterpret_cast<char*>(voxels.data()), static_cast<std::streamsize>(voxels.size()));
+  }
+  else
+  {
+    inflateInto(voxels, in, std::filesystem::file_size(file) - header.end, file);
+  }
+}
+
+} // namespace
+
+PatientImage readNrrd(const std::filesystem::path& file)
+{
+  const Header header = readHeader(file);
+  const Fields& fields = header.fields;
+  checkHeader(file, fields);
+  const Sizes sizes = sizesOf(file, fields);
+  PatientImage result{ .image = vtkSmartPointer<vtkImageData>::New(), .toPatient = {} };
+  place(file, fields, result);
+  const std::uintmax_t bytes = bytesOf(file, fields);
+  checkLength(file, header, bytes);
+  result.image->SetDimensions(sizes.voxels.data());
+  result.image->AllocateScalars(vtkTypeOf(file, fieldOf(fields, "type")), sizes.layers);
+  auto* voxels = static_cast<unsigned char*>(result.image->GetScalarPointer());
+  readVoxels(file, header, { voxels, bytes });
+  const auto wide = static_cast<std::uintmax_t>(result.image->GetScalarSize());
+  const std::string endian = fieldOf(fields, "endian");
+  if (wide > 1 && endian != "big" && endian != "little")
+  {
+    refuse(file, "its endian is " + inQuotes(endian) + ", not little or big; export it again");
+  }
+  if (wide > 1 && endian == "big")
+  {
+    vtkByteSwap::SwapVoidRange(voxels, bytes / wide, static_cast<int>(wide));
+  }
+  result.segments = segmentsOf(fields, sizes.layers);
+  return result;
+}
+
+std::uintmax_t nrrdBytes(const std::filesystem::path& file)
+{
+  return bytesOf(file, readHeader(file).fields);
+}
+
+} // namespace palp
