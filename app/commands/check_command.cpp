@@ -252,6 +252,10 @@ void runCheck(const CheckOptions& options)
   const std::filesystem::path& file = options.source.file;
   const FileSurface read = readFileSurface(file, options.source.part);
   const LoadedSurface loaded = madeReady(read, file, options.source.unit);
+  for (const std::string& note : loaded.notes)
+  {
+    std::cerr << "palp: " << note << '\n';
+  }
   std::vector<Eigen::Vector3d> points = read.points;
   for (Eigen::Vector3d& point : points)
   {

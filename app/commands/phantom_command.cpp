@@ -18,7 +18,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -30,7 +32,6 @@ namespace
 {
 
 using namespace units::literals;
-using units::toMillimeters;
 
 const Words kPhantoms{ "block", "slab", "sphere", "liver" };
 
@@ -181,6 +182,37 @@ std::string tableOf(const Phantom& phantom, const LabelMap& map, double voxel)
   return figures::csv(table, digits);
 }
 
+double volumeOf(const Mesh& mesh)
+{
+  double volume = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    volume += mesh.points[at(a)].dot(mesh.points[at(b)].cross(mesh.points[at(c)])) / 6.0;
+  }
+  return volume;
+}
+
+// of parts that lie within the first, as all phantoms here
+void warnOfCoarseVoxels(const Phantom& phantom, const LabelMap& map, double voxel)
+{
+  for (std::size_t i = 0; i < phantom.parts.size(); ++i)
+  {
+    double exact = volumeOf(phantom.parts[i].surface);
+    for (std::size_t k = 1; k < phantom.parts.size() && i == 0; ++k)
+    {
+      exact -= volumeOf(phantom.parts[k].surface);
+    }
+    constexpr double kMost = 0.05;
+    const double labeled = static_cast<double>(map.counts[i]) * voxel * voxel * voxel;
+    if (std::abs(labeled - exact) > kMost * exact)
+    {
+      std::cerr << "palp: warning: at this size of voxels " << labelOf(phantom.parts[i]) << " has "
+                << figures::textOf(labeled / exact, 2)
+                << " of its volume; its surface is exact, or take finer ones\n";
+    }
+  }
+}
+
 void runPhantom(const PhantomOptions& options)
 {
   const Phantom phantom = phantomOf(options);
@@ -204,6 +236,7 @@ void runPhantom(const PhantomOptions& options)
   replaceFile(
     output->stage() / "scene.json", sceneText(planOf(phantom, output->stage()), output->stage()));
   output->publish();
+  warnOfCoarseVoxels(phantom, map, options.voxel);
   std::cout << tableOf(phantom, map, options.voxel);
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <sys/stat.h>
 #include <system_error>
 
 namespace palp
@@ -53,6 +54,19 @@ std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file
     files.push_back(std::move(data));
   }
   return files;
+}
+
+FileStamps stampsOf(const std::filesystem::path& file)
+{
+  FileStamps stamps;
+  for (const std::filesystem::path& one : filesBehind(file))
+  {
+    struct stat is = {};
+    (void)stat(one.c_str(), &is); // what is missing is like nothing that was there
+    stamps.emplace_back(is.st_dev, is.st_ino, is.st_size, is.st_mtim.tv_sec, is.st_mtim.tv_nsec,
+      is.st_ctim.tv_sec, is.st_ctim.tv_nsec);
+  }
+  return stamps;
 }
 
 MeshFile describeFile(const std::filesystem::path& file)

@@ -2,9 +2,12 @@
 
 #include "pipeline/process/file_surface.h"
 
+#include <ctime>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <sys/types.h>
+#include <tuple>
 #include <vector>
 
 namespace palp
@@ -22,6 +25,11 @@ struct MeshFile
 
 /// The file, and the one behind it that holds the voxels of an MHD.
 [[nodiscard]] std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file);
+
+/// Device, node, size, and times of content and of entry, of a file and of that behind it: others
+/// once somebody touched them.
+using FileStamps = std::vector<std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>>;
+[[nodiscard]] FileStamps stampsOf(const std::filesystem::path& file);
 
 /// @param file    as named by the user
 /// @throws Error  BadFile: cannot be read

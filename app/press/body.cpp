@@ -3,6 +3,7 @@
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
 #include "haptics/contact/embed_nodules.h"
+#include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/deviation.h"
 #include "haptics/units.h"
@@ -74,6 +75,9 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     const std::filesystem::path file =
       source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
     body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
+    const bool liver = source.bundled == "liver";
+    const std::filesystem::path felt = liver ? dataFile("meshes/liver_haptic.vtp") : file;
+    const FileStamps before = stampsOf(felt);
     progress.emplace("reading " + printable(file.filename().string()));
     const LoadedSurface loaded = readSurface(file, source.unit, source.part);
     body.unit = unitName(loaded.unit);
@@ -82,11 +86,14 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     {
       display.add(*loaded.mesh, source.frame());
     }
-    const bool liver = source.bundled == "liver";
     coarser = coarser || liver;
-    const std::filesystem::path felt = liver ? dataFile("meshes/liver_haptic.vtp") : file;
     haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame());
     MeshFile& origin = body.files.emplace_back(describeFile(felt));
+    if (stampsOf(felt) != before)
+    {
+      throw Error(ErrorCode::BadFile,
+        printable(felt.string()) + ": was changed while it was read; run again");
+    }
     origin.unit = body.unit;
     origin.part = source.part;
     for (PlacedNodule nodule : source.nodules)

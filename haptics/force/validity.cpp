@@ -213,7 +213,7 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
     { "penetration", "-", shown(depth / local.thickness), kComparedDepth,
       "deeper than half the body nothing was compared with finite elements" },
     { "hollow", "-", shown(local.hollow), kAboveHollow,
-      "the wall above a hollow bends, so that it is softer than this" },
+      "a wall above a hollow, or free behind, bends, so that it is softer than this" },
   } };
 }
 

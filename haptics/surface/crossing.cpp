@@ -1,6 +1,7 @@
 #include "haptics/surface/crossing.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp
 {
@@ -87,6 +88,17 @@ std::optional<Eigen::Vector3d> findCrossing(
   return found;
 }
 
+double asideOf(const BoxTree& tree) noexcept
+{
+  constexpr double kAside = 1e-4; // edge lengths
+  double sum = 0.0;
+  for (const Facet& facet : tree.facets())
+  {
+    sum += (facet.corners[1] - facet.corners[0]).squaredNorm();
+  }
+  return kAside * std::sqrt(sum / static_cast<double>(tree.facets().size()));
+}
+
 bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept
 {
   const auto& [a, b, c] = facet.corners;
@@ -95,7 +107,7 @@ bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept
   return isInside == (winding(middle + aside * facet.normal) > 0.5);
 }
 
-std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> pieces, double aside)
+std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> pieces)
 {
   std::vector<int> all;
   if (std::ranges::all_of(pieces, [](int piece) { return piece == 0; }))
@@ -103,6 +115,7 @@ std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> piece
     return all;
   }
   const Winding winding(tree);
+  const double aside = asideOf(tree);
   for (int i = 0; at(i) < tree.facets().size(); ++i)
   {
     const Facet& facet = tree.facets()[at(i)];

@@ -23,12 +23,13 @@ namespace palp
 ///
 /// @param tree    of all triangles of a closed surface
 /// @param pieces  of each triangle, by piecesOf
-/// @param aside   where the two sides are looked at [m]
-[[nodiscard]] std::vector<int> buriedTriangles(
-  const BoxTree& tree, std::span<const int> pieces, double aside);
+[[nodiscard]] std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> pieces);
+
+/// How far beside a triangle its two sides are looked at [m].
+[[nodiscard]] double asideOf(const BoxTree& tree) noexcept;
 
 /// Whether the body, or nothing, is on both sides of a triangle: it bounds nothing.
-/// @param aside  where the two sides are looked at [m]
+/// @param aside  by asideOf
 [[nodiscard]] bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept;
 
 /// The triangles that pass through others, or that others pass through, each once and in order.

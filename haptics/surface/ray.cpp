@@ -1,6 +1,7 @@
 #include "haptics/surface/ray.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp
 {
@@ -48,6 +49,40 @@ RayHit firstHit(const BoxTree& tree, const Eigen::Vector3d& origin,
   return first;
 }
 
+// A ball of no stiffness, b in radius and its center z deep, takes 1.4 (b/z)^3 of a force at most,
+// by the theory of nodules: 7 % from b = 0.37 z on.
+constexpr double kNearHollow = 0.35;
+
+// Where the body goes on beyond a wall by twice its thickness, nothing is known to hold the wall
+// from behind, as that of a bowl: a dome of 12 mm, R 50, answers with 0.6 of the force of a held
+// one.
+constexpr double kFree = 2.0;
+
+// whether a surface has a point that is farther along a direction
+bool goesBeyond(const BoxTree& tree, const Eigen::Vector3d& direction, double farthest)
+{
+  bool found = false;
+  tree.search(
+    [&](const BoxTree::Node& box)
+    {
+      double most = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const double along = direction[static_cast<Eigen::Index>(k)];
+        most += along * static_cast<double>(along > 0.0 ? box.high[k] : box.low[k]);
+      }
+      return !found && most > farthest;
+    },
+    [&](int facet)
+    {
+      for (const Eigen::Vector3d& corner : tree.facets()[at(facet)].corners)
+      {
+        found = found || direction.dot(corner) > farthest;
+      }
+    });
+  return found;
+}
+
 } // namespace
 
 RayHit rayEntry(
@@ -60,6 +95,33 @@ RayHit rayExit(
   const BoxTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept
 {
   return firstHit(tree, origin, direction, 1.0);
+}
+
+Below lookBelow(const BoxTree& tree, std::span<const float> hollows, const Eigen::Vector3d& from,
+  const Eigen::Vector3d& inward) noexcept
+{
+  constexpr int kMost = 64; // walls
+  constexpr double kBeyond = 1e-6;
+  Below below;
+  for (int wall = 0; wall < kMost; ++wall)
+  {
+    const RayHit hit = rayExit(tree, from + below.thickness * inward, inward);
+    below.thickness += hit.distance;
+    const double radius =
+      hit.triangle < 0 ? 0.0 : static_cast<double>(hollows[static_cast<std::size_t>(hit.triangle)]);
+    if (radius == 0.0)
+    {
+      const Eigen::Vector3d beyond = from + (1.0 + kBeyond) * below.thickness * inward;
+      const double gap = rayEntry(tree, beyond, inward).distance; // as the width of a duct
+      below.isHollow = below.isHollow ||
+        (std::isfinite(gap) && 0.5 * gap > kNearHollow * (below.thickness + 0.5 * gap)) ||
+        goesBeyond(tree, inward, inward.dot(beyond) + kFree * below.thickness);
+      break;
+    }
+    below.isHollow = below.isHollow || radius > kNearHollow * (below.thickness + radius);
+    below.thickness += kBeyond * radius;
+  }
+  return below;
 }
 
 } // namespace palp

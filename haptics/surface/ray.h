@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <span>
 
 namespace palp
 {
@@ -29,5 +30,19 @@ struct RayHit
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] RayHit rayExit(
   const BoxTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) noexcept;
+
+/// What lies below a place of a surface.
+struct Below
+{
+  double thickness = 0.0; ///< to the far side of the body, hollows filled [m]
+  bool isHollow = false;  ///< a hollow is so near, or the far side so free, that the wall bends
+};
+
+/// @param tree     of the surface
+/// @param hollows  of each triangle, by hollowRadii
+/// @param from     on the surface [m]
+/// @param inward   unit vector
+[[nodiscard]] Below lookBelow(const BoxTree& tree, std::span<const float> hollows,
+  const Eigen::Vector3d& from, const Eigen::Vector3d& inward) noexcept;
 
 } // namespace palp

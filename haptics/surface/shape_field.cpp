@@ -43,43 +43,6 @@ double longestEdge(const std::array<Eigen::Vector3d, 3>& p)
     { (p[0] - p[1]).squaredNorm(), (p[1] - p[2]).squaredNorm(), (p[2] - p[0]).squaredNorm() }));
 }
 
-// what a ray inward passes
-struct Below
-{
-  double thickness; // to the far side of the body, hollows filled [m]
-  bool isHollow;    // and one of them is so near and large that the wall above it bends
-};
-
-// A ball of no stiffness, b in radius and its center z deep, takes 1.4 (b/z)^3 of a force at most,
-// by the theory of nodules: 7 % from b = 0.37 z on.
-constexpr double kNearHollow = 0.35;
-
-Below lookBelow(const BoxTree& tree, std::span<const float> hollows, const Eigen::Vector3d& from,
-  const Eigen::Vector3d& inward)
-{
-  constexpr int kMost = 64; // walls
-  constexpr double kBeyond = 1e-6;
-  Below below{ 0.0, false };
-  for (int wall = 0; wall < kMost; ++wall)
-  {
-    const RayHit hit = rayExit(tree, from + below.thickness * inward, inward);
-    below.thickness += hit.distance;
-    const double radius =
-      hit.triangle < 0 ? 0.0 : static_cast<double>(hollows[static_cast<std::size_t>(hit.triangle)]);
-    if (radius == 0.0)
-    {
-      const Eigen::Vector3d beyond = from + (1.0 + kBeyond) * below.thickness * inward;
-      const double gap = rayEntry(tree, beyond, inward).distance; // as the width of a duct
-      below.isHollow = below.isHollow ||
-        (std::isfinite(gap) && 0.5 * gap > kNearHollow * (below.thickness + 0.5 * gap));
-      break;
-    }
-    below.isHollow = below.isHollow || radius > kNearHollow * (below.thickness + radius);
-    below.thickness += kBeyond * radius;
-  }
-  return below;
-}
-
 // so large that the triangles are not cut into too many pieces
 double leastCell(const BoxTree& tree)
 {

@@ -17,8 +17,6 @@ namespace palp
 namespace
 {
 
-constexpr double kAside = 1e-4; // [-] edge lengths from a triangle, where its two sides are told
-
 void check(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -146,7 +144,7 @@ bool Surface::linkEdges()
 // of pieces whose walls meet without passing through each other
 std::optional<Eigen::Vector3d> Surface::findOverlap() const
 {
-  const std::vector<int> buried = buriedTriangles(tree_, piecesOf(across_), kAside * edgeLength_);
+  const std::vector<int> buried = buriedTriangles(tree_, piecesOf(across_));
   if (buried.empty())
   {
     return std::nullopt;
@@ -159,10 +157,11 @@ std::optional<Eigen::Vector3d> Surface::findOverlap() const
 void Surface::dropWhatIsBuried()
 {
   Winding winding(tree_);
+  const double aside = asideOf(tree_);
   std::vector<Triangle> triangles = triangles_;
   for (int i = 0; at(i) < tree_.facets().size(); ++i)
   {
-    if (isBuried(winding, tree_.facets()[at(i)], kAside * edgeLength_))
+    if (isBuried(winding, tree_.facets()[at(i)], aside))
     {
       Triangle& triangle = triangles[at(tree_.triangle(i))];
       triangle.fill(triangle[0]);

@@ -109,13 +109,16 @@ std::string lowered(std::string text)
   return text;
 }
 
-bool isNamed(const Label& label, const std::string& text)
+// a number names the value next to it that a voxel can have, to the rounding of the scale
+bool isNamed(const Label& label, double step, const std::string& text)
 {
   double value = 0.0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool isNumber = failure == std::errc() && end == text.data() + text.size();
-  return isNumber ? std::abs(label.shown - value) <= 1e-9 * std::abs(value)
-                  : lowered(label.segment.name) == lowered(text);
+  constexpr double kRounding = 1e-15;
+  return isNumber
+    ? std::abs(label.shown - value) <= 1e-6 * std::abs(step) + kRounding * std::abs(value)
+    : lowered(label.segment.name) == lowered(text);
 }
 
 } // namespace
@@ -129,6 +132,13 @@ vtkSmartPointer<vtkImageData> maskOfLabels(
   const PatientImage& volume, const std::vector<std::string>& labels, const std::string& name)
 {
   const std::vector<Label> known = labelsOf(volume);
+  constexpr double kWhole = 9'007'199'254'740'992.0; // beyond it doubles are not all whole numbers
+  if (std::ranges::any_of(
+        known, [](const Label& one) { return std::abs(one.segment.value) >= kWhole; }))
+  {
+    throw Error(ErrorCode::BadMesh,
+      name + ": labels beyond 2^53, which are not told apart here; number them anew");
+  }
   const int layers = volume.image->GetNumberOfScalarComponents();
   std::vector<std::vector<double>> chosen(static_cast<std::size_t>(layers)); // of each layer
   for (const std::string& label : labels)
@@ -136,7 +146,7 @@ vtkSmartPointer<vtkImageData> maskOfLabels(
     bool isThere = false;
     for (const Label& one : known)
     {
-      if (isNamed(one, label))
+      if (isNamed(one, volume.slope, label))
       {
         chosen[static_cast<std::size_t>(one.segment.layer)].push_back(one.segment.value);
         isThere = true;
@@ -160,6 +170,14 @@ vtkSmartPointer<vtkImageData> maskOfLabels(
       const auto of = indicator(*layerOf(*volume.image, layer), values);
       std::ranges::transform(of, std::span(inside, of.size()), inside, std::bit_or());
     }
+  }
+  constexpr std::ptrdiff_t kFewest = 8;
+  const std::span voxels(inside, static_cast<std::size_t>(mask->GetNumberOfPoints()));
+  if (const auto count = std::ranges::count(voxels, 1); count < kFewest)
+  {
+    throw Error(ErrorCode::BadMesh,
+      name + ": what is labeled so has " + counted(static_cast<std::size_t>(count), "voxel") +
+        ", too few for a surface; take finer voxels");
   }
   return mask;
 }

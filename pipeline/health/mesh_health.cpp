@@ -236,8 +236,7 @@ void findInside(const Subject& subject, Findings& findings)
   std::vector<int> triangles = crossingTriangles(tree, subject.triangles);
   if (triangles.empty() && subject.edges.unbalanced == 0 && subject.facing.inner == 0)
   {
-    const double aside = 1e-4 * (tree.facets()[0].corners[1] - tree.facets()[0].corners[0]).norm();
-    triangles = buriedTriangles(tree, piecesOf(subject.edges.across), aside);
+    triangles = buriedTriangles(tree, piecesOf(subject.edges.across));
   }
   for (const int triangle : triangles)
   {

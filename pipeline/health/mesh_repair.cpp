@@ -1,5 +1,6 @@
 #include "pipeline/health/mesh_repair.h"
 
+#include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "pipeline/health/fill_holes.h"
 #include "pipeline/health/slivers.h"
@@ -7,8 +8,6 @@
 #include "pipeline/model/merged_mesh.h"
 #include "pipeline/surface_io/surface_facing.h"
 
-#include <algorithm>
-#include <map>
 #include <utility>
 
 namespace palp
@@ -33,33 +32,26 @@ std::size_t turnAlike(RepairedMesh& mesh)
   return count;
 }
 
-// Bodies of one closed surface that share faces, there once each way: they bound nothing, and one
-// alone would be a wall within the body.
-void dropSharedFaces(MergedMesh& mesh)
+// Where bodies of one closed surface touch or overlap, what has the body on both sides bounds
+// nothing. It goes where the rest is closed: else the walls cross, which stays and is told.
+void dropBuried(MergedMesh& mesh)
 {
-  if (edgesOf(mesh.points.size(), mesh.triangles).unbalanced > 0)
+  const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
+  const BoxTree tree(mesh.points, mesh.triangles);
+  if (edges.unbalanced > 0 || tree.empty())
   {
-    return; // whether it encloses anything is not known
+    return;
   }
-  std::map<Triangle, std::vector<std::size_t>> facing; // by the corners from the lowest on
-  std::vector<bool> shared(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  std::vector<Triangle> rest = mesh.triangles;
+  for (const int buried : buriedTriangles(tree, piecesOf(edges.across)))
   {
-    Triangle own = mesh.triangles[i];
-    std::ranges::rotate(own, std::ranges::min_element(own));
-    const auto other = facing.find({ own[0], own[2], own[1] });
-    if (other == facing.end() || other->second.empty())
-    {
-      facing[own].push_back(i);
-      continue;
-    }
-    shared[i] = shared[other->second.back()] = true;
-    other->second.pop_back();
+    rest[at(buried)].fill(0); // which is no triangle
   }
-  if (std::ranges::count(shared, false) > 0) // else a sheet of two sides, which is all there is
+  MergedMesh boundary = mergedMesh(mesh.points, rest);
+  if (!boundary.triangles.empty() &&
+    edgesOf(boundary.points.size(), boundary.triangles).unbalanced == 0)
   {
-    std::size_t i = 0;
-    std::erase_if(mesh.triangles, [&](const Triangle&) { return shared[i++]; });
+    mesh = std::move(boundary);
   }
 }
 
@@ -69,7 +61,7 @@ RepairedMesh repairedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
 {
   MergedMesh merged = mergedMesh(points, triangles);
-  dropSharedFaces(merged);
+  dropBuried(merged);
   const std::vector<bool> repeated = repeatedTriangles(merged.triangles);
   std::size_t i = 0;
   std::erase_if(merged.triangles, [&](const Triangle&) { return repeated[i++]; });

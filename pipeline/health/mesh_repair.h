@@ -15,16 +15,16 @@ struct RepairedMesh
   std::vector<Eigen::Vector3d> points; ///< [m]
   std::vector<Triangle> triangles;     ///< facing outward where closed
   std::size_t merged = 0;              ///< points that coincided with others, or were not used
-  std::size_t removed = 0; ///< triangles without three corners, there twice, or between bodies
+  std::size_t removed = 0; ///< triangles without three corners, there twice, or within the body
   std::size_t slivers = 0; ///< collapsed, or flipped into others
   std::size_t split = 0;   ///< points made of those where parts met, not as a manifold
   std::size_t filled = 0;  ///< holes
   std::size_t turned = 0;  ///< triangles
 };
 
-/// Merges points, removes degenerate and duplicate triangles, slivers, and the faces that bodies
-/// share, parts what meets in a non-manifold edge or point, closes small holes, and turns triangles
-/// alike.
+/// Merges points, removes degenerate and duplicate triangles, slivers, and what bodies that touch
+/// have between them, parts what meets in a non-manifold edge or point, closes small holes, and
+/// turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
 /// a thousandth of an edge, so that it stays apart in every file.

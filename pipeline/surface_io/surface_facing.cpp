@@ -35,7 +35,7 @@ double volumeSeen(
 
 // each with its triangles turned as the first of it
 std::vector<Piece> piecesOf(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, const Edges& edges, std::vector<bool>& turn)
+  std::span<const Triangle> triangles, const Edges& edges, Facing& facing)
 {
   std::vector<Piece> pieces;
   std::vector<bool> met(triangles.size());
@@ -52,14 +52,20 @@ std::vector<Piece> piecesOf(std::span<const Eigen::Vector3d> points,
     {
       const std::size_t self = at(piece.triangles[next]);
       const Triangle& t = triangles[self];
-      piece.volume += (turn[self] ? -1.0 : 1.0) * volumeSeen(points, t, from);
+      piece.volume += (facing.turn[self] ? -1.0 : 1.0) * volumeSeen(points, t, from);
       for (std::size_t k = 0; k < 3; ++k)
       {
         const int other = edges.across[self][k];
-        if (other >= 0 && !met[at(other)])
+        if (other < 0)
+        {
+          continue;
+        }
+        const bool turned = facing.turn[self] != goes(triangles[at(other)], t[k], t[(k + 1) % 3]);
+        facing.twisted = facing.twisted || (met[at(other)] && facing.turn[at(other)] != turned);
+        if (!met[at(other)])
         {
           met[at(other)] = true;
-          turn[at(other)] = turn[self] != goes(triangles[at(other)], t[k], t[(k + 1) % 3]);
+          facing.turn[at(other)] = turned;
           piece.triangles.push_back(other);
         }
       }
@@ -146,7 +152,7 @@ Facing facingOf(
 {
   Facing facing{ .turn = std::vector<bool>(triangles.size()),
     .within = std::vector<bool>(triangles.size()) };
-  const std::vector<Piece> pieces = piecesOf(points, triangles, edges, facing.turn);
+  const std::vector<Piece> pieces = piecesOf(points, triangles, edges, facing);
   if (!edges.unpaired.empty())
   {
     return facing;

@@ -17,6 +17,7 @@ struct Facing
   std::size_t cavities = 0; ///< closed pieces that face a hollow within another
   std::vector<bool> within; ///< of each triangle: bounds nothing, as there is body on both sides
   std::size_t inner = 0;    ///< closed pieces of such
+  bool twisted = false;     ///< one side goes over into the other, as of a Moebius strip
 };
 
 /// Triangles across an edge are to face the same way: as the first of their piece or, where the

@@ -1,23 +1,29 @@
 #include "pipeline/surface_io/surface_io.h"
 
 #include "haptics/error.h"
+#include "haptics/files/descriptor.h"
 #include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
+#include "pipeline/model/poly_data.h"
 #include "pipeline/process/child_process.h"
 #include "pipeline/process/file_surface.h"
 #include "pipeline/surface_io/surface_repair.h"
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
+#include <sys/mman.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
-#include <vtkPLYWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSTLWriter.h>
@@ -63,34 +69,60 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   return text.str();
 }
 
-// by way of memory, as VTK would tell of a full disk in its own words
-void writeVtp(const std::filesystem::path& file, vtkPolyData& data)
-{
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->WriteToOutputStringOn();
-  writer->SetInputData(&data);
-  writer->Write();
-  replaceFile(file, writer->GetOutputString());
-}
-
+// by way of memory: some writers of VTK do not tell of a full disk, others in their own words
 template <typename Writer>
 void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 {
   vtkNew<Writer> writer;
+  writer->SetInputData(&data);
+  if constexpr (requires { writer->WriteToOutputStringOn(); })
+  {
+    writer->WriteToOutputStringOn();
+    writer->Write();
+    replaceFile(file, writer->GetOutputString());
+    return;
+  }
   if constexpr (std::is_same_v<Writer, vtkSTLWriter>)
   {
     writer->SetFileTypeToBinary(); // the others are binary where they can be
   }
-  writer->SetInputData(&data);
-  replaceFile(file,
-    [&](const std::filesystem::path& fresh)
-    {
-      writer->SetFileName(fresh.c_str());
-      if (writer->Write() != 1 || writer->GetErrorCode() != 0)
-      {
-        refuseFile(fresh, EIO);
-      }
-    });
+  const Descriptor memory(memfd_create("surface", MFD_CLOEXEC));
+  const std::string name = "/proc/self/fd/" + std::to_string(memory.get());
+  writer->SetFileName(name.c_str());
+  if (!memory || writer->Write() != 1)
+  {
+    refuseFile(file, ENOMEM);
+  }
+  std::ifstream in(name, std::ios::binary);
+  replaceFile(file, std::string(std::istreambuf_iterator(in), {}));
+}
+
+template <typename Value>
+void append(std::string& bytes, const Value& value)
+{
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// VTK's own writer tells nobody that a disk is full, and wants a name that ends in .ply
+void writePly(const std::filesystem::path& file, vtkPolyData& data)
+{
+  static_assert(std::endian::native == std::endian::little);
+  const std::vector<Eigen::Vector3d> points = pointsOf(data);
+  const std::vector<Triangle> triangles = trianglesOf(data);
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+    std::to_string(points.size()) +
+    "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+    std::to_string(triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Eigen::Vector3d& point : points)
+  {
+    append(bytes, point.cast<float>().eval());
+  }
+  for (const Triangle& triangle : triangles)
+  {
+    append(bytes, std::uint8_t{ 3 });
+    append(bytes, triangle);
+  }
+  replaceFile(file, bytes);
 }
 
 } // namespace
@@ -174,8 +206,8 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
 void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space)
 {
   using Writer = void (*)(const std::filesystem::path&, vtkPolyData&);
-  const std::map<std::string, Writer> writers{ { ".vtp", writeVtp },
-    { ".stl", writeWith<vtkSTLWriter> }, { ".ply", writeWith<vtkPLYWriter> },
+  const std::map<std::string, Writer> writers{ { ".vtp", writeWith<vtkXMLPolyDataWriter> },
+    { ".stl", writeWith<vtkSTLWriter> }, { ".ply", writePly },
     { ".obj", writeWith<vtkOBJWriter> } };
   const auto writer = writers.find(file.extension().string());
   if (writer == writers.end())

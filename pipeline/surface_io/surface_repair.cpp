@@ -15,6 +15,26 @@
 namespace palp
 {
 
+namespace
+{
+
+void warnOfEdges(const Edges& edges, std::vector<std::string>& warnings)
+{
+  const std::size_t open = edges.unpaired.size() - edges.crowded;
+  if (edges.crowded > 0)
+  {
+    warnings.push_back("not a manifold: " + counted(edges.crowded, "edge has", "edges have") +
+      " more than two triangles; forces near there may be wrong");
+  }
+  if (open > 0)
+  {
+    warnings.push_back("open: " + counted(open, "edge has", "edges have") +
+      " one triangle only; press it from the front");
+  }
+}
+
+} // namespace
+
 RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   std::span<const Triangle> fileTriangles, const std::string& name)
 {
@@ -33,21 +53,16 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   }
 
   const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
-  const std::size_t open = edges.unpaired.size() - edges.crowded;
   result.closed = edges.unpaired.empty();
-  if (edges.crowded > 0)
-  {
-    result.warnings.push_back(
-      "not a manifold: " + counted(edges.crowded, "edge has", "edges have") +
-      " more than two triangles; forces near there may be wrong");
-  }
-  if (open > 0)
-  {
-    result.warnings.push_back("open: " + counted(open, "edge has", "edges have") +
-      " one triangle only; press it from the front");
-  }
-
+  warnOfEdges(edges, result.warnings);
   const Facing facing = facingOf(mesh.points, mesh.triangles, edges);
+  if (facing.twisted)
+  {
+    result.closed = false;
+    result.warnings.push_back("it cannot be oriented: one side goes over into the other, as of a "
+                              "Moebius strip, so inside and outside are not told apart; repair the "
+                              "mesh");
+  }
   std::size_t changed = 0;
   for (std::size_t i = 0; i < facing.turn.size(); ++i)
   {

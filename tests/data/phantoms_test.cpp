@@ -149,7 +149,7 @@ TEST_F(Phantoms, OfTheLiverIsTheSameInSurfaceImageAndScene)
   const Image image(folder / "liver.mha");
   const Surface liver = surfaceOf(folder / "liver.vtp");
   const LoadedSurface labeled =
-    readSurface(folder / "liver.mha", LengthUnit::Millimeter, { {}, { 1.0, 2.0, 3.0 } });
+    readSurface(folder / "liver.mha", LengthUnit::Millimeter, { {}, { "1", "2", "3" } });
   const Surface voxels(pointsOf(*labeled.mesh), trianglesOf(*labeled.mesh));
   EXPECT_LT(deviation(liver, voxels).largest, 1.2_mm);
 

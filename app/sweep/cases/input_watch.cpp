@@ -4,7 +4,6 @@
 #include "haptics/error.h"
 
 #include <algorithm>
-#include <sys/stat.h>
 
 namespace palp
 {
@@ -12,19 +11,6 @@ namespace palp
 InputWatch::InputWatch(const std::map<std::string, std::string>& hashes)
   : hashes_(hashes)
 {
-}
-
-std::vector<InputWatch::Stamp> InputWatch::stampsOf(const std::string& file)
-{
-  std::vector<Stamp> stamps;
-  for (const std::filesystem::path& one : filesBehind(file))
-  {
-    struct stat is = {};
-    (void)stat(one.c_str(), &is); // what is missing is like nothing that was there
-    stamps.emplace_back(is.st_dev, is.st_ino, is.st_size, is.st_mtim.tv_sec, is.st_mtim.tv_nsec,
-      is.st_ctim.tv_sec, is.st_ctim.tv_nsec);
-  }
-  return stamps;
 }
 
 // with the one behind it
@@ -56,7 +42,7 @@ std::vector<std::string> InputWatch::edited(const std::map<std::string, std::str
 
 void InputWatch::check(const std::string& file)
 {
-  const std::vector<Stamp> now = stampsOf(file);
+  const FileStamps now = stampsOf(file);
   if (const auto seen = seen_.find(file); seen != seen_.end() && seen->second == now)
   {
     return;

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <ctime>
+#include "app/input/mesh_file.h"
+
 #include <map>
 #include <string>
-#include <sys/types.h>
-#include <tuple>
 #include <vector>
 
 namespace palp
@@ -32,14 +31,10 @@ public:
   void refuseTouched(const std::vector<std::string>& files, std::size_t number) const;
 
 private:
-  // device, node, size, and times of content and of entry
-  using Stamp = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
-
-  [[nodiscard]] static std::vector<Stamp> stampsOf(const std::string& file);
   [[nodiscard]] static std::string shown(const std::string& file);
 
   const std::map<std::string, std::string>& hashes_;
-  std::map<std::string, std::vector<Stamp>> seen_;
+  std::map<std::string, FileStamps> seen_;
 };
 
 } // namespace palp

@@ -60,6 +60,54 @@ TEST_F(CheckCommand, RepairsIntoAnotherFileOnly)
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
 }
 
+TEST_F(CheckCommand, SaysWhatRunSaysOfTheFile)
+{
+  const std::filesystem::path file = folder_.path() / "inches.obj";
+  writeSurface(file, *makePolyData(makeSphere(0.002, 3).points, makeSphere(0.002, 3).triangles));
+  const std::string text = check(file.string()).err; // 4 of some unit
+  EXPECT_NE(
+    text.find("warning: inches.obj: the file names no unit; cm is the only one"), std::string::npos)
+    << text;
+}
+
+// writers of VTK for these leave a cut file, and say nothing
+TEST_F(CheckCommand, OnAFullDiskTheFileBeforeStays)
+{
+  const std::string disk = (folder_.path() / "disk").string();
+  std::filesystem::create_directory(disk);
+  const std::string start = "unshare -rm sh -c 'mount -t tmpfs -o size=300k none " + disk;
+  if (test::runCommand(start + "'").code != 0)
+  {
+    GTEST_SKIP() << "nothing may be mounted here";
+  }
+  for (const char* kind : { ".ply", ".obj", ".stl", ".vtp" })
+  {
+    const std::string file = disk + "/r" + kind;
+    const test::Finished finished = test::runCommand(start + " && echo mine > " + file +
+      " && " PALP_PROGRAM " check " PALP_SHARE "/meshes/liver.vtp --overwrite --repair " + file +
+      "; echo code $?; ls " + disk + "; cat " + file + "'");
+    EXPECT_NE(finished.out.find("code 2\nr" + std::string(kind) + "\nmine\n"), std::string::npos)
+      << finished.out;
+    EXPECT_NE(finished.err.find("cannot be written (No space left on device)"), std::string::npos)
+      << finished.err;
+    EXPECT_EQ(finished.err.find("ERR|"), std::string::npos) << finished.err;
+  }
+}
+
+TEST(PhantomCommand, WarnsOfAPartThatIsThinnerThanItsVoxels)
+{
+  const test::TemporaryFolder folder;
+  const auto warned = [&](const std::string& voxel)
+  {
+    return test::runCommand(
+      PALP_PROGRAM " phantom slab --voxel " + voxel + " --out " + (folder.path() / voxel).string())
+      .err;
+  };
+  EXPECT_NE(warned("3mm").find("warning: at this size of voxels skin has 0 of its volume"),
+    std::string::npos);
+  EXPECT_EQ(warned("1mm").find("warning"), std::string::npos);
+}
+
 TEST_F(CheckCommand, MarksTheFaultsOfTriangles)
 {
   const std::string out = (folder_.path() / "faults.vtp").string();

@@ -1,8 +1,13 @@
+#include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
+#include <thread>
 
 // --overwrite replaces what an earlier run left, and never what this one reads
 
@@ -127,6 +132,55 @@ TEST_F(KeptInputs, OtherFilesThereMayBeRead)
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(test::readAll(out_ / "tool.csv"), kProfile);
   }
+}
+
+// of two bodies that take turns under one name, the one that was pressed is the one that is named
+TEST_F(KeptInputs, TheHashIsOfWhatWasPressed)
+{
+  const std::string file = (folder_.path() / "body.vtp").string();
+  std::map<std::string, double> thickness; // [mm] by hash
+  for (const auto& [name, mm] : { std::pair("block_50", 50.0), { "block_30", 30.0 } })
+  {
+    const std::string body = PALP_SHARE "/meshes/" + std::string(name) + ".vtp";
+    const std::string hash = test::runCommand("sha256sum " + body).out.substr(0, 64);
+    thickness[hash] = mm;
+    std::filesystem::copy_file(body, folder_.path() / (std::string(name) + ".vtp"));
+  }
+  std::atomic<bool> done = false;
+  std::thread turns(
+    [&]
+    {
+      for (int i = 0; !done; ++i)
+      {
+        const std::string fresh = file + ".fresh";
+        const auto of = folder_.path() / (i % 2 == 0 ? "block_50.vtp" : "block_30.vtp");
+        std::filesystem::copy_file(of, fresh);
+        std::filesystem::rename(fresh, file);
+        std::this_thread::sleep_for(std::chrono::milliseconds(13 + i % 90));
+      }
+    });
+  int pressed = 0;
+  for (int i = 0; i < 24; ++i)
+  {
+    const test::Finished run =
+      palp("run body.vtp --at 0,0,0 --depth 1mm --speed 50mm/s --samples-only --out turn");
+    if (run.code != 0)
+    {
+      EXPECT_TRUE(run.err.find("was changed while it was read") != std::string::npos ||
+        run.err.find("body.vtp: cannot be read") != std::string::npos) // of another file
+        << run.err;
+      continue;
+    }
+    ++pressed;
+    const std::string text = test::readAll(folder_.path() / "turn/samples.csv");
+    const std::string hash = text.substr(text.find("SHA-256 ") + 8, 64);
+    const test::CsvTable samples = test::readCsv(folder_.path() / "turn/samples.csv");
+    ASSERT_TRUE(thickness.contains(hash)) << hash;
+    EXPECT_NEAR(std::ranges::min(samples["thickness_mm"]), thickness[hash], 1.0);
+  }
+  done = true;
+  turns.join();
+  EXPECT_GT(pressed, 0);
 }
 
 } // namespace

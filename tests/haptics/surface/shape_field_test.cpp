@@ -84,6 +84,53 @@ TEST(ShapeField, AGapInTheBodyIsToldAsAHollowIs)
   }
 }
 
+// a bowl on its rim, outer radius 50 mm, pressed on its outside: no law knows how its wall is held
+TEST(ShapeField, AWallThatIsFreeBehindIsToldAsAHollowIs)
+{
+  for (const auto& [wall, isTold] : { std::pair(5.0_mm, 1.0), { 12.0_mm, 1.0 }, { 30.0_mm, 0.0 } })
+  {
+    test::Mesh bowl;
+    constexpr int kAround = 96;
+    constexpr int kDown = 30; // from the pole to the rim, and back up within
+    const double outer = 50.0_mm;
+    for (int j = 0; j < 2 * kDown; ++j)
+    {
+      const double radius = j < kDown ? outer : outer - wall;
+      const double angle =
+        0.5 * std::numbers::pi * (j < kDown ? j + 1 : 2 * kDown - j) / kDown; // from the axis
+      for (int i = 0; i < kAround; ++i)
+      {
+        const double u = 2.0 * std::numbers::pi * i / kAround;
+        bowl.first.emplace_back(radius * std::sin(angle) * std::cos(u),
+          radius * std::sin(angle) * std::sin(u), radius * std::cos(angle));
+      }
+    }
+    const auto point = [](int i, int j) { return j * kAround + i % kAround; };
+    const int top = static_cast<int>(bowl.first.size());
+    bowl.first.emplace_back(0.0, 0.0, outer);
+    bowl.first.emplace_back(0.0, 0.0, outer - wall);
+    for (int i = 0; i < kAround; ++i)
+    {
+      bowl.second.push_back({ top, point(i, 0), point(i + 1, 0) });
+      bowl.second.push_back({ top + 1, point(i + 1, 2 * kDown - 1), point(i, 2 * kDown - 1) });
+      for (int j = 0; j + 1 < 2 * kDown; ++j)
+      {
+        bowl.second.push_back({ point(i, j), point(i, j + 1), point(i + 1, j + 1) });
+        bowl.second.push_back({ point(i, j), point(i + 1, j + 1), point(i + 1, j) });
+      }
+    }
+    const Surface body = test::makeSurface(bowl);
+    ASSERT_TRUE(body.closed());
+    for (const double angle : { 0.0, 0.4 })
+    {
+      const Eigen::Vector3d out(std::sin(angle), 0.0, std::cos(angle));
+      const LocalShape shape = shapeAt(body, outer * out, 10.0_mm, out);
+      EXPECT_NEAR(shape.thickness, wall, 0.05 * wall);
+      EXPECT_NEAR(shape.hollow, isTold, 0.01) << wall << " m, " << angle;
+    }
+  }
+}
+
 // radius of a hollow, where its center is, and at which pole the wall above it bends
 TEST(ShapeField, AHollowIsFilledAndToldWhereItIsNearAndLarge)
 {

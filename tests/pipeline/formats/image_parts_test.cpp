@@ -1,6 +1,7 @@
 #include "tests/pipeline/formats/ball_images.h"
 
 #include <numbers>
+#include <tuple>
 #include <vtkXMLImageDataWriter.h>
 
 namespace palp::test
@@ -177,6 +178,52 @@ TEST_F(Images, ALabelMapIsTakenByItsLabelsAndNotByALevel)
   const LoadedSurface both = readSurface(file, LengthUnit::Millimeter, { {}, { "2", "5" } });
   EXPECT_TRUE(both.closed);
   EXPECT_LT(farthest(*both.mesh, kCenterMm), 2.2);
+}
+
+// as those of brain atlases, which differ in their last digits
+TEST_F(Images, LargeLabelsAreToldApart)
+{
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(40, 20, 20);
+  image->SetSpacing(2.0, 2.0, 2.0);
+  image->AllocateScalars(VTK_UNSIGNED_INT, 1);
+  image->GetPointData()->GetScalars()->Fill(0.0);
+  const auto fill = [&](int from, int to, double label)
+  {
+    for (int i = from; i < to; ++i)
+    {
+      for (int jk = 0; jk < 100; ++jk)
+      {
+        image->SetScalarComponentFromDouble(i, 5 + jk % 10, 5 + jk / 10, 0, label);
+      }
+    }
+  };
+  fill(3, 9, 312782550.0);
+  fill(14, 22, 312782554.0);
+  fill(27, 37, 4294967295.0);
+  const auto file = write<vtkMetaImageWriter>("atlas.mha", *image);
+  for (const auto& [label, from, to] : { std::tuple("312782550", 3, 9), { "312782554", 14, 22 },
+         { "4294967295", 27, 37 }, { "312782554.0", 14, 22 } })
+  {
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { {}, { label } });
+    const double* box = surface.mesh->GetBounds();
+    EXPECT_NEAR(1e3 * box[0], 2.0 * from - 1.0, 1.1) << label;
+    EXPECT_NEAR(1e3 * box[1], 2.0 * to - 1.0, 1.1) << label;
+  }
+  for (const char* label : { "312782551", "312782530", "4294967294", "312782550.5" })
+  {
+    EXPECT_NE(refusal(file, { {}, { label } }).find("no label " + std::string(label) + " in it"),
+      std::string::npos);
+  }
+}
+
+TEST_F(Images, ALabelOfFewVoxelsIsRefusedByTheirNumber)
+{
+  const auto image = labels();
+  image->SetScalarComponentFromDouble(3, 3, 3, 0, 9.0);
+  const auto file = write<vtkMetaImageWriter>("speck.mha", *image);
+  EXPECT_NE(
+    refusal(file, { {}, { "9" } }).find("has 1 voxel, too few for a surface"), std::string::npos);
 }
 
 TEST_F(Images, ALabelThatFillsTheImageHasNoSurface)

@@ -77,6 +77,21 @@ TEST(MeshRepair, JoinsBodiesThatShareAFace)
   EXPECT_EQ(healthOf(bar).pieces.size(), 1U);
   EXPECT_NEAR(volumeOf(bar.points, bar.triangles), 2.0, 1e-6);
 
+  Mesh mirrored = cube(); // so that its diagonals are others
+  for (Vector3d& point : mirrored.points)
+  {
+    point.y() = -point.y();
+  }
+  for (Triangle& t : mirrored.triangles)
+  {
+    std::swap(t[0], t[1]);
+  }
+  Mesh unlike = cube();
+  add(unlike, mirrored, Vector3d::UnitX());
+  const RepairedMesh second = repaired(unlike);
+  EXPECT_TRUE(healthOf(second).findings.empty());
+  EXPECT_NEAR(volumeOf(second.points, second.triangles), 2.0, 1e-6);
+
   const Mesh sheet{ .points = { Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY() },
     .triangles = { { 0, 1, 2 }, { 2, 1, 0 } } };
   EXPECT_EQ(repaired(sheet).triangles.size(), 1U);

@@ -65,6 +65,37 @@ TEST(Facing, OfAPieceWithinAnotherThatFacesTheOtherWayIsTowardTheHollow)
   }
 }
 
+TEST(Facing, TellsThatOneSideGoesOverIntoTheOther)
+{
+  for (const int halfTurns : { 0, 1, 2, 3 })
+  {
+    Mesh strip;
+    constexpr int kAround = 40;
+    for (int i = 0; i <= kAround; ++i)
+    {
+      const double along = 2.0 * std::numbers::pi * i / kAround;
+      const double turn = 0.5 * halfTurns * along;
+      for (const double aside : { -5.0_mm, 5.0_mm })
+      {
+        const double far = 30.0_mm + aside * std::cos(turn);
+        strip.first.emplace_back(
+          far * std::cos(along), far * std::sin(along), aside * std::sin(turn));
+      }
+    }
+    for (int i = 0; i < kAround; ++i)
+    {
+      const auto point = [&](int across, int far)
+      {
+        const bool isEnd = i + far == kAround; // which is the beginning, from below perhaps
+        return isEnd ? (halfTurns % 2 == 0 ? across : 1 - across) : 2 * (i + far) + across;
+      };
+      strip.second.push_back({ point(0, 0), point(1, 0), point(0, 1) });
+      strip.second.push_back({ point(1, 0), point(1, 1), point(0, 1) });
+    }
+    EXPECT_EQ(facingOf(strip).twisted, halfTurns % 2 == 1) << halfTurns;
+  }
+}
+
 // what lies in the body and faces alike bounds nothing
 TEST(Facing, OfPiecesThatFaceAlikeIsOutward)
 {
