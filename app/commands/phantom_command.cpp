@@ -95,11 +95,12 @@ LabelMap labelMapOf(const Phantom& phantom, double voxel)
   map.counts.resize(phantom.parts.size());
   for (std::size_t i = 0; i < all; ++i)
   {
+    const std::size_t row = i / map.size[0];
+    const std::size_t slice = row / map.size[1];
     const Eigen::Vector3d at = map.origin +
       voxel *
         Eigen::Vector3d(static_cast<double>(i % map.size[0]),
-          static_cast<double>(i / map.size[0] % map.size[1]),
-          static_cast<double>(i / map.size[0] / map.size[1]));
+          static_cast<double>(row % map.size[1]), static_cast<double>(slice));
     std::size_t label = 0;
     for (std::size_t part = 0; part < phantom.parts.size(); ++part)
     {

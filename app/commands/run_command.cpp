@@ -111,6 +111,7 @@ std::vector<Kind> kindsOf(
   const std::vector<std::string>& chosen, const std::vector<std::string>& names)
 {
   std::vector<Kind> kinds;
+  kinds.reserve(chosen.size());
   for (const std::string& name : chosen)
   {
     kinds.push_back(static_cast<Kind>(std::ranges::find(names, name) - names.begin()));

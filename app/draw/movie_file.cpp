@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 // as the shell finds it
 fs::path findProgram(const char* name)
 {
-  const char* path = std::getenv("PATH");
+  const char* path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe): nobody sets it
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');)
   {
-    if (const fs::path file = fs::path(folder) / name; access(file.c_str(), X_OK) == 0)
+    if (fs::path file = fs::path(folder) / name; access(file.c_str(), X_OK) == 0)
     {
       return file;
     }

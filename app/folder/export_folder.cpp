@@ -180,6 +180,7 @@ void writeProvenance(const fs::path& stage, const ScenePlan& plan, const Recordi
 void addToProvenance(const fs::path& folder, const std::vector<std::string>& names)
 {
   std::vector<MeshFile> files;
+  files.reserve(names.size());
   for (const std::string& name : names)
   {
     files.push_back(describeFile(folder / name));

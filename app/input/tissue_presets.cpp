@@ -21,7 +21,7 @@ namespace
 
 std::string textAt(JsonObject& object, const char* key)
 {
-  const std::string text = object.text(key, "");
+  std::string text = object.text(key, "");
   if (text.empty())
   {
     object.refuse(key, "is missing; give a text, \"...\"");
@@ -61,7 +61,7 @@ TissuePreset readTissue(JsonObject object)
   const double factor = isShear ? kYoungOverShear : 1.0;
   const auto end = [&](const char* name)
   { return object.has(name) ? std::optional(factor * modulusAt(object, name)) : std::nullopt; };
-  const TissuePreset tissue{ .name = textAt(object, "name"),
+  TissuePreset tissue{ .name = textAt(object, "name"),
     .title = textAt(object, "title"),
     .material = materialAt(object, factor * modulusAt(object, key)),
     .low = end("low"),

@@ -56,7 +56,7 @@ QIcon iconOf(const KeptPress& press)
   painter.setPen(QPen(
     QColor::fromRgbF(color[0], color[1], color[2]), 3.0, dashed ? Qt::DashLine : Qt::SolidLine));
   painter.drawLine(0, kHeight / 2, kWidth, kHeight / 2);
-  return QIcon(picture);
+  return { picture };
 }
 
 QStringList cellsOf(const KeptPress& press)

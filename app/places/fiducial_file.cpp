@@ -58,7 +58,7 @@ public:
     for (std::string line; std::getline(lines, line);)
     {
       ++line_;
-      line.erase(line.find_last_not_of("\r") + 1);
+      line.erase(line.find_last_not_of('\r') + 1);
       if (line.starts_with('#'))
       {
         readHeader(line);

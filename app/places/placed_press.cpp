@@ -189,10 +189,9 @@ ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const
 
 SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
-  const SurfacePoint point =
-    feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
-                             : ontoSurface(place, *scene.surface),
-      presses.depth, scene);
+  SurfacePoint point = feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
+                                                : ontoSurface(place, *scene.surface),
+    presses.depth, scene);
   const double thickness = rayExit(scene.surface->tree(), point.position, -point.normal).distance;
   if (presses.depth > 0.5 * thickness)
   {

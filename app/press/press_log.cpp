@@ -80,22 +80,20 @@ std::size_t PressLog::keepAll(const Recording& samples)
 {
   const Scene& scene = samples.scene;
   const std::vector<PressSummary> found = findPresses(samples);
-  for (std::size_t i = 0; i < found.size(); ++i)
+  for (const PressSummary& one : found)
   {
-    KeptPress press{ .id = ++found_,
-      .summary = found[i],
-      .law = scene.law,
-      .rule = scene.rule,
-      .damping = scene.damping };
+    KeptPress press{
+      .id = ++found_, .summary = one, .law = scene.law, .rule = scene.rule, .damping = scene.damping
+    };
     if (samples.names.empty())
     {
       press.summary.name = pressName(static_cast<std::size_t>(found_) - 1);
     }
     if (samples.rated)
     {
-      press.outside = outsideLimits(scene, Validity(scene.law), found[i].deepest);
+      press.outside = outsideLimits(scene, Validity(scene.law), one.deepest);
     }
-    press.curve = curveOf(found[i], samples);
+    press.curve = curveOf(one, samples);
     presses_.push_back(std::move(press));
     ++version_;
   }
@@ -146,7 +144,8 @@ void PressLog::remove(int id)
 
 void PressLog::restore(KeptPress press)
 {
-  presses_.insert(std::ranges::lower_bound(presses_, press.id, {}, &KeptPress::id), press);
+  const auto place = std::ranges::lower_bound(presses_, press.id, {}, &KeptPress::id);
+  presses_.insert(place, std::move(press));
   ++version_;
 }
 

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <sstream>
 
@@ -49,23 +48,30 @@ void addSample(PressSummary& press, const Sample& last, const Sample& sample)
   }
 }
 
+enum class Way
+{
+  Forward, // from the first sample on
+  Back,    // from the last one
+};
+
 // Fastest change of the depth from one sample on, over a time, or one step where that is longer.
 // Nothing where there is no other sample.
-template <typename Samples>
-std::optional<double> depthRate(const Samples& from, double within)
+std::optional<double> depthRate(std::span<const Sample> samples, Way way, double within)
 {
+  const auto from = [&](std::size_t k) -> const Sample&
+  { return samples[way == Way::Forward ? k : samples.size() - 1 - k]; };
   std::optional<double> fastest;
   std::size_t begin = 0; // of a step
-  for (std::size_t k = 1; k < from.size(); ++k)
+  for (std::size_t k = 1; k < samples.size(); ++k)
   {
-    if (fastest && std::abs(from[k].time - from[0].time) > within)
+    if (fastest && std::abs(from(k).time - from(0).time) > within)
     {
       break;
     }
-    const double time = std::abs(from[k].time - from[begin].time);
-    if (time >= kCalm || (!fastest && k + 1 == from.size()))
+    const double time = std::abs(from(k).time - from(begin).time);
+    if (time >= kCalm || (!fastest && k + 1 == samples.size()))
     {
-      const double change = std::abs(from[k].contact.depth - from[begin].contact.depth);
+      const double change = std::abs(from(k).contact.depth - from(begin).contact.depth);
       fastest = std::max(fastest.value_or(0.0), time > 0.0 ? change / time : 0.0);
       begin = k;
     }
@@ -85,8 +91,8 @@ bool mayLift(std::span<const Sample> samples, std::size_t next)
   const Sample& before = samples[next - 1];
   const Sample& after = samples[next];
   const double gap = after.time - before.time;
-  const auto out = depthRate(samples.first(next) | std::views::reverse, gap);
-  const auto in = depthRate(samples.subspan(next), gap);
+  const auto out = depthRate(samples.first(next), Way::Back, gap);
+  const auto in = depthRate(samples.subspan(next), Way::Forward, gap);
   if (!out && !in)
   {
     return gap >= kBounce; // however fast it is

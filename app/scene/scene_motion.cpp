@@ -41,8 +41,7 @@ PlacedPresses readPresses(JsonObject object)
 
 RecordedPress readRecording(JsonObject object, const std::filesystem::path& folder)
 {
-  const RecordedPress recording{ .file =
-                                   (folder / object.text("file", "samples.csv")).lexically_normal(),
+  RecordedPress recording{ .file = (folder / object.text("file", "samples.csv")).lexically_normal(),
     .device = object.text("device", "mouse"),
     .names = object.texts("names", {}) };
   object.finish();
@@ -71,7 +70,7 @@ void readReplacement(JsonObject& object, ScenePlan& plan, const std::filesystem:
 
 CameraPlace readCamera(JsonObject object)
 {
-  const CameraPlace camera{ .position = triple(object, "position", Quantity::Length, kCameraReach),
+  CameraPlace camera{ .position = triple(object, "position", Quantity::Length, kCameraReach),
     .focus = triple(object, "focus", Quantity::Length, kCameraReach),
     .up = triple(object, "up", Quantity::Length, kCameraReach) };
   object.finish();

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <utility>
+#include <vtkPolyData.h>
 
 namespace palp
 {

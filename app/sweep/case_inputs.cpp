@@ -171,7 +171,7 @@ std::vector<std::string> caseWords(
     }
     else if (!flags.contains(option))
     {
-      words.push_back("--" + option + "=" + value);
+      words.push_back(std::string("--").append(option).append("=").append(value));
     }
     else if (value == "true")
     {

@@ -74,8 +74,8 @@ void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions&
       }
       throw Error(ErrorCode::BadFile,
         begin + inQuotes(name) + ": palp " + sweep.kind +
-          " has no such option, and no value holds " + inQuotes("{" + name + "}") +
-          "; known here: " + known);
+          " has no such option, and no value holds " +
+          inQuotes(std::string("{").append(name).append("}")) + "; known here: " + known);
     }
     const auto isWord = [](const std::string& value)
     { return value == "true" || value == "false"; };
@@ -129,8 +129,9 @@ public:
     const Texts texts = textsOf(sweep_);
     refuseUnknown(sweep_, texts, options);
     bool names = false; // a file
-    for (const auto& [name, values] : texts)
+    for (const auto& [option, values] : texts)
     {
+      const std::string& name = option; // which a lambda can hold
       const bool isFlag = options.flags.contains(name);
       if (isFlag || options.values.contains(name))
       {

@@ -89,7 +89,7 @@ std::vector<std::string> rangeValues(JsonObject object)
     if (step.unit != range.unit || !(whole >= 1.0 && whole < static_cast<double>(kMostCases)) ||
       range.logarithmic || std::abs(steps - whole) > 1e-9 * whole)
     {
-      object.refuse("step", "must lead from \"from\" to \"to\" in whole steps, in their unit");
+      object.refuse("step", R"(must lead from "from" to "to" in whole steps, in their unit)");
     }
     count = static_cast<std::size_t>(whole) + 1;
   }

@@ -208,7 +208,7 @@ private:
 // of a picture, before its ending
 bool isFileName(const std::string& name)
 {
-  const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0; };
+  const auto isPlain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   return !name.empty() && isPlain(name.front()) &&
     std::ranges::all_of(name, [&](char c) { return isPlain(c) || c == '-' || c == '_'; });
 }

@@ -47,7 +47,7 @@ void Window::addStandardViews(QMenu& menu)
         look();
         isStale_ = true;
       },
-      QKeySequence(Qt::CTRL | key++));
+      QKeySequence(static_cast<int>(Qt::CTRL) | key++));
   };
   for (const Standard& view : views)
   {

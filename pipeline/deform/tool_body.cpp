@@ -22,7 +22,7 @@ constexpr double kBetween = 12.0_deg; // normal and flank, at least
 
 // how far the way down may lean from the axis: of a round tip its shaft is the first that can stand
 // along it, of a punch its flat lies at the other side of that
-double mostLean(const Tip& tip) noexcept
+double mostLean(const Tip& tip)
 {
   return std::visit(
     [](const auto& shape)
@@ -136,7 +136,7 @@ double ToolBody::march(double start, double height, double climb, const Eigen::V
 }
 
 Eigen::Vector3d drawnNormal(
-  const Eigen::Vector3d& normal, const Eigen::Vector3d& axis, const Tip& tip) noexcept
+  const Eigen::Vector3d& normal, const Eigen::Vector3d& axis, const Tip& tip)
 {
   const double most = mostLean(tip);
   const double along = -normal.dot(axis);

@@ -102,6 +102,6 @@ private:
 /// @param axis    of the tool, unit
 /// @return        unit, in the plane of both
 [[nodiscard]] Eigen::Vector3d drawnNormal(
-  const Eigen::Vector3d& normal, const Eigen::Vector3d& axis, const Tip& tip) noexcept;
+  const Eigen::Vector3d& normal, const Eigen::Vector3d& axis, const Tip& tip);
 
 } // namespace palp

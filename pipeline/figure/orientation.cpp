@@ -29,11 +29,11 @@ Orientation::Orientation(vtkRenderer& renderer)
       [this, &renderer](double width, double, double scale) { place(renderer, width, scale); })
 {
   vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(static_cast<vtkIdType>(2 * kEnds));
+  points->SetNumberOfPoints(2 * static_cast<vtkIdType>(kEnds));
   vtkNew<vtkCellArray> cells;
   for (std::size_t i = 0; i < kEnds; ++i)
   {
-    cells->InsertNextCell({ static_cast<vtkIdType>(2 * i), static_cast<vtkIdType>(2 * i + 1) });
+    cells->InsertNextCell({ 2 * static_cast<vtkIdType>(i), 2 * static_cast<vtkIdType>(i) + 1 });
     vtkTextProperty& text = *letters_[i]->GetTextProperty();
     appearance::setFont(text, 14, appearance::kInk, true);
     text.SetJustificationToCentered();
@@ -89,8 +89,8 @@ void Orientation::place(vtkRenderer& renderer, double width, double scale)
     const bool isNamed = *name != '\0';
     const Eigen::Vector2d end = middle + (isNamed ? kArm * scale : 0.0) * seen;
     const Eigen::Vector2d at = middle + kLetter * scale * seen;
-    lines_->GetPoints()->SetPoint(static_cast<vtkIdType>(2 * i), middle.x(), middle.y(), 0.0);
-    lines_->GetPoints()->SetPoint(static_cast<vtkIdType>(2 * i + 1), end.x(), end.y(), 0.0);
+    lines_->GetPoints()->SetPoint(2 * static_cast<vtkIdType>(i), middle.x(), middle.y(), 0.0);
+    lines_->GetPoints()->SetPoint(2 * static_cast<vtkIdType>(i) + 1, end.x(), end.y(), 0.0);
     letters_[i]->SetInput(name);
     letters_[i]->SetPosition(at.x(), at.y());
     letters_[i]->SetVisibility(isVisible_ && isNamed && seen.norm() > kSeen);

@@ -8,6 +8,7 @@
 #include <vtkCamera.h>
 #include <vtkMath.h>
 #include <vtkPoints.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 

@@ -250,7 +250,7 @@ vtkSmartPointer<vtkPolyData> imageContour(
   templates->ComputeScalarsOff();
   templates->Update();
   const Eigen::Array3d spacing = Eigen::Array3d(image.GetSpacing()).abs();
-  const auto body = bodyOf(*templates->GetOutput(), spacing.prod(), notes);
+  auto body = bodyOf(*templates->GetOutput(), spacing.prod(), notes);
   if (mask && body->GetNumberOfPoints() > 0)
   {
     const double voxel = spacing.prod();

@@ -137,7 +137,7 @@ void noteVoxels(const PatientImage& volume, std::vector<std::string>& notes)
 {
   constexpr double kThick = 2.0; // of the shortest side
   const Eigen::Array3d spacing = Eigen::Array3d(volume.image->GetSpacing()).abs();
-  notes.push_back(
+  notes.emplace_back(
     "of a mask the surface is known to half a voxel, and how it curves to what moves "
     "the force of the corrected law by up to 10 % at a depth of one voxel, less deeper");
   if (spacing.maxCoeff() > kThick * spacing.minCoeff())
@@ -240,8 +240,8 @@ vtkSmartPointer<vtkPolyData> imageSurface(const PatientImage& volume, const Imag
         "the label reaches the border of the image all around, so that its outer surface is not "
         "in it; name the label that it surrounds");
     }
-    notes.push_back("the body is what is below the level, as a distance is; what is above it "
-                    "reaches the border of the image all around");
+    notes.emplace_back("the body is what is below the level, as a distance is; what is above it "
+                       "reaches the border of the image all around");
   }
   return surface;
 }

@@ -1,6 +1,7 @@
 #include "pipeline/surface_io/surface_repair.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/surface/box_tree.h"
 #include "haptics/surface/edges.h"
 #include "pipeline/model/merged_mesh.h"

@@ -26,12 +26,12 @@ Readings::Readings(vtkRenderer& renderer)
   : layOut_(renderer,
       [this](double, double, double scale)
       {
-        constexpr double kMargin = 16.0; // [pixels]
-        constexpr double kLine = 28.0;   // [pixels]
-        double height = kMargin * scale;
+        constexpr double kInset = 16.0; // [pixels]
+        constexpr double kLine = 28.0;  // [pixels]
+        double height = kInset * scale;
         for (std::size_t i = kLines; i-- > 0;)
         {
-          lines_[i]->SetPosition(kMargin * scale, height);
+          lines_[i]->SetPosition(kInset * scale, height);
           height += lines_[i]->GetVisibility() ? kLine * scale : 0.0;
         }
       })

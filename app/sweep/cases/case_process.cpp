@@ -54,7 +54,7 @@ pid_t startProcess(const std::vector<std::string>& words, const std::filesystem:
     dup2(nothing.get(), STDIN_FILENO);
     dup2(output.get(), STDOUT_FILENO);
     dup2(errors.get(), STDERR_FILENO);
-    sigprocmask(SIG_SETMASK, &none, nullptr);
+    pthread_sigmask(SIG_SETMASK, &none, nullptr);
     if (getppid() == self)
     {
       execv(arguments[0], arguments.data());
@@ -85,7 +85,7 @@ std::string lastWords(const std::filesystem::path& log, int status)
   if (WIFSIGNALED(status))
   {
     const int signal = WTERMSIG(status);
-    return std::string("ended by the signal ") + strsignal(signal) +
+    return std::string("ended by the signal ") + sigdescr_np(signal) +
       (signal == SIGKILL ? ", perhaps for want of memory" : "") + "; try it by itself";
   }
   constexpr std::string_view kBegin = "palp: ";

@@ -138,7 +138,7 @@ figures::Figure figureOf(
     refusePlot(plot,
       "would have " + std::to_string(seen.size()) + " curves, of which " +
         std::to_string(kColors * kStyles.size()) +
-        " can be told apart; choose some by \"where\", or draw a map by \"colors\"");
+        R"( can be told apart; choose some by "where", or draw a map by "colors")");
   }
   return figure;
 }

@@ -39,6 +39,7 @@ public:
     , out_(file)
   {
     std::vector<std::string> titles;
+    titles.reserve(columns.size());
     for (const WrittenColumn& column : columns)
     {
       titles.push_back(column.title);
