@@ -120,7 +120,7 @@ std::string imageOf(const LabelMap& map, double voxel)
     const auto text = [](auto value) { return shortest(static_cast<double>(value)); };
     return text(x) + " " + text(y) + " " + text(z) + "\n";
   };
-  const double side = toMillimeters(voxel);
+  const double side = units::toMillimeters(voxel);
   const Eigen::Vector3d origin = map.origin / 1.0_mm;
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = " +
