@@ -129,7 +129,8 @@ void explainOmissions(const ScenePlan& plan, BuildTrace& trace)
 // what is pressed, and what there is to tell of it
 SceneBody loadTold(const ScenePlan& plan, std::string_view path, BuildTrace& trace)
 {
-  const bool shown = plan.deformed || plan.picture || plan.has(PlotKind::Section);
+  const bool shown =
+    plan.deformed || plan.picture || !plan.movies.empty() || plan.has(PlotKind::Section);
   SceneBody body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
     [&] { return loadBody(plan.meshes, shown); });
   for (const std::string& note : body.notes)

@@ -125,6 +125,7 @@ void QuantityBox::showNumber(double shown)
 {
   read_ = inUnit(shown);
   lineEdit()->setText(read_);
+  lineEdit()->setCursorPosition(0); // of a long number the first digits are seen
 }
 
 double QuantityBox::read() const

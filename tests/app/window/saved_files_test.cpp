@@ -44,6 +44,16 @@ TEST_F(WindowTest, SavesAScreenshotOfTheDent)
 }
 
 // made when it is asked for; what it saves is what the press shows
+TEST_F(WindowTest, SavesAMovieOfThePress)
+{
+  press(80);
+  release();
+  ASSERT_TRUE(window_->saveReplay(QString::fromStdString((folder_.path() / "press.mp4").string())));
+  const auto file = std::filesystem::directory_iterator(folder_.path())->path();
+  EXPECT_EQ(file.stem(), "press");
+  EXPECT_GT(std::filesystem::file_size(file), 10'000U);
+}
+
 TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)
 {
   EXPECT_EQ(window_->findChild<PlotPanel*>(), nullptr);
