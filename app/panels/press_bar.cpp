@@ -32,7 +32,7 @@ PressBar::PressBar(QWidget* parent)
   place_->setPlaceholderText(tr("x, y, z"));
   // narrow, as a window of 1024 columns has to show all of the bar
   place_->setFixedWidth(place_->fontMetrics().horizontalAdvance("-000.00, -00.00, 00.00"));
-  depth_->setFixedWidth(depth_->fontMetrics().horizontalAdvance("00.000 mm") + kArrows);
+  depth_->setFixedWidth(depth_->fontMetrics().horizontalAdvance("00.00 mm") + kArrows);
   speed_->setFixedWidth(speed_->fontMetrics().horizontalAdvance("00.0 mm/s") + kArrows);
   addField(tr("Place [mm]"),
     tr("x, y, z [mm] in the frame of the surface (LPS for images), within 5 mm of it; a press of "
