@@ -3,6 +3,7 @@
 #include "haptics/files/input_text.h"
 #include "haptics/surface/edges.h"
 #include "haptics/surface/winding.h"
+#include "pipeline/formats/image_values.h"
 #include "pipeline/model/poly_data.h"
 
 #include <Eigen/Geometry>
@@ -153,9 +154,9 @@ Eigen::Matrix3Xd matrixOf(const std::vector<Eigen::Vector3d>& points)
     points.front().data(), 3, static_cast<Eigen::Index>(points.size()));
 }
 
-// What a contour, which cuts the corners of voxels, lacks of their volume, for each area of it
-// [unit]; 0 where it is open.
-double bevelOf(vtkPolyData& contour, vtkImageData& mask, double voxel)
+// What a contour, which cuts the corners of voxels, lacks of the volume of those that it encloses,
+// for each area of it [unit]; 0 where it is open.
+double bevelOf(vtkPolyData& contour, double enclosed)
 {
   const std::vector<Eigen::Vector3d> points = pointsOf(contour);
   const std::vector<Triangle> triangles = trianglesOf(contour);
@@ -163,15 +164,8 @@ double bevelOf(vtkPolyData& contour, vtkImageData& mask, double voxel)
   {
     return 0.0;
   }
-  vtkDataArray& values = *mask.GetPointData()->GetScalars();
-  const double middle = 0.5 * (values.GetRange()[0] + values.GetRange()[1]);
-  double inside = 0.0;
-  for (vtkIdType i = 0; i < values.GetNumberOfTuples(); ++i)
-  {
-    inside += values.GetTuple1(i) > middle ? voxel : 0.0;
-  }
   const Extent extent = extentOf(matrixOf(points), triangles);
-  return (inside - std::abs(extent.volume)) / extent.area;
+  return (enclosed - std::abs(extent.volume)) / extent.area;
 }
 
 // moves all points outward, by as much for each, so that a volume is added
@@ -253,8 +247,8 @@ vtkSmartPointer<vtkPolyData> imageContour(
   auto body = bodyOf(*templates->GetOutput(), spacing.prod(), notes);
   if (mask && body->GetNumberOfPoints() > 0)
   {
-    const double voxel = spacing.prod();
-    smoothTerraces(*body, 0.5 * spacing, bevelOf(*templates->GetOutput(), image, voxel));
+    const double enclosed = spacing.prod() * static_cast<double>(voxelsAbove(image, level));
+    smoothTerraces(*body, 0.5 * spacing, bevelOf(*templates->GetOutput(), enclosed));
     return body;
   }
   vtkNew<vtkWindowedSincPolyDataFilter> smooth;

@@ -1,6 +1,7 @@
 #include "pipeline/formats/image_labels.h"
 
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_values.h"
 
@@ -45,7 +46,7 @@ struct Label
   vtkIdType voxels = 0;
 };
 
-// all that have voxels or a name; 0 is what lies around, unless it has a name or is asked for
+// all that have voxels
 std::vector<Label> labelsOf(const PatientImage& volume)
 {
   std::vector<Label> labels;
@@ -94,7 +95,7 @@ std::string inWords(const std::vector<Label>& labels, const PatientImage& volume
     {
       continue; // what lies around, and what no segment is
     }
-    text << (text.tellp() > 0 ? ", " : "") << label.shown
+    text << (text.tellp() > 0 ? ", " : "") << shortest(label.shown)
          << (label.segment.name.empty() ? "" : " " + printable(label.segment.name)) << " ("
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
     voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';

@@ -121,6 +121,18 @@ ImageValues valuesOf(vtkImageData& image)
   return values;
 }
 
+vtkIdType voxelsAbove(vtkImageData& image, double level)
+{
+  vtkIdType above = 0;
+  withVoxels(image,
+    [&](const auto* voxels, vtkIdType count)
+    {
+      above = std::count_if(
+        voxels, voxels + count, [level](auto value) { return static_cast<double>(value) > level; });
+    });
+  return above;
+}
+
 std::uintmax_t crossings(vtkImageData& image, double level)
 {
   std::uintmax_t crossed = 0;

@@ -25,6 +25,9 @@ struct ImageValues
 /// @param image  one number at each voxel
 [[nodiscard]] ImageValues valuesOf(vtkImageData& image);
 
+/// How many voxels are above a level.
+[[nodiscard]] vtkIdType voxelsAbove(vtkImageData& image, double level);
+
 /// Edges of the grid whose ends are on different sides of a level: about as many as the points of
 /// its surface.
 [[nodiscard]] std::uintmax_t crossings(vtkImageData& image, double level);

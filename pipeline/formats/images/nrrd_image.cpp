@@ -250,12 +250,10 @@ std::vector<Segment> segmentsOf(const Fields& fields, int layers)
   }
 }
 
-std::uintmax_t bytesOf(const std::filesystem::path& file, const Fields& fields)
+std::uintmax_t bytesOf(const Sizes& sizes, int type)
 {
-  const Sizes sizes = sizesOf(file, fields);
   auto bytes = static_cast<std::uintmax_t>(sizes.layers) *
-    static_cast<std::uintmax_t>(
-      vtkDataArray::GetDataTypeSize(vtkTypeOf(file, fieldOf(fields, "type"))));
+    static_cast<std::uintmax_t>(vtkDataArray::GetDataTypeSize(type));
   for (const int size : sizes.voxels)
   {
     bytes *= static_cast<std::uintmax_t>(size);
@@ -303,10 +301,11 @@ PatientImage readNrrd(const std::filesystem::path& file)
   const Sizes sizes = sizesOf(file, fields);
   PatientImage result{ .image = vtkSmartPointer<vtkImageData>::New(), .toPatient = {} };
   place(file, fields, result);
-  const std::uintmax_t bytes = bytesOf(file, fields);
+  const int type = vtkTypeOf(file, fieldOf(fields, "type"));
+  const std::uintmax_t bytes = bytesOf(sizes, type);
   checkLength(file, header, bytes);
   result.image->SetDimensions(sizes.voxels.data());
-  result.image->AllocateScalars(vtkTypeOf(file, fieldOf(fields, "type")), sizes.layers);
+  result.image->AllocateScalars(type, sizes.layers);
   auto* voxels = static_cast<unsigned char*>(result.image->GetScalarPointer());
   readVoxels(file, header, { voxels, bytes });
   const auto wide = static_cast<std::uintmax_t>(result.image->GetScalarSize());
@@ -325,7 +324,8 @@ PatientImage readNrrd(const std::filesystem::path& file)
 
 std::uintmax_t nrrdBytes(const std::filesystem::path& file)
 {
-  return bytesOf(file, readHeader(file).fields);
+  const Fields fields = readHeader(file).fields;
+  return bytesOf(sizesOf(file, fields), vtkTypeOf(file, fieldOf(fields, "type")));
 }
 
 } // namespace palp

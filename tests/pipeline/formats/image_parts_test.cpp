@@ -210,6 +210,8 @@ TEST_F(Images, LargeLabelsAreToldApart)
     EXPECT_NEAR(1e3 * box[0], 2.0 * from - 1.0, 1.1) << label;
     EXPECT_NEAR(1e3 * box[1], 2.0 * to - 1.0, 1.1) << label;
   }
+  EXPECT_NE(refusal(file, {}).find("its labels are 312782550 (600 voxels"), std::string::npos)
+    << refusal(file, {});
   for (const char* label : { "312782551", "312782530", "4294967294", "312782550.5" })
   {
     EXPECT_NE(refusal(file, { {}, { label } }).find("no label " + std::string(label) + " in it"),

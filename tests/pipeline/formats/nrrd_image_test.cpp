@@ -1,11 +1,11 @@
 #include "tests/pipeline/formats/ball_images.h"
+#include "tests/support/deflated.h"
 
 #include <bit>
 #include <cstring>
 #include <functional>
 #include <numbers>
 #include <sstream>
-#include <zlib.h>
 
 // NRRD as its definition has it (teem.sourceforge.net/nrrd/format.html), with the keys of 3D
 // Slicer's segmentations, written here without a library
@@ -44,21 +44,6 @@ struct Ball
   int layer;
   int value;
 };
-
-std::string packed(const std::string& bytes)
-{
-  z_stream stream{};
-  deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  std::string out(bytes.size() + 1000, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
 
 template <typename Voxel>
 std::string voxelsOf(const Grid& grid, const std::vector<Ball>& balls, int layers, bool big)
@@ -142,7 +127,7 @@ std::string nrrd(const Grid& grid, const std::vector<Ball>& balls, const How& ho
   const std::string bytes = how.type == "uint8" ? voxelsOf<std::uint8_t>(grid, balls, layers, false)
     : how.type == "int16" ? voxelsOf<std::int16_t>(grid, balls, layers, how.big)
                           : voxelsOf<float>(grid, balls, layers, how.big);
-  return text.str() + '\n' + (how.gzip ? packed(bytes) : bytes);
+  return text.str() + '\n' + (how.gzip ? deflated(bytes, MAX_WBITS + 16) : bytes);
 }
 
 Vector3d centroidMm(vtkPolyData& mesh)
