@@ -75,13 +75,6 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
 {
   vtkNew<Writer> writer;
   writer->SetInputData(&data);
-  if constexpr (requires { writer->WriteToOutputStringOn(); })
-  {
-    writer->WriteToOutputStringOn();
-    writer->Write();
-    replaceFile(file, writer->GetOutputString());
-    return;
-  }
   if constexpr (std::is_same_v<Writer, vtkSTLWriter>)
   {
     writer->SetFileTypeToBinary(); // the others are binary where they can be
@@ -89,7 +82,7 @@ void writeWith(const std::filesystem::path& file, vtkPolyData& data)
   const Descriptor memory(memfd_create("surface", MFD_CLOEXEC));
   const std::string name = "/proc/self/fd/" + std::to_string(memory.get());
   writer->SetFileName(name.c_str());
-  if (!memory || writer->Write() != 1)
+  if (!memory || writer->Write() != 1 || writer->GetErrorCode() != 0)
   {
     refuseFile(file, ENOMEM);
   }
