@@ -1,7 +1,7 @@
 #include "pipeline/surface_io/surface_io.h"
 
 #include "haptics/error.h"
-#include "haptics/files/descriptor.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
@@ -16,17 +16,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
-#include <sys/mman.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkOBJWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSTLWriter.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -69,25 +65,16 @@ std::string summary(const std::string& name, const LoadedSurface& surface, const
   return text.str();
 }
 
-// by way of memory: some writers of VTK do not tell of a full disk, others in their own words
-template <typename Writer>
-void writeWith(const std::filesystem::path& file, vtkPolyData& data)
+void writeVtp(const std::filesystem::path& file, vtkPolyData& data)
 {
-  vtkNew<Writer> writer;
+  vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(&data);
-  if constexpr (std::is_same_v<Writer, vtkSTLWriter>)
-  {
-    writer->SetFileTypeToBinary(); // the others are binary where they can be
-  }
-  const Descriptor memory(memfd_create("surface", MFD_CLOEXEC));
-  const std::string name = "/proc/self/fd/" + std::to_string(memory.get());
-  writer->SetFileName(name.c_str());
-  if (!memory || writer->Write() != 1 || writer->GetErrorCode() != 0)
+  writer->WriteToOutputStringOn();
+  if (writer->Write() != 1)
   {
     refuseFile(file, ENOMEM);
   }
-  std::ifstream in(name, std::ios::binary);
-  replaceFile(file, std::string(std::istreambuf_iterator(in), {}));
+  replaceFile(file, writer->GetOutputString());
 }
 
 template <typename Value>
@@ -96,7 +83,8 @@ void append(std::string& bytes, const Value& value)
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// VTK's own writer tells nobody that a disk is full, and wants a name that ends in .ply
+// VTK's writers of the kinds below tell a full disk late, in words of their own or not at all
+
 void writePly(const std::filesystem::path& file, vtkPolyData& data)
 {
   static_assert(std::endian::native == std::endian::little);
@@ -116,6 +104,42 @@ void writePly(const std::filesystem::path& file, vtkPolyData& data)
     append(bytes, triangle);
   }
   replaceFile(file, bytes);
+}
+
+void writeStl(const std::filesystem::path& file, vtkPolyData& data)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(data);
+  const std::vector<Triangle> triangles = trianglesOf(data);
+  std::string bytes = "binary STL";
+  bytes.resize(80, ' ');
+  append(bytes, static_cast<std::uint32_t>(triangles.size()));
+  const auto at = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+  for (const auto& [a, b, c] : triangles)
+  {
+    const Eigen::Vector3d normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
+    for (const Eigen::Vector3d& vector : { normal, at(a), at(b), at(c) })
+    {
+      append(bytes, vector.cast<float>().eval());
+    }
+    append(bytes, std::uint16_t{ 0 });
+  }
+  replaceFile(file, bytes);
+}
+
+void writeObj(const std::filesystem::path& file, vtkPolyData& data)
+{
+  std::string text;
+  for (const Eigen::Vector3d& point : pointsOf(data))
+  {
+    text +=
+      "v " + shortest(point.x()) + ' ' + shortest(point.y()) + ' ' + shortest(point.z()) + '\n';
+  }
+  for (const auto& [a, b, c] : trianglesOf(data))
+  {
+    text += "f " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + ' ' +
+      std::to_string(c + 1) + '\n';
+  }
+  replaceFile(file, text);
 }
 
 } // namespace
@@ -199,9 +223,8 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
 void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space)
 {
   using Writer = void (*)(const std::filesystem::path&, vtkPolyData&);
-  const std::map<std::string, Writer> writers{ { ".vtp", writeWith<vtkXMLPolyDataWriter> },
-    { ".stl", writeWith<vtkSTLWriter> }, { ".ply", writePly },
-    { ".obj", writeWith<vtkOBJWriter> } };
+  const std::map<std::string, Writer> writers{ { ".vtp", writeVtp }, { ".stl", writeStl },
+    { ".ply", writePly }, { ".obj", writeObj } };
   const auto writer = writers.find(file.extension().string());
   if (writer == writers.end())
   {
