@@ -9,6 +9,12 @@
 
 namespace palp
 {
+namespace
+{
+
+constexpr double kCrease = 0.8; // [rad] between triangles that are no part of one smooth surface
+
+} // namespace
 
 std::array<Eigen::Matrix3d, 3> bendsOf(
   const LinkedTriangles& mesh, const Facet& facet, int triangle)
@@ -28,6 +34,55 @@ std::array<Eigen::Matrix3d, 3> bendsOf(
     const Eigen::Vector3d across = along.cross(facet.normal + beyond).normalized();
     const double turn = std::atan2(facet.normal.cross(beyond).dot(along), facet.normal.dot(beyond));
     result[k] = 0.5 * turn * across * across.transpose();
+  }
+  return result;
+}
+
+std::vector<std::optional<Eigen::Matrix3f>> evenBends(
+  const BoxTree& tree, const LinkedTriangles& mesh, double longest)
+{
+  const std::span<const Facet> facets = tree.facets();
+  const auto areaOf = [](const Facet& facet)
+  {
+    const auto& [a, b, c] = facet.corners;
+    return static_cast<float>(0.5 * (b - a).cross(c - a).norm());
+  };
+  const auto cornersOf = [&](std::size_t i) -> const Triangle&
+  { return mesh.triangles[static_cast<std::size_t>(tree.triangle(static_cast<int>(i)))]; };
+
+  std::vector<std::optional<Eigen::Matrix3f>> result(facets.size());
+  std::vector<Eigen::Matrix3f> bends(mesh.points.size(), Eigen::Matrix3f::Zero());
+  std::vector<float> areas(mesh.points.size(), 0.0F);
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const auto& p = facets[i].corners;
+    const std::array<double, 3> sides{ (p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
+      (p[0] - p[2]).norm() };
+    const auto turns = bendsOf(mesh, facets[i], tree.triangle(static_cast<int>(i)));
+    const bool creased = std::ranges::any_of(
+      turns, [](const Eigen::Matrix3d& turn) { return std::abs(turn.trace()) > 0.5 * kCrease; });
+    if (creased || std::ranges::max(sides) > longest)
+    {
+      continue;
+    }
+    result[i] = (sides[0] * turns[0] + sides[1] * turns[1] + sides[2] * turns[2]).cast<float>();
+    for (const int corner : cornersOf(i))
+    {
+      bends[static_cast<std::size_t>(corner)] += *result[i] / 3.0F;
+      areas[static_cast<std::size_t>(corner)] += areaOf(facets[i]);
+    }
+  }
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    if (result[i])
+    {
+      result[i]->setZero();
+      for (const int corner : cornersOf(i))
+      {
+        const auto k = static_cast<std::size_t>(corner);
+        *result[i] += areaOf(facets[i]) / areas[k] * bends[k];
+      }
+    }
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,14 @@ struct LinkedTriangles
 /// @return          one symmetric tensor a side [rad], zero at an open one
 [[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(
   const LinkedTriangles& mesh, const Facet& facet, int triangle);
+
+/// What the sides of each triangle turn, evened out over those about its points: one alone turns in
+/// some of the surface's directions only. The sum over all stays.
+///
+/// @param longest  triangles with a longer side take no part, nor do those beside a crease [m]
+/// @return         length of the sides times their bends, by the tree's facets, of those [m]
+[[nodiscard]] std::vector<std::optional<Eigen::Matrix3f>> evenBends(
+  const BoxTree& tree, const LinkedTriangles& mesh, double longest);
 
 /// How large a hollow each triangle bounds: the radius of a ball with as much surface as the closed
 /// piece that it belongs to, where that faces its own inside; else 0 [m].

@@ -73,13 +73,25 @@ ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double 
     origin_[k] = 0.5 * (static_cast<double>(box.low[i]) + static_cast<double>(box.high[i]));
   }
 
+  std::vector<Piece> pieces = cutUp(tree, mesh);
+  Leaves leaves;
+  build(pieces, static_cast<float>(cell_), leaves);
+  measureLeaves(tree, hollowRadii(mesh), leaves);
+  addUp();
+}
+
+// into cells, but for triangles that are small in the least average: those stay whole
+std::vector<ShapeField::Piece> ShapeField::cutUp(
+  const BoxTree& tree, const LinkedTriangles& mesh) const
+{
+  const auto bends = evenBends(tree, mesh, finest_);
   std::vector<Piece> pieces;
   pieces.reserve(tree.facets().size());
   for (std::size_t i = 0; i < tree.facets().size(); ++i)
   {
     const Facet& facet = tree.facets()[i];
     const auto turns = bendsOf(mesh, facet, tree.triangle(static_cast<int>(i)));
-    cut(FacetPart{ facet.corners, { 0, 1, 2 } }, cell_,
+    cut(FacetPart{ facet.corners, { 0, 1, 2 } }, bends[i] ? finest_ : cell_,
       [&](const FacetPart& part)
       {
         const auto& p = part.corners;
@@ -97,13 +109,11 @@ ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double 
                 static_cast<float>(turn.trace()) });
           }
         }
+        piece.sums.bend = bends[i].value_or(piece.sums.bend);
         pieces.push_back(piece);
       });
   }
-  Leaves leaves;
-  build(pieces, static_cast<float>(cell_), leaves);
-  measureLeaves(tree, hollowRadii(mesh), leaves);
-  addUp();
+  return pieces;
 }
 
 // splits at the median of the widest of place and normal until both fit a cell
@@ -263,13 +273,27 @@ void ShapeField::measureLeaves(
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(below.thickness));
     leaf.hollow = below.isHollow ? leaf.area.norm() : 0.0F;
     const float curvature = sum.bend.trace() / area;
-    const bool bends = leaf.bend.trace() > kOwnTurn * curvature * leaf.area.norm();
+    const bool bends = turningOf(leaves[i]) > kOwnTurn * curvature * leaf.area.norm();
     if (bends && static_cast<double>(curvature) * around > kSharp)
     {
       addTurning(leaves[i], sharp);
     }
   }
   edges_ = SharpEdges(std::move(sharp));
+}
+
+// of the sides of a leaf, times their length [m]
+float ShapeField::turningOf(std::span<const Piece> leaf)
+{
+  float sum = 0.0F;
+  for (const Piece& piece : leaf)
+  {
+    for (const Side& side : piece.sides)
+    {
+      sum += side.turn * (side.ends[1] - side.ends[0]).norm();
+    }
+  }
+  return sum;
 }
 
 // the sides at which a leaf turns

@@ -31,7 +31,8 @@ struct LocalShape
 /// not grow with it.
 ///
 /// The curvature is that of the edges of the mesh: each turns the normal by its dihedral angle,
-/// across itself. So a face is flat however it is cut, and a hollow counts by what is in contact.
+/// across itself; among triangles smaller than the least ball it is evened out over neighbors. So a
+/// face is flat however it is cut, and a hollow counts by what is in contact.
 ///
 /// @source curvature of edges: Cohen-Steiner and Morvan, "Restricted Delaunay triangulations and
 ///         normal cycle", SoCG 2003
@@ -110,8 +111,10 @@ private:
   template <typename Visit>
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
+  std::vector<Piece> cutUp(const BoxTree& tree, const LinkedTriangles& mesh) const;
   void build(std::span<Piece> pieces, float cell, Leaves& leaves);
   void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Leaves& leaves);
+  static float turningOf(std::span<const Piece> leaf);
   static void addTurning(std::span<const Piece> leaf, std::vector<SharpEdges::Segment>& sharp);
   void addUp();
 

@@ -121,6 +121,27 @@ inline Mesh ball(double radius, int n)
     });
 }
 
+/// About z, in along x around cells.
+inline Mesh torus(double ring, double tube, int along, int around)
+{
+  Mesh mesh;
+  for (int i = 0; i < along; ++i)
+  {
+    for (int k = 0; k < around; ++k)
+    {
+      const double u = 2.0 * M_PI * i / along;
+      const double v = 2.0 * M_PI * k / around;
+      const double radius = ring + tube * std::cos(v);
+      mesh.first.emplace_back(radius * std::cos(u), radius * std::sin(u), tube * std::sin(v));
+      const int next = (i + 1) % along * around;
+      const int above = (k + 1) % around;
+      mesh.second.push_back({ i * around + k, next + k, next + above });
+      mesh.second.push_back({ i * around + k, next + above, i * around + above });
+    }
+  }
+  return mesh;
+}
+
 /// The body and a copy of it beside it.
 inline Mesh withCopyAt(Mesh mesh, const Eigen::Vector3d& shift)
 {

@@ -60,11 +60,21 @@ constexpr int kUsual = 1000;
 constexpr int kUsual = 2;
 #endif
 
-// PALP_KILLS sets another number
+int asked(const char* variable, int usual)
+{
+  const char* value = std::getenv(variable);
+  return value ? std::atoi(value) : usual;
+}
+
 int kills()
 {
-  const char* asked = std::getenv("PALP_KILLS");
-  return asked ? std::atoi(asked) : kUsual;
+  return asked("PALP_KILLS", kUsual);
+}
+
+// the same each time, unless asked for others
+std::mt19937 moments()
+{
+  return std::mt19937(static_cast<unsigned>(asked("PALP_MOMENTS", 1)));
 }
 
 constexpr const char* kBefore = "\nof the run before"; // ends each file of that
@@ -102,7 +112,7 @@ protected:
     {
       text += kBefore;
     }
-    std::mt19937 random(1); // the same moments each time
+    std::mt19937 random = moments();
     std::uniform_real_distribution<double> fraction(0.0, 1.0);
     int news = 0;
     for (int i = 0; i < kills(); ++i)
@@ -241,7 +251,7 @@ TEST_F(Killed, Tables)
 {
   const Files old{ { "sphere_r10_h50.csv", "mine" }, { "other.txt", "mine" } };
   restore(out_, old);
-  std::mt19937 random(1); // the same moments each time
+  std::mt19937 random = moments();
   std::uniform_real_distribution<double> wait(0.0, 2.0);
   for (int i = 0; i < kills(); ++i)
   {
@@ -266,7 +276,7 @@ TEST_F(Killed, Report)
       (file.first.ends_with(".json") && !file.second.ends_with("}\n")) ||
       (file.first.ends_with(".csv") && !file.second.ends_with('\n'));
   };
-  std::mt19937 random(1);                          // the same moments each time
+  std::mt19937 random = moments();
   std::exponential_distribution<double> wait(0.5); // [1/s]
   std::string how = " --overwrite";
   int reports = 0;

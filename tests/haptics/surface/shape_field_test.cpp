@@ -57,26 +57,7 @@ TEST(ShapeField, AGapInTheBodyIsToldAsAHollowIs)
   for (const auto& [middle, radius, isTold] : { std::tuple(40.0_mm, 15.0_mm, 1.0),
          std::tuple(22.0_mm, 18.0_mm, 0.0), std::tuple(30.0_mm, 20.0_mm, 0.0) })
   {
-    test::Mesh ring;
-    constexpr int kAround = 96;
-    constexpr int kAcross = 48;
-    for (int i = 0; i < kAround; ++i)
-    {
-      for (int j = 0; j < kAcross; ++j)
-      {
-        const double u = 2.0 * std::numbers::pi * i / kAround;
-        const double v = 2.0 * std::numbers::pi * j / kAcross;
-        const double far = middle + radius * std::cos(v);
-        ring.first.emplace_back(far * std::cos(u), far * std::sin(u), radius * std::sin(v));
-        const int a = i * kAcross + j;
-        const int b = i * kAcross + (j + 1) % kAcross;
-        const int c = (i + 1) % kAround * kAcross + j;
-        const int d = (i + 1) % kAround * kAcross + (j + 1) % kAcross;
-        ring.second.push_back({ a, c, d });
-        ring.second.push_back({ a, d, b });
-      }
-    }
-    const Surface body = test::makeSurface(ring);
+    const Surface body = test::makeSurface(test::torus(middle, radius, 96, 48));
     const Eigen::Vector3d out = Eigen::Vector3d::UnitX();
     const LocalShape shape = shapeAt(body, (middle + radius) * out, 0.3 * radius, out);
     EXPECT_NEAR(shape.thickness, 2.0 * radius, 0.1 * radius);
@@ -181,6 +162,42 @@ TEST(ShapeField, OfAFaceIsFlatHoweverItIsCut)
     EXPECT_NEAR(shape.meanCurvature, 0.0, 1e-6) << n;
     EXPECT_NEAR(shape.curvatureSpread, 0.0, 1e-6) << n;
     EXPECT_NEAR(shape.thickness, 50.0_mm, 0.5_mm) << n;
+  }
+}
+
+// in a ball of two edges, however the torus is turned in the file
+TEST(ShapeField, OfATorusIsThatOfItsCirclesHoweverItIsTurned)
+{
+  constexpr double kRing = 50.0_mm;
+  constexpr double kTube = 20.0_mm;
+  const test::Mesh torus = test::torus(kRing, kTube, 220, 63); // edges of 2 mm outside
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 8; ++i)
+  {
+    const Eigen::Matrix3d turn =
+      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+        .normalized()
+        .toRotationMatrix();
+    test::Mesh turned = torus;
+    for (Eigen::Vector3d& point : turned.first)
+    {
+      point = turn * point;
+    }
+    const Surface surface = test::makeSurface(std::move(turned));
+    for (int k = 0; k < 100; ++k)
+    {
+      const double around = 0.3 + 0.0628 * k;
+      const double along = 0.7 * k;
+      const Eigen::Vector3d spoke(std::cos(along), std::sin(along), 0.0);
+      const Eigen::Vector3d out =
+        std::cos(around) * spoke + std::sin(around) * Eigen::Vector3d::UnitZ();
+      const double across = std::cos(around) / (kRing + kTube * std::cos(around));
+      const LocalShape shape =
+        shapeAt(surface, turn * (kRing * spoke + kTube * out), 0.0, turn * out);
+      EXPECT_NEAR(shape.meanCurvature, 0.5 * (1.0 / kTube + across), 0.02 / kTube);
+      EXPECT_NEAR(shape.curvatureSpread, 0.5 * (1.0 / kTube - across), 0.02 / kTube);
+    }
   }
 }
 
