@@ -80,11 +80,11 @@ Split splitNumber(std::string_view text, std::string_view what)
   digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
   double number = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc{} || !std::isfinite(number))
+  const std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
+  if (error != std::errc{} || !std::isfinite(number) || rest.starts_with('.'))
   {
     refuse(what, text, "is not a number; write it like 10 or 1.5e+06");
   }
-  const std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
   if (rest.starts_with(','))
   {
     refuse(what, text, "has a comma; write decimals with a point, like 12.5");

@@ -74,7 +74,7 @@ Contour contourOf(const PatientImage& volume, const ImagePart& part, const std::
   const auto refuseLevel = [&]
   {
     refuse("a label map, whose values have no order (" + labelsInWords(volume) +
-      "); name one with --label, or several with commas, not a level");
+      "); give one as the label, or several with commas, not a level");
   };
   volume.segments.empty() ? void() : refuseLevel();
   const ImageValues values = valuesOf(*volume.image);

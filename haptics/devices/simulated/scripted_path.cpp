@@ -42,7 +42,9 @@ std::string fault(const PathKnot* previous, const PathKnot& knot)
   }
   if (previous != nullptr && knot.time < previous->time + kShortestPiece)
   {
-    return "the time does not increase; give each row a later time than the row before";
+    return knot.time > previous->time
+      ? "less than 1 us after the row before; leave rows out, or give times in seconds"
+      : "the time does not increase; give each row a later time than the row before";
   }
   if (!knot.apex.allFinite() || knot.apex.cwiseAbs().maxCoeff() > kFarthest)
   {
@@ -136,7 +138,10 @@ private:
   bool readHeader(const Cells& cells)
   {
     const auto has = [&](std::string_view name) { return std::ranges::count(cells, name) > 0; };
-    if (!has(kOfPaths[0]))
+    const bool isOfWords = cells.size() >= kShortRow &&
+      std::ranges::none_of(
+        cells, [](std::string_view cell) { return csvNumber(cell).has_value(); });
+    if (!has(kOfPaths[0]) && !isOfWords)
     {
       return false;
     }

@@ -68,6 +68,12 @@ TEST(Quantity, TellsOfADecimalComma)
     "--young: '12,5kPa' has a comma; write decimals with a point, like 12.5");
 }
 
+TEST(Quantity, HasOnePointAtMost)
+{
+  EXPECT_EQ(messageOf("1.234.5", Quantity::Pressure),
+    "--young: '1.234.5' is not a number; write it like 10 or 1.5e+06");
+}
+
 TEST(Quantity, RefusesAnotherQuantitysUnit)
 {
   EXPECT_EQ(messageOf("50mm", Quantity::Pressure),

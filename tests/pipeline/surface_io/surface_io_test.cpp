@@ -6,7 +6,10 @@
 #include <sstream>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
 #include <vtkPolyData.h>
+#include <vtkSTLReader.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -46,6 +49,39 @@ TEST_F(SurfaceFile, SaysItsAxesWhereTheyAreKnown)
   };
   EXPECT_EQ(written("LPS"), "LPS");
   EXPECT_EQ(written(""), "none");
+}
+
+template <typename Reader>
+void expectInMillimeters(const std::filesystem::path& file, const Mesh& mesh)
+{
+  writeSurface(file, *makePolyData(mesh.points, mesh.triangles));
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkPolyData& read = *reader->GetOutput();
+  const std::vector<Vector3d> points = pointsOf(read);
+  const std::vector<Triangle> triangles = trianglesOf(read);
+  ASSERT_EQ(triangles.size(), mesh.triangles.size()) << file;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto at = [k](const auto& all, const Triangle& triangle)
+      { return all[static_cast<std::size_t>(triangle[k])]; };
+      const Vector3d expected = 1e3 * at(mesh.points, mesh.triangles[i]);
+      ASSERT_LT((at(points, triangles[i]) - expected).norm(), 1e-5 * expected.norm()) << file;
+    }
+  }
+}
+
+// by readers of VTK, corner by corner
+TEST_F(SurfaceFile, OfEachKindIsReadByOthers)
+{
+  const Mesh sphere = makeSphere(30.0_mm, 3);
+  expectInMillimeters<vtkSTLReader>(folder_.path() / "ball.stl", sphere);
+  expectInMillimeters<vtkOBJReader>(folder_.path() / "ball.obj", sphere);
+  expectInMillimeters<vtkPLYReader>(folder_.path() / "ball.ply", sphere);
+  expectInMillimeters<vtkXMLPolyDataReader>(folder_.path() / "ball.vtp", sphere);
 }
 
 TEST_F(SurfaceFile, WithSeamsIsClosedOnceCoincidentPointsAreMerged)
