@@ -2,9 +2,9 @@
 
 palp_packages=(build-essential cmake ninja-build libeigen3-dev libopenmesh-dev libvtk9-dev
   libvtk9-qt-dev libhidapi-dev libusb-1.0-0-dev libcli11-dev nlohmann-json3-dev nettle-dev
-  zlib1g-dev libseccomp-dev libsuitesparse-dev
+  zlib1g-dev libseccomp-dev libsuitesparse-dev libgdcm-dev
   libegl-dev libegl1 libgl1-mesa-dri fonts-dejavu-core pkgconf)
-palp_test_packages=(libgtest-dev xvfb xauth umockdev libumockdev-dev clang-format clang-tidy codespell python3 parallel faketime)
+palp_test_packages=(libgtest-dev dcmtk xvfb xauth umockdev libumockdev-dev clang-format clang-tidy codespell python3 parallel faketime)
 palp_long_test_packages=(slurmctld slurmd slurm-client munge)
 
 # palp_install PACKAGE...: nothing is done, and nothing printed, when all are there

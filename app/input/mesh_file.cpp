@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <set>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -46,8 +47,17 @@ std::filesystem::path dataBeside(const std::filesystem::path& file)
 
 std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file)
 {
-  std::vector<std::filesystem::path> files{ file };
   std::error_code none; // a pipe would be waited for
+  if (std::filesystem::is_directory(file, none))
+  {
+    std::set<std::filesystem::path> inside; // in the same order everywhere
+    for (const auto& entry : std::filesystem::directory_iterator(file, none))
+    {
+      entry.is_regular_file(none) ? void(inside.insert(entry.path())) : void();
+    }
+    return { inside.begin(), inside.end() };
+  }
+  std::vector<std::filesystem::path> files{ file };
   const bool isFile = std::filesystem::is_regular_file(file, none);
   if (auto data = isFile ? dataBeside(file) : std::filesystem::path(); !data.empty())
   {
@@ -81,12 +91,17 @@ MeshFile describeFile(const std::filesystem::path& file)
     }
     hash.addFile(one);
   }
-  return { .name = file.filename().string(), .sha256 = hash.hex(), .unit = {}, .part = {} };
+  const bool isFolder = std::filesystem::is_directory(file);
+  const std::filesystem::path name =
+    (isFolder ? std::filesystem::canonical(file) : file).filename();
+  return {
+    .name = name.string() + (isFolder ? "/" : ""), .sha256 = hash.hex(), .unit = {}, .part = {}
+  };
 }
 
 std::string frameOf(const MeshFile& mesh)
 {
-  constexpr std::array kPatient{ ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd" };
+  constexpr std::array kPatient{ "/", ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd" };
   const bool patient =
     std::ranges::any_of(kPatient, [&](const char* ending) { return mesh.name.ends_with(ending); });
   return patient ? "LPS" : "";
@@ -95,7 +110,8 @@ std::string frameOf(const MeshFile& mesh)
 std::string describe(const MeshFile& mesh)
 {
   const std::string frame = frameOf(mesh);
-  std::string part = mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
+  std::string part = mesh.part.series.empty() ? "" : ", series " + printable(mesh.part.series);
+  part += mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
   for (const std::string& label : mesh.part.labels)
   {
     part += ", label " + label;

@@ -41,7 +41,7 @@ void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
     "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ, NRRD (all "
-    "in LPS) or VTI; the bundled liver if none",
+    "in LPS) or VTI; a folder of DICOM images (LPS); the bundled liver if none",
     "",
     [this](const std::string& text)
     {
@@ -51,6 +51,10 @@ void MeshSource::addTo(CLI::App& command)
   addParsed(command, "--unit", "Unit of the coordinates in FILE: mm, cm, m or auto", "auto",
     [this](const std::string& text) { unit = parseUnit(text); })
     ->check(CLI::IsMember({ "mm", "cm", "m", "auto" }));
+  addParsed(command, "--series",
+    "Which one where FILE is a folder of several DICOM series: its place in the list of them, or "
+    "its UID",
+    "", [this](const std::string& text) { part.series = text; });
   auto* level = addParsed(command, "--level",
     "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1", "",
     [this](const std::string& text) { part.level = parseNumber(text, "--level"); });

@@ -32,13 +32,6 @@ void checkExists(const MeshSource& mesh)
   {
     throw Error(ErrorCode::BadFile, mesh.file.string() + ": there is no such file; check the path");
   }
-  if (std::filesystem::is_directory(mesh.file))
-  {
-    throw Error(ErrorCode::BadFile,
-      mesh.file.string() +
-        ": is a folder without a scene.json; give a file, or a folder that palp run or the window "
-        "has exported");
-  }
 }
 
 ImageSize parseSize(const std::string& text, const std::string& what)

@@ -20,7 +20,8 @@ const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.vti";
 
 bool isImageFile(const QString& file)
 {
-  return QDir::match(QString(kImageFiles).split(' '), QFileInfo(file).fileName());
+  return QFileInfo(file).isDir() ||
+    QDir::match(QString(kImageFiles).split(' '), QFileInfo(file).fileName());
 }
 
 OpenDialog::OpenDialog(const QString& file, const QString& why,
@@ -29,6 +30,7 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
   , file_(file.toStdString())
   , open_(std::move(open))
   , why_(new QLabel(why))
+  , series_(QFileInfo(file).isDir() ? new QLineEdit : nullptr)
   , level_(isImageFile(file) ? new QLineEdit : nullptr)
   , label_(isImageFile(file) ? new QLineEdit : nullptr)
   , unit_(new QComboBox)
@@ -40,6 +42,12 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
   why_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   why_->setMinimumWidth(why_->fontMetrics().averageCharWidth() * 60);
   rows->addRow(why_);
+  if (series_ != nullptr)
+  {
+    series_->setObjectName("series");
+    series_->setPlaceholderText(tr("of several in the folder, e.g. 2"));
+    rows->addRow(tr("Series of DICOM images"), series_);
+  }
   if (level_ != nullptr)
   {
     level_->setObjectName("level");
@@ -63,6 +71,7 @@ MeshSource OpenDialog::source() const
   MeshSource source{ .file = file_, .unit = parseUnit(unit_->currentText().toStdString()) };
   const std::string level = level_ != nullptr ? level_->text().toStdString() : "";
   const std::string labels = label_ != nullptr ? label_->text().toStdString() : "";
+  source.part.series = series_ != nullptr ? series_->text().trimmed().toStdString() : "";
   if (!level.empty() && !labels.empty())
   {
     throw Error(ErrorCode::BadValue, "Level and Label: both are given; give the one or the other");

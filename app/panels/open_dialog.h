@@ -35,8 +35,9 @@ private:
   std::filesystem::path file_;
   std::function<void(const MeshSource&)> open_;
   QLabel* why_;
-  QLineEdit* level_; // null: a surface has none
-  QLineEdit* label_; // likewise
+  QLineEdit* series_; // null: of a folder alone
+  QLineEdit* level_;  // null: a surface has none
+  QLineEdit* label_;  // likewise
   QComboBox* unit_;
 };
 

@@ -55,6 +55,9 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   }
   const std::string file = object.text("file", "");
   parseAt(
+    object, "series", [&](const std::string& text) { mesh.part.series = text; },
+    &JsonObject::number);
+  parseAt(
     object, "level",
     [&](const std::string& text) { mesh.part.level = parseNumber(text, "--level"); },
     &JsonObject::number);

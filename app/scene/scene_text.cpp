@@ -79,6 +79,10 @@ private:
     {
       mesh["bundled"] = source.bundled;
     }
+    if (!source.part.series.empty())
+    {
+      mesh["series"] = source.part.series;
+    }
     if (source.part.level)
     {
       mesh["level"] = shortest(*source.part.level);

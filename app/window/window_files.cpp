@@ -38,6 +38,15 @@ void Window::addOpening(QMenu& file)
     },
     QKeySequence::Open);
   opening->setObjectName("openAction");
+  file.addAction(tr("Open &DICOM folder…"), this,
+    [this]
+    {
+      const QString folder = QFileDialog::getExistingDirectory(this, tr("Open DICOM folder"));
+      if (!folder.isEmpty())
+      {
+        openFile(folder);
+      }
+    });
   file.addAction(tr("&Load presses…"), this,
     [this]
     {

@@ -1,5 +1,6 @@
 // What a window of any program has: recent files, drag and drop, panels, help, a bar of tools.
 
+#include "app/folder/export_folder.h"
 #include "app/shell/key_sheet.h"
 #include "app/window/window.h"
 
@@ -58,7 +59,7 @@ void Window::dropEvent(QDropEvent* event)
     return;
   }
   event->acceptProposedAction();
-  if (QFileInfo(files.front()).isDir())
+  if (isExport(files.front().toStdString()))
   {
     loadPresses(files.front());
   }

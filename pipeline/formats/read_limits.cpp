@@ -22,7 +22,16 @@ struct Sizes
 
 Sizes sizesOf(const std::filesystem::path& file)
 {
-  std::error_code missing; // which readFile says
+  std::error_code missing;                          // which readFile says
+  if (std::filesystem::is_directory(file, missing)) // whose headers are read inside the limits
+  {
+    Sizes sum;
+    for (const auto& entry : std::filesystem::directory_iterator(file, missing))
+    {
+      sum.file += entry.is_regular_file(missing) ? entry.file_size(missing) : 0;
+    }
+    return sum;
+  }
   if (!std::filesystem::is_regular_file(file, missing))
   {
     return {};

@@ -1,5 +1,6 @@
-// palp-read FILE [level=VALUE | label=VALUE-OR-NAME...]: reads a surface for the program that
-// started it. Readers of other people's files may crash or run away, and here they do it alone.
+// palp-read FILE [series=PLACE] [level=VALUE | label=VALUE-OR-NAME...]: reads a surface for the
+// program that started it. Readers of other people's files may crash or run away, and here they do
+// it alone.
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/process/child_process.h"
@@ -21,6 +22,10 @@ int main(int argc, char** argv)
     if (word.starts_with("level="))
     {
       part.level = std::strtod(value.data(), nullptr);
+    }
+    else if (word.starts_with("series="))
+    {
+      part.series = value;
     }
     else
     {

@@ -4,6 +4,7 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/image_surface.h"
+#include "pipeline/formats/images/dicom_image.h"
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
@@ -53,8 +54,14 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".nrrd", "NRRD", "NRRD000", nullptr, readNrrd },
   Format{ ".vti", "VTI", "<", nullptr, readVti } };
 
+constexpr Format kDicom{ "/", "DICOM", "", nullptr };
+
 const Format& formatOf(const std::filesystem::path& file)
 {
+  if (std::error_code none; std::filesystem::is_directory(file, none))
+  {
+    return kDicom;
+  }
   std::string name = file.filename().string();
   std::transform(name.begin(), name.end(), name.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -65,10 +72,13 @@ const Format& formatOf(const std::filesystem::path& file)
       return format;
     }
   }
+  if (name.ends_with(".dcm"))
+  {
+    refuse(file, "one image of a series; give the folder that holds all of them");
+  }
   refuse(file,
-    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu) or "
-    "an "
-    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti)");
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu), an "
+    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti) or a folder of DICOM images");
 }
 
 void checkFile(const std::filesystem::path& file, const Format& format)
@@ -157,7 +167,8 @@ vtkSmartPointer<vtkPolyData> readData(const std::filesystem::path& file, const F
       return format.read(file);
     }
     checkFits(file);
-    const PatientImage volume = format.readImage(file);
+    const PatientImage volume =
+      format.readImage ? format.readImage(file) : readDicom(file, part.series);
     surface.unit = volume.unit;
     surface.notes = volume.notes;
     return imageSurface(volume, part, file.string(), surface.notes);
@@ -174,7 +185,11 @@ vtkSmartPointer<vtkPolyData> readData(const std::filesystem::path& file, const F
 FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
 {
   const Format& format = formatOf(file);
-  checkFile(file, format);
+  &format == &kDicom ? void() : checkFile(file, format);
+  if (&format != &kDicom && !part.series.empty())
+  {
+    refuse(file, "no folder of DICOM images; leave the series out");
+  }
   if (format.read && (part.level || !part.labels.empty()))
   {
     refuse(file,

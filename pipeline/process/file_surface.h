@@ -13,8 +13,9 @@ namespace palp
 /// What of an image is the surface.
 struct ImagePart
 {
-  std::optional<double> level;     ///< its value on the surface
-  std::vector<std::string> labels; ///< or these regions of a label map, by value or name, together
+  std::optional<double> level{};     ///< its value on the surface
+  std::vector<std::string> labels{}; ///< or these regions of a label map together: value or name
+  std::string series{}; ///< of several in a folder of DICOM images: place from 1, or UID
 };
 
 /// What a surface file holds, as it stands there.

@@ -30,7 +30,10 @@ void restrictFiles(const std::vector<std::filesystem::path>& readable) noexcept
   for (const std::filesystem::path& path : readable)
   {
     const int file = open(path.empty() ? "." : path.c_str(), O_PATH | O_CLOEXEC);
-    const landlock_path_beneath_attr below{ .allowed_access = kRead, .parent_fd = file };
+    std::error_code none;
+    const std::uint64_t list =
+      std::filesystem::is_directory(path, none) ? LANDLOCK_ACCESS_FS_READ_DIR : 0;
+    const landlock_path_beneath_attr below{ .allowed_access = kRead | list, .parent_fd = file };
     syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &below, 0);
     close(file);
   }
@@ -79,7 +82,8 @@ void restrictCalls(int output) noexcept
   allowIf(SCMP_SYS(write), { 0, SCMP_CMP_EQ, only, 0 });
   allowIf(SCMP_SYS(writev), { 0, SCMP_CMP_EQ, only, 0 });
   allowIf(SCMP_SYS(fcntl), { 1, SCMP_CMP_EQ, F_GETFL, 0 });
-  seccomp_load(filter); // fails where the kernel has none
+  allowIf(SCMP_SYS(fcntl), { 1, SCMP_CMP_EQ, F_SETFD, 0 }); // of a folder that is opened
+  seccomp_load(filter);                                     // fails where the kernel has none
   seccomp_release(filter);
 }
 

@@ -153,6 +153,10 @@ FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& 
     command.emplace_back("level=").append(
       digits, std::to_chars(digits, std::end(digits), *part.level).ptr);
   }
+  if (!part.series.empty())
+  {
+    command.push_back("series=" + part.series);
+  }
   for (const std::string& label : part.labels)
   {
     command.push_back("label=" + label);

@@ -2,6 +2,7 @@
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
 #include "tests/app/window/window_rig.h"
+#include "tests/support/dicom_series.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -159,6 +160,37 @@ TEST_F(WindowTest, AsksForTheLevelOfAnImage)
   EXPECT_TRUE(reasons[2].contains("7")) << reasons[2].toStdString();
   EXPECT_TRUE(reasons[3].contains("both are given")) << reasons[3].toStdString();
   EXPECT_EQ(session_->body().name, "mask.mha");
+  press(60);
+  release();
+}
+
+// two phases of a scan: asks for the series, then for the level
+TEST_F(WindowTest, OpensAFolderOfDicomImages)
+{
+  const test::DicomGrid grid{ 30, 30, 12, { 5.0, -7.0, 900.0 }, Eigen::Vector3d::UnitX(),
+    Eigen::Vector3d::UnitY(), 1.0, 1.0, 2.5 };
+  test::writeDicom(folder_.path(), "scan", grid, "+te");
+  test::writeDicom(folder_.path(), "scan", grid, "+te", { .series = "1.2.3.2" });
+  std::vector<QString> reasons;
+  QStringList series{ "", "2" }; // typed in turn
+  QTimer typist;
+  QObject::connect(&typist, &QTimer::timeout,
+    [&]
+    {
+      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      if (dialog != nullptr && !series.isEmpty())
+      {
+        reasons.push_back(dialog->findChild<QLabel*>("why")->text());
+        dialog->findChild<QLineEdit*>("series")->setText(series.takeFirst());
+        dialog->findChild<QLineEdit*>("level")->setText(QString::number(test::kDicomLevel));
+        dialog->accept();
+      }
+    });
+  typist.start(200);
+  ASSERT_TRUE(window_->openFile(QString::fromStdString((folder_.path() / "scan").string())));
+  ASSERT_EQ(reasons.size(), 2U);
+  EXPECT_TRUE(reasons[1].contains("has 2 series: 1 'abdomen'")) << reasons[1].toStdString();
+  EXPECT_EQ(session_->body().name, "scan");
   press(60);
   release();
 }

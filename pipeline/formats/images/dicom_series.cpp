@@ -1,0 +1,296 @@
+#include "pipeline/formats/images/dicom_series.h"
+
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/refuse.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <gdcmAttribute.h>
+#include <gdcmReader.h>
+#include <gdcmTrace.h>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+
+namespace palp
+{
+namespace
+{
+
+using gdcm::DataSet;
+using gdcm::Tag;
+
+constexpr double kAlike = 1e-3;  // [-] of spacings and directions, which are written in decimals
+constexpr double kMissing = 0.1; // [-] of the distance by which one may be off
+constexpr double kTilt = 0.01;   // [rad] between the way of the slices and their normal
+
+const Tag kModality(0x0008, 0x0060);
+const Tag kDescription(0x0008, 0x103e);
+const Tag kSeries(0x0020, 0x000e);
+const Tag kNumber(0x0020, 0x0011);
+const Tag kPosition(0x0020, 0x0032);
+const Tag kOrientation(0x0020, 0x0037);
+const Tag kFrames(0x0028, 0x0008);
+const Tag kSpacing(0x0028, 0x0030);
+const Tag kIntercept(0x0028, 0x1052);
+const Tag kSlope(0x0028, 0x1053);
+const Tag kVoxels(0x7fe0, 0x0010);
+
+// without the blanks and zeros that fill it up; empty: not there
+std::string textOf(const DataSet& data, const Tag& tag)
+{
+  const gdcm::ByteValue* bytes =
+    data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
+  std::string text =
+    bytes != nullptr ? std::string(bytes->GetPointer(), bytes->GetLength()) : std::string();
+  std::erase(text, '\0');
+  return std::string(trimmed(text));
+}
+
+// as many as are asked for; nothing where there are others
+std::optional<std::vector<double>> decimalsOf(
+  const DataSet& data, const Tag& tag, std::size_t count)
+{
+  std::vector<double> numbers;
+  const std::string text = textOf(data, tag);
+  for (const std::string_view word : split(text, '\\'))
+  {
+    const std::optional<double> number = csvNumber(word);
+    if (!number || !std::isfinite(*number))
+    {
+      return std::nullopt;
+    }
+    numbers.push_back(*number);
+  }
+  return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
+double decimalOf(const DataSet& data, const Tag& tag, double usual)
+{
+  const auto number = decimalsOf(data, tag, 1);
+  return number ? number->front() : usual;
+}
+
+template <std::uint16_t Group, std::uint16_t Element>
+int countOf(const DataSet& data)
+{
+  gdcm::Attribute<Group, Element> attribute{};
+  attribute.SetFromDataSet(data);
+  return attribute.GetValue();
+}
+
+DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
+{
+  if (countOf<0x0028, 0x0002>(data) != 1)
+  {
+    refuse(file, "has colors; give images of one value a voxel");
+  }
+  if (decimalOf(data, kFrames, 1.0) > 1.0)
+  {
+    refuse(file, "holds several images in one file; save them one a file, or as .nrrd");
+  }
+  const auto position = decimalsOf(data, kPosition, 3);
+  const auto orientation = decimalsOf(data, kOrientation, 6);
+  const auto spacing = decimalsOf(data, kSpacing, 2);
+  if (!position || !orientation || !spacing)
+  {
+    refuse(file,
+      std::string("has no ") +
+        (!position         ? "Image Position (Patient)"
+            : !orientation ? "Image Orientation (Patient)"
+                           : "Pixel Spacing") +
+        "; export the series again with its place");
+  }
+  DicomSlice slice{ .file = file,
+    .columns = countOf<0x0028, 0x0011>(data),
+    .rows = countOf<0x0028, 0x0010>(data),
+    .position = Eigen::Vector3d::Map(position->data()),
+    .alongRow = Eigen::Vector3d::Map(orientation->data()),
+    .alongColumn = Eigen::Vector3d::Map(orientation->data() + 3),
+    .columnSpacing = spacing->back(),
+    .rowSpacing = spacing->front(),
+    .slope = decimalOf(data, kSlope, 1.0),
+    .intercept = decimalOf(data, kIntercept, 0.0) };
+  const bool isSquare = std::abs(slice.alongRow.norm() - 1.0) < kAlike &&
+    std::abs(slice.alongColumn.norm() - 1.0) < kAlike &&
+    std::abs(slice.alongRow.dot(slice.alongColumn)) < kAlike;
+  if (!isSquare || !(slice.columnSpacing > 0.0) || !(slice.rowSpacing > 0.0) || slice.slope == 0.0)
+  {
+    refuse(file,
+      "its Image Orientation, Pixel Spacing or Rescale Slope makes no image; export it again");
+  }
+  return slice;
+}
+
+std::string inWords(const DicomSeries& series)
+{
+  const DicomSlice& first = series.slices.front();
+  return inQuotes(series.description) + " (" + series.modality + ", " +
+    std::to_string(series.slices.size()) + " images of " + std::to_string(first.columns) + " x " +
+    std::to_string(first.rows) + ")";
+}
+
+std::string shown(double length)
+{
+  return shortest(std::round(1000.0 * length) / 1000.0) + " mm";
+}
+
+std::string nameOf(const DicomSlice& slice)
+{
+  return slice.file.filename().string();
+}
+
+void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
+{
+  const DicomSlice& first = series.slices.front();
+  for (const DicomSlice& slice : series.slices)
+  {
+    const bool isAlike = slice.columns == first.columns && slice.rows == first.rows &&
+      (slice.alongRow - first.alongRow).norm() < kAlike &&
+      (slice.alongColumn - first.alongColumn).norm() < kAlike &&
+      std::abs(slice.columnSpacing / first.columnSpacing - 1.0) < kAlike &&
+      std::abs(slice.rowSpacing / first.rowSpacing - 1.0) < kAlike;
+    if (!isAlike)
+    {
+      refuse(folder,
+        nameOf(slice) + " has another size, direction or spacing than " + nameOf(first) +
+          "; keep the images of one stack in the folder");
+    }
+  }
+}
+
+} // namespace
+
+std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
+{
+  gdcm::Trace::SetDebug(false);
+  gdcm::Trace::SetWarning(false);
+  gdcm::Trace::SetError(false);
+  std::set<std::filesystem::path> files; // in the same order everywhere
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    if (entry.is_regular_file())
+    {
+      files.insert(entry.path());
+    }
+  }
+  std::map<std::string, DicomSeries> found;
+  for (const std::filesystem::path& file : files)
+  {
+    if (!std::ifstream(file))
+    {
+      refuse(file, "cannot be opened; check its permissions, and copy what a link leads to");
+    }
+    gdcm::Reader reader;
+    reader.SetFileName(file.c_str());
+    if (!reader.CanRead())
+    {
+      continue;
+    }
+    if (!reader.ReadUpToTag(kVoxels))
+    {
+      refuse(file, "cut off or damaged; export or copy it again");
+    }
+    const DataSet& data = reader.GetFile().GetDataSet();
+    if (!data.FindDataElement(Tag(0x0028, 0x0010))) // a directory, a report, a contour
+    {
+      continue;
+    }
+    DicomSeries& series = found[textOf(data, kSeries)];
+    series.uid = textOf(data, kSeries);
+    series.description = textOf(data, kDescription);
+    series.modality = textOf(data, kModality);
+    series.number = static_cast<int>(std::clamp(decimalOf(data, kNumber, 0.0), 0.0, 1e9));
+    series.slices.push_back(sliceOf(file, data));
+  }
+  if (found.empty())
+  {
+    refuse(folder, "no DICOM image in it; name the folder that has the files of the series itself");
+  }
+  std::vector<DicomSeries> all;
+  for (auto& [uid, series] : found)
+  {
+    all.push_back(std::move(series));
+  }
+  std::ranges::stable_sort(all, {}, &DicomSeries::number);
+  return all;
+}
+
+DicomSeries chosenSeries(const std::filesystem::path& folder, const std::string& asked)
+{
+  const std::vector<DicomSeries> all = dicomSeriesIn(folder);
+  std::string list;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const std::string place = std::to_string(i + 1);
+    if (asked == place || (!asked.empty() && asked == all[i].uid))
+    {
+      return all[i];
+    }
+    list += (i > 0 ? ", " : "") + place + " " + inWords(all[i]);
+  }
+  if (!asked.empty())
+  {
+    refuse(folder, "no series " + inQuotes(asked) + " in it; it has " + list);
+  }
+  if (all.size() > 1)
+  {
+    refuse(folder,
+      "has " + std::to_string(all.size()) + " series: " + list + "; name one as the series");
+  }
+  return all.front();
+}
+
+double stack(const std::filesystem::path& folder, DicomSeries& series)
+{
+  checkAlike(folder, series);
+  std::vector<DicomSlice>& slices = series.slices;
+  if (slices.size() < 2)
+  {
+    refuse(folder, "one image alone, no volume; give all of the series");
+  }
+  const Eigen::Vector3d normal =
+    slices.front().alongRow.cross(slices.front().alongColumn).normalized();
+  const auto height = [&](const DicomSlice& slice) { return normal.dot(slice.position); };
+  std::ranges::sort(slices, {}, height);
+  const Eigen::Vector3d way = slices.back().position - slices.front().position;
+  const double tilt = std::acos(std::min(1.0, normal.dot(way) / way.norm()));
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < slices.size(); ++i)
+  {
+    steps.push_back(height(slices[i]) - height(slices[i - 1]));
+  }
+  std::vector<double> ordered = steps;
+  std::ranges::nth_element(
+    ordered, ordered.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
+  const double usual = ordered[steps.size() / 2];
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const std::string between = nameOf(slices[i]) + " and " + nameOf(slices[i + 1]);
+    if (!(steps[i] > kMissing * usual))
+    {
+      refuse(folder,
+        between + " are in one place; keep one phase, echo or time of the series in the folder");
+    }
+    if (std::abs(steps[i] - usual) > kMissing * usual)
+    {
+      refuse(folder,
+        between + " are " + shown(steps[i]) + " apart, the others " + shown(usual) +
+          ": images are missing; copy all of the series");
+    }
+  }
+  if (tilt > kTilt)
+  {
+    refuse(folder,
+      "its gantry was tilted by " +
+        shortest(std::round(10.0 * tilt * 180.0 / std::numbers::pi) / 10.0) +
+        " degrees; resample it to a straight grid and save that as .nrrd");
+  }
+  return way.norm() / static_cast<double>(steps.size());
+}
+
+} // namespace palp

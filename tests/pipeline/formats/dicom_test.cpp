@@ -1,0 +1,158 @@
+#include "tests/pipeline/surface_files.h"
+#include "tests/support/dicom_series.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+class Dicom : public Files
+{
+protected:
+  [[nodiscard]] std::string refusal(
+    const std::string& name, ImagePart part = { .level = kDicomLevel })
+  {
+    try
+    {
+      (void)readSurface(folder_.path() / name, {}, part);
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "taken";
+  }
+};
+
+const DicomGrid kAxial{ 40, 36, 14, { -57.3, 21.4, 803.2 }, Vector3d::UnitX(), Vector3d::UnitY(),
+  0.8, 0.9, 2.5 };
+
+DicomGrid obliqueGrid()
+{
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.4, Vector3d::UnitX()) *
+    Eigen::AngleAxisd(2.6, Vector3d(1.0, 2.0, -0.5).normalized()))
+                                 .toRotationMatrix();
+  return { 33, 44, 30, { 112.0, -240.5, -31.0 }, turn.col(0), turn.col(1), 1.1, 0.75, -1.3 };
+}
+
+// of every transfer syntax: within a tenth of a voxel where its header puts it
+TEST_F(Dicom, ABallIsWhereItsHeaderSays)
+{
+  const DicomGrid coronal{ 36, 30, 34, { 50.0, 90.0, 20.0 }, -Vector3d::UnitX(), -Vector3d::UnitZ(),
+    1.0, 1.2, 1.0 };
+  const std::tuple<const char*, DicomGrid, const char*> all[] = { { "explicit", kAxial, "+te" },
+    { "implicit", obliqueGrid(), "+ti" }, { "big", coronal, "+tb" }, { "deflated", kAxial, "+td" },
+    { "jpegls", obliqueGrid(), "dcmcjpls" }, { "jpeg", coronal, "dcmcjpeg +e1" },
+    { "rle", obliqueGrid(), "dcmcrle" } };
+  for (const auto& [name, grid, options] : all)
+  {
+    const Vector3d middle = writeDicom(folder_.path(), name, grid, options);
+    const LoadedSurface surface = readSurface(folder_.path() / name, {}, { .level = kDicomLevel });
+    EXPECT_TRUE(surface.closed) << name;
+    EXPECT_TRUE(mentions(surface, "(LPS)")) << name;
+    EXPECT_TRUE(mentions(surface, "\"abdomen\" (CT)")) << name;
+    const Mesh mesh = meshOf(surface);
+    const double voxel = 1e-3 * std::abs(grid.step);
+    double squares = 0.0;
+    Vector3d mean = Vector3d::Zero();
+    for (const Vector3d& point : mesh.points)
+    {
+      const double off = (point - middle).norm() - 1e-3 * kDicomRadius;
+      squares += off * off;
+      mean += point / static_cast<double>(mesh.points.size());
+    }
+    EXPECT_LT((mean - middle).norm(), 0.1 * voxel) << name;
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(mesh.points.size())), 0.1 * voxel) << name;
+    EXPECT_NEAR(
+      volume(mesh), 4.0 / 3.0 * M_PI * std::pow(1e-3 * kDicomRadius, 3), 0.02 * volume(mesh))
+      << name;
+  }
+}
+
+TEST_F(Dicom, OfSeveralSeriesOneIsNamed)
+{
+  DicomGrid moved = kAxial;
+  moved.first.x() += 100.0;
+  const Vector3d first = writeDicom(folder_.path(), "both", kAxial, "+te");
+  const Vector3d second = writeDicom(
+    folder_.path(), "both", moved, "+te", { .series = "1.2.3.2", .description = "late phase" });
+  (void)first;
+  write("both/README.txt", "not an image");
+  EXPECT_NE(refusal("both").find("has 2 series: 1 'abdomen' (CT, 14 images of 40 x 36), 2 'late "
+                                 "phase' (CT, 14 images of 40 x 36); name one as the series"),
+    std::string::npos)
+    << refusal("both");
+  EXPECT_NE(refusal("both", { .series = "3" }).find("no series '3' in it"), std::string::npos);
+  for (const char* which : { "2", "1.2.3.2" })
+  {
+    const LoadedSurface surface =
+      readSurface(folder_.path() / "both", {}, { .level = kDicomLevel, .series = which });
+    double box[6];
+    surface.mesh->GetBounds(box);
+    EXPECT_NEAR(0.5 * (box[0] + box[1]), second.x(), 1e-4) << which;
+  }
+}
+
+TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
+{
+  writeDicom(folder_.path(), "gap", kAxial, "+te", { .without = 6 });
+  EXPECT_NE(
+    refusal("gap").find("are 5 mm apart, the others 2.5 mm: images are missing"), std::string::npos)
+    << refusal("gap");
+  writeDicom(folder_.path(), "twice", kAxial, "+te");
+  std::filesystem::copy(folder_.path() / "twice/twice1_3.dcm", folder_.path() / "twice/again.dcm");
+  EXPECT_NE(refusal("twice").find("again.dcm and twice1_3.dcm are in one place"), std::string::npos)
+    << refusal("twice");
+  DicomGrid one = kAxial;
+  one.slices = 1;
+  writeDicom(folder_.path(), "one", one, "+te");
+  EXPECT_NE(refusal("one").find("one image alone, no volume"), std::string::npos);
+  writeDicom(folder_.path(), "frames", one, "+te", { .extra = "(0028,0008) IS [20]\n" });
+  EXPECT_NE(refusal("frames").find("holds several images in one file"), std::string::npos);
+  std::filesystem::create_directory(folder_.path() / "none");
+  EXPECT_NE(refusal("none").find("no DICOM image in it"), std::string::npos);
+  EXPECT_NE(
+    refusal("gap/gap1_3.dcm").find("give the folder that holds all of them"), std::string::npos);
+  for (const auto& [name, options] :
+    { std::pair("cut", "+te"), { "implicit", "+ti" }, { "big", "+tb" }, { "deflated", "+td" },
+      { "rle", "dcmcrle" }, { "jpeg", "dcmcjpeg +e1" }, { "jpegls", "dcmcjpls" } })
+  {
+    writeDicom(folder_.path(), name, kAxial, options);
+    const std::string file = words(name, '/', name, "1_10.dcm");
+    for (const double part : { 0.99, 0.7, 0.4 })
+    {
+      const auto size = static_cast<double>(std::filesystem::file_size(folder_.path() / file));
+      std::filesystem::resize_file(folder_.path() / file, static_cast<std::uintmax_t>(part * size));
+      EXPECT_NE(refusal(name).find("cut off"), std::string::npos) << part << refusal(name);
+    }
+  }
+  write("ball.obj", "v 0 0 0\n");
+  EXPECT_NE(
+    refusal("ball.obj", { .series = "1" }).find("no folder of DICOM images; leave the series out"),
+    std::string::npos);
+}
+
+// slices that are shifted along themselves
+TEST_F(Dicom, ATiltedGantryIsRefusedWithItsAngle)
+{
+  DicomGrid tilted = kAxial;
+  tilted.slices = 1;
+  for (int k = 0; k < 12; ++k)
+  {
+    tilted.first = kAxial.first + 2.5 * k * Vector3d(0.0, std::tan(12.0 * M_PI / 180.0), 1.0);
+    writeDicom(folder_.path(), "part" + std::to_string(k), tilted, "+te");
+    std::filesystem::create_directories(folder_.path() / "tilted");
+    std::filesystem::copy(folder_.path() / words("part", k, "/part", k, "1_3.dcm"),
+      folder_.path() / words("tilted/", k, ".dcm"));
+  }
+  EXPECT_NE(refusal("tilted").find("its gantry was tilted by 12 degrees"), std::string::npos)
+    << refusal("tilted");
+}
+
+} // namespace
+} // namespace palp::test
