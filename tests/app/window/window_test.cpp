@@ -169,8 +169,8 @@ TEST_F(WindowTest, OpensAFolderOfDicomImages)
 {
   const test::DicomGrid grid{ 30, 30, 12, { 5.0, -7.0, 900.0 }, Eigen::Vector3d::UnitX(),
     Eigen::Vector3d::UnitY(), 1.0, 1.0, 2.5 };
-  test::writeDicom(folder_.path(), "scan", grid, "+te");
-  test::writeDicom(folder_.path(), "scan", grid, "+te", { .series = "1.2.3.2" });
+  test::writeDicom(folder_.path(), "scan", grid, "--write-xfer-little");
+  test::writeDicom(folder_.path(), "scan", grid, "--write-xfer-little", { .series = "1.2.3.2" });
   std::vector<QString> reasons;
   QStringList series{ "", "2" }; // typed in turn
   QTimer typist;

@@ -45,10 +45,11 @@ TEST_F(Dicom, ABallIsWhereItsHeaderSays)
 {
   const DicomGrid coronal{ 36, 30, 34, { 50.0, 90.0, 20.0 }, -Vector3d::UnitX(), -Vector3d::UnitZ(),
     1.0, 1.2, 1.0 };
-  const std::tuple<const char*, DicomGrid, const char*> all[] = { { "explicit", kAxial, "+te" },
-    { "implicit", obliqueGrid(), "+ti" }, { "big", coronal, "+tb" }, { "deflated", kAxial, "+td" },
-    { "jpegls", obliqueGrid(), "dcmcjpls" }, { "jpeg", coronal, "dcmcjpeg +e1" },
-    { "rle", obliqueGrid(), "dcmcrle" } };
+  const std::tuple<const char*, DicomGrid, const char*> all[] = { { "explicit", kAxial,
+                                                                    "--write-xfer-little" },
+    { "implicit", obliqueGrid(), "--write-xfer-implicit" }, { "big", coronal, "--write-xfer-big" },
+    { "deflated", kAxial, "--write-xfer-deflated" }, { "jpegls", obliqueGrid(), "dcmcjpls" },
+    { "jpeg", coronal, "dcmcjpeg +e1" }, { "rle", obliqueGrid(), "dcmcrle" } };
   for (const auto& [name, grid, options] : all)
   {
     const Vector3d middle = writeDicom(folder_.path(), name, grid, options);
@@ -78,9 +79,9 @@ TEST_F(Dicom, OfSeveralSeriesOneIsNamed)
 {
   DicomGrid moved = kAxial;
   moved.first.x() += 100.0;
-  const Vector3d first = writeDicom(folder_.path(), "both", kAxial, "+te");
-  const Vector3d second = writeDicom(
-    folder_.path(), "both", moved, "+te", { .series = "1.2.3.2", .description = "late phase" });
+  const Vector3d first = writeDicom(folder_.path(), "both", kAxial, "--write-xfer-little");
+  const Vector3d second = writeDicom(folder_.path(), "both", moved, "--write-xfer-little",
+    { .series = "1.2.3.2", .description = "late phase" });
   (void)first;
   write("both/README.txt", "not an image");
   EXPECT_NE(refusal("both").find("has 2 series: 1 'abdomen' (CT, 14 images of 40 x 36), 2 'late "
@@ -100,27 +101,29 @@ TEST_F(Dicom, OfSeveralSeriesOneIsNamed)
 
 TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
 {
-  writeDicom(folder_.path(), "gap", kAxial, "+te", { .without = 6 });
+  writeDicom(folder_.path(), "gap", kAxial, "--write-xfer-little", { .without = 6 });
   EXPECT_NE(
     refusal("gap").find("are 5 mm apart, the others 2.5 mm: images are missing"), std::string::npos)
     << refusal("gap");
-  writeDicom(folder_.path(), "twice", kAxial, "+te");
+  writeDicom(folder_.path(), "twice", kAxial, "--write-xfer-little");
   std::filesystem::copy(folder_.path() / "twice/twice1_3.dcm", folder_.path() / "twice/again.dcm");
   EXPECT_NE(refusal("twice").find("again.dcm and twice1_3.dcm are in one place"), std::string::npos)
     << refusal("twice");
   DicomGrid one = kAxial;
   one.slices = 1;
-  writeDicom(folder_.path(), "one", one, "+te");
+  writeDicom(folder_.path(), "one", one, "--write-xfer-little");
   EXPECT_NE(refusal("one").find("one image alone, no volume"), std::string::npos);
-  writeDicom(folder_.path(), "frames", one, "+te", { .extra = "(0028,0008) IS [20]\n" });
+  writeDicom(
+    folder_.path(), "frames", one, "--write-xfer-little", { .extra = "(0028,0008) IS [20]\n" });
   EXPECT_NE(refusal("frames").find("holds several images in one file"), std::string::npos);
   std::filesystem::create_directory(folder_.path() / "none");
   EXPECT_NE(refusal("none").find("no DICOM image in it"), std::string::npos);
   EXPECT_NE(
     refusal("gap/gap1_3.dcm").find("give the folder that holds all of them"), std::string::npos);
   for (const auto& [name, options] :
-    { std::pair("cut", "+te"), { "implicit", "+ti" }, { "big", "+tb" }, { "deflated", "+td" },
-      { "rle", "dcmcrle" }, { "jpeg", "dcmcjpeg +e1" }, { "jpegls", "dcmcjpls" } })
+    { std::pair("cut", "--write-xfer-little"), { "implicit", "--write-xfer-implicit" },
+      { "big", "--write-xfer-big" }, { "deflated", "--write-xfer-deflated" }, { "rle", "dcmcrle" },
+      { "jpeg", "dcmcjpeg +e1" }, { "jpegls", "dcmcjpls" } })
   {
     writeDicom(folder_.path(), name, kAxial, options);
     const std::string file = words(name, '/', name, "1_10.dcm");
@@ -145,7 +148,7 @@ TEST_F(Dicom, ATiltedGantryIsRefusedWithItsAngle)
   for (int k = 0; k < 12; ++k)
   {
     tilted.first = kAxial.first + 2.5 * k * Vector3d(0.0, std::tan(12.0 * M_PI / 180.0), 1.0);
-    writeDicom(folder_.path(), "part" + std::to_string(k), tilted, "+te");
+    writeDicom(folder_.path(), "part" + std::to_string(k), tilted, "--write-xfer-little");
     std::filesystem::create_directories(folder_.path() / "tilted");
     std::filesystem::copy(folder_.path() / words("part", k, "/part", k, "1_3.dcm"),
       folder_.path() / words("tilted/", k, ".dcm"));
