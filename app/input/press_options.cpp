@@ -6,6 +6,7 @@
 #include "app/input/tissue_presets.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/units.h"
+#include "pipeline/surface_io/label_names.h"
 
 #include <CLI/CLI.hpp>
 
@@ -58,9 +59,13 @@ void MeshSource::addTo(CLI::App& command)
   auto* level = addParsed(command, "--level",
     "Value of an image on the surface, no unit: 0.5 for a mask of 0 and 1", "",
     [this](const std::string& text) { part.level = parseNumber(text, "--level"); });
+  addParsed(command, "--names",
+    "Table of the labels' names: of 3D Slicer, ITK-SNAP, or JSON as of TotalSegmentator", "",
+    [this](const std::string& text) { part.names = readLabelNames(text); });
   addParsed(command, "--label",
     "Region of a label map that is the body, by value or name: 5, or 1,2 for both", "",
-    [this](const std::string& text) { part.labels = parseLabels(text, "--label"); })
+    [this](const std::string& text)
+    { part.labels = valuesOfLabels(parseLabels(text, "--label"), part.names); })
     ->excludes(level);
 }
 

@@ -73,9 +73,14 @@ void refuseUnknown(const Sweep& sweep, const Texts& texts, const CommandOptions&
             ": changes no number of a case, or is set by the sweep itself; leave it out");
       }
       throw Error(ErrorCode::BadFile,
-        begin + inQuotes(name) + ": palp " + sweep.kind +
-          " has no such option, and no value holds " +
-          inQuotes(std::string("{").append(name).append("}")) + "; known here: " + known);
+        std::string(begin)
+          .append(inQuotes(name))
+          .append(": palp ")
+          .append(sweep.kind)
+          .append(" has no such option, and no value holds ")
+          .append(inQuotes(std::string("{").append(name).append("}")))
+          .append("; known here: ")
+          .append(known));
     }
     const auto isWord = [](const std::string& value)
     { return value == "true" || value == "false"; };

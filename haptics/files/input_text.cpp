@@ -113,6 +113,13 @@ std::string_view trimmed(std::string_view text)
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
+std::string lowered(std::string text)
+{
+  std::ranges::transform(text, text.begin(),
+    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator)
 {
   std::vector<std::string_view> parts;

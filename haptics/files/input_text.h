@@ -33,6 +33,9 @@ namespace palp
 /// A text without the blanks before and after it: spaces, tabs, carriage returns.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// With a to z for A to Z.
+[[nodiscard]] std::string lowered(std::string text);
+
 /// The parts of a text between separators; one more than there are of them.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 

@@ -111,7 +111,7 @@ private:
   template <typename Visit>
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
-  std::vector<Piece> cutUp(const BoxTree& tree, const LinkedTriangles& mesh) const;
+  [[nodiscard]] std::vector<Piece> cutUp(const BoxTree& tree, const LinkedTriangles& mesh) const;
   void build(std::span<Piece> pieces, float cell, Leaves& leaves);
   void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Leaves& leaves);
   static float turningOf(std::span<const Piece> leaf);

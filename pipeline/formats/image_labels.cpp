@@ -103,13 +103,6 @@ std::string inWords(const std::vector<Label>& labels, const PatientImage& volume
   return text.tellp() > 0 ? "its labels are " + text.str() : "it has more values than a label map";
 }
 
-std::string lowered(std::string text)
-{
-  std::ranges::transform(text, text.begin(),
-    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 // a number names the value next to it that a voxel can have, to the rounding of the scale
 bool isNamed(const Label& label, double step, const std::string& text)
 {

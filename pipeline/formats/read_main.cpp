@@ -1,6 +1,6 @@
-// palp-read FILE [series=PLACE] [level=VALUE | label=VALUE-OR-NAME...]: reads a surface for the
-// program that started it. Readers of other people's files may crash or run away, and here they do
-// it alone.
+// palp-read FILE [series=PLACE] [name=VALUE:NAME...] [level=VALUE | label=VALUE-OR-NAME...]: reads
+// a surface for the program that started it. Readers of other people's files may crash or run away,
+// and here they do it alone.
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/process/child_process.h"
@@ -22,6 +22,12 @@ int main(int argc, char** argv)
     if (word.starts_with("level="))
     {
       part.level = std::strtod(value.data(), nullptr);
+    }
+    else if (word.starts_with("name="))
+    {
+      const std::size_t colon = std::min(value.find(':'), value.size() - 1);
+      part.names.push_back(
+        { std::strtod(value.data(), nullptr), std::string(value.substr(colon + 1)) });
     }
     else if (word.starts_with("series="))
     {

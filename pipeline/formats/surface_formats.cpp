@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -62,9 +61,7 @@ const Format& formatOf(const std::filesystem::path& file)
   {
     return kDicom;
   }
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = lowered(file.filename().string());
   for (const Format& format : kFormats)
   {
     if (name.ends_with(format.ending))
@@ -167,8 +164,16 @@ vtkSmartPointer<vtkPolyData> readData(const std::filesystem::path& file, const F
       return format.read(file);
     }
     checkFits(file);
-    const PatientImage volume =
-      format.readImage ? format.readImage(file) : readDicom(file, part.series);
+    PatientImage volume = format.readImage ? format.readImage(file) : readDicom(file, part.series);
+    for (const LabelName& label : part.names)
+    {
+      if (label.value == 0.0) // what is no region
+      {
+        continue;
+      }
+      const double stored = (label.value - volume.intercept) / volume.slope;
+      volume.segments.push_back({ .name = label.name, .value = stored });
+    }
     surface.unit = volume.unit;
     surface.notes = volume.notes;
     return imageSurface(volume, part, file.string(), surface.notes);

@@ -21,6 +21,7 @@ constexpr std::size_t kMostEdges = 500;
 std::vector<int> chainOf(std::span<const Triangle> triangles, const std::vector<Side>& border)
 {
   std::vector<int> chain;
+  chain.reserve(border.size());
   for (const auto& [triangle, k] : border)
   {
     chain.push_back(triangles[at(triangle)][at(k)]);

@@ -71,6 +71,7 @@ std::vector<std::vector<Side>> unpairedSides(
     }
   }
   std::vector<std::vector<Side>> result;
+  result.reserve(sides.size());
   for (auto& [edge, all] : sides)
   {
     result.push_back(std::move(all));

@@ -10,12 +10,20 @@
 namespace palp
 {
 
+/// What a label of an image means.
+struct LabelName
+{
+  double value;
+  std::string name;
+};
+
 /// What of an image is the surface.
 struct ImagePart
 {
   std::optional<double> level{};     ///< its value on the surface
   std::vector<std::string> labels{}; ///< or these regions of a label map together: value or name
-  std::string series{}; ///< of several in a folder of DICOM images: place from 1, or UID
+  std::string series{};           ///< of several in a folder of DICOM images: place from 1, or UID
+  std::vector<LabelName> names{}; ///< of labels, for an image that names none itself
 };
 
 /// What a surface file holds, as it stands there.

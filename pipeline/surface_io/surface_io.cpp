@@ -153,6 +153,10 @@ FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& 
     command.emplace_back("level=").append(
       digits, std::to_chars(digits, std::end(digits), *part.level).ptr);
   }
+  for (const LabelName& label : part.names)
+  {
+    command.push_back("name=" + shortest(label.value) + ':' + label.name);
+  }
   if (!part.series.empty())
   {
     command.push_back("series=" + part.series);

@@ -60,9 +60,10 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   if (facing.twisted)
   {
     result.closed = false;
-    result.warnings.push_back("it cannot be oriented: one side goes over into the other, as of a "
-                              "Moebius strip, so inside and outside are not told apart; repair the "
-                              "mesh");
+    result.warnings.emplace_back(
+      "it cannot be oriented: one side goes over into the other, as of a "
+      "Moebius strip, so inside and outside are not told apart; repair the "
+      "mesh");
   }
   std::size_t changed = 0;
   for (std::size_t i = 0; i < facing.turn.size(); ++i)

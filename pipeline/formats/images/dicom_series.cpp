@@ -212,6 +212,7 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
     refuse(folder, "no DICOM image in it; name the folder that has the files of the series itself");
   }
   std::vector<DicomSeries> all;
+  all.reserve(found.size());
   for (auto& [uid, series] : found)
   {
     all.push_back(std::move(series));

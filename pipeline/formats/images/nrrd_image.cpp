@@ -180,7 +180,7 @@ Sizes sizesOf(const std::filesystem::path& file, const Fields& fields)
 // what brings the file's own axes to left, back and head; nothing where it names others
 std::optional<std::array<double, 3>> toLps(std::string space)
 {
-  std::ranges::transform(space, space.begin(), [](char c) { return static_cast<char>(c | 32); });
+  space = lowered(space);
   using Turn = std::array<double, 3>;
   return space == "left-posterior-superior" || space == "lps" ? std::optional(Turn{ 1, 1, 1 })
     : space == "right-anterior-superior" || space == "ras"    ? std::optional(Turn{ -1, -1, 1 })
@@ -316,7 +316,7 @@ PatientImage readNrrd(const std::filesystem::path& file)
   }
   if (wide > 1 && endian == "big")
   {
-    vtkByteSwap::SwapVoidRange(voxels, bytes / wide, static_cast<int>(wide));
+    vtkByteSwap::SwapVoidRange(voxels, bytes / wide, wide);
   }
   result.segments = segmentsOf(fields, sizes.layers);
   return result;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "pipeline/process/file_surface.h"
+
+#include <filesystem>
+
+namespace palp
+{
+
+/// Reads the names of labels: a color table of 3D Slicer (`5 liver 221 130 101 255`), labels of
+/// ITK-SNAP (`5 221 130 101 1 1 1 "liver"`), or JSON as TotalSegmentator has it, either way round
+/// (`{"5": "liver"}` or `{"liver": 5}`).
+///
+/// @throws Error  BadFile: cannot be read, or what is wrong in which line
+[[nodiscard]] std::vector<LabelName> readLabelNames(const std::filesystem::path& file);
+
+/// The labels, names of the table as their values; others stay, for the image may name them.
+[[nodiscard]] std::vector<std::string> valuesOfLabels(
+  std::vector<std::string> labels, std::span<const LabelName> names);
+
+} // namespace palp

@@ -1,0 +1,77 @@
+#include "pipeline/surface_io/label_names.h"
+#include "tests/pipeline/formats/ball_images.h"
+
+namespace palp::test
+{
+namespace
+{
+
+class LabelNames : public Images
+{
+protected:
+  std::filesystem::path table(const std::string& text)
+  {
+    const std::filesystem::path file = folder_.path() / "names";
+    std::ofstream(file) << text;
+    return file;
+  }
+};
+
+TEST_F(LabelNames, AreReadAsThreeProgramsWriteThem)
+{
+  for (const char* text :
+    { "# Color table file\n0 Background 0 0 0 0\n1 Liver 221 130 101 255\n"
+      "40 portal_vein 0 151 206 255\n",
+      "# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Background\"\n"
+      "    1   255    0    0        1  1  1    \"Liver\"\n"
+      "   40   255    0    0        1  1  1    \"portal_vein\"\n",
+      R"({"0": "Background", "1": "Liver", "40": "portal_vein"})",
+      R"({"Background": 0, "Liver": 1, "portal_vein": 40})" })
+  {
+    const std::vector<LabelName> names = readLabelNames(table(text));
+    ASSERT_EQ(names.size(), 3U) << text;
+    EXPECT_EQ(valuesOfLabels({ "liver", "PORTAL_VEIN", "7", "spleen" }, names),
+      (std::vector<std::string>{ "1", "40", "7", "spleen" }))
+      << text;
+  }
+}
+
+TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)
+{
+  for (const auto& [text, what] :
+    { std::pair("1 liver 0 0 0 0\nliver 2\n", "names:2: 'liver 2' is no label"),
+      { "1 255 0 0\n", "names:1: '1 255 0 0' is no label" },
+      { "{\"1\": [2]}", "'1' is no value with a name" },
+      { "{\"1\": ", "not JSON of values and names" } })
+  {
+    try
+    {
+      (void)readLabelNames(table(text));
+      ADD_FAILURE() << text;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  }
+}
+
+// told where a label is asked for, and taken by them
+TEST_F(LabelNames, AreThoseOfAnImageThatHasNone)
+{
+  const auto image = ball(true);
+  image->GetPointData()->GetScalars()->SetComponent(0, 0, 3.0);
+  const auto file = write<vtkMetaImageWriter>("organs.mha", *image);
+  const std::vector<LabelName> names{ { 1.0, "liver" }, { 3.0, "spot" } };
+  EXPECT_NE(refusal(file, { .names = names }).find("its labels are 1 liver ("), std::string::npos)
+    << refusal(file, { .names = names });
+  EXPECT_NE(refusal(file, { .names = names }).find(", 3 spot (1 voxel"), std::string::npos);
+  const LoadedSurface surface = readSurface(
+    file, LengthUnit::Millimeter, { .labels = valuesOfLabels({ "Liver" }, names), .names = names });
+  double box[6];
+  surface.mesh->GetBounds(box);
+  EXPECT_NEAR(0.5 * (box[0] + box[1]), 1e-3 * kCenterMm.x(), 1e-3);
+}
+
+} // namespace
+} // namespace palp::test
