@@ -20,6 +20,9 @@ bool isSentence(const std::string& message, const std::string& file)
   return printable && message.size() <= longest && message.find(file) != message.npos;
 }
 
+// what the program says then
+const std::string kOfACrash = "damaged or cut off: the reader crashed or exceeded its limits";
+
 } // namespace
 
 void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates)
@@ -57,7 +60,8 @@ void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates)
   if (result.refused || contained)
   {
     ++fates.known;
-    const bool isNamed = result.refused && std::regex_search(message, std::regex(fault->words));
+    const std::string told = contained ? kOfACrash : message;
+    const bool isNamed = std::regex_search(told, std::regex(fault->words));
     fates.named += isNamed;
     constexpr std::size_t most = 400;
     if (!isNamed && fates.unnamed.size() < most)

@@ -1,5 +1,7 @@
+#include "pipeline/formats/surface_formats.h"
 #include "tests/pipeline/formats/fuzzed_parts.h"
 #include "tests/support/deflated.h"
+#include "tests/support/dicom_series.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -162,12 +164,51 @@ std::vector<Fuzzed> otherImages()
         foreign(offText(), kKind) }) };
 }
 
+// one image of a series, the others beside it
+std::vector<Fuzzed> dicomKinds()
+{
+  const DicomGrid grid{ 16, 16, 4, { -20.0, -20.0, 300.0 }, Eigen::Vector3d::UnitX(),
+    Eigen::Vector3d::UnitY(), 2.5, 2.5, 8.0 };
+  std::vector<std::string> others;
+  std::vector<std::string> whole;
+  for (const char* options : { "--write-xfer-little", "--write-xfer-implicit", "dcmcrle" })
+  {
+    const TemporaryFolder folder;
+    writeDicom(folder.path(), "series", grid, options);
+    const auto slice = [&](const char* name) { return readAll(folder.path() / "series" / name); };
+    whole.push_back(slice("series1_17.dcm"));
+    others = { slice("series1_3.dcm"), slice("series1_10.dcm"), slice("series1_24.dcm") };
+  }
+  const std::string missing = "missing|one place|apart|damaged";
+  Fuzzed kind = image("ball.dcm", whole,
+    { cutOff("cut off|damaged", 400), replaced("position", R"(-20\\-20)", R"(-2x\-20)", "Position"),
+      replaced("place", "316", "308", missing),
+      replaced("rows", R"(2\.5\\2\.5)", R"(2.5\3.5)", "spacing"),
+      replaced("no spacing", R"(2\.5\\2\.5)", R"(2.5\0.0)", "Spacing"),
+      replaced("direction", R"(1\\0\\0)", R"(1\1\0)", "Orientation"),
+      replaced("series", R"(1\.2\.3\.1(?!\.))", "1.2.3.2", "has 2 series"),
+      replaced("magic", "DICM", "DICE", missing), foreign(offText(), missing) });
+  kind.read = [=](const std::filesystem::path& file)
+  {
+    const std::filesystem::path folder = file.string() + ".series";
+    std::filesystem::create_directories(folder);
+    for (std::size_t i = 0; i < others.size(); ++i)
+    {
+      std::ofstream(folder / std::to_string(i), std::ios::binary) << others[i];
+    }
+    std::filesystem::copy(
+      file, folder / "damaged", std::filesystem::copy_options::overwrite_existing);
+    return pack(readFile(folder, { .level = kDicomLevel }));
+  };
+  return { kind };
+}
+
 } // namespace
 
 std::vector<Fuzzed> fuzzedImages()
 {
   std::vector<Fuzzed> all;
-  for (auto* kinds : { metaKinds, nrrdKinds, otherImages })
+  for (auto* kinds : { metaKinds, nrrdKinds, dicomKinds, otherImages })
   {
     std::ranges::move(kinds(), std::back_inserter(all));
   }
