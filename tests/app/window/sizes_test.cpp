@@ -101,8 +101,8 @@ TEST_F(Sizes, NothingIsClippedInLightAndDark)
   for (const Theme theme : { Theme::Light, Theme::Dark })
   {
     setTheme(theme);
-    for (const QSize screen :
-      { QSize(1024, 768), QSize(1280, 800), QSize(1440, 860), QSize(1920, 1080) })
+    for (const QSize screen : { QSize(1024, 768), QSize(1280, 720), // 2560 x 1440 at scale 2
+           QSize(1280, 800), QSize(1440, 860), QSize(1920, 1080) })
     {
       const QSize size = screen - QSize(16, 48);
       window_->resize(size);
