@@ -52,7 +52,7 @@ void FigureDialog::offerParts(const FigureLook& usual)
     { add(tr("Scale bar"), "scaleBar", usual.hasScaleBar), &FigureLook::hasScaleBar },
     { add(tr("Axes"), "figureAxes", usual.hasAxes), &FigureLook::hasAxes },
     { add(tr("Caption"), "caption", usual.hasCaption), &FigureLook::hasCaption },
-    { add(tr("Ambient occlusion"), "occlusion", usual.hasOcclusion), &FigureLook::hasOcclusion },
+    { add(tr("Realistic"), "realistic", usual.isRealistic), &FigureLook::isRealistic },
     { add(tr("Transparent"), "transparent", usual.isTransparent), &FigureLook::isTransparent } };
   row->addStretch(1);
   auto* grid = qobject_cast<QGridLayout*>(layout());

@@ -7,6 +7,7 @@
 #include "pipeline/figure/ambient_occlusion.h"
 #include "pipeline/figure/orientation.h"
 #include "pipeline/figure/scale_bar.h"
+#include "pipeline/figure/studio.h"
 #include "pipeline/view/appearance.h"
 
 #include <algorithm>
@@ -99,7 +100,7 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
 {
   const ImageSize size{ .width = window.GetSize()[0], .height = window.GetSize()[1] };
   const int samples = // occlusion brings a filter of its own
-    figure.hasOcclusion ? 0 : samplesOf(static_cast<double>(size.width) * size.height);
+    figure.isRealistic ? 0 : samplesOf(static_cast<double>(size.width) * size.height);
   const int dpi = dpiOf(size);
   const double scale = dpi / appearance::kDpi;
   window.SetMultiSamples(samples);
@@ -114,13 +115,14 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   bar.setVisible(figure.hasScaleBar);
   view.setVisible(figure.overlays);
   view.setColorBar(figure.hasColorBar);
-  renderer->SetUseFXAA(samples == 0 && !figure.hasOcclusion);
+  renderer->SetUseFXAA(samples == 0 && !figure.isRealistic);
   widenLines(*renderer, scale);
   showMoment(view, moment);
   look(view, *renderer);
-  if (figure.hasOcclusion)
+  if (figure.isRealistic)
   {
     constexpr double kReach = 0.08; // of the body
+    addStudio(*renderer);
     addAmbientOcclusion(*renderer, kReach * moment.body.display->GetLength());
   }
   if (figure.hasCaption)

@@ -32,10 +32,10 @@ struct FigureLook
 {
   bool isTransparent = false; ///< no background
   bool hasColorBar = true;
-  bool hasAxes = false;      ///< those of the scene, by the patient's sides where they are known
-  bool hasScaleBar = false;  ///< true at the contact
-  bool hasCaption = false;   ///< tool, tissue, law, depth and force
-  bool hasOcclusion = false; ///< what little light reaches is darker; takes a second
+  bool hasAxes = false;     ///< those of the scene, by the patient's sides where they are known
+  bool hasScaleBar = false; ///< true at the contact
+  bool hasCaption = false;  ///< tool, tissue, law, depth and force
+  bool isRealistic = false; ///< wet, and darker where little light comes; takes a second
   std::vector<Overlay> overlays{};
 };
 

@@ -91,7 +91,7 @@ void Window::smoothen()
 void Window::askFigure()
 {
   FigureDialog dialog(tr("Save figure"), "press_figure.png", tr("PNG (*.png)"), ImageSize{}, this);
-  FigureLook look{ .hasAxes = true, .hasScaleBar = true, .hasOcclusion = true };
+  FigureLook look{ .hasAxes = true, .hasScaleBar = true, .isRealistic = true };
   for (std::size_t i = 0; i < kOverlayCount; ++i)
   {
     if (const auto overlay = static_cast<Overlay>(i); view_.isVisible(overlay))

@@ -1,11 +1,13 @@
 #include "app/plots/press_figure.h"
 
 #include "haptics/units.h"
+#include "pipeline/figure/ambient_occlusion.h"
 #include "tests/pipeline/view/press_pictures.h"
 #include "tests/support/process.h"
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 #include <vtkRenderWindow.h>
 
@@ -28,7 +30,11 @@ protected:
     const std::filesystem::path file = folder_.path() / "figure.png";
     writeFigure(
       *window, moment_, look,
-      [this](PressView& view, vtkRenderer&) { view.lookAtWhole(ball_.position, ball_.normal); },
+      [this](PressView& view, vtkRenderer& renderer)
+      {
+        view.lookAtWhole(ball_.position, ball_.normal);
+        beforeDrawing_(renderer);
+      },
       file);
     vtkNew<vtkPNGReader> reader;
     reader->SetFileName(file.c_str());
@@ -56,6 +62,7 @@ protected:
     return calibration;
   }
 
+  std::function<void(vtkRenderer&)> beforeDrawing_ = [](vtkRenderer&) {};
   test::TemporaryFolder folder_;
   const test::Specimen ball_ = test::ball();
   const SceneBody body_ = named(ball_.surface);
@@ -130,20 +137,32 @@ TEST_F(PressFigure, CaptionTellsWhatWasPressedAndHow)
   }
 }
 
+double brightness(vtkImageData& image, int x, int y)
+{
+  return image.GetScalarComponentAsDouble(x, y, 0, 0) +
+    image.GetScalarComponentAsDouble(x, y, 0, 1) + image.GetScalarComponentAsDouble(x, y, 0, 2);
+}
+
+// the places of the picture that no body is at
+void expectTheSameBackground(vtkImageData& one, vtkImageData& other)
+{
+  for (const auto& [x, y] : { std::pair(3, 3), { 476, 3 }, { 3, 356 }, { 476, 356 } })
+  {
+    EXPECT_NEAR(brightness(one, x, y), brightness(other, x, y), 6.0) << x << ' ' << y;
+  }
+}
+
 // what is open to the sky stays as it is, what lies in a dent is darker
 TEST_F(PressFigure, OcclusionDarkensTheDentAndLeavesTheRest)
 {
   const auto plain = figure({ .hasColorBar = false });
-  const auto shaded = figure({ .hasColorBar = false, .hasOcclusion = true });
-  const auto brightness = [](vtkImageData& image, int x, int y)
+  beforeDrawing_ = [](vtkRenderer& renderer)
   {
-    return image.GetScalarComponentAsDouble(x, y, 0, 0) +
-      image.GetScalarComponentAsDouble(x, y, 0, 1) + image.GetScalarComponentAsDouble(x, y, 0, 2);
+    renderer.GetRenderWindow()->SetMultiSamples(0); // it brings a filter of its own
+    addAmbientOcclusion(renderer, 14.0_mm);
   };
-  for (const auto& [x, y] : { std::pair(3, 3), { 476, 3 }, { 3, 356 }, { 476, 356 } })
-  {
-    EXPECT_NEAR(brightness(*shaded, x, y), brightness(*plain, x, y), 6.0) << x << ' ' << y;
-  }
+  const auto shaded = figure({ .hasColorBar = false });
+  expectTheSameBackground(*shaded, *plain);
   double change = 0.0; // about the tool's end, which is at 203, 212 from the lower left
   for (int y = 205; y < 235; ++y)
   {
@@ -153,6 +172,54 @@ TEST_F(PressFigure, OcclusionDarkensTheDentAndLeavesTheRest)
     }
   }
   EXPECT_LT(change, -3000.0);
+}
+
+// the shares of red, green and blue of a region, for the colors are to be told apart
+Eigen::Vector3d hueOf(vtkImageData& image, int left, int right, int low, int high)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int y = low; y < high; ++y)
+  {
+    for (int x = left; x < right; ++x)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        sum[k] += image.GetScalarComponentAsDouble(x, y, 0, k);
+      }
+    }
+  }
+  return sum / sum.sum();
+}
+
+// tissue stays red and the deepest place yellow; what is wet mirrors the lamps
+TEST_F(PressFigure, OfAWetMaterialKeepsTheColors)
+{
+  const FigureLook look{ .overlays = { Overlay::DisplacementColors } };
+  FigureLook wet = look;
+  wet.isRealistic = true;
+  const auto plain = figure(look);
+  const auto shaded = figure(wet);
+  expectTheSameBackground(*shaded, *plain);
+  for (const auto& [left, right, low, high] :
+    { std::tuple(140, 240, 120, 180), { 190, 215, 215, 228 } }) // front, and the dent's floor
+  {
+    const Eigen::Vector3d off =
+      hueOf(*shaded, left, right, low, high) - hueOf(*plain, left, right, low, high);
+    EXPECT_LT(off.cwiseAbs().maxCoeff(), 0.1) << low;
+  }
+  const auto brightest = [](vtkImageData& image)
+  {
+    double most = 0.0;
+    for (int y = 100; y < 200; ++y) // front of the ball
+    {
+      for (int x = 120; x < 280; ++x)
+      {
+        most = std::max(most, brightness(image, x, y));
+      }
+    }
+    return most;
+  };
+  EXPECT_GT(brightest(*shaded), brightest(*plain) + 200.0);
 }
 
 } // namespace

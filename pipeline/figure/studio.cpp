@@ -1,0 +1,84 @@
+#include "pipeline/figure/studio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkCamera.h>
+#include <vtkImageData.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
+#include <vtkTexture.h>
+
+namespace palp
+{
+namespace
+{
+
+constexpr int kWidth = 64; // of the panorama, whose height is half of it
+constexpr int kHeight = kWidth / 2;
+constexpr double kLamps = 2.5; // times what they are without walls that send light back
+
+// brightness by height, from the floor at 0 to the ceiling at 1
+float brightness(double height)
+{
+  constexpr double kFloor = 0.02;
+  constexpr double kCeiling = 0.22;
+  return static_cast<float>(std::lerp(kFloor, kCeiling, height * height * (3.0 - 2.0 * height)));
+}
+
+void makePhysical(vtkActor& actor)
+{
+  constexpr double kRoughness = 0.35; // wet
+  vtkProperty& property = *actor.GetProperty();
+  property.SetInterpolationToPBR();
+  property.SetMetallic(0.0);
+  property.SetRoughness(kRoughness);
+  // it takes colors as shares of light, and we have them as a screen shows them
+  actor.GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Color::Impl", true,
+    "//VTK::Color::Impl\n  diffuseColor = pow(diffuseColor, vec3(2.2));\n", false);
+}
+
+} // namespace
+
+void addStudio(vtkRenderer& renderer)
+{
+  vtkNew<vtkImageData> panorama;
+  panorama->SetDimensions(kWidth, kHeight, 1);
+  panorama->AllocateScalars(VTK_FLOAT, 3);
+  for (int y = 0; y < kHeight; ++y)
+  {
+    auto* row = static_cast<float*>(panorama->GetScalarPointer(0, y, 0));
+    std::fill_n(row, 3 * kWidth, brightness((y + 0.5) / kHeight));
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetColorModeToDirectScalars();
+  texture->MipmapOn();
+  texture->InterpolateOn();
+  texture->SetInputDataObject(panorama);
+  renderer.SetEnvironmentTexture(texture, false);
+  renderer.SetEnvironmentUp(renderer.GetActiveCamera()->GetViewUp());
+  renderer.UseImageBasedLightingOn();
+
+  vtkLightCollection& lamps = *renderer.GetLights();
+  lamps.InitTraversal();
+  while (vtkLight* lamp = lamps.GetNextItem())
+  {
+    lamp->SetIntensity(kLamps * lamp->GetIntensity());
+  }
+  vtkActorCollection& actors = *renderer.GetActors();
+  actors.InitTraversal();
+  while (vtkActor* actor = actors.GetNextActor())
+  {
+    if (actor->GetProperty()->GetLighting())
+    {
+      makePhysical(*actor);
+    }
+  }
+}
+
+} // namespace palp
