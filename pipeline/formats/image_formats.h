@@ -21,10 +21,6 @@ namespace palp
 ///                scale by
 [[nodiscard]] PatientImage readNifti(const std::filesystem::path& file);
 
-/// VTI, in its own axes.
-/// @throws Error  BadFile: turned axes; no values at its points, or several with none marked
-[[nodiscard]] PatientImage readVti(const std::filesystem::path& file);
-
 /// Bytes of the voxels that the header of an image claims; 0 where it cannot be read.
 [[nodiscard]] std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept;
 

@@ -78,10 +78,11 @@ std::optional<double> voxelVolume(const PatientImage& volume)
 {
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> form(volume.toPatient);
   const Eigen::Vector3d spacing(volume.image->GetSpacing());
-  const double perMl = 1e-3; // of cubic millimeters
-  return volume.unit == "mm"
-    ? std::optional(perMl * std::abs(form.topLeftCorner<3, 3>().determinant() * spacing.prod()))
-    : std::nullopt;
+  const std::string& unit = volume.unit;
+  const double cm = unit == "um" ? 1e-4 : unit == "mm" ? 0.1 : unit == "cm" ? 1.0 : 100.0;
+  return unit.empty() ? std::nullopt
+                      : std::optional(std::pow(cm, 3) *
+                          std::abs(form.topLeftCorner<3, 3>().determinant() * spacing.prod()));
 }
 
 std::string inWords(const std::vector<Label>& labels, const PatientImage& volume)
@@ -100,7 +101,9 @@ std::string inWords(const std::vector<Label>& labels, const PatientImage& volume
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
     voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';
   }
-  return text.tellp() > 0 ? "its labels are " + text.str() : "it has more values than a label map";
+  return text.tellp() > 0 ? "its labels are " + text.str()
+    : labels.empty()      ? "it has more values than a label map"
+                          : "all its voxels are 0";
 }
 
 // a number names the value next to it that a voxel can have, to the rounding of the scale

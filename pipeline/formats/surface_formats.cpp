@@ -9,6 +9,7 @@
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/read_limits.h"
+#include "pipeline/formats/vti_image.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
 

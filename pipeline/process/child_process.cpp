@@ -71,6 +71,27 @@ void limit(int resource, std::uint64_t most)
   setrlimit(resource, &limits);
 }
 
+// what is answered of a crash: made before it, as then nothing can be
+struct LastWords
+{
+  int output = -1;
+  std::string text;
+};
+
+LastWords& lastWords()
+{
+  static LastWords words;
+  return words;
+}
+
+extern "C" void sayLastWords(int)
+{
+  const LastWords& words = lastWords();
+  const auto size = static_cast<ssize_t>(words.text.size());
+  const bool said = size > 0 && write(words.output, words.text.data(), words.text.size()) == size;
+  _exit(said ? 0 : 1);
+}
+
 // @return  the child, or nothing with errno
 std::optional<pid_t> spawn(
   const std::vector<std::string>& command, int output, bool keepsEnvironment)
@@ -177,6 +198,11 @@ void answer(const std::function<std::string()>& work, ChildLimits limits,
   {
     enterSandbox(output, readable);
   }
+  lastWords().output = output;
+  for (const int crash : { SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV })
+  {
+    std::signal(crash, sayLastWords);
+  }
   bool answered = false;
   try
   {
@@ -191,6 +217,13 @@ void answer(const std::function<std::string()>& work, ChildLimits limits,
   {
   }
   _exit(answered ? 0 : 1); // a damaged heap is not taken down in order
+}
+
+void blameForACrash(const std::filesystem::path& file)
+{
+  lastWords().text = file.empty() ? std::string()
+                                  : std::string{ kError, static_cast<char>(ErrorCode::BadFile) } +
+      file.string() + ": damaged or cut off; export or copy it again";
 }
 
 } // namespace palp

@@ -45,4 +45,8 @@ struct ChildLimits
 [[noreturn]] void answer(const std::function<std::string()>& work, ChildLimits limits,
   const std::vector<std::filesystem::path>& readable = {});
 
+/// Within such work: what is answered if it crashes from here on, an error of this file; an empty
+/// path takes that back.
+void blameForACrash(const std::filesystem::path& file);
+
 } // namespace palp

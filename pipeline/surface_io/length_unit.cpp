@@ -5,6 +5,7 @@
 #include "haptics/units.h"
 
 #include <array>
+#include <span>
 #include <sstream>
 
 namespace palp
@@ -14,7 +15,9 @@ namespace
 
 using namespace units::literals;
 
-constexpr std::array kUnits{ LengthUnit::Millimeter, LengthUnit::Centimeter, LengthUnit::Meter };
+constexpr std::array kUnits{ LengthUnit::Millimeter, LengthUnit::Centimeter, LengthUnit::Meter,
+  LengthUnit::Micrometer };
+constexpr std::span kUsualUnits(kUnits.data(), 3); // of meshes that name none
 constexpr double kSmallestBody = 5.0_mm;
 constexpr double kLargestBody = 600.0_mm;
 
@@ -27,6 +30,8 @@ const char* unitName(LengthUnit unit) noexcept
 {
   switch (unit)
   {
+    case LengthUnit::Micrometer:
+      return "um";
     case LengthUnit::Millimeter:
       return "mm";
     case LengthUnit::Centimeter:
@@ -40,6 +45,8 @@ double unitLength(LengthUnit unit) noexcept
 {
   switch (unit)
   {
+    case LengthUnit::Micrometer:
+      return 1.0_um;
     case LengthUnit::Millimeter:
       return 1.0_mm;
     case LengthUnit::Centimeter:
@@ -67,7 +74,7 @@ UnitChoice parseUnit(std::string_view text)
   if (!unit && text != "auto")
   {
     throw Error(ErrorCode::BadValue,
-      "--unit: " + inQuotes(text) + " is no unit of length here; give mm, cm, m or auto");
+      "--unit: " + inQuotes(text) + " is no unit of length here; give um, mm, cm, m or auto");
   }
   return unit;
 }
@@ -77,7 +84,7 @@ LengthUnit guessUnit(double longestSide, const std::string& file)
   std::ostringstream sizes;
   UnitChoice fitting;
   int fits = 0;
-  for (const LengthUnit unit : kUnits)
+  for (const LengthUnit unit : kUsualUnits)
   {
     const double side = longestSide * unitLength(unit);
     sizes << (unit == LengthUnit::Millimeter ? "" : ", ") << units::toMillimeters(side) << " mm if "

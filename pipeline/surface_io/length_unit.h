@@ -10,6 +10,7 @@ namespace palp
 /// In what the coordinates of a file are written.
 enum class LengthUnit
 {
+  Micrometer,
   Millimeter,
   Centimeter,
   Meter,
@@ -18,7 +19,7 @@ enum class LengthUnit
 /// A unit that somebody named; nothing: to be found from the size.
 using UnitChoice = std::optional<LengthUnit>;
 
-/// @return  "mm", "cm" or "m"
+/// @return  "um", "mm", "cm" or "m"
 [[nodiscard]] const char* unitName(LengthUnit unit) noexcept;
 
 /// @return  length of the unit [m]
@@ -27,7 +28,7 @@ using UnitChoice = std::optional<LengthUnit>;
 /// @return  the unit of that name; nothing for any other text
 [[nodiscard]] std::optional<LengthUnit> unitNamed(std::string_view name) noexcept;
 
-/// @param text    "mm", "cm", "m" or "auto"
+/// @param text    "um", "mm", "cm", "m" or "auto"
 /// @throws Error  BadValue: anything else
 [[nodiscard]] UnitChoice parseUnit(std::string_view text);
 

@@ -3,6 +3,7 @@
 #include "pipeline/formats/images/dicom_series.h"
 #include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/process/child_process.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -52,6 +53,19 @@ void checkLength(const std::filesystem::path& folder, const DicomSeries& series)
   }
 }
 
+// voxels that are not compressed, to the byte that makes their length even; GDCM fills them up
+void checkLength(const DicomSlice& slice, const gdcm::Image& image, std::size_t needed)
+{
+  const gdcm::ByteValue* stored = image.GetDataElement().GetByteValue();
+  const std::size_t there = stored ? static_cast<std::size_t>(stored->GetLength()) : needed;
+  if (there != needed + needed % 2)
+  {
+    refuse(slice.file,
+      "its Pixel Data are " + std::to_string(there) + " bytes, its size asks for " +
+        std::to_string(needed) + "; export it again");
+  }
+}
+
 // GDCM fills up what a file was cut off of, and warns
 void readVoxels(const DicomSlice& slice, std::span<float> values)
 {
@@ -69,6 +83,10 @@ void readVoxels(const DicomSlice& slice, std::span<float> values)
   const gdcm::PixelFormat& format = image.GetPixelFormat();
   std::vector<char> bytes(image.GetBufferLength());
   const std::size_t wide = format.GetBitsAllocated() / 8U;
+  if (wide > 0 && format.GetSamplesPerPixel() == 1)
+  {
+    checkLength(slice, image, values.size() * wide);
+  }
   const bool fits = bytes.size() == values.size() * wide && format.GetSamplesPerPixel() == 1;
   if (!fits || !image.GetBuffer(bytes.data()) ||
     warnings.str().find("own risk") != std::string::npos)
@@ -111,9 +129,11 @@ PatientImage readDicom(const std::filesystem::path& folder, const std::string& a
   auto* values = static_cast<float*>(result.image->GetScalarPointer());
   for (const DicomSlice& slice : series.slices)
   {
+    blameForACrash(slice.file);
     readVoxels(slice, { values, size });
     values += size;
   }
+  blameForACrash({});
 
   Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> place(result.toPatient);
   place.setIdentity();

@@ -3,6 +3,7 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/process/child_process.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 
 namespace palp
 {
@@ -163,6 +165,25 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
   }
 }
 
+// each beside the others, whatever their distances
+void checkLine(const std::filesystem::path& folder, std::span<const DicomSlice> slices)
+{
+  constexpr double kOff = 0.2; // pixels
+  const Eigen::Vector3d& first = slices.front().position;
+  const Eigen::Vector3d way = (slices.back().position - first).normalized();
+  for (const DicomSlice& slice : slices)
+  {
+    const Eigen::Vector3d from = slice.position - first;
+    const double off = (from - from.dot(way) * way).norm();
+    if (off > kOff * std::min(slice.columnSpacing, slice.rowSpacing))
+    {
+      refuse(folder,
+        nameOf(slice) + " stands " + shown(off) +
+          " beside the line of the others; export the series again");
+    }
+  }
+}
+
 } // namespace
 
 std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
@@ -185,6 +206,7 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
     {
       refuse(file, "cannot be opened; check its permissions, and copy what a link leads to");
     }
+    blameForACrash(file); // by an assertion of GDCM
     gdcm::Reader reader;
     reader.SetFileName(file.c_str());
     if (!reader.CanRead())
@@ -207,6 +229,7 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
     series.number = static_cast<int>(std::clamp(decimalOf(data, kNumber, 0.0), 0.0, 1e9));
     series.slices.push_back(sliceOf(file, data));
   }
+  blameForACrash({});
   if (found.empty())
   {
     refuse(folder, "no DICOM image in it; name the folder that has the files of the series itself");
@@ -260,6 +283,7 @@ double stack(const std::filesystem::path& folder, DicomSeries& series)
   std::ranges::sort(slices, {}, height);
   const Eigen::Vector3d way = slices.back().position - slices.front().position;
   const double tilt = std::acos(std::min(1.0, normal.dot(way) / way.norm()));
+  checkLine(folder, slices);
   std::vector<double> steps;
   for (std::size_t i = 1; i < slices.size(); ++i)
   {

@@ -5,6 +5,8 @@
 #include "pipeline/formats/images/meta_fields.h"
 #include "pipeline/formats/meshes/refuse.h"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -66,20 +68,28 @@ void readScale(const std::filesystem::path& file, const MetaFields& fields, Meta
   }
 }
 
-void checkStraight(const std::filesystem::path& file, const MetaFields& fields)
+void readAxes(const std::filesystem::path& file, const MetaFields& fields, MetaHeader& header)
 {
+  Eigen::Map<Eigen::Matrix3d> axes(header.axes.data());
+  axes.setIdentity();
   for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
   {
     const std::vector<double> turn = numbersOf(file, fields, key);
-    constexpr double rounding = 1e-6;
-    bool straight = turn.empty() || turn.size() == 9;
-    for (std::size_t i = 0; straight && i < turn.size(); ++i)
+    if (turn.empty())
     {
-      straight = std::abs(turn[i] - (i % 4 == 0 ? 1.0 : 0.0)) <= rounding; // 3 x 3, row by row
+      continue;
     }
-    if (!straight)
+    constexpr double kRounding = 1e-3;
+    constexpr double kFlat = 0.01;
+    if (turn.size() == 9)
     {
-      refuse(file, "its axes are turned, which is read from NIfTI only; save it as .nii.gz");
+      axes = Eigen::Map<const Eigen::Matrix3d>(turn.data());
+    }
+    const Eigen::Array3d lengths = axes.colwise().norm();
+    if (turn.size() != 9 || !((lengths - 1.0).abs() < kRounding).all() ||
+      std::abs(axes.determinant()) < kFlat)
+    {
+      refuse(file, std::string("its ") + key + " is not three directions; export it again");
     }
   }
 }
@@ -195,7 +205,7 @@ MetaHeader readMetaHeader(const std::filesystem::path& file)
     header.size[i] = static_cast<int>(size[i]);
     header.bytes *= static_cast<std::uintmax_t>(size[i]);
   }
-  checkStraight(file, fields);
+  readAxes(file, fields, header);
   readSpacing(file, fields, header);
   readScale(file, fields, header);
   readThree(file, fields, { "Offset", "Position", "Origin" }, header.origin);
@@ -236,7 +246,6 @@ vtkSmartPointer<vtkImageData> readMetaVolume(
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(header.size.data());
   image->SetSpacing(header.spacing.data());
-  image->SetOrigin(header.origin.data());
   image->AllocateScalars(header.type, 1);
   vtkDataArray& voxels = *image->GetPointData()->GetScalars();
   std::ifstream in(header.dataFile, std::ios::binary);

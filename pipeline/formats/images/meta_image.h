@@ -16,6 +16,7 @@ struct MetaHeader
 {
   std::array<int, 3> size{};                      ///< voxels
   std::array<double, 3> spacing{ 1.0, 1.0, 1.0 }; ///< [unit]
+  std::array<double, 9> axes{};                   ///< directions in which voxels follow, in turn
   std::array<double, 3> origin{};                 ///< center of the first voxel [unit]
   int type = 0;                                   ///< of a voxel, as VTK numbers them
   std::uintmax_t bytes = 0;                       ///< of all voxels
@@ -30,17 +31,16 @@ struct MetaHeader
   std::uintmax_t begin = 0; ///< of the data in its file [bytes]
 };
 
-/// @throws Error  BadFile: not such a header, a key given twice, no size of a voxel, turned axes,
-/// or
-///                what is not read here
+/// @throws Error  BadFile: not such a header, a key given twice, no size of a voxel, axes that span
+///                no space, or what is not read here
 [[nodiscard]] MetaHeader readMetaHeader(const std::filesystem::path& file);
 
 /// Reads a volume, and every byte of it: VTK's reader takes half of one, or a damaged one, for
 /// whole.
 ///
+/// @return        with its corner at 0 and straight axes
 /// @throws Error  BadFile: as readMetaHeader; fewer or more data than it claims; compressed data
-/// that
-///                are damaged
+///                that are damaged
 [[nodiscard]] vtkSmartPointer<vtkImageData> readMetaVolume(
   const std::filesystem::path& file, const MetaHeader& header);
 

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -188,6 +189,26 @@ std::optional<std::array<double, 3>> toLps(std::string space)
                                                               : std::nullopt;
 }
 
+// one for all axes; empty: it names none
+std::string unitOf(const std::filesystem::path& file, const Fields& fields)
+{
+  const std::string given = fieldOf(fields, "space units");
+  const std::vector<std::string_view> parts = split(given, '"');
+  std::set<std::string> named; // every other part is between quotes
+  for (std::size_t i = 1; i < parts.size(); i += 2)
+  {
+    named.emplace(parts[i] == "\u00b5m" || parts[i] == "microns" ? "um" : parts[i]);
+  }
+  named.erase("");
+  const std::string unit = named.empty() ? "" : *named.begin();
+  const bool isKnown = unit.empty() || unit == "um" || unit == "mm" || unit == "cm" || unit == "m";
+  if (named.size() > 1 || !isKnown)
+  {
+    refuse(file, "its space units are " + inQuotes(given) + "; export it in mm");
+  }
+  return unit;
+}
+
 void place(const std::filesystem::path& file, const Fields& fields, PatientImage& result)
 {
   const std::string space = fieldOf(fields, "space");
@@ -202,10 +223,15 @@ void place(const std::filesystem::path& file, const Fields& fields, PatientImage
   if (given.empty()) // the older form
   {
     const std::vector<double> sides = numbersIn(fieldOf(fields, "spacings"));
+    if (sides.size() != 3)
+    {
+      refuse(file,
+        "its header has no space directions or spacings, the size of a voxel; write them there");
+    }
     axes.assign(9, 0.0);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      axes[4 * k] = sides.size() == 3 ? sides[k] : 1.0;
+      axes[4 * k] = sides[k];
     }
   }
   origin.resize(origin.empty() ? 3 : origin.size());
@@ -224,8 +250,11 @@ void place(const std::filesystem::path& file, const Fields& fields, PatientImage
     row[4 * i + 3] = sign * origin[i];
   }
   row[15] = 1.0;
-  const bool isMetric = fieldOf(fields, "space units").find("\"mm\"") != std::string::npos;
-  result.unit = turn || isMetric ? "mm" : "";
+  result.unit = unitOf(file, fields);
+  if (result.unit.empty() && turn)
+  {
+    result.unit = "mm"; // as 3D Slicer writes none in the patient's axes
+  }
   result.notes.emplace_back(turn ? "in the patient's axes to left, back and head (LPS)"
                                  : "the header tells no place in the patient; its own axes are "
                                    "taken");

@@ -140,6 +140,50 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
     std::string::npos);
 }
 
+// the file is named, also where GDCM ends the process
+TEST_F(Dicom, OneDamagedFileIsNamed)
+{
+  for (const std::uintmax_t size : { 132, 140, 200, 320, 700, 900 })
+  {
+    writeDicom(folder_.path(), "head", kAxial, "--write-xfer-little");
+    std::filesystem::resize_file(folder_.path() / "head/head1_10.dcm", size);
+    EXPECT_NE(refusal("head").find("head1_10.dcm: "), std::string::npos)
+      << size << ' ' << refusal("head");
+  }
+}
+
+// changed by a program that writes whole files
+TEST_F(Dicom, OneImageOfAnotherLengthOrPlaceIsNamed)
+{
+  const auto change = [&](const std::string& how)
+  {
+    writeDicom(folder_.path(), "one", kAxial, "--write-xfer-little");
+    const std::string file = (folder_.path() / "one/one1_10.dcm").string();
+    EXPECT_EQ(runCommand(words("dcmodify -q -nb ", how, ' ', file)).code, 0) << how;
+    return refusal("one");
+  };
+  const std::string whole(2 * 40 * 36, '\0');
+  for (const std::string& voxels : { whole.substr(0, whole.size() / 2), whole + whole })
+  {
+    write("voxels", voxels);
+    const std::string told =
+      change("-mf '(7fe0,0010)=" + (folder_.path() / "voxels").string() + "'");
+    EXPECT_NE(told.find(words("one1_10.dcm: its Pixel Data are ", voxels.size(), " bytes")),
+      std::string::npos)
+      << told;
+  }
+  for (const double off : { 0.3, -10.0, 30.0 }) // [mm] within the plane; a pixel has 0.8
+  {
+    const Vector3d place = kAxial.first + Vector3d(0.0, off, 2.5);
+    const std::string told =
+      change(words("-m '(0020,0032)=", place.x(), '\\', place.y(), '\\', place.z(), "'"));
+    EXPECT_NE(
+      told.find(words("one1_10.dcm stands ", std::abs(off), " mm beside the line of the others")),
+      std::string::npos)
+      << told;
+  }
+}
+
 // slices that are shifted along themselves
 TEST_F(Dicom, ATiltedGantryIsRefusedWithItsAngle)
 {

@@ -78,7 +78,7 @@ std::vector<Fuzzed> metaKinds()
     replaced("size in words", "(DimSize = )[0-9]+", "$01ten", "DimSize"),
     replaced("type", "MET_FLOAT", "MET_REAL", "ElementType"),
     replaced("spacing", "(ElementSpacing = )[0-9]+", "$010", "ElementSpacing"),
-    replaced("turned", "(TransformMatrix = )1 0", "$010 1", "turned"),
+    replaced("turned", "(TransformMatrix = )1 0", "$010 1", "TransformMatrix"),
     replaced("dimensions", "(NDims = )3", "$012", "dimensions"),
     replaced("no offset", "(Offset = )0", "$01nan", "Offset"), foreign(offText(), kKind) };
   std::vector<Fault> ofData = header;

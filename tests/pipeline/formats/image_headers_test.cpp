@@ -67,7 +67,8 @@ TEST_F(Images, MetaImageIsTakenInTheUnitThatItNames)
   {
     const LoadedSurface surface = readSurface(unit(name, spacing), {}, { 0.0, {} });
     EXPECT_LT(farthest(*surface.mesh, kCenterMm), 0.2) << name;
-    EXPECT_NE(surface.notes[0].find("taken in mm, as the file says"), std::string::npos);
+    EXPECT_NE(surface.notes[0].find(std::string("taken in ") + name + ", as the file says"),
+      std::string::npos);
   }
   const LoadedSurface guessed = readSurface(unit("", "0.002 0.0025 0.003"), {}, { 0.0, {} });
   EXPECT_LT(farthest(*guessed.mesh, kCenterMm), 0.2);
@@ -184,6 +185,38 @@ TEST_F(Images, VtiIsTakenByItsOneArrayAndRefusedByWhatItHasInstead)
   EXPECT_NE(refusal(write<vtkXMLImageDataWriter>("cells.vti", *image), { 0.0, {} })
               .find("those of cells, not of points"),
     std::string::npos);
+}
+
+// of every encoding, in one piece
+TEST_F(Images, VtiWithMoreValuesThanPointsIsRefused)
+{
+  const auto image = ball(false);
+  using Writer = vtkXMLImageDataWriter;
+  for (const int mode : { Writer::Ascii, Writer::Binary, Writer::Appended })
+  {
+    for (const bool packed : { false, true })
+    {
+      vtkNew<Writer> writer;
+      writer->SetDataMode(mode);
+      writer->SetCompressorTypeToNone();
+      if (packed)
+      {
+        writer->SetCompressorTypeToZLib();
+      }
+      writer->SetFileName((folder_.path() / "more.vti").c_str());
+      writer->SetInputData(image);
+      writer->Write();
+      EXPECT_EQ(refusal(folder_.path() / "more.vti", { 0.0, {} }), "accepted") << mode << packed;
+      std::string text = readAll(folder_.path() / "more.vti");
+      for (std::size_t at = 0; (at = text.find("0 40 0 40", at)) != std::string::npos;)
+      {
+        text.replace(at, 9, "0 39 0 40");
+      }
+      const std::string told = refusal(write("more.vti", text), { 0.0, {} });
+      EXPECT_NE(told.find("has more values than its extent has points"), std::string::npos)
+        << mode << packed << told;
+    }
+  }
 }
 
 } // namespace

@@ -136,15 +136,6 @@ TEST_F(Images, RefusesWithTheValuesThatThereAre)
   std::ofstream(stl) << "solid a\nendsolid a\n";
   EXPECT_NE(refusal(stl, { 1.0, {} }).find("leave the level out"), std::string::npos);
   EXPECT_NE(refusal(stl, { {}, { "5" } }).find("leave the label out"), std::string::npos);
-
-  std::string turned = readAll(mask);
-  const std::string axes = "TransformMatrix = 1 0 0 0 1 0 0 0 1";
-  const std::size_t at = turned.find(axes);
-  ASSERT_NE(at, std::string::npos);
-  turned.replace(at, axes.size(), "TransformMatrix = 0 1 0 1 0 0 0 0 1");
-  const std::filesystem::path file = folder_.path() / "turned.mha";
-  std::ofstream(file, std::ios::binary) << turned;
-  EXPECT_NE(refusal(file, { 0.5, {} }).find("its axes are turned"), std::string::npos);
 }
 
 // a ball of label 5 in a ball of label 2, and a box of label 7
