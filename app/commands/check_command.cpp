@@ -179,34 +179,47 @@ vtkSmartPointer<vtkPolyData> markedSurface(std::span<const Eigen::Vector3d> poin
   return mesh;
 }
 
-// a file that is written beside others, which stay
-class OutputFile
+// files that are written beside others, which stay: those of one folder at once
+class OutputFiles
 {
 public:
-  OutputFile(const std::filesystem::path& file, const CheckOptions& options)
-    : name_(file.filename())
+  explicit OutputFiles(const CheckOptions& options)
   {
-    if (!file.empty())
+    std::map<std::filesystem::path, std::vector<std::string>> names;
+    for (const std::filesystem::path& file : { options.repaired, options.faults })
     {
-      const auto folder = file.has_parent_path() ? file.parent_path() : ".";
-      folder_ = openOutput(folder, { name_ }, options.overwrite, filesBehind(options.source.file));
+      if (!file.empty())
+      {
+        names[folderOf(file)].push_back(file.filename());
+      }
+    }
+    for (const auto& [folder, all] : names)
+    {
+      folders_[folder] =
+        openOutput(folder, all, options.overwrite, filesBehind(options.source.file));
     }
   }
 
-  void write(vtkPolyData& mesh, const std::string& space) const
+  void write(const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space) const
   {
-    writeSurface(folder_->stage() / name_, mesh, space);
-    folder_->publish();
+    writeSurface(folders_.at(folderOf(file))->stage() / file.filename(), mesh, space);
   }
 
-  void discard() const
+  void publish() const
   {
-    folder_ ? folder_->discard() : void();
+    for (const auto& [folder, files] : folders_)
+    {
+      files->publish();
+    }
   }
 
 private:
-  std::string name_;
-  std::unique_ptr<OutputFolder> folder_;
+  static std::filesystem::path folderOf(const std::filesystem::path& file)
+  {
+    return std::filesystem::absolute(file).lexically_normal().parent_path();
+  }
+
+  std::map<std::filesystem::path, std::unique_ptr<OutputFolder>> folders_;
 };
 
 std::string doneIn(const RepairedMesh& repaired)
@@ -264,20 +277,20 @@ void runCheck(const CheckOptions& options)
   const std::string space = frameOf({ file.filename().string(), {}, {}, {} });
   MeshHealth health = healthOf(points, read.triangles);
   std::cout << reportOf(health, printable(file.filename().string()));
+  const OutputFiles out(options);
   if (!options.faults.empty())
   {
-    const OutputFile out(options.faults, options);
-    out.write(*markedSurface(points, read.triangles, health), space);
+    out.write(options.faults, *markedSurface(points, read.triangles, health), space);
   }
   if (!options.repaired.empty())
   {
-    const OutputFile out(options.repaired, options);
     const RepairedMesh repaired = repairedMesh(points, read.triangles, options.largestHole);
     health = healthOf(repaired.points, repaired.triangles);
-    out.write(*makePolyData(repaired.points, repaired.triangles), space);
+    out.write(options.repaired, *makePolyData(repaired.points, repaired.triangles), space);
     std::cout << "# repaired: " << doneIn(repaired) << '\n'
               << reportOf(health, printable(options.repaired.filename().string()));
   }
+  out.publish();
   if (disturbs(health))
   {
     throw CLI::RuntimeError(kDisturbed);

@@ -109,12 +109,23 @@ const char* remarkOf(
                                           : "";
 }
 
-void addRows(const OrganOptions& options, const PressedBody& pressed, const Scene& scene,
-  const PressPlace& place, figures::Table& table)
+// before any work; each depth has a remark of its own
+std::vector<SurfacePoint> pointsAt(const std::vector<PressPlace>& places, const Scene& scene)
 {
-  constexpr double kLightly = 1e-6; // [m]: each depth has a remark of its own
+  constexpr double kLightly = 1e-6; // [m]
+  std::vector<SurfacePoint> points;
+  points.reserve(places.size());
+  for (const PressPlace& place : places)
+  {
+    points.push_back(pressedPoint(place, { .depth = kLightly }, scene));
+  }
+  return points;
+}
+
+void addRows(const OrganOptions& options, const PressedBody& pressed, const SurfacePoint& point,
+  figures::Table& table)
+{
   const OrganModel& model = pressed.model;
-  const SurfacePoint point = pressedPoint(place, { .depth = kLightly }, scene);
   const auto compliance = complianceAt(model, pressed.surface, point.position, point.normal);
   if (!compliance)
   {
@@ -153,6 +164,7 @@ void runOrgan(const OrganOptions& options)
   }
   Scene scene;
   scene.surface = body.haptic;
+  const std::vector<SurfacePoint> points = pointsAt(places, scene);
   const std::vector<Support> supports = supportsOf(options, *body.haptic);
   const PressedBody pressed{ *body.haptic, supports,
     { CutGrid(*body.haptic, options.cell), options.young, options.poisson, supports } };
@@ -161,9 +173,9 @@ void runOrgan(const OrganOptions& options)
     .caption = "A body in series with the contact",
     .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
       "half_space_N", "local_depth_mm", "remark" } };
-  for (const PressPlace& place : places)
+  for (const SurfacePoint& point : points)
   {
-    addRows(options, pressed, scene, place, table);
+    addRows(options, pressed, point, table);
   }
   constexpr int kShown = 5; // digits
   std::cout << figures::csv(table, kShown);
