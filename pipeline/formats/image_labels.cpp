@@ -140,20 +140,16 @@ vtkSmartPointer<vtkImageData> maskOfLabels(
   std::vector<std::vector<double>> chosen(static_cast<std::size_t>(layers)); // of each layer
   for (const std::string& label : labels)
   {
-    bool isThere = false;
-    for (const Label& one : known)
-    {
-      if (isNamed(one, volume.slope, label))
-      {
-        chosen[static_cast<std::size_t>(one.segment.layer)].push_back(one.segment.value);
-        isThere = true;
-      }
-    }
-    if (!isThere)
+    const auto isMeant = [&](const Label& one) { return isNamed(one, volume.slope, label); };
+    const auto found = std::ranges::find_if(known, isMeant);
+    const auto count = std::ranges::count_if(known, isMeant);
+    if (count != 1)
     {
       throw Error(ErrorCode::BadMesh,
-        name + ": no label " + printable(label) + " in it; " + inWords(known, volume));
+        name + ": " + (count == 0 ? "no" : "more than one") + " label " + printable(label) +
+          " in it; " + inWords(known, volume));
     }
+    chosen[static_cast<std::size_t>(found->segment.layer)].push_back(found->segment.value);
   }
   auto mask = vtkSmartPointer<vtkImageData>::New();
   mask->CopyStructure(volume.image);

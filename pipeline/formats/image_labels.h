@@ -16,8 +16,8 @@ namespace palp
 ///
 /// @param labels  values, or names of segments, with or without capitals
 /// @param name    stands before each message
-/// @throws Error  BadMesh: none of that value or name; says which there are; fewer than 8 voxels;
-///                labels beyond 2^53
+/// @throws Error  BadMesh: none of that value or name, or several, as in layers; says which there
+///                are; fewer than 8 voxels; labels beyond 2^53
 [[nodiscard]] vtkSmartPointer<vtkImageData> maskOfLabels(
   const PatientImage& volume, const std::vector<std::string>& labels, const std::string& name);
 

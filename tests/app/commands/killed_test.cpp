@@ -196,7 +196,7 @@ TEST_F(Killed, Check)
 {
   std::filesystem::create_directory(out_);
   killAnyOften("check " PALP_SHARE "/meshes/sphere_30.vtp --overwrite --faults " +
-    (out_ / "faults.vtp").string());
+    (out_ / "faults.vtp").string() + " --repair " + (out_ / "clean.vtp").string());
 }
 
 // a plan of ten thousand cases, and a merge of forty

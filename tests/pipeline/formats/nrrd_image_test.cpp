@@ -220,6 +220,14 @@ TEST_F(Images, LayersOfAnNrrdAreTakenByTheirNames)
   EXPECT_NE(refusal(file, { {}, { "Spleen" } }).find("no label Spleen in it; its labels are 1 Li"),
     std::string::npos);
   EXPECT_NE(refusal(file, { 0.5, {} }).find("a label map"), std::string::npos);
+  EXPECT_NE(refusal(file, { {}, { "1" } }).find("more than one label 1 in it; its labels are 1 Li"),
+    std::string::npos)
+    << "each layer has its own";
+  std::vector<Ball> twins = balls;
+  twins[2].name = "Liver";
+  EXPECT_NE(refusal(write("twins.seg.nrrd", nrrd(grid, twins, {})), { {}, { "Liver" } })
+              .find("more than one label Liver in it"),
+    std::string::npos);
 }
 
 TEST_F(Images, AnNrrdThatIsDamagedIsRefusedByItsFault)
