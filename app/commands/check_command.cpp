@@ -5,6 +5,7 @@
 #include "app/input/quantity.h"
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
+#include "app/program/progress_line.h"
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
@@ -274,6 +275,7 @@ void runCheck(const CheckOptions& options)
   {
     point *= unitLength(loaded.unit);
   }
+  const ProgressLine progress("looking for faults");
   const std::string space = frameOf({ file.filename().string(), {}, {}, {} });
   MeshHealth health = healthOf(points, read.triangles);
   std::cout << reportOf(health, printable(file.filename().string()));

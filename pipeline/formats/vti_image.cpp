@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
@@ -120,22 +121,26 @@ void findScalars(const std::filesystem::path& file, vtkImageData& image)
   points.SetActiveScalars(names[0].c_str());
 }
 
-// about the corner of the voxels, as VTK does
+// about the corner of the voxels, as VTK does; a negative spacing turns an axis round
 void turn(vtkImageData& image, PatientImage& result)
 {
   const double* corner = image.GetOrigin();
+  const std::array<double, 3> step{ image.GetSpacing()[0], image.GetSpacing()[1],
+    image.GetSpacing()[2] };
   for (int i = 0; i < 3; ++i)
   {
     double* row = result.toPatient + 4 * i;
     row[3] = corner[i];
     for (int k = 0; k < 3; ++k)
     {
-      row[k] = image.GetDirectionMatrix()->GetElement(i, k);
+      row[k] = std::copysign(image.GetDirectionMatrix()->GetElement(i, k),
+        image.GetDirectionMatrix()->GetElement(i, k) * step[static_cast<std::size_t>(k)]);
       row[3] -= row[k] * corner[k];
     }
   }
   vtkNew<vtkMatrix3x3> straightened;
   image.SetDirectionMatrix(straightened);
+  image.SetSpacing(std::abs(step[0]), std::abs(step[1]), std::abs(step[2]));
 }
 
 // VTK takes of a block the first values that an extent asks for, and leaves others

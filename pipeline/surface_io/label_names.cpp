@@ -47,6 +47,18 @@ std::vector<LabelName> namesInJson(const std::filesystem::path& file, const std:
   return names;
 }
 
+// what stands before the color
+std::string_view withoutNumbers(std::string_view text)
+{
+  text = trimmed(text);
+  for (std::size_t gap = text.find_last_of(" \t");
+       gap != text.npos && csvNumber(text.substr(gap + 1)); gap = text.find_last_of(" \t"))
+  {
+    text = trimmed(text.substr(0, gap));
+  }
+  return text;
+}
+
 // of a color table or of ITK-SNAP; none: a line of neither
 std::optional<LabelName> nameIn(std::string_view line)
 {
@@ -57,7 +69,7 @@ std::optional<LabelName> nameIn(std::string_view line)
   const std::size_t close = rest.rfind('"');
   const std::string_view name = open != rest.npos && close > open
     ? rest.substr(open + 1, close - open - 1)
-    : rest.substr(0, rest.find_first_of(" \t"));
+    : withoutNumbers(rest);
   return value && !name.empty() && !csvNumber(name)
     ? std::optional(LabelName{ .value = *value, .name = std::string(name) })
     : std::nullopt;
@@ -99,9 +111,19 @@ std::vector<std::string> valuesOfLabels(
 {
   for (std::string& label : labels)
   {
-    const auto named = std::ranges::find_if(
-      names, [&](const LabelName& one) { return lowered(one.name) == lowered(label); });
-    label = named != names.end() ? shortest(named->value) : label;
+    const auto isOf = [&](const LabelName& one) { return lowered(one.name) == lowered(label); };
+    const auto named = std::ranges::find_if(names, isOf);
+    if (named == names.end() || csvNumber(label))
+    {
+      continue;
+    }
+    if (std::ranges::count_if(names, isOf) > 1)
+    {
+      throw Error(ErrorCode::BadValue,
+        "--label: " + inQuotes(label) +
+          " is the name of several values in --names; give the value");
+    }
+    label = shortest(named->value);
   }
   return labels;
 }

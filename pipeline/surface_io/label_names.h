@@ -15,6 +15,7 @@ namespace palp
 [[nodiscard]] std::vector<LabelName> readLabelNames(const std::filesystem::path& file);
 
 /// The labels, names of the table as their values; others stay, for the image may name them.
+/// @throws Error  BadValue: a name of several values
 [[nodiscard]] std::vector<std::string> valuesOfLabels(
   std::vector<std::string> labels, std::span<const LabelName> names);
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <gdcmAttribute.h>
@@ -165,6 +166,14 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
   }
 }
 
+// as files of DICOM do behind 128 bytes; GDCM tries others, too
+bool saysDicom(const std::filesystem::path& file)
+{
+  std::array<char, 132> head{};
+  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
+  return std::string_view(head.data() + 128, 4) == "DICM";
+}
+
 // each beside the others, whatever their distances
 void checkLine(const std::filesystem::path& folder, std::span<const DicomSlice> slices)
 {
@@ -215,6 +224,10 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
     }
     if (!reader.ReadUpToTag(kVoxels))
     {
+      if (!saysDicom(file))
+      {
+        continue; // another kind of file
+      }
       refuse(file, "cut off or damaged; export or copy it again");
     }
     const DataSet& data = reader.GetFile().GetDataSet();

@@ -2,19 +2,17 @@
 
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/images/inflate.h"
+#include "pipeline/formats/images/nrrd_fields.h"
 #include "pipeline/formats/meshes/refuse.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
-#include <sstream>
 #include <string_view>
 #include <vector>
 #include <vtkByteSwap.h>
@@ -26,55 +24,8 @@ namespace palp
 namespace
 {
 
-using Fields = std::map<std::string, std::string>; // of the header, by their names
-
-struct Header
-{
-  Fields fields;
-  std::uintmax_t end = 0; // of its text, where the voxels begin [bytes]
-};
-
-Header readHeader(const std::filesystem::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  Header header;
-  std::string line;
-  constexpr std::size_t most = 1 << 20;
-  for (std::getline(in, line); std::getline(in, line) && !line.empty() && line != "\r";)
-  {
-    if (line.size() > most || header.fields.size() > most)
-    {
-      refuse(file, "no header of an NRRD; export it again");
-    }
-    line.erase(std::min(line.find('\r'), line.size()));
-    const std::size_t colon = line.find(':');
-    if (line.starts_with('#') || colon == line.npos)
-    {
-      continue;
-    }
-    std::size_t value = line.find_first_not_of(" =", colon + 1); // ":=" before Slicer's own
-    value = std::min(value, line.size());
-    if (!header.fields.emplace(line.substr(0, colon), line.substr(value)).second)
-    {
-      refuse(file, "its header has " + inQuotes(line.substr(0, colon)) + " twice; export it again");
-    }
-  }
-  if (!in)
-  {
-    refuse(file, "cut off in its header; export or copy it again");
-  }
-  header.end = static_cast<std::uintmax_t>(in.tellg());
-  return header;
-}
-
-std::string fieldOf(const Fields& fields, const std::string& name)
-{
-  const auto found = fields.find(name);
-  return found == fields.end() ? "" : found->second;
-}
-
 // what is not read here
-void checkHeader(const std::filesystem::path& file, const Fields& fields)
+void checkHeader(const std::filesystem::path& file, const NrrdFields& fields)
 {
   for (const char* elsewhere : { "data file", "datafile" })
   {
@@ -124,27 +75,6 @@ int vtkTypeOf(const std::filesystem::path& file, const std::string& type)
   return found->second;
 }
 
-double numberOf(const std::string& text, double otherwise)
-{
-  double number = 0.0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return failure == std::errc() && end == text.data() + text.size() ? number : otherwise;
-}
-
-// the numbers of a text, whatever stands between them
-std::vector<double> numbersIn(std::string text)
-{
-  std::ranges::replace_if(
-    text, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  std::istringstream words(text);
-  std::vector<double> numbers;
-  for (std::string word; words >> word;)
-  {
-    numbers.push_back(numberOf(word, std::numeric_limits<double>::quiet_NaN()));
-  }
-  return numbers;
-}
-
 // the sizes of its axes: three of space, and before them that of the layers
 struct Sizes
 {
@@ -152,7 +82,7 @@ struct Sizes
   std::array<int, 3> voxels{};
 };
 
-Sizes sizesOf(const std::filesystem::path& file, const Fields& fields)
+Sizes sizesOf(const std::filesystem::path& file, const NrrdFields& fields)
 {
   const std::vector<double> sizes = numbersIn(fieldOf(fields, "sizes"));
   const std::string axes = std::to_string(sizes.size());
@@ -190,7 +120,7 @@ std::optional<std::array<double, 3>> toLps(std::string space)
 }
 
 // one for all axes; empty: it names none
-std::string unitOf(const std::filesystem::path& file, const Fields& fields)
+std::string unitOf(const std::filesystem::path& file, const NrrdFields& fields)
 {
   const std::string given = fieldOf(fields, "space units");
   const std::vector<std::string_view> parts = split(given, '"');
@@ -209,7 +139,7 @@ std::string unitOf(const std::filesystem::path& file, const Fields& fields)
   return unit;
 }
 
-void place(const std::filesystem::path& file, const Fields& fields, PatientImage& result)
+void place(const std::filesystem::path& file, const NrrdFields& fields, PatientImage& result)
 {
   const std::string space = fieldOf(fields, "space");
   const auto turn = toLps(space);
@@ -261,7 +191,7 @@ void place(const std::filesystem::path& file, const Fields& fields, PatientImage
 }
 
 // Segment0_Name and those beside it, as 3D Slicer writes them
-std::vector<Segment> segmentsOf(const Fields& fields, int layers)
+std::vector<Segment> segmentsOf(const NrrdFields& fields, int layers)
 {
   std::vector<Segment> segments;
   for (int i = 0;; ++i)
@@ -291,7 +221,7 @@ std::uintmax_t bytesOf(const Sizes& sizes, int type)
 }
 
 // before there is room for what it claims
-void checkLength(const std::filesystem::path& file, const Header& header, std::uintmax_t bytes)
+void checkLength(const std::filesystem::path& file, const NrrdHeader& header, std::uintmax_t bytes)
 {
   const std::uintmax_t there = std::filesystem::file_size(file) - header.end;
   const bool isRaw = fieldOf(header.fields, "encoding") == "raw";
@@ -306,7 +236,7 @@ void checkLength(const std::filesystem::path& file, const Header& header, std::u
 }
 
 void readVoxels(
-  const std::filesystem::path& file, const Header& header, std::span<unsigned char> voxels)
+  const std::filesystem::path& file, const NrrdHeader& header, std::span<unsigned char> voxels)
 {
   std::ifstream in(file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(header.end));
@@ -324,8 +254,8 @@ void readVoxels(
 
 PatientImage readNrrd(const std::filesystem::path& file)
 {
-  const Header header = readHeader(file);
-  const Fields& fields = header.fields;
+  const NrrdHeader header = readNrrdHeader(file);
+  const NrrdFields& fields = header.fields;
   checkHeader(file, fields);
   const Sizes sizes = sizesOf(file, fields);
   PatientImage result{ .image = vtkSmartPointer<vtkImageData>::New(), .toPatient = {} };
@@ -353,7 +283,7 @@ PatientImage readNrrd(const std::filesystem::path& file)
 
 std::uintmax_t nrrdBytes(const std::filesystem::path& file)
 {
-  const Fields fields = readHeader(file).fields;
+  const Fields fields = readNrrdHeader(file).fields;
   return bytesOf(sizesOf(file, fields), vtkTypeOf(file, fieldOf(fields, "type")));
 }
 

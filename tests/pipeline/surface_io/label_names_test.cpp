@@ -21,19 +21,28 @@ TEST_F(LabelNames, AreReadAsThreeProgramsWriteThem)
 {
   for (const char* text :
     { "# Color table file\n0 Background 0 0 0 0\n1 Liver 221 130 101 255\n"
-      "40 portal_vein 0 151 206 255\n",
+      "40 portal vein 0 151 206 255\n",
       "# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Background\"\n"
       "    1   255    0    0        1  1  1    \"Liver\"\n"
-      "   40   255    0    0        1  1  1    \"portal_vein\"\n",
-      R"({"0": "Background", "1": "Liver", "40": "portal_vein"})",
-      R"({"Background": 0, "Liver": 1, "portal_vein": 40})" })
+      "   40   255    0    0        1  1  1    \"portal vein\"\n",
+      R"({"0": "Background", "1": "Liver", "40": "portal vein"})",
+      R"({"Background": 0, "Liver": 1, "portal vein": 40})" })
   {
     const std::vector<LabelName> names = readLabelNames(table(text));
     ASSERT_EQ(names.size(), 3U) << text;
-    EXPECT_EQ(valuesOfLabels({ "liver", "PORTAL_VEIN", "7", "spleen" }, names),
+    EXPECT_EQ(names[2].value, 40.0);
+    EXPECT_EQ(valuesOfLabels({ "liver", "PORTAL VEIN", "7", "spleen" }, names),
       (std::vector<std::string>{ "1", "40", "7", "spleen" }))
       << text;
   }
+}
+
+// a number is a value, whatever is called so
+TEST_F(LabelNames, ANameOfTwoValuesIsRefused)
+{
+  const std::vector<LabelName> names{ { 3.0, "lobe" }, { 7.0, "Lobe" }, { 8.0, "9" } };
+  EXPECT_EQ(valuesOfLabels({ "3", "9" }, names), (std::vector<std::string>{ "3", "9" }));
+  EXPECT_THROW((void)valuesOfLabels({ "lobe" }, names), Error);
 }
 
 TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)

@@ -1,0 +1,74 @@
+#include "pipeline/formats/images/nrrd_fields.h"
+
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/refuse.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace palp
+{
+
+NrrdHeader readNrrdHeader(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  NrrdHeader header;
+  std::string line;
+  constexpr std::size_t most = 1 << 20;
+  for (std::getline(in, line); std::getline(in, line) && !line.empty() && line != "\r";)
+  {
+    if (line.size() > most || header.fields.size() > most)
+    {
+      refuse(file, "no header of an NRRD; export it again");
+    }
+    line.erase(std::min(line.find('\r'), line.size()));
+    const std::size_t colon = line.find(':');
+    if (line.starts_with('#') || colon == line.npos)
+    {
+      continue;
+    }
+    std::size_t value = line.find_first_not_of(" =", colon + 1);
+    value = std::min(value, line.size());
+    if (!header.fields.emplace(line.substr(0, colon), line.substr(value)).second)
+    {
+      refuse(file, "its header has " + inQuotes(line.substr(0, colon)) + " twice; export it again");
+    }
+  }
+  if (!in)
+  {
+    refuse(file, "cut off in its header; export or copy it again");
+  }
+  header.end = static_cast<std::uintmax_t>(in.tellg());
+  return header;
+}
+
+std::string fieldOf(const NrrdFields& fields, const std::string& name)
+{
+  const auto found = fields.find(name);
+  return found == fields.end() ? "" : found->second;
+}
+
+double numberOf(const std::string& text, double otherwise)
+{
+  double number = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size() ? number : otherwise;
+}
+
+std::vector<double> numbersIn(std::string text)
+{
+  std::ranges::replace_if(
+    text, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  std::istringstream words(text);
+  std::vector<double> numbers;
+  for (std::string word; words >> word;)
+  {
+    numbers.push_back(numberOf(word, std::numeric_limits<double>::quiet_NaN()));
+  }
+  return numbers;
+}
+
+} // namespace palp
