@@ -283,7 +283,7 @@ PatientImage readNrrd(const std::filesystem::path& file)
 
 std::uintmax_t nrrdBytes(const std::filesystem::path& file)
 {
-  const Fields fields = readNrrdHeader(file).fields;
+  const NrrdFields fields = readNrrdHeader(file).fields;
   return bytesOf(sizesOf(file, fields), vtkTypeOf(file, fieldOf(fields, "type")));
 }
 

@@ -119,7 +119,7 @@ TEST_F(Speed, PointerToPicture)
     delays[delays.size() / 2], delays[delays.size() * 95 / 100]);
 }
 
-// a held depth, along the surface to and fro
+// a held depth, along the surface and back
 TEST_F(Speed, Sliding)
 {
   const QPoint middle = canvas_->rect().center();
