@@ -61,7 +61,7 @@ void addCaption(vtkRenderer& renderer, const std::string& caption, double scale)
 
 void showMoment(PressView& view, const PressMoment& moment)
 {
-  view.setSurface(moment.body.display);
+  view.setSurface(moment.body.display, moment.body.haptic && moment.body.haptic->closed());
   view.setTip(moment.law.tip());
   view.setExtents(moment.calibration.extents);
   view.setStyle(moment.calibration.style);
@@ -119,6 +119,7 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   widenLines(*renderer, scale);
   showMoment(view, moment);
   look(view, *renderer);
+  view.setLook(figure.body);
   if (figure.isRealistic)
   {
     constexpr double kReach = 0.08; // of the body

@@ -37,6 +37,7 @@ struct FigureLook
   bool hasCaption = false;  ///< tool, tissue, law, depth and force
   bool isRealistic = false; ///< wet, and darker where little light comes; takes a second
   std::vector<Overlay> overlays{};
+  BodyLook body{};
 };
 
 /// A view as it is drawn for a moment.

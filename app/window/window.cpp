@@ -110,7 +110,7 @@ void Window::showBody()
 {
   endReview();
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
-  view_.setSurface(session_.body().display);
+  view_.setSurface(session_.body().display, session_.body().haptic->closed());
   orientation_.setPatient(isPatient(session_.body()));
   pointer_.setSurface(session_.body().haptic);
   fittedTo_ = std::pair(0, 0);

@@ -99,6 +99,7 @@ private:
   void makeDeviceMenu();
   void makeViewMenu();
   void addStandardViews(QMenu& menu);
+  void addBodyLooks(QMenu& menu);
   void addOpening(QMenu& file);
   void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);

@@ -284,6 +284,7 @@ void Window::makeViewMenu()
       orientation_.setVisible(on);
       isStale_ = true;
     });
+  addBodyLooks(*view);
   const auto add = [&](const QString& name, Overlay overlay)
   {
     QAction* action = view->addAction(name);

@@ -11,6 +11,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <QAction>
 #include <QMenu>
 
 #include <array>
@@ -77,6 +78,33 @@ void Window::takeTheme()
   chartsAreStale_ = true;
 }
 
+void Window::addBodyLooks(QMenu& menu)
+{
+  struct Part
+  {
+    QString name;
+    const char* id;
+    bool BodyLook::*part;
+  };
+  for (const Part& one : { Part{ tr("&Edges of triangles"), "edgesAction", &BodyLook::hasEdges },
+         { tr("See-through s&urface"), "translucentAction", &BodyLook::isTranslucent },
+         { tr("Cut &open at the contact"), "cutAction", &BodyLook::isCut } })
+  {
+    QAction* action = menu.addAction(one.name);
+    action->setObjectName(one.id);
+    action->setCheckable(true);
+    connect(action, &QAction::toggled, this,
+      [this, part = one.part](bool on)
+      {
+        BodyLook look = view_.look();
+        look.*part = on;
+        view_.setLook(look);
+        isStale_ = true;
+      });
+  }
+  menu.addSeparator();
+}
+
 // what moves is drawn as soon as can be, what stands still with smooth edges
 void Window::smoothen()
 {
@@ -91,7 +119,9 @@ void Window::smoothen()
 void Window::askFigure()
 {
   FigureDialog dialog(tr("Save figure"), "press_figure.png", tr("PNG (*.png)"), ImageSize{}, this);
-  FigureLook look{ .hasAxes = true, .hasScaleBar = true, .isRealistic = true };
+  FigureLook look{
+    .hasAxes = true, .hasScaleBar = true, .isRealistic = true, .body = view_.look()
+  };
   for (std::size_t i = 0; i < kOverlayCount; ++i)
   {
     if (const auto overlay = static_cast<Overlay>(i); view_.isVisible(overlay))

@@ -209,7 +209,7 @@ void Window::showPictured()
   const ForceLaw& law = seen.recording.scene.law;
   if (!view_.shows(*seen.body.display))
   {
-    view_.setSurface(seen.body.display);
+    view_.setSurface(seen.body.display, seen.body.haptic->closed());
     fittedTo_ = std::pair(0, 0);
   }
   validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });

@@ -55,6 +55,12 @@ public:
     fixedTop_ = top;
   }
 
+  /// Of the dent, to be cut as the surface around it.
+  [[nodiscard]] vtkMapper* mapper()
+  {
+    return mapper_;
+  }
+
   /// Whether the legend is shown with the colors.
   void setLegend(bool shown)
   {

@@ -30,6 +30,7 @@ using namespace units::literals;
 
 constexpr double kViewAngle = 30.0_deg;
 constexpr double kWet = 0.35; // share of a highlight
+constexpr appearance::Color kEdges{ 0.28, 0.07, 0.06 };
 
 // that is drawn of a tool, from its apex [m]
 double toolHeight(const Tip& tip)
@@ -135,8 +136,10 @@ void PressView::addOverlays()
   put(Overlay::Readings, std::move(readings));
 }
 
-void PressView::setSurface(vtkPolyData* surface)
+void PressView::setSurface(vtkPolyData* surface, bool isClosed)
 {
+  isClosed_ = isClosed;
+  setLook(look_);
   map_.reset();
   rest_->ShallowCopy(surface);
   colorSurface();
@@ -144,6 +147,25 @@ void PressView::setSurface(vtkPolyData* surface)
   surfaceMapper_->SetInputConnection(deform_->GetOutputPort());
   diagonal_ = surface->GetLength();
   show(Sample{});
+}
+
+void PressView::setLook(const BodyLook& look)
+{
+  constexpr double kTranslucent = 0.4;
+  vtkProperty& property = *surface_->GetProperty();
+  look_ = look;
+  property.SetEdgeVisibility(look.hasEdges);
+  property.SetEdgeColor(kEdges.data());
+  property.SetOpacity(look.isTranslucent ? kTranslucent : 1.0);
+  property.SetBackfaceCulling(isClosed_ && !look.isCut);
+  renderer_.GetActiveCamera()->GetDirectionOfProjection(cutAlong_.data());
+  cut_->SetNormal(cutAlong_.data());
+  cut_->SetOrigin(surfaceMapper_->GetInput() ? surfaceMapper_->GetCenter() : cut_->GetOrigin());
+  for (vtkMapper* mapper : { static_cast<vtkMapper*>(surfaceMapper_), dent_->mapper() })
+  {
+    mapper->RemoveAllClippingPlanes();
+    look.isCut ? mapper->AddClippingPlane(cut_) : void();
+  }
 }
 
 void PressView::setMap(const SurfaceMap* map)
@@ -239,6 +261,7 @@ void PressView::show(const Sample& sample)
   deform_->Update();
   const OverlayState state{ sample, tip_, extent, *deform_ };
   placeTool(sample.pose);
+  placeCut(sample.contact);
   placeDent(state);
   const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
   above_ = std::max(
@@ -254,6 +277,17 @@ void PressView::show(const Sample& sample)
     {
       visible_[i] && sample.contact.touching() ? overlays_[i]->show(state) : overlays_[i]->hide();
     }
+  }
+}
+
+// along the normal, so that the profile of the dent is seen
+void PressView::placeCut(const Contact& contact)
+{
+  const Eigen::Vector3d aside = cutAlong_ - cutAlong_.dot(contact.normal) * contact.normal;
+  if (contact.touching() && !aside.isZero(1e-3))
+  {
+    cut_->SetOrigin(contact.center.data());
+    cut_->SetNormal(aside.normalized().eval().data());
   }
 }
 

@@ -18,12 +18,21 @@
 #include <vector>
 #include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
 
 namespace palp
 {
+
+/// How the body is drawn beside its colors.
+struct BodyLook
+{
+  bool hasEdges = false;      ///< of its triangles
+  bool isTranslucent = false; ///< what lies behind is seen
+  bool isCut = false;         ///< open at the contact, without the half that is nearer to the eye
+};
 
 /// The pressed surface, the tool and the overlays in one renderer.
 ///
@@ -37,8 +46,9 @@ public:
   PressView(const PressView&) = delete;
   PressView& operator=(const PressView&) = delete;
 
-  /// @param surface  at rest [m], triangles only; shared, not copied
-  void setSurface(vtkPolyData* surface);
+  /// @param surface   at rest [m], triangles only; shared, not copied
+  /// @param isClosed  nobody sees its inside, which is not drawn then
+  void setSurface(vtkPolyData* surface, bool isClosed = false);
 
   /// Whether it is the surface that is shown.
   [[nodiscard]] bool shows(vtkPolyData& surface) const
@@ -60,6 +70,13 @@ public:
 
   /// Moves the tool, presses the surface, and sets the overlays. Does not render.
   void show(const Sample& sample);
+
+  /// Takes effect at once; the cut stands across the view of this moment and follows the contact.
+  void setLook(const BodyLook& look);
+  [[nodiscard]] const BodyLook& look() const
+  {
+    return look_;
+  }
 
   /// At first: arrow, circles, colors and lines of the displacement, readings. Takes effect in
   /// show().
@@ -115,6 +132,7 @@ private:
   void addTool();
   void addOverlays();
   void placeTool(const ToolPose& pose);
+  void placeCut(const Contact& contact);
   void colorSurface();
   void placeDent(const OverlayState& state);
   [[nodiscard]] DentColors::By colors() const;
@@ -125,6 +143,11 @@ private:
   DentStyle style_;
   double diagonal_ = 0.0; // of the surface's box [m]
   double above_ = 0.0;    // the surface reach tool and arrow [m]
+
+  BodyLook look_;
+  bool isClosed_ = false;
+  vtkNew<vtkPlane> cut_;
+  Eigen::Vector3d cutAlong_ = Eigen::Vector3d::UnitY(); // as one looked when it was asked for
 
   std::optional<SurfaceMap> map_; // none: the surface has its own color
 

@@ -15,7 +15,9 @@ inline QApplication& application()
   static int count = 1;
   static char name[] = "test";
   static char* words[] = { name, nullptr };
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
+  format.setSamples(0); // as the program has it
+  QSurfaceFormat::setDefaultFormat(format);
   // what a user's windows remember is neither read nor changed
   static const QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());

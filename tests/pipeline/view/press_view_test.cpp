@@ -95,6 +95,50 @@ TEST(PressView, TakesAnotherSurfaceAndAnotherTool)
   EXPECT_EQ(test::differenceOf(*changed, *expected).changed, 0.0);
 }
 
+TEST(PressView, LeavesOutOfAClosedBodyWhatNobodySees)
+{
+  for (const Specimen& body : { ball(), block() })
+  {
+    View both(body, kSphere);
+    View front(body, kSphere);
+    front.view.setSurface(body.surface, true);
+    for (const double depth : { 0.5_mm, 5.0_mm, 12.0_mm })
+    {
+      const auto one = both.picture(body, pressed(body, kSphere, depth));
+      const auto other = front.picture(body, pressed(body, kSphere, depth));
+      EXPECT_LT(test::differenceOf(*one, *other).mean, 1e-4) << depth;
+    }
+  }
+}
+
+// green of the bright ground, which the red body has little of
+TEST(PressView, IsSeenThroughOrCutOpenAtTheContact)
+{
+  const Specimen body = ball();
+  const Sample sample = pressed(body, kSphere, 5.0_mm);
+  View view(body, kSphere);
+  view.view.setSurface(body.surface, true);
+  view.view.setVisible(std::vector<Overlay>{});
+  const auto greenAt = [&](int x, int y)
+  { return view.picture(body, sample)->GetScalarComponentAsDouble(x, y, 0, 1); };
+  constexpr int kFront[]{ 240, 60 }; // the ball's front, below the contact
+  const double whole = greenAt(kFront[0], kFront[1]);
+  view.view.setLook({ .isTranslucent = true });
+  EXPECT_GT(greenAt(kFront[0], kFront[1]), whole + 50.0) << "the bright ground shines through";
+  view.view.setLook({});
+  EXPECT_EQ(greenAt(kFront[0], kFront[1]), whole);
+
+  const auto uncut = view.picture(body, sample);
+  view.view.setLook({ .isCut = true });
+  const auto cut = view.picture(body, sample);
+  EXPECT_GT(test::differenceOf(*cut, *uncut).changed, 0.05) << "another wall is seen";
+  double box[6];
+  view.view.deformed()->GetBounds(box);
+  EXPECT_NEAR(box[4], -50.0_mm, 1e-4) << "what is written stays whole";
+  view.view.setLook({ .hasEdges = true });
+  EXPECT_GT(test::differenceOf(*view.picture(body, sample), *uncut).changed, 0.02);
+}
+
 TEST(PressView, DrawsNoToolThatIsNowhere)
 {
   const Specimen body = ball();
