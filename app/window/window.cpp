@@ -93,9 +93,10 @@ Window::Window(Session& session, BuildTrace& trace)
     lookFrom(*session_.plan().camera);
   }
 
-  auto* frames = new QTimer(this);
-  connect(frames, &QTimer::timeout, this, &Window::refresh);
-  frames->start(kFrameMs);
+  frames_ = new QTimer(this);
+  frames_->setTimerType(Qt::PreciseTimer);
+  connect(frames_, &QTimer::timeout, this, &Window::refresh);
+  frames_->start(kFrameMs);
   auto* plots = new QTimer(this);
   connect(plots, &QTimer::timeout, this, &Window::refreshPanels);
   plots->start(kPlotMs);
@@ -155,6 +156,7 @@ void Window::clearCharts()
 
 void Window::refresh()
 {
+  frames_->start(kFrameMs);
   takeSamples();
   sayWhatIsThinned();
   aim(); // a click ends by itself

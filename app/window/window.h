@@ -24,6 +24,7 @@
 #include <vector>
 
 class QLabel;
+class QTimer;
 class QVTKOpenGLNativeWidget;
 class vtkGenericOpenGLRenderWindow;
 class vtkPalpPressStyle;
@@ -133,6 +134,7 @@ private:
   void deletePresses(const std::vector<int>& ids);
   [[nodiscard]] SightLine sightLine(double x, double y);
   void aim();
+  void followPointer();
   void letGo();
 
   // what is played: a device's path, or what was recorded
@@ -195,6 +197,7 @@ private:
   Orientation orientation_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
+  QTimer* frames_ = nullptr; // of the picture
   PointerTool pointer_;
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
   std::uint32_t acted_ = 0;  // and in the time before

@@ -12,6 +12,7 @@
 #include <vtkRenderer.h>
 
 #include <QEvent>
+#include <QTimer>
 
 #include <chrono>
 
@@ -49,12 +50,12 @@ void Window::makePointer()
   style_->Hover = [this](int x, int y)
   {
     pointer_.hover(x, y);
-    aim();
+    followPointer();
   };
   style_->Press = [this](int x, int y)
   {
     pointer_.press(x, y, now());
-    aim();
+    followPointer();
     if (const auto target = pointer_.target(); target && target->depth > 0.0)
     {
       pressBar_->showPlace(target->position);
@@ -63,17 +64,17 @@ void Window::makePointer()
   style_->Drag = [this](int pixelsDown)
   {
     pointer_.drag(pixelsDown);
-    aim();
+    followPointer();
   };
   style_->Release = [this]
   {
     pointer_.release(now());
-    aim();
+    followPointer();
   };
   style_->Wheel = [this](int notches)
   {
     pointer_.wheel(notches);
-    aim();
+    followPointer();
   };
   style_->Turn = [this] { pointer_.turnView(); };
   style_->Leave = [this]
@@ -133,6 +134,17 @@ void Window::aim()
   if (const auto target = pointer_.target())
   {
     session_.aim(*target);
+  }
+}
+
+// where nothing moved before it is shown as soon as the servo has answered
+void Window::followPointer()
+{
+  constexpr int kAnswerMs = 2;
+  aim();
+  if (still_ > 0 && frames_->remainingTime() > kAnswerMs)
+  {
+    frames_->start(kAnswerMs);
   }
 }
 

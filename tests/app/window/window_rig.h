@@ -38,11 +38,11 @@ inline bool has(const Sample& sample, Flag flag)
 class WindowTest : public ::testing::Test
 {
 protected:
-  WindowTest()
+  explicit WindowTest(const ScenePlan& plan = {})
   {
     setenv("PALP_DATA", PALP_SHARE, 1);
     test::application();
-    session_ = std::make_unique<Session>(ScenePlan{}, silent_);
+    session_ = std::make_unique<Session>(plan, silent_);
     window_ = std::make_unique<Window>(*session_, silent_);
     window_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
