@@ -1,9 +1,43 @@
 #include "app/window/vtkPalpPressStyle.h"
 
+#include <vtkCamera.h>
+#include <vtkMath.h>
 #include <vtkObjectFactory.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
 
 vtkStandardNewMacro(vtkPalpPressStyle);
+
+namespace
+{
+
+using Vector = std::array<double, 3>;
+
+// of a place from the focal point, to the right, upwards and away [m]
+Vector InView(vtkCamera& camera, const Vector& place)
+{
+  const double* away = camera.GetDirectionOfProjection();
+  const double* up = camera.GetViewUp();
+  Vector from;
+  Vector right;
+  vtkMath::Subtract(place.data(), camera.GetFocalPoint(), from.data());
+  vtkMath::Cross(away, up, right.data());
+  return { vtkMath::Dot(from.data(), right.data()), vtkMath::Dot(from.data(), up),
+    vtkMath::Dot(from.data(), away) };
+}
+
+void Shift(vtkCamera& camera, const Vector& by)
+{
+  Vector focus;
+  Vector eye;
+  vtkMath::Add(camera.GetFocalPoint(), by.data(), focus.data());
+  vtkMath::Add(camera.GetPosition(), by.data(), eye.data());
+  camera.SetFocalPoint(focus.data());
+  camera.SetPosition(eye.data());
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 void vtkPalpPressStyle::OnMouseMove()
@@ -106,4 +140,70 @@ void vtkPalpPressStyle::OnLeave()
   {
     this->Leave();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkPalpPressStyle::Rotate()
+{
+  if (!this->CurrentRenderer)
+  {
+    return;
+  }
+  constexpr double kDegrees = 20.0; // of a motion across the view, times the factor
+  const int* now = this->Interactor->GetEventPosition();
+  const int* before = this->Interactor->GetLastEventPosition();
+  const int* size = this->CurrentRenderer->GetRenderWindow()->GetSize();
+  vtkCamera& camera = *this->CurrentRenderer->GetActiveCamera();
+  const auto pivot = this->Pivot();
+  camera.OrthogonalizeViewUp();
+  const Vector kept = pivot ? InView(camera, *pivot) : Vector{};
+  camera.Azimuth((before[0] - now[0]) * kDegrees / size[0] * this->MotionFactor);
+  camera.Elevation((before[1] - now[1]) * kDegrees / size[1] * this->MotionFactor);
+  camera.OrthogonalizeViewUp();
+  if (pivot)
+  {
+    const Vector moved = InView(camera, *pivot);
+    const double* away = camera.GetDirectionOfProjection();
+    const double* up = camera.GetViewUp();
+    Vector right;
+    Vector by;
+    vtkMath::Cross(away, up, right.data());
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      by[i] = (moved[0] - kept[0]) * right[i] + (moved[1] - kept[1]) * up[i] +
+        (moved[2] - kept[2]) * away[i];
+    }
+    Shift(camera, by);
+  }
+  this->CurrentRenderer->ResetCameraClippingRange();
+  this->Interactor->Render();
+}
+
+//------------------------------------------------------------------------------
+void vtkPalpPressStyle::Dolly(double factor)
+{
+  if (!this->CurrentRenderer)
+  {
+    return;
+  }
+  const int* pointer = this->Interactor->GetEventPosition();
+  vtkRenderer* renderer = this->CurrentRenderer;
+  vtkCamera& camera = *renderer->GetActiveCamera();
+  double focus[3];
+  this->ComputeWorldToDisplay(renderer, camera.GetFocalPoint()[0], camera.GetFocalPoint()[1],
+    camera.GetFocalPoint()[2], focus);
+  const double seen = renderer->GetZ(pointer[0], pointer[1]);
+  double place[4];
+  double display[3];
+  this->ComputeDisplayToWorld(
+    renderer, pointer[0], pointer[1], seen < 1.0 ? seen : focus[2], place);
+  camera.Dolly(factor);
+  // what was below the pointer went away from it at its own distance
+  renderer->ResetCameraClippingRange();
+  this->ComputeWorldToDisplay(renderer, place[0], place[1], place[2], display);
+  double after[4];
+  this->ComputeDisplayToWorld(renderer, pointer[0], pointer[1], display[2], after);
+  Shift(camera, { place[0] - after[0], place[1] - after[1], place[2] - after[2] });
+  renderer->ResetCameraClippingRange();
+  this->Interactor->Render();
 }

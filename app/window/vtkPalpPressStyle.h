@@ -1,7 +1,9 @@
 #ifndef vtkPalpPressStyle_h
 #define vtkPalpPressStyle_h
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <vtkInteractorStyleTrackballCamera.h>
 
 /**
@@ -10,7 +12,8 @@
  *
  * Moving hovers; the left button presses where it went down and dragging down goes deeper; the
  * wheel changes a depth that stays while the pointer slides over the surface. Right drag turns,
- * middle drag shifts, right drag with Ctrl or wheel with Ctrl brings nearer.
+ * about the contact where there is one; middle drag shifts; right drag with Ctrl or wheel with Ctrl
+ * brings nearer what is below the pointer.
  */
 class vtkPalpPressStyle : public vtkInteractorStyleTrackballCamera
 {
@@ -24,7 +27,8 @@ public:
   std::function<void(int pixelsDown)> Drag;
   std::function<void()> Release;
   std::function<void(int notches)> Wheel;
-  std::function<void()> Turn;  ///< the view changes below the pointer
+  std::function<void()> Turn; ///< the view changes below the pointer
+  std::function<std::optional<std::array<double, 3>>()> Pivot; ///< [m]; none: of the camera
   std::function<void()> Leave; ///< the pointer left the view, with no button down
 
   void OnMouseMove() override;
@@ -36,11 +40,13 @@ public:
   void OnMouseWheelForward() override;
   void OnMouseWheelBackward() override;
   void OnLeave() override;
+  void Rotate() override;
   void OnChar() override
   {
   } // the letters of the toolkit's default would surprise
 
 protected:
+  void Dolly(double factor) override;
   vtkPalpPressStyle() = default;
   ~vtkPalpPressStyle() override = default;
 

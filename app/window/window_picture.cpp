@@ -85,14 +85,17 @@ void Window::addBodyLooks(QMenu& menu)
     QString name;
     const char* id;
     bool BodyLook::*part;
+    QKeySequence key = {};
   };
   for (const Part& one : { Part{ tr("&Edges of triangles"), "edgesAction", &BodyLook::hasEdges },
          { tr("See-through s&urface"), "translucentAction", &BodyLook::isTranslucent },
-         { tr("Cut &open at the contact"), "cutAction", &BodyLook::isCut } })
+         { tr("Cut &open at the contact"), "cutAction", &BodyLook::isCut },
+         Part{ tr("&Hide the tool"), "hideToolAction", &BodyLook::hidesTool, Qt::Key_T } })
   {
     QAction* action = menu.addAction(one.name);
     action->setObjectName(one.id);
     action->setCheckable(true);
+    action->setShortcut(one.key);
     connect(action, &QAction::toggled, this,
       [this, part = one.part](bool on)
       {

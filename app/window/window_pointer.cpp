@@ -77,6 +77,13 @@ void Window::makePointer()
     followPointer();
   };
   style_->Turn = [this] { pointer_.turnView(); };
+  style_->Pivot = [this]() -> std::optional<std::array<double, 3>>
+  {
+    const Eigen::Vector3d& center = shown_.contact.center;
+    return shown_.contact.touching()
+      ? std::optional(std::array{ center.x(), center.y(), center.z() })
+      : std::nullopt;
+  };
   style_->Leave = [this]
   {
     if (!pointer_.pressesByItself())

@@ -294,7 +294,7 @@ void PressView::placeCut(const Contact& contact)
 void PressView::placeTool(const ToolPose& pose)
 {
   const bool known = pose.apex.allFinite() && pose.axis.allFinite();
-  tool_->SetVisibility(known);
+  tool_->SetVisibility(known && !look_.hidesTool);
   if (known)
   {
     tool_->SetUserMatrix(appearance::placement(pose.apex, appearance::axesAlong(-pose.axis, 2)));

@@ -32,6 +32,7 @@ struct BodyLook
   bool hasEdges = false;      ///< of its triangles
   bool isTranslucent = false; ///< what lies behind is seen
   bool isCut = false;         ///< open at the contact, without the half that is nearer to the eye
+  bool hidesTool = false;     ///< nothing stands before the dent
 };
 
 /// The pressed surface, the tool and the overlays in one renderer.

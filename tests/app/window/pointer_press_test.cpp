@@ -7,6 +7,7 @@
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
+#include <vtkCamera.h>
 
 namespace palp
 {
@@ -85,6 +86,49 @@ TEST_F(WindowTest, AHeldPressThatMovesIsNoDeeper)
   waitForRest();
   ASSERT_NE(session_->recording().deepest(), nullptr);
   EXPECT_NEAR(session_->recording().deepest()->contact.depth, 4e-3, 0.1e-3);
+}
+
+// the contact stays where it is in the picture, and what is below the pointer
+TEST_F(WindowTest, TurnsAboutTheContactAndZoomsToThePointer)
+{
+  press(60);
+  vtkRenderer& renderer = *canvas_->renderWindow()->GetRenderers()->GetFirstRenderer();
+  const Eigen::Vector3d contact = session_->newest().contact.center;
+  const auto seenAt = [&]
+  {
+    renderer.SetWorldPoint(contact.x(), contact.y(), contact.z(), 1.0);
+    renderer.WorldToDisplay();
+    return Eigen::Vector2d(renderer.GetDisplayPoint());
+  };
+  const auto towards = [&]
+  { return Eigen::Vector3d(renderer.GetActiveCamera()->GetDirectionOfProjection()); };
+  const Eigen::Vector2d before = seenAt();
+  const Eigen::Vector3d way = towards();
+  const QPoint middle = canvas_->rect().center();
+  for (const auto& [from, to] :
+    { std::pair(QPoint(0, 60), QPoint(90, 20)), { QPoint(90, 20), QPoint(60, 110) } })
+  {
+    QTest::mousePress(canvas_, Qt::RightButton, {}, middle + from);
+    QTest::mouseMove(canvas_, middle + to);
+    QTest::mouseRelease(canvas_, Qt::RightButton, {}, middle + to);
+    EXPECT_LT((seenAt() - before).norm(), 1.0);
+  }
+  EXPECT_GT(std::acos(towards().dot(way)), 5.0 * M_PI / 180.0);
+  release();
+  EXPECT_TRUE(waitForLift());
+
+  const double ratio = canvas_->devicePixelRatioF();
+  const QPoint aside(qRound(before.x() / ratio), qRound(canvas_->height() - before.y() / ratio));
+  QTest::mouseMove(canvas_, aside);
+  const double distance = renderer.GetActiveCamera()->GetDistance();
+  for (int i = 0; i < 4; ++i)
+  {
+    QWheelEvent notch(aside, canvas_->mapToGlobal(aside), {}, QPoint(0, 120), Qt::NoButton,
+      Qt::ControlModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(canvas_, &notch);
+  }
+  EXPECT_LT(renderer.GetActiveCamera()->GetDistance(), 0.8 * distance);
+  EXPECT_LT((seenAt() - before).norm(), 3.0 * ratio);
 }
 
 TEST_F(WindowTest, HoveringNeverTouches)
