@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <locale>
@@ -13,6 +14,7 @@
 #include <vtkBrush.h>
 #include <vtkCellArray.h>
 #include <vtkChartXY.h>
+#include <vtkLight.h>
 #include <vtkLookupTable.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
@@ -23,6 +25,7 @@
 #include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
 #include <vtkProperty2D.h>
+#include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
 namespace palp::appearance
@@ -145,6 +148,31 @@ void setUpChart(
     axis->GetGridPen()->SetColor(225, 228, 232);
   }
   chart.GetBackgroundBrush()->SetColor(255, 255, 255);
+}
+
+void setUpScene(vtkRenderer& renderer)
+{
+  renderer.SetBackground(kGround[0], kGround[1], kGround[2]);
+  renderer.SetBackground2(kSky[0], kSky[1], kSky[2]);
+  renderer.GradientBackgroundOn();
+
+  struct Lamp
+  {
+    Eigen::Vector3d from; // right, up and towards the eye
+    double intensity;
+  };
+  const std::array<Lamp, 3> lamps{ { { { -1.0, 0.75, 0.55 }, 0.95 },
+    { { 0.7, -0.6, 1.0 }, 0.6 * 0.95 }, { { 0.3, 0.8, -0.9 }, 0.3 * 0.95 } } };
+  renderer.AutomaticLightCreationOff();
+  for (const Lamp& lamp : lamps)
+  {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(lamp.from.data());
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    light->SetIntensity(lamp.intensity);
+    renderer.AddLight(light);
+  }
 }
 
 vtkSmartPointer<vtkMatrix4x4> placement(const Eigen::Vector3d& origin, const Eigen::Matrix3d& axes)

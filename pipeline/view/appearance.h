@@ -12,6 +12,7 @@ class vtkMapper;
 class vtkMatrix4x4;
 class vtkPolyData;
 class vtkProperty;
+class vtkRenderer;
 class vtkTextProperty;
 
 namespace palp::appearance
@@ -79,6 +80,10 @@ void setColor(vtkProperty& property, const Color& color);
 /// @param line   gets as many points, which it connects in their order [pixels]
 /// @param actor  draws it
 void makeInkLine(vtkPolyData& line, vtkActor2D& actor, int points);
+
+/// Background and lights of a body. The key stands at the side, so that the walls of a dent have a
+/// light half and a dark one; the rim lights the body's edge from behind.
+void setUpScene(vtkRenderer& renderer);
 
 /// What lies on a surface is drawn in front of it.
 void drawInFront(vtkMapper& mapper);

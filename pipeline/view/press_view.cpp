@@ -12,11 +12,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vtkCamera.h>
-#include <vtkLight.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
@@ -38,29 +36,6 @@ double toolHeight(const Tip& tip)
   return std::max(2.2 * baseRadius(tip), 20.0_mm);
 }
 
-// The key stands at the side, so that the walls of a dent have a light half and a dark one; the rim
-// lights the body's edge from behind.
-void addLights(vtkRenderer& renderer)
-{
-  struct Lamp
-  {
-    Eigen::Vector3d from; // right, up and towards the eye
-    double intensity;
-  };
-  const std::array<Lamp, 3> lamps{ { { { -1.0, 0.75, 0.55 }, 0.95 },
-    { { 0.7, -0.6, 1.0 }, 0.6 * 0.95 }, { { 0.3, 0.8, -0.9 }, 0.3 * 0.95 } } };
-  renderer.AutomaticLightCreationOff();
-  for (const Lamp& lamp : lamps)
-  {
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToCameraLight();
-    light->SetPosition(lamp.from.data());
-    light->SetFocalPoint(0.0, 0.0, 0.0);
-    light->SetIntensity(lamp.intensity);
-    renderer.AddLight(light);
-  }
-}
-
 constexpr std::size_t indexOf(Overlay overlay)
 {
   return static_cast<std::size_t>(overlay);
@@ -71,12 +46,7 @@ constexpr std::size_t indexOf(Overlay overlay)
 PressView::PressView(vtkRenderer& renderer)
   : renderer_(renderer)
 {
-  const auto& ground = appearance::kGround;
-  const auto& sky = appearance::kSky;
-  renderer_.SetBackground(ground[0], ground[1], ground[2]);
-  renderer_.SetBackground2(sky[0], sky[1], sky[2]);
-  renderer_.GradientBackgroundOn();
-  addLights(renderer_);
+  appearance::setUpScene(renderer_);
   renderer_.GetActiveCamera()->SetViewAngle(units::toDegrees(kViewAngle));
 
   // what is translucent comes last
