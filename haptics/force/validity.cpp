@@ -21,6 +21,8 @@ constexpr double kPaperCurvature = 1.0 / 3.0; // R / R0, Sec. 3.2
 constexpr double kHollow = 0.5;               // R / R0 to which a hollow surface is corrected
 constexpr double kVerifiedWidth = 0.6;        // a / thickness to which the layer is verified
 constexpr double kEdge = 0.2;                 // a / distance, at 90 degrees: 7 % (elements)
+constexpr double kBend = 0.15;                // [rad] of the normals below the tool, rms
+constexpr double kFlatOnCurved = 0.05;        // [-] of the force
 constexpr double kSupport = 0.08;             // a / R0 of a ball: 5 % from support to support
 constexpr double kAboveHollow = 0.02;         // part of the contact
 constexpr double kComparedDepth = 0.5;        // depth / thickness that was compared
@@ -73,6 +75,17 @@ double thinnestBody(const ForceLaw& law)
     : coatings.thickness() + CoatedBody::kMinBodyThickness * baseRadius(law.tip());
 }
 
+double fraction(double part, double whole) noexcept
+{
+  return whole > 0.0 ? std::abs(part) / whole : 0.0;
+}
+
+// a value to show: what is not a number is as bad as can be
+double shown(double value) noexcept
+{
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
+}
+
 bool isRound(const Tip& tip) noexcept
 {
   return std::holds_alternative<SphereTip>(tip) || std::holds_alternative<ParaboloidTip>(tip);
@@ -90,6 +103,46 @@ double steepestTilt(const ForceLaw& law, const ContactGeometry& local) noexcept
 {
   constexpr double kMost = 2.0; // [-] of the spread: the two sides of an edge, the rim of a dome
   return std::abs(local.tilt) + (isTiltCorrected(law) ? kMost * std::abs(local.normalSpread) : 0.0);
+}
+
+// How much of the normals' spread no even curvature explains: bends and a scanner's noise. That of
+// a paraboloid within the radius r of smoothing, at most sqrt(2) a, is r^2 / 6 of each principal
+// curvature's square.
+double bendBelow(const ContactGeometry& local, double contactRadius) noexcept
+{
+  const double even = (local.surfaceCurvature * local.surfaceCurvature +
+                        local.curvatureSpread * local.curvatureSpread) *
+    contactRadius * contactRadius * 2.0 / 3.0;
+  return std::sqrt(std::max(0.0, local.normalSpread * local.normalSpread - even));
+}
+
+// Part of the force that a flat tip lacks on a curved surface, which it meets at one place first:
+// 2 E* int r^2 / R0 over the contact (Sneddon 1965).
+double lackOfFlat(
+  const ForceLaw& law, const ContactGeometry& local, const Response& response) noexcept
+{
+  const double lack = 2.0 / 3.0 * law.material().contactModulus() * local.surfaceCurvature *
+    std::pow(response.contactRadius, 3);
+  return fraction(lack, response.force);
+}
+
+Rule curvatureRule(
+  const ForceLaw& law, const ContactGeometry& local, const Response& response) noexcept
+{
+  constexpr const char* kName = "curvature";
+  if (flatRadius(law.tip()) > 0.0)
+  {
+    return { kName, "-", shown(lackOfFlat(law, local, response)), kFlatOnCurved,
+      "a flat tip meets a curved surface at one place first, which takes 5 % of its force" };
+  }
+  const double curved = shown(local.surfaceCurvature * baseRadius(law.tip()));
+  if (law.settings().mode != LawMode::Corrected || !law.settings().curvature)
+  {
+    return { kName, "-", curved, kPaperCurvature,
+      "a surface curved more than a third of the tip is not flat (Sec. 3.2)" };
+  }
+  return { kName, "-", curved, local.surfaceCurvature < 0.0 ? kHollow : 1.0,
+    "a surface curved as much as the tip is no small correction" };
 }
 
 const char* whyInclined(const ForceLaw& law) noexcept
@@ -112,17 +165,6 @@ double tiltLimit(const ForceLaw& law)
     return tiltOfShare(Validity::kJustNoticeable);
   }
   return isTiltCorrected(law) ? tiltReach(law.tip()) : kConeTilt;
-}
-
-double fraction(double part, double whole) noexcept
-{
-  return whole > 0.0 ? std::abs(part) / whole : 0.0;
-}
-
-// a value to show: what is not a number is as bad as can be
-double shown(double value) noexcept
-{
-  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
 }
 
 } // namespace
@@ -175,8 +217,7 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
   const double radius = response.contactRadius;
   const double linear = depth > 0.0 ? errorOfLinear(law_, depth, radius) : 0.0;
   const double ball = fractionOfBall(local.thickness, local.surfaceCurvature);
-  const bool curved = corrected && settings.curvature && flatRadius(tip) == 0.0;
-  const double flattest = !curved ? kPaperCurvature : local.surfaceCurvature < 0.0 ? kHollow : 1.0;
+  const double bend = bendBelow(local, radius);
 
   return { {
     { "force_of_maximum", "-", shown(fraction(response.force - truth, maximum)), kJustNoticeable,
@@ -199,11 +240,10 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
       local.thickness < thinnest_ ? 0.0 : thickness_,
       corrected ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
                 : "a wider contact feels the base by 7 %" },
-    { "edge", "-", shown(radius / edgeDistance), kEdge,
-      "nearer than five contact radii an edge yields" },
-    { "curvature", "-", shown(local.surfaceCurvature * base), flattest,
-      curved ? "a surface curved as much as the tip is no small correction"
-             : "a surface curved more than a third of the tip is not flat (Sec. 3.2)" },
+    { "edge", "-", shown(std::max(radius / edgeDistance, kEdge * bend / kBend)), kEdge,
+      "nearer than five contact radii an edge yields, and below the tool a bend or a rough place "
+      "whose normals differ by 9 degrees (rms)" },
+    curvatureRule(law_, local, response),
     { "stiffness", "N/m", shown(response.stiffness), limits_.stableStiffness,
       "stiffer than the device renders without vibrating" },
     { "ellipse", "-", shown(law_.gapSpread(local)), EllipseFactor::kSlimmest,

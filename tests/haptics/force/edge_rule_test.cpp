@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <string_view>
 
@@ -90,6 +91,31 @@ TEST(EdgeRule, SeesTheEdgeFromFiveContactRadiiOnHoweverCoarseTheMesh)
         }
       }
     }
+  }
+}
+
+// two faces that meet below the edges that are told by their distance; a ball bends evenly
+TEST(EdgeRule, SeesABendBelowTheToolAndNoneOnABall)
+{
+  const SphereTip tip{ 10.0_mm };
+  const Validity validity(ForceLaw(tip, kLiver, { .mode = LawMode::Corrected }));
+  const auto bent = [](double turn)
+  {
+    return test::makeSurface(test::sheet(
+      0.12, 121, [&](double x, double) { return -std::abs(x) * std::tan(0.5 * turn); }));
+  };
+  const auto sees = [&](const Surface& surface, double x, double z)
+  {
+    return seesEdge(
+      validity, findContact(surface, tip, { .apex = { x, 0.3_mm, z } }, ContactRule::Exact));
+  };
+  EXPECT_TRUE(sees(bent(50.0_deg), 0.0, -2.0_mm));
+  EXPECT_FALSE(sees(bent(10.0_deg), 0.0, -2.0_mm));
+  EXPECT_FALSE(sees(bent(50.0_deg), 35.0_mm, -35.0_mm * std::tan(25.0_deg) - 1.0_mm));
+  const Surface ball = test::makeSurface(test::ball(30.0_mm, 60));
+  for (double depth = 0.25_mm; depth <= 8.0_mm; depth += 0.25_mm)
+  {
+    EXPECT_FALSE(sees(ball, 0.2_mm, 30.0_mm - depth)) << depth;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/find_contact.h"
+#include "haptics/tip/profile.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
@@ -9,9 +10,12 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -156,6 +160,36 @@ TEST(Validity, LimitsTheContactOnAThinBody)
   const Validity corrected(ForceLaw(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected }));
   EXPECT_TRUE(rule(corrected({ .depth = 1.0_mm, .thickness = 30.0_mm }), "thickness").holds());
   EXPECT_FALSE(rule(corrected({ .depth = 5.0_mm, .thickness = 10.0_mm }), "thickness").holds());
+}
+
+// a flat tip on a ball is as a tip with the ball's gap on a plane, once all of it touches
+TEST(Validity, SeesWhatAFlatTipLacksOnACurvedSurface)
+{
+  constexpr double kRadius = 5.0_mm;
+  for (const double ball : { 40.0_mm, 100.0_mm, 300.0_mm })
+  {
+    std::vector<Profile::Point> points;
+    for (int i = 0; i <= 200; ++i)
+    {
+      const double r = kRadius * i / 200;
+      points.push_back({ r, 0.5 * r * r / ball });
+    }
+    const LawSettings exact{ .mode = LawMode::Exact };
+    const ForceLaw rounded(
+      ProfileTip{ std::make_shared<const Profile>(std::move(points)) }, kLiver, exact);
+    const ForceLaw flat(PunchTip{ kRadius }, kLiver, exact);
+    const Validity validity(flat);
+    for (const double depth : { 1.0_mm, 3.0_mm })
+    {
+      const double lack = 1.0 - rounded({ .depth = depth }).force / flat({ .depth = depth }).force;
+      for (const double side : { 1.0, -1.0 }) // a hollow meets the rim first
+      {
+        const Rules rules = validity({ .depth = depth, .surfaceCurvature = side / ball });
+        EXPECT_NEAR(rule(rules, "curvature").value, lack, 0.01 * lack) << ball << " " << depth;
+        EXPECT_EQ(rule(rules, "curvature").holds(), lack < 0.05) << ball << " " << depth;
+      }
+    }
+  }
 }
 
 TEST(Validity, LimitsDepthCurvatureEdgeAndStiffness)
