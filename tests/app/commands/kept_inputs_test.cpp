@@ -147,6 +147,7 @@ TEST_F(KeptInputs, TheHashIsOfWhatWasPressed)
     std::filesystem::copy_file(body, folder_.path() / (std::string(name) + ".vtp"));
   }
   std::atomic<bool> done = false;
+  std::atomic<int> longest = 100; // [ms] of a turn; more where a run takes longer
   std::thread turns(
     [&]
     {
@@ -156,11 +157,11 @@ TEST_F(KeptInputs, TheHashIsOfWhatWasPressed)
         const auto of = folder_.path() / (i % 2 == 0 ? "block_50.vtp" : "block_30.vtp");
         std::filesystem::copy_file(of, fresh);
         std::filesystem::rename(fresh, file);
-        std::this_thread::sleep_for(std::chrono::milliseconds(13 + i % 90));
+        std::this_thread::sleep_for(std::chrono::milliseconds(13 + i * 37 % longest));
       }
     });
   int pressed = 0;
-  for (int i = 0; i < 24; ++i)
+  for (int i = 0; i < 24 || pressed == 0; ++i)
   {
     const test::Finished run =
       palp("run body.vtp --at 0,0,0 --depth 1mm --speed 50mm/s --samples-only --out turn");
@@ -169,6 +170,7 @@ TEST_F(KeptInputs, TheHashIsOfWhatWasPressed)
       EXPECT_TRUE(run.err.find("was changed while it was read") != std::string::npos ||
         run.err.find("body.vtp: cannot be read") != std::string::npos) // of another file
         << run.err;
+      longest += 50;
       continue;
     }
     ++pressed;
@@ -180,7 +182,6 @@ TEST_F(KeptInputs, TheHashIsOfWhatWasPressed)
   }
   done = true;
   turns.join();
-  EXPECT_GT(pressed, 0);
 }
 
 } // namespace
