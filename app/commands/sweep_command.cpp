@@ -211,10 +211,12 @@ void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
   CLI::App* command = sweep.add_subcommand("plan", "Write the cases of a SWEEP.json into a folder");
   command->add_option("SWEEP", options->file, "Sweep (JSON), or the name of a shipped one")
     ->required();
-  command->add_option("DIR", options->folder, "Folder of the sweep; what it holds is kept")
+  command
+    ->add_option("DIR", options->folder,
+      "Folder of the sweep; what it holds is kept, but for the scripts below")
     ->required();
   CLI::Option* slurm = command->add_flag("--slurm", options->slurm,
-    "Run pilot cases, and write a job array for Slurm by what they took: DIR/sweep.sbatch");
+    "Run pilot cases, and write a job array for Slurm by what they took, anew: DIR/sweep.sbatch");
   command
     ->add_option("--pilot", options->pilot,
       "The pilot case, a long one; else the first, the middle and the last")
@@ -227,7 +229,7 @@ void addPlan(CLI::App& sweep, const std::shared_ptr<SweepOptions>& options)
     ->capture_default_str()
     ->needs(slurm);
   command->add_flag(
-    "--parallel", options->parallel, "Write the line for GNU parallel: DIR/parallel.sh");
+    "--parallel", options->parallel, "Write the line for GNU parallel, anew: DIR/parallel.sh");
   command->footer("data/sweeps/sweep.schema.json describes the file.\n"
                   "Examples:\n"
                   "  palp sweep plan SWEEP.json DIR\n"
@@ -281,8 +283,8 @@ void addMerge(
     ->add_option(
       "DIR", options->folders, "Folder of the sweep, and others with results of the same")
     ->required();
-  command->add_option("--out", options->out, "Table to write, .csv or .vtt (VTK); replaced")
-    ->required();
+  command->add_option("--out", options->out, "Table to write, .csv or .vtt (VTK)")->required();
+  command->add_flag("--overwrite", options->merge.overwrite, "Replace the table that is there");
   command->add_option("--largest", options->merge.largest,
     "Of each case only the row in which this column is largest");
   command->add_flag("--partial", options->merge.partial, "Leave out the cases that have no result");

@@ -167,7 +167,10 @@ Travel travelOf(const PressPlace& place, const PlacedPresses& presses, const Sce
   const std::optional<double> bottom = free ? descent.travelTo(presses.depth, *free) : std::nullopt;
   if (!bottom)
   {
-    refusePlace(place, "the tool does not fit there; give another place, or a smaller tool");
+    refusePlace(place,
+      free ? "the tool gets no contact of " + quantityText(presses.depth, Quantity::Length) +
+          " there; give less, another place, or a smaller tool"
+           : "the tool does not fit there; give another place, or a smaller tool");
   }
   return { descent, -point.normal, *free - kAbove, *bottom };
 }

@@ -96,9 +96,10 @@ Calibration ofCone(const DentOptions& options, const ForceLaw& law)
   {
     calibration.reach = 0.0;
     calibration.young.reset();
-    calibration.note = "R_d is that of the nearest cone with a table (45 degrees, tip of 0.3 mm, "
-                       "nu = 0.33) and may be wrong by half; palp calibrate makes its own for "
-                       "--table";
+    calibration.note =
+      "R_d is that of the nearest cone with a table (45 degrees, tip of 0.3 mm, "
+      "nu = 0.33) and may be off by a factor of three; palp calibrate makes its own for "
+      "--table";
   }
   return calibration;
 }
@@ -125,9 +126,10 @@ Calibration ofSphere(const DentOptions& options, const ForceLaw& law)
   return { .extents = table.extents(indentation, layer.threshold),
     .style = {},
     .reach = sphere && covered ? radius : 0.0,
-    .note = !sphere ? "R_d is that of a sphere of the same radius and may be wrong by half; palp "
-                      "calibrate makes its own for --table"
-      : covered     ? ""
+    .note = !sphere
+      ? "R_d is that of a sphere of the same radius and may be off by a factor of three; palp "
+        "calibrate makes its own for --table"
+      : covered ? ""
                 : "R_d is clamped to the border of its table (layer of 2 to 20 radii, nu to 0.49)",
     .elements = std::nullopt,
     .young = std::nullopt };
@@ -209,7 +211,7 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     calibration.young.reset();
     add(calibration.note,
       dent.table.filename().string() + ": R_d is that of another tool (" + other +
-        ") and may be wrong by half; palp calibrate makes that of this one");
+        ") and may be off by a factor of three; palp calibrate makes that of this one");
   }
   if (!isOfTheseCoatings(options, law.settings()))
   {

@@ -145,6 +145,18 @@ Rule curvatureRule(
     "a surface curved as much as the tip is no small correction" };
 }
 
+const char* whyThick(const ForceLaw& law, bool isTooThin) noexcept
+{
+  if (isTooThin)
+  {
+    return "below its coatings a thinner body than a fifth of the tip's radius counts as that "
+           "thick";
+  }
+  return law.settings().mode == LawMode::Corrected
+    ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
+    : "a wider contact feels the base by 7 %";
+}
+
 const char* whyInclined(const ForceLaw& law) noexcept
 {
   if (isRound(law.tip()))
@@ -237,9 +249,7 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
                                                          : kLinearError,
       "outside what finite elements were fitted to, large strain may add 3 % and more" },
     { "thickness", "-", shown(radius / local.thickness),
-      local.thickness < thinnest_ ? 0.0 : thickness_,
-      corrected ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
-                : "a wider contact feels the base by 7 %" },
+      local.thickness < thinnest_ ? 0.0 : thickness_, whyThick(law_, local.thickness < thinnest_) },
     { "edge", "-", shown(std::max(radius / edgeDistance, kEdge * bend / kBend)), kEdge,
       "nearer than five contact radii an edge yields, and below the tool a bend or a rough place "
       "whose normals differ by 9 degrees (rms)" },

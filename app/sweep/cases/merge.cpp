@@ -270,6 +270,11 @@ Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::p
       "--out: " + inQuotes(out.filename().string()) +
         " is neither a table of numbers nor one of VTK; give a file that ends in .csv or .vtt");
   }
+  if (fs::exists(out) && !options.overwrite)
+  {
+    throw Error(ErrorCode::BadValue,
+      out.string() + ": is there already; pass --overwrite to replace it, or choose another --out");
+  }
   clearAbandoned(out.has_parent_path() ? out.parent_path() : ".");
   Merger merger(manifest, options);
   Merged merged;

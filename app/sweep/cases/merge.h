@@ -15,6 +15,7 @@ struct MergeOptions
   std::vector<std::filesystem::path> others{}; ///< folders of the same sweep with results, too
   std::string largest{};                       ///< see readResult
   bool partial = false;                        ///< cases without a result are left out
+  bool overwrite = false;                      ///< of a table that is there
 };
 
 /// What was merged.
@@ -29,9 +30,9 @@ struct Merged
 /// that only some cases have is empty in the others. The same bytes, however the cases were
 /// computed.
 ///
-/// @param out      .csv, or .vtt for a VTK table; replaced as a whole
-/// @throws Error   BadValue: another ending, a folder of another sweep; BadFile: a result that is
-/// damaged, `out` cannot be
+/// @param out      .csv, or .vtt for a VTK table; replaced as a whole where it may be
+/// @throws Error   BadValue: another ending, a file that is there, a folder of another sweep;
+/// BadFile: a result that is damaged, `out` cannot be
 ///                 written; NoSolution: cases without a result, unless they may be left out
 Merged mergeResults(
   Manifest& manifest, const MergeOptions& options, const std::filesystem::path& out);

@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <vector>
 #include <vtkByteSwap.h>
@@ -139,6 +140,32 @@ std::string unitOf(const std::filesystem::path& file, const NrrdFields& fields)
   return unit;
 }
 
+// Where the first voxel's center lies, of the older form: the axes begin there, or half a voxel
+// before it where their samples are cells; an axis that tells neither begins at 0.
+std::vector<double> beginOf(
+  const std::filesystem::path& file, const NrrdFields& fields, const std::vector<double>& sides)
+{
+  std::vector<double> begin = numbersIn(fieldOf(fields, "axis mins"));
+  std::string kinds = fieldOf(fields, "centerings");
+  kinds = kinds.empty() ? fieldOf(fields, "centers") : kinds;
+  if (begin.empty())
+  {
+    return begin;
+  }
+  if (begin.size() != sides.size())
+  {
+    refuse(file, "its axis mins are not one for each axis; write them so, or leave them out");
+  }
+  std::istringstream words(kinds);
+  for (std::size_t k = 0; k < sides.size(); ++k)
+  {
+    std::string centering;
+    words >> centering;
+    begin[k] = std::isnan(begin[k]) ? 0.0 : begin[k] + (centering == "cell" ? 0.5 * sides[k] : 0.0);
+  }
+  return begin;
+}
+
 void place(const std::filesystem::path& file, const NrrdFields& fields, PatientImage& result)
 {
   const std::string space = fieldOf(fields, "space");
@@ -163,6 +190,7 @@ void place(const std::filesystem::path& file, const NrrdFields& fields, PatientI
     {
       axes[4 * k] = sides[k];
     }
+    origin = origin.empty() ? beginOf(file, fields, sides) : origin;
   }
   origin.resize(origin.empty() ? 3 : origin.size());
   if (axes.size() != 9 || origin.size() != 3)

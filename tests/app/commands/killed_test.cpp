@@ -218,7 +218,7 @@ TEST_F(Killed, SweepPlanAndMerge)
   ASSERT_EQ(test::runCommand(PALP_PROGRAM " sweep run " + folder).code, 0);
   std::filesystem::remove_all(out_);
   std::filesystem::create_directory(out_);
-  killAnyOften("sweep merge " + folder + " --out " + (out_ / "all.vtt").string());
+  killAnyOften("sweep merge " + folder + " --overwrite --out " + (out_ / "all.vtt").string());
 }
 
 #ifdef PALP_SLOW // seconds for each run

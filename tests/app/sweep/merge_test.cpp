@@ -53,8 +53,9 @@ protected:
   }
 
   [[nodiscard]] std::string merged(
-    Manifest& manifest, const std::string& name, const MergeOptions& options = {}) const
+    Manifest& manifest, const std::string& name, MergeOptions options = {}) const
   {
+    options.overwrite = true;
     mergeResults(manifest, options, folder_.path() / name);
     return test::readAll(folder_.path() / name);
   }

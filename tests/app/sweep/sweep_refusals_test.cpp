@@ -55,8 +55,11 @@ TEST_F(Sweeping, MergesOverNoFileOfItsOwn)
   for (const std::string& own : { at("grid/cases.csv"), result + "/force.csv",
          at("grid/../grid/cases.csv"), at("grid/running/x.csv") })
   {
-    expectRefused("merge " + at("grid") + " --out " + own, "choose another --out");
+    expectRefused("merge " + at("grid") + " --overwrite --out " + own, "choose another --out");
   }
+  write("mine.csv", "mine");
+  expectRefused("merge " + at("grid") + " --out " + at("mine.csv"), "pass --overwrite");
+  EXPECT_EQ(test::readAll(at("mine.csv")), "mine");
   EXPECT_EQ(merged("grid"), before);
   EXPECT_EQ(sweep("merge " + at("grid") + " --out " + at("grid/all.csv")).code, 0);
 }

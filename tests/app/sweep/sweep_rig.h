@@ -78,7 +78,7 @@ protected:
 
   [[nodiscard]] std::string merged(const std::string& where) const
   {
-    const Finished done = sweep("merge " + at(where) + " --out " + at("merged.csv"));
+    const Finished done = sweep("merge " + at(where) + " --overwrite --out " + at("merged.csv"));
     EXPECT_EQ(done.code, 0) << done.err;
     return readAll(folder() / "merged.csv");
   }

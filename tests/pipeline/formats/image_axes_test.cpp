@@ -146,5 +146,24 @@ TEST_F(ImageAxes, AUnitIsTakenOnce)
     std::string::npos);
 }
 
+// of the definition of NRRD: the first sample lies there where samples are nodes, half a step
+// farther in where they are cells
+TEST_F(ImageAxes, AnNrrdOfTheOlderFormBeginsWhereItsAxesDo)
+{
+  const std::string sizes = "spacings: 2 2.5 3\n";
+  const std::string mins = sizes + "axis mins: -30 11 -77\n";
+  const Vector3d begin = kCenterMm + Vector3d(-30.0, 11.0, -77.0);
+  const Vector3d half(1.0, 1.25, 1.5);
+  const auto read = [&](const std::string& lines)
+  { return readSurface(nrrd("", lines), LengthUnit::Millimeter, { .level = 0.0 }); };
+  expectBall(read(sizes), kCenterMm, 1.0);
+  expectBall(read(mins), begin, 1.0);
+  expectBall(read(mins + "centers: node node node\n"), begin, 1.0);
+  expectBall(read(mins + "centerings: cell cell cell\n"), begin + half, 1.0);
+  expectBall(read(sizes + "axis mins: nan nan nan\n"), kCenterMm, 1.0);
+  EXPECT_NE(refusal(nrrd("", sizes + "axis mins: 1 2\n"), { .level = 0.0 }).find("its axis mins"),
+    std::string::npos);
+}
+
 } // namespace
 } // namespace palp::test
