@@ -28,6 +28,11 @@ constexpr double fromMillimeters(double millimeters) noexcept
   return millimeters / 1e3;
 }
 
+constexpr double toMilliliters(double cubicMeters) noexcept
+{
+  return cubicMeters * 1e6;
+}
+
 constexpr double toKilopascals(double pascals) noexcept
 {
   return pascals / 1e3;

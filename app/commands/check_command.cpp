@@ -123,9 +123,9 @@ std::string piecesOf(const MeshHealth& health)
   for (std::size_t i = 0; i < std::min(kMost, health.pieces.size()); ++i)
   {
     const MeshPiece& piece = health.pieces[i];
-    constexpr double kMilliliter = 1e-6;
     line += (i == 0 ? ": " : "; ") + counted(piece.triangles, "triangle") +
-      (piece.closed ? ", closed, " + text(std::abs(piece.volume) / kMilliliter) + " ml" : ", open");
+      (piece.closed ? ", closed, " + text(units::toMilliliters(std::abs(piece.volume))) + " ml"
+                    : ", open");
   }
   return line + (health.pieces.size() > kMost ? "; ..." : "");
 }
@@ -276,19 +276,18 @@ void runCheck(const CheckOptions& options)
     point *= unitLength(loaded.unit);
   }
   const ProgressLine progress("looking for faults");
-  const std::string space = frameOf({ file.filename().string(), {}, {}, {} });
   MeshHealth health = healthOf(points, read.triangles);
   std::cout << reportOf(health, printable(file.filename().string()));
   const OutputFiles out(options);
   if (!options.faults.empty())
   {
-    out.write(options.faults, *markedSurface(points, read.triangles, health), space);
+    out.write(options.faults, *markedSurface(points, read.triangles, health), read.space);
   }
   if (!options.repaired.empty())
   {
     const RepairedMesh repaired = repairedMesh(points, read.triangles, options.largestHole);
     health = healthOf(repaired.points, repaired.triangles);
-    out.write(options.repaired, *makePolyData(repaired.points, repaired.triangles), space);
+    out.write(options.repaired, *makePolyData(repaired.points, repaired.triangles), read.space);
     std::cout << "# repaired: " << doneIn(repaired) << '\n'
               << reportOf(health, printable(options.repaired.filename().string()));
   }

@@ -12,13 +12,14 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
+#include "haptics/surface/enclosed_volume.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 
 #include <CLI/CLI.hpp>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -171,26 +172,15 @@ std::string tableOf(const Phantom& phantom, const LabelMap& map, double voxel)
   figures::Table table{ .name = "phantom",
     .caption = "Parts",
     .columns = { "label", "name", "file", "voxels", "volume_ml" } };
-  constexpr double milliliter = 1e-6;
   for (std::size_t i = 0; i < phantom.parts.size(); ++i)
   {
     const PhantomPart& part = phantom.parts[i];
     table.rows.push_back(
       { std::to_string(i + 1), labelOf(part), part.name + ".vtp", std::to_string(map.counts[i]),
-        static_cast<double>(map.counts[i]) * voxel * voxel * voxel / milliliter });
+        units::toMilliliters(static_cast<double>(map.counts[i]) * voxel * voxel * voxel) });
   }
   constexpr int digits = 5;
   return figures::csv(table, digits);
-}
-
-double volumeOf(const Mesh& mesh)
-{
-  double volume = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    volume += mesh.points[at(a)].dot(mesh.points[at(b)].cross(mesh.points[at(c)])) / 6.0;
-  }
-  return volume;
 }
 
 // of parts that lie within the first, as all phantoms here
@@ -198,6 +188,8 @@ void warnOfCoarseVoxels(const Phantom& phantom, const LabelMap& map, double voxe
 {
   for (std::size_t i = 0; i < phantom.parts.size(); ++i)
   {
+    const auto volumeOf = [](const Mesh& mesh)
+    { return enclosedVolume(mesh.points, mesh.triangles); };
     double exact = volumeOf(phantom.parts[i].surface);
     for (std::size_t k = 1; k < phantom.parts.size() && i == 0; ++k)
     {

@@ -1,6 +1,7 @@
 #include "app/commands/program.h"
 
 #include "app/commands/commands.h"
+#include "app/import/import_command.h"
 #include "app/program/exec_program.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
@@ -83,6 +84,7 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
   addSceneCommand(app, parts.pictures, parts.view);
+  addImportCommand(app);
   addCheckCommand(app);
   addForceCommand(app);
   addFitCommand(app, parts.pictures);

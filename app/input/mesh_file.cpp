@@ -6,7 +6,6 @@
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <set>
 #include <sys/stat.h>
@@ -94,22 +93,21 @@ MeshFile describeFile(const std::filesystem::path& file)
   const bool isFolder = std::filesystem::is_directory(file);
   const std::filesystem::path name =
     (isFolder ? std::filesystem::canonical(file) : file).filename();
-  return {
-    .name = name.string() + (isFolder ? "/" : ""), .sha256 = hash.hex(), .unit = {}, .part = {}
-  };
+  return { .name = name.string() + (isFolder ? "/" : ""),
+    .sha256 = hash.hex(),
+    .unit = {},
+    .space = {},
+    .part = {} };
 }
 
-std::string frameOf(const MeshFile& mesh)
+std::string spaceOf(const std::vector<MeshFile>& files)
 {
-  constexpr std::array kPatient{ "/", ".nii", ".nii.gz", ".mha", ".mhd", ".nrrd" };
-  const bool patient =
-    std::ranges::any_of(kPatient, [&](const char* ending) { return mesh.name.ends_with(ending); });
-  return patient ? "LPS" : "";
+  const auto isLps = [](const MeshFile& file) { return file.space == "LPS" && !file.moved; };
+  return !files.empty() && std::ranges::all_of(files, isLps) ? "LPS" : "";
 }
 
 std::string describe(const MeshFile& mesh)
 {
-  const std::string frame = frameOf(mesh);
   std::string part = mesh.part.series.empty() ? "" : ", series " + printable(mesh.part.series);
   part += mesh.part.level ? ", level " + shortest(*mesh.part.level) : "";
   for (const std::string& label : mesh.part.labels)
@@ -117,7 +115,7 @@ std::string describe(const MeshFile& mesh)
     part += ", label " + label;
   }
   return std::string(mesh.name).append(kHash) + mesh.sha256 + ", read in " + mesh.unit +
-    ", frame " + (frame.empty() ? "of the file" : frame) +
+    ", frame " + (mesh.space.empty() ? "of the file" : mesh.space) +
     (mesh.moved ? ", moved by the scene" : "") + part;
 }
 

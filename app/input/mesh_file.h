@@ -19,6 +19,7 @@ struct MeshFile
   std::string name;   ///< without its folder
   std::string sha256; ///< of its bytes, hexadecimal; of MHD with those of its data behind
   std::string unit;   ///< that its coordinates were read in
+  std::string space;  ///< axes of its coordinates: "LPS" of a patient, else empty
   ImagePart part;     ///< of an image
   bool moved = false; ///< by the frame that a scene gives it
 };
@@ -35,8 +36,8 @@ using FileStamps = std::vector<std::tuple<dev_t, ino_t, off_t, time_t, long, tim
 /// @throws Error  BadFile: cannot be read
 [[nodiscard]] MeshFile describeFile(const std::filesystem::path& file);
 
-/// Axes of its coordinates, for people and programs: "LPS" of a patient's image, else empty.
-[[nodiscard]] std::string frameOf(const MeshFile& mesh);
+/// Axes of what all of them are, "LPS" of a patient and not moved; else empty.
+[[nodiscard]] std::string spaceOf(const std::vector<MeshFile>& files);
 
 /// Begins the line of a recording that tells what was felt.
 inline constexpr std::string_view kFelt = "# felt: ";

@@ -72,8 +72,7 @@ void showMoment(PressView& view, const PressMoment& moment)
 
 bool isPatient(const SceneBody& body)
 {
-  const auto isLps = [](const MeshFile& file) { return frameOf(file) == "LPS" && !file.moved; };
-  return !body.files.empty() && std::all_of(body.files.begin(), body.files.end(), isLps);
+  return spaceOf(body.files) == "LPS";
 }
 
 std::string captionOf(const PressMoment& moment)

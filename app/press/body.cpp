@@ -95,6 +95,7 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
         printable(felt.string()) + ": was changed while it was read; run again");
     }
     origin.unit = body.unit;
+    origin.space = loaded.space;
     origin.part = source.part;
     for (PlacedNodule nodule : source.nodules)
     {

@@ -13,7 +13,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <sstream>
@@ -26,12 +25,6 @@ Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibrati
 {
   const double extent = calibration.extents.extentRadius(sample.contact.depth);
   return pressOf(sample, tip, extent, calibration.style);
-}
-
-std::string spaceOf(const std::vector<MeshFile>& files)
-{
-  const auto isLps = [](const MeshFile& file) { return frameOf(file) == "LPS" && !file.moved; };
-  return !files.empty() && std::ranges::all_of(files, isLps) ? "LPS" : "";
 }
 
 void writeDeformed(const std::filesystem::path& file, const SceneBody& body,

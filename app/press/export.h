@@ -13,9 +13,6 @@ namespace palp
 /// What the deformation filter needs of a sample.
 [[nodiscard]] Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration);
 
-/// The axes that all surfaces of a body have in common, as writeSurface takes them; empty: unknown.
-[[nodiscard]] std::string spaceOf(const std::vector<MeshFile>& files);
-
 /// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
 /// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.
 ///

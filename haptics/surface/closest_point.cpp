@@ -156,6 +156,11 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, doubl
 
 } // namespace
 
+double distanceTo(const BoxTree& tree, const Eigen::Vector3d& position) noexcept
+{
+  return std::sqrt(closestFacet(tree, position, std::numeric_limits<double>::infinity()).squared);
+}
+
 ClosestPoint findClosestPoint(
   const Surface& surface, const Eigen::Vector3d& position, double reach) noexcept
 {

@@ -27,4 +27,9 @@ struct ClosestPoint
 [[nodiscard]] ClosestPoint findClosestPoint(
   const Surface& surface, const Eigen::Vector3d& position, double reach) noexcept;
 
+/// Distance to the nearest of the triangles, whatever side of them a place is on; infinity where
+/// there are none [m].
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] double distanceTo(const BoxTree& tree, const Eigen::Vector3d& position) noexcept;
+
 } // namespace palp

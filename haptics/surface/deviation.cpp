@@ -4,34 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace palp
 {
+namespace
+{
+
+std::vector<Eigen::Vector3d> usedPoints(const Surface& surface)
+{
+  std::vector<Eigen::Vector3d> used;
+  for (std::size_t i = 0; i < surface.points().size(); ++i)
+  {
+    if (surface.firstTriangle(static_cast<int>(i)) >= 0)
+    {
+      used.push_back(surface.points()[i]);
+    }
+  }
+  return used;
+}
+
+} // namespace
 
 Deviation deviation(const Surface& a, const Surface& b)
 {
+  return deviation(usedPoints(a), a.tree(), usedPoints(b), b.tree());
+}
+
+Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree)
+{
   double largest = 0.0;
   double sum = 0.0;
-  std::size_t count = 0;
-  const auto measure = [&](const Surface& from, const Surface& to)
+  const auto measure = [&](std::span<const Eigen::Vector3d> from, const BoxTree& to)
   {
-    for (std::size_t i = 0; i < from.points().size(); ++i)
+    for (const Eigen::Vector3d& point : from)
     {
-      if (from.firstTriangle(static_cast<int>(i)) < 0)
-      {
-        continue;
-      }
-      const double distance =
-        findClosestPoint(to, from.points()[i], std::numeric_limits<double>::infinity()).distance;
-      largest = std::max(largest, std::abs(distance));
+      const double distance = distanceTo(to, point);
+      largest = std::max(largest, distance);
       sum += distance * distance;
-      ++count;
     }
   };
-  measure(a, b);
-  measure(b, a);
-  return { .largest = largest, .rootMeanSquare = std::sqrt(sum / static_cast<double>(count)) };
+  measure(a, bTree);
+  measure(b, aTree);
+  return { .largest = largest,
+    .rootMeanSquare = std::sqrt(sum / static_cast<double>(a.size() + b.size())) };
 }
 
 } // namespace palp

@@ -16,4 +16,8 @@ struct Deviation
 /// @param a, b  of one shape; points without a triangle do not count
 [[nodiscard]] Deviation deviation(const Surface& a, const Surface& b);
 
+/// The same of points and of the trees of their triangles, without what a Surface knows besides.
+[[nodiscard]] Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree);
+
 } // namespace palp

@@ -61,6 +61,7 @@ PatientImage readMetaImage(const std::filesystem::path& file)
   result.slope = header.slope;
   result.intercept = header.intercept;
   result.unit = header.unit;
+  result.space = "LPS";
   for (std::size_t i = 0; i < 3; ++i)
   {
     for (std::size_t k = 0; k < 3; ++k)
@@ -129,6 +130,7 @@ void placeInPatient(
       image.toPatient[i] = -image.toPatient[i];
     }
   }
+  image.space = form ? "LPS" : "";
   image.notes.emplace_back(form
       ? std::string(kPatientAxes) + ", turned from NIfTI's to right, front and head (RAS)"
       : "the header tells no place in the patient; axes and corner of the voxels are taken");

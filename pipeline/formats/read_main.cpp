@@ -1,6 +1,6 @@
-// palp-read FILE [series=PLACE] [name=VALUE:NAME...] [level=VALUE | label=VALUE-OR-NAME...]: reads
-// a surface for the program that started it. Readers of other people's files may crash or run away,
-// and here they do it alone.
+// palp-read FILE [organs|list] [KEY=VALUE...]: reads a surface, the bodies in an image or their list
+// for the program that started it. Readers of other people's files may crash or run away, and here
+// they do it alone.
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/process/child_process.h"
@@ -9,35 +9,66 @@
 #include <cstdlib>
 #include <string_view>
 
+namespace
+{
+
+// a number, and what stands behind the colon after it
+std::pair<double, std::string> numberBefore(std::string_view text)
+{
+  const std::size_t colon = std::min(text.find(':'), text.size() - 1);
+  return { std::strtod(text.data(), nullptr), std::string(text.substr(colon + 1)) };
+}
+
+void take(palp::ImagePart& part, std::string_view key, std::string_view value)
+{
+  if (key == "level")
+  {
+    part.level = std::strtod(value.data(), nullptr);
+  }
+  else if (key == "band")
+  {
+    const auto [low, high] = numberBefore(value);
+    part.band = { low, std::strtod(high.c_str(), nullptr) };
+  }
+  else if (key == "components")
+  {
+    part.components = std::strtoull(value.data(), nullptr, 10);
+  }
+  else if (key == "name")
+  {
+    const auto [number, name] = numberBefore(value);
+    part.names.push_back({ number, name });
+  }
+  else if (key == "series")
+  {
+    part.series = value;
+  }
+  else if (key == "label")
+  {
+    part.labels.emplace_back(value);
+  }
+}
+
+} // namespace
+
 int main(int argc, char** argv)
 {
   // the limit of time counts all threads, and one reads as fast
   vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
   const std::filesystem::path file = argc > 1 ? argv[1] : "";
+  const std::string_view mode = argc > 2 ? argv[2] : "";
   palp::ImagePart part;
   for (int i = 2; i < argc; ++i)
   {
     const std::string_view word = argv[i];
-    const std::string_view value = word.substr(std::min(word.find('=') + 1, word.size()));
-    if (word.starts_with("level="))
-    {
-      part.level = std::strtod(value.data(), nullptr);
-    }
-    else if (word.starts_with("name="))
-    {
-      const std::size_t colon = std::min(value.find(':'), value.size() - 1);
-      part.names.push_back(
-        { std::strtod(value.data(), nullptr), std::string(value.substr(colon + 1)) });
-    }
-    else if (word.starts_with("series="))
-    {
-      part.series = value;
-    }
-    else
-    {
-      part.labels.emplace_back(value);
-    }
+    const std::size_t equals = std::min(word.find('='), word.size() - 1);
+    take(part, word.substr(0, equals), word.substr(equals + 1));
   }
-  palp::answer([&] { return pack(palp::readFile(file, part)); }, palp::readLimits(file),
-    palp::neededFiles(file));
+  palp::answer(
+    [&]
+    {
+      return mode == "organs" || mode == "list" ? pack(palp::readOrgans(file, part, mode == "list"))
+                                                : pack(palp::readFile(file, part));
+    },
+    palp::readLimits(file), palp::neededFiles(file));
 }

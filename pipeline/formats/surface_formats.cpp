@@ -3,12 +3,12 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
-#include "pipeline/formats/image_surface.h"
 #include "pipeline/formats/images/dicom_image.h"
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/read_limits.h"
+#include "pipeline/formats/regions/image_surface.h"
 #include "pipeline/formats/vti_image.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
@@ -20,6 +20,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
@@ -129,7 +130,44 @@ bool indicesInRange(vtkCellArray& cells, vtkIdType points)
   return true;
 }
 
-void checkContent(const std::filesystem::path& file, vtkPolyData& data)
+void checkPoints(const std::filesystem::path& file, std::span<const Eigen::Vector3d> points)
+{
+  constexpr double most = 1e12; // keeps every product of coordinates finite
+  const auto isUsable = [](const Eigen::Vector3d& p)
+  { return std::abs(p.x()) < most && std::abs(p.y()) < most && std::abs(p.z()) < most; };
+  const auto odd = std::ranges::find_if_not(points, isUsable);
+  if (odd != points.end())
+  {
+    throw Error(ErrorCode::BadMesh,
+      file.string() + ": point " + std::to_string(odd - points.begin() + 1) +
+        " has a coordinate that is not a usable number; repair the surface");
+  }
+}
+
+std::string fieldOf(vtkPolyData& data, const char* name)
+{
+  auto* words = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray(name));
+  return words && words->GetNumberOfValues() == 1 ? words->GetValue(0) : std::string();
+}
+
+// 3D Slicer's axes to right, front and head become those to left, back and head
+void turnToLps(FileSurface& surface)
+{
+  if (surface.space.find("RAS") != std::string::npos)
+  {
+    for (Eigen::Vector3d& point : surface.points)
+    {
+      point.head<2>() *= -1.0;
+    }
+    surface.notes.emplace_back(
+      "turned from axes to right, front and head (SPACE=RAS) to left, back "
+      "and head (LPS)");
+    surface.space = "LPS";
+  }
+  surface.space = surface.space.find("LPS") != std::string::npos ? "LPS" : "";
+}
+
+FileSurface surfaceOf(const std::filesystem::path& file, vtkPolyData& data)
 {
   const vtkIdType points = data.GetNumberOfPoints();
   if (points > std::numeric_limits<int>::max())
@@ -140,44 +178,35 @@ void checkContent(const std::filesystem::path& file, vtkPolyData& data)
   {
     refuse(file, "a triangle names a point that is not there; export it again");
   }
-  for (vtkIdType i = 0; i < points; ++i)
+  FileSurface surface{ .points = pointsOf(data),
+    .triangles = {},
+    .unit = fieldOf(data, kUnitArray),
+    .notes = {},
+    .space = fieldOf(data, kSpaceArray) };
+  checkPoints(file, surface.points);
+  vtkNew<vtkTriangleFilter> cut;
+  cut->PassVertsOff();
+  cut->PassLinesOff();
+  cut->SetInputData(&data);
+  cut->Update();
+  surface.triangles = trianglesOf(*cut->GetOutput());
+  if (surface.triangles.empty())
   {
-    const double* p = data.GetPoint(i);
-    constexpr double most = 1e12; // keeps every product of coordinates finite
-    if (!(std::abs(p[0]) < most && std::abs(p[1]) < most && std::abs(p[2]) < most))
-    {
-      throw Error(ErrorCode::BadMesh,
-        file.string() + ": point " + std::to_string(i + 1) +
-          " has a coordinate that is not a usable number; repair the surface");
-    }
+    throw Error(ErrorCode::BadMesh,
+      file.string() + ": no triangles in it; export a surface, not points or a volume");
   }
+  turnToLps(surface);
+  return surface;
 }
 
-// a surface as it is read, or that of an image
-vtkSmartPointer<vtkPolyData> readData(const std::filesystem::path& file, const Format& format,
-  const ImagePart& part, FileSurface& surface)
+// what VTK complains of ends the work
+template <typename Read>
+auto withoutVtkErrors(const std::filesystem::path& file, const Format& format, Read read)
 {
   throwVtkErrors();
   try
   {
-    if (format.read)
-    {
-      return format.read(file);
-    }
-    checkFits(file);
-    PatientImage volume = format.readImage ? format.readImage(file) : readDicom(file, part.series);
-    for (const LabelName& label : part.names)
-    {
-      if (label.value == 0.0) // what is no region
-      {
-        continue;
-      }
-      const double stored = (label.value - volume.intercept) / volume.slope;
-      volume.segments.push_back({ .name = label.name, .value = stored });
-    }
-    surface.unit = volume.unit;
-    surface.notes = volume.notes;
-    return imageSurface(volume, part, file.string(), surface.notes);
+    return read();
   }
   catch (const VtkError& error)
   {
@@ -186,9 +215,22 @@ vtkSmartPointer<vtkPolyData> readData(const std::filesystem::path& file, const F
   }
 }
 
-} // namespace
+PatientImage imageOf(const std::filesystem::path& file, const Format& format, const ImagePart& part)
+{
+  checkFits(file);
+  PatientImage volume = format.readImage ? format.readImage(file) : readDicom(file, part.series);
+  for (const LabelName& label : part.names)
+  {
+    if (label.value != 0.0) // which is no region
+    {
+      const double stored = (label.value - volume.intercept) / volume.slope;
+      volume.segments.push_back({ .name = label.name, .value = stored });
+    }
+  }
+  return volume;
+}
 
-FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
+const Format& checkedFormat(const std::filesystem::path& file, const ImagePart& part)
 {
   const Format& format = formatOf(file);
   &format == &kDicom ? void() : checkFile(file, format);
@@ -196,34 +238,50 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
   {
     refuse(file, "no folder of DICOM images; leave the series out");
   }
+  return format;
+}
+
+} // namespace
+
+FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
+{
+  const Format& format = checkedFormat(file, part);
   if (format.read && (part.level || !part.labels.empty()))
   {
     refuse(file,
       std::string("a surface, not an image; leave the ") + (part.level ? "level" : "label") +
         " out");
   }
-  FileSurface surface;
-  const vtkSmartPointer<vtkPolyData> data = readData(file, format, part, surface);
-  checkContent(file, *data);
+  return withoutVtkErrors(file, format,
+    [&]
+    {
+      if (format.read)
+      {
+        return surfaceOf(file, *format.read(file));
+      }
+      FileSurface surface = imageSurface(imageOf(file, format, part), part, file.string());
+      checkPoints(file, surface.points);
+      return surface;
+    });
+}
 
-  vtkNew<vtkTriangleFilter> cut;
-  cut->PassVertsOff();
-  cut->PassLinesOff();
-  cut->SetInputData(data);
-  cut->Update();
-  surface.points = pointsOf(*data);
-  surface.triangles = trianglesOf(*cut->GetOutput());
-  if (surface.triangles.empty())
+FileOrgans readOrgans(const std::filesystem::path& file, const ImagePart& part, bool isList)
+{
+  const Format& format = checkedFormat(file, part);
+  if (format.read)
   {
-    throw Error(ErrorCode::BadMesh,
-      file.string() + ": no triangles in it; export a surface, not points or a volume");
+    refuse(file, "a surface already, not an image; press it as it is, or repair it by palp check");
   }
-  auto* unit = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kUnitArray));
-  if (unit && unit->GetNumberOfValues() == 1)
-  {
-    surface.unit = unit->GetValue(0);
-  }
-  return surface;
+  return withoutVtkErrors(file, format,
+    [&]
+    {
+      FileOrgans all = imageOrgans(imageOf(file, format, part), part, isList, file.string());
+      for (const FileOrgan& organ : all.organs)
+      {
+        checkPoints(file, organ.surface.points);
+      }
+      return all;
+    });
 }
 
 } // namespace palp

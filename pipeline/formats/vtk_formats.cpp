@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/stated_space.h"
 #include "pipeline/formats/outer_surface.h"
 
 #include <algorithm>
@@ -133,9 +134,12 @@ vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
         ": cut off or damaged in its header, it names no known DATASET; export it again");
   }
   reader->Update();
+  const std::string_view header = reader->GetHeader() ? reader->GetHeader() : "";
   if (vtkUnstructuredGrid* grid = reader->GetUnstructuredGridOutput())
   {
-    return outerSurface(*grid, file.string());
+    auto surface = outerSurface(*grid, file.string());
+    stateSpace(*surface, header);
+    return surface;
   }
   if (!reader->GetPolyDataOutput() && reader->GetOutput())
   {
@@ -144,7 +148,9 @@ vtkSmartPointer<vtkPolyData> readVtk(const std::filesystem::path& file)
         ", neither polygons nor an unstructured grid; extract its surface");
   }
   vtkSmartPointer<vtkPolyData> polygons = reader->GetPolyDataOutput();
-  return polygons ? polygons : vtkSmartPointer<vtkPolyData>::New();
+  polygons = polygons ? polygons : vtkSmartPointer<vtkPolyData>::New();
+  stateSpace(*polygons, header);
+  return polygons;
 }
 
 vtkSmartPointer<vtkPolyData> readVtp(const std::filesystem::path& file)

@@ -13,10 +13,8 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <vtkFieldData.h>
@@ -85,12 +83,21 @@ void append(std::string& bytes, const Value& value)
 
 // VTK's writers of the kinds below tell a full disk late, in words of their own or not at all
 
+// the word in a header, where 3D Slicer looks for the axes; empty: unknown
+std::string headerOf(vtkPolyData& data)
+{
+  auto* space = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray(kSpaceArray));
+  return space ? std::string(kSpaceArray) + "=" + space->GetValue(0) : std::string();
+}
+
 void writePly(const std::filesystem::path& file, vtkPolyData& data)
 {
   static_assert(std::endian::native == std::endian::little);
   const std::vector<Eigen::Vector3d> points = pointsOf(data);
   const std::vector<Triangle> triangles = trianglesOf(data);
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+  const std::string header = headerOf(data);
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n" +
+    (header.empty() ? "" : "comment " + header + "\n") + "element vertex " +
     std::to_string(points.size()) +
     "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
     std::to_string(triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -110,7 +117,7 @@ void writeStl(const std::filesystem::path& file, vtkPolyData& data)
 {
   const std::vector<Eigen::Vector3d> points = pointsOf(data);
   const std::vector<Triangle> triangles = trianglesOf(data);
-  std::string bytes = "binary STL";
+  std::string bytes = "binary STL " + headerOf(data);
   bytes.resize(80, ' ');
   append(bytes, static_cast<std::uint32_t>(triangles.size()));
   const auto at = [&](int i) { return points[static_cast<std::size_t>(i)]; };
@@ -128,7 +135,8 @@ void writeStl(const std::filesystem::path& file, vtkPolyData& data)
 
 void writeObj(const std::filesystem::path& file, vtkPolyData& data)
 {
-  std::string text;
+  const std::string header = headerOf(data);
+  std::string text = header.empty() ? "" : "# " + header + "\n";
   for (const Eigen::Vector3d& point : pointsOf(data))
   {
     text +=
@@ -144,15 +152,22 @@ void writeObj(const std::filesystem::path& file, vtkPolyData& data)
 
 } // namespace
 
-FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
+namespace
+{
+
+// the command line of the reader, which reads numbers in the C locale
+std::vector<std::string> commandOf(const std::filesystem::path& file, const ImagePart& part)
 {
   std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
   if (part.level)
   {
-    char digits[32];
-    command.emplace_back("level=").append(
-      digits, std::to_chars(digits, std::end(digits), *part.level).ptr);
+    command.push_back("level=" + shortest(*part.level));
   }
+  if (part.band)
+  {
+    command.push_back("band=" + shortest((*part.band)[0]) + ':' + shortest((*part.band)[1]));
+  }
+  command.push_back("components=" + std::to_string(part.components));
   for (const LabelName& label : part.names)
   {
     command.push_back("name=" + shortest(label.value) + ':' + label.name);
@@ -165,15 +180,34 @@ FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& 
   {
     command.push_back("label=" + label);
   }
-  const auto answer = answerOf(command);
+  return command;
+}
+
+[[noreturn]] void refuseCrash(const std::filesystem::path& file)
+{
+  throw Error(ErrorCode::BadFile,
+    file.string() +
+      ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
+}
+
+} // namespace
+
+FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
+{
+  const auto answer = answerOf(commandOf(file, part));
   auto surface = answer ? unpack(*answer) : std::nullopt;
-  if (!surface)
-  {
-    throw Error(ErrorCode::BadFile,
-      file.string() +
-        ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
-  }
+  surface ? void() : refuseCrash(file);
   return *std::move(surface);
+}
+
+FileOrgans readFileOrgans(const std::filesystem::path& file, const ImagePart& part, bool isList)
+{
+  std::vector<std::string> command = commandOf(file, part);
+  command.insert(command.begin() + 2, isList ? "list" : "organs");
+  const auto answer = answerOf(command);
+  auto organs = answer ? unpackOrgans(*answer) : std::nullopt;
+  organs ? void() : refuseCrash(file);
+  return *std::move(organs);
 }
 
 LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
@@ -207,6 +241,7 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
   LoadedSurface surface{ .mesh = scaled(*repaired.mesh, unitLength(*unit)),
     .unit = *unit,
     .closed = repaired.closed,
+    .space = read.space,
     .notes = {} };
   surface.notes.push_back(summary(name, surface, why));
   constexpr std::string_view kWarning = "warning: ";
@@ -241,7 +276,7 @@ void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh, const st
   }
   const auto data = scaled(mesh, 1.0 / unitLength(LengthUnit::Millimeter));
   data->SetFieldData(vtkNew<vtkFieldData>());
-  const auto add = [&](const char* name, const std::string& value) // only VTP has a place for it
+  const auto add = [&](const char* name, const std::string& value)
   {
     vtkNew<vtkStringArray> words;
     words->SetName(name);
@@ -251,7 +286,7 @@ void writeSurface(const std::filesystem::path& file, vtkPolyData& mesh, const st
   add(kUnitArray, unitName(LengthUnit::Millimeter));
   if (!space.empty())
   {
-    add("SPACE", space);
+    add(kSpaceArray, space);
   }
   writer->second(file, *data);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/process/file_surface.h"
+#include "pipeline/process/file_organs.h"
 #include "pipeline/surface_io/length_unit.h"
 
 #include <filesystem>
@@ -20,6 +20,7 @@ struct LoadedSurface
     mesh; ///< [m], triangles only; pointsOf() and trianglesOf() give a Surface
   LengthUnit unit = LengthUnit::Millimeter; ///< that the coordinates of the file were taken in
   bool closed = false;                      ///< every edge has exactly two triangles
+  std::string space{};                      ///< of its axes, as in FileSurface
   std::vector<std::string> notes; ///< a line each; the first says size and unit, warnings come last
 };
 
@@ -43,17 +44,26 @@ struct LoadedSurface
 [[nodiscard]] FileSurface readFileSurface(
   const std::filesystem::path& file, const ImagePart& part = {});
 
+/// The bodies in an image, each as it stands there: read likewise.
+///
+/// @param part    labels, each a body of its own, all where there are none; or a level or band
+/// @param isList  whether they are only listed, without surfaces
+/// @throws Error  as readFileSurface
+[[nodiscard]] FileOrgans readFileOrgans(
+  const std::filesystem::path& file, const ImagePart& part, bool isList);
+
 /// What readSurface makes of what a file holds.
 /// @param file    its name, for messages
 /// @throws Error  BadMesh: as readSurface
 [[nodiscard]] LoadedSurface madeReady(
   const FileSurface& read, const std::filesystem::path& file, UnitChoice unit = {});
 
-/// Writes a surface in millimeters: VTP with its arrays, unit and axes, or bare STL, PLY, OBJ.
+/// Writes a surface in millimeters: VTP with its arrays and unit, or bare STL, PLY, OBJ.
 ///
 /// @param mesh    [m], triangles
-/// @param space   of the axes, as "LPS", which VTP holds in its field array SPACE as 3D Slicer
-///                does; empty: unknown
+/// @param space   of the axes, as "LPS", which stands in the field array, header or comment where
+///                3D Slicer looks for it; empty: unknown
+/// @source        3D Slicer's vtkMRMLModelStorageNode: SPACE=LPS
 /// @throws Error  BadFile: unknown ending, or the file cannot be written
 void writeSurface(
   const std::filesystem::path& file, vtkPolyData& mesh, const std::string& space = "");

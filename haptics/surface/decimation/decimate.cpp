@@ -20,18 +20,18 @@ struct Traits : OpenMesh::DefaultTraits
 };
 using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-HalfEdges halfEdgesOf(const Surface& surface)
+HalfEdges halfEdgesOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
   HalfEdges mesh;
-  std::vector<HalfEdges::VertexHandle> handles(surface.points().size());
+  std::vector<HalfEdges::VertexHandle> handles(points.size());
   omerr().disable(); // the error below says it in our words
-  for (std::size_t i = 0; i < surface.triangles().size(); ++i)
+  for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     std::array<HalfEdges::VertexHandle, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto point = static_cast<std::size_t>(surface.triangles()[i][k]);
-      const Eigen::Vector3d& x = surface.points()[point];
+      const auto point = static_cast<std::size_t>(triangles[i][k]);
+      const Eigen::Vector3d& x = points[point];
       if (!handles[point].is_valid())
       {
         handles[point] = mesh.add_vertex({ x.x(), x.y(), x.z() });
@@ -56,7 +56,13 @@ HalfEdges halfEdgesOf(const Surface& surface)
 
 Surface decimated(const Surface& surface, std::size_t points)
 {
-  HalfEdges mesh = halfEdgesOf(surface);
+  return decimated(surface.points(), surface.triangles(), points);
+}
+
+Surface decimated(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, std::size_t count)
+{
+  HalfEdges mesh = halfEdgesOf(points, triangles);
   mesh.request_vertex_status();
   mesh.request_edge_status();
   mesh.request_face_status();
@@ -70,7 +76,7 @@ Surface decimated(const Surface& surface, std::size_t points)
   decimater.add(flipping);
   decimater.module(quadric).unset_max_err();
   decimater.initialize();
-  decimater.decimate_to(points);
+  decimater.decimate_to(count);
   mesh.garbage_collection();
 
   std::vector<Eigen::Vector3d> kept;
@@ -79,18 +85,18 @@ Surface decimated(const Surface& surface, std::size_t points)
   {
     kept.emplace_back(mesh.point(vertex).data());
   }
-  std::vector<Triangle> triangles;
-  triangles.reserve(mesh.n_faces());
+  std::vector<Triangle> facesKept;
+  facesKept.reserve(mesh.n_faces());
   for (const HalfEdges::FaceHandle face : mesh.faces())
   {
-    Triangle& triangle = triangles.emplace_back();
+    Triangle& triangle = facesKept.emplace_back();
     std::size_t k = 0;
     for (const HalfEdges::VertexHandle vertex : mesh.fv_range(face))
     {
       triangle[k++] = vertex.idx();
     }
   }
-  return { std::move(kept), std::move(triangles) };
+  return { std::move(kept), std::move(facesKept) };
 }
 
 } // namespace palp

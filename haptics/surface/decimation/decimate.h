@@ -15,4 +15,8 @@ namespace palp
 /// @source        Garland and Heckbert, "Surface simplification using quadric error metrics", 1997
 [[nodiscard]] Surface decimated(const Surface& surface, std::size_t points);
 
+/// The same of bare triangles, without what a Surface knows besides.
+[[nodiscard]] Surface decimated(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, std::size_t count);
+
 } // namespace palp

@@ -142,6 +142,7 @@ PatientImage readDicom(const std::filesystem::path& folder, const std::string& a
   place.col(2).head<3>() = first.alongRow.cross(first.alongColumn);
   place.col(3).head<3>() = first.position;
   result.unit = "mm";
+  result.space = "LPS";
   result.notes.emplace_back("in the patient's axes to left, back and head (LPS)");
   result.notes.push_back("series \"" + series.description + "\" (" + series.modality + "), " +
     std::to_string(count) + " images");

@@ -209,6 +209,7 @@ void place(const std::filesystem::path& file, const NrrdFields& fields, PatientI
   }
   row[15] = 1.0;
   result.unit = unitOf(file, fields);
+  result.space = turn ? "LPS" : "";
   if (result.unit.empty() && turn)
   {
     result.unit = "mm"; // as 3D Slicer writes none in the patient's axes

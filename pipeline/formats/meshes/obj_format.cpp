@@ -2,8 +2,10 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/stated_space.h"
 #include "pipeline/formats/meshes/text_lines.h"
 
+#include <algorithm>
 #include <string>
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -27,6 +29,7 @@ public:
 
   vtkSmartPointer<vtkPolyData> read()
   {
+    const std::string_view comments = commentsAtStart(lines_.behind());
     while (lines_.next())
     {
       const std::string_view key = lines_.word();
@@ -57,10 +60,21 @@ public:
     auto mesh = vtkSmartPointer<vtkPolyData>::New();
     mesh->SetPoints(points_);
     mesh->SetPolys(faces_);
+    stateSpace(*mesh, comments);
     return mesh;
   }
 
 private:
+  static std::string_view commentsAtStart(std::string_view text)
+  {
+    std::size_t end = 0;
+    while (end < text.size() && text[end] == '#')
+    {
+      end = std::min(text.find('\n', end), text.size() - 1) + 1;
+    }
+    return text.substr(0, end);
+  }
+
   void readFace()
   {
     faces_->InsertNextCell(0);

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/stated_space.h"
 #include "pipeline/formats/meshes/text_lines.h"
 
 #include <algorithm>
@@ -95,6 +96,7 @@ public:
     auto mesh = vtkSmartPointer<vtkPolyData>::New();
     mesh->SetPoints(points_);
     mesh->SetPolys(faces_);
+    stateSpace(*mesh, comments_);
     return mesh;
   }
 
@@ -128,7 +130,11 @@ private:
       {
         readProperty();
       }
-      else if (!first && key != "comment" && key != "obj_info")
+      else if (key == "comment")
+      {
+        comments_.append(lines_.rest()).append("\n");
+      }
+      else if (!first && key != "obj_info")
       {
         refuseHeader("its header is damaged, " + inQuotes(key) + " is no word of it");
       }
@@ -318,6 +324,7 @@ private:
   }
 
   TextLines lines_;
+  std::string comments_;
   std::string_view body_; // what is left of a binary one
   std::vector<Element> elements_;
   Coding coding_ = Coding::Text;

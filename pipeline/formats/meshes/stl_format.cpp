@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/stated_space.h"
 
 #include <algorithm>
 #include <cctype>
@@ -207,7 +208,9 @@ vtkSmartPointer<vtkPolyData> readStl(const std::filesystem::path& file)
     std::ranges::all_of(start, [](unsigned char c) { return c >= ' ' || std::isspace(c) != 0; });
   if (!fits && (text || (beginsSolid(start) && start.find('\0') == start.npos)))
   {
-    return readText(file);
+    auto mesh = readText(file);
+    stateSpace(*mesh, std::string_view(start).substr(0, start.find_first_of("\r\n")));
+    return mesh;
   }
   if (size < kHeader + kFacet)
   {
@@ -226,7 +229,9 @@ vtkSmartPointer<vtkPolyData> readStl(const std::filesystem::path& file)
       "it holds " + std::to_string(held) + " triangles where its header counts " +
         std::to_string(count) + "; export it again");
   }
-  return readBinary(file, count);
+  auto mesh = readBinary(file, count);
+  stateSpace(*mesh, std::string_view(start).substr(0, kHeader - sizeof count));
+  return mesh;
 }
 
 } // namespace palp

@@ -1,0 +1,146 @@
+#include "app/import/import_files.h"
+
+#include "app/import/organ_look.h"
+#include "haptics/units.h"
+#include "pipeline/surface_io/surface_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <vtkPolyData.h>
+
+namespace palp
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json partOf(const ImagePart& part)
+{
+  Json json;
+  for (const std::string& label : part.labels)
+  {
+    json["labels"].push_back(label);
+  }
+  if (part.band)
+  {
+    json["threshold"] = *part.band;
+  }
+  if (part.level)
+  {
+    json["level"] = *part.level;
+  }
+  if (!part.series.empty())
+  {
+    json["series"] = part.series;
+  }
+  const bool isAll = part.components == ImagePart::kAllComponents;
+  json["components"] = isAll ? Json("all") : Json(part.components);
+  json["smoothing"] = part.level ? "windowed sinc" : "least bending within half a voxel";
+  return json;
+}
+
+Json levelOf(const OrganLevel& level)
+{
+  return { { "points", level.points }, { "triangles", level.triangles },
+    { "deviation_mm", units::toMillimeters(level.apart.largest) },
+    { "deviation_rms_mm", units::toMillimeters(level.apart.rootMeanSquare) } };
+}
+
+Json organOf(const ImportedOrgan& organ)
+{
+  Json json{ { "name", organ.name }, { "file", organ.file + ".vtp" } };
+  if (!organ.label.empty())
+  {
+    json["label"] = organ.label;
+  }
+  json["voxels"] = organ.voxels;
+  json["voxels_ml"] = units::toMilliliters(organ.voxelVolume);
+  json["taken_ml"] = units::toMilliliters(organ.enclosed);
+  json["surface_ml"] = units::toMilliliters(organ.volume);
+  json["shown"] = levelOf(organ.shown);
+  if (organ.felt)
+  {
+    json["haptic_file"] = organ.file + "_haptic.vtp";
+    json["haptic"] = levelOf(*organ.felt);
+  }
+  return json;
+}
+
+} // namespace
+
+std::vector<std::string> importFiles(const std::filesystem::path& folder)
+{
+  std::vector<std::string> files{ kImportScene, kImportManifest };
+  std::ifstream in(folder / kImportManifest);
+  const auto earlier = in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
+  if (!earlier.is_object() || !earlier.contains("organs") || !earlier["organs"].is_array())
+  {
+    return files;
+  }
+  for (const auto& organ : earlier["organs"])
+  {
+    for (const char* key : { "file", "haptic_file" })
+    {
+      if (organ.is_object() && organ.contains(key) && organ[key].is_string())
+      {
+        files.push_back(std::filesystem::path(organ[key].get<std::string>()).filename());
+      }
+    }
+  }
+  return files;
+}
+
+void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const std::string& space)
+{
+  writeSurface(folder / (organ.file + ".vtp"), *organ.shown.mesh, space);
+  organ.shown.mesh = nullptr;
+  if (organ.felt)
+  {
+    writeSurface(folder / (organ.file + "_haptic.vtp"), *organ.felt->mesh, space);
+    organ.felt->mesh = nullptr;
+  }
+}
+
+std::string importScene(const ImportSource& source, const std::vector<ImportedOrgan>& organs)
+{
+  Json scene{ { "palp_scene", 1 }, { "title", "Imported from " + source.image.name } };
+  const auto isPressed = [](const ImportedOrgan& organ)
+  { return std::string_view(lookOf(organ.name).role) == "press"; };
+  const bool isAnyPressed = std::ranges::any_of(organs, isPressed);
+  for (const ImportedOrgan& organ : organs)
+  {
+    const OrganLook look = lookOf(organ.name);
+    const bool isFirst = &organ == &organs.front();
+    Json json{ { "name", organ.name }, { "file", organ.file + ".vtp" },
+      { "role", isFirst && !isAnyPressed ? "press" : look.role }, { "color", look.color } };
+    if (look.tissue != nullptr)
+    {
+      json["tissue"] = { { "name", look.tissue } };
+    }
+    scene["organs"].push_back(std::move(json));
+  }
+  return scene.dump(2) + "\n";
+}
+
+std::string importManifest(const ImportSource& source, const std::vector<ImportedOrgan>& organs)
+{
+  Json manifest{ { "palp_import", 1 }, { "version", PALP_VERSION },
+    { "source", { { "file", source.image.name }, { "sha256", source.image.sha256 } } },
+    { "unit", source.image.unit },
+    { "frame", source.image.space.empty() ? "of the file" : source.image.space },
+    { "unit_of_files", "mm" }, { "parameters", partOf(source.image.part) } };
+  if (!source.names.empty())
+  {
+    manifest["source"]["names"] = source.names;
+  }
+  for (const ImportedOrgan& organ : organs)
+  {
+    manifest["organs"].push_back(organOf(organ));
+  }
+  return manifest.dump(2) + "\n";
+}
+
+} // namespace palp

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "app/import/organ_level.h"
+#include "app/input/mesh_file.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+inline constexpr const char* kImportScene = "scene.json";
+inline constexpr const char* kImportManifest = "import.json";
+
+/// What an import is made of, besides its organs.
+struct ImportSource
+{
+  MeshFile image;      ///< with unit, axes, and what of it is taken
+  std::string names{}; ///< file of the labels' names; empty: none
+};
+
+/// Files that an earlier import may have left in a folder: those two, and what its manifest lists.
+[[nodiscard]] std::vector<std::string> importFiles(const std::filesystem::path& folder);
+
+/// Writes NAME.vtp, and NAME_haptic.vtp where there is a coarser level; those are then forgotten.
+/// @throws Error  BadFile
+void writeOrgan(
+  const std::filesystem::path& folder, ImportedOrgan& organ, const std::string& space);
+
+/// The scene that opens all organs, files beside it.
+[[nodiscard]] std::string importScene(
+  const ImportSource& source, const std::vector<ImportedOrgan>& organs);
+
+/// Where the organs are from, by what, and how well each level keeps to its voxels.
+[[nodiscard]] std::string importManifest(
+  const ImportSource& source, const std::vector<ImportedOrgan>& organs);
+
+} // namespace palp

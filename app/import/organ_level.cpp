@@ -1,0 +1,144 @@
+#include "app/import/organ_level.h"
+
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/surface/decimation/decimate.h"
+#include "haptics/surface/enclosed_volume.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/surface_io.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+#include <vtkPolyData.h>
+
+namespace palp
+{
+namespace
+{
+
+// as many as the bundled liver has to look at and, four times as dense, to feel
+constexpr std::size_t kShownPoints = 20'000;
+constexpr std::size_t kHapticPoints = 10'000;
+
+// the surface between the voxels, before anything was smoothed
+struct Boundary
+{
+  std::vector<Eigen::Vector3d> points; // [m]
+  BoxTree tree;
+};
+
+OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  const Boundary& boundary)
+{
+  return { .mesh = makePolyData(points, triangles),
+    .points = points.size(),
+    .triangles = triangles.size(),
+    .apart = deviation(points, BoxTree(points, triangles), boundary.points, boundary.tree) };
+}
+
+Boundary boundaryOf(FileOrgan& organ, double length)
+{
+  Boundary boundary{ .points = std::exchange(organ.from, {}), .tree = {} };
+  for (Eigen::Vector3d& point : boundary.points)
+  {
+    point *= length;
+  }
+  boundary.tree = BoxTree(boundary.points, organ.surface.triangles);
+  return boundary;
+}
+
+void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>& warnings)
+{
+  constexpr std::string_view kWarning = "warning: ";
+  for (const std::string& note : notes)
+  {
+    note.starts_with(kWarning) ? warnings.push_back(note.substr(kWarning.size())) : void();
+  }
+}
+
+} // namespace
+
+ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image, LengthUnit unit)
+{
+  const double length = unitLength(unit);
+  ImportedOrgan result{ .name = organ.name,
+    .file = {},
+    .label = organ.label,
+    .voxels = organ.voxels,
+    .voxelVolume = std::pow(length, 3) * organ.voxelVolume,
+    .enclosed = std::pow(length, 3) * organ.enclosed,
+    .shown = {} };
+  addWarnings(organ.surface.notes, result.warnings);
+  organ.surface.notes.clear();
+  const Boundary boundary = boundaryOf(organ, length);
+  const LoadedSurface loaded = madeReady(std::exchange(organ.surface, {}), image, unit);
+  addWarnings(loaded.notes, result.warnings);
+  const std::vector<Eigen::Vector3d> points = pointsOf(*loaded.mesh);
+  const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
+  result.volume = enclosedVolume(points, triangles);
+  result.shown = levelOf(points, triangles, boundary);
+  if (points.size() > kShownPoints)
+  {
+    try
+    {
+      const Surface felt = decimated(points, triangles, kHapticPoints);
+      result.felt = levelOf(felt.points(), felt.triangles(), boundary);
+    }
+    catch (const Error& error) // an edge of three triangles
+    {
+      result.warnings.push_back(std::string("no coarser level: ") + error.what());
+    }
+  }
+  return result;
+}
+
+void nameFiles(
+  std::vector<FileOrgan>& organs, std::vector<std::string>& files, const std::string& other)
+{
+  for (FileOrgan& organ : organs)
+  {
+    organ.name = !organ.name.empty() ? organ.name
+      : organ.label.empty()          ? other
+                                     : "label " + organ.label;
+    std::string file = lowered(organ.name);
+    const auto isPlain = [](unsigned char c)
+    { return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_'; };
+    std::ranges::replace_if(
+      file, [&](char c) { return !isPlain(static_cast<unsigned char>(c)); }, '_');
+    file.insert(0, file.starts_with('.') ? "_" : "");
+    const std::string first = file;
+    for (int number = 2; std::ranges::count(files, file) > 0; ++number)
+    {
+      file = first + "_" + std::to_string(number);
+    }
+    files.push_back(file);
+  }
+}
+
+LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesystem::path& image,
+  std::vector<std::string>& warnings)
+{
+  const UnitChoice unit = asked ? asked : unitNamed(organs.unit);
+  if (unit)
+  {
+    return *unit;
+  }
+  Eigen::Array3d low = Eigen::Array3d::Constant(HUGE_VAL);
+  Eigen::Array3d high = -low;
+  for (const FileOrgan& organ : organs.organs)
+  {
+    for (const Eigen::Vector3d& point : organ.surface.points)
+    {
+      low = low.min(point.array());
+      high = high.max(point.array());
+    }
+  }
+  const LengthUnit guess = guessUnit((high - low).maxCoeff(), image.string());
+  warnings.push_back(std::string("the file names no unit; ") + unitName(guess) +
+    " is the only one that gives the size of organs; --unit " + unitName(guess) + " confirms it");
+  return guess;
+}
+
+} // namespace palp

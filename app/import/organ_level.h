@@ -1,0 +1,62 @@
+#pragma once
+
+#include "haptics/surface/deviation.h"
+#include "pipeline/process/file_organs.h"
+#include "pipeline/surface_io/length_unit.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+namespace palp
+{
+
+/// A surface of an organ, and how far it is from the boundary of its voxels.
+struct OrganLevel
+{
+  vtkSmartPointer<vtkPolyData> mesh; ///< [m]
+  std::size_t points = 0;
+  std::size_t triangles = 0;
+  Deviation apart{};
+};
+
+/// An organ on its way from an image to files.
+struct ImportedOrgan
+{
+  std::string name;  ///< as the image or a table has it, or of its label
+  std::string file;  ///< without ending, alone among those of an import
+  std::string label; ///< its value; empty: of no label map
+  std::uint64_t voxels = 0;
+  double voxelVolume = 0.0; ///< of all of them [m^3]
+  double enclosed = 0.0;    ///< volume of the pieces that were taken, as the voxels have it [m^3]
+  double volume = 0.0;      ///< of the surface [m^3]
+  OrganLevel shown;
+  std::optional<OrganLevel> felt{};    ///< where fewer points serve as well
+  std::vector<std::string> warnings{}; ///< for people
+};
+
+/// Makes an organ ready: repaired and facing outward, in two levels of detail.
+///
+/// @param organ   with its surface, which is used up
+/// @param image   that it is from, for messages
+/// @throws Error  as madeReady
+[[nodiscard]] ImportedOrgan importedOrgan(
+  FileOrgan organ, const std::filesystem::path& image, LengthUnit unit);
+
+/// Names that are files of their own: letters, digits, dots, hyphens and underscores of each, and a
+/// number behind one that another has.
+void nameFiles(
+  std::vector<FileOrgan>& organs, std::vector<std::string>& files, const std::string& other);
+
+/// The unit of all organs: that which is asked for or stated, or the one that their common size
+/// tells.
+/// @param warnings  gets that it was guessed
+/// @throws Error    BadMesh: as guessUnit
+[[nodiscard]] LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked,
+  const std::filesystem::path& image, std::vector<std::string>& warnings);
+
+} // namespace palp

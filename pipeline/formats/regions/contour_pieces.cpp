@@ -1,0 +1,125 @@
+#include "pipeline/formats/regions/contour_pieces.h"
+
+#include "haptics/files/input_text.h"
+#include "haptics/surface/winding.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace palp
+{
+namespace
+{
+
+// what hangs together
+struct Piece
+{
+  int point = 0;       // on it
+  double volume = 0.0; // positive where it faces as the largest does [unit^3]
+  bool isKept = false;
+};
+
+std::vector<Piece> measured(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, std::span<const int> numbers)
+{
+  std::vector<Piece> pieces(static_cast<std::size_t>(std::ranges::max(numbers)) + 1);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    const auto& [a, b, c] = triangles[i];
+    Piece& piece = pieces[at(numbers[i])];
+    piece.point = a;
+    piece.volume += points[at(a)].dot(points[at(b)].cross(points[at(c)])) / 6.0;
+  }
+  const auto size = [](const Piece& piece) { return std::abs(piece.volume); };
+  const double side = std::copysign(1.0, std::ranges::max(pieces, {}, size).volume);
+  for (Piece& piece : pieces)
+  {
+    piece.volume *= side;
+  }
+  return pieces;
+}
+
+// keeps the largest that are no hollows; how many
+std::size_t keepLargest(std::vector<Piece>& pieces, std::size_t components)
+{
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return pieces[i].volume; });
+  std::size_t kept = 0;
+  for (const std::size_t i : order)
+  {
+    pieces[i].isKept = pieces[i].volume > 0.0 && kept < components;
+    kept += pieces[i].isKept ? 1 : 0;
+  }
+  return kept;
+}
+
+// whether each hollow lies in a body that is kept: it is gone around once, and by no other hollow
+std::vector<bool> hollowsWithin(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, std::span<const int> numbers,
+  const std::vector<Piece>& pieces)
+{
+  std::vector<Triangle> walls;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    const Piece& piece = pieces[at(numbers[i])];
+    piece.isKept || piece.volume <= 0.0 ? walls.push_back(triangles[i]) : void();
+  }
+  const Winding winding(BoxTree(points, walls));
+  const auto outer = std::ranges::max_element(pieces, {}, &Piece::volume);
+  const Eigen::Vector3d& on = points[at(outer->point)];
+  const double side = winding(on) < 0.0 ? -1.0 : 1.0; // inside the largest
+  std::vector<bool> within(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    within[i] = pieces[i].volume <= 0.0 && side * winding(points[at(pieces[i].point)]) > 0.0;
+  }
+  return within;
+}
+
+std::string noteOf(std::size_t kept, std::size_t all, std::size_t hollows, std::size_t filled)
+{
+  const std::string which = kept == 1 ? "the largest" : "the " + std::to_string(kept) + " largest";
+  return which + " of its " + std::to_string(all) + " pieces " + (kept == 1 ? "is" : "are") +
+    " taken" + (hollows > 0 ? ", with " + counted(hollows, "hollow") : "") +
+    (filled > 0 ? ", and " + counted(filled, "hollow") + " of less than 100 voxels filled" : "");
+}
+
+} // namespace
+
+ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, std::span<const int> numbers, std::size_t components,
+  double leastHollow)
+{
+  ContourPieces result{ .isKept = std::vector<bool>(triangles.size(), true), .note = {} };
+  std::vector<Piece> pieces = measured(points, triangles, numbers);
+  if (pieces.size() < 2)
+  {
+    return result;
+  }
+  const std::size_t bodies = keepLargest(pieces, components);
+  std::size_t hollows = 0;
+  std::size_t filled = 0;
+  if (std::ranges::any_of(pieces, [](const Piece& piece) { return piece.volume < 0.0; }))
+  {
+    const std::vector<bool> within = hollowsWithin(points, triangles, numbers, pieces);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      const bool isLarge = -pieces[i].volume >= leastHollow;
+      hollows += within[i] && isLarge ? 1 : 0;
+      filled += within[i] && !isLarge ? 1 : 0;
+      pieces[i].isKept = pieces[i].isKept || (within[i] && isLarge);
+    }
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    result.isKept[i] = pieces[at(numbers[i])].isKept;
+  }
+  result.areAll = bodies + hollows == pieces.size();
+  result.note = noteOf(bodies, pieces.size(), hollows, filled);
+  return result;
+}
+
+} // namespace palp

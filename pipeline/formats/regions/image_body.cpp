@@ -1,0 +1,246 @@
+#include "pipeline/formats/regions/image_body.h"
+
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/surface/enclosed_volume.h"
+#include "pipeline/formats/regions/image_contour.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+
+namespace palp
+{
+namespace
+{
+
+using Form = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+// axes that lie in a plane, or are not numbers, would make a flat body
+void checkPosition(const PatientImage& volume, const std::string& name)
+{
+  using Eigen::Vector3d;
+  const Form form(volume.toPatient);
+  const Vector3d spacing(volume.image->GetSpacing());
+  const Eigen::Matrix3d axes = form.topLeftCorner<3, 3>() * spacing.asDiagonal();
+  constexpr double kFlattest = 1e-6; // of a box with such edges
+  if (!(std::abs(axes.determinant()) > kFlattest * axes.colwise().norm().prod()))
+  {
+    refuseImage(name, "the axes in its header do not span space; export it again");
+  }
+  if (!form.allFinite() || !Vector3d(volume.image->GetOrigin()).allFinite())
+  {
+    refuseImage(name, "the origin in its header is not a number; export it again");
+  }
+}
+
+// of a mask, what is known of its surface
+void noteVoxels(const PatientImage& volume, std::vector<std::string>& notes)
+{
+  constexpr double kThick = 2.0; // of the shortest side
+  const Eigen::Array3d spacing = Eigen::Array3d(volume.image->GetSpacing()).abs();
+  notes.emplace_back(
+    "of a mask the surface is known to half a voxel, and how it curves to what moves "
+    "the force of the corrected law by up to 10 % at a depth of one voxel, less deeper");
+  if (spacing.maxCoeff() > kThick * spacing.minCoeff())
+  {
+    notes.push_back("warning: its voxels are " + inWords(spacing.maxCoeff() / spacing.minCoeff()) +
+      " times as long as they are wide; between them the surface is a guess: take thinner slices "
+      "where force matters");
+  }
+}
+
+void noteBorder(const VoxelBox& box, const vtkImageData& image, std::vector<std::string>& notes)
+{
+  const int* size = const_cast<vtkImageData&>(image).GetDimensions();
+  bool isCut = false;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    isCut = isCut || box.low[k] == 0 || box.high[k] == size[k] - 1;
+  }
+  if (isCut)
+  {
+    notes.emplace_back("warning: it reaches the border of the image, and is closed there by a flat "
+                       "face that no organ has");
+  }
+}
+
+void toPatient(const PatientImage& volume, std::vector<Eigen::Vector3d>& points)
+{
+  const Form form(volume.toPatient);
+  for (Eigen::Vector3d& point : points)
+  {
+    point = form.topLeftCorner<3, 3>() * point + form.topRightCorner<3, 1>();
+  }
+}
+
+} // namespace
+
+std::string inWords(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void refuseImage(const std::string& name, const std::string& what)
+{
+  throw Error(ErrorCode::BadMesh, name + ": " + what);
+}
+
+void checkVolume(const PatientImage& volume, const std::string& name)
+{
+  const int* size = volume.image->GetDimensions();
+  vtkDataArray* voxels = volume.image->GetPointData()->GetScalars();
+  if (std::min({ size[0], size[1], size[2] }) < 2)
+  {
+    refuseImage(name, "no volume in it; give an image of two slices or more");
+  }
+  if (!voxels)
+  {
+    refuseImage(name, "no values at its voxels; export it again");
+  }
+  if (voxels->GetNumberOfComponents() != 1 && volume.segments.empty())
+  {
+    refuseImage(name, "several values at each voxel; give an image of one");
+  }
+  checkPosition(volume, name);
+}
+
+ImageRegion regionOfLabels(const PatientImage& volume, std::span<const Label> labels)
+{
+  ImageRegion region{ .image = maskOfLabels(volume, labels) };
+  VoxelBox box;
+  for (const Label& label : labels)
+  {
+    box.add(label.box.low, label.box.high);
+  }
+  noteVoxels(volume, region.notes);
+  noteBorder(box, *volume.image, region.notes);
+  return region;
+}
+
+ImageRegion regionOfBand(
+  const PatientImage& volume, const std::array<double, 2>& band, const std::string& name)
+{
+  const auto isWithin = [&](double stored)
+  {
+    const double value = volume.slope * stored + volume.intercept;
+    return value >= band[0] && value <= band[1];
+  };
+  const VoxelBox box = boxWhere(*volume.image, isWithin);
+  if (box.empty())
+  {
+    const ImageValues values = valuesOf(*volume.image);
+    refuseImage(name,
+      "no voxel has a value from " + inWords(band[0]) + " to " + inWords(band[1]) +
+        "; its values are stored from " + inWords(values.low) + " to " + inWords(values.high));
+  }
+  ImageRegion region{ .image = maskAbout(*volume.image, box) };
+  mark(*region.image, *volume.image, box, isWithin);
+  noteVoxels(volume, region.notes);
+  noteBorder(box, *volume.image, region.notes);
+  return region;
+}
+
+ImageRegion regionOfLevel(
+  const PatientImage& volume, double asked, const ImageValues& values, const std::string& name)
+{
+  const auto scaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
+  const double low = std::min(scaled(values.low), scaled(values.high));
+  const double high = std::max(scaled(values.low), scaled(values.high));
+  if (values.notFinite > 0)
+  {
+    const auto& [x, y, z] = values.firstOf;
+    refuseImage(name,
+      "voxels that are no numbers (NaN or infinite): " + std::to_string(values.notFinite) +
+        ", the first at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
+        std::to_string(z) + " counted from 0; give them the value of what lies around the body");
+  }
+  if (!(asked > low && asked < high))
+  {
+    refuseImage(name,
+      "no surface at level " + inWords(asked) + "; its values go from " + inWords(low) + " to " +
+        inWords(high));
+  }
+  ImageRegion region{ .image = volume.image,
+    .level = (asked - volume.intercept) / volume.slope,
+    .mask = values.distinct.size() == 2,
+    .below = volume.slope < 0.0 };
+  if (region.mask)
+  {
+    const double middle = 0.5 * (values.low + values.high);
+    if (std::abs(region.level - middle) > 1e-6 * (values.high - values.low))
+    {
+      region.notes.push_back("a mask of " + inWords(scaled(values.distinct[0])) + ", " +
+        inWords(scaled(values.distinct[1])) + "; its surface is taken at " +
+        inWords(scaled(middle)) + ", their middle");
+    }
+    region.level = middle;
+    noteVoxels(volume, region.notes);
+  }
+  // what is above the level is the body, or what is around it; the border is the same all around
+  region.image = closedAtBorder(*volume.image, region.level, values.low);
+  if (region.image != volume.image)
+  {
+    region.notes.emplace_back(
+      "warning: it reaches the border of the image, and is closed there by a flat face that no "
+      "organ has");
+  }
+  return region;
+}
+
+FileOrgan bodyOf(
+  const PatientImage& volume, ImageRegion region, std::size_t components, const std::string& name)
+{
+  FileOrgan organ;
+  const vtkIdType voxels = voxelsAbove(*region.image, region.level);
+  constexpr vtkIdType kFewest = 8;
+  if (region.mask && voxels < kFewest)
+  {
+    refuseImage(name,
+      "what is chosen has " + counted(static_cast<std::size_t>(voxels), "voxel") +
+        ", too few for a surface; take finer voxels");
+  }
+  constexpr std::uintmax_t most = 10'000'000;
+  if (const std::uintmax_t triangles = 2 * crossings(*region.image, region.level); triangles > most)
+  {
+    refuseImage(name,
+      "its surface would have " + std::to_string(triangles / 1'000'000) +
+        " million triangles, noise at that level; smooth the image, or take fewer voxels");
+  }
+  ImageContour contour =
+    imageContour(*region.image, region.level, region.mask, components, region.notes);
+  const double inside = enclosedVolume(contour.points, contour.triangles);
+  if ((inside < 0.0) != region.below)
+  {
+    region.notes.emplace_back("the body is what is below the level, as a distance is; what is "
+                              "above it reaches the border of the image all around");
+  }
+  const double grown = std::abs(Form(volume.toPatient).topLeftCorner<3, 3>().determinant());
+  organ.voxels = static_cast<std::uint64_t>(voxels);
+  organ.voxelVolume = static_cast<double>(voxels) * voxelVolume(volume);
+  organ.enclosed = grown * std::abs(contour.enclosed);
+  toPatient(volume, contour.points);
+  toPatient(volume, contour.from);
+  if (enclosedVolume(contour.points, contour.triangles) < 0.0) // of a body below its level, too
+  {
+    for (Triangle& triangle : contour.triangles)
+    {
+      std::swap(triangle[0], triangle[2]);
+    }
+  }
+  organ.surface = { .points = std::move(contour.points),
+    .triangles = std::move(contour.triangles),
+    .unit = volume.unit,
+    .notes = std::move(region.notes),
+    .space = volume.space };
+  organ.from = std::move(contour.from);
+  return organ;
+}
+
+} // namespace palp

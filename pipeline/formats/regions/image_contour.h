@@ -1,0 +1,38 @@
+#pragma once
+
+#include "haptics/surface/box_tree.h"
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+
+namespace palp
+{
+
+/// A closed surface between the voxels of an image.
+struct ImageContour
+{
+  std::vector<Eigen::Vector3d> points; ///< [unit of the image]
+  std::vector<Triangle> triangles;     ///< facing lower values
+  std::vector<Eigen::Vector3d> from;   ///< where each point was before stairs were smoothed
+  double enclosed = 0.0;               ///< volume that was meant to stay [unit^3]
+};
+
+/// The largest connected pieces of the surface on which an image has a value, with their hollows,
+/// without the stairs of the voxels (windowed sinc, which keeps the volume; Taubin 1996).
+///
+/// Of a mask the voxels tell only that the surface passes between two of them. Of all that do, the
+/// one is taken that bends least, so that terraces of many voxels vanish, too; no point leaves the
+/// half voxel to each side within which it is known, and the volume is that of the voxels. A hollow
+/// of less than 100 voxels is filled.
+///
+/// @param image       nowhere above the level at its border, or everywhere
+/// @param mask        whether voxels are in or out, not values between which to interpolate
+/// @param components  how many pieces at most, the largest first
+/// @param notes       gets what was left out
+[[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, bool mask,
+  std::size_t components, std::vector<std::string>& notes);
+
+} // namespace palp

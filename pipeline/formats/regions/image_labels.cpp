@@ -1,0 +1,151 @@
+#include "pipeline/formats/regions/image_labels.h"
+
+#include "haptics/error.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vtkImageData.h>
+
+namespace palp
+{
+namespace
+{
+
+// one [ml], where the file tells its unit
+std::optional<double> milliliters(const PatientImage& volume)
+{
+  const std::string& unit = volume.unit;
+  const double cm = unit == "um" ? 1e-4 : unit == "mm" ? 0.1 : unit == "cm" ? 1.0 : 100.0;
+  return unit.empty() ? std::nullopt : std::optional(std::pow(cm, 3) * voxelVolume(volume));
+}
+
+// a number names the value next to it that a voxel can have, to the rounding of the scale
+bool isNamed(const Label& label, double step, const std::string& text)
+{
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool isNumber = failure == std::errc() && end == text.data() + text.size();
+  constexpr double kRounding = 1e-15;
+  return isNumber
+    ? std::abs(label.shown - value) <= 1e-6 * std::abs(step) + kRounding * std::abs(value)
+    : lowered(label.segment.name) == lowered(text);
+}
+
+} // namespace
+
+std::vector<Label> labelsOf(const PatientImage& volume)
+{
+  std::vector<Label> labels;
+  const int layers = volume.image->GetNumberOfScalarComponents();
+  for (int layer = 0; layer < layers; ++layer)
+  {
+    const ImageValues values = valuesOf(*volume.image, layer);
+    const auto namedOf = [&](double value)
+    {
+      return std::ranges::find_if(volume.segments,
+        [&](const Segment& one) { return one.layer == layer && one.value == value; });
+    };
+    for (std::size_t i = 0; i < values.distinct.size(); ++i)
+    {
+      const double value = values.distinct[i];
+      const auto named = namedOf(value);
+      labels.push_back({ .segment = named != volume.segments.end()
+          ? *named
+          : Segment{ .name = {}, .value = value, .layer = layer },
+        .shown = volume.slope * value + volume.intercept,
+        .voxels = values.often[i],
+        .box = values.boxes[i] });
+    }
+  }
+  return labels;
+}
+
+std::vector<Label> bodiesAmong(std::vector<Label> labels)
+{
+  std::erase_if(labels,
+    [](const Label& label)
+    { return label.segment.name.empty() && (label.shown == 0.0 || label.segment.layer > 0); });
+  return labels;
+}
+
+double voxelVolume(const PatientImage& volume)
+{
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> form(volume.toPatient);
+  return std::abs(
+    form.topLeftCorner<3, 3>().determinant() * Eigen::Array3d(volume.image->GetSpacing()).prod());
+}
+
+std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& volume)
+{
+  const std::optional<double> voxel = milliliters(volume);
+  std::ostringstream text;
+  text.precision(3);
+  for (const Label& label : bodiesAmong(labels))
+  {
+    text << (text.tellp() > 0 ? ", " : "") << shortest(label.shown)
+         << (label.segment.name.empty() ? "" : " " + printable(label.segment.name)) << " ("
+         << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
+    voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';
+  }
+  return text.tellp() > 0 ? "its labels are " + text.str()
+    : labels.empty()      ? "it has more values than a label map"
+                          : "all its voxels are 0";
+}
+
+std::vector<Label> chosenLabels(const std::vector<Label>& labels,
+  const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name)
+{
+  constexpr double kWhole = 9'007'199'254'740'992.0; // beyond it doubles are not all whole numbers
+  if (std::ranges::any_of(
+        labels, [](const Label& one) { return std::abs(one.segment.value) >= kWhole; }))
+  {
+    throw Error(ErrorCode::BadMesh,
+      name + ": labels beyond 2^53, which are not told apart here; number them anew");
+  }
+  std::vector<Label> chosen;
+  for (const std::string& word : asked)
+  {
+    const auto isMeant = [&](const Label& one) { return isNamed(one, volume.slope, word); };
+    const auto count = std::ranges::count_if(labels, isMeant);
+    if (count != 1)
+    {
+      throw Error(ErrorCode::BadMesh,
+        name + ": " + (count == 0 ? "no" : "more than one") + " label " + printable(word) +
+          " in it; " + labelsInWords(labels, volume));
+    }
+    chosen.push_back(*std::ranges::find_if(labels, isMeant));
+  }
+  return chosen;
+}
+
+vtkSmartPointer<vtkImageData> maskOfLabels(
+  const PatientImage& volume, std::span<const Label> labels)
+{
+  VoxelBox box;
+  for (const Label& label : labels)
+  {
+    box.add(label.box.low, label.box.high);
+  }
+  auto mask = maskAbout(*volume.image, box);
+  const int layers = volume.image->GetNumberOfScalarComponents();
+  for (int layer = 0; layer < layers; ++layer)
+  {
+    const auto isChosen = [&](double value)
+    {
+      return std::ranges::any_of(labels,
+        [&](const Label& one) { return one.segment.layer == layer && one.segment.value == value; });
+    };
+    if (std::ranges::any_of(labels, [&](const Label& one) { return one.segment.layer == layer; }))
+    {
+      mark(*mask, *volume.image, box, isChosen, layer);
+    }
+  }
+  return mask;
+}
+
+} // namespace palp

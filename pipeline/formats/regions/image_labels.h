@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pipeline/formats/images/patient_image.h"
+#include "pipeline/formats/regions/image_values.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace palp
+{
+
+/// A region of a label map, and what is known of it.
+struct Label
+{
+  Segment segment;
+  double shown = 0.0; ///< its value, as the header scales it
+  vtkIdType voxels = 0;
+  VoxelBox box; ///< that holds them
+};
+
+/// All that have voxels, by layer and value; the background is one of them.
+/// @param volume  a label map, or segments in layers
+[[nodiscard]] std::vector<Label> labelsOf(const PatientImage& volume);
+
+/// Those that are bodies: not the background, nor what no segment of a layer is.
+[[nodiscard]] std::vector<Label> bodiesAmong(std::vector<Label> labels);
+
+/// For people: value, name, voxels and volume of each.
+[[nodiscard]] std::string labelsInWords(
+  const std::vector<Label>& labels, const PatientImage& volume);
+
+/// Volume of a voxel [unit^3].
+[[nodiscard]] double voxelVolume(const PatientImage& volume);
+
+/// Those that words name.
+///
+/// @param asked   values, or names of segments, with or without capitals
+/// @param name    stands before each message
+/// @throws Error  BadMesh: none of that value or name, or several, as in layers; says which there
+///                are; labels beyond 2^53
+[[nodiscard]] std::vector<Label> chosenLabels(const std::vector<Label>& labels,
+  const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name);
+
+/// An image that is 1 where one of some labels is, and 0 all around.
+[[nodiscard]] vtkSmartPointer<vtkImageData> maskOfLabels(
+  const PatientImage& volume, std::span<const Label> labels);
+
+} // namespace palp

@@ -1,0 +1,132 @@
+#include "pipeline/formats/regions/image_surface.h"
+
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/regions/image_body.h"
+
+#include <algorithm>
+#include <vtkImageData.h>
+
+namespace palp
+{
+namespace
+{
+
+// by a level, where it is no label map
+ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const std::string& name)
+{
+  const ImageValues values = volume.segments.empty() ? valuesOf(*volume.image) : ImageValues{};
+  if (!volume.segments.empty() || values.labels)
+  {
+    refuseImage(name,
+      "a label map, whose values have no order (" + labelsInWords(labelsOf(volume), volume) +
+        "); give one as the label, or several with commas, not a level");
+  }
+  if (!part.level)
+  {
+    const double one = volume.slope * values.low + volume.intercept;
+    const double other = volume.slope * values.high + volume.intercept;
+    refuseImage(name,
+      "an image; name the value of the surface with a level, its values go from " +
+        inWords(std::min(one, other)) + " to " + inWords(std::max(one, other)));
+  }
+  return regionOfLevel(volume, *part.level, values, name);
+}
+
+// of a mask, or with names, as well
+bool isLabelMap(const PatientImage& volume, const ImageValues& values)
+{
+  return !volume.segments.empty() || values.labels ||
+    (values.distinct.size() == 2 && values.notFinite == 0 &&
+      (values.distinct[0] == 0.0 || values.distinct[1] == 0.0));
+}
+
+FileOrgan listed(const Label& label, const PatientImage& volume)
+{
+  return { .label = shortest(label.shown),
+    .name = label.segment.name,
+    .voxels = static_cast<std::uint64_t>(label.voxels),
+    .voxelVolume = static_cast<double>(label.voxels) * voxelVolume(volume),
+    .surface = {},
+    .from = {} };
+}
+
+FileOrgan organOf(
+  const Label& label, const PatientImage& volume, std::size_t components, const std::string& name)
+{
+  const FileOrgan known = listed(label, volume);
+  FileOrgan organ = bodyOf(volume, regionOfLabels(volume, std::span(&label, 1)), components,
+    name + ", label " + known.label);
+  organ.label = known.label;
+  organ.name = known.name;
+  return organ;
+}
+
+// those that are asked for, else all that are large enough
+std::vector<Label> wantedLabels(const PatientImage& volume, const ImagePart& part, bool isList,
+  const std::string& name, std::vector<std::string>& notes)
+{
+  const std::vector<Label> known = labelsOf(volume);
+  if (!part.labels.empty())
+  {
+    return chosenLabels(known, part.labels, volume, name);
+  }
+  std::vector<Label> bodies = bodiesAmong(known);
+  constexpr vtkIdType kFewest = 8;
+  for (const Label& label : bodies)
+  {
+    if (label.voxels < kFewest && !isList)
+    {
+      notes.push_back("warning: label " + shortest(label.shown) + " has " +
+        counted(static_cast<std::size_t>(label.voxels), "voxel") +
+        ", too few for a surface, and is left out");
+    }
+  }
+  std::erase_if(bodies, [&](const Label& label) { return label.voxels < kFewest && !isList; });
+  if (bodies.empty())
+  {
+    refuseImage(name, "no label of eight voxels or more in it; " + labelsInWords(known, volume));
+  }
+  return bodies;
+}
+
+} // namespace
+
+FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, const std::string& name)
+{
+  checkVolume(volume, name);
+  ImageRegion region = part.labels.empty()
+    ? levelOf(volume, part, name)
+    : regionOfLabels(volume, chosenLabels(labelsOf(volume), part.labels, volume, name));
+  region.notes.insert(region.notes.begin(), volume.notes.begin(), volume.notes.end());
+  return bodyOf(volume, std::move(region), part.components, name).surface;
+}
+
+FileOrgans imageOrgans(
+  const PatientImage& volume, const ImagePart& part, bool isList, const std::string& name)
+{
+  checkVolume(volume, name);
+  FileOrgans all{ .unit = volume.unit, .space = volume.space, .notes = volume.notes };
+  if (part.band || part.level)
+  {
+    all.organs.push_back(bodyOf(volume,
+      part.band ? regionOfBand(volume, *part.band, name) : levelOf(volume, part, name),
+      part.components, name));
+    return all;
+  }
+  const ImageValues values = valuesOf(*volume.image);
+  all.low = volume.slope * values.low + volume.intercept;
+  all.high = volume.slope * values.high + volume.intercept;
+  if (part.labels.empty() && !isLabelMap(volume, values))
+  {
+    return all;
+  }
+  for (const Label& label : wantedLabels(volume, part, isList, name, all.notes))
+  {
+    all.organs.push_back(
+      isList ? listed(label, volume) : organOf(label, volume, part.components, name));
+  }
+  return all;
+}
+
+} // namespace palp

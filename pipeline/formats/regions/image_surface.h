@@ -1,0 +1,29 @@
+#pragma once
+
+#include "pipeline/formats/images/patient_image.h"
+#include "pipeline/process/file_organs.h"
+
+#include <string>
+
+namespace palp
+{
+
+/// The surface in an image on which it has one value, or of some of its labels together, closed
+/// also where the image ends.
+///
+/// @param part   nothing: refused, with the values that there are
+/// @param name   stands before each message
+/// @throws Error BadMesh: no level, or none of that value; a level of a label map, whose numbers
+///               have no order, or of voxels that are NaN; as chosenLabels, checkVolume, bodyOf
+[[nodiscard]] FileSurface imageSurface(
+  const PatientImage& volume, const ImagePart& part, const std::string& name);
+
+/// Each of some labels, all where none is named, as a body of its own; or the one of a level or a
+/// band of values.
+///
+/// @param isList  whether they are only listed
+/// @throws Error  as imageSurface
+[[nodiscard]] FileOrgans imageOrgans(
+  const PatientImage& volume, const ImagePart& part, bool isList, const std::string& name);
+
+} // namespace palp

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+class vtkImageData;
+
+namespace palp
+{
+
+/// Voxels from one corner to the other, both counted.
+struct VoxelBox
+{
+  std::array<int, 3> low{};
+  std::array<int, 3> high{ -1, -1, -1 }; ///< below low: there are none
+
+  [[nodiscard]] bool empty() const noexcept
+  {
+    return high[0] < low[0];
+  }
+
+  /// Takes in what is between two corners.
+  void add(const std::array<int, 3>& from, const std::array<int, 3>& to) noexcept;
+};
+
+/// What values an image has, as they are stored.
+struct ImageValues
+{
+  double low = 0.0; ///< of those that are finite
+  double high = 0.0;
+  std::vector<double> distinct; ///< rising; empty: more than 256
+  std::vector<vtkIdType> often; ///< how many voxels have each of those
+  std::vector<VoxelBox> boxes;  ///< where those are
+  vtkIdType notFinite = 0;      ///< how many are NaN or infinite
+  std::array<int, 3> firstOf{}; ///< these, where
+  bool labels = false; ///< three values or more, all whole, most voxels like those beside them
+};
+
+/// @param layer  component of the voxels
+[[nodiscard]] ImageValues valuesOf(vtkImageData& image, int layer = 0);
+
+/// How many voxels are above a level.
+[[nodiscard]] vtkIdType voxelsAbove(vtkImageData& image, double level);
+
+/// Edges of the grid whose ends are on different sides of a level: about as many as the points of
+/// its surface.
+[[nodiscard]] std::uintmax_t crossings(vtkImageData& image, double level);
+
+/// Where an image has values that are wanted.
+[[nodiscard]] VoxelBox boxWhere(
+  vtkImageData& image, const std::function<bool(double)>& isWanted, int layer = 0);
+
+/// An image of 0 that holds a box of another's voxels and one more to each side, also beyond its
+/// border.
+[[nodiscard]] vtkSmartPointer<vtkImageData> maskAbout(vtkImageData& image, const VoxelBox& box);
+
+/// Sets to 1 what is wanted of the voxels in a box.
+/// @param mask  of maskAbout with the same box
+void mark(vtkImageData& mask, vtkImageData& image, const VoxelBox& box,
+  const std::function<bool(double)>& isWanted, int layer = 0);
+
+/// The image with one more voxel to each side, so that a surface ends there; itself where its
+/// border is above the level nowhere, or everywhere, as of a distance.
+/// @param outside  of those voxels, below the level
+[[nodiscard]] vtkSmartPointer<vtkImageData> closedAtBorder(
+  vtkImageData& image, double level, double outside);
+
+} // namespace palp

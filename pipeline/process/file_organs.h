@@ -1,0 +1,40 @@
+#pragma once
+
+#include "pipeline/process/file_surface.h"
+
+#include <cstdint>
+
+namespace palp
+{
+
+/// One of the bodies in an image.
+struct FileOrgan
+{
+  std::string label;        ///< its value; empty: of no label map
+  std::string name;         ///< that the image or a table gives it; empty: none
+  std::uint64_t voxels = 0; ///< that it has in the image
+  double voxelVolume = 0.0; ///< of all of them [unit^3]
+  double enclosed = 0.0;    ///< volume of what was taken of it, before it was smoothed [unit^3]
+  FileSurface surface;      ///< empty where only a list is asked for
+  std::vector<Eigen::Vector3d> from; ///< of its points, where each was before it was smoothed
+};
+
+/// What an image holds.
+struct FileOrgans
+{
+  std::vector<FileOrgan> organs{}; ///< none: it is no label map, and nothing of it is asked for
+  double low = 0.0;                ///< its values
+  double high = 0.0;
+  std::string unit{};               ///< as in FileSurface
+  std::string space{};              ///< likewise
+  std::vector<std::string> notes{}; ///< on all of it
+};
+
+/// @return  bytes for another process on this machine
+[[nodiscard]] std::string pack(const FileOrgans& organs);
+
+/// @param bytes  of pack
+/// @return       nothing where they are not, or name a point that is not there
+[[nodiscard]] std::optional<FileOrgans> unpackOrgans(std::string_view bytes);
+
+} // namespace palp
