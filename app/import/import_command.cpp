@@ -255,8 +255,8 @@ void addImportCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand("import",
     "Make organs of a segmentation or a scan: smooth closed surfaces and a scene that opens them");
   command
-    ->add_option(
-      "IN", options->image, "Image: MHA, MHD, NII, NII.GZ, NRRD, VTI; or a folder of DICOM images")
+    ->add_option("IN", options->image,
+      "Image: MHA, MHD, NII, NII.GZ, NRRD, VTI; a DICOM segmentation; a folder of DICOM images")
     ->required();
   command->add_option("--out", options->out, "Folder for it; without it the labels are listed");
   addParts(*command, *options);

@@ -49,6 +49,34 @@ Boundary boundaryOf(FileOrgan& organ, double length)
   return boundary;
 }
 
+// Of fewer points: of the coarse surface, which is quick, where nothing thin was lost there.
+std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, FileOrgan& organ, double length, const Boundary& boundary)
+{
+  if (points.size() <= kShownPoints)
+  {
+    return std::nullopt;
+  }
+  const auto levelBy = [&](std::span<const Eigen::Vector3d> from, std::span<const Triangle> faces)
+  {
+    const Surface felt = decimated(from, faces, kHapticPoints);
+    return levelOf(felt.points(), felt.triangles(), boundary);
+  };
+  if (!organ.coarse.triangles.empty())
+  {
+    for (Eigen::Vector3d& point : organ.coarse.points)
+    {
+      point *= length;
+    }
+    OrganLevel level = levelBy(organ.coarse.points, organ.coarse.triangles);
+    if (level.apart.largest <= length * organ.coarseVoxel)
+    {
+      return level;
+    }
+  }
+  return levelBy(points, triangles);
+}
+
 void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>& warnings)
 {
   constexpr std::string_view kWarning = "warning: ";
@@ -79,17 +107,13 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
   result.volume = enclosedVolume(points, triangles);
   result.shown = levelOf(points, triangles, boundary);
-  if (points.size() > kShownPoints)
+  try
   {
-    try
-    {
-      const Surface felt = decimated(points, triangles, kHapticPoints);
-      result.felt = levelOf(felt.points(), felt.triangles(), boundary);
-    }
-    catch (const Error& error) // an edge of three triangles
-    {
-      result.warnings.push_back(std::string("no coarser level: ") + error.what());
-    }
+    result.felt = feltLevel(points, triangles, organ, length, boundary);
+  }
+  catch (const Error& error) // an edge of three triangles
+  {
+    result.warnings.push_back(std::string("no coarser level: ") + error.what());
   }
   return result;
 }

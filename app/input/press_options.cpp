@@ -42,7 +42,8 @@ void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
     "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ, NRRD (all "
-    "in LPS) or VTI; a folder of DICOM images (LPS); the bundled liver if none",
+    "in LPS) or VTI; a DICOM segmentation or a folder of DICOM images (LPS); the bundled liver if "
+    "none",
     "",
     [this](const std::string& text)
     {

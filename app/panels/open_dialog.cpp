@@ -2,6 +2,8 @@
 
 #include "app/input/quantity.h"
 #include "haptics/error.h"
+#include "haptics/units.h"
+#include "pipeline/surface_io/surface_io.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -10,13 +12,15 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 
+#include <cmath>
 #include <utility>
 
 namespace palp
 {
 
-const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.vti";
+const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.vti *.dcm";
 
 bool isImageFile(const QString& file)
 {
@@ -56,6 +60,7 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
     label_->setObjectName("label");
     label_->setPlaceholderText(tr("of a label map, e.g. 5, or 1,2 for both"));
     rows->addRow(tr("or label of the body"), label_);
+    addLabels(*rows);
   }
   unit_->setObjectName("unit");
   unit_->addItems({ "auto", "mm", "cm", "m" });
@@ -64,6 +69,53 @@ OpenDialog::OpenDialog(const QString& file, const QString& why,
   connect(buttons, &QDialogButtonBox::accepted, this, &OpenDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &OpenDialog::reject);
   rows->addRow(buttons);
+}
+
+// ticking one writes its value into the field of labels
+void OpenDialog::addLabels(QFormLayout& rows)
+{
+  FileOrgans found;
+  try
+  {
+    found = readFileOrgans(file_, {}, true);
+  }
+  catch (const Error&) // which is told already
+  {
+    return;
+  }
+  if (found.organs.empty())
+  {
+    return;
+  }
+  auto* list = new QListWidget;
+  list->setObjectName("labels");
+  const UnitChoice unit = unitNamed(found.unit);
+  for (const FileOrgan& organ : found.organs)
+  {
+    QString text = QString::fromStdString(organ.label + "  " + organ.name);
+    if (unit)
+    {
+      const double volume = std::pow(unitLength(*unit), 3) * organ.voxelVolume;
+      text += tr("  %1 ml").arg(units::toMilliliters(volume), 0, 'g', 4);
+    }
+    auto* item = new QListWidgetItem(text, list);
+    item->setData(Qt::UserRole, QString::fromStdString(organ.label));
+    item->setCheckState(Qt::Unchecked);
+  }
+  connect(list, &QListWidget::itemChanged, this,
+    [this, list]
+    {
+      QStringList ticked;
+      for (int i = 0; i < list->count(); ++i)
+      {
+        if (list->item(i)->checkState() == Qt::Checked)
+        {
+          ticked << list->item(i)->data(Qt::UserRole).toString();
+        }
+      }
+      label_->setText(ticked.join(','));
+    });
+  rows.addRow(tr("Labels in it"), list);
 }
 
 MeshSource OpenDialog::source() const

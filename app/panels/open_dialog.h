@@ -7,15 +7,17 @@
 #include <functional>
 
 class QComboBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
+class QListWidget;
 
 namespace palp
 {
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
-/// the surface or the label of the body. Stays, with the reason, until the file is opened or given
-/// up.
+/// the surface or the labels of the body, which are listed to be ticked. Stays, with the reason,
+/// until the file is opened or given up.
 class OpenDialog : public QDialog
 {
   Q_OBJECT
@@ -31,6 +33,7 @@ public:
 
 private:
   [[nodiscard]] MeshSource source() const;
+  void addLabels(QFormLayout& rows);
 
   std::filesystem::path file_;
   std::function<void(const MeshSource&)> open_;

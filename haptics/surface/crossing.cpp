@@ -16,8 +16,8 @@ std::optional<Eigen::Vector3d> pierced(
 {
   const double above = facet.normal.dot(a - facet.corners[0]);
   const double below = facet.normal.dot(b - facet.corners[0]);
-  const double least = kTouching * (b - a).norm();
-  if (above * below >= 0.0 || std::min(std::abs(above), std::abs(below)) < least)
+  if (above * below >= 0.0 ||
+    std::min(std::abs(above), std::abs(below)) < kTouching * (b - a).norm())
   {
     return std::nullopt;
   }
@@ -25,22 +25,32 @@ std::optional<Eigen::Vector3d> pierced(
   return isWithin(facet, x, kTouching) ? std::optional(x) : std::nullopt;
 }
 
-bool overlaps(const BoxTree::Node& box, const Facet& facet) noexcept
+// the box of a facet, made once for all that it is compared with
+class FacetBox
 {
-  const auto& [a, b, c] = facet.corners;
-  const Eigen::Array3d low = a.cwiseMin(b).cwiseMin(c).array();
-  const Eigen::Array3d high = a.cwiseMax(b).cwiseMax(c).array();
-  for (std::size_t k = 0; k < 3; ++k)
+public:
+  explicit FacetBox(const Facet& facet)
+    : low_(facet.corners[0].cwiseMin(facet.corners[1]).cwiseMin(facet.corners[2]))
+    , high_(facet.corners[0].cwiseMax(facet.corners[1]).cwiseMax(facet.corners[2]))
   {
-    const auto axis = static_cast<Eigen::Index>(k);
-    if (low[axis] > static_cast<double>(box.high[k]) ||
-      high[axis] < static_cast<double>(box.low[k]))
-    {
-      return false;
-    }
   }
-  return true;
-}
+
+  [[nodiscard]] bool overlaps(const BoxTree::Node& box) const noexcept
+  {
+    bool isApart = false;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto axis = static_cast<Eigen::Index>(k);
+      isApart = isApart || low_[axis] > static_cast<double>(box.high[k]) ||
+        high_[axis] < static_cast<double>(box.low[k]);
+    }
+    return !isApart;
+  }
+
+private:
+  Eigen::Vector3d low_;
+  Eigen::Vector3d high_;
+};
 
 // visits the places where an edge of a facet passes through another one, while that asks for more
 template <typename Visit>
@@ -50,8 +60,9 @@ void forCrossings(const BoxTree& tree, std::span<const Triangle> triangles, Visi
   for (int i = 0; at(i) < tree.facets().size() && more; ++i)
   {
     const Facet& facet = tree.facets()[at(i)];
+    const FacetBox bounds(facet);
     const Triangle& own = triangles[at(tree.triangle(i))];
-    tree.search([&](const BoxTree::Node& box) { return more && overlaps(box, facet); },
+    tree.search([&](const BoxTree::Node& box) { return more && bounds.overlaps(box); },
       [&](int j)
       {
         const Triangle& other = triangles[at(tree.triangle(j))];
@@ -121,7 +132,8 @@ std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> piece
     const Facet& facet = tree.facets()[at(i)];
     const int own = pieces[at(tree.triangle(i))];
     bool isNear = false;
-    tree.search([&](const BoxTree::Node& box) { return !isNear && overlaps(box, facet); },
+    const FacetBox bounds(facet);
+    tree.search([&](const BoxTree::Node& box) { return !isNear && bounds.overlaps(box); },
       [&](int j) { isNear = isNear || pieces[at(tree.triangle(j))] != own; });
     if (isNear && isBuried(winding, facet, aside))
     {

@@ -159,10 +159,11 @@ void ShapeField::build(std::span<Piece> pieces, float cell, Leaves& leaves)
   {
     return;
   }
+  const auto along = [&](const Piece& piece) // coordinatesOf()[widest]
+  { return widest < 3 ? piece.center[widest] : cell * piece.sums.area.normalized()[widest - 3]; };
   const std::size_t half = pieces.size() / 2;
   std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(),
-    [&](const Piece& a, const Piece& b)
-    { return coordinatesOf(a)[widest] < coordinatesOf(b)[widest]; });
+    [&](const Piece& a, const Piece& b) { return along(a) < along(b); });
   build(pieces.first(half), cell, leaves);
   nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
   build(pieces.subspan(half), cell, leaves);

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <queue>
 #include <string>
@@ -90,8 +91,15 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
   }
   else
   {
-    crossing_ = findCrossing(tree_, triangles_);
-    crossing_ = crossing_ ? crossing_ : findOverlap();
+    // meanwhile the shape, which holds where nothing crosses
+    auto crossing = std::async(std::launch::async,
+      [this]
+      {
+        const auto found = findCrossing(tree_, triangles_);
+        return found ? found : findOverlap();
+      });
+    shape_ = ShapeField(tree_, { points_, triangles_, across_ }, edgeLength_);
+    crossing_ = crossing.get();
     if (crossing_)
     {
       dropWhatIsBuried();
@@ -105,7 +113,10 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
       firstTriangle_[at(point)] = tree_.triangle(facet);
     }
   }
-  shape_ = ShapeField(tree_, { points_, triangles_, across_ }, edgeLength_);
+  if (!isClosed_ || crossing_)
+  {
+    shape_ = ShapeField(tree_, { points_, triangles_, across_ }, edgeLength_);
+  }
 }
 
 // whether they are closed

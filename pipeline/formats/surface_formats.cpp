@@ -4,6 +4,7 @@
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/images/dicom_image.h"
+#include "pipeline/formats/images/dicom_segments.h"
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
@@ -22,6 +23,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -53,9 +55,37 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".nii", "NIfTI", "", nullptr, readNifti },
   Format{ ".nii.gz", "NIfTI", "", nullptr, readNifti },
   Format{ ".nrrd", "NRRD", "NRRD000", nullptr, readNrrd },
-  Format{ ".vti", "VTI", "<", nullptr, readVti } };
+  Format{ ".vti", "VTI", "<", nullptr, readVti },
+  Format{ ".dcm", "DICOM", "", nullptr, readDicomSegments } };
 
 constexpr Format kDicom{ "/", "DICOM", "", nullptr };
+
+// of other programs, with the way out
+constexpr std::array kOthers{ std::pair{ ".msh", "a mesh of Gmsh; save it by gmsh -save as .vtk" },
+  std::pair{ ".glb", "a scene of glTF; export its mesh as .ply or .stl, in mm" },
+  std::pair{ ".gltf", "a scene of glTF; export its mesh as .ply or .stl, in mm" },
+  std::pair{ ".3mf", "a package of 3MF; save its mesh as .stl" },
+  std::pair{ ".step", "a CAD model; export its surface as .stl" },
+  std::pair{ ".stp", "a CAD model; export its surface as .stl" },
+  std::pair{ ".nhdr", "the header of an NRRD in two files; save it as one .nrrd" },
+  std::pair{ ".hdr", "the header of an image in two files; save it as one .nii" },
+  std::pair{ ".img", "an image in two files; save it as one .nii" },
+  std::pair{ ".mgz", "an image of FreeSurfer; save it by mri_convert as .nii.gz" } };
+
+[[noreturn]] void refuseOther(const std::filesystem::path& file, const std::string& name)
+{
+  for (const auto& [ending, what] : kOthers)
+  {
+    if (name.ends_with(ending))
+    {
+      refuse(file, what);
+    }
+  }
+  refuse(file,
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu), an "
+    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti), a folder of DICOM images or a DICOM "
+    "segmentation (.dcm)");
+}
 
 const Format& formatOf(const std::filesystem::path& file)
 {
@@ -71,13 +101,7 @@ const Format& formatOf(const std::filesystem::path& file)
       return format;
     }
   }
-  if (name.ends_with(".dcm"))
-  {
-    refuse(file, "one image of a series; give the folder that holds all of them");
-  }
-  refuse(file,
-    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu), an "
-    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti) or a folder of DICOM images");
+  refuseOther(file, name);
 }
 
 void checkFile(const std::filesystem::path& file, const Format& format)

@@ -2,6 +2,7 @@
 
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/images/dicom_values.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"
 
@@ -10,12 +11,10 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <gdcmAttribute.h>
 #include <gdcmReader.h>
 #include <gdcmTrace.h>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <span>
 
@@ -31,6 +30,7 @@ constexpr double kAlike = 1e-3;  // [-] of spacings and directions, which are wr
 constexpr double kMissing = 0.1; // [-] of the distance by which one may be off
 constexpr double kTilt = 0.01;   // [rad] between the way of the slices and their normal
 
+const Tag kClass(0x0008, 0x0016);
 const Tag kModality(0x0008, 0x0060);
 const Tag kDescription(0x0008, 0x103e);
 const Tag kSeries(0x0020, 0x000e);
@@ -43,52 +43,13 @@ const Tag kIntercept(0x0028, 0x1052);
 const Tag kSlope(0x0028, 0x1053);
 const Tag kVoxels(0x7fe0, 0x0010);
 
-// without the blanks and zeros that fill it up; empty: not there
-std::string textOf(const DataSet& data, const Tag& tag)
-{
-  const gdcm::ByteValue* bytes =
-    data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
-  std::string text =
-    bytes != nullptr ? std::string(bytes->GetPointer(), bytes->GetLength()) : std::string();
-  std::erase(text, '\0');
-  return std::string(trimmed(text));
-}
-
-// as many as are asked for; nothing where there are others
-std::optional<std::vector<double>> decimalsOf(
-  const DataSet& data, const Tag& tag, std::size_t count)
-{
-  std::vector<double> numbers;
-  const std::string text = textOf(data, tag);
-  for (const std::string_view word : split(text, '\\'))
-  {
-    const std::optional<double> number = csvNumber(word);
-    if (!number || !std::isfinite(*number))
-    {
-      return std::nullopt;
-    }
-    numbers.push_back(*number);
-  }
-  return numbers.size() == count ? std::optional(numbers) : std::nullopt;
-}
-
-double decimalOf(const DataSet& data, const Tag& tag, double usual)
-{
-  const auto number = decimalsOf(data, tag, 1);
-  return number ? number->front() : usual;
-}
-
-template <std::uint16_t Group, std::uint16_t Element>
-int countOf(const DataSet& data)
-{
-  gdcm::Attribute<Group, Element> attribute{};
-  attribute.SetFromDataSet(data);
-  return attribute.GetValue();
-}
-
 DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
 {
-  if (countOf<0x0028, 0x0002>(data) != 1)
+  if (textOf(data, kClass) == kSegmentationClass)
+  {
+    refuse(file, "a segmentation, no image of a series; give this file itself, or move it away");
+  }
+  if (countOf(data, Tag(0x0028, 0x0002)) != 1)
   {
     refuse(file, "has colors; give images of one value a voxel");
   }
@@ -109,8 +70,8 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
         "; export the series again with its place");
   }
   DicomSlice slice{ .file = file,
-    .columns = countOf<0x0028, 0x0011>(data),
-    .rows = countOf<0x0028, 0x0010>(data),
+    .columns = countOf(data, Tag(0x0028, 0x0011)),
+    .rows = countOf(data, Tag(0x0028, 0x0010)),
     .position = Eigen::Vector3d::Map(position->data()),
     .alongRow = Eigen::Vector3d::Map(orientation->data()),
     .alongColumn = Eigen::Vector3d::Map(orientation->data() + 3),

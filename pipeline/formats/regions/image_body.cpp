@@ -4,6 +4,7 @@
 #include "haptics/files/input_text.h"
 #include "haptics/surface/enclosed_volume.h"
 #include "pipeline/formats/regions/image_contour.h"
+#include "pipeline/formats/regions/image_grids.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -76,6 +77,24 @@ void toPatient(const PatientImage& volume, std::vector<Eigen::Vector3d>& points)
   {
     point = form.topLeftCorner<3, 3>() * point + form.topRightCorner<3, 1>();
   }
+}
+
+// in the patient's axes, facing outward also in a mirror and of a body below its level
+FileSurface placed(const PatientImage& volume, ImageContour& contour)
+{
+  toPatient(volume, contour.points);
+  if (enclosedVolume(contour.points, contour.triangles) < 0.0)
+  {
+    for (Triangle& triangle : contour.triangles)
+    {
+      std::swap(triangle[0], triangle[2]);
+    }
+  }
+  return { .points = std::move(contour.points),
+    .triangles = std::move(contour.triangles),
+    .unit = volume.unit,
+    .notes = {},
+    .space = volume.space };
 }
 
 } // namespace
@@ -215,8 +234,7 @@ FileOrgan bodyOf(
   }
   ImageContour contour =
     imageContour(*region.image, region.level, region.mask, components, region.notes);
-  const double inside = enclosedVolume(contour.points, contour.triangles);
-  if ((inside < 0.0) != region.below)
+  if ((enclosedVolume(contour.points, contour.triangles) < 0.0) != region.below)
   {
     region.notes.emplace_back("the body is what is below the level, as a distance is; what is "
                               "above it reaches the border of the image all around");
@@ -225,21 +243,23 @@ FileOrgan bodyOf(
   organ.voxels = static_cast<std::uint64_t>(voxels);
   organ.voxelVolume = static_cast<double>(voxels) * voxelVolume(volume);
   organ.enclosed = grown * std::abs(contour.enclosed);
-  toPatient(volume, contour.points);
-  toPatient(volume, contour.from);
-  if (enclosedVolume(contour.points, contour.triangles) < 0.0) // of a body below its level, too
+  constexpr std::size_t kLarge = 80'000; // points
+  if (region.isFelt && contour.points.size() > kLarge)
   {
-    for (Triangle& triangle : contour.triangles)
-    {
-      std::swap(triangle[0], triangle[2]);
-    }
+    int side = 1;
+    ImageContour coarse = coarseContour(*region.image, region.level, components, contour, side);
+    organ.coarse = placed(volume, coarse);
+    organ.coarseVoxel = side *
+      (Form(volume.toPatient).topLeftCorner<3, 3>() *
+        Eigen::Vector3d(volume.image->GetSpacing()).asDiagonal())
+        .colwise()
+        .norm()
+        .maxCoeff();
   }
-  organ.surface = { .points = std::move(contour.points),
-    .triangles = std::move(contour.triangles),
-    .unit = volume.unit,
-    .notes = std::move(region.notes),
-    .space = volume.space };
+  toPatient(volume, contour.from);
   organ.from = std::move(contour.from);
+  organ.surface = placed(volume, contour);
+  organ.surface.notes = std::move(region.notes);
   return organ;
 }
 

@@ -3,7 +3,7 @@
 #include "haptics/surface/edges.h"
 #include "haptics/surface/enclosed_volume.h"
 #include "pipeline/formats/regions/contour_pieces.h"
-#include "pipeline/formats/regions/image_values.h"
+#include "pipeline/formats/regions/image_grids.h"
 #include "pipeline/formats/regions/least_bending.h"
 #include "pipeline/model/poly_data.h"
 
@@ -85,6 +85,25 @@ void smoothStairs(ImageContour& contour)
   contour.points = pointsOf(*smooth->GetOutput());
 }
 
+// drops what is not asked for
+Edges keepPieces(ImageContour& contour, std::size_t components, double leastHollow,
+  std::vector<std::string>& notes)
+{
+  Edges edges = edgesOf(contour.points.size(), contour.triangles);
+  const ContourPieces pieces = contourPieces(
+    contour.points, contour.triangles, piecesOf(edges.across), components, leastHollow);
+  if (!pieces.note.empty())
+  {
+    notes.push_back(pieces.note);
+  }
+  if (pieces.areAll)
+  {
+    return edges;
+  }
+  drop(contour, pieces.isKept);
+  return edgesOf(contour.points.size(), contour.triangles);
+}
+
 } // namespace
 
 ImageContour imageContour(vtkImageData& image, double level, bool mask, std::size_t components,
@@ -104,18 +123,7 @@ ImageContour imageContour(vtkImageData& image, double level, bool mask, std::siz
     const double cut = std::abs(enclosedVolume(contour.points, contour.triangles));
     bevel = (whole - cut) / areaOf(contour);
   }
-  Edges edges = edgesOf(contour.points.size(), contour.triangles);
-  const ContourPieces pieces = contourPieces(contour.points, contour.triangles,
-    piecesOf(edges.across), components, kLeastHollow * spacing.prod());
-  if (!pieces.note.empty())
-  {
-    notes.push_back(pieces.note);
-  }
-  if (!pieces.areAll)
-  {
-    drop(contour, pieces.isKept);
-    edges = edgesOf(contour.points.size(), contour.triangles);
-  }
+  const Edges edges = keepPieces(contour, components, kLeastHollow * spacing.prod(), notes);
   contour.from = contour.points;
   const double volume = enclosedVolume(contour.points, contour.triangles);
   contour.enclosed = volume + std::copysign(bevel * areaOf(contour), volume);
@@ -127,6 +135,24 @@ ImageContour imageContour(vtkImageData& image, double level, bool mask, std::siz
   {
     smoothStairs(contour);
   }
+  return contour;
+}
+
+ImageContour coarseContour(
+  vtkImageData& image, double level, std::size_t components, const ImageContour& of, int& side)
+{
+  constexpr double kPoints = 40'000.0;
+  side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(of.points.size()) / kPoints)));
+  const auto mean = meanOf(image, side);
+  ImageContour contour = contourOf(*mean, level);
+  if (contour.triangles.empty())
+  {
+    return contour;
+  }
+  const Eigen::Array3d spacing = Eigen::Array3d(mean->GetSpacing()).abs();
+  std::vector<std::string> none; // what is left out is told of the other
+  const Edges edges = keepPieces(contour, components, spacing.prod(), none);
+  bendLeast(contour.points, contour.triangles, edges, 0.25 * spacing, of.enclosed);
   return contour;
 }
 

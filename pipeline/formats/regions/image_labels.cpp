@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/regions/image_grids.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

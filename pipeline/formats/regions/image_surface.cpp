@@ -55,8 +55,9 @@ FileOrgan organOf(
   const Label& label, const PatientImage& volume, std::size_t components, const std::string& name)
 {
   const FileOrgan known = listed(label, volume);
-  FileOrgan organ = bodyOf(volume, regionOfLabels(volume, std::span(&label, 1)), components,
-    name + ", label " + known.label);
+  ImageRegion region = regionOfLabels(volume, std::span(&label, 1));
+  region.isFelt = true;
+  FileOrgan organ = bodyOf(volume, std::move(region), components, name + ", label " + known.label);
   organ.label = known.label;
   organ.name = known.name;
   return organ;
@@ -109,9 +110,10 @@ FileOrgans imageOrgans(
   FileOrgans all{ .unit = volume.unit, .space = volume.space, .notes = volume.notes };
   if (part.band || part.level)
   {
-    all.organs.push_back(bodyOf(volume,
-      part.band ? regionOfBand(volume, *part.band, name) : levelOf(volume, part, name),
-      part.components, name));
+    ImageRegion region =
+      part.band ? regionOfBand(volume, *part.band, name) : levelOf(volume, part, name);
+    region.isFelt = true;
+    all.organs.push_back(bodyOf(volume, std::move(region), part.components, name));
     return all;
   }
   const ImageValues values = valuesOf(*volume.image);

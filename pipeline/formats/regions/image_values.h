@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <vector>
-#include <vtkSmartPointer.h>
 #include <vtkType.h>
 
 class vtkImageData;
@@ -53,20 +52,5 @@ struct ImageValues
 /// Where an image has values that are wanted.
 [[nodiscard]] VoxelBox boxWhere(
   vtkImageData& image, const std::function<bool(double)>& isWanted, int layer = 0);
-
-/// An image of 0 that holds a box of another's voxels and one more to each side, also beyond its
-/// border.
-[[nodiscard]] vtkSmartPointer<vtkImageData> maskAbout(vtkImageData& image, const VoxelBox& box);
-
-/// Sets to 1 what is wanted of the voxels in a box.
-/// @param mask  of maskAbout with the same box
-void mark(vtkImageData& mask, vtkImageData& image, const VoxelBox& box,
-  const std::function<bool(double)>& isWanted, int layer = 0);
-
-/// The image with one more voxel to each side, so that a surface ends there; itself where its
-/// border is above the level nowhere, or everywhere, as of a distance.
-/// @param outside  of those voxels, below the level
-[[nodiscard]] vtkSmartPointer<vtkImageData> closedAtBorder(
-  vtkImageData& image, double level, double outside);
 
 } // namespace palp

@@ -187,6 +187,13 @@ TEST_F(Killed, Phantom)
   killOften("phantom sphere --voxel 4mm");
 }
 
+TEST_F(Killed, Import)
+{
+  const std::string made = (made_.path() / "made").string();
+  ASSERT_EQ(test::runCommand(PALP_PROGRAM " phantom slab --voxel 4mm --out " + made).code, 0);
+  killOften("import " + made + "/slab.mha --names " + made + "/slab.ctbl");
+}
+
 TEST_F(Killed, Map)
 {
   killOften("map " PALP_SHARE "/meshes/block_50.vtp --depth 2mm --spacing 20mm");

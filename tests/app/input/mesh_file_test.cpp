@@ -28,15 +28,17 @@ TEST(MeshFile, HashCoversTheDataBesideAHeader)
   EXPECT_EQ(describeFile(folder.path() / "c.stl").sha256, shell("sha256sum c.stl"));
 }
 
-TEST(MeshFile, TellsTheFrameOfAPatientsImage)
+TEST(MeshFile, TellsTheAxesThatAllHave)
 {
-  MeshFile file;
-  for (const auto& [name, frame] :
-    { std::pair{ "a.nii.gz", "LPS" }, { "a.mha", "LPS" }, { "a.vti", "" }, { "a.stl", "" } })
-  {
-    file.name = name;
-    EXPECT_EQ(frameOf(file), frame) << name;
-  }
+  const MeshFile patient{ .name = "a.nii", .sha256 = {}, .unit = "mm", .space = "LPS", .part = {} };
+  MeshFile moved = patient;
+  moved.moved = true;
+  MeshFile unknown = patient;
+  unknown.space.clear();
+  EXPECT_EQ(spaceOf({ patient, patient }), "LPS");
+  EXPECT_EQ(spaceOf({ patient, moved }), "");
+  EXPECT_EQ(spaceOf({ patient, unknown }), "");
+  EXPECT_EQ(spaceOf({}), "");
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "pipeline/formats/surface_formats.h"
+#include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/formats/fuzzed_parts.h"
 #include "tests/support/deflated.h"
 #include "tests/support/dicom_series.h"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkNIFTIImageWriter.h>
@@ -129,6 +131,44 @@ std::vector<Fuzzed> nrrdKinds()
       replaced("end", "little", "middle", "endian"), foreign(offText(), kKind) }) };
 }
 
+// segments in two layers, each taken as an organ
+std::vector<Fuzzed> segmentKinds()
+{
+  std::string voxels;
+  const auto data = ballImage();
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const double distance = data->GetPointData()->GetScalars()->GetComponent(i, 0);
+    voxels += distance < 0.0 ? '\1' : '\0';
+    voxels += distance < -5.0 ? '\2' : '\0';
+  }
+  const std::string header =
+    "NRRD0005\ntype: uchar\ndimension: 4\nspace: left-posterior-superior\nsizes: 2 10 10 10\n"
+    "space directions: none (5,0,0) (0,5,0) (0,0,6)\nencoding: raw\nspace origin: (0,0,0)\n"
+    "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+    "Segment1_Name:=tumor\nSegment1_LabelValue:=2\nSegment1_Layer:=1\n\n";
+  Fuzzed kind = image("ball.seg.nrrd", { header + voxels },
+    { cutOff(kCut, 10), replaced("layers", "(sizes: )2", "$013", kCount),
+      replaced("no layer", "none", "(1,0,0)", "axes|space"),
+      replaced("value", "(LabelValue:=)1", "$017", "label"), foreign(offText(), kKind) });
+  kind.read = [](const std::filesystem::path& file) {
+    return pack(readOrgans(file, { .labels = { "liver", "tumor" } }, false));
+  };
+  kind.take = [](const std::string& bytes)
+  {
+    const auto organs = unpackOrgans(bytes);
+    if (!organs || organs->organs.size() != 2)
+    {
+      throw std::runtime_error("the answer of the reader is damaged");
+    }
+    for (const FileOrgan& organ : organs->organs)
+    {
+      (void)madeReady(organ.surface, "ball.seg.nrrd", LengthUnit::Millimeter);
+    }
+  };
+  return { kind };
+}
+
 std::vector<Fuzzed> otherImages()
 {
   const auto data = ballImage();
@@ -208,7 +248,7 @@ std::vector<Fuzzed> dicomKinds()
 std::vector<Fuzzed> fuzzedImages()
 {
   std::vector<Fuzzed> all;
-  for (auto* kinds : { metaKinds, nrrdKinds, dicomKinds, otherImages })
+  for (auto* kinds : { metaKinds, nrrdKinds, segmentKinds, dicomKinds, otherImages })
   {
     std::ranges::move(kinds(), std::back_inserter(all));
   }

@@ -98,12 +98,18 @@ TEST_F(Images, AHollowStaysAndAPoreIsFilled)
   }
 }
 
-// the outer surface of what is around a ball is not in the image
-TEST_F(Images, RefusesALabelThatReachesTheBorderAllAround)
+// what is around a ball: a box as large as the image with its voxels' halves, less the ball
+TEST_F(Images, ALabelThatReachesTheBorderIsClosedThere)
 {
   const auto file = write<vtkMetaImageWriter>("around.mha", *ball(true));
-  EXPECT_NE(refusal(file, { {}, { "0" } }).find("the label reaches the border of the image all"),
-    std::string::npos);
+  const LoadedSurface around = readSurface(file, LengthUnit::Millimeter, { {}, { "0" } });
+  EXPECT_TRUE(around.closed);
+  const double box = 82.0 * 102.5 * 93.0;
+  const double exact = box - 4.0 / 3.0 * std::numbers::pi * std::pow(kRadiusMm, 3);
+  EXPECT_NEAR(volumeMm3(*around.mesh), exact, 0.01 * exact);
+  EXPECT_TRUE(std::ranges::any_of(around.notes,
+    [](const std::string& note)
+    { return note.find("is closed there by a flat face") != note.npos; }));
 }
 
 // as a distance has it, negative within
@@ -219,16 +225,19 @@ TEST_F(Images, ALabelOfFewVoxelsIsRefusedByTheirNumber)
     refusal(file, { {}, { "9" } }).find("has 1 voxel, too few for a surface"), std::string::npos);
 }
 
-TEST_F(Images, ALabelThatFillsTheImageHasNoSurface)
+TEST_F(Images, ALabelThatFillsTheImageIsABox)
 {
   auto image = ball(true);
   image->GetPointData()->GetScalars()->Fill(1.0);
   const auto full = write<vtkMetaImageWriter>("full.mha", *image);
-  EXPECT_NE(refusal(full, { {}, { "1" } }).find("fills the whole image"), std::string::npos);
+  const double box = 82.0 * 102.5 * 93.0;
+  const LoadedSurface one = readSurface(full, LengthUnit::Millimeter, { {}, { "1" } });
+  EXPECT_NEAR(volumeMm3(*one.mesh), box, 0.01 * box);
   EXPECT_NE(refusal(full, { {}, { "2" } }).find("no label 2 in it"), std::string::npos);
   const auto parts = write<vtkMetaImageWriter>("parts.mha", *labels());
-  EXPECT_NE(refusal(parts, { {}, { "0", "2", "5", "7" } }).find("fills the whole image"),
-    std::string::npos);
+  const LoadedSurface all =
+    readSurface(parts, LengthUnit::Millimeter, { {}, { "0", "2", "5", "7" } });
+  EXPECT_NEAR(volumeMm3(*all.mesh), box, 0.01 * box);
 }
 
 TEST_F(Images, AMaskHasOneSurfaceWhateverLevelLiesBetween)

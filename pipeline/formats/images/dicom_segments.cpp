@@ -1,0 +1,308 @@
+#include "pipeline/formats/images/dicom_segments.h"
+
+#include "haptics/files/input_text.h"
+#include "pipeline/formats/images/dicom_values.h"
+#include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/process/child_process.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <gdcmReader.h>
+#include <gdcmTrace.h>
+#include <limits>
+#include <span>
+#include <vtkImageData.h>
+
+namespace palp
+{
+namespace
+{
+
+using Eigen::Vector3d;
+using gdcm::DataSet;
+using gdcm::Tag;
+
+// the mask of one segment in one slice
+struct SegmentFrame
+{
+  int segment = 0;
+  Vector3d position = Vector3d::Zero(); // of the first voxel's middle, LPS [mm]
+  int slice = 0;
+};
+
+// what all frames have in common
+struct SegmentGrid
+{
+  int columns = 0;
+  int rows = 0;
+  int slices = 0;
+  Vector3d alongRow = Vector3d::Zero(); // unit vectors, LPS
+  Vector3d alongColumn = Vector3d::Zero();
+  Vector3d first = Vector3d::Zero(); // middle of the first voxel [mm]
+  double columnSpacing = 0.0;        // [mm]
+  double rowSpacing = 0.0;
+  double step = 0.0;
+
+  [[nodiscard]] std::size_t pixels() const
+  {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+};
+
+// of one item of a sequence of its own, as the groups of functions have it
+DataSet groupOf(const DataSet& groups, const Tag& tag)
+{
+  const std::vector<DataSet> items = itemsOf(groups, tag);
+  return items.size() == 1 ? items.front() : DataSet();
+}
+
+void readGrid(const std::filesystem::path& file, const DataSet& data, SegmentGrid& grid)
+{
+  const DataSet shared = groupOf(data, Tag(0x5200, 0x9229));
+  const auto orientation = decimalsOf(groupOf(shared, Tag(0x0020, 0x9116)), Tag(0x0020, 0x0037), 6);
+  const DataSet measures = groupOf(shared, Tag(0x0028, 0x9110));
+  const auto spacing = decimalsOf(measures, Tag(0x0028, 0x0030), 2);
+  if (!orientation || !spacing || !(spacing->front() > 0.0) || !(spacing->back() > 0.0))
+  {
+    refuse(file,
+      std::string("has no ") + (orientation ? "Pixel Spacing" : "Image Orientation (Patient)") +
+        " for all of its slices; save it as .seg.nrrd");
+  }
+  grid.columns = countOf(data, Tag(0x0028, 0x0011));
+  grid.rows = countOf(data, Tag(0x0028, 0x0010));
+  grid.alongRow = Vector3d::Map(orientation->data());
+  grid.alongColumn = Vector3d::Map(orientation->data() + 3);
+  constexpr double kAlike = 1e-3; // of unit vectors, which are written in decimals
+  if (std::abs(grid.alongRow.norm() - 1.0) > kAlike ||
+    std::abs(grid.alongColumn.norm() - 1.0) > kAlike ||
+    std::abs(grid.alongRow.dot(grid.alongColumn)) > kAlike)
+  {
+    refuse(file, "its Image Orientation makes no image; export it again");
+  }
+  grid.columnSpacing = spacing->back();
+  grid.rowSpacing = spacing->front();
+  grid.step = decimalOf(measures, Tag(0x0018, 0x0088), 0.0);
+}
+
+std::vector<SegmentFrame> framesOf(const std::filesystem::path& file, const DataSet& data)
+{
+  std::vector<SegmentFrame> frames;
+  for (const DataSet& groups : itemsOf(data, Tag(0x5200, 0x9230)))
+  {
+    const auto position = decimalsOf(groupOf(groups, Tag(0x0020, 0x9113)), Tag(0x0020, 0x0032), 3);
+    const int segment = countOf(groupOf(groups, Tag(0x0062, 0x000a)), Tag(0x0062, 0x000b));
+    if (!position || segment == 0)
+    {
+      refuse(file,
+        "its slice " + std::to_string(frames.size() + 1) + " has no " +
+          (position ? "segment" : "Image Position (Patient)") + "; export it again");
+    }
+    frames.push_back({ .segment = segment, .position = Vector3d::Map(position->data()) });
+  }
+  if (frames.empty() ||
+    decimalOf(data, Tag(0x0028, 0x0008), 0.0) != static_cast<double>(frames.size()))
+  {
+    refuse(file, "its slices are not as many as their places; export it again");
+  }
+  return frames;
+}
+
+// which slice each frame is; slices of no segment may be missing
+void stackFrames(
+  const std::filesystem::path& file, SegmentGrid& grid, std::vector<SegmentFrame>& frames)
+{
+  const Vector3d normal = grid.alongRow.cross(grid.alongColumn);
+  const auto height = [&](const SegmentFrame& frame) { return normal.dot(frame.position); };
+  const SegmentFrame lowest = *std::ranges::min_element(frames, {}, height);
+  if (!(grid.step > 0.0))
+  {
+    constexpr double kSame = 1e-3; // [mm]
+    grid.step = std::numeric_limits<double>::infinity();
+    std::vector<double> heights;
+    std::ranges::transform(frames, std::back_inserter(heights), height);
+    std::ranges::sort(heights);
+    for (std::size_t i = 1; i < heights.size(); ++i)
+    {
+      const double step = heights[i] - heights[i - 1];
+      grid.step = step > kSame ? std::min(grid.step, step) : grid.step;
+    }
+  }
+  grid.first = lowest.position;
+  constexpr double kMost = 10'000.0; // slices
+  constexpr double kOff = 0.1;       // of a step or a pixel
+  for (SegmentFrame& frame : frames)
+  {
+    const Vector3d from = frame.position - grid.first;
+    const double slice = normal.dot(from) / grid.step;
+    const Vector3d aside = from - std::round(slice) * grid.step * normal;
+    if (!(slice < kMost) ||
+      !(aside.norm() < kOff * std::min({ grid.step, grid.columnSpacing, grid.rowSpacing })))
+    {
+      refuse(
+        file, "its slices are no even stack of one place; resample it, or save it as .seg.nrrd");
+    }
+    frame.slice = static_cast<int>(std::lround(slice));
+    grid.slices = std::max(grid.slices, frame.slice + 1);
+  }
+}
+
+// bits one after the other across all frames, the lowest of a byte first
+class Bits
+{
+public:
+  Bits(const std::filesystem::path& file, const DataSet& data, std::size_t count)
+  {
+    const Tag voxels(0x7fe0, 0x0010);
+    const gdcm::ByteValue* bytes =
+      data.FindDataElement(voxels) ? data.GetDataElement(voxels).GetByteValue() : nullptr;
+    if (bytes == nullptr)
+    {
+      refuse(file, "its voxels are compressed or missing; save it uncompressed, or as .seg.nrrd");
+    }
+    constexpr std::size_t kBits = 8;
+    const std::size_t needed = (count + kBits - 1) / kBits;
+    bytes_ = { bytes->GetPointer(), bytes->GetLength() };
+    if (bytes_.size() != needed + needed % 2)
+    {
+      refuse(file,
+        "its Pixel Data are " + std::to_string(bytes_.size()) + " bytes, its size asks for " +
+          std::to_string(needed) + "; export it again");
+    }
+  }
+
+  [[nodiscard]] bool operator[](std::size_t i) const
+  {
+    return (static_cast<unsigned char>(bytes_[i / 8]) >> i % 8 & 1) != 0;
+  }
+
+private:
+  std::span<const char> bytes_;
+};
+
+using Layer = std::vector<std::uint16_t>;
+
+// the first layer in which no other segment has a voxel of this one; a new one where none is
+int layerOf(int segment, const std::vector<SegmentFrame>& frames, const Bits& bits,
+  std::size_t pixels, const SegmentGrid& grid, std::vector<Layer>& layers)
+{
+  const auto eachVoxel = [&](auto use)
+  {
+    bool goesOn = true;
+    for (std::size_t k = 0; k < frames.size() && goesOn; ++k)
+    {
+      const std::size_t to = static_cast<std::size_t>(frames[k].slice) * pixels;
+      for (std::size_t i = 0; i < pixels && goesOn && frames[k].segment == segment; ++i)
+      {
+        goesOn = !bits[k * pixels + i] || use(to + i);
+      }
+    }
+    return goesOn;
+  };
+  std::size_t layer = 0;
+  while (layer < layers.size() && !eachVoxel([&](std::size_t i) { return layers[layer][i] == 0; }))
+  {
+    ++layer;
+  }
+  if (layer == layers.size())
+  {
+    layers.emplace_back(pixels * static_cast<std::size_t>(grid.slices));
+  }
+  eachVoxel(
+    [&](std::size_t i)
+    {
+      layers[layer][i] = static_cast<std::uint16_t>(segment);
+      return true;
+    });
+  return static_cast<int>(layer);
+}
+
+// name and number of each, in layers
+std::vector<Layer> layersOf(const std::filesystem::path& file, const DataSet& data,
+  const SegmentGrid& grid, const std::vector<SegmentFrame>& frames, PatientImage& result)
+{
+  const Bits bits(file, data, grid.pixels() * frames.size());
+  std::vector<Layer> layers;
+  for (const DataSet& item : itemsOf(data, Tag(0x0062, 0x0002)))
+  {
+    const int number = countOf(item, Tag(0x0062, 0x0004));
+    const auto isOf = [&](const SegmentFrame& frame) { return frame.segment == number; };
+    if (std::ranges::any_of(frames, isOf))
+    {
+      result.segments.push_back({ .name = textOf(item, Tag(0x0062, 0x0005)),
+        .value = static_cast<double>(number),
+        .layer = layerOf(number, frames, bits, grid.pixels(), grid, layers) });
+    }
+  }
+  if (layers.empty())
+  {
+    refuse(file, "no segment of it has a slice; export it again");
+  }
+  return layers;
+}
+
+void checkKind(const std::filesystem::path& file, const DataSet& data)
+{
+  if (textOf(data, Tag(0x0008, 0x0016)) != kSegmentationClass)
+  {
+    refuse(file, "one image of a series; give the folder that holds all of them");
+  }
+  if (countOf(data, Tag(0x0028, 0x0100)) != 1 || textOf(data, Tag(0x0062, 0x0001)) != "BINARY")
+  {
+    refuse(file, "a segmentation of fractions, not of masks; save it as binary, or as .seg.nrrd");
+  }
+}
+
+void place(const SegmentGrid& grid, PatientImage& result)
+{
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> form(result.toPatient);
+  form.setIdentity();
+  form.col(0).head<3>() = grid.alongRow;
+  form.col(1).head<3>() = grid.alongColumn;
+  form.col(2).head<3>() = grid.alongRow.cross(grid.alongColumn);
+  form.col(3).head<3>() = grid.first;
+  result.unit = "mm";
+  result.space = "LPS";
+  result.notes.emplace_back("in the patient's axes to left, back and head (LPS)");
+}
+
+} // namespace
+
+PatientImage readDicomSegments(const std::filesystem::path& file)
+{
+  gdcm::Trace::SetDebug(false);
+  gdcm::Trace::SetWarning(false);
+  gdcm::Trace::SetError(false);
+  blameForACrash(file); // by an assertion of GDCM
+  gdcm::Reader reader;
+  reader.SetFileName(file.c_str());
+  if (!reader.Read())
+  {
+    refuse(file, "no DICOM file, cut off, or damaged; export or copy it again");
+  }
+  const DataSet& data = reader.GetFile().GetDataSet();
+  checkKind(file, data);
+  SegmentGrid grid;
+  readGrid(file, data, grid);
+  std::vector<SegmentFrame> frames = framesOf(file, data);
+  stackFrames(file, grid, frames);
+  PatientImage result{ .image = vtkSmartPointer<vtkImageData>::New(), .toPatient = {} };
+  const std::vector<Layer> layers = layersOf(file, data, grid, frames, result);
+  blameForACrash({});
+  result.image->SetDimensions(grid.columns, grid.rows, grid.slices);
+  result.image->SetSpacing(grid.columnSpacing, grid.rowSpacing, grid.step);
+  result.image->AllocateScalars(VTK_UNSIGNED_SHORT, static_cast<int>(layers.size()));
+  auto* voxels = static_cast<std::uint16_t*>(result.image->GetScalarPointer());
+  for (std::size_t layer = 0; layer < layers.size(); ++layer)
+  {
+    for (std::size_t i = 0; i < layers[layer].size(); ++i)
+    {
+      voxels[i * layers.size() + layer] = layers[layer][i];
+    }
+  }
+  place(grid, result);
+  return result;
+}
+
+} // namespace palp

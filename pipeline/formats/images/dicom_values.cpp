@@ -1,0 +1,75 @@
+#include "pipeline/formats/images/dicom_values.h"
+
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <gdcmSequenceOfItems.h>
+#include <string_view>
+
+namespace palp
+{
+
+std::string textOf(const gdcm::DataSet& data, const gdcm::Tag& tag)
+{
+  const gdcm::ByteValue* bytes =
+    data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
+  std::string text =
+    bytes != nullptr ? std::string(bytes->GetPointer(), bytes->GetLength()) : std::string();
+  std::erase(text, '\0');
+  return std::string(trimmed(text));
+}
+
+std::optional<std::vector<double>> decimalsOf(
+  const gdcm::DataSet& data, const gdcm::Tag& tag, std::size_t count)
+{
+  std::vector<double> numbers;
+  const std::string text = textOf(data, tag);
+  for (const std::string_view word : split(text, '\\'))
+  {
+    const std::optional<double> number = csvNumber(word);
+    if (!number || !std::isfinite(*number))
+    {
+      return std::nullopt;
+    }
+    numbers.push_back(*number);
+  }
+  return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
+double decimalOf(const gdcm::DataSet& data, const gdcm::Tag& tag, double usual)
+{
+  const auto number = decimalsOf(data, tag, 1);
+  return number ? number->front() : usual;
+}
+
+int countOf(const gdcm::DataSet& data, const gdcm::Tag& tag)
+{
+  const gdcm::ByteValue* bytes =
+    data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
+  std::uint16_t count = 0;
+  if (bytes != nullptr && bytes->GetLength() >= sizeof count)
+  {
+    std::memcpy(&count, bytes->GetPointer(), sizeof count);
+  }
+  return count;
+}
+
+std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& tag)
+{
+  std::vector<gdcm::DataSet> items;
+  if (!data.FindDataElement(tag))
+  {
+    return items;
+  }
+  const auto sequence = data.GetDataElement(tag).GetValueAsSQ();
+  for (std::size_t i = 1; sequence && i <= sequence->GetNumberOfItems(); ++i)
+  {
+    items.push_back(sequence->GetItem(i).GetNestedDataSet());
+  }
+  return items;
+}
+
+} // namespace palp

@@ -1,0 +1,45 @@
+#include "app/panels/open_dialog.h"
+#include "tests/app/application.h"
+#include "tests/support/process.h"
+
+#include <QLineEdit>
+#include <QListWidget>
+
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace palp
+{
+namespace
+{
+
+TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
+{
+  test::application();
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.mha";
+  std::ofstream out(file, std::ios::binary);
+  out << "NDims = 3\nElementSpacing = 10 10 10\nDistanceUnits = mm\nDimSize = 4 3 3\n"
+         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+  for (int i = 0; i < 9; ++i)
+  {
+    out << '\0' << '\2' << '\2' << '\7';
+  }
+  out.close();
+  MeshSource opened;
+  OpenDialog dialog(QString::fromStdString(file.string()), "why",
+    [&](const MeshSource& source) { opened = source; });
+  auto* list = dialog.findChild<QListWidget*>("labels");
+  ASSERT_NE(list, nullptr);
+  ASSERT_EQ(list->count(), 2);
+  EXPECT_TRUE(list->item(0)->text().contains("18 ml")) << list->item(0)->text().toStdString();
+  list->item(0)->setCheckState(Qt::Checked);
+  list->item(1)->setCheckState(Qt::Checked);
+  EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "2,7");
+  list->item(0)->setCheckState(Qt::Unchecked);
+  dialog.accept();
+  EXPECT_EQ(opened.part.labels, std::vector<std::string>{ "7" });
+}
+
+} // namespace
+} // namespace palp
