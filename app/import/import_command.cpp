@@ -98,7 +98,7 @@ std::string listOf(const FileOrgans& found, UnitChoice unit)
   return figures::csv(table, kDigits);
 }
 
-// what may be meant of a grey image, as commands
+// what may be meant of a gray image, as commands
 std::string proposals(const FileOrgans& found, const ImportOptions& options)
 {
   // Hounsfield units go from air, -1000, to bone and metal

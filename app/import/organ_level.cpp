@@ -10,7 +10,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <utility>
+#include <functional>
+#include <future>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -38,9 +39,9 @@ OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Tria
     .apart = deviation(points, BoxTree(points, triangles), boundary.points, boundary.tree) };
 }
 
-Boundary boundaryOf(FileOrgan& organ, double length)
+Boundary boundaryOf(const FileOrgan& organ, double length)
 {
-  Boundary boundary{ .points = std::exchange(organ.from, {}), .tree = {} };
+  Boundary boundary{ .points = organ.from, .tree = {} };
   for (Eigen::Vector3d& point : boundary.points)
   {
     point *= length;
@@ -69,7 +70,7 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
       point *= length;
     }
     OrganLevel level = levelBy(organ.coarse.points, organ.coarse.triangles);
-    if (level.apart.largest <= length * organ.coarseVoxel)
+    if (level.apart.largest <= 2.0 * length * organ.coarseVoxel)
     {
       return level;
     }
@@ -99,9 +100,10 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
     .enclosed = std::pow(length, 3) * organ.enclosed,
     .shown = {} };
   addWarnings(organ.surface.notes, result.warnings);
-  organ.surface.notes.clear();
-  const Boundary boundary = boundaryOf(organ, length);
-  const LoadedSurface loaded = madeReady(std::exchange(organ.surface, {}), image, unit);
+  organ.surface.notes.clear(); // told once
+  auto between = std::async(std::launch::async, boundaryOf, std::cref(organ), length);
+  const LoadedSurface loaded = madeReady(organ.surface, image, unit);
+  const Boundary boundary = between.get();
   addWarnings(loaded.notes, result.warnings);
   const std::vector<Eigen::Vector3d> points = pointsOf(*loaded.mesh);
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);

@@ -41,7 +41,7 @@ Eigen::Isometry3d MeshSource::frame() const
 void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",
-    "Surface: STL, OBJ, PLY, OFF, VTK, VTP or VTU; image: MHA, MHD, NII, NII.GZ, NRRD (all "
+    "Surface: STL, OBJ, PLY, OFF, VTK, VTP, VTU or MSH; image: MHA, MHD, NII, NII.GZ, NRRD (all "
     "in LPS) or VTI; a DICOM segmentation or a folder of DICOM images (LPS); the bundled liver if "
     "none",
     "",

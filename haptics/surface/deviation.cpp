@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <future>
+#include <utility>
 
 namespace palp
 {
@@ -23,6 +26,20 @@ std::vector<Eigen::Vector3d> usedPoints(const Surface& surface)
   return used;
 }
 
+// of points to triangles: the largest, and the sum of the squares
+std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const BoxTree& to)
+{
+  double largest = 0.0;
+  double sum = 0.0;
+  for (const Eigen::Vector3d& point : from)
+  {
+    const double distance = distanceTo(to, point);
+    largest = std::max(largest, distance);
+    sum += distance * distance;
+  }
+  return { largest, sum };
+}
+
 } // namespace
 
 Deviation deviation(const Surface& a, const Surface& b)
@@ -33,21 +50,11 @@ Deviation deviation(const Surface& a, const Surface& b)
 Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
   std::span<const Eigen::Vector3d> b, const BoxTree& bTree)
 {
-  double largest = 0.0;
-  double sum = 0.0;
-  const auto measure = [&](std::span<const Eigen::Vector3d> from, const BoxTree& to)
-  {
-    for (const Eigen::Vector3d& point : from)
-    {
-      const double distance = distanceTo(to, point);
-      largest = std::max(largest, distance);
-      sum += distance * distance;
-    }
-  };
-  measure(a, bTree);
-  measure(b, aTree);
-  return { .largest = largest,
-    .rootMeanSquare = std::sqrt(sum / static_cast<double>(a.size() + b.size())) };
+  auto other = std::async(std::launch::async, distances, b, std::cref(aTree));
+  const auto [largest, sum] = distances(a, bTree);
+  const auto [otherLargest, otherSum] = other.get();
+  return { .largest = std::max(largest, otherLargest),
+    .rootMeanSquare = std::sqrt((sum + otherSum) / static_cast<double>(a.size() + b.size())) };
 }
 
 } // namespace palp

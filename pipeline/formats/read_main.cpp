@@ -1,6 +1,6 @@
-// palp-read FILE [organs|list] [KEY=VALUE...]: reads a surface, the bodies in an image or their list
-// for the program that started it. Readers of other people's files may crash or run away, and here
-// they do it alone.
+// palp-read FILE [organs|list] [KEY=VALUE...]: reads a surface, the bodies in an image or their
+// list for the program that started it. Readers of other people's files may crash or run away, and
+// here they do it alone.
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/process/child_process.h"

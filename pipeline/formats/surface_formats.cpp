@@ -8,6 +8,7 @@
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
+#include "pipeline/formats/msh_format.h"
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/regions/image_surface.h"
 #include "pipeline/formats/vti_image.h"
@@ -50,6 +51,7 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".obj", "OBJ", "", readObj }, Format{ ".ply", "PLY", "ply", readPly },
   Format{ ".off", "OFF", "", readOff }, Format{ ".vtk", "legacy VTK", "# vtk DataFile", readVtk },
   Format{ ".vtp", "VTP", "<", readVtp }, Format{ ".vtu", "VTU", "<", readVtu },
+  Format{ ".msh", "MSH", "$MeshFormat", readMsh },
   Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".nii", "NIfTI", "", nullptr, readNifti },
@@ -61,8 +63,8 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
 constexpr Format kDicom{ "/", "DICOM", "", nullptr };
 
 // of other programs, with the way out
-constexpr std::array kOthers{ std::pair{ ".msh", "a mesh of Gmsh; save it by gmsh -save as .vtk" },
-  std::pair{ ".glb", "a scene of glTF; export its mesh as .ply or .stl, in mm" },
+constexpr std::array kOthers{ std::pair{
+                                ".glb", "a scene of glTF; export its mesh as .ply or .stl, in mm" },
   std::pair{ ".gltf", "a scene of glTF; export its mesh as .ply or .stl, in mm" },
   std::pair{ ".3mf", "a package of 3MF; save its mesh as .stl" },
   std::pair{ ".step", "a CAD model; export its surface as .stl" },
@@ -82,7 +84,8 @@ constexpr std::array kOthers{ std::pair{ ".msh", "a mesh of Gmsh; save it by gms
     }
   }
   refuse(file,
-    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu), an "
+    "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu, "
+    ".msh), an "
     "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti), a folder of DICOM images or a DICOM "
     "segmentation (.dcm)");
 }

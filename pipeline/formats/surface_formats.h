@@ -7,7 +7,7 @@
 namespace palp
 {
 
-/// Reads STL, OBJ, PLY, OFF, legacy VTK, VTP or VTU, by the ending of the name, of a volume mesh
+/// Reads STL, OBJ, PLY, OFF, legacy VTK, VTP, VTU or MSH, by the ending of the name, of a volume mesh
 /// its outer surface; or a surface in an image: MetaImage, NIfTI or VTI.
 ///
 /// Polygons and strips are cut into triangles; a surface whose file says SPACE=RAS is turned to

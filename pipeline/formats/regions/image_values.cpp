@@ -62,12 +62,16 @@ bool fillsRegions(const VoxelLayer<Voxel>& voxels, vtkIdType row, const Histogra
     })->first;
   vtkIdType pairs = 0;
   vtkIdType equal = 0;
+  const auto compare = [&](vtkIdType i, vtkIdType k)
+  {
+    const bool inside = voxels[i] != background || voxels[k] != background;
+    pairs += inside;
+    equal += inside && voxels[i] == voxels[k];
+  };
   for (vtkIdType i = 0; i + 1 < voxels.count; ++i)
   {
-    const bool inside =
-      (voxels[i] != background || voxels[i + 1] != background) && (i + 1) % row != 0;
-    pairs += inside;
-    equal += inside && voxels[i] == voxels[i + 1];
+    (i + 1) % row != 0 ? compare(i, i + 1) : void();
+    i + row < voxels.count ? compare(i, i + row) : void(); // a row may have four voxels
   }
   return 2 * equal > pairs;
 }

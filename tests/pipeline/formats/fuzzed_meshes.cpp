@@ -1,4 +1,5 @@
 #include "tests/pipeline/formats/fuzzed_parts.h"
+#include "tests/pipeline/formats/msh_text.h"
 
 #include "tests/pipeline/sample_files.h"
 
@@ -126,12 +127,23 @@ std::vector<Fuzzed> vtkKinds()
         foreign(offText(), kKind) }) };
 }
 
+std::vector<Fuzzed> mshKinds()
+{
+  const MshBlock block;
+  return { surface("block.msh",
+    { block.write(2.2, false), block.write(2.2, true), block.write(4.1, false),
+      block.write(4.1, true) },
+    { cutOff("cut off", 14), replaced("version", "(MeshFormat\n)[24]", "$019", "version"),
+      replaced("count of nodes", "(Nodes\n)[0-9]+", "$01999999999", kCount),
+      replaced("section", "\\$Elements", "$Elments", "missing"), foreign(offText(), kKind) }) };
+}
+
 } // namespace
 
 std::vector<Fuzzed> fuzzedMeshes()
 {
   std::vector<Fuzzed> all;
-  for (auto* kinds : { stlKinds, textKinds, plyKinds, vtkKinds })
+  for (auto* kinds : { stlKinds, textKinds, plyKinds, vtkKinds, mshKinds })
   {
     std::ranges::move(kinds(), std::back_inserter(all));
   }

@@ -33,13 +33,13 @@ struct Grid
   }
 };
 
-// balls of 20 and 9 mm, which overlap where layers let them, 12 mm from each other
+// balls of 20 and 13 mm, the one within the other
 struct Balls
 {
   explicit Balls(const Grid& grid)
     : centers{ grid.at(0.5 * (grid.size - Vector3i::Ones()).cast<double>()), {} }
   {
-    centers[1] = centers[0] + Vector3d(8.0, -7.0, 4.0);
+    centers[1] = centers[0] + Vector3d(4.0, -3.5, 2.0);
   }
 
   [[nodiscard]] bool isIn(std::size_t ball, const Vector3d& place) const
@@ -48,7 +48,7 @@ struct Balls
   }
 
   std::array<Vector3d, 2> centers;
-  std::array<double, 2> radii{ 20.0, 9.0 };
+  std::array<double, 2> radii{ 20.0, 13.0 };
 };
 
 inline Matrix3d oblique()
