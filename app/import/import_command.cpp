@@ -228,7 +228,8 @@ void addParts(CLI::App& command, ImportOptions& options)
       options.part.names = readLabelNames(text);
     });
   auto* label = addParsed(command, "--label",
-    "Labels of a label map, by value or name with commas, each an organ of its own", "all",
+    "Labels of a label map, by value or name with commas, each an organ of its own; 1+2 are one",
+    "all",
     [part](const std::string& text)
     { part->labels = valuesOfLabels(parseLabels(text, "--label"), part->names); });
   auto* band = addParsed(command, "--threshold",
@@ -272,7 +273,7 @@ void addImportCommand(CLI::App& app)
     "Surfaces are closed, also where the image ends, and bend as little as the voxels allow.\n"
     "Examples:\n"
     "  palp import abdomen.nii.gz                                list its labels\n"
-    "  palp import abdomen.nii.gz --label 5,2 --out organs       two of them\n"
+    "  palp import abdomen.nii.gz --label 5,2+3 --out organs     two organs, one of two labels\n"
     "  palp import total.nii.gz --names total.json --out organs  all, by name\n"
     "  palp import ct/ --series 2 --threshold 200:3071 --components 20 --out bones\n"
     "  palp scene organs/scene.json                              press them");

@@ -23,7 +23,7 @@ struct LabelName
 struct ImagePart
 {
   std::optional<double> level{};     ///< its value on the surface
-  std::vector<std::string> labels{}; ///< or these regions of a label map together: value or name
+  std::vector<std::string> labels{}; ///< or these regions of a label map: value or name
   std::string series{};           ///< of several in a folder of DICOM images: place from 1, or UID
   std::vector<LabelName> names{}; ///< of labels, for an image that names none itself
   std::optional<std::array<double, 2>> band{}; ///< or what has values from the first to the second

@@ -46,7 +46,8 @@ struct LoadedSurface
 
 /// The bodies in an image, each as it stands there: read likewise.
 ///
-/// @param part    labels, each a body of its own, all where there are none; or a level or band
+/// @param part    labels, each a body of its own, all where there are none, those joined by + one
+///                body; or a level or band
 /// @param isList  whether they are only listed, without surfaces
 /// @throws Error  as readFileSurface
 [[nodiscard]] FileOrgans readFileOrgans(

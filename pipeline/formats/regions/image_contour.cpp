@@ -141,7 +141,7 @@ ImageContour imageContour(vtkImageData& image, double level, bool mask, std::siz
 ImageContour coarseContour(
   vtkImageData& image, double level, std::size_t components, const ImageContour& of, int& side)
 {
-  constexpr double kPoints = 40'000.0;
+  constexpr double kPoints = 60'000.0;
   side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(of.points.size()) / kPoints)));
   const auto mean = meanOf(image, side);
   ImageContour contour = contourOf(*mean, level);

@@ -35,7 +35,7 @@ struct ImageContour
 [[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, bool mask,
   std::size_t components, std::vector<std::string>& notes);
 
-/// The same of larger voxels, with some 40,000 points, for what takes long of many.
+/// The same of larger voxels, with some 60,000 points, for what takes long of many.
 /// @param of    has more points than that
 /// @param side  gets how many voxels are one, along each axis
 [[nodiscard]] ImageContour coarseContour(

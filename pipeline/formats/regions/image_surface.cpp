@@ -5,6 +5,7 @@
 #include "pipeline/formats/regions/image_body.h"
 
 #include <algorithm>
+#include <string_view>
 #include <vtkImageData.h>
 
 namespace palp
@@ -41,21 +42,26 @@ bool isLabelMap(const PatientImage& volume, const ImageValues& values)
       (values.distinct[0] == 0.0 || values.distinct[1] == 0.0));
 }
 
-FileOrgan listed(const Label& label, const PatientImage& volume)
+// labels that are one body together
+using LabelGroup = std::vector<Label>;
+
+FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
 {
-  return { .label = shortest(label.shown),
-    .name = label.segment.name,
-    .voxels = static_cast<std::uint64_t>(label.voxels),
-    .voxelVolume = static_cast<double>(label.voxels) * voxelVolume(volume),
-    .surface = {},
-    .from = {} };
+  FileOrgan organ{ .label = {}, .name = labels.front().segment.name, .surface = {}, .from = {} };
+  for (const Label& label : labels)
+  {
+    organ.label += (organ.label.empty() ? "" : "+") + shortest(label.shown);
+    organ.voxels += static_cast<std::uint64_t>(label.voxels);
+  }
+  organ.voxelVolume = static_cast<double>(organ.voxels) * voxelVolume(volume);
+  return organ;
 }
 
-FileOrgan organOf(
-  const Label& label, const PatientImage& volume, std::size_t components, const std::string& name)
+FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::size_t components,
+  const std::string& name)
 {
-  const FileOrgan known = listed(label, volume);
-  ImageRegion region = regionOfLabels(volume, std::span(&label, 1));
+  const FileOrgan known = listed(labels, volume);
+  ImageRegion region = regionOfLabels(volume, labels);
   region.isFelt = true;
   FileOrgan organ = bodyOf(volume, std::move(region), components, name + ", label " + known.label);
   organ.label = known.label;
@@ -64,31 +70,37 @@ FileOrgan organOf(
 }
 
 // those that are asked for, else all that are large enough
-std::vector<Label> wantedLabels(const PatientImage& volume, const ImagePart& part, bool isList,
+std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const ImagePart& part, bool isList,
   const std::string& name, std::vector<std::string>& notes)
 {
   const std::vector<Label> known = labelsOf(volume);
-  if (!part.labels.empty())
+  std::vector<LabelGroup> wanted;
+  for (const std::string& word : part.labels)
   {
-    return chosenLabels(known, part.labels, volume, name);
-  }
-  std::vector<Label> bodies = bodiesAmong(known);
-  constexpr vtkIdType kFewest = 8;
-  for (const Label& label : bodies)
-  {
-    if (label.voxels < kFewest && !isList)
+    std::vector<std::string> words;
+    for (const std::string_view one : split(word, '+'))
     {
-      notes.push_back("warning: label " + shortest(label.shown) + " has " +
-        counted(static_cast<std::size_t>(label.voxels), "voxel") +
-        ", too few for a surface, and is left out");
+      words.emplace_back(trimmed(one));
     }
+    wanted.push_back(chosenLabels(known, words, volume, name));
   }
-  std::erase_if(bodies, [&](const Label& label) { return label.voxels < kFewest && !isList; });
-  if (bodies.empty())
+  constexpr vtkIdType kFewest = 8;
+  for (const Label& label : part.labels.empty() ? bodiesAmong(known) : std::vector<Label>())
+  {
+    if (label.voxels >= kFewest || isList)
+    {
+      wanted.push_back({ label });
+      continue;
+    }
+    notes.push_back("warning: label " + shortest(label.shown) + " has " +
+      counted(static_cast<std::size_t>(label.voxels), "voxel") +
+      ", too few for a surface, and is left out");
+  }
+  if (wanted.empty())
   {
     refuseImage(name, "no label of eight voxels or more in it; " + labelsInWords(known, volume));
   }
-  return bodies;
+  return wanted;
 }
 
 } // namespace
@@ -123,10 +135,10 @@ FileOrgans imageOrgans(
   {
     return all;
   }
-  for (const Label& label : wantedLabels(volume, part, isList, name, all.notes))
+  for (const LabelGroup& labels : wantedLabels(volume, part, isList, name, all.notes))
   {
     all.organs.push_back(
-      isList ? listed(label, volume) : organOf(label, volume, part.components, name));
+      isList ? listed(labels, volume) : organOf(labels, volume, part.components, name));
   }
   return all;
 }
