@@ -17,10 +17,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
+#include <future>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <thread>
 
 namespace palp
 {
@@ -193,14 +196,22 @@ void runImport(const ImportOptions& options)
   const LengthUnit unit = unitOf(all, options.unit, options.image, warnings);
   const ImportSource source = sourceOf(options, all, unit);
   std::vector<std::string> files;
-  nameFiles(all.organs, files, options.image.stem().stem().string());
+  nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
   ProgressLine progress("organs");
   std::vector<ImportedOrgan> organs;
-  for (FileOrgan& organ : all.organs)
+  std::vector<std::future<ImportedOrgan>> making; // as many ahead as there are processors
+  for (const std::string& file : files)
   {
     progress(organs.size(), files.size());
-    organs.push_back(importedOrgan(std::move(organ), options.image, unit));
-    organs.back().file = files[organs.size() - 1];
+    const std::size_t ahead = organs.size() + std::max(1U, std::thread::hardware_concurrency());
+    while (making.size() < std::min(ahead, files.size()))
+    {
+      FileOrgan& organ = all.organs[making.size()];
+      making.push_back(
+        std::async(std::launch::async, importedOrgan, std::move(organ), options.image, unit));
+    }
+    organs.push_back(making[organs.size()].get());
+    organs.back().file = file;
     writeOrgan(output->stage(), organs.back(), all.space);
     for (const std::string& warning : organs.back().warnings)
     {

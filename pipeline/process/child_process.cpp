@@ -159,7 +159,7 @@ std::optional<std::string> outputOf(const std::vector<std::string>& command)
 
 std::optional<std::string> answerOf(const std::vector<std::string>& command)
 {
-  const std::optional<std::string> answer = run(command, kSanitized);
+  std::optional<std::string> answer = run(command, kSanitized);
   if (!answer || answer->empty())
   {
     return std::nullopt;
@@ -168,7 +168,8 @@ std::optional<std::string> answerOf(const std::vector<std::string>& command)
   {
     throw Error(static_cast<ErrorCode>((*answer)[1]), answer->substr(2));
   }
-  return answer->substr(1);
+  answer->erase(0, 1);
+  return answer;
 }
 
 void answer(const std::function<std::string()>& work, ChildLimits limits,
@@ -206,7 +207,8 @@ void answer(const std::function<std::string()>& work, ChildLimits limits,
   bool answered = false;
   try
   {
-    answered = writeAll(output, kResult + work());
+    const std::string result = work(); // not copied, for it may be large
+    answered = writeAll(output, { kResult }) && writeAll(output, result);
   }
   catch (const Error& error)
   {

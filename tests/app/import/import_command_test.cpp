@@ -3,6 +3,7 @@
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/import/sentences.h"
+#include "tests/support/dicom_series.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -202,6 +203,25 @@ TEST_F(ImportCommand, ListsTheLabelsWhereNoFolderIsNamed)
   const test::Finished finished = import(blocks().string());
   EXPECT_EQ(finished.code, 0) << finished.err;
   EXPECT_EQ(finished.out, "label,name,voxels,volume_ml\n1,,1440,180\n2,,1008,126\n3,,1,0.125\n");
+}
+
+// as a scanner gives it: 12 bits from -1024 on, in files of no order
+TEST_F(ImportCommand, TakesAFolderOfDicomImages)
+{
+  const test::DicomGrid grid{ 24, 24, 14, { -23.0, -23.0, 300.0 }, Eigen::Vector3d::UnitX(),
+    Eigen::Vector3d::UnitY(), 2.0, 2.0, 2.5 };
+  const Eigen::Vector3d middle =
+    writeDicom(folder_.path(), "ct", grid, "--write-xfer-little", { .series = "1.2.3.1" });
+  const test::Finished finished = import((folder_.path() / "ct/").string() + " --threshold " +
+    std::to_string(static_cast<int>(test::kDicomLevel)) + ":3071 --out " + out_.string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_EQ(read("scene.json").at("organs").at(0).at("name"), "ct");
+  const LoadedSurface ball = readSurface(out_ / "ct.vtp");
+  EXPECT_EQ(ball.space, "LPS");
+  for (const Eigen::Vector3d& point : pointsOf(*ball.mesh))
+  {
+    EXPECT_NEAR((point - middle).norm(), 1e-3 * test::kDicomRadius, 2.0_mm);
+  }
 }
 
 TEST_F(ImportCommand, ProposesWhatMayBeMeantOfAScan)
