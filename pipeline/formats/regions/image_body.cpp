@@ -55,9 +55,13 @@ void noteVoxels(const PatientImage& volume, std::vector<std::string>& notes)
   }
 }
 
-void noteBorder(const VoxelBox& box, const vtkImageData& image, std::vector<std::string>& notes)
+constexpr const char* kCutByBorder =
+  "warning: it reaches the border of the image, and is closed there by a flat face that no organ "
+  "has";
+
+void noteBorder(const VoxelBox& box, vtkImageData& image, std::vector<std::string>& notes)
 {
-  const int* size = const_cast<vtkImageData&>(image).GetDimensions();
+  const int* size = image.GetDimensions();
   bool isCut = false;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -65,8 +69,7 @@ void noteBorder(const VoxelBox& box, const vtkImageData& image, std::vector<std:
   }
   if (isCut)
   {
-    notes.emplace_back("warning: it reaches the border of the image, and is closed there by a flat "
-                       "face that no organ has");
+    notes.emplace_back(kCutByBorder);
   }
 }
 
@@ -95,6 +98,23 @@ FileSurface placed(const PatientImage& volume, ImageContour& contour)
     .unit = volume.unit,
     .notes = {},
     .space = volume.space };
+}
+
+// of a large one that is to be felt
+void addCoarse(const PatientImage& volume, const ImageRegion& region, std::size_t components,
+  const ImageContour& contour, FileOrgan& organ)
+{
+  constexpr std::size_t kLarge = 80'000; // points
+  if (!region.isFelt || contour.points.size() <= kLarge)
+  {
+    return;
+  }
+  int side = 1;
+  ImageContour coarse = coarseContour(*region.image, region.level, components, contour, side);
+  const Eigen::Vector3d spacing(volume.image->GetSpacing());
+  const Eigen::Matrix3d voxel = Form(volume.toPatient).topLeftCorner<3, 3>() * spacing.asDiagonal();
+  organ.coarse = placed(volume, coarse);
+  organ.coarseVoxel = side * voxel.colwise().norm().maxCoeff();
 }
 
 } // namespace
@@ -206,9 +226,7 @@ ImageRegion regionOfLevel(
   region.image = closedAtBorder(*volume.image, region.level, values.low);
   if (region.image != volume.image)
   {
-    region.notes.emplace_back(
-      "warning: it reaches the border of the image, and is closed there by a flat face that no "
-      "organ has");
+    region.notes.emplace_back(kCutByBorder);
   }
   return region;
 }
@@ -217,7 +235,9 @@ FileOrgan bodyOf(
   const PatientImage& volume, ImageRegion region, std::size_t components, const std::string& name)
 {
   FileOrgan organ;
-  const vtkIdType voxels = voxelsAbove(*region.image, region.level);
+  const bool isAround = isAboveAround(*region.image, region.level);
+  const vtkIdType above = voxelsAbove(*region.image, region.level);
+  const vtkIdType voxels = isAround ? region.image->GetNumberOfPoints() - above : above;
   constexpr vtkIdType kFewest = 8;
   if (region.mask && voxels < kFewest)
   {
@@ -232,9 +252,11 @@ FileOrgan bodyOf(
       "its surface would have " + std::to_string(triangles / 1'000'000) +
         " million triangles, noise at that level; smooth the image, or take fewer voxels");
   }
+  const double size =
+    static_cast<double>(voxels) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
   ImageContour contour =
-    imageContour(*region.image, region.level, region.mask, components, region.notes);
-  if ((enclosedVolume(contour.points, contour.triangles) < 0.0) != region.below)
+    imageContour(*region.image, region.level, region.mask ? size : 0.0, components, region.notes);
+  if (isAround != region.below)
   {
     region.notes.emplace_back("the body is what is below the level, as a distance is; what is "
                               "above it reaches the border of the image all around");
@@ -243,19 +265,7 @@ FileOrgan bodyOf(
   organ.voxels = static_cast<std::uint64_t>(voxels);
   organ.voxelVolume = static_cast<double>(voxels) * voxelVolume(volume);
   organ.enclosed = grown * std::abs(contour.enclosed);
-  constexpr std::size_t kLarge = 80'000; // points
-  if (region.isFelt && contour.points.size() > kLarge)
-  {
-    int side = 1;
-    ImageContour coarse = coarseContour(*region.image, region.level, components, contour, side);
-    organ.coarse = placed(volume, coarse);
-    organ.coarseVoxel = side *
-      (Form(volume.toPatient).topLeftCorner<3, 3>() *
-        Eigen::Vector3d(volume.image->GetSpacing()).asDiagonal())
-        .colwise()
-        .norm()
-        .maxCoeff();
-  }
+  addCoarse(volume, region, components, contour, organ);
   toPatient(volume, contour.from);
   organ.from = std::move(contour.from);
   organ.surface = placed(volume, contour);

@@ -106,7 +106,7 @@ Edges keepPieces(ImageContour& contour, std::size_t components, double leastHoll
 
 } // namespace
 
-ImageContour imageContour(vtkImageData& image, double level, bool mask, std::size_t components,
+ImageContour imageContour(vtkImageData& image, double level, double mask, std::size_t components,
   std::vector<std::string>& notes)
 {
   ImageContour contour = contourOf(image, level);
@@ -116,18 +116,13 @@ ImageContour imageContour(vtkImageData& image, double level, bool mask, std::siz
   }
   const Eigen::Array3d spacing = Eigen::Array3d(image.GetSpacing()).abs();
   // what a contour, which cuts the corners of voxels, lacks of their volume for each area of it
-  double bevel = 0.0;
-  if (mask)
-  {
-    const double whole = spacing.prod() * static_cast<double>(voxelsAbove(image, level));
-    const double cut = std::abs(enclosedVolume(contour.points, contour.triangles));
-    bevel = (whole - cut) / areaOf(contour);
-  }
+  const double cut = std::abs(enclosedVolume(contour.points, contour.triangles));
+  const double bevel = mask > 0.0 ? (mask - cut) / areaOf(contour) : 0.0;
   const Edges edges = keepPieces(contour, components, kLeastHollow * spacing.prod(), notes);
   contour.from = contour.points;
   const double volume = enclosedVolume(contour.points, contour.triangles);
   contour.enclosed = volume + std::copysign(bevel * areaOf(contour), volume);
-  if (mask)
+  if (mask > 0.0)
   {
     bendLeast(contour.points, contour.triangles, edges, 0.5 * spacing, contour.enclosed);
   }

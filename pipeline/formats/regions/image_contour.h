@@ -29,10 +29,11 @@ struct ImageContour
 /// of less than 100 voxels is filled.
 ///
 /// @param image       nowhere above the level at its border, or everywhere
-/// @param mask        whether voxels are in or out, not values between which to interpolate
+/// @param mask        volume of the voxels of a mask [unit^3]; 0: they have values between which to
+///                    interpolate
 /// @param components  how many pieces at most, the largest first
 /// @param notes       gets what was left out
-[[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, bool mask,
+[[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, double mask,
   std::size_t components, std::vector<std::string>& notes);
 
 /// The same of larger voxels, with some 60,000 points, for what takes long of many.

@@ -153,4 +153,10 @@ vtkSmartPointer<vtkImageData> meanOf(vtkImageData& image, int count)
   return mean;
 }
 
+bool isAboveAround(vtkImageData& image, double level)
+{
+  const int* extent = image.GetExtent();
+  return image.GetScalarComponentAsDouble(extent[0], extent[2], extent[4], 0) >= level;
+}
+
 } // namespace palp

@@ -27,4 +27,8 @@ void mark(vtkImageData& mask, vtkImageData& image, const VoxelBox& box,
 /// are as those on it.
 [[nodiscard]] vtkSmartPointer<vtkImageData> meanOf(vtkImageData& image, int count);
 
+/// Whether the border is above the level, as of a distance: the body is below then.
+/// @param image  of closedAtBorder, or a mask
+[[nodiscard]] bool isAboveAround(vtkImageData& image, double level);
+
 } // namespace palp

@@ -112,6 +112,23 @@ TEST_F(Images, ALabelThatReachesTheBorderIsClosedThere)
     { return note.find("is closed there by a flat face") != note.npos; }));
 }
 
+// its hollow, where all around is 1, is as large as the ball
+TEST_F(Images, AMaskTurnedAroundIsTheSameBody)
+{
+  const auto image = ball(true);
+  auto* voxels = image->GetPointData()->GetScalars();
+  double count = 0.0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    voxels->SetComponent(i, 0, 1.0 - voxels->GetComponent(i, 0));
+    count += 1.0 - voxels->GetComponent(i, 0);
+  }
+  const auto file = write<vtkMetaImageWriter>("turned.mha", *image);
+  const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.5, {} });
+  EXPECT_LT(farthest(*surface.mesh, kCenterMm), 2.2);
+  EXPECT_NEAR(volumeMm3(*surface.mesh), 15.0 * count, 0.01 * 15.0 * count); // of 2 x 2.5 x 3 mm
+}
+
 // as a distance has it, negative within
 TEST_F(Images, TellsThatABodyIsBelowItsLevel)
 {
