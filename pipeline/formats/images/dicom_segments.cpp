@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <gdcmReader.h>
-#include <gdcmTrace.h>
 #include <limits>
 #include <span>
 #include <vtkImageData.h>
@@ -271,13 +269,9 @@ void place(const SegmentGrid& grid, PatientImage& result)
 
 PatientImage readDicomSegments(const std::filesystem::path& file)
 {
-  gdcm::Trace::SetDebug(false);
-  gdcm::Trace::SetWarning(false);
-  gdcm::Trace::SetError(false);
   blameForACrash(file); // by an assertion of GDCM
   gdcm::Reader reader;
-  reader.SetFileName(file.c_str());
-  if (!reader.Read())
+  if (!readWhole(reader, file))
   {
     refuse(file, "no DICOM file, cut off, or damaged; export or copy it again");
   }

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 #include <gdcmSequenceOfItems.h>
+#include <gdcmTrace.h>
+#include <sstream>
 #include <string_view>
 
 namespace palp
@@ -70,6 +72,18 @@ std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& t
     items.push_back(sequence->GetItem(i).GetNestedDataSet());
   }
   return items;
+}
+
+bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file)
+{
+  static std::ostringstream warnings; // which it keeps
+  warnings.str("");
+  gdcm::Trace::SetDebug(false);
+  gdcm::Trace::SetError(false);
+  gdcm::Trace::SetWarningStream(warnings);
+  gdcm::Trace::SetWarning(true);
+  reader.SetFileName(file.c_str());
+  return reader.Read() && warnings.str().find("own risk") == std::string::npos;
 }
 
 } // namespace palp

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <gdcmDataSet.h>
+#include <gdcmReader.h>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,5 +32,9 @@ inline constexpr const char* kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4"
 
 /// What stands in the items of a sequence; none where there is no such sequence.
 [[nodiscard]] std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& tag);
+
+/// Reads a file, without what GDCM says of it.
+/// @return  false also where GDCM fills up what it was cut off of
+[[nodiscard]] bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file);
 
 } // namespace palp

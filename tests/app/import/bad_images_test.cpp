@@ -47,11 +47,11 @@ protected:
     const std::filesystem::path file = folder_.path() / "in" / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary) << bytes;
-    for (const char* command : { "import", "run" })
+    for (const std::string command : { "import", "run --at 0,0,0" })
     {
       const std::filesystem::path out = folder_.path() / "out";
-      const Finished finished = runCommand(std::string(PALP_PROGRAM " ") + command + " " +
-        file.string() + " " + part + " --out " + out.string());
+      const Finished finished = runCommand(
+        PALP_PROGRAM " " + command + " " + file.string() + " " + part + " --out " + out.string());
       EXPECT_EQ(finished.code, 2) << command << name << finished.err;
       EXPECT_NE(finished.err.find(words), std::string::npos) << name << ": " << finished.err;
       EXPECT_EQ(sentences(finished).size(), 1U) << finished.err;
@@ -112,9 +112,9 @@ TEST_F(BadImages, ThatAreNoVolumeOfOneValue)
 TEST_F(BadImages, ThatClaimTooMuchOrReachOutside)
 {
   expectRefusal(
-    "huge.mha", metaHeader({ { "DimSize", "20000 20000 5000" } }) + voxels(), "DimSize");
+    "huge.mha", metaHeader({ { "DimSize", "20000 20000 5000" } }) + voxels(), "cut off");
   expectRefusal("components.mha",
-    metaHeader({ { "ElementNumberOfChannels", "1000000000" } }) + voxels(), "Channels");
+    metaHeader({ { "ElementNumberOfChannels", "1000000000" } }) + voxels(), "several values");
   std::ofstream(folder_.path() / "outside.raw", std::ios::binary) << voxels();
   expectRefusal("outside.mhd", metaHeader({ { "ElementDataFile", "../outside.raw" } }), "outside");
 }

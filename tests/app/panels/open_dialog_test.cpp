@@ -19,11 +19,11 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.mha";
   std::ofstream out(file, std::ios::binary);
-  out << "NDims = 3\nElementSpacing = 10 10 10\nDistanceUnits = mm\nDimSize = 4 3 3\n"
+  out << "NDims = 3\nElementSpacing = 10 10 10\nDistanceUnits = mm\nDimSize = 6 4 4\n"
          "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
-  for (int i = 0; i < 9; ++i)
+  for (int row = 0; row < 16; ++row)
   {
-    out << '\0' << '\2' << '\2' << '\7';
+    out << '\0' << '\0' << '\0' << '\2' << '\2' << '\7';
   }
   out.close();
   MeshSource opened;
@@ -32,7 +32,7 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   auto* list = dialog.findChild<QListWidget*>("labels");
   ASSERT_NE(list, nullptr);
   ASSERT_EQ(list->count(), 2);
-  EXPECT_TRUE(list->item(0)->text().contains("18 ml")) << list->item(0)->text().toStdString();
+  EXPECT_TRUE(list->item(0)->text().contains("32 ml")) << list->item(0)->text().toStdString();
   list->item(0)->setCheckState(Qt::Checked);
   list->item(1)->setCheckState(Qt::Checked);
   EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "2,7");

@@ -22,7 +22,7 @@ const std::vector<Fuzzed>& fuzzedSurfaces()
   return all;
 }
 
-constexpr std::size_t kFuzzedSurfaces = 19;
+constexpr std::size_t kFuzzedSurfaces = 20;
 
 class Fuzz : public testing::TestWithParam<std::size_t>
 {

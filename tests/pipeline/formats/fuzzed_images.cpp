@@ -2,7 +2,7 @@
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/formats/fuzzed_parts.h"
 #include "tests/support/deflated.h"
-#include "tests/support/dicom_series.h"
+#include "tests/support/dicom_segmentation.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -131,6 +131,20 @@ std::vector<Fuzzed> nrrdKinds()
       replaced("end", "little", "middle", "endian"), foreign(offText(), kKind) }) };
 }
 
+// what is taken of organs
+void takeOrgans(const std::string& bytes)
+{
+  const auto organs = unpackOrgans(bytes);
+  if (!organs || organs->organs.empty())
+  {
+    throw std::runtime_error("the answer of the reader is damaged");
+  }
+  for (const FileOrgan& organ : organs->organs)
+  {
+    (void)madeReady(organ.surface, "organs", LengthUnit::Millimeter);
+  }
+}
+
 // segments in two layers, each taken as an organ
 std::vector<Fuzzed> segmentKinds()
 {
@@ -154,18 +168,7 @@ std::vector<Fuzzed> segmentKinds()
   kind.read = [](const std::filesystem::path& file) {
     return pack(readOrgans(file, { .labels = { "liver", "tumor" } }, false));
   };
-  kind.take = [](const std::string& bytes)
-  {
-    const auto organs = unpackOrgans(bytes);
-    if (!organs || organs->organs.size() != 2)
-    {
-      throw std::runtime_error("the answer of the reader is damaged");
-    }
-    for (const FileOrgan& organ : organs->organs)
-    {
-      (void)madeReady(organ.surface, "ball.seg.nrrd", LengthUnit::Millimeter);
-    }
-  };
+  kind.take = takeOrgans;
   return { kind };
 }
 
@@ -202,6 +205,19 @@ std::vector<Fuzzed> otherImages()
         replaced("tag", "</PointData>", "</PintData>", "tag|XML|mismatch"),
         replaced("kind", "type=\"ImageData\"", "type=\"PolyData\"", "ImageData|not a VTI", false),
         foreign(offText(), kKind) }) };
+}
+
+std::vector<Fuzzed> dicomSegmentKinds()
+{
+  const TemporaryFolder folder;
+  Fuzzed kind = image("segments.dcm", { readAll(writeSegmentation(folder.path())) },
+    { cutOff(kCut + "|damaged|bytes|places", 600),
+      replaced("class", "1\\.66\\.4", "1.66.5", "one image of a series", false),
+      replaced("kind", "BINARY", "BINAR?", "fractions"),
+      replaced("place", "-3[0-9]", "-3x", "Position"), foreign(offText(), "DICOM") });
+  kind.read = [](const std::filesystem::path& file) { return pack(readOrgans(file, {}, false)); };
+  kind.take = takeOrgans;
+  return { kind };
 }
 
 // one image of a series, the others beside it
@@ -248,7 +264,8 @@ std::vector<Fuzzed> dicomKinds()
 std::vector<Fuzzed> fuzzedImages()
 {
   std::vector<Fuzzed> all;
-  for (auto* kinds : { metaKinds, nrrdKinds, segmentKinds, dicomKinds, otherImages })
+  for (auto* kinds :
+    { metaKinds, nrrdKinds, segmentKinds, dicomSegmentKinds, dicomKinds, otherImages })
   {
     std::ranges::move(kinds(), std::back_inserter(all));
   }
