@@ -25,7 +25,7 @@ struct PatientImage
   double toPatient[16]; ///< row by row, applied to the image's own points [unit]
   double slope = 1.0;   ///< a voxel's value is slope times what is stored, plus intercept
   double intercept = 0.0;
-  std::string unit{}; ///< of its points: "um", "mm", "cm", "m"; empty: the file names none
+  std::string unit{};  ///< of its points: "um", "mm", "cm", "m"; empty: the file names none
   std::string space{}; ///< of those axes: "LPS"; empty: the file tells no place in the patient
   std::vector<std::string> notes{}; ///< how it was taken, for people
   std::vector<Segment> segments{};  ///< that the file names

@@ -135,7 +135,7 @@ std::vector<Fuzzed> mshKinds()
       block.write(4.1, true) },
     { cutOff("cut off", 14), replaced("version", "(MeshFormat\n)[24]", "$019", "version"),
       replaced("count of nodes", "(Nodes\n)[0-9]+", "$01999999999", kCount),
-      replaced("section", "\\$Elements", "$Elments", "missing"), foreign(offText(), kKind) }) };
+      replaced("section", "\\$Elements", "$Nothing", "missing"), foreign(offText(), kKind) }) };
 }
 
 } // namespace
