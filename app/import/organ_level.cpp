@@ -70,7 +70,10 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
       point *= length;
     }
     OrganLevel level = levelBy(organ.coarse.points, organ.coarse.triangles);
-    if (level.apart.largest <= 2.0 * length * organ.coarseVoxel)
+    const double voxel = length * organ.coarseVoxel;
+    constexpr double kMost = 3.0; // voxels, as of a wedge; what is thinner than one is farther off
+    constexpr double kUsual = 0.25;
+    if (level.apart.largest <= kMost * voxel && level.apart.rootMeanSquare <= kUsual * voxel)
     {
       return level;
     }

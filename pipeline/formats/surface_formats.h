@@ -7,8 +7,8 @@
 namespace palp
 {
 
-/// Reads STL, OBJ, PLY, OFF, legacy VTK, VTP, VTU or MSH, by the ending of the name, of a volume mesh
-/// its outer surface; or a surface in an image: MetaImage, NIfTI or VTI.
+/// Reads STL, OBJ, PLY, OFF, legacy VTK, VTP, VTU or MSH, by the ending of the name, of a volume
+/// mesh its outer surface; or a surface in an image: MetaImage, NIfTI or VTI.
 ///
 /// Polygons and strips are cut into triangles; a surface whose file says SPACE=RAS is turned to
 /// LPS, as 3D Slicer does. For palp-read only: a damaged file may crash the reader or take all
