@@ -147,6 +147,10 @@ ImageContour coarseContour(
   const Eigen::Array3d spacing = Eigen::Array3d(mean->GetSpacing()).abs();
   std::vector<std::string> none; // what is left out is told of the other
   const Edges edges = keepPieces(contour, components, spacing.prod(), none);
+  if (contour.points.empty()) // all of it is thinner than a voxel
+  {
+    return contour;
+  }
   bendLeast(contour.points, contour.triangles, edges, 0.25 * spacing, of.enclosed);
   return contour;
 }
