@@ -17,6 +17,12 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
+// names may be in a code of characters that is not UTF-8
+std::string textOf(const Json& json)
+{
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json partOf(const ImagePart& part)
 {
   Json json;
@@ -122,7 +128,7 @@ std::string importScene(const ImportSource& source, const std::vector<ImportedOr
     }
     scene["organs"].push_back(std::move(json));
   }
-  return scene.dump(2) + "\n";
+  return textOf(scene);
 }
 
 std::string importManifest(const ImportSource& source, const std::vector<ImportedOrgan>& organs)
@@ -140,7 +146,7 @@ std::string importManifest(const ImportSource& source, const std::vector<Importe
   {
     manifest["organs"].push_back(organOf(organ));
   }
-  return manifest.dump(2) + "\n";
+  return textOf(manifest);
 }
 
 } // namespace palp

@@ -126,22 +126,25 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
 void nameFiles(
   std::vector<FileOrgan>& organs, std::vector<std::string>& files, const std::string& other)
 {
+  const auto isOdd = [](unsigned char c) { return c < ' ' || c == ',' || c == '"'; };
+  const auto isPlain = [](unsigned char c)
+  { return c < 0x80 && (std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_'); };
   for (FileOrgan& organ : organs)
   {
-    organ.name = !organ.name.empty() ? organ.name
+    constexpr std::size_t kLongest = 60;
+    organ.name = !organ.name.empty() ? organ.name.substr(0, kLongest)
       : organ.label.empty()          ? other
                                      : "label " + organ.label;
-    std::string file = lowered(organ.name);
-    const auto isPlain = [](unsigned char c)
-    { return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_'; };
-    std::ranges::replace_if(
-      file, [&](char c) { return !isPlain(static_cast<unsigned char>(c)); }, '_');
-    file.insert(0, file.starts_with('.') ? "_" : "");
-    const std::string first = file;
+    std::ranges::replace_if(organ.name, isOdd, '_');
+    std::string first = lowered(organ.name);
+    std::ranges::replace_if(first, std::not_fn(isPlain), '_');
+    first.insert(0, first.starts_with('.') ? "_" : "");
+    std::string file = first;
     for (int number = 2; std::ranges::count(files, file) > 0; ++number)
     {
       file = first + "_" + std::to_string(number);
     }
+    organ.name += file.substr(first.size()); // in the scene each is named once
     files.push_back(file);
   }
 }

@@ -47,8 +47,9 @@ struct ImportedOrgan
 [[nodiscard]] ImportedOrgan importedOrgan(
   FileOrgan organ, const std::filesystem::path& image, LengthUnit unit);
 
-/// Names that are files of their own: letters, digits, dots, hyphens and underscores of each, and a
-/// number behind one that another has.
+/// Names that stand once in a scene, and files of their own for them: letters, digits, dots,
+/// hyphens and underscores, and a number behind one that another has.
+/// @param other  name of one that has none, nor a label
 void nameFiles(
   std::vector<FileOrgan>& organs, std::vector<std::string>& files, const std::string& other);
 

@@ -25,6 +25,12 @@ std::optional<double> milliliters(const PatientImage& volume)
   return unit.empty() ? std::nullopt : std::optional(std::pow(cm, 3) * voxelVolume(volume));
 }
 
+std::string shownName(const std::string& name)
+{
+  constexpr std::size_t most = 60; // of a damaged one that goes on for ever
+  return printable(name.size() > most ? name.substr(0, most) + "..." : name);
+}
+
 // a number names the value next to it that a voxel can have, to the rounding of the scale
 bool isNamed(const Label& label, double step, const std::string& text)
 {
@@ -89,7 +95,7 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
   for (const Label& label : bodiesAmong(labels))
   {
     text << (text.tellp() > 0 ? ", " : "") << shortest(label.shown)
-         << (label.segment.name.empty() ? "" : " " + printable(label.segment.name)) << " ("
+         << (label.segment.name.empty() ? "" : " " + shownName(label.segment.name)) << " ("
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
     voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';
   }

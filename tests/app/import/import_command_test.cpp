@@ -151,6 +151,24 @@ TEST_F(ImportCommand, WritesASceneOfOrgans)
   EXPECT_EQ(scene.at("organs").at(0).at("tissue").at("name"), "healthy_liver");
 }
 
+// as a scene and a disk take them
+TEST_F(ImportCommand, NamesEachOrganAndFileOnce)
+{
+  std::ofstream(folder_.path() / "names.json")
+    << R"({"1": "Liver, left \"lobe\"", "2": "Liver, left \"lobe\""})";
+  ASSERT_EQ(import(blocks().string() + " --label 1,2 --names " +
+              (folder_.path() / "names.json").string() + " --out " + out_.string())
+              .code,
+    0);
+  EXPECT_EQ(files(),
+    (std::vector<std::string>{
+      "import.json", "liver__left__lobe_.vtp", "liver__left__lobe__2.vtp", "scene.json" }));
+  const json organs = read("scene.json").at("organs");
+  EXPECT_EQ(organs.at(0).at("name"), "Liver_ left _lobe_");
+  EXPECT_EQ(organs.at(1).at("name"), "Liver_ left _lobe__2");
+  EXPECT_EQ(organs.at(1).at("file"), "liver__left__lobe__2.vtp");
+}
+
 TEST_F(ImportCommand, TellsInItsManifestWhereAllIsFrom)
 {
   const auto image = blocks();
