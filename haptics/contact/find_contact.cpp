@@ -113,8 +113,7 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
 Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
 {
   const double nose = noseRadius(tip);
-  const Eigen::Vector3d position = pose.apex - nose * pose.axis;
-  const double reach = nose + flatRadius(tip);
+  const auto [position, reach] = reachOf(tip, pose, ContactRule::Exact);
   if (surface.closed() && squaredDistance(surface.tree().nodes()[0], position) > reach * reach)
   {
     return {}; // quickly; behind an open sheet, contact may reach beyond its box
@@ -169,6 +168,17 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
 }
 
 } // namespace
+
+Reach reachOf(const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept
+{
+  if (rule == ContactRule::Paper)
+  {
+    const double middle = 0.5 * paperLength(tip);
+    return { pose.apex - middle * pose.axis, std::hypot(middle, baseRadius(tip)) };
+  }
+  const double nose = noseRadius(tip);
+  return { pose.apex - nose * pose.axis, nose + flatRadius(tip) };
+}
 
 Contact findContact(
   const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept

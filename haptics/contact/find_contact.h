@@ -15,6 +15,16 @@ enum class ContactRule
   Paper, ///< Sec. 4.1: mesh points inside the tool, depth from their center
 };
 
+/// The ball outside of which a tool touches no closed body, and meets no sheet from its front.
+struct Reach
+{
+  Eigen::Vector3d center; ///< [m]
+  double radius;          ///< [m]
+};
+
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Reach reachOf(const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept;
+
 /// Where and how deep the tool is in the undeformed surface.
 ///
 /// depth is how far the tool's deepest point along the contact normal lies below the surface

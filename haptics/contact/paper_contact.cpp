@@ -12,11 +12,17 @@ constexpr double kShaft = 4.0; // [-] base radii of the shaft that are looked at
 
 } // namespace
 
+double paperLength(const Tip& tip) noexcept
+{
+  const double base = baseRadius(tip);
+  return tipHeight(tip, base) + kShaft * base;
+}
+
 Contact paperContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
 {
   const BoxTree& tree = surface.tree();
   const double base = baseRadius(tip);
-  const double length = tipHeight(tip, base) + kShaft * base;
+  const double length = paperLength(tip);
 
   // broad phase: the box around the tool
   const Eigen::Array3d end = (pose.apex - length * pose.axis).array();

@@ -8,6 +8,9 @@
 namespace palp
 {
 
+/// How much of a tool the paper's rule looks at, from its apex [m].
+[[nodiscard]] double paperLength(const Tip& tip) noexcept;
+
 /// The paper's rule: mesh points inside the tool, depth from their center along their mean normal.
 ///
 /// Points that face away from the tool, on the far side of a thin lobe, do not count; nor does

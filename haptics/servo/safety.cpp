@@ -131,7 +131,10 @@ Eigen::Vector3d SafetyChain::rendered(
 {
   const double depth = sample.contact.depth;
   const double stiffest = stiffnessLimit(scene.damping);
-  rebase(law, depth, stiffest, scene.version);
+  const bool isOther = std::exchange(organ_, sample.organ) != sample.organ;
+  const bool touched = std::exchange(touched_, depth > 0.0);
+  const bool changed = std::exchange(version_, scene.version) != scene.version;
+  rebase(law, depth, stiffest, changed || (isOther && touched));
   resumeFraction();
   sample.response = depth > 0.0 ? law(depth) : Response{};
   Rendered felt = couple(law, depth - contactOffset_, stiffest);
@@ -166,10 +169,8 @@ Eigen::Vector3d SafetyChain::rendered(
 }
 
 // where contact is felt to begin, so that no force jumps
-void SafetyChain::rebase(
-  const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept
+void SafetyChain::rebase(const DepthLaw& law, double depth, double stiffest, bool changed) noexcept
 {
-  const bool changed = std::exchange(version_, version) != version;
   if (std::exchange(rebase_, false))
   {
     contactOffset_ = depth;

@@ -94,7 +94,7 @@ private:
   void forceOff(DeviceState state) noexcept;
   [[nodiscard]] Eigen::Vector3d rendered(
     Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept;
-  void rebase(const DepthLaw& law, double depth, double stiffest, std::uint64_t version) noexcept;
+  void rebase(const DepthLaw& law, double depth, double stiffest, bool changed) noexcept;
   void resumeFraction() noexcept;
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
@@ -140,6 +140,8 @@ private:
   double normalForce_ = 0.0;   // of the law through the coupling, last tick [N]
   bool rebase_ = false;        // the force has to start in contact
   std::uint64_t version_ = 0;  // of the scene, last tick
+  int organ_ = 0;              // of the sample, last tick
+  bool touched_ = false;       // it
 
   Eigen::Vector3d shaped_ = Eigen::Vector3d::Zero(); // before gain, last tick [N]
   Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();   // last tick [N]

@@ -50,7 +50,8 @@ struct Sample
   double time = 0.0; ///< since the start of the loop [s]
   ToolPose pose;
   Contact contact;
-  Response response;                                 ///< of the law, before damping and limits
+  int organ = 0;     ///< of the scene, that is touched, or was last; 0: the first, or the only one
+  Response response; ///< of the law, before damping and limits
   Eigen::Vector3d lateral = Eigen::Vector3d::Zero(); ///< of nodules, besides the response [N]
   double proxyDepth = 0.0; ///< depth at which the law gives the rendered force [m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< sent to the device [N]

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace palp
 {
@@ -22,6 +23,25 @@ struct Scene
   std::uint64_t version = 0; ///< another number with another surface or law
   bool armed = false;        ///< the user wants to feel force; after a fault: off, then on again
   std::shared_ptr<const NoduleField> nodules{}; ///< felt by the law's tool; null: none
+
+  /// More organs, each with a surface, law, damping and nodules of its own; in all else, the tool
+  /// of the law included, as this one.
+  std::vector<Scene> others{};
 };
+
+/// How many organs something tells of.
+template <typename Told>
+[[nodiscard]] int organCount(const Told& first) noexcept
+{
+  return 1 + static_cast<int>(first.others.size());
+}
+
+/// Of what is told of several organs, that of one: the first, or one of its others.
+/// @param organ  see Sample
+template <typename Told>
+[[nodiscard]] const Told& organOf(const Told& first, int organ) noexcept
+{
+  return organ == 0 ? first : first.others[static_cast<std::size_t>(organ) - 1];
+}
 
 } // namespace palp

@@ -47,6 +47,49 @@ void push(Sample& sample, const Scene& scene, const Eigen::Vector3d& lateral) no
   }
 }
 
+Sample sampleAt(const ToolPose& pose) noexcept
+{
+  Sample sample;
+  sample.pose = pose;
+  if (!(pose.apex.allFinite() && pose.axis.allFinite() && pose.velocity.allFinite()))
+  {
+    raise(sample, Flag::NotFinite);
+  }
+  return sample;
+}
+
+void respond(Sample& sample, const Scene& scene) noexcept
+{
+  if (sample.contact.touching())
+  {
+    sample.response = evaluateLaw(scene, sample.contact, sample.contact.depth);
+    sample.proxyDepth = sample.contact.depth;
+    if (scene.nodules != nullptr)
+    {
+      sample.lateral =
+        (*scene.nodules)(noduleContactOf(sample.contact), sample.contact.depth).lateral;
+    }
+  }
+}
+
+// the organ that is touched, where there are several
+Sample evaluateContact(const Scene& scene, OrganTouch& touch, const ToolPose& pose) noexcept
+{
+  if (scene.others.empty())
+  {
+    return evaluateContact(scene, pose);
+  }
+  touch.follow(scene);
+  Sample sample = sampleAt(pose);
+  if (sample.flags == 0)
+  {
+    sample.contact = touchOrgan(scene, pose, touch);
+  }
+  sample.organ = touch.organ;
+  respond(sample, organOf(scene, sample.organ));
+  return sample;
+}
+
 } // namespace
 
 Response evaluateLaw(const Scene& scene, const Contact& contact, double depth) noexcept
@@ -65,27 +108,11 @@ Response evaluateLaw(const Scene& scene, const Contact& contact, double depth) n
 
 Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept
 {
-  Sample sample;
-  sample.pose = pose;
-  if (!(pose.apex.allFinite() && pose.axis.allFinite() && pose.velocity.allFinite()))
+  Sample sample = sampleAt(pose);
+  if (sample.flags == 0 && scene.surface != nullptr)
   {
-    raise(sample, Flag::NotFinite);
-    return sample;
-  }
-  if (scene.surface == nullptr)
-  {
-    return sample;
-  }
-  sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
-  if (sample.contact.touching())
-  {
-    sample.response = evaluateLaw(scene, sample.contact, sample.contact.depth);
-    sample.proxyDepth = sample.contact.depth;
-    if (scene.nodules != nullptr)
-    {
-      sample.lateral =
-        (*scene.nodules)(noduleContactOf(sample.contact), sample.contact.depth).lateral;
-    }
+    sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
+    respond(sample, scene);
   }
   return sample;
 }
@@ -102,9 +129,10 @@ Sample step(const Scene& scene, const ToolPose& pose) noexcept
 
 Sample step(const Scene& scene, TissueMemory& memory, const ToolPose& pose, double dt) noexcept
 {
-  Sample sample = evaluateContact(scene, pose);
+  Sample sample = evaluateContact(scene, memory.touch(), pose);
+  const Scene& organ = organOf(scene, sample.organ);
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();
-  const bool remembers = memory.begin(scene, sample, dt);
+  const bool remembers = memory.begin(organ, sample, dt);
   if (remembers)
   {
     const double depth = sample.contact.depth;
@@ -115,7 +143,7 @@ Sample step(const Scene& scene, TissueMemory& memory, const ToolPose& pose, doub
   // what lies deeper than the tool damps nothing
   if (sample.contact.touching() && !(remembers && sample.response.force == 0.0))
   {
-    push(sample, scene, friction);
+    push(sample, organ, friction);
   }
   return sample;
 }
@@ -127,18 +155,21 @@ Sample step(const Scene& scene, TissueMemory& memory, SafetyChain& chain,
   const std::optional<ToolPose> admitted = chain.admit(pose, status, orders, dt);
   Sample sample;
   sample.pose = held;
+  memory.touch().follow(scene);
+  sample.organ = memory.touch().organ;
   if (admitted)
   {
-    sample = evaluateContact(scene, *admitted);
+    sample = evaluateContact(scene, memory.touch(), *admitted);
   }
-  if (memory.begin(scene, sample, dt))
+  const Scene& organ = organOf(scene, sample.organ);
+  if (memory.begin(organ, sample, dt))
   {
     const auto law = [&](double depth) noexcept { return memory.at(depth); };
-    chain.limit(sample, law, scene, &memory);
+    chain.limit(sample, law, organ, &memory);
     return sample;
   }
-  const auto law = [&](double depth) noexcept { return evaluateLaw(scene, sample.contact, depth); };
-  chain.limit(sample, law, scene);
+  const auto law = [&](double depth) noexcept { return evaluateLaw(organ, sample.contact, depth); };
+  chain.limit(sample, law, organ);
   return sample;
 }
 

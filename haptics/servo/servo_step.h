@@ -8,7 +8,8 @@
 namespace palp
 {
 
-/// Contact and law at a pose, without a force: what a safety chain starts from.
+/// Contact and law at a pose, without a force: what a safety chain starts from. Of several organs
+/// only the first is looked at, here and where there is no memory of the one that is touched.
 ///
 /// @return    flagged, and without contact, where the pose is not finite
 /// @realtime  pure; no allocation, no lock, no exception

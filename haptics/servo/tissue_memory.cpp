@@ -9,12 +9,13 @@
 namespace palp
 {
 
-void TissueMemory::forget(const Scene& scene) noexcept
+void TissueMemory::forget(const Scene& scene, int organ) noexcept
 {
   contact_ = {};
   friction_ = {};
   rows_ = *scene.law.rows();
   version_ = scene.version;
+  organ_ = organ;
   touched_ = false;
   radius_ = 0.0;
 }
@@ -45,9 +46,9 @@ bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) no
   const Eigen::Vector3d& apex = sample.pose.apex;
   const Eigen::Vector3d before = apex_;
   apex_ = apex.allFinite() ? apex : before;
-  if (!rows_ || version_ != scene.version)
+  if (!rows_ || version_ != scene.version || organ_ != sample.organ)
   {
-    forget(scene);
+    forget(scene, sample.organ);
   }
   law_ = &scene.law;
   place_ = contactGeometryOf(sample.contact);

@@ -3,6 +3,7 @@
 #include "haptics/force/relaxation/friction_rows.h"
 #include "haptics/force/relaxation/relaxing_contact.h"
 #include "haptics/servo/coupling.h"
+#include "haptics/servo/organ_touch.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
@@ -13,7 +14,8 @@
 namespace palp
 {
 
-/// What the tissue of a scene remembers from tick to tick, where its law relaxes or rubs.
+/// What a scene remembers from tick to tick: which of several organs is touched, and of its tissue,
+/// where the law relaxes or rubs, the past. One organ forgets it when another is touched.
 ///
 /// What is remembered goes with the tool while it touches; what a lifted tool has left fades with
 /// the distance at which it comes back, and is gone beyond the radius of the contact that left it.
@@ -21,8 +23,15 @@ namespace palp
 class TissueMemory
 {
 public:
+  /// Of a scene with several organs; of any other it tells of the first.
+  [[nodiscard]] OrganTouch& touch() noexcept
+  {
+    return touch_;
+  }
+
   /// Takes time and the tool's motion from the tissue; forgets all where the scene is another.
   ///
+  /// @param scene     the organ that the sample tells of
   /// @param sample    pose and contact of this tick
   /// @param dt        since the last tick [s]
   /// @return          whether the law of the scene has a memory; if not, nothing else is to do
@@ -43,16 +52,18 @@ public:
   Eigen::Vector3d settle(const Rendered& felt, double stiffest, Sample& sample) noexcept;
 
 private:
-  void forget(const Scene& scene) noexcept;
+  void forget(const Scene& scene, int organ) noexcept;
   void returnTo(const Contact& contact) noexcept;
   [[nodiscard]] Eigen::Vector3d drag(
     const Rendered& felt, double stiffest, const Eigen::Vector3d& normal) noexcept;
   [[nodiscard]] Response elastic(double depth) const noexcept;
 
+  OrganTouch touch_;
   RelaxingContact contact_;
   FrictionRows friction_;
   std::optional<ContactRows> rows_; // of this place; none: nothing has begun
   std::uint64_t version_ = 0;
+  int organ_ = 0;
   const ForceLaw* law_ = nullptr;                   // of this tick
   ContactGeometry place_;                           // of this tick
   Eigen::Vector3d apex_ = Eigen::Vector3d::Zero();  // last known [m]

@@ -84,7 +84,7 @@ const ToolPose& GuidedTool::advance(double dt, bool mayAppear) noexcept
   {
     version_ = world_->version;
     now_ = at(now_.pose.apex, now_.pose.axis);
-    for (int i = 0; i < 8 && now_.contact.depth > deepest(now_.contact); ++i)
+    for (int i = 0; i < 8 && now_.contact.depth > deepest(now_); ++i)
     {
       withdraw(HUGE_VAL); // another tip: what was deep enough may be too deep
     }
@@ -97,8 +97,7 @@ const ToolPose& GuidedTool::advance(double dt, bool mayAppear) noexcept
   }
   watch(tick);
   const bool isStill = motion.norm() < kStill && (now_.pose.axis - axis).norm() < kStill;
-  const bool isPressed =
-    stalled_ > kSettled && target->depth > 0.0 && !lifting_ && mayStay(now_.contact);
+  const bool isPressed = stalled_ > kSettled && target->depth > 0.0 && !lifting_ && mayStay(now_);
   resting_ = mayAppear && (now_.contact.touching() ? isPressed : isStill);
   return now_.pose;
 }
@@ -140,29 +139,29 @@ void GuidedTool::watch(double dt) noexcept
 GuidedTool::Trial GuidedTool::at(
   const Eigen::Vector3d& apex, const Eigen::Vector3d& axis) const noexcept
 {
-  Trial trial{ .pose = { .apex = apex, .axis = axis }, .contact = {} };
+  Trial trial{ .pose = { .apex = apex, .axis = axis }, .contact = {}, .touch = now_.touch };
   if (world_->surface != nullptr)
   {
-    trial.contact = findContact(*world_->surface, world_->law.tip(), trial.pose, world_->rule);
+    trial.contact = touchOrgan(*world_, trial.pose, trial.touch);
   }
   return trial;
 }
 
 // how deep the tool may be in a contact
-double GuidedTool::deepest(const Contact& contact) const noexcept
+double GuidedTool::deepest(const Trial& trial) const noexcept
 {
+  const auto& [pose, contact, touch] = trial;
   if (!contact.touching())
   {
     return goal_->depth;
   }
-  const double thickness =
-    rayExit(world_->surface->tree(), contact.center, -contact.normal).distance;
-  return std::min(goal_->depth, 0.5 * thickness);
+  const BoxTree& tree = organOf(*world_, touch.organ).surface->tree();
+  return std::min(goal_->depth, 0.5 * rayExit(tree, contact.center, -contact.normal).distance);
 }
 
-bool GuidedTool::mayStay(const Contact& contact) const noexcept
+bool GuidedTool::mayStay(const Trial& trial) const noexcept
 {
-  return contact.depth <= deepest(contact) + kTolerance && !(contact.tilt > kMostTilt);
+  return trial.contact.depth <= deepest(trial) + kTolerance && !(trial.contact.tilt > kMostTilt);
 }
 
 void GuidedTool::move(double dt, bool mayAppear) noexcept
@@ -192,7 +191,7 @@ void GuidedTool::move(double dt, bool mayAppear) noexcept
     return;
   }
   lifting_ = pressing && (lifting_ || mustLift());
-  if (!pressing || lifting_ || !mayStay(now_.contact))
+  if (!pressing || lifting_ || !mayStay(now_))
   {
     withdraw(kSpeed * dt);
   }
@@ -262,7 +261,7 @@ void GuidedTool::rise(double reach) noexcept
 // out of the tissue, the way that leads out soonest
 void GuidedTool::withdraw(double reach) noexcept
 {
-  const double wanted = lifting_ ? 0.0 : deepest(now_.contact);
+  const double wanted = lifting_ ? 0.0 : deepest(now_);
   const double step = std::min(reach, now_.contact.depth - wanted + kRounding);
   Trial best = now_;
   for (const Eigen::Vector3d& direction :
@@ -289,7 +288,7 @@ GuidedTool::Trial GuidedTool::settled(Trial trial, double depth, double reach) c
   double slope = 1.0; // of the depth over the step; more between walls
   for (int i = 0; i < kAttempts && trial.contact.touching(); ++i)
   {
-    const double excess = trial.contact.depth - std::min(depth, deepest(trial.contact));
+    const double excess = trial.contact.depth - std::min(depth, deepest(trial));
     if (std::abs(excess) < kRounding)
     {
       break;
@@ -316,7 +315,7 @@ void GuidedTool::descend(double dt) noexcept
   const Trial next = settled(
     at(now_.pose.apex + fraction * offset, turned(now_.pose.axis, -goal_->normal, fraction)),
     HUGE_VAL, 0.0);
-  if (mayStay(next.contact))
+  if (mayStay(next))
   {
     now_ = next;
   }
@@ -330,7 +329,7 @@ void GuidedTool::slide(double dt) noexcept
   const double reach = kSpeed * dt;
   // under a wall that the press does not aim at, the tool goes no deeper
   constexpr double kAimed = 0.5;
-  const double missing = std::max(0.0, deepest(before) - before.depth);
+  const double missing = std::max(0.0, deepest(now_) - before.depth);
   const bool isAimed = before.normal.dot(goal_->normal) > kAimed;
   const double depth = before.depth + (isAimed ? missing * fractionOf(missing, dt) : 0.0);
   for (const double part : { 1.0, 0.5, 0.25, 0.0 })
@@ -339,7 +338,7 @@ void GuidedTool::slide(double dt) noexcept
     const Eigen::Vector3d axis = turned(now_.pose.axis, -goal_->normal, part * fraction);
     const Trial next = settled(at(apex, axis), depth, reach);
     const bool keepsPace = (next.pose.apex - now_.pose.apex).norm() <= 2.0 * reach;
-    if (next.contact.touching() && keepsPace && mayStay(next.contact))
+    if (next.contact.touching() && keepsPace && mayStay(next))
     {
       now_ = next;
       break;

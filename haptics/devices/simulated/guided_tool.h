@@ -1,7 +1,7 @@
 #pragma once
 
 #include "haptics/contact/contact.h"
-#include "haptics/servo/scene.h"
+#include "haptics/servo/organ_touch.h"
 #include "haptics/threads/latest.h"
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct PressTarget
 /// Targets come in jumps, some of them across the body. In the air the tool appears above the new
 /// place and comes down along its normal. In contact it slides along the surface at the depth of
 /// the target; where that way is blocked, too long or leads around the body, it lifts and presses
-/// anew. Each pose is tried with findContact before it is taken, so that none is deeper than the
+/// anew. Each pose is tried with touchOrgan before it is taken, so that none is deeper than the
 /// target, or than half the body's thickness below the contact, and none lies on its side against
 /// the surface, as over the edge of a thin lobe; a tool that is too deep because its target was
 /// lifted withdraws first. It stays away from a place where it does not fit.
@@ -62,15 +62,16 @@ public:
   }
 
 private:
-  struct Trial // a pose, and what the tool touches there
+  struct Trial // a pose, and what the tool touches there, after the pose that it has
   {
     ToolPose pose;
     Contact contact;
+    OrganTouch touch{};
   };
 
   [[nodiscard]] Trial at(const Eigen::Vector3d& apex, const Eigen::Vector3d& axis) const noexcept;
-  [[nodiscard]] double deepest(const Contact& contact) const noexcept;
-  [[nodiscard]] bool mayStay(const Contact& contact) const noexcept;
+  [[nodiscard]] double deepest(const Trial& trial) const noexcept;
+  [[nodiscard]] bool mayStay(const Trial& trial) const noexcept;
   [[nodiscard]] Trial settled(Trial trial, double depth, double reach) const noexcept;
   [[nodiscard]] Eigen::Vector3d gap() const noexcept;
   void watch(double dt) noexcept;

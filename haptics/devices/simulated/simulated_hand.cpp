@@ -43,8 +43,8 @@ DeviceLimits SimulatedHand::limits() const
 std::optional<ToolPose> SimulatedHand::exchange(const Eigen::Vector3d& force, double dt) noexcept
 {
   const Scene& scene = tool_.scene();
-  const bool isFree = scene.surface == nullptr ||
-    !findContact(*scene.surface, scene.law.tip(), pose_, scene.rule).touching();
+  OrganTouch none;
+  const bool isFree = scene.surface == nullptr || !touchOrgan(scene, pose_, none).touching();
   const ToolPose& target = tool_.advance(std::isfinite(dt) ? dt : 0.0, isFree);
   if (dt > 0.0 && std::isfinite(dt) && force.allFinite())
   {
