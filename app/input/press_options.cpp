@@ -114,6 +114,21 @@ void TissueOptions::take(const std::string& name)
   poisson = material.poissonRatio;
 }
 
+TissueOptions optionsOf(const ForceLaw& law, bool rated)
+{
+  const LawSettings& settings = law.settings();
+  return { .tip = law.tip(),
+    .young = law.material().youngModulus,
+    .poisson = law.material().poissonRatio,
+    .options = { .mode = settings.mode,
+      .base = settings.base,
+      .constitution = settings.constitution,
+      .coatings = settings.coatings,
+      .relaxation = settings.relaxation,
+      .friction = settings.friction,
+      .rated = rated } };
+}
+
 ForceLaw TissueOptions::law() const
 {
   return { tip, makeMaterial(young, poisson), options.settings() };

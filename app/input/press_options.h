@@ -66,6 +66,10 @@ struct TissueOptions
   [[nodiscard]] ForceLaw law() const;
 };
 
+/// The options that a law comes of.
+/// @param rated  as in LawOptions
+[[nodiscard]] TissueOptions optionsOf(const ForceLaw& law, bool rated);
+
 /// How the surface around the contact is drawn.
 enum class DentSurface
 {

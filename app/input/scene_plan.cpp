@@ -12,6 +12,7 @@ namespace palp
 const std::vector<std::string> kPlotNames{ "force-time", "force-depth", "section", "comparison",
   "extent" };
 const std::vector<std::string> kMovieNames{ "replay", "turntable" };
+const std::vector<std::string> kOrganRoles{ "press", "through", "show", "hide" };
 const std::vector<std::string> kPlotEndings{ "png", "svg", "pdf", "csv" };
 
 DeviceChoice parseDevice(const std::string& name)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/input/organ_plan.h"
 #include "app/input/press_options.h"
 #include "app/input/press_places.h"
 #include "pipeline/model/overlay.h"
@@ -88,6 +89,7 @@ struct ScenePlan
   std::string name{};                           ///< for people
   std::vector<std::filesystem::path> sources{}; ///< that it was read from: scene, list of points
   std::vector<MeshSource> meshes{ { .bundled = "liver" } };
+  std::vector<OrganPlan> organs{}; ///< one for each mesh, each pressed by itself; none: one body
   PressOptions press{};
   DeviceChoice device{};
   std::optional<PlacedPresses> presses{};   ///< instead of a device
@@ -144,6 +146,8 @@ struct ScenePlan
 extern const std::vector<std::string> kPlotNames;
 
 extern const std::vector<std::string> kMovieNames; ///< likewise
+
+extern const std::vector<std::string> kOrganRoles; ///< likewise
 
 extern const std::vector<std::string> kPlotEndings; ///< of plotFiles
 

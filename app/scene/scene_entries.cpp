@@ -1,7 +1,10 @@
 #include "app/scene/scene_entries.h"
 
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "pipeline/model/overlay.h"
+
+#include <charconv>
 
 namespace palp
 {
@@ -11,6 +14,34 @@ const Words kOverlays{ "force-arrow", "contact-circle", "extent-circle", "displa
   "iso-lines" }; // in the order of Overlay
 static_assert(kOverlayCount == 10);
 const Words kExports{ "samples", "deformed", "picture", "refined", "all-samples" };
+
+OrganColor parseColor(const std::string& text)
+{
+  OrganColor color{};
+  bool isColor = text.size() == 7 && text.front() == '#';
+  for (std::size_t i = 0; isColor && i < color.size(); ++i)
+  {
+    const char* digits = &text[1 + 2 * i];
+    isColor = std::from_chars(digits, digits + 2, color[i], 16).ptr == digits + 2;
+  }
+  if (!isColor)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--color: " + inQuotes(text) + " is no color; write red, green and blue as in #8c3328");
+  }
+  return color;
+}
+
+std::string colorText(const OrganColor& color)
+{
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "#";
+  for (const std::uint8_t part : color)
+  {
+    text += { kDigits[part / 16U], kDigits[part % 16U] };
+  }
+  return text;
+}
 
 void checkAt(const JsonObject& object, std::string path, const std::function<void()>& check)
 {

@@ -2,6 +2,7 @@
 
 #include "app/input/json_object.h"
 #include "app/input/option_values.h"
+#include "app/input/organ_plan.h"
 #include "app/input/quantity.h"
 
 #include <Eigen/Core>
@@ -18,6 +19,11 @@ extern const Words kOverlays;                                  ///< Overlay
 extern const Words kExports;                                   ///< of a scene without window
 constexpr Bounds kSceneReach{ -10.0, 10.0, "-10m to 10m" };    ///< as far as a path [m]
 constexpr Bounds kCameraReach{ -1e3, 1e3, "-1000m to 1000m" }; ///< [m]
+
+/// A color as in #8c3328, and its text.
+/// @throws Error  BadValue
+[[nodiscard]] OrganColor parseColor(const std::string& text);
+[[nodiscard]] std::string colorText(const OrganColor& color);
 
 /// Runs a check and tells the message of an option, "--young: what", of a place in the document
 /// instead; a place that ends in a slash goes on with the option's name.

@@ -146,15 +146,68 @@ void readExports(JsonObject& object, ScenePlan& plan)
   checkAt(object, "size", [&] { plan.size = parseSize(size, "--size"); });
 }
 
+// of a list, where words could be taken for more than one cell of it
+void checkName(const JsonObject& object, const std::string& name, const ScenePlan& plan)
+{
+  if (name.empty() || name.find_first_of(",\"\n\r") != name.npos)
+  {
+    object.refuse("name", "must be a name without commas, quotes and ends of lines, as in liver");
+  }
+  if (std::ranges::find(plan.organs, name, &OrganPlan::name) != plan.organs.end())
+  {
+    object.refuse("name", "'" + name + "' stands twice; name each organ once");
+  }
+}
+
+void readOrgan(JsonObject object, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  OrganPlan organ{ .name = object.text("name", ""), .press = plan.press };
+  checkName(object, organ.name, plan);
+  readChoice(object, "role", kOrganRoles, organ.role);
+  parseAt(object, "color", [&](const std::string& text) { organ.color = parseColor(text); });
+  readTissue(object.object("tissue"), organ.press);
+  checkAt(object, "tissue/", [&] { (void)organ.press.tissue.law(); });
+  plan.organs.push_back(std::move(organ));
+  plan.meshes.push_back(readMesh(object, folder));
+}
+
+void readBodies(JsonObject& object, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  plan.meshes.clear();
+  for (const JsonObject& mesh : object.objects("meshes"))
+  {
+    plan.meshes.push_back(readMesh(mesh, folder));
+  }
+  if (!plan.meshes.empty() && object.has("organs"))
+  {
+    object.refuse("organs", "stands in place of meshes, which are one body; give one of both");
+  }
+  for (const JsonObject& organ : object.objects("organs"))
+  {
+    readOrgan(organ, plan, folder);
+  }
+  if (plan.meshes.empty())
+  {
+    object.refuse("meshes", R"(give at least one surface, as in [{"bundled": "liver"}])");
+  }
+  if (!plan.organs.empty() && feltOrgans(plan.organs).empty())
+  {
+    object.refuse("organs", "none is pressed; give one of them the role 'press'");
+  }
+}
+
 // what stands in one part and is needed by another
 void checkTogether(const JsonObject& object, const ScenePlan& plan)
 {
-  const LawOptions& law = plan.press.tissue.options;
-  const bool nodules =
-    std::ranges::any_of(plan.meshes, [](const MeshSource& mesh) { return !mesh.nodules.empty(); });
-  if (nodules && (law.mode != LawMode::Corrected || !law.coatings.empty()))
+  for (std::size_t i = 0; i < plan.meshes.size(); ++i)
   {
-    object.refuse("meshes",
+    const bool isOne = plan.organs.empty();
+    const LawOptions& law = (isOne ? plan.press : plan.organs[i].press).tissue.options;
+    if (plan.meshes[i].nodules.empty() || (law.mode == LawMode::Corrected && law.coatings.empty()))
+    {
+      continue;
+    }
+    object.refuse(isOne ? "meshes" : "organs/" + std::to_string(i),
       "nodules take the law 'corrected' and no coating; give these, or leave the nodules out");
   }
   if (!plan.dents() && (plan.window || plan.deformed || plan.picture))
@@ -185,17 +238,14 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   }
   (void)object.text("$schema", "");
   plan.name = object.text("title", "");
-  std::vector<MeshSource> meshes;
-  for (const JsonObject& mesh : object.objects("meshes"))
-  {
-    meshes.push_back(readMesh(mesh, folder));
-  }
-  plan.meshes = meshes;
   readMotion(object, plan, folder); // first: what follows depends on the window
   readTissue(object.object("tissue"), plan.press);
   parseAt(object, "tool", [&](const std::string& text) { plan.press.tissue.tip = parseTip(text); });
   readLaw(object.object("law"), plan);
   readDent(object.object("dent"), plan, folder);
+  plan.press.tissue.options.rated = plan.validity;
+  checkAt(object, "tissue/", [&] { (void)plan.press.tissue.law(); });
+  readBodies(object, plan, folder);
   if (object.has("overlays"))
   {
     plan.overlays = kinds<Overlay>(object, "overlays", kOverlays);
@@ -217,13 +267,6 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   }
   readExports(object, plan);
   object.finish();
-  if (meshes.empty())
-  {
-    object.refuse("meshes", R"(give at least one surface, as in [{"bundled": "liver"}])");
-  }
-
-  plan.press.tissue.options.rated = plan.validity;
-  checkAt(object, "tissue/", [&] { (void)plan.press.tissue.law(); });
   checkTogether(object, plan);
   return plan;
 }

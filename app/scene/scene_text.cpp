@@ -35,10 +35,7 @@ public:
     {
       scene["title"] = plan.name;
     }
-    for (const MeshSource& source : plan.meshes)
-    {
-      scene["meshes"].push_back(mesh(source));
-    }
+    addBodies(scene, plan);
     scene["tissue"] = tissue(plan.press);
     scene["tool"] = tool(plan.press.tissue.tip);
     scene["law"] = law(plan);
@@ -112,6 +109,23 @@ private:
         { "ratio", shortest(nodule.ratio) } });
     }
     return mesh;
+  }
+
+  void addBodies(Json& scene, const ScenePlan& plan) const
+  {
+    for (std::size_t i = 0; i < plan.meshes.size(); ++i)
+    {
+      if (plan.organs.empty())
+      {
+        scene["meshes"].push_back(mesh(plan.meshes[i]));
+        continue;
+      }
+      const OrganPlan& organ = plan.organs[i];
+      Json entry{ { "name", organ.name }, { "role", word(kOrganRoles, organ.role) },
+        { "color", colorText(organ.color) }, { "tissue", tissue(organ.press) } };
+      entry.update(mesh(plan.meshes[i]));
+      scene["organs"].push_back(std::move(entry));
+    }
   }
 
   static Json tissue(const PressOptions& press)

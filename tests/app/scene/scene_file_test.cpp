@@ -157,6 +157,79 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
   EXPECT_NE(refusal("[]").find("mine.json: /: must be an object"), std::string::npos);
 }
 
+json organs()
+{
+  return json::parse(R"({"palp_scene": 1, "tissue": {"young": "7kPa"}, "organs": [
+    {"name": "liver", "bundled": "liver", "tissue": {"poisson": 0.45}},
+    {"name": "left kidney", "bundled": "sphere_30", "role": "show", "color": "#0a80ff",
+     "tissue": {"name": "hcc", "damping": "2N*s/m"}},
+    {"name": "skin", "file": "skin.vtp", "unit": "cm", "role": "through"}]})");
+}
+
+TEST_F(SceneFile, OrgansHaveEachARoleAColorAndATissue)
+{
+  const ScenePlan plan = parse(organs());
+  ASSERT_EQ(plan.organs.size(), 3U);
+  ASSERT_EQ(plan.meshes.size(), 3U);
+  EXPECT_EQ(plan.meshes[2].file, "/scenes/skin.vtp");
+  EXPECT_EQ(plan.meshes[2].unit, LengthUnit::Centimeter);
+  EXPECT_EQ(plan.organs[0].role, OrganRole::Press);
+  EXPECT_EQ(plan.organs[0].press.tissue.young, 7.0_kPa) << "the scene's";
+  EXPECT_EQ(plan.organs[0].press.tissue.poisson, 0.45);
+  EXPECT_EQ(plan.organs[1].role, OrganRole::Show);
+  EXPECT_EQ(plan.organs[1].color, (OrganColor{ 10, 128, 255 }));
+  EXPECT_EQ(plan.organs[1].press.damping, 2.0);
+  json alone = least();
+  alone["tissue"] = { { "name", "hcc" } };
+  EXPECT_EQ(plan.organs[1].press.tissue.young, parse(alone).press.tissue.young);
+  EXPECT_EQ(plan.organs[2].role, OrganRole::Through);
+  EXPECT_EQ(feltOrgans(plan.organs), std::vector<std::size_t>{ 0 });
+}
+
+TEST_F(SceneFile, NamesTheOrganThatIsWrong)
+{
+  const std::pair<const char*, const char*> cases[] = {
+    { R"([{"op": "replace", "path": "/organs/0/role", "value": "show"}])",
+      "mine.json: /organs: none is pressed" },
+    { R"([{"op": "replace", "path": "/organs/1/name", "value": "liver"}])",
+      "mine.json: /organs/1/name: 'liver' stands twice" },
+    { R"([{"op": "remove", "path": "/organs/1/name"}])", "mine.json: /organs/1/name: must be" },
+    { R"([{"op": "replace", "path": "/organs/1/name", "value": "a,b"}])",
+      "mine.json: /organs/1/name: must be" },
+    { R"([{"op": "replace", "path": "/organs/1/color", "value": "red"}])",
+      "mine.json: /organs/1/color: 'red' is no color" },
+    { R"([{"op": "replace", "path": "/organs/1/color", "value": "#12345"}])",
+      "mine.json: /organs/1/color: '#12345' is no color" },
+    { R"([{"op": "replace", "path": "/organs/1/color", "value": "#12345g"}])",
+      "mine.json: /organs/1/color: '#12345g' is no color" },
+    { R"([{"op": "replace", "path": "/organs/1/color", "value": "#+1-2 3"}])",
+      "mine.json: /organs/1/color: '#+1-2 3' is no color" },
+    { R"([{"op": "replace", "path": "/organs/1/role", "value": "felt"}])",
+      "mine.json: /organs/1/role: 'felt' is not known" },
+    { R"([{"op": "replace", "path": "/organs/1/tissue/name", "value": "angioma"}])",
+      "mine.json: /organs/1/tissue/name: 'angioma' is not known" },
+    { R"([{"op": "add", "path": "/organs/1/tissue/friction", "value": 0.2}])",
+      "mine.json: /organs/1/tissue/friction: " },
+    { R"([{"op": "remove", "path": "/organs/2/file"}])", "mine.json: /organs/2/file: give either" },
+    { R"([{"op": "add", "path": "/organs/2/rôle", "value": "show"}])",
+      "mine.json: /organs/2/rôle: unknown key" },
+    { R"([{"op": "add", "path": "/meshes", "value": [{"bundled": "liver"}]}])",
+      "mine.json: /organs: stands in place of meshes" },
+    { R"([{"op": "replace", "path": "/organs", "value": []}])", "mine.json: /meshes: give" },
+    { R"([{"op": "add", "path": "/organs/1/nodules", "value":
+        [{"center": ["0mm", "0mm", "0mm"], "radius": "5mm", "ratio": 5}]}])",
+      "mine.json: /organs/1: nodules take the law" },
+  };
+  json document = organs();
+  document["organs"][0]["role"] = "press";
+  ASSERT_EQ(refusal(document.dump()), "accepted");
+  for (const auto& [patch, expected] : cases)
+  {
+    const std::string message = refusal(document.patch(json::parse(patch)).dump());
+    EXPECT_TRUE(message.starts_with(expected)) << message << "\n  where " << expected;
+  }
+}
+
 // every key that the schema describes is one that the reader knows, at every level
 void expectKnown(const json& properties, const json& base, const json::json_pointer& position)
 {
@@ -181,6 +254,8 @@ TEST_F(SceneFile, ReaderKnowsWhatTheSchemaDescribes)
   json mesh = least();
   expectKnown(
     schema["properties"]["meshes"]["items"]["properties"], mesh, json::json_pointer("/meshes/0"));
+  expectKnown(schema["properties"]["organs"]["items"]["properties"], organs(),
+    json::json_pointer("/organs/0"));
 }
 
 TEST_F(SceneFile, EveryShippedSceneIsWhole)

@@ -39,6 +39,24 @@ protected:
     return { between(-size, size), between(-size, size), between(-size, size) };
   }
 
+  // one for each mesh, of another tissue
+  std::vector<OrganPlan> organs(const PressOptions& press)
+  {
+    std::vector<OrganPlan> organs;
+    for (const char* name : { "liver", "left kidney" })
+    {
+      const auto color = [this] { return static_cast<std::uint8_t>(below(256)); };
+      organs.push_back({ .name = name,
+        .role = static_cast<OrganRole>(below(4)),
+        .color = { color(), color(), color() },
+        .press = press });
+      organs.back().press.tissue.young *= between(0.9, 1.1);
+      organs.back().press.damping = between(0.0, 100.0);
+    }
+    organs[below(2)].role = OrganRole::Press;
+    return organs;
+  }
+
   // whatever a run or a window may leave, with numbers of all their digits
   ScenePlan plan()
   {
@@ -74,6 +92,7 @@ protected:
     }
     plan.press.contact = static_cast<ContactRule>(below(2));
     plan.press.damping = between(0.0, 100.0);
+    plan.organs = below(2) == 0 ? std::vector<OrganPlan>{} : organs(plan.press);
     plan.press.dent = { .surface = static_cast<DentSurface>(below(3)),
       .layer = between(0.01, 0.2),
       .threshold = between(1e-5, 1e-3) };
@@ -143,6 +162,15 @@ TEST_F(SceneText, ReadsBackToTheLastBit)
       EXPECT_EQ(after.meshes[1].nodules[k].center, before.meshes[1].nodules[k].center);
       EXPECT_EQ(after.meshes[1].nodules[k].radius, before.meshes[1].nodules[k].radius);
       EXPECT_EQ(after.meshes[1].nodules[k].ratio, before.meshes[1].nodules[k].ratio);
+    }
+    ASSERT_EQ(after.organs.size(), before.organs.size());
+    for (std::size_t k = 0; k < before.organs.size(); ++k)
+    {
+      EXPECT_EQ(after.organs[k].name, before.organs[k].name);
+      EXPECT_EQ(after.organs[k].role, before.organs[k].role);
+      EXPECT_EQ(after.organs[k].color, before.organs[k].color);
+      EXPECT_EQ(after.organs[k].press.tissue.young, before.organs[k].press.tissue.young);
+      EXPECT_EQ(after.organs[k].press.damping, before.organs[k].press.damping);
     }
     EXPECT_EQ(after.press.damping, before.press.damping);
     EXPECT_EQ(after.press.dent.layer, before.press.dent.layer);
