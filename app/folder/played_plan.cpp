@@ -61,20 +61,10 @@ std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
 
 ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording& recording)
 {
-  const ForceLaw& law = recording.scene.law;
-  const LawSettings& settings = law.settings();
   ScenePlan plan = opened;
   plan.meshes = body.sources;
-  plan.press.tissue = { .tip = law.tip(),
-    .young = law.material().youngModulus,
-    .poisson = law.material().poissonRatio,
-    .options = { .mode = settings.mode,
-      .base = settings.base,
-      .constitution = settings.constitution,
-      .coatings = settings.coatings,
-      .relaxation = settings.relaxation,
-      .friction = settings.friction,
-      .rated = recording.rated } };
+  plan.organs = recording.organs;
+  plan.press.tissue = optionsOf(recording.scene.law, recording.rated);
   plan.press.contact = recording.scene.rule;
   plan.press.damping = recording.scene.damping;
   plan.validity = recording.rated;

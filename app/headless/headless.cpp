@@ -38,19 +38,22 @@ bool isWhole(const Sample& sample)
 
 // names the conditions of the law that are broken where it is pressed deepest, and counts the
 // presses that break any
-void tellLimits(const Recording& recording, const Contact& deepest)
+void tellLimits(const Recording& recording, const Sample& deepest)
 {
-  const Scene& scene = recording.scene;
-  const Validity validity(scene.law);
-  if (const std::string broken = outsideLimits(scene, validity, deepest); !broken.empty())
+  const std::vector<Validity> validity = validityOf(recording.scene);
+  const auto limitsAt = [&](int organ, const Contact& contact)
+  {
+    return outsideLimits(
+      organOf(recording.scene, organ), validity[static_cast<std::size_t>(organ)], contact);
+  };
+  if (const std::string broken = limitsAt(deepest.organ, deepest.contact); !broken.empty())
   {
     std::cerr << "palp: warning: there the law is outside its limits (" << broken
               << "); samples.csv tells it of each sample, broken_rules\n";
   }
   const std::vector<PressSummary> presses = findPresses(recording);
   const auto outside = std::ranges::count_if(presses,
-    [&](const PressSummary& press)
-    { return !outsideLimits(scene, validity, press.deepest).empty(); });
+    [&](const PressSummary& press) { return !limitsAt(press.organ, press.deepest).empty(); });
   if (presses.size() > 1 && outside > 0)
   {
     std::cerr << "palp: warning: in " << outside << " of " << presses.size()
@@ -74,14 +77,17 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
               << '\n';
     return;
   }
-  std::cerr << "palp: deepest " << toMillimeters(deepest->contact.depth) << " mm, force "
-            << deepest->response.force << " N";
+  const std::string organ = recording.organName(deepest->organ);
+  std::cerr << "palp: deepest " << toMillimeters(deepest->contact.depth) << " mm"
+            << (organ.empty() ? "" : " in " + organ) << ", force " << deepest->response.force
+            << " N";
   if (!isWhole(*deepest)) // damped or limited
   {
     std::cerr << " (" << deepest->force.norm() << " N to the device)";
   }
   std::cerr << ", contact radius of the law " << toMillimeters(deepest->response.contactRadius)
             << " mm";
+  calibration = calibration ? &organOf(*calibration, deepest->organ) : nullptr;
   if (calibration)
   {
     std::cerr << ", extent radius "
@@ -97,7 +103,7 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
   }
   if (recording.rated)
   {
-    tellLimits(recording, deepest->contact);
+    tellLimits(recording, *deepest);
   }
 }
 
@@ -108,6 +114,7 @@ Scene sceneOf(const ScenePlan& plan)
   scene.rule = plan.press.contact;
   scene.damping = plan.press.damping;
   scene.forceLimit = plan.chain ? scene.forceLimit : std::numeric_limits<double>::infinity();
+  setTissues(scene, plan.organs);
   return scene;
 }
 
@@ -132,7 +139,7 @@ SceneBody loadTold(const ScenePlan& plan, std::string_view path, BuildTrace& tra
   const bool shown =
     plan.deformed || plan.picture || !plan.movies.empty() || plan.has(PlotKind::Section);
   SceneBody body = trace.build("surface", shown ? "felt and shown" : "felt, not shown",
-    [&] { return loadBody(plan.meshes, shown); });
+    [&] { return loadBodies(plan, shown); });
   for (const std::string& note : body.notes)
   {
     std::cerr << "palp: " << note << '\n';
@@ -231,13 +238,14 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   const Interrupt interrupt([&output] { output.discard(); });
   Recording recording;
   recording.rated = plan.validity;
+  recording.organs = plan.organs;
   recording.scene = trace.build("law", "tissue and tool", [&] { return sceneOf(plan); });
   const GivenPath given = readGiven(plan, trace);
   std::optional<Calibration> calibration;
   if (plan.dents())
   {
     calibration = trace.build("calibration", "how far the surface gives way",
-      [&] { return loadCalibration(plan.press, recording.scene.law); });
+      [&] { return loadCalibration(plan.press, recording.scene); });
   }
   const SceneBody body = loadTold(plan, given.text, trace);
   if (calibration && !calibration->note.empty())
@@ -248,12 +256,8 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   recording.unit = body.unit;
   recording.files = body.files;
   recording.command = repeated ? repeated->command : commandLine();
-  recording.scene.surface = body.haptic;
-  if (!body.nodules.empty())
-  {
-    recording.scene.nodules =
-      trace.build("nodules", "felt", [&] { return feltNodules(body, recording.scene.law); });
-  }
+  const auto feel = [&] { setFelt(recording.scene, body, plan.organs); };
+  body.nodules.empty() ? feel() : trace.build("nodules", "felt", feel);
   if (repeated)
   {
     checkInputs(*repeated, plan, recording);

@@ -12,6 +12,7 @@
 #include "haptics/units.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -59,6 +60,22 @@ OnTriangle alongLine(const PressPlace& place, const Eigen::Vector3d& toward, con
       "it around");
   }
   return { hit.triangle, place.position + hit.distance * direction };
+}
+
+// of several organs that which the line meets first, or whose surface is nearest
+const Scene& pressedOrgan(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+{
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  const auto distanceTo = [&](const Scene& organ)
+  {
+    const Surface& surface = *organ.surface;
+    return presses.toward
+      ? rayEntry(surface.tree(), place.position, presses.toward->normalized()).distance
+      : (findClosestPoint(surface, place.position, kAnywhere).point - place.position).norm();
+  };
+  const auto nearest = std::ranges::min_element(scene.others, {}, distanceTo);
+  const bool isFirst = nearest == scene.others.end() || distanceTo(scene) <= distanceTo(*nearest);
+  return isFirst ? scene : *nearest;
 }
 
 OnTriangle ontoSurface(const PressPlace& place, const Surface& surface)
@@ -162,7 +179,7 @@ struct Travel
 Travel travelOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
   const SurfacePoint point = pressedPoint(place, presses, scene);
-  const Descent descent(scene, point);
+  const Descent descent(pressedOrgan(place, presses, scene), point);
   const std::optional<double> free = descent.freeAt();
   const std::optional<double> bottom = free ? descent.travelTo(presses.depth, *free) : std::nullopt;
   if (!bottom)
@@ -190,8 +207,9 @@ ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const
 
 } // namespace
 
-SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& all)
 {
+  const Scene& scene = pressedOrgan(place, presses, all);
   SurfacePoint point = feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
                                                 : ontoSurface(place, *scene.surface),
     presses.depth, scene);

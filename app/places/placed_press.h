@@ -16,7 +16,8 @@ constexpr double kFarthestPlace = 5e-3; ///< of a place that is meant to be on t
 /// there.
 ///
 /// @param presses  their depth and direction
-/// @param scene    with the surface and the tool
+/// @param scene    with the surface and the tool; of several organs the nearest is pressed, or the
+///                 first along the direction
 /// @throws Error   BadValue: as pathsOf, but for the fit of the tool
 [[nodiscard]] SurfacePoint pressedPoint(
   const PressPlace& place, const PlacedPresses& presses, const Scene& scene);

@@ -121,6 +121,64 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
   return body;
 }
 
+SceneBody loadBodies(const ScenePlan& plan, bool shown)
+{
+  if (plan.organs.empty())
+  {
+    return loadBody(plan.meshes, shown);
+  }
+  SceneBody all;
+  all.sources = plan.meshes;
+  const auto append = [](auto& to, const auto& from)
+  { to.insert(to.end(), from.begin(), from.end()); };
+  for (std::size_t i = 0; i < plan.organs.size(); ++i)
+  {
+    SceneBody& organ = all.organs.emplace_back(loadBody({ plan.meshes[i] }, shown));
+    organ.name = plan.organs[i].name;
+    all.name.append(all.name.empty() ? "" : " + ").append(organ.name);
+    all.unit = organ.unit;
+    append(all.files, organ.files);
+    append(all.nodules, organ.nodules);
+    for (const std::string& note : organ.notes)
+    {
+      all.notes.push_back(organ.name + ": " + note);
+    }
+  }
+  return all;
+}
+
+void setTissues(Scene& scene, const std::vector<OrganPlan>& organs)
+{
+  scene.others.clear();
+  std::vector<Scene> felt;
+  for (const std::size_t i : feltOrgans(organs))
+  {
+    Scene& organ = felt.emplace_back(scene);
+    organ.law = organs[i].press.tissue.law();
+    organ.damping = organs[i].press.damping;
+  }
+  if (!felt.empty())
+  {
+    scene = felt.front();
+    scene.others.assign(felt.begin() + 1, felt.end());
+  }
+}
+
+void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& organs)
+{
+  const auto put = [&](Scene& organ, int place)
+  {
+    const SceneBody& felt = body.felt(organs, place);
+    organ.surface = felt.haptic;
+    organ.nodules = feltNodules(felt, organ.law);
+  };
+  put(scene, 0);
+  for (std::size_t i = 0; i < scene.others.size(); ++i)
+  {
+    put(scene.others[i], static_cast<int>(i) + 1);
+  }
+}
+
 std::shared_ptr<const NoduleField> feltNodules(const SceneBody& body, const ForceLaw& law)
 {
   const bool known = law.settings().mode == LawMode::Corrected && law.settings().coatings.empty();

@@ -4,6 +4,7 @@
 #include "app/input/scene_plan.h"
 #include "haptics/force/force_law.h"
 #include "haptics/force/nodules/nodule_field.h"
+#include "haptics/servo/scene.h"
 #include "haptics/surface/surface.h"
 
 #include <memory>
@@ -27,6 +28,14 @@ struct SceneBody
   std::shared_ptr<const Surface> haptic; ///< [m]
   std::vector<PlacedNodule> nodules;     ///< in it [m]
   std::vector<std::string> notes;        ///< what was taken, and warnings; a line each
+  std::vector<SceneBody> organs{};       ///< each by itself, which alone are seen and felt then
+
+  /// One of the organs that are felt, or the only body.
+  /// @param organ  as in a Sample of a scene of these organs
+  [[nodiscard]] const SceneBody& felt(const std::vector<OrganPlan>& plans, int organ) const
+  {
+    return plans.empty() ? *this : organs[feltOrgans(plans)[static_cast<std::size_t>(organ)]];
+  }
 };
 
 /// Loads surfaces into one body; what is felt is what is shown, but for the bundled liver, which
@@ -36,6 +45,18 @@ struct SceneBody
 /// @param shown    whether a surface to look at is needed, too
 /// @throws Error   BadFile, BadMesh, BadValue
 [[nodiscard]] SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
+
+/// The same of a plan, organs by themselves.
+[[nodiscard]] SceneBody loadBodies(const ScenePlan& plan, bool shown = true);
+
+/// Puts laws and damping of the organs that are felt into a scene; changes nothing where there are
+/// no organs.
+/// @throws Error  as TissueOptions::law
+void setTissues(Scene& scene, const std::vector<OrganPlan>& organs);
+
+/// Puts surface and nodules of a body, or of each organ that is felt, to the laws in a scene.
+/// @throws Error  as feltNodules
+void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& organs);
 
 /// The nodules of a body, felt by the tool of a law; null where there are none, or the law does not
 /// know them.

@@ -247,4 +247,14 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
   return calibration;
 }
 
+Calibration loadCalibration(const PressOptions& options, const Scene& scene)
+{
+  Calibration calibration = loadCalibration(options, scene.law);
+  for (const Scene& organ : scene.others)
+  {
+    calibration.others.push_back(loadCalibration(options, organ.law));
+  }
+  return calibration;
+}
+
 } // namespace palp

@@ -3,10 +3,12 @@
 #include "app/input/press_options.h"
 #include "calibration/tables/extent_table.h"
 #include "haptics/contact/contact.h"
+#include "haptics/servo/scene.h"
 #include "pipeline/deform/press_of.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace palp
 {
@@ -22,6 +24,8 @@ struct Calibration
   // to compare with
   std::optional<FittedSurfaces> elements; ///< of a tool of this shape, scaled; none: not computed
   std::optional<double> young;            ///< E of the table's forces [Pa]; none: of another tool
+
+  std::vector<Calibration> others{}; ///< of the scene's other organs, see organOf
 
   double layer = 0.0; ///< thickness that a fitted style was computed for [m]; 0: nothing is fitted
 
@@ -41,5 +45,8 @@ struct Calibration
 ///
 /// @throws Error  BadFile; BadValue: --layer or --threshold with a tool whose table has them fixed
 [[nodiscard]] Calibration loadCalibration(const PressOptions& options, const ForceLaw& law);
+
+/// The same of each organ of a scene.
+[[nodiscard]] Calibration loadCalibration(const PressOptions& options, const Scene& scene);
 
 } // namespace palp

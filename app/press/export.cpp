@@ -30,13 +30,15 @@ Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibrati
 void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
   const Recording& recording, const Calibration& calibration, bool refined)
 {
+  const Sample* deepest = recording.deepest();
+  const int organ = deepest != nullptr ? deepest->organ : 0;
   vtkNew<vtkPalpDeformFilter> filter;
-  filter->SetInputData(body.display);
+  filter->SetInputData(body.felt(recording.organs, organ).display);
   filter->SetGeneratePatch(refined);
   filter->SetPatchTolerance(units::fromMillimeters(0.01));
-  if (const Sample* deepest = recording.deepest())
+  if (deepest != nullptr)
   {
-    filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
+    filter->SetPress(pressOf(*deepest, recording.scene.law.tip(), organOf(calibration, organ)));
   }
   filter->Update();
 
@@ -52,7 +54,7 @@ void writeDeformed(const std::filesystem::path& file, const SceneBody& body,
   }
   displacement->SetName("Displacement");
   mesh->GetPointData()->AddArray(displacement);
-  writeSurface(file, *mesh, spaceOf(recording.files));
+  writeSurface(file, *mesh, spaceOf(body.felt(recording.organs, organ).files));
 }
 
 void writeSamples(

@@ -13,8 +13,9 @@ namespace palp
 /// What the deformation filter needs of a sample.
 [[nodiscard]] Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration);
 
-/// Writes the body at the deepest moment as VTP in mm, with the arrays Displacement (mm) and Zone
-/// (0 rest, 1 ring, 2 contact); at rest when the tool never touched.
+/// Writes the body, or of several organs the one that was pressed deepest, at that moment as VTP in
+/// mm, with the arrays Displacement (mm) and Zone (0 rest, 1 ring, 2 contact); at rest when the
+/// tool never touched.
 ///
 /// @param refined  with the triangles of the dent divided until they follow it to 0.01 mm: between
 ///                 the points of the body's own triangles the tool shows through

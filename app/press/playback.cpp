@@ -42,29 +42,35 @@ std::vector<double> sampleTimes(const ScriptedPath& path)
   return times;
 }
 
-// inward normal where the apex first touches, or comes closest
+// inward normal where the apex first touches an organ, or comes closest to one
 Eigen::Vector3d pressingAxis(
-  const Surface& surface, const ScriptedPath& path, const std::vector<double>& times)
+  const Scene& scene, const ScriptedPath& path, const std::vector<double>& times)
 {
+  const Surface* surface = nullptr;
   ClosestPoint best;
   double closest = std::numeric_limits<double>::infinity();
   for (const double time : times)
   {
     const Eigen::Vector3d apex = path.poseAt(time, -Eigen::Vector3d::UnitZ()).apex;
-    const ClosestPoint nearest =
-      findClosestPoint(surface, apex, std::numeric_limits<double>::infinity());
-    if (nearest.triangle >= 0 && nearest.distance < closest)
+    for (int i = 0; i < organCount(scene); ++i)
     {
-      best = nearest;
-      closest = nearest.distance;
+      const Surface& organ = *organOf(scene, i).surface;
+      const ClosestPoint nearest =
+        findClosestPoint(organ, apex, std::numeric_limits<double>::infinity());
+      if (nearest.triangle >= 0 && nearest.distance < closest)
+      {
+        surface = &organ;
+        best = nearest;
+        closest = nearest.distance;
+      }
     }
     if (closest <= 0.0)
     {
       break;
     }
   }
-  return best.triangle >= 0
-    ? Eigen::Vector3d(-surfacePoint(surface, best.triangle, best.point).normal)
+  return surface != nullptr
+    ? Eigen::Vector3d(-surfacePoint(*surface, best.triangle, best.point).normal)
     : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
 }
 
@@ -75,7 +81,7 @@ std::vector<Sample> play(const ScriptedPath& path, const Scene& scene, bool chai
   const std::vector<double> times = sampleTimes(path);
   const Eigen::Vector3d axis = path.hasAxes() || !scene.surface
     ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ())
-    : pressingAxis(*scene.surface, path, times);
+    : pressingAxis(scene, path, times);
   std::vector<Sample> samples;
   samples.reserve(times.size());
   SafetyChain chain(paperArm());

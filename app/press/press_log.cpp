@@ -16,6 +16,7 @@ Recording partOf(const Recording& recording, double from)
   part.mesh = recording.mesh;
   part.unit = recording.unit;
   part.files = recording.files;
+  part.organs = recording.organs;
   part.command = recording.command;
   part.scene = recording.scene;
   part.rated = recording.rated;
@@ -78,20 +79,23 @@ std::optional<Recording> PressLog::end(const Recording& recording)
 
 std::size_t PressLog::keepAll(const Recording& samples)
 {
-  const Scene& scene = samples.scene;
   const std::vector<PressSummary> found = findPresses(samples);
   for (const PressSummary& one : found)
   {
-    KeptPress press{
-      .id = ++found_, .summary = one, .law = scene.law, .rule = scene.rule, .damping = scene.damping
-    };
+    const Scene& organ = organOf(samples.scene, one.organ);
+    KeptPress press{ .id = ++found_,
+      .summary = one,
+      .organ = samples.organName(one.organ),
+      .law = organ.law,
+      .rule = organ.rule,
+      .damping = organ.damping };
     if (samples.names.empty())
     {
       press.summary.name = pressName(static_cast<std::size_t>(found_) - 1);
     }
     if (samples.rated)
     {
-      press.outside = outsideLimits(scene, Validity(scene.law), one.deepest);
+      press.outside = outsideLimits(organ, Validity(organ.law), one.deepest);
     }
     press.curve = curveOf(one, samples);
     presses_.push_back(std::move(press));

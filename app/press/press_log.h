@@ -21,6 +21,7 @@ struct KeptPress
 {
   int id = 0; ///< of its own in a log, from 1
   PressSummary summary{};
+  std::string organ{}; ///< that was pressed; empty: the only body
   ForceLaw law;
   ContactRule rule = ContactRule::Exact;
   double damping = 0.0;            ///< b [N s/m]

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <sstream>
 
@@ -122,6 +123,10 @@ bool mayHideLift(const Recording& recording, std::size_t last)
 bool isReleased(const Recording& recording, std::size_t last, std::size_t next)
 {
   const std::span<const Sample> samples = recording.samples;
+  if (samples[last].organ != samples[next].organ)
+  {
+    return true;
+  }
   if (last + 1 < next)
   {
     return samples[next].time - samples[last].time >= kBounce;
@@ -153,9 +158,27 @@ void writePlace(std::ostream& out, const Contact& contact)
   }
 }
 
+// in each organ
+std::vector<std::size_t> noduleCounts(const Scene& scene)
+{
+  std::vector<std::size_t> counts;
+  for (int i = 0; i < organCount(scene); ++i)
+  {
+    const auto& nodules = organOf(scene, i).nodules;
+    counts.push_back(nodules == nullptr ? 0 : nodules->nodules().size());
+  }
+  return counts;
+}
+
+std::size_t noduleCount(const Scene& scene)
+{
+  const std::vector<std::size_t> counts = noduleCounts(scene);
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
+}
+
 void explainContrasts(std::ostream& out, const Scene& scene)
 {
-  if (scene.nodules != nullptr)
+  if (noduleCount(scene) > 0)
   {
     out << "# nodule_percent: what each nodule alone adds to the force without any, where it was "
            "deepest; people notice 7 of force, 15 of stiffness by finger, 22 of compliance, 45 of "
@@ -165,18 +188,37 @@ void explainContrasts(std::ostream& out, const Scene& scene)
 
 void nameContrasts(std::ostream& out, const Scene& scene)
 {
-  for (std::size_t i = 0; scene.nodules != nullptr && i < scene.nodules->nodules().size(); ++i)
+  for (std::size_t i = 0; i < noduleCount(scene); ++i)
   {
     out << ",nodule_" << i << "_percent";
   }
 }
 
-void writeContrasts(std::ostream& out, const Scene& scene, const Contact& deepest)
+// empty of the nodules in other organs
+void writeContrasts(std::ostream& out, const Scene& scene, const PressSummary& press)
 {
-  for (const double contrast : contrastsAt(scene, deepest))
+  const std::vector<std::size_t> counts = noduleCounts(scene);
+  const auto pressed = static_cast<std::size_t>(press.organ);
+  for (std::size_t i = 0; i < counts.size(); ++i)
   {
-    out << ',' << shortest(100.0 * contrast);
+    if (i != pressed)
+    {
+      out << std::string(counts[i], ',');
+      continue;
+    }
+    for (const double contrast : contrastsAt(organOf(scene, press.organ), press.deepest))
+    {
+      out << ',' << shortest(100.0 * contrast);
+    }
   }
+}
+
+// tool and tissue that it was pressed by
+void writeLaw(std::ostream& out, const ForceLaw& law)
+{
+  out << ',' << cell(describeTip(law.tip())) << ','
+      << shortest(units::toKilopascals(law.material().youngModulus)) << ','
+      << shortest(law.material().poissonRatio) << ',' << cell(describeLaw(law.settings()));
 }
 
 } // namespace
@@ -206,6 +248,7 @@ std::vector<PressSummary> findPresses(const Recording& recording)
     if (!touched || isReleased(recording, *touched, i))
     {
       presses.push_back({ .name = pressName(presses.size()), .begin = samples[i].time });
+      presses.back().organ = samples[i].organ;
       last = {}; // of no force at the surface
     }
     addSample(presses.back(), last, samples[i]);
@@ -225,35 +268,39 @@ std::vector<PressSummary> findPresses(const Recording& recording)
 void writePresses(std::ostream& out, const Recording& recording)
 {
   using units::toMillimeters;
-  const ForceLaw& law = recording.scene.law;
-  const auto validity = recording.rated ? std::optional<Validity>(law) : std::nullopt;
+  const Scene& scene = recording.scene;
+  const bool isOne = recording.organs.empty();
+  const std::vector<Validity> validity =
+    recording.rated ? validityOf(scene) : std::vector<Validity>{};
   out << "# palp " << PALP_VERSION << '\n'
       << "# each press from touch to release; force of the law; place, normal and thickness where "
          "it was deepest, in the frame of the mesh\n"
       << "# energy: work on the way to the largest depth; stiffness: empty where 1 N was not "
          "reached; outside_limits: rules of validity that the deepest contact breaks\n";
-  explainContrasts(out, recording.scene);
-  out << "name,start_s,duration_s,force_N,depth_mm,stiffness_at_1N_N_per_mm,energy_uJ,x_mm,y_mm,"
+  explainContrasts(out, scene);
+  out << "name," << (isOne ? "" : "organ,")
+      << "start_s,duration_s,force_N,depth_mm,stiffness_at_1N_N_per_mm,energy_uJ,x_mm,y_mm,"
          "z_mm,normal_x,normal_y,normal_z,thickness_mm,tool,young_kPa,poisson,law"
-      << (validity ? ",outside_limits" : "");
-  nameContrasts(out, recording.scene);
+      << (recording.rated ? ",outside_limits" : "");
+  nameContrasts(out, scene);
   out << '\n';
   for (const PressSummary& press : findPresses(recording))
   {
-    out << cell(press.name) << ',' << shortest(press.begin) << ','
-        << shortest(press.end - press.begin) << ',' << shortest(press.force) << ','
-        << shortest(toMillimeters(press.deepest.depth)) << ','
+    const Scene& organ = organOf(scene, press.organ);
+    out << cell(press.name) << ',' << (isOne ? "" : cell(recording.organName(press.organ)) + ',')
+        << shortest(press.begin) << ',' << shortest(press.end - press.begin) << ','
+        << shortest(press.force) << ',' << shortest(toMillimeters(press.deepest.depth)) << ','
         << (press.stiffness ? shortest(units::toNewtonsPerMillimeter(*press.stiffness)) : "") << ','
         << shortest(units::toMicrojoules(press.energy));
     writePlace(out, press.deepest);
-    out << ',' << cell(describeTip(law.tip())) << ','
-        << shortest(units::toKilopascals(law.material().youngModulus)) << ','
-        << shortest(law.material().poissonRatio) << ',' << cell(describeLaw(law.settings()));
-    if (validity)
+    writeLaw(out, organ.law);
+    if (recording.rated)
     {
-      out << ',' << cell(outsideLimits(recording.scene, *validity, press.deepest));
+      out << ','
+          << cell(outsideLimits(
+               organ, validity[static_cast<std::size_t>(press.organ)], press.deepest));
     }
-    writeContrasts(out, recording.scene, press.deepest);
+    writeContrasts(out, scene, press);
     out << '\n';
   }
 }

@@ -22,6 +22,7 @@ struct PressSummary
   std::optional<double> stiffness{}; ///< dF/ddepth where the force first reaches 1 N [N/m]
   double energy = 0.0; ///< work of the law's force on the way to the largest depth [J]
   Contact deepest{};   ///< where it was deepest: place, depth, thickness, curvature
+  int organ = 0;       ///< that was pressed, as in a Sample
 };
 
 constexpr double kBounce = 0.02; ///< that a tool is apart at least, to have released [s]
@@ -30,6 +31,7 @@ constexpr double kBounce = 0.02; ///< that a tool is apart at least, to have rel
 [[nodiscard]] std::string pressName(std::size_t index);
 
 /// The rules of validity that a contact breaks, in words; empty when all hold.
+/// @param scene  the organ that is touched
 [[nodiscard]] std::string outsideLimits(
   const Scene& scene, const Validity& validity, const Contact& contact);
 
@@ -42,6 +44,7 @@ constexpr double kBounce = 0.02; ///< that a tool is apart at least, to have rel
 /// after. These speeds are the largest over 10 ms or a sample, within as much time as passes
 /// without one. So a servo that skips ends no press. Nor do samples that thinning left out, since
 /// it keeps what is apart. Velocities do not count: a table has none.
+/// Another organ is another press.
 [[nodiscard]] std::vector<PressSummary> findPresses(const Recording& recording);
 
 /// Writes presses.csv: one row per press, with tool and law. The same recording gives the same

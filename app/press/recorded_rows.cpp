@@ -97,7 +97,31 @@ private:
       }
       columns_.push_back(static_cast<std::size_t>(found - names.begin()));
     }
+    organ_ = static_cast<std::size_t>(std::ranges::find(names, "organ") - names.begin());
+    if (organ_ == names.size() && !recording_.organs.empty())
+    {
+      throw Error(ErrorCode::BadValue,
+        "no column organ, though the scene has several; give a samples.csv of this scene");
+    }
     width_ = names.size();
+  }
+
+  // that which the row tells of; the last one where none is touched
+  [[nodiscard]] int organOfRow(std::string_view name) const
+  {
+    for (int i = 0; !name.empty() && i < organCount(recording_.scene); ++i)
+    {
+      if (recording_.organName(i) == name)
+      {
+        return i;
+      }
+    }
+    if (!name.empty())
+    {
+      throw Error(ErrorCode::BadValue,
+        inQuotes(name) + " is no organ that the scene feels; give a samples.csv of this scene");
+    }
+    return recording_.samples.empty() ? 0 : recording_.samples.back().organ;
   }
 
   void readRow(const std::vector<std::string_view>& cells)
@@ -126,7 +150,10 @@ private:
       throw Error(
         ErrorCode::BadValue, "the flags are " + std::string(cell(10)) + "; give 0 or more");
     }
-    Sample& sample = recording_.samples.emplace_back(evaluateContact(recording_.scene, pose));
+    const int organ = recording_.organs.empty() ? 0 : organOfRow(cells[organ_]);
+    Sample& sample = recording_.samples.emplace_back();
+    sample = evaluateContact(organOf(recording_.scene, organ), pose);
+    sample.organ = organ;
     sample.time = numberOf(cell(0));
     sample.force = triple(7);
     sample.flags = static_cast<std::uint32_t>(flags);
@@ -134,6 +161,7 @@ private:
 
   Recording& recording_;
   std::vector<std::size_t> columns_; // in the order of kColumns
+  std::size_t organ_ = 0;            // its column
   std::size_t width_ = 0;
   double thinnedUntil_ = -std::numeric_limits<double>::infinity(); // [s]
 };

@@ -1,18 +1,11 @@
 #include "app/press/recording.h"
 
-#include "app/input/law_options.h"
-#include "app/input/tip_text.h"
-#include "app/press/sample_text.h"
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/embed_nodules.h"
-#include "haptics/files/csv_text.h"
-#include "haptics/units.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <ostream>
 #include <vector>
 
 namespace palp
@@ -20,147 +13,6 @@ namespace palp
 
 namespace
 {
-
-void describeRules(std::ostream& out, const Scene& scene, const Validity& validity)
-{
-  out << "# broken_rules: a sum of the conditions that the place does not meet\n";
-  std::uint32_t bit = 1;
-  for (const Rule& rule : rulesAt(scene, validity, {}))
-  {
-    out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
-    bit *= 2;
-  }
-}
-
-std::string origin(const Recording& recording)
-{
-  std::string lines = recording.command.empty() ? "" : "# command: " + recording.command + '\n';
-  for (const MeshFile& file : recording.files)
-  {
-    lines.append(kFelt).append(describe(file)).append("\n");
-  }
-  return lines;
-}
-
-// what force_N was computed from, besides the law
-void describeNodules(std::ostream& out, const Scene& scene)
-{
-  if (scene.nodules == nullptr)
-  {
-    return;
-  }
-  using units::toMillimeters;
-  for (const EmbeddedNodule& one : scene.nodules->nodules())
-  {
-    const Eigen::Vector3d& center = one.nodule.center;
-    out << "# nodule: center " << shortest(toMillimeters(center.x())) << ' '
-        << shortest(toMillimeters(center.y())) << ' ' << shortest(toMillimeters(center.z()))
-        << " mm, radius " << shortest(toMillimeters(one.nodule.radius)) << " mm, ratio "
-        << shortest(one.nodule.ratio) << "; taken to lie " << shortest(toMillimeters(one.depth))
-        << " mm deep in " << shortest(toMillimeters(one.place.thickness))
-        << " mm of tissue, curvature " << shortest(one.place.surfaceCurvature) << " per m\n";
-  }
-  out << "# lateral_x/y/z_N: of the nodules on the tool, besides force_N along the normal\n";
-}
-
-// where the samples come from, and what they are of
-void describeRecording(std::ostream& out, const Recording& recording)
-{
-  const ForceLaw& law = recording.scene.law;
-  out << "# palp " << PALP_VERSION << '\n'
-      << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
-      << origin(recording) << "# device: " << recording.device << '\n'
-      << "# tool: " << describeTip(law.tip()) << '\n'
-      << "# Young's modulus: " << shortest(units::toKilopascals(law.material().youngModulus))
-      << " kPa, Poisson's ratio: " << shortest(law.material().poissonRatio) << '\n'
-      << "# law: " << describeLaw(law.settings()) << '\n'
-      << "# contact: " << (recording.scene.rule == ContactRule::Paper ? "paper" : "exact")
-      << ", damping: " << shortest(recording.scene.damping) << " N*s/m, force scale: 1\n"
-      << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
-         "and limits; force_x/y/z_N: sent to the device\n"
-      << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
-         "all factors\n";
-  if (law.rows() != nullptr)
-  {
-    out
-      << "# that is of the instantaneous modulus: force_N relaxes from there; friction_x/y/z_N: of "
-         "the tissue on the tool before limits, part of force_x/y/z_N; surface_depth_mm: of the "
-         "tissue at the tool, also of the dent that it leaves\n";
-  }
-  describeNodules(out, recording.scene);
-  if (recording.contactOnly)
-  {
-    out << kContactOnly << '\n';
-  }
-  if (recording.thinned > 0)
-  {
-    const bool all = recording.thinned == recording.samples.size();
-    out << kThinned
-        << shortest(all ? recording.samples.back().time : recording.samples[recording.thinned].time)
-        << kThinnedTo << shortest(recording.interval) << " s\n";
-  }
-}
-
-void writeColumns(std::ostream& out, const Scene& scene, bool hasExtents, bool hasRules)
-{
-  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm,depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
-         "contact_radius_mm,"
-      << (hasExtents ? "extent_radius_mm," : "")
-      << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
-      << (hasRules ? ",broken_rules" : "")
-      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
-  for (const Factor& factor : scene.law.factors({}))
-  {
-    out << ",factor_" << factor.name;
-  }
-  out << (scene.law.rows() != nullptr ? ",friction_x_N,friction_y_N,friction_z_N,surface_depth_mm"
-                                      : "")
-      << (scene.nodules != nullptr ? ",factor_nodules,lateral_x_N,lateral_y_N,lateral_z_N" : "")
-      << '\n';
-}
-
-// what follows the place of the tool
-std::vector<double> rowOf(const Sample& sample, const Scene& scene, const Calibration* calibration,
-  const std::optional<Validity>& validity)
-{
-  using units::toMillimeters;
-  const Eigen::Vector3d& axis = sample.pose.axis;
-  const Contact& contact = sample.contact;
-  std::vector<double> row{ toMillimeters(contact.depth), sample.response.force, sample.force.x(),
-    sample.force.y(), sample.force.z(), toMillimeters(sample.response.contactRadius) };
-  if (calibration)
-  {
-    row.push_back(toMillimeters(calibration->extents.extentRadius(contact.depth)));
-  }
-  row.insert(row.end(),
-    { units::toNewtonsPerMillimeter(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
-      contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
-      static_cast<double>(sample.flags) });
-  if (validity)
-  {
-    row.push_back(static_cast<double>(brokenRules(rulesAt(scene, *validity, contact))));
-  }
-  row.insert(row.end(),
-    { toMillimeters(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
-  for (const Factor& factor : scene.law.factors(contactGeometryOf(contact)))
-  {
-    row.push_back(factor.value);
-  }
-  if (scene.law.rows() != nullptr)
-  {
-    const Eigen::Vector3d& friction = sample.friction;
-    row.insert(
-      row.end(), { friction.x(), friction.y(), friction.z(), toMillimeters(sample.surfaceDepth) });
-  }
-  if (scene.nodules != nullptr)
-  {
-    const double plain = scene.law(contactGeometryOf(contact)).force;
-    row.insert(row.end(),
-      { plain > 0.0 ? sample.response.force / plain : 1.0, sample.lateral.x(), sample.lateral.y(),
-        sample.lateral.z() });
-  }
-  return row;
-}
 
 // of each interval the extremes; returns how many are left of those from begin to end
 std::size_t thinRange(
@@ -239,6 +91,17 @@ std::vector<double> contrastsAt(const Scene& scene, const Contact& contact)
     : scene.nodules->contrasts(noduleContactOf(contact), scene.law(contactGeometryOf(contact)));
 }
 
+std::vector<Validity> validityOf(const Scene& scene)
+{
+  std::vector<Validity> all;
+  all.reserve(static_cast<std::size_t>(organCount(scene)));
+  for (int i = 0; i < organCount(scene); ++i)
+  {
+    all.emplace_back(organOf(scene, i).law);
+  }
+  return all;
+}
+
 std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Contact& contact)
 {
   const ContactGeometry geometry = contactGeometryOf(contact);
@@ -250,6 +113,12 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;
+}
+
+std::string Recording::organName(int organ) const
+{
+  const std::vector<std::size_t> felt = feltOrgans(organs);
+  return felt.empty() ? "" : organs[felt[static_cast<std::size_t>(organ)]].name;
 }
 
 const Sample* Recording::deepest() const noexcept
@@ -276,26 +145,6 @@ const Sample* deepestOf(std::span<const Sample> samples) noexcept
     }
   }
   return deepest;
-}
-
-void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration)
-{
-  describeRecording(out, recording);
-  const ForceLaw& law = recording.scene.law;
-  const std::optional<Validity> validity =
-    recording.rated ? std::optional<Validity>(law) : std::nullopt;
-  if (validity)
-  {
-    describeRules(out, recording.scene, *validity);
-  }
-  writeColumns(out, recording.scene, calibration != nullptr, validity.has_value());
-  for (const Sample& sample : recording.samples)
-  {
-    const Eigen::Vector3d& apex = sample.pose.apex;
-    out << shortest(sample.time) << ',' << exactMillimeters(apex.x()) << ','
-        << exactMillimeters(apex.y()) << ',' << exactMillimeters(apex.z()) << ',';
-    writeCsvRow(out, rowOf(sample, recording.scene, calibration, validity));
-  }
 }
 
 } // namespace palp

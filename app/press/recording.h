@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/mesh_file.h"
+#include "app/input/organ_plan.h"
 #include "app/press/calibration.h"
 #include "haptics/force/validity.h"
 #include "haptics/servo/sample.h"
@@ -25,12 +26,16 @@ struct Recording
   std::vector<MeshFile> files{};    ///< that were felt
   std::string command{};            ///< see commandLine
   std::vector<std::string> names{}; ///< of its presses, in their order; empty: none
+  std::vector<OrganPlan> organs{};  ///< of its scene, also those that are not felt; none: one body
   Scene scene{};
   std::vector<Sample> samples{};
   std::size_t thinned = 0;  ///< of these the first, between which others were left out
   double interval = 0.1;    ///< of which of those only the extremes are kept [s]
   bool rated = true;        ///< how far each sample may be believed is told, too
   bool contactOnly = false; ///< see keepContact
+
+  /// Of an organ of its scene, as in a Sample; empty where there is but one body.
+  [[nodiscard]] std::string organName(int organ) const;
 
   /// The first sample of the largest depth; nothing when the tool never touched.
   [[nodiscard]] const Sample* deepest() const noexcept;
@@ -65,12 +70,16 @@ void keepContact(Recording& recording);
 [[nodiscard]] std::vector<Rule> rulesAt(
   const Scene& scene, const Validity& validity, const Contact& contact);
 
+/// The conditions of each organ's law, in the order of the scene.
+[[nodiscard]] std::vector<Validity> validityOf(const Scene& scene);
+
 /// Writes samples.csv: a header of comment lines, the column names with units, one row per sample.
 ///
 /// Each row tells what its force was computed from: the place (thickness, infinite where there is
 /// none below; mean curvature, convex positive, and half the difference of the principal ones) and
 /// the factors of the law there, by which force_N is the product of the paper's force and theirs.
-/// A tip without a paper's law begins with its exact one.
+/// A tip without a paper's law begins with its exact one. Of several organs it names the one that
+/// is touched, which all of the row tells of.
 ///
 /// Times, positions and forces sent read back to the last bit. The same recording gives the same
 /// bytes: no date, no host.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vtkPolyData.h>
 
@@ -20,8 +21,6 @@ namespace palp
 {
 namespace
 {
-
-constexpr double kForgiving = 0.05; // until the servo has heard of an order, at the latest [s]
 
 // a tool that nobody moves, away from the surface
 bool restsAt(const Sample& before, const Sample& now)
@@ -43,12 +42,13 @@ Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trac
   recording.files = body.files;
   recording.command = commandLine();
   recording.rated = plan.validity;
-  recording.scene.surface = body.haptic;
+  recording.organs = plan.organs;
   recording.scene.rule = plan.press.contact;
   recording.scene.damping = plan.press.damping;
   recording.scene.law =
     trace.build("law", "tissue and tool", [&] { return plan.press.tissue.law(); });
-  recording.scene.nodules = feltNodules(body, recording.scene.law);
+  setTissues(recording.scene, plan.organs);
+  setFelt(recording.scene, body, plan.organs);
   return recording;
 }
 
@@ -57,10 +57,10 @@ Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trac
 Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* stop)
   : plan_(std::move(plan))
   , servoOptions_{ .history = plan_.records(), .deadMan = plan_.deadMan, .stop = stop }
-  , body_(trace.build("surface", "felt and shown", [&] { return loadBody(plan_.meshes); }))
+  , body_(trace.build("surface", "felt and shown", [&] { return loadBodies(plan_); }))
   , recording_(startOf(plan_, body_, trace))
   , calibration_(trace.build("calibration", "how far the surface gives way",
-      [&] { return loadCalibration(plan_.press, recording_.scene.law); }))
+      [&] { return loadCalibration(plan_.press, recording_.scene); }))
 {
   trace.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
@@ -68,7 +68,9 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
 void Session::open(const std::vector<MeshSource>& meshes)
 {
   SceneBody body = loadBody(meshes);
-  auto nodules = feltNodules(body, recording_.scene.law);
+  Scene scene = nextScene();
+  scene.others.clear();
+  setFelt(scene, body, {});
   SceneBody old = std::exchange(body_, std::move(body));
   const DeviceChoice choice = choice_;
   std::unique_ptr<Device> holder;
@@ -83,40 +85,27 @@ void Session::open(const std::vector<MeshSource>& meshes)
     throw;
   }
   endRecording(old);
+  calibration_.others.clear();
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.files = body_.files;
-  recording_.scene.surface = body_.haptic;
-  recording_.scene.nodules = std::move(nodules);
-  ++recording_.scene.version;
+  recording_.organs.clear();
+  recording_.scene = std::move(scene);
   useDevice(choice, std::move(holder));
-}
-
-void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping)
-{
-  Calibration calibration = loadCalibration(plan_.press, law); // may throw
-  auto nodules = feltNodules(body_, law);                      // too
-  endRecording(body_);
-  calibration_ = std::move(calibration);
-  recording_.scene.law = law;
-  recording_.scene.nodules = std::move(nodules);
-  recording_.scene.rule = rule;
-  recording_.scene.damping = damping;
-  ++recording_.scene.version;
-  if (guided_ != nullptr)
-  {
-    guided_->setScene(recording_.scene);
-  }
-  servo_->setScene(recording_.scene);
-  recordedFrom_ = servo_->newest().time + kForgiving;
 }
 
 ToolPose Session::restingPose() const
 {
-  // above the highest point of the body, pointing down
-  const auto points = body_.haptic->points();
-  const auto highest = std::max_element(points.begin(), points.end(),
-    [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); });
+  // above the highest point of all, pointing down
+  std::optional<Eigen::Vector3d> highest;
+  for (const SceneBody& body :
+    body_.organs.empty() ? std::span(&body_, 1) : std::span(body_.organs))
+  {
+    for (const Eigen::Vector3d& point : body.haptic->points())
+    {
+      highest = !highest || highest->z() < point.z() ? point : *highest;
+    }
+  }
   return { .apex = *highest + kClearance * Eigen::Vector3d::UnitZ(),
     .axis = -Eigen::Vector3d::UnitZ() };
 }
@@ -259,7 +248,7 @@ void Session::drain(const SceneBody& body, const std::function<void(const Sample
   servo_->history().drain(
     [&](const Sample& sample)
     {
-      if (sample.time >= recordedFrom_)
+      if (isCurrent(sample))
       {
         record(sample, each);
       }

@@ -42,13 +42,28 @@ public:
     return plan_;
   }
 
-  /// Replaces the body; tissue and device stay.
+  /// Replaces the body, or all organs by one; tissue and device stay.
   /// @throws Error  as loadBody, feltNodules, useDevice; the old body then stays
   void open(const std::vector<MeshSource>& meshes);
 
   /// A recording begins, as its header tells of one tool and tissue; see earlier().
-  /// @throws Error  as loadCalibration; everything then stays
-  void setTissue(const ForceLaw& law, ContactRule rule, double damping);
+  ///
+  /// @param organ   whose tissue it is, the tool and the kind of law being those of all; in the
+  /// order
+  ///                of organs()
+  /// @throws Error  as loadCalibration, TissueOptions::law; everything then stays
+  void setTissue(const ForceLaw& law, ContactRule rule, double damping, std::size_t organ = 0);
+
+  /// Of the scene, in its order; empty where there is one body.
+  [[nodiscard]] const std::vector<OrganPlan>& organs() const noexcept
+  {
+    return recording_.organs;
+  }
+
+  /// The same organs with other roles, colors and tissues. A recording begins where another is
+  /// felt, or feels another way.
+  /// @throws Error  BadValue: none is felt; as setTissue; everything then stays
+  void setOrgans(std::vector<OrganPlan> organs);
 
   /// A recording begins.
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays, or, where it was asked
@@ -102,6 +117,11 @@ public:
   [[nodiscard]] const Sample& newest() noexcept
   {
     return servo_->newest();
+  }
+  /// Whether a sample is of the tool, the tissue and the organs in use, not of those before.
+  [[nodiscard]] bool isCurrent(const Sample& sample) const noexcept
+  {
+    return sample.time >= recordedFrom_ && sample.organ < organCount(recording_.scene);
   }
   [[nodiscard]] const Timing& timing() const noexcept
   {
@@ -161,10 +181,15 @@ public:
   std::size_t addTake(const ExportFolder& made);
 
 private:
+  static constexpr double kForgiving = 0.05; // until the servo has heard of an order, at most [s]
+
+  [[nodiscard]] Scene nextScene() const;
+  void use(Scene scene);
+  void useOrgans(std::vector<OrganPlan> organs);
   void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const SceneBody& body);
-  [[nodiscard]] SceneBody bodyOf(const std::vector<MeshSource>& meshes) const;
+  [[nodiscard]] SceneBody bodyOf(const ScenePlan& plan) const;
   void boundEarlier();
   void save(const SceneBody& body, std::optional<Recording> press);
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);

@@ -46,40 +46,40 @@ void Session::endRecording(const SceneBody& body)
 }
 
 // the one that is open, or was the last, where that is the same
-SceneBody Session::bodyOf(const std::vector<MeshSource>& meshes) const
+SceneBody Session::bodyOf(const ScenePlan& plan) const
 {
   const auto text = [](const std::vector<MeshSource>& sources)
   { return sceneText({ .meshes = sources }, "/"); };
-  const std::string asked = text(meshes);
-  if (text(body_.sources) == asked)
+  const auto isSame = [&, asked = text(plan.meshes)](const SceneBody& body)
+  { return text(body.sources) == asked && body.organs.size() == plan.organs.size(); };
+  if (isSame(body_))
   {
     return body_;
   }
-  const bool wasLast = !earlier_.empty() && text(earlier_.back().body.sources) == asked;
-  return wasLast ? earlier_.back().body : loadBody(meshes);
+  const bool wasLast = !earlier_.empty() && isSame(earlier_.back().body);
+  return wasLast ? earlier_.back().body : loadBodies(plan);
 }
 
 std::size_t Session::addTake(const ExportFolder& folder)
 {
   const ScenePlan& made = folder.plan;
-  const ForceLaw law = made.press.tissue.law();
-  Take take{
-    .body = bodyOf(made.meshes), .recording = {}, .calibration = loadCalibration(made.press, law)
-  };
-  Recording& recording = take.recording;
-  recording.mesh = take.body.name;
-  recording.unit = take.body.unit;
-  recording.files = take.body.files;
+  SceneBody body = bodyOf(made);
+  Recording recording;
+  recording.mesh = body.name;
+  recording.unit = body.unit;
+  recording.files = body.files;
   checkInputs(folder, made, recording);
   recording.command = commandLine();
   recording.rated = made.validity;
+  recording.organs = made.organs;
   recording.scene = recording_.scene;
-  recording.scene.surface = take.body.haptic;
-  recording.scene.law = law;
+  recording.scene.law = made.press.tissue.law();
   recording.scene.rule = made.press.contact;
   recording.scene.damping = made.press.damping;
-  recording.scene.nodules = feltNodules(take.body, law);
   recording.scene.forceLimit = std::numeric_limits<double>::infinity();
+  setTissues(recording.scene, made.organs);
+  setFelt(recording.scene, body, made.organs);
+  Calibration calibration = loadCalibration(made.press, recording.scene);
   std::optional<ScriptedPath> path;
   if (!made.presses && !made.recording)
   {
@@ -87,7 +87,7 @@ std::size_t Session::addTake(const ExportFolder& folder)
   }
   playInto(recording, made, path ? &*path : nullptr);
   const std::size_t found = presses_.keepAll(recording);
-  earlier_.push_back(std::move(take));
+  earlier_.push_back({ std::move(body), std::move(recording), std::move(calibration) });
   return found;
 }
 

@@ -1,0 +1,261 @@
+// samples.csv of a recording.
+
+#include "app/input/law_options.h"
+#include "app/input/tip_text.h"
+#include "app/press/recording.h"
+#include "app/press/sample_text.h"
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/embed_nodules.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <ostream>
+#include <vector>
+
+namespace palp
+{
+namespace
+{
+
+// whether an organ of a scene has something
+template <typename Has>
+bool anyOrgan(const Scene& scene, Has has)
+{
+  return has(scene) || std::ranges::any_of(scene.others, has);
+}
+
+bool hasMemory(const Scene& scene)
+{
+  return anyOrgan(scene, [](const Scene& organ) { return organ.law.rows() != nullptr; });
+}
+
+bool hasNodules(const Scene& scene)
+{
+  return anyOrgan(scene, [](const Scene& organ) { return organ.nodules != nullptr; });
+}
+
+void describeRules(
+  std::ostream& out, const Scene& scene, const Validity& validity, const std::string& of)
+{
+  out << "# broken_rules" << of << ": a sum of the conditions that the place does not meet\n";
+  std::uint32_t bit = 1;
+  for (const Rule& rule : rulesAt(scene, validity, {}))
+  {
+    out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
+    bit *= 2;
+  }
+}
+
+// each organ's, where there are several
+void describeRules(
+  std::ostream& out, const Recording& recording, const std::vector<Validity>& validity)
+{
+  for (std::size_t i = 0; i < validity.size(); ++i)
+  {
+    const int organ = static_cast<int>(i);
+    const std::string name = recording.organName(organ);
+    describeRules(
+      out, organOf(recording.scene, organ), validity[i], name.empty() ? name : " of " + name);
+  }
+}
+
+std::string origin(const Recording& recording)
+{
+  std::string lines = recording.command.empty() ? "" : "# command: " + recording.command + '\n';
+  for (const MeshFile& file : recording.files)
+  {
+    lines.append(kFelt).append(describe(file)).append("\n");
+  }
+  return lines;
+}
+
+void describeNodules(std::ostream& out, const NoduleField& nodules)
+{
+  using units::toMillimeters;
+  for (const EmbeddedNodule& one : nodules.nodules())
+  {
+    const Eigen::Vector3d& center = one.nodule.center;
+    out << "# nodule: center " << shortest(toMillimeters(center.x())) << ' '
+        << shortest(toMillimeters(center.y())) << ' ' << shortest(toMillimeters(center.z()))
+        << " mm, radius " << shortest(toMillimeters(one.nodule.radius)) << " mm, ratio "
+        << shortest(one.nodule.ratio) << "; taken to lie " << shortest(toMillimeters(one.depth))
+        << " mm deep in " << shortest(toMillimeters(one.place.thickness))
+        << " mm of tissue, curvature " << shortest(one.place.surfaceCurvature) << " per m\n";
+  }
+}
+
+// what force_N was computed from, besides the law
+void describeNodules(std::ostream& out, const Scene& scene)
+{
+  if (!hasNodules(scene))
+  {
+    return;
+  }
+  for (int i = 0; i < organCount(scene); ++i)
+  {
+    const auto& nodules = organOf(scene, i).nodules;
+    nodules != nullptr ? describeNodules(out, *nodules) : void();
+  }
+  out << "# lateral_x/y/z_N: of the nodules on the tool, besides force_N along the normal\n";
+}
+
+std::string elasticityOf(const ForceLaw& law)
+{
+  return "Young's modulus: " + shortest(units::toKilopascals(law.material().youngModulus)) +
+    " kPa, Poisson's ratio: " + shortest(law.material().poissonRatio);
+}
+
+std::string dampingOf(const Scene& scene)
+{
+  return ", damping: " + shortest(scene.damping) + " N*s/m";
+}
+
+// the one body, or each organ
+void describeTissues(std::ostream& out, const Recording& recording)
+{
+  const Scene& scene = recording.scene;
+  const char* contact = scene.rule == ContactRule::Paper ? "paper" : "exact";
+  if (recording.organs.empty())
+  {
+    out << "# " << elasticityOf(scene.law) << "\n# law: " << describeLaw(scene.law.settings())
+        << "\n# contact: " << contact << dampingOf(scene) << ", force scale: 1\n";
+    return;
+  }
+  int felt = 0;
+  for (const OrganPlan& plan : recording.organs)
+  {
+    out << "# organ " << plan.name << ": ";
+    if (!plan.isFelt())
+    {
+      out << "not felt\n";
+      continue;
+    }
+    const Scene& organ = organOf(scene, felt++);
+    out << elasticityOf(organ.law) << ", law: " << describeLaw(organ.law.settings())
+        << dampingOf(organ) << '\n';
+  }
+  out << "# contact: " << contact << ", force scale: 1\n"
+      << "# organ: that is touched, of which the row tells; empty: none is\n";
+}
+
+// where the samples come from, and what they are of
+void describeRecording(std::ostream& out, const Recording& recording)
+{
+  out << "# palp " << PALP_VERSION << '\n'
+      << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
+      << origin(recording) << "# device: " << recording.device << '\n'
+      << "# tool: " << describeTip(recording.scene.law.tip()) << '\n';
+  describeTissues(out, recording);
+  out << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
+         "and limits; force_x/y/z_N: sent to the device\n"
+      << "# force_N = force of the paper's law (of the exact one where the paper has none) times "
+         "all factors\n";
+  if (hasMemory(recording.scene))
+  {
+    out
+      << "# that is of the instantaneous modulus: force_N relaxes from there; friction_x/y/z_N: of "
+         "the tissue on the tool before limits, part of force_x/y/z_N; surface_depth_mm: of the "
+         "tissue at the tool, also of the dent that it leaves\n";
+  }
+  describeNodules(out, recording.scene);
+  if (recording.contactOnly)
+  {
+    out << kContactOnly << '\n';
+  }
+  if (recording.thinned > 0)
+  {
+    const bool all = recording.thinned == recording.samples.size();
+    out << kThinned
+        << shortest(all ? recording.samples.back().time : recording.samples[recording.thinned].time)
+        << kThinnedTo << shortest(recording.interval) << " s\n";
+  }
+}
+
+void writeColumns(std::ostream& out, const Recording& recording, bool hasExtents)
+{
+  const Scene& scene = recording.scene;
+  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm," << (recording.organs.empty() ? "" : "organ,")
+      << "depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
+         "contact_radius_mm,"
+      << (hasExtents ? "extent_radius_mm," : "")
+      << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
+      << (recording.rated ? ",broken_rules" : "")
+      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
+  for (const Factor& factor : scene.law.factors({}))
+  {
+    out << ",factor_" << factor.name;
+  }
+  out << (hasMemory(scene) ? ",friction_x_N,friction_y_N,friction_z_N,surface_depth_mm" : "")
+      << (hasNodules(scene) ? ",factor_nodules,lateral_x_N,lateral_y_N,lateral_z_N" : "") << '\n';
+}
+
+// what follows the place of the tool
+std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibration* calibration,
+  const std::vector<Validity>& validity)
+{
+  using units::toMillimeters;
+  const Scene& scene = organOf(all, sample.organ);
+  const Eigen::Vector3d& axis = sample.pose.axis;
+  const Contact& contact = sample.contact;
+  std::vector<double> row{ toMillimeters(contact.depth), sample.response.force, sample.force.x(),
+    sample.force.y(), sample.force.z(), toMillimeters(sample.response.contactRadius) };
+  if (calibration)
+  {
+    const ExtentTable& extents = organOf(*calibration, sample.organ).extents;
+    row.push_back(toMillimeters(extents.extentRadius(contact.depth)));
+  }
+  row.insert(row.end(),
+    { units::toNewtonsPerMillimeter(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
+      contact.normal.x(), contact.normal.y(), contact.normal.z(), units::toDegrees(contact.tilt),
+      static_cast<double>(sample.flags) });
+  if (!validity.empty())
+  {
+    const Validity& rules = validity[static_cast<std::size_t>(sample.organ)];
+    row.push_back(static_cast<double>(brokenRules(rulesAt(scene, rules, contact))));
+  }
+  row.insert(row.end(),
+    { toMillimeters(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
+  for (const Factor& factor : scene.law.factors(contactGeometryOf(contact)))
+  {
+    row.push_back(factor.value);
+  }
+  if (hasMemory(all))
+  {
+    const Eigen::Vector3d& friction = sample.friction;
+    row.insert(
+      row.end(), { friction.x(), friction.y(), friction.z(), toMillimeters(sample.surfaceDepth) });
+  }
+  if (hasNodules(all))
+  {
+    const double plain = scene.law(contactGeometryOf(contact)).force;
+    row.insert(row.end(),
+      { plain > 0.0 ? sample.response.force / plain : 1.0, sample.lateral.x(), sample.lateral.y(),
+        sample.lateral.z() });
+  }
+  return row;
+}
+
+} // namespace
+
+void writeSamples(std::ostream& out, const Recording& recording, const Calibration* calibration)
+{
+  describeRecording(out, recording);
+  const std::vector<Validity> validity =
+    recording.rated ? validityOf(recording.scene) : std::vector<Validity>{};
+  describeRules(out, recording, validity);
+  writeColumns(out, recording, calibration != nullptr);
+  for (const Sample& sample : recording.samples)
+  {
+    const Eigen::Vector3d& apex = sample.pose.apex;
+    out << shortest(sample.time) << ',' << exactMillimeters(apex.x()) << ','
+        << exactMillimeters(apex.y()) << ',' << exactMillimeters(apex.z()) << ',';
+    if (!recording.organs.empty())
+    {
+      out << (sample.contact.touching() ? recording.organName(sample.organ) : "") << ',';
+    }
+    writeCsvRow(out, rowOf(sample, recording.scene, calibration, validity));
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,113 @@
+// What a session feels: tool, tissue and law of one body, or of its organs.
+
+#include "app/scene/scene_text.h"
+#include "app/session/session.h"
+#include "haptics/error.h"
+
+#include <utility>
+#include <vtkPolyData.h>
+
+namespace palp
+{
+namespace
+{
+
+// all of organs but how they are seen
+std::string feltText(const std::vector<MeshSource>& meshes, std::vector<OrganPlan> organs)
+{
+  for (OrganPlan& organ : organs)
+  {
+    organ.color = OrganColor{};
+    organ.role = organ.isFelt() ? OrganRole::Press : OrganRole::Hide;
+  }
+  return sceneText({ .meshes = meshes, .organs = std::move(organs) }, "/");
+}
+
+// the tool and the kind of law of another tissue; what only the corrected law knows goes with it
+void takeLaw(TissueOptions& tissue, const ForceLaw& law)
+{
+  const LawSettings& settings = law.settings();
+  tissue.tip = law.tip();
+  tissue.options.mode = settings.mode;
+  tissue.options.base = settings.base;
+  tissue.options.constitution = settings.constitution;
+  if (settings.mode != LawMode::Corrected)
+  {
+    tissue.options.coatings = {};
+    tissue.options.relaxation = {};
+    tissue.options.friction = 0.0;
+  }
+}
+
+} // namespace
+
+// to be changed
+Scene Session::nextScene() const
+{
+  Scene scene = recording_.scene;
+  ++scene.version;
+  return scene;
+}
+
+void Session::use(Scene scene)
+{
+  Calibration calibration = loadCalibration(plan_.press, scene); // may throw
+  endRecording(body_);
+  calibration_ = std::move(calibration);
+  recording_.scene = std::move(scene);
+  if (guided_ != nullptr)
+  {
+    guided_->setScene(recording_.scene);
+  }
+  servo_->setScene(recording_.scene);
+  recordedFrom_ = servo_->newest().time + kForgiving;
+}
+
+void Session::useOrgans(std::vector<OrganPlan> organs)
+{
+  Scene scene = nextScene();
+  scene.rule = organs.front().press.contact;
+  setTissues(scene, organs);
+  setFelt(scene, body_, organs);
+  use(std::move(scene));
+  recording_.organs = std::move(organs);
+}
+
+void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping, std::size_t organ)
+{
+  if (organs().empty())
+  {
+    Scene scene = nextScene();
+    scene.law = law;
+    scene.nodules = feltNodules(body_, law);
+    scene.rule = rule;
+    scene.damping = damping;
+    use(std::move(scene));
+    return;
+  }
+  std::vector<OrganPlan> changed = organs();
+  for (OrganPlan& each : changed)
+  {
+    takeLaw(each.press.tissue, law);
+    each.press.contact = rule;
+  }
+  changed[organ].press.tissue = optionsOf(law, recording_.rated);
+  changed[organ].press.damping = damping;
+  useOrgans(std::move(changed));
+}
+
+void Session::setOrgans(std::vector<OrganPlan> changed)
+{
+  if (feltOrgans(changed).empty())
+  {
+    throw Error(ErrorCode::BadValue, "no organ would be felt; let one of them be pressed");
+  }
+  if (feltText(body_.sources, changed) == feltText(body_.sources, organs()))
+  {
+    recording_.organs = std::move(changed);
+    return;
+  }
+  useOrgans(std::move(changed));
+}
+
+} // namespace palp
