@@ -26,6 +26,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace palp
 {
@@ -41,10 +42,17 @@ SurfacePoint subject(const Recording& recording, const Sample& shown)
   {
     return { shown.contact.center, shown.contact.normal };
   }
-  const Surface& surface = *recording.scene.surface;
+  const Surface& surface = *organOf(recording.scene, shown.organ).surface;
   const ClosestPoint nearest =
     findClosestPoint(surface, shown.pose.apex, std::numeric_limits<double>::infinity());
   return surfacePoint(surface, nearest.triangle, nearest.point);
+}
+
+// the organ that was pressed deepest; 0: the only body
+int pressedOrgan(const Recording& recording)
+{
+  const Sample* deepest = recording.deepest();
+  return deepest ? deepest->organ : 0;
 }
 
 FigureLook lookOf(const ScenePlan& plan)
@@ -63,7 +71,7 @@ void drawScene(const OffscreenContext& context, const SceneBody& body, const Rec
   const Sample& shown = deepest ? *deepest : recording.samples.back();
   const SurfacePoint point = subject(recording, shown);
   writeFigure(
-    *window, { body, recording.scene.law, calibration, shown }, lookOf(plan),
+    *window, momentOf(body, recording, calibration, shown), lookOf(plan),
     [&](PressView& view, vtkRenderer&) { view.lookAtWhole(point.position, point.normal); }, file);
 }
 
@@ -90,13 +98,17 @@ void drawMovie(const OffscreenContext& context, const SceneBody& body, const Rec
       renderer.ResetCameraClippingRange();
     }
   };
-  drawFigure(*window, { body, recording.scene.law, calibration, shown }, lookOf(plan), look,
-    [&](PressView& view, vtkRenderer& renderer)
+  drawFigure(*window, momentOf(body, recording, calibration, shown), lookOf(plan), look,
+    [&](PressView& view, Surroundings& around, vtkRenderer& renderer)
     {
       double turn = 0.0;
+      int organ = shown.organ;
       for (std::size_t i = 0; i < frames.size(); ++i)
       {
-        view.show(*frames[i].sample);
+        const Sample& sample = *frames[i].sample;
+        std::exchange(organ, sample.organ) == sample.organ
+          ? view.show(sample)
+          : showMoment(view, around, momentOf(body, recording, calibration, sample));
         renderer.GetActiveCamera()->Azimuth(units::toDegrees(frames[i].turn - turn));
         renderer.ResetCameraClippingRange();
         turn = frames[i].turn;
@@ -123,7 +135,7 @@ void drawForce(const OffscreenContext& context, const Recording& recording, cons
 {
   const double start = recording.samples.front().time;
   ForceCharts charts(recording.samples.back().time - start);
-  charts.setLaw(recording.scene.law);
+  charts.setLaw(organOf(recording.scene, pressedOrgan(recording)).law);
   charts.setSent(plan.chain);
   for (Sample sample : recording.samples)
   {
@@ -152,11 +164,12 @@ Plots deepestSection(
     return {};
   }
   vtkNew<vtkPalpDeformFilter> press;
-  press->SetInputData(body.display);
+  const Calibration& organ = organOf(calibration, deepest->organ);
+  press->SetInputData(body.felt(recording.organs, deepest->organ).display);
   press->GeneratePatchOn();
-  press->SetPress(pressOf(*deepest, recording.scene.law.tip(), calibration));
+  press->SetPress(pressOf(*deepest, recording.scene.law.tip(), organ));
   press->Update();
-  return sectionOf(*press, calibration);
+  return sectionOf(*press, organ);
 }
 
 // first, as the band is about it; elements take sheets that are too thin or too stiff for the law
@@ -209,15 +222,20 @@ void OffscreenRenderer::drawPress(const SceneBody& body, const Recording& record
       writePlots(plots, *window, directory / (name + ("." + ending)));
     }
   };
+  const int organ = pressedOrgan(recording);
+  const Calibration* organs = calibration ? &organOf(*calibration, organ) : nullptr;
   draw(PlotKind::Comparison, "comparison",
-    [&] {
-      return forceComparison(recording.scene.law, recording.samples, calibration, plan.references);
+    [&]
+    {
+      std::vector<Sample> press = recording.samples;
+      std::erase_if(press, [organ](const Sample& sample) { return sample.organ != organ; });
+      return forceComparison(organOf(recording.scene, organ).law, press, organs, plan.references);
     });
   if (calibration)
   {
     draw(
       PlotKind::Section, "section", [&] { return deepestSection(body, recording, *calibration); });
-    draw(PlotKind::Extent, "extent", [&] { return extentComparison(*calibration); });
+    draw(PlotKind::Extent, "extent", [&] { return extentComparison(*organs); });
   }
 }
 

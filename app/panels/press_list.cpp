@@ -27,6 +27,7 @@ namespace
 using units::toMillimeters;
 
 constexpr int kName = 0;
+constexpr int kOrgan = 10;        // the last
 constexpr int kId = Qt::UserRole; // data of a name
 
 class NeverEdited : public QStyledItemDelegate
@@ -74,7 +75,8 @@ QStringList cellsOf(const KeptPress& press)
       .arg(place.x(), 0, 'f', 1)
       .arg(place.y(), 0, 'f', 1)
       .arg(place.z(), 0, 'f', 1),
-    press.outside.empty() ? QObject::tr("within limits") : QString::fromStdString(press.outside) };
+    press.outside.empty() ? QObject::tr("within limits") : QString::fromStdString(press.outside),
+    QString::fromStdString(press.organ) };
 }
 
 } // namespace
@@ -113,7 +115,8 @@ void PressList::makeRows()
     { tr("K at 1 N [N/mm]"), tr("dF/dδ where the force first reaches 1 N; – where it does not") },
     { tr("Energy [mJ]"), tr("Work of the law's force on the way to the largest depth") },
     { tr("Place [mm]"), tr("Of the deepest contact, in the frame of the surface") },
-    { tr("Validity"), tr("Limits of the law that the deepest contact is beyond") }
+    { tr("Validity"), tr("Limits of the law that the deepest contact is beyond") },
+    { tr("Organ"), tr("That was pressed") }
   };
   rows_->setColumnCount(columns.size());
   for (int i = 0; i < columns.size(); ++i)
@@ -217,6 +220,8 @@ bool PressList::refresh()
   {
     delete rows_->takeTopLevelItem(at);
   }
+  rows_->setColumnHidden(
+    kOrgan, std::ranges::all_of(log_.presses(), &std::string::empty, &KeptPress::organ));
   enable();
   return true;
 }

@@ -59,14 +59,55 @@ void addCaption(vtkRenderer& renderer, const std::string& caption, double scale)
 
 } // namespace
 
-void showMoment(PressView& view, const PressMoment& moment)
+PressMoment momentOf(const SceneBody& body, const Recording& recording,
+  const Calibration& calibration, const Sample& sample, const SurfaceMap* map)
 {
-  view.setSurface(moment.body.display, moment.body.haptic && moment.body.haptic->closed());
+  const auto colorOf = [](const OrganPlan& organ)
+  {
+    return appearance::Color{ organ.color[0] / 255.0, organ.color[1] / 255.0,
+      organ.color[2] / 255.0 };
+  };
+  const std::vector<OrganPlan>& organs = recording.organs;
+  const SceneBody& pressed = body.felt(organs, sample.organ);
+  PressMoment moment{ pressed, organOf(recording.scene, sample.organ).law,
+    organOf(calibration, sample.organ), sample, map };
+  for (std::size_t i = 0; i < organs.size(); ++i)
+  {
+    const SceneBody& organ = body.organs[i];
+    if (&organ == &pressed)
+    {
+      moment.color = colorOf(organs[i]);
+    }
+    else if (organs[i].role != OrganRole::Hide)
+    {
+      moment.around.push_back({ .surface = organ.display,
+        .color = colorOf(organs[i]),
+        .isTranslucent = organs[i].role == OrganRole::Through,
+        .isClosed = organ.haptic->closed() });
+    }
+  }
+  return moment;
+}
+
+void prepareView(PressView& view, Surroundings& around, const PressMoment& moment)
+{
+  around.show(moment.around);
+  view.setAround(around.box());
+  view.setColor(moment.color);
+  if (!view.shows(*moment.body.display))
+  {
+    view.setSurface(moment.body.display, moment.body.haptic && moment.body.haptic->closed());
+  }
   view.setTip(moment.law.tip());
   view.setExtents(moment.calibration.extents);
   view.setStyle(moment.calibration.style);
   view.setLaw(moment.law);
   view.setMap(moment.map);
+}
+
+void showMoment(PressView& view, Surroundings& around, const PressMoment& moment)
+{
+  prepareView(view, around, moment);
   view.show(moment.sample);
 }
 
@@ -95,7 +136,7 @@ int dpiOf(ImageSize size)
 }
 
 void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
-  const ViewUse& look, const ViewUse& use)
+  const ViewUse& look, const FigureUse& use)
 {
   const ImageSize size{ .width = window.GetSize()[0], .height = window.GetSize()[1] };
   const int samples = // occlusion brings a filter of its own
@@ -116,7 +157,8 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   view.setColorBar(figure.hasColorBar);
   renderer->SetUseFXAA(samples == 0 && !figure.isRealistic);
   widenLines(*renderer, scale);
-  showMoment(view, moment);
+  Surroundings around(*renderer);
+  showMoment(view, around, moment);
   look(view, *renderer);
   view.setLook(figure.body);
   if (figure.isRealistic)
@@ -135,7 +177,7 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
     renderer->SetBackground(0.0, 0.0, 0.0);
     renderer->SetBackgroundAlpha(0.0);
   }
-  use(view, *renderer);
+  use(view, around, *renderer);
   window.RemoveRenderer(renderer);
 }
 
@@ -143,7 +185,7 @@ void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const Figur
   const ViewUse& look, const std::filesystem::path& file)
 {
   drawFigure(window, moment, figure, look,
-    [&](PressView&, vtkRenderer&) {
+    [&](PressView&, Surroundings&, vtkRenderer&) {
       writePng(window, file, figure.isTransparent ? Background::Transparent : Background::Opaque);
     });
 }

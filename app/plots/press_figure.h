@@ -3,7 +3,9 @@
 #include "app/input/scene_plan.h"
 #include "app/press/body.h"
 #include "app/press/calibration.h"
+#include "app/press/recording.h"
 #include "haptics/servo/sample.h"
+#include "pipeline/figure/surroundings.h"
 #include "pipeline/model/overlay.h"
 #include "pipeline/view/press_view.h"
 
@@ -25,7 +27,13 @@ struct PressMoment
   const Calibration& calibration;
   const Sample& sample;
   const SurfaceMap* map = nullptr; ///< colors of the body; null: its own
+  appearance::Color color = appearance::kLiver;
+  std::vector<Surrounding> around{};
 };
+
+/// That of a sample in a recording: of several organs, the one that it tells of amid the others.
+[[nodiscard]] PressMoment momentOf(const SceneBody& body, const Recording& recording,
+  const Calibration& calibration, const Sample& sample, const SurfaceMap* map = nullptr);
 
 /// What a figure of it has beside the body, the tool and their dent.
 struct FigureLook
@@ -40,8 +48,11 @@ struct FigureLook
   BodyLook body{};
 };
 
+/// A view with all that a moment has but its sample.
+void prepareView(PressView& view, Surroundings& around, const PressMoment& moment);
+
 /// A view as it is drawn for a moment.
-void showMoment(PressView& view, const PressMoment& moment);
+void showMoment(PressView& view, Surroundings& around, const PressMoment& moment);
 
 /// Whether the coordinates are a patient's: x to the left, y to the back, z to the head.
 [[nodiscard]] bool isPatient(const SceneBody& body);
@@ -54,13 +65,15 @@ void showMoment(PressView& view, const PressMoment& moment);
 
 using ViewUse = std::function<void(PressView& view, vtkRenderer& renderer)>;
 
+using FigureUse = std::function<void(PressView& view, Surroundings& around, vtkRenderer& renderer)>;
+
 /// Shows a press in a window of no renderers yet, as large as the picture, while it is used.
 ///
 /// Edges are smooth: several samples for each pixel, or in a picture too large for that a filter.
 /// @param look  places the camera; labels follow it
 /// @param use   draws it, once or after changes
 void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const FigureLook& figure,
-  const ViewUse& look, const ViewUse& use);
+  const ViewUse& look, const FigureUse& use);
 
 /// The same, written once.
 /// @param file    .png

@@ -1,9 +1,11 @@
 #include "app/session/pointer_tool.h"
 
+#include "haptics/surface/closest_point.h"
 #include "haptics/surface/ray.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace palp
@@ -14,9 +16,9 @@ PointerTool::PointerTool(std::function<SightLine(double, double)> view)
 {
 }
 
-void PointerTool::setSurface(std::shared_ptr<const Surface> surface)
+void PointerTool::setSurfaces(std::vector<std::shared_ptr<const Surface>> surfaces)
 {
-  surface_ = std::move(surface);
+  surfaces_ = std::move(surfaces);
   letGo();
   point_.reset();
   last_.reset();
@@ -24,12 +26,16 @@ void PointerTool::setSurface(std::shared_ptr<const Surface> surface)
 
 std::optional<SurfacePoint> PointerTool::below(const Pixel& pixel) const
 {
-  if (!surface_)
-  {
-    return std::nullopt;
-  }
   const SightLine line = view_(pixel.x, pixel.y);
-  return pick(*surface_, line.origin, line.direction);
+  const auto distance = [&line](const SurfacePoint& point)
+  { return (point.position - line.origin).squaredNorm(); };
+  std::optional<SurfacePoint> first;
+  for (const auto& surface : surfaces_)
+  {
+    const auto point = pick(*surface, line.origin, line.direction);
+    first = point && (!first || distance(*point) < distance(*first)) ? point : first;
+  }
+  return first;
 }
 
 // between two events: motion comes merged, the more so the slower the machine
@@ -51,11 +57,23 @@ bool PointerTool::leftSurface(const Pixel& to) const
   return false;
 }
 
+// that which the point is on
+const Surface& PointerTool::surfaceAt(const SurfacePoint& point) const
+{
+  const auto distance = [&point](const std::shared_ptr<const Surface>& surface)
+  {
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    return (findClosestPoint(*surface, point.position, kAnywhere).point - point.position).norm();
+  };
+  return surfaces_.size() == 1 ? *surfaces_.front()
+                               : **std::ranges::min_element(surfaces_, {}, distance);
+}
+
 void PointerTool::moveTo(const SurfacePoint& point)
 {
+  const BoxTree& tree = surfaceAt(point).tree();
   point_ = point;
-  deepest_ =
-    std::min(kMaxDepth, 0.5 * rayExit(surface_->tree(), point.position, -point.normal).distance);
+  deepest_ = std::min(kMaxDepth, 0.5 * rayExit(tree, point.position, -point.normal).distance);
 }
 
 void PointerTool::hover(int x, int y)

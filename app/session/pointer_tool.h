@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace palp
 {
@@ -36,8 +37,9 @@ public:
   /// @param view  the line of sight through a pixel, as the camera is now
   explicit PointerTool(std::function<SightLine(double x, double y)> view);
 
-  /// Another body: the tool stays where it is until the pointer is over it.
-  void setSurface(std::shared_ptr<const Surface> surface);
+  /// Another body, or the organs that are felt: the tool stays where it is until the pointer is
+  /// over one of them.
+  void setSurfaces(std::vector<std::shared_ptr<const Surface>> surfaces);
 
   // Events; x, y in pixels, time in seconds since any moment.
 
@@ -97,9 +99,10 @@ private:
   [[nodiscard]] std::optional<SurfacePoint> below(const Pixel& pixel) const;
   [[nodiscard]] bool leftSurface(const Pixel& to) const;
   void moveTo(const SurfacePoint& point);
+  [[nodiscard]] const Surface& surfaceAt(const SurfacePoint& point) const;
 
   std::function<SightLine(double, double)> view_;
-  std::shared_ptr<const Surface> surface_;
+  std::vector<std::shared_ptr<const Surface>> surfaces_;
   std::optional<SurfacePoint> point_; // of the tool
   std::optional<Pixel> last_;         // of a pointer that moved with no button down
   double deepest_ = kMaxDepth;        // at the place [m]

@@ -3,6 +3,7 @@
 #include "app/folder/autosave.h"
 #include "app/graphs/chart_panel.h"
 #include "app/graphs/plot_panel.h"
+#include "app/organs/organ_list.h"
 #include "app/panels/device_panel.h"
 #include "app/panels/diagnostics_panel.h"
 #include "app/panels/press_list.h"
@@ -43,7 +44,7 @@ bool looksAlike(const Sample& a, const Sample& b)
   const bool near = (a.pose.apex - b.pose.apex).norm() < kLength &&
     (a.pose.axis - b.pose.axis).norm() < kAngle &&
     (a.contact.normal - b.contact.normal).norm() < kAngle;
-  return near && std::abs(a.contact.depth - b.contact.depth) < kLength &&
+  return near && a.organ == b.organ && std::abs(a.contact.depth - b.contact.depth) < kLength &&
     std::abs(a.response.force - b.response.force) < kForce && (a.force - b.force).norm() < kForce;
 }
 
@@ -52,7 +53,9 @@ bool looksAlike(const Sample& a, const Sample& b)
 Window::Window(Session& session, BuildTrace& trace)
   : session_(session)
   , view_(*renderer_)
+  , around_(*renderer_)
   , orientation_(*renderer_)
+  , scaleBar_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
   , validity_(session.recording().scene.law)
   , takesKept_(session.earlier().size())
@@ -107,17 +110,6 @@ Window::Window(Session& session, BuildTrace& trace)
 
 Window::~Window() = default;
 
-void Window::showBody()
-{
-  endReview();
-  setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
-  view_.setSurface(session_.body().display, session_.body().haptic->closed());
-  orientation_.setPatient(isPatient(session_.body()));
-  pointer_.setSurface(session_.body().haptic);
-  fittedTo_ = std::pair(0, 0);
-  dropMap();
-}
-
 void Window::takeSamples()
 {
   session_.update(
@@ -162,11 +154,17 @@ void Window::refresh()
   aim(); // a click ends by itself
   fitView();
   const Sample& sample = sampleToShow();
+  if (organs_ && !review_ && !session_.isCurrent(sample))
+  {
+    return; // of organs that are no longer felt
+  }
   shown_.flags = sample.flags;
   shown_.state = sample.state;
   if (isStale_ || !looksAlike(sample, shown_))
   {
+    const bool isOther = shown_.organ != sample.organ;
     shown_ = sample;
+    isOther ? showOther() : void();
     isStale_ = false;
     chartsAreStale_ = true; // the section
     view_.show(shown_);
@@ -207,7 +205,7 @@ void Window::showReadings()
     showValidity(shown_);
   }
   const Contact& contact = shown_.contact;
-  const Calibration& calibration = pictured().calibration;
+  const Calibration& calibration = calibrationShown();
   forceLabel_->setText(!contact.touching()
       ? tr(kHint)
       : tr("Force %1 N    depth %2 mm    stiffness %3 N/mm")
@@ -274,7 +272,7 @@ void Window::showValidity(const Sample& sample)
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    const Scene& scene = pictured().recording.scene;
+    const Scene& scene = organShown();
     validityPanel_->showRules(rulesAt(scene, validity_, contact), contrastsAt(scene, contact));
   }
   else
@@ -291,16 +289,12 @@ void Window::applyTissue()
       const ForceLaw law = panel_->law();
       endReview();
       takeSamples();
-      session_.setTissue(law, panel_->rule(), panel_->damping());
-      showPictured();
-      if (charts_)
-      {
-        charts_->setLaw(law);
-      }
+      session_.setTissue(law, panel_->rule(), panel_->damping(), organs_ ? organs_->chosen() : 0);
+      showOrgans();
       clearCharts(); // as the recording
       sayWhatIsKept();
     });
-  panel_->setScene(session_.recording().scene); // what was refused is not in use
+  panel_->setScene(tissueInUse()); // what was refused is not in use
 }
 
 // a change ends a recording

@@ -9,6 +9,8 @@
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/figure/orientation.h"
+#include "pipeline/figure/scale_bar.h"
+#include "pipeline/figure/surroundings.h"
 #include "pipeline/view/press_view.h"
 
 #include <QElapsedTimer>
@@ -37,6 +39,7 @@ class Autosave;
 class DevicePanel;
 class DiagnosticsPanel;
 class MessageBar;
+class OrganList;
 class PlayBar;
 class PressBar;
 class PressList;
@@ -101,6 +104,7 @@ private:
   void makeViewMenu();
   void addStandardViews(QMenu& menu);
   void addBodyLooks(QMenu& menu);
+  void addMarks(QMenu& menu);
   void addOpening(QMenu& file);
   void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);
@@ -109,6 +113,17 @@ private:
   void makeHelpMenu();
   void makeToolBar();
   void showBody();
+
+  // of a scene with several organs
+  void makeOrganList();
+  void showOrgans();
+  void showOther();
+  bool useOrgans(const std::vector<OrganPlan>& organs);
+  void changeOrgans(const std::vector<OrganPlan>& organs);
+  void keepUndo(const std::vector<OrganPlan>& before);
+  [[nodiscard]] Scene tissueInUse() const;
+  [[nodiscard]] const Scene& organShown() const;
+  [[nodiscard]] const Calibration& calibrationShown() const;
 
   // the pointer as a tool, in display pixels
   void makePointer();
@@ -194,11 +209,14 @@ private:
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkPalpPressStyle> style_;
   PressView view_;
+  Surroundings around_;
   Orientation orientation_;
+  ScaleBar scaleBar_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
   QTimer* frames_ = nullptr; // of the picture
   PointerTool pointer_;
+  std::vector<std::shared_ptr<const Surface>> felt_; // by it
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
   std::uint32_t acted_ = 0;  // and in the time before
   Validity validity_;        // of the law that the session uses
@@ -226,6 +244,7 @@ private:
   DevicePanel* devicePanel_ = nullptr;
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;             // null: never shown
+  OrganList* organs_ = nullptr;            // null: there was one body at the start
   PressBar* pressBar_ = nullptr;
   QString refusedPlace_;           // why the last press at a place was not made
   PressList* pressList_ = nullptr; // null: no sample is kept

@@ -106,6 +106,8 @@ void Window::makeDocks()
   }
   diagnostics->hide();
 
+  makeOrganList();
+
   forceLabel_ = new QLabel;
   forceLabel_->setObjectName("force");
   forceLabel_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // cut, not the window's
@@ -183,12 +185,15 @@ void Window::makePlots(bool shown)
   const auto forces = [this]
   {
     const Recording& recording = session_.recording();
-    return forceComparison(recording.scene.law, recording.lastPress(), &session_.calibration());
+    const auto press = recording.lastPress();
+    const int organ = press.empty() ? 0 : press.back().organ;
+    return forceComparison(
+      organOf(recording.scene, organ).law, press, &organOf(session_.calibration(), organ));
   };
   plots_ = new PlotPanel(
-    { { tr("Section"), [this] { return sectionOf(view_.press(), pictured().calibration); } },
+    { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); } },
       { tr("Forces"), forces },
-      { tr("Extent"), [this] { return extentComparison(session_.calibration()); } },
+      { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },
       { tr("Presses"), [this] { return pressForces(pressList_->ticked()); } },
       { tr("Differences"), [this] { return pressDifferences(pressList_->ticked()); } } });
   connect(plots_, &PlotPanel::saveAsked, this,
@@ -275,15 +280,7 @@ void Window::makeViewMenu()
     ->setObjectName("resetViewAction");
   addStandardViews(*view);
   view->addSeparator();
-  QAction* axes = view->addAction(tr("A&xes"));
-  axes->setCheckable(true);
-  axes->setChecked(true);
-  connect(axes, &QAction::toggled, this,
-    [this](bool on)
-    {
-      orientation_.setVisible(on);
-      isStale_ = true;
-    });
+  addMarks(*view);
   addBodyLooks(*view);
   const auto add = [&](const QString& name, Overlay overlay)
   {

@@ -28,6 +28,11 @@ void Window::addMap(QMenu& edit)
 
 void Window::askMap()
 {
+  if (!session_.organs().empty())
+  {
+    message_->warn(tr("The map is of one body: open the file of an organ by itself"));
+    return;
+  }
   MapRequest usual = map_ ? map_->map.asked : MapRequest{};
   const std::vector<KeptPress>& presses = session_.presses().presses();
   std::optional<Eigen::Vector3d> last;
@@ -71,7 +76,7 @@ void Window::followMap()
 void Window::takeMap()
 {
   MapWork::Made made = mapWork_->take();
-  if (made.map.scene.surface != session_.body().haptic)
+  if (made.map.scene.surface != session_.recording().scene.surface)
   {
     return; // another body is open by now
   }

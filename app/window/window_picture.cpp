@@ -73,9 +73,29 @@ void Window::takeTheme()
   renderer_->SetBackground(ground[0], ground[1], ground[2]);
   renderer_->SetBackground2(sky[0], sky[1], sky[2]);
   orientation_.setInk(dark ? appearance::kSky : appearance::kInk);
+  scaleBar_.setInk(dark ? appearance::kSky : appearance::kInk);
   isStale_ = true;
   drawCharts();
   chartsAreStale_ = true;
+}
+
+void Window::addMarks(QMenu& menu)
+{
+  const auto add = [&](const QString& name, const char* id, const std::function<void(bool)>& show)
+  {
+    QAction* action = menu.addAction(name);
+    action->setObjectName(id);
+    action->setCheckable(true);
+    connect(action, &QAction::toggled, this,
+      [this, show](bool on)
+      {
+        show(on);
+        isStale_ = true;
+      });
+    action->setChecked(true);
+  };
+  add(tr("A&xes"), "axesAction", [this](bool on) { orientation_.setVisible(on); });
+  add(tr("Scale &bar"), "scaleBarAction", [this](bool on) { scaleBar_.setVisible(on); });
 }
 
 void Window::addBodyLooks(QMenu& menu)
@@ -160,7 +180,7 @@ bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& l
       };
       const Pictured seen = pictured();
       writeFigure(*window,
-        { seen.body, seen.recording.scene.law, seen.calibration, shown_, shownMap() }, look, asHere,
+        momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap()), look, asHere,
         file.toStdString());
       say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height));
     });

@@ -202,24 +202,25 @@ void Window::endReview()
   }
 }
 
-// the surface, the tool and the law of what is seen
+// the surface, the tool and the law of what is seen; of several organs, of that last touched
 void Window::showPictured()
 {
   const Pictured seen = pictured();
-  const ForceLaw& law = seen.recording.scene.law;
-  if (!view_.shows(*seen.body.display))
+  if (shown_.organ >= organCount(seen.recording.scene))
   {
-    view_.setSurface(seen.body.display, seen.body.haptic->closed());
+    shown_ = {}; // of organs that are no longer felt
+  }
+  const PressMoment moment =
+    momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap());
+  if (!view_.shows(*moment.body.display) && seen.recording.organs.empty())
+  {
     fittedTo_ = std::pair(0, 0);
   }
-  validity_ = Validity(law, { .stableStiffness = session_.stableStiffness() });
-  view_.setMap(shownMap());
-  view_.setTip(law.tip());
-  view_.setLaw(law);
-  view_.setExtents(seen.calibration.extents);
-  view_.setStyle(seen.calibration.style);
+  prepareView(view_, around_, moment);
+  validity_ = Validity(moment.law, { .stableStiffness = session_.stableStiffness() });
+  charts_ && !review_ ? charts_->setLaw(moment.law) : void();
   isStale_ = true;
-  forceLabel_->setToolTip(QString::fromStdString(seen.calibration.note));
+  forceLabel_->setToolTip(QString::fromStdString(moment.calibration.note));
 }
 
 } // namespace palp

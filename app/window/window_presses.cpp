@@ -4,6 +4,7 @@
 #include "app/folder/export_folder.h"
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
+#include "app/organs/organ_list.h"
 #include "app/panels/press_bar.h"
 #include "app/panels/press_list.h"
 #include "app/panels/tissue_panel.h"
@@ -80,18 +81,18 @@ void Window::makePressList()
   connect(pressList_, &PressList::renamed, this, &Window::renamePress);
   connect(pressList_, &PressList::deleteAsked, this, &Window::deletePresses);
   connect(pressList_, &PressList::againAsked, this,
-    [this](int id, PressList::Again how)
-    {
-      pressAgain(id,
-        [&](const KeptPress& press) { return lawOf(press, session_.recording().scene.law, how); });
+    [this](int id, PressList::Again how) {
+      pressAgain(id, [&](const KeptPress& press) { return lawOf(press, tissueInUse().law, how); });
     });
   connect(pressList_, &PressList::againWithAsked, this,
     [this](int id, const QString& tool)
     {
-      const ForceLaw& law = session_.recording().scene.law;
       pressAgain(id,
         [&](const KeptPress&)
-        { return ForceLaw(parseTip(tool.toStdString()), law.material(), law.settings()); });
+        {
+          const ForceLaw law = tissueInUse().law;
+          return ForceLaw(parseTip(tool.toStdString()), law.material(), law.settings());
+        });
     });
 }
 
@@ -169,7 +170,8 @@ void Window::pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>&
       {
         return;
       }
-      Scene scene = session_.recording().scene;
+      organs_ ? organs_->choose(press->organ) : void();
+      Scene scene = tissueInUse();
       scene.law = lawOf(*press);
       pressBar_->showPress(press->summary.deepest);
       panel_->setScene(scene);
@@ -253,11 +255,17 @@ void Window::deletePresses(const std::vector<int>& ids)
 void Window::changeTissue()
 {
   Scene before = session_.recording().scene;
+  const std::vector<OrganPlan> organs = session_.organs();
   applyTissue();
   Scene after = session_.recording().scene;
   if (after.version == before.version)
   {
     return; // refused
+  }
+  if (!organs.empty())
+  {
+    keepUndo(organs);
+    return;
   }
   const auto use = [this](Scene scene)
   {

@@ -47,6 +47,12 @@ void ScaleBar::setVisible(bool visible)
   text_->SetVisibility(visible);
 }
 
+void ScaleBar::setInk(const std::array<double, 3>& ink)
+{
+  actor_->GetProperty()->SetColor(ink[0], ink[1], ink[2]);
+  text_->GetTextProperty()->SetColor(ink[0], ink[1], ink[2]);
+}
+
 void ScaleBar::place(vtkRenderer& renderer, double width, double height, double scale)
 {
   constexpr double kLongest = 160.0; // [pixels]

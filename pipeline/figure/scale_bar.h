@@ -2,6 +2,7 @@
 
 #include "pipeline/view/before_render.h"
 
+#include <array>
 #include <vtkActor2D.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -20,6 +21,9 @@ public:
   explicit ScaleBar(vtkRenderer& renderer);
 
   void setVisible(bool visible);
+
+  /// At first dark, as for a light picture.
+  void setInk(const std::array<double, 3>& ink);
 
   /// Its length as last drawn [m].
   [[nodiscard]] double length() const noexcept

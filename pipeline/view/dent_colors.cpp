@@ -90,6 +90,11 @@ void DentColors::showLegend(vtkLookupTable& colors, const char* title, double lo
   legend_->SetVisibility(hasLegend_);
 }
 
+void DentColors::setBase(const appearance::Color& color)
+{
+  map_->DeepCopy(appearance::evenMapOn(color));
+}
+
 void DentColors::setLaw(const ForceLaw& law)
 {
   validity_.emplace(law);

@@ -2,6 +2,7 @@
 
 #include "haptics/force/validity.h"
 #include "pipeline/model/surface_map.h"
+#include "pipeline/view/appearance.h"
 #include "pipeline/view/before_render.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/vtkPalpPressureFilter.h"
@@ -45,6 +46,9 @@ public:
   {
     return surfaceColors_;
   }
+
+  /// Color of the surface around the dent, in which the colors end.
+  void setBase(const appearance::Color& color);
 
   /// The law whose rules are shown; without one there are none.
   void setLaw(const ForceLaw& law);

@@ -119,6 +119,12 @@ void PressView::setSurface(vtkPolyData* surface, bool isClosed)
   show(Sample{});
 }
 
+void PressView::setColor(const appearance::Color& color)
+{
+  appearance::setColor(*surface_->GetProperty(), color);
+  dent_->setBase(color);
+}
+
 void PressView::setLook(const BodyLook& look)
 {
   constexpr double kTranslucent = 0.4;
@@ -171,26 +177,6 @@ void PressView::setTip(const Tip& tip)
 {
   tip_ = tip;
   toolMapper_->SetInputData(toolSurface(tip, toolHeight(tip)));
-}
-
-void PressView::setExtents(const ExtentTable& extents)
-{
-  extents_ = extents;
-}
-
-void PressView::setStyle(DentStyle style)
-{
-  style_ = std::move(style);
-}
-
-void PressView::setLaw(const ForceLaw& law)
-{
-  dent_->setLaw(law);
-}
-
-void PressView::setColorRange(double top)
-{
-  dent_->setRange(top);
 }
 
 double PressView::extentRadius(double depth) const noexcept
@@ -301,6 +287,14 @@ void PressView::placeDent(const OverlayState& state)
   }
 }
 
+// with what is around
+vtkBoundingBox PressView::whole()
+{
+  vtkBoundingBox box(surfaceMapper_->GetBounds());
+  box.AddBox(around_);
+  return box;
+}
+
 void PressView::lookAtSurface()
 {
   lookFrom({ -0.35, -1.0, 0.75 }, Eigen::Vector3d::UnitZ());
@@ -313,7 +307,7 @@ void PressView::lookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up)
   camera.SetPosition(eye.data());
   camera.SetViewUp(up.data());
   double bounds[6];
-  surfaceMapper_->GetBounds(bounds);
+  whole().GetBounds(bounds);
   renderer_.ResetCamera(bounds);
 }
 
@@ -327,17 +321,17 @@ void PressView::lookAtWhole(const Eigen::Vector3d& position, const Eigen::Vector
   const Eigen::Vector3d side = (aside - aside.dot(normal) * normal).normalized();
   const Eigen::Vector3d towards = std::cos(kObliquity) * normal + std::sin(kObliquity) * side;
 
-  double bounds[6];
-  surfaceMapper_->GetBounds(bounds);
-  const Eigen::Vector3d middle =
-    0.5 * Eigen::Vector3d(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+  const vtkBoundingBox box = whole();
+  Eigen::Vector3d middle;
+  box.GetCenter(middle.data());
+  const double extent = around_.IsValid() ? box.GetDiagonalLength() : diagonal_;
   const Eigen::Vector3d focus = 0.6 * middle + 0.4 * position;
   const double spread = std::tan(0.5 * kViewAngle);
   // tool and arrow may be larger than the surface, and are nearer
   const Eigen::Vector3d top = position + above_ * normal - focus;
   const double nearer = top.dot(towards);
   const double across = (top - nearer * towards).norm();
-  const double away = std::max(0.45 * diagonal_ / spread, nearer + 1.2 * across / spread);
+  const double away = std::max(0.45 * extent / spread, nearer + 1.2 * across / spread);
   const Eigen::Vector3d eye = focus + away * towards;
   vtkCamera& camera = *renderer_.GetActiveCamera();
   camera.SetFocalPoint(focus.data());

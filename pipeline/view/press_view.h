@@ -6,6 +6,7 @@
 #include "pipeline/deform/vtkPalpDeformFilter.h"
 #include "pipeline/model/overlay.h"
 #include "pipeline/model/surface_map.h"
+#include "pipeline/view/appearance.h"
 #include "pipeline/view/dent_colors.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/readings.h"
@@ -15,8 +16,10 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 #include <vtkActor.h>
+#include <vtkBoundingBox.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPolyData.h>
@@ -57,17 +60,35 @@ public:
     return rest_->GetPoints() == surface.GetPoints();
   }
 
+  /// Of the surface; the bundled liver's at first.
+  void setColor(const appearance::Color& color);
+
+  /// What else is seen when the whole surface is looked at [m].
+  void setAround(const vtkBoundingBox& box)
+  {
+    around_ = box;
+  }
+
   /// @param tip  checked
   void setTip(const Tip& tip);
 
   /// R_d for every depth; without a table the ring ends close to the contact.
-  void setExtents(const ExtentTable& extents);
+  void setExtents(const ExtentTable& extents)
+  {
+    extents_ = extents;
+  }
 
   /// What the surface around the tool is drawn as; the paper's ring at first.
-  void setStyle(DentStyle style);
+  void setStyle(DentStyle style)
+  {
+    style_ = std::move(style);
+  }
 
   /// The law whose rules the validity colors and readings name.
-  void setLaw(const ForceLaw& law);
+  void setLaw(const ForceLaw& law)
+  {
+    dent_->setLaw(law);
+  }
 
   /// Moves the tool, presses the surface, and sets the overlays. Does not render.
   void show(const Sample& sample);
@@ -88,7 +109,10 @@ public:
   void setVisible(const std::vector<Overlay>& overlays);
 
   /// Upper end of the colors [mm or kPa]; 0, the default, lets it follow the press.
-  void setColorRange(double top);
+  void setColorRange(double top)
+  {
+    dent_->setRange(top);
+  }
 
   /// Shows the whole surface by these colors, and the dent by no others; null: by its own again.
   /// Takes effect in show().
@@ -129,6 +153,7 @@ public:
   }
 
 private:
+  [[nodiscard]] vtkBoundingBox whole();
   void addSurface();
   void addTool();
   void addOverlays();
@@ -144,6 +169,8 @@ private:
   DentStyle style_;
   double diagonal_ = 0.0; // of the surface's box [m]
   double above_ = 0.0;    // the surface reach tool and arrow [m]
+
+  vtkBoundingBox around_;
 
   BodyLook look_;
   bool isClosed_ = false;

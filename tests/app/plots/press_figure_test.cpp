@@ -10,6 +10,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <vtkRenderWindow.h>
+#include <vtkSphereSource.h>
 
 namespace palp
 {
@@ -69,8 +70,44 @@ protected:
   const ForceLaw law_{ test::kSphere, { .youngModulus = 50.0_kPa, .poissonRatio = 0.33 } };
   const Calibration calibration_ = ofThreeDepths();
   const Sample sample_ = test::pressed(ball_, test::kSphere, 5.0_mm);
-  const PressMoment moment_{ body_, law_, calibration_, sample_ };
+  PressMoment moment_{ body_, law_, calibration_, sample_ };
 };
+
+// share of the picture where a channel is stronger than the two others
+double shareOf(int channel, vtkImageData& image)
+{
+  constexpr double kMore = 20.0;
+  int count = 0;
+  for (int y = 0; y < 360; ++y)
+  {
+    for (int x = 0; x < 480; ++x)
+    {
+      const auto value = [&](int k) { return image.GetScalarComponentAsDouble(x, y, 0, k % 3); };
+      count +=
+        value(channel) > value(channel + 1) + kMore && value(channel) > value(channel + 2) + kMore;
+    }
+  }
+  return count / (480.0 * 360.0);
+}
+
+TEST_F(PressFigure, ShowsOrgansInTheirColorsAndWhatIsBehindThoseThatAreSeenThrough)
+{
+  EXPECT_GT(shareOf(0, *figure({})), 0.1) << "red, as the liver";
+  moment_.color = { 0.1, 0.6, 0.1 };
+  const double alone = shareOf(1, *figure({}));
+  EXPECT_GT(alone, 0.1) << "green";
+  vtkNew<vtkSphereSource> around;
+  around->SetRadius(ball_.surface->GetLength());
+  around->Update();
+  moment_.around = {
+    { .surface = around->GetOutput(), .color = { 0.1, 0.1, 0.9 }, .isClosed = true }
+  };
+  const auto opaque = figure({});
+  EXPECT_EQ(shareOf(1, *opaque), 0.0);
+  EXPECT_GT(shareOf(2, *opaque), 0.15) << "all of it is seen";
+  moment_.around.front().isTranslucent = true;
+  EXPECT_GT(shareOf(1, *figure({})), 0.002);
+}
 
 // laid over the background of the opaque one it is that one, at the edges and under the tool, too
 TEST_F(PressFigure, WithoutABackgroundIsTheSameOverAnyOther)

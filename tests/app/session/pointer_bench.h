@@ -54,7 +54,7 @@ public:
     , device_(ToolPose{ .apex = surface->points()[0] + Eigen::Vector3d(0, 0, 1.0) })
   {
     scene_.surface = surface;
-    pointer.setSurface(std::move(surface));
+    pointer.setSurfaces({ std::move(surface) });
     setTip(tip);
   }
 

@@ -152,7 +152,7 @@ TEST(PointerTool, LetsGoInAGapThatNoEventTellsOf)
       .direction = -Vector3d::UnitZ() };
   };
   PointerTool pointer(down);
-  pointer.setSurface(surface);
+  pointer.setSurfaces({ surface });
   pointer.hover(0, 0);
   pointer.wheel(4);
   pointer.hover(50, 20); // on the same one

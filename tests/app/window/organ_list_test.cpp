@@ -1,0 +1,184 @@
+#include "app/organs/organ_list.h"
+#include "haptics/units.h"
+#include "tests/app/window/window_rig.h"
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include <gtest/gtest.h>
+#include <vtkPolyData.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using test::WindowTest;
+
+// a ball between the eye and the liver, in the middle of the picture
+ScenePlan liverBehindBall()
+{
+  setenv("PALP_DATA", PALP_SHARE, 1);
+  const SceneBody liver = loadBody({ { .bundled = "liver" } });
+  Eigen::Vector3d middle;
+  liver.display->GetCenter(middle.data());
+  ScenePlan plan;
+  plan.meshes = { { .bundled = "liver" },
+    { .bundled = "sphere_30",
+      .origin = middle + 0.1 * Eigen::Vector3d(-0.35, -1.0, 0.75).normalized() } };
+  plan.organs = { { .name = "liver" },
+    { .name = "ball", .role = OrganRole::Through, .color = { 20, 200, 20 } } };
+  plan.organs[0].press.tissue.young = 6.0_kPa;
+  plan.organs[1].press.tissue.young = 30.0_kPa;
+  return plan;
+}
+
+class OrganListTest : public WindowTest
+{
+protected:
+  OrganListTest()
+    : WindowTest(liverBehindBall())
+  {
+  }
+
+  template <typename Widget>
+  [[nodiscard]] Widget* part(const char* name) const
+  {
+    auto* found = window_->findChild<Widget*>(name);
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+
+  void choose(const char* name, const QString& text) const
+  {
+    part<QComboBox>(name)->setCurrentText(text);
+  }
+
+  void click(const char* button) const
+  {
+    QTest::mouseClick(part<QToolButton>(button), Qt::LeftButton);
+  }
+
+  [[nodiscard]] OrganRole role(std::size_t organ) const
+  {
+    return session_->organs()[organ].role;
+  }
+
+  [[nodiscard]] QImage picture() const
+  {
+    QTest::qWait(500); // also with smooth edges
+    return canvas_->grabFramebuffer();
+  }
+
+  // share of the pixels that another picture has otherwise
+  [[nodiscard]] static double difference(const QImage& one, const QImage& other)
+  {
+    int changed = 0;
+    for (int y = 0; y < one.height(); ++y)
+    {
+      for (int x = 0; x < one.width(); ++x)
+      {
+        const QColor a = one.pixelColor(x, y);
+        const QColor b = other.pixelColor(x, y);
+        changed += std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) > 20 ? 1 : 0;
+      }
+    }
+    return static_cast<double>(changed) / (one.width() * one.height());
+  }
+
+  // which organ a press in the middle of the picture is of
+  [[nodiscard]] std::string pressedOrgan()
+  {
+    press(60);
+    const int organ = session_->newest().organ;
+    release();
+    EXPECT_TRUE(waitForLift());
+    return session_->recording().organName(organ);
+  }
+};
+
+TEST_F(OrganListTest, TheMousePressesWhatIsFeltBehindWhatIsSeenThrough)
+{
+  EXPECT_EQ(pressedOrgan(), "liver");
+  choose("organRole1", "Pressed");
+  ASSERT_EQ(role(1), OrganRole::Press);
+  EXPECT_EQ(pressedOrgan(), "ball");
+  const auto& presses = session_->presses().presses();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return presses.size() == 2; }, kPatience));
+  EXPECT_EQ(presses[0].organ, "liver");
+  EXPECT_EQ(presses[1].organ, "ball");
+  EXPECT_EQ(presses[1].law.material().youngModulus, 30.0_kPa);
+  EXPECT_EQ(part<QAbstractSpinBox>("young")->text(), "30 kPa") << "of what was pressed";
+  const auto* rows = part<QTreeWidget>("pressRows");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rows->topLevelItemCount() == 2; }, kPatience));
+  EXPECT_EQ(rows->topLevelItem(1)->text(rows->columnCount() - 1), "ball");
+  EXPECT_FALSE(rows->isColumnHidden(rows->columnCount() - 1));
+}
+
+TEST_F(OrganListTest, TheEyeHidesAnOrganAndUndoBringsItBack)
+{
+  const QImage before = picture();
+  click("organEye1");
+  EXPECT_EQ(role(1), OrganRole::Hide);
+  EXPECT_GT(difference(picture(), before), 0.02) << "the ball is a tenth of the picture wide";
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(role(1), OrganRole::Through);
+  EXPECT_LT(difference(picture(), before), 0.002);
+  click("organEye1");
+  click("organEye1");
+  EXPECT_EQ(role(1), OrganRole::Through) << "as it was before it was hidden";
+  EXPECT_TRUE(session_->earlier().empty()) << "nothing that is felt has changed";
+}
+
+TEST_F(OrganListTest, OneOrganAtLeastStaysPressed)
+{
+  click("organEye0");
+  EXPECT_EQ(role(0), OrganRole::Press);
+  EXPECT_EQ(part<QComboBox>("organRole0")->currentText(), "Pressed");
+  EXPECT_NE(said().indexOf("no organ would be felt"), -1) << said().toStdString();
+}
+
+TEST_F(OrganListTest, EachOrganHasATissueWhichThePanelShowsAndEdits)
+{
+  choose("organRole1", "Pressed");
+  auto* rows = part<QTreeWidget>("organRows");
+  const QRect second = rows->visualItemRect(rows->topLevelItem(1));
+  QTest::mouseClick(rows->viewport(), Qt::LeftButton, {},
+    { rows->columnViewportPosition(2) + 5, second.center().y() });
+  EXPECT_EQ(part<QAbstractSpinBox>("young")->text(), "30 kPa");
+  type("young", "12");
+  EXPECT_EQ(session_->organs()[1].press.tissue.young, 12.0_kPa);
+  EXPECT_EQ(session_->organs()[0].press.tissue.young, 6.0_kPa);
+  EXPECT_EQ(session_->recording().scene.others.at(0).law.material().youngModulus, 12.0_kPa);
+  type("radius", "5");
+  for (const OrganPlan& organ : session_->organs())
+  {
+    EXPECT_EQ(baseRadius(organ.press.tissue.tip), 5.0_mm) << "the tool is that of all";
+  }
+  const std::vector<TissuePreset> tissues = shippedTissues();
+  const TissuePreset& hcc = tissueNamed("hcc", tissues, "tissue");
+  choose("organTissue0", QString::fromStdString(hcc.title));
+  EXPECT_EQ(session_->organs()[0].press.tissue.young, hcc.material.youngModulus);
+  EXPECT_EQ(session_->recording().scene.law.material().youngModulus, hcc.material.youngModulus);
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_NE(session_->organs()[0].press.tissue.young, hcc.material.youngModulus);
+}
+
+TEST_F(OrganListTest, AnotherBodyTakesTheirPlace)
+{
+  EXPECT_EQ(pressedOrgan(), "liver");
+  click("organEye1");
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/block_30.vtp"));
+  EXPECT_TRUE(session_->organs().empty());
+  EXPECT_FALSE(part<OrganList>("organs")->isVisible());
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(pressedOrgan(), "");
+  ASSERT_EQ(session_->earlier().size(), 1U);
+  EXPECT_EQ(session_->earlier()[0].recording.organs.size(), 2U);
+}
+
+} // namespace
+} // namespace palp
