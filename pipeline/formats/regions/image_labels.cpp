@@ -92,8 +92,16 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
   const std::optional<double> voxel = milliliters(volume);
   std::ostringstream text;
   text.precision(3);
-  for (const Label& label : bodiesAmong(labels))
+  const std::vector<Label> bodies = bodiesAmong(labels);
+  constexpr std::streamoff kLong = 300; // characters of a sentence
+  for (std::size_t i = 0; i < bodies.size(); ++i)
   {
+    if (text.tellp() > kLong)
+    {
+      text << " and " << bodies.size() - i << " more, which palp import lists";
+      break;
+    }
+    const Label& label = bodies[i];
     text << (text.tellp() > 0 ? ", " : "") << shortest(label.shown)
          << (label.segment.name.empty() ? "" : " " + shownName(label.segment.name)) << " ("
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
