@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 #include <vtkCleanPolyData.h>
+#include <vtkFloatArray.h>
 #include <vtkMassProperties.h>
 #include <vtkPointData.h>
 #include <vtkTriangleFilter.h>
@@ -137,6 +138,43 @@ TEST(PressView, IsSeenThroughOrCutOpenAtTheContact)
   EXPECT_NEAR(box[4], -50.0_mm, 1e-4) << "what is written stays whole";
   view.view.setLook({ .hasEdges = true });
   EXPECT_GT(test::differenceOf(*view.picture(body, sample), *uncut).changed, 0.02);
+}
+
+// one picture of each look of the body
+TEST(PressView, HasABaselineOfEachLook)
+{
+  const Specimen body = liver();
+  const Sample sample = pressed(body, kSphere, 5.0_mm);
+  View view(body, kSphere);
+  view.view.setSurface(body.surface, true);
+  view.view.setVisible({ Overlay::DisplacementColors, Overlay::IsoLines, Overlay::ContactCircle });
+  const std::array<std::pair<const char*, BodyLook>, 4> looks{
+    { { "look_edges", { .hasEdges = true } }, { "look_translucent", { .isTranslucent = true } },
+      { "look_cut", { .isCut = true } }, { "look_without_tool", { .hidesTool = true } } }
+  };
+  for (const auto& [name, look] : looks)
+  {
+    (void)view.picture(body, sample);
+    view.view.setLook(look);
+    expectBaseline(*view.picture(body, sample), name);
+  }
+  view.view.setLook({});
+  vtkNew<vtkFloatArray> heights;
+  heights->SetName("Stiffness");
+  for (vtkIdType i = 0; i < body.surface->GetNumberOfPoints(); ++i)
+  {
+    heights->InsertNextValue(static_cast<float>(body.surface->GetPoint(i)[2]));
+  }
+  const auto* range = heights->GetRange();
+  const SurfaceMap map{
+    .values = heights.Get(), .title = "stiffness", .low = range[0], .high = range[1]
+  };
+  view.view.setMap(&map);
+  expectBaseline(*view.picture(body, sample), "look_map");
+  view.view.setMap(nullptr);
+  view.renderer->SetBackground(0.16, 0.17, 0.19);
+  view.renderer->SetBackground2(0.30, 0.32, 0.35);
+  expectBaseline(*view.picture(body, sample), "look_dark");
 }
 
 TEST(PressView, DrawsNoToolThatIsNowhere)
