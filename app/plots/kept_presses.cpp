@@ -46,8 +46,27 @@ void addCurve(Plot& plot, const KeptPress& press, std::span<const double> depths
 
 PressPen penOf(const KeptPress& press) noexcept
 {
+  constexpr std::size_t kTaken = 2; // by what is recorded and by the model, in live charts
+  constexpr std::size_t kFree = appearance::kCurves.size() - kTaken;
   const auto number = static_cast<std::size_t>(press.id - 1);
-  return { appearance::curveColor(number), number / appearance::kCurves.size() % 2 == 1 };
+  return { appearance::curveColor(kTaken + number % kFree), number / kFree % 2 == 1 };
+}
+
+std::vector<PressCurve> pressCurves(std::span<const KeptPress* const> presses)
+{
+  std::vector<PressCurve> curves;
+  for (const KeptPress* press : presses)
+  {
+    const auto [color, dashed] = penOf(*press);
+    PressCurve& curve = curves.emplace_back(
+      PressCurve{ .name = press->summary.name, .color = color, .dashed = dashed });
+    for (const CurvePoint& point : press->curve)
+    {
+      curve.depths.push_back(point.depth);
+      curve.forces.push_back(point.force);
+    }
+  }
+  return curves;
 }
 
 Plots pressForces(std::span<const KeptPress* const> presses)

@@ -2,8 +2,10 @@
 
 #include "app/plots/press_plots.h"
 #include "app/press/press_log.h"
+#include "pipeline/charts/force_charts.h"
 
 #include <span>
+#include <vector>
 
 namespace palp
 {
@@ -17,6 +19,9 @@ struct PressPen
 
 /// By its number, so that a press keeps its color.
 [[nodiscard]] PressPen penOf(const KeptPress& press) noexcept;
+
+/// The same presses for a chart that is live.
+[[nodiscard]] std::vector<PressCurve> pressCurves(std::span<const KeptPress* const> presses);
 
 /// F(depth) of presses, from touch to release.
 [[nodiscard]] Plots pressForces(std::span<const KeptPress* const> presses);

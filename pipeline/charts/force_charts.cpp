@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <span>
+#include <utility>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
 #include <vtkDataArray.h>
@@ -31,6 +33,7 @@ constexpr double kFirstDepth = 5.0_mm;
 constexpr double kFirstTime = 2.0; // [s]
 constexpr int kLawPoints = 201;
 constexpr float kMark = 9.0F; // [pixels]
+constexpr float kPressWidth = 2.0F;
 
 constexpr const char* kOverTime = "force over time";
 constexpr const char* kOverDepth = "force over depth";
@@ -92,6 +95,11 @@ double inDecimals(float value)
   double decimals = value;
   (void)std::from_chars(text.data(), end, decimals);
   return decimals;
+}
+
+double largestOf(std::span<const double> values)
+{
+  return values.empty() ? 0.0 : std::ranges::max(values);
 }
 
 std::vector<double> columnOf(vtkTable& table, vtkIdType column)
@@ -204,8 +212,8 @@ void ForceCharts::update()
   renderedPlot_->SetInputData(rendered_->GetOutput(0), 0, 1);
   const double force =
     std::max(largest(*samples_->GetOutput(0), 1), largest(*rendered_->GetOutput(0), 1));
-  const double depthLimit = units::fromMillimeters(
-    roomFor(largest(*samples_->GetOutput(1), 0), units::toMillimeters(kFirstDepth)));
+  const double depthLimit =
+    units::fromMillimeters(roomFor(deepest(), units::toMillimeters(kFirstDepth)));
   if (depthLimit != lawLimit_)
   {
     drawLaw(depthLimit);
@@ -214,8 +222,49 @@ void ForceCharts::update()
   overTime_->SetFollowed(
     vtkAxis::LEFT, 0.0, force > 0.0 ? roomFor(force, kLeastForce) : kFirstForce);
   overDepth_->SetFollowed(vtkAxis::BOTTOM, 0.0, units::toMillimeters(depthLimit));
-  overDepth_->SetFollowed(
-    vtkAxis::LEFT, 0.0, roomFor(std::max(largest(*samples_->GetOutput(1), 1), law), law));
+  double most = std::max(largest(*samples_->GetOutput(1), 1), law);
+  for (const PressCurve& press : presses_)
+  {
+    most = std::max(most, largestOf(press.forces));
+  }
+  overDepth_->SetFollowed(vtkAxis::LEFT, 0.0, roomFor(most, law));
+}
+
+// of all that is drawn over depth [mm]
+double ForceCharts::deepest() const
+{
+  double depth = largest(*samples_->GetOutput(1), 0);
+  for (const PressCurve& press : presses_)
+  {
+    depth = std::max(depth, units::toMillimeters(largestOf(press.depths)));
+  }
+  return depth;
+}
+
+void ForceCharts::setPresses(std::vector<PressCurve> presses)
+{
+  presses_ = std::move(presses);
+  for (vtkPlot* plot : pressPlots_)
+  {
+    overDepth_->RemovePlotInstance(plot);
+  }
+  pressPlots_.clear();
+  for (const PressCurve& press : presses_)
+  {
+    vtkNew<vtkTable> table;
+    addColumns(*table, { "depth [mm]", "force [N]" });
+    table->SetNumberOfRows(static_cast<vtkIdType>(press.depths.size()));
+    for (std::size_t i = 0; i < press.depths.size(); ++i)
+    {
+      const auto row = static_cast<vtkIdType>(i);
+      table->SetValue(row, 0, units::toMillimeters(press.depths[i]));
+      table->SetValue(row, 1, press.forces[i]);
+    }
+    vtkPlot* plot = addLine(*overDepth_, press.name.c_str(), press.color, kPressWidth);
+    plot->GetPen()->SetLineType(press.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
+    plot->SetInputData(table, 0, 1);
+    pressPlots_.push_back(plot);
+  }
 }
 
 void ForceCharts::clear()
@@ -264,6 +313,12 @@ std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
   depth.addLine("model", columnOf(*lawTable_, 0), columnOf(*lawTable_, 1), appearance::kLaw, 5.0F);
   depth.addPoints("recorded", columnOf(measured, 0), columnOf(measured, 1), appearance::kMeasured,
     Plot::Mark::Circle, 3.0F);
+  for (std::size_t i = 0; i < presses_.size(); ++i)
+  {
+    vtkTable& table = *pressPlots_[i]->GetInput();
+    depth.addLine(presses_[i].name, columnOf(table, 0), columnOf(table, 1), presses_[i].color,
+      kPressWidth, presses_[i].dashed);
+  }
   for (const auto& plot : plots)
   {
     plot->setNote("as drawn, of each short time the least and the largest force; the samples.csv "

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -16,6 +17,16 @@ class vtkPlot;
 
 namespace palp
 {
+
+/// The curve of a press that is over, beside the live ones.
+struct PressCurve
+{
+  std::string name;
+  std::vector<double> depths{}; ///< [m]
+  std::vector<double> forces{}; ///< [N], as many
+  appearance::Color color{};
+  bool dashed = false;
+};
 
 /// The live curves: force over the last minute, of the law and as it was sent to the hand, and
 /// force over depth with the law under it.
@@ -56,12 +67,17 @@ public:
   /// The law drawn under the measured points.
   void setLaw(const ForceLaw& law);
 
+  /// Presses drawn over the samples and the law, in their order; they stay when the samples are
+  /// cleared. At first there are none.
+  void setPresses(std::vector<PressCurve> presses);
+
   /// Both charts as they were last refreshed, to be laid out anew for a file.
   [[nodiscard]] std::vector<std::unique_ptr<Plot>> plots() const;
 
 private:
   void update();
   void drawLaw(double depthLimit);
+  [[nodiscard]] double deepest() const;
 
   vtkNew<vtkPalpSampleSource> samples_;
   vtkNew<vtkPalpSampleSource> rendered_; // the force that was sent in the place of the law's
@@ -72,7 +88,9 @@ private:
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
   vtkPlot* renderedPlot_ = nullptr;
   vtkPlot* depthPlot_ = nullptr;
-  double duration_; // of a press that is known from the start [s]; else 0
+  std::vector<PressCurve> presses_;
+  std::vector<vtkPlot*> pressPlots_; // of them
+  double duration_;                  // of a press that is known from the start [s]; else 0
   bool isPaused_ = false;
   bool isSent_ = false;
   ForceLaw law_;
