@@ -110,10 +110,11 @@ int view(const palp::ViewOptions& options)
   }
   if (options.made)
   {
-    session.addTake(*options.made);
+    session.add(session.takeOf(*options.made)());
   }
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
   palp::Window window(session, trace);
+  window.greet();
   window.saveTo(autosave);
   trace.build("first picture", "drawn on the display",
     [&]

@@ -28,12 +28,10 @@ bool isImageFile(const QString& file)
     QDir::match(QString(kImageFiles).split(' '), QFileInfo(file).fileName());
 }
 
-OpenDialog::OpenDialog(const QString& file, const QString& why,
-  std::function<void(const MeshSource&)> open, QWidget* parent)
+OpenDialog::OpenDialog(const QString& file, QWidget* parent)
   : QDialog(parent)
   , file_(file.toStdString())
-  , open_(std::move(open))
-  , why_(new QLabel(why))
+  , why_(new QLabel)
   , series_(QFileInfo(file).isDir() ? new QLineEdit : nullptr)
   , level_(isImageFile(file) ? new QLineEdit : nullptr)
   , label_(isImageFile(file) ? new QLineEdit : nullptr)
@@ -118,6 +116,11 @@ void OpenDialog::addLabels(QFormLayout& rows)
   rows.addRow(tr("Labels in it"), list);
 }
 
+void OpenDialog::setReason(const QString& why)
+{
+  why_->setText(why);
+}
+
 MeshSource OpenDialog::source() const
 {
   MeshSource source{ .file = file_, .unit = parseUnit(unit_->currentText().toStdString()) };
@@ -143,12 +146,12 @@ void OpenDialog::accept()
 {
   try
   {
-    open_(source());
+    (void)source();
     QDialog::accept();
   }
   catch (const std::exception& error)
   {
-    why_->setText(QString::fromStdString(error.what()));
+    setReason(QString::fromStdString(error.what()));
   }
 }
 

@@ -4,8 +4,6 @@
 
 #include <QDialog>
 
-#include <functional>
-
 class QComboBox;
 class QFormLayout;
 class QLabel;
@@ -16,27 +14,28 @@ namespace palp
 {
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
-/// the surface or the labels of the body, which are listed to be ticked. Stays, with the reason,
-/// until the file is opened or given up.
+/// the surface or the labels of the body, which are listed to be ticked.
 class OpenDialog : public QDialog
 {
   Q_OBJECT
 
 public:
   /// @param file  a surface or an image
-  /// @param why   it was not opened as it is
-  /// @param open  opens it; throws Error
-  OpenDialog(const QString& file, const QString& why, std::function<void(const MeshSource&)> open,
-    QWidget* parent = nullptr);
+  explicit OpenDialog(const QString& file, QWidget* parent = nullptr);
 
-  void accept() override;
+  /// Why the file was not opened as it was asked for.
+  void setReason(const QString& why);
+
+  /// The file with what was typed.
+  /// @throws Error  BadValue
+  [[nodiscard]] MeshSource source() const;
+
+  void accept() override; ///< stays, with the reason, where what was typed is refused
 
 private:
-  [[nodiscard]] MeshSource source() const;
   void addLabels(QFormLayout& rows);
 
   std::filesystem::path file_;
-  std::function<void(const MeshSource&)> open_;
   QLabel* why_;
   QLineEdit* series_; // null: of a folder alone
   QLineEdit* level_;  // null: a surface has none

@@ -164,12 +164,13 @@ void QuantityBox::take()
   }
 }
 
-// by one in the second digit
 void QuantityBox::stepBy(int steps)
 {
   constexpr double kFromZero = 0.1;
   const double shown = unit_.fromSi(si_);
-  const double step = shown > 0.0 ? std::pow(10.0, std::floor(std::log10(shown)) - 1.0) : kFromZero;
+  const double step = step_ > 0.0 ? step_
+    : shown > 0.0                 ? std::pow(10.0, std::floor(std::log10(shown)) - 1.0)
+                                  : kFromZero;
   showNumber(step * (std::round(shown / step) + steps));
   read_.clear();
   take();

@@ -45,6 +45,12 @@ public:
   /// What a value has to pass before it is in use; throws Error.
   void setCheck(std::function<void()> check);
 
+  /// What an arrow key adds, in the unit that is shown; at first one in the second digit.
+  void setStep(double shown) noexcept
+  {
+    step_ = shown;
+  }
+
   /// Without a signal; what was refused stays where the value is the same.
   void setSi(double value);
   [[nodiscard]] double si() const;
@@ -75,6 +81,7 @@ private:
 
   ShownUnit unit_;
   std::function<void()> check_;
+  double step_ = 0.0; // 0: by the number
   double si_ = 0.0;
   QString read_; // text that was taken or refused
   QString refusal_;

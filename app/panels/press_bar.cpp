@@ -5,22 +5,40 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 
+#include <QAbstractItemView>
+#include <QCompleter>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QStandardItemModel>
+#include <QStyle>
 
 namespace palp
 {
 namespace
 {
 
-constexpr int kArrows = 28; // of a box [pixels]
+constexpr int kArrows = 28;          // of a box [pixels]
+constexpr int kPlace = Qt::UserRole; // as text, of what is offered
+constexpr double kDepthStep = 0.1;   // [mm]
+
+QString textOf(const Eigen::Vector3d& place)
+{
+  QStringList numbers;
+  for (const double coordinate : place)
+  {
+    numbers << QString::number(units::toMillimeters(coordinate), 'f', 2);
+  }
+  return numbers.join(", ");
+}
 
 } // namespace
 
 PressBar::PressBar(QWidget* parent)
   : QToolBar(tr("Press at a place"), parent)
   , place_(new QLineEdit)
+  , offered_(new QStandardItemModel(this))
+  , choose_(nullptr)
   , depth_(new QuantityBox("pressDepth", ShownUnit::millimeters()))
   , speed_(new QuantityBox("pressSpeed", ShownUnit::speed()))
 {
@@ -36,10 +54,16 @@ PressBar::PressBar(QWidget* parent)
   speed_->setFixedWidth(speed_->fontMetrics().horizontalAdvance("00.0 mm/s") + kArrows);
   addField(tr("Place [mm]"),
     tr("x, y, z [mm] in the frame of the surface (LPS for images), within 5 mm of it; a press of "
-       "the mouse fills it in"),
+       "the mouse fills it in, a list of places offers them (Down)"),
     place_);
-  addField(tr("Depth"), tr("d [mm] of the contact, up to half of the body's thickness"), depth_);
-  addField("", tr("Speed [mm/s], down and up; at the depth the tool rests for 0.3 s"), speed_);
+  addField(tr("Depth"),
+    tr("\u03b4 [mm] of the contact, more than 0, up to half of the body's thickness; arrow keys: "
+       "0.1 mm"),
+    depth_);
+  addField(
+    "", tr("v [mm/s], more than 0: down and up; at the depth the tool rests for 0.3 s"), speed_);
+  makeOffer();
+  depth_->setStep(kDepthStep);
   const PlacedPresses usual;
   depth_->setSi(usual.depth);
   speed_->setSi(usual.speed);
@@ -51,7 +75,12 @@ PressBar::PressBar(QWidget* parent)
   {
     connect(field, &QuantityBox::refused, this, [this, field] { tellRefusal(*field); });
   }
-  connect(place_, &QLineEdit::returnPressed, this, &PressBar::pressAsked);
+  connect(place_, &QLineEdit::returnPressed, this,
+    [this]
+    {
+      const bool isChoosing = place_->completer()->popup()->isVisible();
+      isChoosing ? void() : Q_EMIT pressAsked();
+    });
 
   auto* press = new QPushButton(tr("Press"));
   press->setObjectName("pressButton");
@@ -80,25 +109,61 @@ QString PressBar::refusal() const
   return depth_->refusal().isEmpty() ? speed_->refusal() : depth_->refusal();
 }
 
-PlacedPresses PressBar::presses() const
+// a list below the field, by its key or its button
+void PressBar::makeOffer()
+{
+  auto* list = new QCompleter(offered_, this);
+  list->setCompletionMode(QCompleter::UnfilteredPopupCompletion);
+  list->setCompletionRole(kPlace);
+  place_->setCompleter(list);
+  choose_ =
+    place_->addAction(style()->standardIcon(QStyle::SP_ArrowDown), QLineEdit::TrailingPosition);
+  choose_->setToolTip(tr("Choose a place of the list"));
+  choose_->setVisible(false);
+  connect(choose_, &QAction::triggered, list,
+    [this, list]
+    {
+      place_->setFocus(); // else it takes no choice
+      list->complete();
+    });
+}
+
+void PressBar::offer(const PlacedPresses& presses)
+{
+  offered_->clear();
+  for (const PressPlace& place : presses.places)
+  {
+    const QString text = textOf(place.position);
+    const QString name = QString::fromStdString(place.name);
+    auto* item = new QStandardItem(name.isEmpty() ? text : name + ": " + text);
+    item->setData(text, kPlace);
+    offered_->appendRow(item);
+  }
+  choose_->setVisible(offered_->rowCount() > 0);
+  presses.places.empty() ? clearPlace() : showPlace(presses.places.front().position);
+  depth_->setSi(presses.depth);
+  speed_->setSi(presses.speed);
+}
+
+PlacedPresses PressBar::values() const
 {
   if (const QString reason = refusal(); !reason.isEmpty())
   {
     throw Error(ErrorCode::BadValue, reason.toStdString());
   }
-  return { .places = { parsePlace(place_->text().toStdString(), "Place") },
-    .depth = depth_->si(),
-    .speed = speed_->si() };
+  return { .depth = depth_->si(), .speed = speed_->si() };
+}
+
+PlacedPresses PressBar::presses() const
+{
+  PlacedPresses presses = values();
+  presses.places = { parsePlace(place_->text().toStdString(), "Place") };
+  return presses;
 }
 
 void PressBar::showPlace(const Eigen::Vector3d& place)
 {
-  QStringList numbers;
-  for (const double coordinate : place)
-  {
-    numbers << QString::number(units::toMillimeters(coordinate), 'f', 2);
-  }
-  place_->setText(numbers.join(", "));
+  place_->setText(textOf(place));
 }
 
 void PressBar::showPress(const Contact& deepest)
@@ -111,6 +176,8 @@ void PressBar::showPress(const Contact& deepest)
 void PressBar::clearPlace()
 {
   place_->clear();
+  offered_->clear();
+  choose_->setVisible(false);
 }
 
 } // namespace palp

@@ -5,7 +5,9 @@
 
 #include <QToolBar>
 
+class QAction;
 class QLineEdit;
+class QStandardItemModel;
 
 namespace palp
 {
@@ -24,6 +26,13 @@ public:
   /// @throws Error  BadValue: what is typed is no place, or a field holds what was refused
   [[nodiscard]] PlacedPresses presses() const;
 
+  /// How deep and how fast, without a place.
+  /// @throws Error  BadValue: a field holds what was refused
+  [[nodiscard]] PlacedPresses values() const;
+
+  /// Places to choose from below the field, the first of them in it, and how they are pressed.
+  void offer(const PlacedPresses& presses);
+
   /// @param place  on the surface [m]
   void showPlace(const Eigen::Vector3d& place);
 
@@ -38,11 +47,14 @@ Q_SIGNALS:
   void refused(const QString& why); ///< while a depth or a speed is; empty: none is, any longer
 
 private:
+  void makeOffer();
   void tellRefusal(QuantityBox& field);
   [[nodiscard]] QString refusal() const; // that stands; empty: none
   void addField(const QString& label, const QString& what, QWidget* field);
 
   QLineEdit* place_;
+  QStandardItemModel* offered_;
+  QAction* choose_; // shows them
   QuantityBox* depth_;
   QuantityBox* speed_;
 };

@@ -82,8 +82,10 @@ QGroupBox* TissuePanel::makeTissue()
   modulus_->setToolTip(
     tr("E [kPa], more than 0: the force is proportional to it, Eqs. (2)-(5)\nThe paper's 50 kPa, "
        "which hold at the start, are a tumor's: 7.5 times those of healthy liver"));
-  poisson_->setToolTip(tr("\u03bd, 0 to less than 0.5: the force goes with 1/(1 - \u03bd\u00b2)"));
-  damping_->setToolTip(tr("[N s/m], 0 or more: added to the force against the motion"));
+  poisson_->setToolTip(
+    tr("\u03bd [-], 0 to less than 0.5: the force goes with 1/(1 - \u03bd\u00b2), Eq. (2)"));
+  damping_->setToolTip(
+    tr("b [N s/m], 0 or more: b times the speed is added to the force, against the motion"));
   rule_->setToolTip(
     tr("Where the tool is in the tissue\nExact: on the triangles, smoothed over the "
        "contact\nPaper: the nearest vertex, Sec. 3.2"));
@@ -106,6 +108,11 @@ void TissuePanel::setScene(const Scene& scene)
   showPreset();
   damping_->setSi(scene.damping);
   rule_->show(scene.rule == ContactRule::Paper ? 1 : 0);
+}
+
+void TissuePanel::askForProfile(const QString& file)
+{
+  tool_->askForProfile(file);
 }
 
 // none of them: E and nu stay

@@ -67,15 +67,19 @@ ToolPanel::ToolPanel(const Tip& tip, QWidget* parent)
 
 void ToolPanel::addFields()
 {
-  kind_->setToolTip(tr("What touches the tissue; each has its own force law"));
-  radius_->setToolTip(tr("R [mm], more than 0: of the sphere, or of the base of the others"));
+  kind_->setToolTip(
+    tr("What touches the tissue; each has its own force law F(\u03b4): Eqs. (2)-(4) of the "
+       "sphere, Eq. (5) of the cone"));
+  radius_->setToolTip(tr("R [mm], more than 0: of the sphere, F = 4/3 E/(1 - \u03bd\u00b2) \u221aR "
+                         "\u03b4^1.5, Eq. (2), or "
+                         "of the base of the others"));
   fileName_->setToolTip(tr("Profile of the tool, a CSV file"));
   fileName_->setAccessibleName(tr("Profile of the tool"));
-  halfAngle_->setToolTip(
-    tr("\u03b1 [\u00b0], 0 to 90: between the axis of the cone and its flank"));
-  flatRadius_->setToolTip(tr("[mm] Of the flat that the cone is cut off to; less than the radius"));
+  halfAngle_->setToolTip(tr("\u03b1 [\u00b0], 0 to 90: between the axis of the cone and its flank; "
+                            "F = 2/\u03c0 E/(1 - \u03bd\u00b2) tan \u03b1 \u03b4\u00b2, Eq. (5)"));
+  flatRadius_->setToolTip(tr("b [mm], 0 to less than R: of the flat that the cone is cut off to"));
   tipRadius_->setToolTip(
-    tr("[mm] Of the spherical cap in which the cone ends; less than the radius"));
+    tr("R_t [mm], 0 to less than R: of the spherical cap in which the cone ends"));
 
   addRow(*rows_, tr("Shape"), kind_);
   addRow(*rows_, tr("Radius"), radius_);

@@ -126,6 +126,11 @@ void PointerTool::release(double time)
 
 void PointerTool::wheel(int notches)
 {
+  deepen(notches * kDepthPerNotch);
+}
+
+void PointerTool::deepen(double by)
+{
   if (!point_)
   {
     return;
@@ -133,7 +138,7 @@ void PointerTool::wheel(int notches)
   given_.reset();
   double& depth = pressing_ ? pressed_ : held_;
   const double before = std::min(depth, deepest_);
-  depth = std::clamp(before + notches * kDepthPerNotch, 0.0, deepest_);
+  depth = std::clamp(before + by, 0.0, deepest_);
   from_ += depth - before; // of a drag that goes on
 }
 

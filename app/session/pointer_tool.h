@@ -48,6 +48,7 @@ public:
   void drag(int pixelsDown);
   void release(double time);
   void wheel(int notches);
+  void deepen(double by); ///< what the wheel holds [m]
 
   /// Presses once at a place, whatever the pointer does meanwhile: down, kShortest of rest, and up.
   /// A button, the wheel or letGo() ends it.

@@ -65,9 +65,8 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
   trace.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
-void Session::open(const std::vector<MeshSource>& meshes)
+void Session::open(SceneBody body)
 {
-  SceneBody body = loadBody(meshes);
   Scene scene = nextScene();
   scene.others.clear();
   setFelt(scene, body, {});

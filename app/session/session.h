@@ -43,8 +43,8 @@ public:
   }
 
   /// Replaces the body, or all organs by one; tissue and device stay.
-  /// @throws Error  as loadBody, feltNodules, useDevice; the old body then stays
-  void open(const std::vector<MeshSource>& meshes);
+  /// @throws Error  as feltNodules, useDevice; the old body then stays
+  void open(SceneBody body);
 
   /// A recording begins, as its header tells of one tool and tissue; see earlier().
   ///
@@ -175,10 +175,13 @@ public:
     autosave_ = autosave;
   }
 
-  /// Presses once more what an export holds, as an earlier recording on a body of its own.
-  /// @return        the presses that were found in it
-  /// @throws Error  as checkInputs, loadBody, playInto; nothing is added
-  std::size_t addTake(const ExportFolder& made);
+  /// What presses once more what an export holds, as a recording on a body of its own: work for any
+  /// thread, which throws as checkInputs, loadBody, playInto.
+  [[nodiscard]] std::function<Take()> takeOf(const ExportFolder& made) const;
+
+  /// Adds an earlier recording.
+  /// @return  the presses that were found in it
+  std::size_t add(Take take);
 
 private:
   static constexpr double kForgiving = 0.05; // until the servo has heard of an order, at most [s]
@@ -189,7 +192,7 @@ private:
   void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const SceneBody& body);
-  [[nodiscard]] SceneBody bodyOf(const ScenePlan& plan) const;
+  [[nodiscard]] std::optional<SceneBody> knownBody(const ScenePlan& plan) const;
   void boundEarlier();
   void save(const SceneBody& body, std::optional<Recording> press);
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);

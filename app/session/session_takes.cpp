@@ -46,7 +46,7 @@ void Session::endRecording(const SceneBody& body)
 }
 
 // the one that is open, or was the last, where that is the same
-SceneBody Session::bodyOf(const ScenePlan& plan) const
+std::optional<SceneBody> Session::knownBody(const ScenePlan& plan) const
 {
   const auto text = [](const std::vector<MeshSource>& sources)
   { return sceneText({ .meshes = sources }, "/"); };
@@ -57,37 +57,45 @@ SceneBody Session::bodyOf(const ScenePlan& plan) const
     return body_;
   }
   const bool wasLast = !earlier_.empty() && isSame(earlier_.back().body);
-  return wasLast ? earlier_.back().body : loadBodies(plan);
+  return wasLast ? std::optional(earlier_.back().body) : std::nullopt;
 }
 
-std::size_t Session::addTake(const ExportFolder& folder)
+std::function<Session::Take()> Session::takeOf(const ExportFolder& folder) const
 {
-  const ScenePlan& made = folder.plan;
-  SceneBody body = bodyOf(made);
-  Recording recording;
-  recording.mesh = body.name;
-  recording.unit = body.unit;
-  recording.files = body.files;
-  checkInputs(folder, made, recording);
-  recording.command = commandLine();
-  recording.rated = made.validity;
-  recording.organs = made.organs;
-  recording.scene = recording_.scene;
-  recording.scene.law = made.press.tissue.law();
-  recording.scene.rule = made.press.contact;
-  recording.scene.damping = made.press.damping;
-  recording.scene.forceLimit = std::numeric_limits<double>::infinity();
-  setTissues(recording.scene, made.organs);
-  setFelt(recording.scene, body, made.organs);
-  Calibration calibration = loadCalibration(made.press, recording.scene);
-  std::optional<ScriptedPath> path;
-  if (!made.presses && !made.recording)
+  return [folder, known = knownBody(folder.plan), scene = recording_.scene]
   {
-    path = readPath(made.device.file);
-  }
-  playInto(recording, made, path ? &*path : nullptr);
-  const std::size_t found = presses_.keepAll(recording);
-  earlier_.push_back({ std::move(body), std::move(recording), std::move(calibration) });
+    const ScenePlan& made = folder.plan;
+    SceneBody body = known ? *known : loadBodies(made);
+    Recording recording;
+    recording.mesh = body.name;
+    recording.unit = body.unit;
+    recording.files = body.files;
+    checkInputs(folder, made, recording);
+    recording.command = commandLine();
+    recording.rated = made.validity;
+    recording.organs = made.organs;
+    recording.scene = scene;
+    recording.scene.law = made.press.tissue.law();
+    recording.scene.rule = made.press.contact;
+    recording.scene.damping = made.press.damping;
+    recording.scene.forceLimit = std::numeric_limits<double>::infinity();
+    setTissues(recording.scene, made.organs);
+    setFelt(recording.scene, body, made.organs);
+    Calibration calibration = loadCalibration(made.press, recording.scene);
+    std::optional<ScriptedPath> path;
+    if (!made.presses && !made.recording)
+    {
+      path = readPath(made.device.file);
+    }
+    playInto(recording, made, path ? &*path : nullptr);
+    return Take{ std::move(body), std::move(recording), std::move(calibration) };
+  };
+}
+
+std::size_t Session::add(Take take)
+{
+  const std::size_t found = presses_.keepAll(take.recording);
+  earlier_.push_back(std::move(take));
   return found;
 }
 

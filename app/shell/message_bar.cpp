@@ -86,15 +86,17 @@ void MessageBar::ask(const QString& text, const std::vector<Choice>& choices)
   place();
 }
 
-void MessageBar::follow(const QString& text, int percent, const std::function<void()>& cancel)
+void MessageBar::follow(
+  const QString& text, std::optional<int> percent, const std::function<void()>& cancel)
 {
   if (progress_->isHidden() || isHidden() || text_->text() != text)
   {
     ask(text, { { tr("Cancel"), cancel } });
+    progress_->setRange(0, percent ? 100 : 0);
     progress_->show();
     place();
   }
-  progress_->setValue(percent);
+  progress_->setValue(percent.value_or(0));
 }
 
 QString MessageBar::text() const

@@ -4,6 +4,7 @@
 #include <QString>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 class QHBoxLayout;
@@ -43,7 +44,8 @@ public:
 
   /// How far work is that goes on; stays until there is something newer. To be called again and
   /// again, with the same text.
-  void follow(const QString& text, int percent, const std::function<void()>& cancel);
+  /// @param percent  none: nobody knows
+  void follow(const QString& text, std::optional<int> percent, const std::function<void()>& cancel);
 
   /// What is shown; empty: nothing.
   [[nodiscard]] QString text() const;

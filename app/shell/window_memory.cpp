@@ -12,6 +12,7 @@ namespace
 constexpr int kLayout = 1; // counted up when panels change names or meaning
 constexpr const char* kRecent = "recentFiles";
 constexpr const char* kTheme = "theme";
+constexpr const char* kGreeted = "greeted";
 
 QSettings settings()
 {
@@ -54,6 +55,14 @@ void WindowMemory::forgetRecentFile(const QString& file) const
   QStringList files = recentFiles();
   files.removeAll(QFileInfo(file).absoluteFilePath());
   settings().setValue(kRecent, files);
+}
+
+bool WindowMemory::isFirstTime() const
+{
+  QSettings kept = settings();
+  const bool isFirst = !kept.value(kGreeted).toBool();
+  kept.setValue(kGreeted, true);
+  return isFirst;
 }
 
 int WindowMemory::theme() const

@@ -22,6 +22,9 @@ public:
   void addRecentFile(const QString& file) const;
   void forgetRecentFile(const QString& file) const;
 
+  /// True once.
+  [[nodiscard]] bool isFirstTime() const;
+
   /// The number of a Theme; 0 where none was ever set.
   [[nodiscard]] int theme() const;
   void setTheme(int theme) const;

@@ -1,6 +1,11 @@
 #include "app/window/vtkPalpPressStyle.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkMath.h>
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindow.h>
@@ -134,6 +139,46 @@ void vtkPalpPressStyle::RollWheel(int notches)
 }
 
 //------------------------------------------------------------------------------
+void vtkPalpPressStyle::OnKeyPress()
+{
+  struct Key
+  {
+    const char* Name;
+    int Right;
+    int Up;
+    int Deeper;
+    int Nearer;
+  };
+  static constexpr std::array<Key, 10> kKeys{ { { "Left", -1, 0, 0, 0 }, { "Right", 1, 0, 0, 0 },
+    { "Up", 0, 1, 0, 0 }, { "Down", 0, -1, 0, 0 }, { "Next", 0, 0, 1, 0 }, { "Prior", 0, 0, -1, 0 },
+    { "plus", 0, 0, 0, 1 }, { "minus", 0, 0, 0, -1 }, { "KP_Add", 0, 0, 0, 1 },
+    { "KP_Subtract", 0, 0, 0, -1 } } };
+  constexpr double kTurn = 5.0; // [degrees]
+  constexpr double kZoom = 1.1;
+  const char* name = this->Interactor->GetKeySym();
+  const auto* key = std::find_if(kKeys.begin(), kKeys.end(),
+    [name](const Key& each) { return name && std::strcmp(name, each.Name) == 0; });
+  if (key == kKeys.end())
+  {
+    return;
+  }
+  const bool moves = key->Right != 0 || key->Up != 0;
+  if (key->Nearer != 0 || (moves && this->Interactor->GetControlKey()))
+  {
+    this->Turn();
+    const int* at = this->Interactor->GetEventPosition();
+    this->FindPokedRenderer(at[0], at[1]);
+    this->InvokeEvent(vtkCommand::StartInteractionEvent);
+    key->Nearer != 0 ? this->Dolly(std::pow(kZoom, key->Nearer))
+                     : this->RotateBy(-kTurn * key->Right, -kTurn * key->Up);
+  }
+  else
+  {
+    moves ? this->Slide(key->Right, key->Up) : this->Deepen(key->Deeper);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkPalpPressStyle::OnLeave()
 {
   if (!this->Pressing) // a drag may go on beyond the view
@@ -153,12 +198,19 @@ void vtkPalpPressStyle::Rotate()
   const int* now = this->Interactor->GetEventPosition();
   const int* before = this->Interactor->GetLastEventPosition();
   const int* size = this->CurrentRenderer->GetRenderWindow()->GetSize();
+  this->RotateBy((before[0] - now[0]) * kDegrees / size[0] * this->MotionFactor,
+    (before[1] - now[1]) * kDegrees / size[1] * this->MotionFactor);
+}
+
+//------------------------------------------------------------------------------
+void vtkPalpPressStyle::RotateBy(double azimuth, double elevation)
+{
   vtkCamera& camera = *this->CurrentRenderer->GetActiveCamera();
   const auto pivot = this->Pivot();
   camera.OrthogonalizeViewUp();
   const Vector kept = pivot ? InView(camera, *pivot) : Vector{};
-  camera.Azimuth((before[0] - now[0]) * kDegrees / size[0] * this->MotionFactor);
-  camera.Elevation((before[1] - now[1]) * kDegrees / size[1] * this->MotionFactor);
+  camera.Azimuth(azimuth);
+  camera.Elevation(elevation);
   camera.OrthogonalizeViewUp();
   if (pivot)
   {

@@ -13,7 +13,8 @@
  * Moving hovers; the left button presses where it went down and dragging down goes deeper; the
  * wheel changes a depth that stays while the pointer slides over the surface. Right drag turns,
  * about the contact where there is one; middle drag shifts; right drag with Ctrl or wheel with Ctrl
- * brings nearer what is below the pointer.
+ * brings nearer what is below the pointer. The arrow keys slide the tool, with Ctrl they turn the
+ * view; Page Down and Up change the depth, + and - the distance.
  */
 class vtkPalpPressStyle : public vtkInteractorStyleTrackballCamera
 {
@@ -27,7 +28,9 @@ public:
   std::function<void(int pixelsDown)> Drag;
   std::function<void()> Release;
   std::function<void(int notches)> Wheel;
-  std::function<void()> Turn; ///< the view changes below the pointer
+  std::function<void(int right, int up)> Slide; ///< by steps of the keys
+  std::function<void(int steps)> Deepen;        ///< likewise
+  std::function<void()> Turn;                   ///< the view changes below the pointer
   std::function<std::optional<std::array<double, 3>>()> Pivot; ///< [m]; none: of the camera
   std::function<void()> Leave; ///< the pointer left the view, with no button down
 
@@ -41,6 +44,7 @@ public:
   void OnMouseWheelBackward() override;
   void OnLeave() override;
   void Rotate() override;
+  void OnKeyPress() override;
   void OnChar() override
   {
   } // the letters of the toolkit's default would surprise
@@ -55,6 +59,7 @@ private:
   void operator=(const vtkPalpPressStyle&) = delete;
 
   void RollWheel(int notches);
+  void RotateBy(double azimuth, double elevation);
 
   bool Pressing = false;
   int PressedAt = 0; // y of the pointer when the button went down

@@ -15,6 +15,7 @@
 #include "app/window/vtkPalpPressStyle.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "pipeline/figure/fast_pass.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -54,6 +55,7 @@ Window::Window(Session& session, BuildTrace& trace)
   : session_(session)
   , view_(*renderer_)
   , around_(*renderer_)
+  , fast_(fastPass())
   , orientation_(*renderer_)
   , scaleBar_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
@@ -151,6 +153,7 @@ void Window::refresh()
   frames_->start(kFrameMs);
   takeSamples();
   sayWhatIsThinned();
+  pressQueued();
   aim(); // a click ends by itself
   fitView();
   const Sample& sample = sampleToShow();
@@ -169,7 +172,7 @@ void Window::refresh()
     chartsAreStale_ = true; // the section
     view_.show(shown_);
     still_ = 0;
-    renderer_->UseFXAAOff();
+    setSmooth(false);
     renderWindow_->Render();
     showReadings();
   }
@@ -188,22 +191,11 @@ void Window::fitView()
   }
 }
 
-void Window::keepView()
-{
-  fittedTo_.reset();
-  still_ = 0;
-  renderer_->UseFXAAOff();
-}
-
 // all that tells of the press is of the one sample that the picture shows; of the device, live
 void Window::showReadings()
 {
   const Sample& live = review_ ? session_.newest() : shown_;
   devicePanel_->show(session_, live, acted_ | live.flags);
-  if (validityPanel_)
-  {
-    showValidity(shown_);
-  }
   const Contact& contact = shown_.contact;
   const Calibration& calibration = calibrationShown();
   forceLabel_->setText(!contact.touching()
@@ -221,7 +213,14 @@ void Window::refreshPanels()
   acted_ = std::exchange(acting_, 0);
   followMap();
   showReadings();
-  chartsAreStale_ |= pressList_ != nullptr && pressList_->refresh();
+  if (validityPanel_)
+  {
+    showValidity(shown_);
+  }
+  if (pressList_ != nullptr && pressList_->refresh())
+  {
+    showTicked();
+  }
   if (std::exchange(chartsAreStale_, false))
   {
     refreshCharts();

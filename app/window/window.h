@@ -5,6 +5,8 @@
 #include "app/press/review.h"
 #include "app/session/pointer_tool.h"
 #include "app/session/session.h"
+#include "app/shell/background.h"
+#include "app/shell/message_bar.h"
 #include "app/shell/window_memory.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
@@ -17,8 +19,13 @@
 #include <QMainWindow>
 #include <QUndoStack>
 #include <vtkNew.h>
+#include <vtkRenderPass.h>
+#include <vtkSmartPointer.h>
 
+#include <atomic>
 #include <cstdint>
+#include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,9 +43,10 @@ namespace palp
 {
 
 class Autosave;
+struct ExportFolder;
+struct Exported;
 class DevicePanel;
 class DiagnosticsPanel;
-class MessageBar;
 class OrganList;
 class PlayBar;
 class PressBar;
@@ -65,10 +73,14 @@ public:
   /// @param autosave  outlives the window and its session
   void saveTo(Autosave& autosave);
 
+  /// Says how to begin, where nobody has yet.
+  void greet();
+
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
 
-  bool openFile(const QString& file);      // asks for what the file does not tell
-  bool loadPresses(const QString& folder); // of an export
+  bool openFile(const QString& file);       // a body; asks for what the file does not tell
+  bool openFiles(const QStringList& files); // of any kind that is read, or folders
+  bool loadPresses(const QString& folder);  // of an export
   bool saveScreenshot(const QString& file);
   bool saveFigure(const QString& file, ImageSize size, const FigureLook& look);
   bool saveReplay(const QString& file);    // a movie, which gets the ending of what it is
@@ -108,7 +120,11 @@ private:
   void addOpening(QMenu& file);
   void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);
-  void openBody(const std::vector<MeshSource>& meshes);
+  bool openBody(const std::vector<MeshSource>& meshes);
+  void openOther(const QString& file);
+  void openScene(const QString& file);
+  void openPlaces(const QString& file);
+  void pressQueued();
   void openRecent(const QString& file);
   void makeHelpMenu();
   void makeToolBar();
@@ -141,8 +157,10 @@ private:
   [[nodiscard]] const StiffnessMap* currentMap() const;
 
   void makePressList();
+  void showTicked();
   void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);
   void fitPressed(int id);
+  std::size_t addTake(const ExportFolder& folder);
   void restorePresses();
   void sayListed(const QString& how, std::size_t presses);
   void renamePress(int id, const QString& name);
@@ -150,6 +168,7 @@ private:
   [[nodiscard]] SightLine sightLine(double x, double y);
   void aim();
   void followPointer();
+  void slide(int right, int up);
   void letGo();
 
   // what is played: a device's path, or what was recorded
@@ -180,6 +199,7 @@ private:
   void fitView();
   void takeTheme();
   void keepView();
+  void setSmooth(bool smooth);
   void smoothen();
   void showReadings();
   void refreshPanels();
@@ -195,10 +215,12 @@ private:
   void sayWritten(const QString& curves, const QString& what); // to that file
   void askFigure();
   bool attempt(const std::function<void()>& work);
-  [[nodiscard]] ScenePlan stageTake(const std::filesystem::path& folder, const SceneBody& body,
-    Recording& recording, const Calibration& calibration) const;
-  void exportTake(const QString& directory, const SceneBody& body, Recording recording,
-    const Calibration& calibration, const Timing* timing);
+  template <typename Made>
+  std::optional<Made> inBackground(
+    const QString& what, const std::function<Made(const std::atomic<bool>& isWanted)>& work);
+  [[nodiscard]] Exported exported(const Pictured& seen);
+  bool exportTake(const QString& directory, const Pictured& seen, const Timing* timing);
+  bool exportMap(const std::filesystem::path& folder, const StiffnessMap& map);
   bool saveMovie(const QString& file, MovieKind kind);
   bool exportInto(const QString& directory);
   [[nodiscard]] CameraPlace cameraPlace() const;
@@ -210,6 +232,7 @@ private:
   vtkNew<vtkPalpPressStyle> style_;
   PressView view_;
   Surroundings around_;
+  const vtkSmartPointer<vtkRenderPass> fast_;
   Orientation orientation_;
   ScaleBar scaleBar_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
@@ -246,6 +269,7 @@ private:
   PlotPanel* plots_ = nullptr;             // null: never shown
   OrganList* organs_ = nullptr;            // null: there was one body at the start
   PressBar* pressBar_ = nullptr;
+  std::deque<PressPlace> queued_;  // to be pressed
   QString refusedPlace_;           // why the last press at a place was not made
   PressList* pressList_ = nullptr; // null: no sample is kept
   QUndoStack undo_;
@@ -261,6 +285,18 @@ private:
   QLabel* forceLabel_ = nullptr;
   MessageBar* message_ = nullptr;
   DiagnosticsPanel* diagnostics_ = nullptr;
+  Background background_;
 };
+
+/// Makes something while the window goes on, with a bar to cancel it by; none: it was canceled.
+template <typename Made>
+std::optional<Made> Window::inBackground(
+  const QString& what, const std::function<Made(const std::atomic<bool>& isWanted)>& work)
+{
+  auto made = background_.make<Made>(
+    work, [&] { message_->follow(what, {}, [this] { background_.giveUp(); }); });
+  message_->text() == what ? message_->tell({}) : void();
+  return made;
+}
 
 } // namespace palp

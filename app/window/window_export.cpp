@@ -17,14 +17,24 @@
 #include <vtkRenderer.h>
 
 #include <QAction>
-#include <QEventLoop>
 #include <QProcess>
 #include <QTemporaryDir>
 
-#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <utility>
 
 namespace palp
 {
+
+// what a file is made from, on a thread of its own
+struct Exported
+{
+  ScenePlan plan;
+  Recording recording;
+  Calibration calibration;
+};
+
 namespace
 {
 
@@ -36,25 +46,34 @@ struct Ended
   QString said; // in one sentence
 };
 
-// palp run, while the window goes on
-Ended runPalp(const QStringList& arguments)
+// palp run; what is not wanted any more ends, and leaves nothing behind
+Ended runPalp(const QStringList& arguments, const std::atomic<bool>& isWanted)
 {
+  constexpr int kEvery = 50; // [ms]
   QProcess palp;
-  QEventLoop untilEnd;
-  QObject::connect(
-    &palp, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), &untilEnd, &QEventLoop::quit);
-  QObject::connect(&palp, &QProcess::errorOccurred, &untilEnd, &QEventLoop::quit);
   palp.start(QString::fromStdString((prefix() / "bin" / "palp").string()),
     QStringList{ "run" } << arguments);
+  while (isWanted && !palp.waitForFinished(kEvery) && palp.state() != QProcess::NotRunning)
+  {
+  }
   if (palp.state() != QProcess::NotRunning)
   {
-    untilEnd.exec(QEventLoop::ExcludeUserInputEvents);
+    palp.terminate();
+    palp.waitForFinished();
   }
   const bool isWell =
-    palp.error() == QProcess::UnknownError && palp.exitStatus() == QProcess::NormalExit;
+    palp.error() != QProcess::FailedToStart && palp.exitStatus() == QProcess::NormalExit;
   const QStringList lines =
     QString::fromLocal8Bit(palp.readAllStandardError()).split('\n', Qt::SkipEmptyParts);
   return { isWell ? palp.exitCode() : -1, lines.isEmpty() ? palp.errorString() : lines.last() };
+}
+
+void throwUnlessWell(const Ended& ended)
+{
+  if (ended.code != 0)
+  {
+    throw Error(ErrorCode::BadFile, ended.said.toStdString());
+  }
 }
 
 QString filesFoundIn(const std::filesystem::path& directory)
@@ -79,6 +98,56 @@ std::filesystem::path pathOf(const QTemporaryDir& folder)
   return folder.path().toStdString();
 }
 
+// what was recorded goes into a folder of its own, from which all else is made
+void stage(const std::filesystem::path& folder, Exported& made)
+{
+  if (!made.plan.allSamples)
+  {
+    keepContact(made.recording);
+  }
+  writeSamples(folder / "samples.csv", made.recording, &made.calibration);
+  writeProvenance(folder, made.plan, made.recording);
+}
+
+void writeExport(const QString& directory, const QTemporaryDir& folder, Exported made,
+  const std::atomic<bool>& isWanted)
+{
+  stage(pathOf(folder), made);
+  Ended ended{ kNoPicture, {} };
+  for (const bool draws : { true, false })
+  {
+    if (ended.code == kNoPicture)
+    {
+      made.plan.picture = draws;
+      made.plan.plots = draws ? made.plan.plots : std::vector<PlotKind>{};
+      writeScene(pathOf(folder), made.plan, "");
+      ended = runPalp({ folder.path(), "--overwrite", "--out", directory }, isWanted);
+    }
+  }
+  throwUnlessWell(ended);
+}
+
+// the file that was written, whose ending tells what it is
+std::filesystem::path writeMovie(
+  std::filesystem::path to, MovieKind kind, Exported made, const std::atomic<bool>& isWanted)
+{
+  const QTemporaryDir folder;
+  const QTemporaryDir drawn;
+  stage(pathOf(folder), made);
+  made.plan.picture = made.plan.deformed = false;
+  made.plan.plots.clear();
+  writeScene(pathOf(folder), made.plan, "");
+  const std::string& name = kMovieNames[static_cast<std::size_t>(kind)];
+  throwUnlessWell(runPalp({ folder.path(), "--movie", QString::fromStdString(name), "--overwrite",
+                            "--out", drawn.path() },
+    isWanted));
+  std::filesystem::path from = pathOf(drawn) / (name + ".mp4");
+  from.replace_extension(std::filesystem::exists(from) ? ".mp4" : ".ogv");
+  to.replace_extension(from.extension());
+  replaceFile(to, readText(from, "the movie"));
+  return to;
+}
+
 } // namespace
 
 CameraPlace Window::cameraPlace() const
@@ -100,52 +169,19 @@ void Window::lookFrom(const CameraPlace& place)
   isStale_ = true;
 }
 
-ScenePlan Window::stageTake(const std::filesystem::path& folder, const SceneBody& body,
-  Recording& recording, const Calibration& calibration) const
+// a copy, as the window goes on
+Exported Window::exported(const Pictured& seen)
 {
-  ScenePlan plan = planOf(session_.plan(), body, recording);
-  plan.allSamples = allSamplesExport_->isChecked();
-  plan.refined = refinedExport_->isChecked();
-  plan.camera = cameraPlace();
-  if (!plan.allSamples)
-  {
-    keepContact(recording);
-  }
-  writeSamples(folder / "samples.csv", recording, &calibration);
-  writeProvenance(folder, plan, recording);
-  return plan;
-}
-
-// what was recorded goes into a folder of its own, from which the exported one is made
-void Window::exportTake(const QString& directory, const SceneBody& body, Recording recording,
-  const Calibration& calibration, const Timing* timing)
-{
-  const QTemporaryDir stage;
-  const std::filesystem::path folder = pathOf(stage);
+  Recording recording = seen.recording;
   recording.names = session_.presses().namesIn(recording);
-  ScenePlan plan = stageTake(folder, body, recording, calibration);
-  if (timing)
-  {
-    writeTiming(folder / "servo.csv", *timing);
-  }
-  Ended ended{ kNoPicture, {} };
-  for (const bool draws : { true, false })
-  {
-    if (ended.code == kNoPicture)
-    {
-      plan.picture = draws;
-      plan.plots = draws ? plan.plots : std::vector<PlotKind>{};
-      writeScene(folder, plan, "");
-      ended = runPalp({ stage.path(), "--overwrite", "--out", directory });
-    }
-  }
-  if (ended.code != 0)
-  {
-    throw Error(ErrorCode::BadFile, ended.said.toStdString());
-  }
+  ScenePlan plan = planOf(session_.plan(), seen.body, recording);
+  Exported made{ std::move(plan), std::move(recording), seen.calibration };
+  made.plan.allSamples = allSamplesExport_->isChecked();
+  made.plan.refined = refinedExport_->isChecked();
+  made.plan.camera = cameraPlace();
+  return made;
 }
 
-// drawn by palp run, while the window goes on
 bool Window::saveMovie(const QString& file, MovieKind kind)
 {
   return attempt(
@@ -157,29 +193,11 @@ bool Window::saveMovie(const QString& file, MovieKind kind)
       {
         throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
       }
-      const QTemporaryDir stage;
-      const QTemporaryDir made;
-      const SceneBody body = seen.body;
-      const Calibration calibration = seen.calibration;
-      Recording recording = seen.recording;
-      ScenePlan plan = stageTake(pathOf(stage), body, recording, calibration);
-      plan.picture = plan.deformed = false;
-      plan.plots.clear();
-      writeScene(pathOf(stage), plan, "");
-      say(tr("Drawing the movie…"));
-      const std::string& name = kMovieNames[static_cast<std::size_t>(kind)];
-      const Ended ended = runPalp({ stage.path(), "--movie", QString::fromStdString(name),
-        "--overwrite", "--out", made.path() });
-      if (ended.code != 0)
-      {
-        throw Error(ErrorCode::BadFile, ended.said.toStdString());
-      }
-      std::filesystem::path from = pathOf(made) / (name + ".mp4");
-      from.replace_extension(std::filesystem::exists(from) ? ".mp4" : ".ogv");
-      std::filesystem::path to = file.toStdString();
-      to.replace_extension(from.extension());
-      replaceFile(to, readText(from, "the movie"));
-      say(tr("Written to %1").arg(QString::fromStdString(to.string())));
+      const auto written = inBackground<std::filesystem::path>(tr("Drawing the movie"),
+        [made = exported(seen), to = file.toStdString(), kind](const std::atomic<bool>& isWanted)
+        { return writeMovie(to, kind, made, isWanted); });
+      say(written ? tr("Written to %1").arg(QString::fromStdString(written->string()))
+                  : tr("No movie: it was canceled"));
     });
 }
 
@@ -205,6 +223,36 @@ bool Window::exportData(const QString& directory)
   return false;
 }
 
+// false: canceled
+bool Window::exportTake(const QString& directory, const Pictured& seen, const Timing* timing)
+{
+  const auto stage = std::make_shared<QTemporaryDir>();
+  if (timing)
+  {
+    writeTiming(pathOf(*stage) / "servo.csv", *timing);
+  }
+  return inBackground<bool>(tr("Exporting"),
+    [made = exported(seen), directory, stage](const std::atomic<bool>& isWanted)
+    {
+      writeExport(directory, *stage, made, isWanted);
+      return true;
+    })
+    .has_value();
+}
+
+bool Window::exportMap(const std::filesystem::path& folder, const StiffnessMap& map)
+{
+  return inBackground<bool>(tr("Exporting the map"),
+    [folder, map, body = session_.body(), rated = session_.recording().rated](
+      const std::atomic<bool>&)
+    {
+      writeMap(folder, map, body, rated);
+      isExport(folder) ? addToProvenance(folder, { kMapTable, kMapSurface }) : void();
+      return true;
+    })
+    .has_value();
+}
+
 bool Window::exportInto(const QString& directory)
 {
   return attempt(
@@ -212,27 +260,29 @@ bool Window::exportInto(const QString& directory)
     {
       takeSamples();
       const std::filesystem::path folder = directory.toStdString();
-      say(tr("Exporting…"));
       QStringList written;
+      bool goesOn = true;
       if (session_.recording().deepest() != nullptr || session_.earlier().empty())
       {
-        exportTake(directory, session_.body(), session_.recording(), session_.calibration(),
-          &session_.timing());
+        goesOn = exportTake(directory, recorded(0), &session_.timing());
         written << tr("scene, samples, presses, deformed mesh and pictures");
       }
-      for (std::size_t i = 0; i < session_.earlier().size(); ++i)
+      for (std::size_t i = 0; goesOn && i < session_.earlier().size(); ++i)
       {
         const std::filesystem::path name = earlierTake("", i + 1);
-        const Session::Take take = session_.earlier()[i]; // the window goes on
-        exportTake(QString::fromStdString((folder / name).string()), take.body, take.recording,
-          take.calibration, nullptr);
+        goesOn = exportTake(QString::fromStdString((folder / name).string()),
+          recorded(session_.earlier().size() - i), nullptr);
         written << QString::fromStdString(name.string());
       }
-      if (const StiffnessMap* map = currentMap())
+      if (const StiffnessMap* map = currentMap(); goesOn && map)
       {
-        writeMap(folder, *map, session_.body(), session_.recording().rated);
-        isExport(folder) ? addToProvenance(folder, { kMapTable, kMapSurface }) : void();
+        goesOn = exportMap(folder, *map);
         written << tr("stiffness map");
+      }
+      if (!goesOn)
+      {
+        say(tr("Not exported whole: it was canceled"));
+        return;
       }
       autosave_ != nullptr ? autosave_->clear() : void();
       say(tr("Written to %1: %2").arg(directory, written.join(", ")));

@@ -21,6 +21,16 @@
 
 namespace palp
 {
+namespace
+{
+
+QString fileName(const MeshSource& source)
+{
+  return QString::fromStdString(
+    source.bundled.empty() ? source.file.filename().string() : source.bundled);
+}
+
+} // namespace
 
 void Window::addOpening(QMenu& file)
 {
@@ -28,13 +38,10 @@ void Window::addOpening(QMenu& file)
     tr("&Open…"), this,
     [this]
     {
-      const QString name = QFileDialog::getOpenFileName(this, tr("Open surface or image"), {},
-        tr("Surfaces and images (*.stl *.obj *.ply *.off *.vtk *.vtp %1);;All files (*)")
-          .arg(kImageFiles));
-      if (!name.isEmpty())
-      {
-        openFile(name);
-      }
+      openFiles(QFileDialog::getOpenFileNames(this, tr("Open"), {},
+        tr("Surfaces, images, scenes, places, paths (*.stl *.obj *.ply *.off *.vtk *.vtp *.vtu %1 "
+           "*.json *.fcsv *.csv);;All files (*)")
+          .arg(kImageFiles)));
     },
     QKeySequence::Open);
   opening->setObjectName("openAction");
@@ -123,28 +130,42 @@ void Window::say(const QString& what)
   message_->tell(what);
 }
 
-void Window::openBody(const std::vector<MeshSource>& meshes)
+// false: given up
+bool Window::openBody(const std::vector<MeshSource>& meshes)
 {
+  std::optional<SceneBody> body =
+    inBackground<SceneBody>(tr("Reading %1").arg(fileName(meshes.front())),
+      [meshes](const std::atomic<bool>&) { return loadBody(meshes); });
+  if (!body)
+  {
+    return false;
+  }
   takeSamples();
-  session_.open(meshes);
+  session_.open(*std::move(body));
   clearCharts();
   showBody();
   pressBar_->clearPlace();
+  return true;
 }
 
 bool Window::openFile(const QString& file)
 {
-  const auto open = [this](const MeshSource& source) { openBody({ source }); };
+  MeshSource source{ .file = file.toStdString() };
+  std::optional<OpenDialog> dialog;
   bool opened = false;
-  try
+  for (bool isAsked = true; isAsked && !opened;)
   {
-    open({ .file = file.toStdString() });
-    opened = true;
-  }
-  catch (const std::exception& error)
-  {
-    OpenDialog dialog(file, QString::fromStdString(error.what()), open, this);
-    opened = dialog.exec() == QDialog::Accepted;
+    try
+    {
+      isAsked = opened = openBody({ source });
+    }
+    catch (const std::exception& error)
+    {
+      dialog ? void() : void(dialog.emplace(file, this));
+      dialog->setReason(QString::fromStdString(error.what()));
+      isAsked = dialog->exec() == QDialog::Accepted;
+      source = isAsked ? dialog->source() : source;
+    }
   }
   devicePanel_->choose(QString::fromStdString(session_.recording().device));
   if (opened)

@@ -261,6 +261,7 @@ void Window::makeDeviceMenu()
     tr("&Stop the force"), this,
     [this]
     {
+      queued_.clear();
       letGo();
       session_.stop(true);
       endReview();

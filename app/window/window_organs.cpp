@@ -23,6 +23,7 @@ void Window::showBody()
   organs_ != nullptr&& session_.organs().empty() ? organs_->parentWidget()->hide() : void();
   showOrgans();
   fittedTo_ = std::pair(0, 0);
+  queued_.clear();
   dropMap();
 }
 

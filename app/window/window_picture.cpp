@@ -128,13 +128,27 @@ void Window::addBodyLooks(QMenu& menu)
   menu.addSeparator();
 }
 
+void Window::keepView()
+{
+  fittedTo_.reset();
+  still_ = 0;
+  setSmooth(false);
+}
+
+// what lies behind each other is seen in its order by the slow way alone
+void Window::setSmooth(bool smooth)
+{
+  renderer_->SetUseFXAA(smooth);
+  renderer_->SetPass(smooth || view_.look().isTranslucent ? nullptr : fast_.Get());
+}
+
 // what moves is drawn as soon as can be, what stands still with smooth edges
 void Window::smoothen()
 {
   constexpr int kStill = 12; // pictures
   if (++still_ == kStill)
   {
-    renderer_->UseFXAAOn();
+    setSmooth(true);
     renderWindow_->Render();
   }
 }

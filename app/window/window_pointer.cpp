@@ -8,13 +8,16 @@
 #include "haptics/error.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
 #include <QEvent>
 #include <QTimer>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace palp
 {
@@ -74,6 +77,14 @@ void Window::makePointer()
   style_->Wheel = [this](int notches)
   {
     pointer_.wheel(notches);
+    followPointer();
+  };
+  style_->Slide = [this](int right, int up) { slide(right, up); };
+  style_->Deepen = [this](int steps)
+  {
+    constexpr double kStep = 0.1e-3; // [m]
+    pointer_.target() ? void() : slide(0, 0);
+    pointer_.deepen(steps * kStep);
     followPointer();
   };
   style_->Turn = [this] { pointer_.turnView(); };
@@ -153,6 +164,23 @@ void Window::followPointer()
   {
     frames_->start(kAnswerMs);
   }
+}
+
+// from where the tool is, or the middle of the picture
+void Window::slide(int right, int up)
+{
+  constexpr int kStep = 4; // [pixels]
+  const int* size = renderWindow_->GetSize();
+  double at[2]{ 0.5 * size[0], 0.5 * size[1] };
+  if (const auto target = pointer_.target())
+  {
+    renderer_->SetWorldPoint(target->position.x(), target->position.y(), target->position.z(), 1.0);
+    renderer_->WorldToDisplay();
+    std::copy_n(renderer_->GetDisplayPoint(), 2, at);
+  }
+  pointer_.hover(static_cast<int>(std::lround(at[0])) + kStep * right,
+    static_cast<int>(std::lround(at[1])) + kStep * up);
+  followPointer();
 }
 
 void Window::letGo()

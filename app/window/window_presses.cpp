@@ -8,6 +8,7 @@
 #include "app/panels/press_bar.h"
 #include "app/panels/press_list.h"
 #include "app/panels/tissue_panel.h"
+#include "app/plots/kept_presses.h"
 #include "app/press/press_fit.h"
 #include "app/shell/change.h"
 #include "app/shell/dock.h"
@@ -76,7 +77,7 @@ void Window::makePressList()
   edit->addSeparator();
   edit->addActions(pressList_->actions());
   connect(pressList_, &PressList::compareAsked, this, [this] { showPlots(tr("Presses")); });
-  connect(pressList_, &PressList::tickedChanged, this, [this] { chartsAreStale_ = true; });
+  connect(pressList_, &PressList::tickedChanged, this, &Window::showTicked);
   connect(pressList_, &PressList::fitAsked, this, &Window::fitPressed);
   connect(pressList_, &PressList::renamed, this, &Window::renamePress);
   connect(pressList_, &PressList::deleteAsked, this, &Window::deletePresses);
@@ -94,6 +95,12 @@ void Window::makePressList()
           return ForceLaw(parseTip(tool.toStdString()), law.material(), law.settings());
         });
     });
+}
+
+void Window::showTicked()
+{
+  charts_->setPresses(pressCurves(pressList_->ticked()));
+  chartsAreStale_ = true;
 }
 
 void Window::makeEditMenu()
@@ -121,6 +128,16 @@ void Window::saveTo(Autosave& autosave)
   }
 }
 
+// as earlier recordings, each on the body that was pressed
+std::size_t Window::addTake(const ExportFolder& folder)
+{
+  std::optional<Session::Take> take = inBackground<Session::Take>(tr("Pressing once more"),
+    [make = session_.takeOf(folder)](const std::atomic<bool>&) { return make(); });
+  const std::size_t found = take ? session_.add(*std::move(take)) : 0;
+  takesKept_ = session_.earlier().size();
+  return found;
+}
+
 bool Window::loadPresses(const QString& folder)
 {
   return attempt(
@@ -130,9 +147,8 @@ bool Window::loadPresses(const QString& folder)
       std::size_t loaded = 0;
       for (const std::filesystem::path& take : takesIn(folder.toStdString()))
       {
-        loaded += session_.addTake(readExport(take));
+        loaded += addTake(readExport(take));
       }
-      takesKept_ = session_.earlier().size();
       sayListed(tr("loaded from %1").arg(folder), loaded);
     });
 }
@@ -143,16 +159,14 @@ void Window::sayListed(const QString& how, std::size_t presses)
   say(tr("%1 %2: in the list of presses, and exported with the data").arg(what, how));
 }
 
-// as recordings of before, each on the body that was pressed
 void Window::restorePresses()
 {
   endReview();
   std::size_t restored = 0;
   for (const std::filesystem::path& folder : autosave_->adopt())
   {
-    attempt([&] { restored += session_.addTake(readExport(folder)); });
+    attempt([&] { restored += addTake(readExport(folder)); });
   }
-  takesKept_ = session_.earlier().size();
   if (restored > 0)
   {
     sayListed(tr("restored"), restored);

@@ -1,6 +1,5 @@
 // What a window of any program has: recent files, drag and drop, panels, help, a bar of tools.
 
-#include "app/folder/export_folder.h"
 #include "app/shell/key_sheet.h"
 #include "app/window/window.h"
 
@@ -39,6 +38,7 @@ QStringList filesOf(const QMimeData& dragged)
 
 void Window::closeEvent(QCloseEvent* event)
 {
+  background_.giveUp();
   memory_.save(*this);
   QMainWindow::closeEvent(event);
 }
@@ -59,16 +59,7 @@ void Window::dropEvent(QDropEvent* event)
     return;
   }
   event->acceptProposedAction();
-  if (isExport(files.front().toStdString()))
-  {
-    loadPresses(files.front());
-  }
-  else if (openFile(files.front()) && files.size() > 1)
-  {
-    say(tr("Opened %1, the first of %2 files: one body is pressed at a time")
-          .arg(QFileInfo(files.front()).fileName())
-          .arg(files.size()));
-  }
+  openFiles(files);
 }
 
 // listed when it is looked at, as another window may have opened more
@@ -98,7 +89,7 @@ void Window::openRecent(const QString& file)
 {
   if (QFileInfo::exists(file))
   {
-    openFile(file);
+    openFiles({ file });
     return;
   }
   memory_.forgetRecentFile(file);
@@ -120,6 +111,14 @@ void Window::addPanels(QMenu& menu)
     });
 }
 
+void Window::greet()
+{
+  if (memory_.isFirstTime())
+  {
+    say(tr("Drag down on the liver to press it; H shows all keys and what the mouse does"));
+  }
+}
+
 void Window::makeHelpMenu()
 {
   QMenu* help = menuBar()->addMenu(tr("&Help"));
@@ -130,8 +129,9 @@ void Window::makeHelpMenu()
         { tr("Click"), tr("Press 1 mm") },
         { tr("Wheel"), tr("Hold a depth while the tool slides") },
         { tr("Place, Return"), tr("Press at a place that is typed above the picture") },
-        { tr("Right-drag"), tr("Rotate the view") }, { tr("Middle-drag"), tr("Move the view") },
-        { tr("Ctrl+wheel"), tr("Zoom") } };
+        { tr("Arrows, Page Down or Up"), tr("In the picture: slide, press 0.1 mm deeper or less") },
+        { tr("Right-drag, Ctrl+arrows"), tr("Rotate the view") },
+        { tr("Middle-drag"), tr("Move the view") }, { tr("Ctrl+wheel, + or -"), tr("Zoom") } };
       showKeySheet(*this, mouse, *menuBar());
     });
   keys->setObjectName("keysAction");

@@ -5,13 +5,20 @@
 #include <QComboBox>
 #include <QImage>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <QWheelEvent>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
+#include <string>
 #include <vtkAxis.h>
+#include <vtkDataArray.h>
+#include <vtkPen.h>
 #include <vtkPlot.h>
 #include <vtkTable.h>
 
@@ -106,6 +113,54 @@ TEST_F(WindowCharts, AreSavedAtTheSizeThatIsAskedFor)
     const std::string text{ std::istreambuf_iterator<char>(svg), {} };
     EXPECT_NE(text.find(which == 0 ? "time [s]" : "depth"), std::string::npos);
   }
+}
+
+// a curve of its own for each press, which outlives a change of the tool and is hidden by its name
+TEST_F(WindowCharts, ShowEachTickedPressInAColorOfItsOwn)
+{
+  auto* rows = window_->findChild<QTreeWidget*>("pressRows");
+  for (const int presses : { 1, 2 })
+  {
+    press(60 * presses);
+    release();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return rows->topLevelItemCount() == presses; }, kPatience));
+    window_->findChild<QComboBox*>("kind")->setCurrentIndex(2); // a punch, for the second
+  }
+  vtkPalpChart& depth = chart("depthChart");
+  const auto shown = [&depth]
+  {
+    std::map<std::string, vtkPlot*> byName;
+    for (vtkIdType i = 0; i < depth.GetNumberOfPlots(); ++i)
+    {
+      byName[depth.GetPlot(i)->GetLabel()] = depth.GetPlot(i);
+    }
+    return byName;
+  };
+  std::map<std::string, vtkPlot*> curves = shown();
+  ASSERT_TRUE(curves.contains("press 1") && curves.contains("press 2"));
+  const auto largest = [](vtkPlot* plot, vtkIdType column)
+  { return vtkDataArray::SafeDownCast(plot->GetInput()->GetColumn(column))->GetRange()[1]; };
+  for (const auto& press : session_->presses().presses())
+  {
+    vtkPlot* curve = curves[press.summary.name];
+    EXPECT_NEAR(largest(curve, 0), 1e3 * press.summary.deepest.depth, 1e-4);
+    EXPECT_NEAR(largest(curve, 1), press.summary.force, 1e-5);
+  }
+  std::set<std::array<unsigned char, 3>> colors;
+  for (const auto& [name, plot] : curves)
+  {
+    const vtkColor4ub color = plot->GetPen()->GetColorObject();
+    name.empty() ? void() : void(colors.insert({ color[0], color[1], color[2] }));
+  }
+  EXPECT_EQ(colors.size(), 4U) << "model, recorded and two presses";
+
+  rows->topLevelItem(0)->setCheckState(0, Qt::Unchecked);
+  EXPECT_FALSE(shown().contains("press 1"));
+  depth.SetCurveShown("press 2", false);
+  EXPECT_FALSE(shown().at("press 2")->GetVisible());
+  const std::filesystem::path file = folder_.path() / "depth.csv";
+  ASSERT_TRUE(window_->saveChart(1, QString::fromStdString(file.string()), {}));
+  EXPECT_NE(test::readAll(file).find("press 2"), std::string::npos);
 }
 
 TEST(FigureDialog, TakesAnySizeUpToItsLimit)

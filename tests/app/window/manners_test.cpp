@@ -13,13 +13,16 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
 #include <QUrl>
 
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <variant>
 
 namespace palp
 {
@@ -154,9 +157,56 @@ TEST_F(Manners, TakesWhatIsDropped)
   drop({ QUrl::fromLocalFile(block_) });
   EXPECT_EQ(session_->body().name, "block_50.vtp");
   EXPECT_TRUE(window_->windowTitle().contains("block_50.vtp"));
-  drop({ QUrl::fromLocalFile(PALP_SHARE "/meshes/liver.vtp"), QUrl::fromLocalFile(block_) });
-  EXPECT_EQ(session_->body().name, "liver.vtp");
+  const auto write = [this](const char* name, const char* text)
+  {
+    const auto file = folder_.path() / name;
+    std::ofstream(file) << text;
+    return QUrl::fromLocalFile(QString::fromStdString(file.string()));
+  };
+  drop({ write("tool.csv", "radius_mm,height_mm\n0,0\n2,1\n4,4\n") });
+  EXPECT_TRUE(std::holds_alternative<ProfileTip>(session_->recording().scene.law.tip()));
+  drop({ write("way.csv", "time_s,x_mm,y_mm,z_mm\n0,0,0,40\n1,0,0,39\n") });
+  EXPECT_TRUE(session_->recording().device.starts_with("path:")) << said().toStdString();
+  drop({ write("block.json",
+    R"({"palp_scene": 1, "meshes": [{"bundled": "block_30"}], "tool": "cone:30deg:8mm",
+        "tissue": {"young": "20kPa", "poisson": 0.4}, "law": {"mode": "paper"}, "device": "mouse",
+        "dent": {"surface": "paper"}})") });
+  EXPECT_EQ(session_->body().name, "block_30.vtp") << said().toStdString();
+  EXPECT_TRUE(std::holds_alternative<ConeTip>(session_->recording().scene.law.tip()));
+  EXPECT_NEAR(session_->recording().scene.law.material().youngModulus, 20e3, 1e-6);
+  drop({ write("nothing.json", "{") });
+  EXPECT_TRUE(said().contains("nothing.json"));
+  drop({ QUrl::fromLocalFile(PALP_SHARE "/meshes/sphere_30.vtp"), QUrl::fromLocalFile(block_) });
+  EXPECT_EQ(session_->body().name, "sphere_30.vtp + block_50.vtp");
   EXPECT_TRUE(said().contains("one body")) << "says so";
+}
+
+// first start: a hint, which goes by itself and comes once
+TEST_F(Manners, GreetsOnce)
+{
+  window_->greet();
+  EXPECT_TRUE(said().contains("Drag down"));
+  auto* bar = window_->findChild<MessageBar*>();
+  EXPECT_TRUE(QTest::qWaitFor([bar] { return !bar->isVisible(); }, kPatience));
+  window_->greet();
+  EXPECT_TRUE(said().isEmpty());
+}
+
+// what it is, in which unit, within which range
+TEST_F(Manners, EveryQuantityTellsItsSymbolItsUnitAndItsRange)
+{
+  const QRegularExpression told("^.{1,4} \\[.+\\], (more than 0|0 or more|0 to )|^\u03b4 \\[mm\\]");
+  int quantities = 0;
+  for (const QAbstractSpinBox* box : window_->findChildren<QAbstractSpinBox*>())
+  {
+    if (qobject_cast<const QDockWidget*>(box->parentWidget()) == nullptr)
+    {
+      EXPECT_TRUE(told.match(box->toolTip()).hasMatch())
+        << box->objectName().toStdString() << ": " << box->toolTip().toStdString();
+      ++quantities;
+    }
+  }
+  EXPECT_GE(quantities, 9);
 }
 
 TEST_F(Manners, TheBarOfToolsDoesWhatTheMenusDo)

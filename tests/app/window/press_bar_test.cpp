@@ -1,6 +1,8 @@
 #include "tests/app/window/window_rig.h"
 #include "tests/support/csv_table.h"
 
+#include <QAbstractItemView>
+#include <QCompleter>
 #include <QLineEdit>
 #include <QPushButton>
 
@@ -91,6 +93,55 @@ TEST_F(PressBarTest, KnowsThePlaceOfAPressByTheMouse)
   }
   EXPECT_NEAR(again.contact.depth, asked, 0.02e-3);
   EXPECT_LT((again.pose.apex - byHand.pose.apex).norm(), 0.5e-3);
+}
+
+TEST_F(PressBarTest, AnArrowKeyIsATenthOfAMillimeter)
+{
+  auto* depth = window_->findChild<QAbstractSpinBox*>("pressDepth");
+  type("pressDepth", "12.3");
+  QTest::keyClick(depth, Qt::Key_Up);
+  EXPECT_EQ(depth->text(), "12.4 mm");
+  type("pressDepth", "0.4");
+  QTest::keyClick(depth, Qt::Key_Down);
+  EXPECT_EQ(depth->text(), "0.3 mm");
+}
+
+// a list of 3D Slicer: one place is chosen, or all are pressed, each as deep as asked
+TEST_F(PressBarTest, OffersAndPressesThePlacesOfAList)
+{
+  const auto file = folder_.path() / "places.fcsv";
+  std::ofstream(file)
+    << "# CoordinateSystem = LPS\n"
+       "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"
+       "a,-48.5,38.4,39.5,0,0,0,1,1,1,0,back,,\n"
+       "b,-14.8,-3.6,77.5,0,0,0,1,1,1,0,top,,\n";
+  ASSERT_TRUE(window_->openFiles({ QString::fromStdString(file.string()) }));
+  auto* field = window_->findChild<QLineEdit*>("pressPlace");
+  EXPECT_EQ(field->text(), "-48.50, 38.40, 39.50");
+  EXPECT_TRUE(said().contains("2 places"));
+  field->actions().last()->trigger();
+  const QAbstractItemModel& list = *field->completer()->popup()->model();
+  ASSERT_EQ(list.rowCount(), 2);
+  EXPECT_TRUE(list.index(1, 0).data().toString().contains("top"));
+  QTest::keyClick(field->completer()->popup(), Qt::Key_Down);
+  QTest::keyClick(field->completer()->popup(), Qt::Key_Down);
+  QTest::keyClick(field->completer()->popup(), Qt::Key_Return);
+  EXPECT_EQ(field->text(), "-14.80, -3.60, 77.50");
+
+  type("pressDepth", "2");
+  type("pressSpeed", "20 mm/s");
+  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
+  {
+    button->text() == "Press all" ? button->click() : void();
+  }
+  const auto& presses = session_->presses().presses();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return presses.size() == 2; }, 2 * kPatience));
+  const Eigen::Vector3d places[]{ { -48.5e-3, 38.4e-3, 39.5e-3 }, { -14.8e-3, -3.6e-3, 77.5e-3 } };
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_LT((presses.at(i).summary.deepest.center - places[i]).norm(), 1e-3);
+    EXPECT_NEAR(presses.at(i).summary.deepest.depth, 2e-3, 0.02e-3);
+  }
 }
 
 TEST_F(PressBarTest, RefusesInOneSentence)

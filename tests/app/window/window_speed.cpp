@@ -160,6 +160,44 @@ TEST_F(Speed, Sliding)
     window_->height(), 1e5 * (work() - before) / kTime);
 }
 
+// what a picture of a press takes where nothing moves: drawn alone, and brought to the screen
+TEST_F(Speed, Parts)
+{
+  constexpr int kPictures = 60;
+  press(60);
+  const auto timeOf = [](const std::function<void()>& draw)
+  {
+    const double before = work();
+    QElapsedTimer clock;
+    clock.start();
+    for (int i = 0; i < kPictures; ++i)
+    {
+      draw();
+    }
+    return QString("%1 ms (%2 ms of processors)")
+      .arg(1e-6 * static_cast<double>(clock.nsecsElapsed()) / kPictures, 0, 'f', 1)
+      .arg(1e3 * (work() - before) / kPictures, 0, 'f', 1)
+      .toStdString();
+  };
+  auto& window = *static_cast<vtkGenericOpenGLRenderWindow*>(canvas_->renderWindow());
+  moveTo(canvas_->rect().center() + QPoint(0, 61)); // as while it moves
+  QTest::qWait(50);
+  const auto drawn = [&]
+  {
+    window.Render();
+    window.WaitForCompletion();
+  };
+  const std::string alone = timeOf(drawn);
+  const std::string shown = timeOf(
+    [&]
+    {
+      window.Render();
+      canvas_->repaint();
+    });
+  std::printf("a picture of %d x %d pixels that nothing changes: VTK %s, with the window %s\n",
+    canvas_->width(), canvas_->height(), alone.c_str(), shown.c_str());
+}
+
 TEST_F(Speed, Idle)
 {
   QTest::qWait(5'000);

@@ -101,7 +101,7 @@ TEST_F(WindowTest, WhatFailsLeavesEverythingAsItWas)
   session_->useDevice(parseDevice("path:" + file));
   const std::string body = session_->body().name;
   std::filesystem::remove(file);
-  EXPECT_THROW(session_->open({ { .file = PALP_SHARE "/meshes/sphere_50.vtp" } }), Error);
+  EXPECT_THROW(session_->open(loadBody({ { .file = PALP_SHARE "/meshes/sphere_50.vtp" } })), Error);
   EXPECT_EQ(session_->body().name, body);
   EXPECT_EQ(session_->recording().mesh, body);
   EXPECT_EQ(session_->recording().device, "path:" + file);

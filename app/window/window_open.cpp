@@ -1,0 +1,165 @@
+// Files of every kind that the window reads, by the menu, dropped or chosen again.
+
+#include "app/folder/export_folder.h"
+#include "app/panels/press_bar.h"
+#include "app/panels/tissue_panel.h"
+#include "app/places/fiducial_file.h"
+#include "app/scene/scene_file.h"
+#include "app/window/window.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+
+#include <QFileInfo>
+
+namespace palp
+{
+namespace
+{
+
+enum class FileKind
+{
+  Body,
+  Export,
+  Scene,
+  Places,
+  Profile,
+  Path,
+  Samples,
+};
+
+// a table is told by its columns
+FileKind kindOfTable(const QString& file)
+{
+  const std::string text = readText(file.toStdString(), "the table");
+  const auto has = [&text](const char* column) { return text.find(column) != std::string::npos; };
+  return has("radius_mm,height_mm") ? FileKind::Profile
+    : has("force_N")                ? FileKind::Samples
+                                    : FileKind::Path;
+}
+
+FileKind kindOf(const QString& file)
+{
+  const auto ends = [&file](const char* ending)
+  { return file.endsWith(ending, Qt::CaseInsensitive); };
+  return isExport(file.toStdString())          ? FileKind::Export
+    : ends(".fcsv") || ends(".mrk.json")       ? FileKind::Places
+    : ends(".json")                            ? FileKind::Scene
+    : ends(".csv") && QFileInfo(file).isFile() ? kindOfTable(file)
+                                               : FileKind::Body;
+}
+
+} // namespace
+
+void Window::openOther(const QString& file)
+{
+  switch (kindOf(file))
+  {
+    case FileKind::Export:
+      loadPresses(file);
+      break;
+    case FileKind::Scene:
+      openScene(file);
+      break;
+    case FileKind::Places:
+      openPlaces(file);
+      break;
+    case FileKind::Profile:
+      panel_->askForProfile(file);
+      break;
+    case FileKind::Path:
+      applyDevice("path:" + file);
+      break;
+    case FileKind::Samples:
+      applyDevice("replay:" + file);
+      break;
+    case FileKind::Body:
+      break;
+  }
+}
+
+// bodies first, for the others are of them; several are one that has several parts
+bool Window::openFiles(const QStringList& files)
+{
+  return attempt(
+    [&]
+    {
+      std::vector<MeshSource> parts;
+      QStringList others;
+      for (const QString& file : files)
+      {
+        kindOf(file) == FileKind::Body ? parts.push_back({ .file = file.toStdString() })
+                                       : others.push_back(file);
+      }
+      if (parts.size() == 1)
+      {
+        openFile(QString::fromStdString(parts.front().file.string()));
+      }
+      else if (!parts.empty() && openBody(parts))
+      {
+        say(tr("Opened %1 as one body").arg(QString::fromStdString(session_.body().name)));
+      }
+      for (const QString& file : others)
+      {
+        openOther(file);
+      }
+    });
+}
+
+// what a window can be changed to: body, tool, tissue, law, device and view
+void Window::openScene(const QString& file)
+{
+  const ScenePlan plan = readScene(file.toStdString());
+  if (!plan.organs.empty())
+  {
+    throw Error(ErrorCode::BadValue,
+      plan.sources.front().string() + ": has several organs; open it by palp scene");
+  }
+  if (!openBody(plan.meshes))
+  {
+    return;
+  }
+  Scene scene = session_.recording().scene;
+  scene.law = plan.press.tissue.law();
+  scene.rule = plan.press.contact;
+  scene.damping = plan.press.damping;
+  panel_->setScene(scene);
+  changeTissue();
+  if (plan.device.isScript())
+  {
+    applyDevice(QString::fromStdString(plan.device.name));
+  }
+  if (plan.presses)
+  {
+    pressBar_->offer(*plan.presses);
+  }
+  if (plan.camera)
+  {
+    lookFrom(*plan.camera);
+  }
+  say(tr("Opened the scene %1").arg(QFileInfo(file).fileName()));
+}
+
+void Window::openPlaces(const QString& file)
+{
+  PlacedPresses presses = pressBar_->values();
+  presses.places = readFiducials(file.toStdString()).places;
+  pressBar_->offer(presses);
+  message_->ask(tr("%1: %2, to be chosen at Place")
+                  .arg(QFileInfo(file).fileName(),
+                    QString::fromStdString(counted(presses.places.size(), "place", "places"))),
+    { { tr("Press all"),
+      [this, places = presses.places] { queued_.assign(places.begin(), places.end()); } } });
+}
+
+// the next of several places, once the tool has left the one before
+void Window::pressQueued()
+{
+  if (!queued_.empty() && !pointer_.pressesByItself() && !session_.newest().contact.touching())
+  {
+    pressBar_->showPlace(queued_.front().position);
+    queued_.pop_front();
+    pressAtPlace();
+  }
+}
+
+} // namespace palp
