@@ -26,9 +26,7 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
     out << '\0' << '\0' << '\0' << '\2' << '\2' << '\7';
   }
   out.close();
-  MeshSource opened;
-  OpenDialog dialog(QString::fromStdString(file.string()), "why",
-    [&](const MeshSource& source) { opened = source; });
+  OpenDialog dialog(QString::fromStdString(file.string()));
   auto* list = dialog.findChild<QListWidget*>("labels");
   ASSERT_NE(list, nullptr);
   ASSERT_EQ(list->count(), 2);
@@ -37,8 +35,7 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   list->item(1)->setCheckState(Qt::Checked);
   EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "2,7");
   list->item(0)->setCheckState(Qt::Unchecked);
-  dialog.accept();
-  EXPECT_EQ(opened.part.labels, std::vector<std::string>{ "7" });
+  EXPECT_EQ(dialog.source().part.labels, std::vector<std::string>{ "7" });
 }
 
 } // namespace
