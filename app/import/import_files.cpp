@@ -128,6 +128,7 @@ std::string importScene(const ImportSource& source, const std::vector<ImportedOr
     }
     scene["organs"].push_back(std::move(json));
   }
+  scene["plots"] = { "force-time", "force-depth" };
   return textOf(scene);
 }
 

@@ -122,7 +122,7 @@ void Window::saveTo(Autosave& autosave)
   if (const std::size_t left = autosave.left().size(); left > 0)
   {
     const QString what = QString::fromStdString(counted(left, "press", "presses"));
-    message_->ask(tr("%1 of before were not exported").arg(what),
+    message_->ask(tr("Not exported yet: %1 of before").arg(what),
       { { tr("Restore"), [this] { restorePresses(); } },
         { tr("Discard"), [this] { autosave_->discard(); } } });
   }

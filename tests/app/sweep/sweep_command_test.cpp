@@ -223,7 +223,8 @@ TEST_F(Sweeping, FilesStandBesideTheSweepAndAreOfItsCases)
     ASSERT_EQ(test::sweep("run " + at(sweep)).code, 0) << sweep;
     const std::string first = merged(sweep);
     write(file, other);
-    const Finished late = test::sweep("merge " + at(sweep) + " --out " + at("late_too.csv"));
+    const Finished late =
+      test::sweep("merge " + at(sweep) + " --overwrite --out " + at("late_too.csv"));
     EXPECT_NE(late.err.find(std::string(file) + ": was edited after planning"), late.err.npos)
       << late.err;
     plan(sweep + std::string(".json"), sweep);

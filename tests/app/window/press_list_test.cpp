@@ -170,7 +170,7 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
   type("young", "50");
   Autosave after(folder_.path());
   window_->saveTo(after);
-  EXPECT_TRUE(said().startsWith("2 presses of before were not exported")) << said().toStdString();
+  EXPECT_TRUE(said().startsWith("Not exported yet: 2 presses of before")) << said().toStdString();
   for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
   {
     button->text() == "Restore" ? button->click() : void();
