@@ -145,8 +145,9 @@ TEST_F(RunCommand, TwoAtOnceDoNotMix)
 {
   const std::string out = (folder_.path() / "out").string();
   const std::string run = PALP_PROGRAM " run --out " + out;
-  const Finished both = test::runCommand(run + " >/dev/null 2>&1 & running=$!; until [ -e " + out +
-    "/.palp-* ]; do sleep 0.01; done; " + run + "; echo $?; wait $running; echo $?");
+  const Finished both = test::runCommand(run + " >/dev/null 2>&1 & running=$!; until ls -d " + out +
+    "/.palp-* >/dev/null 2>&1 || ! kill -0 $running; do sleep 0.01; done; " + run +
+    "; echo $?; wait $running; echo $?");
   EXPECT_EQ(both.out, "2\n0\n") << both.err;
   EXPECT_NE(both.err.find("another palp is writing there"), std::string::npos) << both.err;
 }
