@@ -171,16 +171,6 @@ FileOrgans found(const ImportOptions& options)
   return organs;
 }
 
-// what of an organ is in other pieces than those that were taken; empty: little
-std::string leftOut(const ImportedOrgan& organ)
-{
-  constexpr double kLittle = 0.01;
-  const double part = 1.0 - organ.enclosed / organ.voxelVolume;
-  return part < kLittle ? ""
-                        : figures::textOf(100.0 * part, 2) +
-      " % of its volume is in other pieces, which are left out; --components all takes them";
-}
-
 ImportSource sourceOf(const ImportOptions& options, const FileOrgans& organs, LengthUnit unit)
 {
   ImportSource source{ .image = describeFile(options.image), .names = options.names.filename() };
@@ -226,10 +216,6 @@ void runImport(const ImportOptions& options)
     for (const std::string& warning : organs.back().warnings)
     {
       warnings.push_back(organs.back().name + ": " + warning);
-    }
-    if (const std::string apart = leftOut(organs.back()); !apart.empty())
-    {
-      warnings.push_back(organs.back().name + ": " + apart);
     }
   }
   replaceFile(output->stage() / kImportScene, importScene(source, organs));

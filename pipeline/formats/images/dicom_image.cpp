@@ -1,6 +1,7 @@
 #include "pipeline/formats/images/dicom_image.h"
 
 #include "pipeline/formats/images/dicom_series.h"
+#include "pipeline/formats/images/dicom_values.h"
 #include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"
@@ -8,9 +9,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <gdcmImageReader.h>
-#include <gdcmTrace.h>
 #include <span>
-#include <sstream>
 #include <vector>
 #include <vtkImageData.h>
 
@@ -69,10 +68,7 @@ void checkLength(const DicomSlice& slice, const gdcm::Image& image, std::size_t 
 // GDCM fills up what a file was cut off of, and warns
 void readVoxels(const DicomSlice& slice, std::span<float> values)
 {
-  static std::ostringstream warnings; // which it keeps
-  warnings.str("");
-  gdcm::Trace::SetWarningStream(warnings);
-  gdcm::Trace::SetWarning(true);
+  listenToGdcm();
   gdcm::ImageReader reader;
   reader.SetFileName(slice.file.c_str());
   if (!reader.Read())
@@ -88,8 +84,7 @@ void readVoxels(const DicomSlice& slice, std::span<float> values)
     checkLength(slice, image, values.size() * wide);
   }
   const bool fits = bytes.size() == values.size() * wide && format.GetSamplesPerPixel() == 1;
-  if (!fits || !image.GetBuffer(bytes.data()) ||
-    warnings.str().find("own risk") != std::string::npos)
+  if (!fits || !image.GetBuffer(bytes.data()) || wasFilledUp())
   {
     refuse(slice.file, "its voxels cannot be decoded, or are cut off; export or copy it again");
   }
@@ -135,15 +130,7 @@ PatientImage readDicom(const std::filesystem::path& folder, const std::string& a
   }
   blameForACrash({});
 
-  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> place(result.toPatient);
-  place.setIdentity();
-  place.col(0).head<3>() = first.alongRow;
-  place.col(1).head<3>() = first.alongColumn;
-  place.col(2).head<3>() = first.alongRow.cross(first.alongColumn);
-  place.col(3).head<3>() = first.position;
-  result.unit = "mm";
-  result.space = "LPS";
-  result.notes.emplace_back("in the patient's axes to left, back and head (LPS)");
+  placeInPatient(result, first.alongRow, first.alongColumn, first.position);
   result.notes.push_back("series \"" + series.description + "\" (" + series.modality + "), " +
     std::to_string(count) + " images");
   return result;

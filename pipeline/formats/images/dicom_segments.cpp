@@ -252,19 +252,6 @@ void checkKind(const std::filesystem::path& file, const DataSet& data)
   }
 }
 
-void place(const SegmentGrid& grid, PatientImage& result)
-{
-  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> form(result.toPatient);
-  form.setIdentity();
-  form.col(0).head<3>() = grid.alongRow;
-  form.col(1).head<3>() = grid.alongColumn;
-  form.col(2).head<3>() = grid.alongRow.cross(grid.alongColumn);
-  form.col(3).head<3>() = grid.first;
-  result.unit = "mm";
-  result.space = "LPS";
-  result.notes.emplace_back("in the patient's axes to left, back and head (LPS)");
-}
-
 } // namespace
 
 PatientImage readDicomSegments(const std::filesystem::path& file)
@@ -295,7 +282,7 @@ PatientImage readDicomSegments(const std::filesystem::path& file)
       voxels[i * layers.size() + layer] = layers[layer][i];
     }
   }
-  place(grid, result);
+  placeInPatient(result, grid.alongRow, grid.alongColumn, grid.first);
   return result;
 }
 

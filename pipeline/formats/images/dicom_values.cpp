@@ -3,6 +3,7 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +14,16 @@
 
 namespace palp
 {
+namespace
+{
+
+std::ostringstream& warnings()
+{
+  static std::ostringstream kept; // by GDCM, for as long as the program runs
+  return kept;
+}
+
+} // namespace
 
 std::string textOf(const gdcm::DataSet& data, const gdcm::Tag& tag)
 {
@@ -74,16 +85,39 @@ std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& t
   return items;
 }
 
-bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file)
+void listenToGdcm()
 {
-  static std::ostringstream warnings; // which it keeps
-  warnings.str("");
+  warnings().str("");
   gdcm::Trace::SetDebug(false);
   gdcm::Trace::SetError(false);
-  gdcm::Trace::SetWarningStream(warnings);
+  gdcm::Trace::SetWarningStream(warnings());
   gdcm::Trace::SetWarning(true);
+}
+
+bool wasFilledUp()
+{
+  return warnings().str().find("own risk") != std::string::npos;
+}
+
+bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file)
+{
+  listenToGdcm();
   reader.SetFileName(file.c_str());
-  return reader.Read() && warnings.str().find("own risk") == std::string::npos;
+  return reader.Read() && !wasFilledUp();
+}
+
+void placeInPatient(PatientImage& image, const Eigen::Vector3d& alongRow,
+  const Eigen::Vector3d& alongColumn, const Eigen::Vector3d& first)
+{
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> form(image.toPatient);
+  form.setIdentity();
+  form.col(0).head<3>() = alongRow;
+  form.col(1).head<3>() = alongColumn;
+  form.col(2).head<3>() = alongRow.cross(alongColumn);
+  form.col(3).head<3>() = first;
+  image.unit = "mm";
+  image.space = "LPS";
+  image.notes.emplace_back("in the patient's axes to left, back and head (LPS)");
 }
 
 } // namespace palp

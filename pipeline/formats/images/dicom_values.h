@@ -1,5 +1,8 @@
 #pragma once
 
+#include "pipeline/formats/images/patient_image.h"
+
+#include <Eigen/Core>
 #include <cstddef>
 #include <filesystem>
 #include <gdcmDataSet.h>
@@ -33,8 +36,20 @@ inline constexpr const char* kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4"
 /// What stands in the items of a sequence; none where there is no such sequence.
 [[nodiscard]] std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& tag);
 
+/// From now on what GDCM warns of is kept, and nothing is printed.
+void listenToGdcm();
+
+/// Whether GDCM has since filled up what a file was cut off of.
+[[nodiscard]] bool wasFilledUp();
+
 /// Reads a file, without what GDCM says of it.
-/// @return  false also where GDCM fills up what it was cut off of
+/// @return  false also where it is filled up
 [[nodiscard]] bool readWhole(gdcm::Reader& reader, const std::filesystem::path& file);
+
+/// Where an image of DICOM stands, whose axes and millimeters are the patient's.
+/// @param alongRow, alongColumn  unit vectors
+/// @param first                  middle of the first voxel [mm]
+void placeInPatient(PatientImage& image, const Eigen::Vector3d& alongRow,
+  const Eigen::Vector3d& alongColumn, const Eigen::Vector3d& first);
 
 } // namespace palp

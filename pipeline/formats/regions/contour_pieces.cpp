@@ -87,6 +87,20 @@ std::string noteOf(std::size_t kept, std::size_t all, std::size_t hollows, std::
     (filled > 0 ? ", and " + counted(filled, "hollow") + " of less than 100 voxels filled" : "");
 }
 
+// of the volume of all bodies
+double partLeftOut(const std::vector<Piece>& pieces)
+{
+  double all = 0.0;
+  double out = 0.0;
+  for (const Piece& piece : pieces)
+  {
+    const double body = std::max(0.0, piece.volume);
+    all += body;
+    out += piece.isKept ? 0.0 : body;
+  }
+  return out / all;
+}
+
 } // namespace
 
 ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
@@ -119,6 +133,12 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   }
   result.areAll = bodies + hollows == pieces.size();
   result.note = noteOf(bodies, pieces.size(), hollows, filled);
+  constexpr double kMuch = 0.01;
+  if (const double out = partLeftOut(pieces); out > kMuch)
+  {
+    const auto percent = std::to_string(std::lround(100.0 * out));
+    result.note = "warning: " + result.note + "; the others have " + percent + " % of its volume";
+  }
   return result;
 }
 

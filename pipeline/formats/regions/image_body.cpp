@@ -153,13 +153,8 @@ void checkVolume(const PatientImage& volume, const std::string& name)
 ImageRegion regionOfLabels(const PatientImage& volume, std::span<const Label> labels)
 {
   ImageRegion region{ .image = maskOfLabels(volume, labels) };
-  VoxelBox box;
-  for (const Label& label : labels)
-  {
-    box.add(label.box.low, label.box.high);
-  }
   noteVoxels(volume, region.notes);
-  noteBorder(box, *volume.image, region.notes);
+  noteBorder(boxOf(labels), *volume.image, region.notes);
   return region;
 }
 

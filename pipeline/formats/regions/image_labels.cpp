@@ -138,14 +138,20 @@ std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   return chosen;
 }
 
-vtkSmartPointer<vtkImageData> maskOfLabels(
-  const PatientImage& volume, std::span<const Label> labels)
+VoxelBox boxOf(std::span<const Label> labels)
 {
   VoxelBox box;
   for (const Label& label : labels)
   {
     box.add(label.box.low, label.box.high);
   }
+  return box;
+}
+
+vtkSmartPointer<vtkImageData> maskOfLabels(
+  const PatientImage& volume, std::span<const Label> labels)
+{
+  const VoxelBox box = boxOf(labels);
   auto mask = maskAbout(*volume.image, box);
   const int layers = volume.image->GetNumberOfScalarComponents();
   for (int layer = 0; layer < layers; ++layer)

@@ -43,6 +43,9 @@ struct Label
 [[nodiscard]] std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name);
 
+/// The box that holds all of them.
+[[nodiscard]] VoxelBox boxOf(std::span<const Label> labels);
+
 /// An image that is 1 where one of some labels is, and 0 all around.
 [[nodiscard]] vtkSmartPointer<vtkImageData> maskOfLabels(
   const PatientImage& volume, std::span<const Label> labels);
