@@ -58,7 +58,6 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
     label_->setObjectName("label");
     label_->setPlaceholderText(tr("of a label map, e.g. 5, or 1,2 for both"));
     rows->addRow(tr("or label of the body"), label_);
-    addLabels(*rows);
   }
   unit_->setObjectName("unit");
   unit_->addItems({ "auto", "mm", "cm", "m" });
@@ -70,17 +69,8 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
 }
 
 // ticking one writes its value into the field of labels
-void OpenDialog::addLabels(QFormLayout& rows)
+void OpenDialog::setLabels(const FileOrgans& found)
 {
-  FileOrgans found;
-  try
-  {
-    found = readFileOrgans(file_, {}, true);
-  }
-  catch (const Error&) // which is told already
-  {
-    return;
-  }
   if (found.organs.empty())
   {
     return;
@@ -113,7 +103,11 @@ void OpenDialog::addLabels(QFormLayout& rows)
       }
       label_->setText(ticked.join(','));
     });
-  rows.addRow(tr("Labels in it"), list);
+  auto* rows = static_cast<QFormLayout*>(layout());
+  int row = 0;
+  QFormLayout::ItemRole role{};
+  rows->getWidgetPosition(label_, &row, &role);
+  rows->insertRow(row + 1, tr("Labels in it"), list);
 }
 
 void OpenDialog::setReason(const QString& why)

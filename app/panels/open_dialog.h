@@ -5,13 +5,13 @@
 #include <QDialog>
 
 class QComboBox;
-class QFormLayout;
 class QLabel;
 class QLineEdit;
-class QListWidget;
 
 namespace palp
 {
+
+struct FileOrgans;
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
 /// the surface or the labels of the body, which are listed to be ticked.
@@ -26,6 +26,10 @@ public:
   /// Why the file was not opened as it was asked for.
   void setReason(const QString& why);
 
+  /// Lists what can be ticked, below the field of labels.
+  /// @param found  in that image; nothing is listed where there is none
+  void setLabels(const FileOrgans& found);
+
   /// The file with what was typed.
   /// @throws Error  BadValue
   [[nodiscard]] MeshSource source() const;
@@ -33,8 +37,6 @@ public:
   void accept() override; ///< stays, with the reason, where what was typed is refused
 
 private:
-  void addLabels(QFormLayout& rows);
-
   std::filesystem::path file_;
   QLabel* why_;
   QLineEdit* series_; // null: of a folder alone

@@ -167,6 +167,21 @@ private:
   SurfacePoint point_;
 };
 
+SurfacePoint pointOn(const PressPlace& place, const PlacedPresses& presses, const Scene& organ)
+{
+  SurfacePoint point = feltPoint(presses.toward ? alongLine(place, *presses.toward, *organ.surface)
+                                                : ontoSurface(place, *organ.surface),
+    presses.depth, organ);
+  const double thickness = rayExit(organ.surface->tree(), point.position, -point.normal).distance;
+  if (presses.depth > 0.5 * thickness)
+  {
+    refusePlace(place,
+      "a depth of " + quantityText(presses.depth, Quantity::Length) + " is more than half of the " +
+        units::inMillimeters(thickness) + " that the body is thick there; give less");
+  }
+  return point;
+}
+
 // how far a press leads from its place, along the inward normal
 struct Travel
 {
@@ -178,8 +193,9 @@ struct Travel
 
 Travel travelOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
-  const SurfacePoint point = pressedPoint(place, presses, scene);
-  const Descent descent(pressedOrgan(place, presses, scene), point);
+  const Scene& organ = pressedOrgan(place, presses, scene);
+  const SurfacePoint point = pointOn(place, presses, organ);
+  const Descent descent(organ, point);
   const std::optional<double> free = descent.freeAt();
   const std::optional<double> bottom = free ? descent.travelTo(presses.depth, *free) : std::nullopt;
   if (!bottom)
@@ -207,20 +223,9 @@ ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const
 
 } // namespace
 
-SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& all)
+SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
-  const Scene& scene = pressedOrgan(place, presses, all);
-  SurfacePoint point = feltPoint(presses.toward ? alongLine(place, *presses.toward, *scene.surface)
-                                                : ontoSurface(place, *scene.surface),
-    presses.depth, scene);
-  const double thickness = rayExit(scene.surface->tree(), point.position, -point.normal).distance;
-  if (presses.depth > 0.5 * thickness)
-  {
-    refusePlace(place,
-      "a depth of " + quantityText(presses.depth, Quantity::Length) + " is more than half of the " +
-        units::inMillimeters(thickness) + " that the body is thick there; give less");
-  }
-  return point;
+  return pointOn(place, presses, pressedOrgan(place, presses, scene));
 }
 
 ToolPose pressedPose(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)

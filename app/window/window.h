@@ -45,6 +45,7 @@ namespace palp
 class Autosave;
 struct ExportFolder;
 struct Exported;
+struct FileOrgans;
 class DevicePanel;
 class DiagnosticsPanel;
 class OrganList;
@@ -121,6 +122,7 @@ private:
   void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);
   bool openBody(const std::vector<MeshSource>& meshes);
+  [[nodiscard]] FileOrgans labelsIn(const QString& file);
   void openOther(const QString& file);
   void openScene(const QString& file);
   void openPlaces(const QString& file);

@@ -10,6 +10,7 @@
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
+#include "pipeline/surface_io/surface_io.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -148,6 +149,21 @@ bool Window::openBody(const std::vector<MeshSource>& meshes)
   return true;
 }
 
+// none where it has none or they cannot be read, which is told already
+FileOrgans Window::labelsIn(const QString& file)
+{
+  try
+  {
+    auto found = inBackground<FileOrgans>(tr("Reading the labels"),
+      [file](const std::atomic<bool>&) { return readFileOrgans(file.toStdString(), {}, true); });
+    return found ? *std::move(found) : FileOrgans{};
+  }
+  catch (const Error&)
+  {
+    return {};
+  }
+}
+
 bool Window::openFile(const QString& file)
 {
   MeshSource source{ .file = file.toStdString() };
@@ -161,7 +177,10 @@ bool Window::openFile(const QString& file)
     }
     catch (const std::exception& error)
     {
-      dialog ? void() : void(dialog.emplace(file, this));
+      if (!dialog)
+      {
+        dialog.emplace(file, this).setLabels(isImageFile(file) ? labelsIn(file) : FileOrgans{});
+      }
       dialog->setReason(QString::fromStdString(error.what()));
       isAsked = dialog->exec() == QDialog::Accepted;
       source = isAsked ? dialog->source() : source;

@@ -1,4 +1,6 @@
 #include "app/panels/open_dialog.h"
+
+#include "pipeline/surface_io/surface_io.h"
 #include "tests/app/application.h"
 #include "tests/support/process.h"
 
@@ -27,6 +29,7 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   }
   out.close();
   OpenDialog dialog(QString::fromStdString(file.string()));
+  dialog.setLabels(readFileOrgans(file, {}, true));
   auto* list = dialog.findChild<QListWidget*>("labels");
   ASSERT_NE(list, nullptr);
   ASSERT_EQ(list->count(), 2);
