@@ -22,10 +22,12 @@ namespace palp::test
 /// Files of each kind for a test: few, many with PALP_SLOW, or the number in PALP_FUZZ.
 inline int fuzzCount()
 {
-#ifdef PALP_SLOW
+#if defined(PALP_SLOW)
   constexpr int usual = 100'000;
+#elif defined(__SANITIZE_ADDRESS__) // some five times slower
+  constexpr int usual = 2'000;
 #else
-  constexpr int usual = 200;
+  constexpr int usual = 10'000;
 #endif
   const char* asked = std::getenv("PALP_FUZZ");
   return asked ? std::atoi(asked) : usual;

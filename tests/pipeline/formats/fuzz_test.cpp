@@ -36,7 +36,7 @@ TEST_P(Fuzz, EndsAsASurfaceOrATrueSentence)
   const Fuzzed& kind = fuzzedSurfaces()[GetParam()];
   constexpr std::size_t memory = 832U << 20; // of palp-read for a small file, and this program
   constexpr double time = 4.0;               // of palp-read for a small file [s]
-  expectGoodFates(kind, fuzz(kind, fuzzCount(), memory, time));
+  expectGoodFates(kind, fuzz(kind, fuzzCount() / kind.share, memory, time));
 }
 
 } // namespace
