@@ -2,6 +2,7 @@
 
 #include "app/graphs/axes_dialog.h"
 #include "app/graphs/chart_theme.h"
+#include "app/shell/compose_alone.h"
 #include "app/shell/theme.h"
 
 #include <QVTKOpenGLNativeWidget.h>
@@ -38,6 +39,7 @@ ChartPanel::ChartPanel(const QString& name, QWidget* parent)
 {
   window_->SetMultiSamples(0);
   canvas_->setObjectName(name);
+  composeAlone(*canvas_);
   canvas_->setRenderWindow(window_);
   canvas_->setMinimumSize(260, 120);
   canvas_->setToolTip(tr("Wheel: zoom, beside an axis that axis alone\nDrag: move    "

@@ -10,6 +10,7 @@
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
 #include "app/plots/kept_presses.h"
+#include "app/shell/compose_alone.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
 #include "app/shell/theme.h"
@@ -64,6 +65,7 @@ void Window::makeView()
 {
   canvas_ = new QVTKOpenGLNativeWidget(this);
   canvas_->setObjectName("canvas");
+  composeAlone(*canvas_);
   canvas_->setRenderWindow(renderWindow_);
   renderWindow_->SetMultiSamples(0);
   renderWindow_->AddRenderer(renderer_);

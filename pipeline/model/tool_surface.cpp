@@ -13,18 +13,17 @@
 namespace palp
 {
 
-vtkSmartPointer<vtkPolyData> revolved(std::span<const Eigen::Vector2d> profile)
+vtkSmartPointer<vtkPolyData> revolved(std::span<const Eigen::Vector2d> profile, int sides)
 {
-  constexpr int kSides = 64;
   constexpr double kCrease = 50.0; // [deg] an edge, not a curve
   const std::span<const Eigen::Vector2d> around = profile.subspan(1, profile.size() - 2);
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0.0, 0.0, profile.front().y());
   for (const Eigen::Vector2d& at : around)
   {
-    for (int k = 0; k < kSides; ++k)
+    for (int k = 0; k < sides; ++k)
     {
-      const double angle = 2.0 * std::numbers::pi * k / kSides;
+      const double angle = 2.0 * std::numbers::pi * k / sides;
       points->InsertNextPoint(at.x() * std::cos(angle), at.x() * std::sin(angle), at.y());
     }
   }
@@ -32,18 +31,18 @@ vtkSmartPointer<vtkPolyData> revolved(std::span<const Eigen::Vector2d> profile)
 
   vtkNew<vtkCellArray> triangles;
   const auto rings = static_cast<vtkIdType>(around.size());
-  for (vtkIdType k = 0; k < kSides; ++k)
+  for (vtkIdType k = 0; k < sides; ++k)
   {
-    const vtkIdType next = (k + 1) % kSides;
+    const vtkIdType next = (k + 1) % sides;
     triangles->InsertNextCell({ 0, 1 + next, 1 + k });
     for (vtkIdType ring = 0; ring + 1 < rings; ++ring)
     {
-      const vtkIdType low = 1 + ring * kSides;
-      const vtkIdType high = low + kSides;
+      const vtkIdType low = 1 + ring * sides;
+      const vtkIdType high = low + sides;
       triangles->InsertNextCell({ low + k, low + next, high + next });
       triangles->InsertNextCell({ low + k, high + next, high + k });
     }
-    const vtkIdType last = 1 + (rings - 1) * kSides;
+    const vtkIdType last = 1 + (rings - 1) * sides;
     triangles->InsertNextCell({ last + k, last + next, top });
   }
   vtkNew<vtkPolyData> surface;

@@ -20,6 +20,8 @@ namespace palp
 /// A surface of revolution about z, closed and outward, with creases at its edges.
 ///
 /// @param profile  distance from z and height, from below; begins and ends on z
-[[nodiscard]] vtkSmartPointer<vtkPolyData> revolved(std::span<const Eigen::Vector2d> profile);
+/// @param sides    of what is drawn instead of a circle
+[[nodiscard]] vtkSmartPointer<vtkPolyData> revolved(
+  std::span<const Eigen::Vector2d> profile, int sides = 64);
 
 } // namespace palp

@@ -104,10 +104,11 @@ void DentColors::show(const OverlayState& state, By by)
 {
   const Contact& contact = state.sample.contact;
   mapper_->SetInputConnection(state.press.GetOutputPort(1));
-  mapper_->ScalarVisibilityOff();
+  const bool hasColors = by == By::Displacement || by == By::Pressure;
+  mapper_->SetScalarVisibility(hasColors); // once: each change makes shaders and legend anew
+  legend_->SetVisibility(hasColors && hasLegend_);
   actor_->SetProperty(plain_);
   actor_->VisibilityOn();
-  legend_->VisibilityOff();
   if (by == By::Displacement)
   {
     colorBy("Displacement [mm]", "displacement\n[mm]", units::toMillimeters(contact.depth));
@@ -139,7 +140,6 @@ void DentColors::show(const OverlayState& state, By by)
 void DentColors::colorBy(const char* array, const char* title, double top)
 {
   mapper_->SelectColorArray(array);
-  mapper_->ScalarVisibilityOn();
   showLegend(*map_, title, 0.0, fixedTop_ > 0.0 ? fixedTop_ : appearance::roundUp(top));
 }
 

@@ -27,6 +27,7 @@ constexpr double kHead = 0.045;
 constexpr double kLongestShaft = 0.27;
 constexpr double kBetweenRings = 0.02; // at least
 constexpr double kThickness = 0.004;
+constexpr int kSides = 24;         // of a shaft of a few pixels, which each picture makes anew
 constexpr double kFarthest = 0.15; // from the axis of a tool of any size
 constexpr double kMargin = 6.0;    // of the label from the edge [pixels]
 
@@ -130,7 +131,7 @@ void ForceArrow::show(const OverlayState& state)
   profile.emplace_back(3.0 * thick, shaft);
   length_ = lengthOf(force, diagonal);
   profile.emplace_back(0.0, length_);
-  mapper_->SetInputData(revolved(profile));
+  mapper_->SetInputData(revolved(profile, kSides));
 
   const Contact& contact = state.sample.contact;
   start_ = contact.center;

@@ -155,9 +155,10 @@ TEST_F(Speed, Sliding)
         QTest::qWait(8);
       }
     });
-  std::printf("sliding %.1f mm deep: %.1f pictures/s at %d x %d, %.0f %% of a core\n",
+  const double used = work() - before;
+  std::printf("sliding %.1f mm deep: %.1f pictures/s at %d x %d, %.1f ms of processors each\n",
     1e3 * session_->newest().contact.depth, 1e3 * pictures / kTime, window_->width(),
-    window_->height(), 1e5 * (work() - before) / kTime);
+    window_->height(), 1e3 * used / pictures);
 }
 
 // what a picture of a press takes where nothing moves: drawn alone, and brought to the screen
