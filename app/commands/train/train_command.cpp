@@ -66,7 +66,6 @@ ScenePlan planOf(const TrainOptions& options)
         ": is a scene of organs; a training hides nodules in one body: give one with meshes");
   }
   plan.training = options.training;
-  plan.validity = false;
   if (options.path.empty())
   {
     plan.window = true;
@@ -75,7 +74,7 @@ ScenePlan planOf(const TrainOptions& options)
     return plan;
   }
   plan.device = parseDevice("path:" + options.path.string());
-  plan.window = plan.deformed = plan.picture = false;
+  plan.window = plan.validity = plan.deformed = plan.picture = false;
   plan.plots.clear();
   plan.press.dent = { .surface = DentSurface::None };
   plan.sources.push_back(options.marks);
