@@ -1,6 +1,7 @@
 #include "app/commands/program.h"
 
 #include "app/commands/commands.h"
+#include "app/commands/train/train_command.h"
 #include "app/import/import_command.h"
 #include "app/program/exec_program.h"
 #include "haptics/error.h"
@@ -84,6 +85,7 @@ void addCommands(CLI::App& app, const ProgramFeatures& parts)
   addViewCommand(app, parts.view);
   addRunCommand(app, parts.pictures);
   addSceneCommand(app, parts.pictures, parts.view);
+  addTrainCommand(app, parts.pictures, parts.view);
   addImportCommand(app);
   addCheckCommand(app);
   addForceCommand(app);

@@ -1,24 +1,13 @@
 #pragma once
 
-#include "app/folder/export_folder.h"
-#include "app/input/scene_plan.h"
+#include "app/folder/view_options.h"
 #include "haptics/error.h"
-
-#include <optional>
 
 namespace palp
 {
 
 struct DevicesOptions;
 struct Renderer;
-
-/// The whole of `palp view`.
-struct ViewOptions
-{
-  ScenePlan plan;
-  std::optional<ExportFolder> made{}; ///< of an export that is opened: what was pressed before
-  bool explain = false; ///< tell what was built once the first picture stands, and end
-};
 
 /// What one of the sibling programs carries beyond the common commands.
 ///

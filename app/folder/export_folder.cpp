@@ -3,8 +3,11 @@
 #include "app/input/json_object.h"
 #include "app/input/tip_text.h"
 #include "app/press/recording.h"
+#include "app/program/data_files.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_text.h"
+#include "app/train/curriculum.h"
+#include "app/train/score_sheet.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
@@ -43,6 +46,10 @@ std::vector<MeshFile> inputsOf(const ScenePlan& plan, const Recording& recording
   for (const fs::path& reference : plan.referenceFiles)
   {
     inputs.push_back(describeFile(reference));
+  }
+  if (plan.training)
+  {
+    inputs.push_back(describeFile(dataFile(kCurriculumFile)));
   }
   return inputs;
 }
@@ -98,6 +105,7 @@ std::vector<std::string> exportFiles()
   std::vector<std::string> names{ kScene, kPath, kProvenance, kServo, "samples.csv", "presses.csv",
     "deformed.vtp", "stiffness_map.csv", "stiffness_map.vtp", "press.png", "force_time.png",
     "force_depth.png" };
+  names.insert(names.end(), kScoreFiles.begin(), kScoreFiles.end());
   for (const std::string& movie : kMovieNames)
   {
     names.insert(names.end(), { movie + ".mp4", movie + ".ogv" });

@@ -68,6 +68,7 @@ ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording
   plan.press.contact = recording.scene.rule;
   plan.press.damping = recording.scene.damping;
   plan.validity = recording.rated;
+  plan.training = body.training;
   plan.device = {};
   plan.recording = RecordedPress{ .device = recording.device, .names = recording.names };
   plan.chain = false;

@@ -12,6 +12,7 @@
 #include "app/program/exec_program.h"
 #include "app/program/interrupt.h"
 #include "app/program/progress_line.h"
+#include "app/train/score_sheet.h"
 #include "haptics/devices/simulated/scripted_path.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/output_folder.h"
@@ -180,6 +181,16 @@ struct PlayedPress
   const std::string& path;        // its text; empty: there is none
 };
 
+void writeGrade(const std::filesystem::path& out, const SceneBody& body, const Recording& recording,
+  const TrainingPlan& training)
+{
+  const ScoreSheet sheet = scoreSheetOf(body.name, recording.scene, recording.samples, training);
+  std::cerr << "palp: level " << sheet.level.name << ", seed " << training.seed << ": "
+            << summaryOf(sheet.grade) << (sheet.grade.isPassed ? "; passed" : "; not passed")
+            << '\n';
+  writeScore(out, sheet);
+}
+
 void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Renderer* pictures,
   BuildTrace& trace)
 {
@@ -206,6 +217,11 @@ void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Re
   {
     trace.build("pictures", "exported",
       [&] { pictures->drawPress(all.body, all.recording, all.calibration, all.plan, out); });
+  }
+  if (all.plan.training)
+  {
+    trace.build("score", "a search for hidden nodules is graded",
+      [&] { writeGrade(out, all.body, all.recording, *all.plan.training); });
   }
   writeScene(out, all.plan, all.path);
   writeProvenance(out, all.plan, all.recording);

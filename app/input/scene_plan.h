@@ -7,6 +7,7 @@
 #include "pipeline/model/reference_curve.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -72,6 +73,20 @@ struct RecordedPress
   bool operator==(const RecordedPress&) const = default;
 };
 
+/// Nodules that a seed hides in a body, to be found by touch.
+struct TrainingPlan
+{
+  std::string level = "easy"; ///< of the curriculum
+  std::uint32_t seed = 1;     ///< from which their places follow
+  int nodules = 0;            ///< 0: as many as the level has
+  /// Outward, of the part that is searched; at first that which a window shows, see PressView.
+  Eigen::Vector3d side{ -0.35, -1.0, 0.75 };
+  /// Times at which the place that was touched last was marked [s]; none: the search goes on.
+  std::optional<std::vector<double>> marks{};
+
+  bool operator==(const TrainingPlan&) const = default;
+};
+
 /// From where the body is looked at.
 struct CameraPlace
 {
@@ -94,6 +109,7 @@ struct ScenePlan
   DeviceChoice device{};
   std::optional<PlacedPresses> presses{};   ///< instead of a device
   std::optional<RecordedPress> recording{}; ///< instead of a device
+  std::optional<TrainingPlan> training{};   ///< nodules to be found in the only body
   bool chain = false;   ///< through the safety chain of the paper's device, armed; simulated time
   bool deadMan = false; ///< force only while the first button of the device is held
   bool window = true;   ///< else: a path in simulated time, without servo thread

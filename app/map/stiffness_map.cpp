@@ -2,11 +2,11 @@
 
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
-#include "app/map/point_cells.h"
 #include "app/places/placed_press.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/servo/servo_step.h"
+#include "haptics/surface/sampling/point_cells.h"
 #include "haptics/units.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
+#include "app/train/hidden_nodules.h"
 #include "haptics/contact/embed_nodules.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
@@ -125,7 +126,9 @@ SceneBody loadBodies(const ScenePlan& plan, bool shown)
 {
   if (plan.organs.empty())
   {
-    return loadBody(plan.meshes, shown);
+    SceneBody body = loadBody(plan.meshes, shown);
+    plan.training ? hideIn(body, plan.press.tissue.law(), *plan.training) : void();
+    return body;
   }
   SceneBody all;
   all.sources = plan.meshes;
@@ -145,6 +148,24 @@ SceneBody loadBodies(const ScenePlan& plan, bool shown)
     }
   }
   return all;
+}
+
+void hideIn(SceneBody& body, const ForceLaw& law, const TrainingPlan& training)
+{
+  body.nodules = hideNodules(*body.haptic, law, shippedCurriculum(), training);
+  body.training = training;
+}
+
+void revealNodules(SceneBody& body)
+{
+  MeshSource& source = body.sources.front();
+  const Eigen::Isometry3d inverse = source.frame().inverse();
+  source.nodules = body.nodules;
+  for (PlacedNodule& nodule : source.nodules)
+  {
+    nodule.center = inverse * nodule.center;
+  }
+  body.training.reset();
 }
 
 void setTissues(Scene& scene, const std::vector<OrganPlan>& organs)

@@ -8,6 +8,7 @@
 #include "haptics/surface/surface.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 #include <vtkSmartPointer.h>
@@ -20,15 +21,16 @@ namespace palp
 /// What is pressed, in two levels of detail: one to look at, one to feel.
 struct SceneBody
 {
-  std::string name;                      ///< file name, for people
-  std::string unit;                      ///< that the file's coordinates were read in
-  std::vector<MeshSource> sources;       ///< that it was loaded from
-  std::vector<MeshFile> files;           ///< that are felt
-  vtkSmartPointer<vtkPolyData> display;  ///< [m]; null where nobody looks
-  std::shared_ptr<const Surface> haptic; ///< [m]
-  std::vector<PlacedNodule> nodules;     ///< in it [m]
-  std::vector<std::string> notes;        ///< what was taken, and warnings; a line each
-  std::vector<SceneBody> organs{};       ///< each by itself, which alone are seen and felt then
+  std::string name;                       ///< file name, for people
+  std::string unit;                       ///< that the file's coordinates were read in
+  std::vector<MeshSource> sources;        ///< that it was loaded from
+  std::vector<MeshFile> files;            ///< that are felt
+  vtkSmartPointer<vtkPolyData> display;   ///< [m]; null where nobody looks
+  std::shared_ptr<const Surface> haptic;  ///< [m]
+  std::vector<PlacedNodule> nodules;      ///< in it [m]
+  std::vector<std::string> notes;         ///< what was taken, and warnings; a line each
+  std::optional<TrainingPlan> training{}; ///< by which its nodules were hidden; none: as in sources
+  std::vector<SceneBody> organs{};        ///< each by itself, which alone are seen and felt then
 
   /// One of the organs that are felt, or the only body.
   /// @param organ  as in a Sample of a scene of these organs
@@ -46,8 +48,16 @@ struct SceneBody
 /// @throws Error   BadFile, BadMesh, BadValue
 [[nodiscard]] SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown = true);
 
-/// The same of a plan, organs by themselves.
+/// The same of a plan, organs by themselves, with the nodules of its training.
+/// @throws Error   also as hideNodules
 [[nodiscard]] SceneBody loadBodies(const ScenePlan& plan, bool shown = true);
+
+/// Hides the nodules of a training in a body, in place of those that it has.
+/// @throws Error  as hideNodules
+void hideIn(SceneBody& body, const ForceLaw& law, const TrainingPlan& training);
+
+/// Ends the training of a body: its nodules are then known, as if its first source held them.
+void revealNodules(SceneBody& body);
 
 /// Puts laws and damping of the organs that are felt into a scene; changes nothing where there are
 /// no organs.

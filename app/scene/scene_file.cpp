@@ -196,6 +196,25 @@ void readBodies(JsonObject& object, ScenePlan& plan, const std::filesystem::path
   }
 }
 
+void checkTraining(const JsonObject& object, const ScenePlan& plan)
+{
+  if (!plan.organs.empty() ||
+    std::ranges::any_of(plan.meshes, [](const MeshSource& mesh) { return !mesh.nodules.empty(); }))
+  {
+    object.refuse("training", "hides nodules in one body without any; give meshes without them");
+  }
+  if (plan.press.tissue.options.mode != LawMode::Corrected)
+  {
+    object.refuse("training", "takes the law 'corrected', which alone feels nodules; give it");
+  }
+  if (plan.window == plan.training->marks.has_value())
+  {
+    object.refuse("training",
+      plan.window ? "has marks, which a window makes; leave them out"
+                  : "has no marks, by which a press without a window is graded; give them");
+  }
+}
+
 // what stands in one part and is needed by another
 void checkTogether(const JsonObject& object, const ScenePlan& plan)
 {
@@ -210,6 +229,7 @@ void checkTogether(const JsonObject& object, const ScenePlan& plan)
     object.refuse(isOne ? "meshes" : "organs/" + std::to_string(i),
       "nodules take the law 'corrected' and no coating; give these, or leave the nodules out");
   }
+  plan.training ? checkTraining(object, plan) : void();
   if (!plan.dents() && (plan.window || plan.deformed || plan.picture))
   {
     object.refuse("dent",
@@ -246,6 +266,10 @@ ScenePlan readPlan(JsonObject object, const std::filesystem::path& folder)
   plan.press.tissue.options.rated = plan.validity;
   checkAt(object, "tissue/", [&] { (void)plan.press.tissue.law(); });
   readBodies(object, plan, folder);
+  if (object.has("training"))
+  {
+    plan.training = readTraining(object.object("training"));
+  }
   if (object.has("overlays"))
   {
     plan.overlays = kinds<Overlay>(object, "overlays", kOverlays);

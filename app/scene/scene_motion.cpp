@@ -1,6 +1,7 @@
 #include "app/scene/scene_motion.h"
 
 #include "app/scene/scene_entries.h"
+#include "app/train/training_text.h"
 #include "haptics/files/input_text.h"
 
 namespace palp
@@ -67,6 +68,35 @@ void readReplacement(JsonObject& object, ScenePlan& plan, const std::filesystem:
 }
 
 } // namespace
+
+TrainingPlan readTraining(JsonObject object)
+{
+  TrainingPlan training;
+  training.level = object.text("level", training.level);
+  parseAt(
+    object, "seed", [&](const std::string& text) { training.seed = parseSeed(text); },
+    &JsonObject::number);
+  parseAt(
+    object, "nodules", [&](const std::string& text) { training.nodules = parseNoduleCount(text); },
+    &JsonObject::number);
+  parseAt(object, "side",
+    [&](const std::string& text) { training.side = parseDirection(text, "--side"); });
+  if (object.has("marks"))
+  {
+    training.marks.emplace();
+    for (const std::string& text : object.texts("marks", {}))
+    {
+      checkAt(object, "marks",
+        [&]
+        {
+          training.marks->push_back(
+            parseWithin(text, Quantity::Time, { 0.0, 1e9, "0s or more" }, "--marks"));
+        });
+    }
+  }
+  object.finish();
+  return training;
+}
 
 CameraPlace readCamera(JsonObject object)
 {

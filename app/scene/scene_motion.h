@@ -15,6 +15,10 @@ namespace palp
 /// @throws Error  BadFile: names the key
 void readMotion(JsonObject& scene, ScenePlan& plan, const std::filesystem::path& folder);
 
+/// Reads what is hidden and what was marked.
+/// @throws Error  BadFile: names the key
+[[nodiscard]] TrainingPlan readTraining(JsonObject object);
+
 /// @throws Error  BadFile: names the key
 [[nodiscard]] CameraPlace readCamera(JsonObject object);
 

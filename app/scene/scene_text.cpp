@@ -40,6 +40,10 @@ public:
     scene["tool"] = tool(plan.press.tissue.tip);
     scene["law"] = law(plan);
     addMotion(scene, plan);
+    if (plan.training)
+    {
+      scene["training"] = training(*plan.training);
+    }
     scene["dent"] = dent(plan.press.dent);
     addPictures(scene, plan);
     return scene;
@@ -184,6 +188,26 @@ private:
     scene["dead_man"] = plan.deadMan;
     scene["window"] = plan.window;
     scene["chain"] = plan.chain;
+  }
+
+  static Json training(const TrainingPlan& plan)
+  {
+    Json json{ { "level", plan.level }, { "seed", plan.seed } };
+    if (plan.nodules > 0)
+    {
+      json["nodules"] = plan.nodules;
+    }
+    json["side"] =
+      shortest(plan.side.x()) + ',' + shortest(plan.side.y()) + ',' + shortest(plan.side.z());
+    if (plan.marks)
+    {
+      json["marks"] = Json::array();
+      for (const double time : *plan.marks)
+      {
+        json["marks"].push_back(quantityText(time, Quantity::Time));
+      }
+    }
+    return json;
   }
 
   static Json presses(const PlacedPresses& presses)

@@ -41,7 +41,7 @@ Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trac
   recording.unit = body.unit;
   recording.files = body.files;
   recording.command = commandLine();
-  recording.rated = plan.validity;
+  recording.rated = plan.validity && !body.training;
   recording.organs = plan.organs;
   recording.scene.rule = plan.press.contact;
   recording.scene.damping = plan.press.damping;
@@ -62,6 +62,11 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
   , calibration_(trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan_.press, recording_.scene); }))
 {
+  if (plan_.training && plan_.training->marks) // graded before
+  {
+    revealNodules(body_);
+    recording_.rated = plan_.validity;
+  }
   trace.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
@@ -89,6 +94,7 @@ void Session::open(SceneBody body)
   recording_.unit = body_.unit;
   recording_.files = body_.files;
   recording_.organs.clear();
+  recording_.rated = plan_.validity;
   recording_.scene = std::move(scene);
   useDevice(choice, std::move(holder));
 }

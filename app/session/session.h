@@ -46,6 +46,16 @@ public:
   /// @throws Error  as feltNodules, useDevice; the old body then stays
   void open(SceneBody body);
 
+  /// Hides nodules in the only body, under the corrected law, and begins a recording which neither
+  /// rates a sample nor is saved before it is graded.
+  /// @param training  without marks
+  /// @throws Error    BadValue: several organs; as hideNodules, feltNodules; everything then stays
+  void train(const TrainingPlan& training);
+
+  /// Ends such a recording, the last of earlier() where anything was touched; its nodules are then
+  /// known.
+  void finishTraining(std::vector<double> marks);
+
   /// A recording begins, as its header tells of one tool and tissue; see earlier().
   ///
   /// @param organ   whose tissue it is, the tool and the kind of law being those of all; in the

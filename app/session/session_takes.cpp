@@ -17,7 +17,7 @@ namespace palp
 
 void Session::save(const SceneBody& body, std::optional<Recording> press)
 {
-  if (autosave_ != nullptr && press)
+  if (autosave_ != nullptr && press && !body.training) // hidden until it is graded
   {
     ScenePlan plan = planOf(plan_, body, *press);
     plan.allSamples = false;
@@ -51,7 +51,10 @@ std::optional<SceneBody> Session::knownBody(const ScenePlan& plan) const
   const auto text = [](const std::vector<MeshSource>& sources)
   { return sceneText({ .meshes = sources }, "/"); };
   const auto isSame = [&, asked = text(plan.meshes)](const SceneBody& body)
-  { return text(body.sources) == asked && body.organs.size() == plan.organs.size(); };
+  {
+    return text(body.sources) == asked && body.organs.size() == plan.organs.size() &&
+      body.training == plan.training;
+  };
   if (isSame(body_))
   {
     return body_;

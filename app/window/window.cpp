@@ -12,6 +12,7 @@
 #include "app/press/recording.h"
 #include "app/program/build_trace.h"
 #include "app/shell/message_bar.h"
+#include "app/train/panel/training_panel.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -58,6 +59,7 @@ Window::Window(Session& session, BuildTrace& trace)
   , fast_(fastPass())
   , orientation_(*renderer_)
   , scaleBar_(*renderer_)
+  , balls_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
   , validity_(session.recording().scene.law)
   , takesKept_(session.earlier().size())
@@ -74,6 +76,7 @@ Window::Window(Session& session, BuildTrace& trace)
       makeDeviceMenu();
       makeViewMenu();
       makePlaying();
+      makeTraining();
       makeHelpMenu();
       makeToolBar();
       makePressBar();
@@ -96,6 +99,11 @@ Window::Window(Session& session, BuildTrace& trace)
   if (session_.plan().camera)
   {
     lookFrom(*session_.plan().camera);
+  }
+  if (session_.body().training)
+  {
+    showTraining();
+    beginSearch();
   }
 
   frames_ = new QTimer(this);
@@ -213,6 +221,8 @@ void Window::refreshPanels()
   acted_ = std::exchange(acting_, 0);
   followMap();
   showReadings();
+  search_ ? training_->showProgress(session_.newest().time - search_->from, search_->marks.size())
+          : void();
   if (validityPanel_)
   {
     showValidity(shown_);
@@ -271,7 +281,8 @@ void Window::showValidity(const Sample& sample)
   const Contact& contact = sample.contact;
   if (contact.touching())
   {
-    const Scene& scene = organShown();
+    Scene scene = organShown();
+    scene.nodules = search_ ? nullptr : scene.nodules; // which the rules would tell of
     validityPanel_->showRules(rulesAt(scene, validity_, contact), contrastsAt(scene, contact));
   }
   else
@@ -307,18 +318,6 @@ void Window::sayWhatIsKept()
           .arg(samples.back().time - samples.front().time, 0, 'f', 1));
   }
   takesKept_ = takes;
-}
-
-void Window::applyDevice(const QString& name)
-{
-  if (name == tr(kScan))
-  {
-    offerDevices();
-    return;
-  }
-  attempt([&] { session_.useDevice(parseDevice(name.toStdString())); });
-  devicePanel_->choose(QString::fromStdString(session_.recording().device));
-  applyTissue(); // what is stable depends on the device
 }
 
 bool Window::attempt(const std::function<void()>& work)

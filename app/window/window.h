@@ -10,6 +10,7 @@
 #include "app/shell/window_memory.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
+#include "pipeline/figure/balls.h"
 #include "pipeline/figure/orientation.h"
 #include "pipeline/figure/scale_bar.h"
 #include "pipeline/figure/surroundings.h"
@@ -50,6 +51,7 @@ class DevicePanel;
 class DiagnosticsPanel;
 class OrganList;
 class PlayBar;
+class TrainingPanel;
 class PressBar;
 class PressList;
 class BuildTrace;
@@ -89,6 +91,7 @@ public:
   bool savePlots(const QString& file, std::optional<ImageSize> size = std::nullopt);
   bool saveCurves(const QString& file);
   bool saveChart(std::size_t chart, const QString& file, ImageSize size); // of charts_, counted
+  bool saveSheet(const QString& directory);  // of the search that was graded last
   bool exportData(const QString& directory); // asks in the bar where files would be replaced
 
 protected:
@@ -157,6 +160,24 @@ private:
   void showMap();
   [[nodiscard]] const SurfaceMap* shownMap() const;
   [[nodiscard]] const StiffnessMap* currentMap() const;
+
+  // the search for hidden nodules
+  struct Search
+  {
+    double from = 0.0;                // [s]
+    std::vector<double> marks{};      // times [s]
+    std::vector<Balls::Ball> balls{}; // of them
+  };
+  void makeTraining();
+  void showTraining();
+  void startTraining(const TrainingPlan& plan);
+  void beginSearch();
+  void lockForSearch(bool searches);
+  [[nodiscard]] bool isFree();
+  void markPlace();
+  void finishTraining();
+  void askSheet();
+  [[nodiscard]] const Session::Take* lastSearch() const;
 
   void makePressList();
   void showTicked();
@@ -237,6 +258,7 @@ private:
   const vtkSmartPointer<vtkRenderPass> fast_;
   Orientation orientation_;
   ScaleBar scaleBar_;
+  Balls balls_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
   QTimer* frames_ = nullptr; // of the picture
@@ -280,7 +302,9 @@ private:
   bool mapIsStale_ = false;
   QAction* mapColors_ = nullptr;
   QAction* clearMap_ = nullptr;
-  Autosave* autosave_ = nullptr; // null: nobody wants it
+  std::optional<Search> search_;      // none: nothing is hidden
+  TrainingPanel* training_ = nullptr; // null: never shown
+  Autosave* autosave_ = nullptr;      // null: nobody wants it
   PlayBar* playBar_ = nullptr;
   QAction* refinedExport_ = nullptr;
   QAction* allSamplesExport_ = nullptr;

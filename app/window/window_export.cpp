@@ -184,6 +184,10 @@ Exported Window::exported(const Pictured& seen)
 
 bool Window::saveMovie(const QString& file, MovieKind kind)
 {
+  if (!isFree())
+  {
+    return false;
+  }
   return attempt(
     [&]
     {
@@ -213,6 +217,10 @@ bool Window::saveTurntable(const QString& file)
 
 bool Window::exportData(const QString& directory)
 {
+  if (!isFree())
+  {
+    return false;
+  }
   const QString found = filesFoundIn(directory.toStdString());
   if (found.isEmpty())
   {

@@ -166,6 +166,10 @@ FileOrgans Window::labelsIn(const QString& file)
 
 bool Window::openFile(const QString& file)
 {
+  if (!isFree())
+  {
+    return false;
+  }
   MeshSource source{ .file = file.toStdString() };
   std::optional<OpenDialog> dialog;
   bool opened = false;

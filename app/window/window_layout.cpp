@@ -220,6 +220,10 @@ void Window::makePlots(bool shown)
 
 void Window::showPlots(const QString& page)
 {
+  if (!isFree())
+  {
+    return;
+  }
   findChild<QAction*>("plotsAction")->setChecked(true);
   auto* dock = qobject_cast<QDockWidget*>(plots_->parentWidget());
   resizeDocks({ dock }, { height() / 2 }, Qt::Vertical);
@@ -240,6 +244,23 @@ void Window::offerDevices()
   others.removeAll("hand");
   say(others.isEmpty() ? tr("No device found that can be used; palp devices tells why")
                        : tr("Devices: %1").arg(others.join(", ")));
+}
+
+void Window::applyDevice(const QString& name)
+{
+  if (!isFree())
+  {
+    devicePanel_->choose(QString::fromStdString(session_.recording().device));
+    return;
+  }
+  if (name == tr(kScan))
+  {
+    offerDevices();
+    return;
+  }
+  attempt([&] { session_.useDevice(parseDevice(name.toStdString())); });
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  applyTissue(); // what is stable depends on the device
 }
 
 void Window::makeDevicePanel()

@@ -28,6 +28,10 @@ void Window::addMap(QMenu& edit)
 
 void Window::askMap()
 {
+  if (!isFree())
+  {
+    return;
+  }
   if (!session_.organs().empty())
   {
     message_->warn(tr("The map is of one body: open the file of an organ by itself"));

@@ -80,6 +80,10 @@ void Window::openOther(const QString& file)
 // bodies first, for the others are of them; several are one that has several parts
 bool Window::openFiles(const QStringList& files)
 {
+  if (!isFree())
+  {
+    return false;
+  }
   return attempt(
     [&]
     {

@@ -20,6 +20,7 @@ void Window::showBody()
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   orientation_.setPatient(isPatient(session_.body()));
   shown_ = {};
+  balls_.show({});
   organs_ != nullptr&& session_.organs().empty() ? organs_->parentWidget()->hide() : void();
   showOrgans();
   fittedTo_ = std::pair(0, 0);

@@ -140,6 +140,10 @@ std::size_t Window::addTake(const ExportFolder& folder)
 
 bool Window::loadPresses(const QString& folder)
 {
+  if (!isFree())
+  {
+    return false;
+  }
   return attempt(
     [&]
     {
@@ -161,6 +165,10 @@ void Window::sayListed(const QString& how, std::size_t presses)
 
 void Window::restorePresses()
 {
+  if (!isFree())
+  {
+    return;
+  }
   endReview();
   std::size_t restored = 0;
   for (const std::filesystem::path& folder : autosave_->adopt())
@@ -176,6 +184,10 @@ void Window::restorePresses()
 // there, as deep as then
 void Window::pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf)
 {
+  if (!isFree())
+  {
+    return;
+  }
   attempt(
     [&]
     {
@@ -196,6 +208,10 @@ void Window::pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>&
 
 void Window::fitPressed(int id)
 {
+  if (!isFree())
+  {
+    return;
+  }
   attempt(
     [&]
     {
