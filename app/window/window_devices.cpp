@@ -1,0 +1,90 @@
+// Which device moves the tool.
+
+#include "app/panels/device_panel.h"
+#include "app/window/window.h"
+
+#include <QAction>
+#include <QMenuBar>
+
+namespace palp
+{
+namespace
+{
+
+// the one in use first
+QStringList deviceNames(const Session& session, const std::vector<std::string>& others)
+{
+  QStringList names{ QString::fromStdString(session.recording().device) };
+  for (const std::string& name : others)
+  {
+    names << QString::fromStdString(name);
+  }
+  names.removeDuplicates();
+  return names;
+}
+
+} // namespace
+
+void Window::offerDevices()
+{
+  const std::vector<std::string> found = Session::devices();
+  const QStringList names = deviceNames(session_, found);
+  devicePanel_->offer(names + QStringList(tr(kScan)));
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  QStringList others = names;
+  others.removeAll("mouse");
+  others.removeAll("hand");
+  say(others.isEmpty() ? tr("No device found that can be used; palp devices tells why")
+                       : tr("Devices: %1").arg(others.join(", ")));
+}
+
+void Window::applyDevice(const QString& name)
+{
+  if (!isFree())
+  {
+    devicePanel_->choose(QString::fromStdString(session_.recording().device));
+    return;
+  }
+  if (name == tr(kScan))
+  {
+    offerDevices();
+    return;
+  }
+  attempt([&] { session_.useDevice(parseDevice(name.toStdString())); });
+  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  applyTissue(); // what is stable depends on the device
+}
+
+void Window::makeDevicePanel()
+{
+  // nobody looks at the USB until the user wants a device from there
+  devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kScan));
+  connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
+  connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });
+  connect(devicePanel_, &DevicePanel::armAsked, this,
+    [this](bool armed)
+    {
+      session_.stop(false);
+      session_.arm(armed);
+    });
+}
+
+void Window::makeDeviceMenu()
+{
+  QMenu* device = menuBar()->addMenu(tr("&Device"));
+  QAction* stop = device->addAction(
+    tr("&Stop the force"), this,
+    [this]
+    {
+      queued_.clear();
+      letGo();
+      session_.stop(true);
+      endReview();
+    },
+    QKeySequence(Qt::Key_Escape));
+  stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
+  device->addAction(
+    tr("S&can for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
+}
+
+} // namespace palp
