@@ -91,7 +91,8 @@ std::size_t PressLog::keepAll(const Recording& samples)
       .damping = organ.damping };
     if (samples.names.empty())
     {
-      press.summary.name = pressName(static_cast<std::size_t>(found_) - 1);
+      press.summary.name =
+        next_.empty() ? pressName(static_cast<std::size_t>(found_) - 1) : std::exchange(next_, {});
     }
     if (samples.rated)
     {

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace palp
@@ -39,6 +41,18 @@ public:
 
   /// Takes the next sample of a recording; before that of keep(), whatever is kept of it.
   void follow(const Sample& sample) noexcept;
+
+  /// Whether a press goes on that keep() has not kept yet.
+  [[nodiscard]] bool isPressing() const noexcept
+  {
+    return begin_.has_value();
+  }
+
+  /// What the next press is called that keep() keeps; empty: by its number.
+  void nameNext(std::string name)
+  {
+    next_ = std::move(name);
+  }
 
   /// Keeps the press that the tool was released of since, if any.
   /// @return  its samples, with the one before
@@ -84,6 +98,7 @@ private:
   std::optional<double> begin_;    // of the press that goes on [s]
   double lastTouch_ = 0.0;         // of it [s]
   double now_ = 0.0;               // of the last sample [s]
+  std::string next_;
   int found_ = 0;
   int version_ = 0;
 };

@@ -149,7 +149,7 @@ private:
   // the pointer as a tool, in display pixels
   void makePointer();
   void makePressBar();
-  void pressAtPlace();
+  bool pressAtPlace();
 
   // the map of stiffness
   void addMap(QMenu& edit);

@@ -155,14 +155,17 @@ void Window::openPlaces(const QString& file)
       [this, places = presses.places] { queued_.assign(places.begin(), places.end()); } } });
 }
 
-// the next of several places, once the tool has left the one before
+// the next of several places, which names its press, once the one before is kept
 void Window::pressQueued()
 {
-  if (!queued_.empty() && !pointer_.pressesByItself() && !session_.newest().contact.touching())
+  PressLog& log = session_.presses();
+  const bool isFree = !pointer_.pressesByItself() && !session_.newest().contact.touching();
+  if (!queued_.empty() && isFree && !log.isPressing())
   {
-    pressBar_->showPlace(queued_.front().position);
+    const PressPlace place = queued_.front();
     queued_.pop_front();
-    pressAtPlace();
+    pressBar_->showPlace(place.position);
+    log.nameNext(pressAtPlace() ? place.name : std::string{});
   }
 }
 

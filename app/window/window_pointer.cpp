@@ -121,7 +121,7 @@ void Window::makePressBar()
     });
 }
 
-void Window::pressAtPlace()
+bool Window::pressAtPlace()
 {
   const bool isPressed = attempt(
     [this]
@@ -143,6 +143,7 @@ void Window::pressAtPlace()
     message_->warn({});
   }
   refusedPlace_ = isPressed ? QString() : message_->text();
+  return isPressed;
 }
 
 void Window::aim()

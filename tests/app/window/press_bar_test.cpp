@@ -141,6 +141,7 @@ TEST_F(PressBarTest, OffersAndPressesThePlacesOfAList)
   {
     EXPECT_LT((presses.at(i).summary.deepest.center - places[i]).norm(), 1e-3);
     EXPECT_NEAR(presses.at(i).summary.deepest.depth, 2e-3, 0.02e-3);
+    EXPECT_EQ(presses.at(i).summary.name, i == 0 ? "back" : "top");
   }
 }
 
