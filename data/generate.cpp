@@ -47,7 +47,8 @@ void generate(const std::filesystem::path& directory)
 {
   std::filesystem::create_directories(directory);
   const Surface liver = surfaceOf(makeLiver(kDisplayEdge));
-  const Surface haptic = decimated(liver, kHapticPoints);
+  TriangleMesh coarse = decimated(liver.points(), liver.triangles(), kHapticPoints);
+  const Surface haptic(std::move(coarse.points), std::move(coarse.triangles));
   write(directory / "liver.vtp", liver);
   write(directory / "liver_haptic.vtp", haptic);
   const Deviation apart = deviation(liver, haptic);

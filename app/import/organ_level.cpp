@@ -19,9 +19,7 @@ namespace palp
 namespace
 {
 
-// as many as the bundled liver has to look at and, four times as dense, to feel
-constexpr std::size_t kShownPoints = 20'000;
-constexpr std::size_t kHapticPoints = 10'000;
+constexpr std::size_t kHapticPoints = 10'000; // four times those of the bundled liver
 
 // the surface between the voxels, before anything was smoothed
 struct Boundary
@@ -50,35 +48,22 @@ Boundary boundaryOf(const FileOrgan& organ, double length)
   return boundary;
 }
 
-// Of fewer points: of the coarse surface, which is quick, where nothing thin was lost there.
+// Of fewer points, and of more of them where the surface is thin, until it is as near as the voxels
+// tell.
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, FileOrgan& organ, double length, const Boundary& boundary)
+  std::span<const Triangle> triangles, double voxel, double shownApart, const Boundary& boundary)
 {
-  if (points.size() <= kShownPoints)
+  const double most = std::max(voxel, shownApart);
+  for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
   {
-    return std::nullopt;
-  }
-  const auto levelBy = [&](std::span<const Eigen::Vector3d> from, std::span<const Triangle> faces)
-  {
-    const Surface felt = decimated(from, faces, kHapticPoints);
-    return levelOf(felt.points(), felt.triangles(), boundary);
-  };
-  if (!organ.coarse.triangles.empty())
-  {
-    for (Eigen::Vector3d& point : organ.coarse.points)
-    {
-      point *= length;
-    }
-    OrganLevel level = levelBy(organ.coarse.points, organ.coarse.triangles);
-    const double voxel = length * organ.coarseVoxel;
-    constexpr double kMost = 3.0; // voxels, as of a wedge; what is thinner than one is farther off
-    constexpr double kUsual = 0.25;
-    if (level.apart.largest <= kMost * voxel && level.apart.rootMeanSquare <= kUsual * voxel)
+    const TriangleMesh felt = decimated(points, triangles, count, 0.5 * voxel);
+    OrganLevel level = levelOf(felt.points, felt.triangles, boundary);
+    if (level.apart.largest <= most)
     {
       return level;
     }
   }
-  return levelBy(points, triangles);
+  return std::nullopt;
 }
 
 void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>& warnings)
@@ -114,7 +99,8 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   result.shown = levelOf(points, triangles, boundary);
   try
   {
-    result.felt = feltLevel(points, triangles, organ, length, boundary);
+    result.felt =
+      feltLevel(points, triangles, length * organ.voxel, result.shown.apart.largest, boundary);
   }
   catch (const Error& error) // an edge of three triangles
   {

@@ -156,9 +156,9 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, doubl
 
 } // namespace
 
-double distanceTo(const BoxTree& tree, const Eigen::Vector3d& position) noexcept
+double distanceTo(const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept
 {
-  return std::sqrt(closestFacet(tree, position, std::numeric_limits<double>::infinity()).squared);
+  return std::sqrt(closestFacet(tree, position, reach).squared);
 }
 
 ClosestPoint findClosestPoint(

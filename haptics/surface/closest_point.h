@@ -27,9 +27,11 @@ struct ClosestPoint
 [[nodiscard]] ClosestPoint findClosestPoint(
   const Surface& surface, const Eigen::Vector3d& position, double reach) noexcept;
 
-/// Distance to the nearest of the triangles, whatever side of them a place is on; infinity where
-/// there are none [m].
-/// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] double distanceTo(const BoxTree& tree, const Eigen::Vector3d& position) noexcept;
+/// Distance to the nearest of the triangles, whatever side of them a place is on; the reach where
+/// none is nearer [m].
+/// @param reach  as above
+/// @realtime     pure; no allocation, no lock, no exception
+[[nodiscard]] double distanceTo(
+  const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept;
 
 } // namespace palp

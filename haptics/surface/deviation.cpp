@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <future>
+#include <limits>
 #include <utility>
 
 namespace palp
@@ -29,11 +30,15 @@ std::vector<Eigen::Vector3d> usedPoints(const Surface& surface)
 // of points to triangles: the largest, and the sum of the squares
 std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const BoxTree& to)
 {
+  constexpr double kAbove = 1.0 + 1e-9; // rounding
   double largest = 0.0;
   double sum = 0.0;
-  for (const Eigen::Vector3d& point : from)
+  double reach = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < from.size(); ++i)
   {
-    const double distance = distanceTo(to, point);
+    const double distance = distanceTo(to, from[i], reach);
+    // a step away it is at most a step more, which is quick where points follow one another
+    reach = i + 1 < from.size() ? kAbove * (distance + (from[i + 1] - from[i]).norm()) : reach;
     largest = std::max(largest, distance);
     sum += distance * distance;
   }

@@ -18,8 +18,7 @@ void packOrgan(std::string& bytes, const FileOrgan& organ)
   packOne(bytes, organ.enclosed);
   packSurface(bytes, organ.surface);
   packValues(bytes, organ.from);
-  packSurface(bytes, organ.coarse);
-  packOne(bytes, organ.coarseVoxel);
+  packOne(bytes, organ.voxel);
 }
 
 bool unpackOrgan(std::string_view& bytes, FileOrgan& organ)
@@ -27,8 +26,8 @@ bool unpackOrgan(std::string_view& bytes, FileOrgan& organ)
   return unpackValues(bytes, organ.label) && unpackValues(bytes, organ.name) &&
     unpackOne(bytes, organ.voxels) && unpackOne(bytes, organ.voxelVolume) &&
     unpackOne(bytes, organ.enclosed) && unpackSurface(bytes, organ.surface) &&
-    unpackValues(bytes, organ.from) && unpackSurface(bytes, organ.coarse) &&
-    unpackOne(bytes, organ.coarseVoxel) && organ.from.size() == organ.surface.points.size();
+    unpackValues(bytes, organ.from) && unpackOne(bytes, organ.voxel) &&
+    organ.from.size() == organ.surface.points.size();
 }
 
 } // namespace

@@ -17,8 +17,7 @@ struct FileOrgan
   double enclosed = 0.0;    ///< volume of what was taken of it, before it was smoothed [unit^3]
   FileSurface surface;      ///< empty where only a list is asked for
   std::vector<Eigen::Vector3d> from; ///< of its points, where each was before it was smoothed
-  FileSurface coarse{};              ///< of a large one, the same of larger voxels; empty: none
-  double coarseVoxel = 0.0;          ///< the longest side of those [unit]
+  double voxel = 0.0;                ///< longest side of one [unit]
 };
 
 /// What an image holds.

@@ -3,9 +3,9 @@
 #include "haptics/error.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 
 namespace palp
@@ -19,15 +19,18 @@ struct Traits : OpenMesh::DefaultTraits
   using Normal = OpenMesh::Vec3d;
 };
 using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using HalfEdge = HalfEdges::HalfedgeHandle;
+using Vertex = HalfEdges::VertexHandle;
 
 HalfEdges halfEdgesOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
   HalfEdges mesh;
-  std::vector<HalfEdges::VertexHandle> handles(points.size());
+  mesh.reserve(points.size(), 3 * triangles.size() / 2, triangles.size());
+  std::vector<Vertex> handles(points.size());
   omerr().disable(); // the error below says it in our words
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    std::array<HalfEdges::VertexHandle, 3> corners;
+    std::array<Vertex, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
     {
       const auto point = static_cast<std::size_t>(triangles[i][k]);
@@ -52,51 +55,221 @@ HalfEdges halfEdgesOf(std::span<const Eigen::Vector3d> points, std::span<const T
   return mesh;
 }
 
-} // namespace
-
-Surface decimated(const Surface& surface, std::size_t points)
+// twice the area, along the normal
+OpenMesh::Vec3d areaOf(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
 {
-  return decimated(surface.points(), surface.triangles(), points);
+  return (b - a) % (c - a);
 }
 
-Surface decimated(
-  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, std::size_t count)
+// Takes points away along edges, the cheapest first, in rounds: in each only such as no other of
+// the round is next to.
+class Decimation
+{
+public:
+  Decimation(HalfEdges& mesh, double error)
+    : mesh_(mesh)
+    , squaredError_(error * error)
+    , left_(mesh.n_vertices())
+    , known_(left_)
+  {
+    for (const HalfEdges::FaceHandle face : mesh.faces())
+    {
+      std::array<Vertex, 3> corners;
+      std::ranges::copy(mesh.fv_range(face), corners.begin());
+      const OpenMesh::Vec3d& on = mesh.point(corners[0]);
+      OpenMesh::Vec3d normal = areaOf(on, mesh.point(corners[1]), mesh.point(corners[2]));
+      const double area = normal.norm();
+      if (!(area > 0.0))
+      {
+        continue;
+      }
+      normal /= area;
+      const Eigen::Vector4d plane(normal[0], normal[1], normal[2], -(normal | on));
+      for (const Vertex corner : corners)
+      {
+        known(corner).planes += area * plane * plane.transpose();
+        known(corner).area += area;
+      }
+    }
+  }
+
+  void downTo(std::size_t count)
+  {
+    constexpr std::size_t kSlow = 500; // points for one that can still be taken away
+    std::size_t taken = left_;
+    while (left_ > count && taken * kSlow > left_)
+    {
+      taken = goAround(count);
+    }
+  }
+
+private:
+  struct Choice
+  {
+    double cost; // squared distance times area, and a little of the length [m^4]
+    HalfEdge edge;
+  };
+
+  // of a point
+  struct Known
+  {
+    Eigen::Matrix4d planes = Eigen::Matrix4d::Zero(); // quadric of the triangles it stands for
+    double area = 0.0;                                // twice theirs [m^2]
+    int round = 0;                                    // in which something next to it was taken
+    Vertex nextTo{};                                  // that is looked at
+  };
+
+  Known& known(Vertex vertex)
+  {
+    return known_[static_cast<std::size_t>(vertex.idx())];
+  }
+
+  // how many points were taken
+  std::size_t goAround(std::size_t count)
+  {
+    ++now_;
+    std::vector<Choice> choices;
+    choices.reserve(left_);
+    for (const Vertex vertex : mesh_.vertices()) // that are left
+    {
+      Choice best{ std::numeric_limits<double>::infinity(), HalfEdge() };
+      for (const HalfEdge edge : mesh_.voh_range(vertex))
+      {
+        const double cost = costOf(edge);
+        best = cost < best.cost ? Choice{ cost, edge } : best;
+      }
+      best.edge.is_valid() ? choices.push_back(best) : void();
+    }
+    std::ranges::sort(choices, {}, [](const Choice& one) { return std::pair(one.cost, one.edge); });
+    const std::size_t before = left_;
+    choices.resize((choices.size() + 7) / 8); // the others may be cheaper when these are done
+    for (const Choice& choice : choices)
+    {
+      left_ > count ? take(choice.edge) : void();
+    }
+    return before - left_;
+  }
+
+  // infinite where it is more than allowed
+  [[nodiscard]] double costOf(HalfEdge edge)
+  {
+    const Vertex from = mesh_.from_vertex_handle(edge);
+    const Vertex to = mesh_.to_vertex_handle(edge);
+    const OpenMesh::Vec3d& place = mesh_.point(to);
+    const Eigen::Vector4d x(place[0], place[1], place[2], 1.0);
+    const double moved = std::max(0.0, x.dot((known(from).planes + known(to).planes) * x));
+    const double area = known(from).area + known(to).area;
+    constexpr double kEven = 1e-6; // among equals the shorter edge, so that triangles stay round
+    return moved <= squaredError_ * area
+      ? moved + kEven * area * (place - mesh_.point(from)).sqrnorm()
+      : std::numeric_limits<double>::infinity();
+  }
+
+  void take(HalfEdge edge)
+  {
+    const Vertex from = mesh_.from_vertex_handle(edge);
+    const Vertex to = mesh_.to_vertex_handle(edge);
+    if (known(from).round == now_ || known(to).round == now_ || !keepsTopology(edge) ||
+      turnsOver(from, to))
+    {
+      return;
+    }
+    for (const Vertex near : mesh_.vv_range(from))
+    {
+      known(near).round = now_;
+    }
+    known(to).planes += known(from).planes;
+    known(to).area += known(from).area;
+    mesh_.collapse(edge);
+    --left_;
+  }
+
+  // the link condition: what both ends are next to are the corners across from the edge
+  bool keepsTopology(HalfEdge edge)
+  {
+    const Vertex from = mesh_.from_vertex_handle(edge);
+    const Vertex to = mesh_.to_vertex_handle(edge);
+    const bool isRim = mesh_.is_boundary(mesh_.edge_handle(edge));
+    if (mesh_.is_boundary(from) && !isRim)
+    {
+      return false;
+    }
+    for (const Vertex near : mesh_.vv_range(from))
+    {
+      known(near).nextTo = from;
+    }
+    int common = 0;
+    bool isThin = false; // a corner of three triangles would keep two, back to back
+    for (const Vertex near : mesh_.vv_range(to))
+    {
+      const bool isCommon = known(near).nextTo == from;
+      common += isCommon ? 1 : 0;
+      isThin = isThin || (isCommon && mesh_.valence(near) <= 3);
+    }
+    std::ranges::for_each(
+      mesh_.vv_range(from), [&](Vertex near) { known(near).nextTo = Vertex(); });
+    return common == (isRim ? 1 : 2) && !isThin;
+  }
+
+  [[nodiscard]] bool turnsOver(Vertex from, Vertex to) const
+  {
+    constexpr double kMost = 0.7; // cosine
+    for (const HalfEdge out : mesh_.voh_range(from))
+    {
+      const Vertex a = mesh_.to_vertex_handle(out);
+      const Vertex b = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out));
+      if (mesh_.is_boundary(out) || a == to || b == to)
+      {
+        continue;
+      }
+      const auto& [one, other] = std::pair(mesh_.point(a), mesh_.point(b));
+      const OpenMesh::Vec3d before = areaOf(mesh_.point(from), one, other);
+      const OpenMesh::Vec3d after = areaOf(mesh_.point(to), one, other);
+      const double size = before.norm();
+      if (size > 0.0 && !((before | after) > kMost * size * after.norm()))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  HalfEdges& mesh_;
+  double squaredError_; // [m^2]
+  std::size_t left_;    // points
+  std::vector<Known> known_;
+  int now_ = 0; // round
+};
+
+} // namespace
+
+TriangleMesh decimated(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  std::size_t count, double error)
 {
   HalfEdges mesh = halfEdgesOf(points, triangles);
   mesh.request_vertex_status();
   mesh.request_edge_status();
   mesh.request_face_status();
-  mesh.request_face_normals();
-  mesh.update_face_normals();
-
-  OpenMesh::Decimater::DecimaterT<HalfEdges> decimater(mesh);
-  OpenMesh::Decimater::ModQuadricT<HalfEdges>::Handle quadric;
-  OpenMesh::Decimater::ModNormalFlippingT<HalfEdges>::Handle flipping;
-  decimater.add(quadric);
-  decimater.add(flipping);
-  decimater.module(quadric).unset_max_err();
-  decimater.initialize();
-  decimater.decimate_to(count);
+  Decimation(mesh, error).downTo(count);
   mesh.garbage_collection();
 
-  std::vector<Eigen::Vector3d> kept;
-  kept.reserve(mesh.n_vertices());
-  for (const HalfEdges::VertexHandle vertex : mesh.vertices())
+  TriangleMesh result;
+  result.points.reserve(mesh.n_vertices());
+  for (const Vertex vertex : mesh.vertices())
   {
-    kept.emplace_back(mesh.point(vertex).data());
+    result.points.emplace_back(mesh.point(vertex).data());
   }
-  std::vector<Triangle> facesKept;
-  facesKept.reserve(mesh.n_faces());
+  result.triangles.reserve(mesh.n_faces());
   for (const HalfEdges::FaceHandle face : mesh.faces())
   {
-    Triangle& triangle = facesKept.emplace_back();
+    Triangle& triangle = result.triangles.emplace_back();
     std::size_t k = 0;
-    for (const HalfEdges::VertexHandle vertex : mesh.fv_range(face))
+    for (const Vertex vertex : mesh.fv_range(face))
     {
       triangle[k++] = vertex.idx();
     }
   }
-  return { std::move(kept), std::move(facesKept) };
+  return result;
 }
 
 } // namespace palp

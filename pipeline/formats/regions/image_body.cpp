@@ -100,21 +100,13 @@ FileSurface placed(const PatientImage& volume, ImageContour& contour)
     .space = volume.space };
 }
 
-// of a large one that is to be felt
-void addCoarse(const PatientImage& volume, const ImageRegion& region, std::size_t components,
-  const ImageContour& contour, FileOrgan& organ)
+double longestSide(const PatientImage& volume)
 {
-  constexpr std::size_t kLarge = 80'000; // points
-  if (!region.isFelt || contour.points.size() <= kLarge)
-  {
-    return;
-  }
-  int side = 1;
-  ImageContour coarse = coarseContour(*region.image, region.level, components, contour, side);
   const Eigen::Vector3d spacing(volume.image->GetSpacing());
-  const Eigen::Matrix3d voxel = Form(volume.toPatient).topLeftCorner<3, 3>() * spacing.asDiagonal();
-  organ.coarse = placed(volume, coarse);
-  organ.coarseVoxel = side * voxel.colwise().norm().maxCoeff();
+  return (Form(volume.toPatient).topLeftCorner<3, 3>() * spacing.asDiagonal())
+    .colwise()
+    .norm()
+    .maxCoeff();
 }
 
 } // namespace
@@ -260,7 +252,7 @@ FileOrgan bodyOf(
   organ.voxels = static_cast<std::uint64_t>(voxels);
   organ.voxelVolume = static_cast<double>(voxels) * voxelVolume(volume);
   organ.enclosed = grown * std::abs(contour.enclosed);
-  addCoarse(volume, region, components, contour, organ);
+  organ.voxel = longestSide(volume);
   toPatient(volume, contour.from);
   organ.from = std::move(contour.from);
   organ.surface = placed(volume, contour);

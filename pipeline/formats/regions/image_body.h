@@ -14,7 +14,6 @@ struct ImageRegion
   vtkSmartPointer<vtkImageData> image; ///< with room about the body, but for one below the level
   double level = 0.5;
   bool mask = true;                 ///< of voxels that are in or out
-  bool isFelt = false;              ///< a coarser surface is wanted, too, where it is large
   bool below = false;               ///< above the level lower values are meant
   std::vector<std::string> notes{}; ///< how it was taken
 };

@@ -133,26 +133,4 @@ ImageContour imageContour(vtkImageData& image, double level, double mask, std::s
   return contour;
 }
 
-ImageContour coarseContour(
-  vtkImageData& image, double level, std::size_t components, const ImageContour& of, int& side)
-{
-  constexpr double kPoints = 60'000.0;
-  side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(of.points.size()) / kPoints)));
-  const auto mean = meanOf(image, side);
-  ImageContour contour = contourOf(*mean, level);
-  if (contour.triangles.empty())
-  {
-    return contour;
-  }
-  const Eigen::Array3d spacing = Eigen::Array3d(mean->GetSpacing()).abs();
-  std::vector<std::string> none; // what is left out is told of the other
-  const Edges edges = keepPieces(contour, components, spacing.prod(), none);
-  if (contour.points.empty()) // all of it is thinner than a voxel
-  {
-    return contour;
-  }
-  bendLeast(contour.points, contour.triangles, edges, 0.25 * spacing, of.enclosed);
-  return contour;
-}
-
 } // namespace palp

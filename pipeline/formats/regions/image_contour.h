@@ -36,10 +36,4 @@ struct ImageContour
 [[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, double mask,
   std::size_t components, std::vector<std::string>& notes);
 
-/// The same of larger voxels, with some 60,000 points, for what takes long of many.
-/// @param of    has more points than that
-/// @param side  gets how many voxels are one, along each axis
-[[nodiscard]] ImageContour coarseContour(
-  vtkImageData& image, double level, std::size_t components, const ImageContour& of, int& side);
-
 } // namespace palp

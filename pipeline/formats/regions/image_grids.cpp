@@ -111,48 +111,6 @@ vtkSmartPointer<vtkImageData> closedAtBorder(vtkImageData& image, double level, 
   return above == 0 || above == border ? vtkSmartPointer<vtkImageData>(&image) : closed;
 }
 
-vtkSmartPointer<vtkImageData> meanOf(vtkImageData& image, int count)
-{
-  const int* size = image.GetDimensions();
-  std::array<int, 3> fewer{};
-  std::array<double, 3> spacing{};
-  std::array<double, 3> origin{};
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    fewer[k] = (size[k] + count - 1) / count + 2; // one of the border to each side
-    spacing[k] = count * image.GetSpacing()[k];
-    const double first = image.GetExtent()[2 * k] - 0.5 * (count + 1);
-    origin[k] = image.GetOrigin()[k] + first * image.GetSpacing()[k];
-  }
-  auto mean = vtkSmartPointer<vtkImageData>::New();
-  mean->SetDimensions(fewer.data());
-  mean->SetSpacing(spacing.data());
-  mean->SetOrigin(origin.data());
-  mean->AllocateScalars(VTK_FLOAT, 1);
-  auto* sums = static_cast<float*>(mean->GetScalarPointer());
-  std::fill_n(sums, mean->GetNumberOfPoints(), 0.0F);
-  const auto in = [&](int index, std::size_t k) { return std::clamp(index, 0, size[k] - 1); };
-  const float share = 1.0F / static_cast<float>(count * count * count);
-  withVoxels(image, 0,
-    [&](const auto& voxels)
-    {
-      for (int z = 0; z < fewer[2] * count; ++z)
-      {
-        for (int y = 0; y < fewer[1] * count; ++y)
-        {
-          float* row = sums + (static_cast<vtkIdType>(z / count) * fewer[1] + y / count) * fewer[0];
-          const vtkIdType from =
-            (static_cast<vtkIdType>(in(z - count, 2)) * size[1] + in(y - count, 1)) * size[0];
-          for (int x = 0; x < fewer[0] * count; ++x)
-          {
-            row[x / count] += share * static_cast<float>(voxels[from + in(x - count, 0)]);
-          }
-        }
-      }
-    });
-  return mean;
-}
-
 bool isAboveAround(vtkImageData& image, double level)
 {
   const int* extent = image.GetExtent();

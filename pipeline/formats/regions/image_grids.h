@@ -23,10 +23,6 @@ void mark(vtkImageData& mask, vtkImageData& image, const VoxelBox& box,
 [[nodiscard]] vtkSmartPointer<vtkImageData> closedAtBorder(
   vtkImageData& image, double level, double outside);
 
-/// An image of fewer voxels, each the mean of as many along each axis; those beyond the border
-/// are as those on it.
-[[nodiscard]] vtkSmartPointer<vtkImageData> meanOf(vtkImageData& image, int count);
-
 /// Whether the border is above the level, as of a distance: the body is below then.
 /// @param image  of closedAtBorder, or a mask
 [[nodiscard]] bool isAboveAround(vtkImageData& image, double level);

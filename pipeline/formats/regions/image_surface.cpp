@@ -61,9 +61,8 @@ FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::siz
   const std::string& name)
 {
   const FileOrgan known = listed(labels, volume);
-  ImageRegion region = regionOfLabels(volume, labels);
-  region.isFelt = true;
-  FileOrgan organ = bodyOf(volume, std::move(region), components, name + ", label " + known.label);
+  FileOrgan organ =
+    bodyOf(volume, regionOfLabels(volume, labels), components, name + ", label " + known.label);
   organ.label = known.label;
   organ.name = known.name;
   return organ;
@@ -124,7 +123,6 @@ FileOrgans imageOrgans(
   {
     ImageRegion region =
       part.band ? regionOfBand(volume, *part.band, name) : levelOf(volume, part, name);
-    region.isFelt = true;
     all.organs.push_back(bodyOf(volume, std::move(region), part.components, name));
     return all;
   }
