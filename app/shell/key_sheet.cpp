@@ -64,22 +64,17 @@ void showKeySheet(QWidget& window, const std::vector<KeyEntry>& mouse, const QMe
   sheet->setAttribute(Qt::WA_DeleteOnClose);
   auto* rows = new QGridLayout;
   rows->setHorizontalSpacing(24);
-  rows->setVerticalSpacing(2); // for a screen of 768 lines
-  const auto add = [rows](const KeyEntry& entry)
+  rows->setVerticalSpacing(2);
+  const auto add = [rows](const std::vector<KeyEntry>& entries, int column)
   {
-    const int row = rows->rowCount();
-    auto* keys = new QLabel("<b>" + entry.keys.toHtmlEscaped() + "</b>");
-    rows->addWidget(keys, row, 0);
-    rows->addWidget(new QLabel(entry.effect), row, 1);
+    for (int row = 0; const KeyEntry& entry : entries)
+    {
+      rows->addWidget(new QLabel("<b>" + entry.keys.toHtmlEscaped() + "</b>"), row, column);
+      rows->addWidget(new QLabel(entry.effect), row++, column + 1);
+    }
   };
-  for (const KeyEntry& entry : mouse)
-  {
-    add(entry);
-  }
-  for (const KeyEntry& entry : keysOf(menus))
-  {
-    add(entry);
-  }
+  add(mouse, 0); // beside each other, for a screen of 768 lines
+  add(keysOf(menus), 2);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   QObject::connect(buttons, &QDialogButtonBox::rejected, sheet, &QDialog::reject);
   auto* column = new QVBoxLayout(sheet);
