@@ -176,6 +176,7 @@ void printForces(const ForceOptions& options)
   const ForceLaw law = options.tissue.law();
   const Range& depths = options.depths;
   ContactGeometry geometry = options.geometry.geometry;
+  law.checkBody(geometry.thickness);
   const Pressed pressed{ .law = law,
     .nodules = options.nodules.under(law, geometry, depths.si.back()),
     .validity = Validity(law, { .deepest = depths.si.back() }) };

@@ -11,6 +11,7 @@
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 
+#include <Eigen/Geometry>
 #include <vtkPolyData.h>
 
 #include <iomanip>
@@ -202,6 +203,12 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
 
 std::shared_ptr<const NoduleField> feltNodules(const SceneBody& body, const ForceLaw& law)
 {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : body.haptic->points())
+  {
+    box.extend(point);
+  }
+  law.checkBody(box.sizes().minCoeff());
   const bool known = law.settings().mode == LawMode::Corrected && law.settings().coatings.empty();
   return known ? embedNodules(*body.haptic, law, body.nodules) : nullptr;
 }

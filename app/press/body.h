@@ -70,7 +70,7 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
 
 /// The nodules of a body, felt by the tool of a law; null where there are none, or the law does not
 /// know them.
-/// @throws Error  as embedNodules
+/// @throws Error  as embedNodules and ForceLaw::checkBody
 [[nodiscard]] std::shared_ptr<const NoduleField> feltNodules(
   const SceneBody& body, const ForceLaw& law);
 

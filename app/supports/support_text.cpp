@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr const char* kOption = "--support";
-constexpr double kAround = 0.33; // of a cell
+constexpr double kRounding = 1e-6; // [m]
 
 std::vector<std::string> wordsOf(const std::string& text)
 {
@@ -47,19 +47,19 @@ Eigen::Vector3d areaOf(const Surface& surface, const Holds& holds)
   return area;
 }
 
-Support boxOf(const std::vector<std::string>& words, const Surface& surface, double cell)
+Support boxOf(const std::vector<std::string>& words, const Surface& surface)
 {
   const Eigen::Vector3d one = parsePlace(words[2], kOption).position;
   const Eigen::Vector3d other = parsePlace(words[3], kOption).position;
-  const Eigen::Vector3d low = one.cwiseMin(other).array() - kAround * cell;
-  const Eigen::Vector3d high = one.cwiseMax(other).array() + kAround * cell;
+  const Eigen::Vector3d low = one.cwiseMin(other).array() - kRounding;
+  const Eigen::Vector3d high = one.cwiseMax(other).array() + kRounding;
   const auto holds = [low, high](const Eigen::Vector3d& x)
   { return (x - low).minCoeff() >= 0.0 && (high - x).minCoeff() >= 0.0; };
   return { holds,
     areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
 }
 
-Support directionOf(const std::vector<std::string>& words, const Surface& surface, double cell)
+Support directionOf(const std::vector<std::string>& words, const Surface& surface)
 {
   const Eigen::Vector3d way = parseDirection(words[2], kOption).normalized();
   const double least = std::cos(parseQuantity(words[3], Quantity::Angle, kOption));
@@ -68,18 +68,16 @@ Support directionOf(const std::vector<std::string>& words, const Surface& surfac
     const Triangle& corners = surface.triangles()[at(triangle)];
     return unitNormal(surface.points(), corners).dot(way) >= least;
   };
-  return { [&surface, faces, cell](const Eigen::Vector3d& x)
+  return { [&surface, faces](const Eigen::Vector3d& x)
     {
-      const ClosestPoint nearest =
-        findClosestPoint(surface, x, std::numeric_limits<double>::infinity());
-      return nearest.distance >= -kAround * cell && faces(nearest.triangle);
+      return faces(findClosestPoint(surface, x, std::numeric_limits<double>::infinity()).triangle);
     },
     areaOf(surface, [&](const Eigen::Vector3d&, int triangle) { return faces(triangle); }) };
 }
 
 } // namespace
 
-Support parseSupport(const std::string& text, const Surface& surface, double cell)
+Support parseSupport(const std::string& text, const Surface& surface)
 {
   const std::vector<std::string> words = wordsOf(text);
   const bool isKnown = words.size() == 4 && (words[0] == "bonded" || words[0] == "sliding") &&
@@ -91,8 +89,7 @@ Support parseSupport(const std::string& text, const Surface& surface, double cel
         "' is no support; write bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, or "
         "bonded:direction:X,Y,Z:30deg, or either with sliding");
   }
-  Support support =
-    words[1] == "box" ? boxOf(words, surface, cell) : directionOf(words, surface, cell);
+  Support support = words[1] == "box" ? boxOf(words, surface) : directionOf(words, surface);
   if (support.along.isZero())
   {
     throw Error(ErrorCode::BadValue,

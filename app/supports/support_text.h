@@ -12,11 +12,8 @@ namespace palp
 /// `KIND:direction:X,Y,Z:ANGLE` where its surface faces a direction within an angle. KIND is
 /// `bonded`, or `sliding`, which holds it across the mean of that surface only.
 ///
-/// What is within a third of a cell of it is held, too, as a cut cell ends there on average.
-///
 /// @param surface  closed; it has to live as long as the result
-/// @param cell     side of the cells [m]
 /// @throws Error   BadValue: names what is wrong, or that it holds nothing of the surface
-[[nodiscard]] Support parseSupport(const std::string& text, const Surface& surface, double cell);
+[[nodiscard]] Support parseSupport(const std::string& text, const Surface& surface);
 
 } // namespace palp

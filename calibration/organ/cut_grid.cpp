@@ -134,7 +134,7 @@ CutGrid::CutGrid(const Surface& surface, double side)
   fill(surface);
 }
 
-CubePoints CutGrid::inside(const std::array<int, 3>& cube) const noexcept
+CubePoints CutGrid::inside(const Cube& cube) const noexcept
 {
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -145,6 +145,50 @@ CubePoints CutGrid::inside(const std::array<int, 3>& cube) const noexcept
   }
   const std::size_t index = (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
   return points_[index];
+}
+
+std::vector<Cube> CutGrid::largestPiece(double least) const
+{
+  const auto& [nx, ny, nz] = size_;
+  const auto index = [&](const Cube& c)
+  { return (at(c[2]) * at(size_[1]) + at(c[1])) * at(size_[0]) + at(c[0]); };
+  std::vector<bool> met(at(nx) * at(ny) * at(nz));
+  std::vector<Cube> largest;
+  for (int k = 0; k < nz; ++k)
+  {
+    for (int j = 0; j < ny; ++j)
+    {
+      for (int i = 0; i < nx; ++i)
+      {
+        std::vector<Cube> piece;
+        const auto visit = [&](const Cube& cube)
+        {
+          if (filled(cube) >= least && !met[index(cube)])
+          {
+            met[index(cube)] = true;
+            piece.push_back(cube);
+          }
+        };
+        visit({ i, j, k });
+        std::size_t next = 0;
+        while (next < piece.size())
+        {
+          const Cube cube = piece[next++];
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            for (const int step : { -1, 1 })
+            {
+              Cube beside = cube;
+              beside[axis] += step;
+              visit(beside);
+            }
+          }
+        }
+        largest = piece.size() > largest.size() ? std::move(piece) : largest;
+      }
+    }
+  }
+  return largest;
 }
 
 void CutGrid::fill(const Surface& surface)

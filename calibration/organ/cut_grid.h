@@ -10,6 +10,8 @@
 namespace palp
 {
 
+using Cube = std::array<int, 3>; ///< its place in a grid, x, y, z
+
 /// Cubes over a body, each with the part of it that is inside.
 class CutGrid
 {
@@ -23,7 +25,7 @@ public:
   {
     return side_;
   }
-  [[nodiscard]] const std::array<int, 3>& size() const noexcept
+  [[nodiscard]] const Cube& size() const noexcept
   {
     return size_;
   }
@@ -33,21 +35,25 @@ public:
   }
 
   /// The points of a cube that are inside the body; none outside the grid.
-  [[nodiscard]] CubePoints inside(const std::array<int, 3>& cube) const noexcept;
+  [[nodiscard]] CubePoints inside(const Cube& cube) const noexcept;
 
   /// Part of a cube that is inside the body, 0 to 1.
-  [[nodiscard]] double filled(const std::array<int, 3>& cube) const noexcept
+  [[nodiscard]] double filled(const Cube& cube) const noexcept
   {
     const CubePoints points = inside(cube);
     return static_cast<double>(points.count()) / static_cast<double>(points.size());
   }
+
+  /// The cubes that hang together by their faces, most of them.
+  /// @param least  part of one that has to be inside the body, for it to count
+  [[nodiscard]] std::vector<Cube> largestPiece(double least) const;
 
 private:
   void fill(const Surface& surface);
 
   double side_;
   Eigen::Vector3d low_; // corner of the grid [m]
-  std::array<int, 3> size_{};
+  Cube size_{};
   std::vector<CubePoints> points_; // of each cube
 };
 

@@ -1,5 +1,7 @@
 #include "calibration/organ/organ_compliance.h"
 
+#include "calibration/organ/smooth_pressure.h"
+#include "calibration/organ/surface_parts.h"
 #include "haptics/surface/ray.h"
 
 #include <Eigen/Geometry>
@@ -7,17 +9,17 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <vector>
 
 namespace palp
 {
 namespace
 {
 
-constexpr double kSides = 2.0;                     // of cells to a radius of the load
-constexpr std::array kRings{ 1.0, 1.2, 1.4, 1.6 }; // radii
-constexpr int kAround = 16;                        // places on a ring
-constexpr int kLoadRings = 6;
+constexpr double kSides = 1.5;                     // of cells to the radius of the pressure
+constexpr std::array kRings{ 0.0, 0.5, 1.0, 1.5 }; // radii
+constexpr int kLoadRings = 24;
+constexpr int kAround = 16; // places on a ring
 
 // a place on the surface, above or below one in the tangent plane
 class TangentPlane
@@ -43,21 +45,51 @@ public:
   {
     const Eigen::Vector3d from = place_ + vector(at) + reach_ * outward_;
     const RayHit hit = rayEntry(surface_.tree(), from, -outward_);
-    if (hit.triangle < 0 || hit.distance > 2.0 * reach_ || !facesAlike(hit.triangle))
+    if (hit.triangle < 0 || hit.distance > 2.0 * reach_)
     {
       return std::nullopt;
     }
-    return from - hit.distance * outward_;
+    const auto& [a, b, c] = surface_.triangles()[palp::at(hit.triangle)];
+    const Eigen::Vector3d& corner = surface_.points()[palp::at(a)];
+    const bool isAlike = facesAlike(
+      (surface_.points()[palp::at(b)] - corner).cross(surface_.points()[palp::at(c)] - corner));
+    return isAlike ? std::optional(Eigen::Vector3d(from - hit.distance * outward_)) : std::nullopt;
+  }
+
+  // else it is another side of the body, beyond an edge
+  [[nodiscard]] bool facesAlike(const Eigen::Vector3d& area) const
+  {
+    return area.dot(outward_) > std::numbers::sqrt2 / 2.0 * area.norm();
+  }
+
+  // a vector seen from here, z into the body
+  [[nodiscard]] Eigen::Vector3d inside(const Eigen::Vector3d& vector) const
+  {
+    return { vector.dot(first_), vector.dot(second_), -vector.dot(outward_) };
+  }
+  [[nodiscard]] Eigen::Vector3d outside(const Eigen::Vector3d& local) const
+  {
+    return local.x() * first_ + local.y() * second_ - local.z() * outward_;
+  }
+
+  [[nodiscard]] const Surface& surface() const
+  {
+    return surface_;
+  }
+  [[nodiscard]] const Eigen::Vector3d& place() const
+  {
+    return place_;
+  }
+  [[nodiscard]] const Eigen::Vector3d& outward() const
+  {
+    return outward_;
+  }
+  [[nodiscard]] double reach() const
+  {
+    return reach_;
   }
 
 private:
-  // else it is another side of the body, beyond an edge
-  [[nodiscard]] bool facesAlike(int triangle) const
-  {
-    const auto& corners = surface_.triangles()[at(triangle)];
-    return unitNormal(surface_.points(), corners).dot(outward_) > std::numbers::sqrt2 / 2.0;
-  }
-
   const Surface& surface_;
   Eigen::Vector3d place_;
   Eigen::Vector3d outward_;
@@ -72,91 +104,153 @@ Eigen::Vector2d onCircle(double radius, int i)
   return { radius * std::cos(angle), radius * std::sin(angle) };
 }
 
-// unit force into the body, by places of equal force under Hertz's pressure
-Eigen::VectorXd loadOn(
-  const OrganModel& model, const TangentPlane& plane, double radius, const Eigen::Vector3d& outward)
+// what the surface is loaded by where the field of the half-space is taken off: of a flat one
+// nothing but where it ends
+Eigen::VectorXd loadBeyond(
+  const OrganModel& model, const TangentPlane& plane, const SmoothPressure& pressure)
 {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3L * model.nodes());
-  int count = 0;
   OrganModel::Weights weights{};
-  for (int ring = 0; ring < kLoadRings; ++ring)
+  const Surface& surface = plane.surface();
+  for (const auto& [a, b, c] : surface.triangles())
   {
-    const double part = (ring + 0.5) / kLoadRings;
-    const double r = radius * std::sqrt(1.0 - std::pow(1.0 - part, 2.0 / 3.0));
-    for (int i = 0; i < kAround; ++i)
-    {
-      const auto place = plane.onSurface(onCircle(r, i));
-      if (place && model.weightsAt(*place, outward, weights))
+    constexpr double growth = 0.1;
+    forParts({ surface.points()[at(a)], surface.points()[at(b)], surface.points()[at(c)] },
+      plane.place(), 0.5 * model.side(), growth,
+      [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
       {
-        ++count;
+        const Eigen::Vector3d normal = plane.inside(area);
+        const Eigen::Vector3d local = plane.inside(middle - plane.place());
+        if (!model.weightsAt(middle, area.normalized(), weights))
+        {
+          return;
+        }
+        Eigen::Vector3d force = -pressure.stress(local) * normal;
+        if (plane.facesAlike(area) && std::abs(local.z()) < plane.reach())
+        {
+          force.z() -= pressure.at(local.head<2>().norm()) * normal.z();
+        }
         for (std::size_t k = 0; k < weights.nodes.size(); ++k)
         {
-          load.segment<3>(3L * weights.nodes[k]) -= weights.values[k] * outward;
+          load.segment<3>(3L * weights.nodes[k]) += weights.values[k] * plane.outside(force);
         }
+      });
+  }
+  return load;
+}
+
+// a part of the pressure, as places of equal force
+struct Pressed
+{
+  std::vector<Eigen::Vector2d> off; // the body
+  double part = 0.0;                // of the force that is on it
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero(); // mean of x x'
+};
+
+Pressed pressedBy(const SmoothPressure& pressure, const TangentPlane& plane)
+{
+  Pressed pressed;
+  int on = 0;
+  for (int ring = 0; ring < kLoadRings; ++ring)
+  {
+    for (int i = 0; i < kAround; ++i)
+    {
+      const Eigen::Vector2d place = onCircle(pressure.radiusOf((ring + 0.5) / kLoadRings), i);
+      if (!plane.onSurface(place))
+      {
+        pressed.off.push_back(place);
+        continue;
       }
+      ++on;
+      pressed.middle += place;
+      pressed.square += place * place.transpose();
     }
   }
-  return count > 0 ? Eigen::VectorXd(load / count) : load;
+  pressed.middle /= on;
+  pressed.square /= on;
+  pressed.part = static_cast<double>(on) / (kLoadRings * kAround);
+  return pressed;
 }
 
-} // namespace
-
-double hertzDisplacement(double distance, double radius, double modulus) noexcept
+// displacements beyond those of a half-space, and where
+struct Readings
 {
-  const double scale = 3.0 / (4.0 * modulus * radius * radius * radius);
-  const double square = distance * distance;
-  if (distance <= radius)
-  {
-    return scale * (radius * radius - 0.5 * square);
-  }
-  return scale / std::numbers::pi *
-    ((2.0 * radius * radius - square) * std::asin(radius / distance) +
-      radius * std::sqrt(square - radius * radius));
-}
-
-std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surface& surface,
-  const Eigen::Vector3d& place, const Eigen::Vector3d& outward)
-{
-  const double radius = kSides * model.side();
-  const TangentPlane plane(surface, place, outward, radius);
-  const Eigen::VectorXd moved = model.solve(loadOn(model, plane, radius, outward));
   std::vector<Eigen::Vector2d> places;
   std::vector<double> values;
+};
+
+Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPressure& pressure,
+  const Pressed& pressed)
+{
+  const Eigen::VectorXd moved = model.solve(loadBeyond(model, plane, pressure),
+    [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
+    { return -plane.outside(pressure.displacement(plane.inside(place - plane.place()))); });
+  Readings readings;
   OrganModel::Weights weights{};
   for (const double ring : kRings)
   {
     for (int i = 0; i < kAround; ++i)
     {
-      const Eigen::Vector2d in = onCircle(ring * radius, i);
+      const Eigen::Vector2d in = onCircle(ring * pressure.radius, i);
       const auto on = plane.onSurface(in);
-      if (!on || !model.weightsAt(*on, outward, weights))
+      if (!on || !model.weightsAt(*on, plane.outward(), weights))
       {
         continue;
       }
-      double down = 0.0;
+      double down = pressure.displacement(plane.inside(*on - plane.place())).z() -
+        pressure.displacement({ in.x(), in.y(), 0.0 }).z();
       for (std::size_t k = 0; k < weights.nodes.size(); ++k)
       {
-        down -= weights.values[k] * outward.dot(moved.segment<3>(3L * weights.nodes[k]));
+        down -= weights.values[k] * plane.outward().dot(moved.segment<3>(3L * weights.nodes[k]));
       }
-      places.push_back(in);
-      values.push_back(down - hertzDisplacement(ring * radius, radius, model.contactModulus()));
+      for (const Eigen::Vector2d& off : pressed.off)
+      {
+        down += 1.0 /
+          (kLoadRings * kAround * std::numbers::pi * model.contactModulus() * (off - in).norm());
+      }
+      readings.places.push_back(in);
+      readings.values.push_back(down / pressed.part);
     }
   }
-  if (places.size() < kRings.size() * kAround / 2)
+  return readings;
+}
+
+} // namespace
+
+std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surface& surface,
+  const Eigen::Vector3d& place, const Eigen::Vector3d& outward)
+{
+  const double radius = kSides * model.side();
+  const SmoothPressure pressure{ radius, model.shearModulus(), model.poissonRatio() };
+  if (rayEntry(surface.tree(), place + 1e-3 * radius * outward, outward).triangle >= 0)
+  {
+    return std::nullopt; // the sources of the pressure would be in the body
+  }
+  const TangentPlane plane(surface, place, outward, radius);
+  const Pressed pressed = pressedBy(pressure, plane);
+  const Readings readings = read(model, plane, pressure, pressed);
+  if (readings.places.size() < kRings.size() * kAround / 2)
   {
     return std::nullopt;
   }
-  Eigen::MatrixXd terms(static_cast<Eigen::Index>(places.size()), 6);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  // G0 + b.(x + y) + (x'Ax + y'Ay) / 2, of the mean over the pressure
+  Eigen::MatrixXd terms(static_cast<Eigen::Index>(readings.places.size()), 6);
+  const Eigen::Matrix2d square = pressed.square / (radius * radius);
+  for (std::size_t i = 0; i < readings.places.size(); ++i)
   {
-    const double x = places[i].x() / radius;
-    const double y = places[i].y() / radius;
-    terms.row(static_cast<Eigen::Index>(i)) << 1.0, x, y, x * x, y * y, x * y;
+    const Eigen::Vector2d y = readings.places[i] / radius;
+    const Eigen::Vector2d first = y + pressed.middle / radius;
+    terms.row(static_cast<Eigen::Index>(i)) << 1.0, first.x(), first.y(),
+      0.5 * (square(0, 0) + y.x() * y.x()), 0.5 * (square(1, 1) + y.y() * y.y()),
+      square(0, 1) + y.x() * y.y();
   }
-  const Eigen::VectorXd fitted = terms.colPivHouseholderQr().solve(
-    Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  const Eigen::VectorXd fitted =
+    terms.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(
+      readings.values.data(), static_cast<Eigen::Index>(readings.values.size())));
   return OrganCompliance{ .constant = fitted[0],
-    .slope = plane.vector({ fitted[1] / radius, fitted[2] / radius }) };
+    .slope = plane.vector({ fitted[1] / radius, fitted[2] / radius }),
+    .bend = (fitted[3] + fitted[4]) / (radius * radius) };
 }
 
 } // namespace palp

@@ -9,31 +9,23 @@ namespace palp
 {
 
 /// What a body adds to the displacement of its own surface at a place, beyond a half-space:
-/// G_reg(p + x, p + y) = G0 + b.(x + y), for a load at p + x that is read at p + y.
+/// G_reg(p + x, p + y) = G0 + b.(x + y) + (x'Ax + y'Ay) / 2, for a load at p + x, read at p + y.
 struct OrganCompliance
 {
   double constant = 0.0;                           ///< G0 [m/N]; negative over a near support
   Eigen::Vector3d slope = Eigen::Vector3d::Zero(); ///< b, in the tangent plane [1/N]
+  double bend = 0.0;                               ///< tr A [1/(m N)]
 };
 
-/// Reads it around a load of Hertz's pressure of a radius of two cells.
+/// Reads it around a smooth pressure of a radius of one and a half cells.
 ///
-/// The displacement of a half-space by the same pressure is taken off rings of 1 to 1.6 radii, so
-/// that what the grid itself adds below the load does not count.
+/// The field of a half-space under this is known; the cubes have to give only what the body does
+/// otherwise, where its surface is not flat and where it is held.
 ///
 /// @param place    on the surface [m]
 /// @param outward  unit normal there
-/// @return         none where less than half of a ring is on the body
+/// @return         none where less than half of a ring is on the body, or the body hangs over it
 [[nodiscard]] std::optional<OrganCompliance> complianceAt(const OrganModel& model,
   const Surface& surface, const Eigen::Vector3d& place, const Eigen::Vector3d& outward);
-
-/// Normal displacement of the surface of a half-space by Hertz's pressure of a unit force.
-///
-/// @param distance  from its middle [m]
-/// @param radius    of the pressure [m]
-/// @param modulus   E* [Pa]
-/// @return          [m/N]
-/// @source          Johnson, Contact Mechanics, 1985, Eq. (3.42)
-[[nodiscard]] double hertzDisplacement(double distance, double radius, double modulus) noexcept;
 
 } // namespace palp

@@ -1,6 +1,8 @@
 #include "calibration/organ/organ_model.h"
 
 #include "calibration/organ/cube_stiffness.h"
+#include "calibration/organ/cut_grid.h"
+#include "calibration/organ/surface_parts.h"
 #include "haptics/error.h"
 
 #include <Eigen/CholmodSupport>
@@ -8,77 +10,67 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace palp
 {
 namespace
 {
 
-using Cube = std::array<int, 3>;
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Nodes = std::array<int, kCubeCorners>;
 
 constexpr double kLeast = 0.03; // filled part of a cube that counts
-constexpr double kFull = 0.5;   // of one that displacements are read from
 
 Cube cornerOf(const Cube& cube, int corner)
 {
   return { cube[0] + (corner & 1), cube[1] + ((corner >> 1) & 1), cube[2] + ((corner >> 2) & 1) };
 }
 
-// the cubes that hang together by their faces, most of them
-std::vector<Cube> largestPiece(const CutGrid& grid)
-{
-  const int nx = grid.size()[0];
-  const int ny = grid.size()[1];
-  const int nz = grid.size()[2];
-  const auto index = [&](const Cube& c)
-  { return (at(c[2]) * at(ny) + at(c[1])) * at(nx) + at(c[0]); };
-  std::vector<bool> met(at(nx) * at(ny) * at(nz));
-  std::vector<Cube> largest;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
-    {
-      for (int i = 0; i < nx; ++i)
-      {
-        std::vector<Cube> piece;
-        const auto visit = [&](const Cube& cube)
-        {
-          if (grid.filled(cube) >= kLeast && !met[index(cube)])
-          {
-            met[index(cube)] = true;
-            piece.push_back(cube);
-          }
-        };
-        visit({ i, j, k });
-        std::size_t next = 0;
-        while (next < piece.size())
-        {
-          const Cube cube = piece[next++];
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            for (const int step : { -1, 1 })
-            {
-              Cube beside = cube;
-              beside[axis] += step;
-              visit(beside);
-            }
-          }
-        }
-        largest = piece.size() > largest.size() ? std::move(piece) : largest;
-      }
-    }
-  }
-  return largest;
-}
-
 } // namespace
 
 struct OrganModel::State
 {
+  // of a support on the surface in one cube: its mean displacement is held, not that of nodes
+  // beside
+  struct Grip
+  {
+    OrganModel::Weights weights{}; // sums over the area until this is divided by
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    double area = 0.0;
+    Eigen::Vector3d along = Eigen::Vector3d::Zero(); // as of its support
+
+    void add(const OrganModel::Weights& more, const Eigen::Vector3d& middle, double part)
+    {
+      weights.nodes = more.nodes;
+      for (std::size_t i = 0; i < more.values.size(); ++i)
+      {
+        weights.values[i] += part * more.values[i];
+      }
+      place += part * middle;
+      area += part;
+    }
+
+    void divide()
+    {
+      for (double& value : weights.values)
+      {
+        value /= area;
+      }
+      place /= area;
+    }
+
+    [[nodiscard]] Eigen::Matrix3d direction() const
+    {
+      return along.isZero() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                            : Eigen::Matrix3d(along * along.transpose());
+    }
+  };
+
   CutGrid grid;
   double young;
   double poisson;
@@ -86,8 +78,7 @@ struct OrganModel::State
   std::vector<Eigen::Vector3d> places{}; // of the nodes
   std::vector<Nodes> cubes{};
   std::vector<CubePoints> inside{}; // each of these
-  std::vector<int> free{}; // number of each x, y and z of the nodes among the free ones; -1: held
-  int count = 0;           // of the free ones
+  std::vector<Grip> grips{};
   mutable Eigen::CholmodSupernodalLLT<Sparse> cholesky{};
 
   [[nodiscard]] std::size_t cornerIndex(const Cube& c) const
@@ -100,7 +91,7 @@ struct OrganModel::State
   {
     const auto& [nx, ny, nz] = grid.size();
     number.assign(at(nx + 1) * at(ny + 1) * at(nz + 1), -1);
-    for (const Cube& cube : largestPiece(grid))
+    for (const Cube& cube : grid.largestPiece(kLeast))
     {
       Nodes nodes{};
       for (int corner = 0; corner < kCubeCorners; ++corner)
@@ -137,78 +128,88 @@ struct OrganModel::State
         "; add one that holds it");
   }
 
-  // @return  springs that hold nodes along a direction
-  std::vector<Eigen::Triplet<double>> hold(std::span<const Support> supports)
+  void hold(const OrganModel& model, const Surface& surface, std::span<const Support> supports)
   {
-    free.assign(3 * places.size(), 0);
+    for (const Support& support : supports)
+    {
+      std::map<int, Grip> byCube;
+      for (const auto& [a, b, c] : surface.triangles())
+      {
+        const std::array corners{ surface.points()[at(a)], surface.points()[at(b)],
+          surface.points()[at(c)] };
+        forParts(corners, corners[0], 0.5 * grid.side(), 0.0,
+          [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
+          {
+            OrganModel::Weights weights{};
+            if (support.holds(middle) &&
+              model.weightsAt(middle, area.normalized(), weights, kLeast))
+            {
+              byCube[weights.nodes[0]].add(weights, middle, area.norm());
+            }
+          });
+      }
+      for (auto& [cube, grip] : byCube)
+      {
+        grip.along = support.along;
+        grip.divide();
+        grips.push_back(grip);
+      }
+    }
     const double size = grid.side() * *std::max_element(grid.size().begin(), grid.size().end());
     Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
-    std::vector<Eigen::Triplet<double>> springs;
-    for (std::size_t node = 0; node < places.size(); ++node)
+    for (const Grip& grip : grips)
     {
-      for (const Support& support : supports)
+      for (int axis = 0; axis < 3; ++axis)
       {
-        if (!support.holds(places[node]))
-        {
-          continue;
-        }
-        const bool slides = !support.along.isZero();
-        for (int axis = 0; axis < (slides ? 1 : 3); ++axis)
-        {
-          const Eigen::Vector3d way =
-            slides ? support.along : Eigen::Vector3d(Eigen::Vector3d::Unit(axis));
-          Eigen::Matrix<double, 6, 1> row;
-          row << way, (places[node] - places.front()).cross(way) / size;
-          held += row * row.transpose();
-          slides ? void() : void(free[3 * node + at(axis)] = -1);
-        }
-        constexpr double stiff = 1e3; // against the cubes
-        for (int i = 0; i < 9 && slides; ++i)
-        {
-          springs.emplace_back(static_cast<int>(3 * node) + i / 3,
-            static_cast<int>(3 * node) + i % 3,
-            stiff * young * grid.side() * support.along[i / 3] * support.along[i % 3]);
-        }
+        const Eigen::Vector3d way = grip.direction().col(axis);
+        Eigen::Matrix<double, 6, 1> row;
+        row << way, (grip.place - places.front()).cross(way) / size;
+        held += row * row.transpose();
       }
     }
     checkHeld(held);
-    for (int& one : free)
-    {
-      one = one < 0 ? -1 : count++;
-    }
-    return springs;
   }
 
-  void factorize(const std::vector<Eigen::Triplet<double>>& springs)
+  [[nodiscard]] double stiffnessOf(const Grip& grip) const
+  {
+    constexpr double stiff = 1e3; // against the cubes
+    return stiff * young / grid.side() * grip.area;
+  }
+
+  void factorize()
   {
     const CubeStiffness whole = cubeStiffness(grid.side(), young, poisson);
     std::vector<Eigen::Triplet<double>> all;
     all.reserve(cubes.size() * 300);
-    const auto add = [&](int row, int column, double value)
+    const auto add = [&](const Nodes& nodes, const auto& stiffness)
     {
-      const int i = free[at(row)];
-      const int j = free[at(column)];
-      i >= j&& j >= 0 ? void(all.emplace_back(i, j, value)) : void(); // the lower half
-    };
-    for (std::size_t cube = 0; cube < cubes.size(); ++cube)
-    {
-      const CubeStiffness stiffness =
-        inside[cube].all() ? whole : cutCubeStiffness(grid.side(), young, poisson, inside[cube]);
       for (int i = 0; i < 24; ++i)
       {
         for (int j = 0; j < 24; ++j)
         {
-          add(3 * cubes[cube][at(i / 3)] + i % 3, 3 * cubes[cube][at(j / 3)] + j % 3,
-            stiffness(i, j));
+          const int row = 3 * nodes[at(i / 3)] + i % 3;
+          const int column = 3 * nodes[at(j / 3)] + j % 3;
+          row >= column ? void(all.emplace_back(row, column, stiffness(i, j))) : void();
         }
       }
-    }
-    for (const auto& spring : springs)
+    };
+    for (std::size_t cube = 0; cube < cubes.size(); ++cube)
     {
-      add(spring.row(), spring.col(), spring.value());
+      add(cubes[cube],
+        inside[cube].all() ? whole : cutCubeStiffness(grid.side(), young, poisson, inside[cube]));
+    }
+    for (const Grip& grip : grips)
+    {
+      const Eigen::Matrix3d spring = stiffnessOf(grip) * grip.direction();
+      add(grip.weights.nodes,
+        [&](int i, int j) {
+          return grip.weights.values[at(i / 3)] * grip.weights.values[at(j / 3)] *
+            spring(i % 3, j % 3);
+        });
     }
     cholesky.cholmod().print = 0; // the error below says it
-    Sparse matrix(count, count);
+    const auto count = static_cast<Eigen::Index>(3 * places.size());
+    Sparse matrix(count, count); // its lower half
     matrix.setFromTriplets(all.begin(), all.end());
     cholesky.compute(matrix);
     if (cholesky.info() != Eigen::Success)
@@ -219,16 +220,17 @@ struct OrganModel::State
   }
 };
 
-OrganModel::OrganModel(
-  CutGrid grid, double youngModulus, double poissonRatio, std::span<const Support> supports)
-  : state_(new State{ std::move(grid), youngModulus, poissonRatio })
+OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
+  double poissonRatio, std::span<const Support> supports)
+  : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio })
 {
   state_->addCubes();
   if (state_->places.empty())
   {
     throw Error(ErrorCode::BadValue, "no cell is filled by the body; give smaller ones");
   }
-  state_->factorize(state_->hold(supports));
+  state_->hold(*this, surface, supports);
+  state_->factorize();
 }
 
 OrganModel::~OrganModel() = default;
@@ -250,8 +252,18 @@ double OrganModel::contactModulus() const noexcept
   return state_->young / (1.0 - state_->poisson * state_->poisson);
 }
 
-bool OrganModel::weightsAt(
-  const Eigen::Vector3d& place, const Eigen::Vector3d& outward, Weights& weights) const
+double OrganModel::shearModulus() const noexcept
+{
+  return state_->young / (2.0 * (1.0 + state_->poisson));
+}
+
+double OrganModel::poissonRatio() const noexcept
+{
+  return state_->poisson;
+}
+
+bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& outward,
+  Weights& weights, double filled) const
 {
   const State& state = *state_;
   const double side = state.grid.side();
@@ -262,7 +274,7 @@ bool OrganModel::weightsAt(
     const Eigen::Vector3d cell = (from - state.grid.low()) / side;
     const Cube cube{ static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y())),
       static_cast<int>(std::floor(cell.z())) };
-    if (!(state.grid.filled(cube) >= kFull) || state.number[state.cornerIndex(cube)] < 0)
+    if (!(state.grid.filled(cube) >= filled) || state.number[state.cornerIndex(cube)] < 0)
     {
       continue;
     }
@@ -283,27 +295,19 @@ bool OrganModel::weightsAt(
   return false;
 }
 
-Eigen::MatrixXd OrganModel::solve(const Eigen::MatrixXd& forces) const
+Eigen::VectorXd OrganModel::solve(const Eigen::VectorXd& forces, const Moved& supports) const
 {
-  const State& state = *state_;
-  Eigen::MatrixXd reduced(state.count, forces.cols());
-  for (std::size_t i = 0; i < state.free.size(); ++i)
+  Eigen::VectorXd all = forces;
+  for (const State::Grip& grip : state_->grips)
   {
-    if (state.free[i] >= 0)
+    const Eigen::Vector3d pull =
+      state_->stiffnessOf(grip) * grip.direction() * supports(grip.place);
+    for (std::size_t i = 0; i < grip.weights.nodes.size(); ++i)
     {
-      reduced.row(state.free[i]) = forces.row(static_cast<Eigen::Index>(i));
+      all.segment<3>(3L * grip.weights.nodes[i]) += grip.weights.values[i] * pull;
     }
   }
-  const Eigen::MatrixXd solved = state.cholesky.solve(reduced);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
-  for (std::size_t i = 0; i < state.free.size(); ++i)
-  {
-    if (state.free[i] >= 0)
-    {
-      result.row(static_cast<Eigen::Index>(i)) = solved.row(state.free[i]);
-    }
-  }
-  return result;
+  return state_->cholesky.solve(all);
 }
 
 } // namespace palp

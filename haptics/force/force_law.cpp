@@ -1,5 +1,6 @@
 #include "haptics/force/force_law.h"
 
+#include "haptics/error.h"
 #include "haptics/force/ellipse.h"
 #include "haptics/force/inclination.h"
 #include "haptics/force/linear/layer_contact.h"
@@ -281,6 +282,19 @@ LargeStrainGrid::Ratio ForceLaw::largeStrainByRadius(const ContactGeometry& loca
     .slope = (at((1.0 + kStep) * depth) - value) / (kStep * depth),
     .inside =
       !isFlat && !isSteep && isLargeStrainKnown(depth, radiusAt(depth), local.thickness, nu) };
+}
+
+void ForceLaw::checkBody(double thickness) const
+{
+  constexpr double rounding = 1.0 - 1e-6;
+  const bool acts = settings_.mode == LawMode::Corrected && settings_.thickness;
+  if (acts && !settings_.coatings.empty() && settings_.coatings.thickness() >= rounding * thickness)
+  {
+    throw Error(ErrorCode::BadValue,
+      "coatings: of " + units::inMillimeters(settings_.coatings.thickness()) +
+        " in all nothing is left below them of a body of " + units::inMillimeters(thickness) +
+        ", whose thickness counts theirs; give thinner ones");
+  }
 }
 
 Factors ForceLaw::factors(const ContactGeometry& local) const noexcept

@@ -93,6 +93,10 @@ public:
   /// @realtime     pure; no allocation, no lock, no exception
   [[nodiscard]] Response operator()(const ContactGeometry& local) const noexcept;
 
+  /// @param thickness  of a body where it is thickest [m]
+  /// @throws Error     BadValue: the coatings that act leave nothing of it below them
+  void checkBody(double thickness) const;
+
   /// The law at one place, taken apart: shape, curvature, ellipse, thickness, large_strain,
   /// inclination, coatings; 1 where nothing acts.
   ///

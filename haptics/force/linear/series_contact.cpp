@@ -14,7 +14,9 @@ SeriesContact inSeries(
   const auto total = [&](double deep)
   {
     const LinearContact contact = local(deep);
-    const double rigid = deep + contact.force * body.constant;
+    constexpr double widened = 4.0 / 15.0; // of a pressure as that of a paraboloid
+    const double rigid = deep +
+      contact.force * (body.constant + widened * body.bend * contact.radius * contact.radius);
     if (!(radius > 0.0))
     {
       return rigid;

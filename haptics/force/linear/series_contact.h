@@ -7,11 +7,12 @@ namespace palp
 
 /// What a body adds to the displacement of its own surface at a place, over its contact modulus:
 /// a load of F at p + x moves the surface at p + y by F / E* (constant + slope.(x + y)) more than
-/// that of a half-space.
+/// that of a half-space, and by (x'Ax + y'Ay) / 2 more where the body bends.
 struct BodyCompliance
 {
   double constant = 0.0; ///< E* G0 [1/m]; negative over a near support
   double slope = 0.0;    ///< length of E* b, along the surface [1/m^2]
+  double bend = 0.0;     ///< E* tr A [1/m^3]
 };
 
 /// What a body of its own compliance answers.
@@ -31,8 +32,9 @@ struct SeriesContact
 /// @param depth   of the tip [m], more than 0
 /// @param radius  of the tip at its apex [m]; 0: sharp or flat, whose pressure is taken to stay
 ///                where it is
-/// @source        d = d(a) + F G0 - 2 F |b| x + x^2 / (2 R) with x = R |b| F, from the
-///                complementary energy of the body
+/// @source        d = d(a) + F (G0 + 4/15 a^2 tr A) - 2 F |b| x + x^2 / (2 R) with x = R |b| F,
+/// from
+///                the complementary energy of the body, whose pressure is as a paraboloid's
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] SeriesContact inSeries(
   const HalfSpace& local, const BodyCompliance& body, double depth, double radius) noexcept;

@@ -83,6 +83,20 @@ TEST(ForceCommand, RefusesWhatIsOutOfRange)
   }
 }
 
+// of a body as thick as they are nothing is left
+TEST(ForceCommand, RefusesCoatingsAsThickAsTheBody)
+{
+  const std::string coated =
+    "force --law corrected --depth 1:2:1mm --coating 4mm:20kPa:0.45,6mm:5kPa:0.45 --thickness ";
+  for (const char* thin : { "5mm", "10mm" })
+  {
+    const Finished finished = palp(coated + thin);
+    EXPECT_EQ(finished.code, 2) << thin;
+    EXPECT_NE(finished.err.find("coatings: of 10 mm"), std::string::npos) << finished.err;
+  }
+  EXPECT_EQ(palp(coated + "15mm").code, 0);
+}
+
 TEST(ForceCommand, WarnsWhereTheLawIsOutsideItsLimits)
 {
   const Finished deep =

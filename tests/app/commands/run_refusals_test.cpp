@@ -44,6 +44,16 @@ TEST_F(RunCommand, RefusesWhatWouldBeInVainBeforeTheWork)
   refused(press + out + " --reference " + press.substr(8), "no column depth_mm");
 }
 
+// the block of 50 mm
+TEST_F(RunCommand, RefusesCoatingsThatLeaveNothingOfTheBody)
+{
+  const std::string coated = "--no-picture --law corrected --coating ";
+  const Finished finished = press(coated + "50mm:20kPa:0.45", "none");
+  EXPECT_EQ(finished.code, 2) << finished.err;
+  EXPECT_NE(finished.err.find("nothing is left below"), std::string::npos) << finished.err;
+  EXPECT_EQ(press(coated + "30mm:20kPa:0.45", "some").code, 0);
+}
+
 // an option without effect is a mistake that nobody would see
 TEST_F(RunCommand, RefusesWhatWouldHaveNoEffect)
 {

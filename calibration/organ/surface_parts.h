@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+namespace palp
+{
+
+/// Cuts a triangle into parts whose edges are shorter than a length that grows with their distance
+/// from a place, and calls use(middle, area vector) for each.
+///
+/// @param length  where they are near [m]
+/// @param growth  of it by the distance [-]; 0: as short everywhere
+template <typename Use>
+void forParts(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& place,
+  double length, double growth, const Use& use)
+{
+  std::size_t longest = 0;
+  std::array<double, 3> edges{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    edges[i] = (corners[(i + 1) % 3] - corners[i]).norm();
+    longest = edges[i] > edges[longest] ? i : longest;
+  }
+  const Eigen::Vector3d& first = corners[longest];
+  const Eigen::Vector3d& second = corners[(longest + 1) % 3];
+  const Eigen::Vector3d& opposite = corners[(longest + 2) % 3];
+  const Eigen::Vector3d middle = (first + second + opposite) / 3.0;
+  if (edges[longest] <= std::max(length, growth * (middle - place).norm()))
+  {
+    const Eigen::Vector3d area = 0.5 * (second - first).cross(opposite - first);
+    use(middle, area);
+    return;
+  }
+  const Eigen::Vector3d half = 0.5 * (first + second);
+  forParts({ first, half, opposite }, place, length, growth, use);
+  forParts({ half, second, opposite }, place, length, growth, use);
+}
+
+} // namespace palp
