@@ -162,7 +162,7 @@ void setUpScene(vtkRenderer& renderer)
     double intensity;
   };
   const std::array<Lamp, 3> lamps{ { { { -1.0, 0.75, 0.55 }, 0.95 },
-    { { 0.7, -0.6, 1.0 }, 0.6 * 0.95 }, { { 0.3, 0.8, -0.9 }, 0.3 * 0.95 } } };
+    { { 0.7, -0.6, 1.0 }, 0.85 * 0.95 }, { { 0.3, 0.8, -0.9 }, 0.3 * 0.95 } } };
   renderer.AutomaticLightCreationOff();
   for (const Lamp& lamp : lamps)
   {

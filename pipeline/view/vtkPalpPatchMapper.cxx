@@ -1,6 +1,8 @@
 #include "pipeline/view/vtkPalpPatchMapper.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkFieldData.h>
@@ -155,6 +157,19 @@ void vtkPalpPatchMapper::ReplaceShaderNormal(
     shaders[vtkShader::Fragment]->SetSource(source);
   }
   this->Superclass::ReplaceShaderNormal(shaders, renderer, actor);
+  if (!shaders[vtkShader::Geometry]->GetSource().empty())
+  {
+    return; // which passes the normals on
+  }
+  // a pixel of several samples may have its middle beside the triangle, where lengths mean nothing
+  for (const auto& [type, word] :
+    { std::pair(vtkShader::Vertex, "out "), std::pair(vtkShader::Fragment, "in ") })
+  {
+    std::string source = shaders[type]->GetSource();
+    const std::string normal = std::string(word) + "vec3 normalVCVSOutput";
+    vtkShaderProgram::Substitute(source, normal, "centroid " + normal);
+    shaders[type]->SetSource(source);
+  }
 }
 
 // blocks that are dented now go to Sent, these and the ones dented before to Marked

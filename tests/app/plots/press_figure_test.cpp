@@ -9,6 +9,10 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkSphereSource.h>
 
@@ -257,6 +261,65 @@ TEST_F(PressFigure, OfAWetMaterialKeepsTheColors)
     return most;
   };
   EXPECT_GT(brightest(*shaded), brightest(*plain) + 200.0);
+}
+
+TEST_F(PressFigure, HasABaselineOfAWetMaterial)
+{
+  test::expectBaseline(
+    *figure({ .isRealistic = true, .overlays = { Overlay::DisplacementColors } }), "figure_wet");
+}
+
+// standard deviation over mean of the brightness, of the dent and a little around
+double contrastOf(vtkImageData& image)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (int y = 200; y < 240; ++y)
+  {
+    for (int x = 170; x < 236; ++x, ++count)
+    {
+      const double value = brightness(image, x, y);
+      sum += value;
+      squares += value * value;
+    }
+  }
+  const double mean = sum / count;
+  return std::sqrt(squares / count - mean * mean) / mean;
+}
+
+// the same surface from the same place, with its lamp at the eye
+TEST_F(PressFigure, ShowsADentWithMoreContrastThanThePhysicalMaterialOfTheToolkit)
+{
+  vtkNew<vtkRenderer> plain;
+  beforeDrawing_ = [&](vtkRenderer& renderer)
+  { plain->GetActiveCamera()->DeepCopy(renderer.GetActiveCamera()); };
+  const FigureLook live{ .body = { .hidesTool = true } };
+  FigureLook wet = live;
+  wet.isRealistic = true;
+  const double liveContrast = contrastOf(*figure(live));
+  const double wetContrast = contrastOf(*figure(wet));
+
+  vtkNew<vtkRenderer> unused;
+  PressView view(*unused);
+  Surroundings around(*unused);
+  showMoment(view, around, moment_);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(view.deformed());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  appearance::setColor(*actor->GetProperty(), appearance::kLiver);
+  actor->GetProperty()->SetInterpolationToPBR();
+  actor->GetProperty()->SetRoughness(0.35);
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetSize(480, 360);
+  plain->AddActor(actor);
+  window->AddRenderer(plain);
+  const double plainContrast = contrastOf(*test::imageOf(*window));
+  EXPECT_GT(liveContrast, 1.2 * plainContrast);
+  EXPECT_GT(wetContrast, 1.2 * plainContrast);
 }
 
 } // namespace
