@@ -259,25 +259,22 @@ TEST(OrganTouch, AnotherSceneBeginsWithoutIt)
   EXPECT_EQ(step(one, lost, chain, std::nullopt, {}, {}, 1.0_ms).organ, 0);
 }
 
-// over the seam of two blocks, as deep in the one as in the other
 TEST(OrganTouch, SlidingOverASeamChangesTheForceAsStiffnessAndMotionDo)
 {
-  const auto block = [](double x) { // its top in z = 0
-    return shifted(test::block({ 0.1, 0.1, 0.05 }, 20), { x, 0.0, -0.025 });
+  const auto block = [](double x) {
+    return shifted(test::block({ 0.1, 0.1, 0.05 }, 20), { x, 0.0, 0.0 });
   };
-  const Scene soft = organ(block(-0.05), 5.0_kPa);
+  const Scene soft = organ(block(-0.05), 5.0_kPa); // with its top in z = 0
   const Scene stiff = organ(block(0.05), 50.0_kPa);
   const Scene both = together(soft, { stiff });
   for (const double depth : { 1.0_mm, 2.5_mm, 4.0_mm })
   {
     for (const double motion : { 0.02_mm, 0.1_mm, 0.5_mm })
     {
-      SCOPED_TRACE(std::to_string(1e3 * depth) + " mm, by " + std::to_string(1e3 * motion));
       TissueMemory memory;
-      const double top = both.surface->tree().nodes()[0].high[2];
-      Sample before = step(both, memory, at({ -15.0_mm, 0.0, top + 0.1_mm }), 1.0_ms);
-      double z = top;
-      for (; z > top - depth; z -= 0.02_mm)
+      Sample before;
+      double z = 0.1_mm;
+      for (; z > -depth; z -= 0.02_mm)
       {
         before = step(both, memory, at({ -15.0_mm, 0.0, z }), 1.0_ms);
       }
@@ -289,8 +286,14 @@ TEST(OrganTouch, SlidingOverASeamChangesTheForceAsStiffnessAndMotionDo)
       for (double x = -15.0_mm; x < 15.0_mm; x += motion)
       {
         const Sample sample = step(both, memory, at({ x, 0.0, z }), 1.0_ms);
-        ASSERT_LT((sample.force - before.force).norm(), 3.0 * stiffness * motion) << x;
-        handed += sample.organ != before.organ ? 1 : 0;
+        ASSERT_LT((sample.force - before.force).norm(), 3.0 * stiffness * motion) << depth;
+        if (sample.organ != before.organ)
+        {
+          ++handed;
+          TissueMemory rest = memory; // a tool that stays feels no force grow
+          const Sample rested = step(both, rest, sample.pose, 1.0_ms);
+          EXPECT_EQ(step(both, rest, sample.pose, 1.0_ms).force, rested.force);
+        }
         before = sample;
       }
       EXPECT_EQ(handed, 1);
@@ -300,25 +303,6 @@ TEST(OrganTouch, SlidingOverASeamChangesTheForceAsStiffnessAndMotionDo)
   }
 }
 
-TEST(OrganTouch, AToolThatRestsAfterAHandoverFeelsNoForceGrow)
-{
-  const Scene both = together(left(), { right() });
-  TissueMemory memory;
-  Sample sample;
-  for (double height = kRadius + 1.0_mm; height > 9.0_mm; height -= 0.05_mm)
-  {
-    sample = step(both, memory, at({ -2.0_mm, 0.0, height }), 1.0_ms);
-  }
-  double x = -2.0_mm;
-  for (; sample.organ == 0; x += 0.02_mm)
-  {
-    sample = step(both, memory, at({ x, 0.0, 9.0_mm }), 1.0_ms);
-  }
-  ASSERT_GT(evaluateContact(right(), sample.pose).response.force, sample.response.force + 0.05);
-  const Sample rested = step(both, memory, sample.pose, 1.0_ms);
-  EXPECT_EQ(step(both, memory, sample.pose, 1.0_ms).response.force, rested.response.force);
-}
-
 // sideways out of the one, into the other, which is touched deep
 TEST(OrganTouch, IsHandedOverToAHandWithoutAJumpOfTheForce)
 {
@@ -326,9 +310,10 @@ TEST(OrganTouch, IsHandedOverToAHandWithoutAJumpOfTheForce)
   SafetyChain chain(test::arm());
   TissueMemory memory;
   const double z = 9.0_mm;
-  const SafetyOrders armed{ .armed = true };
-  const auto tick = [&](double x, double height) {
-    return step(both, memory, chain, at({ x, 0.0, height }), { .homed = true }, armed, 1.0_ms);
+  const auto tick = [&](double x, double height)
+  {
+    const ToolPose pose = at({ x, 0.0, height });
+    return step(both, memory, chain, pose, { .homed = true }, { .armed = true }, 1.0_ms);
   };
   for (int i = 0; i < 1000; ++i)
   {
@@ -341,15 +326,13 @@ TEST(OrganTouch, IsHandedOverToAHandWithoutAJumpOfTheForce)
   Sample before = tick(-2.0_mm, z);
   ASSERT_EQ(before.organ, 0);
   ASSERT_GT(before.force.norm(), 0.01);
-  bool isHandedOver = false;
   for (double x = -2.0_mm; x < 6.0_mm; x += 0.02_mm)
   {
     const Sample sample = tick(x, z);
     EXPECT_LT((sample.force - before.force).norm(), 0.05) << x;
-    isHandedOver = isHandedOver || sample.organ == 1;
     before = sample;
   }
-  EXPECT_TRUE(isHandedOver);
+  EXPECT_EQ(before.organ, 1);
 }
 
 TEST(OrganTouch, NeverAllocates)
