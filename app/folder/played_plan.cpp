@@ -50,6 +50,7 @@ std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
   for (const MeshSource& mesh : plan.meshes)
   {
     std::ranges::copy(filesBehind(mesh.file), std::back_inserter(inputs));
+    inputs.push_back(mesh.haptic);
   }
   inputs.push_back(plan.device.file);
   inputs.push_back(plan.recording ? plan.recording->file : std::filesystem::path());

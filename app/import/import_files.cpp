@@ -122,6 +122,10 @@ std::string importScene(const ImportSource& source, const std::vector<ImportedOr
     const bool isFirst = &organ == &organs.front();
     Json json{ { "name", organ.name }, { "file", organ.file + ".vtp" },
       { "role", isFirst && !isAnyPressed ? "press" : look.role }, { "color", look.color } };
+    if (organ.felt)
+    {
+      json["haptic"] = organ.file + "_haptic.vtp";
+    }
     if (look.tissue != nullptr)
     {
       json["tissue"] = { { "name", look.tissue } };

@@ -62,6 +62,14 @@ std::string describe(const Deviation& apart, std::size_t points)
   return note.str();
 }
 
+// what is felt of a surface: itself, or one of fewer points
+std::filesystem::path feltFile(const MeshSource& source, const std::filesystem::path& shown)
+{
+  return source.bundled == "liver" ? dataFile("meshes/liver_haptic.vtp")
+    : source.haptic.empty()        ? shown
+                                   : source.haptic;
+}
+
 } // namespace
 
 SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
@@ -77,8 +85,7 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     const std::filesystem::path file =
       source.bundled.empty() ? source.file : dataFile("meshes/" + source.bundled + ".vtp");
     body.name.append(body.name.empty() ? "" : " + ").append(file.filename().string());
-    const bool liver = source.bundled == "liver";
-    const std::filesystem::path felt = liver ? dataFile("meshes/liver_haptic.vtp") : file;
+    const std::filesystem::path felt = feltFile(source, file);
     const FileStamps before = stampsOf(felt);
     progress.emplace("reading " + printable(file.filename().string()));
     const LoadedSurface loaded = readSurface(file, source.unit, source.part);
@@ -88,8 +95,9 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     {
       display.add(*loaded.mesh, source.frame());
     }
-    coarser = coarser || liver;
-    haptic.add(liver ? *readSurface(felt).mesh : *loaded.mesh, source.frame());
+    const bool isOther = felt != file;
+    coarser = coarser || isOther;
+    haptic.add(isOther ? *readSurface(felt, source.unit).mesh : *loaded.mesh, source.frame());
     MeshFile& origin = body.files.emplace_back(describeFile(felt));
     if (stampsOf(felt) != before)
     {
@@ -117,8 +125,10 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
   }
   if (shown && coarser)
   {
-    const Surface fine(display.points, display.triangles);
-    body.notes.push_back(describe(deviation(fine, *body.haptic), body.haptic->points().size()));
+    const BoxTree fine(display.points, display.triangles);
+    const Surface& felt = *body.haptic;
+    body.notes.push_back(
+      describe(deviation(display.points, fine, felt.points(), felt.tree()), felt.points().size()));
   }
   return body;
 }

@@ -40,8 +40,8 @@ struct SceneBody
   }
 };
 
-/// Loads surfaces into one body; what is felt is what is shown, but for the bundled liver, which
-/// has a coarser surface to feel.
+/// Loads surfaces into one body; what is felt is what is shown, but for the bundled liver and a
+/// source with a haptic surface, which have a coarser one to feel.
 ///
 /// @param meshes   one or more
 /// @param shown    whether a surface to look at is needed, too

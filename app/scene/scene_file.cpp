@@ -54,6 +54,7 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
     object.refuse("bundled", "is the name of a bundled surface, as in liver; give a path as file");
   }
   const std::string file = object.text("file", "");
+  const std::string haptic = object.text("haptic", "");
   parseAt(
     object, "series", [&](const std::string& text) { mesh.part.series = text; },
     &JsonObject::number);
@@ -80,6 +81,11 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   {
     object.refuse("label", "both are given, level and label; give the one or the other");
   }
+  if (!haptic.empty() && file.empty())
+  {
+    object.refuse("haptic", "is of a file; a bundled surface has its own");
+  }
+  mesh.haptic = haptic.empty() ? std::filesystem::path{} : (folder / haptic).lexically_normal();
   mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();
   return mesh;
 }

@@ -80,6 +80,10 @@ private:
     {
       mesh["bundled"] = source.bundled;
     }
+    if (!source.haptic.empty())
+    {
+      mesh["haptic"] = file(source.haptic);
+    }
     if (!source.part.series.empty())
     {
       mesh["series"] = source.part.series;

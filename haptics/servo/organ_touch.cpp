@@ -97,16 +97,21 @@ Contact touchOrgan(const Scene& scene, const ToolPose& pose, OrganTouch& before)
   if (before.touching)
   {
     contact = contactWith(organOf(scene, before.organ), pose);
+    before.withheld -= (pose.apex - before.apex.value_or(pose.apex)).norm();
   }
   if (!contact.touching())
   {
     const Met met = meet(scene, pose, before);
     contact = met.contact;
     before.organ = met.organ;
+    before.withheld = before.touching ? contact.depth - before.depth : 0.0;
   }
   before.touching = contact.touching();
   before.apex = pose.apex;
-  return contact;
+  before.withheld = std::clamp(before.withheld, 0.0, contact.depth);
+  contact.depth -= before.withheld;
+  before.depth = contact.depth;
+  return contact.touching() ? contact : Contact{};
 }
 
 } // namespace palp

@@ -14,6 +14,8 @@ struct OrganTouch
 {
   int organ = 0;                         ///< that is touched, or was last
   bool touching = false;                 ///< the tool, in the last tick
+  double depth = 0.0;                    ///< that was felt then [m]
+  double withheld = 0.0;                 ///< depth that is not felt yet, since a handover [m]
   std::optional<Eigen::Vector3d> apex{}; ///< then [m]; none: nothing is known of its motion
   std::uint64_t version = 0;             ///< of the scene
 
@@ -33,9 +35,11 @@ struct OrganTouch
 ///
 /// Of several that were entered within a tick, the one first met is that which the tool has been in
 /// for the largest part of its way; without a motion into them, the deepest. An organ that the tool
-/// cannot reach is not looked at, but for its box at each 5 cm of motion in the air. A tool that is
-/// lifted from one inside of another is in that one at once, as deep as it is; the safety chain
-/// lets its force grow from that before.
+/// cannot reach is not looked at, but for its box at each 5 cm of motion in the air.
+///
+/// A tool that is lifted from one inside of another feels that from the depth that it felt before,
+/// and the rest as it moves, by as much as it moves: so the force changes by no more than twice the
+/// motion and the stiffness allow, and a tool that rests feels no force grow.
 ///
 /// @param before  the last tick; becomes this one
 /// @realtime      no allocation, no lock, no exception

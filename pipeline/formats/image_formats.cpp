@@ -136,15 +136,6 @@ void placeInPatient(
       : "the header tells no place in the patient; axes and corner of the voxels are taken");
 }
 
-void tellOfMore(vtkNIFTIImageHeader& header, PatientImage& image)
-{
-  if (header.GetDim(0) > 3 && header.GetDim(4) > 1)
-  {
-    image.notes.emplace_back(
-      "warning: the first of " + std::to_string(header.GetDim(4)) + " volumes is taken");
-  }
-}
-
 PatientImage readNifti(const std::filesystem::path& file)
 {
   checkNiftiLength(file, readNiftiHeader(file));
@@ -167,7 +158,6 @@ PatientImage readNifti(const std::filesystem::path& file)
   if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
   {
     result.unit = niftiUnit(header->GetXYZTUnits());
-    tellOfMore(*header, result);
   }
   return result;
 }

@@ -179,6 +179,13 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& file)
         "its dim[" + std::to_string(i) + "] is " + std::to_string(read) +
           ", no number of voxels; export it again");
     }
+    if (i > 3 && count > 1)
+    {
+      refuse(file,
+        "a series of " + std::to_string(count) +
+          " volumes, as over time; save one of them as a file of its own (3D Slicer: export the "
+          "item of its sequence; FSL: fslroi IN ONE 0 1)");
+    }
     header.bytes *= std::max(1U, count);
   }
   checkSpacing(file, start, dimensions);

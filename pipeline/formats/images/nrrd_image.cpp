@@ -95,7 +95,10 @@ Sizes sizesOf(const std::filesystem::path& file, const NrrdFields& fields)
   const bool isLayered = sizes.size() == 4 && directions.starts_with("none");
   if (sizes.size() != 3 && !isLayered)
   {
-    refuse(file, "an image of " + axes + " axes, not of three; save one volume of it");
+    refuse(file,
+      "an image of " + axes +
+        " axes, not of three, as over time or of colors; save one volume of it, of one value at "
+        "each voxel, as a file of its own");
   }
   constexpr double most = 100'000;
   if (!std::ranges::all_of(

@@ -1,5 +1,6 @@
 #include "haptics/units.h"
 #include "tests/app/commands/run_rig.h"
+#include "tests/support/surfaces.h"
 
 #include <sstream>
 #include <vector>
@@ -133,6 +134,37 @@ TEST_F(OrganScene, OneThatIsFarAndOneThatIsSeenThroughChangeNoByteOfTheSamples)
   }
   EXPECT_NE(
     test::readAll(out("skin") / "samples.csv").find("# organ skin: not felt\n"), std::string::npos);
+}
+
+// a ball of many points, to look at, and of few, to feel
+TEST_F(OrganScene, IsFeltByItsHapticLevelAndTellsHowFarThatIs)
+{
+  for (const auto& [name, splits] : { std::pair("fine.obj", 40), std::pair("few.obj", 6) })
+  {
+    const test::Mesh mesh = test::ball(30.0, splits);
+    std::ofstream file(out(name));
+    for (const Eigen::Vector3d& x : mesh.first)
+    {
+      file << "v " << x.x() - 30.0 << ' ' << x.y() << ' ' << x.z() << '\n';
+    }
+    for (const auto& [i, j, k] : mesh.second)
+    {
+      file << "f " << i + 1 << ' ' << j + 1 << ' ' << k + 1 << '\n';
+    }
+  }
+  const auto ball = [](const std::string& files)
+  { return R"({"name": "left", "unit": "mm", )" + files + "}"; };
+  const Finished both = press(ball(R"("file": "fine.obj", "haptic": "few.obj")"), "both");
+  ASSERT_EQ(both.code, 0) << both.err;
+  ASSERT_EQ(press(ball(R"("file": "few.obj")"), "few").code, 0);
+  ASSERT_EQ(press(ball(R"("file": "fine.obj")"), "fine").code, 0);
+  EXPECT_EQ(rows("both"), rows("few"));
+  EXPECT_NE(rows("both"), rows("fine"));
+  EXPECT_NE(both.err.find("from the surface shown"), std::string::npos) << both.err;
+  EXPECT_GT(std::filesystem::file_size(out("both") / "deformed.vtp"),
+    4 * std::filesystem::file_size(out("few") / "deformed.vtp"));
+  ASSERT_EQ(test::palp("run " + out("both").string() + " --out " + out("again").string()).code, 0);
+  EXPECT_EQ(rows("again"), rows("both"));
 }
 
 TEST_F(OrganScene, TellsWhichOrganWasPressedAndLeavesThatDeformed)

@@ -149,6 +149,8 @@ TEST_F(ImportCommand, WritesASceneOfOrgans)
     EXPECT_EQ(organ.at("color").get<std::string>().size(), 7U);
   }
   EXPECT_EQ(scene.at("organs").at(0).at("tissue").at("name"), "healthy_liver");
+  EXPECT_EQ(scene.at("organs").at(0).at("haptic"), "liver_haptic.vtp");
+  EXPECT_FALSE(scene.at("organs").at(1).contains("haptic")) << "few points as it is";
 }
 
 // as a scene and a disk take them

@@ -163,7 +163,7 @@ json organs()
     {"name": "liver", "bundled": "liver", "tissue": {"poisson": 0.45}},
     {"name": "left kidney", "bundled": "sphere_30", "role": "show", "color": "#0a80ff",
      "tissue": {"name": "hcc", "damping": "2N*s/m"}},
-    {"name": "skin", "file": "skin.vtp", "unit": "cm", "role": "through"}]})");
+    {"name": "skin", "file": "skin.vtp", "haptic": "less.vtp", "unit": "cm", "role": "through"}]})");
 }
 
 TEST_F(SceneFile, OrgansHaveEachARoleAColorAndATissue)
@@ -172,6 +172,7 @@ TEST_F(SceneFile, OrgansHaveEachARoleAColorAndATissue)
   ASSERT_EQ(plan.organs.size(), 3U);
   ASSERT_EQ(plan.meshes.size(), 3U);
   EXPECT_EQ(plan.meshes[2].file, "/scenes/skin.vtp");
+  EXPECT_EQ(plan.meshes[2].haptic, "/scenes/less.vtp");
   EXPECT_EQ(plan.meshes[2].unit, LengthUnit::Centimeter);
   EXPECT_EQ(plan.organs[0].role, OrganRole::Press);
   EXPECT_EQ(plan.organs[0].press.tissue.young, 7.0_kPa) << "the scene's";

@@ -237,9 +237,17 @@ TEST_F(Images, NiftiWhoseTwoFormsDifferIsRefusedOrSaysSo)
     << message;
 }
 
-TEST_F(Images, SaysTheFrameAndWhatWasLeftOut)
+TEST_F(Images, RefusesASeriesOverTimeWithTheWayOut)
 {
-  const auto file = write("four.nii", nifti(*ball(false), 1.0F, 0.0F, 2, 3));
+  const std::string message =
+    refusal(write("four.nii", nifti(*ball(false), 1.0F, 0.0F, 2, 3)), { 0.0, {} });
+  EXPECT_NE(message.find("a series of 3 volumes"), std::string::npos) << message;
+  EXPECT_NE(message.find("save one of them"), std::string::npos) << message;
+}
+
+TEST_F(Images, SaysTheFrame)
+{
+  const auto file = write("one.nii", nifti(*ball(false), 1.0F, 0.0F, 2));
   const LoadedSurface surface = readSurface(file, {}, { 0.0, {} });
   std::string all;
   for (const std::string& note : surface.notes)
@@ -247,7 +255,6 @@ TEST_F(Images, SaysTheFrameAndWhatWasLeftOut)
     all += note + '\n';
   }
   EXPECT_NE(all.find("(LPS), turned from NIfTI's"), std::string::npos) << all;
-  EXPECT_NE(all.find("warning: four.nii: the first of 3 volumes is taken"), std::string::npos);
 }
 
 TEST_F(Images, MetaImageIsReadWithOrWithoutBlanksAndPacked)
