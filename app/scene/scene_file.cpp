@@ -219,6 +219,12 @@ void checkTraining(const JsonObject& object, const ScenePlan& plan)
       plan.window ? "has marks, which a window makes; leave them out"
                   : "has no marks, by which a press without a window is graded; give them");
   }
+  if (plan.window ? !plan.records() : !plan.samples)
+  {
+    object.refuse("training",
+      plan.window ? "is graded by samples, which only curves keep; give plots, as in force-time"
+                  : "is repeated from its samples; give them in exports");
+  }
 }
 
 // what stands in one part and is needed by another

@@ -45,8 +45,9 @@ struct Curriculum
 /// @throws Error  BadFile: not of this form, or a value out of range, by its key
 [[nodiscard]] Curriculum parseCurriculum(const std::string& text, const std::string& file);
 
-/// data/training.json: from large, shallow and hard, which 87 % of 1 cm lumps in models were found
-/// by physicians, to small, deep and soft, of which 14 % of 0.3 cm.
+/// data/training.json: from nodules that are large, shallow and hard to small, deep and soft ones.
+/// In models of the breast physicians found 87 % of lumps of 1 cm and 14 % of 0.3 cm, 56 % of hard
+/// and 40 % of soft ones.
 /// @throws Error  BadFile: as parseCurriculum
 /// @source        Fletcher, O'Malley, Bunce, JAMA 253:2224, 1985
 [[nodiscard]] Curriculum shippedCurriculum();

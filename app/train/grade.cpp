@@ -94,7 +94,7 @@ double chanceOf(const Grade& grade, double hitWithin)
   return hits;
 }
 
-// forces, times and ways while the tool touches
+// forces, times and path while the tool touches
 void measure(Grade& grade, std::span<const Sample> samples, double hardForce)
 {
   double touch = 0.0;                               // [s]

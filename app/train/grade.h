@@ -43,7 +43,7 @@ struct Grade
 
   /// Found nodules. The first mark near a nodule finds it; more marks there count for nothing, one
   /// that is near none is false.
-  /// @source  Chakraborty, Acad. Radiol. 20:915, 2013; how near by Haygood et al., Br. J. Radiol.
+  /// @source  Chakraborty, Acad. Radiol. 20:915, 2013; how near: Haygood et al., Br. J. Radiol.
   ///          86:42313554, 2013: the size of the larger lesions
   std::size_t hits = 0;
   std::size_t falseMarks = 0;    ///< likewise
@@ -81,7 +81,7 @@ struct Grade
   double tooSoft = 0.0;
   double softRadius = 0.0; ///< for the deepest nodule that the level may have [m]
 
-  /// Way of the apex while the tool touches [m].
+  /// Of the apex while the tool touches [m].
   /// @source  Datta et al., J. Am. Coll. Surg. 193:479, 2001
   double pathLength = 0.0;
 

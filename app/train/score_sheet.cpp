@@ -142,7 +142,7 @@ std::vector<Measure> measuresOf(const ScoreSheet& sheet)
     { "too_soft_percent", "Time too soft", percent(grade.tooSoft), "%",
       "contact radius below " + number(toMillimeters(grade.softRadius), 1) +
         " mm, at which the deepest nodules stand out most: Eshelby, flat punch" },
-    { "path_length_mm", "Way of the tool on the surface",
+    { "path_length_mm", "Path of the tool while it touches",
       number(toMillimeters(grade.pathLength), 0), "mm",
       "Datta et al., J. Am. Coll. Surg. 193:479, 2001" },
   };

@@ -140,6 +140,12 @@ void Window::openScene(const QString& file)
   {
     lookFrom(*plan.camera);
   }
+  if (plan.training && !plan.training->marks)
+  {
+    showTraining();
+    startTraining(*plan.training);
+    return;
+  }
   say(tr("Opened the scene %1").arg(QFileInfo(file).fileName()));
 }
 

@@ -1,6 +1,7 @@
 // The search for hidden nodules: begun, marked, graded, shown, saved.
 
 #include "app/panels/folder_dialog.h"
+#include "app/panels/panel_area.h"
 #include "app/panels/tissue_panel.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
@@ -36,7 +37,7 @@ std::vector<Balls::Ball> ballsOf(const Grade& grade)
   }
   for (const GradedMark& mark : grade.marks)
   {
-    balls.push_back(markAt(mark.place, mark.isNear ? appearance::kContact : appearance::kBad));
+    balls.push_back(markAt(mark.place, mark.isNear ? appearance::kContact : appearance::kInk));
   }
   return balls;
 }
@@ -70,8 +71,7 @@ void Window::showTraining()
       {
         training_ = new TrainingPanel(shippedCurriculum());
         auto* area = new QScrollArea;
-        area->setWidget(training_);
-        area->setWidgetResizable(true);
+        scrollDownOnly(*area, training_);
         auto* dock = addDock(this, Qt::RightDockWidgetArea, tr("Training"), area);
         if (auto* curves = findChild<QDockWidget*>(tr("Force over depth")))
         {
@@ -192,7 +192,7 @@ void Window::finishTraining()
       findChild<QAction*>("translucentAction")->setChecked(true);
       isStale_ = true;
       say(QString::fromStdString(summaryOf(sheet.grade)) +
-        tr(": green nodules were found, yellow ones missed; red marks are false"));
+        tr(": green nodules were found, yellow ones missed; black marks are false"));
     });
 }
 

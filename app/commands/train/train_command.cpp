@@ -69,14 +69,15 @@ ScenePlan planOf(const TrainOptions& options)
   if (options.path.empty())
   {
     plan.window = true;
+    plan.plots = plan.records() ? plan.plots : ScenePlan{}.plots; // whose samples are graded
     plan.presses.reset();
     plan.recording.reset();
     return plan;
   }
   plan.device = parseDevice("path:" + options.path.string());
+  plan.samples = true;
   plan.window = plan.validity = plan.deformed = plan.picture = false;
   plan.plots.clear();
-  plan.press.dent = { .surface = DentSurface::None };
   plan.sources.push_back(options.marks);
   plan.training->marks = readMarks(options.marks);
   return plan;

@@ -192,5 +192,30 @@ TEST_F(TrainCommand, RefusesAMarkBeforeTheFirstTouchAndABodyWithoutRoom)
   EXPECT_FALSE(std::filesystem::exists(folder() / "graded"));
 }
 
+// each by its key, before a window is asked for
+TEST_F(TrainCommand, RefusesAScenesTrainingThatCouldNotBeGraded)
+{
+  const auto refusal =
+    [this](const std::string& law, const std::string& training, const std::string& more)
+  {
+    std::ofstream(folder() / "scene.json")
+      << R"({"palp_scene": 1, "meshes": [{"bundled": "liver"}], "law": {"mode": ")" << law
+      << R"("}, "training": )" << training << more << "}";
+    return palp("scene " + file("scene.json")).err;
+  };
+  const std::string plots = R"(, "plots": ["force-time"])";
+  EXPECT_NE(
+    refusal("corrected", R"({"level": "easy"})", plots).find("no display"), std::string::npos);
+  EXPECT_NE(refusal("paper", "{}", plots).find("/training: takes the law"), std::string::npos);
+  EXPECT_NE(
+    refusal("corrected", R"({"seed": -1})", plots).find("/training/seed"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "{}", "").find("give plots"), std::string::npos);
+  EXPECT_NE(
+    refusal("corrected", R"({"marks": ["1s"]})", plots).find("a window makes"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "{}", R"(, "device": "path:scan.csv", "exports": ["samples"])")
+              .find("has no marks"),
+    std::string::npos);
+}
+
 } // namespace
 } // namespace palp

@@ -94,10 +94,11 @@ TEST_F(GradeTest, CountsMarksAsFreeResponseDoes)
   EXPECT_EQ(graded.nodules[2].foundBy, std::nullopt);
 }
 
-TEST_F(GradeTest, TakesTheFirstTouchAsThePlaceOfAMarkAfterTheLift)
+TEST_F(GradeTest, TakesTheLastTouchAsThePlaceOfAMark)
 {
+  touch(-0.04, 0.04);
   touch(0.02, 0.0);
-  plan_.marks->push_back(5.0);
+  plan_.marks->push_back(5.0); // long after
   EXPECT_EQ(grade().hits, 1U);
   plan_.marks->front() = 0.0;
   EXPECT_THROW((void)grade(), Error);
