@@ -28,8 +28,8 @@ struct MeshSource
   std::string bundled{}; ///< name of a shipped surface, as in liver; empty: file
   std::filesystem::path file{};
   std::filesystem::path haptic{}; ///< of the same with fewer points, to feel; empty: the file
-  ImagePart part{};  ///< that is the surface, where the file is an image
-  UnitChoice unit{}; ///< of the file's coordinates
+  ImagePart part{};               ///< that is the surface, where the file is an image
+  UnitChoice unit{};              ///< of the file's coordinates
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< in the scene [m]
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero(); ///< about its x, then y, then z [rad]
   std::vector<PlacedNodule> nodules{};                ///< in the file's frame [m]

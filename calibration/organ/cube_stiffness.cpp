@@ -92,11 +92,10 @@ CubeStiffness cutCubeStiffness(
     }
   }
   const double filled = static_cast<double>(points.size()) / static_cast<double>(inside.size());
-  CubeStiffness stiffness =
-    integrated(side, youngModulus, poissonRatio, points, filled * side * side * side);
-  constexpr double least = 1e-5; // so that nodes far from the body are held
-  stiffness.diagonal().array() += least * youngModulus * side;
-  return stiffness;
+  // what holds nodes far from the body may not resist where the body moves as a whole
+  constexpr double least = 1e-5;
+  return integrated(side, youngModulus, poissonRatio, points, filled * side * side * side) +
+    least * cubeStiffness(side, youngModulus, poissonRatio);
 }
 
 } // namespace palp

@@ -286,6 +286,37 @@ INSTANTIATE_TEST_SUITE_P(Organ, AgainstElements,
       .cell = 6.0_mm }),
   [](const auto& body) { return std::string(body.param.file) + "_" + std::to_string(body.index); });
 
+// a body that hardly resists is held by nothing but its support, also where cells do not divide it
+TEST(OrganCompliance, OfASlenderBodyIsThatOfABeam)
+{
+  const Vector3d size(100.0_mm, 20.0_mm, 16.0_mm);
+  constexpr double nu = 0.3;
+  const double length = 90.0_mm;
+  const double inertia = size.y() * std::pow(size.z(), 3) / 12.0;
+  const double shear = 5.0 / 6.0 * kYoung / (2.0 * (1.0 + nu)) * size.y() * size.z(); // Timoshenko
+  const double beam = std::pow(length, 3) / (3.0 * kYoung * inertia) + length / shear;
+  for (const double angle : { 0.0, 0.3 })
+  {
+    const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(angle, Vector3d(3.0, 1.0, 2.0).normalized()).toRotationMatrix();
+    Mesh mesh = makeBox(size, 4.0_mm);
+    for (Vector3d& point : mesh.points)
+    {
+      point = turn * point;
+    }
+    const Surface surface(mesh.points, mesh.triangles);
+    const Support end{ [&](const Vector3d& x)
+      { return (turn.transpose() * x).x() < -0.49999 * size.x(); } };
+    for (const double cell : { 4.0_mm, 3.0_mm, 2.5_mm })
+    {
+      const OrganModel model(surface, cell, kYoung, nu, std::span(&end, 1));
+      const auto found = complianceAt(model, surface, turn * Vector3d(40.0_mm, 0, 0), turn.col(2));
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->constant, beam, 0.08 * beam) << angle << ' ' << cell;
+    }
+  }
+}
+
 // the bases half in a cell, the top, neither along the cells; the exact law of a bonded layer
 TEST(OrganCompliance, OfASlabIsThatOfALayerInAnyAttitude)
 {
