@@ -6,6 +6,7 @@
 #include "tests/support/allocation_guard.h"
 #include "tests/support/surfaces.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -338,13 +339,11 @@ TEST(OrganTouch, IsHandedOverToAHandWithoutAJumpOfTheForce)
 TEST(OrganTouch, NeverAllocates)
 {
   const Scene both = together(left(relaxing()), { right(relaxing()) });
-  const std::vector<Vector3d> path = press(0.5_mm, 40.0_mm);
   TissueMemory memory;
+  const auto feel = [&](const Vector3d& apex) { (void)step(both, memory, at(apex), 1.0_ms); };
+  const std::vector<Vector3d> path = press(0.5_mm, 40.0_mm);
   const test::AllocationGuard guard;
-  for (const Vector3d& apex : path)
-  {
-    (void)step(both, memory, at(apex), 1.0_ms);
-  }
+  std::ranges::for_each(path, feel);
   EXPECT_EQ(guard.count(), 0U);
 }
 

@@ -1,0 +1,83 @@
+#include "app/scene/scene_mesh.h"
+
+#include "app/input/option_values.h"
+#include "app/input/quantity.h"
+#include "app/scene/scene_entries.h"
+#include "haptics/units.h"
+#include "pipeline/surface_io/length_unit.h"
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+void readFrame(JsonObject object, MeshSource& mesh)
+{
+  mesh.origin = triple(object, "origin", Quantity::Length, kSceneReach);
+  mesh.rotation =
+    triple(object, "rotation", Quantity::Angle, { -360.0_deg, 360.0_deg, "-360deg to 360deg" });
+  object.finish();
+}
+
+PlacedNodule readNodule(JsonObject object)
+{
+  PlacedNodule nodule{ triple(object, "center", Quantity::Length, kSceneReach), 0.0, 0.0 };
+  const std::string radius = object.text("radius", "");
+  checkAt(
+    object, "radius", [&] { nodule.radius = parseQuantity(radius, Quantity::Length, "--radius"); });
+  const std::string ratio = object.number("ratio", "");
+  checkAt(object, "ratio", [&] { nodule.ratio = parseNumber(ratio, "--ratio"); });
+  object.finish();
+  return nodule;
+}
+
+} // namespace
+
+MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
+{
+  MeshSource mesh;
+  mesh.bundled = object.text("bundled", "");
+  if (mesh.bundled.find('/') != std::string::npos)
+  {
+    object.refuse("bundled", "is the name of a bundled surface, as in liver; give a path as file");
+  }
+  const std::string file = object.text("file", "");
+  const std::string haptic = object.text("haptic", "");
+  parseAt(
+    object, "series", [&](const std::string& text) { mesh.part.series = text; },
+    &JsonObject::number);
+  parseAt(
+    object, "level",
+    [&](const std::string& text) { mesh.part.level = parseNumber(text, "--level"); },
+    &JsonObject::number);
+  parseAt(
+    object, "label",
+    [&](const std::string& text) { mesh.part.labels = parseLabels(text, "--label"); },
+    &JsonObject::number);
+  parseAt(object, "unit", [&](const std::string& text) { mesh.unit = parseUnit(text); });
+  readFrame(object.object("frame"), mesh);
+  for (const JsonObject& nodule : object.objects("nodules"))
+  {
+    mesh.nodules.push_back(readNodule(nodule));
+  }
+  object.finish();
+  if (mesh.bundled.empty() == file.empty())
+  {
+    object.refuse("file", "give either a file or the name of a bundled surface");
+  }
+  if (mesh.part.level && !mesh.part.labels.empty())
+  {
+    object.refuse("label", "both are given, level and label; give the one or the other");
+  }
+  if (!haptic.empty() && file.empty())
+  {
+    object.refuse("haptic", "is of a file; a bundled surface has its own");
+  }
+  mesh.haptic = haptic.empty() ? std::filesystem::path{} : (folder / haptic).lexically_normal();
+  mesh.file = file.empty() ? std::filesystem::path{} : (folder / file).lexically_normal();
+  return mesh;
+}
+
+} // namespace palp
