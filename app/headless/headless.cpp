@@ -47,18 +47,31 @@ void tellLimits(const Recording& recording, const Sample& deepest)
     return outsideLimits(
       organOf(recording.scene, organ), validity[static_cast<std::size_t>(organ)], contact);
   };
+  const std::vector<PressSummary> presses = findPresses(recording);
+  std::size_t outside = 0;
+  std::string named; // the first of them
+  std::string where = "there";
+  constexpr std::size_t most = 5;
+  for (const PressSummary& press : presses)
+  {
+    const bool isDeepest = presses.size() > 1 && press.deepest.depth == deepest.contact.depth;
+    where = isDeepest && where == "there" ? "in " + printable(press.name) : where;
+    if (!limitsAt(press.organ, press.deepest).empty())
+    {
+      ++outside;
+      const std::string next = outside == most + 1 ? ", ..." : ", " + printable(press.name);
+      named += outside > most + 1 ? "" : outside == 1 ? printable(press.name) : next;
+    }
+  }
   if (const std::string broken = limitsAt(deepest.organ, deepest.contact); !broken.empty())
   {
-    std::cerr << "palp: warning: there the law is outside its limits (" << broken
+    std::cerr << "palp: warning: " << where << " the law is outside its limits (" << broken
               << "); samples.csv tells it of each sample, broken_rules\n";
   }
-  const std::vector<PressSummary> presses = findPresses(recording);
-  const auto outside = std::ranges::count_if(presses,
-    [&](const PressSummary& press) { return !limitsAt(press.organ, press.deepest).empty(); });
   if (presses.size() > 1 && outside > 0)
   {
-    std::cerr << "palp: warning: in " << outside << " of " << presses.size()
-              << " presses the law is outside its limits; presses.csv tells of each\n";
+    std::cerr << "palp: warning: in " << outside << " of " << presses.size() << " presses ("
+              << named << ") the law is outside its limits; presses.csv tells of each\n";
   }
 }
 

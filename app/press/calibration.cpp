@@ -9,7 +9,12 @@
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -145,6 +150,40 @@ bool isOfTheseElements(const DentOptions& options, const ForceLaw& law)
     (!blunt || blunt->tipRadius <= 2.0 * kTableTip);
 }
 
+// What stands in was computed for another tool or body, and may reach less far than this tool's own
+// contact, which it never does: each row is held to that of the next, which none between exceeds.
+ExtentTable atLeastContact(const ExtentTable& extents, const ForceLaw& law)
+{
+  constexpr double least = 1e-6; // [m]
+  constexpr double step = 1.02;
+  constexpr double deepest = 1.0; // [m]
+  std::set<double> depths;
+  for (const ExtentTable::Extent& row : extents.rows())
+  {
+    depths.insert(row.depth);
+  }
+  const auto contactAt = [&](double depth) { return law({ .depth = depth }).contactRadius; };
+  const double widest = contactAt(deepest);
+  for (double depth = least; depth < deepest; depth *= step)
+  {
+    depths.insert(depth);
+    if (depth > extents.rows().back().depth && contactAt(depth) >= widest)
+    {
+      break;
+    }
+  }
+  std::vector<ExtentTable::Extent> rows;
+  for (auto depth = depths.begin(); depth != depths.end(); ++depth)
+  {
+    const double next = std::next(depth) != depths.end() ? *std::next(depth) : deepest;
+    rows.push_back({ .depth = *depth,
+      .extentRadius = std::max(extents.extentRadius(*depth), contactAt(next)),
+      .force = 0.0,
+      .contactRadius = 0.0 });
+  }
+  return ExtentTable(std::move(rows));
+}
+
 void add(std::string& notes, const std::string& note)
 {
   notes += (notes.empty() ? "" : "; ") + note;
@@ -220,6 +259,10 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
     calibration.young.reset();
     add(calibration.note,
       "R_d is that of tissue with other coatings or none; palp calibrate --coating makes its own");
+  }
+  if (calibration.reach == 0.0)
+  {
+    calibration.extents = atLeastContact(calibration.extents, law);
   }
   calibration.style.isLiteral = dent.surface == DentSurface::PaperLiteral;
   if (dent.surface == DentSurface::Fitted)

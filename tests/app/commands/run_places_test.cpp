@@ -95,9 +95,13 @@ TEST_F(RunPlaces, CountsThePressesOutsideTheLimits)
   const std::string places = "--depth 1mm --speed 50mm/s --at " + point(0, 0, topMm());
   EXPECT_EQ(at(places, "one").err.find("presses the law"), std::string::npos);
   const Finished both = at(places + " --at " + point(49, 0, topMm()), "both");
-  EXPECT_NE(both.err.find("in 1 of 2 presses the law is outside its limits; presses.csv"),
+  EXPECT_NE(both.err.find("in 1 of 2 presses (press 2) the law is outside its limits; presses.csv"),
     std::string::npos)
     << both.err;
+  const Finished deep =
+    at("--depth 12mm --speed 50mm/s --at " + point(0, 0, topMm()) + " --at " + point(5, 0, topMm()),
+      "deep");
+  EXPECT_NE(deep.err.find("warning: in press "), std::string::npos) << deep.err;
 }
 
 TEST_F(RunPlaces, RefusesInOneSentence)

@@ -3,6 +3,7 @@
 #include "app/program/data_files.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/haptics/force/tips.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,41 @@ TEST(LoadCalibration, SaysThatATableIsOfAnotherTool)
     EXPECT_NE(calibration.note.find("of another tool"), std::string::npos) << name;
     EXPECT_FALSE(calibration.covers(1.0_mm));
     EXPECT_FALSE(calibration.young);
+  }
+}
+
+// of a tool that another's R_d stands in for; the contact by the laws of Hertz and Sneddon
+TEST(LoadCalibration, NoStandInEndsWithinTheContact)
+{
+  std::vector<Tip> tips = test::allTips();
+  for (const double angle : { 5.0_deg, 80.0_deg })
+  {
+    tips.emplace_back(ConeTip{ angle, 12.0_mm });
+  }
+  tips.emplace_back(PunchTip{ 1.0_mm });
+  for (const Tip& tip : tips)
+  {
+    PressOptions other;
+    other.dent.table = dataFile("tables/cone45_r6_h30.csv");
+    for (const PressOptions& options : { PressOptions{}, other })
+    {
+      for (const LawMode mode : { LawMode::Paper, LawMode::Corrected })
+      {
+        const ForceLaw law(tip, Material{ 50.0_kPa, 0.45 }, { .mode = mode });
+        const Calibration calibration = loadCalibration(options, law);
+        if (calibration.reach > 0.0)
+        {
+          continue; // its own: 0 where nothing sinks by the threshold
+        }
+        const double radius = baseRadius(tip);
+        for (double depth = 0.02 * radius; depth < 2.0 * radius; depth += 0.013 * radius)
+        {
+          const double extent = calibration.extents.extentRadius(depth);
+          EXPECT_GE(extent, law({ .depth = depth }).contactRadius) << tip.index() << ' ' << depth;
+          EXPECT_GE(extent, flatRadius(tip)) << tip.index() << ' ' << depth;
+        }
+      }
+    }
   }
 }
 
