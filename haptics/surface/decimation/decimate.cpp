@@ -106,8 +106,9 @@ public:
 private:
   struct Choice
   {
-    double cost; // squared distance times area, and a little of the length [m^4]
-    HalfEdge edge;
+    // squared distance times area, and a little of the length [m^4]
+    double cost = std::numeric_limits<double>::infinity();
+    HalfEdge edge{};
   };
 
   // of a point
@@ -117,6 +118,8 @@ private:
     double area = 0.0;                                // twice theirs [m^2]
     int round = 0;                                    // in which something next to it was taken
     Vertex nextTo{};                                  // that is looked at
+    Choice best{};                                    // of its edges
+    bool isAsked = false;                             // it holds since something changed
   };
 
   Known& known(Vertex vertex)
@@ -130,14 +133,14 @@ private:
     ++now_;
     std::vector<Choice> choices;
     choices.reserve(left_);
-    for (const Vertex vertex : mesh_.vertices()) // that are left
+    for (const Vertex vertex : mesh_.vertices()) // one that was taken has no best
     {
-      Choice best{ std::numeric_limits<double>::infinity(), HalfEdge() };
-      for (const HalfEdge edge : mesh_.voh_range(vertex))
+      if (Known& here = known(vertex); !here.isAsked)
       {
-        const double cost = costOf(edge);
-        best = cost < best.cost ? Choice{ cost, edge } : best;
+        here.isAsked = true;
+        here.best = bestOf(vertex);
       }
+      const Choice& best = known(vertex).best;
       best.edge.is_valid() ? choices.push_back(best) : void();
     }
     std::ranges::sort(choices, {}, [](const Choice& one) { return std::pair(one.cost, one.edge); });
@@ -148,6 +151,17 @@ private:
       left_ > count ? take(choice.edge) : void();
     }
     return before - left_;
+  }
+
+  Choice bestOf(Vertex vertex)
+  {
+    Choice best{};
+    for (const HalfEdge edge : mesh_.voh_range(vertex))
+    {
+      const double cost = costOf(edge);
+      best = cost < best.cost ? Choice{ cost, edge } : best;
+    }
+    return best;
   }
 
   // infinite where it is more than allowed
@@ -181,6 +195,12 @@ private:
     known(to).planes += known(from).planes;
     known(to).area += known(from).area;
     mesh_.collapse(edge);
+    known(from).best = {};
+    known(to).isAsked = false;
+    for (const Vertex near : mesh_.vv_range(to))
+    {
+      known(near).isAsked = false;
+    }
     --left_;
   }
 
