@@ -49,7 +49,7 @@ double quantityAt(JsonObject& object, const char* key, Quantity kind, const Boun
 
 double numberAt(JsonObject& object, const char* key, const Bounds& bounds)
 {
-  const double value =
+  const auto value =
     valueAt<double>(object, key, [&] { return parseNumber(object.number(key, ""), key); });
   if (!(value >= bounds.least && value <= bounds.most))
   {
@@ -66,7 +66,7 @@ Span spanAt(
   {
     object.refuse(key, R"(give the least and the most, as in ["2mm", "4mm"])");
   }
-  const Span span = valueAt<Span>(object, key,
+  const auto span = valueAt<Span>(object, key,
     [&] {
       return Span{ parse(ends[0]), parse(ends[1]) };
     });

@@ -82,8 +82,8 @@ std::string cross(const Eigen::Vector2d& at, const char* color, const std::strin
     return "M" + number(at.x() - kArm) + " " + number(at.y() - turn * kArm) + "L" +
       number(at.x() + kArm) + " " + number(at.y() + turn * kArm);
   };
-  return "<path d=\"" + line(1.0) + line(-1.0) + "\" stroke=\"" + color +
-    "\" stroke-width=\"1.2\" fill=\"none\"><title>" + title + "</title></path>\n";
+  return R"(<path d=")" + line(1.0) + line(-1.0) + R"(" stroke=")" + color +
+    R"(" stroke-width="1.2" fill="none"><title>)" + title + "</title></path>\n";
 }
 
 std::string mapOf(const ScoreSheet& sheet)
@@ -97,7 +97,7 @@ std::string mapOf(const ScoreSheet& sheet)
   {
     const Eigen::Vector2d at = map.at(grade.area.points[i].position);
     box.extend(at);
-    dots += circle(at, 0.7, grade.touched[i] ? "fill=\"#8fb8de\"" : "fill=\"#e4e6ea\"");
+    dots += circle(at, 0.7, grade.touched[i] ? R"(fill="#8fb8de")" : R"(fill="#e4e6ea")");
   }
   std::string drawn;
   for (std::size_t i = 0; i < grade.nodules.size(); ++i)
@@ -106,10 +106,10 @@ std::string mapOf(const ScoreSheet& sheet)
     const char* color = one.foundBy ? "#1a7f37" : "#d55e00";
     const std::string name = "nodule " + std::to_string(i + 1);
     drawn += circle(map.at(one.nodule.nodule.center), toMillimeters(one.nodule.nodule.radius),
-      std::string("fill=\"") + color + "\" fill-opacity=\"0.5\"", name);
+      std::string(R"(fill=")") + color + R"(" fill-opacity="0.5")", name);
     drawn += circle(map.at(one.above), toMillimeters(sheet.hitWithin),
-      std::string("fill=\"none\" stroke-dasharray=\"2 1.5\" stroke-width=\"0.5\" stroke=\"") +
-        color + '"',
+      std::string(R"(fill="none" stroke-dasharray="2 1.5" stroke-width="0.5" stroke=")") + color +
+        '"',
       name);
   }
   for (std::size_t i = 0; i < grade.marks.size(); ++i)
@@ -119,7 +119,7 @@ std::string mapOf(const ScoreSheet& sheet)
       "mark " + std::to_string(i + 1) + " at " + number(mark.time) + " s");
   }
   const Eigen::Vector2d size = box.sizes();
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + number(box.min().x() - 3.0) +
+  return R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox=")" + number(box.min().x() - 3.0) +
     ' ' + number(box.min().y() - 3.0) + ' ' + number(size.x() + 6.0) + ' ' +
     number(size.y() + 6.0) + "\">\n" + dots + drawn + "</svg>\n";
 }
