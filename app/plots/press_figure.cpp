@@ -185,9 +185,8 @@ void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const Figur
   const ViewUse& look, const std::filesystem::path& file)
 {
   drawFigure(window, moment, figure, look,
-    [&](PressView&, Surroundings&, vtkRenderer&) {
-      writePng(window, file, figure.isTransparent ? Background::Transparent : Background::Opaque);
-    });
+    [&](PressView&, Surroundings&, vtkRenderer&)
+    { writePng(window, file, figure.isTransparent ? Backdrop::Transparent : Backdrop::Opaque); });
 }
 
 } // namespace palp

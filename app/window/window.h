@@ -85,7 +85,9 @@ public:
   bool openFiles(const QStringList& files); // of any kind that is read, or folders
   bool loadPresses(const QString& folder);  // of an export
   bool saveScreenshot(const QString& file);
-  bool saveFigure(const QString& file, ImageSize size, const FigureLook& look);
+  // none: of what is shown
+  bool saveFigure(const QString& file, ImageSize size, const FigureLook& look,
+    const std::optional<Sample>& moment = std::nullopt);
   bool saveReplay(const QString& file);    // a movie, which gets the ending of what it is
   bool saveTurntable(const QString& file); // likewise
   bool savePlots(const QString& file, std::optional<ImageSize> size = std::nullopt);

@@ -4,10 +4,12 @@
 #include "app/shell/theme.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
+#include "pipeline/charts/plot_files.h"
 #include "pipeline/view/appearance.h"
 
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
@@ -155,6 +157,7 @@ void Window::smoothen()
 
 void Window::askFigure()
 {
+  const Sample asked = shown_; // a dialog takes the pointer, and the tool lifts
   FigureDialog dialog(tr("Save figure"), "press_figure.png", tr("PNG (*.png)"), ImageSize{}, this);
   FigureLook look{
     .hasAxes = true, .hasScaleBar = true, .isRealistic = true, .body = view_.look()
@@ -169,11 +172,12 @@ void Window::askFigure()
   dialog.offerParts(look);
   if (dialog.exec() == QDialog::Accepted)
   {
-    saveFigure(dialog.file(), dialog.size(), dialog.look());
+    saveFigure(dialog.file(), dialog.size(), dialog.look(), asked);
   }
 }
 
-bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& look)
+bool Window::saveFigure(
+  const QString& file, ImageSize size, const FigureLook& look, const std::optional<Sample>& moment)
 {
   return attempt(
     [&]
@@ -193,10 +197,23 @@ bool Window::saveFigure(const QString& file, ImageSize size, const FigureLook& l
         renderer.ResetCameraClippingRange();
       };
       const Pictured seen = pictured();
-      writeFigure(*window,
-        momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap()), look, asHere,
-        file.toStdString());
-      say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height));
+      const Sample sample = moment.value_or(shown_);
+      vtkSmartPointer<vtkImageData> picture;
+      drawFigure(*window, momentOf(seen.body, seen.recording, seen.calibration, sample, shownMap()),
+        look, asHere,
+        [&](PressView&, Surroundings&, vtkRenderer&) {
+          picture =
+            pictureOf(*window, look.isTransparent ? Backdrop::Transparent : Backdrop::Opaque);
+        });
+      // a large one is longer in becoming a file than in being drawn
+      const auto written = inBackground<bool>(tr("Writing the figure"),
+        [picture, to = file.toStdString()](const std::atomic<bool>& isWanted)
+        {
+          isWanted ? writePng(*picture, to) : void();
+          return true;
+        });
+      say(written ? tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height)
+                  : tr("Not waited for: %1 may still be written").arg(file));
     });
 }
 

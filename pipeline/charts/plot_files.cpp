@@ -109,9 +109,9 @@ void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesyste
   replaceFile(file, out.view());
 }
 
-void writePng(vtkRenderWindow& window, const std::filesystem::path& file, Background background)
+vtkSmartPointer<vtkImageData> pictureOf(vtkRenderWindow& window, Backdrop background)
 {
-  const bool isTransparent = background == Background::Transparent;
+  const bool isTransparent = background == Backdrop::Transparent;
   if (isTransparent)
   {
     window.SetAlphaBitPlanes(1);
@@ -122,24 +122,34 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file, Backgr
   isTransparent ? grab->SetInputBufferTypeToRGBA() : grab->SetInputBufferTypeToRGB();
   grab->ReadFrontBufferOff();
   grab->Update();
-  if (uniform(*grab->GetOutput()))
+  return grab->GetOutput();
+}
+
+void writePng(vtkImageData& picture, const std::filesystem::path& file)
+{
+  if (uniform(picture))
   {
     throw Error(ErrorCode::NoPicture,
       shownName(file) +
         ": the picture came out empty; check the OpenGL driver, or pass --no-picture");
   }
-  if (isTransparent)
+  if (picture.GetNumberOfScalarComponents() == 4)
   {
-    restoreColors(*grab->GetOutput());
+    restoreColors(picture);
   }
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(grab->GetOutputPort());
+  writer->SetInputData(&picture);
   writer->WriteToMemoryOn(); // libpng would tell of a full disk in its own words
   writer->Write();
   vtkUnsignedCharArray& png = *writer->GetResult();
   replaceFile(file,
     std::string_view(reinterpret_cast<const char*>(png.GetPointer(0)),
       static_cast<std::size_t>(png.GetNumberOfValues())));
+}
+
+void writePng(vtkRenderWindow& window, const std::filesystem::path& file, Backdrop background)
+{
+  writePng(*pictureOf(window, background), file);
 }
 
 void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)

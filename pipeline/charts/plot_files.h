@@ -3,6 +3,8 @@
 #include "pipeline/charts/plot.h"
 
 #include <filesystem>
+#include <vtkImageData.h>
+#include <vtkSmartPointer.h>
 
 namespace palp
 {
@@ -11,16 +13,25 @@ namespace palp
 /// @throws Error  BadFile: cannot be written
 void writeCsv(std::span<const std::unique_ptr<Plot>> plots, const std::filesystem::path& file);
 
-enum class Background
+enum class Backdrop
 {
   Opaque,
   Transparent ///< where the window's renderer leaves it so, black
 };
 
+/// What a window shows, drawn anew: red, green, blue, and alpha where it is transparent.
+[[nodiscard]] vtkSmartPointer<vtkImageData> pictureOf(
+  vtkRenderWindow& window, Backdrop background = Backdrop::Opaque);
+
+/// Writes such a picture, on any thread.
+/// @param picture  its colors change where it is transparent
+/// @throws Error  as the other
+void writePng(vtkImageData& picture, const std::filesystem::path& file);
+
 /// Writes what a window shows.
 /// @throws Error  BadFile: cannot be written; NoPicture: every pixel is alike
 void writePng(vtkRenderWindow& window, const std::filesystem::path& file,
-  Background background = Background::Opaque);
+  Backdrop background = Backdrop::Opaque);
 
 /// Writes what a window of charts shows as lines and text, not pixels; without a date, so that the
 /// same picture gives the same bytes.

@@ -4,8 +4,11 @@
 #include "tests/support/csv_table.h"
 
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QImage>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTabBar>
@@ -41,6 +44,63 @@ TEST_F(WindowTest, SavesAScreenshotOfTheDent)
     }
   }
   EXPECT_GT(colors.size(), 500u);
+}
+
+// share of its pixels as blue as the force's arrow
+double arrowOf(const QImage& image)
+{
+  int blue = 0;
+  for (int y = 0; y < image.height(); ++y)
+  {
+    for (int x = 0; x < image.width(); ++x)
+    {
+      const QColor color = image.pixelColor(x, y);
+      blue += color.blue() > color.red() + 100 && color.blue() > color.green() + 50 ? 1 : 0;
+    }
+  }
+  return 1.0 * blue / (image.width() * image.height());
+}
+
+// by its menu and its dialog
+TEST_F(WindowTest, SavesAFigureAsItsDialogIsFilledIn)
+{
+  press(80);
+  const auto saved = [&](const char* name, const char* size, const std::set<QString>& parts)
+  {
+    const QString file = QString::fromStdString((folder_.path() / name).string());
+    QTimer hand;
+    QObject::connect(&hand, &QTimer::timeout,
+      [&]
+      {
+        auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+        if (dialog == nullptr)
+        {
+          return;
+        }
+        hand.stop();
+        dialog->findChild<QComboBox*>("size")->setEditText(size);
+        for (auto* box : dialog->findChildren<QCheckBox*>())
+        {
+          box->setChecked(parts.contains(box->objectName()));
+        }
+        dialog->findChild<QLineEdit*>("fileNameEdit")->setText(file);
+        QMetaObject::invokeMethod(dialog, "accept");
+      });
+    hand.start(100);
+    window_->findChild<QAction*>("figureAction")->trigger();
+    EXPECT_TRUE(said().startsWith("Written to " + file)) << said().toStdString();
+    return QImage(file);
+  };
+  const QImage whole = saved("whole.png", "3840x2160", { "overlays", "colorBar" });
+  ASSERT_EQ(whole.size(), QSize(3840, 2160));
+  EXPECT_FALSE(whole.hasAlphaChannel());
+  EXPECT_GT(arrowOf(whole), 1e-4);
+  const QImage clear = saved("clear.png", "640x480", { "transparent", "realistic" });
+  ASSERT_EQ(clear.size(), QSize(640, 480));
+  EXPECT_EQ(clear.pixelColor(2, 2).alpha(), 0);
+  EXPECT_EQ(clear.pixelColor(320, 240).alpha(), 255) << "the liver";
+  EXPECT_EQ(arrowOf(clear), 0.0);
+  release();
 }
 
 // made when it is asked for; what it saves is what the press shows
