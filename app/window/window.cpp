@@ -184,7 +184,7 @@ void Window::refresh()
     renderWindow_->Render();
     showReadings();
   }
-  smoothen();
+  smoothen(sample);
 }
 
 // all of the body, until the user looks at it in another way

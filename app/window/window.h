@@ -225,7 +225,7 @@ private:
   void takeTheme();
   void keepView();
   void setSmooth(bool smooth);
-  void smoothen();
+  void smoothen(const Sample& newest);
   void showReadings();
   void refreshPanels();
   void refreshCharts();

@@ -144,14 +144,17 @@ void Window::setSmooth(bool smooth)
   renderer_->SetPass(smooth || view_.look().isTranslucent ? nullptr : fast_.Get());
 }
 
-// what moves is drawn as soon as can be, what stands still with smooth edges
-void Window::smoothen()
+// what moves is drawn as soon as can be, what stands still with smooth edges and where it came to
+void Window::smoothen(const Sample& newest)
 {
   constexpr int kStill = 12; // pictures
   if (++still_ == kStill)
   {
     setSmooth(true);
+    shown_ = newest;
+    view_.show(shown_);
     renderWindow_->Render();
+    showReadings();
   }
 }
 
