@@ -28,6 +28,7 @@ using gdcm::Tag;
 
 constexpr double kAlike = 1e-3;  // [-] of spacings and directions, which are written in decimals
 constexpr double kMissing = 0.1; // [-] of the distance by which one may be off
+constexpr double kGap = 1.9;     // of it that an image is missing in
 constexpr double kTilt = 0.01;   // [rad] between the way of the slices and their normal
 
 const Tag kClass(0x0008, 0x0016);
@@ -279,7 +280,8 @@ double stack(const std::filesystem::path& folder, DicomSeries& series)
     {
       refuse(folder,
         between + " are " + shown(steps[i]) + " apart, the others " + shown(usual) +
-          ": images are missing; copy all of the series");
+          (steps[i] > kGap * usual ? ": images are missing; copy all of the series"
+                                   : "; resample them to even distances and save that as .nrrd"));
     }
   }
   if (tilt > kTilt)

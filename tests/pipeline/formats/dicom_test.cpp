@@ -105,6 +105,14 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
   EXPECT_NE(
     refusal("gap").find("are 5 mm apart, the others 2.5 mm: images are missing"), std::string::npos)
     << refusal("gap");
+  writeDicom(folder_.path(), "uneven", kAxial, "--write-xfer-little");
+  const std::filesystem::path last = folder_.path() / "uneven/uneven1_94.dcm";
+  std::string moved = test::readAll(last);
+  moved.replace(moved.find("835.7"), 5, "836.6");
+  std::ofstream(last, std::ios::binary) << moved;
+  EXPECT_NE(
+    refusal("uneven").find("are 3.4 mm apart, the others 2.5 mm; resample"), std::string::npos)
+    << refusal("uneven");
   writeDicom(folder_.path(), "twice", kAxial, "--write-xfer-little");
   std::filesystem::copy(folder_.path() / "twice/twice1_3.dcm", folder_.path() / "twice/again.dcm");
   EXPECT_NE(refusal("twice").find("again.dcm and twice1_3.dcm are in one place"), std::string::npos)
