@@ -111,31 +111,26 @@ Eigen::VectorXd loadBeyond(
 {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3L * model.nodes());
   OrganModel::Weights weights{};
-  const Surface& surface = plane.surface();
-  for (const auto& [a, b, c] : surface.triangles())
-  {
-    constexpr double growth = 0.1;
-    forParts({ surface.points()[at(a)], surface.points()[at(b)], surface.points()[at(c)] },
-      plane.place(), 0.5 * model.side(), growth,
-      [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
+  constexpr double growth = 0.1;
+  forParts(plane.surface(), plane.place(), 0.5 * model.side(), growth,
+    [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
+    {
+      const Eigen::Vector3d normal = plane.inside(area);
+      const Eigen::Vector3d local = plane.inside(middle - plane.place());
+      if (!model.weightsAt(middle, area.normalized(), weights))
       {
-        const Eigen::Vector3d normal = plane.inside(area);
-        const Eigen::Vector3d local = plane.inside(middle - plane.place());
-        if (!model.weightsAt(middle, area.normalized(), weights))
-        {
-          return;
-        }
-        Eigen::Vector3d force = -pressure.stress(local) * normal;
-        if (plane.facesAlike(area) && std::abs(local.z()) < plane.reach())
-        {
-          force.z() -= pressure.at(local.head<2>().norm()) * normal.z();
-        }
-        for (std::size_t k = 0; k < weights.nodes.size(); ++k)
-        {
-          load.segment<3>(3L * weights.nodes[k]) += weights.values[k] * plane.outside(force);
-        }
-      });
-  }
+        return;
+      }
+      Eigen::Vector3d force = -pressure.stress(local) * normal;
+      if (plane.facesAlike(area) && std::abs(local.z()) < plane.reach())
+      {
+        force.z() -= pressure.at(local.head<2>().norm()) * normal.z();
+      }
+      for (std::size_t k = 0; k < weights.nodes.size(); ++k)
+      {
+        load.segment<3>(3L * weights.nodes[k]) += weights.values[k] * plane.outside(force);
+      }
+    });
   return load;
 }
 

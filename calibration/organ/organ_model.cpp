@@ -133,21 +133,15 @@ struct OrganModel::State
     for (const Support& support : supports)
     {
       std::map<int, Grip> byCube;
-      for (const auto& [a, b, c] : surface.triangles())
-      {
-        const std::array corners{ surface.points()[at(a)], surface.points()[at(b)],
-          surface.points()[at(c)] };
-        forParts(corners, corners[0], 0.5 * grid.side(), 0.0,
-          [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
+      forParts(surface, Eigen::Vector3d::Zero(), 0.5 * grid.side(), 0.0,
+        [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
+        {
+          OrganModel::Weights weights{};
+          if (support.holds(middle) && model.weightsAt(middle, area.normalized(), weights, kLeast))
           {
-            OrganModel::Weights weights{};
-            if (support.holds(middle) &&
-              model.weightsAt(middle, area.normalized(), weights, kLeast))
-            {
-              byCube[weights.nodes[0]].add(weights, middle, area.norm());
-            }
-          });
-      }
+            byCube[weights.nodes[0]].add(weights, middle, area.norm());
+          }
+        });
       for (auto& [cube, grip] : byCube)
       {
         grip.along = support.along;

@@ -31,8 +31,7 @@ public:
   /// @param youngModulus   [Pa]
   /// @param poissonRatio   0 to below 0.5 [-]
   /// @throws Error         BadMesh: the surface is open; BadValue: the supports leave a motion
-  /// free,
-  ///                       and which; no cube is filled, or there are more than 20 million
+  ///                       free, and which; no cube is filled, or over 20 million would be
   OrganModel(const Surface& surface, double side, double youngModulus, double poissonRatio,
     std::span<const Support> supports);
   ~OrganModel();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "haptics/surface/surface.h"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -37,6 +39,18 @@ void forParts(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector
   const Eigen::Vector3d half = 0.5 * (first + second);
   forParts({ first, half, opposite }, place, length, growth, use);
   forParts({ half, second, opposite }, place, length, growth, use);
+}
+
+/// The same of all triangles of a surface.
+template <typename Use>
+void forParts(const Surface& surface, const Eigen::Vector3d& place, double length, double growth,
+  const Use& use)
+{
+  for (const auto& [a, b, c] : surface.triangles())
+  {
+    forParts({ surface.points()[at(a)], surface.points()[at(b)], surface.points()[at(c)] }, place,
+      length, growth, use);
+  }
 }
 
 } // namespace palp

@@ -32,8 +32,7 @@ struct SeriesContact
 /// @param depth   of the tip [m], more than 0
 /// @param radius  of the tip at its apex [m]; 0: sharp or flat, whose pressure is taken to stay
 ///                where it is
-/// @source        d = d(a) + F (G0 + 4/15 a^2 tr A) - 2 F |b| x + x^2 / (2 R) with x = R |b| F,
-/// from
+/// @source        d = d(a) + F (G0 + 4/15 a^2 tr A) - 2 F |b| x + x^2 / (2 R), x = R |b| F, from
 ///                the complementary energy of the body, whose pressure is as a paraboloid's
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] SeriesContact inSeries(
