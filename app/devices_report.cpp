@@ -1,5 +1,6 @@
 #include "app/devices_report.h"
 
+#include "app/devices_identify.h"
 #include "app/program/devices_options.h"
 #include "haptics/devices/driver.h"
 #include "haptics/devices/usb/found_device.h"
@@ -98,7 +99,7 @@ int list(std::vector<FoundDevice> all)
   }
   if (spacenavdRuns())
   {
-    std::cout << "spacenavd runs and may hold the SpaceMouse; stop it if the tool does not move\n";
+    std::cout << "spacenavd runs and may hold the SpaceMouse; give --device spacenavd then\n";
   }
   if (all.empty())
   {
@@ -132,8 +133,12 @@ int probe(const std::string& name)
   std::cout << driver->limits().model << ": " << answered << " of " << times.size()
             << " exchanges answered in a second; median " << std::lround(statistics.median)
             << " us, longest " << std::lround(statistics.high) << " us"
-            << (sample.homed ? "" : "; not homed yet") << (sample.stopped ? "; stopped" : "")
-            << '\n';
+            << (sample.homed ? "" : "; not homed yet") << (sample.stopped ? "; stopped" : "");
+  if (sample.temperature > 0.0)
+  {
+    std::cout << "; motors at " << sample.temperature << " deg C";
+  }
+  std::cout << '\n';
   return answered > 0 ? 0 : kNoneUsable;
 }
 
@@ -169,6 +174,14 @@ int probe(const std::string& name)
 
 int showDevices(const DevicesOptions& options)
 {
+  if (!options.identify.empty())
+  {
+    return identifyDevice(options.identify, options.added);
+  }
+  if (!options.home.empty())
+  {
+    return homeDevice(options.home);
+  }
   if (!options.probe.empty())
   {
     return probe(options.probe);

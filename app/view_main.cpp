@@ -2,6 +2,7 @@
 
 #include "app/commands/program.h"
 #include "app/folder/autosave.h"
+#include "app/folder/export_folder.h"
 #include "app/program/build_trace.h"
 #include "app/session/session.h"
 #include "app/shell/theme.h"
@@ -110,7 +111,10 @@ int view(const palp::ViewOptions& options)
   }
   if (options.made)
   {
-    session.add(session.takeOf(*options.made)());
+    for (const std::filesystem::path& take : palp::takesIn(options.made->folder))
+    {
+      session.add(session.takeOf(palp::readExport(take))());
+    }
   }
   std::cerr << "palp: servo thread: " << session.schedule() << '\n';
   palp::Window window(session, trace);

@@ -10,6 +10,11 @@
 namespace palp::units
 {
 
+constexpr double toMicrometers(double meters) noexcept
+{
+  return 1e6 * meters;
+}
+
 constexpr double toMillimeters(double meters) noexcept
 {
   return meters * 1e3;

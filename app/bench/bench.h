@@ -74,13 +74,33 @@ template <typename Before, typename Work>
 /// and how smooth it is on a slide over facets.
 void reportAccuracy(std::ostream& out);
 
+/// How a servo is measured.
+struct ServoBench
+{
+  std::chrono::duration<double> duration{ 60.0 };
+  std::chrono::duration<double> bus{ 0.0 }; ///< of an exchange with an emulated board; 0: none
+  std::chrono::duration<double> period{ 0.001 };
+  std::chrono::nanoseconds spin{ 0 };
+  int processor = -1; ///< below 0: any
+};
+
+/// What a servo thread did, and what the board at the end of its bus saw.
+struct ServoFigures
+{
+  const Timing& timing;
+  Histogram* board = nullptr; ///< from a pose to its force by the board's clock; null: no bus
+  std::string schedule;
+  double elapsed = 0.0; ///< [s]
+};
+
 /// Lets a servo thread touch a surface of 10,000 points with a tool that circles in it.
 /// @param watch     asked ten times a second, with the seconds so far; false ends the run
-/// @param finished  gets what the thread counted, its schedule in words, and the seconds it ran
-void runServo(const std::function<bool(double)>& watch,
-  const std::function<void(const Timing&, const std::string&, double)>& finished);
+/// @param finished  gets what the thread counted
+void runServo(const ServoBench& bench, const std::function<bool(double)>& watch,
+  const std::function<void(const ServoFigures&)>& finished);
 
-/// Writes how well a servo thread keeps 1 kHz.
-void reportServo(std::ostream& out, std::chrono::duration<double> duration);
+/// Writes how well a servo thread keeps its rate, and how late its forces are at a board.
+/// @param json  for programs
+void reportServo(std::ostream& out, const ServoBench& bench, bool json);
 
 } // namespace palp

@@ -2,11 +2,9 @@
 #include "app/bench/bench_work.h"
 #include "data/shapes.h"
 #include "haptics/contact/patch.h"
-#include "haptics/servo/servo.h"
 #include "haptics/units.h"
 
 #include <algorithm>
-#include <ostream>
 #include <random>
 #include <thread>
 
@@ -87,23 +85,6 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
   rows.push_back(benchRow("query_brute", vertices, "moving", timed(repetitions, nothing, all)));
 }
 
-class CircleDevice final : public Device
-{
-public:
-  [[nodiscard]] DeviceLimits limits() const override
-  {
-    return benchDevice();
-  }
-
-  [[nodiscard]] std::optional<ToolPose> exchange(const Eigen::Vector3d&, double) noexcept override
-  {
-    return poseAtTick(tick_++);
-  }
-
-private:
-  int tick_ = 0;
-};
-
 } // namespace
 
 std::vector<BenchRow> benchServo(std::size_t most, int ticks)
@@ -118,44 +99,6 @@ std::vector<BenchRow> benchServo(std::size_t most, int ticks)
     }
   }
   return rows;
-}
-
-void runServo(const std::function<bool(double)>& watch,
-  const std::function<void(const Timing&, const std::string&, double)>& finished)
-{
-  const Mesh mesh = makeGrid(100, kBenchSide);
-  Scene scene;
-  scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
-  scene.armed = true;
-  CircleDevice device;
-  Servo servo(device, scene);
-  while (watch(servo.newest().time))
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  finished(servo.timing(), servo.schedule(), servo.newest().time);
-}
-
-void reportServo(std::ostream& out, std::chrono::duration<double> duration)
-{
-  const auto line = [&](const char* name, const Histogram& histogram)
-  {
-    const auto us = [](Histogram::Duration time)
-    { return std::chrono::duration<double, std::micro>(time).count(); };
-    out << name << " [us]: p50 " << us(histogram.quantile(0.5)) << ", p99 "
-        << us(histogram.quantile(0.99)) << ", p99.9 " << us(histogram.quantile(0.999)) << ", max "
-        << us(histogram.longest()) << '\n';
-  };
-  runServo([&](double elapsed) { return elapsed < duration.count(); },
-    [&](const Timing& timing, const std::string& schedule, double elapsed)
-    {
-      out << "servo thread: " << schedule << '\n';
-      line("lateness", timing.lateness);
-      line("step", timing.step);
-      const std::uint64_t ticks = timing.ticks;
-      const std::uint64_t skipped = timing.skipped;
-      out << "ticks " << ticks << " + skipped " << skipped << " in " << elapsed << " s\n";
-    });
 }
 
 } // namespace palp

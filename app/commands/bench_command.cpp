@@ -22,6 +22,9 @@ namespace
 {
 
 constexpr Bounds kServoTimes{ 1.0, 86400.0, "1s to 86400s" };
+constexpr Bounds kBusTimes{ 1e-5, 0.01, "0.01ms to 10ms" };
+constexpr Bounds kSpinTimes{ 0.0, 2e-4, "0ms to 0.2ms" };
+constexpr Bounds kRates{ 1000.0, 4000.0, "1kHz to 4kHz" };
 
 struct BenchOptions
 {
@@ -31,6 +34,10 @@ struct BenchOptions
   bool frames = false;
   bool quick = false;
   std::string servo;
+  std::string bus;
+  std::string rate;
+  std::string spin;
+  int processor = -1;
   std::filesystem::path sweep;
   std::size_t cases = BenchedSweep().planned;
   std::filesystem::path gate;
@@ -148,6 +155,23 @@ void checkGate(const Bench& bench, const nlohmann::json& recorded, double slack)
   }
 }
 
+ServoBench servoBench(const BenchOptions& options)
+{
+  using Seconds = std::chrono::duration<double>;
+  const auto time = [](const std::string& text, const Bounds& bounds, const char* name)
+  { return Seconds(text.empty() ? 0.0 : parseWithin(text, Quantity::Time, bounds, name)); };
+  ServoBench bench{ .duration = time(options.servo, kServoTimes, "--servo"),
+    .bus = time(options.bus, kBusTimes, "--bus"),
+    .spin = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      time(options.spin, kSpinTimes, "--spin")),
+    .processor = options.processor };
+  if (!options.rate.empty())
+  {
+    bench.period = Seconds(1.0 / parseWithin(options.rate, Quantity::Frequency, kRates, "--rate"));
+  }
+  return bench;
+}
+
 void runBench(const BenchOptions& options, const Renderer* pictures)
 {
   if (!(options.slack >= 1.0)) // CLI11's range lets nan pass
@@ -165,8 +189,7 @@ void runBench(const BenchOptions& options, const Renderer* pictures)
   }
   if (!options.servo.empty())
   {
-    const double time = parseWithin(options.servo, Quantity::Time, kServoTimes, "--servo");
-    reportServo(std::cout, std::chrono::duration<double>(time));
+    reportServo(std::cout, servoBench(options), options.json);
     return;
   }
   if (!options.sweep.empty())
@@ -215,8 +238,19 @@ void addBenchCommand(CLI::App& app, const Renderer* pictures)
     "Instead: what a moved dent costs a picture beyond drawing the same scene again");
   command->add_flag("--accuracy", options->accuracy,
     "Instead: force error from the mesh, and smoothness, for each rule of contact");
-  command->add_option("--servo", options->servo,
-    "Instead: how well a servo thread keeps 1 kHz for so long, like 60s");
+  CLI::Option* servo = command->add_option("--servo", options->servo,
+    "Instead: how well a servo thread keeps its rate for so long, like 60s");
+  command
+    ->add_option("--bus", options->bus,
+      "Of --servo: by a board whose every exchange takes so long, like 0.5ms; how late its forces "
+      "are")
+    ->needs(servo);
+  command->add_option("--rate", options->rate, "Of --servo: 1kHz to 4kHz")->needs(servo);
+  command->add_option("--spin", options->spin, "Of --servo: awake before each tick, like 0.05ms")
+    ->needs(servo);
+  command->add_option("--processor", options->processor, "Of --servo: to stay on, from 0")
+    ->check(CLI::Range(0, 1023))
+    ->needs(servo);
   command->add_option("--sweep", options->sweep,
     "Instead: what a sweep costs on the disk of this folder, which is made and removed");
   command->add_option("--cases", options->cases, "Of that sweep; 16 kB of disk each")
@@ -228,6 +262,7 @@ void addBenchCommand(CLI::App& app, const Renderer* pictures)
                   "  palp bench\n"
                   "  palp bench --json > before.json && palp bench --gate before.json\n"
                   "  palp bench --servo 60s\n"
+                  "  palp bench --servo 20s --bus 0.5ms --json\n"
                   "  palp bench --sweep /scratch/new --cases 100000");
   command->callback([options, pictures] { runBench(*options, pictures); });
 }

@@ -1,10 +1,13 @@
 #include "app/commands/calibrate_case.h"
 
 #include "app/input/coating_text.h"
+#include "app/input/nodule_options.h"
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/tissue/tissue_formula.h"
 
 #include <array>
 #include <sstream>
@@ -44,6 +47,41 @@ std::array<double, 3> parseBlock(const std::string& text)
       "--block: " + inQuotes(text) + " has more than three sides; give three, as 100x100x50mm");
   }
   return sides;
+}
+
+Inclusion noduleOf(const std::string& text, const Material& tissue)
+{
+  if (text.empty())
+  {
+    return {};
+  }
+  const OffsetNodule one = parseNodule(text);
+  if (one.offset > 0.0)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--nodule: " + inQuotes(text) +
+        " is beside the axis, about which all is alike here; leave its distance out");
+  }
+  return { one.nodule.radius, one.nodule.top,
+    { one.nodule.ratio * tissue.youngModulus, tissue.poissonRatio } };
+}
+
+ModulusMap mapOf(const std::string& text)
+{
+  if (text.empty())
+  {
+    return {};
+  }
+  const StiffnessSource source = parseStiffness(text);
+  if (source.kind != StiffnessSource::Kind::Formula)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--stiffness: " + inQuotes(text) +
+        " is not alike all around the axis; give formula: in r and z");
+  }
+  return { source.text, [formula = TissueFormula(source.text)](double radius, double depth) {
+            return formula({ radius, 0.0, depth });
+          } };
 }
 
 } // namespace
@@ -98,6 +136,8 @@ Case caseOf(const std::string& name, const CaseText& text)
     .model = model == "block" ? BodyModel::Block : BodyModel::Axisymmetric,
     .base = base == "slip" ? Base::Slip : Base::Bonded,
     .elementSize = value("element-size").empty() ? 0.0 : length("element-size") };
+  study.nodule = noduleOf(value("nodule"), study.material);
+  study.map = mapOf(value("stiffness"));
   if (study.depths.front() == 0.0)
   {
     study.depths.erase(study.depths.begin()); // nothing happens at first touch

@@ -180,6 +180,8 @@ void addCalibrateCommand(CLI::App& app, const Renderer* pictures, Work work)
   text("model", "axisymmetric, or block: the paper's 30 x 30 x 10 nodes");
   text("base", "Under the block: bonded, or slip for one that slides on its support");
   text("coating", "On the block, its height included: THICKNESS:YOUNG:NU from the surface down");
+  text("nodule", "A ball on the axis: RADIUS:TOP:RATIO, TOP the depth of its highest point");
+  text("stiffness", "Young's modulus that differs: formula:6+0.1*z, r from the axis, z the depth");
   text("element-size", "Under the tool; 0.5mm, or a tenth of its radius in the block");
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from what --out holds");
@@ -200,6 +202,8 @@ void addCalibrateCommand(CLI::App& app, const Renderer* pictures, Work work)
     "  palp calibrate --tip sphere:10mm --block 100x100x50mm --out sphere\n"
     "  palp calibrate --tip cone:45deg:10mm --material corotated --depth 0.5:6:0.5mm --out cone\n"
     "  palp calibrate --young 5kPa --coating 2mm:50kPa:0.45 --out skin\n"
+    "  palp calibrate --poisson 0.45 --nodule 5mm:5mm:5 --material linear --out nodule\n"
+    "  palp calibrate --poisson 0.45 --stiffness 'formula:if(z<2,150,50)' --out skin_map\n"
     "  palp calibrate --sweep extent --jobs 2 --out DIR; palp sweep merge DIR --out all.csv\n"
     "  palp calibrate --tables data/tables --overwrite   make the shipped tables again");
   command->callback([options, pictures, work]

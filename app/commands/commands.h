@@ -33,7 +33,6 @@ void addForceCommand(CLI::App& app, Work work = Work::Do);
 void addFitCommand(CLI::App& app, const Renderer* pictures);
 void addCalibrateCommand(CLI::App& app, const Renderer* pictures, Work work = Work::Do);
 void addSweepCommand(CLI::App& app, const Renderer* pictures);
-void addOrganCommand(CLI::App& app);
 void addPhantomCommand(CLI::App& app);
 void addExperimentCommand(CLI::App& app, const Renderer* pictures);
 void addReportCommand(CLI::App& app, const Renderer* pictures);

@@ -5,11 +5,14 @@
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
 #include "app/press/force_history.h"
+#include "app/stiffness/stiffness_text.h"
+#include "haptics/contact/embed_stiffness.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/force/inclination.h"
 #include "haptics/force/validity.h"
 #include "haptics/units.h"
+#include "pipeline/tissue/tissue_formula.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -32,6 +35,7 @@ struct ForceOptions
   TissueOptions tissue;
   GeometryOptions geometry;
   NoduleOptions nodules;
+  StiffnessSource stiffness;
   Range depths;
   std::filesystem::path history; // of depths over time, in place of depths
   bool validity = false;
@@ -88,7 +92,23 @@ struct Pressed
 {
   ForceLaw law;
   std::optional<NodulesUnderTool> nodules;
+  std::shared_ptr<const StiffnessField> stiffness; // null: the same everywhere
   Validity validity;
+
+  static StiffnessContact contactAt(const ContactGeometry& geometry)
+  {
+    return { Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), geometry.depth,
+      geometry.surfaceCurvature };
+  }
+
+  // of the law, and of how the tissue varies
+  [[nodiscard]] Response response(const ContactGeometry& geometry) const
+  {
+    const Response plain = law(geometry);
+    return stiffness == nullptr
+      ? plain
+      : stiffness->at(contactAt(geometry), law, geometry)(plain, geometry.depth);
+  }
 
   [[nodiscard]] std::vector<Rule> rules(const ContactGeometry& geometry) const
   {
@@ -98,6 +118,10 @@ struct Pressed
     {
       const NoduleRules more = nodules->rules(geometry.depth, law(geometry));
       rules.insert(rules.end(), more.begin(), more.end());
+    }
+    if (stiffness != nullptr)
+    {
+      rules.push_back(stiffness->rule(contactAt(geometry)));
     }
     return rules;
   }
@@ -114,8 +138,10 @@ void printHead(const Pressed& pressed, const ContactGeometry& geometry, std::spa
     {
       header += ",factor_" + std::string(factor.name);
     }
-    header +=
-      (pressed.nodules ? ",factor_nodules" : "") + std::string(",axial_force_N,lateral_force_N");
+    header += (pressed.nodules        ? ",factor_nodules"
+                  : pressed.stiffness ? ",factor_stiffness"
+                                      : "") +
+      std::string(",axial_force_N,lateral_force_N");
   }
   for (const Rule& rule : rules)
   {
@@ -128,14 +154,15 @@ void printHead(const Pressed& pressed, const ContactGeometry& geometry, std::spa
 // after the depth
 void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGeometry& geometry)
 {
-  const auto& [law, nodules, validity] = pressed;
-  const Response plain = law(geometry);
+  const auto& [law, nodules, stiffness, validity] = pressed;
+  const double plain = law(geometry).force;
+  const Response response = pressed.response(geometry);
   const NodulesUnderTool::Felt below =
     nodules ? nodules->at(geometry.depth) : NodulesUnderTool::Felt{};
-  const double force = plain.force + below.response.force;
+  const double force = response.force + below.response.force;
   row.insert(row.end(),
-    { force, units::toMillimeters(plain.contactRadius),
-      units::toNewtonsPerMillimeter(plain.stiffness + below.response.stiffness) });
+    { force, units::toMillimeters(response.contactRadius),
+      units::toNewtonsPerMillimeter(response.stiffness + below.response.stiffness) });
   if (!isPaper(law))
   {
     for (const Factors factors = law.factors(geometry);
@@ -143,9 +170,9 @@ void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGe
     {
       row.push_back(factor.value);
     }
-    if (nodules)
+    if (nodules || stiffness)
     {
-      row.push_back(plain.force > 0.0 ? force / plain.force : 1.0);
+      row.push_back(plain > 0.0 ? force / plain : 1.0);
     }
     const InclinedForce felt = inclinedForce(force, geometry.tilt);
     row.insert(row.end(), { felt.axial, felt.lateral + below.lateral });
@@ -171,6 +198,39 @@ void tellLimits(
   }
 }
 
+// by a formula, in the frame of the tool
+std::shared_ptr<const StiffnessField> stiffnessBelow(
+  const ForceOptions& options, const ForceLaw& law)
+{
+  const StiffnessSource& source = options.stiffness;
+  if (!source.isGiven())
+  {
+    return nullptr;
+  }
+  if (source.kind != StiffnessSource::Kind::Formula)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--stiffness: there is no body here whose map it could be; give formula:..., z being below "
+      "the surface, or press a body by palp run");
+  }
+  if (!options.nodules.nodules.empty())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--stiffness: not known together with --nodule; write the nodule into the formula, or leave "
+      "one out");
+  }
+  checkMap({ .stiffness = source }, options.tissue.options);
+  try
+  {
+    return stiffnessUnder(
+      law, options.geometry.geometry, options.depths.si.back(), TissueFormula(source.text));
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(), std::string("--stiffness: ") + error.what());
+  }
+}
+
 void printForces(const ForceOptions& options)
 {
   const ForceLaw law = options.tissue.law();
@@ -179,6 +239,7 @@ void printForces(const ForceOptions& options)
   law.checkBody(geometry.thickness);
   const Pressed pressed{ .law = law,
     .nodules = options.nodules.under(law, geometry, depths.si.back()),
+    .stiffness = stiffnessBelow(options, law),
     .validity = Validity(law, { .deepest = depths.si.back() }) };
   const std::vector<Rule> rules = pressed.rules(geometry);
   printHead(pressed, geometry, std::span(rules).first(options.validity ? rules.size() : 0));
@@ -221,6 +282,10 @@ void printHistory(const ForceOptions& options)
 void refuseTimeless(const ForceOptions& options)
 {
   const bool overTime = !options.history.empty();
+  if (overTime && options.stiffness.isGiven())
+  {
+    throw Error(ErrorCode::BadValue, "--stiffness: not known over time; leave --history out");
+  }
   if (overTime && !options.nodules.nodules.empty())
   {
     throw Error(ErrorCode::BadValue, "--nodule: not known over time; leave --history out");
@@ -240,6 +305,7 @@ void force(const ForceOptions& options, Work work)
   {
     const ForceLaw law = options.tissue.law();
     (void)options.nodules.under(law, options.geometry.geometry, options.depths.si.back());
+    (void)stiffnessBelow(options, law);
     return;
   }
   options.history.empty() ? printForces(options) : printHistory(options);
@@ -254,6 +320,7 @@ void addForceCommand(CLI::App& app, Work work)
   options->tissue.addTo(*command);
   options->geometry.addTo(*command);
   options->nodules.addTo(*command);
+  addStiffness(*command, options->stiffness);
   const std::string usual = "0:10:0.5mm";
   options->depths = depthsOf(usual);
   CLI::Option* depth =
@@ -274,7 +341,8 @@ void addForceCommand(CLI::App& app, Work work)
     "  palp force --tip profile:tip.csv --law exact --validity\n"
     "  palp force --young 5kPa --poisson 0.45 --law corrected --coating 2mm:50kPa:0.45\n"
     "  palp force --young 5kPa --law corrected --relaxation 0.3:50ms,0.2:1s --history press.csv\n"
-    "  palp force --law corrected --thickness 40mm --nodule 5mm:5mm:10:8mm");
+    "  palp force --law corrected --thickness 40mm --nodule 5mm:5mm:10:8mm\n"
+    "  palp force --law corrected --thickness 40mm --stiffness 'formula:if(z<2,150,50)'");
   command->callback([options, work] { force(*options, work); });
 }
 

@@ -10,6 +10,8 @@
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
+#include "app/scene/scene_file.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
@@ -19,6 +21,8 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -28,7 +32,9 @@ namespace
 struct MapOptions
 {
   MeshSource mesh{ .bundled = "liver" };
+  std::string organ; // of a scene of several; empty: the only one that is pressed
   PressOptions press;
+  std::vector<const CLI::Option*> ofPress; // which a scene has itself
   MapRequest request;
   std::optional<Eigen::Vector3d> center;
   std::optional<double> radius;
@@ -74,22 +80,91 @@ void tell(const StiffnessMap& map, const std::filesystem::path& out)
   }
 }
 
+// what is pressed, by which law
+struct MapSubject
+{
+  SceneBody body;
+  Scene scene;
+};
+
+MapSubject subjectOf(const std::vector<MeshSource>& meshes, const PressOptions& press)
+{
+  MapSubject subject{ .body = loadBody(meshes), .scene = {} };
+  subject.scene.law = press.tissue.law();
+  subject.scene.rule = press.contact;
+  subject.scene.surface = subject.body.haptic;
+  feelTissue(subject.scene, subject.body);
+  return subject;
+}
+
+std::size_t organIn(const ScenePlan& plan, const std::string& name)
+{
+  const std::vector<std::size_t> felt = feltOrgans(plan.organs);
+  const auto named = std::ranges::find(plan.organs, name, &OrganPlan::name);
+  if (named != plan.organs.end())
+  {
+    return static_cast<std::size_t>(named - plan.organs.begin());
+  }
+  if (name.empty() && felt.size() == 1)
+  {
+    return felt.front();
+  }
+  std::string names;
+  for (const OrganPlan& organ : plan.organs)
+  {
+    names.append(names.empty() ? "" : ", ").append(printable(organ.name));
+  }
+  throw Error(ErrorCode::BadValue,
+    "--organ: " +
+      (name.empty() ? std::string("the scene has several; give one")
+                    : inQuotes(name) + " is none of the scene") +
+      ": " + names);
+}
+
+MapSubject subjectOf(const MapOptions& options)
+{
+  if (lowered(options.mesh.file.extension().string()) != ".json")
+  {
+    checkExists(options.mesh);
+    checkMap(options.mesh, options.press.tissue.options);
+    if (!options.organ.empty())
+    {
+      throw Error(
+        ErrorCode::BadValue, "--organ: names one of a scene; give the scene's JSON as FILE");
+    }
+    return subjectOf({ options.mesh }, options.press);
+  }
+  for (const CLI::Option* option : options.ofPress)
+  {
+    if (option->count() > 0)
+    {
+      throw Error(ErrorCode::BadValue,
+        option->get_name() +
+          ": the scene has tool, tissue and law; leave it out, or edit the scene");
+    }
+  }
+  const ScenePlan plan = readScene(options.mesh.file.string());
+  if (plan.organs.empty() && options.organ.empty())
+  {
+    return subjectOf(plan.meshes, plan.press);
+  }
+  const std::size_t organ = organIn(plan, options.organ);
+  MapSubject subject = subjectOf({ plan.meshes[organ] }, plan.organs[organ].press);
+  subject.body.name = plan.organs[organ].name;
+  return subject;
+}
+
 void makeMap(const MapOptions& options)
 {
   const MapRequest request = requestOf(options);
-  checkExists(options.mesh);
   const auto output =
     openOutput(options.out, { kMapTable, kMapSurface }, options.overwrite, { options.mesh.file });
   const Interrupt interrupt([&output] { output->discard(); });
-  Scene scene;
-  scene.law = options.press.tissue.law();
-  scene.rule = options.press.contact;
-  const SceneBody body = loadBody({ options.mesh });
+  const auto& [body, scene] = subjectOf(options);
   for (const std::string& note : body.notes)
   {
     std::cerr << "palp: " << note << '\n';
   }
-  scene.surface = body.haptic;
   ProgressLine progress("places");
   const StiffnessMap map = pressMap(scene, request,
     [&progress](std::size_t done, std::size_t all)
@@ -116,7 +191,13 @@ void addMapCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand(
     "map", "Press at places spread evenly over a surface: its stiffness as CSV and as colors");
   options->mesh.addTo(*command);
+  command->add_option(
+    "--organ", options->organ, "Which one where FILE is a scene of several organs");
+  const std::size_t others = command->get_options().size();
   options->press.addTo(*command);
+  addStiffness(*command, options->mesh.stiffness);
+  const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+  options->ofPress.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
   addParsed(*command, "--depth", "How deep, at each place",
     quantityText(options->request.depth, Quantity::Length),
     [options = options.get()](const std::string& text)
@@ -141,7 +222,8 @@ void addMapCommand(CLI::App& app)
     "dF/ddepth\nthere. Where the tool does not get as deep, force and stiffness are empty.\n"
     "Examples:\n"
     "  palp map --out map                                  the bundled liver, 5 mm deep\n"
-    "  palp map liver.stl --depth 3mm --spacing 5mm --tip sphere:6mm --law corrected --out map");
+    "  palp map liver.stl --depth 3mm --spacing 5mm --tip sphere:6mm --law corrected --out map\n"
+    "  palp map organs/scene.json --organ spleen --out map  of a scene, by its tool and tissue");
   command->callback([options] { makeMap(*options); });
 }
 

@@ -12,7 +12,7 @@
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
-#include "haptics/surface/enclosed_volume.h"
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
@@ -98,10 +98,12 @@ LabelMap labelMapOf(const Phantom& phantom, double voxel)
   {
     const std::size_t row = i / map.size[0];
     const std::size_t slice = row / map.size[1];
+    // a middle that lies in a face belongs to one side of a body, not to both or none
+    constexpr double kAside = 1e-6;
     const Eigen::Vector3d at = map.origin +
       voxel *
-        Eigen::Vector3d(static_cast<double>(i % map.size[0]),
-          static_cast<double>(row % map.size[1]), static_cast<double>(slice));
+        Eigen::Vector3d(static_cast<double>(i % map.size[0]) + kAside,
+          static_cast<double>(row % map.size[1]) + kAside, static_cast<double>(slice) + kAside);
     std::size_t label = 0;
     for (std::size_t part = 0; part < phantom.parts.size(); ++part)
     {
@@ -126,7 +128,7 @@ std::string imageOf(const LabelMap& map, double voxel)
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = " +
     triple(origin.x(), origin.y(), origin.z()) +
-    "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nElementSpacing = " +
+    "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nDistanceUnits = mm\nElementSpacing = " +
     triple(side, side, side) + "DimSize = " + triple(map.size[0], map.size[1], map.size[2]) +
     "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + map.voxels;
 }

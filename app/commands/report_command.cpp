@@ -9,6 +9,7 @@
 #include "app/report/folder.h"
 #include "app/report/html_page.h"
 #include "app/report/parts.h"
+#include "app/report/tissue/tissue_error.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
@@ -37,6 +38,8 @@ struct Part
 constexpr std::array kParts{
   Part{ "force_error", "Error of the force against run time", forceAgainstTime },
   Part{ "surface_error", "Error of the surface against run time", surfaceAgainstTime },
+  Part{
+    "tissue_error", "Nodules and maps: error of the force against run time", tissueAgainstTime },
   Part{ "curvature", "Fig. 3: curved bodies against the flat block", curvature },
   Part{ "inclination", "Eq. (7): the inclined tool", inclination },
   Part{ "profiles", "Fig. 7: surface profiles", profiles },

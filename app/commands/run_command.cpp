@@ -10,6 +10,7 @@
 #include "app/program/data_files.h"
 #include "app/program/exec_program.h"
 #include "app/program/output.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -147,6 +148,7 @@ bool draws(const RunOptions& options)
 ScenePlan planOf(const RunOptions& options)
 {
   checkExists(options.mesh);
+  checkMap(options.mesh, options.press.tissue.options);
   ScenePlan plan{ .meshes = { options.mesh },
     .press = options.press,
     .device = {},
@@ -217,7 +219,8 @@ void addOutputs(CLI::App& command, RunOptions& options)
   command.add_flag(
     "--all-samples", options.allSamples, "Keep in samples.csv also the samples without contact");
   command.add_flag("--refined", options.refined,
-    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm");
+    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm, beside a "
+    "rim to 0.02 mm");
   command.add_flag("--no-picture", options.noPicture, "Write the data only")
     ->excludes("--plots")
     ->excludes("--movie");
@@ -238,6 +241,8 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
     "run", "Press at places or along a path, without a display: data, picture and curves");
   options->mesh.addTo(*command);
   options->press.addTo(*command);
+  addStiffness(*command, options->mesh.stiffness);
+  addOrganFile(*command, options->mesh.organ);
   options->places.addTo(*command);
   command
     ->add_option("--path", options->path,

@@ -2,7 +2,9 @@
 #include "app/commands/program.h"
 #include "app/folder/export_option.h"
 #include "app/input/option_values.h"
+#include "app/input/quantity.h"
 #include "app/program/exec_program.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +18,8 @@ namespace palp
 namespace
 {
 
+constexpr Bounds kServoRates{ 1000.0, 4000.0, "1kHz to 4kHz" };
+
 // the window of what was exported, with the tool held as the options say
 void openExport(ViewOptions& options, const std::filesystem::path& folder)
 {
@@ -28,6 +32,7 @@ void openExport(ViewOptions& options, const std::filesystem::path& folder)
   const ScenePlan given = std::exchange(options.plan, options.made->plan);
   options.plan.device = given.device;
   options.plan.deadMan = given.deadMan;
+  options.plan.servoPeriod = given.servoPeriod;
   options.plan.window = true;
   options.plan.plots = given.plots; // without any, no sample would be kept
   options.plan.presses.reset();
@@ -42,15 +47,25 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   CLI::App* command = app.add_subcommand("view", "Open the window and press; the default command");
   options->plan.meshes.front().addTo(*command);
   options->plan.press.addTo(*command);
+  addStiffness(*command, options->plan.meshes.front().stiffness);
+  addOrganFile(*command, options->plan.meshes.front().organ);
   addParsed(*command, "--device",
     "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
-    "replay:FILE (a samples.csv that was exported); spacemouse; falcon[:FIRMWARE]; "
-    "wooden:PATH[,ARM.conf]; phd1:PATH (see palp devices)",
+    "replay:FILE (a samples.csv that was exported); spacemouse; spacenavd; falcon[:FIRMWARE]; "
+    "wooden:PATH[,ARM.conf]; phd1:PATH; haply[:PORT]; forcedimension[:LIBRARY]; "
+    "openigtlink[:ADDRESS:PORT][,TOOL] (see palp devices)",
     options->plan.device.name,
     [options = options.get()](const std::string& text)
     { options->plan.device = parseDevice(text); });
   command->add_flag(
     "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
+  addParsed(*command, "--rate",
+    "Ticks of the servo, 1kHz to 4kHz: stiffer tissue can be felt, for more of a processor", "1kHz",
+    [options = options.get()](const std::string& text)
+    {
+      options->plan.servoPeriod =
+        1.0 / parseWithin(text, Quantity::Frequency, kServoRates, "--rate");
+    });
   command->footer("Examples:\n"
                   "  palp                                       the bundled liver\n"
                   "  palp liver.obj --unit cm --tip sphere:6mm  your own surface\n"
@@ -66,6 +81,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
       // a wrong value is told before a missing display
       (void)options->plan.press.tissue.law();
       checkExists(options->plan.meshes.front());
+      checkMap(options->plan.meshes.front(), options->plan.press.tissue.options);
       if (!view)
       {
         execProgram("palp-view");

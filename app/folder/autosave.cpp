@@ -93,21 +93,11 @@ fs::path Autosave::folderOf(int press) const
   return own_ / std::to_string(1'000'000 + press);
 }
 
-fs::path Autosave::nextFolder()
-{
-  return folderOf(++count_);
-}
-
 // one after the other
-void Autosave::save(ScenePlan plan, Recording press)
+void Autosave::later(std::function<void()> write)
 {
-  if (own_.empty())
-  {
-    return;
-  }
   written_ = std::async(std::launch::async,
-    [before = std::move(written_), folder = nextFolder(), oldest = folderOf(count_ - most_),
-      plan = std::move(plan), press = std::move(press)]() mutable
+    [before = std::move(written_), write = std::move(write)]() mutable
     {
       std::exception_ptr failed;
       try
@@ -118,9 +108,43 @@ void Autosave::save(ScenePlan plan, Recording press)
       {
         failed = std::current_exception(); // which is no reason not to try this one
       }
+      write();
+      failed ? std::rethrow_exception(failed) : void();
+    });
+}
+
+void Autosave::save(ScenePlan plan, Recording press)
+{
+  if (own_.empty())
+  {
+    return;
+  }
+  ++count_;
+  later(
+    [folder = folderOf(count_), oldest = folderOf(count_ - most_), plan = std::move(plan),
+      press = std::move(press)]
+    {
       write(folder, plan, press);
       fs::remove_all(oldest);
-      failed ? std::rethrow_exception(failed) : void();
+    });
+}
+
+void Autosave::update(int press, std::vector<std::string> names)
+{
+  later(
+    [folder = folderOf(press), names = std::move(names)]
+    {
+      std::error_code none; // it may be gone, as the oldest are
+      const fs::path aside = folder.parent_path() / ('.' + folder.filename().string());
+      names.empty() ? fs::rename(folder, aside, none) : fs::rename(aside, folder, none);
+      if (!names.empty() && isExport(folder))
+      {
+        const fs::file_time_type made = fs::last_write_time(folder);
+        ScenePlan plan = readExport(folder).plan;
+        plan.recording ? void(plan.recording->names = names) : void();
+        writeScene(folder, plan, "");
+        fs::last_write_time(folder, made); // by which presses stay in their order
+      }
     });
 }
 
@@ -132,16 +156,18 @@ void Autosave::check()
   }
 }
 
-void Autosave::clear()
+void Autosave::clear(int last)
 {
   if (written_.valid())
   {
     written_.wait();
   }
   std::error_code none;
+  const std::string end = folderOf(std::min(last, count_)).filename();
   for (const fs::path& press : foldersIn(own_))
   {
-    fs::remove_all(press, none);
+    const std::string name = press.filename();
+    name.substr(name.front() == '.' ? 1 : 0) <= end ? fs::remove_all(press, none) : 0;
   }
 }
 
@@ -164,18 +190,17 @@ std::vector<fs::path> Autosave::left() const
   return presses;
 }
 
-std::vector<fs::path> Autosave::adopt()
+std::vector<int> Autosave::adopt()
 {
   const std::vector<fs::path> found = left();
-  std::vector<fs::path> presses;
+  std::vector<int> presses;
   for (const fs::path& folder : found)
   {
     std::error_code failed;
-    const fs::path here = nextFolder();
-    fs::rename(folder, here, failed);
+    fs::rename(folder, folderOf(++count_), failed);
     if (!failed)
     {
-      presses.push_back(here);
+      presses.push_back(count_);
     }
   }
   if (presses.size() == found.size())

@@ -5,7 +5,9 @@
 #include "haptics/files/descriptor.h"
 
 #include <filesystem>
+#include <functional>
 #include <future>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,26 +34,41 @@ public:
   /// @param press  its samples
   void save(ScenePlan plan, Recording press);
 
+  /// What became of a press: its names, where it was renamed, and whether it was deleted, which can
+  /// be taken back.
+  /// @param press  its number
+  /// @param names  of all that were found in it, in their order; empty: it is not wanted
+  void update(int press, std::vector<std::string> names);
+
   /// Tells once what could not be written; does not wait.
   /// @throws Error  BadFile
   void check();
 
+  /// The number of the last press that was saved, from 1.
+  [[nodiscard]] int saved() const noexcept
+  {
+    return count_;
+  }
+
   /// Nothing of this program needs to be kept any longer.
-  void clear();
+  /// @param last  number of a press: what came after it is kept
+  void clear(int last = std::numeric_limits<int>::max());
 
   /// Folders of presses, each as an export, that programs left which have ended: the oldest first.
   [[nodiscard]] std::vector<std::filesystem::path> left() const;
 
   /// Takes those over, so that they are kept as this program's own.
-  /// @return  where they are now
-  std::vector<std::filesystem::path> adopt();
+  /// @return  their numbers
+  std::vector<int> adopt();
+
+  /// Where a press is.
+  [[nodiscard]] std::filesystem::path folderOf(int press) const;
 
   /// Removes those.
   void discard();
 
 private:
-  [[nodiscard]] std::filesystem::path folderOf(int press) const;
-  [[nodiscard]] std::filesystem::path nextFolder();
+  void later(std::function<void()> write);
 
   std::filesystem::path root_;
   std::filesystem::path own_; // in it; empty: could not be made

@@ -47,6 +47,17 @@ std::vector<MeshFile> inputsOf(const ScenePlan& plan, const Recording& recording
   {
     inputs.push_back(describeFile(reference));
   }
+  for (const MeshSource& mesh : plan.meshes)
+  {
+    if (!mesh.stiffness.file.empty())
+    {
+      inputs.push_back(describeFile(mesh.stiffness.file));
+    }
+    if (!mesh.organ.empty())
+    {
+      inputs.push_back(describeFile(mesh.organ));
+    }
+  }
   if (plan.training)
   {
     inputs.push_back(describeFile(dataFile(kCurriculumFile)));

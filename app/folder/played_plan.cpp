@@ -51,6 +51,8 @@ std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
   {
     std::ranges::copy(filesBehind(mesh.file), std::back_inserter(inputs));
     inputs.push_back(mesh.haptic);
+    std::ranges::copy(filesBehind(mesh.stiffness.file), std::back_inserter(inputs));
+    inputs.push_back(mesh.organ);
   }
   inputs.push_back(plan.device.file);
   inputs.push_back(plan.recording ? plan.recording->file : std::filesystem::path());

@@ -32,12 +32,6 @@ public:
   /// Where another panel was paused.
   void setPaused(bool paused);
 
-  /// What is in the row, to add to it.
-  [[nodiscard]] QHBoxLayout& row()
-  {
-    return *row_;
-  }
-
   [[nodiscard]] vtkRenderWindow& window()
   {
     return *window_;

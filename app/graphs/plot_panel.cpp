@@ -6,7 +6,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRendererCollection.h>
 
-#include <QHBoxLayout>
+#include <QBoxLayout>
 #include <QTabBar>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
   {
     tabs_->addTab(page.name);
   }
-  row().insertWidget(0, tabs_, 1);
-  setScene(showEmptyScene(window())); // before the first press
+  qobject_cast<QBoxLayout*>(layout())->insertWidget(0, tabs_); // the buttons' row is full
+  setScene(showEmptyScene(window()));                          // before the first press
   connect(tabs_, &QTabBar::currentChanged, this, &PlotPanel::refresh);
 }
 

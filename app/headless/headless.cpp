@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -104,8 +105,7 @@ void tell(const Recording& recording, const Calibration* calibration, const Scri
   calibration = calibration ? &organOf(*calibration, deepest->organ) : nullptr;
   if (calibration)
   {
-    std::cerr << ", extent radius "
-              << toMillimeters(calibration->extents.extentRadius(deepest->contact.depth)) << " mm"
+    std::cerr << ", extent radius " << toMillimeters(calibration->extentRadius(*deepest)) << " mm"
               << (calibration->covers(deepest->contact.depth) ? "" : " (estimated)");
   }
   std::cerr << '\n';
@@ -207,10 +207,22 @@ void writeGrade(const std::filesystem::path& out, const SceneBody& body, const R
 void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Renderer* pictures,
   BuildTrace& trace)
 {
-  const ProgressLine progress("writing");
+  const double parts = (all.plan.samples ? 1.0 : 0.0) + (all.plan.deformed ? 1.0 : 0.0) +
+    (all.plan.draws() ? 1.0 : 0.0);
+  double part = 0.0;
+  const auto write = [&](const char* what, const std::function<void()>& work)
+  {
+    trace.build(what, "exported",
+      [&]
+      {
+        ProgressLine progress(std::string("writing ") + what);
+        progress(part++ / parts);
+        work();
+      });
+  };
   if (all.plan.samples)
   {
-    trace.build("samples.csv", "exported",
+    write("samples.csv",
       [&]
       {
         writeSamples(out / "samples.csv", all.recording, all.calibration);
@@ -219,7 +231,7 @@ void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Re
   }
   if (all.plan.deformed)
   {
-    trace.build("deformed.vtp", "exported",
+    write("deformed.vtp",
       [&]
       {
         writeDeformed(
@@ -228,8 +240,10 @@ void writeAll(const PlayedPress& all, const std::filesystem::path& out, const Re
   }
   if (all.plan.draws())
   {
-    trace.build("pictures", "exported",
-      [&] { pictures->drawPress(all.body, all.recording, all.calibration, all.plan, out); });
+    const auto draw = [&]
+    { pictures->drawPress(all.body, all.recording, all.calibration, all.plan, out); };
+    all.plan.movies.empty() ? write("pictures", draw) // each movie tells of itself
+                            : trace.build("pictures", "exported", draw);
   }
   if (all.plan.training)
   {
@@ -287,6 +301,7 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   recording.command = repeated ? repeated->command : commandLine();
   const auto feel = [&] { setFelt(recording.scene, body, plan.organs); };
   body.nodules.empty() ? feel() : trace.build("nodules", "felt", feel);
+  calibration ? followTissue(*calibration, recording.scene) : void();
   if (repeated)
   {
     checkInputs(*repeated, plan, recording);

@@ -1,6 +1,7 @@
 #include "app/import/import_command.h"
 
 #include "app/import/import_files.h"
+#include "app/import/organ_look.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
@@ -149,6 +150,21 @@ void tell(const std::string& what)
   std::cerr << "palp: " << printable(what) << '\n';
 }
 
+// which the scene has by the organs' names
+void tellTissues(const std::vector<ImportedOrgan>& organs)
+{
+  std::string told;
+  for (const ImportedOrgan& organ : organs)
+  {
+    if (const char* tissue = lookOf(organ.name).tissue)
+    {
+      told.append(told.empty() ? "" : ", ").append(organ.name).append(" as ").append(tissue);
+    }
+  }
+  tell("tissues in scene.json: " + told + (told.empty() ? "" : ", by their names; ") +
+    "else the default, 50 kPa");
+}
+
 FileOrgans found(const ImportOptions& options)
 {
   const ProgressLine progress("reading " + printable(options.image.filename().string()));
@@ -199,11 +215,12 @@ void runImport(const ImportOptions& options)
   nameFiles(all.organs, files, std::filesystem::canonical(options.image).stem().stem().string());
   ProgressLine progress("organs");
   std::vector<ImportedOrgan> organs;
-  std::vector<std::future<ImportedOrgan>> making; // as many ahead as there are processors
+  // twice as many ahead as there are processors: one that is large keeps none of them waiting
+  std::vector<std::future<ImportedOrgan>> making;
   for (const std::string& file : files)
   {
     progress(organs.size(), files.size());
-    const std::size_t ahead = organs.size() + std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t ahead = organs.size() + 2 * std::max(1U, std::thread::hardware_concurrency());
     while (making.size() < std::min(ahead, files.size()))
     {
       FileOrgan& organ = all.organs[making.size()];
@@ -225,6 +242,7 @@ void runImport(const ImportOptions& options)
   {
     tell("warning: " + warning);
   }
+  tellTissues(organs);
   std::cout << tableOf(organs);
 }
 

@@ -113,15 +113,15 @@ void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const
 std::string importScene(const ImportSource& source, const std::vector<ImportedOrgan>& organs)
 {
   Json scene{ { "palp_scene", 1 }, { "title", "Imported from " + source.image.name } };
-  const auto isPressed = [](const ImportedOrgan& organ)
-  { return std::string_view(lookOf(organ.name).role) == "press"; };
-  const bool isAnyPressed = std::ranges::any_of(organs, isPressed);
-  for (const ImportedOrgan& organ : organs)
+  std::vector<std::string> names(organs.size());
+  std::ranges::transform(organs, names.begin(), &ImportedOrgan::name);
+  const std::vector<OrganLook> looks = looksOf(names);
+  for (std::size_t i = 0; i < organs.size(); ++i)
   {
-    const OrganLook look = lookOf(organ.name);
-    const bool isFirst = &organ == &organs.front();
-    Json json{ { "name", organ.name }, { "file", organ.file + ".vtp" },
-      { "role", isFirst && !isAnyPressed ? "press" : look.role }, { "color", look.color } };
+    const ImportedOrgan& organ = organs[i];
+    const OrganLook& look = looks[i];
+    Json json{ { "name", organ.name }, { "file", organ.file + ".vtp" }, { "role", look.role },
+      { "color", organ.color.empty() ? look.color : organ.color } };
     if (organ.felt)
     {
       json["haptic"] = organ.file + "_haptic.vtp";

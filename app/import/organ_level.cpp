@@ -2,8 +2,8 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/decimation/decimate.h"
-#include "haptics/surface/enclosed_volume.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 
@@ -83,6 +83,7 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   ImportedOrgan result{ .name = organ.name,
     .file = {},
     .label = organ.label,
+    .color = organ.color,
     .voxels = organ.voxels,
     .voxelVolume = std::pow(length, 3) * organ.voxelVolume,
     .enclosed = std::pow(length, 3) * organ.enclosed,

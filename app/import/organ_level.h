@@ -27,9 +27,10 @@ struct OrganLevel
 /// An organ on its way from an image to files.
 struct ImportedOrgan
 {
-  std::string name;  ///< as the image or a table has it, or of its label
-  std::string file;  ///< without ending, alone among those of an import
-  std::string label; ///< its value; empty: of no label map
+  std::string name;    ///< as the image or a table has it, or of its label
+  std::string file;    ///< without ending, alone among those of an import
+  std::string label;   ///< its value; empty: of no label map
+  std::string color{}; ///< that the image gives it, #rrggbb; empty: none
   std::uint64_t voxels = 0;
   double voxelVolume = 0.0; ///< of all of them [m^3]
   double enclosed = 0.0;    ///< volume of the pieces that were taken, as the voxels have it [m^3]

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace palp
 {
@@ -35,6 +36,9 @@ constexpr std::array kKnown{ Known{ "vessel", { "show", "#d8654f", nullptr } },
   Known{ "rib", { "show", "#f1d691", nullptr } },
   Known{ "vertebra", { "show", "#f1d691", nullptr } } };
 
+// of names that tell nothing, in turn: muscle, tissue, connective tissue, bone, mass
+constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", "#f1d691", "#90ee90" };
+
 } // namespace
 
 OrganLook lookOf(const std::string& name)
@@ -42,7 +46,26 @@ OrganLook lookOf(const std::string& name)
   const std::string text = lowered(name);
   const auto found = std::ranges::find_if(
     kKnown, [&](const Known& known) { return text.find(known.word) != text.npos; });
-  return found != kKnown.end() ? found->look : OrganLook{ "press", "#c0685a", nullptr };
+  return found != kKnown.end() ? found->look : OrganLook{ "press", kOthers.front(), nullptr };
+}
+
+std::vector<OrganLook> looksOf(const std::vector<std::string>& names)
+{
+  constexpr const char* kPressed = "press";
+  std::vector<OrganLook> looks(names.size());
+  std::ranges::transform(names, looks.begin(), lookOf);
+  std::size_t others = 0;
+  for (OrganLook& look : looks)
+  {
+    look.color = look.color == kOthers.front() ? kOthers[others++ % kOthers.size()] : look.color;
+  }
+  const auto isPressed = [](const OrganLook& look)
+  { return std::string_view(look.role) == kPressed; };
+  if (!looks.empty() && std::ranges::none_of(looks, isPressed))
+  {
+    looks.front().role = kPressed;
+  }
+  return looks;
 }
 
 } // namespace palp

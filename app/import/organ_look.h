@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace palp
 {
@@ -16,5 +17,8 @@ struct OrganLook
 /// By a word in its name: "left kidney", "Liver_vessels".
 /// @source  colors: 3D Slicer's GenericAnatomyColors
 [[nodiscard]] OrganLook lookOf(const std::string& name);
+
+/// Those of a scene, of which one at least is pressed.
+[[nodiscard]] std::vector<OrganLook> looksOf(const std::vector<std::string>& names);
 
 } // namespace palp

@@ -119,6 +119,13 @@ std::string describe(const MeshFile& mesh)
     (mesh.moved ? ", moved by the scene" : "") + part;
 }
 
+std::string identityOf(MeshFile mesh)
+{
+  mesh.name.clear();
+  mesh.moved = false;
+  return std::string(trimmed(describe(mesh)));
+}
+
 std::string noteOfPath(std::string_view path, const std::vector<MeshFile>& felt)
 {
   std::string other;

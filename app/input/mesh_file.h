@@ -45,6 +45,9 @@ inline constexpr std::string_view kFelt = "# felt: ";
 /// One line for people and programs: name, hash, unit, frame and level.
 [[nodiscard]] std::string describe(const MeshFile& mesh);
 
+/// The same without its name and where a scene puts it: which surface it is.
+[[nodiscard]] std::string identityOf(MeshFile mesh);
+
 /// What to tell of a path that was recorded on another surface; empty where nothing says so.
 /// @param path  text of the file, whose comments may name the surface
 [[nodiscard]] std::string noteOfPath(std::string_view path, const std::vector<MeshFile>& felt);

@@ -38,6 +38,12 @@ Eigen::Isometry3d MeshSource::frame() const
     Turn(rotation.y(), Eigen::Vector3d::UnitY()) * Turn(rotation.x(), Eigen::Vector3d::UnitX());
 }
 
+void addOrganFile(CLI::App& command, std::filesystem::path& file)
+{
+  command.add_option("--organ", file,
+    "Where the whole body gives way: the file that palp organ FILE --support ... --out made of it");
+}
+
 void MeshSource::addTo(CLI::App& command)
 {
   addParsed(command, "FILE",

@@ -6,6 +6,7 @@
 #include "haptics/force/nodules/nodule_field.h"
 #include "pipeline/process/file_surface.h"
 #include "pipeline/surface_io/length_unit.h"
+#include "pipeline/tissue/stiffness_source.h"
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -33,6 +34,8 @@ struct MeshSource
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< in the scene [m]
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero(); ///< about its x, then y, then z [rad]
   std::vector<PlacedNodule> nodules{};                ///< in the file's frame [m]
+  StiffnessSource stiffness{};                        ///< likewise
+  std::filesystem::path organ{}; ///< how it gives way as a whole, by `palp organ`; empty: not
 
   /// From the file's coordinates to the scene's [m].
   [[nodiscard]] Eigen::Isometry3d frame() const;
@@ -40,6 +43,9 @@ struct MeshSource
   /// FILE and how it is read; the bundled liver without one.
   void addTo(CLI::App& command);
 };
+
+/// The organ file of a surface.
+void addOrganFile(CLI::App& command, std::filesystem::path& file);
 
 /// The tool, and the part of the tissue that a modulus is never told without.
 /// @param usual  what holds without the option, for the help; empty: not shown

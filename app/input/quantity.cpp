@@ -36,6 +36,7 @@ constexpr std::array kTime{ Unit{ "s", 1.0L }, Unit{ "ms", 1e-3L } };
 constexpr std::array kDamping{ Unit{ "N*s/m", 1.0L }, Unit{ "Ns/m", 1.0L }, Unit{ "N·s/m", 1.0L } };
 constexpr std::array kStiffness{ Unit{ "N/m", 1.0L }, Unit{ "N/mm", 1e3L } };
 constexpr std::array kSpeed{ Unit{ "mm/s", 1e-3L }, Unit{ "cm/s", 1e-2L }, Unit{ "m/s", 1.0L } };
+constexpr std::array kFrequency{ Unit{ "kHz", 1e3L }, Unit{ "Hz", 1.0L } };
 
 // the first unit is the one that messages recommend
 std::span<const Unit> unitsOf(Quantity kind)
@@ -58,6 +59,8 @@ std::span<const Unit> unitsOf(Quantity kind)
       return kStiffness;
     case Quantity::Speed:
       return kSpeed;
+    case Quantity::Frequency:
+      return kFrequency;
   }
   return {};
 }
@@ -220,6 +223,10 @@ std::vector<std::string> parseLabels(std::string_view text, std::string_view wha
     if (labels.back().empty())
     {
       refuse(what, text, "lacks a label; give values or names with a comma between them");
+    }
+    if (std::ranges::count(labels, labels.back()) > 1)
+    {
+      refuse(what, text, "names " + labels.back() + " twice; name each label once");
     }
     begin = end + 1;
   }

@@ -17,6 +17,7 @@ enum class Quantity
   Damping,   ///< N*s/m
   Stiffness, ///< N/m N/mm
   Speed,     ///< mm/s cm/s m/s
+  Frequency, ///< Hz kHz
 };
 
 /// Reads a number with its unit, as in `10mm`, `1.5e+06 Pa`, `45deg`; C locale whatever the user's.

@@ -112,8 +112,9 @@ struct ScenePlan
   std::optional<TrainingPlan> training{};   ///< nodules to be found in the only body
   bool chain = false;   ///< through the safety chain of the paper's device, armed; simulated time
   bool deadMan = false; ///< force only while the first button of the device is held
-  bool window = true;   ///< else: a path in simulated time, without servo thread
-  bool validity = true; ///< each sample is rated by the rules of validity
+  double servoPeriod = 0.001; ///< of this run, 250 us to 1 ms; no part of the scene [s]
+  bool window = true;         ///< else: a path in simulated time, without servo thread
+  bool validity = true;       ///< each sample is rated by the rules of validity
   std::optional<std::vector<Overlay>> overlays{}; ///< none: those that are shown at first
   std::vector<PlotKind> plots{ PlotKind::ForceOverTime, PlotKind::ForceOverDepth };
   std::vector<std::string> plotFiles{ "png" }; ///< endings: png, svg, pdf, csv

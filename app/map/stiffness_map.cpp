@@ -64,7 +64,8 @@ std::size_t StiffnessMap::pressed() const noexcept
 
 bool StiffnessMap::holdsIn(const Scene& other) const
 {
-  return scene.surface == other.surface && scene.rule == other.rule && lawOf(scene) == lawOf(other);
+  return scene.surface == other.surface && scene.rule == other.rule &&
+    (scene.stiffness == nullptr) == (other.stiffness == nullptr) && lawOf(scene) == lawOf(other);
 }
 
 StiffnessMap pressMap(const Scene& scene, const MapRequest& request,

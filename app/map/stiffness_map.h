@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/map/place_grid.h"
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
 #include "haptics/servo/scene.h"
+#include "haptics/surface/sampling/place_grid.h"
 
 #include <functional>
 #include <optional>

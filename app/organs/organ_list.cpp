@@ -115,7 +115,7 @@ OrganList::OrganList(QWidget* parent)
   rows_->setColumnCount(kColumns);
   rows_->setHeaderLabels({ {}, {}, tr("Organ"), tr("Role"), tr("Tissue") });
   rows_->setRootIsDecorated(false);
-  constexpr int kLetters = 54; // of all columns together
+  constexpr int kLetters = 46; // of all columns together
   rows_->setMinimumWidth(kLetters * rows_->fontMetrics().averageCharWidth());
   rows_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   rows_->header()->setMinimumSectionSize(kIcon);
@@ -144,8 +144,10 @@ void OrganList::show(const std::vector<OrganPlan>& organs)
       row =
         organs.empty() ? 0 : std::max(row, partOf<QWidget>(*rows_, 0, column)->sizeHint().height());
     }
-    const int high = row * std::min(kMost, rows_->topLevelItemCount());
-    rows_->setMaximumHeight(high + rows_->header()->sizeHint().height() + 2 * rows_->frameWidth());
+    constexpr int kLeast = 3;
+    const int around = rows_->header()->sizeHint().height() + 2 * rows_->frameWidth();
+    rows_->setMinimumHeight(row * std::min(kLeast, rows_->topLevelItemCount()) + around);
+    rows_->setMaximumHeight(row * std::min(kMost, rows_->topLevelItemCount()) + around);
     const std::vector<std::size_t> felt = feltOrgans(organs);
     rows_->setCurrentItem(rows_->topLevelItem(felt.empty() ? 0 : static_cast<int>(felt.front())));
   }

@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
 
+#include <QCheckBox>
 #include <QColor>
 #include <QComboBox>
 #include <QEvent>
@@ -60,15 +61,23 @@ QString stateText(const Sample& sample)
 DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   : QWidget(parent)
   , device_(new QComboBox)
+  , lag_(new QCheckBox(tr("Tool lags where it is stiff")))
   , arm_(new QPushButton(tr("Turn force on")))
   , stop_(new QPushButton(tr("STOP (Esc)")))
 {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(8, 2, 8, 2);
-  form->setVerticalSpacing(4);
+  form->setVerticalSpacing(2);
   device_->setObjectName("device");
   device_->addItems(devices);
   form->addRow(tr("Input device"), device_);
+
+  lag_->setObjectName("lag");
+  lag_->setToolTip(tr("Stiffness for the eye: the tool goes half as deep as asked in the tissue in "
+                      "use when this is switched on, a quarter as deep where it is twice as stiff, "
+                      "and all the way where it is half as stiff or softer"));
+  form->addRow(lag_);
+  lag_->hide(); // it takes the place of the buttons where there is no force
 
   arm_->setObjectName("arm");
   arm_->setCheckable(true);
@@ -86,7 +95,9 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
 
   state_ = addLabel(form, tr("State"), "state");
   force_ = addLabel(form, tr("Force"), "rendered");
+  force_->setTextFormat(Qt::PlainText); // each picture has another: laid out in a tenth of the time
   limits_ = addLabel(form, tr("Limits"), "limits");
+  connect(lag_, &QCheckBox::clicked, this, &DevicePanel::lagAsked);
   connect(arm_, &QPushButton::clicked, this, &DevicePanel::armAsked);
   connect(stop_, &QPushButton::clicked, this, &DevicePanel::stopAsked);
   connect(device_, &QComboBox::currentTextChanged, this, &DevicePanel::deviceChanged);
@@ -126,6 +137,11 @@ void DevicePanel::choose(const QString& device)
 void DevicePanel::show(const Session& session, const Sample& sample, std::uint32_t acting)
 {
   const bool renders = session.rendersForce();
+  lag_->setEnabled(!renders && session.scripted() == nullptr);
+  arm_->setVisible(renders); // what the device cannot do takes no room
+  stop_->setVisible(renders);
+  lag_->setVisible(!renders);
+  lag_->setChecked(session.lags());
   arm_->setEnabled(renders);
   arm_->setChecked(renders && session.armed());
   arm_->setText(renders && session.armed() ? tr("Turn force off") : tr("Turn force on"));
@@ -133,7 +149,7 @@ void DevicePanel::show(const Session& session, const Sample& sample, std::uint32
   state_->setText(renders ? stateText(sample) : tr("Display only: no force feedback"));
   const QString model = tr("model %1 N").arg(sample.response.force, 0, 'f', 2);
   force_->setText(
-    renders ? tr("%1, <b>sent %2 N</b>").arg(model).arg(sample.force.norm(), 0, 'f', 2) : model);
+    renders ? tr("%1, sent %2 N").arg(model).arg(sample.force.norm(), 0, 'f', 2) : model);
 
   QString text = tr("%1 N").arg(session.largestForce(), 0, 'g', 3);
   if (renders)

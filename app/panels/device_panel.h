@@ -4,6 +4,7 @@
 
 #include <QWidget>
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
@@ -33,6 +34,7 @@ public:
 Q_SIGNALS:
   void armAsked(bool armed);
   void stopAsked();
+  void lagAsked(bool lags);
   void deviceChanged(const QString& name);
 
 protected:
@@ -40,6 +42,7 @@ protected:
 
 private:
   QComboBox* device_;
+  QCheckBox* lag_;
   QPushButton* arm_;
   QPushButton* stop_;
   QLabel* state_;

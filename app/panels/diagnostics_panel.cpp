@@ -38,13 +38,15 @@ void DiagnosticsPanel::show(const Timing& timing, const std::string& schedule)
 {
   const auto ticks = timing.ticks.load();
   const auto late = timing.skipped.load();
-  const auto elapsed = static_cast<double>(ticks + late);
-  const double rate = elapsed > 0.0 ? 1000.0 * static_cast<double>(ticks) / elapsed : 0.0;
+  const double elapsed = timing.elapsed.load();
+  const double rate = elapsed > 0.0 ? static_cast<double>(ticks) / elapsed : 0.0;
+  const QString bus =
+    timing.poseToForce.count() > 0 ? timingRow(tr("pose to force"), timing.poseToForce) : QString();
   setText(tr("Servo %1 Hz, %2 late ticks<br>").arg(rate, 0, 'f', 0).arg(late) +
     tr("<b>Times</b> [µs]<table><tr><td></td><td>&nbsp;p50</td><td>&nbsp;p99</td>"
        "<td>&nbsp;p99.9</td><td>&nbsp;max</td></tr>") +
-    timingRow(tr("late by"), timing.lateness) + timingRow(tr("step"), timing.step) + "</table>" +
-    QString::fromStdString(schedule));
+    timingRow(tr("late by"), timing.lateness) + timingRow(tr("step"), timing.step) + bus +
+    "</table>" + QString::fromStdString(schedule));
 }
 
 } // namespace palp

@@ -5,6 +5,7 @@
 #include "haptics/units.h"
 #include "pipeline/surface_io/surface_io.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
@@ -14,6 +15,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -69,22 +71,26 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
 }
 
 // ticking one writes its value into the field of labels
-void OpenDialog::setLabels(const FileOrgans& found)
+void OpenDialog::setLabels(FileOrgans found)
 {
-  if (found.organs.empty())
+  listed_ = std::move(found.organs);
+  if (listed_.empty())
   {
     return;
   }
   auto* list = new QListWidget;
   list->setObjectName("labels");
   const UnitChoice unit = unitNamed(found.unit);
-  for (const FileOrgan& organ : found.organs)
+  for (const FileOrgan& organ : listed_)
   {
-    QString text = QString::fromStdString(organ.label + "  " + organ.name);
+    QString text =
+      QString::fromStdString(organ.label + "  " + organ.name) + tr("  %1 voxels").arg(organ.voxels);
     if (unit)
     {
       const double volume = std::pow(unitLength(*unit), 3) * organ.voxelVolume;
-      text += tr("  %1 ml").arg(units::toMilliliters(volume), 0, 'g', 4);
+      const double milliliters = units::toMilliliters(volume);
+      text += milliliters < 1000.0 ? tr("  %1 ml").arg(milliliters, 0, 'g', 4)
+                                   : tr("  %1 ml").arg(milliliters, 0, 'f', 0);
     }
     auto* item = new QListWidgetItem(text, list);
     item->setData(Qt::UserRole, QString::fromStdString(organ.label));
@@ -108,6 +114,30 @@ void OpenDialog::setLabels(const FileOrgans& found)
   QFormLayout::ItemRole role{};
   rows->getWidgetPosition(label_, &row, &role);
   rows->insertRow(row + 1, tr("Labels in it"), list);
+  label_->setFocus(); // what is asked for most
+  if (listed_.size() > 1)
+  {
+    areOrgans_ = new QCheckBox(tr("Each an organ of its own; else all are one body"));
+    areOrgans_->setObjectName("areOrgans");
+    areOrgans_->setChecked(true);
+    rows->insertRow(row + 2, {}, areOrgans_);
+  }
+}
+
+std::vector<FileOrgan> OpenDialog::organs() const
+{
+  std::vector<FileOrgan> organs;
+  const std::vector<std::string> labels = source().part.labels;
+  for (const std::string& label : labels)
+  {
+    const auto found = std::ranges::find(listed_, label, &FileOrgan::label);
+    organs.push_back({ .label = label,
+      .name = found != listed_.end() ? found->name : std::string(),
+      .surface = {},
+      .from = {} });
+  }
+  const bool areSeveral = areOrgans_ != nullptr && areOrgans_->isChecked() && labels.size() > 1;
+  return areSeveral ? organs : std::vector<FileOrgan>();
 }
 
 void OpenDialog::setReason(const QString& why)

@@ -1,17 +1,19 @@
 #pragma once
 
 #include "app/input/scene_plan.h"
+#include "pipeline/process/file_organs.h"
 
 #include <QDialog>
 
+#include <vector>
+
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QLineEdit;
 
 namespace palp
 {
-
-struct FileOrgans;
 
 /// Asks for what a file does not tell: the unit of its coordinates and, of an image, the level of
 /// the surface or the labels of the body, which are listed to be ticked.
@@ -28,7 +30,10 @@ public:
 
   /// Lists what can be ticked, below the field of labels.
   /// @param found  in that image; nothing is listed where there is none
-  void setLabels(const FileOrgans& found);
+  void setLabels(FileOrgans found);
+
+  /// The labels that are to be an organ each, with name; none: source() is one body.
+  [[nodiscard]] std::vector<FileOrgan> organs() const;
 
   /// The file with what was typed.
   /// @throws Error  BadValue
@@ -43,6 +48,8 @@ private:
   QLineEdit* level_;  // null: a surface has none
   QLineEdit* label_;  // likewise
   QComboBox* unit_;
+  QCheckBox* areOrgans_ = nullptr; // null: there are not several labels
+  std::vector<FileOrgan> listed_;
 };
 
 /// The endings of files that hold an image, as in `*.mha *.nii.gz`.

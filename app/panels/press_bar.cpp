@@ -13,6 +13,8 @@
 #include <QStandardItemModel>
 #include <QStyle>
 
+#include <algorithm>
+
 namespace palp
 {
 namespace
@@ -54,7 +56,8 @@ PressBar::PressBar(QWidget* parent)
   speed_->setFixedWidth(speed_->fontMetrics().horizontalAdvance("00.0 mm/s") + kArrows);
   addField(tr("Place [mm]"),
     tr("x, y, z [mm] in the frame of the surface (LPS for images), within 5 mm of it; a press of "
-       "the mouse fills it in, a list of places offers them (Down)"),
+       "the mouse fills it in, a list of places offers them (Down); a depth may follow, as in "
+       "-50, -20, 60, 5 mm"),
     place_);
   addField(tr("Depth"),
     tr("\u03b4 [mm] of the contact, more than 0, up to half of the body's thickness; arrow keys: "
@@ -154,8 +157,17 @@ PlacedPresses PressBar::values() const
   return { .depth = depth_->si(), .speed = speed_->si() };
 }
 
-PlacedPresses PressBar::presses() const
+PlacedPresses PressBar::presses()
 {
+  const QString text = place_->text();
+  const int last = text.lastIndexOf(',');
+  const QString behind = text.mid(last + 1).trimmed();
+  if (std::ranges::any_of(behind, [](QChar c) { return c.isLetter(); })) // a unit
+  {
+    depth_->setSi(parsePressDepth(behind.toStdString(), "Depth"));
+    depth_->forget();
+    place_->setText(text.left(last));
+  }
   PlacedPresses presses = values();
   presses.places = { parsePlace(place_->text().toStdString(), "Place") };
   return presses;

@@ -22,9 +22,9 @@ class PressBar : public QToolBar
 public:
   explicit PressBar(QWidget* parent = nullptr);
 
-  /// One place.
+  /// One place; a depth that is typed behind it, as in 0, 0, 50, 5 mm, goes into its own field.
   /// @throws Error  BadValue: what is typed is no place, or a field holds what was refused
-  [[nodiscard]] PlacedPresses presses() const;
+  [[nodiscard]] PlacedPresses presses();
 
   /// How deep and how fast, without a place.
   /// @throws Error  BadValue: a field holds what was refused

@@ -52,10 +52,10 @@ QIcon iconOf(const KeptPress& press)
   constexpr int kHeight = 12;
   QPixmap picture(kWidth, kHeight);
   picture.fill(Qt::transparent);
-  const auto [color, dashed] = penOf(press);
+  const auto [color, style] = penOf(press);
   QPainter painter(&picture);
-  painter.setPen(QPen(
-    QColor::fromRgbF(color[0], color[1], color[2]), 3.0, dashed ? Qt::DashLine : Qt::SolidLine));
+  painter.setPen(QPen(QColor::fromRgbF(color[0], color[1], color[2]), 3.0,
+    static_cast<Qt::PenStyle>(static_cast<int>(style))));
   painter.drawLine(0, kHeight / 2, kWidth, kHeight / 2);
   return { picture };
 }
@@ -176,7 +176,7 @@ void PressList::makeAgain()
   const auto add = [&](const QString& text, Again how)
   { menu->addAction(text, this, [this, how] { Q_EMIT againAsked(current(), how); }); };
   add(tr("By its own tool and law"), Again::AsThen);
-  menu->addSeparator();
+  menu->addSection(tr("in its own tissue"));
   add(tr("By the paper's law"), Again::Paper);
   add(tr("By the exact law"), Again::Exact);
   add(tr("By the corrected law"), Again::Corrected);
@@ -202,10 +202,10 @@ bool PressList::refresh()
   }
   version_ = log_.version();
   const QSignalBlocker quiet(rows_);
+  std::ranges::for_each(log_.presses(), [this](const KeptPress& press) { tickNew(press.id); });
   int at = 0;
   for (const KeptPress& press : log_.presses())
   {
-    tickNew(press.id);
     while (idAt(at) < press.id)
     {
       delete rows_->takeTopLevelItem(at);

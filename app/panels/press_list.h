@@ -41,14 +41,14 @@ public:
   {
     AsNow,  ///< by the tool and the law in use
     AsThen, ///< by its own
-    Paper,
+    Paper,  ///< by this law, all else its own
     Exact,
     Corrected,
   };
 
 Q_SIGNALS:
   void againAsked(int id, palp::PressList::Again how);
-  void againWithAsked(int id, const QString& tool); ///< as parseTip
+  void againWithAsked(int id, const QString& tool); ///< as parseTip, all else its own
   void compareAsked();
   void tickedChanged();
   void fitAsked(int id);

@@ -38,8 +38,8 @@ double forceAt(const std::vector<CurvePoint>& way, double depth)
 void addCurve(Plot& plot, const KeptPress& press, std::span<const double> depths,
   std::span<const double> forces)
 {
-  const auto [color, dashed] = penOf(press);
-  plot.addLine(press.summary.name, depths, forces, color, 2.0F, dashed);
+  const auto [color, style] = penOf(press);
+  plot.addLine(press.summary.name, depths, forces, color, 2.0F, style);
 }
 
 } // namespace
@@ -49,7 +49,8 @@ PressPen penOf(const KeptPress& press) noexcept
   constexpr std::size_t kTaken = 2; // by what is recorded and by the model, in live charts
   constexpr std::size_t kFree = appearance::kCurves.size() - kTaken;
   const auto number = static_cast<std::size_t>(press.id - 1);
-  return { appearance::curveColor(kTaken + number % kFree), number / kFree % 2 == 1 };
+  return { appearance::curveColor(kTaken + number % kFree),
+    static_cast<appearance::LineStyle>(1 + number / kFree % appearance::kLineStyles) };
 }
 
 std::vector<PressCurve> pressCurves(std::span<const KeptPress* const> presses)
@@ -57,9 +58,9 @@ std::vector<PressCurve> pressCurves(std::span<const KeptPress* const> presses)
   std::vector<PressCurve> curves;
   for (const KeptPress* press : presses)
   {
-    const auto [color, dashed] = penOf(*press);
+    const auto [color, style] = penOf(*press);
     PressCurve& curve = curves.emplace_back(
-      PressCurve{ .name = press->summary.name, .color = color, .dashed = dashed });
+      PressCurve{ .name = press->summary.name, .color = color, .style = style });
     for (const CurvePoint& point : press->curve)
     {
       curve.depths.push_back(point.depth);

@@ -14,7 +14,7 @@ namespace palp
 struct PressPen
 {
   appearance::Color color;
-  bool dashed; ///< one after as many presses as there are colors
+  appearance::LineStyle style; ///< the next one after as many presses as there are colors
 };
 
 /// By its number, so that a press keeps its color.

@@ -4,10 +4,9 @@
 #include "app/input/tip_text.h"
 #include "haptics/units.h"
 #include "pipeline/charts/plot_files.h"
-#include "pipeline/figure/ambient_occlusion.h"
 #include "pipeline/figure/orientation.h"
+#include "pipeline/figure/realism.h"
 #include "pipeline/figure/scale_bar.h"
-#include "pipeline/figure/studio.h"
 #include "pipeline/view/appearance.h"
 
 #include <algorithm>
@@ -94,9 +93,10 @@ void prepareView(PressView& view, Surroundings& around, const PressMoment& momen
   around.show(moment.around);
   view.setAround(around.box());
   view.setColor(moment.color);
-  if (!view.shows(*moment.body.display))
+  vtkPolyData* drawn = moment.drawn != nullptr ? moment.drawn : moment.body.display.Get();
+  if (!view.shows(*drawn))
   {
-    view.setSurface(moment.body.display, moment.body.haptic && moment.body.haptic->closed());
+    view.setSurface(drawn, moment.body.haptic && moment.body.haptic->closed());
   }
   view.setTip(moment.law.tip());
   view.setExtents(moment.calibration.extents);
@@ -161,11 +161,10 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   showMoment(view, around, moment);
   look(view, *renderer);
   view.setLook(figure.body);
+  Realism realism(*renderer);
   if (figure.isRealistic)
   {
-    constexpr double kReach = 0.08; // of the body
-    addStudio(*renderer);
-    addAmbientOcclusion(*renderer, kReach * moment.body.display->GetLength());
+    realism.turnOn(moment.body.display->GetLength());
   }
   if (figure.hasCaption)
   {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+class vtkPolyData;
 class vtkRenderWindow;
 
 namespace palp
@@ -29,6 +30,7 @@ struct PressMoment
   const SurfaceMap* map = nullptr; ///< colors of the body; null: its own
   appearance::Color color = appearance::kLiver;
   std::vector<Surrounding> around{};
+  vtkPolyData* drawn = nullptr; ///< in the place of the body's surface; null: that one
 };
 
 /// That of a sample in a recording: of several organs, the one that it tells of amid the others.

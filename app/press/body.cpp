@@ -3,7 +3,9 @@
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
 #include "app/train/hidden_nodules.h"
+#include "calibration/tables/organ_table.h"
 #include "haptics/contact/embed_nodules.h"
+#include "haptics/contact/embed_stiffness.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/deviation.h"
@@ -14,9 +16,13 @@
 #include <Eigen/Geometry>
 #include <vtkPolyData.h>
 
+#include <cmath>
+#include <future>
 #include <iomanip>
 #include <optional>
+#include <span>
 #include <sstream>
+#include <utility>
 
 namespace palp
 {
@@ -62,6 +68,66 @@ std::string describe(const Deviation& apart, std::size_t points)
   return note.str();
 }
 
+Eigen::AlignedBox3d boxOf(std::span<const Eigen::Vector3d> points)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points)
+  {
+    box.extend(point);
+  }
+  return box;
+}
+
+// In the scene, of the body in its file's frame. What several say of a place, the first of them
+// does.
+TissueMap placedMap(
+  const MeshSource& source, std::span<const Eigen::Vector3d> points, TissueMap before)
+{
+  const Eigen::Isometry3d toFile = source.frame().inverse();
+  Eigen::AlignedBox3d box = boxOf(points);
+  constexpr double kMargin = 0.01; // [m] beside the body, for what lies along its border
+  box.extend(box.min() - Eigen::Vector3d::Constant(kMargin));
+  box.extend(box.max() + Eigen::Vector3d::Constant(kMargin));
+  return [map = tissueMapOf(source.stiffness, source.unit, box), before = std::move(before),
+           toFile](const Eigen::Vector3d& position, double young)
+  {
+    const double known = before ? before(position, young) : std::nan("");
+    return std::isnan(known) ? map(toFile * position, young) : known;
+  };
+}
+
+// in the scene, of the only surface of a body
+std::shared_ptr<const ComplianceField> placedCompliance(
+  const std::vector<MeshSource>& meshes, const MeshFile& felt)
+{
+  const MeshSource& source = meshes.front();
+  if (meshes.size() > 1)
+  {
+    throw Error(ErrorCode::BadValue,
+      "organ: an organ file is of one surface, these are several in one body; join them in one "
+      "file, or leave it out");
+  }
+  OrganTable table = readOrganOf(source.organ, identityOf(felt));
+  const Eigen::Isometry3d frame = source.frame();
+  for (PlacedCompliance& place : table.places)
+  {
+    place.position = frame * place.position;
+    place.normal = frame.linear() * place.normal;
+    place.slope = frame.linear() * place.slope;
+  }
+  return std::make_shared<const ComplianceField>(
+    std::move(table.places), table.spacing, table.poisson);
+}
+
+void checkUnchanged(const std::filesystem::path& file, const FileStamps& before)
+{
+  if (stampsOf(file) != before)
+  {
+    throw Error(
+      ErrorCode::BadFile, printable(file.string()) + ": was changed while it was read; run again");
+  }
+}
+
 // what is felt of a surface: itself, or one of fewer points
 std::filesystem::path feltFile(const MeshSource& source, const std::filesystem::path& shown)
 {
@@ -70,9 +136,9 @@ std::filesystem::path feltFile(const MeshSource& source, const std::filesystem::
                                    : source.haptic;
 }
 
-} // namespace
-
-SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
+// surface: of the only mesh, where it is read already
+SceneBody loadParts(
+  const std::vector<MeshSource>& meshes, bool shown, const FileSurface* surface = nullptr)
 {
   SceneBody body;
   body.sources = meshes;
@@ -88,22 +154,16 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
     const std::filesystem::path felt = feltFile(source, file);
     const FileStamps before = stampsOf(felt);
     progress.emplace("reading " + printable(file.filename().string()));
-    const LoadedSurface loaded = readSurface(file, source.unit, source.part);
+    auto hashed = std::async(std::launch::async, describeFile, felt); // meanwhile
+    const LoadedSurface loaded = surface != nullptr ? madeReady(*surface, file, source.unit)
+                                                    : readSurface(file, source.unit, source.part);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
-    if (shown)
-    {
-      display.add(*loaded.mesh, source.frame());
-    }
-    const bool isOther = felt != file;
-    coarser = coarser || isOther;
-    haptic.add(isOther ? *readSurface(felt, source.unit).mesh : *loaded.mesh, source.frame());
-    MeshFile& origin = body.files.emplace_back(describeFile(felt));
-    if (stampsOf(felt) != before)
-    {
-      throw Error(ErrorCode::BadFile,
-        printable(felt.string()) + ": was changed while it was read; run again");
-    }
+    shown ? display.add(*loaded.mesh, source.frame()) : void();
+    coarser = coarser || felt != file;
+    haptic.add(felt != file ? *readSurface(felt, source.unit).mesh : *loaded.mesh, source.frame());
+    MeshFile& origin = body.files.emplace_back(hashed.get());
+    checkUnchanged(felt, before);
     origin.unit = body.unit;
     origin.space = loaded.space;
     origin.part = source.part;
@@ -112,8 +172,17 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
       nodule.center = source.frame() * nodule.center;
       body.nodules.push_back(nodule);
     }
+    if (source.stiffness.isGiven())
+    {
+      body.stiffness = placedMap(source, pointsOf(*loaded.mesh), std::move(body.stiffness));
+    }
     origin.moved = !source.frame().isApprox(Eigen::Isometry3d::Identity());
+    if (!source.organ.empty())
+    {
+      body.compliance = placedCompliance(meshes, origin);
+    }
   }
+  progress.emplace("preparing " + printable(body.name));
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);
   if (body.haptic->crossing())
   {
@@ -133,6 +202,44 @@ SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
   return body;
 }
 
+// where they are labels of one image, all of them at once; else none
+std::vector<FileOrgan> readLabels(const std::vector<MeshSource>& meshes)
+{
+  ImagePart part = meshes.front().part;
+  part.labels.clear();
+  for (const MeshSource& mesh : meshes)
+  {
+    ImagePart other = mesh.part;
+    other.labels = part.labels;
+    const bool isAlike = mesh.file == meshes.front().file && other == part;
+    if (meshes.size() < 2 || mesh.part.labels.empty() || !mesh.haptic.empty() || !isAlike)
+    {
+      return {};
+    }
+    std::string joined;
+    for (const std::string& label : mesh.part.labels)
+    {
+      if (label.find('+') != label.npos)
+      {
+        return {}; // which would be two
+      }
+      joined.append(joined.empty() ? "" : "+").append(label);
+    }
+    part.labels.push_back(joined);
+  }
+  FileOrgans all = readFileOrgans(meshes.front().file, part, false);
+  std::vector<std::string>& notes = all.organs.front().surface.notes;
+  notes.insert(notes.begin(), all.notes.begin(), all.notes.end());
+  return std::move(all.organs);
+}
+
+} // namespace
+
+SceneBody loadBody(const std::vector<MeshSource>& meshes, bool shown)
+{
+  return loadParts(meshes, shown);
+}
+
 SceneBody loadBodies(const ScenePlan& plan, bool shown)
 {
   if (plan.organs.empty())
@@ -141,13 +248,15 @@ SceneBody loadBodies(const ScenePlan& plan, bool shown)
     plan.training ? hideIn(body, plan.press.tissue.law(), *plan.training) : void();
     return body;
   }
+  const std::vector<FileOrgan> labels = readLabels(plan.meshes);
   SceneBody all;
   all.sources = plan.meshes;
   const auto append = [](auto& to, const auto& from)
   { to.insert(to.end(), from.begin(), from.end()); };
   for (std::size_t i = 0; i < plan.organs.size(); ++i)
   {
-    SceneBody& organ = all.organs.emplace_back(loadBody({ plan.meshes[i] }, shown));
+    const FileSurface* read = labels.empty() ? nullptr : &labels[i].surface;
+    SceneBody& organ = all.organs.emplace_back(loadParts({ plan.meshes[i] }, shown, read));
     organ.name = plan.organs[i].name;
     all.name.append(all.name.empty() ? "" : " + ").append(organ.name);
     all.unit = organ.unit;
@@ -202,7 +311,7 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
   {
     const SceneBody& felt = body.felt(organs, place);
     organ.surface = felt.haptic;
-    organ.nodules = feltNodules(felt, organ.law);
+    feelTissue(organ, felt);
   };
   put(scene, 0);
   for (std::size_t i = 0; i < scene.others.size(); ++i)
@@ -211,16 +320,29 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
   }
 }
 
-std::shared_ptr<const NoduleField> feltNodules(const SceneBody& body, const ForceLaw& law)
+void feelTissue(Scene& scene, const SceneBody& body)
 {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : body.haptic->points())
+  const ForceLaw& law = scene.law;
+  law.checkBody(boxOf(body.haptic->points()).sizes().minCoeff());
+  scene.nodules = nullptr;
+  scene.stiffness = nullptr;
+  if (body.compliance != nullptr && !law.settings().coatings.empty())
   {
-    box.extend(point);
+    throw Error(ErrorCode::BadValue,
+      "organ: an organ file is of a body without coatings; leave out --coating, or the file");
   }
-  law.checkBody(box.sizes().minCoeff());
-  const bool known = law.settings().mode == LawMode::Corrected && law.settings().coatings.empty();
-  return known ? embedNodules(*body.haptic, law, body.nodules) : nullptr;
+  scene.series = seriesBodyOf(body.compliance, law);
+  if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
+  {
+    return;
+  }
+  scene.nodules = embedNodules(*body.haptic, law, body.nodules);
+  if (body.stiffness)
+  {
+    scene.stiffness = embedStiffness(*body.haptic, law,
+      [&map = body.stiffness, young = law.material().youngModulus](const Eigen::Vector3d& position)
+      { return map(position, young); });
+  }
 }
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/input/scene_plan.h"
 #include "haptics/force/force_law.h"
 #include "haptics/force/nodules/nodule_field.h"
+#include "haptics/force/series/compliance_field.h"
 #include "haptics/servo/scene.h"
 #include "haptics/surface/surface.h"
 
@@ -21,13 +22,15 @@ namespace palp
 /// What is pressed, in two levels of detail: one to look at, one to feel.
 struct SceneBody
 {
-  std::string name;                       ///< file name, for people
-  std::string unit;                       ///< that the file's coordinates were read in
-  std::vector<MeshSource> sources;        ///< that it was loaded from
-  std::vector<MeshFile> files;            ///< that are felt
-  vtkSmartPointer<vtkPolyData> display;   ///< [m]; null where nobody looks
-  std::shared_ptr<const Surface> haptic;  ///< [m]
-  std::vector<PlacedNodule> nodules;      ///< in it [m]
+  std::string name;                                    ///< file name, for people
+  std::string unit;                                    ///< that the file's coordinates were read in
+  std::vector<MeshSource> sources;                     ///< that it was loaded from
+  std::vector<MeshFile> files;                         ///< that are felt
+  vtkSmartPointer<vtkPolyData> display;                ///< [m]; null where nobody looks
+  std::shared_ptr<const Surface> haptic;               ///< [m]
+  std::vector<PlacedNodule> nodules;                   ///< in it [m]
+  TissueMap stiffness;                                 ///< in it; empty: the same everywhere
+  std::shared_ptr<const ComplianceField> compliance{}; ///< as a whole; null: it does not give way
   std::vector<std::string> notes;         ///< what was taken, and warnings; a line each
   std::optional<TrainingPlan> training{}; ///< by which its nodules were hidden; none: as in sources
   std::vector<SceneBody> organs{};        ///< each by itself, which alone are seen and felt then
@@ -65,13 +68,12 @@ void revealNodules(SceneBody& body);
 void setTissues(Scene& scene, const std::vector<OrganPlan>& organs);
 
 /// Puts surface and nodules of a body, or of each organ that is felt, to the laws in a scene.
-/// @throws Error  as feltNodules
+/// @throws Error  as feelTissue
 void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& organs);
 
-/// The nodules of a body, felt by the tool of a law; null where there are none, or the law does not
-/// know them.
-/// @throws Error  as embedNodules and ForceLaw::checkBody
-[[nodiscard]] std::shared_ptr<const NoduleField> feltNodules(
-  const SceneBody& body, const ForceLaw& law);
+/// Puts the nodules of a body, its map and its compliance into a scene, felt by its law; none where
+/// there are none, or the law does not know them.
+/// @throws Error  as embedNodules, embedStiffness and ForceLaw::checkBody
+void feelTissue(Scene& scene, const SceneBody& body);
 
 } // namespace palp

@@ -5,8 +5,11 @@
 #include "app/program/data_files.h"
 #include "calibration/tables/surface_table.h"
 #include "calibration/tables/table_tool.h"
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/embed_nodules.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "haptics/force/relaxation/friction_rows.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -206,6 +209,17 @@ bool isOfTheseCoatings(const PressOptions& options, const LawSettings& settings)
   return describeCoatings(settings.coatings) == describeCoatings(options.tissue.options.coatings);
 }
 
+// by the force of the tool on the tissue
+Eigen::Vector3d carriedAlong(const Sample& sample, double mu, const Material& tissue)
+{
+  const double drag = sample.friction.norm();
+  const double far = carriedBy(drag, sample.response.force,
+    { .coefficient = mu, .poissonRatio = tissue.poissonRatio }, tissue.shearModulus(),
+    sample.response.contactRadius);
+  return drag > 0.0 ? Eigen::Vector3d(-far / drag * sample.friction)
+                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 } // namespace
 
 bool Calibration::fits(const Contact& contact) const noexcept
@@ -290,6 +304,31 @@ Calibration loadCalibration(const PressOptions& options, const ForceLaw& law)
   return calibration;
 }
 
+void followTissue(Calibration& calibration, const Scene& scene)
+{
+  for (int i = 0; i < organCount(scene); ++i)
+  {
+    const Scene& organ = organOf(scene, i);
+    Calibration& its = i == 0 ? calibration : calibration.others[static_cast<std::size_t>(i) - 1];
+    its.style.extent = nullptr;
+    if (organ.nodules != nullptr)
+    {
+      its.style.extent = [nodules = organ.nodules, law = organ.law](
+                           const Sample& sample, double extent)
+      {
+        return nodules->extentRadius(
+          noduleContactOf(sample.contact), law(contactGeometryOf(sample.contact)), extent);
+      };
+    }
+    its.style.carried = nullptr;
+    if (const double mu = organ.law.settings().friction; mu > 0.0)
+    {
+      its.style.carried = [mu, tissue = organ.law.material()](const Sample& sample)
+      { return carriedAlong(sample, mu, tissue); };
+    }
+  }
+}
+
 Calibration loadCalibration(const PressOptions& options, const Scene& scene)
 {
   Calibration calibration = loadCalibration(options, scene.law);
@@ -297,6 +336,7 @@ Calibration loadCalibration(const PressOptions& options, const Scene& scene)
   {
     calibration.others.push_back(loadCalibration(options, organ.law));
   }
+  followTissue(calibration, scene);
   return calibration;
 }
 

@@ -29,6 +29,13 @@ struct Calibration
 
   double layer = 0.0; ///< thickness that a fitted style was computed for [m]; 0: nothing is fitted
 
+  /// R_d at a sample [m].
+  [[nodiscard]] double extentRadius(const Sample& sample) const
+  {
+    const double plain = extents.extentRadius(drawnDepth(sample));
+    return style.extent ? style.extent(sample, plain) : plain;
+  }
+
   [[nodiscard]] bool covers(double depth) const noexcept
   {
     return depth <= reach;
@@ -46,7 +53,10 @@ struct Calibration
 /// @throws Error  BadFile; BadValue: --layer or --threshold with a tool whose table has them fixed
 [[nodiscard]] Calibration loadCalibration(const PressOptions& options, const ForceLaw& law);
 
-/// The same of each organ of a scene.
+/// The dent in each organ follows its nodules, above which R_d is another, and its friction.
+void followTissue(Calibration& calibration, const Scene& scene);
+
+/// The same of each organ of a scene, with its nodules.
 [[nodiscard]] Calibration loadCalibration(const PressOptions& options, const Scene& scene);
 
 } // namespace palp

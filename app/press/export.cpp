@@ -23,7 +23,7 @@ namespace palp
 
 Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
-  const double extent = calibration.extents.extentRadius(sample.contact.depth);
+  const double extent = calibration.extents.extentRadius(drawnDepth(sample));
   return pressOf(sample, tip, extent, calibration.style);
 }
 

@@ -80,12 +80,14 @@ std::optional<Recording> PressLog::end(const Recording& recording)
 std::size_t PressLog::keepAll(const Recording& samples)
 {
   const std::vector<PressSummary> found = findPresses(samples);
+  firstNew_ = found_ + 1;
   for (const PressSummary& one : found)
   {
     const Scene& organ = organOf(samples.scene, one.organ);
     KeptPress press{ .id = ++found_,
       .summary = one,
       .organ = samples.organName(one.organ),
+      .mesh = samples.mesh,
       .law = organ.law,
       .rule = organ.rule,
       .damping = organ.damping };
@@ -94,6 +96,7 @@ std::size_t PressLog::keepAll(const Recording& samples)
       press.summary.name =
         next_.empty() ? pressName(static_cast<std::size_t>(found_) - 1) : std::exchange(next_, {});
     }
+    press.summary.name = freeName(press.summary.name);
     if (samples.rated)
     {
       press.outside = outsideLimits(organ, Validity(organ.law), one.deepest);
@@ -130,6 +133,36 @@ const KeptPress* PressLog::find(int id) const noexcept
 {
   const auto at = std::ranges::find(presses_, id, &KeptPress::id);
   return at != presses_.end() ? &*at : nullptr;
+}
+
+// as wanted, or with a number behind it where a press has that name
+std::string PressLog::freeName(const std::string& wanted) const
+{
+  std::string name = wanted;
+  const auto isOf = [&name](const KeptPress& press) { return press.summary.name == name; };
+  for (int i = 2; std::ranges::any_of(presses_, isOf); ++i)
+  {
+    name = wanted + " (" + std::to_string(i) + ')';
+  }
+  return name;
+}
+
+void PressLog::noteSaved(int number) noexcept
+{
+  for (KeptPress& press : presses_)
+  {
+    press.saved = press.id >= firstNew_ ? number : press.saved;
+  }
+}
+
+std::vector<std::string> PressLog::namesOf(int saved) const
+{
+  std::vector<std::string> names;
+  for (const KeptPress& press : presses_)
+  {
+    press.saved == saved ? names.push_back(press.summary.name) : void();
+  }
+  return names;
 }
 
 void PressLog::rename(int id, const std::string& name)

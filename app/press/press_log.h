@@ -24,11 +24,13 @@ struct KeptPress
   int id = 0; ///< of its own in a log, from 1
   PressSummary summary{};
   std::string organ{}; ///< that was pressed; empty: the only body
+  std::string mesh{};  ///< name of the body
   ForceLaw law;
   ContactRule rule = ContactRule::Exact;
   double damping = 0.0;            ///< b [N s/m]
   std::string outside{};           ///< see outsideLimits; empty also where no sample is rated
   std::vector<CurvePoint> curve{}; ///< from touch to release, kCurve of its samples at most
+  int saved = 0;                   ///< number by which Autosave has it; 0: none
 
   static constexpr std::size_t kCurve = 400;
 };
@@ -78,6 +80,12 @@ public:
   /// Null where it is gone.
   [[nodiscard]] const KeptPress* find(int id) const noexcept;
 
+  /// Those that were kept last are saved under a number, see KeptPress.
+  void noteSaved(int number) noexcept;
+
+  /// The names of the presses that are saved under a number, in their order.
+  [[nodiscard]] std::vector<std::string> namesOf(int saved) const;
+
   ///@{
   /// Does nothing where it is gone.
   void rename(int id, const std::string& name);
@@ -94,12 +102,15 @@ public:
   }
 
 private:
+  [[nodiscard]] std::string freeName(const std::string& wanted) const;
+
   std::vector<KeptPress> presses_; // ids rise
   std::optional<double> begin_;    // of the press that goes on [s]
   double lastTouch_ = 0.0;         // of it [s]
   double now_ = 0.0;               // of the last sample [s]
   std::string next_;
   int found_ = 0;
+  int firstNew_ = 1; // of those that were kept last
   int version_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/servo/servo_step.h"
+#include "haptics/threads/followed_work.h"
 
 #include <algorithm>
 #include <array>
@@ -171,14 +172,19 @@ private:
 void readRows(Recording& recording, const std::filesystem::path& file)
 {
   recording.samples.clear();
-  std::istringstream lines(readText(file, "a samples.csv"));
+  const std::string text = readText(file, "a samples.csv");
+  std::istringstream lines(text);
   RowReader reader(recording);
+  constexpr int kTold = 1000; // rows, about 20 ms
   int number = 0;
   try
   {
     for (std::string line; std::getline(lines, line);)
     {
-      ++number;
+      if (++number % kTold == 0)
+      {
+        tellDone(static_cast<double>(lines.tellg()) / static_cast<double>(text.size()));
+      }
       line.erase(line.find_last_not_of('\r') + 1);
       reader.read(line);
     }

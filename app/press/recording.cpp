@@ -2,10 +2,14 @@
 
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/embed_nodules.h"
+#include "haptics/contact/embed_stiffness.h"
+#include "haptics/servo/tissue_at.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <string_view>
 #include <vector>
 
 namespace palp
@@ -84,6 +88,45 @@ void thin(Recording& recording)
   recording.thinned = thinRange(recording.samples, 0, recording.samples.size(), recording.interval);
 }
 
+namespace
+{
+
+// what the compliance of the body answers, where the law alone does not
+void leaveToOrgan(Rule& rule)
+{
+  const std::string_view name = rule.name;
+  rule.value = name == "support" ? 0.0 : rule.value;
+}
+
+// Without an organ file nobody knows how a lobe is held, and the law takes it as held below.
+Rule lobeRule(const Surface& surface, const Contact& contact)
+{
+  constexpr double kThin = 2.0;
+  const BoxTree::Node& all = surface.tree().nodes().front();
+  double whole = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < all.low.size(); ++k)
+  {
+    whole = std::min(whole, static_cast<double>(all.high[k]) - static_cast<double>(all.low[k]));
+  }
+  return { "lobe", "-", contact.touching() ? whole / contact.thickness : 0.0, kThin,
+    "thinner than half of the body: a lobe that nothing holds below bends; palp organ and --organ "
+    "take that into account" };
+}
+
+} // namespace
+
+ContactGeometry lawGeometryOf(const Scene& scene, const Contact& contact)
+{
+  ContactGeometry geometry = contactGeometryOf(contact);
+  if (scene.series != nullptr && contact.touching())
+  {
+    geometry.depth = TissueAt(scene, contact).answer(contact.depth).local;
+    geometry.thickness = std::numeric_limits<double>::infinity();
+    geometry.hollow = 0.0;
+  }
+  return geometry;
+}
+
 std::vector<double> contrastsAt(const Scene& scene, const Contact& contact)
 {
   return scene.nodules == nullptr
@@ -104,13 +147,28 @@ std::vector<Validity> validityOf(const Scene& scene)
 
 std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Contact& contact)
 {
-  const ContactGeometry geometry = contactGeometryOf(contact);
-  const Rules all = validity(geometry, contact.edgeDistance);
+  const ContactGeometry geometry = lawGeometryOf(scene, contact);
+  const bool isOrgan = scene.series != nullptr;
+  const Rules all =
+    validity(geometry, isOrgan ? std::numeric_limits<double>::infinity() : contact.edgeDistance);
   std::vector<Rule> rules(all.begin(), all.end());
   if (scene.nodules != nullptr)
   {
     const NoduleRules more = scene.nodules->rules(noduleContactOf(contact), scene.law(geometry));
     rules.insert(rules.end(), more.begin(), more.end());
+  }
+  if (scene.stiffness != nullptr)
+  {
+    rules.push_back(scene.stiffness->rule(stiffnessContactOf(contact)));
+  }
+  if (isOrgan)
+  {
+    std::ranges::for_each(rules, [](Rule& rule) { leaveToOrgan(rule); });
+    rules.push_back(seriesRule(*scene.series, scene.law, contact.center, contact.normal));
+  }
+  else if (scene.surface != nullptr && !scene.surface->tree().empty())
+  {
+    rules.push_back(lobeRule(*scene.surface, contact));
   }
   return rules;
 }

@@ -66,7 +66,12 @@ void keepContact(Recording& recording);
 /// none where there are none.
 [[nodiscard]] std::vector<double> contrastsAt(const Scene& scene, const Contact& contact);
 
-/// The conditions of the law at a contact, those of its nodules after them where there are any.
+/// What the law of a scene is asked at a contact: where the body gives way, what is left of the
+/// depth, without what is below.
+[[nodiscard]] ContactGeometry lawGeometryOf(const Scene& scene, const Contact& contact);
+
+/// The conditions of the law at a contact, those of its nodules, of its map and of its organ file
+/// after them where there are any; without such a file whether the body may bend there.
 [[nodiscard]] std::vector<Rule> rulesAt(
   const Scene& scene, const Validity& validity, const Contact& contact);
 

@@ -35,6 +35,19 @@ bool hasNodules(const Scene& scene)
   return anyOrgan(scene, [](const Scene& organ) { return organ.nodules != nullptr; });
 }
 
+bool hasSeries(const Scene& scene)
+{
+  return anyOrgan(scene, [](const Scene& organ) { return organ.series != nullptr; });
+}
+
+// what lies in the tissue, by which force_N is another than the law's; empty: nothing
+std::string insideOf(const Scene& scene)
+{
+  const bool hasMap =
+    anyOrgan(scene, [](const Scene& organ) { return organ.stiffness != nullptr; });
+  return hasNodules(scene) ? "nodules" : hasMap ? "stiffness" : "";
+}
+
 void describeRules(
   std::ostream& out, const Scene& scene, const Validity& validity, const std::string& of)
 {
@@ -88,7 +101,7 @@ void describeNodules(std::ostream& out, const NoduleField& nodules)
 // what force_N was computed from, besides the law
 void describeNodules(std::ostream& out, const Scene& scene)
 {
-  if (!hasNodules(scene))
+  if (insideOf(scene).empty() && !hasSeries(scene))
   {
     return;
   }
@@ -96,8 +109,20 @@ void describeNodules(std::ostream& out, const Scene& scene)
   {
     const auto& nodules = organOf(scene, i).nodules;
     nodules != nullptr ? describeNodules(out, *nodules) : void();
+    if (const auto& map = organOf(scene, i).stiffness; map != nullptr)
+    {
+      out << "# stiffness: a map, felt at " << map->places() << " places; factor_stiffness: of the "
+          << "force by the law and its Young's modulus\n";
+    }
   }
-  out << "# lateral_x/y/z_N: of the nodules on the tool, besides force_N along the normal\n";
+  if (hasSeries(scene))
+  {
+    out << "# organ file: depth_mm = local_depth_mm, at which law and factors hold, without the "
+           "thickness, + f (G + 4/15 B a^2) - what the pressure gains by moving aside, f = force_N "
+           "/ E*; G, B and slope: organ_constant_per_m, organ_bend_per_m3, organ_slope_per_m2\n";
+  }
+  out << "# lateral_x/y/z_N: of what lies in the tissue on the tool, besides force_N along the "
+         "normal\n";
 }
 
 std::string elasticityOf(const ForceLaw& law)
@@ -175,6 +200,7 @@ void describeRecording(std::ostream& out, const Recording& recording)
 void writeColumns(std::ostream& out, const Recording& recording, bool hasExtents)
 {
   const Scene& scene = recording.scene;
+  const std::string inside = insideOf(scene);
   out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm," << (recording.organs.empty() ? "" : "organ,")
       << "depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
          "contact_radius_mm,"
@@ -187,7 +213,12 @@ void writeColumns(std::ostream& out, const Recording& recording, bool hasExtents
     out << ",factor_" << factor.name;
   }
   out << (hasMemory(scene) ? ",friction_x_N,friction_y_N,friction_z_N,surface_depth_mm" : "")
-      << (hasNodules(scene) ? ",factor_nodules,lateral_x_N,lateral_y_N,lateral_z_N" : "") << '\n';
+      << (inside.empty() ? "" : ",factor_" + inside)
+      << (hasSeries(scene) ? ",local_depth_mm,organ_constant_per_m,organ_slope_per_m2,"
+                             "organ_bend_per_m3"
+                           : "")
+      << (inside.empty() && !hasSeries(scene) ? "" : ",lateral_x_N,lateral_y_N,lateral_z_N")
+      << '\n';
 }
 
 // what follows the place of the tool
@@ -202,8 +233,7 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
     sample.force.y(), sample.force.z(), toMillimeters(sample.response.contactRadius) };
   if (calibration)
   {
-    const ExtentTable& extents = organOf(*calibration, sample.organ).extents;
-    row.push_back(toMillimeters(extents.extentRadius(contact.depth)));
+    row.push_back(toMillimeters(organOf(*calibration, sample.organ).extentRadius(sample)));
   }
   row.insert(row.end(),
     { units::toNewtonsPerMillimeter(sample.response.stiffness), axis.x(), axis.y(), axis.z(),
@@ -216,7 +246,8 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
   }
   row.insert(row.end(),
     { toMillimeters(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
-  for (const Factor& factor : scene.law.factors(contactGeometryOf(contact)))
+  const ContactGeometry geometry = lawGeometryOf(scene, contact);
+  for (const Factor& factor : scene.law.factors(geometry))
   {
     row.push_back(factor.value);
   }
@@ -226,12 +257,22 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
     row.insert(
       row.end(), { friction.x(), friction.y(), friction.z(), toMillimeters(sample.surfaceDepth) });
   }
-  if (hasNodules(all))
+  if (!insideOf(all).empty())
   {
-    const double plain = scene.law(contactGeometryOf(contact)).force;
-    row.insert(row.end(),
-      { plain > 0.0 ? sample.response.force / plain : 1.0, sample.lateral.x(), sample.lateral.y(),
-        sample.lateral.z() });
+    const double plain = scene.law(geometry).force;
+    row.push_back(plain > 0.0 ? sample.response.force / plain : 1.0);
+  }
+  if (hasSeries(all))
+  {
+    const BodyCompliance body = scene.series != nullptr && contact.touching()
+      ? scene.series->field->at(contact.center, contact.normal).body
+      : BodyCompliance{};
+    row.insert(
+      row.end(), { toMillimeters(sample.localDepth), body.constant, body.slope, body.bend });
+  }
+  if (!insideOf(all).empty() || hasSeries(all))
+  {
+    row.insert(row.end(), { sample.lateral.x(), sample.lateral.y(), sample.lateral.z() });
   }
   return row;
 }

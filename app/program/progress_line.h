@@ -1,8 +1,11 @@
 #pragma once
 
+#include "haptics/threads/followed_work.h"
+
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -10,7 +13,10 @@ namespace palp
 {
 
 /// How far long work is, on standard error: after two seconds, on a terminal as a line that is
-/// written over itself every second, elsewhere as a line every ten.
+/// written over itself every second, elsewhere as a line every ten. Where the variable
+/// PALP_PROGRESS is set, as for a program that follows, a line "palp: progress 34 places" of
+/// percent ten times a second. What the thread tells of its work (followed_work.h) counts here, and
+/// this in turn for who follows it.
 class ProgressLine
 {
 public:
@@ -34,12 +40,15 @@ private:
 
   const std::string what_;
   const bool terminal_;
+  const bool isForProgram_;
+  FollowedWork own_;
+  std::optional<FollowedWork::OfThread> isOwn_; // where nobody else follows this thread
+  FollowedWork* work_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::condition_variable_any wakeUp_;
   std::size_t done_ = 0;
   std::size_t total_ = 0;
-  double fraction_ = 0.0;
   std::jthread writer_;
 };
 

@@ -71,17 +71,19 @@ Section servo(const Effort& effort)
   const double duration = effort.quick ? 3.0 : 60.0; // [s]
   Section section;
   runServo(
+    {},
     [&](double elapsed)
     {
       effort.reached(elapsed / duration);
       return elapsed < duration;
     },
-    [&](const Timing& timing, const std::string& schedule, double elapsed)
+    [&](const ServoFigures& figures)
     {
+      const Timing& timing = figures.timing;
       const auto ticks = static_cast<double>(timing.ticks.load());
       const auto skipped = static_cast<double>(timing.skipped.load());
       Table summary{ .name = "servo_quantiles",
-        .caption = "Quantiles of " + shown(ticks) + " ticks in " + shown(elapsed) + " s; " +
+        .caption = "Quantiles of " + shown(ticks) + " ticks in " + shown(figures.elapsed) + " s; " +
           shown(skipped) + " periods were missed as a whole.",
         .columns = { "quantity", "p50_us", "p99_us", "p999_us", "max_us" },
         .rows = { quantiles("lateness", timing.lateness), quantiles("step", timing.step) } };
@@ -90,7 +92,7 @@ Section servo(const Effort& effort)
         histogramTable("servo_step_time", "Time of the step.", timing.step) };
       section.text = { "A servo thread touched a surface of 10,000 vertices at 1 kHz with a tool "
                        "that circles 5 mm deep. Its schedule: " +
-        schedule + "." };
+        figures.schedule + "." };
     });
   // the last bucket has nothing beyond it, which a logarithm does not show
   section.figures = { figureOf("servo_histogram", "ticks in each bucket", "ticks", "ticks"),

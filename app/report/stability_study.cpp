@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <thread>
@@ -16,13 +17,27 @@ namespace palp
 namespace
 {
 
+// of the arms; what the other situations vary is in their names
+std::vector<report::Cell> armCells(const std::optional<ArmCase>& arm)
+{
+  if (!arm)
+  {
+    return std::vector<report::Cell>(8, std::nan(""));
+  }
+  return { arm->mass, arm->damping, arm->friction, units::toMicrometers(arm->quantum),
+    units::toMilliseconds(arm->delay), units::toMilliseconds(arm->statedDelay), arm->handStiffness,
+    arm->handDamping };
+}
+
 std::vector<report::Cell> rowOf(const StabilityCase& what, const StabilityRow& row, bool chain)
 {
-  return { what.name,
+  std::vector<report::Cell> cells{ what.name,
     what.material ? what.material->youngModulus : std::numeric_limits<double>::infinity(),
     what.material ? what.material->poissonRatio : std::nan(""), describeTip(what.tip),
     units::toMilliseconds(what.loop.period), chain ? "on" : "off", nameOf(row.outcome),
     row.limitedBy, row.peakForce, row.limitCycleSpeed, units::toMicrojoules(row.energy) };
+  std::ranges::move(armCells(what.arm), std::back_inserter(cells));
+  return cells;
 }
 
 std::ptrdiff_t count(
@@ -71,7 +86,9 @@ report::Table stabilityTable(const std::vector<JudgedCase>& cases)
   report::Table table{ .name = "stability",
     .caption = "Every case, through the safety chain and without.",
     .columns = { "case", "young_Pa", "poisson", "tool", "period_ms", "chain", "outcome",
-      "limited_by", "peak_force_N", "limit_cycle_speed_m_per_s", "energy_uJ" },
+      "limited_by", "peak_force_N", "limit_cycle_speed_m_per_s", "energy_uJ", "mass_kg",
+      "damping_N_s_per_m", "friction_N", "encoder_step_um", "delay_ms", "stated_delay_ms",
+      "hand_stiffness_N_per_m", "hand_damping_N_s_per_m" },
     .shown = false };
   for (const JudgedCase& one : cases)
   {

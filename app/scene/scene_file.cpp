@@ -10,6 +10,7 @@
 #include "app/scene/scene_entries.h"
 #include "app/scene/scene_mesh.h"
 #include "app/scene/scene_motion.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -137,9 +138,11 @@ void readBodies(JsonObject& object, ScenePlan& plan, const std::filesystem::path
 void checkTraining(const JsonObject& object, const ScenePlan& plan)
 {
   if (!plan.organs.empty() ||
-    std::ranges::any_of(plan.meshes, [](const MeshSource& mesh) { return !mesh.nodules.empty(); }))
+    std::ranges::any_of(plan.meshes,
+      [](const MeshSource& mesh) { return !mesh.nodules.empty() || mesh.stiffness.isGiven(); }))
   {
-    object.refuse("training", "hides nodules in one body without any; give meshes without them");
+    object.refuse("training",
+      "hides nodules in one body without any, nor a map of stiffness; give meshes without them");
   }
   if (plan.press.tissue.options.mode != LawMode::Corrected)
   {
@@ -166,12 +169,17 @@ void checkTogether(const JsonObject& object, const ScenePlan& plan)
   {
     const bool isOne = plan.organs.empty();
     const LawOptions& law = (isOne ? plan.press : plan.organs[i].press).tissue.options;
+    const std::string key = isOne ? "meshes" : "organs/" + std::to_string(i);
+    if (const std::string other = mapRefusal(plan.meshes[i], law); !other.empty())
+    {
+      object.refuse(key, "stiffness: " + other);
+    }
     if (plan.meshes[i].nodules.empty() || (law.mode == LawMode::Corrected && law.coatings.empty()))
     {
       continue;
     }
-    object.refuse(isOne ? "meshes" : "organs/" + std::to_string(i),
-      "nodules take the law 'corrected' and no coating; give these, or leave the nodules out");
+    object.refuse(
+      key, "nodules take the law 'corrected' and no coating; give these, or leave the nodules out");
   }
   plan.training ? checkTraining(object, plan) : void();
   if (!plan.dents() && (plan.window || plan.deformed || plan.picture))

@@ -3,6 +3,7 @@
 #include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/scene/scene_entries.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io/length_unit.h"
 
@@ -61,6 +62,17 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   for (const JsonObject& nodule : object.objects("nodules"))
   {
     mesh.nodules.push_back(readNodule(nodule));
+  }
+  parseAt(object, "stiffness",
+    [&](const std::string& text)
+    {
+      mesh.stiffness = parseStiffness(text);
+      std::filesystem::path& map = mesh.stiffness.file;
+      map = map.empty() ? map : (folder / map).lexically_normal();
+    });
+  if (const std::string organ = object.text("organ", ""); !organ.empty())
+  {
+    mesh.organ = (folder / organ).lexically_normal();
   }
   object.finish();
   if (mesh.bundled.empty() == file.empty())

@@ -8,7 +8,7 @@
 namespace palp
 {
 
-/// Reads a surface, where it is, and the nodules in it.
+/// Reads a surface, where it is, and the nodules or the map in it.
 ///
 /// @param folder  of the files that it names
 /// @throws Error  BadFile: names the key

@@ -4,6 +4,7 @@
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
 #include "app/scene/scene_entries.h"
+#include "app/stiffness/stiffness_text.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/tip/profile.h"
 
@@ -109,6 +110,15 @@ private:
     {
       mesh["frame"] = { { "origin", triple(source.origin, Quantity::Length) },
         { "rotation", triple(source.rotation, Quantity::Angle) } };
+    }
+    if (source.stiffness.isGiven())
+    {
+      const fs::path& map = source.stiffness.file;
+      mesh["stiffness"] = describeStiffness(source.stiffness, map.empty() ? "" : file(map));
+    }
+    if (!source.organ.empty())
+    {
+      mesh["organ"] = file(source.organ);
     }
     for (const PlacedNodule& nodule : source.nodules)
     {

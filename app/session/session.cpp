@@ -1,8 +1,10 @@
 #include "app/session/session.h"
 
+#include "app/arms/arm_file.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
 #include "app/session/device_words.h"
+#include "haptics/devices/simulated/lagging_tool.h"
 #include "haptics/devices/simulated/pointer.h"
 #include "haptics/devices/simulated/scripted_device.h"
 #include "haptics/devices/simulated/simulated_hand.h"
@@ -56,7 +58,11 @@ Recording startOf(const ScenePlan& plan, const SceneBody& body, BuildTrace& trac
 
 Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* stop)
   : plan_(std::move(plan))
-  , servoOptions_{ .history = plan_.records(), .deadMan = plan_.deadMan, .stop = stop }
+  , servoOptions_{ .period = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                     std::chrono::duration<double>(plan_.servoPeriod)),
+    .history = plan_.records(),
+    .deadMan = plan_.deadMan,
+    .stop = stop }
   , body_(trace.build("surface", "felt and shown", [&] { return loadBodies(plan_); }))
   , recording_(startOf(plan_, body_, trace))
   , calibration_(trace.build("calibration", "how far the surface gives way",
@@ -67,14 +73,21 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
     revealNodules(body_);
     recording_.rated = plan_.validity;
   }
+  else if (plan_.training)
+  {
+    calibration_.style.extent = nullptr; // by which a dent would give away what lies below it
+  }
   trace.build("device, servo thread", "the window presses live", [&] { useDevice(plan_.device); });
 }
 
-void Session::open(SceneBody body)
+void Session::open(SceneBody body, std::vector<OrganPlan> organs)
 {
   Scene scene = nextScene();
   scene.others.clear();
-  setFelt(scene, body, {});
+  scene.rule = organs.empty() ? scene.rule : organs.front().press.contact;
+  setTissues(scene, organs);
+  setFelt(scene, body, organs);
+  Calibration calibration = loadCalibration(plan_.press, scene);
   SceneBody old = std::exchange(body_, std::move(body));
   const DeviceChoice choice = choice_;
   std::unique_ptr<Device> holder;
@@ -89,13 +102,14 @@ void Session::open(SceneBody body)
     throw;
   }
   endRecording(old);
-  calibration_.others.clear();
+  calibration_ = std::move(calibration);
   recording_.mesh = body_.name;
   recording_.unit = body_.unit;
   recording_.files = body_.files;
-  recording_.organs.clear();
+  recording_.organs = std::move(organs);
   recording_.rated = plan_.validity;
   recording_.scene = std::move(scene);
+  followTissue(calibration_, recording_.scene);
   useDevice(choice, std::move(holder));
 }
 
@@ -132,15 +146,15 @@ std::unique_ptr<Device> Session::makeDevice(const DeviceChoice& choice)
   {
     throw Error(ErrorCode::BadValue,
       "--device: '" + choice.name +
-        "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, spacemouse, "
-        "falcon, wooden:PATH or phd1:PATH");
+        "' is no device; give mouse, hand, path:FILE.csv, replay:samples.csv, " + kHardwareNames);
   }
   if (choice.name == choice_.name)
   {
     servo_.reset();
     device_.reset();
   }
-  return openDevice(choice.name, { .origin = restingPose().apex });
+  return openDevice(
+    choice.name, { .origin = restingPose().apex }, loadArm(armFile(identityOf(choice.name))));
 }
 
 void Session::useDevice(const DeviceChoice& choice)
@@ -154,6 +168,12 @@ void Session::useDevice(const DeviceChoice& choice)
     keepHolding();
     throw;
   }
+}
+
+void Session::lag(bool lags)
+{
+  lagReference_ = lags ? std::optional(recording_.scene.law.material()) : std::nullopt;
+  useDevice(DeviceChoice(choice_));
 }
 
 // hardware can be opened once only: what is open must be let go of before it is opened again, and
@@ -170,6 +190,15 @@ void Session::useDevice(const DeviceChoice& choice, std::unique_ptr<Device> devi
 {
   endRecording(body_);
   servo_.reset(); // stops before its device goes
+  lagging_ = nullptr;
+  const bool isFree = !choice.isScript() && !device->limits().rendersForce;
+  if (lagReference_ && isFree)
+  {
+    auto lagging = std::make_unique<LaggingTool>(std::move(device), *lagReference_);
+    lagging_ = lagging.get();
+    lagging_->setScene(recording_.scene);
+    device = std::move(lagging);
+  }
   device_ = std::move(device);
   guided_ = device_->guided();
   choice_ = choice;

@@ -21,6 +21,7 @@ namespace palp
 
 class Autosave;
 class BuildTrace;
+class LaggingTool;
 class ScriptedDevice;
 struct ExportFolder;
 
@@ -42,38 +43,52 @@ public:
     return plan_;
   }
 
-  /// Replaces the body, or all organs by one; tissue and device stay.
-  /// @throws Error  as feltNodules, useDevice; the old body then stays
-  void open(SceneBody body);
+  /// Replaces the body, or all organs; the device stays, and of one body the tissue.
+  /// @param organs  that the body is of, with their tissues, one tool and one kind of law; none:
+  /// one
+  /// @throws Error  as feelTissue, useDevice; the old body then stays
+  void open(SceneBody body, std::vector<OrganPlan> organs = {});
 
   /// Hides nodules in the only body, under the corrected law, and begins a recording which neither
   /// rates a sample nor is saved before it is graded.
   /// @param training  without marks
-  /// @throws Error    BadValue: several organs; as hideNodules, feltNodules; everything then stays
+  /// @throws Error    BadValue: several organs; as hideNodules, feelTissue; everything then stays
   void train(const TrainingPlan& training);
 
   /// Ends such a recording, the last of earlier() where anything was touched; its nodules are then
   /// known.
   void finishTraining(std::vector<double> marks);
 
-  /// A recording begins, as its header tells of one tool and tissue; see earlier().
+  /// What the tool would feel.
+  struct Felt
+  {
+    std::optional<Scene> scene; ///< none: what it feels now
+    std::vector<OrganPlan> organs;
+  };
+
+  /// What the tool would feel of another tissue: work for any thread, seconds of it where the
+  /// stiffness differs from place to place, which throws as TissueOptions::law and feelTissue.
   ///
-  /// @param organ   whose tissue it is, the tool and the kind of law being those of all; in the
+  /// @param organ  whose tissue it is, the tool and the kind of law being those of all; in the
   /// order
-  ///                of organs()
-  /// @throws Error  as loadCalibration, TissueOptions::law; everything then stays
-  void setTissue(const ForceLaw& law, ContactRule rule, double damping, std::size_t organ = 0);
+  ///               of organs()
+  [[nodiscard]] std::function<Felt()> feltWith(
+    const ForceLaw& law, ContactRule rule, double damping, std::size_t organ = 0) const;
+
+  /// The same of the organs with other roles, colors and tissues.
+  /// @throws Error  BadValue: none would be felt
+  [[nodiscard]] std::function<Felt()> feltWith(std::vector<OrganPlan> organs) const;
+
+  /// A recording begins where something else is felt, as its header tells of one tool and tissue;
+  /// see earlier(). What the user wishes of the device stays.
+  /// @throws Error  as loadCalibration; everything then stays
+  void setTissue(Felt felt);
 
   /// Of the scene, in its order; empty where there is one body.
   [[nodiscard]] const std::vector<OrganPlan>& organs() const noexcept
   {
     return recording_.organs;
   }
-
-  /// The same organs with other roles, colors and tissues. A recording begins where another is
-  /// felt, or feels another way.
-  /// @throws Error  BadValue: none is felt; as setTissue; everything then stays
-  void setOrgans(std::vector<OrganPlan> organs);
 
   /// A recording begins.
   /// @throws Error  BadValue, BadFile, NoDevice; the old device then stays, or, where it was asked
@@ -82,6 +97,15 @@ public:
 
   /// The same with a device of the caller's.
   void useDevice(const DeviceChoice& choice, std::unique_ptr<Device> device);
+
+  /// Lets the tool lag behind a device that no hand can feel, the more the stiffer the tissue is
+  /// there; the reference is the tissue in use now. See LaggingTool. A recording begins.
+  /// @throws Error  as useDevice
+  void lag(bool lags);
+  [[nodiscard]] bool lags() const noexcept
+  {
+    return lagging_ != nullptr;
+  }
 
   /// Names that parseDevice takes: of the devices that move by themselves only those that are there
   /// and may be used.
@@ -198,7 +222,6 @@ private:
 
   [[nodiscard]] Scene nextScene() const;
   void use(Scene scene);
-  void useOrgans(std::vector<OrganPlan> organs);
   void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
   void record(const Sample& sample, const std::function<void(const Sample&)>& each);
   void endRecording(const SceneBody& body);
@@ -222,8 +245,10 @@ private:
   PressLog presses_;
   Autosave* autosave_ = nullptr;
   std::unique_ptr<Device> device_;
-  GuidedTool* guided_ = nullptr; // of the device; null where it moves by itself
-  std::unique_ptr<Servo> servo_; // last: it uses the device
+  GuidedTool* guided_ = nullptr;           // of the device; null where it moves by itself
+  std::optional<Material> lagReference_{}; // none: no tool lags
+  LaggingTool* lagging_ = nullptr;         // the device; null where it is another
+  std::unique_ptr<Servo> servo_;           // last: it uses the device
 };
 
 } // namespace palp

@@ -23,6 +23,7 @@ void Session::save(const SceneBody& body, std::optional<Recording> press)
     plan.allSamples = false;
     keepContact(*press);
     autosave_->save(std::move(plan), *std::move(press));
+    presses_.noteSaved(autosave_->saved());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/scene/scene_text.h"
 #include "app/session/session.h"
+#include "haptics/devices/simulated/lagging_tool.h"
 #include "haptics/error.h"
 
 #include <utility>
@@ -59,31 +60,29 @@ void Session::use(Scene scene)
   {
     guided_->setScene(recording_.scene);
   }
+  if (lagging_ != nullptr)
+  {
+    lagging_->setScene(recording_.scene);
+  }
   servo_->setScene(recording_.scene);
   recordedFrom_ = servo_->newest().time + kForgiving;
 }
 
-void Session::useOrgans(std::vector<OrganPlan> organs)
-{
-  Scene scene = nextScene();
-  scene.rule = organs.front().press.contact;
-  setTissues(scene, organs);
-  setFelt(scene, body_, organs);
-  use(std::move(scene));
-  recording_.organs = std::move(organs);
-}
-
-void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping, std::size_t organ)
+std::function<Session::Felt()> Session::feltWith(
+  const ForceLaw& law, ContactRule rule, double damping, std::size_t organ) const
 {
   if (organs().empty())
   {
-    Scene scene = nextScene();
+    Scene scene = recording_.scene;
     scene.law = law;
-    scene.nodules = feltNodules(body_, law);
     scene.rule = rule;
     scene.damping = damping;
-    use(std::move(scene));
-    return;
+    return [scene, body = body_]
+    {
+      Felt felt{ scene, {} };
+      feelTissue(*felt.scene, body);
+      return felt;
+    };
   }
   std::vector<OrganPlan> changed = organs();
   for (OrganPlan& each : changed)
@@ -93,10 +92,10 @@ void Session::setTissue(const ForceLaw& law, ContactRule rule, double damping, s
   }
   changed[organ].press.tissue = optionsOf(law, recording_.rated);
   changed[organ].press.damping = damping;
-  useOrgans(std::move(changed));
+  return feltWith(std::move(changed));
 }
 
-void Session::setOrgans(std::vector<OrganPlan> changed)
+std::function<Session::Felt()> Session::feltWith(std::vector<OrganPlan> changed) const
 {
   if (feltOrgans(changed).empty())
   {
@@ -104,10 +103,29 @@ void Session::setOrgans(std::vector<OrganPlan> changed)
   }
   if (feltText(body_.sources, changed) == feltText(body_.sources, organs()))
   {
-    recording_.organs = std::move(changed);
-    return;
+    return [changed = std::move(changed)] { return Felt{ std::nullopt, changed }; };
   }
-  useOrgans(std::move(changed));
+  return [changed = std::move(changed), scene = recording_.scene, body = body_]
+  {
+    Felt felt{ scene, changed };
+    felt.scene->rule = changed.front().press.contact;
+    setTissues(*felt.scene, changed);
+    setFelt(*felt.scene, body, changed);
+    return felt;
+  };
+}
+
+void Session::setTissue(Felt felt)
+{
+  if (felt.scene)
+  {
+    Scene scene = nextScene();
+    felt.scene->version = scene.version;
+    felt.scene->armed = scene.armed; // may have changed since
+    felt.scene->forceLimit = scene.forceLimit;
+    use(*std::move(felt.scene));
+  }
+  recording_.organs = std::move(felt.organs);
 }
 
 } // namespace palp

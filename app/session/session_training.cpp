@@ -16,6 +16,11 @@ void Session::train(const TrainingPlan& training)
     throw Error(ErrorCode::BadValue,
       "training: hides nodules in one body; open the file of an organ by itself");
   }
+  if (body_.stiffness)
+  {
+    throw Error(ErrorCode::BadValue,
+      "training: hides nodules in tissue that is even; open the body without its map of stiffness");
+  }
   TissueOptions tissue = optionsOf(recording_.scene.law, false);
   tissue.options.mode = LawMode::Corrected; // which alone knows nodules
   Scene scene = nextScene();
@@ -26,8 +31,9 @@ void Session::train(const TrainingPlan& training)
     source.nodules.clear(); // of a search before
   }
   hideIn(body, scene.law, training);
-  scene.nodules = feltNodules(body, scene.law);
+  feelTissue(scene, body);
   use(std::move(scene));
+  calibration_.style.extent = nullptr; // by which a dent would give away what lies below it
   body_ = std::move(body);
   recording_.rated = false;
 }

@@ -22,42 +22,47 @@ bool hasEnded(const std::future<void>& work, std::chrono::milliseconds patience 
 
 } // namespace
 
-bool Background::run(const Work& work, const std::function<void()>& follow)
+bool Background::run(const Work& work, const Follow& follow)
 {
   constexpr auto kUnseen = 30ms; // less than a picture or two
   constexpr int kEvery = 20;     // [ms]
   constexpr int kNoticed = 15;   // times
-  if (wanted_)
+  if (going_)
   {
     throw Error(ErrorCode::BadValue, "other work goes on; wait for it, or cancel it");
   }
-  const auto wanted = std::make_shared<std::atomic<bool>>(true);
-  auto result = std::async(std::launch::async, [work, wanted] { work(*wanted); });
+  const auto going = std::make_shared<FollowedWork>();
+  auto result = std::async(std::launch::async,
+    [work, going]
+    {
+      const FollowedWork::OfThread followed(*going);
+      work();
+    });
   if (!hasEnded(result, kUnseen))
   {
-    wanted_ = wanted;
+    going_ = going;
     QEventLoop loop;
     QTimer timer;
     int times = 0;
     QObject::connect(&timer, &QTimer::timeout, &loop,
       [&]
       {
-        if (!*wanted || hasEnded(result))
+        if (!going->isWanted() || hasEnded(result))
         {
           loop.quit();
         }
         else if (++times >= kNoticed)
         {
-          follow();
+          follow(going->step());
         }
       });
     timer.start(kEvery);
     loop.exec();
-    wanted_.reset();
-    *wanted = *wanted && hasEnded(result); // the program may end, too
+    going_.reset();
+    hasEnded(result) ? void() : going->giveUp(); // the program may end, too
   }
   std::erase_if(givenUp_, [](const auto& other) { return hasEnded(other); });
-  if (!*wanted)
+  if (!going->isWanted())
   {
     givenUp_.push_back(std::move(result));
     return false;
@@ -68,9 +73,9 @@ bool Background::run(const Work& work, const std::function<void()>& follow)
 
 void Background::giveUp() noexcept
 {
-  if (wanted_)
+  if (going_)
   {
-    *wanted_ = false;
+    going_->giveUp();
   }
 }
 

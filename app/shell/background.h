@@ -1,6 +1,7 @@
 #pragma once
 
-#include <atomic>
+#include "haptics/threads/followed_work.h"
+
 #include <functional>
 #include <future>
 #include <memory>
@@ -15,25 +16,24 @@ namespace palp
 class Background
 {
 public:
-  using Work = std::function<void(const std::atomic<bool>& isWanted)>;
+  using Work = std::function<void()>;
+  using Follow = std::function<void(const FollowedWork::Step& step)>;
 
   /// Returns once the work has ended or was given up. Meanwhile the user may change anything, so
   /// the work holds copies of all that it uses.
   ///
-  /// @param work    is told whether it is still wanted
+  /// @param work    finds whether it is still wanted, and tells how far it is, by FollowedWork
   /// @param follow  called again and again, once the work takes longer than people notice
   /// @return        false: it was given up, and ends some time
   /// @throws Error  BadValue: other work goes on; what the work throws
-  bool run(const Work& work, const std::function<void()>& follow);
+  bool run(const Work& work, const Follow& follow);
 
   /// The same for work that makes something; none: it was given up.
   template <typename Made>
-  std::optional<Made> make(
-    const std::function<Made(const std::atomic<bool>&)>& work, const std::function<void()>& follow)
+  std::optional<Made> make(const std::function<Made()>& work, const Follow& follow)
   {
     const auto made = std::make_shared<std::optional<Made>>();
-    const bool hasEnded = run(
-      [made, work](const std::atomic<bool>& isWanted) { made->emplace(work(isWanted)); }, follow);
+    const bool hasEnded = run([made, work] { made->emplace(work()); }, follow);
     return hasEnded ? std::move(*made) : std::nullopt;
   }
 
@@ -41,11 +41,11 @@ public:
 
   [[nodiscard]] bool isBusy() const noexcept
   {
-    return wanted_ != nullptr;
+    return going_ != nullptr;
   }
 
 private:
-  std::shared_ptr<std::atomic<bool>> wanted_; // null: nothing goes on
+  std::shared_ptr<FollowedWork> going_; // null: nothing goes on
   std::vector<std::future<void>> givenUp_;
 };
 

@@ -86,17 +86,28 @@ void MessageBar::ask(const QString& text, const std::vector<Choice>& choices)
   place();
 }
 
-void MessageBar::follow(
-  const QString& text, std::optional<int> percent, const std::function<void()>& cancel)
+void MessageBar::follow(const QString& text, const QString& step, std::optional<int> percent,
+  const std::function<void()>& cancel)
 {
-  if (progress_->isHidden() || isHidden() || text_->text() != text)
+  if (followed_ != text || isHidden())
   {
     ask(text, { { tr("Cancel"), cancel } });
-    progress_->setRange(0, percent ? 100 : 0);
+    followed_ = text;
     progress_->show();
+  }
+  const QString whole = step.isEmpty() ? text : text + ": " + step;
+  progress_->setRange(0, percent ? 100 : 0);
+  progress_->setValue(percent.value_or(0));
+  if (text_->text() != whole || height() != heightForWidth(width()))
+  {
+    text_->setText(whole);
     place();
   }
-  progress_->setValue(percent.value_or(0));
+}
+
+void MessageBar::unfollow(const QString& text)
+{
+  followed_ == text ? tell({}) : void();
 }
 
 QString MessageBar::text() const
@@ -110,6 +121,7 @@ void MessageBar::show(const QString& text, bool isWarning)
   icon_->setPixmap(style()->standardIcon(icon).pixmap(fontMetrics().height()));
   text_->setText(text);
   progress_->hide();
+  followed_.clear();
   while (QLayoutItem* item = choices_->takeAt(0))
   {
     item->widget()->deleteLater(); // may be the one that was pressed
@@ -128,12 +140,19 @@ bool MessageBar::eventFilter(QObject* over, QEvent* event)
   return QFrame::eventFilter(over, event);
 }
 
+void MessageBar::hideEvent(QHideEvent* event)
+{
+  QFrame::hideEvent(event);
+  Q_EMIT covers(0);
+}
+
 void MessageBar::place()
 {
   const QWidget* over = parentWidget();
   const int height = heightForWidth(over->width());
   setGeometry(0, over->height() - height, over->width(), height);
   raise();
+  isHidden() ? void() : Q_EMIT covers(height);
 }
 
 } // namespace palp

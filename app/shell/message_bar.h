@@ -44,13 +44,25 @@ public:
 
   /// How far work is that goes on; stays until there is something newer. To be called again and
   /// again, with the same text.
+  /// @param step     what of it is done just now; empty: not known
   /// @param percent  none: nobody knows
-  void follow(const QString& text, std::optional<int> percent, const std::function<void()>& cancel);
+  void follow(const QString& text, const QString& step, std::optional<int> percent,
+    const std::function<void()>& cancel);
+
+  /// Ends that, unless there is something newer.
+  void unfollow(const QString& text);
 
   /// What is shown; empty: nothing.
   [[nodiscard]] QString text() const;
 
   bool eventFilter(QObject* over, QEvent* event) override;
+
+Q_SIGNALS:
+  /// @param height  of the widget below that it covers, from below, once it is another; 0: nothing
+  void covers(int height);
+
+protected:
+  void hideEvent(QHideEvent* event) override;
 
 private:
   void show(const QString& text, bool isWarning);
@@ -60,6 +72,7 @@ private:
   QLabel* text_;
   QHBoxLayout* choices_;
   QProgressBar* progress_;
+  QString followed_; // empty: no work is
   QTimer* end_;
 };
 

@@ -12,6 +12,7 @@ namespace
 constexpr int kLayout = 1; // counted up when panels change names or meaning
 constexpr const char* kRecent = "recentFiles";
 constexpr const char* kTheme = "theme";
+constexpr const char* kRealistic = "realistic";
 constexpr const char* kGreeted = "greeted";
 
 QSettings settings()
@@ -63,6 +64,17 @@ bool WindowMemory::isFirstTime() const
   const bool isFirst = !kept.value(kGreeted).toBool();
   kept.setValue(kGreeted, true);
   return isFirst;
+}
+
+std::optional<bool> WindowMemory::isRealistic() const
+{
+  const QVariant kept = settings().value(kRealistic);
+  return kept.isValid() ? std::optional(kept.toBool()) : std::nullopt;
+}
+
+void WindowMemory::setRealistic(bool realistic) const
+{
+  settings().setValue(kRealistic, realistic);
 }
 
 int WindowMemory::theme() const

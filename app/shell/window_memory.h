@@ -2,6 +2,8 @@
 
 #include <QStringList>
 
+#include <optional>
+
 class QMainWindow;
 
 namespace palp
@@ -24,6 +26,10 @@ public:
 
   /// True once.
   [[nodiscard]] bool isFirstTime() const;
+
+  /// Whether the live picture is realistic; none where the user never said so.
+  [[nodiscard]] std::optional<bool> isRealistic() const;
+  void setRealistic(bool realistic) const;
 
   /// The number of a Theme; 0 where none was ever set.
   [[nodiscard]] int theme() const;

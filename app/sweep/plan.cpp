@@ -153,6 +153,7 @@ public:
     {
       addColumn(columnOf(sweep_.file, name, texts.at(name)));
     }
+    sweep_.refuseEqualRows();
     for (const SweepPlot& plot : sweep_.plots)
     {
       refuseNowhere(plot, texts);

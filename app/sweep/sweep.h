@@ -49,6 +49,9 @@ struct Sweep
 
   /// What a case gives them, in the same order.
   [[nodiscard]] std::vector<std::string> values(std::size_t number) const;
+
+  /// @throws Error  BadFile: an axis takes the same values twice
+  void refuseEqualRows() const;
 };
 
 constexpr std::size_t kMostCases = 10'000'000;

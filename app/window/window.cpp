@@ -22,6 +22,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <QAction>
 #include <QLabel>
 #include <QScreen>
 #include <QTimer>
@@ -47,6 +48,7 @@ bool looksAlike(const Sample& a, const Sample& b)
     (a.pose.axis - b.pose.axis).norm() < kAngle &&
     (a.contact.normal - b.contact.normal).norm() < kAngle;
   return near && a.organ == b.organ && std::abs(a.contact.depth - b.contact.depth) < kLength &&
+    std::abs(a.surfaceDepth - b.surfaceDepth) < kLength &&
     std::abs(a.response.force - b.response.force) < kForce && (a.force - b.force).norm() < kForce;
 }
 
@@ -57,6 +59,7 @@ Window::Window(Session& session, BuildTrace& trace)
   , view_(*renderer_)
   , around_(*renderer_)
   , fast_(fastPass())
+  , realism_(*renderer_)
   , orientation_(*renderer_)
   , scaleBar_(*renderer_)
   , balls_(*renderer_)
@@ -107,6 +110,7 @@ Window::Window(Session& session, BuildTrace& trace)
   }
 
   frames_ = new QTimer(this);
+  frames_->setObjectName("frames");
   frames_->setTimerType(Qt::PreciseTimer);
   connect(frames_, &QTimer::timeout, this, &Window::refresh);
   frames_->start(kFrameMs);
@@ -118,7 +122,10 @@ Window::Window(Session& session, BuildTrace& trace)
   timing->start(kTimingMs);
 }
 
-Window::~Window() = default;
+Window::~Window()
+{
+  message_->disconnect(this); // it is hidden after the picture that it covers is gone
+}
 
 void Window::takeSamples()
 {
@@ -164,7 +171,11 @@ void Window::refresh()
   pressQueued();
   aim(); // a click ends by itself
   fitView();
-  const Sample& sample = sampleToShow();
+  Sample sample = sampleToShow();
+  if (map_ && mapColors_->isChecked() && !review_ && !sample.contact.touching())
+  {
+    sample.organ = placeOf(map_->map).value_or(sample.organ); // whose map is to be seen
+  }
   if (organs_ && !review_ && !session_.isCurrent(sample))
   {
     return; // of organs that are no longer felt
@@ -185,18 +196,8 @@ void Window::refresh()
     showReadings();
   }
   smoothen(sample);
-}
-
-// all of the body, until the user looks at it in another way
-void Window::fitView()
-{
-  const int* size = renderWindow_->GetSize();
-  if (fittedTo_ && *fittedTo_ != std::pair(size[0], size[1]))
-  {
-    fittedTo_ = std::pair(size[0], size[1]);
-    view_.lookAtSurface();
-    isStale_ = true;
-  }
+  chooseRealism();
+  drawCoarse();
 }
 
 // all that tells of the press is of the one sample that the picture shows; of the device, live
@@ -205,6 +206,7 @@ void Window::showReadings()
   const Sample& live = review_ ? session_.newest() : shown_;
   devicePanel_->show(session_, live, acted_ | live.flags);
   const Contact& contact = shown_.contact;
+  sound_.setForce(contact.touching() ? shown_.response.force : 0.0);
   const Calibration& calibration = calibrationShown();
   forceLabel_->setText(!contact.touching()
       ? tr(kHint)
@@ -291,33 +293,12 @@ void Window::showValidity(const Sample& sample)
   }
 }
 
-void Window::applyTissue()
+void Window::showProgress(const QString& what, const FollowedWork::Step& step)
 {
-  attempt(
-    [this]
-    {
-      const ForceLaw law = panel_->law();
-      endReview();
-      takeSamples();
-      session_.setTissue(law, panel_->rule(), panel_->damping(), organs_ ? organs_->chosen() : 0);
-      showOrgans();
-      clearCharts(); // as the recording
-      sayWhatIsKept();
-    });
-  panel_->setScene(tissueInUse()); // what was refused is not in use
-}
-
-// a change ends a recording
-void Window::sayWhatIsKept()
-{
-  const std::size_t takes = session_.earlier().size();
-  if (takes > takesKept_)
-  {
-    const std::vector<Sample>& samples = session_.earlier().back().recording.samples;
-    say(tr("A new recording begins. The one before, %1 s, is kept: Export data writes it, too")
-          .arg(samples.back().time - samples.front().time, 0, 'f', 1));
-  }
-  takesKept_ = takes;
+  constexpr int kWhole = 100;
+  message_->follow(what, QString::fromStdString(step.what),
+    step.done ? std::optional(static_cast<int>(kWhole * *step.done)) : std::nullopt,
+    [this] { background_.giveUp(); });
 }
 
 bool Window::attempt(const std::function<void()>& work)

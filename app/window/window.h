@@ -8,10 +8,13 @@
 #include "app/shell/background.h"
 #include "app/shell/message_bar.h"
 #include "app/shell/window_memory.h"
+#include "app/sound/force_sound.h"
+#include "app/window/coarse_level.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/figure/balls.h"
 #include "pipeline/figure/orientation.h"
+#include "pipeline/figure/realism.h"
 #include "pipeline/figure/scale_bar.h"
 #include "pipeline/figure/surroundings.h"
 #include "pipeline/view/press_view.h"
@@ -23,7 +26,6 @@
 #include <vtkRenderPass.h>
 #include <vtkSmartPointer.h>
 
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -46,6 +48,7 @@ namespace palp
 class Autosave;
 struct ExportFolder;
 struct Exported;
+struct FileOrgan;
 struct FileOrgans;
 class DevicePanel;
 class DiagnosticsPanel;
@@ -122,11 +125,17 @@ private:
   void makeViewMenu();
   void addStandardViews(QMenu& menu);
   void addBodyLooks(QMenu& menu);
+  void addToolLooks(QMenu& menu);
+  void addRealism(QMenu& menu);
+  void chooseRealism();
+  void drawCoarse();
+  void setRealistic(bool on);
   void addMarks(QMenu& menu);
   void addOpening(QMenu& file);
   void addPanels(QMenu& menu);
   void addRecentFiles(QMenu& menu);
-  bool openBody(const std::vector<MeshSource>& meshes);
+  bool openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs = {});
+  bool openLabels(const MeshSource& image, std::vector<FileOrgan> labels);
   [[nodiscard]] FileOrgans labelsIn(const QString& file);
   void openOther(const QString& file);
   void openScene(const QString& file);
@@ -155,6 +164,8 @@ private:
 
   // the map of stiffness
   void addMap(QMenu& edit);
+  [[nodiscard]] std::optional<int> chosenFelt() const;
+  [[nodiscard]] std::optional<int> placeOf(const StiffnessMap& map) const;
   void askMap();
   void followMap();
   void takeMap();
@@ -190,6 +201,7 @@ private:
   void sayListed(const QString& how, std::size_t presses);
   void renamePress(int id, const QString& name);
   void deletePresses(const std::vector<int>& ids);
+  void saveAs(int saved);
   [[nodiscard]] SightLine sightLine(double x, double y);
   void aim();
   void followPointer();
@@ -232,17 +244,18 @@ private:
   void refreshTiming();
   void showValidity(const Sample& sample);
   void applyTissue();
-  void changeTissue();
+  bool changeTissue();
   void applyDevice(const QString& name);
+  bool useFelt(const std::function<Session::Felt()>& work);
   void sayWhatIsKept();
   void sayWhatIsThinned();
   void say(const QString& what);
   void sayWritten(const QString& curves, const QString& what); // to that file
   void askFigure();
   bool attempt(const std::function<void()>& work);
+  void showProgress(const QString& what, const FollowedWork::Step& step);
   template <typename Made>
-  std::optional<Made> inBackground(
-    const QString& what, const std::function<Made(const std::atomic<bool>& isWanted)>& work);
+  std::optional<Made> inBackground(const QString& what, const std::function<Made()>& work);
   [[nodiscard]] Exported exported(const Pictured& seen);
   bool exportTake(const QString& directory, const Pictured& seen, const Timing* timing);
   bool exportMap(const std::filesystem::path& folder, const StiffnessMap& map);
@@ -258,6 +271,10 @@ private:
   PressView view_;
   Surroundings around_;
   const vtkSmartPointer<vtkRenderPass> fast_;
+  Realism realism_;
+  CoarseLevel coarse_;
+  QAction* realistic_ = nullptr;
+  std::optional<bool> hasCard_{}; // whether a graphics card draws; none: not known yet
   Orientation orientation_;
   ScaleBar scaleBar_;
   Balls balls_;
@@ -293,7 +310,7 @@ private:
   DevicePanel* devicePanel_ = nullptr;
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
   PlotPanel* plots_ = nullptr;             // null: never shown
-  OrganList* organs_ = nullptr;            // null: there was one body at the start
+  OrganList* organs_ = nullptr;            // null: there were no organs so far
   PressBar* pressBar_ = nullptr;
   std::deque<PressPlace> queued_;  // to be pressed
   QString refusedPlace_;           // why the last press at a place was not made
@@ -313,17 +330,17 @@ private:
   QLabel* forceLabel_ = nullptr;
   MessageBar* message_ = nullptr;
   DiagnosticsPanel* diagnostics_ = nullptr;
+  ForceSound sound_;
   Background background_;
 };
 
 /// Makes something while the window goes on, with a bar to cancel it by; none: it was canceled.
 template <typename Made>
-std::optional<Made> Window::inBackground(
-  const QString& what, const std::function<Made(const std::atomic<bool>& isWanted)>& work)
+std::optional<Made> Window::inBackground(const QString& what, const std::function<Made()>& work)
 {
-  auto made = background_.make<Made>(
-    work, [&] { message_->follow(what, {}, [this] { background_.giveUp(); }); });
-  message_->text() == what ? message_->tell({}) : void();
+  auto made =
+    background_.make<Made>(work, [&](const FollowedWork::Step& step) { showProgress(what, step); });
+  message_->unfollow(what);
   return made;
 }
 

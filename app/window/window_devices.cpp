@@ -4,6 +4,7 @@
 #include "app/window/window.h"
 
 #include <QAction>
+#include <QDialog>
 #include <QMenuBar>
 
 namespace palp
@@ -60,6 +61,15 @@ void Window::makeDevicePanel()
   // nobody looks at the USB until the user wants a device from there
   devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kScan));
   connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
+  connect(devicePanel_, &DevicePanel::lagAsked, this,
+    [this](bool lags)
+    {
+      isFree() ? void(attempt([&] { session_.lag(lags); })) : void();
+      say(session_.lags()
+          ? tr("The tool lags where the tissue is stiff: half as deep as asked here, "
+               "a quarter where it is twice as stiff")
+          : tr("The tool goes as deep as it is asked"));
+    });
   connect(devicePanel_, &DevicePanel::stopAsked, this, [this] { session_.stop(true); });
   connect(devicePanel_, &DevicePanel::armAsked, this,
     [this](bool armed)
@@ -80,11 +90,29 @@ void Window::makeDeviceMenu()
       letGo();
       session_.stop(true);
       endReview();
+      for (auto* sheet : findChildren<QDialog*>()) // which this key closes, too
+      {
+        sheet->isVisible() ? sheet->reject() : void();
+      }
     },
     QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
   device->addAction(
     tr("S&can for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
+  QAction* sound = device->addAction(tr("&Hear the force"));
+  sound->setObjectName("sound");
+  sound->setCheckable(true);
+  sound->setToolTip(tr("A tone of 220 Hz at 0.1 N, an octave higher at four times the force"));
+  device->setToolTipsVisible(true);
+  connect(sound, &QAction::triggered, this,
+    [this, sound](bool isOn)
+    {
+      sound->setChecked(isOn && sound_.start());
+      sound->isChecked() ? void() : sound_.stop();
+      say(sound->isChecked() ? tr("The pitch tells the force: an octave is four times as much")
+          : isOn             ? tr("No sound output is there; connect one, then turn this on again")
+                             : tr("The force is not heard"));
+    });
 }
 
 } // namespace palp

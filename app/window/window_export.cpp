@@ -7,74 +7,29 @@
 #include "app/map/map_files.h"
 #include "app/press/export.h"
 #include "app/shell/message_bar.h"
+#include "app/window/child_program.h"
+#include "app/window/exported.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
-#include "haptics/files/prefix.h"
 #include "haptics/files/replace_file.h"
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 
 #include <QAction>
-#include <QProcess>
 #include <QTemporaryDir>
 
-#include <atomic>
 #include <memory>
 #include <utility>
 
 namespace palp
 {
 
-// what a file is made from, on a thread of its own
-struct Exported
-{
-  ScenePlan plan;
-  Recording recording;
-  Calibration calibration;
-};
-
 namespace
 {
 
 constexpr int kNoPicture = 4; // exit code of a run that cannot draw
-
-struct Ended
-{
-  int code;
-  QString said; // in one sentence
-};
-
-// palp run; what is not wanted any more ends, and leaves nothing behind
-Ended runPalp(const QStringList& arguments, const std::atomic<bool>& isWanted)
-{
-  constexpr int kEvery = 50; // [ms]
-  QProcess palp;
-  palp.start(QString::fromStdString((prefix() / "bin" / "palp").string()),
-    QStringList{ "run" } << arguments);
-  while (isWanted && !palp.waitForFinished(kEvery) && palp.state() != QProcess::NotRunning)
-  {
-  }
-  if (palp.state() != QProcess::NotRunning)
-  {
-    palp.terminate();
-    palp.waitForFinished();
-  }
-  const bool isWell =
-    palp.error() != QProcess::FailedToStart && palp.exitStatus() == QProcess::NormalExit;
-  const QStringList lines =
-    QString::fromLocal8Bit(palp.readAllStandardError()).split('\n', Qt::SkipEmptyParts);
-  return { isWell ? palp.exitCode() : -1, lines.isEmpty() ? palp.errorString() : lines.last() };
-}
-
-void throwUnlessWell(const Ended& ended)
-{
-  if (ended.code != 0)
-  {
-    throw Error(ErrorCode::BadFile, ended.said.toStdString());
-  }
-}
 
 QString filesFoundIn(const std::filesystem::path& directory)
 {
@@ -109,11 +64,10 @@ void stage(const std::filesystem::path& folder, Exported& made)
   writeProvenance(folder, made.plan, made.recording);
 }
 
-void writeExport(const QString& directory, const QTemporaryDir& folder, Exported made,
-  const std::atomic<bool>& isWanted)
+void writeExport(const QString& directory, const QTemporaryDir& folder, Exported made)
 {
   stage(pathOf(folder), made);
-  Ended ended{ kNoPicture, {} };
+  EndedProgram ended{ kNoPicture, {} };
   for (const bool draws : { true, false })
   {
     if (ended.code == kNoPicture)
@@ -121,15 +75,14 @@ void writeExport(const QString& directory, const QTemporaryDir& folder, Exported
       made.plan.picture = draws;
       made.plan.plots = draws ? made.plan.plots : std::vector<PlotKind>{};
       writeScene(pathOf(folder), made.plan, "");
-      ended = runPalp({ folder.path(), "--overwrite", "--out", directory }, isWanted);
+      ended = runProgram("palp", { "run", folder.path(), "--overwrite", "--out", directory });
     }
   }
   throwUnlessWell(ended);
 }
 
 // the file that was written, whose ending tells what it is
-std::filesystem::path writeMovie(
-  std::filesystem::path to, MovieKind kind, Exported made, const std::atomic<bool>& isWanted)
+std::filesystem::path writeMovie(std::filesystem::path to, MovieKind kind, Exported made)
 {
   const QTemporaryDir folder;
   const QTemporaryDir drawn;
@@ -138,9 +91,9 @@ std::filesystem::path writeMovie(
   made.plan.plots.clear();
   writeScene(pathOf(folder), made.plan, "");
   const std::string& name = kMovieNames[static_cast<std::size_t>(kind)];
-  throwUnlessWell(runPalp({ folder.path(), "--movie", QString::fromStdString(name), "--overwrite",
-                            "--out", drawn.path() },
-    isWanted));
+  throwUnlessWell(runProgram("palp",
+    { "run", folder.path(), "--movie", QString::fromStdString(name), "--overwrite", "--out",
+      drawn.path() }));
   std::filesystem::path from = pathOf(drawn) / (name + ".mp4");
   from.replace_extension(std::filesystem::exists(from) ? ".mp4" : ".ogv");
   to.replace_extension(from.extension());
@@ -198,8 +151,8 @@ bool Window::saveMovie(const QString& file, MovieKind kind)
         throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
       }
       const auto written = inBackground<std::filesystem::path>(tr("Drawing the movie"),
-        [made = exported(seen), to = file.toStdString(), kind](const std::atomic<bool>& isWanted)
-        { return writeMovie(to, kind, made, isWanted); });
+        [made = exported(seen), to = file.toStdString(), kind]
+        { return writeMovie(to, kind, made); });
       say(written ? tr("Written to %1").arg(QString::fromStdString(written->string()))
                   : tr("No movie: it was canceled"));
     });
@@ -240,9 +193,9 @@ bool Window::exportTake(const QString& directory, const Pictured& seen, const Ti
     writeTiming(pathOf(*stage) / "servo.csv", *timing);
   }
   return inBackground<bool>(tr("Exporting"),
-    [made = exported(seen), directory, stage](const std::atomic<bool>& isWanted)
+    [made = exported(seen), directory, stage]
     {
-      writeExport(directory, *stage, made, isWanted);
+      writeExport(directory, *stage, made);
       return true;
     })
     .has_value();
@@ -251,8 +204,8 @@ bool Window::exportTake(const QString& directory, const Pictured& seen, const Ti
 bool Window::exportMap(const std::filesystem::path& folder, const StiffnessMap& map)
 {
   return inBackground<bool>(tr("Exporting the map"),
-    [folder, map, body = session_.body(), rated = session_.recording().rated](
-      const std::atomic<bool>&)
+    [folder, map, body = session_.body().felt(session_.organs(), placeOf(map).value_or(0)),
+      rated = session_.recording().rated]
     {
       writeMap(folder, map, body, rated);
       isExport(folder) ? addToProvenance(folder, { kMapTable, kMapSurface }) : void();
@@ -268,19 +221,20 @@ bool Window::exportInto(const QString& directory)
     {
       takeSamples();
       const std::filesystem::path folder = directory.toStdString();
+      const int saved = autosave_ != nullptr ? autosave_->saved() : 0; // presses go on meanwhile
+      const bool isNewest = session_.recording().deepest() != nullptr || session_.earlier().empty();
+      const std::size_t takes = session_.earlier().size() + (isNewest ? 1 : 0);
       QStringList written;
       bool goesOn = true;
-      if (session_.recording().deepest() != nullptr || session_.earlier().empty())
+      for (std::size_t i = 0; goesOn && i < takes; ++i) // the oldest first
       {
-        goesOn = exportTake(directory, recorded(0), &session_.timing());
-        written << tr("scene, samples, presses, deformed mesh and pictures");
-      }
-      for (std::size_t i = 0; goesOn && i < session_.earlier().size(); ++i)
-      {
+        const bool isLast = i + 1 == takes; // whose folder is opened and repeated
         const std::filesystem::path name = earlierTake("", i + 1);
-        goesOn = exportTake(QString::fromStdString((folder / name).string()),
-          recorded(session_.earlier().size() - i), nullptr);
-        written << QString::fromStdString(name.string());
+        goesOn = exportTake(QString::fromStdString((isLast ? folder : folder / name).string()),
+          recorded(session_.earlier().size() - i),
+          isLast && isNewest ? &session_.timing() : nullptr);
+        written << (isLast ? tr("scene, samples, presses, deformed mesh and pictures")
+                           : QString::fromStdString(name.string()));
       }
       if (const StiffnessMap* map = currentMap(); goesOn && map)
       {
@@ -292,7 +246,11 @@ bool Window::exportInto(const QString& directory)
         say(tr("Not exported whole: it was canceled"));
         return;
       }
-      autosave_ != nullptr ? autosave_->clear() : void();
+      for (std::size_t i = takes; isExport(earlierTake(folder, i)); ++i) // of what was replaced
+      {
+        std::filesystem::remove_all(earlierTake(folder, i));
+      }
+      autosave_ != nullptr ? autosave_->clear(saved) : void();
       say(tr("Written to %1: %2").arg(directory, written.join(", ")));
     });
 }

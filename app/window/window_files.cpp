@@ -15,8 +15,10 @@
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 
+#include <QApplication>
 #include <QFileDialog>
 #include <QImage>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMenuBar>
 
@@ -24,6 +26,24 @@ namespace palp
 {
 namespace
 {
+
+const QKeySequence kExport("Ctrl+E");
+
+// where a field has the focus, which would take the key for going to its end
+class ExportsFromFields : public QObject
+{
+public:
+  using QObject::QObject;
+  bool eventFilter(QObject*, QEvent* event) override
+  {
+    if (event->type() != QEvent::ShortcutOverride)
+    {
+      return false;
+    }
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    return QKeySequence(key.key() | static_cast<int>(key.modifiers())) == kExport;
+  }
+};
 
 QString fileName(const MeshSource& source)
 {
@@ -111,7 +131,8 @@ void Window::makeFileMenu()
       }
     });
   exporting->setObjectName("exportAction");
-  exporting->setShortcut(QKeySequence("Ctrl+E"));
+  exporting->setShortcut(kExport);
+  qApp->installEventFilter(new ExportsFromFields(this));
   refinedExport_ = file->addAction(tr("Export the dent &refined"));
   refinedExport_->setObjectName("refinedExport");
   refinedExport_->setCheckable(true);
@@ -132,17 +153,17 @@ void Window::say(const QString& what)
 }
 
 // false: given up
-bool Window::openBody(const std::vector<MeshSource>& meshes)
+bool Window::openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs)
 {
   std::optional<SceneBody> body =
     inBackground<SceneBody>(tr("Reading %1").arg(fileName(meshes.front())),
-      [meshes](const std::atomic<bool>&) { return loadBody(meshes); });
+      [plan = ScenePlan{ .meshes = meshes, .organs = organs }] { return loadBodies(plan); });
   if (!body)
   {
     return false;
   }
   takeSamples();
-  session_.open(*std::move(body));
+  session_.open(*std::move(body), organs);
   clearCharts();
   showBody();
   pressBar_->clearPlace();
@@ -154,8 +175,8 @@ FileOrgans Window::labelsIn(const QString& file)
 {
   try
   {
-    auto found = inBackground<FileOrgans>(tr("Reading the labels"),
-      [file](const std::atomic<bool>&) { return readFileOrgans(file.toStdString(), {}, true); });
+    auto found = inBackground<FileOrgans>(
+      tr("Reading the labels"), [file] { return readFileOrgans(file.toStdString(), {}, true); });
     return found ? *std::move(found) : FileOrgans{};
   }
   catch (const Error&)
@@ -171,13 +192,14 @@ bool Window::openFile(const QString& file)
     return false;
   }
   MeshSource source{ .file = file.toStdString() };
+  std::vector<FileOrgan> organs; // labels of it, an organ each; none: it is one body
   std::optional<OpenDialog> dialog;
   bool opened = false;
   for (bool isAsked = true; isAsked && !opened;)
   {
     try
     {
-      isAsked = opened = openBody({ source });
+      isAsked = opened = organs.empty() ? openBody({ source }) : openLabels(source, organs);
     }
     catch (const std::exception& error)
     {
@@ -188,6 +210,7 @@ bool Window::openFile(const QString& file)
       dialog->setReason(QString::fromStdString(error.what()));
       isAsked = dialog->exec() == QDialog::Accepted;
       source = isAsked ? dialog->source() : source;
+      organs = isAsked ? dialog->organs() : organs;
     }
   }
   devicePanel_->choose(QString::fromStdString(session_.recording().device));
@@ -197,7 +220,8 @@ bool Window::openFile(const QString& file)
     QStringList notes;
     for (const std::string& note : session_.body().notes)
     {
-      notes << QString::fromStdString(note);
+      const bool isTold = organs.empty() || note.find("warning: ") != std::string::npos;
+      isTold ? void(notes << QString::fromStdString(note)) : void();
     }
     say(tr("Opened %1. %2").arg(QString::fromStdString(session_.body().name), notes.join("; ")));
   }
@@ -209,6 +233,7 @@ bool Window::saveScreenshot(const QString& file)
   return attempt(
     [&]
     {
+      message_->tell({}); // which the picture gives room to, and does not show
       renderWindow_->Render();
       const QImage picture = canvas_->grabFramebuffer();
       replaceFile(file.toStdString(),

@@ -16,6 +16,7 @@
 #include "app/shell/theme.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
+#include "pipeline/layout/before_render.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkCommand.h>
@@ -59,6 +60,12 @@ void Window::makeView()
   renderWindow_->AddRenderer(renderer_);
   setCentralWidget(canvas_);
   message_ = new MessageBar(canvas_);
+  connect(message_, &MessageBar::covers, this,
+    [this](int height)
+    {
+      setFoot(*renderer_, height * canvas_->devicePixelRatioF());
+      isStale_ = true;
+    });
   if (session_.plan().overlays)
   {
     view_.setVisible(*session_.plan().overlays);
@@ -224,6 +231,7 @@ void Window::showPlots(const QString& page)
 void Window::makeViewMenu()
 {
   QMenu* view = menuBar()->addMenu(tr("&View"));
+  view->setToolTipsVisible(true);
   view
     ->addAction(
       tr("&Reset view"), this, [this] { fittedTo_ = std::pair(0, 0); }, QKeySequence(Qt::Key_Home))

@@ -2,6 +2,7 @@
 
 #include "app/graphs/map_dialog.h"
 #include "app/map/map_files.h"
+#include "app/organs/organ_list.h"
 #include "app/panels/press_bar.h"
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
@@ -9,6 +10,7 @@
 #include <QAction>
 #include <QMenu>
 
+#include <algorithm>
 #include <utility>
 
 namespace palp
@@ -26,21 +28,48 @@ void Window::addMap(QMenu& edit)
   clearMap_->setEnabled(false);
 }
 
+// the place of the organ that is chosen among those that are felt; 0 where there is one body
+std::optional<int> Window::chosenFelt() const
+{
+  if (session_.organs().empty())
+  {
+    return 0;
+  }
+  const std::vector<std::size_t> felt = feltOrgans(session_.organs());
+  const auto found = std::ranges::find(felt, organs_->chosen());
+  return found != felt.end() ? std::optional(static_cast<int>(found - felt.begin())) : std::nullopt;
+}
+
+// the place of an organ among those that are felt; none: it is not, or no longer
+std::optional<int> Window::placeOf(const StiffnessMap& map) const
+{
+  const Scene& scene = session_.recording().scene;
+  for (int organ = 0; organ < organCount(scene); ++organ)
+  {
+    if (organOf(scene, organ).surface == map.scene.surface)
+    {
+      return organ;
+    }
+  }
+  return std::nullopt;
+}
+
 void Window::askMap()
 {
   if (!isFree())
   {
     return;
   }
-  if (!session_.organs().empty())
+  const std::optional<int> organ = chosenFelt();
+  if (!organ)
   {
-    message_->warn(tr("The map is of one body: open the file of an organ by itself"));
+    message_->warn(tr("A map is of an organ that is pressed: choose one of these in the list"));
     return;
   }
   MapRequest usual = map_ ? map_->map.asked : MapRequest{};
   const std::vector<KeptPress>& presses = session_.presses().presses();
   std::optional<Eigen::Vector3d> last;
-  if (!presses.empty())
+  if (!presses.empty() && presses.back().summary.organ == *organ)
   {
     last = presses.back().summary.deepest.center;
     usual.depth = presses.back().summary.deepest.depth;
@@ -49,8 +78,12 @@ void Window::askMap()
   if (dialog.exec() == QDialog::Accepted)
   {
     attempt(
-      [&] {
-        mapWork_.emplace(session_.recording().scene, dialog.request(), *session_.body().display);
+      [&]
+      {
+        Scene scene = organOf(session_.recording().scene, *organ);
+        scene.others.clear();
+        const SceneBody& body = session_.body().felt(session_.organs(), *organ);
+        mapWork_.emplace(scene, dialog.request(), *body.display);
       });
   }
 }
@@ -60,16 +93,15 @@ void Window::followMap()
 {
   if (mapWork_ && !mapWork_->isDone())
   {
-    message_->follow(
-      tr("Pressing for the stiffness map"), mapWork_->percent(), [this] { mapWork_.reset(); });
+    message_->follow(tr("Pressing for the stiffness map"), tr("places"), mapWork_->percent(),
+      [this] { mapWork_.reset(); });
   }
   else if (mapWork_)
   {
     attempt([this] { takeMap(); });
     mapWork_.reset();
   }
-  if (const bool isStale = map_ && !map_->map.holdsIn(session_.recording().scene);
-      isStale != mapIsStale_)
+  if (const bool isStale = map_ && currentMap() == nullptr; isStale != mapIsStale_)
   {
     mapIsStale_ = isStale;
     map_->colors = colorsOf(map_->map, map_->points, isStale);
@@ -80,7 +112,7 @@ void Window::followMap()
 void Window::takeMap()
 {
   MapWork::Made made = mapWork_->take();
-  if (made.map.scene.surface != session_.recording().scene.surface)
+  if (!placeOf(made.map))
   {
     return; // another body is open by now
   }
@@ -114,16 +146,19 @@ void Window::showMap()
   isStale_ = true;
 }
 
+// of the organ that is in the picture
 const SurfaceMap* Window::shownMap() const
 {
   const bool isShown = map_ && mapColors_->isChecked() && !review_;
-  return isShown ? &map_->colors : nullptr;
+  return isShown && placeOf(map_->map) == shown_.organ ? &map_->colors : nullptr;
 }
 
 // null where there is none of the tool and tissue in use
 const StiffnessMap* Window::currentMap() const
 {
-  return map_ && map_->map.holdsIn(session_.recording().scene) ? &map_->map : nullptr;
+  const std::optional<int> organ = map_ ? placeOf(map_->map) : std::nullopt;
+  const bool holds = organ && map_->map.holdsIn(organOf(session_.recording().scene, *organ));
+  return holds ? &map_->map : nullptr;
 }
 
 } // namespace palp

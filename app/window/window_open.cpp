@@ -113,21 +113,19 @@ bool Window::openFiles(const QStringList& files)
 void Window::openScene(const QString& file)
 {
   const ScenePlan plan = readScene(file.toStdString());
-  if (!plan.organs.empty())
-  {
-    throw Error(ErrorCode::BadValue,
-      plan.sources.front().string() + ": has several organs; open it by palp scene");
-  }
-  if (!openBody(plan.meshes))
+  if (!openBody(plan.meshes, plan.organs))
   {
     return;
   }
-  Scene scene = session_.recording().scene;
-  scene.law = plan.press.tissue.law();
-  scene.rule = plan.press.contact;
-  scene.damping = plan.press.damping;
-  panel_->setScene(scene);
-  changeTissue();
+  if (plan.organs.empty()) // which have theirs
+  {
+    Scene scene = session_.recording().scene;
+    scene.law = plan.press.tissue.law();
+    scene.rule = plan.press.contact;
+    scene.damping = plan.press.damping;
+    panel_->setScene(scene);
+    changeTissue();
+  }
   if (plan.device.isScript())
   {
     applyDevice(QString::fromStdString(plan.device.name));

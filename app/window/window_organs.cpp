@@ -1,7 +1,11 @@
 // What the window shows of a body, and of several organs: which is pressed, and how each is seen.
 
+#include "app/import/organ_level.h"
+#include "app/import/organ_look.h"
+#include "app/input/organ_plan.h"
 #include "app/organs/organ_list.h"
 #include "app/panels/tissue_panel.h"
+#include "app/scene/scene_entries.h"
 #include "app/shell/change.h"
 #include "app/shell/dock.h"
 #include "app/window/window.h"
@@ -21,24 +25,61 @@ void Window::showBody()
   orientation_.setPatient(isPatient(session_.body()));
   shown_ = {};
   balls_.show({});
-  organs_ != nullptr&& session_.organs().empty() ? organs_->parentWidget()->hide() : void();
+  makeOrganList();
   showOrgans();
+  realism_.isOn() ? setRealistic(true) : void(); // as large as this body
+  session_.organs().empty() ? void() : panel_->setScene(tissueInUse());
   fittedTo_ = std::pair(0, 0);
   queued_.clear();
   dropMap();
 }
 
+// anew for other organs; none is shown for one body
 void Window::makeOrganList()
 {
-  if (session_.organs().empty())
+  const bool hasOrgans = !session_.organs().empty();
+  if (organs_ == nullptr && hasOrgans)
   {
-    return;
+    organs_ = new OrganList;
+    addDock(this, Qt::RightDockWidgetArea, tr("Organs"), organs_);
+    connect(organs_, &OrganList::changed, this, &Window::changeOrgans);
+    connect(organs_, &OrganList::chosenChanged, this, [this] { panel_->setScene(tissueInUse()); });
   }
-  organs_ = new OrganList;
-  organs_->show(session_.organs());
-  addDock(this, Qt::RightDockWidgetArea, tr("Organs"), organs_);
-  connect(organs_, &OrganList::changed, this, &Window::changeOrgans);
-  connect(organs_, &OrganList::chosenChanged, this, [this] { panel_->setScene(tissueInUse()); });
+  if (organs_ != nullptr)
+  {
+    organs_->show({});
+    organs_->show(session_.organs());
+    organs_->parentWidget()->setVisible(hasOrgans);
+  }
+}
+
+// labels of an image, each an organ as palp import makes it, with the tool and the law in use
+bool Window::openLabels(const MeshSource& image, std::vector<FileOrgan> labels)
+{
+  std::vector<std::string> files; // that are not made
+  nameFiles(labels, files, {});
+  std::vector<std::string> names(labels.size());
+  std::ranges::transform(labels, names.begin(), &FileOrgan::name);
+  const std::vector<OrganLook> looks = looksOf(names);
+  const Scene& scene = session_.recording().scene;
+  PressOptions press;
+  press.tissue = optionsOf(scene.law, session_.recording().rated);
+  press.contact = scene.rule;
+  press.damping = scene.damping;
+  std::vector<MeshSource> meshes;
+  std::vector<OrganPlan> organs;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    MeshSource& mesh = meshes.emplace_back(image);
+    mesh.part.labels.assign(1, labels[i].label);
+    OrganPlan& organ = organs.emplace_back(OrganPlan{ .name = names[i],
+      .color = parseColor(labels[i].color.empty() ? looks[i].color : labels[i].color),
+      .press = press });
+    const auto role = std::ranges::find(kOrganRoles, looks[i].role);
+    organ.role = static_cast<OrganRole>(role - kOrganRoles.begin());
+    looks[i].tissue != nullptr ? organ.press.tissue.take(looks[i].tissue) : void();
+  }
+  return openBody(meshes, organs);
 }
 
 // as the session has them: in the list, below the pointer, in the picture
@@ -66,7 +107,7 @@ void Window::showOrgans()
 void Window::showOther()
 {
   showPictured();
-  if (organs_ && !review_ && session_.isLed())
+  if (organs_ && !review_ && session_.isLed() && shown_.contact.touching())
   {
     organs_->choose(session_.recording().organName(shown_.organ));
     panel_->setScene(tissueInUse());
@@ -76,7 +117,8 @@ void Window::showOther()
 // false where they are refused
 bool Window::useOrgans(const std::vector<OrganPlan>& organs)
 {
-  const bool isUsed = attempt(
+  bool isUsed = false;
+  attempt(
     [&]
     {
       if (!std::ranges::equal(organs, session_.organs(), {}, &OrganPlan::name, &OrganPlan::name))
@@ -84,9 +126,8 @@ bool Window::useOrgans(const std::vector<OrganPlan>& organs)
         throw Error(ErrorCode::BadValue, "those organs are no longer open");
       }
       endReview();
-      takeSamples();
       const std::uint64_t before = session_.recording().scene.version;
-      session_.setOrgans(organs);
+      isUsed = useFelt(session_.feltWith(organs));
       session_.recording().scene.version != before ? clearCharts() : void();
       sayWhatIsKept();
     });

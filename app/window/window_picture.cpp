@@ -1,19 +1,17 @@
-// How the window's picture is looked at, and saved to print.
+// How the window's picture is looked at.
 
-#include "app/graphs/figure_dialog.h"
 #include "app/shell/theme.h"
 #include "app/window/window.h"
-#include "haptics/error.h"
-#include "pipeline/charts/plot_files.h"
+#include "pipeline/figure/gl_renderer.h"
 #include "pipeline/view/appearance.h"
 
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkImageData.h>
-#include <vtkRenderWindow.h>
+#include <vtkPolyData.h>
 #include <vtkRenderer.h>
 
 #include <QAction>
+#include <QActionGroup>
 #include <QMenu>
 
 #include <array>
@@ -107,17 +105,14 @@ void Window::addBodyLooks(QMenu& menu)
     QString name;
     const char* id;
     bool BodyLook::*part;
-    QKeySequence key = {};
   };
   for (const Part& one : { Part{ tr("&Edges of triangles"), "edgesAction", &BodyLook::hasEdges },
          { tr("See-through s&urface"), "translucentAction", &BodyLook::isTranslucent },
-         { tr("Cut &open at the contact"), "cutAction", &BodyLook::isCut },
-         Part{ tr("&Hide the tool"), "hideToolAction", &BodyLook::hidesTool, Qt::Key_T } })
+         Part{ tr("Cut &open at the contact"), "cutAction", &BodyLook::isCut } })
   {
     QAction* action = menu.addAction(one.name);
     action->setObjectName(one.id);
     action->setCheckable(true);
-    action->setShortcut(one.key);
     connect(action, &QAction::toggled, this,
       [this, part = one.part](bool on)
       {
@@ -127,7 +122,99 @@ void Window::addBodyLooks(QMenu& menu)
         isStale_ = true;
       });
   }
+  addToolLooks(*menu.addMenu(tr("&Tool")));
+  addRealism(menu);
   menu.addSeparator();
+}
+
+// one after the other by a key
+void Window::addToolLooks(QMenu& menu)
+{
+  menu.setObjectName("toolLooks");
+  auto* looks = new QActionGroup(this);
+  for (const auto& [name, tool] : { std::pair(tr("&Solid"), ToolLook::Solid),
+         { tr("&Outlined"), ToolLook::Outlined }, { tr("&Hidden"), ToolLook::Hidden } })
+  {
+    QAction* action = looks->addAction(menu.addAction(name));
+    action->setCheckable(true);
+    action->setChecked(tool == view_.look().tool);
+    connect(action, &QAction::toggled, this,
+      [this, tool = tool](bool on)
+      {
+        BodyLook look = view_.look();
+        look.tool = on ? tool : look.tool;
+        view_.setLook(look);
+        isStale_ = true;
+      });
+  }
+  menu.addSeparator();
+  menu.addAction(
+    tr("&Next of them"), this,
+    [looks]
+    {
+      const QList<QAction*> all = looks->actions();
+      all[(all.indexOf(looks->checkedAction()) + 1) % all.size()]->setChecked(true);
+    },
+    QKeySequence(Qt::Key_T));
+}
+
+void Window::addRealism(QMenu& menu)
+{
+  realistic_ = menu.addAction(tr("Realis&tic light"));
+  realistic_->setObjectName("realisticAction");
+  realistic_->setCheckable(true);
+  realistic_->setToolTip(
+    tr("Wet surface (PBR), darker where little light comes (SSAO): on by itself "
+       "where a graphics card draws; without one a picture takes a second"));
+  connect(realistic_, &QAction::toggled, this, &Window::setRealistic);
+  connect(realistic_, &QAction::triggered, this, [this](bool on) { memory_.setRealistic(on); });
+}
+
+void Window::setRealistic(bool on)
+{
+  on ? realism_.turnOn(vtkPolyData::SafeDownCast(view_.press().GetInput())->GetLength())
+     : realism_.turnOff();
+  setSmooth(false);
+  isStale_ = true;
+}
+
+// once something was drawn, which tells what draws
+void Window::chooseRealism()
+{
+  if (!hasCard_ && renderWindow_->GetNeverRendered() == 0)
+  {
+    hasCard_ = !drawsInSoftware(rendererNameOf(*renderWindow_));
+    realistic_->setChecked(memory_.isRealistic().value_or(*hasCard_));
+  }
+}
+
+// in the place of a surface that would take long to draw, once there is time for it
+void Window::drawCoarse()
+{
+  vtkPolyData* fine = session_.body().display;
+  if (fine != nullptr && hasCard_ == false)
+  {
+    coarse_.follow(*fine);
+  }
+  if (coarse_.becomesReady() && coarse_.of(*fine) != nullptr)
+  {
+    showPictured();
+    say(tr("Drawn with %L1 triangles, as %L2 take long here; all of them are felt and exported")
+          .arg(coarse_.of(*fine)->GetNumberOfCells())
+          .arg(fine->GetNumberOfCells()));
+  }
+}
+
+// all of the body, until the user looks at it in another way
+void Window::fitView()
+{
+  const int* size = renderWindow_->GetSize();
+  if (fittedTo_ && *fittedTo_ != std::pair(size[0], size[1]))
+  {
+    fittedTo_ = std::pair(size[0], size[1]);
+    view_.lookAtSurface();
+    isStale_ = true;
+  }
 }
 
 void Window::keepView()
@@ -140,8 +227,14 @@ void Window::keepView()
 // what lies behind each other is seen in its order by the slow way alone
 void Window::setSmooth(bool smooth)
 {
+  const bool isFast = !smooth && !realism_.isOn() && !view_.look().isTranslucent;
+  renderer_->SetGradientBackground(!isFast);
+  if (realism_.isOn())
+  {
+    return; // its edges are smooth
+  }
   renderer_->SetUseFXAA(smooth);
-  renderer_->SetPass(smooth || view_.look().isTranslucent ? nullptr : fast_.Get());
+  renderer_->SetPass(isFast ? fast_.Get() : nullptr);
 }
 
 // what moves is drawn as soon as can be, what stands still with smooth edges and where it came to
@@ -156,68 +249,6 @@ void Window::smoothen(const Sample& newest)
     renderWindow_->Render();
     showReadings();
   }
-}
-
-void Window::askFigure()
-{
-  const Sample asked = shown_; // a dialog takes the pointer, and the tool lifts
-  FigureDialog dialog(tr("Save figure"), "press_figure.png", tr("PNG (*.png)"), ImageSize{}, this);
-  FigureLook look{
-    .hasAxes = true, .hasScaleBar = true, .isRealistic = true, .body = view_.look()
-  };
-  for (std::size_t i = 0; i < kOverlayCount; ++i)
-  {
-    if (const auto overlay = static_cast<Overlay>(i); view_.isVisible(overlay))
-    {
-      look.overlays.push_back(overlay);
-    }
-  }
-  dialog.offerParts(look);
-  if (dialog.exec() == QDialog::Accepted)
-  {
-    saveFigure(dialog.file(), dialog.size(), dialog.look(), asked);
-  }
-}
-
-bool Window::saveFigure(
-  const QString& file, ImageSize size, const FigureLook& look, const std::optional<Sample>& moment)
-{
-  return attempt(
-    [&]
-    {
-      if (!file.endsWith(".png", Qt::CaseInsensitive))
-      {
-        throw Error(
-          ErrorCode::BadFile, file.toStdString() + ": a figure is written as PNG; end it in .png");
-      }
-      vtkNew<vtkRenderWindow> window;
-      window->SetShowWindow(false);
-      window->SetOffScreenRendering(1);
-      window->SetSize(size.width, size.height);
-      const auto asHere = [this](PressView&, vtkRenderer& renderer)
-      {
-        renderer.GetActiveCamera()->DeepCopy(renderer_->GetActiveCamera());
-        renderer.ResetCameraClippingRange();
-      };
-      const Pictured seen = pictured();
-      const Sample sample = moment.value_or(shown_);
-      vtkSmartPointer<vtkImageData> picture;
-      drawFigure(*window, momentOf(seen.body, seen.recording, seen.calibration, sample, shownMap()),
-        look, asHere,
-        [&](PressView&, Surroundings&, vtkRenderer&) {
-          picture =
-            pictureOf(*window, look.isTransparent ? Backdrop::Transparent : Backdrop::Opaque);
-        });
-      // a large one is longer in becoming a file than in being drawn
-      const auto written = inBackground<bool>(tr("Writing the figure"),
-        [picture, to = file.toStdString()](const std::atomic<bool>& isWanted)
-        {
-          isWanted ? writePng(*picture, to) : void();
-          return true;
-        });
-      say(written ? tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height)
-                  : tr("Not waited for: %1 may still be written").arg(file));
-    });
 }
 
 } // namespace palp

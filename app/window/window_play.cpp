@@ -210,9 +210,12 @@ void Window::showPictured()
   {
     shown_ = {}; // of organs that are no longer felt
   }
-  const PressMoment moment =
-    momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap());
-  if (!view_.shows(*moment.body.display) && seen.recording.organs.empty())
+  PressMoment moment = momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap());
+  vtkPolyData* coarse = coarse_.of(*moment.body.display);
+  moment.drawn = moment.map == nullptr ? coarse : nullptr; // a map is of all points
+  const bool isOther =
+    !view_.shows(*moment.body.display) && (coarse == nullptr || !view_.shows(*coarse));
+  if (isOther && seen.recording.organs.empty())
   {
     fittedTo_ = std::pair(0, 0);
   }

@@ -1,7 +1,9 @@
 // The mouse pointer in the view of the window, as a tool.
 
 #include "app/panels/press_bar.h"
+#include "app/panels/press_list.h"
 #include "app/places/placed_press.h"
+#include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
@@ -137,6 +139,10 @@ bool Window::pressAtPlace()
         pressedPoint(presses.places.front(), presses, session_.recording().scene);
       pointer_.pressAt(point, presses.depth, presses.speed);
       aim();
+      if (pressList_ != nullptr && !search_) // which tells what comes of it
+      {
+        bringUp(qobject_cast<QDockWidget*>(pressList_->parentWidget()));
+      }
     });
   if (isPressed && message_->text() == refusedPlace_) // which is mended
   {
@@ -197,6 +203,10 @@ void Window::changeEvent(QEvent* event)
   if (event->type() == QEvent::ActivationChange && !isActiveWindow() && !pointer_.pressesByItself())
   {
     letGo();
+  }
+  if (event->type() == QEvent::ActivationChange && !isActiveWindow() && session_.plan().deadMan)
+  {
+    session_.arm(false); // nor can anybody stop what is felt here
   }
   if (event->type() == QEvent::PaletteChange)
   {

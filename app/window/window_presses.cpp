@@ -14,6 +14,7 @@
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
+#include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
 
@@ -51,11 +52,11 @@ ForceLaw lawOf(const KeptPress& press, const ForceLaw& inUse, PressList::Again h
     case PressList::Again::AsThen:
       return press.law;
     case PressList::Again::Paper:
-      return inMode(inUse, LawMode::Paper);
+      return inMode(press.law, LawMode::Paper);
     case PressList::Again::Exact:
-      return inMode(inUse, LawMode::Exact);
+      return inMode(press.law, LawMode::Exact);
     case PressList::Again::Corrected:
-      return inMode(inUse, LawMode::Corrected);
+      return inMode(press.law, LawMode::Corrected);
     case PressList::Again::AsNow:
       break;
   }
@@ -89,10 +90,8 @@ void Window::makePressList()
     [this](int id, const QString& tool)
     {
       pressAgain(id,
-        [&](const KeptPress&)
-        {
-          const ForceLaw law = tissueInUse().law;
-          return ForceLaw(parseTip(tool.toStdString()), law.material(), law.settings());
+        [&](const KeptPress& press) {
+          return ForceLaw(parseTip(tool.toStdString()), press.law.material(), press.law.settings());
         });
     });
 }
@@ -131,8 +130,8 @@ void Window::saveTo(Autosave& autosave)
 // as earlier recordings, each on the body that was pressed
 std::size_t Window::addTake(const ExportFolder& folder)
 {
-  std::optional<Session::Take> take = inBackground<Session::Take>(tr("Pressing once more"),
-    [make = session_.takeOf(folder)](const std::atomic<bool>&) { return make(); });
+  std::optional<Session::Take> take =
+    inBackground<Session::Take>(tr("Pressing once more"), session_.takeOf(folder));
   const std::size_t found = take ? session_.add(*std::move(take)) : 0;
   takesKept_ = session_.earlier().size();
   return found;
@@ -160,7 +159,14 @@ bool Window::loadPresses(const QString& folder)
 void Window::sayListed(const QString& how, std::size_t presses)
 {
   const QString what = QString::fromStdString(counted(presses, "press", "presses"));
-  say(tr("%1 %2: in the list of presses, and exported with the data").arg(what, how));
+  const std::vector<KeptPress>& all = session_.presses().presses();
+  const auto isElsewhere = [&](const KeptPress& press)
+  { return press.mesh != session_.body().name; };
+  const auto other = std::ranges::find_if(all, isElsewhere);
+  const QString of = other == all.end()
+    ? QString()
+    : tr("; some are of %1, not of what is open").arg(QString::fromStdString(other->mesh));
+  say(tr("%1 %2: in the list of presses, and exported with the data%3").arg(what, how, of));
 }
 
 void Window::restorePresses()
@@ -171,9 +177,15 @@ void Window::restorePresses()
   }
   endReview();
   std::size_t restored = 0;
-  for (const std::filesystem::path& folder : autosave_->adopt())
+  for (const int press : autosave_->adopt())
   {
-    attempt([&] { restored += addTake(readExport(folder)); });
+    attempt(
+      [&]
+      {
+        const std::size_t found = addTake(readExport(autosave_->folderOf(press)));
+        found > 0 ? session_.presses().noteSaved(press) : void();
+        restored += found;
+      });
   }
   if (restored > 0)
   {
@@ -196,13 +208,17 @@ void Window::pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>&
       {
         return;
       }
+      if (press->mesh != session_.body().name)
+      {
+        throw Error(ErrorCode::BadValue,
+          press->summary.name + ": it was of " + press->mesh + "; open that first");
+      }
       organs_ ? organs_->choose(press->organ) : void();
       Scene scene = tissueInUse();
       scene.law = lawOf(*press);
       pressBar_->showPress(press->summary.deepest);
       panel_->setScene(scene);
-      changeTissue();
-      pressAtPlace();
+      changeTissue() ? void(pressAtPlace()) : void();
     });
 }
 
@@ -220,14 +236,20 @@ void Window::fitPressed(int id)
       {
         return;
       }
-      const fit::ModulusFit fit = fitPress(*press);
+      const std::string name = press->summary.name;
+      const auto made = inBackground<fit::ModulusFit>(
+        tr("Fitting E"), [press = *press] { return fitPress(press); });
+      if (!made)
+      {
+        return;
+      }
+      const fit::ModulusFit& fit = *made;
       const auto text = [](double pascals)
       { return QString::number(units::toKilopascals(pascals), 'g', 4); };
       const fit::Estimate& modulus = fit.asked().curve.scale;
-      QString answer =
-        tr("%1: E = %2 kPa, 95 % interval %3 to %4 kPa, by the %5 law")
-          .arg(QString::fromStdString(press->summary.name), text(modulus.value), text(modulus.low),
-            text(modulus.high), QString::fromStdString(fit.asked().name));
+      QString answer = tr("%1: E = %2 kPa, 95 % interval %3 to %4 kPa, by the %5 law")
+                         .arg(QString::fromStdString(name), text(modulus.value), text(modulus.low),
+                           text(modulus.high), QString::fromStdString(fit.asked().name));
       if (const fit::Estimate* exponent = fit.exponent())
       {
         answer += tr("; F grows as δ^%1").arg(exponent->value, 0, 'f', 2);
@@ -239,20 +261,35 @@ void Window::fitPressed(int id)
 
 void Window::renamePress(int id, const QString& name)
 {
-  PressLog& log = session_.presses();
-  const KeptPress* press = log.find(id);
+  const KeptPress* press = session_.presses().find(id);
   if (press == nullptr)
   {
     return;
   }
   const std::string before = press->summary.name;
+  const int saved = press->saved;
   const std::string after = name.isEmpty() ? before : name.toStdString();
-  log.rename(id, after);
+  const auto call = [this, id, saved](const std::string& called)
+  {
+    return [this, id, saved, called]
+    {
+      session_.presses().rename(id, called);
+      saveAs(saved);
+    };
+  };
+  call(after)();
   if (after != before)
   {
-    undo_.push(new Change(
-      tr("rename a press"), [&log, id, before] { log.rename(id, before); },
-      [&log, id, after] { log.rename(id, after); }));
+    undo_.push(new Change(tr("rename a press"), call(before), call(after)));
+  }
+}
+
+// as it is called now; set aside where it is gone
+void Window::saveAs(int saved)
+{
+  if (autosave_ != nullptr && saved > 0)
+  {
+    autosave_->update(saved, session_.presses().namesOf(saved));
   }
 }
 
@@ -262,52 +299,25 @@ void Window::deletePresses(const std::vector<int>& ids)
   std::vector<KeptPress> gone;
   std::ranges::copy_if(log.presses(), std::back_inserter(gone),
     [&ids](const KeptPress& press) { return std::ranges::find(ids, press.id) != ids.end(); });
-  const auto remove = [&log, gone]
+  const auto remove = [this, &log, gone]
   {
     for (const KeptPress& press : gone)
     {
       log.remove(press.id);
+      saveAs(press.saved);
     }
   };
-  const auto restore = [&log, gone]
+  const auto restore = [this, &log, gone]
   {
     for (const KeptPress& press : gone)
     {
       log.restore(press);
+      saveAs(press.saved);
     }
   };
   remove();
   const QString what = QString::fromStdString(counted(gone.size(), "press", "presses"));
   undo_.push(new Change(tr("delete %1").arg(what), restore, remove));
-}
-
-// of the panel, by the user
-void Window::changeTissue()
-{
-  Scene before = session_.recording().scene;
-  const std::vector<OrganPlan> organs = session_.organs();
-  applyTissue();
-  Scene after = session_.recording().scene;
-  if (after.version == before.version)
-  {
-    return; // refused
-  }
-  if (!organs.empty())
-  {
-    keepUndo(organs);
-    return;
-  }
-  const auto use = [this](Scene scene)
-  {
-    scene.surface = nullptr; // whatever is open then
-    scene.nodules = nullptr;
-    return [this, scene]
-    {
-      panel_->setScene(scene);
-      applyTissue();
-    };
-  };
-  undo_.push(new Change(tr("tool, tissue or law"), use(std::move(before)), use(std::move(after))));
 }
 
 } // namespace palp

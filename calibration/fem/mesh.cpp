@@ -197,128 +197,59 @@ std::vector<double> fromTheTop(double top, std::vector<double> depths)
   return { depths.rbegin(), depths.rend() };
 }
 
-constexpr double kOutwardGrowth = 1.15; // changes R_d of the paper's block by less than 0.02 mm
-constexpr double kDownwardGrowth = 1.1;
-constexpr double kRefinedGrowth = 1.2; // towards a refined place
-
-// steps from 0 to length that grow from the first to the largest; an overshoot squeezes them
-std::vector<double> cappedSteps(double length, double first, double largest)
+// squares about the ball's center become circles: wholly at its border and within it, less and less
+// to where they would come to the top, the base, or twice its radius
+Mapping aroundBall(double height, const Inclusion& ball)
 {
-  std::vector<double> steps{ 0.0 };
-  for (double step = first; steps.back() < length * (1.0 - 1e-9); step *= kRefinedGrowth)
+  if (!(ball.radius > 0.0))
   {
-    steps.push_back(steps.back() + std::min(step, largest));
+    return [](double u, double v) { return Vector2d(u, v); };
   }
-  for (double& step : steps)
+  const double radius = ball.radius;
+  const Vector2d center(0.0, height - ball.top - radius);
+  const double room = std::min({ radius, ball.top, height - ball.top - 2.0 * radius });
+  return [radius, center, room](double u, double v)
   {
-    step *= length / steps.back();
-  }
-  return steps;
-}
-
-// smallest around one radius, at most `fine` up to fineRadius, then growing
-std::vector<double> refinedSteps(
-  double radius, double fineRadius, double fine, const Refinement& refinement)
-{
-  std::vector<double> steps;
-  if (refinement.radius > 0.0)
-  {
-    for (const double inwards : cappedSteps(refinement.radius, refinement.size, fine))
-    {
-      steps.insert(steps.begin(), refinement.radius - inwards);
-    }
-    steps.pop_back();
-  }
-  for (const double outwards : cappedSteps(fineRadius - refinement.radius, refinement.size, fine))
-  {
-    steps.push_back(refinement.radius + outwards);
-  }
-  const double last = steps.back() - steps[steps.size() - 2];
-  for (const double beyond :
-    gradedSteps(radius - fineRadius, 0.0, kOutwardGrowth * last, kOutwardGrowth))
-  {
-    if (beyond > 0.0)
-    {
-      steps.push_back(fineRadius + beyond);
-    }
-  }
-  return steps;
-}
-
-// depths at which the sheets of a coated body begin, and its own end
-std::vector<double> sheetBounds(double height, const Coatings& coatings)
-{
-  std::vector<double> bounds{ 0.0 };
-  for (const Coating& coating : coatings.all())
-  {
-    bounds.push_back(bounds.back() + coating.thickness);
-  }
-  bounds.push_back(height);
-  return bounds;
-}
-
-// steps that grow with the depth and meet every bound; two at least in every sheet
-std::vector<double> sheetSteps(const std::vector<double>& bounds, double fine, double growth)
-{
-  std::vector<double> steps{ 0.0 };
-  double first = fine;
-  for (std::size_t i = 1; i < bounds.size(); ++i)
-  {
-    const double thickness = bounds[i] - bounds[i - 1];
-    for (const double step : gradedSteps(thickness, 0.0, std::min(first, 0.5 * thickness), growth))
-    {
-      if (step > 0.0)
-      {
-        steps.push_back(bounds[i - 1] + step);
-      }
-    }
-    steps.back() = bounds[i];
-    first = std::max(fine, bounds[i] - steps[steps.size() - 2]);
-  }
-  return steps;
+    const Vector2d from = Vector2d(u, v) - center;
+    const double square = from.lpNorm<Eigen::Infinity>();
+    const double part = std::clamp(1.0 - (square - radius) / room, 0.0, 1.0);
+    const double within = std::min(1.0, square / radius);
+    return square > 0.0
+      ? Vector2d(center + from * (1.0 + part * within * (square / from.norm() - 1.0)))
+      : center;
+  };
 }
 
 } // namespace
 
-std::vector<double> gradedSteps(double length, double fineLength, double fine, double growth)
-{
-  const int uniform = std::max(1, static_cast<int>(std::ceil(std::min(fineLength, length) / fine)));
-  std::vector<double> steps{ 0.0 };
-  for (int i = 1; i <= uniform; ++i)
-  {
-    steps.push_back(i * fine);
-  }
-  for (double step = growth * fine; steps.back() < length; step *= growth)
-  {
-    steps.push_back(steps.back() + step);
-  }
-  // the last step may overshoot: squeeze the growing part, or everything if nothing grows
-  const auto from = steps.back() > uniform * fine ? static_cast<std::size_t>(uniform) : 0;
-  const double scale = (length - steps[from]) / (steps.back() - steps[from]);
-  for (std::size_t i = from + 1; i < steps.size(); ++i)
-  {
-    steps[i] = steps[from] + scale * (steps[i] - steps[from]);
-  }
-  return steps;
-}
-
 Body cylinderBody(double radius, double height, double fineRadius, double fine,
-  const Coatings& coatings, Integration integration, Base base, const Refinement& refinement)
+  const Coatings& coatings, Integration integration, Base base, const Refinement& refinement,
+  const Inclusion& inclusion)
 {
   const std::vector<double> sheets = sheetBounds(height, coatings);
+  const std::vector<double> bounds = inclusion.radius > 0.0
+    ? std::vector{ 0.0, inclusion.top, inclusion.top + 2.0 * inclusion.radius, height }
+    : sheets;
   const bool refined = refinement.size > 0.0;
-  Body body = revolve(
-    refined ? refinedSteps(radius, fineRadius, fine, refinement)
-            : gradedSteps(radius, fineRadius, fine, kOutwardGrowth),
+  const std::vector<double> outward = refined
+    ? refinedSteps(radius, fineRadius, fine, refinement)
+    : gradedSteps(radius, fineRadius, fine, kOutwardGrowth);
+  Body body = revolve(inclusion.radius > 0.0 ? stepsThrough(outward, inclusion.radius) : outward,
     fromTheTop(height,
-      refined ? sheetSteps(sheets, refinement.size, kOutwardGrowth)
-              : sheetSteps(sheets, fine, kDownwardGrowth)),
-    [](double u, double v) { return Vector2d(u, v); }, integration, base);
+      refined ? sheetSteps(bounds, refinement.size, kOutwardGrowth)
+              : sheetSteps(bounds, fine, kDownwardGrowth)),
+    aroundBall(height, inclusion), integration, base);
   for (Element& element : body.elements)
   {
     // the first two nodes are at the bottom, the next two at the top
-    const double depth = height -
-      0.5 * (body.positions(1, element.dofs[0] / 2) + body.positions(1, element.dofs[4] / 2));
+    const Vector2d middle =
+      0.5 * (body.positions.col(element.dofs[0] / 2) + body.positions.col(element.dofs[4] / 2));
+    const double depth = height - middle.y();
+    if (Vector2d(middle.x(), depth - inclusion.top - inclusion.radius).norm() < inclusion.radius)
+    {
+      element.material = inclusion.material;
+      continue;
+    }
     const auto sheet = static_cast<std::size_t>(
       std::upper_bound(sheets.begin(), sheets.end(), depth) - sheets.begin() - 1);
     if (sheet < coatings.all().size())

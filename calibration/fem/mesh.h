@@ -1,19 +1,12 @@
 #pragma once
 
 #include "calibration/fem/body.h"
+#include "calibration/fem/mesh_steps.h"
 #include "haptics/force/linear/coating.h"
 #include "haptics/force/linear/layer.h"
 
-#include <vector>
-
 namespace palp::fem
 {
-
-/// Element boundaries from 0 to length: steps of `fine` up to fineLength, then growing.
-///
-/// @param growth  ratio of neighboring steps beyond fineLength, 1 or more
-[[nodiscard]] std::vector<double> gradedSteps(
-  double length, double fineLength, double fine, double growth);
 
 /// Where an eight-node quadrilateral samples its energy.
 enum class Integration
@@ -22,11 +15,12 @@ enum class Integration
   Full,    ///< nine points: a surface stretched several times over by a sharp tool does not fold
 };
 
-/// Smaller elements around one radius: a tool's point, or the edge of its flat.
-struct Refinement
+/// A ball of another stiffness on the axis, bonded to what is around it.
+struct Inclusion
 {
-  double radius = 0.0; ///< where the smallest are [m]
-  double size = 0.0;   ///< of the smallest [m]; 0: none
+  double radius = 0.0; ///< [m]; 0: none
+  double top = 0.0;    ///< depth of its highest point [m]
+  Material material{};
 };
 
 /// A block as the cylinder of equal area under an axisymmetric tool; side free.
@@ -38,9 +32,10 @@ struct Refinement
 /// @param coatings    thinner than the height together
 /// @param fineRadius  elements have the size `fine` up to here [m]
 /// @param fine        largest element under the tool [m]
+/// @param inclusion   whose border the sides of elements follow; without coatings
 [[nodiscard]] Body cylinderBody(double radius, double height, double fineRadius, double fine,
   const Coatings& coatings = {}, Integration integration = Integration::Reduced,
-  Base base = Base::Bonded, const Refinement& refinement = {});
+  Base base = Base::Bonded, const Refinement& refinement = {}, const Inclusion& inclusion = {});
 
 /// How an elastic sphere is held.
 enum class SphereSupport

@@ -2,6 +2,7 @@
 
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
+#include "haptics/threads/followed_work.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -82,9 +83,11 @@ void fitLaws(ModulusFit& fit, const Measured& loading, const ModulusQuestion& qu
   const bool isPapers = std::holds_alternative<SphereTip>(question.tip) ||
     std::holds_alternative<ConeTip>(question.tip);
   const LawMode asked = question.settings.mode;
+  constexpr double kLaws = 4.0; // usually
   for (const auto& [mode, name] : { std::pair(LawMode::Paper, "paper"),
          std::pair(LawMode::Exact, "exact"), std::pair(LawMode::Corrected, "corrected") })
   {
+    tellDone(static_cast<double>(fit.laws.size()) / kLaws);
     if (mode == LawMode::Paper && !isPapers)
     {
       continue;

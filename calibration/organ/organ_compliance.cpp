@@ -176,11 +176,8 @@ struct Readings
 };
 
 Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPressure& pressure,
-  const Pressed& pressed)
+  const Pressed& pressed, const Eigen::Ref<const Eigen::VectorXd>& moved)
 {
-  const Eigen::VectorXd moved = model.solve(loadBeyond(model, plane, pressure),
-    [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
-    { return -plane.outside(pressure.displacement(plane.inside(place - plane.place()))); });
   Readings readings;
   OrganModel::Weights weights{};
   for (const double ring : kRings)
@@ -211,20 +208,10 @@ Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPr
   return readings;
 }
 
-} // namespace
-
-std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surface& surface,
-  const Eigen::Vector3d& place, const Eigen::Vector3d& outward)
+// none where too little is on the body
+std::optional<OrganCompliance> fitted(
+  const Readings& readings, const Pressed& pressed, const TangentPlane& plane, double radius)
 {
-  const double radius = kSides * model.side();
-  const SmoothPressure pressure{ radius, model.shearModulus(), model.poissonRatio() };
-  if (rayEntry(surface.tree(), place + 1e-3 * radius * outward, outward).triangle >= 0)
-  {
-    return std::nullopt; // the sources of the pressure would be in the body
-  }
-  const TangentPlane plane(surface, place, outward, radius);
-  const Pressed pressed = pressedBy(pressure, plane);
-  const Readings readings = read(model, plane, pressure, pressed);
   if (readings.places.size() < kRings.size() * kAround / 2)
   {
     return std::nullopt;
@@ -240,12 +227,61 @@ std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surfa
       0.5 * (square(0, 0) + y.x() * y.x()), 0.5 * (square(1, 1) + y.y() * y.y()),
       square(0, 1) + y.x() * y.y();
   }
-  const Eigen::VectorXd fitted =
-    terms.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(
-      readings.values.data(), static_cast<Eigen::Index>(readings.values.size())));
-  return OrganCompliance{ .constant = fitted[0],
-    .slope = plane.vector({ fitted[1] / radius, fitted[2] / radius }),
-    .bend = (fitted[3] + fitted[4]) / (radius * radius) };
+  const Eigen::VectorXd found = terms.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(
+    readings.values.data(), static_cast<Eigen::Index>(readings.values.size())));
+  return OrganCompliance{ .constant = found[0],
+    .slope = plane.vector({ found[1] / radius, found[2] / radius }),
+    .bend = (found[3] + found[4]) / (radius * radius) };
+}
+
+} // namespace
+
+std::vector<std::optional<OrganCompliance>> compliancesAt(
+  const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
+{
+  const double radius = kSides * model.side();
+  const SmoothPressure pressure{ radius, model.shearModulus(), model.poissonRatio() };
+  std::vector<TangentPlane> planes;
+  std::vector<std::size_t> of; // the places
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const auto& [position, outward] = places[i];
+    // else the sources of the pressure would be in the body
+    if (rayEntry(surface.tree(), position + 1e-3 * radius * outward, outward).triangle < 0)
+    {
+      planes.emplace_back(surface, position, outward, radius);
+      of.push_back(i);
+    }
+  }
+  Eigen::MatrixXd loads(3L * model.nodes(), static_cast<Eigen::Index>(planes.size()));
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    const auto column = static_cast<Eigen::Index>(i);
+    loads.col(column) = loadBeyond(model, planes[i], pressure);
+    model.moveSupports(loads.col(column),
+      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
+      {
+        const TangentPlane& plane = planes[i];
+        return -plane.outside(pressure.displacement(plane.inside(place - plane.place())));
+      });
+  }
+  const Eigen::MatrixXd moved = model.solve(loads);
+  std::vector<std::optional<OrganCompliance>> found(places.size());
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    const Pressed pressed = pressedBy(pressure, planes[i]);
+    const Readings readings =
+      read(model, planes[i], pressure, pressed, moved.col(static_cast<Eigen::Index>(i)));
+    found[of[i]] = fitted(readings, pressed, planes[i], radius);
+  }
+  return found;
+}
+
+std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surface& surface,
+  const Eigen::Vector3d& place, const Eigen::Vector3d& outward)
+{
+  const SurfacePoint point{ .position = place, .normal = outward };
+  return compliancesAt(model, surface, std::span(&point, 1)).front();
 }
 
 } // namespace palp

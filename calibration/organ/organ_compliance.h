@@ -2,8 +2,11 @@
 
 #include "calibration/organ/organ_model.h"
 #include "haptics/surface/surface.h"
+#include "haptics/surface/surface_point.h"
 
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace palp
 {
@@ -17,14 +20,18 @@ struct OrganCompliance
   double bend = 0.0;                               ///< tr A [1/(m N)]
 };
 
-/// Reads it around a smooth pressure of a radius of one and a half cells.
+/// Reads it around smooth pressures of a radius of one and a half cells, all of them at once.
 ///
 /// The field of a half-space under this is known; the cubes have to give only what the body does
 /// otherwise, where its surface is not flat and where it is held.
 ///
-/// @param place    on the surface [m]
-/// @param outward  unit normal there
-/// @return         none where less than half of a ring is on the body, or the body hangs over it
+/// @param places  with outward unit normals
+/// @return        of each; none where less than half of a ring is on the body, or the body hangs
+///                over it
+[[nodiscard]] std::vector<std::optional<OrganCompliance>> compliancesAt(
+  const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places);
+
+/// The same of one.
 [[nodiscard]] std::optional<OrganCompliance> complianceAt(const OrganModel& model,
   const Surface& surface, const Eigen::Vector3d& place, const Eigen::Vector3d& outward);
 

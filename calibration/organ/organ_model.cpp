@@ -35,6 +35,33 @@ Cube cornerOf(const Cube& cube, int corner)
 
 struct OrganModel::State
 {
+  // Eigen's, but for solutions by several threads at once
+  class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse>
+  {
+  public:
+    [[nodiscard]] Eigen::MatrixXd solveAll(const Eigen::MatrixXd& right) const
+    {
+      cholmod_common own; // NOLINT(cppcoreguidelines-pro-type-member-init): by the next line
+      cholmod_start(&own);
+      own.print = 0;
+      cholmod_dense known = Eigen::viewAsCholmod(right.const_cast_derived());
+      cholmod_dense* found = cholmod_solve(CHOLMOD_A, m_cholmodFactor, &known, &own);
+      Eigen::MatrixXd solution;
+      if (found != nullptr)
+      {
+        solution =
+          Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(found->x), right.rows(), right.cols());
+        cholmod_free_dense(&found, &own);
+      }
+      cholmod_finish(&own);
+      if (solution.size() != right.size())
+      {
+        throw Error(ErrorCode::NoSolution, "too little memory for the loads; give larger cells");
+      }
+      return solution;
+    }
+  };
+
   // of a support on the surface in one cube: its mean displacement is held, not that of nodes
   // beside
   struct Grip
@@ -79,7 +106,7 @@ struct OrganModel::State
   std::vector<Nodes> cubes{};
   std::vector<CubePoints> inside{}; // each of these
   std::vector<Grip> grips{};
-  mutable Eigen::CholmodSupernodalLLT<Sparse> cholesky{};
+  Cholesky cholesky{};
 
   [[nodiscard]] std::size_t cornerIndex(const Cube& c) const
   {
@@ -289,19 +316,22 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
   return false;
 }
 
-Eigen::VectorXd OrganModel::solve(const Eigen::VectorXd& forces, const Moved& supports) const
+void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const
 {
-  Eigen::VectorXd all = forces;
   for (const State::Grip& grip : state_->grips)
   {
     const Eigen::Vector3d pull =
       state_->stiffnessOf(grip) * grip.direction() * supports(grip.place);
     for (std::size_t i = 0; i < grip.weights.nodes.size(); ++i)
     {
-      all.segment<3>(3L * grip.weights.nodes[i]) += grip.weights.values[i] * pull;
+      forces.segment<3>(3L * grip.weights.nodes[i]) += grip.weights.values[i] * pull;
     }
   }
-  return state_->cholesky.solve(all);
+}
+
+Eigen::MatrixXd OrganModel::solve(const Eigen::MatrixXd& forces) const
+{
+  return state_->cholesky.solveAll(forces);
 }
 
 } // namespace palp

@@ -54,13 +54,15 @@ public:
 
   using Moved = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>; ///< by place [m]
 
-  /// @param forces    x, y, z of node after node [N]
-  /// @param supports  how they have moved themselves
-  /// @return          displacements of the nodes [m]
-  [[nodiscard]] Eigen::VectorXd solve(
-    const Eigen::VectorXd& forces,
-    const Moved& supports = [](const Eigen::Vector3d&) -> Eigen::Vector3d
-    { return Eigen::Vector3d::Zero(); }) const;
+  /// Adds what supports pull that have moved themselves.
+  /// @param forces  x, y, z of node after node [N]
+  void moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const;
+
+  /// @param forces    a column for each load; x, y, z of node after node [N]
+  /// @return          displacements of the nodes, likewise [m]
+  /// @throws Error    NoSolution: out of memory
+  /// @threadsafe      each thread for itself
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& forces) const;
 
   [[nodiscard]] int nodes() const noexcept;
   [[nodiscard]] double side() const noexcept;

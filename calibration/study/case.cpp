@@ -88,6 +88,43 @@ Tip rounded(const std::string& name, double flat, double rounding, double halfAn
     std::move(points), name + ", edge rounded by " + units::inMillimeters(rounding)) };
 }
 
+void checkNodule(const Case& study)
+{
+  const auto& [radius, top, material] = study.nodule;
+  require(study.model == BodyModel::Axisymmetric && study.coatings.empty(),
+    "--nodule: taken by --model axisymmetric without --coating only; leave one of them out");
+  const double least = 2.0 * elementSize(study);
+  require(radius >= least && top >= least && study.height - top - 2.0 * radius >= least,
+    "--nodule: it, or what is above or below it, is thinner than two elements of " +
+      units::inMillimeters(0.5 * least) +
+      "; give a nodule that lies within the block, or a smaller --element-size");
+  require(2.0 * radius < 0.5 * std::min(study.width, study.length),
+    "--nodule: wider than half of the block; give a smaller one, or a wider --block");
+}
+
+void checkMap(const Case& study)
+{
+  require(
+    study.model == BodyModel::Axisymmetric && study.coatings.empty() && study.nodule.radius == 0.0,
+    "--stiffness: taken by --model axisymmetric without --coating and --nodule; leave them out");
+}
+
+// that of the middle of each element
+void applyMap(Body& body, const Case& study)
+{
+  for (Element& element : body.elements)
+  {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const int dof : element.dofs)
+    {
+      middle[dof % 2] += body.positions(dof % 2, dof / 2);
+    }
+    middle *= 2.0 / static_cast<double>(element.dofs.size());
+    element.material = Material{ study.map.young(middle.x(), study.height - middle.y()),
+      study.material.poissonRatio };
+  }
+}
+
 } // namespace
 
 double contactReach(const Tip& tip, double depth)
@@ -182,6 +219,14 @@ void check(const Case& study)
       "--coating: thinner than an element; give --element-size " +
         units::inMillimeters(coating.thickness) + " or less");
   }
+  if (study.nodule.radius > 0.0)
+  {
+    checkNodule(study);
+  }
+  if (study.map.young)
+  {
+    checkMap(study);
+  }
   require(
     study.material.poissonRatio < 0.5, "--poisson: finite elements need less than 0.5; give 0.49");
 }
@@ -192,9 +237,11 @@ Body bodyOf(const Case& study)
   if (study.model == BodyModel::Axisymmetric)
   {
     const double fine = 1.05 * contactReach(study.tip, study.depths.back()) + 2.0 * size;
-    return cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings,
+    Body body = cylinderBody(equalAreaRadius(study), study.height, fine, size, study.coatings,
       isRound(study.tip) ? Integration::Reduced : Integration::Full, study.base,
-      refinementOf(study));
+      refinementOf(study), study.nodule);
+    study.map.young ? applyMap(body, study) : void();
+    return body;
   }
   return blockBody(study.width, study.height, kPaperNodes, kPaperLayers, size);
 }

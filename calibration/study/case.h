@@ -5,6 +5,7 @@
 #include "haptics/force/linear/coating.h"
 #include "haptics/units.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,14 @@ enum class BodyModel
   Block,        ///< the paper's volumetric block, square, coarse
 };
 
+/// Young's modulus that differs from place to place, alike all around the axis.
+struct ModulusMap
+{
+  std::string words{}; ///< for people; empty: there is none
+  /// By the distance from the axis and the depth [m]; above 0 [Pa].
+  std::function<double(double radius, double depth)> young{};
+};
+
 /// Everything that determines a calibration.
 struct Case
 {
@@ -28,6 +37,8 @@ struct Case
   Tip tip = SphereTip{ 0.01 };
   Material material{ 50e3, 0.33 };
   Coatings coatings{}; ///< on top of it; axisymmetric only
+  Inclusion nodule{};  ///< on the axis; axisymmetric, without coatings
+  ModulusMap map{};    ///< in the place of the material's; axisymmetric, without the others
   StrainEnergy energy = StrainEnergy::NeoHookean;
   std::vector<double> depths{}; ///< increasing [m]
   double threshold = 0.5e-3;    ///< displacement at the edge of the deformed region [m]

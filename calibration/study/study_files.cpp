@@ -58,6 +58,20 @@ std::string coatingsText(const Coatings& coatings, int digits)
   return out.str();
 }
 
+std::string noduleText(const Inclusion& nodule, int digits)
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  if (nodule.radius > 0.0)
+  {
+    out << "\n# on the axis: a ball of " << toMillimeters(nodule.radius) << " mm, its top "
+        << toMillimeters(nodule.top) << " mm deep, of "
+        << units::toKilopascals(nodule.material.youngModulus) << " kPa";
+  }
+  return out.str();
+}
+
 } // namespace
 
 std::string describe(const Case& study, const Body& body, int digits)
@@ -73,7 +87,11 @@ std::string describe(const Case& study, const Body& body, int digits)
       << ", sides free, frictionless\n# material: "
       << units::toKilopascals(study.material.youngModulus)
       << " kPa, nu = " << study.material.poissonRatio << ", " << name(study.energy) << ": "
-      << formula(study.energy) << coatingsText(study.coatings, digits) << "\n# model: "
+      << formula(study.energy) << coatingsText(study.coatings, digits)
+      << noduleText(study.nodule, digits)
+      << (study.map.young ? "\n# Young's modulus [kPa] by x = r and z below the surface [mm]: "
+                          : "")
+      << study.map.words << "\n# model: "
       << (study.model == BodyModel::Axisymmetric
              ? "axisymmetric, cylinder of equal area, eight-node quadrilaterals"
              : "volumetric block, eight-node bricks, one quarter")

@@ -2,6 +2,7 @@
 
 #include "haptics/contact/contact.h"
 #include "haptics/force/force_law.h"
+#include "haptics/surface/surface_point.h"
 
 namespace palp
 {
@@ -17,5 +18,9 @@ namespace palp
     .normalSpread = contact.normalSpread,
     .hollow = contact.hollow };
 }
+
+/// The same of a place that a tool only just touches, straight on; its depth does not count.
+[[nodiscard]] ContactGeometry geometryAt(
+  const Surface& surface, const Tip& tip, const SurfacePoint& place) noexcept;
 
 } // namespace palp

@@ -1,7 +1,6 @@
 #include "haptics/contact/embed_nodules.h"
 
 #include "haptics/contact/contact_geometry_of.h"
-#include "haptics/contact/find_contact.h"
 #include "haptics/error.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/surface/surface_point.h"
@@ -13,8 +12,6 @@ namespace palp
 {
 namespace
 {
-
-constexpr double kProbe = 0.05; // depth over base radius at which a place is looked at
 
 EmbeddedNodule embedded(
   const Surface& surface, const Tip& tip, const PlacedNodule& nodule, const std::string& name)
@@ -28,14 +25,8 @@ EmbeddedNodule embedded(
       name + (depth > 0.0 ? ": it stands out of the surface" : ": its center is not in the body") +
         "; move its center deeper than its radius");
   }
-  const Eigen::Vector3d normal = surfacePoint(surface, nearest.triangle, nearest.point).normal;
-  ToolPose pose;
-  pose.apex = nearest.point - kProbe * baseRadius(tip) * normal;
-  pose.axis = -normal;
-  const Contact contact = findContact(surface, tip, pose, ContactRule::Exact);
-  ContactGeometry place = contactGeometryOf(contact);
-  place.tilt = 0.0;
-  place.depth = 0.0;
+  const ContactGeometry place =
+    geometryAt(surface, tip, surfacePoint(surface, nearest.triangle, nearest.point));
   return { .nodule = nodule, .depth = depth, .place = place };
 }
 

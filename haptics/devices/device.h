@@ -10,6 +10,10 @@
 namespace palp
 {
 
+/// Damping of a hand that holds a handle, unless identified [N s/m]: a sixth of the 6.45 that an
+/// arm adds (van Beek et al. 2015, see HandMechanics), for a light grip.
+inline constexpr double kGripDamping = 1.0;
+
 /// What a device can do and bear.
 struct DeviceLimits
 {
@@ -18,8 +22,11 @@ struct DeviceLimits
   bool needsHoming = false;     ///< its positions mean nothing until status().homed
   double maxForce = 0.0;        ///< [N]
   double damping = 0.0;         ///< b of the mechanism [N s/m], what makes a sampled wall stable
+  double friction = 0.0;        ///< f_c of the mechanism, Coulomb's [N]
+  double mass = 0.0;            ///< of the mechanism, as felt at its end [kg]; 0: unknown
+  double handDamping = 0.0;     ///< that a hand on it adds at least [N s/m]
   double quantum = 0.0;         ///< smallest step of its position [m]
-  double delay = 0.0;           ///< from the pose to the force that answers it, beyond the tick [s]
+  double delay = 0.0;           ///< from a pose to its force, beyond the tick, until measured [s]
   double velocityDelay = 0.0;   ///< of the velocity in its poses [s]
   double workspaceRadius = 0.0; ///< how far it reaches [m]; 0: no bound
   Eigen::Vector3d workspaceCenter = Eigen::Vector3d::Zero(); ///< in the frame of its poses [m]
@@ -32,6 +39,9 @@ struct DeviceStatus
   bool stopped = false;      ///< by an emergency stop of its own
   std::uint32_t buttons = 0; ///< a bit each, the first in bit 0
   double age = 0.0;          ///< of the pose, since the hardware sent it [s]
+  double delay = 0.0;        ///< from the last pose that was answered to its force [s]; 0: unknown
+  /// Of the force of this exchange, what the motors were given [N]; none: all of it.
+  std::optional<Eigen::Vector3d> sent{};
 };
 
 class GuidedTool; // haptics/devices/simulated/guided_tool.h
@@ -46,14 +56,27 @@ public:
 
   [[nodiscard]] virtual DeviceLimits limits() const = 0;
 
-  /// One tick: takes the force, gives the pose at its end.
+  /// One tick: takes the force, gives the pose at its end. May wait for a bus.
   ///
   /// @param force  on the hand [N], finite; zero when off
   /// @param dt     since the last tick [s]
   /// @return       nothing when the device is gone
-  /// @realtime     no allocation, no lock, no exception; must not block
+  /// @realtime     no allocation, no lock, no exception; a wait ends within a few milliseconds
   [[nodiscard]] virtual std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double dt) noexcept = 0;
+
+  /// Sends the force that answers the last pose at once, where the next exchange is too far off.
+  /// @realtime  as exchange
+  virtual void answer(const Eigen::Vector3d&) noexcept
+  {
+  }
+
+  /// How long an exchange waits for its bus, on average [s].
+  /// @realtime  no allocation, no lock, no exception
+  [[nodiscard]] virtual double busTime() const noexcept
+  {
+    return 0.0;
+  }
 
   /// What the main thread steers; null for a device that moves by itself.
   [[nodiscard]] virtual GuidedTool* guided() noexcept

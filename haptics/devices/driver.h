@@ -3,20 +3,28 @@
 #include "haptics/devices/device.h"
 #include "haptics/devices/transport.h"
 
+#include <Eigen/Geometry>
+
 namespace palp
 {
 
 /// What a driver has heard, in the frame of its device.
 struct DriverSample
 {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the handle [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();              ///< of the handle [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity(); ///< of the handle, unit
   std::uint32_t buttons = 0;
   bool homed = true;
   bool stopped = false; ///< by an emergency stop of the device's own
+  double heat = 0.0;    ///< of the motors: 1 where they bear no more than their continuous current
+  double temperature = 0; ///< of the motors as the device says it [deg C]; 0: it does not
+  /// Of the force, what the motors were given after all limits of the driver [N], also where
+  /// nothing came back; none: all of it.
+  std::optional<Eigen::Vector3d> sent{};
 };
 
-/// What one kind of device says and hears. May block for a few milliseconds, so it lives on a
-/// thread of its own: see ThreadedDevice.
+/// What one kind of device says and hears. Waits for its bus, a few milliseconds at most, on the
+/// thread of the servo: see BusDevice.
 class Driver
 {
 public:
@@ -28,7 +36,7 @@ public:
   ///
   /// @param force   [N]; no force reaches the motors before the device is homed
   /// @param dt      since the last tick [s]
-  /// @param sample  unchanged unless Ok is returned
+  /// @param sample  unchanged unless Ok is returned, but for what was sent
   [[nodiscard]] virtual IoCode tick(
     const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept = 0;
 };

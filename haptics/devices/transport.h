@@ -31,6 +31,12 @@ public:
     MutableBytes into, std::chrono::microseconds timeout) noexcept = 0;
 
   [[nodiscard]] virtual IoCode write(Bytes bytes) noexcept = 0;
+
+  /// The open file behind it, for a guardian to share; -1 where there is none.
+  [[nodiscard]] virtual int descriptor() const noexcept
+  {
+    return -1;
+  }
 };
 
 /// A serial line behind a USB chip that has requests of its own.

@@ -126,6 +126,13 @@ ForceLaw::ForceLaw(const Tip& tip, const Material& material, LawSettings setting
     {
       corrections->coated =
         corrections->layer.coated(settings_.coatings, material_, settings_.base);
+      if (const double flat = flatRadius(tip_);
+          flat > 0.0 && pullsUnderPunch(settings_.coatings, material_, settings_.base, flat))
+      {
+        throw Error(ErrorCode::BadValue,
+          "coatings: under a flat end one as stiff as this bends away from the tool, which no law "
+          "here knows; give a round tip or a softer coating");
+      }
     }
     corrections_ = corrections;
     if (!settings_.relaxation.empty() || settings_.friction > 0.0)

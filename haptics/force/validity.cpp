@@ -30,12 +30,13 @@ constexpr double kLinearError = 0.03;         // of neo-Hookean elements
 constexpr double kConeTilt = 9.0_deg;         // Sec. 3.2, at a half angle of 45 degrees
 constexpr double kDirection = 32.0_deg;       // just noticeable, Sec. 3.2
 
-// Depth to which a stiff coating does not stretch as a membrane: what is five times as stiff as
-// something below does so once it is pressed deeper than it is thick, which adds 3 to 8 % there and
-// 20 % later (neo-Hookean elements, 5 to 20 times) [m].
+// Depth to which a stiff coating does not stretch as a membrane [m]: five times as stiff, it adds 3
+// to 8 % once pressed deeper than it is thick, 20 % later; as a capsule 1.2 % at most (0.2 mm, 20
+// times as stiff, a ball of 10 mm 4 mm deep; neo-Hookean elements).
 double membraneReach(const ForceLaw& law)
 {
   constexpr double membrane = 5.0;
+  constexpr double capsule = 0.4; // [-] thickness over the tip's radius, times as stiff
   double reach = std::numeric_limits<double>::infinity();
   const auto sheets = law.settings().coatings.all();
   for (auto sheet = sheets.begin(); sheet != sheets.end(); ++sheet)
@@ -45,9 +46,11 @@ double membraneReach(const ForceLaw& law)
     {
       thickness += below->thickness;
       const Material& next = below + 1 != sheets.end() ? below[1].material : law.material();
-      if (sheet->material.contactModulus() > membrane * next.contactModulus())
+      const double stiffer = sheet->material.contactModulus() / next.contactModulus();
+      if (stiffer > membrane)
       {
-        reach = std::min(reach, thickness);
+        const bool isCapsule = stiffer * thickness <= capsule * baseRadius(law.tip());
+        reach = isCapsule ? reach : std::min(reach, thickness);
         break;
       }
     }

@@ -57,14 +57,38 @@ Rendered couple(const DepthLaw& law, double depth, double limit) noexcept
   const Knee knee = kneeOf(law, depth, limit);
   if (knee.depth == depth)
   {
-    return { at.force, at.stiffness, depth, false };
+    return { at.force, at.stiffness, depth, false, depth, at.force };
   }
   const double force = knee.force + limit * (depth - knee.depth);
   if (at.force <= force) // falls below the spring again
   {
-    return { at.force, std::fmin(at.stiffness, limit), depth, false };
+    return { at.force, std::fmin(at.stiffness, limit), depth, false, depth, at.force };
   }
-  return { force, limit, inverse(law, force, knee.depth, depth), true };
+  return { force, limit, inverse(law, force, knee.depth, depth), true, knee.depth, knee.force };
+}
+
+// by Gauss in the root of the depth, exact for the powers 1, 3/2 and 2 of punch, sphere and cone
+double storedEnergy(const DepthLaw& law, const Rendered& felt, double depth) noexcept
+{
+  if (!(felt.force > 0.0))
+  {
+    return 0.0;
+  }
+  const double spring = 0.5 * (felt.kneeForce + felt.force) * (depth - felt.kneeDepth);
+  struct Node
+  {
+    double root;
+    double weight;
+  };
+  static const double kSpread = std::sqrt(0.15);
+  double energy = 0.0;
+  for (const auto& [root, weight] : { Node{ 0.5 - kSpread, 5.0 / 18.0 }, Node{ 0.5, 8.0 / 18.0 },
+         Node{ 0.5 + kSpread, 5.0 / 18.0 } })
+  {
+    const double force = law(felt.kneeDepth * root * root).force;
+    energy += std::isfinite(force) ? weight * 2.0 * root * felt.kneeDepth * force : 0.0;
+  }
+  return spring + energy;
 }
 
 double depthOf(const DepthLaw& law, double force, double limit, double upTo) noexcept

@@ -2,6 +2,9 @@
 
 #include "haptics/force/force_law.h"
 
+#include <algorithm>
+#include <numbers>
+
 namespace palp
 {
 
@@ -35,6 +38,8 @@ struct Rendered
   double stiffness = 0.0;  ///< dforce/ddepth [N/m], at most the limit
   double proxyDepth = 0.0; ///< depth at which the law gives this force [m]
   bool limited = false;    ///< the law is stiffer than the limit
+  double kneeDepth = 0.0;  ///< up to which the law is felt as it is [m]
+  double kneeForce = 0.0;  ///< [N]
 };
 
 /// Virtual coupling between a device and the proxy that touches the tissue.
@@ -63,6 +68,13 @@ struct Rendered
 /// @realtime     as couple
 [[nodiscard]] double depthOf(const DepthLaw& law, double force, double limit, double upTo) noexcept;
 
+/// Energy that the coupling stores, which a hand can have back [J].
+///
+/// @param felt   of couple, by the same law
+/// @param depth  of the same question [m]
+/// @realtime     pure; three questions to the law; no allocation, no lock, no exception
+[[nodiscard]] double storedEnergy(const DepthLaw& law, const Rendered& felt, double depth) noexcept;
+
 /// What the stability of a sampled loop depends on.
 struct LoopDynamics
 {
@@ -70,16 +82,30 @@ struct LoopDynamics
   double virtualDamping = 0.0; ///< B of the law [N s/m]
   double period = 0.001;       ///< T [s]
   double delay = 0.0;          ///< t_d, from pose to force beyond the tick [s]
+  double friction = 0.0;       ///< f_c of the mechanism [N]
+  double quantum = 0.0;        ///< q of its encoder [m]
 };
 
-/// Largest stiffness at which a sampled, delayed spring and damper is stable.
+/// Speed at which a hand presses, for which friction is made a damping [m/s].
+inline constexpr double kPressSpeed = 0.05;
+
+/// Largest stiffness at which a sampled, delayed spring and damper comes to rest.
 ///
-/// @return    (b + B) / (T / 2 + t_d) [N/m]
-/// @source    Gil et al. 2004; Hulin, Albu-Schaeffer, Hirzinger, IEEE TCST 2014
+/// Stability with what is stated of device and hand, not passivity for any operator, for which
+/// Colgate and Schenkel ask b > K T/2 + |B|: for B = 0 and t_d = 0 both are the same number.
+/// Friction counts as the damping 4 f_c / (pi v) of its describing function at kPressSpeed, but for
+/// no more than the 2 f_c / q at which it still holds a step of the encoder.
+///
+/// @return    (b + B) / (T / 2 + t_d) and the part of friction [N/m]
+/// @source    Gil et al. 2004; Hulin, Albu-Schaeffer, Hirzinger, IEEE TCST 2014; friction and
+///            quantum: Diolaiti, Niemeyer, Barbagli, Salisbury, IEEE T-RO 22(2), 2006
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] constexpr double stableStiffness(const LoopDynamics& loop) noexcept
 {
-  return (loop.deviceDamping + loop.virtualDamping) / (loop.period / 2.0 + loop.delay);
+  const double late = loop.period / 2.0 + loop.delay;
+  const double rubbing = 4.0 * loop.friction / (std::numbers::pi * kPressSpeed) / late;
+  const double held = loop.quantum > 0.0 ? 2.0 * loop.friction / loop.quantum : rubbing;
+  return (loop.deviceDamping + loop.virtualDamping) / late + std::min(rubbing, held);
 }
 
 } // namespace palp

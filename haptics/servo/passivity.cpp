@@ -7,25 +7,65 @@ namespace
 
 // a coarse encoder makes the observed energy too pessimistic without end
 constexpr double kLargestDebt = 1e-3; // [J]
+// what damping has taken beyond need is no credit for long
+constexpr double kLargestCredit = 1e-4; // [J]
 
 } // namespace
 
-Eigen::Vector3d PassivityController::damp(
-  const Eigen::Vector3d& position, const Eigen::Vector3d& velocity, double dt) noexcept
+// mean force over the last tick: each acts for as long as its own tick, a delay after its pose
+Eigen::Vector3d PassivityController::acting(double dt, double delay) const noexcept
 {
-  energy_ = std::max(energy_ - sent_.dot(position - position_), -kLargestDebt);
-  position_ = position;
-  if (energy_ >= 0.0 || velocity.norm() <= atRest_)
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double age = 0.0; // of the end of a force's own tick [s]
+  for (std::size_t i = 0; i < kForces; ++i)
+  {
+    const std::size_t slot = (newest_ + kForces - i) % kForces;
+    const double end = age - delay; // of its action, before now
+    const double begin = end + lengths_[slot];
+    const double overlap = std::min(begin, dt) - std::max(end, 0.0);
+    if (overlap > 0.0)
+    {
+      sum += overlap / dt * forces_[slot];
+    }
+    if (end >= dt)
+    {
+      break;
+    }
+    age += lengths_[slot];
+  }
+  return sum;
+}
+
+Eigen::Vector3d PassivityController::damp(const PortTick& tick) noexcept
+{
+  lengths_[newest_] = tick.dt;
+  const Eigen::Vector3d travel = tick.position - position_;
+  const double taken = -acting(tick.dt, tick.delay).dot(travel);
+  const double lost =
+    mechanism_.damping * travel.squaredNorm() / tick.dt + mechanism_.friction * travel.norm();
+  energy_ += taken;
+  balance_ =
+    std::clamp(balance_ + taken + lost, tick.stored - kLargestDebt, tick.stored + kLargestCredit);
+  position_ = tick.position;
+  newest_ = (newest_ + 1) % kForces;
+  forces_[newest_].setZero();
+  lengths_[newest_] = 0.0;
+
+  const double missing = tick.stored - balance_;
+  if (missing <= 0.0 || tick.velocity.norm() <= atRest_)
   {
     return Eigen::Vector3d::Zero();
   }
-  return -std::min(maxDamping_, -energy_ / (dt * velocity.squaredNorm())) * velocity;
+  const double damping = missing / (tick.dt * tick.velocity.squaredNorm());
+  return -std::min(tick.share * maxDamping_, damping) * tick.velocity;
 }
 
 void PassivityController::restart(const Eigen::Vector3d& position) noexcept
 {
   energy_ = 0.0;
-  sent_.setZero();
+  balance_ = 0.0;
+  forces_.fill(Eigen::Vector3d::Zero());
+  lengths_.fill(0.0);
   position_ = position;
 }
 

@@ -2,68 +2,108 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace palp
 {
 
-/// Time-domain passivity control: books the energy that the loop has given to the hand, and damps
-/// the hand while it has given more than it took.
+/// What dissipates in the mechanism whatever the loop does, and pays for a part of its activity.
+struct Dissipation
+{
+  double damping = 0.0;  ///< [N s/m]
+  double friction = 0.0; ///< Coulomb's [N]
+};
+
+/// What a passivity controller has to know of a tick.
+struct PortTick
+{
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the device now [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(); ///< [m/s]
+  double dt = 0.001;                                  ///< since the last tick [s], above 0
+  double delay = 0.0;  ///< of a force, behind the pose it answers [s]
+  double stored = 0.0; ///< in the rendered springs, which the hand may have back [J]
+  double share = 1.0;  ///< of alpha_max that may be used [-]
+};
+
+/// Time-domain passivity control: observes the energy that the port has taken from the hand, and
+/// damps the hand while less is left than the rendered springs store.
 ///
-/// The observed energy counts the force that really went to the device, held over the tick, times
-/// the way the device then went: this is the exact energy at the port, also between the samples.
+/// Passivity observer: each force that really went to the device, times the motion on which it
+/// acted: that of a delay later, split between ticks. For a force that is held over a tick this is
+/// the energy at the port, also between the samples. Passivity controller: a variable damper that
+/// dissipates what is missing, after what the mechanism dissipates by itself.
 ///
-/// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 2002
+/// @source  Hannaford, Ryu, "Time-domain passivity control of haptic interfaces", IEEE TRA 18(1),
+///          2002; stored energy as reference: Ryu, Preusche, Hannaford, Hirzinger, "Time domain
+///          passivity control with reference energy following", IEEE TCST 13(5), 2005
 class PassivityController
 {
 public:
   /// @param maxDamping  alpha_max [N s/m]
   /// @param quantum     smallest step of the positions [m]; its noise is no velocity to damp
-  explicit PassivityController(double maxDamping, double quantum = 0.0) noexcept
+  explicit PassivityController(
+    double maxDamping, double quantum = 0.0, const Dissipation& mechanism = {}) noexcept
     : maxDamping_(maxDamping)
     , atRest_(std::min(kAtRest, quantum / kTick))
+    , mechanism_(mechanism)
   {
   }
 
   /// Books the last tick, and gives the damping force of this one.
   ///
-  /// @param position  of the device now [m]
-  /// @param velocity  [m/s]
-  /// @param dt        [s], above 0
   /// @return          [N], against the velocity, or zero
   /// @realtime        no allocation, no lock, no exception
-  [[nodiscard]] Eigen::Vector3d damp(
-    const Eigen::Vector3d& position, const Eigen::Vector3d& velocity, double dt) noexcept;
+  [[nodiscard]] Eigen::Vector3d damp(const PortTick& tick) noexcept;
 
-  /// The force that went to the device, after every limit [N].
+  /// The force that answers the pose of this tick, after every limit [N].
   void sent(const Eigen::Vector3d& force) noexcept
   {
-    sent_ = force;
+    forces_[newest_] = force;
+  }
+
+  /// What the motors were given of the newest force, by a driver with limits of its own [N].
+  void given(const Eigen::Vector3d& force) noexcept
+  {
+    sent(force);
   }
 
   /// Credit of this contact cannot pay for activity in the next; a debt stays.
   void leaveContact() noexcept
   {
-    energy_ = std::min(energy_, 0.0);
+    balance_ = std::min(balance_, 0.0);
   }
 
   /// Forgets all, at the start of a device or after a gap in its poses.
   void restart(const Eigen::Vector3d& position) noexcept;
 
-  /// Energy taken from the hand [J]; negative: given to it.
+  [[nodiscard]] double maxDamping() const noexcept
+  {
+    return maxDamping_;
+  }
+
+  /// Observed energy, taken from the hand [J]; negative: given to it.
   [[nodiscard]] double energy() const noexcept
   {
     return energy_;
   }
 
 private:
-  static constexpr double kAtRest = 1e-3; // [m/s], for a coarse encoder
-  static constexpr double kTick = 1e-3;   // in which one step of a fine one is noise [s]
+  static constexpr double kAtRest = 1e-3;     // [m/s], for a coarse encoder
+  static constexpr double kTick = 1e-3;       // in which one step of a fine one is noise [s]
+  static constexpr std::size_t kForces = 128; // 32 ms at 4 kHz
+
+  [[nodiscard]] Eigen::Vector3d acting(double dt, double delay) const noexcept;
 
   double maxDamping_;
   double atRest_; // [m/s]
+  Dissipation mechanism_;
   double energy_ = 0.0;
-  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();
+  double balance_ = 0.0; // the same with what the mechanism dissipates, between its bounds [J]
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, kForces> forces_{};
+  std::array<double, kForces> lengths_{}; // from the pose of each force to the next [s]
+  std::size_t newest_ = 0;
 };
 
 } // namespace palp

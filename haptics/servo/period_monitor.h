@@ -8,13 +8,21 @@
 namespace palp
 {
 
-/// The period a servo loop really keeps: the 99th percentile of its last thousand ticks.
+/// The period a servo loop really keeps: the 99th percentile of its last thousand ticks. Also of
+/// other times that come with each tick.
 class PeriodMonitor
 {
 public:
-  /// @param nominal  [s], above 0
-  explicit PeriodMonitor(double nominal) noexcept
+  /// @param nominal   [s], above 0
+  /// @param shortest  that is believed after a thousand ticks [s]
+  PeriodMonitor(double nominal, double shortest) noexcept
     : nominal_(nominal)
+    , shortest_(shortest)
+  {
+  }
+
+  explicit PeriodMonitor(double nominal) noexcept
+    : PeriodMonitor(nominal, nominal)
   {
   }
 
@@ -37,21 +45,28 @@ public:
     next_ = (next_ + 1) % ticks_.size();
   }
 
-  /// @return    [s], at least the nominal period, to a tenth of it
+  /// @return    [s], to a tenth of the nominal period, at least the shortest
   /// @realtime  no allocation, no lock, no exception
   [[nodiscard]] double period() const noexcept
   {
     // the slowest hundredth is left out
     std::size_t slower = 0;
-    for (std::size_t bin = kBins; bin-- > kBinsPerPeriod + 1;)
+    std::size_t bin = kBins - 1;
+    for (; bin > 0; --bin)
     {
       slower += histogram_[bin];
       if (slower * 100 > count_)
       {
-        return nominal_ * static_cast<double>(bin + 1) / kBinsPerPeriod;
+        break;
       }
     }
-    return nominal_;
+    const double longest = nominal_ * static_cast<double>(bin + 1) / kBinsPerPeriod;
+    if (bin > kBinsPerPeriod)
+    {
+      return longest;
+    }
+    const bool known = bin < kBinsPerPeriod && count_ == ticks_.size();
+    return known ? std::fmax(longest, shortest_) : nominal_;
   }
 
 private:
@@ -59,6 +74,7 @@ private:
   static constexpr int kBins = 40 * kBinsPerPeriod;
 
   double nominal_;
+  double shortest_;
   std::array<std::uint16_t, 1000> ticks_{};
   std::array<std::uint16_t, kBins> histogram_{};
   std::size_t count_ = 0;

@@ -1,7 +1,7 @@
 #include "haptics/servo/safety.h"
 
-#include "haptics/contact/embed_nodules.h"
 #include "haptics/error.h"
+#include "haptics/servo/tissue_at.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +14,18 @@ namespace palp
 namespace
 {
 
-constexpr double kFreeSpace = 0.050;     // [s] without contact end a soft start
-constexpr double kMaxDamping = 2.0;      // of the law, by that of the device [-]
-constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
-constexpr double kWallDamping = 2.0;     // [N s/m]
-constexpr double kWallForce = 2.0;       // [N]
+constexpr double kFreeSpace = 0.050;  // [s] without contact end a soft start
+constexpr double kFastest = 0.25;     // pace of a bus, by the period that was asked for
+constexpr double kSurely = 0.5;       // of the stated dissipation of a mechanism
+constexpr double kQuickDamping = 0.5; // of a mass, by the delay after which it would swing [-]
+
+// a damper that is late by half of mass / damping begins to drive what it should brake
+double dampingOf(const DeviceLimits& device, const SafetySettings& settings)
+{
+  const double late = device.delay + device.velocityDelay + settings.period;
+  return device.mass > 0.0 ? std::min(settings.passivityDamping, kQuickDamping * device.mass / late)
+                           : settings.passivityDamping;
+}
 
 [[noreturn]] void refuse(
   const std::string& whose, const char* name, double value, const char* bounds)
@@ -33,8 +40,11 @@ constexpr double kWallForce = 2.0;       // [N]
 SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& settings)
   : device_(device)
   , settings_(settings)
-  , passivity_(settings.passivityDamping, device.quantum)
-  , period_(settings.period)
+  , passivity_(dampingOf(device, settings), device.quantum,
+      { kSurely * device.damping, kSurely * device.friction })
+  , guard_(device.quantum)
+  , period_(settings.period, kFastest * settings.period)
+  , delays_(settings.period, 0.0)
 {
   using Named = std::pair<const char*, double>;
   for (const auto& [name, value] : { Named{ "period", settings.period },
@@ -52,8 +62,10 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
     refuse("safety chain", "softSlewRate", settings.softSlewRate, "must be below slewRate");
   }
   for (const auto& [name, value] : { Named{ "maxForce", device.maxForce },
-         { "damping", device.damping }, { "delay", device.delay },
-         { "velocityDelay", device.velocityDelay }, { "workspaceRadius", device.workspaceRadius },
+         { "damping", device.damping }, { "friction", device.friction }, { "mass", device.mass },
+         { "handDamping", device.handDamping }, { "quantum", device.quantum },
+         { "delay", device.delay }, { "velocityDelay", device.velocityDelay },
+         { "workspaceRadius", device.workspaceRadius },
          { "passivityDamping", settings.passivityDamping } })
   {
     if (!(value >= 0.0) || !std::isfinite(value))
@@ -63,48 +75,36 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
   }
 }
 
-// in simulated loops, from three times that of the device on, damping that comes a tick late makes
-// a hand hum
-double SafetyChain::renderedDamping(double wanted) const noexcept
-{
-  return std::min(wanted, kMaxDamping * device_.damping);
-}
-
-double SafetyChain::stiffnessLimit(double damping) const noexcept
-{
-  // a damping that comes late helps little: count it with its delay, or not at all
-  LoopDynamics loop{
-    .deviceDamping = device_.damping, .period = period_.period(), .delay = device_.delay
-  };
-  const double without = stableStiffness(loop);
-  loop.virtualDamping = renderedDamping(damping);
-  loop.delay += device_.velocityDelay;
-  return settings_.stiffnessFraction * std::max(without, stableStiffness(loop));
-}
-
 void SafetyChain::limit(
   Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept
 {
   const Eigen::Vector3d wanted = rendered(sample, law, scene, memory);
-  const Eigen::Vector3d damping = passivity_.damp(last_.apex, last_.velocity, dt_);
+  const Eigen::Vector3d wall = workspaceForce(last_);
+  const Eigen::Vector3d damping = passivity_.damp({ .position = last_.apex,
+    .velocity = last_.velocity,
+    .dt = elapsed_,
+    .delay = measured_ ? newestDelay_ : device_.delay,
+    .stored = forceOn() ? share_ * stored_ : 0.0,
+    .share = guard_.stiffnessShare() });
+  watchSwings(sample);
   sample.force.setZero();
   if (forceOn())
   {
     Eigen::Vector3d force = wanted + damping;
-    if (!damping.isZero(0.0))
-    {
-      raise(Flag::Passivity);
-    }
     if (sample.contact.touching()) // never pulls, whoever brakes
     {
       force += std::max(0.0, -force.dot(sample.contact.normal)) * sample.contact.normal;
     }
-    else
+    else if (wall.isZero(0.0))
     {
       force.setZero();
       passivity_.leaveContact();
     }
-    force += workspaceForce(last_);
+    if (!damping.isZero(0.0) && !force.isZero(0.0))
+    {
+      raise(Flag::Passivity);
+    }
+    force += wall;
     shaped_ = bounded(force, largestForce(scene));
     fade();
     sample.force = share_ * shaped_ + watchdogGain_ * fading_;
@@ -130,7 +130,7 @@ Eigen::Vector3d SafetyChain::rendered(
   Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept
 {
   const double depth = sample.contact.depth;
-  const double stiffest = stiffnessLimit(scene.damping);
+  const double stiffest = guard_.stiffnessShare() * stiffnessLimit(scene.damping);
   const bool isOther = std::exchange(organ_, sample.organ) != sample.organ;
   const bool touched = std::exchange(touched_, depth > 0.0);
   const bool changed = std::exchange(version_, scene.version) != scene.version;
@@ -151,6 +151,7 @@ Eigen::Vector3d SafetyChain::rendered(
     raise(Flag::Rebased);
   }
   normalForce_ = felt.force;
+  stored_ = storedEnergy(law, felt, depth - contactOffset_);
   sample.proxyDepth = felt.proxyDepth;
   const Eigen::Vector3d friction =
     memory != nullptr ? memory->settle(felt, stiffest, sample) : Eigen::Vector3d::Zero();
@@ -160,9 +161,16 @@ Eigen::Vector3d SafetyChain::rendered(
     return Eigen::Vector3d::Zero();
   }
   Eigen::Vector3d force = push(sample.contact.normal, felt, scene);
-  if (scene.nodules != nullptr)
+  if (scene.nodules != nullptr || scene.stiffness != nullptr || scene.series != nullptr)
   {
-    sample.lateral = (*scene.nodules)(noduleContactOf(sample.contact), felt.proxyDepth).lateral;
+    const TissueAt tissue(scene, sample.contact);
+    const SeriesResponse answer = tissue.answer(felt.proxyDepth);
+    const double elastic = answer.felt.force;
+    // what the body pushes aside relaxes as the rest
+    sample.lateral = (memory == nullptr  ? 1.0
+                         : elastic > 0.0 ? felt.force / elastic
+                                         : 0.0) *
+      tissue.lateral(answer);
     force += sample.lateral;
   }
   return memory != nullptr ? Eigen::Vector3d(force + friction) : force;
@@ -209,7 +217,8 @@ Eigen::Vector3d SafetyChain::push(
   {
     return Eigen::Vector3d::Zero();
   }
-  const double damping = renderedDamping(scene.damping);
+  const double damping = std::max(renderedDamping(scene.damping),
+    std::min(guard_.damping(felt.stiffness), settings_.passivityDamping));
   if (felt.limited)
   {
     raise(Flag::StiffnessLimited);
@@ -221,19 +230,16 @@ Eigen::Vector3d SafetyChain::push(
   return std::max(0.0, felt.force - damping * last_.velocity.dot(normal)) * normal;
 }
 
-Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept
+// at tissue or at the end of the workspace
+void SafetyChain::watchSwings(const Sample& sample) noexcept
 {
-  const Eigen::Vector3d reach = pose.apex - device_.workspaceCenter;
-  const double distance = reach.norm();
-  if (!(device_.workspaceRadius > 0.0) || distance <= device_.workspaceRadius)
-  {
-    return Eigen::Vector3d::Zero();
-  }
-  raise(Flag::Workspace);
-  const Eigen::Vector3d outward = reach / distance;
-  const double push = kWallStiffness * (distance - device_.workspaceRadius) +
-    kWallDamping * std::max(0.0, pose.velocity.dot(outward));
-  return -std::min(push, kWallForce) * outward;
+  const bool atEnd = (flags_ & static_cast<std::uint32_t>(Flag::Workspace)) != 0;
+  const Eigen::Vector3d normal = sample.contact.touching()
+    ? sample.contact.normal
+    : (device_.workspaceCenter - last_.apex).normalized();
+  const Eigen::Vector3d along = atEnd || sample.contact.touching() ? normal : normal_;
+  normal_ = along;
+  guard_.record(last_.velocity.dot(along), atEnd || sample.contact.touching(), dt_);
 }
 
 // shortened to the largest force, then to the largest change

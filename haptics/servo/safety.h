@@ -2,6 +2,7 @@
 
 #include "haptics/devices/device.h"
 #include "haptics/servo/coupling.h"
+#include "haptics/servo/oscillation_guard.h"
 #include "haptics/servo/passivity.h"
 #include "haptics/servo/period_monitor.h"
 #include "haptics/servo/sample.h"
@@ -78,16 +79,22 @@ public:
   }
 
   /// Stiffness that may be rendered now [N/m], for a damping of the law [N s/m], of which no more
-  /// than twice that of the device is rendered.
+  /// than twice that of the device is rendered. See stableStiffness: a hand as the device states it
+  /// is on it; without one, passivity control and OscillationGuard hold what is rendered.
   [[nodiscard]] double stiffnessLimit(double damping) const noexcept;
 
-  /// Energy that the loop has taken from the hand, by the force really sent [J].
+  /// From a pose to the force that answers it: of 99 in 100 as the device measures them, or as it
+  /// was stated [s].
+  [[nodiscard]] double delay() const noexcept;
+
+  /// Energy that the port has taken from the hand, by the force really sent [J].
   [[nodiscard]] double energy() const noexcept
   {
     return passivity_.energy();
   }
 
 private:
+  void beginTick(const DeviceStatus& status, double elapsed) noexcept;
   [[nodiscard]] bool plausible(const ToolPose& pose, double age) noexcept;
   void advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept;
   void fault(Flag flag) noexcept;
@@ -101,6 +108,7 @@ private:
     const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept;
   [[nodiscard]] double renderedDamping(double wanted) const noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
+  void watchSwings(const Sample& sample) noexcept;
   [[nodiscard]] Eigen::Vector3d bounded(Eigen::Vector3d force, double largest) noexcept;
   [[nodiscard]] double largestForce(const Scene& scene) const noexcept;
   void ramp(bool touching) noexcept;
@@ -118,7 +126,14 @@ private:
   DeviceLimits device_;
   SafetySettings settings_;
   PassivityController passivity_;
+  OscillationGuard guard_;
   PeriodMonitor period_;
+  PeriodMonitor delays_;
+  bool measured_ = false;                             // the device tells its delay
+  double newestDelay_ = 0.0;                          // [s]
+  double stored_ = 0.0;                               // in the rendered springs [J]
+  double elapsed_ = 0.0;                              // since the last tick, as it was [s]
+  Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(); // of the last contact
 
   DeviceState state_ = DeviceState::Closed;
   std::uint32_t flags_ = 0;   // of this tick

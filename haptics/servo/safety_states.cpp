@@ -12,6 +12,7 @@ namespace
 
 constexpr double kAxisTolerance = 0.01; // of the length of a unit vector
 constexpr int kMaxDropped = 3;          // poses in a row that may be implausible
+constexpr double kShortest = 1e-6;      // tick [s]
 constexpr double kLatest = 0.005;       // [s], or kLatestTicks periods if that is longer
 constexpr double kLatestTicks = 5.0;
 constexpr int kMaxRestarts = 5; // of a force that late ticks let never become whole
@@ -38,9 +39,7 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
 {
   flags_ = 0;
   const double elapsed = dt >= 0.0 && std::isfinite(dt) ? dt : settings_.period;
-  dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
-  sinceLast_ += std::max(elapsed, dt_);
-  period_.record(elapsed);
+  beginTick(status, elapsed);
   const bool stopped = orders.stop || status.stopped || !(orders.heartbeatAge <= kMainThreadGone);
   if (orders.armed && !wasArmed_ && !stopped) // a new wish forgives
   {
@@ -92,6 +91,25 @@ std::optional<ToolPose> SafetyChain::admit(const std::optional<ToolPose>& pose,
   }
   advance(status, orders);
   return last_;
+}
+
+// times of this tick, and what the last one came to at the motors
+void SafetyChain::beginTick(const DeviceStatus& status, double elapsed) noexcept
+{
+  dt_ = std::clamp(elapsed, 0.5 * settings_.period, 4.0 * settings_.period);
+  sinceLast_ += std::max(elapsed, dt_);
+  period_.record(elapsed);
+  elapsed_ = std::max(elapsed, kShortest);
+  if (status.delay > 0.0)
+  {
+    measured_ = true;
+    newestDelay_ = status.delay;
+    delays_.record(status.delay);
+  }
+  if (status.sent && status.sent->allFinite())
+  {
+    passivity_.given(*status.sent);
+  }
 }
 
 // keeps the last pose for a few ticks; after them the new place is true, but without force

@@ -52,7 +52,8 @@ struct Sample
   Contact contact;
   int organ = 0;     ///< of the scene, that is touched, or was last; 0: the first, or the only one
   Response response; ///< of the law, before damping and limits
-  Eigen::Vector3d lateral = Eigen::Vector3d::Zero(); ///< of nodules, besides the response [N]
+  Eigen::Vector3d lateral = Eigen::Vector3d::Zero(); ///< of what lies in the tissue [N]
+  double localDepth = 0.0; ///< of the contact, without what the body gives way as a whole [m]
   double proxyDepth = 0.0; ///< depth at which the law gives the rendered force [m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< sent to the device [N]
   Eigen::Vector3d friction = Eigen::Vector3d::Zero(); ///< on the tool, before limits [N]

@@ -2,7 +2,9 @@
 
 #include "haptics/contact/find_contact.h"
 #include "haptics/force/force_law.h"
+#include "haptics/force/maps/stiffness_field.h"
 #include "haptics/force/nodules/nodule_field.h"
+#include "haptics/force/series/series_body.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,10 +24,12 @@ struct Scene
   double forceLimit = 4.0;   ///< [N], at most what the device can bear
   std::uint64_t version = 0; ///< another number with another surface or law
   bool armed = false;        ///< the user wants to feel force; after a fault: off, then on again
-  std::shared_ptr<const NoduleField> nodules{}; ///< felt by the law's tool; null: none
+  std::shared_ptr<const NoduleField> nodules{};      ///< felt by the law's tool; null: none
+  std::shared_ptr<const StiffnessField> stiffness{}; ///< likewise; null: the same everywhere
+  std::shared_ptr<const SeriesBody> series{};        ///< likewise; null: the body does not give way
 
-  /// More organs, each with a surface, law, damping and nodules of its own; in all else, the tool
-  /// of the law included, as this one.
+  /// More organs, each with a surface, law, damping, nodules, stiffness and compliance of its own;
+  /// in all else, the tool of the law included, as this one.
   std::vector<Scene> others{};
 };
 

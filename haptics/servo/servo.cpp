@@ -1,22 +1,36 @@
 #include "haptics/servo/servo.h"
 
+#include "haptics/error.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/servo_step.h"
 #include "haptics/threads/realtime.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
+#include <span>
+#include <unistd.h>
 
 namespace palp
 {
 namespace
 {
 
-constexpr std::size_t kKept = 8192; // samples, eight seconds
+constexpr double kKept = 8.192;   // of samples [s]
+constexpr double kHeadroom = 1.5; // of its mean time that an exchange may take
 
 double seconds(std::chrono::nanoseconds duration) noexcept
 {
   return std::chrono::duration<double>(duration).count();
+}
+
+std::size_t samplesIn(const ServoOptions& options)
+{
+  if (options.period < ServoOptions::kShortest)
+  {
+    throw Error(ErrorCode::BadValue, "servo: more than 4 kHz; give 1 to 4 kHz");
+  }
+  return options.history ? static_cast<std::size_t>(kKept / seconds(options.period)) : 1;
 }
 
 // only what a hand can feel is limited: mouse and path have no motors
@@ -37,18 +51,34 @@ Servo::Servo(Device& device, const Scene& scene, const ServoOptions& options)
   , options_(options)
   , scene_(scene)
   , chain_(makeChain(device, options))
-  , history_(options.history ? kKept : 1)
+  , history_(samplesIn(options))
   , thread_([this](const std::stop_token& stop) { run(stop); })
 {
-  schedule_ = options.realtime ? makeRealtime(thread_.native_handle(), device.limits().rendersForce)
-                               : "normal priority, as asked";
+  schedule_ = schedule(device.limits());
+  scheduled_.count_down();
 }
 
 Servo::~Servo() = default; // the thread stops and joins first
 
+std::string Servo::schedule(const DeviceLimits& device)
+{
+  number_.wait(0);
+  const std::span<const std::byte> own(reinterpret_cast<const std::byte*>(this), sizeof(*this));
+  std::string words = options_.realtime
+    ? makeRealtime(thread_.native_handle(), number_, device.rendersForce, own)
+    : "normal priority, as asked";
+  if (options_.processor >= 0)
+  {
+    words += stayOn(thread_.native_handle(), options_.processor)
+      ? "; on processor " + std::to_string(options_.processor)
+      : "; processor " + std::to_string(options_.processor) + " refused";
+  }
+  return words;
+}
+
 void Servo::waitUntil(Clock::time_point due) noexcept
 {
-  std::this_thread::sleep_until(due - options_.spin);
+  sleepUntil(due - options_.spin);
   while (Clock::now() < due)
   {
   }
@@ -81,8 +111,39 @@ Sample Servo::computeSample(
   return sample;
 }
 
+// The force of this tick is not held back until the next one: it goes out now, or the next exchange
+// begins at once. What is late is skipped on the same grid, never made up for by a burst.
+Servo::Clock::time_point Servo::nextAfter(
+  Clock::time_point due, const Eigen::Vector3d& force) noexcept
+{
+  using std::chrono::duration_cast;
+  const auto inBus =
+    duration_cast<Clock::duration>(std::chrono::duration<double>(kHeadroom * device_.busTime()));
+  Clock::time_point next = due + options_.period;
+  if (chain_ && inBus > Clock::duration::zero())
+  {
+    const Clock::time_point now = Clock::now();
+    if (now + inBus > next)
+    {
+      const Clock::duration pace = std::max<Clock::duration>(options_.period, inBus);
+      timing_.skipped.fetch_add(
+        static_cast<std::uint64_t>((now - due) / pace), std::memory_order_relaxed);
+      return std::max(now, due + ServoOptions::kShortest);
+    }
+    device_.answer(force);
+  }
+  for (; next <= Clock::now(); next += options_.period)
+  {
+    timing_.skipped.fetch_add(1, std::memory_order_relaxed);
+  }
+  return next;
+}
+
 void Servo::run(const std::stop_token& stop) noexcept
 {
+  number_ = gettid();
+  number_.notify_one();
+  scheduled_.wait();
   const Clock::time_point start = Clock::now();
   Clock::time_point due = start;
   Clock::time_point last = start - options_.period;
@@ -96,6 +157,11 @@ void Servo::run(const std::stop_token& stop) noexcept
     const double elapsed = seconds(awake - last);
     const std::optional<ToolPose> pose = device_.exchange(force, elapsed);
     last = awake;
+    if (const double delay = device_.status().delay; delay > 0.0)
+    {
+      timing_.poseToForce.record(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(delay)));
+    }
     const Clock::time_point begin = Clock::now();
     Sample sample = computeSample(scene_.read(), pose, elapsed);
     sample.time = seconds(awake - start);
@@ -107,13 +173,10 @@ void Servo::run(const std::stop_token& stop) noexcept
     {
       history_.push(sample); // for plots and export, which want every sample
     }
+    timing_.elapsed.store(sample.time, std::memory_order_relaxed);
     timing_.ticks.fetch_add(1, std::memory_order_relaxed);
 
-    // what is late is skipped on the same grid, never made up for by a burst
-    for (due += options_.period; due <= Clock::now(); due += options_.period)
-    {
-      timing_.skipped.fetch_add(1, std::memory_order_relaxed);
-    }
+    due = nextAfter(due, force);
   }
   (void)device_.exchange(Eigen::Vector3d::Zero(), seconds(options_.period));
 }

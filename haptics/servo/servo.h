@@ -11,8 +11,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <latch>
 #include <optional>
 #include <string>
+#include <sys/types.h>
 #include <thread>
 
 namespace palp
@@ -21,9 +23,12 @@ namespace palp
 /// How the servo thread is to run.
 struct ServoOptions
 {
-  std::chrono::nanoseconds period = std::chrono::milliseconds(1);
+  static constexpr std::chrono::microseconds kShortest{ 250 };
+
+  std::chrono::nanoseconds period = std::chrono::milliseconds(1); ///< kShortest or more
   std::chrono::nanoseconds spin{ 0 }; ///< before each deadline, awake: costs CPU, saves lateness
   bool realtime = true;               ///< ask for SCHED_FIFO and locked memory
+  int processor = -1;                 ///< to stay on; below 0: any
   bool history = true;                ///< keep every sample for plots and export
   bool deadMan = false;               ///< force only while the device's first button is held
   const std::atomic<bool>* stop = nullptr; ///< an emergency stop that outlives servos, for signals
@@ -32,6 +37,10 @@ struct ServoOptions
 /// The loop that a hand feels: device, contact, law, limits, device, at a fixed rate.
 ///
 /// A device that renders force does so through the safety chain, and only while the scene is armed.
+///
+/// Pose, law and force are one exchange of this thread: no force waits for the next tick. Where a
+/// bus leaves time for it, a force goes out by itself before the thread sleeps; where not, the next
+/// exchange begins at once, and the bus sets the pace.
 ///
 /// One thread of its own, three exchanges with the main thread: the scene in, the newest sample
 /// and all samples out. A deadline that is missed is counted and skipped, never made up for. The
@@ -96,6 +105,9 @@ private:
   [[nodiscard]] Sample computeSample(
     const Scene& scene, const std::optional<ToolPose>& pose, double elapsed) noexcept;
   void waitUntil(Clock::time_point due) noexcept;
+  [[nodiscard]] Clock::time_point nextAfter(
+    Clock::time_point due, const Eigen::Vector3d& force) noexcept;
+  [[nodiscard]] std::string schedule(const DeviceLimits& device);
 
   Device& device_;
   ServoOptions options_;
@@ -109,7 +121,9 @@ private:
   std::atomic<Clock::time_point> looked_ = Clock::now(); // when the main thread was last seen
   Timing timing_;
   std::string schedule_;
-  std::jthread thread_; // last: it uses all the others
+  std::atomic<pid_t> number_ = 0; // of the thread in the kernel
+  std::latch scheduled_{ 1 }; // locking memory holds up every thread: the first tick is after it
+  std::jthread thread_;       // last: it uses all the others
 };
 
 } // namespace palp

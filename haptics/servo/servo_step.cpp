@@ -1,7 +1,6 @@
 #include "haptics/servo/servo_step.h"
 
-#include "haptics/contact/contact_geometry_of.h"
-#include "haptics/contact/embed_nodules.h"
+#include "haptics/servo/tissue_at.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,13 +61,12 @@ void respond(Sample& sample, const Scene& scene) noexcept
 {
   if (sample.contact.touching())
   {
-    sample.response = evaluateLaw(scene, sample.contact, sample.contact.depth);
+    const TissueAt tissue(scene, sample.contact);
+    const SeriesResponse answer = tissue.answer(sample.contact.depth);
+    sample.response = answer.felt;
+    sample.localDepth = answer.local;
+    sample.lateral = tissue.lateral(answer);
     sample.proxyDepth = sample.contact.depth;
-    if (scene.nodules != nullptr)
-    {
-      sample.lateral =
-        (*scene.nodules)(noduleContactOf(sample.contact), sample.contact.depth).lateral;
-    }
   }
 }
 
@@ -94,16 +92,7 @@ Sample evaluateContact(const Scene& scene, OrganTouch& touch, const ToolPose& po
 
 Response evaluateLaw(const Scene& scene, const Contact& contact, double depth) noexcept
 {
-  ContactGeometry geometry = contactGeometryOf(contact);
-  geometry.depth = depth;
-  Response response = scene.law(geometry);
-  if (scene.nodules != nullptr)
-  {
-    const NoduleResponse more = (*scene.nodules)(noduleContactOf(contact), depth).response;
-    response.force += more.force;
-    response.stiffness += more.stiffness;
-  }
-  return response;
+  return TissueAt(scene, contact)(depth);
 }
 
 Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept
@@ -136,9 +125,13 @@ Sample step(const Scene& scene, TissueMemory& memory, const ToolPose& pose, doub
   if (remembers)
   {
     const double depth = sample.contact.depth;
+    const double elastic = sample.response.force;
     sample.response = sample.contact.touching() ? memory.at(depth) : Response{};
     const Rendered felt{ sample.response.force, sample.response.stiffness, depth };
     friction = memory.settle(felt, std::numeric_limits<double>::infinity(), sample);
+    // what the body pushes aside relaxes as the rest
+    sample.lateral *= sample.contact.touching() && elastic > 0.0 ? felt.force / elastic : 0.0;
+    friction += sample.lateral;
   }
   // what lies deeper than the tool damps nothing
   if (sample.contact.touching() && !(remembers && sample.response.force == 0.0))
@@ -168,7 +161,8 @@ Sample step(const Scene& scene, TissueMemory& memory, SafetyChain& chain,
     chain.limit(sample, law, organ, &memory);
     return sample;
   }
-  const auto law = [&](double depth) noexcept { return evaluateLaw(organ, sample.contact, depth); };
+  const TissueAt tissue(organ, sample.contact);
+  const auto law = [&](double depth) noexcept { return tissue(depth); };
   chain.limit(sample, law, organ);
   return sample;
 }

@@ -15,7 +15,7 @@ namespace palp
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept;
 
-/// The law of a scene at a contact, as if it were another depth there.
+/// The tissue of a scene at a contact, as if it were another depth there.
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Response evaluateLaw(
   const Scene& scene, const Contact& contact, double depth) noexcept;

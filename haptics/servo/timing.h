@@ -56,8 +56,10 @@ private:
 /// How well the servo thread keeps its period.
 struct Timing
 {
-  Histogram lateness; ///< of the wake-up, behind its deadline
-  Histogram step;     ///< contact, law and limits
+  Histogram lateness;    ///< of the wake-up, behind its deadline
+  Histogram step;        ///< contact, law and limits
+  Histogram poseToForce; ///< from a pose to the force that answers it, where a bus is between
+  std::atomic<double> elapsed = 0.0; ///< [s]
   std::atomic<std::uint64_t> ticks = 0;
   std::atomic<std::uint64_t> skipped = 0; ///< whole periods missed; ticks + skipped = elapsed
 };

@@ -1,7 +1,5 @@
 #include "haptics/servo/tissue_memory.h"
 
-#include "haptics/contact/contact_geometry_of.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -31,9 +29,7 @@ void TissueMemory::returnTo(const Contact& contact) noexcept
 
 Response TissueMemory::elastic(double depth) const noexcept
 {
-  ContactGeometry there = place_;
-  there.depth = depth;
-  return (*law_)(there);
+  return (*tissue_)(depth);
 }
 
 bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) noexcept
@@ -51,7 +47,7 @@ bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) no
     forget(scene, sample.organ);
   }
   law_ = &scene.law;
-  place_ = contactGeometryOf(sample.contact);
+  tissue_.emplace(scene, sample.contact);
   const bool touching = sample.contact.touching();
   moved_ = touched_ && touching ? Eigen::Vector3d(apex_ - before) : Eigen::Vector3d::Zero();
   if (touching && !touched_)
@@ -63,7 +59,7 @@ bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) no
   if (touching)
   {
     left_ = apex_;
-    rows_->adapt(*scene.law.rows(), place_.depth,
+    rows_->adapt(*scene.law.rows(), sample.contact.depth,
       [&](double depth) noexcept { return elastic(depth).stiffness; });
   }
   return true;

@@ -6,6 +6,7 @@
 #include "haptics/servo/organ_touch.h"
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
+#include "haptics/servo/tissue_at.h"
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -65,7 +66,7 @@ private:
   std::uint64_t version_ = 0;
   int organ_ = 0;
   const ForceLaw* law_ = nullptr;                   // of this tick
-  ContactGeometry place_;                           // of this tick
+  std::optional<TissueAt> tissue_;                  // likewise
   Eigen::Vector3d apex_ = Eigen::Vector3d::Zero();  // last known [m]
   Eigen::Vector3d moved_ = Eigen::Vector3d::Zero(); // since the last tick [m]
   Eigen::Vector3d left_ = Eigen::Vector3d::Zero();  // apex when it last touched [m]

@@ -1,8 +1,10 @@
 #include "haptics/stability/stability.h"
 
+#include "haptics/stability/arm_grid.h"
 #include "haptics/units.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -19,6 +21,8 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kModuli[] = { 1.0_kPa, 5.0_kPa, 10.0_kPa, 50.0_kPa, 200.0_kPa, 1.5_MPa, 10.0_MPa,
   100.0_MPa, 1000.0_MPa, kInf };
 constexpr double kRatios[] = { 0.0, 0.33, 0.45, 0.4999 };
+constexpr int kArms = 5040;
+constexpr int kQuickArms = 240;
 constexpr double kPeriods[] = { 0.25_ms, 0.5_ms, 1.0_ms, 2.0_ms, 4.0_ms };
 
 std::vector<Tip> tips()
@@ -156,30 +160,6 @@ void addVariations(const Vary& vary)
   addChanges(vary);
 }
 
-struct Stage
-{
-  Flag flag;
-  const char* name;
-};
-
-// in the order of the chain
-constexpr Stage kStages[] = { { Flag::Late, "late" }, { Flag::StiffnessLimited, "stiffness" },
-  { Flag::Rebased, "rebase" }, { Flag::DampingLimited, "damping" },
-  { Flag::Passivity, "passivity" }, { Flag::Limited, "force" }, { Flag::SlewLimited, "slew" } };
-
-std::string stagesIn(std::uint32_t flags)
-{
-  std::string names;
-  for (const auto& [flag, name] : kStages)
-  {
-    if ((flags & static_cast<std::uint32_t>(flag)) != 0)
-    {
-      names.append(names.empty() ? "" : "+").append(name);
-    }
-  }
-  return names.empty() ? "none" : names;
-}
-
 } // namespace
 
 std::vector<StabilityCase> stabilityCases(bool quick)
@@ -210,11 +190,16 @@ std::vector<StabilityCase> stabilityCases(bool quick)
       }
     }
   }
+  std::ranges::move(armCases(quick ? kQuickArms : kArms), std::back_inserter(cases));
   return cases;
 }
 
 StabilityRow judge(const StabilityCase& which, bool chain)
 {
+  if (which.arm)
+  {
+    return judgeArm(*which.arm, chain);
+  }
   LoopCase loop = which.loop;
   if (chain)
   {

@@ -1,6 +1,7 @@
 #include "haptics/surface/crossing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace palp
@@ -52,36 +53,76 @@ private:
   Eigen::Vector3d high_;
 };
 
+bool overlap(const BoxTree::Node& a, const BoxTree::Node& b) noexcept
+{
+  bool isApart = false;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    isApart = isApart || a.low[k] > b.high[k] || a.high[k] < b.low[k];
+  }
+  return !isApart;
+}
+
+// Visits all pairs of facets in two parts of a tree, or within one, whose boxes overlap; each once,
+// while that asks for more.
+template <typename Visit>
+bool forPairs(const BoxTree& tree, int one, int other, Visit& visit)
+{
+  const BoxTree::Node& a = tree.nodes()[at(one)];
+  const BoxTree::Node& b = tree.nodes()[at(other)];
+  if (!overlap(a, b))
+  {
+    return true;
+  }
+  if (a.count > 0 && b.count > 0)
+  {
+    bool more = true;
+    for (int i = a.first; i < a.first + a.count && more; ++i)
+    {
+      for (int j = one == other ? i + 1 : b.first; j < b.first + b.count && more; ++j)
+      {
+        more = visit(i, j);
+      }
+    }
+    return more;
+  }
+  if (one == other)
+  {
+    return forPairs(tree, one + 1, one + 1, visit) && forPairs(tree, a.first, a.first, visit) &&
+      forPairs(tree, one + 1, a.first, visit);
+  }
+  const auto size = [](const BoxTree::Node& node) // of the box, as far as which is larger goes
+  { return node.high[0] - node.low[0] + node.high[1] - node.low[1] + node.high[2] - node.low[2]; };
+  const bool splitsOne = b.count > 0 || (a.count == 0 && size(a) > size(b));
+  return splitsOne ? forPairs(tree, one + 1, other, visit) && forPairs(tree, a.first, other, visit)
+                   : forPairs(tree, one, other + 1, visit) && forPairs(tree, one, b.first, visit);
+}
+
 // visits the places where an edge of a facet passes through another one, while that asks for more
 template <typename Visit>
 void forCrossings(const BoxTree& tree, std::span<const Triangle> triangles, Visit visit)
 {
-  bool more = true;
-  for (int i = 0; at(i) < tree.facets().size() && more; ++i)
+  const auto passes = [&](int i, int j)
   {
     const Facet& facet = tree.facets()[at(i)];
-    const FacetBox bounds(facet);
     const Triangle& own = triangles[at(tree.triangle(i))];
-    tree.search([&](const BoxTree::Node& box) { return more && bounds.overlaps(box); },
-      [&](int j)
+    const Triangle& other = triangles[at(tree.triangle(j))];
+    const auto isShared = [&](int point) { return std::ranges::count(other, point) > 0; };
+    const std::array shared{ isShared(own[0]), isShared(own[1]), isShared(own[2]) };
+    bool more = true;
+    for (std::size_t k = 0; k < 3 && more; ++k)
+    {
+      const std::size_t next = (k + 1) % 3;
+      if (!shared[k] && !shared[next])
       {
-        const Triangle& other = triangles[at(tree.triangle(j))];
-        const auto isShared = [&](int point) { return std::ranges::count(other, point) > 0; };
-        for (std::size_t k = 0; k < 3 && more; ++k)
-        {
-          const std::size_t next = (k + 1) % 3;
-          if (isShared(own[k]) || isShared(own[next]))
-          {
-            continue;
-          }
-          if (const auto place =
-                pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]))
-          {
-            more = visit(tree.triangle(i), tree.triangle(j), *place);
-          }
-        }
-      });
-  }
+        const auto place = pierced(tree.facets()[at(j)], facet.corners[k], facet.corners[next]);
+        more = !place || visit(tree.triangle(i), tree.triangle(j), *place);
+      }
+    }
+    return more;
+  };
+  const auto both = [&](int i, int j) { return passes(i, j) && passes(j, i); };
+  tree.empty() || forPairs(tree, 0, 0, both);
 }
 
 } // namespace

@@ -38,8 +38,7 @@ std::array<Eigen::Matrix3d, 3> bendsOf(
   return result;
 }
 
-std::vector<std::optional<Eigen::Matrix3f>> evenBends(
-  const BoxTree& tree, const LinkedTriangles& mesh, double longest)
+std::vector<FacetBend> evenBends(const BoxTree& tree, const LinkedTriangles& mesh, double longest)
 {
   const std::span<const Facet> facets = tree.facets();
   const auto areaOf = [](const Facet& facet)
@@ -50,7 +49,7 @@ std::vector<std::optional<Eigen::Matrix3f>> evenBends(
   const auto cornersOf = [&](std::size_t i) -> const Triangle&
   { return mesh.triangles[static_cast<std::size_t>(tree.triangle(static_cast<int>(i)))]; };
 
-  std::vector<std::optional<Eigen::Matrix3f>> result(facets.size());
+  std::vector<FacetBend> result(facets.size());
   std::vector<Eigen::Matrix3f> bends(mesh.points.size(), Eigen::Matrix3f::Zero());
   std::vector<float> areas(mesh.points.size(), 0.0F);
   for (std::size_t i = 0; i < facets.size(); ++i)
@@ -59,28 +58,35 @@ std::vector<std::optional<Eigen::Matrix3f>> evenBends(
     const std::array<double, 3> sides{ (p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
       (p[0] - p[2]).norm() };
     const auto turns = bendsOf(mesh, facets[i], tree.triangle(static_cast<int>(i)));
-    const bool creased = std::ranges::any_of(
-      turns, [](const Eigen::Matrix3d& turn) { return std::abs(turn.trace()) > 0.5 * kCrease; });
+    bool creased = false;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double turn = turns[k].trace();
+      result[i].turns[k] = static_cast<float>(turn);
+      creased = creased || std::abs(turn) > 0.5 * kCrease;
+    }
     if (creased || std::ranges::max(sides) > longest)
     {
       continue;
     }
-    result[i] = (sides[0] * turns[0] + sides[1] * turns[1] + sides[2] * turns[2]).cast<float>();
+    const Eigen::Matrix3f bend =
+      (sides[0] * turns[0] + sides[1] * turns[1] + sides[2] * turns[2]).cast<float>();
+    result[i].even = bend;
     for (const int corner : cornersOf(i))
     {
-      bends[static_cast<std::size_t>(corner)] += *result[i] / 3.0F;
+      bends[static_cast<std::size_t>(corner)] += bend / 3.0F;
       areas[static_cast<std::size_t>(corner)] += areaOf(facets[i]);
     }
   }
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    if (result[i])
+    if (std::optional<Eigen::Matrix3f>& even = result[i].even)
     {
-      result[i]->setZero();
+      even->setZero();
       for (const int corner : cornersOf(i))
       {
         const auto k = static_cast<std::size_t>(corner);
-        *result[i] += areaOf(facets[i]) / areas[k] * bends[k];
+        *even += areaOf(facets[i]) / areas[k] * bends[k];
       }
     }
   }

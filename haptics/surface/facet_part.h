@@ -57,12 +57,19 @@ struct LinkedTriangles
 [[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(
   const LinkedTriangles& mesh, const Facet& facet, int triangle);
 
-/// What the sides of each triangle turn, evened out over those about its points: one alone turns in
-/// some of the surface's directions only. The sum over all stays.
+/// What a triangle adds to the curvature of a surface.
+struct FacetBend
+{
+  std::array<float, 3> turns{};          ///< of the surface at its sides, half of it each [rad]
+  std::optional<Eigen::Matrix3f> even{}; ///< length of its sides times their bends, evened out [m]
+};
+
+/// What the sides of each triangle turn, and the same evened out over those about its points: one
+/// alone turns in some of the surface's directions only. The sum over all stays.
 ///
-/// @param longest  triangles with a longer side take no part, nor do those beside a crease [m]
-/// @return         length of the sides times their bends, by the tree's facets, of those [m]
-[[nodiscard]] std::vector<std::optional<Eigen::Matrix3f>> evenBends(
+/// @param longest  triangles with a longer side, or beside a crease, are not evened out [m]
+/// @return         by the tree's facets
+[[nodiscard]] std::vector<FacetBend> evenBends(
   const BoxTree& tree, const LinkedTriangles& mesh, double longest);
 
 /// How large a hollow each triangle bounds: the radius of a ball with as much surface as the closed

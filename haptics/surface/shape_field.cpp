@@ -25,18 +25,6 @@ constexpr double kSharp = 0.8;          // [rad] that a sharp one turns there: 5
 constexpr float kOwnTurn = 0.25F; // of the most in a leaf, or of the mean: not of one beside it
 constexpr float kOneSide = 0.8F;  // length of the mean normal of one side of the surface
 
-// diagonal of the box about all triangles
-double diagonal(const BoxTree::Node& box)
-{
-  double sum = 0.0;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const double side = static_cast<double>(box.high[k]) - static_cast<double>(box.low[k]);
-    sum += side * side;
-  }
-  return std::sqrt(sum);
-}
-
 double longestEdge(const std::array<Eigen::Vector3d, 3>& p)
 {
   return std::sqrt(std::max(
@@ -62,111 +50,131 @@ double leastCell(const BoxTree& tree)
 
 ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double edgeLength)
 {
-  const BoxTree::Node& box = tree.nodes()[0];
-  const double size = diagonal(box);
+  const auto corner = [](const std::array<float, 3>& of)
+  { return Eigen::Vector3f(of.data()).cast<double>().eval(); };
+  const Eigen::Vector3d low = corner(tree.nodes()[0].low);
+  const Eigen::Vector3d high = corner(tree.nodes()[0].high);
+  const double size = (high - low).norm();
   const double scale = std::min(kEdges * edgeLength, kWidest * size);
   cell_ = std::max({ kFine * kFinest * size, kCoarse * scale, leastCell(tree) });
   finest_ = std::max(scale, cell_ / kFine);
-  for (Eigen::Index k = 0; k < 3; ++k)
-  {
-    const auto i = static_cast<std::size_t>(k);
-    origin_[k] = 0.5 * (static_cast<double>(box.low[i]) + static_cast<double>(box.high[i]));
-  }
+  origin_ = 0.5 * (low + high);
 
-  std::vector<Piece> pieces = cutUp(tree, mesh);
+  Pieces pieces;
+  std::vector<Entry> entries;
+  cutUp(tree, mesh, pieces, entries);
   Leaves leaves;
-  build(pieces, static_cast<float>(cell_), leaves);
-  measureLeaves(tree, hollowRadii(mesh), leaves);
+  build(entries, pieces, leaves);
+  measureLeaves(tree, hollowRadii(mesh), pieces, leaves);
   addUp();
 }
 
 // into cells, but for triangles that are small in the least average: those stay whole
-std::vector<ShapeField::Piece> ShapeField::cutUp(
-  const BoxTree& tree, const LinkedTriangles& mesh) const
+void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces& pieces,
+  std::vector<Entry>& entries) const
 {
   const auto bends = evenBends(tree, mesh, finest_);
-  std::vector<Piece> pieces;
-  pieces.reserve(tree.facets().size());
+  pieces.all.reserve(tree.facets().size());
+  entries.reserve(tree.facets().size());
+  pieces.sides.reserve(3 * tree.facets().size());
   for (std::size_t i = 0; i < tree.facets().size(); ++i)
   {
     const Facet& facet = tree.facets()[i];
-    const auto turns = bendsOf(mesh, facet, tree.triangle(static_cast<int>(i)));
-    cut(FacetPart{ facet.corners, { 0, 1, 2 } }, bends[i] ? finest_ : cell_,
+    const auto& turns = bends[i].turns;
+    const auto& even = bends[i].even;
+    const auto bend = even ? std::array<Eigen::Matrix3d, 3>()
+                           : bendsOf(mesh, facet, tree.triangle(static_cast<int>(i)));
+    cut(FacetPart{ facet.corners, { 0, 1, 2 } }, even ? finest_ : cell_,
       [&](const FacetPart& part)
       {
         const auto& p = part.corners;
-        Piece piece{ ((p[0] + p[1] + p[2]) / 3.0 - origin_).cast<float>(), {} };
+        Piece piece;
+        piece.sides[0] = static_cast<int>(pieces.sides.size());
         piece.sums.area = (0.5 * (p[1] - p[0]).cross(p[2] - p[0])).cast<float>();
         for (std::size_t k = 0; k < 3; ++k)
         {
           if (part.sides[k] >= 0)
           {
-            const double length = (p[(k + 1) % 3] - p[k]).norm();
-            const Eigen::Matrix3d& turn = turns[static_cast<std::size_t>(part.sides[k])];
-            piece.sums.bend += (length * turn).cast<float>();
-            piece.sides.push_back(
-              { { (p[k] - origin_).cast<float>(), (p[(k + 1) % 3] - origin_).cast<float>() },
-                static_cast<float>(turn.trace()) });
+            const auto side = static_cast<std::size_t>(part.sides[k]);
+            const Eigen::Vector3d& next = p[(k + 1) % 3];
+            piece.sums.bend += even ? Eigen::Matrix3f::Zero().eval()
+                                    : ((next - p[k]).norm() * bend[side]).cast<float>().eval();
+            pieces.sides.push_back(
+              { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, turns[side] });
           }
         }
-        piece.sums.bend = bends[i].value_or(piece.sums.bend);
-        pieces.push_back(piece);
+        piece.sides[1] = static_cast<int>(pieces.sides.size());
+        piece.sums.bend = even.value_or(piece.sums.bend);
+        const Eigen::Vector3f center = ((p[0] + p[1] + p[2]) / 3.0 - origin_).cast<float>();
+        Entry entry{ .coordinates = {},
+          .area = piece.sums.area.norm(),
+          .piece = static_cast<int>(pieces.all.size()) };
+        entry.coordinates << center.array(),
+          static_cast<float>(cell_) * piece.sums.area.normalized().array();
+        entries.push_back(entry);
+        pieces.all.push_back(piece);
       });
   }
-  return pieces;
 }
 
-// splits at the median of the widest of place and normal until both fit a cell
-void ShapeField::build(std::span<Piece> pieces, float cell, Leaves& leaves)
+// Splits at the median of the widest of place and normal until both fit a cell.
+// @return  sum of the centers times their areas, and of the areas
+Eigen::Vector4f ShapeField::build(std::span<Entry> entries, const Pieces& pieces, Leaves& leaves)
 {
+  const auto cell = static_cast<float>(cell_);
   using Coordinates = Eigen::Array<float, 6, 1>;
-  const auto coordinatesOf = [cell](const Piece& piece)
-  {
-    Coordinates coordinates;
-    coordinates << piece.center.array(), cell * piece.sums.area.normalized().array();
-    return coordinates;
-  };
   Coordinates low = Coordinates::Constant(std::numeric_limits<float>::infinity());
   Coordinates high = -low;
-  Node node;
-  Sums sums;
-  float area = 0.0F;
-  for (const Piece& piece : pieces)
+  for (const Entry& entry : entries)
   {
-    const Coordinates coordinates = coordinatesOf(piece);
-    low = low.min(coordinates);
-    high = high.max(coordinates);
-    const float weight = piece.sums.area.norm();
-    area += weight;
-    node.center += weight * piece.center;
-    sums.area += piece.sums.area;
-    sums.bend += piece.sums.bend;
-  }
-  node.center = area > 0.0F ? Eigen::Vector3f(node.center / area) : pieces.front().center;
-  for (const Piece& piece : pieces)
-  {
-    node.radius = std::max(node.radius, (piece.center - node.center).norm());
+    low = low.min(entry.coordinates);
+    high = high.max(entry.coordinates);
   }
   int widest = 0;
-  const bool leaf = (high - low).maxCoeff(&widest) <= cell || pieces.size() < 2;
-  const bool oneSide = sums.area.norm() > kOneSide * area;
-  node.grain = leaf ? 0.0F : oneSide ? node.radius : std::numeric_limits<float>::infinity();
+  const bool leaf = (high - low).maxCoeff(&widest) <= cell || entries.size() < 2;
   const std::size_t self = nodes_.size();
-  nodes_.push_back(node);
-  sums_.push_back(sums);
-  leaves.push_back(leaf ? pieces : std::span<Piece>());
+  nodes_.emplace_back();
+  sums_.emplace_back();
+  leaves.push_back(leaf ? entries : std::span<Entry>());
+  Sums sums;
+  Eigen::Vector4f weight = Eigen::Vector4f::Zero();
   if (leaf)
   {
-    return;
+    for (const auto& [coordinates, area, piece] : entries)
+    {
+      weight += area * coordinates.head<3>().matrix().homogeneous();
+      sums.area += pieces.all[at(piece)].sums.area;
+      sums.bend += pieces.all[at(piece)].sums.bend;
+    }
   }
-  const auto along = [&](const Piece& piece) // coordinatesOf()[widest]
-  { return widest < 3 ? piece.center[widest] : cell * piece.sums.area.normalized()[widest - 3]; };
-  const std::size_t half = pieces.size() / 2;
-  std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(),
-    [&](const Piece& a, const Piece& b) { return along(a) < along(b); });
-  build(pieces.first(half), cell, leaves);
-  nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
-  build(pieces.subspan(half), cell, leaves);
+  else
+  {
+    const std::size_t half = entries.size() / 2;
+    std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half),
+      entries.end(),
+      [widest](const Entry& a, const Entry& b)
+      { return a.coordinates[widest] < b.coordinates[widest]; });
+    weight = build(entries.first(half), pieces, leaves);
+    const std::size_t right = nodes_.size();
+    nodes_[self].right = static_cast<std::int32_t>(right);
+    weight += build(entries.subspan(half), pieces, leaves);
+    sums.area = sums_[self + 1].area + sums_[right].area;
+    sums.bend = sums_[self + 1].bend + sums_[right].bend;
+  }
+  Node& node = nodes_[self];
+  node.center = weight[3] > 0.0F ? Eigen::Vector3f(weight.head<3>() / weight[3])
+                                 : entries.front().coordinates.head<3>().matrix();
+  float squaredRadius = 0.0F;
+  for (const Entry& entry : entries)
+  {
+    squaredRadius =
+      std::max(squaredRadius, (entry.coordinates.head<3>().matrix() - node.center).squaredNorm());
+  }
+  node.radius = std::sqrt(squaredRadius);
+  const bool oneSide = sums.area.norm() > kOneSide * weight[3];
+  node.grain = leaf ? 0.0F : oneSide ? node.radius : std::numeric_limits<float>::infinity();
+  sums_[self] = sums;
+  return weight;
 }
 
 // visit(index, weight) for the parts in a ball; the weight falls smoothly to its rim
@@ -242,7 +250,7 @@ LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
 
 // thickness and sharpness of the leaves, from what is about them
 void ShapeField::measureLeaves(
-  const BoxTree& tree, std::span<const float> hollows, const Leaves& leaves)
+  const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces, const Leaves& leaves)
 {
   const double around = kTurn * cell_;
   std::vector<SharpEdges::Segment> sharp;
@@ -274,48 +282,42 @@ void ShapeField::measureLeaves(
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(below.thickness));
     leaf.hollow = below.isHollow ? leaf.area.norm() : 0.0F;
     const float curvature = sum.bend.trace() / area;
-    const bool bends = turningOf(leaves[i]) > kOwnTurn * curvature * leaf.area.norm();
-    if (bends && static_cast<double>(curvature) * around > kSharp)
+    if (static_cast<double>(curvature) * around > kSharp)
     {
-      addTurning(leaves[i], sharp);
+      addTurning(sidesOf(leaves[i], pieces), kOwnTurn * curvature * leaf.area.norm(), sharp);
     }
   }
   edges_ = SharpEdges(std::move(sharp));
 }
 
-// of the sides of a leaf, times their length [m]
-float ShapeField::turningOf(std::span<const Piece> leaf)
+std::vector<ShapeField::Side> ShapeField::sidesOf(std::span<const Entry> leaf, const Pieces& pieces)
 {
-  float sum = 0.0F;
-  for (const Piece& piece : leaf)
+  std::vector<Side> sides;
+  for (const Entry& entry : leaf)
   {
-    for (const Side& side : piece.sides)
-    {
-      sum += side.turn * (side.ends[1] - side.ends[0]).norm();
-    }
+    const auto [first, end] = pieces.all[at(entry.piece)].sides;
+    sides.insert(sides.end(), pieces.sides.begin() + first, pieces.sides.begin() + end);
   }
-  return sum;
+  return sides;
 }
 
-// the sides at which a leaf turns
-void ShapeField::addTurning(std::span<const Piece> leaf, std::vector<SharpEdges::Segment>& sharp)
+// The sides at which a leaf turns, where it does so.
+// @param least  that its sides turn together, times their length [m]
+void ShapeField::addTurning(
+  std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp)
 {
+  float sum = 0.0F;
   float most = 0.0F;
-  for (const Piece& piece : leaf)
+  for (const Side& side : sides)
   {
-    for (const Side& side : piece.sides)
-    {
-      most = std::max(most, side.turn);
-    }
+    sum += side.turn * (side.ends[1] - side.ends[0]).norm();
+    most = std::max(most, side.turn);
   }
-  for (const Piece& piece : leaf)
+  for (const Side& side : sides)
   {
-    for (const Side& side : piece.sides)
+    if (sum > least && side.turn > kOwnTurn * most)
     {
-      if (side.turn > kOwnTurn * most)
-      {
-        sharp.push_back(side.ends);
-      }
+      sharp.push_back(side.ends);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "haptics/surface/sharp_edges.h"
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -101,21 +102,37 @@ private:
   // of the surface, smaller than a cell
   struct Piece
   {
-    Eigen::Vector3f center; // from the origin [m]
     Sums sums;
+    std::array<int, 2> sides{}; // the first of them, and the one behind the last
+  };
+
+  struct Pieces
+  {
+    std::vector<Piece> all{};
     std::vector<Side> sides{};
   };
 
-  using Leaves = std::vector<std::span<const Piece>>; // of each node, empty where it is no leaf
+  // a piece waiting for its place in the tree
+  struct Entry
+  {
+    Eigen::Array<float, 6, 1> coordinates; // of its center, from the origin, and its normal [m]
+    float area;                            // [m^2]
+    int piece;
+  };
+
+  using Leaves = std::vector<std::span<const Entry>>; // of each node, empty where it is no leaf
 
   template <typename Visit>
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
-  [[nodiscard]] std::vector<Piece> cutUp(const BoxTree& tree, const LinkedTriangles& mesh) const;
-  void build(std::span<Piece> pieces, float cell, Leaves& leaves);
-  void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Leaves& leaves);
-  static float turningOf(std::span<const Piece> leaf);
-  static void addTurning(std::span<const Piece> leaf, std::vector<SharpEdges::Segment>& sharp);
+  void cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces& pieces,
+    std::vector<Entry>& entries) const;
+  Eigen::Vector4f build(std::span<Entry> entries, const Pieces& pieces, Leaves& leaves);
+  void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces,
+    const Leaves& leaves);
+  static std::vector<Side> sidesOf(std::span<const Entry> leaf, const Pieces& pieces);
+  static void addTurning(
+    std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp);
   void addUp();
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();

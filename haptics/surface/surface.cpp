@@ -4,6 +4,7 @@
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "haptics/surface/facet_part.h"
+#include "haptics/threads/followed_work.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -78,13 +79,15 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
   , triangles_(std::move(triangles))
 {
   check(points_, triangles_);
-  tree_ = BoxTree(points_, triangles_);
+  auto tree = std::async(std::launch::async, [this] { return BoxTree(points_, triangles_); });
+  normals_ = angleWeightedNormals(points_, triangles_);
+  isClosed_ = linkEdges();
+  tree_ = tree.get();
+  tellDone(0.4); // of the time, about; as below
   if (tree_.empty())
   {
     throw Error(ErrorCode::BadMesh, "surface: no triangle with an area; choose another file");
   }
-  normals_ = angleWeightedNormals(points_, triangles_);
-  isClosed_ = linkEdges();
   if (!isClosed_)
   {
     spreadOpenEdges();
@@ -105,6 +108,7 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
       dropWhatIsBuried();
     }
   }
+  tellDone(0.7);
   firstTriangle_.assign(points_.size(), -1);
   for (int facet = static_cast<int>(tree_.facets().size()) - 1; facet >= 0; --facet)
   {

@@ -39,8 +39,9 @@ void addCurve(Plot& plot, const Curve& curve, const figures::Points& points)
       }
       else if (!points.x.empty())
       {
-        plot.addLine(
-          curve.label, points.x, points.y, color, 2.0F, curve.style == Curve::Style::Dashed);
+        plot.addLine(curve.label, points.x, points.y, color, 2.0F,
+          curve.style == Curve::Style::Dashed ? appearance::LineStyle::Dashed
+                                              : appearance::LineStyle::Solid);
       }
       break;
     case Curve::Style::Circles:

@@ -261,7 +261,7 @@ void ForceCharts::setPresses(std::vector<PressCurve> presses)
       table->SetValue(row, 1, press.forces[i]);
     }
     vtkPlot* plot = addLine(*overDepth_, press.name.c_str(), press.color, kPressWidth);
-    plot->GetPen()->SetLineType(press.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
+    plot->GetPen()->SetLineType(static_cast<int>(press.style));
     plot->SetInputData(table, 0, 1);
     pressPlots_.push_back(plot);
   }
@@ -317,7 +317,7 @@ std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const
   {
     vtkTable& table = *pressPlots_[i]->GetInput();
     depth.addLine(presses_[i].name, columnOf(table, 0), columnOf(table, 1), presses_[i].color,
-      kPressWidth, presses_[i].dashed);
+      kPressWidth, presses_[i].style);
   }
   for (const auto& plot : plots)
   {

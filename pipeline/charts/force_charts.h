@@ -25,7 +25,7 @@ struct PressCurve
   std::vector<double> depths{}; ///< [m]
   std::vector<double> forces{}; ///< [N], as many
   appearance::Color color{};
-  bool dashed = false;
+  appearance::LineStyle style = appearance::LineStyle::Solid;
 };
 
 /// The live curves: force over the last minute, of the law and as it was sent to the hand, and

@@ -87,14 +87,14 @@ vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
 }
 
 void Plot::addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
-  const appearance::Color& color, float width, bool dashed)
+  const appearance::Color& color, float width, appearance::LineStyle style)
 {
   vtkPlot* plot = chart_->AddPlot(vtkChart::LINE);
   plot->SetInputData(addTable(name, x, y, {}), 0, 1);
   plot->SetLabel(name);
   plot->GetPen()->SetColorF(color[0], color[1], color[2]);
   plot->SetWidth(width);
-  plot->GetPen()->SetLineType(dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
+  plot->GetPen()->SetLineType(static_cast<int>(style));
 }
 
 void Plot::addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,

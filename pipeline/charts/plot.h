@@ -41,7 +41,8 @@ public:
 
   /// A line through points, in the units of the axes.
   void addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
-    const appearance::Color& color, float width = 2.0F, bool dashed = false);
+    const appearance::Color& color, float width = 2.0F,
+    appearance::LineStyle style = appearance::LineStyle::Solid);
 
   void addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
     const appearance::Color& color, Mark mark = Mark::Circle, float size = 6.0F);

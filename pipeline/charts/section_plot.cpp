@@ -228,7 +228,7 @@ void addElements(Plot& plot, const SurfaceProfile& elements, const Line& rest)
       }
     }
     plot.addLine(side < 0.0 ? "finite elements, on a plane" : "", line.x, line.y,
-      appearance::curveColor(2), 2.0F, true);
+      appearance::curveColor(2), 2.0F, appearance::LineStyle::Dashed);
   }
 }
 

@@ -1,9 +1,12 @@
 #include "pipeline/deform/dent.h"
 
+#include "haptics/numerics/smooth_step.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace palp
 {
@@ -23,9 +26,11 @@ bool isFinite(const Press& press)
   return std::isfinite(press.contact.depth) && press.contact.center.allFinite() &&
     press.contact.normal.allFinite() && press.pose.apex.allFinite() &&
     press.pose.axis.allFinite() && std::isfinite(press.contactRadius) &&
-    std::isfinite(press.extentRadius) && (!press.fitted || isFinite(*press.fitted));
+    std::isfinite(press.extentRadius) && press.carried.allFinite() &&
+    (!press.fitted || isFinite(*press.fitted));
 }
 
+constexpr double kWider = 1.0 + 1e-6; // [-] beyond rounding
 constexpr int kUprightPasses = 30;
 constexpr double kUpright = 0.05; // [-] fraction of its area at rest that a side keeps at least
 
@@ -64,12 +69,15 @@ void Dent::update(const Press& press, const DentArrays& arrays)
   const Contact& contact = press.contact;
   if (contact.touching() && isFinite(press))
   {
-    body_.emplace(press.tip, press.pose);
+    carried_ = press.carried - press.carried.dot(contact.normal) * contact.normal;
+    ToolPose pose = press.pose;
+    pose.apex -= carried_;
+    body_.emplace(press.tip, pose);
     const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
     const double extent = press.fitted ? press.fitted->reach() : press.extentRadius;
     const double outer = ringRadius(press.tip, contact.depth, inner, extent);
     lay(press, outer);
-    if (const double reach = ringRadiusFor(field_.reach(), inner); reach > outer)
+    if (const double reach = field_.reach(); reach > kWider * outer)
     {
       lay(press, reach);
     }
@@ -95,7 +103,9 @@ void Dent::update(const Press& press, const DentArrays& arrays)
 void Dent::lay(const Press& press, double outer)
 {
   const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
-  region_.grow(press.contact, *body_, inner, outer);
+  Contact contact = press.contact;
+  contact.center -= carried_;
+  region_.grow(contact, *body_, inner, outer);
   field_.lay(region_, *body_, press.contact.depth, press.fitted, press.isLiteral);
 }
 
@@ -126,9 +136,27 @@ PressField::Sink Dent::sinkAt(
   return sink;
 }
 
+// the contact goes along as a whole; around it, as around one that is about to slip, ever less
+Eigen::Vector3d Dent::displacement(const GeodesicCoordinates& geodesic, double sink) const noexcept
+{
+  const Eigen::Vector3d down = -sink * region_.normal();
+  if (carried_.isZero(0.0))
+  {
+    return down;
+  }
+  const double inner = region_.inner();
+  const double outer = region_.outer();
+  double part = 1.0;
+  if (geodesic.distance > inner)
+  {
+    part = std::asin(inner / geodesic.distance) / (0.5 * std::numbers::pi) *
+      (1.0 - smoothStep((geodesic.distance - inner) / (outer - inner)));
+  }
+  return down + part * carried_;
+}
+
 void Dent::displace(std::size_t from, std::size_t to, const DentArrays& arrays) const noexcept
 {
-  const Eigen::Vector3d normal = region_.normal();
   const auto points = region_.points();
   const auto geodesics = region_.geodesics();
   for (std::size_t i = from; i < to; ++i)
@@ -139,7 +167,7 @@ void Dent::displace(std::size_t from, std::size_t to, const DentArrays& arrays) 
     }
     const Eigen::Vector3d rest = region_.rest(points[i]);
     const PressField::Sink sink = field_.sinkAt(geodesics[i], rest, *body_);
-    const Eigen::Vector3d moved = -(sink.depth + geodesics[i].extra) * normal;
+    const Eigen::Vector3d moved = displacement(geodesics[i], sink.depth + geodesics[i].extra);
     const Eigen::Vector3d sunk = rest + moved;
     const auto at = static_cast<std::size_t>(points[i]);
     for (Eigen::Index k = 0; k < 3; ++k)

@@ -26,6 +26,9 @@ struct Press
   /// The surface of finite elements at this depth, in place of the paper's ring and its radii.
   std::optional<SurfaceProfile> fitted{};
 
+  /// What friction carries along the surface with the tool, at the contact [m].
+  Eigen::Vector3d carried = Eigen::Vector3d::Zero();
+
   bool isLiteral = false; ///< contactRadius is drawn also where it leaves the surface at an angle
 };
 
@@ -73,6 +76,12 @@ public:
   [[nodiscard]] PressField::Sink sinkAt(
     const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest) const noexcept;
 
+  /// From rest to the last press [m].
+  /// @param sink  of sinkAt there [m]
+  [[nodiscard]] Eigen::Vector3d displacement(
+    const GeodesicCoordinates& geodesic, double sink) const noexcept;
+
+  /// Of a point at rest, as if the tool had carried nothing along.
   [[nodiscard]] bool isInsideTool(const Eigen::Vector3d& point) const noexcept
   {
     return body_->inside(point) > 0.0;
@@ -100,8 +109,9 @@ private:
   std::span<const float> rest_;
   PressRegion region_;
   PressField field_;
-  std::optional<ToolBody> body_;
-  std::vector<std::int32_t> before_; // points of the last press
+  std::optional<ToolBody> body_; // where the tissue that is carried along would be at rest
+  Eigen::Vector3d carried_ = Eigen::Vector3d::Zero(); // at the contact [m]
+  std::vector<std::int32_t> before_;                  // points of the last press
 };
 
 } // namespace palp

@@ -13,6 +13,7 @@ namespace
 
 constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's center to its circle
 constexpr int kMaxLevel = 6;
+constexpr double kNear = 0.65;            // [-] of the tolerance
 constexpr double kMaxTriangles = 24000.0; // as many as a picture is quick with
 
 } // namespace
@@ -137,33 +138,41 @@ void DentPatch::addMiddle(int a, int b, const Dent& dent)
     const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
     middle = { std::min(a, b), std::max(a, b), static_cast<int>(corners_.size()) };
-    corners_.push_back({ rest, normal, geodesicBetween(a, b, rest, dent) });
+    corners_.push_back({ rest, normal, geodesicBetween(a, b, 0.5, rest, dent) });
   }
 }
 
 GeodesicCoordinates DentPatch::geodesicBetween(
-  int a, int b, const Eigen::Vector3d& rest, const Dent& dent) const noexcept
+  int a, int b, double fraction, const Eigen::Vector3d& rest, const Dent& dent) const noexcept
 {
   GeodesicCoordinates geodesic =
-    dent.region().geodesicBetween(geodesicOf(a), geodesicOf(b), 0.5, rest);
+    dent.region().geodesicBetween(geodesicOf(a), geodesicOf(b), fraction, rest);
   geodesic.within = dent.isInsideTool(rest);
   return geodesic;
 }
 
-// whether an edge between two displaced corners spans the contact, or is farther from the displaced
-// surface
+// whether an edge between two displaced corners spans the contact, or comes near to being farther
+// from the displaced surface, at one of its quarters: within a triangle that a rim crosses it is
+// half as far again
 bool DentPatch::isFar(const Triangle& corners, const Dent& dent, double tolerance) const noexcept
 {
   for (std::size_t k = 0; k < 3; ++k)
   {
     const auto a = static_cast<std::size_t>(corners[k]);
     const auto b = static_cast<std::size_t>(corners[(k + 1) % 3]);
-    const Eigen::Vector3d rest = 0.5 * (corners_[a].rest + corners_[b].rest);
-    const auto geodesic = geodesicBetween(corners[k], corners[(k + 1) % 3], rest, dent);
-    if (dent.region().spansContact(corners_[a].geodesic, corners_[b].geodesic) ||
-      std::abs(dent.sinkAt(geodesic, rest).depth - 0.5 * (sink[a] + sink[b])) > tolerance)
+    if (dent.region().spansContact(corners_[a].geodesic, corners_[b].geodesic))
     {
       return true;
+    }
+    for (const double part : { 0.25, 0.5, 0.75 })
+    {
+      const Eigen::Vector3d rest = corners_[a].rest + part * (corners_[b].rest - corners_[a].rest);
+      const auto geodesic = geodesicBetween(corners[k], corners[(k + 1) % 3], part, rest, dent);
+      const double straight = sink[a] + part * (sink[b] - sink[a]);
+      if (std::abs(dent.sinkAt(geodesic, rest).depth - straight) > kNear * tolerance)
+      {
+        return true;
+      }
     }
   }
   return false;
@@ -197,8 +206,8 @@ bool DentPatch::restsBetween(int a, int b, const Dent& dent) const noexcept
 
 void DentPatch::displace(const Dent& dent)
 {
-  const Eigen::Vector3d normal = dent.region().normal();
   points.clear();
+  displacement.clear();
   sink.clear();
   distance.clear();
   zone.clear();
@@ -208,7 +217,11 @@ void DentPatch::displace(const Dent& dent)
     const PressField::Sink down = rests(static_cast<int>(i), dent)
       ? PressField::Sink{ 0.0, Zone::Rest }
       : dent.sinkAt(corner.geodesic, corner.rest);
-    points.emplace_back((corner.rest - down.depth * normal).cast<float>());
+    const Eigen::Vector3d moved = down.zone == Zone::Rest
+      ? Eigen::Vector3d::Zero().eval()
+      : dent.displacement(corner.geodesic, down.depth);
+    displacement.push_back(moved.cast<float>());
+    points.emplace_back((corner.rest + moved).cast<float>());
     sink.push_back(static_cast<float>(down.depth));
     distance.push_back(static_cast<float>(corner.geodesic.distance));
     zone.push_back(down.zone);

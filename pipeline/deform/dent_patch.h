@@ -24,10 +24,11 @@ public:
   ///                   6 times [m]; 0: none
   void build(const Dent& dent, int level, double tolerance = 0.0);
 
-  std::vector<Eigen::Vector3f> points;  ///< [m]
-  std::vector<Eigen::Vector3f> normals; ///< unit
-  std::vector<float> sink;              ///< along the contact normal [m]
-  std::vector<float> distance;          ///< from the contact's center along the surface at rest [m]
+  std::vector<Eigen::Vector3f> points;       ///< [m]
+  std::vector<Eigen::Vector3f> normals;      ///< unit
+  std::vector<Eigen::Vector3f> displacement; ///< from rest [m]
+  std::vector<float> sink;                   ///< along the contact normal [m]
+  std::vector<float> distance; ///< from the contact's center along the surface at rest [m]
   std::vector<Zone> zone;
   std::vector<Triangle> triangles;
 
@@ -55,7 +56,7 @@ private:
   void addMiddle(int a, int b, const Dent& dent);
   [[nodiscard]] Middle& middleOf(int a, int b);
   [[nodiscard]] GeodesicCoordinates geodesicBetween(
-    int a, int b, const Eigen::Vector3d& rest, const Dent& dent) const noexcept;
+    int a, int b, double fraction, const Eigen::Vector3d& rest, const Dent& dent) const noexcept;
   [[nodiscard]] bool isFar(
     const Triangle& corners, const Dent& dent, double tolerance) const noexcept;
   [[nodiscard]] const GeodesicCoordinates& geodesicOf(int corner) const noexcept

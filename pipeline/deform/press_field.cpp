@@ -60,22 +60,28 @@ RingCurve PressField::curveAlong(
     return makeRingCurve(0.0, 0.0, 0.0, region.outer());
   }
   const double exit = gap.exit(atCenter);
-  double end = isLiteral_ ? exit : gap.contactBefore(exit);
+  double end = std::min(region.inner(), isLiteral_ ? exit : gap.contactBefore(exit));
   if (fittedCurve_ && !body.hasFlatBase())
   {
-    // as deep as on a plane, like the contact of two spheres, however the surface is bent
+    // as deep as on a plane, like the contact of two spheres, however the surface is bent and the
+    // tool leans: a radius that grows up a steep flank would come out of the surface there
     const double sink = atCenter * std::min(kDeepest, fittedCurve_->sink / deepest_);
-    end = std::min(end, gap.radiusAt(sink, exit));
+    end = std::min(gap.contactBefore(exit), gap.radiusAt(sink, exit));
   }
   const double flat = gap.contactBefore(gap.flatEdge(exit));
-  const double contact = std::min(region.inner(), std::max(flat, end));
+  const double contact = std::max(std::min(region.inner(), flat), end);
   const double sink = -gap(contact);
   const double slope = gap.slopeAt(contact, exit);
-  if (slope > 0.0)
+  const RingCurve curve = makeRingCurve(contact, sink, slope, region.outer());
+  if (follows(curve))
   {
-    reach_ = std::max(reach_, contact + sink / slope);
+    reach_ = std::max(reach_, fittedTo(curve).reach());
   }
-  return makeRingCurve(contact, sink, slope, region.outer());
+  else if (slope > 0.0)
+  {
+    reach_ = std::max(reach_, ringRadiusFor(contact + sink / slope, region.inner()));
+  }
+  return curve;
 }
 
 inline RingCurve PressField::curveTowards(double turns) const noexcept
@@ -106,7 +112,7 @@ std::array<Eigen::Vector3d, 3> PressField::controlPoints(
 }
 
 // the fitted shape between a direction's own ends
-double PressField::fittedSink(const RingCurve& curve, double radius) const noexcept
+SurfaceProfile PressField::fittedTo(const RingCurve& curve) const noexcept
 {
   SurfaceProfile profile = *fittedCurve_;
   const double scale = curve.sink / profile.sink;
@@ -115,16 +121,16 @@ double PressField::fittedSink(const RingCurve& curve, double radius) const noexc
   profile.slope = curve.sink / (curve.meet - curve.inner);
   profile.control = { scale * profile.control[0], scale * profile.control[1] };
   profile.rest *= scale; // so that it ends where it does elsewhere
-  return profile.sinkAt(radius);
+  return profile;
 }
 
 // of the smooth surface: what the paper gives every way from the contact
 inline double PressField::smoothSink(double distance, const RingCurve& curve) const noexcept
 {
-  const bool isFitted = fittedCurve_ && curve.sink > 0.0 && curve.meet > curve.inner;
   // no deeper than the tool, which on a rough surface is deeper at the circle than the contact says
   const double deepest = std::max(deepest_, curve.sink);
-  return std::min(isFitted ? fittedSink(curve, distance) : curve.sinkAt(distance), deepest);
+  return std::min(
+    follows(curve) ? fittedTo(curve).sinkAt(distance) : curve.sinkAt(distance), deepest);
 }
 
 // a side below the tool goes down with the surface above it, less and less with its own depth, so

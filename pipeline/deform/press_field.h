@@ -52,10 +52,11 @@ public:
   void lay(const PressRegion& region, const ToolBody& body, double depth,
     const std::optional<SurfaceProfile>& fitted = std::nullopt, bool isLiteral = false);
 
-  /// How far from the center the tool's tangents at the contact circle meet the surface, at most.
+  /// How far from the center the ring ought to end: of a fitted profile where that does in any
+  /// direction, else beyond where the tool's tangents at the contact circle meet the surface.
   ///
-  /// Where it is more than the outer radius, the surface that is drawn lies higher, or is more
-  /// hollow, than the one the contact was found on, and the ring ought to be wider.
+  /// Where it is more than the outer radius, the tool leans, or the surface that is drawn lies
+  /// higher, or is more hollow, than the one the contact was found on.
   [[nodiscard]] double reach() const noexcept
   {
     return reach_;
@@ -86,7 +87,11 @@ private:
   [[nodiscard]] RingCurve curveTowards(double turns) const noexcept;
   [[nodiscard]] RingCurve curveAlong(
     const Eigen::Vector2d& towards, const PressRegion& region, const ToolBody& body) noexcept;
-  [[nodiscard]] double fittedSink(const RingCurve& curve, double radius) const noexcept;
+  [[nodiscard]] bool follows(const RingCurve& curve) const noexcept
+  {
+    return fittedCurve_ && curve.sink > 0.0 && curve.meet > curve.inner;
+  }
+  [[nodiscard]] SurfaceProfile fittedTo(const RingCurve& curve) const noexcept;
   [[nodiscard]] double smoothSink(double distance, const RingCurve& curve) const noexcept;
   [[nodiscard]] double sideSink(const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest,
     const RingCurve& curve, const ToolBody& body) const noexcept;

@@ -19,14 +19,20 @@ constexpr int kIterations = 40;
 using namespace units::literals;
 
 constexpr double kBetween = 12.0_deg; // normal and flank, at least
+constexpr double kOuter = 1.0 - 1e-6; // [-] of the base
 
 // how far the way down may lean from the axis: of a round tip its shaft is the first that can stand
-// along it, of a punch its flat lies at the other side of that
+// along it, of a profile its rim, of a punch its flat lies at the other side of that
 double mostLean(const Tip& tip)
 {
   return std::visit(
-    [](const auto& shape)
+    [&tip](const auto& shape)
     {
+      if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, ProfileTip>)
+      {
+        const double steepest = tipSlope(tip, kOuter * baseRadius(tip));
+        return std::max(0.0, std::atan2(1.0, steepest) - kBetween);
+      }
       if constexpr (requires { shape.halfAngle; })
       {
         return std::max(0.0, shape.halfAngle - kBetween);

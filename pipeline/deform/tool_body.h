@@ -94,9 +94,9 @@ private:
   double flank_;           // slope of a sharp cone [-], 0 for other tips
 };
 
-/// The way that a surface goes below a tool: against the contact's normal, unless a straight flank
-/// or the shaft of a tool that leans would stand along it as a wall; then as near to it as leaves
-/// 12 degrees between them.
+/// The way that a surface goes below a tool: against the contact's normal, unless a straight flank,
+/// the rim of a profile or the shaft of a tool that leans would stand along it as a wall; then as
+/// near to it as leaves 12 degrees between them.
 ///
 /// @param normal  unit
 /// @param axis    of the tool, unit

@@ -191,15 +191,14 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
     array->SetNumberOfTuples(count); // keeps memory that is large enough
     array->Modified();
   }
-  const Eigen::Vector3f normal = this->Dent.region().normal().cast<float>();
   for (vtkIdType i = 0; i < count; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
     this->PatchPositions->SetTypedTuple(i, this->Patch.points[at].data());
     this->PatchNormals->SetTypedTuple(i, this->Patch.normals[at].data());
-    const Eigen::Vector3f displacement = -this->Patch.sink[at] * normal;
+    const Eigen::Vector3f& displacement = this->Patch.displacement[at];
     this->PatchDisplacement->SetTypedTuple(i, displacement.data());
-    const double millimeters = palp::units::toMillimeters(this->Patch.sink[at]);
+    const double millimeters = palp::units::toMillimeters(static_cast<double>(displacement.norm()));
     this->PatchLength->SetValue(i, static_cast<float>(millimeters));
     this->PatchDistance->SetValue(i, this->Patch.distance[at]);
     this->PatchZone->SetValue(i, static_cast<unsigned char>(this->Patch.zone[at]));

@@ -7,7 +7,6 @@
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkOverlayPass.h>
 #include <vtkRenderPassCollection.h>
-#include <vtkRenderer.h>
 #include <vtkSSAOPass.h>
 #include <vtkSequencePass.h>
 #include <vtkTranslucentPass.h>
@@ -15,7 +14,7 @@
 namespace palp
 {
 
-void addAmbientOcclusion(vtkRenderer& renderer, double radius)
+vtkSmartPointer<vtkRenderPass> ambientOcclusion(double radius)
 {
   vtkNew<vtkCameraPass> opaque; // clears to the background
   opaque->SetDelegatePass(vtkNew<vtkOpaquePass>());
@@ -40,9 +39,9 @@ void addAmbientOcclusion(vtkRenderer& renderer, double radius)
   all->AddItem(vtkNew<vtkOverlayPass>());
   vtkNew<vtkSequencePass> picture;
   picture->SetPasses(all);
-  vtkNew<vtkCameraPass> camera;
+  auto camera = vtkSmartPointer<vtkCameraPass>::New();
   camera->SetDelegatePass(picture);
-  renderer.SetPass(camera);
+  return camera;
 }
 
 } // namespace palp

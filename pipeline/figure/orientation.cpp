@@ -25,8 +25,7 @@ constexpr std::array<const char*, 6> kAxes{ "x", "", "y", "", "z", "" };
 } // namespace
 
 Orientation::Orientation(vtkRenderer& renderer)
-  : layOut_(renderer,
-      [this, &renderer](double width, double, double scale) { place(renderer, width, scale); })
+  : layOut_(renderer, [this, &renderer](const PictureRoom& room) { place(renderer, room); })
 {
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(2 * static_cast<vtkIdType>(kEnds));
@@ -69,7 +68,7 @@ void Orientation::setVisible(bool visible)
   isVisible_ = visible;
 }
 
-void Orientation::place(vtkRenderer& renderer, double width, double scale)
+void Orientation::place(vtkRenderer& renderer, const PictureRoom& room)
 {
   constexpr double kArm = 30.0;    // [pixels]
   constexpr double kLetter = 41.0; // from the middle
@@ -79,7 +78,8 @@ void Orientation::place(vtkRenderer& renderer, double width, double scale)
   const Eigen::Vector3d sight(camera.GetDirectionOfProjection());
   const Eigen::Vector3d right = sight.cross(Eigen::Vector3d(camera.GetViewUp())).normalized();
   const Eigen::Vector3d up = right.cross(sight);
-  const Eigen::Vector2d middle(width - kMiddle * scale, kMiddle * scale);
+  const double scale = room.scale;
+  const Eigen::Vector2d middle(room.width - kMiddle * scale, room.foot + kMiddle * scale);
   for (std::size_t i = 0; i < kEnds; ++i)
   {
     const Eigen::Vector3d axis =

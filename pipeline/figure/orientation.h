@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/view/before_render.h"
+#include "pipeline/layout/before_render.h"
 
 #include <array>
 #include <vtkActor2D.h>
@@ -29,7 +29,7 @@ public:
   void setInk(const std::array<double, 3>& ink);
 
 private:
-  void place(vtkRenderer& renderer, double width, double scale);
+  void place(vtkRenderer& renderer, const PictureRoom& room);
 
   static constexpr std::size_t kEnds = 6; // +x, -x, +y, -y, +z, -z
 

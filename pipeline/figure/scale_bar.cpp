@@ -3,6 +3,7 @@
 #include "haptics/units.h"
 #include "pipeline/view/appearance.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vtkCamera.h>
@@ -28,9 +29,7 @@ double roundDown(double most)
 } // namespace
 
 ScaleBar::ScaleBar(vtkRenderer& renderer)
-  : layOut_(renderer,
-      [this, &renderer](double width, double height, double scale)
-      { place(renderer, width, height, scale); })
+  : layOut_(renderer, [this, &renderer](const PictureRoom& room) { place(renderer, room); })
 {
   appearance::makeInkLine(*bar_, *actor_, 6); // an end, the bar, an end
   renderer.AddActor2D(actor_);
@@ -53,20 +52,23 @@ void ScaleBar::setInk(const std::array<double, 3>& ink)
   text_->GetTextProperty()->SetColor(ink[0], ink[1], ink[2]);
 }
 
-void ScaleBar::place(vtkRenderer& renderer, double width, double height, double scale)
+void ScaleBar::place(vtkRenderer& renderer, const PictureRoom& room)
 {
   constexpr double kLongest = 160.0; // [pixels]
   constexpr double kRight = 130.0;   // [pixels], beside the axes in the corner
+  constexpr double kInset = 16.0;    // from the left side, at least
   constexpr double kBottom = 24.0;
   constexpr double kEnd = 5.0;
+  const double scale = room.scale;
   vtkCamera& camera = *renderer.GetActiveCamera();
   const double seen =
     2.0 * camera.GetDistance() * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.GetViewAngle()));
-  const double pixel = seen / height; // [m]
-  length_ = units::fromMillimeters(roundDown(units::toMillimeters(kLongest * scale * pixel)));
-  const double right = width - kRight * scale;
+  const double pixel = seen / room.height; // [m]
+  const double right = room.width - kRight * scale;
+  const double most = std::clamp(right - kInset * scale, 1.0, kLongest * scale);
+  length_ = units::fromMillimeters(roundDown(units::toMillimeters(most * pixel)));
   const double left = right - length_ / pixel;
-  const double y = kBottom * scale;
+  const double y = room.foot + kBottom * scale;
   const double end = kEnd * scale;
   const std::array<std::array<double, 2>, 6> corners{ { { left, y + end }, { left, y - end },
     { left, y }, { right, y }, { right, y - end }, { right, y + end } } };

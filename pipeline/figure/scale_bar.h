@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/view/before_render.h"
+#include "pipeline/layout/before_render.h"
 
 #include <array>
 #include <vtkActor2D.h>
@@ -32,7 +32,7 @@ public:
   }
 
 private:
-  void place(vtkRenderer& renderer, double width, double height, double scale);
+  void place(vtkRenderer& renderer, const PictureRoom& room);
 
   double length_ = 0.0;
   vtkNew<vtkPolyData> bar_; // [pixels]

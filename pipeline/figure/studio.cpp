@@ -39,8 +39,32 @@ void makePhysical(vtkActor& actor)
   property.SetMetallic(0.0);
   property.SetRoughness(kRoughness);
   // it takes colors as shares of light, and we have them as a screen shows them
-  actor.GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Color::Impl", true,
-    "//VTK::Color::Impl\n  diffuseColor = pow(diffuseColor, vec3(2.2));\n", false);
+  vtkShaderProperty& shader = *actor.GetShaderProperty();
+  shader.GetNumberOfShaderReplacements() > 0
+    ? void()
+    : shader.AddFragmentShaderReplacement("//VTK::Color::Impl", true,
+        "//VTK::Color::Impl\n  diffuseColor = pow(diffuseColor, vec3(2.2));\n", false);
+}
+
+template <typename Use>
+void eachLit(vtkRenderer& renderer, Use use)
+{
+  vtkActorCollection& actors = *renderer.GetActors();
+  actors.InitTraversal();
+  while (vtkActor* actor = actors.GetNextActor())
+  {
+    actor->GetProperty()->GetLighting() ? use(*actor) : void();
+  }
+}
+
+void brighten(vtkRenderer& renderer, double times)
+{
+  vtkLightCollection& lamps = *renderer.GetLights();
+  lamps.InitTraversal();
+  while (vtkLight* lamp = lamps.GetNextItem())
+  {
+    lamp->SetIntensity(times * lamp->GetIntensity());
+  }
 }
 
 } // namespace
@@ -61,24 +85,27 @@ void addStudio(vtkRenderer& renderer)
   texture->InterpolateOn();
   texture->SetInputDataObject(panorama);
   renderer.SetEnvironmentTexture(texture, false);
-  renderer.SetEnvironmentUp(renderer.GetActiveCamera()->GetViewUp());
   renderer.UseImageBasedLightingOn();
+  brighten(renderer, kLamps);
+}
 
-  vtkLightCollection& lamps = *renderer.GetLights();
-  lamps.InitTraversal();
-  while (vtkLight* lamp = lamps.GetNextItem())
-  {
-    lamp->SetIntensity(kLamps * lamp->GetIntensity());
-  }
-  vtkActorCollection& actors = *renderer.GetActors();
-  actors.InitTraversal();
-  while (vtkActor* actor = actors.GetNextActor())
-  {
-    if (actor->GetProperty()->GetLighting())
+void makePhysical(vtkRenderer& renderer)
+{
+  renderer.SetEnvironmentUp(renderer.GetActiveCamera()->GetViewUp());
+  eachLit(renderer, [](vtkActor& actor) { makePhysical(actor); });
+}
+
+void removeStudio(vtkRenderer& renderer)
+{
+  renderer.UseImageBasedLightingOff();
+  renderer.SetEnvironmentTexture(nullptr);
+  brighten(renderer, 1.0 / kLamps);
+  eachLit(renderer,
+    [](vtkActor& actor)
     {
-      makePhysical(*actor);
-    }
-  }
+      actor.GetProperty()->SetInterpolationToGouraud();
+      actor.GetShaderProperty()->ClearAllFragmentShaderReplacements();
+    });
 }
 
 } // namespace palp

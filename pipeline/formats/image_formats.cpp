@@ -71,29 +71,51 @@ PatientImage readMetaImage(const std::filesystem::path& file)
     result.toPatient[4 * i + 3] = header.origin[i];
   }
   result.notes.emplace_back(kPatientAxes);
+  if (!header.contradiction.empty())
+  {
+    result.notes.push_back("warning: " + header.contradiction);
+  }
   return result;
+}
+
+// that of the sform where it is another than that of pixdim; empty: it is the same
+std::string otherSize(vtkNIFTIImageReader& reader)
+{
+  constexpr double kAlike = 0.01;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const vtkMatrix4x4& form = *reader.GetSFormMatrix(); // without pixdim
+    const double growth =
+      std::hypot(form.GetElement(0, axis), form.GetElement(1, axis), form.GetElement(2, axis));
+    if (std::abs(growth - 1.0) > kAlike)
+    {
+      const double side = reader.GetOutput()->GetSpacing()[axis];
+      std::ostringstream words;
+      words << side << " and its sform of " << side * growth << " along axis " << axis + 1;
+      return words.str();
+    }
+  }
+  return {};
 }
 
 // programs differ in which of the two forms they take: of another size one of them is wrong
 void compareForms(
   const std::filesystem::path& file, vtkNIFTIImageReader& reader, std::vector<std::string>& notes)
 {
+  const std::string sizes = otherSize(reader);
+  if (!reader.GetQFormMatrix())
+  {
+    sizes.empty()
+      ? void()
+      : notes.push_back("warning: its pixdim has voxels of " + sizes + "; the sform is taken");
+    return;
+  }
+  if (!sizes.empty())
+  {
+    refuse(file, "its qform has voxels of " + sizes + "; set the code of the wrong one to 0");
+  }
   vtkMatrix4x4& rigid = *reader.GetQFormMatrix(); // of the sides that pixdim tells
   vtkMatrix4x4& affine = *reader.GetSFormMatrix();
-  constexpr double kAlike = 0.01;
-  for (int k = 0; k < 3; ++k)
-  {
-    const double growth =
-      std::hypot(affine.GetElement(0, k), affine.GetElement(1, k), affine.GetElement(2, k));
-    if (std::abs(growth - 1.0) > kAlike)
-    {
-      const double side = reader.GetOutput()->GetSpacing()[k];
-      std::ostringstream words;
-      words << "its qform has voxels of " << side << " and its sform of " << side * growth
-            << " along axis " << k + 1 << "; set the code of the wrong one to 0";
-      refuse(file, words.str());
-    }
-  }
   const double* bounds = reader.GetOutput()->GetBounds();
   for (int corner = 0; corner < 8; ++corner)
   {
@@ -117,7 +139,7 @@ void compareForms(
 void placeInPatient(
   const std::filesystem::path& file, vtkNIFTIImageReader& reader, PatientImage& image)
 {
-  if (reader.GetSFormMatrix() && reader.GetQFormMatrix())
+  if (reader.GetSFormMatrix())
   {
     compareForms(file, reader, image.notes);
   }

@@ -1,6 +1,7 @@
-// palp-read FILE [organs|list] [KEY=VALUE...]: reads a surface, the bodies in an image or their
-// list for the program that started it. Readers of other people's files may crash or run away, and
-// here they do it alone.
+// palp-read FILE [joined|organs|list|values] [KEY=VALUE...]: reads a surface, the bodies in an
+// image, their list or values for the program that started it. Readers of other people's files may
+// crash or run away, and here they do it alone.
+#include "pipeline/formats/joined_corners.h"
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/process/child_process.h"
@@ -8,6 +9,7 @@
 #include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 namespace
 {
@@ -58,17 +60,27 @@ int main(int argc, char** argv)
   const std::filesystem::path file = argc > 1 ? argv[1] : "";
   const std::string_view mode = argc > 2 ? argv[2] : "";
   palp::ImagePart part;
+  std::string array;
   for (int i = 2; i < argc; ++i)
   {
     const std::string_view word = argv[i];
     const std::size_t equals = std::min(word.find('='), word.size() - 1);
     take(part, word.substr(0, equals), word.substr(equals + 1));
+    array = word.substr(0, equals) == "array" ? word.substr(equals + 1) : array;
   }
   palp::answer(
     [&]
     {
-      return mode == "organs" || mode == "list" ? pack(palp::readOrgans(file, part, mode == "list"))
-                                                : pack(palp::readFile(file, part));
+      if (mode == "values")
+      {
+        return pack(palp::readValues(file, array));
+      }
+      if (mode == "organs" || mode == "list")
+      {
+        return pack(palp::readOrgans(file, part, mode == "list"));
+      }
+      palp::FileSurface surface = palp::readFile(file, part);
+      return pack(mode == "joined" ? withJoinedCorners(std::move(surface)) : surface);
     },
     palp::readLimits(file), palp::neededFiles(file));
 }

@@ -11,6 +11,7 @@
 #include "pipeline/formats/msh_format.h"
 #include "pipeline/formats/read_limits.h"
 #include "pipeline/formats/regions/image_surface.h"
+#include "pipeline/formats/value_formats.h"
 #include "pipeline/formats/vti_image.h"
 #include "pipeline/formats/vtk_formats.h"
 #include "pipeline/model/poly_data.h"
@@ -145,16 +146,9 @@ bool indicesInRange(vtkCellArray& cells, vtkIdType points)
   {
     return false;
   }
-  vtkDataArray& indices = *cells.GetConnectivityArray();
-  for (vtkIdType i = 0; i < indices.GetNumberOfValues(); ++i)
-  {
-    const double index = indices.GetComponent(i, 0);
-    if (!(index >= 0.0 && index < static_cast<double>(points)))
-    {
-      return false;
-    }
-  }
-  return true;
+  double range[2] = { 0.0, -1.0 };
+  cells.GetNumberOfCells() > 0 ? cells.GetConnectivityArray()->GetRange(range) : void();
+  return range[0] >= 0.0 && range[1] < static_cast<double>(points);
 }
 
 void checkPoints(const std::filesystem::path& file, std::span<const Eigen::Vector3d> points)
@@ -194,6 +188,22 @@ void turnToLps(FileSurface& surface)
   surface.space = surface.space.find("LPS") != std::string::npos ? "LPS" : "";
 }
 
+// also of faces with more corners, and of strips
+std::vector<Triangle> allTriangles(vtkPolyData& data)
+{
+  constexpr vtkIdType kCorners = 3;
+  if (data.GetPolys()->IsHomogeneous() == kCorners && data.GetStrips()->GetNumberOfCells() == 0)
+  {
+    return trianglesOf(data);
+  }
+  vtkNew<vtkTriangleFilter> cut;
+  cut->PassVertsOff();
+  cut->PassLinesOff();
+  cut->SetInputData(&data);
+  cut->Update();
+  return trianglesOf(*cut->GetOutput());
+}
+
 FileSurface surfaceOf(const std::filesystem::path& file, vtkPolyData& data)
 {
   const vtkIdType points = data.GetNumberOfPoints();
@@ -211,12 +221,7 @@ FileSurface surfaceOf(const std::filesystem::path& file, vtkPolyData& data)
     .notes = {},
     .space = fieldOf(data, kSpaceArray) };
   checkPoints(file, surface.points);
-  vtkNew<vtkTriangleFilter> cut;
-  cut->PassVertsOff();
-  cut->PassLinesOff();
-  cut->SetInputData(&data);
-  cut->Update();
-  surface.triangles = trianglesOf(*cut->GetOutput());
+  surface.triangles = allTriangles(data);
   if (surface.triangles.empty())
   {
     throw Error(ErrorCode::BadMesh,
@@ -272,6 +277,7 @@ const Format& checkedFormat(const std::filesystem::path& file, const ImagePart& 
 
 FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
 {
+  constexpr double kRead = 0.6; // about, of all the time
   const Format& format = checkedFormat(file, part);
   if (format.read && (part.level || !part.labels.empty()))
   {
@@ -284,11 +290,32 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
     {
       if (format.read)
       {
-        return surfaceOf(file, *format.read(file));
+        const auto data = format.read(file);
+        answerProgress(kRead);
+        return surfaceOf(file, *data);
       }
-      FileSurface surface = imageSurface(imageOf(file, format, part), part, file.string());
+      const PatientImage volume = imageOf(file, format, part);
+      answerProgress(kRead);
+      FileSurface surface = imageSurface(volume, part, file.string());
       checkPoints(file, surface.points);
       return surface;
+    });
+}
+
+FileValues readValues(const std::filesystem::path& file, const std::string& array)
+{
+  const Format& format = checkedFormat(file, {});
+  if (array.empty() != (format.read == nullptr))
+  {
+    refuse(file,
+      array.empty() ? "a surface, not an image; name an array of it"
+                    : "an image, not a surface; it has no arrays to name");
+  }
+  return withoutVtkErrors(file, format,
+    [&]
+    {
+      return format.read ? arrayValues(*format.read(file), array, file)
+                         : imageValues(imageOf(file, format, {}), file);
     });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/process/file_organs.h"
+#include "pipeline/process/file_values.h"
 
 #include <filesystem>
 
@@ -23,5 +24,10 @@ namespace palp
 /// @throws Error  BadFile: a surface, no image; else as readFile
 [[nodiscard]] FileOrgans readOrgans(
   const std::filesystem::path& file, const ImagePart& part, bool isList);
+
+/// The values of an image, or of an array of a surface.
+/// @param array   its name; empty: the file is an image
+/// @throws Error  BadFile: the other kind of file; as imageValues, arrayValues, readFile
+[[nodiscard]] FileValues readValues(const std::filesystem::path& file, const std::string& array);
 
 } // namespace palp

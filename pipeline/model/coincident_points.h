@@ -11,7 +11,7 @@ namespace palp
 /// shown, a coordinate below 2^-32 of the point's largest being 0; a point that is not finite
 /// stands alone.
 ///
-/// Found by sorting: far points or crowded places cost no more than others.
+/// Found by hashing: far points or crowded places cost no more than others.
 [[nodiscard]] std::vector<int> firstOfEach(std::span<const Eigen::Vector3d> points);
 
 } // namespace palp

@@ -37,6 +37,18 @@ std::vector<Triangle> trianglesOf(vtkPolyData& mesh)
   return triangles;
 }
 
+vtkSmartPointer<vtkCellArray> makeCells(std::span<const Triangle> triangles)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  const auto count = static_cast<vtkIdType>(triangles.size());
+  cells->AllocateExact(count, 3 * count);
+  for (const auto& [a, b, c] : triangles)
+  {
+    cells->InsertNextCell({ a, b, c });
+  }
+  return cells;
+}
+
 vtkSmartPointer<vtkPolyData> makePolyData(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles)
 {
@@ -46,16 +58,9 @@ vtkSmartPointer<vtkPolyData> makePolyData(
   {
     vertices->SetPoint(static_cast<vtkIdType>(i), points[i].data());
   }
-  vtkNew<vtkCellArray> cells;
-  const auto count = static_cast<vtkIdType>(triangles.size());
-  cells->AllocateExact(count, 3 * count);
-  for (const auto& [a, b, c] : triangles)
-  {
-    cells->InsertNextCell({ a, b, c });
-  }
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(vertices);
-  mesh->SetPolys(cells);
+  mesh->SetPolys(makeCells(triangles));
   return mesh;
 }
 

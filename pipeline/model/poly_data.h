@@ -6,6 +6,7 @@
 #include <vector>
 #include <vtkSmartPointer.h>
 
+class vtkCellArray;
 class vtkPolyData;
 
 namespace palp
@@ -17,6 +18,9 @@ namespace palp
 
 /// @param mesh  triangles only, which is checked by assertion
 [[nodiscard]] std::vector<Triangle> trianglesOf(vtkPolyData& mesh);
+
+/// @param triangles  indices of points
+[[nodiscard]] vtkSmartPointer<vtkCellArray> makeCells(std::span<const Triangle> triangles);
 
 /// Triangles for VTK, with points in single precision.
 [[nodiscard]] vtkSmartPointer<vtkPolyData> makePolyData(

@@ -1,6 +1,7 @@
 #include "pipeline/process/child_process.h"
 
 #include "haptics/error.h"
+#include "haptics/threads/followed_work.h"
 #include "pipeline/process/sandbox.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ namespace
 // the first byte tells what follows
 constexpr char kResult = 'R';
 constexpr char kError = 'E'; // then the code in one byte, and the message
+constexpr char kDone = 'D';  // then percent in one byte, and another such message
 
 // sanitizers reserve more than any limit, and make calls of their own
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -47,16 +49,29 @@ bool writeAll(int pipe, const std::string& bytes)
   return true;
 }
 
-std::string readAll(int pipe)
+// tells what an answer begins with of its progress
+void takeProgress(std::string& answer)
+{
+  std::size_t told = 0;
+  for (; told + 1 < answer.size() && answer[told] == kDone; told += 2)
+  {
+    FollowedWork* work = FollowedWork::ofThisThread();
+    work != nullptr ? work->tell(answer[told + 1] / 100.0) : void();
+  }
+  answer.erase(0, told);
+}
+
+std::string readAll(int pipe, bool isAnswer)
 {
   std::string bytes;
-  char buffer[1 << 16];
+  std::vector<char> buffer(1 << 20);
   for (;;)
   {
-    const ssize_t n = read(pipe, buffer, sizeof buffer);
+    const ssize_t n = read(pipe, buffer.data(), buffer.size());
     if (n > 0)
     {
-      bytes.append(buffer, static_cast<std::size_t>(n));
+      bytes.append(buffer.data(), static_cast<std::size_t>(n));
+      isAnswer ? takeProgress(bytes) : void();
     }
     else if (n == 0 || errno != EINTR)
     {
@@ -123,11 +138,23 @@ std::optional<pid_t> spawn(
   return failure == 0 ? std::optional(child) : std::nullopt;
 }
 
+// a program that nobody waits for any longer is ended, not left alone
+std::string outputWhileWanted(pid_t child, int pipe, bool isAnswer)
+{
+  FollowedWork* work = FollowedWork::ofThisThread();
+  const std::stop_callback end(
+    work != nullptr ? work->token() : std::stop_token(), [child] { kill(child, SIGKILL); });
+  return readAll(pipe, isAnswer);
+}
+
 // standard output of a program that ended well, else nothing
-std::optional<std::string> run(const std::vector<std::string>& command, bool keepsEnvironment)
+std::optional<std::string> run(
+  const std::vector<std::string>& command, bool keepsEnvironment, bool isAnswer)
 {
   int ends[2] = { -1, -1 };
   const bool piped = pipe2(ends, O_CLOEXEC) == 0;
+  constexpr int kRoom = 1 << 20;             // [bytes]
+  (void)fcntl(ends[0], F_SETPIPE_SZ, kRoom); // else both wait for each other every 64 KiB
   const std::optional<pid_t> child =
     piped ? spawn(command, ends[1], keepsEnvironment) : std::nullopt;
   const int why = errno;
@@ -140,12 +167,13 @@ std::optional<std::string> run(const std::vector<std::string>& command, bool kee
         (why == ENOENT || why == EACCES ? "build or install it, or name its prefix in PALP_PREFIX"
                                         : "close some programs"));
   }
-  std::string output = readAll(ends[0]);
+  std::string output = outputWhileWanted(*child, ends[0], isAnswer);
   close(ends[0]);
   int status = 0;
   while (waitpid(*child, &status, 0) < 0 && errno == EINTR)
   {
   }
+  checkWanted();
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? std::optional(std::move(output))
                                                        : std::nullopt;
 }
@@ -154,12 +182,12 @@ std::optional<std::string> run(const std::vector<std::string>& command, bool kee
 
 std::optional<std::string> outputOf(const std::vector<std::string>& command)
 {
-  return run(command, true);
+  return run(command, true, false);
 }
 
 std::optional<std::string> answerOf(const std::vector<std::string>& command)
 {
-  std::optional<std::string> answer = run(command, kSanitized);
+  std::optional<std::string> answer = run(command, kSanitized, true);
   if (!answer || answer->empty())
   {
     return std::nullopt;
@@ -226,6 +254,17 @@ void blameForACrash(const std::filesystem::path& file)
   lastWords().text = file.empty() ? std::string()
                                   : std::string{ kError, static_cast<char>(ErrorCode::BadFile) } +
       file.string() + ": damaged or cut off; export or copy it again";
+}
+
+void answerProgress(double done)
+{
+  static char told = 0;
+  const auto percent = static_cast<char>(std::clamp(100.0 * done, 0.0, 100.0));
+  if (lastWords().output >= 0 && percent != told)
+  {
+    told = percent;
+    writeAll(lastWords().output, { kDone, percent });
+  }
 }
 
 } // namespace palp

@@ -14,7 +14,7 @@ namespace palp
 ///
 /// @param command  path of the program, and its arguments; no shell reads them
 /// @return         what it wrote to standard output; nothing when it failed or crashed
-/// @throws Error   BadFile: it cannot be started
+/// @throws Error   BadFile: it cannot be started; as checkWanted, which ends it
 [[nodiscard]] std::optional<std::string> outputOf(const std::vector<std::string>& command);
 
 /// Runs a program that answers, so that a crash there is an answer here.
@@ -24,8 +24,11 @@ namespace palp
 /// hold at that moment.
 ///
 /// @param command  path of a program whose main function is answer, and its arguments
+/// What it tells of its progress goes to who follows the work of this thread (followed_work.h);
+/// work that is given up ends the program at once.
+///
 /// @return         nothing when the program crashed, or reached a limit
-/// @throws Error   what the work threw; BadFile when the program cannot be started
+/// @throws Error   what the work threw; BadFile when the program cannot be started; as checkWanted
 [[nodiscard]] std::optional<std::string> answerOf(const std::vector<std::string>& command);
 
 /// What a process may use before it is ended.
@@ -48,5 +51,8 @@ struct ChildLimits
 /// Within such work: what is answered if it crashes from here on, an error of this file; an empty
 /// path takes that back.
 void blameForACrash(const std::filesystem::path& file);
+
+/// Within such work: how much of it is done, 0 to 1; elsewhere nothing.
+void answerProgress(double done);
 
 } // namespace palp

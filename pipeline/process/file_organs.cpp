@@ -13,6 +13,7 @@ void packOrgan(std::string& bytes, const FileOrgan& organ)
 {
   packValues(bytes, organ.label);
   packValues(bytes, organ.name);
+  packValues(bytes, organ.color);
   packOne(bytes, organ.voxels);
   packOne(bytes, organ.voxelVolume);
   packOne(bytes, organ.enclosed);
@@ -24,10 +25,10 @@ void packOrgan(std::string& bytes, const FileOrgan& organ)
 bool unpackOrgan(std::string_view& bytes, FileOrgan& organ)
 {
   return unpackValues(bytes, organ.label) && unpackValues(bytes, organ.name) &&
-    unpackOne(bytes, organ.voxels) && unpackOne(bytes, organ.voxelVolume) &&
-    unpackOne(bytes, organ.enclosed) && unpackSurface(bytes, organ.surface) &&
-    unpackValues(bytes, organ.from) && unpackOne(bytes, organ.voxel) &&
-    organ.from.size() == organ.surface.points.size();
+    unpackValues(bytes, organ.color) && unpackOne(bytes, organ.voxels) &&
+    unpackOne(bytes, organ.voxelVolume) && unpackOne(bytes, organ.enclosed) &&
+    unpackSurface(bytes, organ.surface) && unpackValues(bytes, organ.from) &&
+    unpackOne(bytes, organ.voxel) && organ.from.size() == organ.surface.points.size();
 }
 
 } // namespace

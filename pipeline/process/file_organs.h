@@ -12,6 +12,7 @@ struct FileOrgan
 {
   std::string label;        ///< its value; empty: of no label map
   std::string name;         ///< that the image or a table gives it; empty: none
+  std::string color{};      ///< that the image gives it, #rrggbb; empty: none
   std::uint64_t voxels = 0; ///< that it has in the image
   double voxelVolume = 0.0; ///< of all of them [unit^3]
   double enclosed = 0.0;    ///< volume of what was taken of it, before it was smoothed [unit^3]

@@ -17,6 +17,8 @@ struct LabelName
 {
   double value;
   std::string name;
+
+  bool operator==(const LabelName&) const = default;
 };
 
 /// What of an image is the surface.
@@ -30,6 +32,8 @@ struct ImagePart
   std::size_t components = 1;                  ///< how many pieces of it, the largest first
 
   static constexpr std::size_t kAllComponents = static_cast<std::size_t>(-1); ///< however many
+
+  bool operator==(const ImagePart&) const = default;
 };
 
 /// What a surface file holds, as it stands there.

@@ -157,9 +157,10 @@ namespace
 {
 
 // the command line of the reader, which reads numbers in the C locale
-std::vector<std::string> commandOf(const std::filesystem::path& file, const ImagePart& part)
+std::vector<std::string> commandOf(
+  const std::filesystem::path& file, const ImagePart& part, const std::string& mode = "surface")
 {
-  std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string() };
+  std::vector<std::string> command{ (prefix() / "bin/palp-read").string(), file.string(), mode };
   if (part.level)
   {
     command.push_back("level=" + shortest(*part.level));
@@ -191,21 +192,24 @@ std::vector<std::string> commandOf(const std::filesystem::path& file, const Imag
       ": damaged or cut off: the reader crashed or exceeded its limits; export or copy it again");
 }
 
-} // namespace
-
-FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
+FileSurface surfaceIn(const std::filesystem::path& file, const std::vector<std::string>& command)
 {
-  const auto answer = answerOf(commandOf(file, part));
+  const auto answer = answerOf(command);
   auto surface = answer ? unpack(*answer) : std::nullopt;
   surface ? void() : refuseCrash(file);
   return *std::move(surface);
 }
 
+} // namespace
+
+FileSurface readFileSurface(const std::filesystem::path& file, const ImagePart& part)
+{
+  return surfaceIn(file, commandOf(file, part));
+}
+
 FileOrgans readFileOrgans(const std::filesystem::path& file, const ImagePart& part, bool isList)
 {
-  std::vector<std::string> command = commandOf(file, part);
-  command.insert(command.begin() + 2, isList ? "list" : "organs");
-  const auto answer = answerOf(command);
+  const auto answer = answerOf(commandOf(file, part, isList ? "list" : "organs"));
   auto organs = answer ? unpackOrgans(*answer) : std::nullopt;
   organs ? void() : refuseCrash(file);
   return *std::move(organs);
@@ -213,7 +217,7 @@ FileOrgans readFileOrgans(const std::filesystem::path& file, const ImagePart& pa
 
 LoadedSurface readSurface(const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
 {
-  return madeReady(readFileSurface(file, part), file, unit);
+  return madeReady(surfaceIn(file, commandOf(file, part, "joined")), file, unit);
 }
 
 LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& file, UnitChoice unit)

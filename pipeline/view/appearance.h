@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/layout/before_render.h"
+
 #include <Eigen/Core>
 #include <array>
 #include <string>
@@ -18,7 +20,7 @@ class vtkTextProperty;
 namespace palp::appearance
 {
 
-inline constexpr double kDpi = 72.0; // dots per inch at which a point is a pixel
+using palp::kDpi;
 
 using Color = std::array<double, 3>; // red, green, blue, 0 to 1
 
@@ -46,6 +48,17 @@ inline constexpr std::array<Color, 6> kCurves{ { { 0.00, 0.45, 0.70 }, { 0.84, 0
 {
   return kCurves[i % kCurves.size()];
 }
+
+/// How a line is drawn, with the numbers that vtkPen and Qt give them; curves beyond the colors
+/// take the next one.
+enum class LineStyle
+{
+  Solid = 1,
+  Dashed,
+  Dotted,
+  DashDotted,
+};
+inline constexpr std::size_t kLineStyles = 4;
 
 inline constexpr Color kInk{ 0.10, 0.11, 0.13 };
 inline constexpr Color kPaper{ 1.0, 1.0, 1.0 };

@@ -23,8 +23,7 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
   : map_(appearance::evenMapOn(appearance::kLiver))
   , surfaceColors_(appearance::evenMapOn(appearance::kLeast))
   , plain_(property)
-  , layOut_(renderer,
-      [this](double width, double height, double scale) { placeLegend(width, height, scale); })
+  , layOut_(renderer, [this](const PictureRoom& room) { placeLegend(room); })
 {
   pressure_->SetInputConnection(press.GetOutputPort(1));
   mapper_->SetInputConnection(press.GetOutputPort(1));
@@ -52,17 +51,18 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
 }
 
 // beside the body; in a picture that is narrow, and full of it from side to side, above it
-void DentColors::placeLegend(double width, double height, double scale)
+void DentColors::placeLegend(const PictureRoom& room)
 {
-  constexpr double kNarrow = 0.8;     // [-] of the height
   constexpr double kHalfTitle = 60.0; // [pixels]
-  const bool isAbove = width < kNarrow * height;
-  const double left = 1.0 - 0.5 * kLegendWidth - kHalfTitle * scale / width;
+  const bool isAbove = room.isNarrow();
+  const double left = 1.0 - 0.5 * kLegendWidth - kHalfTitle * room.scale / room.width;
+  const double foot = isAbove ? 0.0 : room.foot / room.height;
   legend_->SetOrientation(isAbove ? VTK_ORIENT_HORIZONTAL : VTK_ORIENT_VERTICAL);
-  legend_->SetPosition(isAbove ? 0.1 : std::max(0.0, std::min(0.82, left)), isAbove ? 0.86 : 0.30);
+  legend_->SetPosition(isAbove ? 0.1 : std::max(0.0, std::min(0.82, left)),
+    isAbove ? kNarrowTop : foot + 0.30 * (1.0 - foot));
   legend_->SetWidth(isAbove ? 0.8 : kLegendWidth);
-  legend_->SetHeight(isAbove ? kLegendWidth : 0.5);
-  legend_->SetVerticalTitleSeparation(static_cast<int>(10.0 * scale));
+  legend_->SetHeight(isAbove ? kLegendWidth : 0.5 * (1.0 - foot));
+  legend_->SetVerticalTitleSeparation(static_cast<int>(10.0 * room.scale));
 }
 
 void DentColors::hide()

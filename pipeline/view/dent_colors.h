@@ -1,9 +1,9 @@
 #pragma once
 
 #include "haptics/force/validity.h"
+#include "pipeline/layout/before_render.h"
 #include "pipeline/model/surface_map.h"
 #include "pipeline/view/appearance.h"
-#include "pipeline/view/before_render.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/vtkPalpPressureFilter.h"
 
@@ -76,7 +76,7 @@ public:
 
 private:
   [[nodiscard]] std::optional<Rule> worstRule(const OverlayState& state) const;
-  void placeLegend(double width, double height, double scale);
+  void placeLegend(const PictureRoom& room);
   void showLegend(vtkLookupTable& colors, const char* title, double low, double high);
   void colorBy(const char* array, const char* title, double top);
 

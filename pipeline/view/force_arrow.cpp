@@ -39,6 +39,14 @@ double roundNumber(double least) noexcept
   return power * (mantissa <= 1.0 ? 1.0 : mantissa <= 2.0 ? 2.0 : mantissa <= 5.0 ? 5.0 : 10.0);
 }
 
+// [pixels]
+Eigen::Vector2d onScreen(vtkRenderer& renderer, const Eigen::Vector3d& point)
+{
+  renderer.SetWorldPoint(point.x(), point.y(), point.z(), 1.0);
+  renderer.WorldToDisplay();
+  return Eigen::Vector2d(renderer.GetDisplayPoint());
+}
+
 } // namespace
 
 ForceArrow::Scale ForceArrow::scaleOf(double force, double diagonal) noexcept
@@ -54,9 +62,7 @@ double ForceArrow::lengthOf(double force, double diagonal) noexcept
 }
 
 ForceArrow::ForceArrow(vtkRenderer& renderer)
-  : layOut_(renderer,
-      [this, &renderer](double width, double height, double scale)
-      { place(renderer, width, height, scale); })
+  : layOut_(renderer, [this, &renderer](const PictureRoom& room) { place(renderer, room); })
 {
   arrow_->SetMapper(mapper_);
   appearance::setColor(*arrow_->GetProperty(), appearance::kForce);
@@ -75,7 +81,7 @@ ForceArrow::ForceArrow(vtkRenderer& renderer)
   ForceArrow::hide();
 }
 
-void ForceArrow::place(vtkRenderer& renderer, double width, double height, double scale)
+void ForceArrow::place(vtkRenderer& renderer, const PictureRoom& room)
 {
   if (!arrow_->GetVisibility())
   {
@@ -90,22 +96,23 @@ void ForceArrow::place(vtkRenderer& renderer, double width, double height, doubl
   arrow_->SetUserMatrix(appearance::placement(start, appearance::axesAlong(along_, 2)));
   renderer.ResetCameraClippingRange(); // it may stand in front of all else
 
-  const Eigen::Vector3d end = start + length_ * along_;
-  renderer.SetWorldPoint(end.x(), end.y(), end.z(), 1.0);
-  renderer.WorldToDisplay();
-  const double* at = renderer.GetDisplayPoint();
+  const Eigen::Vector2d at = onScreen(renderer, start + length_ * along_);
   double size[2]{};
   label_->GetSize(&renderer, size);
-  const double margin = kMargin * scale;
-  const double away = 24.0 * scale; // [pixels]
+  const double margin = kMargin * room.scale;
+  const double away = 24.0 * room.scale; // [pixels]
   const double half = 0.5 * size[1];
-  const bool isLeft = at[0] - away - size[0] > margin;
+  // off the dent, where there is room
+  const bool fitsLeft = at[0] - away - size[0] > margin;
+  const bool fitsRight = at[0] + away + size[0] < room.width - margin;
+  const bool isLeft = fitsLeft && (at.x() < onScreen(renderer, start_).x() || !fitsRight);
   const double x = std::clamp(isLeft ? at[0] - away - size[0] : at[0] + away, margin,
-    std::max(margin, width - margin - size[0]));
+    std::max(margin, room.width - margin - size[0]));
+  const double lowest = room.foot + margin + half;
   const double y =
-    std::clamp(at[1] + 0.5 * away, margin + half, std::max(margin + half, height - margin - half));
+    std::clamp(at[1] + 0.5 * away, lowest, std::max(lowest, room.height - margin - half));
   label_->SetPosition(x, y);
-  line_->GetPoints()->SetPoint(0, at[0], at[1], 0.0);
+  line_->GetPoints()->SetPoint(0, at.x(), at.y(), 0.0);
   line_->GetPoints()->SetPoint(1, std::clamp(at[0], x, x + size[0]), y, 0.0);
   line_->GetPoints()->Modified();
 }

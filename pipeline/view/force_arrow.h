@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/view/before_render.h"
+#include "pipeline/layout/before_render.h"
 #include "pipeline/view/overlay_props.h"
 
 #include <Eigen/Core>
@@ -43,7 +43,7 @@ public:
   void hide() override;
 
 private:
-  void place(vtkRenderer& renderer, double width, double height, double scale);
+  void place(vtkRenderer& renderer, const PictureRoom& room);
 
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> arrow_;

@@ -2,7 +2,6 @@
 
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"
-#include "pipeline/model/tool_surface.h"
 #include "pipeline/view/appearance.h"
 #include "pipeline/view/control_net.h"
 #include "pipeline/view/force_arrow.h"
@@ -30,12 +29,6 @@ constexpr double kViewAngle = 30.0_deg;
 constexpr double kWet = 0.35; // share of a highlight
 constexpr appearance::Color kEdges{ 0.28, 0.07, 0.06 };
 
-// that is drawn of a tool, from its apex [m]
-double toolHeight(const Tip& tip)
-{
-  return std::max(2.2 * baseRadius(tip), 20.0_mm);
-}
-
 constexpr std::size_t indexOf(Overlay overlay)
 {
   return static_cast<std::size_t>(overlay);
@@ -52,7 +45,8 @@ PressView::PressView(vtkRenderer& renderer)
   // what is translucent comes last
   addSurface();
   addOverlays();
-  addTool();
+  tool_.emplace(renderer_);
+  setTip(tip_);
   for (const Overlay overlay : kUsualOverlays)
   {
     setVisible(overlay, true);
@@ -71,22 +65,6 @@ void PressView::addSurface()
   renderer_.AddActor(surface_);
   dent_.emplace(renderer_, *deform_, surface_->GetProperty());
   surfaceMapper_->SetLookupTable(dent_->surfaceColors());
-}
-
-void PressView::addTool()
-{
-  // behind the surface that lies on it
-  toolMapper_->SetResolveCoincidentTopologyToPolygonOffset();
-  toolMapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 8.0);
-  tool_->SetMapper(toolMapper_);
-  appearance::setColor(*tool_->GetProperty(), appearance::kTool);
-  tool_->GetProperty()->SetOpacity(0.25); // the dent is seen through it
-  tool_->GetProperty()->BackfaceCullingOn();
-  tool_->GetProperty()->SetSpecular(0.6);
-  tool_->GetProperty()->SetSpecularPower(40.0);
-  tool_->VisibilityOff();
-  renderer_.AddActor(tool_);
-  setTip(tip_);
 }
 
 void PressView::addOverlays()
@@ -130,6 +108,7 @@ void PressView::setLook(const BodyLook& look)
   constexpr double kTranslucent = 0.4;
   vtkProperty& property = *surface_->GetProperty();
   look_ = look;
+  tool_->setLook(look.tool);
   property.SetEdgeVisibility(look.hasEdges);
   property.SetEdgeColor(kEdges.data());
   property.SetOpacity(look.isTranslucent ? kTranslucent : 1.0);
@@ -176,7 +155,7 @@ void PressView::colorSurface()
 void PressView::setTip(const Tip& tip)
 {
   tip_ = tip;
-  toolMapper_->SetInputData(toolSurface(tip, toolHeight(tip)));
+  tool_->setTip(tip);
 }
 
 double PressView::extentRadius(double depth) const noexcept
@@ -211,17 +190,18 @@ bool PressView::isVisible(Overlay overlay) const
 
 void PressView::show(const Sample& sample)
 {
-  const double extent = extentRadius(sample.contact.depth);
-  deform_->SetPress(pressOf(sample, tip_, extent, style_));
-  deform_->SetGeneratePatch(sample.contact.touching());
+  const Sample dented = drawnSample(sample, left_);
+  left_ = sample.contact.touching() ? sample : left_;
+  deform_->SetPress(pressOf(dented, tip_, extentRadius(drawnDepth(dented)), style_));
+  deform_->SetGeneratePatch(dented.contact.touching());
   deform_->Update();
-  const OverlayState state{ sample, tip_, extent, *deform_ };
-  placeTool(sample.pose);
+  const OverlayState state{ sample, tip_, deform_->GetPress().extentRadius, *deform_ };
+  tool_->place(sample.pose);
   placeCut(sample.contact);
   placeDent(state);
   const bool isPushed = isVisible(Overlay::ForceArrow) && sample.contact.touching();
-  above_ = std::max(
-    toolHeight(tip_), isPushed ? ForceArrow::lengthOf(sample.response.force, diagonal_) : 0.0);
+  above_ = std::max(ToolProps::heightOf(tip_),
+    isPushed ? ForceArrow::lengthOf(sample.response.force, diagonal_) : 0.0);
   readings_->setKeys({ .arrow = isPushed,
     .contactCircle = isVisible(Overlay::ContactCircle),
     .extentCircle = isVisible(Overlay::ExtentCircle),
@@ -244,16 +224,6 @@ void PressView::placeCut(const Contact& contact)
   {
     cut_->SetOrigin(contact.center.data());
     cut_->SetNormal(aside.normalized().eval().data());
-  }
-}
-
-void PressView::placeTool(const ToolPose& pose)
-{
-  const bool known = pose.apex.allFinite() && pose.axis.allFinite();
-  tool_->SetVisibility(known && !look_.hidesTool);
-  if (known)
-  {
-    tool_->SetUserMatrix(appearance::placement(pose.apex, appearance::axesAlong(-pose.axis, 2)));
   }
 }
 

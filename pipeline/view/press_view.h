@@ -10,6 +10,7 @@
 #include "pipeline/view/dent_colors.h"
 #include "pipeline/view/overlay_props.h"
 #include "pipeline/view/readings.h"
+#include "pipeline/view/tool_props.h"
 #include "pipeline/view/vtkPalpPatchMapper.h"
 
 #include <Eigen/Core>
@@ -35,7 +36,7 @@ struct BodyLook
   bool hasEdges = false;      ///< of its triangles
   bool isTranslucent = false; ///< what lies behind is seen
   bool isCut = false;         ///< open at the contact, without the half that is nearer to the eye
-  bool hidesTool = false;     ///< nothing stands before the dent
+  ToolLook tool = ToolLook::Solid;
 };
 
 /// The pressed surface, the tool and the overlays in one renderer.
@@ -155,9 +156,7 @@ public:
 private:
   [[nodiscard]] vtkBoundingBox whole();
   void addSurface();
-  void addTool();
   void addOverlays();
-  void placeTool(const ToolPose& pose);
   void placeCut(const Contact& contact);
   void colorSurface();
   void placeDent(const OverlayState& state);
@@ -167,6 +166,7 @@ private:
   Tip tip_{ SphereTip{ .radius = 0.01 } };
   std::optional<ExtentTable> extents_;
   DentStyle style_;
+  Sample left_{};         // the last that touched, whose dent may still come back
   double diagonal_ = 0.0; // of the surface's box [m]
   double above_ = 0.0;    // the surface reach tool and arrow [m]
 
@@ -183,8 +183,7 @@ private:
   vtkNew<vtkPalpDeformFilter> deform_;
   vtkNew<vtkPalpPatchMapper> surfaceMapper_;
   vtkNew<vtkActor> surface_;
-  vtkNew<vtkPolyDataMapper> toolMapper_;
-  vtkNew<vtkActor> tool_;
+  std::optional<ToolProps> tool_; // translucent, so after the others
   std::optional<DentColors> dent_;
   std::array<bool, kOverlayCount> visible_{};
   std::array<std::unique_ptr<OverlayProps>, kOverlayCount> overlays_; // null: part of dent_

@@ -5,6 +5,7 @@
 #include "pipeline/view/force_arrow.h"
 #include "pipeline/view/iso_lines.h"
 
+#include <algorithm>
 #include <utility>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
@@ -15,6 +16,9 @@ namespace palp
 namespace
 {
 
+constexpr int kUsual = 16; // [points]
+constexpr int kSmall = 12;
+
 std::string millimeters(double meters)
 {
   return appearance::fixedText(units::toMillimeters(meters), 1) + " mm ";
@@ -24,15 +28,22 @@ std::string millimeters(double meters)
 
 Readings::Readings(vtkRenderer& renderer)
   : layOut_(renderer,
-      [this](double, double, double scale)
+      [this](const PictureRoom& room)
       {
         constexpr double kInset = 16.0; // [pixels]
-        constexpr double kLine = 28.0;  // [pixels]
-        double height = kInset * scale;
+        constexpr double kLine = 1.75;  // of the letters
+        const int letters = room.isNarrow() ? kSmall : kUsual;
+        const double step = kLine * letters * room.scale;
+        const auto lines = std::ranges::count_if(
+          lines_, [](const auto& line) { return line->GetVisibility() != 0; });
+        double height = room.isNarrow()
+          ? kNarrowTop * room.height - static_cast<double>(lines) * step
+          : room.foot + kInset * room.scale;
         for (std::size_t i = kLines; i-- > 0;)
         {
-          lines_[i]->SetPosition(kInset * scale, height);
-          height += lines_[i]->GetVisibility() ? kLine * scale : 0.0;
+          lines_[i]->GetTextProperty()->SetFontSize(letters);
+          lines_[i]->SetPosition((room.isNarrow() ? 0.5 : 1.0) * kInset * room.scale, height);
+          height += lines_[i]->GetVisibility() ? step : 0.0;
         }
       })
 {
@@ -41,7 +52,7 @@ Readings::Readings(vtkRenderer& renderer)
   for (std::size_t i = 0; i < kLines; ++i)
   {
     vtkTextProperty& text = *lines_[i]->GetTextProperty();
-    appearance::setFont(text, 16, inks[i], i == 0);
+    appearance::setFont(text, kUsual, inks[i], i == 0);
     text.SetBackgroundColor(0.13, 0.15, 0.18);
     text.SetBackgroundOpacity(0.8);
     renderer.AddActor2D(lines_[i]);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/view/before_render.h"
+#include "pipeline/layout/before_render.h"
 #include "pipeline/view/overlay_props.h"
 
 #include <array>

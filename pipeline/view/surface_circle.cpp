@@ -75,7 +75,7 @@ void SurfaceCircle::putOnField(const Dent& dent, double radius)
     if (std::abs(geodesic.distance - radius) < kSame * radius)
     {
       isInFront[static_cast<std::size_t>(i)] = true;
-      rest -= dent.sinkAt(geodesic, rest).depth * dent.region().normal();
+      rest += dent.displacement(geodesic, dent.sinkAt(geodesic, rest).depth);
       points->SetPoint(i, rest.data());
     }
   }

@@ -1,5 +1,8 @@
 #include "pipeline/view/vtkPalpPatchMapper.h"
 
+#include "pipeline/model/drawing_order.h"
+#include "pipeline/model/poly_data.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -8,6 +11,7 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkOpenGLVertexBufferObjectGroup.h>
@@ -140,6 +144,25 @@ void vtkPalpPatchMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* ac
   }
   this->SentTime = time;
   this->SentHidden = this->HideDent;
+}
+
+void vtkPalpPatchMapper::BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* mesh)
+{
+  if (!this->TouchedPoints())
+  {
+    this->Superclass::BuildIBO(renderer, actor, mesh);
+    return;
+  }
+  if (this->OrderedTopology != mesh->GetPolys()->GetMTime())
+  {
+    this->Ordered = palp::makeCells(palp::inDrawingOrder(
+      palp::trianglesOf(*mesh), static_cast<std::size_t>(mesh->GetNumberOfPoints())));
+    this->OrderedTopology = mesh->GetPolys()->GetMTime();
+  }
+  vtkNew<vtkPolyData> ordered;
+  ordered->ShallowCopy(mesh);
+  ordered->SetPolys(this->Ordered);
+  this->Superclass::BuildIBO(renderer, actor, ordered);
 }
 
 void vtkPalpPatchMapper::ReplaceShaderNormal(

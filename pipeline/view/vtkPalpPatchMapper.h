@@ -7,6 +7,9 @@
  * it sends the blocks of points that are in the field array "TouchedPoints" now or were in it
  * when it last sent. An input without that array, or drawn with scalars, is drawn as usual.
  *
+ * Triangles are sent in an order that shades a corner once, not once a triangle, for a mesh of any
+ * order; so the cells of a hardware selection are not those of the input.
+ *
  * Where the dent is drawn by somebody else, finer (output 1 of the filter), HideDent leaves its
  * triangles out: their displaced corners are sent with normals too long to be true, and the
  * fragment shader discards what has such a normal, whatever the order of the triangles.
@@ -20,8 +23,10 @@
 #include <array>
 #include <vector>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
+class vtkCellArray;
 class vtkDataArray;
 class vtkIntArray;
 
@@ -73,6 +78,7 @@ protected:
   void ComputeBounds() override;
   bool GetNeedToRebuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
   void UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+  void BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* mesh) override;
   void ReplaceShaderNormal(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
 
@@ -95,6 +101,8 @@ private:
   void SendBlocks(const char* buffer, vtkDataArray* data, bool hide);
   const float* Hidden(const float* normals, vtkIdType from, vtkIdType to);
 
+  vtkSmartPointer<vtkCellArray> Ordered; // the triangles as they are sent
+  vtkMTimeType OrderedTopology = 0;      // what they were made from
   double Padding = 0.02;
   bool HideDent = false;
   bool SentHidden = false;

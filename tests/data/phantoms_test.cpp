@@ -113,8 +113,11 @@ struct Image
 
 TEST_F(Phantoms, HaveTheVolumesOfTheirFormulas)
 {
-  make("block", "block");
-  EXPECT_NEAR(volumes()["block"], 500.0, 1e-6);
+  for (const char* side : { "1mm", "2mm" }) // at 2 mm faces go through the middles of voxels
+  {
+    make("block --voxel " + std::string(side), "block" + std::string(side));
+    EXPECT_NEAR(volumes()["block"], 500.0, 1e-6) << side;
+  }
   make("slab", "slab");
   EXPECT_NEAR(volumes()["skin"], 28.8, 1e-6);
   EXPECT_NEAR(volumes()["fat"], 144.0, 1e-6);
@@ -178,6 +181,16 @@ TEST_F(Phantoms, OfTheLiverIsTheSameInSurfaceImageAndScene)
   const auto voxelsOfThem = std::ranges::count(image.bytes, '\3');
   EXPECT_NEAR(
     1e-3 * std::pow(1.2, 3) * static_cast<double>(voxelsOfThem), milliliters, 0.03 * milliliters);
+}
+
+// a ball of 60 mm, which could be one of 600 mm in cm
+TEST_F(Phantoms, HaveLabelMapsThatNameTheirUnit)
+{
+  const std::filesystem::path folder = make("sphere --voxel 2mm", "sphere");
+  const LoadedSurface ball = readSurface(folder / "sphere.mha", {}, { {}, { "1" } });
+  double box[6];
+  ball.mesh->GetBounds(box);
+  EXPECT_NEAR(box[1] - box[0], 60.0_mm, 2.0_mm);
 }
 
 TEST_F(Phantoms, FollowTheirSeed)

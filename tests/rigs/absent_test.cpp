@@ -22,8 +22,9 @@ TEST(WithoutLibraries, DevicesSaysWhatToInstall)
 
 TEST(WithoutLibraries, ADeviceThatIsNamedIsRefusedWithTheReason)
 {
-  for (const auto& [name, library] :
-    { std::pair("phd1:/dev/hidraw0", "libhidapi-dev"), std::pair("falcon", "libusb-1.0-0-dev") })
+  for (const auto& [name, library] : { std::pair("phd1:/dev/hidraw0", "libhidapi-dev"),
+         std::pair("falcon", "libusb-1.0-0-dev"), std::pair("openigtlink", "libopenigtlink-dev"),
+         std::pair("haply", "libwebsockets-dev"), std::pair("spacenavd", "libspnav-dev") })
   {
     try
     {

@@ -3,9 +3,9 @@
 
 #include "app/devices_report.h"
 #include "app/program/devices_options.h"
+#include "haptics/devices/bus_device.h"
 #include "haptics/devices/falcon/falcon_driver.h"
 #include "haptics/devices/falcon/falcon_kinematics.h"
-#include "haptics/devices/threaded_device.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/usb_transport.h"
 #include "haptics/error.h"
@@ -157,6 +157,7 @@ TEST_F(FalconRig, ClosedLoopLosesNoReply)
   falcon_->loaded = true;
   const auto wire = openFalcon();
   ASSERT_TRUE(wire->request(3, 0x2)); // to full speed
+  ASSERT_TRUE(wire->request(6, 0x100 | '>'));
   FalconReader reader;
   std::vector<double> times; // [us]
   constexpr int kTicks = 5000;
@@ -204,8 +205,19 @@ TEST_F(FalconRig, NoTorqueComesBeforeHoming)
   {
     untilAnswered(driver, Vector3d(0, 0, -1), sample);
   }
+  EXPECT_TRUE(falcon_->repliesAtOnce()); // not when its timer of 1 ms runs out
   EXPECT_EQ(falcon_->torque, 0);
+  EXPECT_EQ(falcon_->lights & 0xE, 0x8); // red: home it
+  falcon_->counts = 0;
   falcon_->homed = true;
+  for (int i = 0; i < 200; ++i)
+  {
+    untilAnswered(driver, Vector3d(0, 0, -1), sample);
+  }
+  EXPECT_EQ(falcon_->torque, 0); // until the grip was pulled out once
+  EXPECT_FALSE(sample.homed);
+  EXPECT_EQ(falcon_->lights & 0xE, 0x4); // blue
+  falcon_->counts = 1000;
   while (falcon_->torque == 0)
   {
     (void)driver.tick(Vector3d(0, 0, -1), 1.0_ms, sample);
@@ -213,7 +225,9 @@ TEST_F(FalconRig, NoTorqueComesBeforeHoming)
   EXPECT_EQ(falcon_->tooEarly, 0);
   EXPECT_TRUE(sample.homed);
   EXPECT_EQ(sample.buttons, 5U);
-  EXPECT_NEAR(sample.position.z(), 0.1346 - 0.125, 1e-4);
+  EXPECT_NEAR(sample.position.z(), 0.1736 - 0.125, 1e-4);
+  untilAnswered(driver, Vector3d(0, 0, -1), sample);
+  EXPECT_EQ(falcon_->lights & 0xE, 0x2); // green
 }
 
 // by the work that a small motion does: torques times the way of the legs is force times the way
@@ -224,6 +238,8 @@ TEST_F(FalconRig, MotorsGetTheTorquesOfTheForce)
   falcon_->homed = true;
   FalconDriver driver(openFalcon(), {});
   DriverSample sample;
+  untilAnswered(driver, Vector3d::Zero(), sample); // pulled out
+  falcon_->counts = 0;
   untilAnswered(driver, Vector3d::Zero(), sample);
   const Vector3d place = sample.position + falconCenter(); // all encoders at zero
   for (const Vector3d& force : { Vector3d(0, 0, -8), Vector3d(5, 0, 2), Vector3d(-2, 6, -3) })
@@ -277,7 +293,7 @@ TEST_F(FalconRig, SilenceAndStallsAreTimeoutsAndNoHang)
 TEST_F(FalconRig, IsSilentThenGoneThenBack)
 {
   falcon_->loaded = true;
-  ThreadedDevice device([] { return std::make_unique<FalconDriver>(openFalcon(), Packet{}); }, {});
+  BusDevice device([] { return std::make_unique<FalconDriver>(openFalcon(), Packet{}); }, {});
   falcon_->mood = Mood::Silent;
   while (device.exchange(Vector3d::Zero(), 1.0_ms) && device.status().age < 20.0_ms)
   {

@@ -3,7 +3,7 @@
 // A servo that presses with the arm of hid_rig.h, and what counts its traffic. For one source file
 // of a program only, as hid_rig.h.
 
-#include "haptics/devices/threaded_device.h"
+#include "haptics/devices/bus_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/servo/servo.h"
 #include "haptics/units.h"
@@ -227,9 +227,9 @@ protected:
     } while (board_->last == 0 || has(servo_->newest(), Flag::Rebased));
   }
 
-  [[nodiscard]] std::unique_ptr<ThreadedDevice> openCounted()
+  [[nodiscard]] std::unique_ptr<BusDevice> openCounted()
   {
-    return std::make_unique<ThreadedDevice>(
+    return std::make_unique<BusDevice>(
       [this]
       {
         return std::make_unique<WoodenDriver>(

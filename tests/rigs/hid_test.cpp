@@ -1,6 +1,6 @@
 #include "app/devices_report.h"
 #include "app/program/devices_options.h"
-#include "haptics/devices/threaded_device.h"
+#include "haptics/devices/bus_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/rigs/hid_rig.h"
@@ -183,7 +183,7 @@ TEST_F(HidRig, UnplugIsNoticedInAnyState)
 
 TEST_F(HidRig, SilenceIsToldByTheAgeOfThePose)
 {
-  ThreadedDevice device(&openArm, {});
+  BusDevice device(&openArm, {});
   board_->mood = Board::Mood::Silent;
   while (device.status().age <= 20.0_ms) // as long as a machine under load may take
   {
@@ -207,7 +207,7 @@ TEST_F(HidRig, GarbageGivesNoPlaceThatIsNotFinite)
 TEST_F(HidRig, LastWordsOfADeviceAreZero)
 {
   {
-    ThreadedDevice device(&openArm, {});
+    BusDevice device(&openArm, {});
     while (board_->last == 0) // as long as a machine under load may take
     {
       (void)device.exchange(Vector3d(0.5, 0, 0.5), 1.0_ms);

@@ -85,9 +85,19 @@ void MadeUpFalcon::run(std::byte byte)
   {
     push(std::as_bytes(std::span("<AAxy>>z", 8)));
   }
-  auto reply = encode(FalconCommand{}); // encoders at zero
-  reply[13] = static_cast<std::byte>('A' + (homed ? 0x75 : 0x05));
-  push(reply);
+  // letters of the published firmware, not of the driver: each nibble above A, the least first
+  lights = std::to_integer<int>(heard_[13]) - 'A';
+  std::string reply = "<";
+  for (int leg = 0; leg < 3; ++leg)
+  {
+    for (int nibble = 0; nibble < 4; ++nibble)
+    {
+      reply += static_cast<char>('A' + ((counts >> (4 * nibble)) & 0xF));
+    }
+  }
+  reply += static_cast<char>('A' + (homed ? 0x75 : 0x05));
+  reply += "A>";
+  push(std::as_bytes(std::span<const char>(reply)));
   heard_.clear();
 }
 
@@ -97,6 +107,11 @@ void MadeUpFalcon::control(Bytes bytes)
   {
     divisor_ = readInt<std::uint16_t>(bytes, 2);
     loaded = loaded || (divisor_ == 0x2 && !firmware.empty());
+  }
+  else if (bytes[1] == std::byte{ 6 }) // SIO_SET_EVENT_CHAR_REQUEST of libftdi: on in bit 8
+  {
+    const int value = readInt<std::uint16_t>(bytes, 2);
+    eventCharacter_ = (value & 0x100) != 0 ? static_cast<std::byte>(value & 0xFF) : std::byte{ 0 };
   }
   else if (bytes[1] == std::byte{ 0 } && readInt<std::uint16_t>(bytes, 2) != 1)
   {
@@ -122,8 +137,9 @@ int MadeUpFalcon::submit(usbdevfs_urb& urb)
     finish({ &urb, {} }, 0, urb.buffer_length);
     hear(bytes);
   }
-  else if (mood == Mood::Stalled)
+  else if (halted_ || mood == Mood::Stalled)
   {
+    halted_ = true; // until it is cleared, as a halted endpoint of USB 2.0, 9.4.5
     finish({ &urb, {} }, -EPIPE, 0);
   }
   else
@@ -175,6 +191,9 @@ int MadeUpFalcon::answer(unsigned long request, void* argument)
     case USBDEVFS_RELEASEINTERFACE:
       claimed = request == USBDEVFS_CLAIMINTERFACE;
       return gone_ ? fail(ENODEV) : 0;
+    case USBDEVFS_CLEAR_HALT:
+      halted_ = halted_ && *static_cast<unsigned*>(argument) != 0x81;
+      return 0;
     case USBDEVFS_SUBMITURB:
       return submit(*static_cast<usbdevfs_urb*>(argument));
     case USBDEVFS_REAPURB:

@@ -2,6 +2,7 @@
 
 #include "haptics/devices/bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -80,10 +81,18 @@ public:
   /// One ioctl, as the kernel answers it.
   int answer(unsigned long request, void* argument);
 
+  [[nodiscard]] bool repliesAtOnce()
+  {
+    const std::lock_guard lock(mutex_);
+    return eventCharacter_ == std::byte{ '>' };
+  }
+
   std::atomic<Mood> mood = Mood::Good;
   std::atomic<bool> homed = false;
   std::atomic<bool> loaded = false;  // runs firmware
   std::atomic<bool> claimed = false; // by a driver that is open
+  std::atomic<int> counts = 1000;    // of each encoder; 1000: the grip is pulled out
+  std::atomic<int> lights = 0;       // bits of the last packet
   std::atomic<int> packets = 0;
   std::atomic<int> tooEarly = 0;             // torques before homing
   std::atomic<int> torque = 0;               // sum of the sizes of the last
@@ -140,7 +149,9 @@ private:
 
   void serve()
   {
-    while (!waiting_.empty() && !data_.empty() && mood != Mood::Silent)
+    // before its timer runs out, the chip hands over what holds the event character
+    while (!waiting_.empty() && mood != Mood::Silent &&
+      std::ranges::find(data_, eventCharacter_) != data_.end())
     {
       const Urb urb = waiting_.front();
       waiting_.pop_front();
@@ -185,10 +196,12 @@ private:
   std::deque<std::byte> data_;
   std::vector<std::byte> heard_;
   bool loading_ = false;
+  bool halted_ = false; // the endpoint to the host
   bool stop_ = false;
   bool gone_ = false;
   int bell_ = -1;
   int divisor_ = 0;
+  std::byte eventCharacter_{ 0 }; // 0: none
 };
 
 /// The one that is plugged in.

@@ -79,6 +79,7 @@ public:
   std::atomic<int> last = 0;                 // sum of the sizes of the last currents [mA]
   std::atomic<int> pushes = 0;               // packets whose currents were not all zero
   std::atomic<Clock::time_point> lastPush{}; // when the last of them came
+  std::atomic<Clock::time_point> rested{};   // when the first zero after one of them came
   std::atomic<Clock::time_point> pulled{};   // when its wire was
   std::vector<Push> pushed;                  // those packets; the thread's, until it has ended
 
@@ -105,6 +106,7 @@ private:
       return;
     }
     const WoodenCurrents currents{ told.first[0], told.first[1], told.first[2] };
+    const bool pushing = last != 0;
     last = std::abs(currents[0]) + std::abs(currents[1]) + std::abs(currents[2]);
     if (last != 0)
     {
@@ -112,6 +114,10 @@ private:
       ++pushes;
       pushed.push_back({ at_, currents });
       beforeCalibration += calibrated_ ? 0 : 1;
+    }
+    else if (pushing)
+    {
+      rested = Clock::now();
     }
     at_[0] += currents[0] / 1000; // a hand that yields, so that it can be told
   }

@@ -65,7 +65,7 @@ def libraries():
         if ".build" in path.parts or folder(path).split("/")[0] not in LAYERS:
             continue
         for words in calls(path.read_text(), "palp_library"):
-            files = [path.parent / word for word in words if pathlib.Path(word).suffix in SUFFIXES]
+            files = [(path.parent / word).resolve() for word in words if pathlib.Path(word).suffix in SUFFIXES]
             yield words[0], folder(path), files, section(words, "PUBLIC"), section(words, "PRIVATE")
 
 

@@ -5,7 +5,7 @@
 
 #include <QComboBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -79,10 +79,11 @@ TrainingPanel::TrainingPanel(const Curriculum& curriculum, QWidget* parent)
   auto* form = new QFormLayout;
   form->addRow(tr("Level"), level_);
   form->addRow(tr("Seed"), seed_);
-  auto* buttons = new QHBoxLayout;
-  for (QPushButton* each : { start_, mark_, finish_, save_ })
+  auto* buttons = new QGridLayout; // four beside each other would leave the picture no room
+  for (int i = 0; QPushButton * each : { start_, mark_, finish_, save_ })
   {
-    buttons->addWidget(each);
+    buttons->addWidget(each, i / 2, i % 2);
+    ++i;
   }
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form);

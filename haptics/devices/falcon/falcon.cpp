@@ -65,6 +65,13 @@ std::array<std::byte, kFalconPacket> encode(const FalconCommand& command) noexce
   return packet;
 }
 
+ZeroPacket falconZero() noexcept
+{
+  ZeroPacket zero{ .size = kFalconPacket, .from = 1, .to = kFlags };
+  std::ranges::copy(encode(FalconCommand{ .homing = true }), zero.bytes.begin());
+  return zero;
+}
+
 std::optional<FalconState> FalconReader::take(Bytes bytes) noexcept
 {
   std::optional<FalconState> newest;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/devices/bytes.h"
+#include "haptics/devices/zero_packet.h"
 
 #include <array>
 #include <cstdint>
@@ -30,6 +30,10 @@ struct FalconState
 /// @realtime  pure; no allocation, no lock, no exception
 /// @source    libnifalcon/libnifalcon FalconFirmwareNovintSDK.cpp, as facts
 [[nodiscard]] std::array<std::byte, kFalconPacket> encode(const FalconCommand& command) noexcept;
+
+/// What ends its force; it still tells whether it is homed.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] ZeroPacket falconZero() noexcept;
 
 /// Finds packets in what a Falcon sends, however split or joined, and skips what is none.
 class FalconReader

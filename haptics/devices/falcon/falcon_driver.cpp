@@ -24,6 +24,7 @@ enum Request : std::uint8_t
   Flow = 2,
   Divisor = 3,
   Format = 4,
+  EventCharacter = 6,
   Latency = 9,
 };
 constexpr std::uint16_t kPurgeIn = 2;  // what waits for the host
@@ -35,6 +36,9 @@ constexpr std::uint16_t kSlow = 0x4138;  // 9600 baud
 constexpr std::uint16_t kLoading = 0x15; // 140 kbaud
 constexpr std::uint16_t kNormal = 0x2;   // 1.4 Mbaud
 constexpr std::uint16_t kEightBits = 8;
+// a packet's last byte, on: the chip hands a reply over at once instead of when its timer runs out
+// @source  libftdi ftdi_set_event_char; FTDI AN232B-04, as facts
+constexpr std::uint16_t kAtLast = 0x0100 | '>';
 
 constexpr std::size_t kStatusBytes = 2; // before the data of each packet of the chip
 constexpr std::size_t kChunk = 62;
@@ -45,6 +49,13 @@ constexpr int kGreetings = 10; // in each: without its power supply it would tak
 // @source  ratio of the traces in libnifalcon's translate_packet.py
 constexpr double kCountsPerTorque = 2300.0; // [1/(N m)]
 constexpr double kLargestCount = 4096.0;
+
+// lights that tell the user what to do, and how far out a homed grip is pulled before it pushes
+// @source  vrpn_Tracker_NovintFalcon.C, as facts
+constexpr std::uint8_t kRed = 0x8;   // home it
+constexpr std::uint8_t kBlue = 0x4;  // pull it out once
+constexpr std::uint8_t kGreen = 0x2; // ready
+constexpr double kPulledOut = 0.170; // z of its frame [m]
 
 constexpr int kPurges = 3; // exchanges that begin with one: a late reply may come after the first
 
@@ -89,8 +100,8 @@ bool FalconDriver::request(std::uint8_t what, std::uint16_t value) noexcept
 
 bool FalconDriver::enterNormalMode() noexcept
 {
-  return request(Latency, 1) && request(Divisor, kNormal) && request(Reset, kPurgeIn) &&
-    request(Reset, kPurgeOut);
+  return request(Latency, 1) && request(EventCharacter, kAtLast) && request(Divisor, kNormal) &&
+    request(Reset, kPurgeIn) && request(Reset, kPurgeOut);
 }
 
 bool FalconDriver::answers() noexcept
@@ -201,6 +212,8 @@ DeviceLimits FalconDriver::limits() const
     .needsHoming = true,
     .maxForce = 8.0,
     .damping = 0.2,
+    .friction = 0.05, // less than any has, unless identified
+    .handDamping = kGripDamping,
     .quantum = 48.0_um,
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
@@ -209,18 +222,21 @@ DeviceLimits FalconDriver::limits() const
 
 IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
 {
-  FalconCommand command{ .homing = true };
+  FalconCommand command{ .homing = true, .lights = homed_ ? kGreen : counted_ ? kBlue : kRed };
   const auto torques = homed_ ? falconTorques(position_, force) : std::nullopt;
+  Eigen::Vector3d sent = Eigen::Vector3d::Zero();
   if (torques)
   {
     const Eigen::Vector3d counts = -kCountsPerTorque * *torques;
     const double largest = counts.cwiseAbs().maxCoeff();
     const double fraction = largest > kLargestCount ? kLargestCount / largest : 1.0;
+    sent = fraction * force;
     for (std::size_t i = 0; i < 3; ++i)
     {
       command.torque[i] = nearestInt<std::int16_t>(fraction * counts[static_cast<int>(i)]);
     }
   }
+  sample.sent = sent;
   std::optional<FalconState> state;
   const IoCode code = exchange(command, state, 2ms);
   if (code != IoCode::Ok)
@@ -231,9 +247,12 @@ IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
     falconAngle(state->encoder[2]) };
   auto position = falconPosition(angles, position_);
   position = position ? position : falconPosition(angles, falconCenter());
-  homed_ = state->homed && position;
+  counted_ = state->homed;
   position_ = position.value_or(position_);
-  sample = { .position = position_ - falconCenter(), .buttons = state->buttons, .homed = homed_ };
+  homed_ = counted_ && position && (homed_ || position_.z() > kPulledOut);
+  sample = {
+    .position = position_ - falconCenter(), .buttons = state->buttons, .homed = homed_, .sent = sent
+  };
   return IoCode::Ok;
 }
 

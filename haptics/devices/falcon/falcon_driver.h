@@ -11,7 +11,7 @@ namespace palp
 {
 
 /// A Novint Falcon. Its firmware is not free and comes from a file of the user's, once after power
-/// on; the user homes it by pulling the grip out and pushing it in.
+/// on; the user homes it by pulling the grip out, pushing it in, and pulling it out once more.
 class FalconDriver final : public Driver
 {
 public:
@@ -37,8 +37,9 @@ private:
   std::unique_ptr<SerialTransport> transport_;
   FalconReader reader_;
   Eigen::Vector3d position_ = falconCenter();
-  bool homed_ = false;
-  int purges_ = 0; // exchanges that are to begin by forgetting what was not read
+  bool counted_ = false; // its encoders have found their zero
+  bool homed_ = false;   // and the grip was pulled out since
+  int purges_ = 0;       // exchanges that are to begin by forgetting what was not read
 };
 
 } // namespace palp

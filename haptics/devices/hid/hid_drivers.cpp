@@ -13,10 +13,11 @@ using namespace units::literals;
 using namespace std::chrono_literals;
 
 constexpr auto kAnswer = 2ms;
-constexpr double kRest = 0.1; // a six-axis mouse that says nothing so long is at rest [s]
 constexpr std::size_t kLargestReport = 64;
 
 using Report = std::array<std::byte, kLargestReport>;
+
+constexpr double kFriction = 0.05; // of a cable drive, unless identified: less than any has [N]
 
 // waits for one report, then takes what else is queued, and gives each to its reader
 template <typename Take>
@@ -51,10 +52,17 @@ IoCode writeReport(Transport& transport, const Payload& payload) noexcept
 
 } // namespace
 
-SpaceMouseDriver::SpaceMouseDriver(std::unique_ptr<Transport> transport, const RateControl& rate)
-  : transport_(std::move(transport))
-  , rate_(rate)
+SpaceMouseDriver::SpaceMouseDriver(
+  std::vector<std::unique_ptr<Transport>> transports, const RateControl& rate)
+  : transports_(std::move(transports))
+  , motion_(rate)
 {
+}
+
+SpaceMouseDriver::SpaceMouseDriver(std::unique_ptr<Transport> transport, const RateControl& rate)
+  : motion_(rate)
+{
+  transports_.push_back(std::move(transport));
 }
 
 DeviceLimits SpaceMouseDriver::limits() const
@@ -64,19 +72,20 @@ DeviceLimits SpaceMouseDriver::limits() const
 
 IoCode SpaceMouseDriver::tick(const Eigen::Vector3d&, double dt, DriverSample& sample) noexcept
 {
-  const IoCode code =
-    drain(*transport_, 0us, [&](Bytes report) { return takeSpaceMouseReport(report, state_); });
-  if (code == IoCode::Gone)
+  bool heard = false;
+  std::size_t gone = 0;
+  for (const auto& transport : transports_)
   {
-    return code;
+    const IoCode code =
+      drain(*transport, 0us, [&](Bytes report) { return takeSpaceMouseReport(report, state_); });
+    heard = heard || code == IoCode::Ok;
+    gone += code == IoCode::Gone ? 1 : 0;
   }
-  silent_ = code == IoCode::Ok ? 0.0 : silent_ + dt;
-  if (silent_ > kRest) // a report of rest that was lost must not leave the tool drifting
+  if (gone == transports_.size())
   {
-    state_.axes = {};
+    return IoCode::Gone;
   }
-  position_ += dt * velocityOf(state_, rate_);
-  sample = { .position = position_, .buttons = state_.buttons, .homed = true };
+  sample = motion_.move(state_, heard, dt);
   return IoCode::Ok;
 }
 
@@ -85,6 +94,7 @@ WoodenDriver::WoodenDriver(
   : transport_(std::move(transport))
   , arm_(arm)
   , reportSize_(std::min(reportSize, kLargestReport))
+  , heat_(arm.maxCurrent, arm.continuousCurrent, arm.peakTime)
 {
 }
 
@@ -95,16 +105,19 @@ DeviceLimits WoodenDriver::limits() const
     .needsHoming = true,
     .maxForce = arm_.maxForce,
     .damping = arm_.damping,
+    .friction = kFriction,
+    .handDamping = kGripDamping,
     .quantum = 54.0_um,
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
     .workspaceRadius = arm_.radius };
 }
 
-IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
+IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
 {
   Report command{};
   const MutableBytes payload = MutableBytes(command).first(reportSize_);
+  Eigen::Vector3d sent = Eigen::Vector3d::Zero();
   if (calibrate_)
   {
     encodeWoodenCalibration(arm_, payload);
@@ -113,8 +126,12 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
   }
   else
   {
-    encodeWooden(homed_ ? motorCurrents(arm_, angles_, force) : std::array<double, 3>{}, payload);
+    auto motors = homed_ ? motorCurrents(arm_, angles_, force) : MotorCurrents{};
+    const double share = motors.share * heat_.take(motors.currents, dt);
+    sent = share > 0.0 ? Eigen::Vector3d(share * force) : sent; // its share of NaN is none, too
+    encodeWooden(motors.currents, payload);
   }
+  sample.sent = sent;
   if (writeReport(*transport_, payload) == IoCode::Gone)
   {
     return IoCode::Gone;
@@ -128,12 +145,17 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sa
         angles_ = jointAngles(arm_, heard->encoders);
         calibrate_ = heard->calibrate;
         homed_ = told_ && !calibrate_;
+        button_ = heard->button;
       }
       return heard.has_value();
     });
   if (code == IoCode::Ok)
   {
-    sample = { .position = forwardKinematics(arm_, angles_), .homed = homed_ };
+    sample = { .position = forwardKinematics(arm_, angles_),
+      .buttons = button_ ? 1U : 0U,
+      .homed = homed_,
+      .heat = heat_.fraction(),
+      .sent = sent };
   }
   return code;
 }
@@ -150,6 +172,7 @@ DeviceLimits Phd1Driver::limits() const
     .needsHoming = true,
     .maxForce = 4.0,
     .damping = 0.2,
+    .handDamping = kGripDamping,
     .quantum = 10.0_um,
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
@@ -159,15 +182,19 @@ DeviceLimits Phd1Driver::limits() const
 IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept
 {
   const bool ready = state_.homed && !state_.stopped;
+  const bool homing = homes_ && heard_ && !state_.homed && !state_.stopped;
   Phd1Command command{ .order = ready ? Phd1Order::Force
-      : state_.stopped                ? Phd1Order::Idle
-                                      : Phd1Order::Home,
+      : homing                        ? Phd1Order::Home
+                                      : Phd1Order::Idle,
     .sequence = sequence_++ };
   if (ready)
   {
     command.force = force;
   }
-  if (writeReport(*transport_, encode(command)) == IoCode::Gone)
+  const auto told = encode(command);
+  const Eigen::Vector3d sent = decodePhd1Command(told)->force; // as it stands on the wire
+  sample.sent = sent;
+  if (writeReport(*transport_, told) == IoCode::Gone)
   {
     return IoCode::Gone;
   }
@@ -175,17 +202,42 @@ IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& samp
     [&](Bytes report)
     {
       const auto heard = decodePhd1State(report);
-      state_ = heard.value_or(state_);
-      return heard.has_value();
+      const bool isNew = heard &&
+        (!heard_ ||
+          (heard->sequence != state_.sequence && heard->microseconds != state_.microseconds));
+      if (isNew)
+      {
+        state_ = *heard;
+        heard_ = true;
+      }
+      return isNew;
     });
   if (code == IoCode::Ok)
   {
+    const auto& [w, x, y, z] = state_.orientation;
     sample = { .position = state_.position,
+      .orientation = { w, x, y, z },
       .buttons = state_.buttons,
       .homed = state_.homed,
-      .stopped = state_.stopped };
+      .stopped = state_.stopped,
+      .temperature = static_cast<double>(state_.temperature),
+      .sent = sent };
   }
   return code;
+}
+
+// behind the number of the report: seven words of which the first three are currents, command 0
+ZeroPacket woodenZero(std::size_t reportSize) noexcept
+{
+  return { .size = reportSize + 1, .from = 1, .to = 7 };
+}
+
+ZeroPacket phd1Zero() noexcept
+{
+  ZeroPacket zero{ .size = kPhd1Report + 1, .from = 7, .to = 13 };
+  const auto idle = encode(Phd1Command{ .order = Phd1Order::Idle });
+  std::ranges::copy(idle, zero.bytes.begin() + 1);
+  return zero;
 }
 
 } // namespace palp

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "haptics/devices/driver.h"
+#include "haptics/devices/hid/motor_heat.h"
 #include "haptics/devices/hid/phd1.h"
-#include "haptics/devices/hid/spacemouse.h"
+#include "haptics/devices/hid/rate_motion.h"
 #include "haptics/devices/hid/wooden_haptics.h"
+#include "haptics/devices/zero_packet.h"
 
 #include <array>
 #include <memory>
+#include <vector>
 
 namespace palp
 {
@@ -15,6 +18,10 @@ namespace palp
 class SpaceMouseDriver final : public Driver
 {
 public:
+  /// @param transports  one or more that may be it: a receiver shows an interface for each mouse
+  ///                    that it could hear, and only one of them talks
+  explicit SpaceMouseDriver(
+    std::vector<std::unique_ptr<Transport>> transports, const RateControl& rate = {});
   explicit SpaceMouseDriver(std::unique_ptr<Transport> transport, const RateControl& rate = {});
 
   [[nodiscard]] DeviceLimits limits() const override;
@@ -22,12 +29,12 @@ public:
     const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept override;
 
 private:
-  std::unique_ptr<Transport> transport_;
-  RateControl rate_;
+  std::vector<std::unique_ptr<Transport>> transports_;
+  RateMotion motion_;
   SpaceMouseState state_;
-  double silent_ = 0.0; // [s]
-  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
 };
+
+inline constexpr std::size_t kWoodenReport = 14; ///< of an mbed board [bytes]
 
 /// An arm of the WoodenHaptics family; needs its calibration button pressed in the rest position.
 class WoodenDriver final : public Driver
@@ -44,17 +51,27 @@ private:
   std::unique_ptr<Transport> transport_;
   WoodenArm arm_;
   std::size_t reportSize_;
+  MotorHeat heat_;
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();
   bool calibrate_ = false; // asked for by the board
   bool told_ = false;      // that it stands at rest
+  bool button_ = false;
   bool homed_ = false;
 };
 
-/// A board that speaks PHD1.
+/// A board that speaks PHD1. A report that repeats the last, as of a board that hangs, is none.
+///
+/// It is never told to move by itself: it is homed by hand, or by whoever asks for it with home().
 class Phd1Driver final : public Driver
 {
 public:
   explicit Phd1Driver(std::unique_ptr<Transport> transport);
+
+  /// From now on a board that is not homed is told to move there; its way must be free.
+  void home() noexcept
+  {
+    homes_ = true;
+  }
 
   [[nodiscard]] DeviceLimits limits() const override;
   [[nodiscard]] IoCode tick(
@@ -63,7 +80,13 @@ public:
 private:
   std::unique_ptr<Transport> transport_;
   Phd1State state_;
+  bool heard_ = false; // anything yet
+  bool homes_ = false;
   std::uint16_t sequence_ = 0;
 };
+
+/// What ends the force of each, as it stands on the wire.
+[[nodiscard]] ZeroPacket woodenZero(std::size_t reportSize) noexcept;
+[[nodiscard]] ZeroPacket phd1Zero() noexcept;
 
 } // namespace palp

@@ -28,6 +28,21 @@ void takeAxes(Bytes report, std::size_t count, std::int16_t* axes) noexcept
   }
 }
 
+// of three axes from the first on, -1 to 1 each, in a frame with x right, y up the table, z up
+Eigen::Vector3d deflection(
+  const SpaceMouseState& state, std::size_t first, const RateControl& rate) noexcept
+{
+  Eigen::Vector3d shaped;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double axis = state.axes[first + i];
+    const double fraction = std::min(1.0, std::abs(axis) / kFullScale);
+    const double beyond = std::max(0.0, fraction - rate.deadBand) / (1.0 - rate.deadBand);
+    shaped[static_cast<int>(i)] = std::copysign(std::pow(beyond, rate.exponent), axis);
+  }
+  return { shaped.x(), -shaped.y(), -shaped.z() };
+}
+
 } // namespace
 
 bool takeSpaceMouseReport(Bytes report, SpaceMouseState& state) noexcept
@@ -66,16 +81,12 @@ bool takeSpaceMouseReport(Bytes report, SpaceMouseState& state) noexcept
 
 Eigen::Vector3d velocityOf(const SpaceMouseState& state, const RateControl& rate) noexcept
 {
-  Eigen::Vector3d velocity;
-  for (int i = 0; i < 3; ++i)
-  {
-    const double fraction =
-      std::min(1.0, std::abs(state.axes[static_cast<std::size_t>(i)]) / kFullScale);
-    const double beyond = std::max(0.0, fraction - rate.deadBand) / (1.0 - rate.deadBand);
-    velocity[i] = std::copysign(
-      rate.speed * std::pow(beyond, rate.exponent), state.axes[static_cast<std::size_t>(i)]);
-  }
-  return { velocity.x(), -velocity.y(), -velocity.z() };
+  return rate.speed * deflection(state, 0, rate);
+}
+
+Eigen::Vector3d angularVelocityOf(const SpaceMouseState& state, const RateControl& rate) noexcept
+{
+  return rate.turning * deflection(state, 3, rate);
 }
 
 } // namespace palp

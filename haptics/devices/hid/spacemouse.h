@@ -27,6 +27,7 @@ struct SpaceMouseState
 struct RateControl
 {
   double speed = 0.060;   ///< at full deflection [m/s]
+  double turning = 1.0;   ///< at full deflection [rad/s]
   double deadBand = 0.05; ///< fraction of the deflection that counts as rest
   double exponent = 2.0;  ///< above 1: finer near rest
 };
@@ -35,6 +36,12 @@ struct RateControl
 /// @return    [m/s], at most rate.speed along each axis
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Eigen::Vector3d velocityOf(
+  const SpaceMouseState& state, const RateControl& rate) noexcept;
+
+/// Turning of the tool in the same frame.
+/// @return    [rad/s], at most rate.turning about each axis
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Eigen::Vector3d angularVelocityOf(
   const SpaceMouseState& state, const RateControl& rate) noexcept;
 
 } // namespace palp

@@ -48,6 +48,36 @@ bool readValues(std::string_view text, const Key& key)
 
 } // namespace
 
+std::optional<WoodenArm> publishedArm(std::string_view name) noexcept
+{
+  if (name == "v2015")
+  {
+    return WoodenArm{};
+  }
+  if (name == "v2019")
+  {
+    return WoodenArm{ .torque = { 0.321, 0.0603, 0.0603 } };
+  }
+  if (name == "polhem")
+  {
+    return WoodenArm{ .length = { 0.058, 0.174, 0.133 },
+      .body = { 0.180, 0.100, 0.100 },
+      .origin = { 0.140, 0.0, 0.100 },
+      .torque = { 0.0538, 0.0538, 0.0538 },
+      .sign = { -1.0, -1.0, -1.0 },
+      .rest = { 0.0, 0.0, -5000.0 } };
+  }
+  if (name == "aluhaptics")
+  {
+    return WoodenArm{ .capstan = { 0.0138, 0.0098, 0.0098 },
+      .length = { 0.111, 0.140, 0.111 },
+      .body = { 0.116, 0.076, 0.076 },
+      .origin = { 0.140, 0.0, 0.0 },
+      .rest = { 0.0, 0.0, 0.0 } };
+  }
+  return std::nullopt;
+}
+
 WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
 {
   WoodenArm arm;
@@ -57,7 +87,8 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
     Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false },
     Key{ "radius", { &arm.radius, 1 }, true }, Key{ "max_force", { &arm.maxForce, 1 }, true },
     Key{ "max_current", { &arm.maxCurrent, 1 }, true },
-    Key{ "damping", { &arm.damping, 1 }, true } };
+    Key{ "continuous_current", { &arm.continuousCurrent, 1 }, true },
+    Key{ "peak_time", { &arm.peakTime, 1 }, true }, Key{ "damping", { &arm.damping, 1 }, true } };
   for (int line = 1; !text.empty(); ++line)
   {
     std::string_view row = text.substr(0, text.find('\n'));
@@ -83,6 +114,11 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
       throw Error(ErrorCode::BadFile, name + ": a sign is neither 1 nor -1; give one of them");
     }
   }
+  if (arm.continuousCurrent >= arm.maxCurrent)
+  {
+    throw Error(ErrorCode::BadFile,
+      name + ": continuous_current is not below max_current; give what a motor bears for ever");
+  }
   for (const double count : arm.rest)
   {
     if (nearestInt<std::int16_t>(count) != count)
@@ -106,6 +142,13 @@ std::optional<WoodenReport> decodeWooden(Bytes report) noexcept
     decoded.encoders[i] = readInt<std::int16_t>(report, 2 * i);
   }
   decoded.calibrate = readInt<std::int16_t>(report, 12) == 1;
+  constexpr std::int16_t kPressed = 5000;
+  constexpr std::int16_t kButton = 10'000;
+  decoded.button = decoded.encoders[3] > kPressed;
+  if (decoded.button)
+  {
+    decoded.encoders[3] = static_cast<std::int16_t>(decoded.encoders[3] - kButton);
+  }
   return decoded;
 }
 
@@ -163,25 +206,25 @@ Eigen::Matrix3d positionJacobian(const WoodenArm& arm, const Eigen::Vector3d& an
   return jacobian;
 }
 
-std::array<double, 3> motorCurrents(
+MotorCurrents motorCurrents(
   const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept
 {
   const Eigen::Vector3d torques = positionJacobian(arm, angles).transpose() * force;
-  std::array<double, 3> currents{};
+  MotorCurrents motors;
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
   {
     const double motor = torques[static_cast<int>(i)] * arm.sign[i] * arm.capstan[i] / arm.body[i];
-    currents[i] = motor / arm.torque[i];
-    largest = std::fmax(largest, std::abs(currents[i]));
+    motors.currents[i] = motor / arm.torque[i];
+    largest = std::fmax(largest, std::abs(motors.currents[i]));
   }
   const bool finite = torques.allFinite() && std::isfinite(largest);
-  const double fraction = !finite ? 0.0 : largest > arm.maxCurrent ? arm.maxCurrent / largest : 1.0;
-  for (double& current : currents)
+  motors.share = !finite ? 0.0 : largest > arm.maxCurrent ? arm.maxCurrent / largest : 1.0;
+  for (double& current : motors.currents)
   {
-    current = fraction > 0.0 ? current * fraction : 0.0;
+    current = motors.share > 0.0 ? current * motors.share : 0.0;
   }
-  return currents;
+  return motors;
 }
 
 } // namespace palp

@@ -27,9 +27,16 @@ struct WoodenArm
   std::array<double, 3> rest{ 0.0, 0.0, 6000.0 };         ///< counts where it is calibrated
   double radius = 0.100;                                  ///< of the workspace [m]
   double maxForce = 5.0;                                  ///< [N]
-  double maxCurrent = 2.0;                                ///< in a motor [A]
-  double damping = 0.5; ///< b of the mechanism [N s/m]; measure it
+  double maxCurrent = 2.0;                                ///< in a motor, for peakTime [A]
+  double continuousCurrent = 1.0;                         ///< in a motor, for ever [A]
+  double peakTime = 4.0; ///< that a cold motor and its amplifier bear maxCurrent [s]
+  double damping = 0.5;  ///< b of the mechanism [N s/m]; measure it
 };
+
+/// Published arms: v2015, v2019, polhem (v1), aluhaptics (v2).
+/// @return  nothing: no such name
+/// @source  forsslund/haptikfabrikenapi, src/haptikfabrikenapi.h, configurations of these names
+[[nodiscard]] std::optional<WoodenArm> publishedArm(std::string_view name) noexcept;
 
 /// Arm from a text: `length = 0.080 0.205 0.245`, one key in a line, # for remarks, SI.
 /// @throws Error  BadFile: name, line, what is wrong
@@ -40,6 +47,7 @@ struct WoodenReport
 {
   std::array<std::int16_t, 6> encoders{}; ///< [counts]
   bool calibrate = false;                 ///< the user has pressed the button of the board
+  bool button = false;                    ///< of the handle, which the board adds to encoder d
 };
 
 /// @return    nothing: too short
@@ -70,10 +78,16 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 [[nodiscard]] Eigen::Matrix3d positionJacobian(
   const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
 
+/// What three motors are given.
+struct MotorCurrents
+{
+  std::array<double, 3> currents{}; ///< [A], finite
+  double share = 0.0;               ///< of the force that was asked for, 0 to 1
+};
+
 /// Currents that push the hand with a force, all shortened alike where one exceeds its largest.
-/// @return    [A], finite
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] std::array<double, 3> motorCurrents(
+[[nodiscard]] MotorCurrents motorCurrents(
   const WoodenArm& arm, const Eigen::Vector3d& angles, const Eigen::Vector3d& force) noexcept;
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "haptics/devices/usb/hid_transport.h"
 
+#include "haptics/devices/file_transport.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/error.h"
 
@@ -21,48 +22,8 @@ namespace palp
 namespace
 {
 
-// hidapi keeps its last error in one place: one thread at a time may look or open
+// hidapi keeps its last error in one place: one thread at a time may look
 std::mutex gLibrary;
-
-struct Close
-{
-  void operator()(hid_device* device) const noexcept
-  {
-    hid_close(device);
-  }
-};
-
-class HidTransport final : public Transport
-{
-public:
-  explicit HidTransport(hid_device* device) noexcept
-    : device_(device)
-  {
-  }
-
-  [[nodiscard]] IoResult read(
-    MutableBytes into, std::chrono::microseconds timeout) noexcept override
-  {
-    const auto wait = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
-    const int size = hid_read_timeout(device_.get(), reinterpret_cast<unsigned char*>(into.data()),
-      into.size(), static_cast<int>(wait));
-    if (size < 0)
-    {
-      return { IoCode::Gone, 0 };
-    }
-    return { size > 0 ? IoCode::Ok : IoCode::Timeout, static_cast<std::size_t>(size) };
-  }
-
-  [[nodiscard]] IoCode write(Bytes bytes) noexcept override
-  {
-    const int size =
-      hid_write(device_.get(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-    return size < 0 ? IoCode::Gone : IoCode::Ok;
-  }
-
-private:
-  std::unique_ptr<hid_device, Close> device_;
-};
 
 struct Known
 {
@@ -105,25 +66,14 @@ std::string unusableReasonOf(const char* path)
     : "cannot be opened; plug it in again";
 }
 
-// hidapi 0.13 uses a device that it has freed where a path is none (libusb/hidapi issue 542)
-void checkIsHid(const std::string& path)
+bool isHid(int file) noexcept
 {
   struct stat status
   {
   };
   int size = 0;
-  const int file = open(path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  bool isOther = file < 0 && errno == EISDIR;
-  if (file >= 0)
-  {
-    isOther = fstat(file, &status) != 0 || !S_ISCHR(status.st_mode) ||
-      ioctl(file, HIDIOCGRDESCSIZE, &size) < 0 || size <= 0;
-    close(file);
-  }
-  if (isOther)
-  {
-    throw Error(ErrorCode::NoDevice, path + ": not a HID device; see palp devices");
-  }
+  return fstat(file, &status) == 0 && S_ISCHR(status.st_mode) &&
+    ioctl(file, HIDIOCGRDESCSIZE, &size) >= 0 && size > 0;
 }
 
 std::string narrow(const wchar_t* text)
@@ -171,17 +121,22 @@ std::vector<FoundDevice> listHid()
 
 std::unique_ptr<Transport> openHid(const std::string& path)
 {
-  const std::lock_guard lock(gLibrary);
-  checkIsHid(path);
-  hid_device* device = hid_open_path(path.c_str());
-  if (device == nullptr)
+  // a file of our own, not hidapi's: a guardian shares it, and a lock on it keeps others out
+  const int file = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0 && errno != EISDIR)
   {
-    const std::string unusableReason = unusableReasonOf(path.c_str());
-    throw Error(ErrorCode::NoDevice,
-      path + ": " +
-        (unusableReason.empty() ? "is used by another program; close it" : unusableReason));
+    throw Error(ErrorCode::NoDevice, path + ": " + unusableReasonOf(path.c_str()));
   }
-  return std::make_unique<HidTransport>(device);
+  auto transport = std::make_unique<FileTransport>(file);
+  if (!isHid(file))
+  {
+    throw Error(ErrorCode::NoDevice, path + ": not a HID device; see palp devices");
+  }
+  if (!takeForOneself(file))
+  {
+    throw Error(ErrorCode::NoDevice, path + ": is driven by another palp; close it");
+  }
+  return transport;
 }
 
 } // namespace palp

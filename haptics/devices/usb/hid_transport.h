@@ -8,7 +8,8 @@
 namespace palp
 {
 
-/// Opens a HID device. The only place that knows hidapi, with hid_transport.cpp.
+/// Opens a HID device, for one palp at a time. The only place that knows hidapi, with
+/// hid_transport.cpp.
 /// @throws Error  NoDevice: gone, busy, or not permitted, and what to do
 [[nodiscard]] std::unique_ptr<Transport> openHid(const std::string& path);
 

@@ -1,6 +1,7 @@
-// Stands in for hid_transport.cpp and usb_transport.cpp: they come with the module palp-usb, when
-// the first device is looked for.
+// Stands in for hid_transport.cpp, usb_transport.cpp and haply_driver.cpp: they come with the
+// module palp-usb, when the first device is looked for.
 
+#include "haptics/devices/haply/haply_driver.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/hid_transport.h"
 #include "haptics/devices/usb/usb_module.h"
@@ -57,6 +58,11 @@ std::vector<FoundDevice> listUsb()
 std::unique_ptr<SerialTransport> openFalcon()
 {
   return module().openFalcon();
+}
+
+std::unique_ptr<Driver> openHaply(const std::string& port)
+{
+  return module().openHaply(port);
 }
 
 } // namespace palp

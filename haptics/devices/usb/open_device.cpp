@@ -1,7 +1,15 @@
 #include "haptics/devices/usb/open_device.h"
 
 #include "haptics/devices/falcon/falcon_driver.h"
+#include "haptics/devices/forcedimension/forcedimension_driver.h"
+#include "haptics/devices/guard/guarded_driver.h"
+#include "haptics/devices/haply/haply_driver.h"
 #include "haptics/devices/hid/hid_drivers.h"
+#include "haptics/devices/identify/identified_driver.h"
+#include "haptics/devices/openigtlink/openigtlink_driver.h"
+#include "haptics/devices/serial/serial_port.h"
+#include "haptics/devices/serial/wooden_text.h"
+#include "haptics/devices/spacenav/spacenav_driver.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/hid_transport.h"
 #include "haptics/devices/usb/usb_transport.h"
@@ -9,8 +17,11 @@
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -24,18 +35,26 @@ std::pair<std::string, std::string> parts(const std::string& name)
   return { name.substr(0, colon), colon == name.npos ? "" : name.substr(colon + 1) };
 }
 
-std::string onlySpaceMouse()
+// all of one mouse or receiver: which of its interfaces talks shows when it is moved
+std::vector<std::unique_ptr<Transport>> openSpaceMice()
 {
-  const std::vector<FoundDevice> all = listHid();
-  const auto mouse = std::ranges::find_if(all,
-    [](const FoundDevice& one)
-    { return one.kind == DeviceKind::SpaceMouse && one.unusableReason.empty(); });
-  if (mouse == all.end())
+  std::vector<std::unique_ptr<Transport>> opened;
+  std::string ids;
+  for (const FoundDevice& one : listHid())
+  {
+    if (one.kind == DeviceKind::SpaceMouse && one.unusableReason.empty() &&
+      (ids.empty() || ids == one.ids))
+    {
+      ids = one.ids;
+      opened.push_back(openHid(one.path));
+    }
+  }
+  if (opened.empty())
   {
     throw Error(ErrorCode::NoDevice,
       "SpaceMouse: none that can be used; plug it in, and see palp devices for why");
   }
-  return mouse->path;
+  return opened;
 }
 
 // path and configuration of a board
@@ -53,35 +72,88 @@ std::string boardAt(const std::string& path)
   return board == all.end() ? "" : board->ids + " " + board->name;
 }
 
-std::unique_ptr<Driver> makeDriver(const std::string& kind, const std::string& rest)
+using Opener = std::unique_ptr<Driver> (*)(const std::string& rest);
+
+std::unique_ptr<Driver> openSpaceMouse(const std::string& rest)
 {
-  if (kind == "spacemouse")
-  {
-    return std::make_unique<SpaceMouseDriver>(openHid(rest.empty() ? onlySpaceMouse() : rest));
-  }
-  if (kind == "falcon")
-  {
-    const std::string text = rest.empty() ? "" : readText(rest, "the firmware");
-    const Bytes bytes = std::as_bytes(std::span(text));
-    return std::make_unique<FalconDriver>(
-      openFalcon(), std::vector<std::byte>(bytes.begin(), bytes.end()));
-  }
+  return rest.empty() ? std::make_unique<SpaceMouseDriver>(openSpaceMice())
+                      : std::make_unique<SpaceMouseDriver>(openHid(rest));
+}
+
+std::unique_ptr<Driver> openFalconArm(const std::string& rest)
+{
+  const std::string text = rest.empty() ? "" : readText(rest, "the firmware");
+  const Bytes bytes = std::as_bytes(std::span(text));
+  return guardedUsb(openFalcon(), falconZero(),
+    [&](std::unique_ptr<SerialTransport> wire)
+    {
+      return std::make_unique<FalconDriver>(
+        std::move(wire), std::vector<std::byte>(bytes.begin(), bytes.end()));
+    });
+}
+
+void requirePath(const std::string& kind, const std::string& rest)
+{
   if (rest.empty())
   {
     throw Error(ErrorCode::BadValue,
       "--device: " + kind +
         " needs its path, because many boards have the same ids; see palp devices");
   }
-  if (kind == "phd1")
-  {
-    return std::make_unique<Phd1Driver>(openHid(rest));
-  }
+}
+
+std::unique_ptr<Driver> openPhd1(const std::string& rest)
+{
+  requirePath("phd1", rest);
+  return guarded(openHid(rest), phd1Zero(),
+    [](std::unique_ptr<Transport> wire) { return std::make_unique<Phd1Driver>(std::move(wire)); });
+}
+
+// by HID, or in lines of text where the path is a serial port
+std::unique_ptr<Driver> openWooden(const std::string& rest)
+{
+  requirePath("wooden", rest);
   const auto [path, configuration] = boardParts(rest);
-  const WoodenArm arm = configuration.empty()
-    ? WoodenArm{}
+  const auto published = publishedArm(configuration.empty() ? "v2015" : configuration);
+  const WoodenArm arm = published
+    ? *published
     : parseWoodenArm(readText(configuration, "the configuration"), configuration);
-  const bool isMbed = boardAt(path).starts_with("1234:0006");
-  return std::make_unique<WoodenDriver>(openHid(path), arm, isMbed ? 14 : 64);
+  if (isSerialPort(path))
+  {
+    return guarded(openSerialPort(path), woodenTextZero(),
+      [&](std::unique_ptr<Transport> wire)
+      {
+        return std::make_unique<WoodenDriver>(
+          std::make_unique<WoodenText>(std::move(wire)), arm, kWoodenReport);
+      });
+  }
+  const std::size_t report = boardAt(path).starts_with("1234:0006") ? kWoodenReport : 64;
+  return guarded(openHid(path), woodenZero(report),
+    [&](std::unique_ptr<Transport> wire)
+    { return std::make_unique<WoodenDriver>(std::move(wire), arm, report); });
+}
+
+struct Kind
+{
+  std::string_view name;
+  Opener open;
+};
+
+constexpr std::array kKinds{
+  Kind{ "spacemouse", openSpaceMouse },
+  Kind{ "spacenavd", [](const std::string&) { return openSpacenav(); } },
+  Kind{ "falcon", openFalconArm },
+  Kind{ "wooden", openWooden },
+  Kind{ "phd1", openPhd1 },
+  Kind{ "openigtlink", openOpenIgtLink },
+  Kind{ "haply", openHaply },
+  Kind{ "forcedimension", openForceDimension },
+};
+
+const Kind* kindOf(const std::string& name)
+{
+  const auto kind = std::ranges::find(kKinds, parts(name).first, &Kind::name);
+  return kind == kKinds.end() ? nullptr : &*kind;
 }
 
 } // namespace
@@ -108,33 +180,63 @@ std::vector<std::string> namesOf(const FoundDevice& device)
 
 bool namesHardware(const std::string& name)
 {
-  const std::string kind = parts(name).first;
-  return kind == "spacemouse" || kind == "falcon" || kind == "wooden" || kind == "phd1";
+  return kindOf(name) != nullptr;
 }
 
 std::unique_ptr<Driver> openDriver(const std::string& name)
 {
-  if (!namesHardware(name))
+  const Kind* kind = kindOf(name);
+  if (kind == nullptr)
   {
-    throw Error(ErrorCode::BadValue,
-      "--device: '" + name + "' is no device; give spacemouse, falcon, wooden:PATH or phd1:PATH");
+    throw Error(
+      ErrorCode::BadValue, "--device: '" + name + "' is no device; give " + kHardwareNames);
   }
-  const auto [kind, rest] = parts(name);
-  return makeDriver(kind, rest);
+  return kind->open(parts(name).second);
 }
 
-std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement)
+std::unique_ptr<Driver> openHoming(const std::string& name)
 {
+  const auto [kind, rest] = parts(name);
+  if (kind != "phd1" || rest.empty())
+  {
+    throw Error(ErrorCode::BadValue, "--home: '" + name + "' homes by hand; give phd1:PATH");
+  }
+  return guarded(openHid(rest), phd1Zero(),
+    [](std::unique_ptr<Transport> wire)
+    {
+      auto driver = std::make_unique<Phd1Driver>(std::move(wire));
+      driver->home();
+      return driver;
+    });
+}
+
+std::string identityOf(const std::string& name)
+{
+  const auto [kind, rest] = parts(name);
+  const std::string board = rest.empty() ? "" : boardAt(boardParts(rest).first);
+  return board.empty() ? kind : kind + " " + board;
+}
+
+std::unique_ptr<Device> openDevice(const std::string& name, const DevicePlacement& placement,
+  const std::optional<IdentifiedArm>& arm)
+{
+  if (arm && !arm->agrees())
+  {
+    throw Error(ErrorCode::NoDevice,
+      name +
+        ": its motion does not follow its motors, so that no force is safe; mend `sign` in its "
+        "configuration, then palp devices --identify");
+  }
   // another board may get the path of one that was unplugged; the user has chosen that one
   const std::string path = boardParts(parts(name).second).first;
-  return std::make_unique<ThreadedDevice>(
-    [name, path, chosen = boardAt(path)]
+  return std::make_unique<BusDevice>(
+    [name, path, arm, chosen = boardAt(path)]() -> std::unique_ptr<Driver>
     {
       if (boardAt(path) != chosen)
       {
         throw Error(ErrorCode::NoDevice, name + ": another device is there now; choose it anew");
       }
-      return openDriver(name);
+      return arm ? std::make_unique<IdentifiedDriver>(openDriver(name), *arm) : openDriver(name);
     },
     placement);
 }

@@ -1,27 +1,45 @@
 #pragma once
 
-#include "haptics/devices/threaded_device.h"
+#include "haptics/devices/arm.h"
+#include "haptics/devices/bus_device.h"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace palp
 {
 
+/// For people: the names that openDriver takes.
+inline constexpr const char* kHardwareNames =
+  "spacemouse, spacenavd, falcon, wooden:PATH, phd1:PATH, haply, forcedimension "
+  "or openigtlink";
+
 /// Opens what drives a device, by the name that a user gives it.
 ///
-/// spacemouse, spacemouse:PATH; falcon, falcon:FIRMWARE; wooden:PATH[,ARM.conf]; phd1:PATH. A
-/// board with generic ids is never opened without its path.
+/// spacemouse, spacemouse:PATH; spacenavd; falcon, falcon:FIRMWARE; wooden:PATH[,ARM], a HID board
+/// or a serial port, and an arm of publishedArm or a file; phd1:PATH;
+/// haply[:PORT]; forcedimension[:LIBRARY]; openigtlink[:ADDRESS:PORT][,TOOL]. A board with generic
+/// ids is never opened without its path.
 ///
 /// @throws Error  BadValue: not such a name; NoDevice: why it cannot be used, and what to do;
 ///                BadFile: firmware or configuration
 [[nodiscard]] std::unique_ptr<Driver> openDriver(const std::string& name);
 
+/// The same of a PHD1 board that is to move to its zero by itself.
+/// @throws Error  as openDriver; BadValue: another device
+[[nodiscard]] std::unique_ptr<Driver> openHoming(const std::string& name);
+
 /// The same on a thread of its own, ready for the servo loop.
-/// @throws Error  as openDriver
-[[nodiscard]] std::unique_ptr<Device> openDevice(
-  const std::string& name, const DevicePlacement& placement);
+/// @param arm     what was measured of it; its limits are then those of this arm
+/// @throws Error  as openDriver; NoDevice: its motion does not follow its motors
+[[nodiscard]] std::unique_ptr<Device> openDevice(const std::string& name,
+  const DevicePlacement& placement, const std::optional<IdentifiedArm>& arm = std::nullopt);
+
+/// What tells a device from those of other kinds, wherever it is plugged in: its kind and, of a
+/// board, its ids and name. Two boards alike are one.
+[[nodiscard]] std::string identityOf(const std::string& name);
 
 /// True when openDriver knows a name of this kind.
 [[nodiscard]] bool namesHardware(const std::string& name);

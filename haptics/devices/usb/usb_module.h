@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/devices/transport.h"
+#include "haptics/devices/driver.h"
 #include "haptics/devices/usb/found_device.h"
 
 #include <memory>
@@ -8,13 +8,14 @@
 namespace palp
 {
 
-/// What the module palp-usb carries: all that touches hidapi and libusb.
+/// What the module palp-usb carries: all that touches hidapi, libusb and libwebsockets.
 struct UsbModule
 {
   std::vector<FoundDevice> (*listHid)();
   std::unique_ptr<Transport> (*openHid)(const std::string& path);
   std::vector<FoundDevice> (*listUsb)();
   std::unique_ptr<SerialTransport> (*openFalcon)();
+  std::unique_ptr<Driver> (*openHaply)(const std::string& port);
 };
 
 /// Name of the module's one function, of type `const UsbModule* ()`.

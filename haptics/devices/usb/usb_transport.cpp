@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <libusb-1.0/libusb.h>
+#include <poll.h>
 
 namespace palp
 {
@@ -78,6 +79,19 @@ public:
     (void)libusb_release_interface(handle_.get(), 0);
   }
 
+  // that of usbfs is the one which libusb waits for to be writable
+  [[nodiscard]] int descriptor() const noexcept override
+  {
+    int found = -1;
+    const libusb_pollfd** all = libusb_get_pollfds(context_.get());
+    for (const libusb_pollfd** one = all; one != nullptr && *one != nullptr; ++one)
+    {
+      found = ((*one)->events & POLLOUT) != 0 ? (*one)->fd : found;
+    }
+    libusb_free_pollfds(all);
+    return found;
+  }
+
   UsbTransport(const UsbTransport&) = delete;
   UsbTransport& operator=(const UsbTransport&) = delete;
 
@@ -89,6 +103,7 @@ public:
     const int error = libusb_bulk_transfer(handle_.get(), kIn,
       reinterpret_cast<unsigned char*>(into.data()), static_cast<int>(into.size()), &size,
       static_cast<unsigned>(std::max<long>(1, static_cast<long>(wait)))); // 0 would mean for ever
+    clearHalt(kIn, error);
     return { codeOf(error), static_cast<std::size_t>(size) };
   }
 
@@ -97,8 +112,10 @@ public:
     int size = 0;
     // libusb takes what it only reads as if it wrote it
     auto* data = reinterpret_cast<unsigned char*>(const_cast<std::byte*>(bytes.data()));
-    return codeOf(libusb_bulk_transfer(
-      handle_.get(), kOut, data, static_cast<int>(bytes.size()), &size, kPatience));
+    const int error = libusb_bulk_transfer(
+      handle_.get(), kOut, data, static_cast<int>(bytes.size()), &size, kPatience);
+    clearHalt(kOut, error);
+    return codeOf(error);
   }
 
   [[nodiscard]] bool request(std::uint8_t what, std::uint16_t value) noexcept override
@@ -108,6 +125,15 @@ public:
   }
 
 private:
+  // a halted endpoint stays so until it is told otherwise
+  void clearHalt(unsigned char endpoint, int error) noexcept
+  {
+    if (error == LIBUSB_ERROR_PIPE)
+    {
+      (void)libusb_clear_halt(handle_.get(), endpoint);
+    }
+  }
+
   Context context_;
   Handle handle_;
 };

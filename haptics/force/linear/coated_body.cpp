@@ -5,7 +5,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -19,6 +21,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector2d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1.0 + 1e-9;
 constexpr double kNarrowest = 1.0 / CoatedBody::kMinBodyThickness;
 
 // Two states at one height, as columns: displacement (along, down) and traction over 2 k and a
@@ -124,13 +127,12 @@ void check(const Coatings& coatings, const Material& body, double widest)
         " are too thin under this tool to be computed; give " +
         units::inMillimeters(CoatedBody::kMinThickness * widest) + " or more, or leave it out");
   }
-  constexpr double rounding = 1.0 + 1e-9;
   double softest = body.contactModulus(); // of what is below
   for (std::size_t i = all.size(); i-- > 0;)
   {
     const double modulus = all[i].material.contactModulus();
-    if (!(modulus <= CoatedBody::kStiffest * rounding * softest &&
-          modulus * rounding >= CoatedBody::kSoftest * softest))
+    if (!(modulus <= CoatedBody::kStiffest * kRounding * softest &&
+          modulus * kRounding >= CoatedBody::kSoftest * softest))
     {
       throw Error(ErrorCode::BadValue,
         "coatings: one is more than 20 times as stiff, or 1000 times as soft, as what is below; "
@@ -170,6 +172,47 @@ double surfaceCompliance(double wavenumber, std::span<const Coating> coatings, c
     (2.0 * (1.0 - top.poissonRatio));
 }
 
+// The pressure within a ring is what G(r) = int phi(sqrt(r^2 + t^2)) dt, from 0 to sqrt(a^2 - r^2),
+// falls by on the way out.
+bool pullsUnderPunch(const Coatings& coatings, const Material& body, Base base, double radius)
+{
+  constexpr int rings = 8;        // of the inner half, of one area
+  constexpr double little = 0.01; // [-] of the mean pressure
+  const double uppermost = coatings.all().front().thickness;
+  PunchEquation equation(
+    wavenumbers(uppermost, radius), 64 + static_cast<int>(2.0 * radius / uppermost));
+  const std::vector<double>& k = equation.wavenumbers();
+  Eigen::VectorXd deficits(static_cast<Eigen::Index>(k.size()));
+  std::ranges::transform(k, deficits.begin(),
+    [&](double at) { return 1.0 - surfaceCompliance(at, coatings.all(), body, kInfinite, base); });
+  equation.setRadius(radius);
+  const Eigen::VectorXd phi = equation.phi(equation.kernel(deficits));
+  const std::vector<double>& x = equation.nodes();
+  const auto at = [&](double place)
+  {
+    const auto above = std::clamp<std::ptrdiff_t>(
+      std::ranges::lower_bound(x, place) - x.begin(), 1, std::ssize(x) - 1);
+    const double low = x[static_cast<std::size_t>(above) - 1];
+    const double part = (place - low) / (x[static_cast<std::size_t>(above)] - low);
+    return std::lerp(phi[above - 1], phi[above], part);
+  };
+  const Quadrature rule = gaussLegendre(200, 0.0, 1.0);
+  std::array<double, rings + 1> sums{}; // G at the rings' bounds
+  for (int i = 0; i <= rings; ++i)
+  {
+    const double square = 0.5 * i / rings;
+    const double end = std::sqrt(1.0 - square);
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j)
+    {
+      sums[static_cast<std::size_t>(i)] +=
+        end * rule.weights[j] * at(std::sqrt(square + std::pow(end * rule.nodes[j], 2)));
+    }
+  }
+  const double pull = -little * 0.5 / rings * sums[0];
+  return std::ranges::adjacent_find(
+           sums, [&](double inner, double outer) { return inner - outer < pull; }) != sums.end();
+}
+
 CoatedBody::CoatedBody(const Coatings& coatings, const Material& body, Base base, double widest)
   : coatings_(coatings.thickness())
   , widest_(widest)
@@ -179,32 +222,58 @@ CoatedBody::CoatedBody(const Coatings& coatings, const Material& body, Base base
   , rows_(static_cast<std::size_t>(kRadii) * kThicknesses)
 {
   check(coatings, body, widest);
-  PunchEquation equation(
-    wavenumbers(uppermost_, widest), 16 + static_cast<int>(widest / uppermost_));
-  const std::vector<double>& k = equation.wavenumbers();
-  Eigen::MatrixXd deficits(static_cast<Eigen::Index>(k.size()), kThicknesses);
-  for (int i = 0; i < kThicknesses; ++i)
-  {
-    const double thickness = i == 0 ? kInfinite : widest / std::sinh(i * thicknessStep_);
-    std::transform(k.begin(), k.end(), deficits.col(i).begin(),
-      [&](double at)
-      { return 1.0 - surfaceCompliance(at, coatings.all(), body, thickness, base); });
-  }
-  const Eigen::MatrixXd differences = deficits.colwise() - deficits.col(0).eval();
   const double relative = coatings.all().front().material.contactModulus() / body.contactModulus();
-  for (int radius = 0; radius < kRadii; ++radius)
+  // a narrow contact needs few nodes: each equation serves the radii of an octave
+  for (int radius = 0; radius < kRadii;)
   {
-    equation.setRadius(uppermost_ * std::sinh(radius * radiusStep_));
-    const Eigen::MatrixXd endless = equation.kernel(deficits.col(0));
-    for (int i = 0; i < kThicknesses; ++i)
+    const double octave =
+      std::min(widest, std::max(uppermost_, 2.0 * uppermost_ * std::sinh(radius * radiusStep_)));
+    PunchEquation equation(
+      wavenumbers(uppermost_, octave), 16 + static_cast<int>(octave / uppermost_));
+    const Eigen::MatrixXd deficits = deficitsAt(equation.wavenumbers(), coatings, body, base);
+    for (; radius < kRadii; ++radius)
     {
-      auto& value = rows_[indexOf(radius, i)].value;
-      value = equation.solve(endless + equation.kernel(differences.col(i)));
-      std::transform(
-        value.begin(), value.end(), value.begin(), [&](double term) { return relative * term; });
+      const double a = uppermost_ * std::sinh(radius * radiusStep_);
+      if (a > kRounding * octave)
+      {
+        break;
+      }
+      equation.setRadius(a);
+      const Eigen::MatrixXd endless = equation.kernel(deficits.col(0));
+      for (int i = 0; i < kThicknesses; ++i)
+      {
+        auto& value = rows_[indexOf(radius, i)].value;
+        value = equation.solve(i == 0 ? endless : endless + equation.kernel(deficits.col(i)));
+        std::transform(
+          value.begin(), value.end(), value.begin(), [&](double term) { return relative * term; });
+      }
     }
   }
   setSlopes(rows_, kThicknesses, radiusStep_);
+}
+
+// what a half-space of the uppermost has over the body without end, and that over thinner ones
+Eigen::MatrixXd CoatedBody::deficitsAt(const std::vector<double>& wavenumbers,
+  const Coatings& coatings, const Material& body, Base base) const
+{
+  constexpr double deepest = 20.0; // a base there is not felt
+  const auto count = static_cast<Eigen::Index>(wavenumbers.size());
+  Eigen::MatrixXd deficits = Eigen::MatrixXd::Zero(count, kThicknesses);
+  for (Eigen::Index row = 0; row < count; ++row)
+  {
+    const double k = wavenumbers[static_cast<std::size_t>(row)];
+    const double endless = surfaceCompliance(k, coatings.all(), body, kInfinite, base);
+    deficits(row, 0) = 1.0 - endless;
+    for (int i = 1; i < kThicknesses; ++i)
+    {
+      const double thickness = widest_ / std::sinh(i * thicknessStep_);
+      if (k * thickness < deepest)
+      {
+        deficits(row, i) = endless - surfaceCompliance(k, coatings.all(), body, thickness, base);
+      }
+    }
+  }
+  return deficits;
 }
 
 PunchSolution CoatedBody::operator()(double radius, double thickness) const noexcept

@@ -23,12 +23,21 @@ namespace palp
 [[nodiscard]] double surfaceCompliance(double wavenumber, std::span<const Coating> coatings,
   const Material& body, double thickness, Base base);
 
+/// Whether a flat punch would have to pull somewhere in the inner half of its face, from which a
+/// stiff coating bends away. Beside the edge a pull lifts it by less than a thousandth of the
+/// depth.
+///
+/// @param radius  of the punch [m], not more than 200 times the uppermost coating
+/// @source        Sneddon 1966: p(r) of phi
+[[nodiscard]] bool pullsUnderPunch(
+  const Coatings& coatings, const Material& body, Base base, double radius);
+
 /// Linear elastic body under coatings, on a rigid base or without end: the solution phi of Layer
 /// for it, for contacts to a largest radius.
 class CoatedBody
 {
 public:
-  static constexpr double kMinThickness = 0.05;    ///< uppermost coating, over the widest contact
+  static constexpr double kMinThickness = 0.005;   ///< uppermost coating, over the widest contact
   static constexpr double kMinBodyThickness = 0.2; ///< below the coatings, as well
   static constexpr double kStiffest = 20.0; ///< E* of a coating, over that of the softest below it;
                                             ///< stiffer, the contact is no longer a single circle
@@ -54,6 +63,9 @@ private:
   {
     return static_cast<std::size_t>(radius) * kThicknesses + static_cast<std::size_t>(thickness);
   }
+
+  [[nodiscard]] Eigen::MatrixXd deficitsAt(const std::vector<double>& wavenumbers,
+    const Coatings& coatings, const Material& body, Base base) const;
 
   double coatings_;                 // thickness of all [m]
   double widest_;                   // [m]

@@ -55,13 +55,17 @@ Eigen::MatrixXd PunchEquation::kernel(const Eigen::VectorXd& deficit) const
     cosines.transpose() * vectorOf(nodes_.weights).asDiagonal();
 }
 
-std::array<double, PunchSolution::kTerms> PunchEquation::solve(const Eigen::MatrixXd& kernel) const
+Eigen::VectorXd PunchEquation::phi(const Eigen::MatrixXd& kernel) const
 {
   const Eigen::Index nodes = kernel.rows();
-  const Eigen::VectorXd phi = (Eigen::MatrixXd::Identity(nodes, nodes) - kernel)
-                                .partialPivLu()
-                                .solve(Eigen::VectorXd::Ones(nodes));
-  const Eigen::VectorXd terms = fit_ * phi;
+  return (Eigen::MatrixXd::Identity(nodes, nodes) - kernel)
+    .partialPivLu()
+    .solve(Eigen::VectorXd::Ones(nodes));
+}
+
+std::array<double, PunchSolution::kTerms> PunchEquation::solve(const Eigen::MatrixXd& kernel) const
+{
+  const Eigen::VectorXd terms = fit_ * phi(kernel);
   std::array<double, PunchSolution::kTerms> result{};
   std::copy(terms.begin(), terms.end(), result.begin());
   return result;

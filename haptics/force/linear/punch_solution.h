@@ -47,6 +47,15 @@ public:
   ///                 kernel of a sum is the sum of the kernels
   [[nodiscard]] Eigen::MatrixXd kernel(const Eigen::VectorXd& deficit) const;
 
+  /// @return  phi at nodes()
+  [[nodiscard]] Eigen::VectorXd phi(const Eigen::MatrixXd& kernel) const;
+
+  /// @return  x, rising
+  [[nodiscard]] const std::vector<double>& nodes() const noexcept
+  {
+    return nodes_.nodes;
+  }
+
   /// @return  c_k; least squares, which keeps the integrals of phi and of x^2 phi exact
   [[nodiscard]] std::array<double, PunchSolution::kTerms> solve(
     const Eigen::MatrixXd& kernel) const;

@@ -90,8 +90,8 @@ HomogeneousPress::HomogeneousPress(
   if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
   {
     throw Error(ErrorCode::BadValue,
-      "nodules: only the corrected law, and tissue without coatings, knows them; choose that law, "
-      "or leave them out");
+      "nodules and maps of stiffness: only the corrected law, and tissue without coatings, knows "
+      "them; choose that law, or leave them out");
   }
   findContacts(place);
   findForces(place);

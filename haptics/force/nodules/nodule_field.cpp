@@ -86,6 +86,23 @@ std::vector<double> NoduleField::contrasts(const NoduleContact& at, const Respon
   return contrasts;
 }
 
+double NoduleField::extentRadius(
+  const NoduleContact& at, const Response& plain, double extent) const
+{
+  constexpr double kFar = 1.0 / 3.0; // exponents of the force with the nodule over that without
+  constexpr double kNear = -0.5;
+  constexpr double kSlope = 0.7; // from the one to the other, by extent over distance
+  const Squares squares = squaresAt(at);
+  const std::vector<double> more = contrasts(at, plain);
+  double radius = extent;
+  for (std::size_t i = 0; i < nodules_.size(); ++i)
+  {
+    const double distance = std::sqrt(squares[i] + nodules_[i].depth * nodules_[i].depth);
+    radius *= std::pow(1.0 + more[i], std::min(kFar, kNear + kSlope * extent / distance));
+  }
+  return radius;
+}
+
 NoduleRules NoduleField::rules(const NoduleContact& at, const Response& plain) const
 {
   const Squares squares = squaresAt(at);

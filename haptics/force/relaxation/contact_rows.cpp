@@ -43,12 +43,15 @@ ContactRows::ContactRows(const std::function<ElasticForce(double)>& law, double 
 }
 
 void ContactRows::scaleBlock(
-  const ContactRows& usual, std::size_t begin, double above, double below) noexcept
+  const ContactRows& usual, std::size_t begin, const std::array<double, 3>& ratios) noexcept
 {
+  const double slope = ratios[1] - ratios[0];
+  const double bend = 0.5 * (ratios[2] - 2.0 * ratios[1] + ratios[0]);
   for (std::size_t j = begin; j < begin + kBlock; ++j)
   {
     const double fraction = static_cast<double>(j + 1 - begin) / kBlock;
-    total[j + 1] = std::max(total[j], usual.total[j + 1] * (above + fraction * (below - above)));
+    const double ratio = ratios[0] + fraction * (slope + (fraction - 1.0) * bend);
+    total[j + 1] = std::max(total[j], usual.total[j + 1] * ratio);
     stiffness[j] = total[j + 1] - total[j];
   }
 }

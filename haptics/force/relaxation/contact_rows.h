@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -25,17 +26,17 @@ struct ElasticForce
 class ContactRows
 {
 public:
-  static constexpr std::size_t kFine = 96;   ///< rows down to the depth that they are made for
-  static constexpr std::size_t kCount = 144; ///< with those from there to 1 m
-  static constexpr std::size_t kBlock = 12;  ///< rows between two questions of adapt()
+  static constexpr std::size_t kFine = 192;  ///< rows down to the depth that they are made for
+  static constexpr std::size_t kCount = 240; ///< with those from there to 1 m
+  static constexpr std::size_t kBlock = 24;  ///< rows between two questions of adapt()
 
   /// @param law      force 0 and any stiffness at depth 0; stiffness must not fall with depth, and
   ///                 where it does it is taken as constant
   /// @param deepest  [m], more than 0, at most 1; the finer the rows, the less it is
   ContactRows(const std::function<ElasticForce(double)>& law, double deepest);
 
-  /// Gives these rows the stiffness of another place, whose ratio to the usual one is taken as
-  /// linear in each block; below a depth it stays.
+  /// Gives these rows the stiffness of another place, whose ratio to the usual one is taken as a
+  /// parabola through the ends of each block and the next one; below a depth it stays.
   ///
   /// @param usual  rows that these are a copy of
   /// @param law    callable as double(double depth) noexcept: dF/ddepth there [N/m]
@@ -45,19 +46,18 @@ public:
   {
     const auto ratioAt = [&](std::size_t edge)
     { return usual.total[edge] > 0.0 ? law(edges[edge]) / usual.total[edge] : 1.0; };
-    double below = ratioAt(kBlock);
-    const double second = ratioAt(2 * kBlock);
-    double above = 2.0 * below - second; // at the surface, where both are 0
+    std::array<double, 3> ratios{ ratioAt(1), ratioAt(kBlock), ratioAt(2 * kBlock) };
+    ratios[0] -= (ratios[1] - ratios[0]) / (kBlock - 1); // at the surface itself both are 0
     for (std::size_t begin = 0;;)
     {
-      scaleBlock(usual, begin, above, below);
+      scaleBlock(usual, begin, ratios);
       begin += kBlock;
       if (begin == kCount || edges[begin] >= toDepth)
       {
         return;
       }
-      above = below;
-      below = begin == kBlock ? second : ratioAt(begin + kBlock);
+      const std::size_t next = std::min(begin + 2 * kBlock, kCount);
+      ratios = { ratios[1], ratios[2], ratioAt(next) };
     }
   }
 
@@ -67,7 +67,8 @@ public:
   std::array<double, kCount> stiffness{}; ///< k_j [N/m], 0 or more
 
 private:
-  void scaleBlock(const ContactRows& usual, std::size_t begin, double above, double below) noexcept;
+  void scaleBlock(
+    const ContactRows& usual, std::size_t begin, const std::array<double, 3>& ratios) noexcept;
 };
 
 } // namespace palp

@@ -40,4 +40,17 @@ Eigen::Vector3d FrictionRows::drag(const ContactRows& rows, std::span<const doub
   return sum;
 }
 
+double carriedBy(double drag, double load, const FrictionRows::Tissue& tissue, double shear,
+  double radius) noexcept
+{
+  const double slipping = tissue.coefficient * load;
+  if (!(slipping > 0.0 && radius > 0.0))
+  {
+    return 0.0;
+  }
+  const double most = 3.0 * slipping * (2.0 - tissue.poissonRatio) / (16.0 * shear * radius);
+  const double sticks = 1.0 - std::min(1.0, drag / slipping);
+  return most * (1.0 - std::cbrt(sticks * sticks));
+}
+
 } // namespace palp

@@ -45,4 +45,16 @@ private:
   std::size_t used_ = 0;
 };
 
+/// How far a contact carries the tissue along before all of it slips, from the force that it drags
+/// it with.
+///
+/// @param drag    force along the surface [N]
+/// @param load    force along the normal [N]
+/// @param shear   G [Pa]
+/// @param radius  of the contact [m]
+/// @return        [m]; 0 where nothing is in contact
+/// @source        Cattaneo 1938: Q = mu F (1 - (1 - u / us)^1.5), us = 3 mu F (2 - nu) / 16 G a
+[[nodiscard]] double carriedBy(double drag, double load, const FrictionRows::Tissue& tissue,
+  double shear, double radius) noexcept;
+
 } // namespace palp

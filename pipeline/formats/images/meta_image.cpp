@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <string_view>
 #include <vector>
 #include <vtkByteSwap.h>
 #include <vtkDataArray.h>
@@ -30,9 +31,17 @@ void readSpacing(const std::filesystem::path& file, const MetaFields& fields, Me
   {
     refuse(file, "its header has no ElementSpacing, the size of a voxel; write it there");
   }
-  if (std::ranges::any_of(header.spacing, [](double side) { return !(side > 0.0); }))
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    refuse(file, "its ElementSpacing is not positive; export it again");
+    if (!(std::abs(header.spacing[k]) > 0.0))
+    {
+      refuse(file, "a side of its ElementSpacing is no length; export it again");
+    }
+    if (header.spacing[k] < 0.0) // against its direction, as ITK takes it
+    {
+      header.spacing[k] = -header.spacing[k];
+      Eigen::Map<Eigen::Matrix3d>(header.axes.data()).col(static_cast<Eigen::Index>(k)) *= -1.0;
+    }
   }
   const auto unit = fields.find("DistanceUnits");
   const std::string name = unit == fields.end() ? "" : unit->second;
@@ -92,6 +101,32 @@ void readAxes(const std::filesystem::path& file, const MetaFields& fields, MetaH
       refuse(file, std::string("its ") + key + " is not three directions; export it again");
     }
   }
+}
+
+// Letters tell from where each axis comes, or, as some write them, to where it goes. ITK, and with
+// it 3D Slicer, takes the matrix alone: ITK's issue 1017.
+std::string contradictionOf(const MetaFields& fields, const MetaHeader& header)
+{
+  const auto field = fields.find("AnatomicalOrientation");
+  const std::string letters = field == fields.end() ? "" : field->second;
+  bool isFrom = true;
+  bool isTo = true;
+  for (std::size_t k = 0; k < letters.size(); ++k)
+  {
+    constexpr std::string_view kTo = "RLAPIS"; // of pairs: less along x, more, along y, z
+    const std::size_t letter = kTo.find(letters[k]);
+    if (letters.size() != 3 || letter == kTo.npos)
+    {
+      return {}; // as ??? where the program knew none
+    }
+    constexpr double kAlong = 0.4; // of an oblique axis
+    const double along = (letter % 2 == 0 ? -1.0 : 1.0) * header.axes[3 * k + letter / 2];
+    isTo = isTo && along > kAlong;
+    isFrom = isFrom && along < -kAlong;
+  }
+  return isFrom || isTo ? std::string()
+                        : "its AnatomicalOrientation, " + letters +
+      ", contradicts its TransformMatrix; the matrix is taken, as 3D Slicer does";
 }
 
 int typeOf(const std::filesystem::path& file, const MetaFields& fields)
@@ -206,6 +241,7 @@ MetaHeader readMetaHeader(const std::filesystem::path& file)
     header.bytes *= static_cast<std::uintmax_t>(size[i]);
   }
   readAxes(file, fields, header);
+  header.contradiction = contradictionOf(fields, header);
   readSpacing(file, fields, header);
   readScale(file, fields, header);
   readThree(file, fields, { "Offset", "Position", "Origin" }, header.origin);

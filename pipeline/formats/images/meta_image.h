@@ -21,6 +21,7 @@ struct MetaHeader
   int type = 0;                                   ///< of a voxel, as VTK numbers them
   std::uintmax_t bytes = 0;                       ///< of all voxels
   std::string unit{};                             ///< "um", "mm" or "cm"; empty: none
+  std::string contradiction{};                    ///< of what tells the axes, for people
   double slope = 1.0;                             ///< a value is slope times what is stored,
   double intercept = 0.0;                         ///< plus intercept
   bool text = false;                              ///< the voxels are numbers in words

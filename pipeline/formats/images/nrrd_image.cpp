@@ -222,6 +222,22 @@ void place(const std::filesystem::path& file, const NrrdFields& fields, PatientI
                                    "taken");
 }
 
+// of red, green and blue from 0 to 1; empty: no such
+std::string colorOf(const std::vector<double>& parts)
+{
+  if (parts.size() != 3 ||
+    !std::ranges::all_of(parts, [](double part) { return part >= 0.0 && part <= 1.0; }))
+  {
+    return {};
+  }
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x",
+    static_cast<unsigned>(std::lround(255.0 * parts[0])),
+    static_cast<unsigned>(std::lround(255.0 * parts[1])),
+    static_cast<unsigned>(std::lround(255.0 * parts[2])));
+  return text.data();
+}
+
 // Segment0_Name and those beside it, as 3D Slicer writes them
 std::vector<Segment> segmentsOf(const NrrdFields& fields, int layers)
 {
@@ -234,7 +250,8 @@ std::vector<Segment> segmentsOf(const NrrdFields& fields, int layers)
       return segments;
     }
     Segment segment{ .name = fieldOf(fields, key + "Name"),
-      .value = numberOf(fieldOf(fields, key + "LabelValue"), 1.0) };
+      .value = numberOf(fieldOf(fields, key + "LabelValue"), 1.0),
+      .color = colorOf(numbersIn(fieldOf(fields, key + "Color"))) };
     const double layer = numberOf(fieldOf(fields, key + "Layer"), 0.0);
     segment.layer = layer >= 0.0 && layer < layers ? static_cast<int>(layer) : 0;
     segments.push_back(std::move(segment));

@@ -12,9 +12,11 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vtkCellArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -146,26 +148,34 @@ vtkSmartPointer<vtkPolyData> readText(const std::filesystem::path& file)
 
 constexpr std::size_t kHeader = 84; // [bytes], the last four are the number of triangles
 constexpr std::size_t kFacet = 50;  // [bytes]
+constexpr std::size_t kCorners = 9; // coordinates of a facet
 
 vtkSmartPointer<vtkPolyData> readBinary(const std::filesystem::path& file, std::uint32_t count)
 {
   std::ifstream in(file, std::ios::binary);
   in.seekg(kHeader);
   vtkNew<vtkPoints> points; // single precision, as the file's
-  vtkNew<vtkCellArray> triangles;
   points->SetNumberOfPoints(3 * static_cast<vtkIdType>(count));
-  triangles->AllocateExact(static_cast<vtkIdType>(count), 3 * static_cast<vtkIdType>(count));
-  char facet[kFacet];
-  for (vtkIdType i = 0; i < static_cast<vtkIdType>(count) && in.read(facet, kFacet); ++i)
+  auto* coordinates = static_cast<float*>(points->GetVoidPointer(0));
+  std::string facets;
+  for (std::size_t left = count; left > 0;)
   {
-    float corners[9];
-    std::memcpy(corners, facet + 3 * sizeof(float), sizeof corners); // behind the normal
-    for (vtkIdType k = 0; k < 3; ++k)
+    constexpr std::size_t kAtOnce = 4096;
+    const std::size_t next = std::min(left, kAtOnce);
+    facets.resize(next * kFacet);
+    in.read(facets.data(), static_cast<std::streamsize>(facets.size()));
+    for (std::size_t i = 0; i < next; ++i, coordinates += kCorners)
     {
-      points->SetPoint(3 * i + k, corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]);
+      constexpr std::size_t normal = 3 * sizeof(float);
+      std::memcpy(coordinates, facets.data() + i * kFacet + normal, kCorners * sizeof(float));
     }
-    triangles->InsertNextCell({ 3 * i, 3 * i + 1, 3 * i + 2 });
+    left -= next;
   }
+  vtkNew<vtkIdTypeArray> corners;
+  corners->SetNumberOfValues(points->GetNumberOfPoints());
+  std::iota(corners->Begin(), corners->End(), 0);
+  vtkNew<vtkCellArray> triangles;
+  triangles->SetData(3, corners);
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
   mesh->SetPolys(triangles);

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/process/child_process.h"
 
 #include <algorithm>
 #include <fstream>
@@ -12,6 +13,8 @@ namespace
 {
 
 constexpr std::string_view kBlanks = " \t\f\v";
+constexpr int kTold = 1 << 16; // lines, after each of which it is told how far reading is
+constexpr double kRead = 0.6;  // of all the time, about
 
 } // namespace
 
@@ -41,7 +44,11 @@ bool TextLines::next()
     {
       return false;
     }
-    ++line_;
+    if (++line_ % kTold == 0)
+    {
+      answerProgress(
+        kRead * (1.0 - static_cast<double>(text_.size()) / static_cast<double>(whole_.size())));
+    }
     const std::size_t end = text_.find_first_of("\r\n");
     ended_ = end != text_.npos;
     rest_ = text_.substr(0, end);

@@ -2,7 +2,7 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
-#include "haptics/surface/enclosed_volume.h"
+#include "haptics/surface/area_and_volume.h"
 #include "pipeline/formats/regions/image_contour.h"
 #include "pipeline/formats/regions/image_grids.h"
 
@@ -142,6 +142,18 @@ void checkVolume(const PatientImage& volume, const std::string& name)
   checkPosition(volume, name);
 }
 
+void checkNumbers(const ImageValues& values, const std::string& name)
+{
+  if (values.notFinite > 0)
+  {
+    const auto& [x, y, z] = values.firstOf;
+    refuseImage(name,
+      "voxels that are no numbers (NaN or infinite): " + std::to_string(values.notFinite) +
+        ", the first at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
+        std::to_string(z) + " counted from 0; give them the value of what lies around the body");
+  }
+}
+
 ImageRegion regionOfLabels(const PatientImage& volume, std::span<const Label> labels)
 {
   ImageRegion region{ .image = maskOfLabels(volume, labels) };
@@ -179,14 +191,7 @@ ImageRegion regionOfLevel(
   const auto scaled = [&](double stored) { return volume.slope * stored + volume.intercept; };
   const double low = std::min(scaled(values.low), scaled(values.high));
   const double high = std::max(scaled(values.low), scaled(values.high));
-  if (values.notFinite > 0)
-  {
-    const auto& [x, y, z] = values.firstOf;
-    refuseImage(name,
-      "voxels that are no numbers (NaN or infinite): " + std::to_string(values.notFinite) +
-        ", the first at " + std::to_string(x) + ", " + std::to_string(y) + ", " +
-        std::to_string(z) + " counted from 0; give them the value of what lies around the body");
-  }
+  checkNumbers(values, name);
   if (!(asked > low && asked < high))
   {
     refuseImage(name,

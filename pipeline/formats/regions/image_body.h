@@ -22,6 +22,9 @@ struct ImageRegion
 /// @throws Error   BadMesh: no volume, or no values in it; axes that span no space
 void checkVolume(const PatientImage& volume, const std::string& name);
 
+/// @throws Error  BadMesh: voxels that are NaN or infinite, with the first of them
+void checkNumbers(const ImageValues& values, const std::string& name);
+
 /// @param labels  one or more
 [[nodiscard]] ImageRegion regionOfLabels(const PatientImage& volume, std::span<const Label> labels);
 

@@ -1,7 +1,7 @@
 #include "pipeline/formats/regions/image_contour.h"
 
+#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/edges.h"
-#include "haptics/surface/enclosed_volume.h"
 #include "pipeline/formats/regions/contour_pieces.h"
 #include "pipeline/formats/regions/image_grids.h"
 #include "pipeline/formats/regions/least_bending.h"

@@ -21,7 +21,7 @@ ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const std
   {
     refuseImage(name,
       "a label map, whose values have no order (" + labelsInWords(labelsOf(volume), volume) +
-        "); give one as the label, or several with commas, not a level");
+        "); give one as the label, or several with commas" + (part.level ? ", not a level" : ""));
   }
   if (!part.level)
   {
@@ -37,9 +37,10 @@ ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const std
 // of a mask, or with names, as well
 bool isLabelMap(const PatientImage& volume, const ImageValues& values)
 {
+  const auto isBackground = [](double value) { return value == 0.0; };
   return !volume.segments.empty() || values.labels ||
-    (values.distinct.size() == 2 && values.notFinite == 0 &&
-      (values.distinct[0] == 0.0 || values.distinct[1] == 0.0));
+    (values.distinct.size() == 2 && std::ranges::any_of(values.distinct, isBackground)) ||
+    (values.distinct.size() == 1 && std::ranges::none_of(values.distinct, isBackground));
 }
 
 // labels that are one body together
@@ -47,7 +48,10 @@ using LabelGroup = std::vector<Label>;
 
 FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
 {
-  FileOrgan organ{ .label = {}, .name = labels.front().segment.name, .surface = {}, .from = {} };
+  const Segment& first = labels.front().segment;
+  FileOrgan organ{
+    .label = {}, .name = first.name, .color = first.color, .surface = {}, .from = {}
+  };
   for (const Label& label : labels)
   {
     organ.label += (organ.label.empty() ? "" : "+") + shortest(label.shown);
@@ -65,6 +69,7 @@ FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::siz
     bodyOf(volume, regionOfLabels(volume, labels), components, name + ", label " + known.label);
   organ.label = known.label;
   organ.name = known.name;
+  organ.color = known.color;
   return organ;
 }
 
@@ -80,6 +85,10 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const ImagePart
     for (const std::string_view one : split(word, '+'))
     {
       words.emplace_back(trimmed(one));
+      if (words.back().empty())
+      {
+        refuseImage(name, inQuotes(word) + " lacks a label beside its +; write them like 2+3");
+      }
     }
     wanted.push_back(chosenLabels(known, words, volume, name));
   }
@@ -107,9 +116,11 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const ImagePart
 FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, const std::string& name)
 {
   checkVolume(volume, name);
-  ImageRegion region = part.labels.empty()
-    ? levelOf(volume, part, name)
-    : regionOfLabels(volume, chosenLabels(labelsOf(volume), part.labels, volume, name));
+  const bool isByLabel = !part.labels.empty();
+  isByLabel ? checkNumbers(valuesOf(*volume.image), name) : void();
+  ImageRegion region = isByLabel
+    ? regionOfLabels(volume, chosenLabels(labelsOf(volume), part.labels, volume, name))
+    : levelOf(volume, part, name);
   region.notes.insert(region.notes.begin(), volume.notes.begin(), volume.notes.end());
   return bodyOf(volume, std::move(region), part.components, name).surface;
 }
@@ -133,6 +144,7 @@ FileOrgans imageOrgans(
   {
     return all;
   }
+  checkNumbers(values, name);
   for (const LabelGroup& labels : wantedLabels(volume, part, isList, name, all.notes))
   {
     all.organs.push_back(

@@ -1,6 +1,6 @@
 #include "pipeline/formats/regions/least_bending.h"
 
-#include "haptics/surface/enclosed_volume.h"
+#include "haptics/surface/area_and_volume.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -8,18 +8,18 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
-#include <memory>
 #include <random>
 #include <thread>
 
-// every command that writes, killed at random moments
+// Every command that writes, killed at random moments, and stopped before all that it does to a
+// file: what is there then is what a kill until the next one leaves.
 
 namespace palp
 {
 namespace
 {
 
-using test::FileEvents;
+using test::Stepped;
 using test::Victim;
 using Clock = std::chrono::steady_clock;
 using Files = std::map<std::string, std::string>; // text by name, without what is hidden
@@ -56,8 +56,12 @@ void restore(const std::filesystem::path& folder, const Files& files)
 
 #ifdef PALP_SLOW
 constexpr int kUsual = 1000;
+constexpr unsigned kChanges = 120; // of files of a report, at most, from one kill to the next
+constexpr std::chrono::minutes kLongest{ 12 }; // for one command, whose runs may take seconds
 #else
 constexpr int kUsual = 2;
+constexpr unsigned kChanges = 40;
+constexpr std::chrono::minutes kLongest{ 1 };
 #endif
 
 int asked(const char* variable, int usual)
@@ -98,12 +102,7 @@ protected:
   {
     const std::string full = PALP_PROGRAM " " + command;
     const auto start = Clock::now();
-    int events = 0;
-    {
-      FileEvents files(folder_.path());
-      const Victim victim(full);
-      events = files.wait(100'000, victim);
-    }
+    ASSERT_EQ(test::runCommand(full).code, 0);
     const std::chrono::duration<double> duration = Clock::now() - start;
     const Files fresh = filesIn(out_);
     ASSERT_FALSE(fresh.empty());
@@ -112,31 +111,46 @@ protected:
     {
       text += kBefore;
     }
+    int news = 0;
+    const auto isSound = [&]
+    {
+      const Files now = filesIn(out_);
+      news += now != old ? 1 : 0;
+      return now == old || now == fresh || isWhole(now);
+    };
+    restore(out_, old);
+    int changes = 0;
+    for (Stepped run(full, folder_.path()); run.next(); ++changes)
+    {
+      ASSERT_TRUE(isSound()) << "before change " << changes;
+    }
+    ASSERT_GT(changes, 2);
     std::mt19937 random = moments();
     std::uniform_real_distribution<double> fraction(0.0, 1.0);
-    int news = 0;
-    for (int i = 0; i < kills(); ++i)
+    news = 0;
+    int kill = 0;
+    for (; kill < kills() && Clock::now() - start < kLongest; ++kill)
     {
       restore(out_, old);
-      FileEvents files(folder_.path());
-      auto victim = std::make_unique<Victim>(full);
-      if (i % 2 == 0)
+      if (kill % 2 == 0)
       {
+        const Victim victim(full);
         std::this_thread::sleep_for(1.2 * fraction(random) * duration);
       }
       else // where files change is where a kill tells most
       {
-        files.wait(static_cast<int>(fraction(random) * events), *victim);
-        std::this_thread::sleep_for(fraction(random) * std::chrono::milliseconds(2));
+        Stepped victim(full, folder_.path());
+        for (int left = static_cast<int>(random() % static_cast<unsigned>(changes));
+             left >= 0 && victim.next(); --left)
+        {
+        }
       }
-      victim.reset();
-      const Files now = filesIn(out_);
-      news += now != old;
-      ASSERT_TRUE(now == old || now == fresh || isWhole(now)) << "after kill " << i;
+      ASSERT_TRUE(isSound()) << "after kill " << kill;
     }
     std::printf(
-      "%d kills of a run of %.2f s and %d file events: %d left the files before, %d new ones\n",
-      kills(), duration.count(), events, kills() - news, news);
+      "looked at before each of %d changes; %d kills of a run of %.2f s: %d left the files "
+      "before, %d new ones\n",
+      changes, kill, duration.count(), kill - news, news);
     ASSERT_EQ(test::runCommand(full).code, 0);
     EXPECT_EQ(filesIn(out_), fresh);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
@@ -284,30 +298,33 @@ TEST_F(Killed, Report)
       (file.first.ends_with(".csv") && !file.second.ends_with('\n'));
   };
   std::mt19937 random = moments();
-  std::exponential_distribution<double> wait(0.5); // [1/s]
   std::string how = " --overwrite";
   int reports = 0;
-  for (int i = 0; i < kills(); ++i)
+  int looks = 0;
+  int kill = 0;
+  for (const auto start = Clock::now(); kill < kills() && Clock::now() - start < 2 * kLongest;
+       ++kill)
   {
-    bool ended = false;
+    bool before = false;
+    const auto isSound = [&]
     {
-      FileEvents events(folder_.path());
-      const Victim victim(PALP_PROGRAM " report --quick --out " + out_.string() + how);
-      std::this_thread::sleep_for(std::chrono::duration<double>(wait(random)));
-      if (i % 2 == 1)
+      const Files files = filesIn(out_);
+      before = std::ranges::all_of(files, isOld);
+      return before || (std::ranges::none_of(files, isOld) && std::ranges::none_of(files, isCut));
+    };
+    bool goesOn = true;
+    {
+      Stepped victim(PALP_PROGRAM " report --quick --out " + out_.string() + how, folder_.path());
+      for (auto left = random() % kChanges; left > 0 && (goesOn = victim.next()); --left, ++looks)
       {
-        events.wait(static_cast<int>(random() % (i % 10 == 9 ? 40 : 3)), victim); // some get on
+        ASSERT_TRUE(isSound()) << "in run " << kill;
       }
-      ended = victim.ended();
     }
-    const Files files = filesIn(out_);
-    const bool before = std::ranges::all_of(files, isOld);
-    ASSERT_TRUE(before || std::ranges::none_of(files, isOld)) << "after kill " << i;
-    ASSERT_TRUE(before || std::ranges::none_of(files, isCut)) << "after kill " << i;
-    reports += ended;
-    how = ended || before ? " --overwrite" : " --resume";
+    ASSERT_TRUE(isSound()) << "after kill " << kill;
+    reports += goesOn ? 0 : 1;
+    how = goesOn && !before ? " --resume" : " --overwrite";
   }
-  std::printf("%d kills, %d reports finished\n", kills(), reports);
+  std::printf("%d looks, %d kills, %d reports finished\n", looks, kill, reports);
 }
 
 } // namespace

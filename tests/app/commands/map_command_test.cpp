@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 
 namespace palp
 {
@@ -46,6 +47,44 @@ TEST_F(MapCommand, WritesTheStiffnessOfEachPlace)
   const test::Finished again = map("--depth 2mm");
   EXPECT_EQ(again.code, 2);
   EXPECT_NE(again.err.find("--overwrite"), std::string::npos) << again.err;
+}
+
+// of each by its own tissue: Hertz again, of 20 kPa
+TEST_F(MapCommand, OfASceneMapsTheOrganThatIsNamed)
+{
+  const std::filesystem::path scene = folder_.path() / "two.json";
+  std::ofstream(scene)
+    << R"({"palp_scene": 1, "plots": ["force-time"], "organs": [)"
+    << R"({"name": "block", "bundled": "block_50", "tissue": {"young": "20kPa", "poisson": 0.33}},)"
+    << R"({"name": "ball", "bundled": "sphere_30", "frame": {"origin": ["300mm", "0mm", "0mm"]}}]})";
+  const auto of = [&](const std::string& options)
+  {
+    return test::runCommand(PALP_PROGRAM " map " + scene.string() + " --out " +
+      (folder_.path() / "out").string() +
+      " --depth 2mm --spacing 15mm --around 0,0,0 --radius 20mm " + options);
+  };
+  for (const auto& [options, why] : { std::pair("", "give one: block, ball"),
+         std::pair("--organ liver", "'liver' is none of the scene: block, ball"),
+         std::pair("--organ block --young 5kPa", "--young: the scene has tool, tissue and law") })
+  {
+    const test::Finished refused = of(options);
+    EXPECT_EQ(refused.code, 2) << options;
+    EXPECT_NE(refused.err.find(why), std::string::npos) << options << ": " << refused.err;
+  }
+  const test::Finished made = of("--organ block");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string table = test::readAll(folder_.path() / "out/stiffness_map.csv");
+  EXPECT_NE(table.find("# surface: block\n"), std::string::npos);
+  const double hertz = 2.0 * 20e3 / (1.0 - 0.33 * 0.33) * std::sqrt(10e-3 * 2e-3) * 1e-3;
+  int flat = 0;
+  std::istringstream in(table);
+  for (std::string line; std::getline(in, line);)
+  {
+    const std::vector<std::string> cells = csvFields(line);
+    const bool isPlace = cells.size() == 11 && cells[0] != "x_mm";
+    flat += isPlace && std::abs(csvNumber(cells[8]).value_or(0.0) - hertz) < 1e-4 * hertz ? 1 : 0;
+  }
+  EXPECT_GE(flat, 4);
 }
 
 TEST_F(MapCommand, RefusesInOneSentence)

@@ -12,8 +12,9 @@ namespace
 using namespace test;
 using nlohmann::json;
 
-const std::vector<std::string> kParts{ "force_error", "surface_error", "claims", "curvature",
-  "inclination", "profiles", "extents", "forces", "dynamics", "scaling", "stability", "servo" };
+const std::vector<std::string> kParts{ "force_error", "surface_error", "tissue_error", "claims",
+  "curvature", "inclination", "profiles", "extents", "forces", "dynamics", "scaling", "stability",
+  "servo" };
 
 TEST_F(QuickReport, IsInterruptedWithAPageAndGoesOnFromThere)
 {
@@ -152,6 +153,33 @@ TEST(ReportCommand, SaysInItsOwnWordsWhatIsNoReport)
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.err.find("json.exception"), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("other settings"), std::string::npos) << refused.err;
+}
+
+// programs of others told both forces
+TEST_F(QuickReport, TissueThatIsNotEvenIsFeltByItsEnergy)
+{
+  const json section = json::parse(readAll(out() / "tissue_error.json"));
+  std::size_t seen = 0;
+  for (const json& row : section.at("tables").at(0).at("rows"))
+  {
+    const auto method = row.at(1).get<std::string>();
+    const double error = row.at(3).get<double>();
+    EXPECT_GT(row.at(2).get<double>(), 0.0);
+    seen += method.find("energy") != std::string::npos ? 1 : 0;
+    if (method.ends_with("energy of the nodule") || method.starts_with("finite elements"))
+    {
+      EXPECT_LT(error, 2.0) << row;
+    }
+    else if (method.ends_with("energy of the map"))
+    {
+      EXPECT_LT(error, 5.0) << row;
+    }
+    else
+    {
+      EXPECT_GT(error, 5.0) << row;
+    }
+  }
+  EXPECT_EQ(seen, 5U);
 }
 
 } // namespace

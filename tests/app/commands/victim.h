@@ -1,16 +1,16 @@
 #pragma once
 
 #include <csignal>
-#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <map>
-#include <poll.h>
 #include <spawn.h>
 #include <string>
-#include <sys/inotify.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 namespace palp::test
 {
@@ -52,83 +52,123 @@ private:
   pid_t child_ = 0;
 };
 
-/// What happens to files in a folder and in those that are made there
-class FileEvents
+/// A program that stops before whatever it does to a file of a folder, as long as it is not killed
+class Stepped
 {
 public:
-  explicit FileEvents(const std::filesystem::path& folder)
-    : queue_(inotify_init1(IN_CLOEXEC))
+  Stepped(const std::string& command, std::filesystem::path folder)
+    : folder_(std::move(folder))
   {
-    watch(folder);
-  }
-
-  ~FileEvents()
-  {
-    close(queue_);
-  }
-  FileEvents(const FileEvents&) = delete;
-  FileEvents& operator=(const FileEvents&) = delete;
-
-  /// Waits for so many; fewer when the victim ends before
-  int wait(int most, const Victim& victim)
-  {
-    int seen = 0;
-    while (seen < most)
+    const std::string exec = "exec " + command + " >/dev/null 2>&1";
+    main_ = fork();
+    if (main_ == 0)
     {
-      pollfd ready{ .fd = queue_, .events = POLLIN, .revents = 0 };
-      constexpr int pause = 20; // [ms]
-      if (poll(&ready, 1, pause) > 0)
-      {
-        seen += read();
-      }
-      else if (victim.ended())
-      {
-        break;
-      }
+      setpgid(0, 0);
+      ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+      raise(SIGSTOP);
+      execl("/bin/sh", "sh", "-c", exec.c_str(), nullptr);
+      _exit(127);
     }
-    return seen;
+    int status = 0;
+    waitpid(main_, &status, __WALL);
+    constexpr long options = PTRACE_O_EXITKILL | PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACECLONE;
+    EXPECT_EQ(ptrace(PTRACE_SETOPTIONS, main_, nullptr, options), 0);
+    stopped_ = main_;
+  }
+
+  ~Stepped()
+  {
+    kill(-main_, SIGKILL);
+    int status = 0;
+    while (waitpid(-1, &status, __WALL) > 0) // its threads, too
+    {
+    }
+  }
+  Stepped(const Stepped&) = delete;
+  Stepped& operator=(const Stepped&) = delete;
+
+  /// Goes on to before the next change; false: it has ended
+  [[nodiscard]] bool next()
+  {
+    ptrace(PTRACE_SYSCALL, stopped_, nullptr, nullptr);
+    int status = 0;
+    while ((stopped_ = waitpid(-1, &status, __WALL)) > 0)
+    {
+      if (!WIFSTOPPED(status))
+      {
+        if (stopped_ == main_)
+        {
+          return false;
+        }
+        continue; // a thread
+      }
+      const int signal = WSTOPSIG(status);
+      const bool isCall = signal == (SIGTRAP | 0x80);
+      if (isCall && changesFiles())
+      {
+        return true;
+      }
+      const bool isOwn = isCall || signal == SIGTRAP || signal == SIGSTOP; // of the tracing
+      ptrace(PTRACE_SYSCALL, stopped_, nullptr, static_cast<long>(isOwn ? 0 : signal));
+    }
+    return false;
   }
 
 private:
-  void watch(const std::filesystem::path& folder)
+  [[nodiscard]] bool changesFiles() const
   {
-    const int number = inotify_add_watch(queue_, folder.c_str(),
-      IN_CREATE | IN_MOVE | IN_DELETE | IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB);
-    if (number >= 0)
+    __ptrace_syscall_info call{};
+    if (ptrace(PTRACE_GET_SYSCALL_INFO, stopped_, sizeof call, &call) <= 0 ||
+      call.op != PTRACE_SYSCALL_INFO_ENTRY)
     {
-      folders_[number] = folder;
+      return false;
     }
+    const auto argument = [&call](int i) { return static_cast<long>(call.entry.args[i]); };
+    switch (call.entry.nr)
+    {
+      case SYS_rename:
+      case SYS_renameat:
+      case SYS_renameat2:
+      case SYS_unlink:
+      case SYS_unlinkat:
+      case SYS_mkdir:
+      case SYS_mkdirat:
+      case SYS_rmdir:
+      case SYS_link:
+      case SYS_linkat:
+      case SYS_symlink:
+      case SYS_symlinkat:
+      case SYS_truncate:
+        return true;
+      case SYS_open:
+        return (argument(1) & (O_CREAT | O_TRUNC)) != 0;
+      case SYS_openat:
+        return (argument(2) & (O_CREAT | O_TRUNC)) != 0;
+      case SYS_write:
+      case SYS_writev:
+      case SYS_pwrite64:
+      case SYS_ftruncate:
+      case SYS_fallocate:
+      case SYS_sendfile:
+        return isInFolder(argument(0));
+      case SYS_copy_file_range:
+        return isInFolder(argument(2));
+      default:
+        return false;
+    }
+  }
+
+  [[nodiscard]] bool isInFolder(long descriptor) const
+  {
     std::error_code gone;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, gone))
-    {
-      if (entry.is_directory(gone) && !entry.is_symlink(gone))
-      {
-        watch(entry.path());
-      }
-    }
+    const std::filesystem::path file = std::filesystem::read_symlink(
+      "/proc/" + std::to_string(stopped_) + "/fd/" + std::to_string(descriptor), gone);
+    return file.string().starts_with(folder_.string());
   }
 
-  int read()
-  {
-    alignas(inotify_event) char bytes[4096];
-    const ssize_t size = ::read(queue_, bytes, sizeof bytes);
-    int count = 0;
-    for (ssize_t at = 0; at < size; ++count)
-    {
-      inotify_event event{};
-      std::memcpy(&event, bytes + at, sizeof event);
-      const bool isFolder = (event.mask & IN_ISDIR) != 0;
-      if (isFolder && (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0)
-      {
-        watch(folders_[event.wd] / (bytes + at + sizeof event));
-      }
-      at += static_cast<ssize_t>(sizeof event + event.len);
-    }
-    return count;
-  }
-
-  int queue_;
-  std::map<int, std::filesystem::path> folders_;
+  std::filesystem::path folder_;
+  pid_t main_ = 0;
+  pid_t stopped_ = 0; // the thread that waits to go on
 };
 
 } // namespace palp::test

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <csignal>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <memory>
 #include <random>
 #include <sys/resource.h>
@@ -76,10 +77,41 @@ TEST_F(AutosaveTest, LeavesWhatWasNotExportedToTheNextProgram)
   ASSERT_EQ(second.left().size(), 2U);
   const auto adopted = second.adopt();
   ASSERT_EQ(adopted.size(), 2U);
-  EXPECT_EQ(rowsIn(adopted[0]), 20U);
-  EXPECT_EQ(rowsIn(adopted[1]), 30U);
+  EXPECT_EQ(rowsIn(second.folderOf(adopted[0])), 20U);
+  EXPECT_EQ(rowsIn(second.folderOf(adopted[1])), 30U);
   EXPECT_TRUE(second.left().empty());
   second.save(plan(), pressOf(5)); // takes no name of theirs
+  const int exported = second.saved();
+  second.save(plan(), pressOf(7)); // while the others are exported
+  second.clear(exported);
+  const fs::path own = second.folderOf(adopted[0]).parent_path();
+  ASSERT_EQ(std::distance(fs::directory_iterator(own), {}), 1);
+  EXPECT_EQ(rowsIn(fs::directory_iterator(own)->path()), 7U);
+  second.clear();
+  EXPECT_TRUE(Autosave(root_).left().empty());
+}
+
+TEST_F(AutosaveTest, KeepsNamesAndForgetsWhatWasDeleted)
+{
+  {
+    Autosave first(root_);
+    for (const int length : { 20, 30, 40 })
+    {
+      first.save(plan(), pressOf(length));
+    }
+    first.update(1, { "above the gallbladder" });
+    first.update(2, {});
+    first.update(3, {});
+    first.update(3, { "brought back" });
+  }
+  Autosave second(root_);
+  const auto adopted = second.adopt();
+  ASSERT_EQ(adopted.size(), 2U);
+  const ExportFolder named = readExport(second.folderOf(adopted[0]));
+  EXPECT_EQ(named.plan.recording->names, std::vector<std::string>{ "above the gallbladder" });
+  EXPECT_EQ(rowsIn(named.folder), 20U);
+  EXPECT_EQ(rowsIn(second.folderOf(adopted[1])), 40U);
+  second.update(adopted[0], {});
   second.clear();
   EXPECT_TRUE(Autosave(root_).left().empty());
 }

@@ -296,6 +296,8 @@ TEST_F(ImportCommand, RefusesInOneSentenceAndLeavesNothing)
   const std::string surface = PALP_SHARE "/meshes/sphere_30.vtp";
   for (const auto& [arguments, words] :
     { std::pair(image + " --label 9", "no label 9 in it"),
+      { image + " --label 1,2,1", "names 1 twice" },
+      { image + " --label 1+", "'1+' lacks a label beside its +" },
       { image + " --label 3", "has 1 voxel, too few for a surface" },
       { image + " --threshold 5", "write it as LOW:HIGH" },
       { image + " --threshold 5:1", "write the lower value first" },

@@ -153,7 +153,7 @@ TEST(LawOptions, CoatingsActOnTheCorrectedLawOnly)
   const std::string corrected = "--law corrected --coating ";
   for (const std::string& wrong : { std::string("--coating 2mm:50kPa:0.45"),
          std::string("--law exact --coating 2mm:50kPa:0.45"), corrected + "2mm:50kPa",
-         corrected + "2mm:50:0.45", corrected + "0.1mm:50kPa:0.45", corrected + "2mm:50MPa:0.45" })
+         corrected + "2mm:50:0.45", corrected + "0.01mm:50kPa:0.45", corrected + "2mm:50MPa:0.45" })
   {
     const Finished refused = force(wrong);
     EXPECT_EQ(refused.code, 2) << wrong;

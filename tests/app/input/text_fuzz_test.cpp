@@ -1,6 +1,7 @@
 #include "app/curves/force_curve.h"
 #include "app/input/tip_text.h"
 #include "app/places/fiducial_file.h"
+#include "app/press/force_history.h"
 #include "app/scene/scene_file.h"
 #include "app/sweep/sweep_file.h"
 #include "calibration/tables/extent_table.h"
@@ -40,6 +41,15 @@ void takePath(const std::string& file)
     const ToolPose pose =
       path.poseAt(path.startTime() + 0.05 * i * path.duration(), -Eigen::Vector3d::UnitZ());
     expectFinite(pose.apex.norm() + pose.axis.norm());
+  }
+}
+
+void takeHistory(const std::string& file)
+{
+  const ForceLaw law(SphereTip{ 0.01 }, { 50e3, 0.33 });
+  for (const double force : forcesOver(law, {}, readForceHistory(file)))
+  {
+    expectFinite(force);
   }
 }
 
@@ -127,6 +137,12 @@ std::vector<Fuzzed> fuzzedTables()
   const Fault order =
     replaced("order", "\n(0\\.5|1|1\\.0|2\\.4),", "\n-3,", "increase|order|ascend");
   const std::string profile = "radius_mm,height_mm\n0,0\n1,0.05\n2,0.21\n3,0.5\n4,0.9\n5,1.5\n";
+  std::vector<Fault> ofHistories = ofCurves; // the time is the first column
+  ofHistories[0] = replaced("word", "\n0\\.5,", "\none,", kNumber);
+  ofHistories[1] = replaced("NaN", "\n0\\.5,", "\nnan,", kNumber);
+  ofHistories[2] = replaced("infinite", "\n0\\.5,", "\ninf,", kNumber);
+  ofHistories.push_back(replaced("order", "\n1,", "\n0.25,", "increase"));
+  ofHistories.push_back(replaced("before", "\n0\\.5,", "\n-3,", "times of 0 or more"));
   return { { .file = "path.csv",
              .whole = { readAll(kData + "paths/block_press.csv"), "0,0,0,2\n1,0,0,-1\n2,0,0,1\n" },
              .faults = with(order),
@@ -137,6 +153,11 @@ std::vector<Fuzzed> fuzzedTables()
       .faults = with(order),
       .read = {},
       .take = takePath },
+    { .file = "history.csv",
+      .whole = { recording, "time_s,depth_mm\n0,-1\n0.5,1\n1,2\n2.4,0\n" },
+      .faults = ofHistories,
+      .read = {},
+      .take = takeHistory },
     { .file = "curve.csv",
       .whole = { recording, "depth_mm,force_N\n0,0\n1,0.5\n2,1.4\n" },
       .faults = ofCurves,
@@ -159,6 +180,46 @@ std::vector<Fuzzed> fuzzedTables()
       .take = takeSurfaces } };
 }
 
+// of presses at places, and of several organs, beside what any scene may have
+Fuzzed fuzzedPresses(std::vector<Fault> faults)
+{
+  const std::string presses = R"({"palp_scene": 1, "meshes": [{"bundled": "liver"}],
+    "tissue": {"young": "20kPa"}, "tool": "sphere:6mm", "presses": {"places":
+    [{"name": "back", "at": ["-48.5mm", "38.4mm", "39.5mm"]}, {"at": ["-14.8mm", "-3.6mm",
+    "77.5mm"]}], "depth": "3mm", "speed": "20mm/s", "toward": "0,0,-1"}, "exports": ["samples"]})";
+  faults.push_back(replaced("place", "\"(-48.5|77.5)mm\"", "\"$1\"", "/presses/places/"));
+  faults.push_back(replaced("no place", "\"at\"", "\"xat\"", "/at: missing"));
+  faults.push_back(replaced("depth", "\"3mm\"", "\"3mn\"", "/presses/depth"));
+  faults.push_back(replaced("speed", "\"20mm/s\"", "\"-20mm/s\"", "/presses/speed"));
+  faults.push_back(replaced("direction", "\"0,0,-1\"", "\"0,0,0\"", "/presses/toward"));
+  faults.push_back(replaced("two", "\"exports\"", "\"device\": \"hand\", \"exports\"", "/device"));
+  return { .file = "presses.json",
+    .whole = { presses },
+    .faults = std::move(faults),
+    .read = {},
+    .take = takeScene };
+}
+
+Fuzzed fuzzedOrgans(std::vector<Fault> faults)
+{
+  const std::string organs = R"({"palp_scene": 1, "tissue": {"young": "7kPa"}, "tool": "sphere:6mm",
+    "organs": [{"name": "liver", "bundled": "liver", "tissue": {"poisson": 0.45}},
+    {"name": "kidney", "bundled": "sphere_30", "role": "show", "color": "#0a80ff",
+    "tissue": {"name": "hcc", "damping": "2N*s/m"}},
+    {"name": "skin", "file": "skin.vtp", "haptic": "less.vtp", "unit": "cm", "role": "through"}]})";
+  faults.push_back(replaced("role", "\"(show|through)\"", "\"$1s\"", "/role"));
+  faults.push_back(replaced("color", "#0a80ff", "#0a80fg", "/organs/1/color"));
+  faults.push_back(replaced("twice", "\"(kidney|skin)\"", "\"liver\"", "stands twice"));
+  faults.push_back(replaced("name", "\"(kidney|skin)\"", "\"a,b\"", "/name: must be"));
+  faults.push_back(replaced("two", "\"organs\"",
+    "\"meshes\": [{\"bundled\": \"liver\"}], \"organs\"", "stands in place of meshes"));
+  return { .file = "organs.json",
+    .whole = { organs },
+    .faults = std::move(faults),
+    .read = {},
+    .take = takeScene };
+}
+
 std::vector<Fuzzed> fuzzedJson()
 {
   const std::string scene = readAll(kData + "scenes/liver_coated.json");
@@ -171,7 +232,7 @@ std::vector<Fuzzed> fuzzedJson()
   ofScenes.push_back(replaced("type", "(\"tool\": )\"[^\"]*\"", "$1[1]", "must be a text"));
   ofScenes.push_back(replaced("version", "(\"palp_scene\": )1", "$012", "palp_scene"));
   ofScenes.push_back(replaced("unit", "kPa\"", "kPq\"", "/tissue"));
-  ofScenes.push_back(replaced("tool", "\"sphere", "\"spore", "/tool"));
+  ofScenes.push_back(replaced("tool", "\"sphere:", "\"spore:", "/tool"));
   std::vector<Fault> ofSweeps = ofJson;
   ofSweeps.push_back(
     replaced("key", "\"(fixed|grid|plots|from|title)\"", "\"x$1\"", "unknown key|no number"));
@@ -183,6 +244,7 @@ std::vector<Fuzzed> fuzzedJson()
              .faults = ofScenes,
              .read = {},
              .take = takeScene },
+    fuzzedPresses(ofScenes), fuzzedOrgans(ofScenes),
     { .file = "sweep.json",
       .whole = { readAll(kData + "sweeps/extent.json"),
         readAll(kData + "sweeps/stiffness_map.json") },
@@ -233,7 +295,7 @@ const std::vector<Fuzzed>& fuzzedTexts()
   return all;
 }
 
-constexpr std::size_t kFuzzedTexts = 10;
+constexpr std::size_t kFuzzedTexts = 13;
 
 class Fuzz : public testing::TestWithParam<std::size_t>
 {

@@ -4,6 +4,7 @@
 #include "tests/app/application.h"
 #include "tests/support/process.h"
 
+#include <QCheckBox>
 #include <QLineEdit>
 #include <QListWidget>
 
@@ -37,6 +38,12 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   list->item(0)->setCheckState(Qt::Checked);
   list->item(1)->setCheckState(Qt::Checked);
   EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "2,7");
+  EXPECT_TRUE(list->item(1)->text().contains("16 voxels")) << list->item(1)->text().toStdString();
+  const std::vector<FileOrgan> organs = dialog.organs();
+  ASSERT_EQ(organs.size(), 2U);
+  EXPECT_EQ(organs[1].label, "7");
+  dialog.findChild<QCheckBox*>("areOrgans")->setChecked(false);
+  EXPECT_TRUE(dialog.organs().empty()) << "one body of both";
   list->item(0)->setCheckState(Qt::Unchecked);
   EXPECT_EQ(dialog.source().part.labels, std::vector<std::string>{ "7" });
 }

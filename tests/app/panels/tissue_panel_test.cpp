@@ -172,10 +172,10 @@ TEST_F(TissuePanelTest, TheCorrectedLawTakesCoatings)
 
   // too thin under a larger tool: they can be taken out under any law
   list("law").setCurrentIndex(0);
-  type("radius", "100");
+  type("radius", "500");
   list("law").setCurrentIndex(2);
   EXPECT_THROW((void)panel_->law(), Error);
-  panel_->setScene(sceneOf(SphereTip{ 100.0_mm })); // as the window does where it is refused
+  panel_->setScene(sceneOf(SphereTip{ 500.0_mm })); // as the window does where it is refused
   ASSERT_TRUE(field.isEnabled());
   field.selectAll();
   QTest::keyClick(&field, Qt::Key_Delete);

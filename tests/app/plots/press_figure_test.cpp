@@ -13,6 +13,7 @@
 #include <vtkCamera.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkSphereSource.h>
 
@@ -200,7 +201,7 @@ TEST_F(PressFigure, OcclusionDarkensTheDentAndLeavesTheRest)
   beforeDrawing_ = [](vtkRenderer& renderer)
   {
     renderer.GetRenderWindow()->SetMultiSamples(0); // it brings a filter of its own
-    addAmbientOcclusion(renderer, 14.0_mm);
+    renderer.SetPass(ambientOcclusion(14.0_mm));
   };
   const auto shaded = figure({ .hasColorBar = false });
   expectTheSameBackground(*shaded, *plain);
@@ -294,7 +295,7 @@ TEST_F(PressFigure, ShowsADentWithMoreContrastThanThePhysicalMaterialOfTheToolki
   vtkNew<vtkRenderer> plain;
   beforeDrawing_ = [&](vtkRenderer& renderer)
   { plain->GetActiveCamera()->DeepCopy(renderer.GetActiveCamera()); };
-  const FigureLook live{ .body = { .hidesTool = true } };
+  const FigureLook live{ .body = { .tool = ToolLook::Hidden } };
   FigureLook wet = live;
   wet.isRealistic = true;
   const double liveContrast = contrastOf(*figure(live));

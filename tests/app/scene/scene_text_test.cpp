@@ -4,6 +4,7 @@
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "app/scene/scene_file.h"
+#include "haptics/error.h"
 #include "haptics/units.h"
 
 #include <cstdlib>
@@ -215,6 +216,53 @@ TEST(QuantityText, IsInTheUsualUnitWhereThatIsExact)
       ASSERT_EQ(parseQuantity(quantityText(x, kind), kind, "x"), x);
     }
   }
+}
+
+TEST_F(SceneText, MapsOfStiffnessAreWrittenAsTheyAreRead)
+{
+  for (const std::string stiffness :
+    { "labels:maps/organs.nii.gz:1=6.63kPa,liver tumor=40kPa", "image:/data/kpa.mha",
+      "array:liver.vtp:E_kPa", "formula:if(r<10,40,6+0.1*z)", "random:0.3:8mm:7" })
+  {
+    const std::string text = R"({"palp_scene": 1, "meshes": [{"bundled": "liver", "stiffness": ")" +
+      stiffness + R"("}], "law": {"mode": "corrected"}})";
+    const ScenePlan plan = parseScene(text, "/home/me/scene.json");
+    const StiffnessSource& source = plan.meshes.front().stiffness;
+    EXPECT_TRUE(source.isGiven());
+    const std::string again = sceneText(plan, "/home/me");
+    EXPECT_NE(again.find("\"stiffness\": \"" + stiffness + "\""), std::string::npos) << again;
+    EXPECT_EQ(sceneText(parseScene(again, "/home/me/scene.json"), "/home/me"), again);
+    EXPECT_TRUE(source.file.empty() || source.file.is_absolute()) << source.file;
+  }
+}
+
+TEST_F(SceneText, AMapThatCannotBeFeltIsRefused)
+{
+  const auto refusal = [](const std::string& mesh, const std::string& rest) -> std::string
+  {
+    try
+    {
+      (void)parseScene(
+        R"({"palp_scene": 1, "meshes": [{"bundled": "liver", )" + mesh + "}], " + rest + "}",
+        "/home/me/scene.json");
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string map = R"("stiffness": "random:0.3:8mm:7")";
+  const std::string corrected = R"("law": {"mode": "corrected"})";
+  EXPECT_EQ(refusal(map, corrected), "");
+  EXPECT_NE(refusal(map, R"("law": {"mode": "paper"})").find("stiffness: a map takes the law"),
+    std::string::npos);
+  EXPECT_NE(refusal(map, corrected + R"(, "tissue": {"friction": 0.3})").find("relaxes or rubs"),
+    std::string::npos);
+  const std::string both =
+    map + R"(, "nodules": [{"center": ["0mm", "0mm", "0mm"], "radius": "5mm", "ratio": 5}])";
+  EXPECT_NE(refusal(both, corrected).find("nodules in a body with a map"), std::string::npos);
+  EXPECT_NE(refusal(R"("stiffness": "elastic:3")", corrected).find("stiffness"), std::string::npos);
 }
 
 } // namespace

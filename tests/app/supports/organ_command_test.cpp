@@ -1,6 +1,8 @@
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -94,6 +96,78 @@ TEST(OrganCommand, OfAThinPlateIsThatOfTheLayerOrSaysSo)
     }
   }
   EXPECT_GE(believed, 12);
+}
+
+// 10 mm cells of the block, from the folder
+std::string blockFile(const std::filesystem::path& file)
+{
+  return PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 10mm "
+                      "--support bonded:box:-60,-60,-55:60,60,-45 --out " +
+    file.string();
+}
+
+TEST(OrganCommand, MakesAFileThatARunFeels)
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "block.organ";
+  const test::Finished made = test::runCommand(blockFile(file));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("cannot answer for"), std::string::npos) << made.err;
+  const auto time = std::filesystem::last_write_time(file);
+  const test::Finished again = test::runCommand(blockFile(file));
+  EXPECT_NE(again.err.find("already"), std::string::npos) << again.err;
+  EXPECT_EQ(std::filesystem::last_write_time(file), time);
+
+  const auto out = folder.path() / "pressed";
+  const test::Finished run = test::runCommand(PALP_PROGRAM
+    " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 --depth 4mm --law exact "
+    "--poisson 0.45 --samples-only --out " +
+    out.string() + " --organ " + file.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  const test::CsvTable samples = test::readCsv(out / "samples.csv");
+  // the row says of what its depth is made: Sneddon's sphere in series with the body
+  const double modulus = 50e3 / (1.0 - 0.45 * 0.45);
+  const double radius = 0.01;
+  for (std::size_t i = 0; i < samples["depth_mm"].size(); i += 50)
+  {
+    const double a = 1e-3 * samples["contact_radius_mm"][i];
+    const double local = 1e-3 * samples["local_depth_mm"][i];
+    const double f = samples["force_N"][i] / modulus;
+    const double slope = samples["organ_slope_per_m2"][i];
+    const double aside = std::min(radius * slope * f, 0.5 * a);
+    const double depth = local +
+      f *
+        (samples["organ_constant_per_m"][i] +
+          4.0 / 15.0 * samples["organ_bend_per_m3"][i] * a * a) -
+      2.0 * f * slope * aside + 0.5 * aside * aside / radius;
+    EXPECT_NEAR(1e3 * depth, samples["depth_mm"][i], 2e-3 * samples["depth_mm"][i] + 1e-6);
+    EXPECT_NEAR(0.5 * a * std::log((radius + a) / (radius - a)), local, 1e-4 * local + 1e-9);
+  }
+
+  const test::Finished other = test::runCommand(PALP_PROGRAM
+    " run " PALP_SHARE "/meshes/block_30.vtp --at 0,0,0 --depth 4mm --out " +
+    (folder.path() / "other").string() + " --organ " + file.string());
+  EXPECT_EQ(other.code, 2) << other.err;
+  EXPECT_NE(other.err.find("another surface"), std::string::npos) << other.err;
+}
+
+TEST(OrganCommand, RefusesInOneSentence)
+{
+  const std::string block = PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 10mm ";
+  const auto refusal = [](const std::string& command)
+  {
+    const test::Finished run = test::runCommand(command);
+    EXPECT_NE(run.code, 0) << command;
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 2) << run.err; // what was read, and why
+    return run.err;
+  };
+  const std::string out = " --out " + (test::freshFolder() / "x.organ").string();
+  EXPECT_NE(refusal(block + "--support sliding:box:-60,-60,-55:60,60,-45" + out).find("free to"),
+    std::string::npos);
+  EXPECT_NE(
+    test::runCommand(block + "--support bonded:box:-60,-60,-55:60,60,-45 --young nan" + out).code,
+    0);
+  EXPECT_FALSE(std::filesystem::exists(out.substr(7)));
 }
 
 } // namespace

@@ -46,7 +46,7 @@ TEST(SupportText, RefusesWhatItDoesNotKnow)
   }
 }
 
-class OrganCommand : public testing::Test
+class SupportCommand : public testing::Test
 {
 protected:
   void SetUp() override
@@ -84,7 +84,7 @@ protected:
 };
 
 // the middle of the paper's block, by elements of another program
-TEST_F(OrganCommand, TellsTheForceOfTheBlockAndThatOfAHalfSpace)
+TEST_F(SupportCommand, TellsTheForceOfTheBlockAndThatOfAHalfSpace)
 {
   for (const char* support :
     { "bonded:direction:0,0,-1:30deg", "bonded:box:-50,-50,-51:50,50,-50" })
@@ -102,7 +102,7 @@ TEST_F(OrganCommand, TellsTheForceOfTheBlockAndThatOfAHalfSpace)
   }
 }
 
-TEST_F(OrganCommand, RefusesInOneSentence)
+TEST_F(SupportCommand, RefusesInOneSentence)
 {
   const char* base = "--support bonded:direction:0,0,-1:30deg ";
   for (const std::string& arguments :

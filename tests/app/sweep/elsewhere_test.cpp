@@ -193,8 +193,10 @@ TEST_F(Sweeping, AGroupThatIsAskedToEndLeavesNoFailure)
   countStarts("sleep 0.2");
   for (int i = 0; i < 5; ++i)
   {
+    const std::string begun = std::to_string(starts() + 1 + i);
     const Finished asked = test::runCommand("setsid env " + counting() + " run --jobs 2 " +
-      at("grid") + " & running=$!; sleep 0.4; /bin/kill -TERM -- -$running; wait $running");
+      at("grid") + " & running=$!; until [ \"$(grep -c x " + at("starts") + ")\" -ge " + begun +
+      " ]; do sleep 0.01; done; /bin/kill -TERM -- -$running; wait $running");
     EXPECT_EQ(asked.code, 5) << asked.err;
     EXPECT_NE(asked.err.find("interrupted"), std::string::npos) << asked.err;
     EXPECT_FALSE(std::filesystem::exists(folder() / "grid/failed")) << asked.err;

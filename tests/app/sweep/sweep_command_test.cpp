@@ -1,4 +1,5 @@
 #include "tests/app/commands/victim.h"
+#include "tests/app/sweep/file_events.h"
 #include "tests/app/sweep/sweep_rig.h"
 
 #include <cstdlib>

@@ -88,6 +88,27 @@ TEST_F(Sweeping, KeepsNoResultOfAFileThatWasTouchedMeanwhile)
   EXPECT_EQ(test::readAll(at("tip.csv")), mine);
 }
 
+// each of its cases would be computed twice under one name
+TEST_F(Sweeping, PlansNoValueTwice)
+{
+  const std::string begin = R"({"palp_sweep": 1, "kind": "force", "fixed": {"depth": "1:1:1mm"}, )";
+  const auto refuses = [&](const std::string& axes, const std::string& words)
+  {
+    write("equal.json", begin + axes + "}");
+    expectRefused("plan " + at("equal.json") + " " + at("equal"), words);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "equal"));
+  };
+  refuses(R"("grid": {"young": ["5kPa", "7kPa", "5kPa"]})",
+    "equal.json: 'young': its values 1 and 3 are equal, '5kPa'; each case would be computed twice");
+  refuses(R"("grid": {"young": ["5kPa", "5.0 kPa"]})", "1 and 2 are equal");
+  refuses(R"("grid": {"law": ["exact", "paper", "paper"]})", "2 and 3 are equal");
+  refuses(R"("zip": {"young": ["5kPa", "7kPa", "5kPa"], "poisson": [0.3, 0.3, 0.30]})",
+    "'poisson': its values 1 and 3 are equal, '0.3', and so is all that goes with it");
+  write("zip.json",
+    begin + R"("zip": {"young": ["5kPa", "7kPa", "5kPa"], "poisson": [0.3, 0.3, 0.4]}})");
+  plan("zip.json", "zip");
+}
+
 TEST_F(Sweeping, PlansOverNoFileOfOthers)
 {
   write("project/cases.csv", "mine");

@@ -1,6 +1,9 @@
 #include "tests/app/window/window_rig.h"
 
+#include <QAction>
+#include <QDialog>
 #include <QImage>
+#include <QLineEdit>
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -90,6 +93,33 @@ TEST_F(Keyboard, LooksFromEachSide)
   EXPECT_LT((sight() - session_->newest().pose.axis).norm(), 1e-3);
 }
 
+TEST_F(Keyboard, EscapeClosesTheSheetOfKeysToo)
+{
+  QTest::keyClick(window_.get(), Qt::Key_H);
+  ASSERT_NE(window_->findChild<QDialog*>("keySheet"), nullptr);
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  EXPECT_TRUE(QTest::qWaitFor(
+    [this] { return window_->findChild<QDialog*>("keySheet") == nullptr; }, kPatience));
+}
+
+TEST_F(Keyboard, ExportsFromWithinAField)
+{
+  const auto* exporting = window_->findChild<QAction*>("exportAction");
+  int asked = 0;
+  window_->findChild<QAction*>("exportAction")->disconnect();
+  QObject::connect(exporting, &QAction::triggered, [&asked] { ++asked; });
+  for (auto* field : window_->findChildren<QLineEdit*>())
+  {
+    if (field->isVisible() && field->isEnabled())
+    {
+      field->setFocus();
+      QTest::keyClick(field, Qt::Key_E, Qt::ControlModifier);
+      EXPECT_EQ(asked, 1) << field->objectName().toStdString();
+      asked = 0;
+    }
+  }
+}
+
 TEST_F(Keyboard, HidesTheToolAndShowsItAgain)
 {
   const auto differing = [](const QImage& a, const QImage& b)
@@ -106,22 +136,19 @@ TEST_F(Keyboard, HidesTheToolAndShowsItAgain)
   };
   const auto still = [&]
   {
-    QImage picture;
-    const auto isStill = [&]
-    {
-      const QImage before = std::exchange(picture, canvas_->grabFramebuffer());
-      QTest::qWait(500);
-      return before == picture;
-    };
-    EXPECT_TRUE(QTest::qWaitFor(isStill, kPatience));
-    return picture;
+    waitForFrames();
+    return canvas_->grabFramebuffer();
   };
   keys(Qt::Key_PageDown, 10);
   waitForRest();
   const QImage shown = still();
   keys(Qt::Key_T, 1);
+  const QImage outlined = still();
+  keys(Qt::Key_T, 1);
   const QImage hidden = still();
   EXPECT_GT(differing(shown, hidden), 300);
+  EXPECT_GT(differing(outlined, hidden), 100);
+  EXPECT_LT(differing(outlined, hidden), 0.7 * differing(shown, hidden)) << "a line alone";
   keys(Qt::Key_T, 1);
   EXPECT_LT(differing(shown, still()), 30);
 }

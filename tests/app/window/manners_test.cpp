@@ -126,7 +126,7 @@ TEST_F(Manners, PanelsThatWereClosedStayClosedAndTheWindowKeepsItsSize)
 TEST_F(Manners, TellsThePunctualityOfTheServoOnlyToWhoAsks)
 {
   const auto* text = window_->findChild<QLabel*>("timing");
-  QTest::qWait(50);
+  waitForFrames(3);
   EXPECT_TRUE(text->text().isEmpty());
   dock("Diagnostics")->show();
   EXPECT_TRUE(QTest::qWaitFor([text] { return text->text().contains("late ticks"); }, kPatience));
@@ -269,6 +269,21 @@ TEST_F(Manners, EveryControlHasANameAndSaysWhatItDoes)
     }
   }
   EXPECT_GE(controls, 20);
+}
+
+// where nothing plays it says so, and does not pretend
+TEST_F(Manners, TheForceIsHeardOrItSaysWhyNot)
+{
+  auto* sound = window_->findChild<QAction*>("sound");
+  sound->trigger();
+  EXPECT_TRUE(said().contains(sound->isChecked() ? "octave" : "No sound output"))
+    << said().toStdString();
+  if (sound->isChecked())
+  {
+    sound->trigger();
+    EXPECT_FALSE(sound->isChecked());
+    EXPECT_TRUE(said().contains("not heard"));
+  }
 }
 
 // the corner of a picture, as it is on the screen

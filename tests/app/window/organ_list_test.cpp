@@ -69,7 +69,7 @@ protected:
 
   [[nodiscard]] QImage picture() const
   {
-    QTest::qWait(500); // also with smooth edges
+    waitForFrames(); // also with smooth edges
     return canvas_->grabFramebuffer();
   }
 

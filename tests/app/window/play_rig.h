@@ -81,7 +81,7 @@ protected:
     press(60);
     release();
     EXPECT_TRUE(waitForLift());
-    QTest::qWait(50); // the last samples
+    waitForPresses(1);
     ASSERT_NE(session_->recording().deepest(), nullptr);
   }
 };

@@ -1,6 +1,7 @@
 #include "tests/app/window/window_rig.h"
 
 #include <QAction>
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QRegularExpression>
@@ -28,6 +29,28 @@ TEST_F(WindowTest, PressesAsDeepAsTheDrag)
   release();
   EXPECT_TRUE(
     QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience));
+}
+
+// half as deep as asked in the tissue in use then, and as much less as another is stiffer
+TEST_F(WindowTest, AToolMayLagWhereItIsStiff)
+{
+  auto* lag = window_->findChild<QCheckBox*>("lag");
+  EXPECT_TRUE(QTest::qWaitFor([lag] { return lag->isEnabled(); }, kPatience));
+  const auto depth = [this]
+  {
+    press(100);
+    const double deep = session_->newest().contact.depth;
+    release();
+    EXPECT_TRUE(waitForLift());
+    return deep;
+  };
+  QTest::mouseClick(lag, Qt::LeftButton, {}, QPoint(8, lag->height() / 2));
+  EXPECT_TRUE(said().contains("lags") || session_->lags());
+  EXPECT_NEAR(depth(), 3e-3, 0.03e-3);
+  type("young", "61"); // 22 % more
+  EXPECT_NEAR(depth(), 3e-3 / 1.22, 0.03e-3);
+  QTest::mouseClick(lag, Qt::LeftButton, {}, QPoint(8, lag->height() / 2));
+  EXPECT_NEAR(depth(), 6e-3, 0.03e-3);
 }
 
 // by the wheel, and by whatever takes the pointer away

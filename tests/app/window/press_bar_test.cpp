@@ -42,14 +42,6 @@ protected:
     }
     return most;
   }
-
-  void waitForPress() const
-  {
-    EXPECT_TRUE(
-      QTest::qWaitFor([this] { return session_->newest().contact.touching(); }, kPatience));
-    EXPECT_TRUE(waitForLift());
-    QTest::qWait(200); // the last samples
-  }
 };
 
 // the command line presses there by a path of its own
@@ -59,7 +51,7 @@ TEST_F(PressBarTest, PressesWhereAndAsDeepAsTyped)
   type("pressDepth", "3.2");
   type("pressSpeed", "20 mm/s");
   pressButton();
-  waitForPress();
+  waitForPresses(1);
   const Sample most = deepest();
   EXPECT_NEAR(most.contact.depth, 3.2e-3, 0.02e-3);
 
@@ -85,7 +77,7 @@ TEST_F(PressBarTest, KnowsThePlaceOfAPressByTheMouse)
   QTest::keyClick(window_->findChild<QLineEdit*>("pressPlace"), Qt::Key_Return);
   QTest::mouseMove(canvas_, canvas_->rect().center() + QPoint(60, 20)); // which leads it nowhere
   const double before = session_->newest().time;
-  waitForPress();
+  waitForPresses(2);
   Sample again;
   for (const Sample& sample : session_->recording().samples)
   {
@@ -163,7 +155,7 @@ TEST_F(PressBarTest, RefusesInOneSentence)
   EXPECT_FALSE(session_->newest().contact.touching());
   type("pressDepth", "3");
   EXPECT_EQ(said().toStdString(), "") << "what was refused is mended";
-  waitForPress();
+  waitForPresses(1);
 }
 
 TEST_F(PressBarTest, NamesWhatIsWrongWithAPlace)
@@ -193,7 +185,7 @@ TEST_F(PressBarTest, PressesNothingWhileAFieldHoldsWhatWasRefused)
   message->hide();
   pressButton();
   EXPECT_TRUE(said().contains("'12,5'")) << said().toStdString();
-  QTest::qWait(500); // in which a press would have begun
+  waitForFrames(); // in which a press would have begun
   EXPECT_FALSE(session_->newest().contact.touching());
   EXPECT_EQ(session_->recording().deepest(), nullptr);
 
@@ -202,7 +194,7 @@ TEST_F(PressBarTest, PressesNothingWhileAFieldHoldsWhatWasRefused)
   EXPECT_FALSE(message->isVisible()) << "empty, over the picture";
   EXPECT_EQ(depth->palette().color(QPalette::Text), plain);
   pressButton();
-  waitForPress();
+  waitForPresses(1);
   EXPECT_NEAR(deepest().contact.depth, 2.5e-3, 0.02e-3);
 }
 

@@ -1,4 +1,5 @@
 #include "app/folder/autosave.h"
+#include "app/panels/press_list.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QAction>
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 
 namespace palp
 {
@@ -106,8 +108,10 @@ TEST_F(PressListTest, PressesAgainAtTheSamePlaceByAnotherLaw)
   {
     EXPECT_NEAR(place[i].toDouble(), again[i].toDouble(), 0.15);
   }
+  type("young", "20"); // which is not that of the press
   act("With cone:45deg:10mm");
   waitForRows(3);
+  EXPECT_EQ(cell(2, "E [kPa]"), "50.0");
   EXPECT_EQ(cell(2, "Tool"), "cone:45deg:10mm");
   EXPECT_NEAR(cell(0, "δ max [mm]").toDouble(), cell(2, "δ max [mm]").toDouble(), 0.02);
 }
@@ -157,17 +161,20 @@ TEST_F(PressListTest, UndoesAChangeOfTissueAndTool)
 // as another program would after a kill
 TEST_F(PressListTest, RestoresWhatWasNotExported)
 {
-  {
-    Autosave before(folder_.path());
-    session_->saveTo(&before);
-    pressOnce(60);
-    type("young", "25");
-    pressOnce(40);
-    session_->saveTo(nullptr);
-  }
+  std::optional<Autosave> before(folder_.path());
+  window_->saveTo(*before);
+  pressOnce(60);
+  type("young", "25");
+  pressOnce(40);
+  pressOnce(50);
   const QString first = cell(0, "F max [N]");
   const QString second = cell(1, "F max [N]");
+  rows().topLevelItem(0)->setText(0, "left lobe");
+  rows().topLevelItem(2)->setSelected(true);
+  act("Delete");
+  waitForRows(2);
   type("young", "50");
+  before.reset();
   Autosave after(folder_.path());
   window_->saveTo(after);
   EXPECT_TRUE(said().startsWith("Not exported yet: 2 presses of before")) << said().toStdString();
@@ -176,6 +183,7 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
     button->text() == "Restore" ? button->click() : void();
   }
   waitForRows(4);
+  EXPECT_EQ(cell(2, "Press"), "left lobe (2)") << "as it was called, and told from the other";
   EXPECT_EQ(cell(2, "F max [N]"), first);
   EXPECT_EQ(cell(3, "F max [N]"), second);
   EXPECT_EQ(cell(3, "E [kPa]"), "25.0");
@@ -226,6 +234,30 @@ TEST_F(PressListTest, LoadsWhatWasExported)
   }
   EXPECT_EQ(session_->body().name, "block_50.vtp");
   EXPECT_EQ(session_->earlier().back().body.name, "sphere_50.vtp");
+}
+
+TEST_F(PressListTest, TicksThePressesThatHaveCurvesAndRefusesThemElsewhere)
+{
+  const QString out = QString::fromStdString((folder_.path() / "out").string());
+  for (int i = 0; i < 4; ++i)
+  {
+    pressOnce(30 + 10 * i);
+  }
+  ASSERT_TRUE(window_->exportData(out));
+  EXPECT_TRUE(window_->loadPresses(out));
+  waitForRows(8);
+  int ticked = 0;
+  for (int row = 0; row < 8; ++row)
+  {
+    ticked += rows().topLevelItem(row)->checkState(0) == Qt::Checked ? 1 : 0;
+  }
+  EXPECT_EQ(ticked, 6);
+  EXPECT_EQ(window_->findChild<PressList*>()->ticked().size(), 6U);
+  EXPECT_EQ(cell(4, "Press"), "press 1 (2)");
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/block_50.vtp"));
+  rows().topLevelItem(0)->setSelected(true);
+  act("By its own tool and law");
+  EXPECT_TRUE(said().startsWith("press 1: it was of liver.vtp")) << said().toStdString();
 }
 
 TEST_F(PressListTest, LoadsNoPressesOfAnotherSurfaceOrOfNoExport)

@@ -1,3 +1,4 @@
+#include "app/folder/export_folder.h"
 #include "app/graphs/plot_panel.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/window/window_rig.h"
@@ -283,9 +284,30 @@ TEST_F(WindowTest, KeepsAndExportsWhatAChangeEnds)
   ASSERT_EQ(session_->earlier().size(), 1U);
   EXPECT_TRUE(std::holds_alternative<SphereTip>(session_->earlier()[0].recording.scene.law.tip()));
   ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
-  const test::CsvTable samples = test::readCsv(folder_.path() / "earlier-1" / "samples.csv");
-  const auto& force = samples["force_N"];
-  EXPECT_NEAR(*std::max_element(force.begin(), force.end()), peak, 1e-9);
+  // the last that touched is what the folder opens
+  const auto peakIn = [](const std::filesystem::path& folder)
+  {
+    const test::CsvTable samples = test::readCsv(folder / "samples.csv");
+    const auto& force = samples["force_N"];
+    return *std::max_element(force.begin(), force.end());
+  };
+  EXPECT_NEAR(peakIn(folder_.path()), peak, 1e-9);
+  EXPECT_TRUE(isExport(folder_.path()));
+
+  press(60); // by the other tool
+  release();
+  EXPECT_TRUE(waitForLift());
+  waitForRest();
+  const auto both = folder_.path() / "both";
+  std::filesystem::create_directories(both);
+  for (const char* stale : { "earlier-1", "earlier-2", "earlier-3" })
+  {
+    std::filesystem::copy(folder_.path(), both / stale); // files alone
+  }
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(both.string())));
+  EXPECT_NEAR(peakIn(both / "earlier-1"), peak, 1e-9);
+  EXPECT_GT(std::abs(peakIn(both) - peak), 1e-3);
+  EXPECT_FALSE(std::filesystem::exists(both / "earlier-2")) << "of another session";
 }
 
 } // namespace

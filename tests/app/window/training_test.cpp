@@ -92,7 +92,7 @@ protected:
   // once nothing moves any more
   QImage picture(const char* name)
   {
-    QTest::qWait(600);
+    waitForFrames();
     const QString file = QString::fromStdString((folder_.path() / name).string());
     EXPECT_TRUE(window_->saveScreenshot(file));
     return QImage(file);
@@ -161,7 +161,7 @@ TEST_F(TrainingTest, TellsOfNoNoduleBeforeItIsGraded)
   const auto rules = [this] { return window_->findChild<ValidityPanel*>()->text(); };
   const Eigen::Vector3d place = above(0);
   pressAt(place);
-  QTest::qWait(300);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rules().contains("depth"); }, kPatience));
   EXPECT_FALSE(rules().contains("nodule"));
   EXPECT_FALSE(window_->exportData(QString::fromStdString((folder_.path() / "early").string())));
   EXPECT_TRUE(said().contains("finish it first")) << said().toStdString();

@@ -76,6 +76,23 @@ protected:
     return QTest::qWaitFor([this] { return !session_->newest().contact.touching(); }, kPatience);
   }
 
+  // until so many presses were released and recorded since the start
+  void waitForPresses(std::size_t count) const
+  {
+    EXPECT_TRUE(
+      QTest::qWaitFor([&] { return session_->presses().presses().size() >= count; }, kPatience));
+  }
+
+  // until the picture was looked after so often: after twelve times without change it is smooth
+  void waitForFrames(int count = 14) const
+  {
+    int seen = 0;
+    const auto counting = QObject::connect(
+      window_->findChild<QTimer*>("frames"), &QTimer::timeout, [&seen] { ++seen; });
+    EXPECT_TRUE(QTest::qWaitFor([&] { return seen >= count; }, kPatience));
+    QObject::disconnect(counting);
+  }
+
   // the pointer goes down in the middle of the liver and drags, until the tool rests
   void press(int pixelsDown, bool mayFade = false)
   {

@@ -199,6 +199,57 @@ TEST_F(Speed, Parts)
     canvas_->width(), canvas_->height(), alone.c_str(), shown.c_str());
 }
 
+// [ms] on a processor, of this thread
+double ownWork()
+{
+  timespec used{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return 1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec);
+}
+
+// the longest time between two turns of the event loop, and the most work in one [ms]
+std::pair<double, double> longestWait(const std::function<void()>& work)
+{
+  QElapsedTimer since;
+  qint64 longest = 0; // [ns]
+  double most = 0.0;
+  double before = ownWork();
+  QTimer turn;
+  QObject::connect(&turn, &QTimer::timeout,
+    [&]
+    {
+      longest = std::max(longest, since.nsecsElapsed());
+      since.start();
+      most = std::max(most, ownWork() - before);
+      before = ownWork();
+    });
+  turn.start(0);
+  since.start();
+  work();
+  QTest::qWait(50);
+  return { 1e-6 * static_cast<double>(longest), most };
+}
+
+TEST_F(Speed, SavingAFigure)
+{
+  press(60);
+  QTest::qWait(1000);
+  const auto atRest = longestWait([] { QTest::qWait(10'000); });
+  std::printf("at rest: longest wait of the window %.0f ms, of which it works %.0f ms\n",
+    atRest.first, atRest.second);
+  const QString file = QString::fromStdString((folder_.path() / "figure.png").string());
+  for (const ImageSize size : { ImageSize{ 1920, 1080 }, { 3840, 2160 }, { 7680, 4320 } })
+  {
+    QElapsedTimer clock;
+    clock.start();
+    const auto [wait, own] =
+      longestWait([&] { window_->saveFigure(file, size, { .isRealistic = true }); });
+    std::printf(
+      "figure of %d x %d: %.1f s, longest wait of the window %.0f ms, of which it works %.0f ms\n",
+      size.width, size.height, 1e-3 * static_cast<double>(clock.elapsed()), wait, own);
+  }
+}
+
 TEST_F(Speed, Idle)
 {
   QTest::qWait(5'000);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -192,13 +193,13 @@ TEST(WoodenHaptics, ForceArrivesThroughTheWire)
     const Vector3d force =
       3.0 * Vector3d(fraction(random), fraction(random), fraction(random)).normalized();
     std::array<std::byte, 14> wire{};
-    encodeWooden(motorCurrents(arm, angles, force), wire);
+    encodeWooden(motorCurrents(arm, angles, force).currents, wire);
     const auto current = [&](std::size_t motor) { return readInt<std::int16_t>(wire, 2 * motor); };
     const Vector3d felt = test::woodenForce(at, { current(0), current(1), current(2) });
     // a larger force than the motors bear is shorter but has the same direction
     EXPECT_LT(std::acos(std::min(1.0, felt.normalized().dot(force.normalized()))), 0.5_deg);
     EXPECT_LE(felt.norm(), 3.0 * 1.01);
-    const auto currents = motorCurrents(arm, angles, force);
+    const auto currents = motorCurrents(arm, angles, force).currents;
     if (std::max({ std::abs(currents[0]), std::abs(currents[1]), std::abs(currents[2]) }) < 1.99)
     {
       EXPECT_NEAR(felt.norm(), 3.0, 0.01 * 3.0);
@@ -212,10 +213,60 @@ TEST(WoodenHaptics, CurrentsAreBoundedAndFinite)
   for (const Vector3d& force :
     { Vector3d(1e6, 0, 0), Vector3d(kNaN, 0, 0), Vector3d(0, HUGE_VAL, 0) })
   {
-    for (const double current : motorCurrents(arm, Vector3d(0.1, 0.2, 1.4), force))
+    for (const double current : motorCurrents(arm, Vector3d(0.1, 0.2, 1.4), force).currents)
     {
       EXPECT_LE(std::abs(current), arm.maxCurrent);
     }
+  }
+}
+
+// calibrate_enc and workspace_origin of each, typed again: where it is calibrated the upper arm of
+// WoodenHaptics stands upright and its forearm level
+TEST(WoodenHaptics, PublishedArmsStandAtTheirRestWhereTheMakersSay)
+{
+  const auto restOf = [](const char* name)
+  {
+    const WoodenArm arm = *publishedArm(name);
+    std::array<std::int16_t, 6> counts{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      counts[i] = static_cast<std::int16_t>(arm.rest[i]);
+    }
+    return forwardKinematics(arm, jointAngles(arm, counts));
+  };
+  EXPECT_TRUE(restOf("v2015").isApprox(Vector3d(0.245 - 0.220, 0.0, 0.205), 1e-9));
+  EXPECT_TRUE(restOf("v2019").isApprox(Vector3d(0.245 - 0.220, 0.0, 0.205), 1e-9));
+  EXPECT_TRUE(restOf("polhem").isApprox(Vector3d(0.133 - 0.140, 0.0, 0.058 + 0.174 - 0.100), 1e-9));
+  EXPECT_TRUE(restOf("aluhaptics").isApprox(Vector3d(-0.140, 0.0, 0.111 + 0.140 - 0.111), 1e-9));
+  EXPECT_FALSE(publishedArm("v2016"));
+}
+
+// with the upper arm upright and the forearm level a newton along y, x and z is each for one motor,
+// by the makers' lengths, gears, constants and signs
+TEST(WoodenHaptics, PublishedArmsPushWithTheirOwnMotors)
+{
+  struct Case
+  {
+    const char* name;
+    double upper, forearm;
+    std::array<double, 3> gear, constant;
+    double sign;
+  };
+  for (const auto& [name, upper, forearm, gear, constant, sign] :
+    { Case{ "v2015", 0.205, 0.245, { 16.0, 12.0, 12.0 }, { 0.0259, 0.0259, 0.0259 }, 1.0 },
+      Case{ "v2019", 0.205, 0.245, { 16.0, 12.0, 12.0 }, { 0.321, 0.0603, 0.0603 }, 1.0 },
+      Case{ "polhem", 0.174, 0.133, { 18.0, 10.0, 10.0 }, { 0.0538, 0.0538, 0.0538 }, -1.0 },
+      Case{ "aluhaptics", 0.140, 0.111, { 0.116 / 0.0138, 0.076 / 0.0098, 0.076 / 0.0098 },
+        { 0.0259, 0.0259, 0.0259 }, 1.0 } })
+  {
+    const WoodenArm arm = *publishedArm(name);
+    const Vector3d angles(0.0, 0.0, std::numbers::pi / 2);
+    const auto along = [&](double x, double y, double z)
+    { return motorCurrents(arm, angles, 0.1 * Vector3d(x, y, z)).currents; };
+    EXPECT_NEAR(along(0, 1, 0)[0], 0.1 * sign * forearm / gear[0] / constant[0], 1e-9) << name;
+    EXPECT_NEAR(along(1, 0, 0)[1], 0.1 * sign * upper / gear[1] / constant[1], 1e-9) << name;
+    EXPECT_NEAR(along(0, 0, 1)[2], 0.1 * sign * forearm / gear[2] / constant[2], 1e-9) << name;
+    EXPECT_NEAR(along(0, 0, 1)[0], 0.0, 1e-9);
   }
 }
 
@@ -228,7 +279,8 @@ TEST(WoodenHaptics, ConfigurationIsReadAndCheckedByLine)
   EXPECT_EQ(arm.origin[2], 0.0);
   EXPECT_EQ(arm.maxForce, 3.0);
   for (const char* bad : { "lenght = 1 2 3", "length = 1 2", "length 1 2 3", "length = 1 2 3 4",
-         "body = 0 1 1", "sign = 0.5 1 1", "rest = 0 0 0.5", "rest = 0 0 40000", "radius = nan" })
+         "body = 0 1 1", "sign = 0.5 1 1", "rest = 0 0 0.5", "rest = 0 0 40000", "radius = nan",
+         "continuous_current = 3" })
   {
     EXPECT_THROW((void)parseWoodenArm(bad, "arm.conf"), Error) << bad;
   }

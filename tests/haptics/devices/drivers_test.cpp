@@ -22,81 +22,6 @@ using namespace test;
 using namespace units::literals;
 using Eigen::Vector3d;
 
-bool isZeroCurrent(const Packet& packet) // with the report id
-{
-  return std::all_of(
-    packet.begin() + 1, packet.begin() + 7, [](std::byte byte) { return byte == std::byte{ 0 }; });
-}
-
-// an arm in its workspace, calibrated by its button
-Packet woodenReport(bool calibrate)
-{
-  Packet report(14);
-  writeInt<std::int16_t>(report, 2, 764);
-  writeInt<std::int16_t>(report, 4, 3667);
-  writeInt<std::int16_t>(report, 12, calibrate ? 1 : 0);
-  return report;
-}
-
-TEST(WoodenDriver, SendsNoCurrentBeforeItIsCalibrated)
-{
-  Wire wire;
-  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
-  DriverSample sample;
-  for (int i = 0; i < 100; ++i)
-  {
-    wire.replies.push_back(woodenReport(false));
-    EXPECT_EQ(driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample), IoCode::Ok);
-    EXPECT_FALSE(sample.homed);
-    EXPECT_TRUE(isZeroCurrent(wire.heard.back()));
-    EXPECT_EQ(wire.heard.back().size(), 15U);
-  }
-  wire.replies.push_back(woodenReport(true));
-  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
-  wire.replies.push_back(woodenReport(false));
-  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample); // the calibration goes out
-  EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
-  EXPECT_EQ(readInt<std::int16_t>(wire.heard.back(), 13), 6000); // where the makers calibrate
-  EXPECT_TRUE(sample.homed);
-  wire.replies.push_back(woodenReport(false));
-  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
-  EXPECT_FALSE(isZeroCurrent(wire.heard.back()));
-}
-
-TEST(WoodenDriver, IsNotHomedUntilTheBoardHasDoneAsItWasTold)
-{
-  Wire wire;
-  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
-  DriverSample sample;
-  const auto homedAfter = [&](bool calibrate)
-  {
-    wire.replies.push_back(woodenReport(calibrate));
-    (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
-    return sample.homed;
-  };
-  EXPECT_FALSE(homedAfter(true));
-  EXPECT_FALSE(homedAfter(true)); // did not hear of it, or said so before: it is told again
-  EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
-  EXPECT_TRUE(homedAfter(false));
-  EXPECT_FALSE(homedAfter(true)); // the button once more
-  EXPECT_TRUE(homedAfter(false));
-}
-
-TEST(WoodenDriver, TakesTheNewestOfWhatIsQueued)
-{
-  Wire wire;
-  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
-  for (int i = 0; i < 20; ++i)
-  {
-    wire.replies.push_back(Packet(14));
-  }
-  wire.replies.push_back(woodenReport(false));
-  DriverSample sample;
-  EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
-  EXPECT_TRUE(sample.position.isApprox(test::woodenTool(test::WoodenCounts{ 0, 764, 3667 })));
-  EXPECT_TRUE(wire.replies.empty());
-}
-
 TEST(Phd1Driver, SendsForceOnlyToABoardThatIsHomedAndNotStopped)
 {
   Wire wire;
@@ -104,6 +29,8 @@ TEST(Phd1Driver, SendsForceOnlyToABoardThatIsHomedAndNotStopped)
   Phd1State state;
   const auto tick = [&]
   {
+    ++state.sequence;
+    state.microseconds += 1000;
     wire.replies.push_back(packetOf(encode(state)));
     DriverSample sample;
     EXPECT_EQ(driver.tick(Vector3d(0, 0, 1), 1.0_ms, sample), IoCode::Ok);
@@ -125,14 +52,94 @@ TEST(Phd1Driver, TellsThatItsBoardIsStoppedAndOrdersNothing)
   Wire wire;
   Phd1Driver driver(std::make_unique<MemoryTransport>(wire));
   DriverSample sample;
-  for (int i = 0; i < 2; ++i)
+  for (std::uint16_t i = 0; i < 2; ++i)
   {
-    wire.replies.push_back(packetOf(encode(Phd1State{ .homed = true, .stopped = true })));
+    wire.replies.push_back(packetOf(
+      encode(Phd1State{ .homed = true, .stopped = true, .sequence = i, .microseconds = i })));
     EXPECT_EQ(driver.tick(Vector3d(0, 0, 1), 1.0_ms, sample), IoCode::Ok);
   }
   EXPECT_TRUE(sample.homed);
   EXPECT_TRUE(sample.stopped);
   EXPECT_EQ(decodePhd1Command(Bytes(wire.heard.back()).subspan(1))->order, Phd1Order::Idle);
+}
+
+// its firmware hangs, its USB part goes on: nothing of that is a pose
+TEST(Phd1Driver, ABoardThatRepeatsItsReportIsSilent)
+{
+  for (const bool clockStands : { true, false })
+  {
+    Wire wire;
+    Phd1Driver driver(std::make_unique<MemoryTransport>(wire));
+    DriverSample sample;
+    int fresh = 0;
+    for (std::uint16_t i = 0; i < 100; ++i)
+    {
+      const bool hangs = i >= 50;
+      wire.replies.push_back(packetOf(encode(Phd1State{ .homed = true,
+        .sequence = static_cast<std::uint16_t>(hangs && !clockStands ? 49 : i),
+        .microseconds = hangs && clockStands ? 49'000U : 1000U * i })));
+      fresh += driver.tick(Vector3d(0, 0, 1), 1.0_ms, sample) == IoCode::Ok ? 1 : 0;
+    }
+    EXPECT_EQ(fresh, 50) << clockStands;
+  }
+}
+
+TEST(Phd1Driver, MovesNoBoardThatNobodyAskedToHome)
+{
+  Wire wire;
+  Phd1Driver driver(std::make_unique<MemoryTransport>(wire));
+  DriverSample sample;
+  std::uint16_t sequence = 0;
+  const auto orderAfter = [&](bool homed)
+  {
+    ++sequence;
+    wire.replies.push_back(packetOf(encode(Phd1State{ .homed = homed,
+      .sequence = sequence,
+      .microseconds = 1000U * sequence,
+      .temperature = 41 })));
+    (void)driver.tick(Vector3d::Zero(), 1.0_ms, sample);
+    return decodePhd1Command(Bytes(wire.heard.back()).subspan(1))->order;
+  };
+  for (int i = 0; i < 10; ++i)
+  {
+    EXPECT_EQ(orderAfter(false), Phd1Order::Idle);
+  }
+  EXPECT_EQ(sample.temperature, 41.0);
+  driver.home();
+  EXPECT_EQ(orderAfter(true), Phd1Order::Home);
+  EXPECT_EQ(orderAfter(true), Phd1Order::Force);
+}
+
+// of the interfaces that a receiver shows, the mouse talks on one
+TEST(SpaceMouseDriver, HearsTheInterfaceThatTalksInAllSixAxes)
+{
+  std::array<Wire, 5> wires;
+  std::vector<std::unique_ptr<Transport>> transports;
+  for (Wire& wire : wires)
+  {
+    transports.push_back(std::make_unique<MemoryTransport>(wire));
+  }
+  SpaceMouseDriver driver(std::move(transports));
+  DriverSample sample;
+  for (int i = 0; i < 100; ++i)
+  {
+    Packet report(13); // x and rz at their ends, all in one report as of a wireless one
+    report[0] = std::byte{ 1 };
+    writeInt<std::int16_t>(report, 1, 350);
+    writeInt<std::int16_t>(report, 11, -350);
+    wires[1].replies.push_back(report);
+    EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+  }
+  EXPECT_NEAR(sample.position.x(), 6.0_mm, 0.1_mm);
+  const Eigen::AngleAxisd turned(sample.orientation); // about z up, the other way than z down
+  EXPECT_NEAR(turned.angle() * turned.axis().z(), 0.1, 1e-3);
+  wires[0].gone = true; // a part of the receiver is not the mouse
+  EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+  for (Wire& wire : wires)
+  {
+    wire.gone = true;
+  }
+  EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Gone);
 }
 
 TEST(SpaceMouseDriver, StopsWhenItsReportOfRestWasLost)
@@ -192,14 +199,26 @@ TEST(FalconDriver, SendsNoTorqueBeforeItIsHomed)
     EXPECT_EQ(driver.tick(Vector3d(1, 2, 3), 1.0_ms, sample), IoCode::Ok);
     EXPECT_FALSE(sample.homed);
     EXPECT_TRUE(isZeroTorque(wire.heard.back()));
-    EXPECT_EQ(wire.heard.back()[13], std::byte{ 'B' }); // keeps asking for homing
+    EXPECT_EQ(wire.heard.back()[13], std::byte{ 'J' }); // keeps asking for homing, in red
   }
   wire.homed = true;
   (void)driver.tick(Vector3d(1, 2, 3), 1.0_ms, sample);
-  EXPECT_TRUE(sample.homed);
+  EXPECT_FALSE(sample.homed);                             // until it was pulled out
   EXPECT_NEAR(sample.position.z(), 0.1346 - 0.125, 1e-4); // all encoders at zero
+  wire.encoder = { 1000, 1000, 1000 };
+  (void)driver.tick(Vector3d(1, 2, 3), 1.0_ms, sample);
+  EXPECT_TRUE(isZeroTorque(wire.heard.back()));
+  EXPECT_TRUE(sample.homed);
   (void)driver.tick(Vector3d(0, 0, -1), 1.0_ms, sample);
-  EXPECT_FALSE(isZeroTorque(wire.heard.back()));
+  // the makers' traces pair a force into the device with counts above zero: the highest of the four
+  // letters of each motor is A, and another is not
+  for (std::size_t motor = 0; motor < 3; ++motor)
+  {
+    const auto letters = Bytes(wire.heard.back()).subspan(1 + 4 * motor, 4);
+    EXPECT_EQ(letters[3], std::byte{ 'A' });
+    EXPECT_NE(letters[1], std::byte{ 'A' });
+  }
+  EXPECT_EQ(wire.requests[6], 0x13E); // SIO_SET_EVENT_CHAR_REQUEST: '>', on
 }
 
 // one reply for each packet: one that came late would put all that follow a tick behind

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace palp::test
@@ -23,6 +24,7 @@ struct Wire
   std::function<void(Bytes)> hear;
   std::deque<Packet> replies;
   std::vector<Packet> heard;
+  std::map<int, int> requests; // of the USB chip: the last value of each
   bool gone = false;
   bool silent = false;
 };
@@ -69,6 +71,7 @@ public:
 
   bool request(std::uint8_t what, std::uint16_t value) noexcept override
   {
+    wire_.requests[what] = value;
     if (what == 0 && value == 2) // SIO_TCIFLUSH of libftdi: what nobody has read
     {
       wire_.replies.clear();

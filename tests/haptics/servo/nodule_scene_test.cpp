@@ -3,11 +3,13 @@
 #include "haptics/error.h"
 #include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
+#include "tests/haptics/force/reference_table.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -74,6 +76,38 @@ TEST(NoduleScene, TellsWhatEachNoduleAddsAlone)
   EXPECT_NEAR(told[1], step(softOnly, pose).response.force / plain.force - 1.0, 1e-9);
   EXPECT_GT(told[0], 0.0);
   EXPECT_LT(told[1], 0.0);
+}
+
+// of data/reference/nodule_surface.csv: linear finite elements, a ball of 10 mm on 40 mm
+TEST(NoduleScene, SurfaceGivesWayAsFarAsFiniteElementsDo)
+{
+  Scene world;
+  world.surface =
+    std::make_shared<const Surface>(test::makeSurface(test::block({ 0.3, 0.3, 0.04 }, 20)));
+  world.law = ForceLaw(SphereTip{ .radius = 10.0_mm }, makeMaterial(50.0_kPa, 0.45),
+    { .mode = LawMode::Corrected, .constitution = ConstitutiveModel::Linear });
+  const std::vector<test::ReferenceRow> rows = test::referenceTable("nodule_surface");
+  EXPECT_EQ(rows.size(), 9U);
+  double worst = 0.0;
+  double worstWithout = 0.0;
+  for (const test::ReferenceRow& row : rows)
+  {
+    double radius = 0.0;
+    double top = 0.0;
+    double ratio = 0.0;
+    ASSERT_EQ(std::sscanf(row.text("case").c_str(), "b%lf_t%lf_k%lf", &radius, &top, &ratio), 3);
+    const PlacedNodule nodule{ { 0.0, 0.0, -(radius + top) * 1.0_mm }, radius * 1.0_mm, ratio };
+    world.nodules = embedNodules(*world.surface, world.law, std::array{ nodule });
+    const Contact contact = step(world, at({ 0.0, 0.0, -row.number("d_m") })).contact;
+    const double told = world.nodules->extentRadius(
+      noduleContactOf(contact), world.law(contactGeometryOf(contact)), row.number("Rd_hom_m"));
+    worst = std::max(worst, std::abs(told - row.number("Rd_nod_m")));
+    worstWithout =
+      std::max(worstWithout, std::abs(row.number("Rd_hom_m") - row.number("Rd_nod_m")));
+  }
+  EXPECT_LT(worst, 1.0_mm);
+  EXPECT_GT(worstWithout, 1.9_mm);
+  RecordProperty("worst_mm", std::to_string(units::toMillimeters(worst)));
 }
 
 TEST(NoduleScene, SafetyChainSendsTheLateralForceToo)

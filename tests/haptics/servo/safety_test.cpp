@@ -66,6 +66,25 @@ TEST(SafetyChain, LedgerCountsTheForceThatWasSentAfterEveryLimit)
   }
 }
 
+// what a driver's own limits have left of it is what the hand has felt
+TEST(SafetyChain, LedgerCountsWhatTheDeviceSaysThatItGaveItsMotors)
+{
+  Bench bench;
+  bench.activate();
+  (void)bench.press(1.0_mm);
+  double given = bench.chain.energy();
+  double before = 1.0_mm;
+  for (int i = 1; i < 300; ++i)
+  {
+    const double depth = 1.0_mm + 5.0_mm * (1.0 - std::cos(i * 0.02));
+    bench.status.sent = Vector3d(0.3 * bench.force); // of the last tick
+    given += 0.3 * bench.force.z() * (depth - before);
+    before = depth;
+    (void)bench.at(depth);
+    ASSERT_NEAR(bench.chain.energy(), given, 1e-12) << i;
+  }
+}
+
 TEST(SafetyChain, StiffnessFollowsThePeriodThatTheLoopReallyKeeps)
 {
   Bench bench;

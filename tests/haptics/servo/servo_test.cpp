@@ -1,8 +1,10 @@
 #include "haptics/servo/servo.h"
 
+#include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -54,6 +56,58 @@ public:
   Eigen::Vector3d last = Eigen::Vector3d::Zero(); // read after the servo has ended
   double elapsed = 0.0;
   std::atomic<int> calls = 0;
+};
+
+// waits as a bus does, and counts what goes over it
+class BusProbe final : public Device
+{
+public:
+  explicit BusProbe(std::chrono::microseconds bus)
+    : bus_(bus)
+  {
+    starts.reserve(1'000'000);
+  }
+
+  [[nodiscard]] DeviceLimits limits() const override
+  {
+    return { .model = "bus", .rendersForce = true, .maxForce = 7.9, .damping = 1.0 };
+  }
+
+  [[nodiscard]] std::optional<ToolPose> exchange(const Eigen::Vector3d&, double) noexcept override
+  {
+    starts.push_back(std::chrono::steady_clock::now());
+    std::this_thread::sleep_for(bus_);
+    ++exchanges;
+    return ToolPose{ .apex = { 0.0, 0.0, 2.0_mm } };
+  }
+
+  void answer(const Eigen::Vector3d&) noexcept override
+  {
+    answers += exchanges > answers ? 1 : 1000; // one after each exchange at most
+  }
+
+  [[nodiscard]] double busTime() const noexcept override
+  {
+    return std::chrono::duration<double>(bus_).count();
+  }
+
+  [[nodiscard]] double medianPeriod() const
+  {
+    std::vector<double> periods;
+    for (std::size_t i = 1; i < starts.size(); ++i)
+    {
+      periods.push_back(std::chrono::duration<double>(starts[i] - starts[i - 1]).count());
+    }
+    std::ranges::nth_element(periods, periods.begin() + static_cast<long>(periods.size() / 2));
+    return periods[periods.size() / 2];
+  }
+
+  std::vector<std::chrono::steady_clock::time_point> starts; // read after the servo has ended
+  std::atomic<int> exchanges = 0;
+  std::atomic<int> answers = 0;
+
+private:
+  std::chrono::microseconds bus_;
 };
 
 Scene scene()
@@ -250,6 +304,40 @@ TEST(Servo, SkipsAndCountsWhatItMissed)
       });
   }
   EXPECT_GE(static_cast<double>(periods), time / 1.0_ms - 1.0);
+}
+
+TEST(Servo, AForceThatHasTimeGoesOutBeforeTheNextPose)
+{
+  BusProbe probe(100us);
+  {
+    Servo servo(probe, scene(), kPlain);
+    waitFor(servo, [&](const Sample&) { return probe.exchanges > 300; });
+  }
+  EXPECT_GE(probe.answers, probe.exchanges / 2); // a machine under load is late at times
+  EXPECT_LE(probe.answers, probe.exchanges);
+}
+
+TEST(Servo, ASlowBusSetsThePaceSoThatNoForceWaits)
+{
+  BusProbe probe(2ms);
+  {
+    Servo servo(probe, scene(), kPlain);
+    waitFor(servo, [&](const Sample&) { return probe.exchanges > 300; });
+    EXPECT_LE(servo.timing().skipped, 100U); // what the bus takes is no tick lost
+  }
+  EXPECT_EQ(probe.answers, 0);
+  EXPECT_GE(probe.medianPeriod(), 2.0_ms);
+  EXPECT_LE(probe.medianPeriod(), 2.6_ms); // on a grid of 1 ms it were 3
+}
+
+TEST(Servo, TurnsAsOftenAsItIsAsked)
+{
+  Probe probe;
+  Servo servo(probe, scene(), { .period = 250us, .realtime = false });
+  waitFor(servo, [](const Sample& sample) { return sample.time > 0.5; });
+  const auto ticks = servo.timing().ticks + servo.timing().skipped;
+  EXPECT_GE(ticks, 1999U);
+  EXPECT_THROW(Servo(probe, scene(), { .period = 100us, .realtime = false }), Error);
 }
 
 TEST(Servo, SaysHowItIsScheduled)

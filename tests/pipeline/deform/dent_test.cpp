@@ -75,6 +75,43 @@ TEST_P(AnyTip, OnAPlaneIsTheToolAndTheBezierRing)
   }
 }
 
+// the same dent about the place where the tissue in contact was at rest, carried to the tool
+TEST(Dent, IsCarriedAlongByFriction)
+{
+  const Eigen::Vector3d carried(1.2_mm, 0.0, 0.0);
+  Press press = test::pressAt({ 0.2_mm, 0.1_mm, 0.0 }, kUp, SphereTip{ 10.0_mm }, 3.0_mm, 20.0_mm);
+  DentedSurface dragged = test::plane(80, 0.75_mm);
+  press.carried = carried;
+  dragged.press(press);
+  Press before = press;
+  before.carried.setZero();
+  before.contact.center -= carried;
+  before.pose.apex -= carried;
+  DentedSurface still = test::plane(80, 0.75_mm);
+  still.press(before);
+  for (std::size_t i = 0; i < dragged.count(); ++i)
+  {
+    const Eigen::Vector3d rest = DentedSurface::at(dragged.rest, i);
+    const Eigen::Vector3d drawn = DentedSurface::at(dragged.points, i);
+    const double radius = (rest - before.contact.center).norm();
+    const Eigen::Vector3d aside = drawn - DentedSurface::at(still.points, i);
+    EXPECT_EQ(zoneOf(dragged, i), zoneOf(still, i));
+    EXPECT_NEAR(aside.y(), 0.0, 1e-8);
+    EXPECT_NEAR(aside.z(), 0.0, 1e-7);
+    EXPECT_LE(aside.x(), carried.x() + 1e-8);
+    if (radius < press.contactRadius) // and so lies on the tool
+    {
+      EXPECT_NEAR(aside.x(), carried.x(), 1e-7);
+      const double across = (drawn - press.contact.center).head<2>().norm();
+      EXPECT_NEAR(drawn.z(), tipHeight(press.tip, across) - 3.0_mm, 1e-6);
+    }
+    else if (radius > 20.0_mm)
+    {
+      EXPECT_EQ(drawn, rest);
+    }
+  }
+}
+
 // 5 mm of a sphere of R = 10 mm, as finite elements of a 50 mm block gave it
 constexpr SurfaceProfile kFitted{ .inner = 6.78708_mm,
   .outer = 40.0_mm,

@@ -124,7 +124,9 @@ struct Findings
 class Presser
 {
 public:
-  Presser(PressedBody& body, const Tip& tip, const std::string& law, const std::string& surface)
+  /// @param tilt  of the tool's axis from the body's normal [rad]
+  Presser(PressedBody& body, const Tip& tip, const std::string& law, const std::string& surface,
+    double tilt = 0.0)
     : body_(body)
     , law_(tip, { 50.0_kPa, 0.33 },
         { .mode = law == "paper" ? LawMode::Paper
@@ -132,6 +134,7 @@ public:
                                  : LawMode::Corrected })
     , extents_(ExtentTable::read(tableOf(tip) + ".csv"))
     , base_(baseRadius(tip))
+    , axis_(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) * -body.outward)
   {
     if (surface == "fitted")
     {
@@ -140,12 +143,12 @@ public:
     }
   }
 
-  /// Presses along the way in, the axis as at the start.
+  /// Presses along the body's normal, the axis as at the start.
   void press(double depth, double aside, Findings& findings)
   {
     const Eigen::Vector3d tangent = body_.outward.unitOrthogonal();
     const ToolPose pose{ .apex = body_.position + aside * tangent - depth * body_.outward,
-      .axis = -body_.outward };
+      .axis = axis_ };
     press({ pose }, findings,
       "depth " + std::to_string(depth / base_) + " R, aside " + std::to_string(aside / 1.0_mm) +
         " mm");
@@ -213,9 +216,9 @@ private:
     const Contact& b = now.contact;
     const double deeper = b.depth - a.depth;
     const double turn = (b.normal - a.normal).norm();
-    const Eigen::Vector3d went = b.center - a.center;
-    const double aside =
-      (went - went.dot(b.normal) * b.normal).norm() + fromAxis(last_->pose, now.pose.apex);
+    const auto across = [&](const Eigen::Vector3d& way)
+    { return (way - way.dot(b.normal) * b.normal).norm(); };
+    const double aside = across(b.center - a.center) + across(now.pose.apex - last_->pose.apex);
     const double flank = b.tilt > kUpright ? std::max(kSteepest, steepest(now)) : kSteepest;
     for (std::size_t i = 0; i < sinks.size(); ++i)
     {
@@ -313,6 +316,7 @@ private:
   ExtentTable extents_;
   DentStyle style_;
   double base_;
+  Eigen::Vector3d axis_; // of the tool, unit
   std::optional<Press> last_;
   std::vector<double> sinks_;
   std::vector<unsigned char> zones_;

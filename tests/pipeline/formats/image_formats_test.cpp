@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <vtkXMLImageDataWriter.h>
 #include <zlib.h>
 
@@ -235,6 +236,26 @@ TEST_F(Images, NiftiWhoseTwoFormsDifferIsRefusedOrSaysSo)
   const std::string message = refusal(write("two.nii", bytes), { 0.0, {} });
   EXPECT_NE(message.find("along axis 1; set the code of the wrong one to 0"), std::string::npos)
     << message;
+}
+
+// pixdim of 2 mm below an sform of 2.1: some programs measure by the one, some by the other
+TEST_F(Images, NiftiWhosePixdimIsNotItsSformSaysSo)
+{
+  std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
+  const auto all = [&](float side)
+  {
+    std::memcpy(bytes.data() + 80, &side, sizeof side);
+    const LoadedSurface surface = readSurface(write("side.nii", bytes), {}, { 0.0, {} });
+    EXPECT_LT(farthest(*surface.mesh, { -kCenterMm.x(), -kCenterMm.y(), kCenterMm.z() }), 0.2);
+    return std::accumulate(surface.notes.begin(), surface.notes.end(), std::string());
+  };
+  EXPECT_EQ(all(2.0F).find("pixdim"), std::string::npos);
+  EXPECT_EQ(all(2.015F).find("pixdim"), std::string::npos);
+  const std::string told = all(2.1F);
+  EXPECT_NE(told.find("warning: side.nii: its pixdim has voxels of 2.1 and its sform of 2 along "
+                      "axis 1; the sform is taken"),
+    std::string::npos)
+    << told;
 }
 
 TEST_F(Images, RefusesASeriesOverTimeWithTheWayOut)

@@ -1,5 +1,6 @@
 #include "tests/pipeline/formats/ball_images.h"
 
+#include <algorithm>
 #include <tuple>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -152,6 +153,36 @@ TEST_F(Images, MetaImageAsItkWritesItIsRead)
       voxelsOf(*ball(false)));
   const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
   EXPECT_LT(farthest(*surface.mesh, kCenterMm + Eigen::Vector3d(10, 20, -30)), 0.2);
+}
+
+// ITK writes from where the axes come, others to where they go, and all take the matrix
+TEST_F(Images, MetaImageWhoseLettersContradictItsMatrixSaysSo)
+{
+  const std::string voxels = voxelsOf(*ball(false));
+  const auto contradicts = [&](const std::string& letters, const std::string& matrix)
+  {
+    const auto file = write("letters.mha",
+      meta("TransformMatrix = " + matrix + "\nAnatomicalOrientation = " + letters + "\n") + voxels);
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter, { 0.0, {} });
+    const std::string words = "warning: letters.mha: its AnatomicalOrientation, " + letters +
+      ", contradicts its TransformMatrix; the matrix is taken";
+    return std::ranges::any_of(
+      surface.notes, [&](const std::string& note) { return note.starts_with(words); });
+  };
+  const std::string straight = "1 0 0 0 1 0 0 0 1";
+  for (const char* letters : { "RAI", "LPS", "???", "none", "RA" })
+  {
+    EXPECT_FALSE(contradicts(letters, straight)) << letters;
+  }
+  for (const char* letters : { "RAS", "LPI", "RIA", "RPI" })
+  {
+    EXPECT_TRUE(contradicts(letters, straight)) << letters;
+  }
+  const std::string sagittal = "0 1 0 0 0 -1 -1 0 0"; // to the back, down, to the right
+  EXPECT_FALSE(contradicts("ASL", sagittal));
+  EXPECT_FALSE(contradicts("PIR", sagittal));
+  EXPECT_TRUE(contradicts("RAI", sagittal));
+  EXPECT_FALSE(contradicts("RAI", "0.6 0.8 0 -0.8 0.6 0 0 0 1")); // oblique
 }
 
 TEST_F(Images, VtiIsTakenByItsOneArrayAndRefusedByWhatItHasInstead)

@@ -2,6 +2,7 @@
 
 #include <numbers>
 #include <tuple>
+#include <vtkImageCast.h>
 #include <vtkXMLImageDataWriter.h>
 
 namespace palp::test
@@ -255,6 +256,41 @@ TEST_F(Images, ALabelThatFillsTheImageIsABox)
   const LoadedSurface all =
     readSurface(parts, LengthUnit::Millimeter, { {}, { "0", "2", "5", "7" } });
   EXPECT_NEAR(volumeMm3(*all.mesh), box, 0.01 * box);
+}
+
+// one that fills the image is a label, too; what is no number is neither label nor background
+TEST_F(Images, AMaskIsALabelMapAndHasNumbersOnly)
+{
+  const auto image = ball(true);
+  image->GetPointData()->GetScalars()->Fill(3.0);
+  const FileOrgans full = readFileOrgans(write<vtkMetaImageWriter>("full.mha", *image), {}, true);
+  ASSERT_EQ(full.organs.size(), 1U);
+  EXPECT_EQ(full.organs[0].label, "3");
+  EXPECT_EQ(full.organs[0].voxels, 41U * 41U * 31U);
+
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputData(labels());
+  cast->SetOutputScalarTypeToFloat();
+  cast->Update();
+  cast->GetOutput()->SetScalarComponentFromDouble(7, 5, 6, 0, std::nan(""));
+  const auto file = write<vtkMetaImageWriter>("nan.mha", *cast->GetOutput());
+  const auto refused = [&](const std::vector<std::string>& asked)
+  {
+    try
+    {
+      (void)readFileOrgans(file, { .labels = asked }, false);
+      return std::string();
+    }
+    catch (const Error& error)
+    {
+      return std::string(error.what());
+    }
+  };
+  for (const std::string& message :
+    { refused({}), refused({ "2" }), refusal(file, { {}, { "2" } }) })
+  {
+    EXPECT_NE(message.find("1, the first at 7, 5, 6"), std::string::npos) << message;
+  }
 }
 
 TEST_F(Images, AMaskHasOneSurfaceWhateverLevelLiesBetween)

@@ -141,6 +141,13 @@ TEST_F(LabelFixtures, OfMetaImageAreTheBalls)
   write("beside.raw", voxelsOf<std::int16_t>(mirrored, true));
   write("beside.mhd", meta(mirrored, "MET_SHORT", true, "", "beside.raw"));
   expectBalls("beside.mhd", mirrored);
+
+  // against its directions, as some scanners' programs write it and ITK reads it
+  const Grid backward{
+    .side = { 1.5, -2.0, -2.5 }, .axes = oblique(), .origin = { -20.0, 7.0, 300.0 }
+  };
+  write("back.mha", meta(backward, "MET_UCHAR", false, voxelsOf<std::uint8_t>(backward), "LOCAL"));
+  expectBalls("back.mha", backward);
 }
 
 TEST_F(LabelFixtures, OfNrrdAreTheBalls)
@@ -176,10 +183,14 @@ TEST_F(LabelFixtures, OfLayersThatOverlapAreBothBallsWhole)
   const Grid las{ .axes = signs(1, -1, 1), .origin = { 5.0, 66.0, -12.0 } };
   const std::string segments =
     "type: uchar\nencoding: gzip\nSegment0_Name:=large\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
-    "Segment1_Name:=small\nSegment1_LabelValue:=1\nSegment1_Layer:=1";
+    "Segment0_Color:=1 0.5 0\nSegment1_Name:=small\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n"
+    "Segment1_Color:=0.2 0.4";
   write("two.seg.nrrd",
     nrrd(las, "left-anterior-superior", signs(1, -1, 1), segments, packed(layersOf(las))));
   expectBalls("two.seg.nrrd", las, true);
+  const FileOrgans found = readFileOrgans(folder_.path() / "two.seg.nrrd", {}, true);
+  EXPECT_EQ(found.organs[0].color, "#ff8000");
+  EXPECT_EQ(found.organs[1].color, "") << "two numbers are no color";
 }
 
 TEST_F(LabelFixtures, OfVtiAreTheBalls)

@@ -1,5 +1,5 @@
 #include "haptics/error.h"
-#include "haptics/surface/enclosed_volume.h"
+#include "haptics/surface/area_and_volume.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/formats/msh_text.h"

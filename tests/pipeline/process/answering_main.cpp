@@ -132,6 +132,13 @@ int main(int, char** argv)
     { "exit 0", []() -> std::string { std::_Exit(0); } },
     { "no memory", []() -> std::string { throw std::bad_alloc(); } },
     { "wait", waitForEver },
+    { "half",
+      []
+      {
+        palp::answerProgress(0.25);
+        palp::answerProgress(0.5);
+        return std::string("done");
+      } },
     { "work", workForEver },
     { "print", print },
     { "greedy", takeTenGigabytes },

@@ -1,6 +1,7 @@
 #include "pipeline/process/child_process.h"
 
 #include "haptics/error.h"
+#include "haptics/threads/followed_work.h"
 
 #include <atomic>
 #include <chrono>
@@ -83,6 +84,33 @@ TEST(ChildProcess, EndsWhatOnlyWaits)
 TEST(ChildProcess, EndsWhatNeverEnds)
 {
   EXPECT_EQ(answering("work"), std::nullopt);
+}
+
+TEST(ChildProcess, TellsWhoFollowsHowFarItIs)
+{
+  FollowedWork work;
+  const FollowedWork::OfThread followed(work);
+  work.begin("reading");
+  EXPECT_EQ(answering("half"), "done");
+  EXPECT_EQ(work.step().what, "reading");
+  EXPECT_EQ(work.step().done, 0.5);
+}
+
+// reaped before the caller hears of it: nothing reads on unseen
+TEST(ChildProcess, EndsAtOnceWithWorkThatIsGivenUp)
+{
+  FollowedWork work;
+  const auto begin = std::chrono::steady_clock::now();
+  std::thread asks(
+    [&work]
+    {
+      const FollowedWork::OfThread followed(work);
+      EXPECT_THROW((void)answering("wait"), Error);
+    });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  work.giveUp();
+  asks.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3)) << "6 s by itself";
 }
 
 // a copy of this process would now and then start with the allocator locked

@@ -148,7 +148,7 @@ TEST(PressView, HasNoSpecksAroundADentWhereAPixelHasSeveralSamples)
   view.window->SetMultiSamples(8);
   view.view.setVisible({ Overlay::DisplacementColors });
   view.view.setColorBar(false);
-  view.view.setLook({ .hidesTool = true });
+  view.view.setLook({ .tool = ToolLook::Hidden });
   const auto image = view.picture(body, pressed(body, kCone, 6.0_mm));
   int specks = 0;
   for (int y = 2; y < 358; ++y)
@@ -174,9 +174,10 @@ TEST(PressView, HasABaselineOfEachLook)
   View view(body, kSphere);
   view.view.setSurface(body.surface, true);
   view.view.setVisible({ Overlay::DisplacementColors, Overlay::IsoLines, Overlay::ContactCircle });
-  const std::array<std::pair<const char*, BodyLook>, 4> looks{
+  const std::array<std::pair<const char*, BodyLook>, 5> looks{
     { { "look_edges", { .hasEdges = true } }, { "look_translucent", { .isTranslucent = true } },
-      { "look_cut", { .isCut = true } }, { "look_without_tool", { .hidesTool = true } } }
+      { "look_cut", { .isCut = true } }, { "look_without_tool", { .tool = ToolLook::Hidden } },
+      { "look_outline", { .tool = ToolLook::Outlined } } }
   };
   for (const auto& [name, look] : looks)
   {

@@ -288,7 +288,7 @@ TEST(Coatings, RefuseWhatCannotBeComputed)
   Coatings steps = one(1.0_mm, { 300.0_kPa, 0.4 });
   steps.add({ 1.0_mm, { 60.0_kPa, 0.4 } });
   EXPECT_THROW((void)coatedContact(SphereTip{ 10.0_mm }, steps, kBody), Error);
-  EXPECT_THROW((void)coatedContact(SphereTip{ 50.0_mm }, one(0.1_mm, kBody), kBody), Error);
+  EXPECT_THROW((void)coatedContact(SphereTip{ 50.0_mm }, one(0.2_mm, kBody), kBody), Error);
 }
 
 } // namespace

@@ -179,5 +179,27 @@ TEST(FrictionRows, DoesNotAllocate)
   EXPECT_EQ(guard.count(), 0u);
 }
 
+// what was moved, told from the force alone
+TEST(FrictionRows, ForceTellsHowFarTheTissueWasCarried)
+{
+  constexpr double kDepth = 4.0_mm;
+  constexpr int kSteps = 400;
+  Dragged dragged(0.3);
+  (void)dragged.move(kDepth, Eigen::Vector3d::Zero());
+  const Response at = dragged.law({ .depth = kDepth });
+  const double shear = dragged.law.material().shearModulus();
+  // of Cattaneo's, from where on all of it slips
+  const double most = 3.0 * 0.3 * at.force * (2.0 - kPoisson) / (16.0 * shear * at.contactRadius);
+  for (int i = 1; i <= 2 * kSteps; ++i)
+  {
+    const Eigen::Vector3d force = dragged.move(kDepth, most / kSteps * Eigen::Vector3d::UnitX());
+    const double moved = most * i / kSteps;
+    const double told = carriedBy(force.norm(), at.force, dragged.tissue, shear, at.contactRadius);
+    EXPECT_NEAR(told, std::min(moved, most), 0.03 * most) << i;
+  }
+  EXPECT_EQ(carriedBy(1.0, 0.0, dragged.tissue, shear, at.contactRadius), 0.0);
+  EXPECT_EQ(carriedBy(1.0, 1.0, dragged.tissue, shear, 0.0), 0.0);
+}
+
 } // namespace
 } // namespace palp

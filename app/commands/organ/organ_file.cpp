@@ -1,0 +1,135 @@
+#include "app/commands/organ/organ_file.h"
+
+#include "app/program/progress_line.h"
+#include "calibration/organ/organ_places.h"
+#include "calibration/tables/organ_table.h"
+#include "haptics/error.h"
+#include "haptics/files/input_text.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+namespace palp
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kStopped =
+  "interrupted; what was reached waits beside --out, run the same again to go on from there";
+
+std::filesystem::path begunOf(const std::filesystem::path& out)
+{
+  std::filesystem::path begun = out;
+  begun += ".part";
+  return begun;
+}
+
+OrganTable emptyTable(const OrganFilePlan& plan, const SceneBody& body, std::size_t places)
+{
+  OrganTable table;
+  table.mesh = identityOf(body.files.front());
+  for (const std::string& support : plan.supports)
+  {
+    table.supports.append(table.supports.empty() ? "" : " ").append(support);
+  }
+  table.poisson = plan.poisson;
+  table.cell = plan.cell;
+  table.spacing = spacingOf(*body.haptic, plan.cell);
+  table.count = places;
+  return table;
+}
+
+// none where there is none, or it is of something else
+std::optional<OrganTable> tableIn(const std::filesystem::path& file, const OrganTable& wanted)
+{
+  if (!std::filesystem::exists(file))
+  {
+    return std::nullopt;
+  }
+  OrganTable found = readOrganTable(file);
+  return found.continues(wanted) ? std::optional(std::move(found)) : std::nullopt;
+}
+
+std::string described(const OrganTable& table)
+{
+  constexpr std::array kWhy{ "", "near an edge", "where it is thinner than two cells",
+    "on a support", "with too little surface around" };
+  std::array<std::size_t, kWhy.size()> counts{};
+  for (const PlacedCompliance& place : table.places)
+  {
+    ++counts[static_cast<std::size_t>(place.trust)];
+  }
+  std::string text;
+  for (std::size_t i = 1; i < kWhy.size(); ++i)
+  {
+    text +=
+      counts[i] == 0 ? "" : (text.empty() ? "" : ", ") + std::to_string(counts[i]) + " " + kWhy[i];
+  }
+  return text.empty() ? "all answered for" : "cannot answer for " + text;
+}
+
+// done, shown in units that are read at a glance
+void report(const OrganFilePlan& plan, const OrganTable& table, Clock::duration time)
+{
+  constexpr double kKilobyte = 1000.0;
+  const double seconds = std::chrono::duration<double>(time).count();
+  std::cerr << "palp: " << plan.out.string() << ": " << counted(table.places.size(), "place")
+            << ", "
+            << std::lround(static_cast<double>(std::filesystem::file_size(plan.out)) / kKilobyte)
+            << " kB, " << std::lround(seconds) << " s; " << described(table) << '\n';
+}
+
+} // namespace
+
+void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
+  std::span<const Support> supports, Interrupt& interrupt)
+{
+  const auto start = Clock::now();
+  const Surface& surface = *body.haptic;
+  const std::vector<SurfacePoint> places = organPlaces(surface, spacingOf(surface, plan.cell));
+  const OrganTable wanted = emptyTable(plan, body, places.size());
+  if (const auto made = tableIn(plan.out, wanted); made && made->isComplete())
+  {
+    std::cerr << "palp: " << plan.out.string() << ": is of this body and these supports already\n";
+    return;
+  }
+  const std::filesystem::path begun = begunOf(plan.out);
+  OrganTable table = tableIn(begun, wanted).value_or(wanted);
+  interrupt.endWhatDoesNotStop(table.places.empty() ? kNoPlaceYet : kStopped);
+  ProgressLine progress("places");
+  progress(table.places.size(), places.size());
+  const OrganModel model(surface, plan.cell, plan.young, plan.poisson, supports);
+  progress.tell(counted(static_cast<std::size_t>(model.nodes()), "node"));
+  auto kept = Clock::now();
+  const auto tell = [&](const OrganTable& now)
+  {
+    progress(now.places.size(), places.size());
+    constexpr auto kEvery = std::chrono::seconds(1);
+    if (Clock::now() - kept > kEvery && !now.isComplete())
+    {
+      writeOrganTable(begun, now);
+      interrupt.endWhatDoesNotStop(kStopped);
+      kept = Clock::now();
+    }
+  };
+  if (!addPlaces(table, model, surface,
+        { .places = places, .supports = supports, .tell = tell, .stop = interrupt.token() }))
+  {
+    table.places.empty() ? void() : writeOrganTable(begun, table);
+    throw Error(ErrorCode::NoSolution, table.places.empty() ? kNoPlaceYet : kStopped);
+  }
+  writeOrganTable(plan.out, table);
+  std::filesystem::remove(begun);
+  report(plan, table, Clock::now() - start);
+}
+
+} // namespace palp

@@ -1,0 +1,233 @@
+#include "calibration/organ/organ_places.h"
+
+#include "calibration/organ/organ_compliance.h"
+#include "haptics/surface/area_and_volume.h"
+#include "haptics/surface/box_tree.h"
+#include "haptics/surface/closest_point.h"
+#include "haptics/surface/ray.h"
+#include "haptics/surface/sampling/place_grid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <thread>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kEdges = 1.5;        // cells to an edge, from which on it is known
+constexpr double kBesideEdge = 5.0;   // cells within which it is as beside an edge
+constexpr double kNearest = 0.1;      // likewise, as near as one is taken to be
+constexpr double kThin = 2.0;         // cells
+constexpr std::size_t kTogether = 32; // loads that are solved at once by a thread
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+bool isHeld(const SurfacePoint& place, std::span<const Support> supports)
+{
+  return std::ranges::any_of(
+    supports, [&](const Support& support) { return support.holds(place.position); });
+}
+
+// of a place that is solved for
+ComplianceTrust trustOf(const SurfacePoint& place, const OrganModel& model, const Surface& surface)
+{
+  if (rayExit(surface.tree(), place.position, -place.normal).distance < kThin * model.side())
+  {
+    return ComplianceTrust::Thin;
+  }
+  return surface.shape().edgeDistance(place.position) < kEdges * model.side()
+    ? ComplianceTrust::Edge
+    : ComplianceTrust::Known;
+}
+
+std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& surface,
+  std::span<const SurfacePoint> places, std::span<const Support> supports)
+{
+  std::vector<SurfacePoint> free;
+  std::ranges::copy_if(places, std::back_inserter(free),
+    [&](const SurfacePoint& place) { return !isHeld(place, supports); });
+  const auto found = compliancesAt(model, surface, free);
+  const double modulus = model.contactModulus();
+  std::vector<PlacedCompliance> all;
+  std::size_t next = 0; // of those that are free
+  for (const SurfacePoint& one : places)
+  {
+    PlacedCompliance& place = all.emplace_back();
+    place.position = one.position;
+    place.normal = one.normal;
+    const double edge = surface.shape().edgeDistance(one.position);
+    place.edge =
+      edge < kBesideEdge * model.side() ? 1.0 / std::max(edge, kNearest * model.side()) : 0.0;
+    const bool isFree = !isHeld(one, supports);
+    const auto& compliance = isFree ? found[next++] : std::nullopt;
+    place.trust = compliance ? trustOf(one, model, surface)
+      : isFree               ? ComplianceTrust::Unknown
+                             : ComplianceTrust::Supported;
+    if (compliance)
+    {
+      place.constant = modulus * compliance->constant;
+      place.slope = modulus * compliance->slope;
+      place.bend = modulus * compliance->bend;
+    }
+  }
+  return all;
+}
+
+// a part of the places for each thread
+std::vector<PlacedCompliance> round(const OrganModel& model, const Surface& surface,
+  std::span<const SurfacePoint> places, std::span<const Support> supports)
+{
+  const std::size_t parts = (places.size() + kTogether - 1) / kTogether;
+  std::vector<std::vector<PlacedCompliance>> found(parts);
+  std::vector<std::exception_ptr> failures(parts);
+  const auto work = [&](std::size_t part)
+  {
+    try
+    {
+      const std::size_t first = part * kTogether;
+      found[part] = solved(model, surface,
+        places.subspan(first, std::min(kTogether, places.size() - first)), supports);
+    }
+    catch (...)
+    {
+      failures[part] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t part = 1; part < parts; ++part)
+    {
+      threads.emplace_back(work, part);
+    }
+    work(0);
+  }
+  std::vector<PlacedCompliance> all;
+  for (std::size_t part = 0; part < parts; ++part)
+  {
+    if (failures[part])
+    {
+      std::rethrow_exception(failures[part]);
+    }
+    std::ranges::move(found[part], std::back_inserter(all));
+  }
+  return all;
+}
+
+// Nearer to an edge than this many cells they are too stiff, and one over the distance is nearer to
+// the truth: by cells of 4 mm at 4 mm from it 0 %, at 1.6 mm 18 %, at 1 mm 33 %.
+constexpr double kTold = 1.1;
+
+bool isKnown(const PlacedCompliance& place, double cell)
+{
+  return place.trust != ComplianceTrust::Unknown && place.trust != ComplianceTrust::Supported &&
+    place.edge * kTold * cell < 1.0;
+}
+
+// Places that cannot be answered for get the mean of what those around that can tell of them, from
+// their border on, so that nothing jumps there.
+void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
+{
+  constexpr double kBeside = 2.5; // spacings
+  std::vector<bool> known;
+  known.reserve(places.size());
+  for (const PlacedCompliance& place : places)
+  {
+    known.push_back(isKnown(place, table.cell));
+  }
+  for (bool changed = true; changed;)
+  {
+    changed = false;
+    const std::vector<bool> before = known;
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      PlacedCompliance& place = places[i];
+      PlacedCompliance sum;
+      double count = 0.0;
+      for (std::size_t k = 0; k < places.size() && !before[i]; ++k)
+      {
+        const PlacedCompliance& other = places[k];
+        if (before[k] && (other.position - place.position).norm() < kBeside * table.spacing &&
+          other.normal.dot(place.normal) > 0.0)
+        {
+          constexpr double kMost = 6.0; // times as near to an edge
+          const double nearer =
+            other.edge > 0.0 && place.edge > 0.0 ? std::min(kMost, place.edge / other.edge) : 1.0;
+          sum.constant += other.constant +
+            (nearer > 1.0 ? 2.0 * other.slope.norm() / other.edge * (nearer - 1.0) : 0.0);
+          sum.slope += nearer > 1.0 ? other.slope : Eigen::Vector3d(Eigen::Vector3d::Zero());
+          sum.bend += nearer > 1.0 ? other.bend : 0.0;
+          count += 1.0;
+        }
+      }
+      if (count > 0.0)
+      {
+        place.constant = sum.constant / count;
+        place.slope = sum.slope / count;
+        place.bend = sum.bend / count;
+        known[i] = changed = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (!known[i])
+    {
+      places[i].constant = places[i].bend = 0.0;
+      places[i].slope.setZero();
+    }
+  }
+}
+
+} // namespace
+
+double spacingOf(const Surface& surface, double cell)
+{
+  constexpr double kMost = 2500.0;      // places of a body
+  constexpr double kPerPlace = 0.7;     // of a place, of the square of the spacing
+  constexpr double kLeastSpacing = 0.5; // cells
+  const double area = surfaceArea(surface.points(), surface.triangles());
+  return std::max(kLeastSpacing * cell, std::sqrt(kPerPlace * area / kMost));
+}
+
+std::vector<SurfacePoint> organPlaces(const Surface& surface, double spacing)
+{
+  std::vector<SurfacePoint> places = placeGrid(surface, spacing);
+  for (SurfacePoint& place : places)
+  {
+    if (surface.shape().edgeDistance(place.position) < 2.0 * spacing)
+    {
+      const int triangle = findClosestPoint(surface, place.position, kInfinite).triangle;
+      place.normal = unitNormal(surface.points(), surface.triangles()[at(triangle)]);
+    }
+  }
+  return places;
+}
+
+bool addPlaces(
+  OrganTable& table, const OrganModel& model, const Surface& surface, const OrganWork& work)
+{
+  const std::size_t step = kTogether * std::max(1U, std::thread::hardware_concurrency());
+  while (table.places.size() < work.places.size())
+  {
+    if (work.stop.stop_requested())
+    {
+      return false;
+    }
+    const std::size_t first = table.places.size();
+    std::ranges::move(
+      round(model, surface, work.places.subspan(first, std::min(step, work.places.size() - first)),
+        work.supports),
+      std::back_inserter(table.places));
+    if (table.places.size() == work.places.size())
+    {
+      fill(table.places, table);
+    }
+    work.tell(table);
+  }
+  return true;
+}
+
+} // namespace palp

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "calibration/organ/organ_model.h"
+#include "calibration/tables/organ_table.h"
+#include "haptics/surface/surface_point.h"
+
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace palp
+{
+
+/// What a table of a body is made of, and who is told of it.
+struct OrganWork
+{
+  std::span<const SurfacePoint> places; ///< all of them
+  std::span<const Support> supports;
+  std::function<void(const OrganTable&)> tell; ///< after some more places
+  std::stop_token stop{};
+};
+
+/// Distance of places that is small against the cells, of a few thousand of them [m].
+[[nodiscard]] double spacingOf(const Surface& surface, double cell);
+
+/// Places all over a surface, each with the normal of what a tool meets there: of a flat face also
+/// next to its edges. The same surface gives the same.
+/// @throws Error  as placeGrid
+[[nodiscard]] std::vector<SurfacePoint> organPlaces(const Surface& surface, double spacing);
+
+/// Adds the places of a table that are still missing, on every processor.
+///
+/// @param table  knows the first places, or none
+/// @return       whether all are there; else it was stopped
+[[nodiscard]] bool addPlaces(
+  OrganTable& table, const OrganModel& model, const Surface& surface, const OrganWork& work);
+
+} // namespace palp

@@ -1,0 +1,188 @@
+#include "calibration/tables/organ_table.h"
+
+#include "haptics/error.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/files/input_text.h"
+#include "haptics/files/number_table.h"
+#include "haptics/files/replace_file.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace palp
+{
+namespace
+{
+
+constexpr const char* kFirst = "# palp organ ";
+constexpr const char* kHeader =
+  "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,constant_per_m,slope_x_per_m2,slope_y_per_m2,"
+  "slope_z_per_m2,bend_per_m3,edge_per_m,trust";
+constexpr int kDigits = 7;
+
+// short enough for small files
+double rounded(double value)
+{
+  if (value == 0.0 || !std::isfinite(value))
+  {
+    return value;
+  }
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(kDigits);
+  text << value;
+  return csvNumber(text.str()).value_or(value);
+}
+
+std::optional<std::string> entry(const std::vector<std::string>& comments, const std::string& key)
+{
+  const std::string start = "# " + key + ": ";
+  for (const std::string& line : comments)
+  {
+    if (line.starts_with(start))
+    {
+      return std::string(trimmed(std::string_view(line).substr(start.size())));
+    }
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why)
+{
+  throw Error(ErrorCode::BadFile, printable(file.string()) + ": " + why);
+}
+
+std::string textOf(
+  const std::filesystem::path& file, const NumberTable& table, const std::string& key)
+{
+  const auto found = entry(table.comments, key);
+  return found ? *found
+               : (refuse(file, "has no line '# " + key + ":'; make it again by palp organ"), "");
+}
+
+double numberOf(const std::filesystem::path& file, const NumberTable& table, const std::string& key)
+{
+  const auto number = csvNumber(textOf(file, table, key));
+  return number && std::isfinite(*number) && *number > 0.0
+    ? *number
+    : (refuse(file, "'# " + key + ":' is no number above 0; make it again by palp organ"), 0.0);
+}
+
+PlacedCompliance placeOf(const std::filesystem::path& file, const NumberTable::Row& row)
+{
+  const std::vector<double>& v = row.values;
+  const Eigen::Vector3d normal(v[3], v[4], v[5]);
+  constexpr double kUnit = 1e-3;
+  constexpr int kLast = static_cast<int>(ComplianceTrust::Unknown);
+  const double trust = v[12];
+  if (!(std::abs(normal.norm() - 1.0) < kUnit) || !(trust >= 0.0 && trust <= kLast))
+  {
+    throw Error(ErrorCode::BadFile,
+      where(file, row.line) +
+        "is no place of a body: its normal has to be of unit length, trust 0 to 4");
+  }
+  return { .position = units::fromMillimeters(1.0) * Eigen::Vector3d(v[0], v[1], v[2]),
+    .normal = normal.normalized(),
+    .constant = v[6],
+    .slope = { v[7], v[8], v[9] },
+    .bend = v[10],
+    .edge = v[11],
+    .trust = static_cast<ComplianceTrust>(static_cast<int>(trust)) };
+}
+
+// a file of something else, or of another version, says so before any number is read
+void checkVersion(const std::filesystem::path& file)
+{
+  const std::string text = readText(file, "an organ file");
+  const std::string_view line = std::string_view(text).substr(0, text.find('\n'));
+  if (!line.starts_with(kFirst))
+  {
+    refuse(file, "is no organ file; palp organ SURFACE --support ... --out FILE makes one");
+  }
+  const std::string_view version = trimmed(line.substr(std::string_view(kFirst).size()));
+  if (version != std::to_string(OrganTable::kVersion))
+  {
+    refuse(file,
+      "is an organ file of version " + inQuotes(version) + ", this program reads " +
+        std::to_string(OrganTable::kVersion) + "; make it again by palp organ");
+  }
+}
+
+} // namespace
+
+bool OrganTable::continues(const OrganTable& other) const
+{
+  return mesh == other.mesh && supports == other.supports && poisson == other.poisson &&
+    cell == other.cell && spacing == other.spacing && count == other.count;
+}
+
+void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
+{
+  std::ostringstream out;
+  out << kFirst << OrganTable::kVersion << "\n# mesh: " << table.mesh
+      << "\n# supports: " << table.supports << "\n# poisson: " << shortest(table.poisson)
+      << "\n# cell_mm: " << shortest(units::toMillimeters(table.cell))
+      << "\n# spacing_mm: " << shortest(units::toMillimeters(table.spacing))
+      << "\n# places: " << table.count
+      << "\n# constant, slope and bend: E* times what the body adds to the half-space's "
+         "displacement per newton, G0 + b.(x + y) + (x'Ax + y'Ay)/2"
+         "\n# edge: one over the distance to a sharp edge; trust: 0 known, 1 an edge is near, 2 "
+         "thinner than two cells, 3 on a support, 4 from "
+         "neighbors only\n"
+      << kHeader << '\n';
+  for (const PlacedCompliance& place : table.places)
+  {
+    const Eigen::Vector3d at = place.position * units::toMillimeters(1.0);
+    std::array row{ at.x(), at.y(), at.z(), place.normal.x(), place.normal.y(), place.normal.z(),
+      place.constant, place.slope.x(), place.slope.y(), place.slope.z(), place.bend, place.edge,
+      static_cast<double>(place.trust) };
+    std::ranges::transform(row, row.begin(), rounded);
+    writeCsvRow(out, row);
+  }
+  replaceFile(file, out.str());
+}
+
+OrganTable readOrganTable(const std::filesystem::path& file)
+{
+  checkVersion(file);
+  const NumberTable numbers = NumberTable::readFinite(file, kHeader);
+  OrganTable table;
+  table.mesh = textOf(file, numbers, "mesh");
+  table.supports = textOf(file, numbers, "supports");
+  table.poisson = csvNumber(textOf(file, numbers, "poisson")).value_or(table.poisson);
+  table.cell = units::fromMillimeters(numberOf(file, numbers, "cell_mm"));
+  table.spacing = units::fromMillimeters(numberOf(file, numbers, "spacing_mm"));
+  constexpr double kMostPlaces = 1e6;
+  table.count = static_cast<std::size_t>(std::min(kMostPlaces, numberOf(file, numbers, "places")));
+  for (const NumberTable::Row& row : numbers.rows)
+  {
+    table.places.push_back(placeOf(file, row));
+  }
+  if (table.places.size() > table.count)
+  {
+    refuse(file, "has more places than it says; make it again by palp organ");
+  }
+  return table;
+}
+
+OrganTable readOrganOf(const std::filesystem::path& file, const std::string& mesh)
+{
+  OrganTable table = readOrganTable(file);
+  if (table.mesh != mesh)
+  {
+    refuse(file,
+      "is of another surface than the one that is pressed, or of one read in another "
+      "unit; make one of this by palp organ");
+  }
+  if (!table.isComplete())
+  {
+    refuse(file, "is not finished; run the same palp organ again, which goes on from there");
+  }
+  return table;
+}
+
+} // namespace palp

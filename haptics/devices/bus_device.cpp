@@ -1,0 +1,200 @@
+#include "haptics/devices/bus_device.h"
+
+#include "haptics/error.h"
+
+#include <exception>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr auto kPeriod = 1ms;
+constexpr auto kPatience = 1s;
+constexpr auto kCommandAge = 20ms;
+constexpr auto kReopenEvery = 500ms;
+constexpr auto kLook = 10ms;       // of the watching thread
+constexpr int kLastWords = 10;     // packets of zero force
+constexpr double kSmoothing = 0.1; // of the time of a transfer, by each one
+
+double seconds(std::chrono::nanoseconds duration) noexcept
+{
+  return std::chrono::duration<double>(duration).count();
+}
+
+} // namespace
+
+BusDevice::BusDevice(Open open, const DevicePlacement& placement)
+  : open_(std::move(open))
+  , driver_(open_())
+  , limits_(driver_->limits())
+  , placement_(placement)
+  , velocity_(limits_.quantum)
+  , watcher_([this](const std::stop_token& stop) { watch(stop); })
+{
+  const auto deadline = Clock::now() + kPatience;
+  while (!there_ && losses_ == 0 && Clock::now() < deadline)
+  {
+    (void)exchange(Eigen::Vector3d::Zero(), seconds(kPeriod));
+    std::this_thread::sleep_for(there_ ? 0ms : kPeriod);
+  }
+  if (!there_)
+  {
+    throw Error(ErrorCode::NoDevice,
+      limits_.model + ": does not answer; check its power and cable, and plug it in again");
+  }
+}
+
+BusDevice::~BusDevice()
+{
+  watcher_.request_stop();
+  watcher_.join();
+  endForce();
+}
+
+DeviceLimits BusDevice::limits() const
+{
+  DeviceLimits limits = limits_;
+  limits.workspaceCenter = placement_.rotation * limits.workspaceCenter + placement_.origin;
+  return limits;
+}
+
+std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double) noexcept
+{
+  const int losses = losses_.load();
+  const bool wasLost = std::exchange(toldLosses_, losses) != losses;
+  if (wasLost)
+  {
+    there_ = false;
+    velocity_ = VelocityEstimator(limits_.quantum);
+  }
+  const Clock::time_point begin = Clock::now();
+  renewed_.store(begin, std::memory_order_relaxed);
+  if (wasLost || !takeDriver())
+  {
+    status_.sent = Eigen::Vector3d::Zero(); // whoever has the driver sends nothing else
+    status_.age = seconds(begin - when_);
+    return there_ && owner_ != Owner::Lost ? std::optional(pose()) : std::nullopt;
+  }
+  const Clock::time_point asked = asked_;
+  const IoCode code = transfer(force, begin, heard_);
+  if (code == IoCode::Ok)
+  {
+    const Clock::time_point now = Clock::now();
+    busTime_ += there_ ? kSmoothing * (seconds(now - begin) - busTime_) : seconds(now - begin);
+    speed_ = velocity_(heard_.position, seconds(begin - asked));
+    asked_ = begin;
+    when_ = now;
+    answered_ = false;
+    there_ = true;
+  }
+  releaseDriver(code);
+  status_.homed = heard_.homed;
+  status_.stopped = heard_.stopped;
+  status_.buttons = heard_.buttons;
+  status_.sent =
+    heard_.sent ? std::optional<Eigen::Vector3d>(placement_.rotation * *heard_.sent) : std::nullopt;
+  status_.age = seconds(Clock::now() - when_);
+  return there_ && code != IoCode::Gone ? std::optional(pose()) : std::nullopt;
+}
+
+void BusDevice::answer(const Eigen::Vector3d& force) noexcept
+{
+  if (!there_ || !takeDriver())
+  {
+    return;
+  }
+  DriverSample unused = heard_;
+  const Clock::time_point begin = Clock::now();
+  renewed_.store(begin, std::memory_order_relaxed);
+  releaseDriver(transfer(force, begin, unused));
+}
+
+// a board looks where it is when a command comes, and that command carries the force: so from one
+// to the next is the time in which a pose is answered, however long the ways are
+IoCode BusDevice::transfer(
+  const Eigen::Vector3d& force, Clock::time_point begin, DriverSample& sample) noexcept
+{
+  if (!std::exchange(answered_, true))
+  {
+    status_.delay = seconds(begin - asked_);
+  }
+  return driver_->tick(
+    placement_.rotation.transpose() * force, seconds(begin - std::exchange(last_, begin)), sample);
+}
+
+bool BusDevice::takeDriver() noexcept
+{
+  Owner nobody = Owner::Nobody;
+  return owner_.compare_exchange_strong(nobody, Owner::User);
+}
+
+void BusDevice::releaseDriver(IoCode code) noexcept
+{
+  losses_ += code == IoCode::Gone ? 1 : 0;
+  owner_.store(code == IoCode::Gone ? Owner::Lost : Owner::Nobody);
+}
+
+ToolPose BusDevice::pose() const noexcept
+{
+  ToolPose pose;
+  pose.apex = placement_.rotation * heard_.position + placement_.origin;
+  pose.velocity = placement_.rotation * speed_;
+  return pose;
+}
+
+void BusDevice::watch(const std::stop_token& stop) noexcept
+{
+  while (!stop.stop_requested())
+  {
+    std::this_thread::sleep_for(kLook);
+    if (owner_ == Owner::Lost)
+    {
+      reopen(stop);
+    }
+    else if (Clock::now() - renewed_.load(std::memory_order_relaxed) > kCommandAge && takeDriver())
+    {
+      DriverSample unused;
+      releaseDriver(driver_->tick(Eigen::Vector3d::Zero(), seconds(kLook), unused));
+    }
+  }
+}
+
+// also where a transfer has failed: some failures pass, and the motors hold what they heard last
+void BusDevice::endForce() noexcept
+{
+  DriverSample unused;
+  for (int i = 0; driver_ && i < kLastWords; ++i)
+  {
+    if (driver_->tick(Eigen::Vector3d::Zero(), seconds(kPeriod), unused) == IoCode::Gone)
+    {
+      std::this_thread::sleep_for(kPeriod);
+    }
+  }
+}
+
+void BusDevice::reopen(const std::stop_token& stop) noexcept
+{
+  endForce();
+  driver_.reset();
+  while (!driver_ && !stop.stop_requested())
+  {
+    for (auto wait = 0ms; wait < kReopenEvery && !stop.stop_requested(); wait += kLook)
+    {
+      std::this_thread::sleep_for(kLook);
+    }
+    try
+    {
+      driver_ = open_();
+      owner_ = Owner::Nobody;
+    }
+    catch (const std::exception&) // still unplugged
+    {
+    }
+  }
+}
+
+} // namespace palp

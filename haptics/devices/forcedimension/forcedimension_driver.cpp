@@ -1,0 +1,195 @@
+#include "haptics/devices/forcedimension/forcedimension_driver.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <cmath>
+#include <dlfcn.h>
+#include <numbers>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+constexpr unsigned char kWatchdog = 160; // 20 ms, in steps of 125 us: as long as a command holds
+
+// @source  documentation of the Force Dimension SDK 3, as facts
+struct Library
+{
+  int (*open)();
+  int (*close)(char);
+  bool (*isInitialized)(char);
+  const char* (*systemName)(char);
+  const char* (*lastError)();
+  int (*enableForce)(unsigned char, char);
+  int (*setWatchdog)(unsigned char, char);
+  int (*position)(double*, double*, double*, char);
+  int (*orientation)(double (*)[3], char);
+  unsigned int (*buttons)(char);
+  int (*setForceAndTorque)(double, double, double, double, double, double, char);
+  int (*force)(double*, double*, double*, char);
+};
+
+template <typename Function>
+void find(void* file, const std::string& path, const char* name, Function*& function)
+{
+  function = reinterpret_cast<Function*>(dlsym(file, name));
+  if (function == nullptr)
+  {
+    throw Error(ErrorCode::NoDevice,
+      path + ": lacks " + name +
+        "; give libdrd of the Force Dimension SDK 3, as --device "
+        "forcedimension:FILE");
+  }
+}
+
+Library load(void* file, const std::string& path)
+{
+  Library library{};
+  find(file, path, "drdOpen", library.open);
+  find(file, path, "drdClose", library.close);
+  find(file, path, "drdIsInitialized", library.isInitialized);
+  find(file, path, "dhdGetSystemName", library.systemName);
+  find(file, path, "dhdErrorGetLastStr", library.lastError);
+  find(file, path, "dhdEnableForce", library.enableForce);
+  find(file, path, "dhdSetWatchdog", library.setWatchdog);
+  find(file, path, "dhdGetPosition", library.position);
+  find(file, path, "dhdGetOrientationFrame", library.orientation);
+  find(file, path, "dhdGetButtonMask", library.buttons);
+  find(file, path, "dhdSetForceAndTorque", library.setForceAndTorque);
+  find(file, path, "dhdGetForce", library.force);
+  return library;
+}
+
+std::string textOf(const char* text)
+{
+  return text != nullptr ? text : "unknown";
+}
+
+class ForceDimensionDriver final : public Driver
+{
+public:
+  ForceDimensionDriver(const Library& library, char arm)
+    : library_(library)
+    , arm_(arm)
+    , name_(textOf(library.systemName(arm)))
+  {
+    (void)library_.setWatchdog(kWatchdog, arm_);
+    (void)library_.enableForce(1, arm_);
+  }
+  ~ForceDimensionDriver() override
+  {
+    (void)library_.setForceAndTorque(0, 0, 0, 0, 0, 0, arm_);
+    (void)library_.enableForce(0, arm_);
+    (void)library_.close(arm_);
+  }
+  ForceDimensionDriver(const ForceDimensionDriver&) = delete;
+  ForceDimensionDriver& operator=(const ForceDimensionDriver&) = delete;
+
+  // the least of the makers' arms, until identified
+  [[nodiscard]] DeviceLimits limits() const override
+  {
+    return { .model = "Force Dimension " + name_,
+      .rendersForce = true,
+      .needsHoming = true,
+      .maxForce = 8.0,
+      .damping = 0.2,
+      .friction = 0.05,
+      .handDamping = kGripDamping,
+      .quantum = 10.0_um,
+      .delay = 1.0_ms,
+      .velocityDelay = 4.5_ms };
+  }
+
+  [[nodiscard]] IoCode tick(
+    const Eigen::Vector3d& force, double, DriverSample& sample) noexcept override
+  {
+    const bool pushes = homed_ && force.allFinite();
+    Eigen::Vector3d sent = pushes ? toDevice(force) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const int code = library_.setForceAndTorque(sent.x(), sent.y(), sent.z(), 0, 0, 0, arm_);
+    if (code == kSaturated)
+    {
+      (void)library_.force(&sent.x(), &sent.y(), &sent.z(), arm_);
+    }
+    sample.sent = fromDevice(sent);
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    double frame[3][3] = { { 1, 0, 0 }, { 0, 1, 0 },
+      { 0, 0, 1 } }; // NOLINT: as the library takes it
+    if (code < 0 || library_.position(&place.x(), &place.y(), &place.z(), arm_) < 0 ||
+      library_.orientation(frame, arm_) < 0)
+    {
+      return IoCode::Gone;
+    }
+    homed_ = library_.isInitialized(arm_);
+    if (!place.allFinite())
+    {
+      return IoCode::Timeout;
+    }
+    sample = { .position = fromDevice(place),
+      .orientation = orientationOf(frame),
+      .buttons = library_.buttons(arm_),
+      .homed = homed_,
+      .sent = fromDevice(sent) };
+    return IoCode::Ok;
+  }
+
+private:
+  static constexpr int kSaturated = 2; // DHD_MOTOR_SATURATED: it did what its motors can
+
+  // theirs: x to the user, y to the right, z up
+  static Eigen::Vector3d fromDevice(const Eigen::Vector3d& of) noexcept
+  {
+    return { of.y(), -of.x(), of.z() };
+  }
+  static Eigen::Vector3d toDevice(const Eigen::Vector3d& of) noexcept
+  {
+    return { -of.y(), of.x(), of.z() };
+  }
+
+  static Eigen::Quaterniond orientationOf(const double (&frame)[3][3]) noexcept
+  {
+    Eigen::Matrix3d turned;
+    for (int column = 0; column < 3; ++column)
+    {
+      turned.col(column) = fromDevice({ frame[0][column], frame[1][column], frame[2][column] });
+    }
+    const Eigen::Matrix3d turn =
+      turned * Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ());
+    const bool possible = turn.allFinite() && std::abs(turn.determinant() - 1.0) < 0.05;
+    return possible ? Eigen::Quaterniond(turn).normalized() : Eigen::Quaterniond::Identity();
+  }
+
+  Library library_;
+  char arm_;
+  std::string name_;
+  bool homed_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<Driver> openForceDimension(const std::string& library)
+{
+  const std::string path = library.empty() ? "libdrd.so.3" : library;
+  void* file = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: its threads may outlive an arm
+  if (file == nullptr)
+  {
+    throw Error(ErrorCode::NoDevice,
+      "Force Dimension: cannot load " + path +
+        "; install the makers' SDK 3, or give its libdrd as --device forcedimension:FILE");
+  }
+  const Library functions = load(file, path);
+  const int arm = functions.open();
+  if (arm < 0)
+  {
+    throw Error(ErrorCode::NoDevice,
+      "Force Dimension: no arm (" + textOf(functions.lastError()) +
+        "); switch it on and plug it in, and see the makers' HapticDesk");
+  }
+  return std::make_unique<ForceDimensionDriver>(functions, static_cast<char>(arm));
+}
+
+} // namespace palp

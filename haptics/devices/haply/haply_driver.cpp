@@ -1,0 +1,88 @@
+#include "haptics/devices/haply/haply_driver.h"
+
+#include "haptics/devices/haply/haply_link.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <charconv>
+#include <optional>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using namespace std::chrono_literals;
+
+class HaplyDriver final : public Driver
+{
+public:
+  explicit HaplyDriver(std::uint16_t port)
+    : link_(port)
+  {
+  }
+
+  // nobody has measured one here: low on purpose
+  [[nodiscard]] DeviceLimits limits() const override
+  {
+    return { .model = "Haply Inverse3",
+      .rendersForce = true,
+      .needsHoming = true,
+      .maxForce = 3.0,
+      .damping = 0.2,
+      .friction = 0.05,
+      .handDamping = kGripDamping,
+      .quantum = 50.0_um,
+      .delay = 1.0_ms,
+      .velocityDelay = 4.5_ms };
+  }
+
+  [[nodiscard]] IoCode tick(
+    const Eigen::Vector3d& force, double, DriverSample& sample) noexcept override
+  {
+    const bool pushes = homed_ && force.allFinite();
+    const Eigen::Vector3d sent = pushes ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    sample.sent = sent;
+    const bool replied = link_.exchange(sent, 2ms);
+    if (link_.gone())
+    {
+      return IoCode::Gone;
+    }
+    if (!replied)
+    {
+      return IoCode::Timeout;
+    }
+    const HaplyState& state = link_.state();
+    homed_ = state.calibrated;
+    start_ = homed_ && !start_ ? std::optional(state.position) : start_;
+    sample = { .position = state.position - start_.value_or(state.position),
+      .orientation = state.orientation,
+      .buttons = state.buttons,
+      .homed = homed_,
+      .sent = sent };
+    return IoCode::Ok;
+  }
+
+private:
+  HaplyLink link_;
+  bool homed_ = false;
+  std::optional<Eigen::Vector3d> start_; // [m]
+};
+
+} // namespace
+
+std::unique_ptr<Driver> openHaply(const std::string& port)
+{
+  std::uint16_t number = 10'001;
+  const char* end = port.data() + port.size();
+  const auto read = std::from_chars(port.data(), end, number);
+  if (!port.empty() && (read.ec != std::errc{} || read.ptr != end || number == 0))
+  {
+    throw Error(ErrorCode::BadValue,
+      "--device: haply:" + port + ": not a port; write as in haply or haply:10001");
+  }
+  return std::make_unique<HaplyDriver>(number);
+}
+
+} // namespace palp

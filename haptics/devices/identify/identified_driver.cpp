@@ -1,0 +1,38 @@
+#include "haptics/devices/identify/identified_driver.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palp
+{
+
+IdentifiedDriver::IdentifiedDriver(std::unique_ptr<Driver> driver, const IdentifiedArm& arm)
+  : driver_(std::move(driver))
+  , arm_(arm)
+{
+}
+
+DeviceLimits IdentifiedDriver::limits() const
+{
+  constexpr double kLeast = 0.01; // below what can be told from none [N s/m]
+  DeviceLimits limits = driver_->limits();
+  const auto& [x, y, z] = arm_.axes;
+  limits.damping = arm_.scale * std::max(kLeast, std::min({ x.damping, y.damping, z.damping }));
+  limits.quantum = arm_.encoderStep > 0.0 ? arm_.encoderStep : limits.quantum;
+  limits.delay = std::max(limits.delay, arm_.delay);
+  limits.maxForce *= arm_.scale;
+  return limits;
+}
+
+IoCode IdentifiedDriver::tick(
+  const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
+{
+  const IoCode code = driver_->tick(force / arm_.scale, dt, sample);
+  if (sample.sent)
+  {
+    *sample.sent *= arm_.scale;
+  }
+  return code;
+}
+
+} // namespace palp

@@ -1,0 +1,281 @@
+#include "haptics/devices/identify/identify.h"
+
+#include "haptics/devices/identify/swing.h"
+#include "haptics/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr double kMostForce = 0.3;   // [N]
+constexpr double kSwingForce = 0.27; // leaves room for holding the other axes [N]
+constexpr double kRamp = 0.6;        // of the first pushes [N/s]
+constexpr double kFar = 0.025;       // from where it began [m]
+constexpr std::array kNames{ "x", "y", "z" };
+
+[[noreturn]] void refuse(const std::string& what)
+{
+  throw Error(ErrorCode::NoDevice, "identify: " + what);
+}
+
+class Pusher
+{
+public:
+  Pusher(const ArmExchange& exchange, double step)
+    : exchange_(exchange)
+    , step_(step)
+  {
+    begin_ = send(Vector3d::Zero());
+    center_ = begin_.position;
+  }
+
+  [[nodiscard]] ArmPosition send(const Vector3d& force) const
+  {
+    const double size = force.norm();
+    const auto answer =
+      exchange_(size > kMostForce ? Vector3d(force * (kMostForce / size)) : force);
+    if (!answer || !answer->position.allFinite())
+    {
+      (void)exchange_(Vector3d::Zero());
+      refuse("the arm went away, was stopped or is not homed; see palp devices and try again");
+    }
+    return *answer;
+  }
+
+  void checkThatItRests() const
+  {
+    constexpr double kQuiet = 0.5; // [s]
+    ArmPosition now = begin_;
+    while (now.time < begin_.time + kQuiet)
+    {
+      now = send(Vector3d::Zero());
+    }
+    if ((now.position - center_).norm() > std::max(0.002, 20.0 * step_))
+    {
+      refuse("the arm moves by itself; balance it, let go of it, and try again");
+    }
+  }
+
+  // one push that grows until the arm has moved a millimeter, and the same backwards, which stops
+  // it
+  [[nodiscard]] double agreement(int axis, double& breakaway)
+  {
+    const double enough = std::max(0.001, 8.0 * step_);
+    const ArmPosition from = send(Vector3d::Zero());
+    std::vector<double> pushes;
+    Vector3d moved = Vector3d::Zero();
+    double start = 0.0;
+    for (double force = 0.0; moved.norm() < enough && pushes.size() < 2000;)
+    {
+      pushes.push_back(force);
+      const ArmPosition now = send(force * Vector3d::Unit(axis));
+      moved = now.position - from.position;
+      start = moved.norm() < std::max(2.5 * step_, 0.1e-3) ? force : start;
+      force = std::min(kMostForce, kRamp * (now.time - from.time));
+    }
+    const bool follows = moved.norm() >= enough;
+    const double agreed = moved[axis] / std::max(moved.norm(), 1e-12);
+    double furthest = moved.norm();
+    std::ranges::reverse(pushes);
+    for (const double force : pushes)
+    {
+      moved = send(-force * Vector3d::Unit(axis)).position - from.position;
+      furthest = std::max(furthest, moved.norm());
+      if (moved.norm() < furthest - std::max(1.5 * step_, 30e-6)) // it comes back: it has stopped
+      {
+        break;
+      }
+    }
+    letRest();
+    if (!follows)
+    {
+      refuse(std::string("0.3 N do not move the arm along ") +
+        kNames[static_cast<std::size_t>(axis)] +
+        "; it is held, has more friction than that, or its motors are off");
+    }
+    breakaway = start;
+    return agreed;
+  }
+
+  // without force, until it does or a second has passed
+  void letRest() const
+  {
+    constexpr double kStill = 0.06; // [s]
+    ArmPosition last = send(Vector3d::Zero());
+    const double until = last.time + 1.0;
+    for (ArmPosition now = last; now.time < until && now.time < last.time + kStill;)
+    {
+      now = send(Vector3d::Zero());
+      last = (now.position - last.position).norm() > std::max(3.0 * step_, 0.1e-3) ? now : last;
+    }
+  }
+
+  // back to where it began, by a soft spring and a damper
+  void bringBack(double time)
+  {
+    const double until = last_.time + time;
+    do
+    {
+      Vector3d force = hold();
+      last_ = send(force);
+    } while (last_.time < until);
+  }
+
+  // of two strengths and several widths
+  [[nodiscard]] std::vector<Swing> swings(int axis, double breakaway)
+  {
+    const double soft = 0.5 * (std::min(breakaway, kSwingForce) + kSwingForce);
+    std::vector<Swing> all;
+    for (const auto& [force, width] : { std::pair{ kSwingForce, 0.010 }, std::pair{ soft, 0.010 },
+           std::pair{ kSwingForce, 0.003 }, std::pair{ soft, 0.005 } })
+    {
+      bringBack(0.4);
+      all.push_back(swing(axis, force, width));
+    }
+    return all;
+  }
+
+private:
+  // between two forces: each change comes where the last swing was so long ago that this one will
+  // be as wide as asked
+  [[nodiscard]] Swing swing(int axis, double force, double width)
+  {
+    constexpr int kSwings = 14;
+    constexpr double kLongest = 4.0; // [s]
+    Swing record;
+    double way = 1.0;
+    double shift = 0.5 * width; // of the change behind the center
+    double furthest = 0.0;
+    int turns = 0;
+    last_ = send(hold());
+    const double begin = last_.time;
+    const double noise = std::max(3.0 * step_, 0.1e-3);
+    while (turns < kSwings && last_.time - begin < kLongest)
+    {
+      const double x = last_.position[axis] - center_[axis];
+      if (way * x > shift)
+      {
+        way = -way;
+        furthest = x;
+      }
+      furthest = way < 0.0 ? std::max(furthest, x) : std::min(furthest, x);
+      if (furthest != 0.0 && -way * (furthest - x) > noise && !turned_)
+      {
+        turned_ = true;
+        ++turns;
+        shift = std::clamp(shift + 0.4 * (width - std::abs(furthest)), -width, width);
+      }
+      turned_ = turned_ && way == lastWay_;
+      lastWay_ = way;
+      if (std::abs(x) > kFar)
+      {
+        break;
+      }
+      Vector3d told = 0.4 * hold();
+      told[axis] = way * force;
+      last_ = send(told);
+      record.sent.push_back(last_.sent);
+      record.time.push_back(last_.time);
+      record.position.push_back(last_.position[axis]);
+      record.force.push_back(told[axis]);
+    }
+    return record;
+  }
+
+  // of the position and its change over the last exchanges
+  [[nodiscard]] Vector3d hold()
+  {
+    constexpr double kSpring = 20.0; // [N/m]
+    constexpr double kDamper = 1.0;  // [N s/m]
+    const double dt = last_.time - before_.time;
+    if (dt > 0.008)
+    {
+      velocity_ = (last_.position - before_.position) / dt;
+      before_ = last_;
+    }
+    const Vector3d asked = -kSpring * (last_.position - center_) - kDamper * velocity_;
+    const double size = asked.norm();
+    return size > kSwingForce ? Vector3d(asked * (kSwingForce / size)) : asked;
+  }
+
+  const ArmExchange& exchange_;
+  double step_;
+  ArmPosition begin_;
+  Vector3d center_ = Vector3d::Zero();
+  ArmPosition last_;
+  ArmPosition before_;
+  Vector3d velocity_ = Vector3d::Zero();
+  bool turned_ = false;
+  double lastWay_ = 1.0;
+};
+
+double median(std::array<double, 3> values)
+{
+  std::ranges::sort(values);
+  return values[1];
+}
+
+} // namespace
+
+IdentifiedArm identifyArm(const ArmExchange& exchange, double step)
+{
+  Pusher pusher(exchange, step);
+  pusher.checkThatItRests();
+  IdentifiedArm arm{ .encoderStep = step };
+  std::array<double, 3> breakaway{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto i = static_cast<std::size_t>(axis);
+    arm.axes[i].agreement = pusher.agreement(axis, breakaway[i]);
+  }
+  (void)pusher.send(Vector3d::Zero());
+  if (!arm.agrees())
+  {
+    return arm;
+  }
+  std::array<std::vector<Swing>, 3> swings;
+  std::array<double, 3> delays{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto i = static_cast<std::size_t>(axis);
+    swings[i] = pusher.swings(axis, breakaway[i]);
+    delays[i] = fitSwings(swings[i], step).delay;
+  }
+  pusher.bringBack(0.5);
+  (void)pusher.send(Vector3d::Zero());
+  arm.delay = median(delays);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const SwingModel model = fitSwings(swings[i], step, arm.delay);
+    arm.axes[i].mass = model.mass;
+    arm.axes[i].damping = model.damping;
+    arm.axes[i].friction = model.friction;
+  }
+  return arm;
+}
+
+double forceScale(const IdentifiedArm& without, const IdentifiedArm& with, double added)
+{
+  std::array<double, 3> more{};
+  for (std::size_t i = 0; i < more.size(); ++i)
+  {
+    more[i] = with.axes[i].mass - without.axes[i].mass;
+    if (!(more[i] > 0.15 * without.axes[i].mass))
+    {
+      throw Error(ErrorCode::BadValue,
+        "identify: the arm is not noticeably heavier with the added mass; fix a larger one to it");
+    }
+  }
+  return added / median(more);
+}
+
+} // namespace palp

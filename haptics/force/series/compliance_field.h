@@ -1,0 +1,120 @@
+#pragma once
+
+#include "haptics/force/linear/series_contact.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace palp
+{
+
+/// How far a place of a body's compliance may be believed.
+enum class ComplianceTrust
+{
+  Known,
+  Edge,      ///< a sharp edge is nearer than the cells can tell
+  Thin,      ///< the body is thinner there than two cells
+  Supported, ///< it is held there
+  Unknown,   ///< too little of the surface is around it; taken from its neighbors
+};
+
+/// What a body adds to the displacement of its surface at one place, over its contact modulus.
+struct PlacedCompliance
+{
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< on the surface [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward, of unit length
+  double constant = 0.0;                              ///< E* G0 [1/m]
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();    ///< E* b, along the surface [1/m^2]
+  double bend = 0.0;                                  ///< E* tr A [1/m^3]
+  double edge = 0.0; ///< one over the distance to a sharp edge [1/m]; 0: none near
+  ComplianceTrust trust = ComplianceTrust::Known;
+};
+
+/// The compliance of a body over its surface, which is known at places all over it.
+///
+/// Each place tells of its surroundings by its value and twice its slope, which is the gradient of
+/// the constant, and beside an edge as one over the distance D to it: constant by 1/D, slope by
+/// 1/D^2, bend by 1/D^3, as in a wedge. These are blended, twice continuously differentiable along
+/// the surface.
+class ComplianceField
+{
+public:
+  /// A body at a contact, with the gradients of what is told of it along the surface.
+  struct Local
+  {
+    BodyCompliance body;
+    Eigen::Vector3d constant = Eigen::Vector3d::Zero(); ///< grad E* G0 [1/m^2]
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero();    ///< grad E* |b| [1/m^3]
+    Eigen::Vector3d bend = Eigen::Vector3d::Zero();     ///< grad E* tr A [1/m^4]
+    double doubtful = 0.0; ///< part of what is told here that may not be believed [-]
+  };
+
+  /// @param places   spread evenly, no two nearer than the spacing, no gap wider
+  /// @param spacing  [m]
+  /// @param poisson  of the body that was solved for [-]
+  ComplianceField(std::span<const PlacedCompliance> places, double spacing, double poisson);
+
+  /// @param center  of a contact, on the surface [m]
+  /// @param normal  outward, of unit length
+  /// @return        of a half-space where no place is near
+  /// @realtime      pure; no allocation, no lock, no exception
+  [[nodiscard]] Local at(
+    const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept;
+
+  [[nodiscard]] std::size_t places() const noexcept
+  {
+    return places_.size();
+  }
+  [[nodiscard]] double poissonRatio() const noexcept
+  {
+    return poisson_;
+  }
+
+private:
+  using Cell = std::array<int, 3>;
+
+  // a place, small enough for the caches
+  struct Place
+  {
+    Eigen::Vector3f position;
+    Eigen::Vector3f normal;
+    Eigen::Vector3f gradient; // of the constant
+    Eigen::Vector3f edge;     // away from one, over the distance to it [1/m]
+    float constant;
+    float slope;
+    float bend;
+    float doubtful;
+  };
+
+  struct Weight
+  {
+    double value;
+    double slope; // by half the square of the distance [1/m^2]
+  };
+
+  struct Range
+  {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0; // the one behind it
+  };
+
+  [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
+  [[nodiscard]] Weight weightOf(
+    const Place& place, const Eigen::Vector3d& away, const Eigen::Vector3d& normal) const noexcept;
+  void sortIntoCells();
+  void sharpen();
+
+  double reach_; // of a place [m]
+  double cell_;  // side of a cell [m]
+  double poisson_;
+  std::vector<Place> places_;
+  std::unordered_map<std::uint64_t, Range> cells_;
+  std::vector<std::uint32_t> near_; // places of cell after cell
+};
+
+} // namespace palp

@@ -1,0 +1,37 @@
+#include "haptics/force/series/series_body.h"
+
+#include "haptics/tip/tip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palp
+{
+
+std::shared_ptr<const SeriesBody> seriesBodyOf(
+  std::shared_ptr<const ComplianceField> field, const ForceLaw& law)
+{
+  if (field == nullptr)
+  {
+    return nullptr;
+  }
+  const bool isSphere = std::holds_alternative<SphereTip>(law.tip());
+  return std::make_shared<const SeriesBody>(SeriesBody{ .field = std::move(field),
+    .law = SeriesLaw(law),
+    .height = isSphere ? baseRadius(law.tip()) : 0.0 });
+}
+
+Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const Eigen::Vector3d& center,
+  const Eigen::Vector3d& normal) noexcept
+{
+  constexpr double kHalf = 0.5;
+  constexpr double kPoisson = 0.1; // by which E* G0 of a layer changes by some percent
+  const double other =
+    std::abs(law.material().poissonRatio - body.field->poissonRatio()) / kPoisson;
+  return { "organ", "-", std::max(body.field->at(center, normal).doubtful, kHalf * other), kHalf,
+    "an edge, a thin place or a support is too near for the cells of the organ file, or that is of "
+    "another Poisson's ratio" };
+}
+
+} // namespace palp

@@ -1,0 +1,155 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+#include "haptics/force/series/compliance_field.h"
+#include "haptics/numerics/cubic_spline.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace palp
+{
+
+/// What a tool is answered by a contact in series with the body that it is on.
+struct SeriesResponse
+{
+  Response felt;         ///< stiffness as felt, with the body
+  double local = 0.0;    ///< depth of the tool in the body, without what the body gives way [m]
+  bool isBeyond = false; ///< a support is too near for so large a contact
+};
+
+/// A contact of one tool in series with the compliance of a body.
+///
+/// The complementary energy over E* of a force f = F/E* is that of the contact and
+/// f^2/2 G0 + 4/15 tr A int a^2 f df, less what the pressure gains by moving to the stiffer side,
+/// x = R b f, at most half of the contact radius a(f) on a half-space. The depth is its derivative
+/// by the force; the lateral force is that along the surface.
+class SeriesLaw
+{
+public:
+  /// @param law  of the contact
+  explicit SeriesLaw(const ForceLaw& law);
+
+  /// @param contact  callable as Response(double depth) noexcept: the contact by itself; its force
+  ///                 grows with the depth
+  /// @param depth    of the tool [m]
+  /// @realtime       pure; no allocation, no lock, no exception; as the contact
+  template <typename Contact>
+  [[nodiscard]] SeriesResponse operator()(
+    const Contact& contact, const BodyCompliance& body, double depth) const noexcept
+  {
+    if (!(depth > 0.0 && std::isfinite(depth)))
+    {
+      return {};
+    }
+    const Response first = contact(depth);
+    double local = start(first, body, depth);
+    for (int i = 0; i < kMostSteps; ++i)
+    {
+      const Response here = contact(local);
+      const Yield yield = yieldOf(here.force / modulus_, body);
+      const double slope = 1.0 + here.stiffness / modulus_ * yield.slope;
+      const double step = (depth - local - yield.depth) / slope;
+      if (!(slope > kLeast) || !(local + step > 0.0))
+      {
+        break;
+      }
+      if (std::abs(step) < kNear * local)
+      {
+        // what is left is the square of the step
+        return { { std::max(0.0, here.force + here.stiffness * step), here.contactRadius,
+                   here.stiffness / slope },
+          local + step, false };
+      }
+      local += step;
+    }
+    return halved(contact, body, depth);
+  }
+
+  /// Along the surface, on the tool, toward what is softer [N].
+  ///
+  /// @param force   at which the contact is held [N]
+  /// @realtime      pure; no allocation, no lock, no exception
+  [[nodiscard]] Eigen::Vector3d lateral(
+    const ComplianceField::Local& local, double force) const noexcept;
+
+  /// What the body adds to the complementary energy [J].
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double energy(const BodyCompliance& body, double force) const noexcept;
+
+private:
+  static constexpr int kMostSteps = 8;   // three are usual
+  static constexpr double kLeast = 0.25; // of the slope of the depth by the local depth
+  static constexpr double kNear = 1e-5;  // of the depth
+
+  // by which a body gives way to a force over E*, and its derivative
+  struct Yield
+  {
+    double depth;
+    double slope;
+  };
+
+  // of a half-space's contact at a force over E*
+  struct Radius
+  {
+    double value; // a [m]
+    double slope; // da/df
+  };
+  struct Width
+  {
+    double radius; // a [m]
+    double first;  // int a f df
+    double second; // int a^2 f df
+  };
+
+  [[nodiscard]] Radius radiusOf(double force) const noexcept;
+  [[nodiscard]] Width widthOf(double force) const noexcept;
+  [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;
+  [[nodiscard]] double start(
+    const Response& first, const BodyCompliance& body, double depth) const noexcept;
+  [[nodiscard]] double forceAtHold(double slope) const noexcept;
+
+  // where steps do not get there: over a near support, whose pull has an end
+  template <typename Contact>
+  [[nodiscard]] SeriesResponse halved(
+    const Contact& contact, const BodyCompliance& body, double depth) const noexcept
+  {
+    const auto at = [&](double local)
+    {
+      const Response here = contact(local);
+      const Yield yield = yieldOf(here.force / modulus_, body);
+      return std::array{ local + yield.depth, 1.0 + here.stiffness / modulus_ * yield.slope };
+    };
+    constexpr int kBisections = 40;
+    constexpr double kMost = 4.0; // of the depth
+    double low = 0.0;
+    double high = kMost * depth;
+    for (int i = 0; i < kBisections; ++i)
+    {
+      const double middle = 0.5 * (low + high);
+      const auto [reached, slope] = at(middle);
+      (reached < depth && slope > kLeast ? low : high) = middle;
+    }
+    const auto [reached, slope] = at(low);
+    const Response here = contact(low);
+    constexpr double kMissed = 1e-6;
+    const bool isBeyond = reached < depth * (1.0 - kMissed);
+    // on a line from there on, as steep as it is
+    const double further = isBeyond ? (depth - reached) / kLeast : 0.0;
+    return { { here.force + here.stiffness * further, here.contactRadius,
+               here.stiffness / std::max(kLeast, slope) },
+      low + further, isBeyond };
+  }
+
+  double modulus_;  // E* [Pa]
+  double round_;    // radius of the tip at its apex [m]; 0: sharp or flat
+  SplineAxis axis_; // of the cube root of f
+  std::optional<CubicSpline> radii_;
+  std::optional<CubicSpline> firsts_;
+  std::optional<CubicSpline> seconds_;
+};
+
+} // namespace palp

@@ -1,0 +1,81 @@
+// How stiff and how damped an arm may be rendered, and the end of its reach. The tick is in
+// safety.cpp.
+
+#include "haptics/servo/safety.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kMaxDamping = 2.0;      // of the law, by that of the device [-]
+constexpr double kSmoothStep = 0.05;     // of the force, by one of the encoder [N]
+constexpr double kWallStiffness = 300.0; // of the end of the workspace [N/m]
+constexpr double kWallDamping = 2.0;     // [N s/m]
+constexpr double kWallForce = 2.0;       // [N]
+
+// a step of the encoder is then no jerk, or friction holds it (Diolaiti et al. 2006) [N/m]
+double smoothStiffness(const DeviceLimits& device)
+{
+  return std::max(kSmoothStep, 2.0 * device.friction) / device.quantum;
+}
+
+} // namespace
+
+// in simulated loops, from three times that of the device on, damping that comes a tick late makes
+// a hand hum
+double SafetyChain::renderedDamping(double wanted) const noexcept
+{
+  return std::min(wanted, kMaxDamping * device_.damping);
+}
+
+double SafetyChain::delay() const noexcept
+{
+  return measured_ ? delays_.period() : device_.delay;
+}
+
+double SafetyChain::stiffnessLimit(double damping) const noexcept
+{
+  // a damping that comes late helps little: count it with its delay, or not at all
+  LoopDynamics loop{
+    .deviceDamping = device_.damping, .period = period_.period(), .delay = delay()
+  };
+  const double bare = stableStiffness(loop);
+  loop.deviceDamping += device_.handDamping;
+  loop.friction = device_.friction;
+  loop.quantum = device_.quantum;
+  // no more by hand and friction than passivity control can replace, when the hand lets go or is
+  // faster than friction counts for
+  const double held = passivity_.maxDamping() / (loop.period / 2.0 + loop.delay);
+  const double without = std::min(stableStiffness(loop), bare + held);
+  loop.virtualDamping = renderedDamping(damping);
+  loop.delay += device_.velocityDelay;
+  const double stable = std::max(without, stableStiffness(loop));
+  return std::min({ settings_.stiffnessFraction * stable, smoothStiffness(device_),
+    guard_.stiffest(passivity_.maxDamping()) });
+}
+
+Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept
+{
+  const Eigen::Vector3d reach = pose.apex - device_.workspaceCenter;
+  const double distance = reach.norm();
+  if (!(device_.workspaceRadius > 0.0) || distance <= device_.workspaceRadius)
+  {
+    return Eigen::Vector3d::Zero();
+  }
+  raise(Flag::Workspace);
+  const Eigen::Vector3d outward = reach / distance;
+  const double stiffness =
+    guard_.stiffnessShare() * std::min(kWallStiffness, stiffnessLimit(kWallDamping));
+  const double depth = distance - device_.workspaceRadius;
+  const double reach0 = std::min(depth, kWallForce / stiffness);
+  stored_ += stiffness * reach0 * (depth - 0.5 * reach0);
+  const double damping = std::max(renderedDamping(kWallDamping), guard_.damping(stiffness));
+  const double push = stiffness * depth + damping * pose.velocity.dot(outward);
+  return -std::clamp(push, 0.0, kWallForce) * outward;
+}
+
+} // namespace palp

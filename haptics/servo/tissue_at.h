@@ -1,0 +1,43 @@
+#pragma once
+
+#include "haptics/force/maps/stiffness_field.h"
+#include "haptics/servo/scene.h"
+
+#include <optional>
+
+namespace palp
+{
+
+/// What the tissue of a scene answers at a contact: its law, with the map of its stiffness and its
+/// nodules where it has such, in series with its body where that gives way.
+class TissueAt
+{
+public:
+  /// @param scene, contact  outlive this object
+  /// @realtime              pure; no allocation, no lock, no exception; the others likewise
+  TissueAt(const Scene& scene, const Contact& contact) noexcept;
+
+  /// As if the contact were another depth there.
+  [[nodiscard]] Response operator()(double depth) const noexcept
+  {
+    return answer(depth).felt;
+  }
+
+  /// The same with how deep the tool is in the body.
+  [[nodiscard]] SeriesResponse answer(double depth) const noexcept;
+
+  /// Of what the tissue pushes the tool aside with, while it stays where it touches [N].
+  [[nodiscard]] Eigen::Vector3d lateral(const SeriesResponse& answer) const noexcept;
+
+private:
+  [[nodiscard]] Response plain(double depth) const noexcept;
+  [[nodiscard]] Response local(double depth) const noexcept;
+
+  const Scene* scene_;
+  const Contact* contact_;
+  ContactGeometry geometry_; // as the law is asked
+  std::optional<StiffnessField::Blend> stiffness_;
+  std::optional<ComplianceField::Local> body_;
+};
+
+} // namespace palp

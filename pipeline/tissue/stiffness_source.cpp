@@ -1,0 +1,37 @@
+#include "pipeline/tissue/stiffness_source.h"
+
+#include "haptics/error.h"
+
+namespace palp
+{
+
+TissueMap tissueMapOf(
+  const StiffnessSource& source, UnitChoice unit, const Eigen::AlignedBox3d& box)
+{
+  using Kind = StiffnessSource::Kind;
+  try
+  {
+    switch (source.kind)
+    {
+      case Kind::Labels:
+        return mapOfLabels(source.file, unit, source.labels);
+      case Kind::Image:
+        return mapOfImage(source.file, unit);
+      case Kind::Array:
+        return mapOfArray(source.file, unit, source.text, box);
+      case Kind::Formula:
+        return mapOfFormula(source.text, box);
+      case Kind::Random:
+        return mapOfRandom(source.random, box);
+      case Kind::None:
+        break;
+    }
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(), std::string("stiffness: ") + error.what());
+  }
+  return {};
+}
+
+} // namespace palp

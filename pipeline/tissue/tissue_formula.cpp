@@ -1,0 +1,62 @@
+#include "pipeline/tissue/tissue_formula.h"
+
+#include "haptics/error.h"
+#include "haptics/units.h"
+
+#include <cmath>
+#include <vtkFunctionParser.h>
+#include <vtkObject.h>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+
+} // namespace
+
+TissueFormula::TissueFormula(const std::string& text)
+  : text_(text)
+  , parser_(vtkFunctionParser::New(), [](vtkFunctionParser* parser) { parser->Delete(); })
+{
+  for (const char* name : { "x", "y", "z", "r" })
+  {
+    parser_->SetScalarVariableValue(name, 1.0);
+  }
+  parser_->ReplaceInvalidValuesOn(); // else VTK prints what it finds
+  parser_->SetReplacementValue(0.0);
+  parser_->SetFunction(text.c_str());
+  int place = -1;
+  char* what = nullptr;
+  parser_->CheckExpression(place, &what);
+  if (text.empty() || what != nullptr)
+  {
+    throw Error(ErrorCode::BadValue,
+      "'" + text + "' is no formula" +
+        (what != nullptr
+            ? " (" + std::string(what) + " at character " + std::to_string(place + 1) + ")"
+            : "") +
+        "; write one in x, y, z and r in mm whose value is in kPa, as in 6+0.1*z");
+  }
+}
+
+double TissueFormula::operator()(const Eigen::Vector3d& position) const
+{
+  const Eigen::Vector3d place = units::toMillimeters(1.0) * position;
+  parser_->SetScalarVariableValue(0, place.x());
+  parser_->SetScalarVariableValue(1, place.y());
+  parser_->SetScalarVariableValue(2, place.z());
+  parser_->SetScalarVariableValue(3, place.head<2>().norm());
+  const double value = parser_->GetScalarResult() * 1.0_kPa;
+  if (!(value > 0.0 && std::isfinite(value)))
+  {
+    throw Error(ErrorCode::BadValue,
+      "'" + text_ + "' is not above 0 kPa at " + units::inMillimeters(position.x()) + ", " +
+        units::inMillimeters(position.y()) + ", " + units::inMillimeters(position.z()) +
+        "; mend the formula");
+  }
+  return value;
+}
+
+} // namespace palp

@@ -1,0 +1,196 @@
+#include "tests/app/commands/run_rig.h"
+#include "tests/support/csv_table.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace palp
+{
+namespace
+{
+
+using test::Finished;
+using test::palp;
+
+const std::string kSoft = " --young 50kPa --poisson 0.45 --law corrected --material linear ";
+
+test::CsvTable tableOf(const Finished& finished)
+{
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  std::istringstream in(finished.out);
+  return test::parseCsv(in);
+}
+
+// rows A, B and C of data/reference/maps_axisym.csv: linear finite elements
+TEST(StiffnessCommand, ForceFollowsFiniteElementsOverFormulas)
+{
+  struct Case
+  {
+    const char* formula;
+    std::vector<double> forces; // at 2, 4 and 6 mm
+  };
+  for (const Case& one : { Case{ "if(z>10,150,50)", { 1.0588, 3.36806, 6.5971 } },
+         Case{ "if(z<2,150,50)", { 0.937734, 2.60541, 4.77326 } },
+         Case{ "50*(1+z/20)", { 1.11988, 3.43424, 6.57106 } },
+         Case{ "if(r<6,100,50)", { 1.22661, 3.20861, 5.61812 } } })
+  {
+    const test::CsvTable felt = tableOf(palp("force --tip sphere:10mm --depth 2:6:2mm" + kSoft +
+      "--thickness 40mm --stiffness 'formula:" + one.formula + "'"));
+    for (std::size_t i = 0; i < one.forces.size(); ++i)
+    {
+      EXPECT_NEAR(felt["force_N"][i], one.forces[i], 0.05 * one.forces[i]) << one.formula;
+    }
+    EXPECT_GT(felt["factor_stiffness"][0], 1.0);
+  }
+}
+
+// A block of 100 x 100 x 50 mm in voxels of 1 mm, with a sheet of 2 mm on top.
+class StiffnessFiles : public test::RunCommand
+{
+protected:
+  [[nodiscard]] std::string image(const std::string& name, const std::string& type,
+    const std::function<std::string(int)>& voxel, double offset = -49.5)
+  {
+    const std::filesystem::path file = folder_.path() / name;
+    std::ofstream out(file, std::ios::binary);
+    out << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+        << "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = " << offset << ' ' << offset
+        << " -49.5\nElementSpacing = 1 1 1\nDimSize = 100 100 50\nElementType = " << type
+        << "\nElementDataFile = LOCAL\n";
+    for (int k = 0; k < 50; ++k)
+    {
+      for (int i = 0; i < 100 * 100; ++i)
+      {
+        out << voxel(k);
+      }
+    }
+    return file.string();
+  }
+
+  [[nodiscard]] std::string labels(double offset = -49.5)
+  {
+    return image(
+      "labels.mha", "MET_UCHAR", [](int k) { return std::string(1, k >= 48 ? '\2' : '\1'); },
+      offset);
+  }
+
+  [[nodiscard]] Finished pressed(const std::string& stiffness, const std::string& law = kSoft)
+  {
+    return palp("run " + block() + " --at 0,0,0 --depth 6mm --samples-only --overwrite --out " +
+      (folder_.path() / "out").string() + law + "--stiffness '" + stiffness + "'");
+  }
+
+  [[nodiscard]] double deepestForce()
+  {
+    std::ifstream in(folder_.path() / "out/samples.csv");
+    const test::CsvTable table = test::parseCsv(in);
+    return *std::max_element(table["force_N"].begin(), table["force_N"].end());
+  }
+};
+
+TEST_F(StiffnessFiles, LabelsImagesAndFormulasSayTheSame)
+{
+  const double expected = tableOf(palp("force --tip sphere:10mm --depth 6:6:1mm" + kSoft +
+    "--thickness 50mm --stiffness 'formula:if(z<2,150,50)'"))["force_N"][0];
+  Finished finished = pressed("labels:" + labels() + ":1=50kPa,2=150kPa");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NEAR(deepestForce(), expected, 0.02 * expected);
+
+  const std::string kilopascals = image("kpa.mha", "MET_FLOAT",
+    [](int k)
+    {
+      const float value = k >= 48 ? 150.0F : 50.0F;
+      return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+    });
+  finished = pressed("image:" + kilopascals);
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NEAR(deepestForce(), expected, 0.02 * expected);
+
+  finished = pressed("formula:if(z>-2,150,50)");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NEAR(deepestForce(), expected, 0.02 * expected);
+  // and again to the byte, from the folder alone
+  const Finished again = palp(
+    "run " + (folder_.path() / "out").string() + " --out " + (folder_.path() / "again").string());
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("repeated to the byte"), std::string::npos) << again.err;
+}
+
+TEST_F(StiffnessFiles, AnArrayCountsInward)
+{
+  const std::string file = folder_.path() / "map.vtp";
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(block().c_str());
+  reader->Update();
+  std::ofstream(file)
+    << R"(<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">)"
+    << R"(<PolyData><Piece NumberOfPoints="3" NumberOfVerts="0" NumberOfLines="0")"
+    << R"( NumberOfStrips="0" NumberOfPolys="1"><PointData>)"
+    << R"(<DataArray type="Float32" Name="E_kPa" format="ascii">20 20 20</DataArray>)"
+    << R"(</PointData><Points><DataArray type="Float32" NumberOfComponents="3")"
+    << R"( format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>)"
+    << R"(<DataArray type="Int32" Name="connectivity" format="ascii">0 1 2)"
+    << R"(</DataArray><DataArray type="Int32" Name="offsets" format="ascii">3)"
+    << R"(</DataArray></Polys></Piece></PolyData></VTKFile>)";
+  const Finished finished = pressed("array:" + file + ":E_kPa");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const double expected =
+    tableOf(palp("force --tip sphere:10mm --depth 6:6:1mm --young 20kPa --poisson 0.45 --law "
+                 "corrected --material linear --thickness 50mm"))["force_N"][0];
+  EXPECT_NEAR(deepestForce(), expected, 0.01 * expected);
+  const Finished missing = pressed("array:" + file + ":young");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find("E_kPa"), std::string::npos) << missing.err;
+}
+
+TEST_F(StiffnessFiles, ARandomTissueFollowsItsSeed)
+{
+  std::vector<double> forces;
+  for (const char* seed : { "7", "8" })
+  {
+    const Finished finished = pressed(std::string("random:0.3:8mm:") + seed);
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    forces.push_back(deepestForce());
+  }
+  EXPECT_GT(std::abs(forces[1] / forces[0] - 1.0), 0.005);
+  EXPECT_NEAR(forces[0], forces[1], 0.4 * forces[0]);
+}
+
+TEST_F(StiffnessFiles, RefusesInASentence)
+{
+  const std::string nan = image("nan.mha", "MET_FLOAT",
+    [](int k)
+    {
+      const float value = k == 7 ? std::nanf("") : 5.0F;
+      return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+    });
+  struct Case
+  {
+    std::string stiffness;
+    const char* says;
+    std::string law = kSoft;
+  };
+  const std::string there = labels();
+  for (const Case& one :
+    { Case{ "labels:" + there + ":1=50kPa,7=9kPa", "label '7'; there are 1, 2" },
+      Case{ "labels:" + there + ":1=liverr", "liverr" }, Case{ "labels:" + there, "labels:FILE" },
+      Case{ "image:" + nan, "is no number" }, Case{ "image:none.nii", "not found" },
+      Case{ "formula:6+", "is no formula" }, Case{ "formula:z", "not above 0 kPa" },
+      Case{ "random:0.3:8", "has no unit" }, Case{ "random:2:8mm", "out of range" },
+      Case{ "elastic", "labels:FILE" }, Case{ "formula:6", "law 'corrected'", " --law paper " },
+      Case{ "formula:6", "relaxes or rubs", kSoft + "--friction 0.3 " } })
+  {
+    const Finished refused = pressed(one.stiffness, one.law);
+    EXPECT_EQ(refused.code, 2) << one.stiffness;
+    EXPECT_NE(refused.err.find(one.says), std::string::npos) << one.stiffness << refused.err;
+    EXPECT_NE(refused.err.find("stiffness"), std::string::npos) << refused.err;
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  }
+  const Finished elsewhere = pressed("labels:" + labels(400.0) + ":1=50kPa,2=150kPa");
+  EXPECT_EQ(elsewhere.code, 2);
+  EXPECT_NE(elsewhere.err.find("in the frame of the body"), std::string::npos) << elsewhere.err;
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,139 @@
+#include "tests/app/window/window_rig.h"
+
+#include <QImage>
+
+#include <algorithm>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+class MessageOverPicture : public WindowTest
+{
+protected:
+  // what stands in a corner or at the foot of the picture
+  void showMarks(const QStringList& names) const
+  {
+    for (QAction* action : window_->findChildren<QAction*>())
+    {
+      const QString name = action->text().remove('&');
+      kMarks.contains(name) ? action->setChecked(names.contains(name)) : void();
+    }
+  }
+
+  inline static const QStringList kMarks{ "Axes", "Scale bar", "Readings" };
+
+  // at rest, with smooth edges
+  [[nodiscard]] QImage picture() const
+  {
+    QImage now;
+    const auto isStill = [&]
+    {
+      const QImage before = std::exchange(now, canvas_->grabFramebuffer());
+      QTest::qWait(800);
+      return before == now;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(isStill, kPatience));
+    return now;
+  }
+
+  // clearly: the ground at the sides varies by a shade as edges are made smooth
+  [[nodiscard]] static bool differs(const QImage& a, const QImage& b, int x, int y)
+  {
+    constexpr int kShades = 20;
+    return std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))) > kShades;
+  }
+
+  struct Marks
+  {
+    int count = 0;   // of their pixels
+    int lowest = -1; // row, from above
+  };
+
+  [[nodiscard]] Marks marks() const
+  {
+    showMarks({});
+    const QImage without = picture();
+    showMarks(kMarks);
+    const QImage with = picture();
+    Marks found;
+    for (int y = 0; y < with.height(); ++y)
+    {
+      for (int x = 0; x < with.width(); ++x)
+      {
+        if (with.pixel(x, y) != without.pixel(x, y))
+        {
+          ++found.count;
+          found.lowest = y;
+        }
+      }
+    }
+    return found;
+  }
+};
+
+TEST_F(MessageOverPicture, CoversNothingThatTheFootOfThePictureTells)
+{
+  auto* bar = window_->findChild<MessageBar*>();
+  press(80);
+  for (const QSize size : { QSize(1008, 720), QSize(1424, 812) })
+  {
+    window_->resize(size);
+    bar->tell({});
+    const Marks alone = marks();
+    ASSERT_GT(alone.count, 2000);
+    EXPECT_GT(alone.lowest, canvas_->height() - 30) << "they stand at the foot";
+    bar->warn("liver.stl: 12 edges have one triangle only; the surface is open there, and what is "
+              "pressed near its rim is not what a closed body would give; close the holes with "
+              "palp check liver.stl --close-holes 20mm --repair clean.vtp, and open that one");
+    const Marks above = marks();
+    EXPECT_LT(above.lowest, bar->y()) << size.width();
+    EXPECT_GT(above.count, 0.9 * alone.count) << size.width();
+    bar->tell({});
+    EXPECT_EQ(marks().lowest, alone.lowest) << "they come down again";
+  }
+  release();
+}
+
+// where the picture is narrowest: the least window, with a panel beside the charts
+TEST_F(MessageOverPicture, NoMarkStandsOnAnotherOrIsCut)
+{
+  window_->findChild<QAction*>("trainingAction")->trigger();
+  window_->resize(QSize(1008, 720));
+  press(80);
+  showMarks(kMarks);
+  (void)picture(); // in which the labels of the color bar find their places
+  showMarks({});
+  const QImage none = picture();
+  showMarks({ "Readings" });
+  const QImage readings = picture();
+  showMarks({ "Axes", "Scale bar" });
+  const QImage bars = picture();
+  release();
+  int both = 0;
+  int atSides = 0;
+  int drawn = 0;
+  for (int y = 0; y < none.height(); ++y)
+  {
+    for (int x = 0; x < none.width(); ++x)
+    {
+      const bool isReading = differs(readings, none, x, y);
+      const bool isBar = differs(bars, none, x, y);
+      both += isReading && isBar ? 1 : 0;
+      atSides += (isReading || isBar) && (x == 0 || x == none.width() - 1) ? 1 : 0;
+      drawn += isReading || isBar ? 1 : 0;
+    }
+  }
+  EXPECT_GT(drawn, 3000);
+  EXPECT_EQ(both, 0);
+  EXPECT_EQ(atSides, 0);
+}
+
+} // namespace
+} // namespace palp

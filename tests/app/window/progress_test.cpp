@@ -1,0 +1,151 @@
+#include "tests/app/window/window_rig.h"
+
+#include <QProgressBar>
+#include <QPushButton>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace palp
+{
+namespace
+{
+
+using test::WindowTest;
+
+// long work, as the bar of messages tells of it
+class Progress : public WindowTest
+{
+protected:
+  struct Told
+  {
+    std::set<QString> texts;
+    std::set<int> percents; // without those that nobody knew
+  };
+
+  // what it tells while something is done; canceled by its button once it tells something, of as
+  // many percents as that
+  Told whileDone(
+    const std::function<void()>& work, const QString& cancelAt = {}, std::size_t percents = 0)
+  {
+    Told told;
+    QTimer look;
+    auto* bar = window_->findChild<MessageBar*>();
+    QObject::connect(&look, &QTimer::timeout,
+      [&]
+      {
+        auto* progress = bar->findChild<QProgressBar*>("progress");
+        if (!progress->isVisible())
+        {
+          return;
+        }
+        told.texts.insert(bar->text());
+        progress->maximum() > 0 ? void(told.percents.insert(progress->value())) : void();
+        for (auto* button : bar->findChildren<QPushButton*>())
+        {
+          const bool isTime = !cancelAt.isEmpty() && bar->text().contains(cancelAt) &&
+            told.percents.size() >= percents;
+          isTime && button->text() == "Cancel" ? button->click() : void();
+        }
+      });
+    look.start(10);
+    work();
+    return told;
+  }
+
+  // of programs whose arguments name a file
+  [[nodiscard]] static int processesWith(const std::string& file)
+  {
+    int found = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc"))
+    {
+      const std::string line = test::readAll(entry.path() / "cmdline");
+      found += line.find(file) != std::string::npos ? 1 : 0;
+    }
+    return found;
+  }
+
+  // a sheet of two million triangles, which takes seconds
+  [[nodiscard]] QString largeSurface() const
+  {
+    constexpr int kSide = 1000;
+    const auto file = folder_.path() / "large.obj";
+    std::ofstream out(file);
+    for (int i = 0; i < kSide * kSide; ++i)
+    {
+      out << "v " << 0.1 * (i % kSide) << ' ' << 0.1 * (i / kSide) << " 0\n";
+    }
+    for (int i = 1; i < kSide * (kSide - 1); ++i)
+    {
+      i % kSide == 0 ? void()
+                     : void(out << "f " << i << ' ' << i + 1 << ' ' << i + kSide << "\nf " << i + 1
+                                << ' ' << i + kSide + 1 << ' ' << i + kSide << '\n');
+    }
+    return QString::fromStdString(file.string());
+  }
+};
+
+TEST_F(Progress, OfReadingTellsPercentAndCancelEndsTheReader)
+{
+  const QString file = largeSurface();
+  const std::string before = session_->body().name;
+  bool isOpened = true;
+  const Told told = whileDone([&] { isOpened = window_->openFile(file); }, "reading");
+  EXPECT_FALSE(told.texts.empty()) << "done before it was told of";
+  EXPECT_FALSE(isOpened);
+  EXPECT_EQ(session_->body().name, before);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return processesWith(file.toStdString()) == 0; }, 500))
+    << "it reads on unseen";
+}
+
+TEST_F(Progress, OfAnExportTellsStepsAndPercent)
+{
+  press(100);
+  QTest::qWait(3000); // samples
+  release();
+  EXPECT_TRUE(waitForLift());
+  const auto out = folder_.path() / "out";
+  const Told told = whileDone([&] { window_->exportData(QString::fromStdString(out.string())); });
+  EXPECT_TRUE(std::filesystem::exists(out / "samples.csv"));
+  EXPECT_FALSE(told.percents.empty());
+  EXPECT_TRUE(
+    std::ranges::any_of(told.texts, [](const QString& text) { return text.contains("writing"); }));
+}
+
+TEST_F(Progress, OfAMovieCountsItsPicturesAndIsCanceled)
+{
+  press(80);
+  release();
+  EXPECT_TRUE(waitForLift());
+  const auto file = folder_.path() / "press.mp4";
+  constexpr int kMoving = 2; // percents
+  const Told told = whileDone(
+    [&] { window_->saveReplay(QString::fromStdString(file.string())); }, "pictures", kMoving);
+  EXPECT_TRUE(said().contains("canceled")) << said().toStdString();
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_TRUE(QTest::qWaitFor([] { return processesWith("--movie") == 0; }, 3000));
+}
+
+TEST_F(Progress, OfAFigureIsCanceledAndLeavesNoFile)
+{
+  press(80);
+  const auto file = folder_.path() / "figure.png";
+  const Told told = whileDone(
+    [&]
+    {
+      window_->saveFigure(QString::fromStdString(file.string()), { .width = 3840, .height = 2160 },
+        { .isRealistic = true });
+    },
+    "drawing");
+  release();
+  EXPECT_FALSE(told.texts.empty());
+  EXPECT_TRUE(said().contains("canceled")) << said().toStdString();
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_TRUE(QTest::qWaitFor([] { return processesWith("--figure") == 0; }, 3000));
+}
+
+} // namespace
+} // namespace palp

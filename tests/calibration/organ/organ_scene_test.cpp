@@ -1,0 +1,257 @@
+#include "calibration/organ/organ_places.h"
+#include "data/shapes.h"
+#include "haptics/servo/servo_step.h"
+#include "haptics/servo/tissue_at.h"
+#include "haptics/units.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/csv_table.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <map>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using Eigen::Vector3d;
+
+constexpr double kYoung = 50e3;
+constexpr double kPoisson = 0.45;
+
+struct Body
+{
+  const char* file;    // of the reference
+  Vector3d size;       // [m]
+  double place = 0.0;  // along x, from the middle [m]
+  bool isLobe = false; // held at its end instead of its base
+  double limit = 0.05;
+  double lean = 0.0; // of the side face beside the place [rad]
+};
+
+// the places of an organ file around where it is pressed, felt in a scene
+Scene sceneOf(const Body& body, double around)
+{
+  Mesh mesh = makeBox(body.size, 2.5_mm);
+  for (Vector3d& point : mesh.points)
+  {
+    point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
+  }
+  Scene scene;
+  scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
+  LawSettings exact;
+  exact.mode = LawMode::Exact;
+  scene.law = ForceLaw(SphereTip{ 10.0_mm }, makeMaterial(kYoung, kPoisson), exact);
+  scene.forceLimit = 1e3;
+  const Support support{ [&](const Vector3d& x)
+    { return body.isLobe ? x.x() > 0.4999 * body.size.x() : x.z() < -0.9999 * body.size.z(); } };
+  const OrganModel model(*scene.surface, 4.0_mm, kYoung, kPoisson, std::span(&support, 1));
+  OrganTable table;
+  table.cell = 4.0_mm;
+  table.spacing = spacingOf(*scene.surface, table.cell);
+  std::vector<SurfacePoint> places = organPlaces(*scene.surface, table.spacing);
+  std::erase_if(places,
+    [&](const SurfacePoint& place)
+    { return (place.position - Vector3d(body.place, 0.0, 0.0)).norm() > around; });
+  table.count = places.size();
+  EXPECT_TRUE(addPlaces(table, model, *scene.surface,
+    { .places = places, .supports = std::span(&support, 1), .tell = [](const OrganTable&) {} }));
+  scene.series = seriesBodyOf(
+    std::make_shared<const ComplianceField>(table.places, table.spacing, kPoisson), scene.law);
+  return scene;
+}
+
+ToolPose at(double x, double depth, double y = 0.0)
+{
+  return { .apex = { x, y, -depth }, .axis = -Vector3d::UnitZ() };
+}
+
+// where it was stopped it goes on from, to the same table
+TEST(OrganPlaces, GoOnFromWhereTheyWereStopped)
+{
+  const Mesh mesh = makeBox({ 40.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);
+  const Surface surface(mesh.points, mesh.triangles);
+  const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm; } };
+  const std::span supports(&base, 1);
+  const OrganModel model(surface, 8.0_mm, kYoung, kPoisson, supports);
+  const std::vector<SurfacePoint> places = organPlaces(surface, 4.0_mm);
+  OrganTable whole;
+  ASSERT_TRUE(addPlaces(whole, model, surface,
+    { .places = places, .supports = supports, .tell = [](const OrganTable&) {} }));
+  std::stop_source source;
+  OrganTable part;
+  EXPECT_FALSE(addPlaces(part, model, surface,
+    { .places = places,
+      .supports = supports,
+      .tell = [&](const OrganTable&) { source.request_stop(); },
+      .stop = source.get_token() }));
+  EXPECT_GT(part.places.size(), 0U);
+  ASSERT_LT(part.places.size(), places.size());
+  ASSERT_TRUE(addPlaces(part, model, surface,
+    { .places = places, .supports = supports, .tell = [](const OrganTable&) {} }));
+  ASSERT_EQ(part.places.size(), whole.places.size());
+  for (std::size_t i = 0; i < whole.places.size(); ++i)
+  {
+    EXPECT_EQ(part.places[i].constant, whole.places[i].constant);
+  }
+}
+
+class OrganScene : public testing::TestWithParam<Body>
+{
+};
+
+// forces of fine finite elements with contact
+TEST_P(OrganScene, TheToolFeelsTheForceOfFiniteElements)
+{
+  const Body& body = GetParam();
+  const Scene scene = sceneOf(body, 12.0_mm);
+  Scene half = scene;
+  half.series = nullptr;
+  const test::CsvTable table =
+    test::readCsv(std::string(PALP_SOURCE_DIR "/data/reference/organ_") + body.file + ".csv");
+  double worst = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < table["depth_m"].size(); ++i)
+  {
+    const double depth = table["depth_m"][i];
+    const double force = table["force_N"][i];
+    const double felt = step(scene, at(body.place, depth)).response.force;
+    EXPECT_NEAR(felt, force, body.limit * force) << depth;
+    worst = std::max(worst, std::abs(felt / force - 1.0));
+    before =
+      std::max(before, std::abs(step(half, at(body.place, depth)).response.force / force - 1.0));
+  }
+  RecordProperty("error_percent", std::to_string(100.0 * worst));
+  RecordProperty("half_space_percent", std::to_string(100.0 * before));
+  EXPECT_LT(worst, before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
+  testing::Values(Body{ .file = "layer_20mm", .size = { 0.1, 0.1, 0.02 }, .limit = 0.015 },
+    Body{ .file = "edge90_20mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.03 },
+    Body{ .file = "edge90_8mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.042 },
+    Body{ .file = "edge90_6mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.044 },
+    Body{ .file = "edge120_8mm",
+      .size = { 0.1, 0.1, 0.05 },
+      .place = -0.042,
+      .lean = std::numbers::pi / 6.0 },
+    Body{ .file = "edge60_4mm",
+      .size = { 0.1, 0.1, 0.05 },
+      .place = -0.046,
+      .limit = 0.25,
+      .lean = std::numbers::pi / -6.0 },
+    Body{ .file = "edge90_2mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.048, .limit = 0.24 },
+    Body{ .file = "lobe30_20mm", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true }),
+  [](const auto& body) { return std::string(body.param.file); });
+
+const Scene& lobe()
+{
+  static const Scene scene =
+    sceneOf({ .file = "", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true }, 24.0_mm);
+  return scene;
+}
+
+// work of the hand over a way of poses
+double workOver(const Scene& scene, int steps, const std::function<ToolPose(double)>& path)
+{
+  double work = 0.0;
+  for (int i = 0; i < steps; ++i)
+  {
+    const Vector3d move = path((i + 1.0) / steps).apex - path(static_cast<double>(i) / steps).apex;
+    work -= step(scene, path((i + 0.5) / steps)).force.dot(move);
+  }
+  return work;
+}
+
+TEST(OrganLobe, TheLateralForceIsTheSlopeOfTheEnergy)
+{
+  for (const double depth : { 2.0_mm, 5.0_mm })
+  {
+    const auto energy = [&](double x)
+    { return workOver(lobe(), 2000, [&](double t) { return at(x, depth * t); }); };
+    for (double x = -18.0_mm; x < 0.0; x += 2.7_mm)
+    {
+      constexpr double kStep = 0.05_mm;
+      const double slope = (energy(x + kStep) - energy(x - kStep)) / (2.0 * kStep);
+      const double lateral = step(lobe(), at(x, depth)).force.x();
+      EXPECT_NEAR(lateral, -slope, 5e-3 * std::abs(slope)) << x << ' ' << depth;
+    }
+  }
+}
+
+TEST(OrganLobe, ASlideNeverJumps)
+{
+  constexpr double kSlide = 0.02_mm;
+  Sample before = step(lobe(), at(-20.0_mm, 4.0_mm));
+  double worst = 0.0;
+  double sideways = 0.0;
+  for (double x = -20.0_mm + kSlide; x < 2.0_mm; x += kSlide)
+  {
+    const Sample now = step(lobe(), at(x, 4.0_mm));
+    worst = std::max(worst, std::abs(now.response.force / before.response.force - 1.0));
+    sideways = std::max(sideways, (now.lateral - before.lateral).norm() / now.response.force);
+    before = now;
+  }
+  RecordProperty("force_percent", std::to_string(100.0 * worst));
+  RecordProperty("lateral_percent", std::to_string(100.0 * sideways));
+  EXPECT_LT(worst, 3e-3);
+  EXPECT_LT(sideways, 3e-3);
+}
+
+TEST(OrganLobe, NoLoopGivesEnergy)
+{
+  const auto loop = [](double from, double to)
+  {
+    const double pressed = workOver(lobe(), 600, [&](double t) { return at(from, 5.0_mm * t); });
+    const double along =
+      workOver(lobe(), 1500, [&](double t) { return at(from + (to - from) * t, 5.0_mm); });
+    const double lifted =
+      workOver(lobe(), 600, [&](double t) { return at(to, 5.0_mm * (1.0 - t)); });
+    return std::abs(pressed + along + lifted) / pressed;
+  };
+  EXPECT_LT(loop(-18.0_mm, 0.0), 0.01);
+  EXPECT_LT(loop(0.0, -18.0_mm), 0.01);
+}
+
+TEST(OrganLobe, TheStepStaysFastAndNeverAllocates)
+{
+  Scene without = lobe();
+  without.series = nullptr;
+  const Contact contact = step(lobe(), at(-10.0_mm, 3.0_mm)).contact;
+  const auto timed = [&](const Scene& scene)
+  {
+    constexpr int kSteps = 20000;
+    double best = 1e9;
+    for (int round = 0; round < 5; ++round)
+    {
+      const auto start = std::chrono::steady_clock::now();
+      double sum = 0.0;
+      for (int i = 0; i < kSteps; ++i)
+      {
+        const TissueAt tissue(scene, contact);
+        const SeriesResponse answer = tissue.answer(3.0_mm + i * 1e-8);
+        sum += answer.felt.force + tissue.lateral(answer).x();
+      }
+      EXPECT_NE(sum, 0.0);
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+      best = std::min(best, time.count() / kSteps);
+    }
+    return best;
+  };
+  const double more = timed(lobe()) - timed(without);
+  RecordProperty("microseconds", std::to_string(1e6 * more));
+  constexpr double kShared = 4.0; // of a machine that does other things, too
+  EXPECT_LT(more, kShared * 1e-6);
+  const test::AllocationGuard guard;
+  EXPECT_GT(step(lobe(), at(-10.0_mm, 3.0_mm)).response.force, 0.0);
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+} // namespace
+} // namespace palp

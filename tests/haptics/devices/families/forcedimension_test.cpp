@@ -1,0 +1,145 @@
+#include "haptics/devices/usb/open_device.h"
+#include "haptics/error.h"
+#include "haptics/units.h"
+#include "tests/haptics/devices/families/made_up_drd.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace palp
+{
+namespace
+{
+
+using namespace units::literals;
+using Eigen::Vector3d;
+
+const std::string kName = std::string("forcedimension:") + PALP_MADE_UP_DRD;
+
+class ForceDimension : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    void* file = dlopen(PALP_MADE_UP_DRD, RTLD_NOW);
+    ASSERT_NE(file, nullptr) << dlerror();
+    arm_ = reinterpret_cast<DrdArm* (*)()>(dlsym(file, "drdArm"))();
+    *arm_ = DrdArm{};
+  }
+
+  DrdArm* arm_ = nullptr;
+  DriverSample sample_;
+};
+
+TEST_F(ForceDimension, PushesOnceItsPoleWasInItsPit)
+{
+  const auto driver = openDriver(kName);
+  EXPECT_TRUE(arm_->open && arm_->forceOn);
+  EXPECT_EQ(arm_->watchdog, 160);
+  for (int i = 0; i < 5; ++i)
+  {
+    ASSERT_EQ(driver->tick(Vector3d(1, 2, 3), 1.0_ms, sample_), IoCode::Ok);
+    ASSERT_EQ(arm_->force[2], 0.0);
+    ASSERT_EQ(*sample_.sent, Vector3d::Zero());
+    ASSERT_FALSE(sample_.homed);
+  }
+  arm_->initialized = true;
+  (void)driver->tick(Vector3d(1, 2, 3), 1.0_ms, sample_);
+  (void)driver->tick(Vector3d(1, 2, 3), 1.0_ms, sample_);
+  // right is its y, away from the user against its x
+  EXPECT_EQ(Vector3d(arm_->force[0], arm_->force[1], arm_->force[2]), Vector3d(-2, 1, 3));
+  EXPECT_EQ(*sample_.sent, Vector3d(1, 2, 3));
+  EXPECT_EQ(driver->limits().model, "Force Dimension omega.7");
+  EXPECT_EQ(sample_.buttons, 1U);
+  (void)driver->tick(Vector3d(0, std::nan(""), 0), 1.0_ms, sample_);
+  EXPECT_EQ(arm_->force[0], 0.0);
+}
+
+// by work: a push along a way is one whatever the frames are called
+TEST_F(ForceDimension, PlaceAndForceAreInOneFrame)
+{
+  arm_->initialized = true;
+  const auto driver = openDriver(kName);
+  (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
+  const Vector3d before = sample_.position;
+  const Vector3d way(0.01, -0.02, 0.03);
+  std::copy_n(way.data(), 3, arm_->place);
+  (void)driver->tick(Vector3d(0.4, 0.5, -0.6), 1.0_ms, sample_);
+  const Vector3d told(arm_->force[0], arm_->force[1], arm_->force[2]);
+  EXPECT_NEAR(told.dot(way), Vector3d(0.4, 0.5, -0.6).dot(sample_.position - before), 1e-12);
+  EXPECT_NEAR(sample_.position.z(), 0.03, 1e-12);
+  EXPECT_NEAR(sample_.position.x(), -0.02, 1e-12); // its y is to the right
+}
+
+TEST_F(ForceDimension, ATurnOfItsWristIsTheTurnOfTheHandle)
+{
+  const auto driver = openDriver(kName);
+  (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
+  EXPECT_LT(sample_.orientation.angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
+  // about its x, to the user: the other way about away from him, which is y here
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Vector3d::UnitX()).toRotationMatrix();
+  for (int i = 0; i < 9; ++i)
+  {
+    arm_->frame[i / 3][i % 3] = turn(i / 3, i % 3);
+  }
+  (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
+  const Eigen::Quaterniond expected(Eigen::AngleAxisd(-0.3, Vector3d::UnitY()));
+  EXPECT_LT(sample_.orientation.angularDistance(expected), 1e-9);
+}
+
+TEST_F(ForceDimension, TellsWhatItsMotorsCouldNot)
+{
+  arm_->initialized = true;
+  const auto driver = openDriver(kName);
+  (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
+  (void)driver->tick(Vector3d(0, 0, 20), 1.0_ms, sample_);
+  EXPECT_EQ(*sample_.sent, Vector3d(0, 0, 10));
+}
+
+TEST_F(ForceDimension, ItsEndIsToldAndLeavesNoForce)
+{
+  arm_->initialized = true;
+  {
+    const auto driver = openDriver(kName);
+    (void)driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_);
+    (void)driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_);
+    EXPECT_EQ(arm_->force[2], 1.0);
+    arm_->place[0] = std::nan("");
+    EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_), IoCode::Timeout);
+    arm_->place[0] = 0.0;
+    arm_->there = false;
+    EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample_), IoCode::Gone);
+    arm_->there = true;
+  }
+  EXPECT_EQ(arm_->force[2], 0.0);
+  EXPECT_FALSE(arm_->open || arm_->forceOn);
+}
+
+TEST_F(ForceDimension, SaysInOneSentenceWhatIsMissing)
+{
+  arm_->there = false;
+  for (const auto& [name, advice] :
+    { std::pair(kName, "switch it on"), { std::string("forcedimension"), "install" },
+      { std::string("forcedimension:/nowhere.so"), "install" },
+      { std::string("forcedimension:libm.so.6"), "lacks drdOpen" } })
+  {
+    try
+    {
+      (void)openDriver(name);
+      ADD_FAILURE() << name;
+    }
+    catch (const Error& error)
+    {
+      const std::string what = error.what();
+      EXPECT_EQ(error.code(), ErrorCode::NoDevice);
+      EXPECT_NE(what.find(advice), what.npos) << what;
+      EXPECT_EQ(what.find('\n'), what.npos) << what;
+    }
+  }
+}
+
+} // namespace
+} // namespace palp

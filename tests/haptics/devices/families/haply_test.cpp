@@ -1,0 +1,189 @@
+#include "haptics/devices/bus_device.h"
+#include "haptics/devices/usb/open_device.h"
+#include "haptics/units.h"
+#include "tests/haptics/devices/families/haply_service.h"
+#include "tests/haptics/devices/families/one_sentence.h"
+#include "tests/support/allocation_guard.h"
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+using namespace test;
+using namespace std::chrono_literals;
+using namespace units::literals;
+using Eigen::Vector3d;
+using Clock = std::chrono::steady_clock;
+
+// as the makers print it, with less of what nobody reads
+const std::string kInventory = R"({"session_id": 7, "inverse3": [{"device_id": "049D", "config":
+  {"type": "inverse3", "port": "COM12", "handedness": "right", "preset": "defaults",
+  "filters": {"force_gate": {"gain": 0.3}, "damping": {"scalar": 0.0}}},
+  "state": {"cursor_position": {"x": 0.0, "y": -0.12, "z": 0.15},
+  "cursor_velocity": {"x": 0.0, "y": 0.0, "z": 0.0}, "control_mode": "idle"},
+  "status": {"calibrated": false, "in_use": false, "power_supply": true, "ready": true}}]})";
+
+// of a service of version 3.1
+const std::string kOldInventory = R"({"inverse3": [{"device_id": "049D",
+  "config": {"type": "inverse3", "device_info": {"model": 4}},
+  "state": {"cursor_position": {"x": 0.07842738, "y": -0.14836666, "z": 0.14297646},
+  "mode": "idle"}, "status": {"calibrated": false, "power_supply": true}}],
+  "verse_grip": [{"device_id": "61548", "state": {"button": false, "hall": 0,
+  "orientation": {"x": -0.5019531, "y": 0.8632202, "z": -0.048095703, "w": -0.022338867}}}]})";
+
+std::unique_ptr<Driver> open(const HaplyService& service)
+{
+  return openDriver("haply:" + std::to_string(service.port));
+}
+
+// as long as a machine under load may take
+bool replies(Driver& driver, const Vector3d& force, DriverSample& sample)
+{
+  for (int i = 0; i < 500; ++i)
+  {
+    if (driver.tick(force, 1.0_ms, sample) == IoCode::Ok)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(Haply, PushesAndTellsWhereItIs)
+{
+  for (const bool old : { false, true })
+  {
+    HaplyService service(old ? kOldInventory : kInventory);
+    service.word = old ? "values" : "vector";
+    const auto driver = open(service);
+    DriverSample sample;
+    for (int i = 0; i < 5; ++i)
+    {
+      ASSERT_TRUE(replies(*driver, Vector3d(0.5, -1.0, 2.0), sample));
+    }
+    EXPECT_EQ(service.bad, 0);
+    EXPECT_EQ(
+      Vector3d(service.force[0], service.force[1], service.force[2]), Vector3d(0.5, -1.0, 2.0));
+    EXPECT_EQ(*sample.sent, Vector3d(0.5, -1.0, 2.0));
+    EXPECT_TRUE(sample.homed);
+    EXPECT_EQ(sample.position, Vector3d::Zero()); // its frame begins where it was calibrated
+    EXPECT_EQ(sample.buttons, 2U);                // the second of its grip
+    const Eigen::AngleAxisd turn(sample.orientation);
+    EXPECT_NEAR(turn.angle() * turn.axis().z(), std::numbers::pi / 2, 1e-6);
+    service.place[2] = 0.16;
+    for (int i = 0; i < 5; ++i)
+    {
+      ASSERT_TRUE(replies(*driver, Vector3d::Zero(), sample));
+    }
+    EXPECT_LT((sample.position - Vector3d(0, 0, 0.01)).norm(), 1e-9);
+    EXPECT_EQ(service.named, !old);
+  }
+}
+
+TEST(Haply, GetsNoForceBeforeItIsCalibrated)
+{
+  HaplyService service(kInventory);
+  service.calibrated = false;
+  const auto driver = open(service);
+  DriverSample sample;
+  for (int i = 0; i < 50; ++i)
+  {
+    ASSERT_TRUE(replies(*driver, Vector3d(0, 0, 2), sample));
+    ASSERT_FALSE(sample.homed);
+    ASSERT_EQ(service.force[2], 0.0);
+    ASSERT_EQ(*sample.sent, Vector3d::Zero());
+  }
+  EXPECT_TRUE(driver->limits().needsHoming);
+}
+
+TEST(Haply, AMessageMayComeInPieces)
+{
+  HaplyService service(kInventory);
+  service.habit = Habit::Fragments;
+  const auto driver = open(service);
+  DriverSample sample;
+  for (int i = 0; i < 20; ++i)
+  {
+    ASSERT_TRUE(replies(*driver, Vector3d(0, 0, 1), sample)) << i;
+  }
+  EXPECT_TRUE(sample.homed);
+}
+
+// no reply, or half of one: the servo goes on after the two milliseconds that any bus may take
+TEST(Haply, APeerThatStallsHoldsUpNoTick)
+{
+  for (const Habit habit : { Habit::Silent, Habit::Half })
+  {
+    HaplyService service(kInventory);
+    const auto driver = open(service);
+    DriverSample sample;
+    ASSERT_TRUE(replies(*driver, Vector3d::Zero(), sample));
+    service.habit = habit;
+    (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample); // may have been answered before
+    (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample);
+    AllocationGuard guard;
+    const auto begin = Clock::now();
+    for (int i = 0; i < 100; ++i)
+    {
+      EXPECT_EQ(driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample), IoCode::Timeout);
+    }
+    EXPECT_EQ(guard.count(), 0U);
+    EXPECT_LT(Clock::now() - begin, 600ms); // 200 ms on an idle machine
+  }
+}
+
+TEST(Haply, WhatIsNoMessageEndsIt)
+{
+  for (const Habit habit :
+    { Habit::Large, Habit::Garbage, Habit::OtherArm, Habit::NoWhere, Habit::Closes })
+  {
+    HaplyService service(kInventory);
+    const auto driver = open(service);
+    DriverSample sample;
+    ASSERT_TRUE(replies(*driver, Vector3d(0, 0, 1), sample));
+    service.habit = habit;
+    IoCode code = IoCode::Ok;
+    const auto begin = Clock::now();
+    for (int i = 0; i < 1000 && code != IoCode::Gone; ++i)
+    {
+      code = driver->tick(Vector3d(0, 0, 1), 1.0_ms, sample);
+      ASSERT_TRUE(sample.position.allFinite());
+    }
+    EXPECT_EQ(code, IoCode::Gone) << static_cast<int>(habit);
+    EXPECT_LT(Clock::now() - begin, 2s) << "of 100 MB, 64 kB are taken";
+  }
+}
+
+// through the device that a servo uses: gone is told to it, which ends the force
+TEST(Haply, ADeviceWhosePeerFloodsIsLost)
+{
+  HaplyService service(kInventory);
+  const auto device = openDevice("haply:" + std::to_string(service.port), {});
+  EXPECT_TRUE(device->exchange(Vector3d::Zero(), 1.0_ms));
+  service.habit = Habit::Large;
+  std::optional<ToolPose> pose;
+  for (int i = 0; i < 1000 && (i == 0 || pose); ++i)
+  {
+    pose = device->exchange(Vector3d::Zero(), 1.0_ms);
+  }
+  EXPECT_FALSE(pose);
+}
+
+TEST(Haply, SaysInOneSentenceWhatIsMissing)
+{
+  HaplyService none(R"({"session_id": 7, "inverse3": []})");
+  HaplyService other("<html>not found</html>");
+  for (const std::string& port : { std::to_string(none.port), std::to_string(other.port),
+         std::string("1"), std::string("port"), std::string("0") })
+  {
+    expectRefusedInOneSentence("haply:" + port);
+  }
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,168 @@
+#include "haptics/devices/hid/hid_drivers.h"
+#include "haptics/units.h"
+#include "tests/haptics/devices/memory_transport.h"
+#include "tests/support/wooden_reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace palp
+{
+namespace
+{
+
+using namespace test;
+using namespace units::literals;
+using Eigen::Vector3d;
+
+bool isZeroCurrent(const Packet& packet) // with the report id
+{
+  return std::all_of(
+    packet.begin() + 1, packet.begin() + 7, [](std::byte byte) { return byte == std::byte{ 0 }; });
+}
+
+// an arm in its workspace, calibrated by its button
+Packet woodenReport(bool calibrate)
+{
+  Packet report(14);
+  writeInt<std::int16_t>(report, 2, 764);
+  writeInt<std::int16_t>(report, 4, 3667);
+  writeInt<std::int16_t>(report, 12, calibrate ? 1 : 0);
+  return report;
+}
+
+TEST(WoodenDriver, SendsNoCurrentBeforeItIsCalibrated)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  for (int i = 0; i < 100; ++i)
+  {
+    wire.replies.push_back(woodenReport(false));
+    EXPECT_EQ(driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample), IoCode::Ok);
+    EXPECT_FALSE(sample.homed);
+    EXPECT_TRUE(isZeroCurrent(wire.heard.back()));
+    EXPECT_EQ(wire.heard.back().size(), 15U);
+  }
+  wire.replies.push_back(woodenReport(true));
+  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
+  wire.replies.push_back(woodenReport(false));
+  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample); // the calibration goes out
+  EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
+  EXPECT_EQ(readInt<std::int16_t>(wire.heard.back(), 13), 6000); // where the makers calibrate
+  EXPECT_TRUE(sample.homed);
+  wire.replies.push_back(woodenReport(false));
+  (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
+  EXPECT_FALSE(isZeroCurrent(wire.heard.back()));
+}
+
+TEST(WoodenDriver, IsNotHomedUntilTheBoardHasDoneAsItWasTold)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  const auto homedAfter = [&](bool calibrate)
+  {
+    wire.replies.push_back(woodenReport(calibrate));
+    (void)driver.tick(Vector3d(1, 1, 1), 1.0_ms, sample);
+    return sample.homed;
+  };
+  EXPECT_FALSE(homedAfter(true));
+  EXPECT_FALSE(homedAfter(true)); // did not hear of it, or said so before: it is told again
+  EXPECT_EQ(wire.heard.back()[7], std::byte{ 1 });
+  EXPECT_TRUE(homedAfter(false));
+  EXPECT_FALSE(homedAfter(true)); // the button once more
+  EXPECT_TRUE(homedAfter(false));
+}
+
+TEST(WoodenDriver, TakesTheNewestOfWhatIsQueued)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  for (int i = 0; i < 20; ++i)
+  {
+    wire.replies.push_back(Packet(14));
+  }
+  wire.replies.push_back(woodenReport(false));
+  DriverSample sample;
+  EXPECT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+  EXPECT_TRUE(sample.position.isApprox(test::woodenTool(test::WoodenCounts{ 0, 764, 3667 })));
+  EXPECT_TRUE(wire.replies.empty());
+}
+
+// the makers: amplifiers that hold 2 A for four seconds
+TEST(WoodenDriver, AMotorGetsItsPeakForFourSecondsAndThenWhatItBearsForEver)
+{
+  MotorHeat heat(2.0, 1.0, 4.0);
+  double atPeak = 0.0;
+  double warned = -1.0;
+  for (int i = 0; i < 60'000; ++i)
+  {
+    std::array<double, 3> currents{ 0.5, -2.0, 0.0 };
+    heat.take(currents, 1.0_ms);
+    atPeak += currents[1] == -2.0 ? 1.0_ms : 0.0;
+    warned = warned < 0.0 && heat.fraction() > 0.8 ? i * 1.0_ms : warned;
+    ASSERT_NEAR(currents[0] / currents[1], -0.25, 1e-12); // shortened, not turned
+  }
+  EXPECT_GT(atPeak, 3.5);
+  EXPECT_LT(atPeak, 4.0);
+  EXPECT_LT(warned, 3.2);
+  std::array<double, 3> later{ 0.0, 2.0, 0.0 };
+  heat.take(later, 1.0_ms);
+  EXPECT_NEAR(later[1], 1.0, 0.05);
+  for (int i = 0; i < 60'000; ++i)
+  {
+    std::array<double, 3> none{};
+    heat.take(none, 1.0_ms);
+  }
+  later = { 0.0, 2.0, 0.0 };
+  heat.take(later, 1.0_ms);
+  EXPECT_EQ(later[1], 2.0);
+}
+
+TEST(WoodenDriver, SendsNoMoreThanItsMotorsBear)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  int largest = 0; // of the last second [mA]
+  for (int i = 0; i < 12'000; ++i)
+  {
+    wire.replies.push_back(woodenReport(i == 0));
+    (void)driver.tick(Vector3d(0, 0, 5), 1.0_ms, sample);
+    for (std::size_t motor = 0; motor < 3 && i >= 11'000; ++motor)
+    {
+      largest =
+        std::max(largest, std::abs(readInt<std::int16_t>(wire.heard.back(), 1 + 2 * motor)));
+    }
+    wire.heard.resize(1);
+  }
+  EXPECT_NEAR(largest, 1000, 50);
+  EXPECT_NEAR(sample.heat, 1.0, 0.06);
+}
+
+// the makers add 10000 to encoder d while the button of the handle is down
+TEST(WoodenDriver, TellsTheButtonOfItsHandle)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  for (const int turned : { 0, -300, 300 })
+  {
+    for (const bool pressed : { false, true })
+    {
+      Packet report = woodenReport(false);
+      writeInt<std::int16_t>(report, 6, static_cast<std::int16_t>(turned + (pressed ? 10'000 : 0)));
+      EXPECT_EQ(decodeWooden(report)->encoders[3], turned);
+      wire.replies.push_back(report);
+      (void)driver.tick(Vector3d::Zero(), 1.0_ms, sample);
+      EXPECT_EQ(sample.buttons, pressed ? 1U : 0U);
+    }
+  }
+}
+
+} // namespace
+} // namespace palp
