@@ -39,14 +39,28 @@ BenchRow benchOne(const char* variant, const ForceLaw& law)
   return row;
 }
 
+// ten of them in a row, 20 mm apart
+std::shared_ptr<const NoduleField> nodulesUnder(const ForceLaw& law)
+{
+  std::vector<EmbeddedNodule> nodules;
+  for (int i = 0; i < 10; ++i)
+  {
+    nodules.push_back({ .nodule = { { 20.0_mm * i, 0.0, -10.0_mm }, 5.0_mm, 5.0 },
+      .depth = 10.0_mm,
+      .place = { .thickness = 30.0_mm } });
+  }
+  return std::make_shared<const NoduleField>(law, std::move(nodules));
+}
+
 // what a tick of tissue that relaxes and rubs takes above one that does not
-BenchRow benchMemory(const Material& tissue, LawSettings settings)
+BenchRow benchMemory(const char* variant, const Material& tissue, LawSettings settings)
 {
   settings.relaxation.add({ 0.3, 50.0_ms });
   settings.relaxation.add({ 0.2, 0.6 });
   settings.friction = 0.3;
   Scene scene;
   scene.law = ForceLaw(scene.law.tip(), tissue, settings);
+  scene.nodules = *variant != '\0' ? nodulesUnder(scene.law) : nullptr;
   TissueMemory memory;
   Sample sample;
   sample.contact = { .depth = 5.0_mm,
@@ -59,12 +73,15 @@ BenchRow benchMemory(const Material& tissue, LawSettings settings)
     [&](int)
     {
       sample.pose.apex.x() += 0.1_mm;
+      sample.contact.center.x() += 0.1_mm;
       (void)memory.begin(scene, sample, 1.0_ms);
       const Response at = memory.at(sample.contact.depth);
       const Rendered felt{ at.force, at.stiffness, sample.contact.depth };
       sum += memory.settle(felt, 1e6, sample).x();
     });
-  return benchRow("memory", 0, sum < 0.0 ? "moving" : "", std::move(times));
+  BenchRow row = benchRow("memory", 0, sum < 0.0 ? "moving" : "", std::move(times));
+  row.variant = variant;
+  return row;
 }
 
 } // namespace
@@ -82,7 +99,8 @@ std::vector<BenchRow> benchLaw()
     benchOne("exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
     benchOne("corrected", ForceLaw(paper.tip(), tissue, everything)),
     benchOne("paraboloid", ForceLaw(ParaboloidTip{ 10.0_mm }, tissue, everything)),
-    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)), benchMemory(tissue, everything) };
+    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)), benchMemory("", tissue, everything),
+    benchMemory("nodules", tissue, everything) };
 }
 
 } // namespace palp

@@ -28,6 +28,8 @@ namespace palp
 namespace
 {
 
+using namespace units::literals;
+
 constexpr double kLargestDepth = 1.0; // [m]; no organ is deeper
 
 struct ForceOptions
@@ -101,13 +103,21 @@ struct Pressed
       geometry.surfaceCurvature };
   }
 
-  // of the law, and of how the tissue varies
+  // of the law, of how the tissue varies, and of the nodules in it
   [[nodiscard]] Response response(const ContactGeometry& geometry) const
   {
-    const Response plain = law(geometry);
-    return stiffness == nullptr
-      ? plain
-      : stiffness->at(contactAt(geometry), law, geometry)(plain, geometry.depth);
+    Response response = law(geometry);
+    if (stiffness != nullptr)
+    {
+      response = stiffness->at(contactAt(geometry), law, geometry)(response, geometry.depth);
+    }
+    if (nodules)
+    {
+      const NoduleResponse more = nodules->at(geometry.depth).response;
+      response.force += more.force;
+      response.stiffness += more.stiffness;
+    }
+    return response;
   }
 
   [[nodiscard]] std::vector<Rule> rules(const ContactGeometry& geometry) const
@@ -157,12 +167,9 @@ void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGe
   const auto& [law, nodules, stiffness, validity] = pressed;
   const double plain = law(geometry).force;
   const Response response = pressed.response(geometry);
-  const NodulesUnderTool::Felt below =
-    nodules ? nodules->at(geometry.depth) : NodulesUnderTool::Felt{};
-  const double force = response.force + below.response.force;
   row.insert(row.end(),
-    { force, units::toMillimeters(response.contactRadius),
-      units::toNewtonsPerMillimeter(response.stiffness + below.response.stiffness) });
+    { response.force, units::toMillimeters(response.contactRadius),
+      units::toNewtonsPerMillimeter(response.stiffness) });
   if (!isPaper(law))
   {
     for (const Factors factors = law.factors(geometry);
@@ -172,10 +179,11 @@ void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGe
     }
     if (nodules || stiffness)
     {
-      row.push_back(plain > 0.0 ? force / plain : 1.0);
+      row.push_back(plain > 0.0 ? response.force / plain : 1.0);
     }
-    const InclinedForce felt = inclinedForce(force, geometry.tilt);
-    row.insert(row.end(), { felt.axial, felt.lateral + below.lateral });
+    const InclinedForce felt = inclinedForce(response.force, geometry.tilt);
+    const double aside = nodules ? nodules->at(geometry.depth).lateral : 0.0;
+    row.insert(row.end(), { felt.axial, felt.lateral + aside });
   }
 }
 
@@ -200,7 +208,7 @@ void tellLimits(
 
 // by a formula, in the frame of the tool
 std::shared_ptr<const StiffnessField> stiffnessBelow(
-  const ForceOptions& options, const ForceLaw& law)
+  const ForceOptions& options, const ForceLaw& law, double deepest)
 {
   const StiffnessSource& source = options.stiffness;
   if (!source.isGiven())
@@ -222,8 +230,7 @@ std::shared_ptr<const StiffnessField> stiffnessBelow(
   checkMap({ .stiffness = source }, options.tissue.options);
   try
   {
-    return stiffnessUnder(
-      law, options.geometry.geometry, options.depths.si.back(), TissueFormula(source.text));
+    return stiffnessUnder(law, options.geometry.geometry, deepest, TissueFormula(source.text));
   }
   catch (const Error& error)
   {
@@ -231,16 +238,23 @@ std::shared_ptr<const StiffnessField> stiffnessBelow(
   }
 }
 
-void printForces(const ForceOptions& options)
+// what is pressed, as deep as it will be
+Pressed pressedBy(const ForceOptions& options, double deepest)
 {
   const ForceLaw law = options.tissue.law();
+  const ContactGeometry& geometry = options.geometry.geometry;
+  law.checkBody(geometry.thickness);
+  return { .law = law,
+    .nodules = options.nodules.under(law, geometry, deepest),
+    .stiffness = stiffnessBelow(options, law, deepest),
+    .validity = Validity(law, { .deepest = deepest }) };
+}
+
+void printForces(const ForceOptions& options)
+{
   const Range& depths = options.depths;
   ContactGeometry geometry = options.geometry.geometry;
-  law.checkBody(geometry.thickness);
-  const Pressed pressed{ .law = law,
-    .nodules = options.nodules.under(law, geometry, depths.si.back()),
-    .stiffness = stiffnessBelow(options, law),
-    .validity = Validity(law, { .deepest = depths.si.back() }) };
+  const Pressed pressed = pressedBy(options, depths.si.back());
   const std::vector<Rule> rules = pressed.rules(geometry);
   printHead(pressed, geometry, std::span(rules).first(options.validity ? rules.size() : 0));
 
@@ -259,38 +273,35 @@ void printForces(const ForceOptions& options)
     }
     writeCsvRow(std::cout, row);
   }
-  tellLimits(law, pressed.rules(geometry), geometry, options.geometry.given);
+  tellLimits(pressed.law, pressed.rules(geometry), geometry, options.geometry.given);
 }
 
 // force over time of a press that was given
 void printHistory(const ForceOptions& options)
 {
-  const ForceLaw law = options.tissue.law();
   const ForceHistory history = readForceHistory(options.history);
   ContactGeometry geometry = options.geometry.geometry;
-  const std::vector<double> forces = forcesOver(law, geometry, history);
+  const Pressed pressed = pressedBy(options, std::max(history.deepest(), 1.0_um));
+  const auto elastic = [&](double depth)
+  {
+    geometry.depth = depth;
+    const Response at = pressed.response(geometry);
+    return ElasticForce{ at.force, at.stiffness };
+  };
+  const std::vector<double> forces =
+    forcesOver(elastic, pressed.law.settings().relaxation, history);
   std::cout << "time_s,depth_mm,force_N\n";
   for (std::size_t i = 0; i < forces.size(); ++i)
   {
     writeCsvRow(std::cout, std::array{ history.points[i].time, history.depthsMm[i], forces[i] });
   }
   geometry.depth = std::max(0.0, history.deepest());
-  const Validity validity(law, { .deepest = geometry.depth });
-  tellLimits(law, validity(geometry), geometry, options.geometry.given);
+  tellLimits(pressed.law, pressed.rules(geometry), geometry, options.geometry.given);
 }
 
 void refuseTimeless(const ForceOptions& options)
 {
-  const bool overTime = !options.history.empty();
-  if (overTime && options.stiffness.isGiven())
-  {
-    throw Error(ErrorCode::BadValue, "--stiffness: not known over time; leave --history out");
-  }
-  if (overTime && !options.nodules.nodules.empty())
-  {
-    throw Error(ErrorCode::BadValue, "--nodule: not known over time; leave --history out");
-  }
-  if (!overTime && !options.tissue.options.relaxation.empty())
+  if (options.history.empty() && !options.tissue.options.relaxation.empty())
   {
     throw Error(ErrorCode::BadValue,
       "--relaxation: acts over time; add --history FILE.csv with columns time_s and depth_mm, or "
@@ -303,9 +314,7 @@ void force(const ForceOptions& options, Work work)
   refuseTimeless(options);
   if (work == Work::Check)
   {
-    const ForceLaw law = options.tissue.law();
-    (void)options.nodules.under(law, options.geometry.geometry, options.depths.si.back());
-    (void)stiffnessBelow(options, law);
+    (void)pressedBy(options, options.depths.si.back());
     return;
   }
   options.history.empty() ? printForces(options) : printHistory(options);

@@ -55,26 +55,20 @@ ForceHistory readForceHistory(const std::filesystem::path& file)
   return history;
 }
 
-std::vector<double> forcesOver(
-  const ForceLaw& law, ContactGeometry place, const ForceHistory& history)
+std::vector<double> forcesOver(const std::function<ElasticForce(double)>& elastic,
+  const PronySeries& relaxation, const ForceHistory& history)
 {
-  const auto elastic = [&](double depth)
-  {
-    place.depth = depth;
-    const Response at = law(place);
-    return ElasticForce{ at.force, at.stiffness };
-  };
   std::vector<double> forces;
-  if (law.settings().relaxation.empty())
+  if (relaxation.empty())
   {
     for (const PressPoint& point : history.points)
     {
-      forces.push_back(elastic(point.depth).force);
+      forces.push_back(elastic(std::max(0.0, point.depth)).force);
     }
     return forces;
   }
   const ContactRows rows(elastic, std::max(history.deepest(), 1.0_um));
-  return forcesOver(rows, law.settings().relaxation, history.points);
+  return forcesOver(rows, relaxation, history.points);
 }
 
 } // namespace palp

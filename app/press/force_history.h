@@ -1,9 +1,10 @@
 #pragma once
 
-#include "haptics/force/force_law.h"
+#include "haptics/force/relaxation/contact_rows.h"
 #include "haptics/force/relaxation/press_history.h"
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace palp
@@ -26,9 +27,10 @@ struct ForceHistory
 [[nodiscard]] ForceHistory readForceHistory(const std::filesystem::path& file);
 
 /// The force at each point of a history, at one place.
-/// @param place  its depth does not matter
-/// @return       [N]
-[[nodiscard]] std::vector<double> forcesOver(
-  const ForceLaw& law, ContactGeometry place, const ForceHistory& history);
+/// @param elastic     of the instantaneous modulus, at a depth [m] of 0 or more
+/// @param relaxation  of all that lies below alike
+/// @return            [N]
+[[nodiscard]] std::vector<double> forcesOver(const std::function<ElasticForce(double)>& elastic,
+  const PronySeries& relaxation, const ForceHistory& history);
 
 } // namespace palp

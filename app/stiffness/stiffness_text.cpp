@@ -174,11 +174,6 @@ std::string mapRefusal(const MeshSource& mesh, const LawOptions& law)
   {
     return "a map takes the law 'corrected' and no coating; give these, or leave the map out";
   }
-  if (!law.relaxation.empty() || law.friction > 0.0)
-  {
-    return "a map is not known in tissue that relaxes or rubs; leave out relaxation and friction, "
-           "or the map";
-  }
   return mesh.nodules.empty()
     ? ""
     : "nodules in a body with a map are not known; give them as labels of it, or leave one out";

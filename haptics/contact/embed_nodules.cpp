@@ -39,13 +39,6 @@ std::shared_ptr<const NoduleField> embedNodules(
   {
     return nullptr;
   }
-  if (law.rows() != nullptr)
-  {
-    throw Error(ErrorCode::BadValue,
-      "nodules: not known in tissue that relaxes or rubs; leave out relaxation and friction, or "
-      "the "
-      "nodules");
-  }
   std::vector<EmbeddedNodule> found;
   std::vector<Nodule> balls;
   std::vector<Eigen::Vector3d> places;

@@ -16,7 +16,7 @@ namespace palp
 /// @param nodules  in the frame of the surface
 /// @return         null where there are none
 /// @throws Error   BadValue: a nodule that does not lie within the body, two that overlap, or as
-///                 NoduleField; named by its number as `nodules/0`; a law with a memory
+///                 NoduleField; named by its number as `nodules/0`
 [[nodiscard]] std::shared_ptr<const NoduleField> embedNodules(
   const Surface& surface, const ForceLaw& law, std::span<const PlacedNodule> nodules);
 

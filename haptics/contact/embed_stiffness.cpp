@@ -162,16 +162,6 @@ PlacedStiffness placedAt(
   return { position, normal, logEnergies(below.press, means), std::ranges::max(means.spreads) };
 }
 
-void checkMemory(const ForceLaw& law)
-{
-  if (law.rows() != nullptr)
-  {
-    throw Error(ErrorCode::BadValue,
-      "stiffness: a map is not known in tissue that relaxes or rubs; leave out relaxation and "
-      "friction, or the map");
-  }
-}
-
 } // namespace
 
 std::shared_ptr<const StiffnessField> embedStiffness(
@@ -181,7 +171,6 @@ std::shared_ptr<const StiffnessField> embedStiffness(
   {
     return nullptr;
   }
-  checkMemory(law);
   const double base = baseRadius(law.tip());
   const double spacing = std::max(kSpacing * base,
     std::sqrt(kPerPlace * surfaceArea(surface.points(), surface.triangles()) / kMostTables));
@@ -216,7 +205,6 @@ std::shared_ptr<const StiffnessField> embedStiffness(
 std::shared_ptr<const StiffnessField> stiffnessUnder(
   const ForceLaw& law, const ContactGeometry& place, double deepest, const ModulusAt& modulus)
 {
-  checkMemory(law);
   const HomogeneousPress press(law, place, std::max(deepest, kShallowest));
   const EnergyWeights::Means means = EnergyWeights(press).means([&](const Eigen::Vector3d& at)
     { return checkedModulus(modulus(at)) / law.material().youngModulus; });

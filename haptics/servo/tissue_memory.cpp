@@ -60,7 +60,11 @@ bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) no
   {
     left_ = apex_;
     rows_->adapt(*scene.law.rows(), sample.contact.depth,
-      [&](double depth) noexcept { return elastic(depth).stiffness; });
+      [&](double depth) noexcept
+      {
+        const Response at = elastic(depth);
+        return ElasticForce{ at.force, at.stiffness };
+      });
   }
   return true;
 }

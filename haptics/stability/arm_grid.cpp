@@ -1,5 +1,6 @@
 #include "haptics/stability/arm_grid.h"
 
+#include "haptics/stability/levels.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -13,31 +14,6 @@ namespace
 {
 
 using namespace units::literals;
-
-// the levels of one quantity, each equally often, in an order of its own
-class Levels
-{
-public:
-  Levels(std::initializer_list<double> values, int count, std::mt19937& random)
-  {
-    for (int i = 0; i < count; ++i)
-    {
-      drawn_.push_back(values.begin()[static_cast<std::size_t>(i) % values.size()]);
-    }
-    for (std::size_t i = drawn_.size(); i > 1; --i) // as no library does it alike everywhere
-    {
-      std::swap(drawn_[i - 1], drawn_[random() % i]);
-    }
-  }
-
-  double operator[](int i) const
-  {
-    return drawn_[static_cast<std::size_t>(i)];
-  }
-
-private:
-  std::vector<double> drawn_;
-};
 
 constexpr double kRigid = std::numeric_limits<double>::infinity();
 
@@ -60,6 +36,7 @@ const char* nameOf(ArmWorld world)
       return "arm at a curved surface";
     case ArmWorld::Workspace:
       return "arm at the end of its reach";
+    case ArmWorld::Scene:
     case ArmWorld::Plane:
       break;
   }

@@ -2,6 +2,7 @@
 
 #include "haptics/devices/velocity_estimator.h"
 #include "haptics/servo/safety.h"
+#include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -28,6 +29,8 @@ constexpr double kThrough = 30.0_mm; // no hand pushes deeper
 constexpr double kHolds = 5.0;       // by how much more than it pushes it holds back
 constexpr double kYield = 20.0_mm;   // in which its force falls to nothing
 constexpr double kGap = 5.0_mm;      // before contact
+constexpr double kDrawn = 30.0_mm;   // along a scene
+constexpr double kPressing = 1.0;    // before that [s]
 
 // where the tool is, in words of contact
 struct Geometry
@@ -43,6 +46,7 @@ struct Geometry
       case ArmWorld::Workspace:
         return -apex.normalized();
       case ArmWorld::Plane:
+      case ArmWorld::Scene:
         break;
     }
     return Vector3d::UnitZ();
@@ -57,6 +61,7 @@ struct Geometry
       case ArmWorld::Workspace:
         return apex.norm() - kReach;
       case ArmWorld::Plane:
+      case ArmWorld::Scene:
         break;
     }
     return -apex.z();
@@ -72,6 +77,8 @@ struct Geometry
         return { 0.0, 0.0, -(kReach - kGap) };
       case ArmWorld::Plane:
         break;
+      case ArmWorld::Scene:
+        return { -0.5 * kDrawn, 0.0, kGap };
     }
     return { 0.0, 0.0, kGap };
   }
@@ -105,6 +112,10 @@ public:
       ? Vector3d((apex / arm_.quantum).array().round().matrix() * arm_.quantum)
       : apex;
     const ToolPose pose{ .apex = seen, .velocity = velocity_(seen, arm_.period) };
+    if (arm_.scene != nullptr)
+    {
+      return inScene(pose);
+    }
     const auto ask = [this](double at) noexcept { return arm_.law(at); };
     if (!chain_)
     {
@@ -137,6 +148,15 @@ public:
   }
 
 private:
+  Vector3d inScene(const ToolPose& pose)
+  {
+    const Sample sample = chain_
+      ? step(*arm_.scene, memory_, *chain_, pose, {}, { .armed = true }, arm_.period)
+      : step(*arm_.scene, memory_, pose, arm_.period);
+    flags_ |= sample.flags;
+    return sample.force;
+  }
+
   [[nodiscard]] DeviceLimits limits() const
   {
     return { .model = "simulated arm",
@@ -156,6 +176,7 @@ private:
   Geometry geometry_;
   VelocityEstimator velocity_;
   Scene scene_;
+  TissueMemory memory_;
   std::optional<SafetyChain> chain_;
   std::uint32_t flags_ = 0;
 };
@@ -238,7 +259,10 @@ ArmResult simulateArm(const ArmCase& arm, bool chain)
     }
     for (int i = 0; i < fine; ++i, time += step)
     {
-      const Vector3d target = from + std::min(kGap + arm.handDepth, arm.startSpeed * time) * inward;
+      const double drawn =
+        std::clamp(arm.drawnSpeed * (time - kPressing), 0.0, arm.scene != nullptr ? kDrawn : 0.0);
+      const Vector3d target = from + drawn * Vector3d::UnitX() +
+        std::min(kGap + arm.handDepth, arm.startSpeed * time) * inward;
       while (!onTheWay.empty() && onTheWay.front().acts <= time + 1e-9)
       {
         force = onTheWay.front().force;

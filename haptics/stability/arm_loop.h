@@ -1,9 +1,10 @@
 #pragma once
 
-#include "haptics/force/force_law.h"
+#include "haptics/servo/scene.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 namespace palp
 {
@@ -14,6 +15,7 @@ enum class ArmWorld
   Plane,     ///< the tissue z < 0, pressed straight down
   Sphere,    ///< tissue of 50 mm radius, pressed aslant, so that the tool slides off
   Workspace, ///< the end of the device's reach
+  Scene,     ///< a scene whose surface lies at z = 0, pressed and then drawn along
 };
 
 /// A haptic arm, its bus, and the hand on it.
@@ -34,7 +36,9 @@ struct ArmCase
   double startSpeed = 0.2;    ///< [m/s]
   double duration = 8.0;      ///< [s]
   ArmWorld world = ArmWorld::Plane;
-  std::function<Response(double depth)> law; ///< of the tissue
+  std::function<Response(double depth)> law{}; ///< of the tissue, but of a scene
+  std::shared_ptr<const Scene> scene{};        ///< of ArmWorld::Scene
+  double drawnSpeed = 0.0; ///< of the hand along that, over 30 mm from 1 s on [m/s]
 };
 
 /// What the arm did.

@@ -1,6 +1,7 @@
 #include "haptics/stability/stability.h"
 
 #include "haptics/stability/arm_grid.h"
+#include "haptics/stability/tissue_grid.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -23,6 +24,8 @@ constexpr double kModuli[] = { 1.0_kPa, 5.0_kPa, 10.0_kPa, 50.0_kPa, 200.0_kPa, 
 constexpr double kRatios[] = { 0.0, 0.33, 0.45, 0.4999 };
 constexpr int kArms = 5040;
 constexpr int kQuickArms = 240;
+constexpr int kTissues = 480;
+constexpr int kQuickTissues = 24;
 constexpr double kPeriods[] = { 0.25_ms, 0.5_ms, 1.0_ms, 2.0_ms, 4.0_ms };
 
 std::vector<Tip> tips()
@@ -191,6 +194,7 @@ std::vector<StabilityCase> stabilityCases(bool quick)
     }
   }
   std::ranges::move(armCases(quick ? kQuickArms : kArms), std::back_inserter(cases));
+  std::ranges::move(tissueCases(quick ? kQuickTissues : kTissues), std::back_inserter(cases));
   return cases;
 }
 

@@ -10,7 +10,7 @@ namespace palp
 /// The cases: soft to rigid, compressible to nearly not, first touch to deeper than the tool,
 /// sharp cone and flat punch, fast and slow loops, jitter and lost ticks, another tissue or surface
 /// in contact, other devices, delays, hands that tap and hands that lean; then arms as they exist,
-/// see arm_grid.h.
+/// see arm_grid.h and tissue_grid.h.
 ///
 /// @param quick  some of them: seconds, not minutes
 [[nodiscard]] std::vector<StabilityCase> stabilityCases(bool quick);

@@ -56,4 +56,19 @@ void ContactRows::scaleBlock(
   }
 }
 
+void ContactRows::scaleTo(double force, double atDepth, std::size_t rows) noexcept
+{
+  double sum = 0.0;
+  for (std::size_t j = 0; j < rows; ++j)
+  {
+    sum += stiffness[j] * std::max(0.0, atDepth - depth[j]);
+  }
+  const double scale = sum > 0.0 && force > 0.0 ? force / sum : 1.0;
+  for (std::size_t j = 0; j < rows; ++j)
+  {
+    stiffness[j] *= scale;
+    total[j + 1] *= scale;
+  }
+}
+
 } // namespace palp

@@ -36,29 +36,27 @@ public:
   ContactRows(const std::function<ElasticForce(double)>& law, double deepest);
 
   /// Gives these rows the stiffness of another place, whose ratio to the usual one is taken as a
-  /// parabola through the ends of each block and the next one; below a depth it stays.
+  /// parabola through the ends of each block and the next one, and its force at a depth; below that
+  /// they stay as they are.
   ///
   /// @param usual  rows that these are a copy of
-  /// @param law    callable as double(double depth) noexcept: dF/ddepth there [N/m]
+  /// @param law    callable as ElasticForce(double depth) noexcept, of that place
   /// @realtime     pure; no allocation, no lock, no exception
   template <typename Law>
   void adapt(const ContactRows& usual, double toDepth, const Law& law) noexcept
   {
     const auto ratioAt = [&](std::size_t edge)
-    { return usual.total[edge] > 0.0 ? law(edges[edge]) / usual.total[edge] : 1.0; };
+    { return usual.total[edge] > 0.0 ? law(edges[edge]).stiffness / usual.total[edge] : 1.0; };
     std::array<double, 3> ratios{ ratioAt(1), ratioAt(kBlock), ratioAt(2 * kBlock) };
     ratios[0] -= (ratios[1] - ratios[0]) / (kBlock - 1); // at the surface itself both are 0
-    for (std::size_t begin = 0;;)
+    scaleBlock(usual, 0, ratios);
+    std::size_t end = kBlock;
+    for (; end < kCount && edges[end] < toDepth; end += kBlock)
     {
-      scaleBlock(usual, begin, ratios);
-      begin += kBlock;
-      if (begin == kCount || edges[begin] >= toDepth)
-      {
-        return;
-      }
-      const std::size_t next = std::min(begin + 2 * kBlock, kCount);
-      ratios = { ratios[1], ratios[2], ratioAt(next) };
+      ratios = { ratios[1], ratios[2], ratioAt(std::min(end + 2 * kBlock, kCount)) };
+      scaleBlock(usual, end, ratios);
     }
+    scaleTo(law(toDepth).force, toDepth, end);
   }
 
   std::array<double, kCount + 1> edges{}; ///< between which the rows are met [m]
@@ -69,6 +67,7 @@ public:
 private:
   void scaleBlock(
     const ContactRows& usual, std::size_t begin, const std::array<double, 3>& ratios) noexcept;
+  void scaleTo(double force, double atDepth, std::size_t rows) noexcept;
 };
 
 } // namespace palp

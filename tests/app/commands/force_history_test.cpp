@@ -80,6 +80,45 @@ TEST(ForceHistory, RelaxesFromTheInstantaneousToTheLastingForceWhateverTheTip)
   }
 }
 
+// Where all that lies below relaxes alike, the elastic force of a press that only goes deeper is
+// remembered as that of tissue without a nodule is: Lee and Radok's integral, here by its sum.
+TEST(ForceHistory, RemembersANoduleAndAMapAsLeeAndRadokDo)
+{
+  constexpr double kFraction = 0.5;
+  constexpr double kTime = 0.2; // [s]
+  constexpr int kDown = 500;    // rows of 1 ms, 0.01 mm deeper each
+  std::string history = "time_s,depth_mm\n";
+  for (int i = 0; i <= 2 * kDown; ++i)
+  {
+    history += std::to_string(1e-3 * i) + "," + std::to_string(0.01 * std::min(i, kDown)) + "\n";
+  }
+  for (const char* below : { "--nodule 5mm:5mm:10:3mm", "--nodule 4mm:3mm:0.2",
+         "--nodule 6mm:4mm:5 --nodule 4mm:6mm:0.3:12mm", "--stiffness 'formula:if(z<2,15,5)'",
+         "--stiffness 'formula:5+0.4*z'" })
+  {
+    const std::string options =
+      "--young 5kPa --poisson 0.45 --law corrected --thickness 40mm " + std::string(below);
+    const Finished over = force(options + " --relaxation 0.5:200ms", history);
+    ASSERT_EQ(over.code, 0) << over.err;
+    const std::vector<double> forces = table(over)["force_N"];
+    const std::vector<double> elastic =
+      table(test::runCommand(PALP_PROGRAM " force --depth 0:5:0.01mm " + options))["force_N"];
+    ASSERT_EQ(forces.size(), 2u * kDown + 1u);
+    ASSERT_EQ(elastic.size(), kDown + 1u);
+    for (int i = 1; i <= 2 * kDown; i += 7)
+    {
+      double expected = 0.0;
+      for (int k = 1; k <= std::min(i, kDown); ++k)
+      {
+        const double ago = 1e-3 * (i - k + 0.5);
+        expected +=
+          (1.0 - kFraction * (1.0 - std::exp(-ago / kTime))) * (elastic[k] - elastic[k - 1]);
+      }
+      ASSERT_NEAR(forces[i], expected, 2e-4 * elastic.back()) << below << ", row " << i;
+    }
+  }
+}
+
 TEST(ForceHistory, TakesColumnsAmongOthers)
 {
   const Finished finished = force("--law corrected", "force_N,depth_mm,time_s\n7,1,0\n8,2,1\n");

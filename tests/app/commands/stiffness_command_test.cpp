@@ -178,8 +178,7 @@ TEST_F(StiffnessFiles, RefusesInASentence)
       Case{ "image:" + nan, "is no number" }, Case{ "image:none.nii", "not found" },
       Case{ "formula:6+", "is no formula" }, Case{ "formula:z", "not above 0 kPa" },
       Case{ "random:0.3:8", "has no unit" }, Case{ "random:2:8mm", "out of range" },
-      Case{ "elastic", "labels:FILE" }, Case{ "formula:6", "law 'corrected'", " --law paper " },
-      Case{ "formula:6", "relaxes or rubs", kSoft + "--friction 0.3 " } })
+      Case{ "elastic", "labels:FILE" }, Case{ "formula:6", "law 'corrected'", " --law paper " } })
   {
     const Finished refused = pressed(one.stiffness, one.law);
     EXPECT_EQ(refused.code, 2) << one.stiffness;

@@ -46,8 +46,8 @@ void takePath(const std::string& file)
 
 void takeHistory(const std::string& file)
 {
-  const ForceLaw law(SphereTip{ 0.01 }, { 50e3, 0.33 });
-  for (const double force : forcesOver(law, {}, readForceHistory(file)))
+  const auto linear = [](double depth) { return ElasticForce{ 1e3 * depth, 1e3 }; };
+  for (const double force : forcesOver(linear, {}, readForceHistory(file)))
   {
     expectFinite(force);
   }

@@ -22,12 +22,13 @@ using namespace units::literals;
 
 const PlacedNodule kStiff{ { 0.0, 0.0, -10.0_mm }, 5.0_mm, 5.0 };
 
-Scene sceneOf(Surface surface, const PlacedNodule& nodule)
+Scene sceneOf(Surface surface, const PlacedNodule& nodule,
+  const LawSettings& settings = { .mode = LawMode::Corrected,
+    .constitution = ConstitutiveModel::Linear })
 {
   Scene world;
   world.surface = std::make_shared<const Surface>(std::move(surface));
-  world.law = ForceLaw(SphereTip{ .radius = 10.0_mm }, makeMaterial(50.0_kPa, 0.33),
-    { .mode = LawMode::Corrected, .constitution = ConstitutiveModel::Linear });
+  world.law = ForceLaw(SphereTip{ .radius = 10.0_mm }, makeMaterial(50.0_kPa, 0.33), settings);
   world.forceLimit = 100.0;
   world.nodules = embedNodules(*world.surface, world.law, std::array{ nodule });
   return world;
@@ -166,6 +167,44 @@ TEST(NoduleScene, NoLoopOverABlockGivesEnergy)
   const double loop = pressed + workOver(world, 500, along) + workOver(world, 500, up);
   EXPECT_LT(std::abs(loop), 0.01 * pressed);
   RecordProperty("loop_of_pressed", std::to_string(loop / pressed));
+}
+
+// pressed beside a stiff nodule and lifted above it, and the other way around, fast and slow
+TEST(NoduleScene, NoLoopOverTissueThatRelaxesAndRubsGivesEnergy)
+{
+  for (const double friction : { 0.0, 0.3 })
+  {
+    LawSettings settings = blockScene().law.settings();
+    settings.relaxation.add({ 0.4, 50.0_ms });
+    settings.relaxation.add({ 0.2, 0.6 });
+    settings.friction = friction;
+    const Scene world =
+      sceneOf(test::makeSurface(test::block({ 0.2, 0.2, 0.03 }, 20)), kStiff, settings);
+    for (const double seconds : { 0.03, 0.3, 3.0, 30.0 })
+    {
+      for (const double from : { -15.0_mm, 2.0_mm })
+      {
+        const double to = -13.0_mm - from;
+        const auto path = [&](double t)
+        {
+          const double x = from + (to - from) * std::clamp(3.0 * t - 1.0, 0.0, 1.0);
+          return at({ x, 0.0, -4.0_mm * std::clamp(3.0 * std::min(t, 1.0 - t), 0.0, 1.0) });
+        };
+        constexpr int kSteps = 3000;
+        TissueMemory memory;
+        double loop = 0.0;
+        double pressed = 0.0;
+        for (int i = 0; i < kSteps; ++i)
+        {
+          const Eigen::Vector3d move =
+            path((i + 1.0) / kSteps).apex - path(static_cast<double>(i) / kSteps).apex;
+          loop -= step(world, memory, path((i + 0.5) / kSteps), seconds / kSteps).force.dot(move);
+          pressed = std::max(pressed, loop);
+        }
+        EXPECT_GT(loop, -1e-3 * pressed) << friction << ", " << seconds << " s, " << from;
+      }
+    }
+  }
 }
 
 // that the nodule adds, whatever the law does on a curved surface. The tool's axis turns with the

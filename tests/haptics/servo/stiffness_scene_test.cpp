@@ -236,8 +236,6 @@ TEST(StiffnessScene, WhatIsNotKnownIsRefused)
   EXPECT_TRUE(refusal(elsewhere, corrected()).starts_with("stiffness: nothing is known of it"));
   const auto negative = [](const Eigen::Vector3d& x) { return x.x() > 0.0 ? kYoung : -1.0; };
   EXPECT_TRUE(refusal(negative, corrected()).starts_with("stiffness: there are values of 0"));
-  EXPECT_TRUE(refusal(stiffInAColumn, corrected(kYoung, { .friction = 0.3 }))
-                .starts_with("stiffness: a map is not known in tissue that"));
   const ForceLaw paper(SphereTip{ .radius = 10.0_mm }, makeMaterial(kYoung, 0.45));
   EXPECT_TRUE(refusal(stiffInAColumn, paper).starts_with("nodules and maps of stiffness: only"));
   EXPECT_EQ(embedStiffness(block, corrected(), {}), nullptr);

@@ -215,7 +215,12 @@ TEST(RelaxingContact, FactorsMakeItTheLawOfAnotherPlace)
   { return here({ .depth = depth, .thickness = 30.0_mm, .surfaceCurvature = 15.0 }); };
   const ContactRows usual = rowsOf(here, 20.0_mm);
   Tissue tissue{ usual, {} };
-  tissue.rows.adapt(usual, 10.0_mm, [&](double depth) noexcept { return there(depth).stiffness; });
+  tissue.rows.adapt(usual, 10.0_mm,
+    [&](double depth) noexcept
+    {
+      const Response at = there(depth);
+      return ElasticForce{ at.force, at.stiffness };
+    });
   for (const double depth : { 1.0_mm, 2.5_mm, 5.0_mm, 8.0_mm, 9.9_mm })
   {
     const double force = there(depth).force;
