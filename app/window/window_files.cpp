@@ -104,6 +104,7 @@ void Window::makeFileMenu()
 {
   QMenu* file = menuBar()->addMenu(tr("&File"));
   addOpening(*file);
+  file->addSeparator();
   const auto addSave = [&](const QString& entry, const QString& title, const char* suggested,
                          const QString& kinds, bool (Window::*save)(const QString&))
   {
@@ -133,6 +134,7 @@ void Window::makeFileMenu()
     ->setObjectName("turntableAction");
   QAction* curves = addSave(tr("Save &curves…"), tr("Save curves"), "curves.png",
     tr("Plots (*.png *.svg *.pdf *.csv)"), &Window::saveCurves);
+  file->addSeparator();
   QAction* exporting = file->addAction(tr("&Export data…"), this,
     [this]
     {
