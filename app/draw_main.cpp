@@ -1,7 +1,8 @@
-// palp-draw: palp with pictures, off screen. palp-draw --figure FOLDER: a figure that the window
-// saves, see figure_job.h.
+// palp-draw: palp with pictures, off screen. palp-draw --figure FOLDER or --charts FOLDER: what the
+// window saves, see figure_job.h and chart_job.h.
 
 #include "app/commands/program.h"
+#include "app/draw/draw_charts.h"
 #include "app/draw/draw_figure.h"
 #include "app/draw/offscreen_renderer.h"
 
@@ -11,11 +12,11 @@
 namespace
 {
 
-int drawFigure(const char* folder)
+int drawSaved(std::string_view what, const char* folder)
 {
   try
   {
-    palp::drawFigure(folder);
+    what == "--figure" ? palp::drawFigure(folder) : palp::drawCharts(folder);
     return 0;
   }
   catch (const palp::Error& error)
@@ -25,7 +26,7 @@ int drawFigure(const char* folder)
   }
   catch (const std::exception& error)
   {
-    std::cerr << "palp: the figure cannot be drawn (" << error.what() << "); take a smaller one\n";
+    std::cerr << "palp: it cannot be drawn (" << error.what() << "); take a smaller size\n";
     return 1;
   }
 }
@@ -34,9 +35,10 @@ int drawFigure(const char* folder)
 
 int main(int argc, char** argv)
 {
-  if (argc == 3 && std::string_view(argv[1]) == "--figure")
+  const std::string_view what = argc == 3 ? argv[1] : "";
+  if (what == "--figure" || what == "--charts")
   {
-    return drawFigure(argv[2]);
+    return drawSaved(what, argv[2]);
   }
   const palp::OffscreenRenderer pictures;
   return palp::runProgram(argc, argv, { .pictures = &pictures });

@@ -7,6 +7,7 @@
 #include <vtkBrush.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
+#include <vtkPlotLine.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
@@ -51,7 +52,8 @@ void paintChart(vtkPalpChart& chart, bool isDark)
   }
   for (vtkIdType i = 0; i < chart.GetNumberOfPlots(); ++i)
   {
-    if (vtkPlot& plot = *chart.GetPlot(i); plot.GetLabel().empty()) // marks, in ink
+    vtkPlot& plot = *chart.GetPlot(i);
+    if (plot.GetLabel().empty() && !vtkPlotLine::SafeDownCast(&plot)) // marks, in ink
     {
       plot.SetColor(ink[0], ink[1], ink[2]);
     }

@@ -1,28 +1,12 @@
 #include "app/graphs/plot_panel.h"
 
-#include "app/graphs/chart_theme.h"
-#include "haptics/error.h"
-
-#include <vtkRenderWindow.h>
-#include <vtkRendererCollection.h>
-
 #include <QBoxLayout>
 #include <QTabBar>
 
 #include <algorithm>
-#include <cmath>
 
 namespace palp
 {
-namespace
-{
-
-ImageSize usualSizeOf(const Plots& plots)
-{
-  return { .width = 1600, .height = plots.size() > 1 ? 1500 : 1000 };
-}
-
-} // namespace
 
 PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
   : ChartPanel("plots", parent)
@@ -77,54 +61,6 @@ void PlotPanel::put(Plots plots)
 {
   setScene(showPlots(window(), plots));
   plots_ = std::move(plots); // the window has let go of those before
-}
-
-QString PlotPanel::save(const std::filesystem::path& file, std::optional<ImageSize> size)
-{
-  if (plots_.empty())
-  {
-    throw Error(ErrorCode::BadValue, "nothing to save yet: press the surface");
-  }
-  QString what = savePlots(plots_, file, size);
-  put(std::move(plots_)); // a chart is in one window at a time
-  draw();
-  return what;
-}
-
-ImageSize PlotPanel::usualSize() const
-{
-  return usualSizeOf(plots_);
-}
-
-QString savePlots(
-  const Plots& plots, const std::filesystem::path& file, std::optional<ImageSize> wanted)
-{
-  constexpr double kUsualGrowth = 2.0; // letters and marks twice as large as on a screen
-  const ImageSize usual = usualSizeOf(plots);
-  const ImageSize size = wanted.value_or(usual);
-  const double area = static_cast<double>(size.width) * size.height / usual.width / usual.height;
-  const double growth = std::max(1.0, kUsualGrowth * std::sqrt(area));
-  const bool isPicture = file.extension() == ".png";
-  const double divisor = isPicture ? 1.0 : growth; // lines and text are as sharp at any size
-  const auto width = static_cast<int>(std::lround(size.width / divisor));
-  const auto height = static_cast<int>(std::lround(size.height / divisor));
-  vtkNew<vtkRenderWindow> window;
-  window->SetShowWindow(false);
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(isPicture ? 8 : 0);
-  window->SetSize(width, height);
-  window->SetDPI(static_cast<int>(std::lround(appearance::kDpi * growth / divisor)));
-  for (const auto& plot : plots)
-  {
-    paintChart(plot->chart(), false);
-  }
-  showPlots(*window, plots);
-  writePlots(plots, *window, file);
-  window->GetRenderers()->RemoveAllItems(); // the charts outlive it
-  return isPicture ? QObject::tr("%1 x %2 pixels").arg(width).arg(height)
-    : file.extension() == ".csv"
-    ? QObject::tr("all curves")
-    : QObject::tr("lines and text, %1 x %2 points").arg(width).arg(height);
 }
 
 } // namespace palp

@@ -1,11 +1,9 @@
 #pragma once
 
 #include "app/graphs/chart_panel.h"
-#include "app/input/scene_plan.h"
 #include "app/plots/press_plots.h"
 
 #include <functional>
-#include <optional>
 
 class QTabBar;
 
@@ -35,12 +33,11 @@ public:
   /// make them of, those before stay. So do the axes that are held and the curves that are hidden.
   void refresh();
 
-  /// Writes what is shown; see savePlots.
-  /// @throws Error  as savePlots; BadValue: nothing is shown yet
-  QString save(const std::filesystem::path& file, std::optional<ImageSize> size = std::nullopt);
-
-  /// The size in which it is saved if nobody wishes another.
-  [[nodiscard]] ImageSize usualSize() const;
+  /// What is shown; nothing before the first press.
+  [[nodiscard]] const Plots& plots() const noexcept
+  {
+    return plots_;
+  }
 
 private:
   void put(Plots plots);
@@ -50,14 +47,5 @@ private:
   int page_ = 0; // that they are of
   QTabBar* tabs_;
 };
-
-/// Writes plots, laid out for print whatever size they have on the screen: letters and lines grow
-/// with the size.
-///
-/// @param size     none: the usual one
-/// @return         what was written, for people, as in `1600 x 1000 pixels`
-/// @throws Error   as writePlots
-QString savePlots(const Plots& plots, const std::filesystem::path& file,
-  std::optional<ImageSize> size = std::nullopt);
 
 } // namespace palp

@@ -71,14 +71,20 @@ void keepContact(Recording& recording)
 void bound(Recording& recording, std::size_t kept)
 {
   const std::size_t minute = kept / 10; // at a time, so that moving the rest is rare
-  if (recording.samples.size() > recording.thinned + kept + minute)
+  std::vector<Sample>& samples = recording.samples;
+  if (samples.size() > minute) // from here on no copy of all is made to grow by
+  {
+    samples.reserve(kept + 4 * minute);
+  }
+  // of a fixed number in all, of which those left out take none: what is full grows no more
+  if (samples.size() > kept + 3 * minute)
   {
     const std::size_t first = recording.thinned;
-    recording.thinned += thinRange(recording.samples, first, first + minute, recording.interval);
+    recording.thinned += thinRange(samples, first, first + minute, recording.interval);
     while (recording.thinned > 2 * minute)
     {
       recording.interval *= 2.0;
-      recording.thinned = thinRange(recording.samples, 0, recording.thinned, recording.interval);
+      recording.thinned = thinRange(samples, 0, recording.thinned, recording.interval);
     }
   }
 }
@@ -86,6 +92,7 @@ void bound(Recording& recording, std::size_t kept)
 void thin(Recording& recording)
 {
   recording.thinned = thinRange(recording.samples, 0, recording.samples.size(), recording.interval);
+  recording.samples.shrink_to_fit();
 }
 
 namespace

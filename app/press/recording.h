@@ -48,7 +48,8 @@ constexpr std::size_t kKeptWhole = 600'000; ///< samples, ten minutes
 
 /// Bounds a recording that grows: of what is older than the last `kept` samples those stay that
 /// have the least and the largest depth and force within each interval, which doubles where they
-/// are too many. Never more than 1.4 times `kept` stay, the deepest among them.
+/// are too many. Never more than 1.4 times `kept` stay, the deepest among them, in memory that is
+/// taken once.
 /// @param kept  a multiple of 1000
 void bound(Recording& recording, std::size_t kept = kKeptWhole);
 

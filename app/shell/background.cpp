@@ -22,7 +22,7 @@ bool hasEnded(const std::future<void>& work, std::chrono::milliseconds patience 
 
 } // namespace
 
-bool Background::run(const Work& work, const Follow& follow)
+bool Background::run(Work work, const Follow& follow)
 {
   constexpr auto kUnseen = 30ms; // less than a picture or two
   constexpr int kEvery = 20;     // [ms]
@@ -33,7 +33,7 @@ bool Background::run(const Work& work, const Follow& follow)
   }
   const auto going = std::make_shared<FollowedWork>();
   auto result = std::async(std::launch::async,
-    [work, going]
+    [work = std::move(work), going]
     {
       const FollowedWork::OfThread followed(*going);
       work();

@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace palp
@@ -20,20 +21,20 @@ public:
   using Follow = std::function<void(const FollowedWork::Step& step)>;
 
   /// Returns once the work has ended or was given up. Meanwhile the user may change anything, so
-  /// the work holds copies of all that it uses.
+  /// the work holds copies of all that it uses; it is not copied itself.
   ///
   /// @param work    finds whether it is still wanted, and tells how far it is, by FollowedWork
   /// @param follow  called again and again, once the work takes longer than people notice
   /// @return        false: it was given up, and ends some time
   /// @throws Error  BadValue: other work goes on; what the work throws
-  bool run(const Work& work, const Follow& follow);
+  bool run(Work work, const Follow& follow);
 
   /// The same for work that makes something; none: it was given up.
   template <typename Made>
-  std::optional<Made> make(const std::function<Made()>& work, const Follow& follow)
+  std::optional<Made> make(std::function<Made()> work, const Follow& follow)
   {
     const auto made = std::make_shared<std::optional<Made>>();
-    const bool hasEnded = run([made, work] { made->emplace(work()); }, follow);
+    const bool hasEnded = run([made, work = std::move(work)] { made->emplace(work()); }, follow);
     return hasEnded ? std::move(*made) : std::nullopt;
   }
 

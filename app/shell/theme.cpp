@@ -5,12 +5,39 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QMenu>
-#include <QStyle>
+#include <QPainter>
+#include <QProxyStyle>
+#include <QStyleOption>
 
 namespace palp
 {
 namespace
 {
+
+// whose boxes to tick are seen in the dark, where the style's own outline is darker still
+class SeenBoxes : public QProxyStyle
+{
+public:
+  static constexpr const char* kName = "seen boxes";
+
+  SeenBoxes()
+    : QProxyStyle("fusion")
+  {
+    setObjectName(kName);
+  }
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+    const QWidget* widget) const override
+  {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element == PE_IndicatorCheckBox && isDark(option->palette))
+    {
+      painter->setPen(option->palette.color(QPalette::PlaceholderText));
+      painter->setBrush(Qt::NoBrush);
+      painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    }
+  }
+};
 
 QPalette paletteOf(const QColor& window, const QColor& base, const QColor& text,
   const QColor& disabled, const QColor& link)
@@ -52,9 +79,9 @@ QPalette paletteOf(Theme theme)
 void setTheme(Theme theme)
 {
   const QPalette palette = paletteOf(theme);
-  if (theme != Theme::System && QApplication::style()->objectName() != "fusion")
+  if (theme != Theme::System && QApplication::style()->objectName() != SeenBoxes::kName)
   {
-    QApplication::setStyle("fusion"); // others have colors of their own
+    QApplication::setStyle(new SeenBoxes); // others have colors of their own
   }
   QApplication::setPalette(palette);
   WindowMemory().setTheme(static_cast<int>(theme));

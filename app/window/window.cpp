@@ -193,20 +193,20 @@ void Window::refresh()
     still_ = 0;
     setSmooth(false);
     renderWindow_->Render();
-    showReadings();
+    sound_.setForce(shown_.contact.touching() ? shown_.response.force : 0.0);
   }
   smoothen(sample);
   chooseRealism();
   drawCoarse();
 }
 
-// all that tells of the press is of the one sample that the picture shows; of the device, live
+// All that tells of the press is of the one sample that the picture shows; of the device, live.
+// Nobody reads faster than the panels are brought up to date, and each text lays its panel out.
 void Window::showReadings()
 {
   const Sample& live = review_ ? session_.newest() : shown_;
   devicePanel_->show(session_, live, acted_ | live.flags);
   const Contact& contact = shown_.contact;
-  sound_.setForce(contact.touching() ? shown_.response.force : 0.0);
   const Calibration& calibration = calibrationShown();
   forceLabel_->setText(!contact.touching()
       ? tr(kHint)

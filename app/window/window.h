@@ -2,6 +2,7 @@
 
 #include "app/map/map_work.h"
 #include "app/plots/press_figure.h"
+#include "app/plots/press_plots.h"
 #include "app/press/review.h"
 #include "app/session/pointer_tool.h"
 #include "app/session/session.h"
@@ -250,12 +251,12 @@ private:
   void sayWhatIsKept();
   void sayWhatIsThinned();
   void say(const QString& what);
-  void sayWritten(const QString& curves, const QString& what); // to that file
+  void writeCurves(const QString& file, const Plots& plots, std::optional<ImageSize> size);
   void askFigure();
   bool attempt(const std::function<void()>& work);
   void showProgress(const QString& what, const FollowedWork::Step& step);
   template <typename Made>
-  std::optional<Made> inBackground(const QString& what, const std::function<Made()>& work);
+  std::optional<Made> inBackground(const QString& what, std::function<Made()> work);
   [[nodiscard]] Exported exported(const Pictured& seen);
   bool exportTake(const QString& directory, const Pictured& seen, const Timing* timing);
   bool exportMap(const std::filesystem::path& folder, const StiffnessMap& map);
@@ -336,10 +337,10 @@ private:
 
 /// Makes something while the window goes on, with a bar to cancel it by; none: it was canceled.
 template <typename Made>
-std::optional<Made> Window::inBackground(const QString& what, const std::function<Made()>& work)
+std::optional<Made> Window::inBackground(const QString& what, std::function<Made()> work)
 {
-  auto made =
-    background_.make<Made>(work, [&](const FollowedWork::Step& step) { showProgress(what, step); });
+  auto made = background_.make<Made>(
+    std::move(work), [&](const FollowedWork::Step& step) { showProgress(what, step); });
   message_->unfollow(what);
   return made;
 }

@@ -109,9 +109,11 @@ void Window::makeDeviceMenu()
     {
       sound->setChecked(isOn && sound_.start());
       sound->isChecked() ? void() : sound_.stop();
-      say(sound->isChecked() ? tr("The pitch tells the force: an octave is four times as much")
-          : isOn             ? tr("No sound output is there; connect one, then turn this on again")
-                             : tr("The force is not heard"));
+      const bool isMissing = isOn && !sound->isChecked();
+      isMissing
+        ? message_->warn(tr("No sound output is there; connect one, then turn this on again"))
+        : say(isOn ? tr("The pitch tells the force: an octave is four times as much")
+                   : tr("The force is not heard"));
     });
 }
 

@@ -151,8 +151,8 @@ bool Window::saveMovie(const QString& file, MovieKind kind)
         throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
       }
       const auto written = inBackground<std::filesystem::path>(tr("Drawing the movie"),
-        [made = exported(seen), to = file.toStdString(), kind]
-        { return writeMovie(to, kind, made); });
+        [made = exported(seen), to = file.toStdString(), kind]() mutable
+        { return writeMovie(to, kind, std::move(made)); });
       say(written ? tr("Written to %1").arg(QString::fromStdString(written->string()))
                   : tr("No movie: it was canceled"));
     });
@@ -193,9 +193,9 @@ bool Window::exportTake(const QString& directory, const Pictured& seen, const Ti
     writeTiming(pathOf(*stage) / "servo.csv", *timing);
   }
   return inBackground<bool>(tr("Exporting"),
-    [made = exported(seen), directory, stage]
+    [made = exported(seen), directory, stage]() mutable
     {
-      writeExport(directory, *stage, made);
+      writeExport(directory, *stage, std::move(made));
       return true;
     })
     .has_value();

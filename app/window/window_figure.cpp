@@ -1,7 +1,9 @@
-// Figures of the press, drawn by another program while the window goes on.
+// Figures of the press and curves, drawn by another program while the window goes on.
 
 #include "app/folder/export_folder.h"
 #include "app/graphs/figure_dialog.h"
+#include "app/graphs/plot_panel.h"
+#include "app/plots/chart_job.h"
 #include "app/plots/figure_job.h"
 #include "app/window/child_program.h"
 #include "app/window/exported.h"
@@ -9,6 +11,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
+#include "pipeline/charts/plot_files.h"
 
 #include <QTemporaryDir>
 
@@ -30,7 +33,10 @@ Recording withoutSamples(const Recording& recording)
     .rated = recording.rated };
 }
 
-void drawFigure(const std::filesystem::path& to, const Exported& made, const std::string& job)
+// what the other program makes of a folder
+void drawInto(const QString& what, const std::filesystem::path& made,
+  const std::filesystem::path& to,
+  const std::function<void(const std::filesystem::path& folder)>& fill)
 {
   const QTemporaryDir folder;
   if (!folder.isValid())
@@ -38,11 +44,26 @@ void drawFigure(const std::filesystem::path& to, const Exported& made, const std
     throw Error(ErrorCode::BadFile, "no temporary folder can be made; free some space in /tmp");
   }
   const std::filesystem::path stage = folder.path().toStdString();
-  writeScene(stage, made.plan, "");
-  writeProvenance(stage, made.plan, made.recording);
-  replaceFile(stage / kFigureJob, job);
-  throwUnlessWell(runProgram("palp-draw", { "--figure", folder.path() }));
-  replaceFile(to, readText(stage / kFigureMade, "the figure"));
+  fill(stage);
+  throwUnlessWell(runProgram("palp-draw", { what, folder.path() }));
+  replaceFile(to, readText(stage / made, "what was drawn"));
+}
+
+void drawFigure(const std::filesystem::path& to, const Exported& made, const std::string& job)
+{
+  drawInto("--figure", kFigureMade, to,
+    [&](const std::filesystem::path& stage)
+    {
+      writeScene(stage, made.plan, "");
+      writeProvenance(stage, made.plan, made.recording);
+      replaceFile(stage / kFigureJob, job);
+    });
+}
+
+void drawCurves(const std::filesystem::path& to, const std::string& job)
+{
+  drawInto("--charts", kChartsMade + to.extension().string(), to,
+    [&](const std::filesystem::path& stage) { replaceFile(stage / kChartJob, job); });
 }
 
 } // namespace
@@ -96,6 +117,66 @@ bool Window::saveFigure(
         });
       say(written ? tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height)
                   : tr("No figure: it was canceled"));
+    });
+}
+
+// of curves; a file of numbers is no picture, and written at once
+void Window::writeCurves(const QString& file, const Plots& plots, std::optional<ImageSize> size)
+{
+  const std::filesystem::path to = file.toStdString();
+  if (plots.empty())
+  {
+    throw Error(ErrorCode::BadValue, "nothing to save yet: press the surface");
+  }
+  if (to.extension() == ".csv")
+  {
+    writeCsv(plots, to);
+    say(tr("Written to %1: all curves as drawn; each millisecond is in the samples.csv of Export "
+           "data")
+          .arg(file));
+    return;
+  }
+  const ChartSheet sheet = ChartSheet::of(plots, to, size);
+  const auto written = inBackground<bool>(tr("Saving the curves"),
+    [to, job = pack(sheet, plots)]
+    {
+      drawCurves(to, job);
+      return true;
+    });
+  const QString pixels = tr("Written to %1: %2 x %3 pixels");
+  const QString points = tr("Written to %1: lines and text, %2 x %3 points");
+  say(written ? (sheet.ending == ".png" ? pixels : points)
+                  .arg(file)
+                  .arg(sheet.size.width)
+                  .arg(sheet.size.height)
+              : tr("No curves: it was canceled"));
+}
+
+bool Window::savePlots(const QString& file, std::optional<ImageSize> size)
+{
+  return attempt([&] { writeCurves(file, plots_->plots(), size); });
+}
+
+bool Window::saveCurves(const QString& file)
+{
+  return attempt(
+    [&]
+    {
+      charts_->refresh();
+      writeCurves(file, charts_->plots(), std::nullopt);
+    });
+}
+
+bool Window::saveChart(std::size_t chart, const QString& file, ImageSize size)
+{
+  return attempt(
+    [&]
+    {
+      charts_->refresh();
+      Plots plots = charts_->plots();
+      Plots one;
+      one.push_back(std::move(plots.at(chart)));
+      writeCurves(file, one, size);
     });
 }
 

@@ -1,6 +1,5 @@
 // What the window reads and writes, and says of it.
 
-#include "app/graphs/plot_panel.h"
 #include "app/panels/device_panel.h"
 #include "app/panels/folder_dialog.h"
 #include "app/panels/open_dialog.h"
@@ -44,6 +43,19 @@ public:
     return QKeySequence(key.key() | static_cast<int>(key.modifiers())) == kExport;
   }
 };
+
+void writePicture(const QImage& picture, const std::filesystem::path& file)
+{
+  replaceFile(file,
+    [&](const std::filesystem::path& fresh)
+    {
+      if (!picture.save(QString::fromStdString(fresh.string())))
+      {
+        throw Error(ErrorCode::BadFile,
+          file.string() + ": cannot be written; choose another folder or a name in .png");
+      }
+    });
+}
 
 QString fileName(const MeshSource& source)
 {
@@ -92,6 +104,7 @@ void Window::makeFileMenu()
 {
   QMenu* file = menuBar()->addMenu(tr("&File"));
   addOpening(*file);
+  file->addSeparator();
   const auto addSave = [&](const QString& entry, const QString& title, const char* suggested,
                          const QString& kinds, bool (Window::*save)(const QString&))
   {
@@ -121,6 +134,7 @@ void Window::makeFileMenu()
     ->setObjectName("turntableAction");
   QAction* curves = addSave(tr("Save &curves…"), tr("Save curves"), "curves.png",
     tr("Plots (*.png *.svg *.pdf *.csv)"), &Window::saveCurves);
+  file->addSeparator();
   QAction* exporting = file->addAction(tr("&Export data…"), this,
     [this]
     {
@@ -236,51 +250,15 @@ bool Window::saveScreenshot(const QString& file)
       message_->tell({}); // which the picture gives room to, and does not show
       renderWindow_->Render();
       const QImage picture = canvas_->grabFramebuffer();
-      replaceFile(file.toStdString(),
-        [&](const std::filesystem::path& fresh)
+      const auto written = inBackground<bool>(tr("Saving the screenshot"),
+        [picture, to = file.toStdString()]
         {
-          if (!picture.save(QString::fromStdString(fresh.string())))
-          {
-            throw Error(ErrorCode::BadFile,
-              file.toStdString() + ": cannot be written; choose another folder or a name in .png");
-          }
+          writePicture(picture, to);
+          return true;
         });
-      say(tr("Written to %1: %2 x %3 pixels").arg(file).arg(picture.width()).arg(picture.height()));
-    });
-}
-
-bool Window::savePlots(const QString& file, std::optional<ImageSize> size)
-{
-  return attempt(
-    [&] { say(tr("Written to %1: %2").arg(file, plots_->save(file.toStdString(), size))); });
-}
-
-bool Window::saveCurves(const QString& file)
-{
-  return attempt(
-    [&]
-    {
-      charts_->refresh();
-      sayWritten(file, palp::savePlots(charts_->plots(), file.toStdString()));
-    });
-}
-
-void Window::sayWritten(const QString& curves, const QString& what)
-{
-  const QString drawn = tr("; as drawn, each millisecond is in the samples.csv of Export data");
-  say(tr("Written to %1: %2").arg(curves, what) + (curves.endsWith(".csv") ? drawn : QString()));
-}
-
-bool Window::saveChart(std::size_t chart, const QString& file, ImageSize size)
-{
-  return attempt(
-    [&]
-    {
-      charts_->refresh();
-      Plots plots = charts_->plots();
-      Plots one;
-      one.push_back(std::move(plots.at(chart)));
-      sayWritten(file, palp::savePlots(one, file.toStdString(), size));
+      say(written
+          ? tr("Written to %1: %2 x %3 pixels").arg(file).arg(picture.width()).arg(picture.height())
+          : tr("No screenshot: it was canceled"));
     });
 }
 

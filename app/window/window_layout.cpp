@@ -9,6 +9,7 @@
 #include "app/panels/press_list.h"
 #include "app/panels/tissue_panel.h"
 #include "app/panels/validity_panel.h"
+#include "app/plots/chart_job.h"
 #include "app/plots/kept_presses.h"
 #include "app/shell/compose_alone.h"
 #include "app/shell/dock.h"
@@ -197,7 +198,7 @@ void Window::makePlots(bool shown)
     [this]
     {
       FigureDialog dialog(tr("Save plots"), "plots.png", tr("Plots (*.png *.svg *.pdf *.csv)"),
-        plots_->usualSize(), this);
+        ChartSheet::usualSize(plots_->plots()), this);
       if (dialog.exec() == QDialog::Accepted)
       {
         savePlots(dialog.file(), dialog.size());

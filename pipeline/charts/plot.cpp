@@ -3,6 +3,7 @@
 #include "haptics/files/csv_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vtkAxis.h>
@@ -86,41 +87,54 @@ vtkTable* Plot::addTable(const std::string& name, std::span<const double> x,
   return table;
 }
 
+void Plot::add(const Curve& curve, std::span<const double> x, std::span<const double> first,
+  std::span<const double> second)
+{
+  static constexpr std::array kTypes{ vtkChart::LINE, vtkChart::POINTS, vtkChart::AREA };
+  const auto& [red, green, blue] = curve.color;
+  vtkTable* table = addTable(curve.name, x, first, second);
+  curves_.push_back(curve);
+  vtkPlot* plot = chart_->AddPlot(kTypes[static_cast<std::size_t>(curve.kind)]);
+  plot->SetInputData(table, 0, 1);
+  plot->SetLabel(curve.name);
+  plot->GetPen()->SetColorF(red, green, blue);
+  switch (curve.kind)
+  {
+    case Curve::Kind::Line:
+      plot->SetWidth(curve.size);
+      plot->GetPen()->SetLineType(curve.style);
+      break;
+    case Curve::Kind::Points:
+      vtkPlotPoints::SafeDownCast(plot)->SetMarkerStyle(styleOf(static_cast<Mark>(curve.style)));
+      vtkPlotPoints::SafeDownCast(plot)->SetMarkerSize(curve.size);
+      break;
+    case Curve::Kind::Band:
+      for (int column = 0; column < 3; ++column)
+      {
+        plot->SetInputArray(column, table->GetColumnName(column));
+      }
+      plot->GetBrush()->SetColorF(red, green, blue, 0.25);
+      plot->GetPen()->SetLineType(vtkPen::NO_PEN);
+      break;
+  }
+}
+
 void Plot::addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
   const appearance::Color& color, float width, appearance::LineStyle style)
 {
-  vtkPlot* plot = chart_->AddPlot(vtkChart::LINE);
-  plot->SetInputData(addTable(name, x, y, {}), 0, 1);
-  plot->SetLabel(name);
-  plot->GetPen()->SetColorF(color[0], color[1], color[2]);
-  plot->SetWidth(width);
-  plot->GetPen()->SetLineType(static_cast<int>(style));
+  add({ Curve::Kind::Line, name, color, width, static_cast<int>(style) }, x, y);
 }
 
 void Plot::addPoints(const std::string& name, std::span<const double> x, std::span<const double> y,
   const appearance::Color& color, Mark mark, float size)
 {
-  auto* plot = vtkPlotPoints::SafeDownCast(chart_->AddPlot(vtkChart::POINTS));
-  plot->SetInputData(addTable(name, x, y, {}), 0, 1);
-  plot->SetLabel(name);
-  plot->GetPen()->SetColorF(color[0], color[1], color[2]);
-  plot->SetMarkerStyle(styleOf(mark));
-  plot->SetMarkerSize(size);
+  add({ Curve::Kind::Points, name, color, size, static_cast<int>(mark) }, x, y);
 }
 
 void Plot::addBand(const std::string& name, std::span<const double> x, std::span<const double> low,
   std::span<const double> high, const appearance::Color& color)
 {
-  vtkTable* table = addTable(name, x, low, high);
-  vtkPlot* plot = chart_->AddPlot(vtkChart::AREA);
-  plot->SetInputData(table);
-  for (int column = 0; column < 3; ++column)
-  {
-    plot->SetInputArray(column, table->GetColumnName(column));
-  }
-  plot->SetLabel(name);
-  plot->GetBrush()->SetColorF(color[0], color[1], color[2], 0.25);
-  plot->GetPen()->SetLineType(vtkPen::NO_PEN);
+  add({ .kind = Curve::Kind::Band, .name = name, .color = color }, x, low, high);
 }
 
 std::pair<double, double> Plot::rangeOf(bool isBottom) const

@@ -39,6 +39,27 @@ public:
     Diamond,
   };
 
+  /// What a curve is called, and how it is drawn.
+  struct Curve
+  {
+    enum class Kind
+    {
+      Line,
+      Points,
+      Band,
+    };
+
+    Kind kind = Kind::Line;
+    std::string name{}; ///< empty: a part of the curve before
+    appearance::Color color{};
+    float size = 0.0F; ///< of a line's width or a mark
+    int style = 0;     ///< an appearance::LineStyle or a Mark
+  };
+
+  /// @param second  the upper edge of a band; else empty
+  void add(const Curve& curve, std::span<const double> x, std::span<const double> first,
+    std::span<const double> second = {});
+
   /// A line through points, in the units of the axes.
   void addLine(const std::string& name, std::span<const double> x, std::span<const double> y,
     const appearance::Color& color, float width = 2.0F,
@@ -80,6 +101,12 @@ public:
     return tables_;
   }
 
+  /// As many.
+  [[nodiscard]] const std::vector<Curve>& curves() const
+  {
+    return curves_;
+  }
+
   /// Writes all curves: curve,<x>,<y>; a band has two curves, its lower and its upper one.
   void writeCsv(std::ostream& out) const;
 
@@ -93,6 +120,7 @@ private:
   std::string left_;
   std::string note_;
   std::vector<vtkSmartPointer<vtkTable>> tables_;
+  std::vector<Curve> curves_;
   vtkNew<vtkPalpPointedChart> chart_;
 };
 

@@ -93,6 +93,14 @@ public:
     return this->Dent;
   }
 
+  /**
+   * Output 1 after the last update that made it.
+   */
+  const palp::DentPatch& GetPatch() const
+  {
+    return this->Patch;
+  }
+
 protected:
   vtkPalpDeformFilter();
   ~vtkPalpDeformFilter() override = default;

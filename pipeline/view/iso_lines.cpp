@@ -1,6 +1,7 @@
 #include "pipeline/view/iso_lines.h"
 
 #include "haptics/units.h"
+#include "pipeline/model/level_lines.h"
 #include "pipeline/view/appearance.h"
 
 #include <cmath>
@@ -11,15 +12,10 @@
 namespace palp
 {
 
-IsoLines::IsoLines(vtkRenderer& renderer, vtkPalpDeformFilter& press)
+IsoLines::IsoLines(vtkRenderer& renderer)
 {
-  contour_->SetInputConnection(press.GetOutputPort(1));
-  contour_->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Displacement [mm]");
-  contour_->ComputeScalarsOff();
-  contour_->ComputeNormalsOff();
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(contour_->GetOutputPort());
+  mapper->SetInputData(lines_);
   mapper->ScalarVisibilityOff();
   appearance::drawInFront(*mapper);
   actor_->SetMapper(mapper);
@@ -49,10 +45,12 @@ void IsoLines::show(const OverlayState& state)
   const double depth = state.sample.contact.depth;
   const double step = stepOf(depth);
   const int count = static_cast<int>(std::ceil(depth / step - 1e-9)) - 1; // the deepest is a point
-  contour_->SetNumberOfContours(count);
-  for (int i = 0; i < count; ++i)
+  vtkPolyData& patch = *vtkPolyData::SafeDownCast(state.press.GetOutputDataObject(1));
+  lines_->Initialize();
+  for (int i = 1; i <= count; ++i)
   {
-    contour_->SetValue(i, units::toMillimeters((i + 1) * step));
+    addLevelLines(patch, state.press.GetPatch().triangles, "Displacement [mm]", "Displacement",
+      static_cast<float>(units::toMillimeters(i * step)), *lines_);
   }
   actor_->SetVisibility(count > 0);
 }

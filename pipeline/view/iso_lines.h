@@ -3,8 +3,8 @@
 #include "pipeline/view/overlay_props.h"
 
 #include <vtkActor.h>
-#include <vtkContourFilter.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 
 namespace palp
 {
@@ -13,7 +13,7 @@ namespace palp
 class IsoLines : public OverlayProps
 {
 public:
-  IsoLines(vtkRenderer& renderer, vtkPalpDeformFilter& press);
+  explicit IsoLines(vtkRenderer& renderer);
 
   /// How far apart in displacement they are: 1, 2 or 5 times a power of ten, for 3 to 8 lines.
   /// @param depth  of the press [m]
@@ -24,7 +24,7 @@ public:
   void hide() override;
 
 private:
-  vtkNew<vtkContourFilter> contour_;
+  vtkNew<vtkPolyData> lines_;
   vtkNew<vtkActor> actor_;
 };
 

@@ -72,11 +72,10 @@ void PressView::addOverlays()
   const auto put = [this](Overlay overlay, std::unique_ptr<OverlayProps> props)
   { overlays_[indexOf(overlay)] = std::move(props); };
   put(Overlay::ForceArrow, std::make_unique<ForceArrow>(renderer_));
-  put(Overlay::ContactCircle,
-    std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Contact));
-  put(Overlay::ExtentCircle,
-    std::make_unique<SurfaceCircle>(renderer_, *deform_, SurfaceCircle::Of::Extent));
-  put(Overlay::IsoLines, std::make_unique<IsoLines>(renderer_, *deform_));
+  put(
+    Overlay::ContactCircle, std::make_unique<SurfaceCircle>(renderer_, SurfaceCircle::Of::Contact));
+  put(Overlay::ExtentCircle, std::make_unique<SurfaceCircle>(renderer_, SurfaceCircle::Of::Extent));
+  put(Overlay::IsoLines, std::make_unique<IsoLines>(renderer_));
   put(Overlay::ControlNet, std::make_unique<ControlNet>(renderer_));
   put(Overlay::Ghost, std::make_unique<Ghost>(renderer_, *deform_));
   auto readings = std::make_unique<Readings>(renderer_);

@@ -1,5 +1,6 @@
 #include "pipeline/view/surface_circle.h"
 
+#include "pipeline/model/level_lines.h"
 #include "pipeline/view/appearance.h"
 
 #include <algorithm>
@@ -21,13 +22,9 @@ constexpr double kSame = 0.01; // [-] of the radius: the point faces the tool, i
 
 } // namespace
 
-SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, Of of)
+SurfaceCircle::SurfaceCircle(vtkRenderer& renderer, Of of)
   : of_(of)
 {
-  contour_->SetInputConnection(press.GetOutputPort(1));
-  contour_->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Distance");
-  contour_->ComputeScalarsOff();
-  contour_->ComputeNormalsOff();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(line_);
   mapper->ScalarVisibilityOff();
@@ -45,9 +42,10 @@ void SurfaceCircle::show(const OverlayState& state)
 {
   const double radius =
     of_ == Of::Contact ? state.press.GetPress().contactRadius : state.extentRadius;
-  contour_->SetValue(0, radius);
-  contour_->Update();
-  line_->ShallowCopy(contour_->GetOutput());
+  line_->Initialize();
+  addLevelLines(*vtkPolyData::SafeDownCast(state.press.GetOutputDataObject(1)),
+    state.press.GetPatch().triangles, "Distance", "Displacement", static_cast<float>(radius),
+    *line_);
   putOnField(state.press.GetDent(), radius);
   actor_->SetVisibility(radius > 0.0);
 }

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <vtkActor.h>
-#include <vtkContourFilter.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
@@ -21,7 +20,7 @@ public:
     Extent
   };
 
-  SurfaceCircle(vtkRenderer& renderer, vtkPalpDeformFilter& press, Of of);
+  SurfaceCircle(vtkRenderer& renderer, Of of);
   void show(const OverlayState& state) override;
   void hide() override;
 
@@ -29,7 +28,6 @@ private:
   void putOnField(const Dent& dent, double radius);
 
   Of of_;
-  vtkNew<vtkContourFilter> contour_;
   vtkNew<vtkPolyData> line_;
   vtkNew<vtkActor> actor_;
 };

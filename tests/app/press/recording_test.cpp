@@ -54,6 +54,8 @@ TEST(Recording, ThatGrowsIsBoundedAndKeepsItsExtremesAndEachContact)
   constexpr std::size_t kKept = 6000;
   Recording recording;
   std::size_t most = 0;
+  std::size_t full = 0; // samples, before any were left out
+  const Sample* first = nullptr;
   double deepest = 0.0;
   double strongest = 0.0;
   std::mt19937 random(1); // the same samples each time
@@ -69,8 +71,12 @@ TEST(Recording, ThatGrowsIsBoundedAndKeepsItsExtremesAndEachContact)
     strongest = std::max(strongest, sample.response.force);
     bound(recording, kKept);
     most = std::max(most, recording.samples.size());
+    full = recording.thinned == 0 ? most : full;
+    first = recording.thinned == 0 ? recording.samples.data() : first;
   }
   EXPECT_LE(most, kKept * 14 / 10);
+  EXPECT_EQ(most, full) << "what is left out of a full recording makes room for what comes";
+  EXPECT_EQ(recording.samples.data(), first) << "in the same memory";
   EXPECT_EQ(recording.deepest()->contact.depth, deepest);
   const auto& samples = recording.samples;
   const auto force = [](const Sample& sample) { return sample.response.force; };

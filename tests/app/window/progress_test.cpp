@@ -68,6 +68,17 @@ protected:
     return found;
   }
 
+  // of the event loop, with a program at work that something is drawn by
+  static int turnsWhile(const std::string& program, const std::function<void()>& drawn)
+  {
+    int turns = 0;
+    QTimer turn;
+    QObject::connect(&turn, &QTimer::timeout, [&] { turns += processesWith(program) > 0 ? 1 : 0; });
+    turn.start(0);
+    drawn();
+    return turns;
+  }
+
   // a sheet of two million triangles, which takes seconds
   [[nodiscard]] QString largeSurface() const
   {
@@ -127,6 +138,26 @@ TEST_F(Progress, OfAMovieCountsItsPicturesAndIsCanceled)
   EXPECT_TRUE(said().contains("canceled")) << said().toStdString();
   EXPECT_FALSE(std::filesystem::exists(file));
   EXPECT_TRUE(QTest::qWaitFor([] { return processesWith("--movie") == 0; }, 3000));
+}
+
+TEST_F(Progress, TheWindowGoesOnWhileFiguresAndCurvesAreDrawn)
+{
+  press(80);
+  const auto fileOf = [&](const char* name)
+  { return QString::fromStdString((folder_.path() / name).string()); };
+  constexpr ImageSize kLarge{ .width = 3840, .height = 2160 };
+  constexpr int kMany = 5; // a window that waits has none
+  EXPECT_GT(turnsWhile("--figure",
+              [&] { EXPECT_TRUE(window_->saveFigure(fileOf("figure.png"), kLarge, {})); }),
+    kMany);
+  EXPECT_GT(
+    turnsWhile("--charts", [&] { EXPECT_TRUE(window_->saveChart(0, fileOf("c.png"), kLarge)); }),
+    kMany);
+  release();
+  for (const char* name : { "figure.png", "c.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / name)) << name;
+  }
 }
 
 TEST_F(Progress, OfAFigureIsCanceledAndLeavesNoFile)

@@ -7,6 +7,8 @@
 
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
 #include <QPainter>
 #include <QPushButton>
 #include <QWheelEvent>
@@ -31,17 +33,18 @@ protected:
   {
   }
 
-  // the window with the dialog over it
-  void save(const char* state, QSize screen, QDialog* dialog) const
+  // the window with a dialog or a menu over it
+  void save(const char* state, QSize screen, QWidget* over) const
   {
     for (const Theme theme : { Theme::Light, Theme::Dark })
     {
       setTheme(theme);
       QTest::qWait(700);
       QPixmap picture = window_->grab();
-      if (dialog != nullptr)
+      if (over != nullptr)
       {
-        QPainter(&picture).drawPixmap(dialog->pos() - window_->pos(), dialog->grab());
+        const QPoint at = over->mapToGlobal(QPoint()) - window_->mapToGlobal(QPoint());
+        QPainter(&picture).drawPixmap(at, over->grab());
       }
       const QString name = QString("%1/%2_%3x%4_%5.png")
                              .arg(folder, state)
@@ -88,6 +91,25 @@ protected:
         });
       look.start(500);
       open();
+    }
+  }
+
+  void showMenu(const char* state, const QString& name)
+  {
+    for (const QSize screen : screens)
+    {
+      window_->resize(screen - QSize(16, 48));
+      QTest::qWait(300);
+      for (QAction* action : window_->menuBar()->actions())
+      {
+        if (action->text().remove('&') == name)
+        {
+          const QPoint below = window_->menuBar()->actionGeometry(action).bottomLeft();
+          action->menu()->popup(window_->menuBar()->mapToGlobal(below));
+          save(state, screen, action->menu());
+          action->menu()->close();
+        }
+      }
     }
   }
 
@@ -206,6 +228,15 @@ TEST_F(Sheet, Messages)
   showDialog("12_figure", [&] { trigger("figureAction"); });
   showDialog("13_export", [&] { trigger("exportAction"); });
   showDialog("14_map_dialog", [&] { trigger("mapAction"); });
+}
+
+TEST_F(Sheet, Menus)
+{
+  showMenu("16_file_menu", "File");
+  showMenu("17_device_menu", "Device");
+  showMenu("18_view_menu", "View");
+  trigger("sound");
+  show("19_no_sound", [] {});
 }
 
 ScenePlan severalOrgans()

@@ -230,23 +230,46 @@ std::pair<double, double> longestWait(const std::function<void()>& work)
   return { 1e-6 * static_cast<double>(longest), most };
 }
 
-TEST_F(Speed, SavingAFigure)
+void printWait(const char* what, const std::function<void()>& work)
+{
+  QElapsedTimer clock;
+  clock.start();
+  const auto [wait, own] = longestWait(work);
+  std::printf("%s: %.1f s, longest wait of the window %.0f ms, of which it works %.0f ms\n", what,
+    1e-3 * static_cast<double>(clock.elapsed()), wait, own);
+}
+
+TEST_F(Speed, Saving)
 {
   press(60);
   QTest::qWait(1000);
-  const auto atRest = longestWait([] { QTest::qWait(10'000); });
-  std::printf("at rest: longest wait of the window %.0f ms, of which it works %.0f ms\n",
-    atRest.first, atRest.second);
-  const QString file = QString::fromStdString((folder_.path() / "figure.png").string());
+  const auto file = [this](const char* name)
+  { return QString::fromStdString((folder_.path() / name).string()); };
+  printWait("at rest", [] { QTest::qWait(10'000); });
   for (const ImageSize size : { ImageSize{ 1920, 1080 }, { 3840, 2160 }, { 7680, 4320 } })
   {
-    QElapsedTimer clock;
-    clock.start();
-    const auto [wait, own] =
-      longestWait([&] { window_->saveFigure(file, size, { .isRealistic = true }); });
-    std::printf(
-      "figure of %d x %d: %.1f s, longest wait of the window %.0f ms, of which it works %.0f ms\n",
-      size.width, size.height, 1e-3 * static_cast<double>(clock.elapsed()), wait, own);
+    const std::string of =
+      " of " + std::to_string(size.width) + " x " + std::to_string(size.height);
+    printWait(("figure" + of).c_str(),
+      [&] { window_->saveFigure(file("figure.png"), size, { .isRealistic = true }); });
+    printWait(("chart" + of).c_str(), [&] { window_->saveChart(0, file("chart.png"), size); });
+  }
+  for (const char* name : { "curves.svg", "curves.pdf", "curves.csv" })
+  {
+    printWait(name, [&] { window_->saveCurves(file(name)); });
+  }
+  printWait("screenshot", [&] { window_->saveScreenshot(file("shot.png")); });
+  release();
+  QTest::qWait(1000);
+  printWait("movie", [&] { window_->saveReplay(file("press.mp4")); });
+  printWait("export", [&] { window_->exportData(file("export")); });
+}
+
+TEST_F(Speed, Opening)
+{
+  for (const MeshSource& mesh : plan.meshes)
+  {
+    printWait("opening", [&] { window_->openFile(QString::fromStdString(mesh.file.string())); });
   }
 }
 
@@ -282,7 +305,9 @@ TEST_F(Speed, Memory)
     QTest::qWait(100);
     if (6e4 * told <= static_cast<double>(clock.elapsed()))
     {
-      std::printf("memory: %.1f MB after %.0f min of random presses\n", megabytes(), told);
+      const std::size_t samples = session_->recording().samples.size();
+      std::printf("memory: %.1f MB after %.0f min of random presses, %.1f without the ring\n",
+        megabytes(), told, megabytes() - 1e-6 * static_cast<double>(samples * sizeof(Sample)));
       std::fflush(stdout);
       told += 1.0;
     }
