@@ -4,6 +4,7 @@
 #include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
+#include "app/report/organ/organ_error.h"
 #include "calibration/experiments/experiments.h"
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
@@ -40,6 +41,8 @@ constexpr std::array kExperiments{
     "profiles", "Fig. 7: surface profiles", { "profiles_sphere", "profiles_cone" }, fem::profiles },
   Named{ "forces", "Figs. 15 and 16: laws against finite elements",
     { "forces_sphere", "forces_cone", "force_difference" }, fem::forces },
+  Named{ "organ", "Bodies that give way as a whole, by cells of 8 to 3 mm, against fine elements",
+    { "organ" }, report::organExperiment },
 };
 
 struct ExperimentOptions
@@ -131,8 +134,8 @@ void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
 void addExperimentCommand(CLI::App& app, const Renderer* pictures)
 {
   auto options = std::make_shared<ExperimentOptions>();
-  CLI::App* command =
-    app.add_subcommand("experiment", "Do an experiment of the paper again, and say what came out");
+  CLI::App* command = app.add_subcommand("experiment",
+    "Do an experiment again, of the paper or of bodies that give way, and say what came out");
   std::vector<std::string> names;
   std::string list;
   for (const Named& named : kExperiments)

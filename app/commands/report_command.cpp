@@ -8,6 +8,7 @@
 #include "app/program/progress_line.h"
 #include "app/report/folder.h"
 #include "app/report/html_page.h"
+#include "app/report/organ/organ_error.h"
 #include "app/report/parts.h"
 #include "app/report/tissue/tissue_error.h"
 #include "haptics/error.h"
@@ -40,6 +41,8 @@ constexpr std::array kParts{
   Part{ "surface_error", "Error of the surface against run time", surfaceAgainstTime },
   Part{
     "tissue_error", "Nodules and maps: error of the force against run time", tissueAgainstTime },
+  Part{ "organ_error", "Bodies that give way: error of the force against the time of an organ file",
+    organAgainstTime },
   Part{ "curvature", "Fig. 3: curved bodies against the flat block", curvature },
   Part{ "inclination", "Eq. (7): the inclined tool", inclination },
   Part{ "profiles", "Fig. 7: surface profiles", profiles },

@@ -307,8 +307,8 @@ Section forceAgainstTime(const Effort& effort)
   for (const BlockPress& press : wanted)
   {
     const std::string setting = settingOf(press, StrainEnergy::NeoHookean, "");
-    addParetoFront(front, "all methods", tables.errors, "error_rms_pct", setting, "");
-    addParetoFront(front, "no table", tables.errors, "error_rms_pct", setting, "table");
+    addParetoFront(front, "all methods", tables.errors, setting, "");
+    addParetoFront(front, "no table", tables.errors, setting, "table");
   }
   section.text.insert(section.text.begin(), finding(front));
   section.tables = { std::move(tables.summary), std::move(front), std::move(tables.errors),

@@ -8,12 +8,12 @@ namespace palp::report
 {
 
 void addParetoFront(Table& front, const std::string& name, const Table& table,
-  const std::string& error, const std::string& setting, const std::string& without)
+  const std::string& setting, const std::string& without)
 {
+  const std::size_t timeColumn = table.indexOf(front.columns[4]);
+  const std::size_t errorColumn = table.indexOf(front.columns[5]);
   const auto word = [&](const std::vector<Cell>& row, const char* column) -> const std::string&
   { return std::get<std::string>(row[table.indexOf(column)]); };
-  const auto number = [&](const std::vector<Cell>& row, const std::string& column)
-  { return std::get<double>(row[table.indexOf(column)]); };
 
   std::vector<std::string> regimes; // in the order of the table
   for (const auto& row : table.rows)
@@ -31,15 +31,15 @@ void addParetoFront(Table& front, const std::string& name, const Table& table,
       if (word(row, "regime") == regime && word(row, "setting").starts_with(setting) &&
         word(row, "method") != without)
       {
-        byTime.emplace(number(row, "time_us"), &row);
+        byTime.emplace(std::get<double>(row[timeColumn]), &row);
       }
     }
     double best = std::numeric_limits<double>::infinity();
     for (const auto& [time, row] : byTime)
     {
-      if (number(*row, error) < best)
+      if (const double error = std::get<double>((*row)[errorColumn]); error < best)
       {
-        best = number(*row, error);
+        best = error;
         front.rows.push_back(
           { name, word(*row, "method"), word(*row, "setting"), regime, time, best });
       }

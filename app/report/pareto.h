@@ -7,12 +7,12 @@ namespace palp::report
 
 /// The rows of a table than which no other of their press and regime is faster and more accurate.
 ///
-/// @param table    with columns method, setting, regime, time_us and the error
-/// @param error    column
+/// @param table    with columns method, setting, regime, and the front's time and error
 /// @param setting  what all settings of the front begin with
 /// @param without  a method that is left aside; "": none
-/// @param front    receives rows front,method,setting,regime,time_us,ERROR, fastest first
+/// @param front    receives rows of its columns front, method, setting, regime, TIME and ERROR,
+///                 fastest first
 void addParetoFront(Table& front, const std::string& name, const Table& table,
-  const std::string& error, const std::string& setting, const std::string& without);
+  const std::string& setting, const std::string& without);
 
 } // namespace palp::report

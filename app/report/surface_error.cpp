@@ -272,7 +272,7 @@ Section surfaceAgainstTime(const Effort& effort)
     .shown = false };
   for (const BlockPress& press : wanted)
   {
-    addParetoFront(front, press.name, section.tables[1], "error_rms_mm", press.name, "");
+    addParetoFront(front, press.name, section.tables[1], press.name, "");
   }
   section.tables.insert(section.tables.begin() + 1, std::move(front));
   // a regime without a depth of the references

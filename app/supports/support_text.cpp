@@ -75,21 +75,39 @@ Support directionOf(const std::vector<std::string>& words, const Surface& surfac
     areaOf(surface, [&](const Eigen::Vector3d&, int triangle) { return faces(triangle); }) };
 }
 
+Support labelOf(
+  const std::vector<std::string>& words, const Surface& surface, const FindRegion& find)
+{
+  if (!find)
+  {
+    throw Error(ErrorCode::BadValue,
+      std::string(kOption) + ": label:" + words[2] +
+        " is of a label map, which the surface is not of; give its image and --label, or a box");
+  }
+  const auto holds = [region = find(words[2])](const Eigen::Vector3d& x)
+  { return distanceTo(region.surface->tree(), x, region.reach) < region.reach; };
+  return { holds,
+    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+}
+
 } // namespace
 
-Support parseSupport(const std::string& text, const Surface& surface)
+Support parseSupport(const std::string& text, const Surface& surface, const FindRegion& find)
 {
   const std::vector<std::string> words = wordsOf(text);
-  const bool isKnown = words.size() == 4 && (words[0] == "bonded" || words[0] == "sliding") &&
-    (words[1] == "box" || words[1] == "direction");
+  const bool isLabel = words.size() == 3 && words[1] == "label" && !words[2].empty();
+  const bool isKnown = (words[0] == "bonded" || words[0] == "sliding") &&
+    (isLabel || (words.size() == 4 && (words[1] == "box" || words[1] == "direction")));
   if (!isKnown)
   {
     throw Error(ErrorCode::BadValue,
       std::string(kOption) + ": '" + text +
-        "' is no support; write bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, or "
-        "bonded:direction:X,Y,Z:30deg, or either with sliding");
+        "' is no support; write bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
+        "bonded:direction:X,Y,Z:30deg or bonded:label:7, or any with sliding");
   }
-  Support support = words[1] == "box" ? boxOf(words, surface) : directionOf(words, surface);
+  Support support = isLabel ? labelOf(words, surface, find)
+    : words[1] == "box"     ? boxOf(words, surface)
+                            : directionOf(words, surface);
   if (support.along.isZero())
   {
     throw Error(ErrorCode::BadValue,

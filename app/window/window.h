@@ -141,6 +141,7 @@ private:
   void openOther(const QString& file);
   void openScene(const QString& file);
   void openPlaces(const QString& file);
+  void openOrgan(const QString& file);
   void pressQueued();
   void openRecent(const QString& file);
   void makeHelpMenu();

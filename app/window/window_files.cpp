@@ -72,8 +72,8 @@ void Window::addOpening(QMenu& file)
     [this]
     {
       openFiles(QFileDialog::getOpenFileNames(this, tr("Open"), {},
-        tr("Surfaces, images, scenes, places, paths (*.stl *.obj *.ply *.off *.vtk *.vtp *.vtu %1 "
-           "*.json *.fcsv *.csv);;All files (*)")
+        tr("Surfaces, images, scenes, places, paths, organ files (*.stl *.obj *.ply *.off *.vtk "
+           "*.vtp *.vtu %1 *.json *.fcsv *.csv *.organ);;All files (*)")
           .arg(kImageFiles)));
     },
     QKeySequence::Open);

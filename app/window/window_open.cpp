@@ -6,6 +6,7 @@
 #include "app/places/fiducial_file.h"
 #include "app/scene/scene_file.h"
 #include "app/window/window.h"
+#include "calibration/tables/organ_table.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
@@ -25,6 +26,7 @@ enum class FileKind
   Profile,
   Path,
   Samples,
+  Organ,
 };
 
 // a table is told by its columns
@@ -43,6 +45,7 @@ FileKind kindOf(const QString& file)
   { return file.endsWith(ending, Qt::CaseInsensitive); };
   return isExport(file.toStdString())          ? FileKind::Export
     : ends(".fcsv") || ends(".mrk.json")       ? FileKind::Places
+    : ends(".organ")                           ? FileKind::Organ
     : ends(".json")                            ? FileKind::Scene
     : ends(".csv") && QFileInfo(file).isFile() ? kindOfTable(file)
                                                : FileKind::Body;
@@ -72,8 +75,39 @@ void Window::openOther(const QString& file)
     case FileKind::Samples:
       applyDevice("replay:" + file);
       break;
+    case FileKind::Organ:
+      openOrgan(file);
+      break;
     case FileKind::Body:
       break;
+  }
+}
+
+// how the body that is open, or an organ of it, gives way as a whole
+void Window::openOrgan(const QString& file)
+{
+  const OrganTable table = readOrganTable(file.toStdString());
+  const SceneBody& body = session_.body();
+  std::vector<MeshSource> meshes = body.sources;
+  bool isOfIt = false;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+  {
+    const MeshFile& felt = body.organs.empty() ? body.files[i] : body.organs[i].files.front();
+    if (identityOf(felt) == table.mesh)
+    {
+      meshes[i].organ = file.toStdString();
+      isOfIt = true;
+    }
+  }
+  if (!isOfIt)
+  {
+    throw Error(ErrorCode::BadFile,
+      file.toStdString() + ": is of another surface than what is open; open that first");
+  }
+  if (openBody(meshes, session_.organs()))
+  {
+    say(tr("%1 gives way as a whole, by %2")
+          .arg(QString::fromStdString(session_.body().name), QFileInfo(file).fileName()));
   }
 }
 

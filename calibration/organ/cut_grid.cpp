@@ -1,6 +1,7 @@
 #include "calibration/organ/cut_grid.h"
 
 #include "haptics/error.h"
+#include "haptics/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,6 +110,13 @@ CutGrid::CutGrid(const Surface& surface, double side)
   {
     throw Error(ErrorCode::BadMesh,
       "the surface is open, so it has no inside; close it, palp check --repair --close-holes does");
+  }
+  if (const auto& crossing = surface.crossing())
+  {
+    throw Error(ErrorCode::BadMesh,
+      "the surface crosses itself, as at " + units::inMillimeters(crossing->x()) + ", " +
+        units::inMillimeters(crossing->y()) + ", " + units::inMillimeters(crossing->z()) +
+        "; mend it where it was made, palp check lists where");
   }
   low_ = surface.points().front();
   Eigen::Vector3d high = low_;

@@ -18,7 +18,8 @@ class CutGrid
 public:
   /// @param surface  closed
   /// @param side     of the cubes [m]
-  /// @throws Error   BadMesh: the surface is open; BadValue: more than 20 million cubes
+  /// @throws Error   BadMesh: the surface is open or crosses itself; BadValue: more than 20 million
+  ///                 cubes
   CutGrid(const Surface& surface, double side);
 
   [[nodiscard]] double side() const noexcept

@@ -30,8 +30,9 @@ public:
   /// @param side           of the cubes [m]
   /// @param youngModulus   [Pa]
   /// @param poissonRatio   0 to below 0.5 [-]
-  /// @throws Error         BadMesh: the surface is open; BadValue: the supports leave a motion
-  ///                       free, and which; no cube is filled, or over 20 million would be
+  /// @throws Error         BadMesh: the surface is open or crosses itself; BadValue: the supports
+  ///                       leave a motion free, and which; no cube is filled, or over 20 million
+  ///                       would be
   OrganModel(const Surface& surface, double side, double youngModulus, double poissonRatio,
     std::span<const Support> supports);
   ~OrganModel();

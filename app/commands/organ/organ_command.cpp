@@ -16,6 +16,9 @@
 #include "haptics/force/linear/series_contact.h"
 #include "haptics/surface/ray.h"
 #include "haptics/units.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/label_names.h"
+#include "pipeline/surface_io/surface_io.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,6 +26,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <vtkPolyData.h>
 
 namespace palp
 {
@@ -46,12 +50,30 @@ struct OrganOptions
   std::filesystem::path out;
 };
 
+// another label of the image that the body is of
+SupportRegion regionOf(const MeshSource& mesh, const std::string& label)
+{
+  ImagePart part = mesh.part;
+  part.labels = valuesOfLabels({ label }, part.names);
+  part.components = ImagePart::kAllComponents;
+  const FileOrgan organ = readFileOrgans(mesh.file, part, false).organs.front();
+  const LoadedSurface loaded = madeReady(organ.surface, mesh.file, mesh.unit);
+  constexpr double kBeside = 1.5; // voxels, for both surfaces are smoothed
+  return { std::make_shared<const Surface>(pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh)),
+    kBeside * unitLength(loaded.unit) * organ.voxel };
+}
+
 std::vector<Support> supportsOf(const OrganOptions& options, const Surface& surface)
 {
+  FindRegion find;
+  if (!options.mesh.part.labels.empty())
+  {
+    find = [&mesh = options.mesh](const std::string& label) { return regionOf(mesh, label); };
+  }
   std::vector<Support> supports;
   for (const std::string& text : options.supports)
   {
-    supports.push_back(parseSupport(text, surface));
+    supports.push_back(parseSupport(text, surface, find));
   }
   return supports;
 }
@@ -213,8 +235,9 @@ void addOrganCommand(CLI::App& app)
   options->mesh.addTo(*command);
   command
     ->add_option("--support", options->supports,
-      "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, or "
-      "bonded:direction:X,Y,Z:30deg where the surface faces so; sliding holds across it only")
+      "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
+      "bonded:direction:X,Y,Z:30deg where the surface faces so, or bonded:label:7 where it touches "
+      "another label of its image; sliding holds across it only")
     ->required()
     ->allow_extra_args(false);
   const auto add = [&](const char* name, const char* what, const char* usual, auto take)
@@ -252,7 +275,8 @@ void addOrganCommand(CLI::App& app)
     "Examples:\n"
     "  palp organ --support bonded:direction:0,1,0:60deg --cell 6mm --out liver.organ\n"
     "  palp organ liver.stl --support bonded:direction:0,1,0:60deg --at -48.5,38.4,39.5\n"
-    "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm");
+    "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm\n"
+    "  palp organ ct.nii.gz --label 5 --support bonded:label:10 --out liver.organ");
   command->callback([options] { runOrgan(*options); });
 }
 

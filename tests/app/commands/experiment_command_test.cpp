@@ -1,7 +1,9 @@
 #include "tests/support/process.h"
 
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 
 namespace palp
 {
@@ -33,6 +35,38 @@ TEST(ExperimentCommand, WritesDataFindingAndEveryFigure)
   const std::string again = "inclination --no-picture --out " + folder.path().string();
   EXPECT_EQ(experiment(again).code, 2);
   EXPECT_EQ(experiment(again + " --overwrite").code, 0);
+}
+
+// programs of others told the forces
+TEST(ExperimentCommand, BodiesThatGiveWayAreFeltByTheirCells)
+{
+  const test::TemporaryFolder folder;
+  const Finished finished = experiment("organ --quick --out " + folder.path().string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "organ.png"));
+  std::istringstream lines(test::readAll(folder.path() / "organ.csv"));
+  std::string line;
+  std::getline(lines, line); // what was found
+  std::getline(lines, line);
+  EXPECT_EQ(
+    line, "method,setting,regime,solve_s,place_ms,time_s,answer_us,error_max_pct,error_rms_pct");
+  int count = 0;
+  while (std::getline(lines, line))
+  {
+    SCOPED_TRACE(line);
+    ++count;
+    const double worst = std::abs(std::stod(line.substr(line.rfind(',', line.rfind(',') - 1) + 1)));
+    const bool isSolved = line.find("cells of 6 mm") != std::string::npos;
+    if (isSolved && line.find("lobe") != std::string::npos)
+    {
+      EXPECT_LT(worst, 10.0);
+    }
+    if (line.starts_with("no organ file") && line.find("lobe") != std::string::npos)
+    {
+      EXPECT_GT(worst, 50.0);
+    }
+  }
+  EXPECT_EQ(count, 3 * 10); // two sizes of cells and none
 }
 
 // before the work, whichever of its files is there

@@ -12,9 +12,9 @@ namespace
 using namespace test;
 using nlohmann::json;
 
-const std::vector<std::string> kParts{ "force_error", "surface_error", "tissue_error", "claims",
-  "curvature", "inclination", "profiles", "extents", "forces", "dynamics", "scaling", "stability",
-  "servo" };
+const std::vector<std::string> kParts{ "force_error", "surface_error", "tissue_error",
+  "organ_error", "claims", "curvature", "inclination", "profiles", "extents", "forces", "dynamics",
+  "scaling", "stability", "servo" };
 
 TEST_F(QuickReport, IsInterruptedWithAPageAndGoesOnFromThere)
 {

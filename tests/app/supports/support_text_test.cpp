@@ -5,6 +5,7 @@
 #include "haptics/units.h"
 #include "tests/support/process.h"
 
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -36,11 +37,33 @@ TEST(SupportText, HoldsTheSurfaceThere)
   EXPECT_FALSE(base.holds({ 0.0, 10.0_mm, 0.0 }));
 }
 
+TEST(SupportText, HoldsWhatTouchesAnotherLabel)
+{
+  Mesh below = makeBox({ 40.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);
+  for (Eigen::Vector3d& point : below.points)
+  {
+    point.z() -= 51.0_mm;
+  }
+  const auto region = std::make_shared<const Surface>(below.points, below.triangles);
+  const auto find = [&](const std::string& label)
+  {
+    EXPECT_EQ(label, "7");
+    return SupportRegion{ region, 1.5_mm };
+  };
+  const Support support = parseSupport("sliding:label:7", block(), find);
+  EXPECT_NEAR(support.along.z(), -1.0, 1e-9);
+  EXPECT_TRUE(support.holds({ 10.0_mm, 0.0, -50.0_mm }));
+  EXPECT_TRUE(support.holds({ 21.0_mm, 0.0, -50.0_mm }));
+  EXPECT_FALSE(support.holds({ 22.0_mm, 0.0, -50.0_mm }));
+  EXPECT_FALSE(support.holds({ 10.0_mm, 0.0, 0.0 }));
+}
+
 TEST(SupportText, RefusesWhatItDoesNotKnow)
 {
-  for (const char* text : { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1",
-         "bonded:box:0,0:1,1,1", "bonded:box:200,200,200:210,210,210",
-         "bonded:direction:0,0,0:30deg", "bonded:direction:0,0,1:30", "bonded:box:0,0,0:1,1,1:2" })
+  for (const char* text :
+    { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1", "bonded:box:0,0:1,1,1",
+      "bonded:box:200,200,200:210,210,210", "bonded:direction:0,0,0:30deg",
+      "bonded:direction:0,0,1:30", "bonded:box:0,0,0:1,1,1:2", "bonded:label:", "bonded:label:7" })
   {
     EXPECT_THROW(parseSupport(text, block()), Error) << text;
   }
@@ -102,13 +125,47 @@ TEST_F(SupportCommand, TellsTheForceOfTheBlockAndThatOfAHalfSpace)
   }
 }
 
+// a slab of 80 x 80 x 20 mm on another one: the exact bonded layer
+TEST_F(SupportCommand, HoldsALabelByAnotherOfItsImage)
+{
+  const auto image = folder_.path() / "slabs.nrrd";
+  std::ofstream out(image, std::ios::binary);
+  out << "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\n"
+         "sizes: 44 44 24\nspace directions: (2,0,0) (0,2,0) (0,0,2)\n"
+         "kinds: domain domain domain\nencoding: raw\nspace origin: (-43,-43,-47)\n\n";
+  for (int voxel = 0; voxel < 44 * 44 * 24; ++voxel)
+  {
+    const int x = voxel % 44;
+    const int y = voxel / 44 % 44;
+    const int z = voxel / (44 * 44);
+    const bool isIn = x >= 2 && x < 42 && y >= 2 && y < 42 && z >= 2 && z < 22;
+    out.put(static_cast<char>(isIn ? (z < 12 ? 7 : 3) : 0));
+  }
+  out.close();
+  const auto pressed = [&](const std::string& support)
+  {
+    return test::runCommand(PALP_PROGRAM " organ " + image.string() +
+      " --label 3 --cell 4mm --depth 2:4:2mm --at=1,1,-4 --support " + support);
+  };
+  const test::Finished finished = pressed("bonded:label:7");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const std::vector<double> forces = columnOf(finished.out, 6);
+  ASSERT_EQ(forces.size(), 2U);
+  EXPECT_NEAR(forces[0], 0.94715239, 0.02 * forces[0]);
+  EXPECT_NEAR(forces[1], 2.9208349, 0.02 * forces[1]);
+  const test::Finished missing = pressed("bonded:label:9");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find('9'), std::string::npos) << missing.err;
+}
+
 TEST_F(SupportCommand, RefusesInOneSentence)
 {
   const char* base = "--support bonded:direction:0,0,-1:30deg ";
   for (const std::string& arguments :
     { std::string(base), std::string("--at 0,0,0"), std::string(base) + "--at 0,0,30",
       std::string("--at 0,0,0 --support sliding:direction:0,0,-1:30deg"),
-      std::string(base) + "--at 0,0,0 --poisson 0.5" })
+      std::string(base) + "--at 0,0,0 --poisson 0.5",
+      std::string("--at 0,0,0 --support bonded:label:7") })
   {
     const test::Finished finished = organ(arguments);
     EXPECT_EQ(finished.code, 2) << arguments << finished.out;

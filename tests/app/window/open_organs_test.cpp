@@ -1,4 +1,5 @@
 #include "app/organs/organ_list.h"
+#include "calibration/tables/organ_table.h"
 #include "haptics/surface/area_and_volume.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
@@ -247,6 +248,32 @@ TEST_F(OpenOrgans, TheMapIsOfTheOrganThatIsChosen)
     ++places;
   }
   EXPECT_GT(places, 1010) << "the kidney's name, and places on it";
+}
+
+// of the surface that is open it is felt at once, of another one it is refused
+TEST_F(WindowTest, DroppedOrganFileIsFelt)
+{
+  const test::TemporaryFolder folder;
+  const auto drop = [&](const std::string& mesh)
+  {
+    OrganTable table;
+    table.mesh = mesh;
+    table.spacing = 200.0_mm;
+    table.count = 1;
+    table.places = { PlacedCompliance{ .constant = 1000.0 } };
+    const std::filesystem::path file = folder.path() / "liver.organ";
+    writeOrganTable(file, table);
+    return window_->openFiles({ QString::fromStdString(file.string()) });
+  };
+  EXPECT_FALSE(drop("of another one"));
+  EXPECT_EQ(session_->recording().scene.series, nullptr);
+  EXPECT_TRUE(drop(identityOf(session_->body().files.front())));
+  ASSERT_NE(session_->recording().scene.series, nullptr);
+  EXPECT_EQ(session_->recording().scene.series->field->places(), 1U);
+  EXPECT_EQ(session_->body().sources.front().bundled, "liver");
+  press(40);
+  const Sample sample = session_->newest();
+  EXPECT_LT(sample.localDepth, 0.99 * sample.contact.depth);
 }
 
 } // namespace

@@ -91,6 +91,31 @@ TEST(CutGrid, RefusesAnOpenSurface)
   EXPECT_THROW(CutGrid({ grid.points, grid.triangles }, 4.0_mm), Error);
 }
 
+TEST(CutGrid, RefusesASurfaceThatCrossesItself)
+{
+  Mesh both = makeBox({ 40.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);
+  const int count = static_cast<int>(both.points.size());
+  const Mesh other = both;
+  for (const Vector3d& point : other.points)
+  {
+    both.points.emplace_back(point + Vector3d(13.0_mm, 7.0_mm, 6.0_mm));
+  }
+  for (const auto& [a, b, c] : other.triangles)
+  {
+    both.triangles.push_back({ a + count, b + count, c + count });
+  }
+  try
+  {
+    CutGrid({ both.points, both.triangles }, 4.0_mm);
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ErrorCode::BadMesh);
+    EXPECT_NE(std::string(error.what()).find("crosses itself"), std::string::npos);
+  }
+}
+
 // a column that slides on its base and two sides, under a pressure on its top: u = p h / E
 TEST(OrganModel, ShortensAColumnByHookesLaw)
 {
