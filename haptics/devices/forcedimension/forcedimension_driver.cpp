@@ -47,8 +47,15 @@ void find(void* file, const std::string& path, const char* name, Function*& func
   }
 }
 
-Library load(void* file, const std::string& path)
+Library load(const std::string& path)
 {
+  void* file = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: its threads may outlive an arm
+  if (file == nullptr)
+  {
+    throw Error(ErrorCode::NoDevice,
+      "Force Dimension: cannot load " + path +
+        "; install the makers' SDK 3, or give its libdrd as --device forcedimension:FILE");
+  }
   Library library{};
   find(file, path, "drdOpen", library.open);
   find(file, path, "drdClose", library.close);
@@ -64,6 +71,8 @@ Library load(void* file, const std::string& path)
   find(file, path, "dhdGetForce", library.force);
   return library;
 }
+
+constexpr const char* kLibrary = "libdrd.so.3";
 
 std::string textOf(const char* text)
 {
@@ -173,15 +182,7 @@ private:
 
 std::unique_ptr<Driver> openForceDimension(const std::string& library)
 {
-  const std::string path = library.empty() ? "libdrd.so.3" : library;
-  void* file = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: its threads may outlive an arm
-  if (file == nullptr)
-  {
-    throw Error(ErrorCode::NoDevice,
-      "Force Dimension: cannot load " + path +
-        "; install the makers' SDK 3, or give its libdrd as --device forcedimension:FILE");
-  }
-  const Library functions = load(file, path);
+  const Library functions = load(library.empty() ? kLibrary : library);
   const int arm = functions.open();
   if (arm < 0)
   {
@@ -190,6 +191,11 @@ std::unique_ptr<Driver> openForceDimension(const std::string& library)
         "); switch it on and plug it in, and see the makers' HapticDesk");
   }
   return std::make_unique<ForceDimensionDriver>(functions, static_cast<char>(arm));
+}
+
+void requireForceDimension()
+{
+  (void)load(kLibrary);
 }
 
 } // namespace palp

@@ -162,6 +162,13 @@ std::vector<FoundDevice> findDevices()
 {
   std::vector<FoundDevice> all = listHid();
   std::ranges::move(listUsb(), std::back_inserter(all));
+  for (const SerialPort& port : serialPorts())
+  {
+    all.push_back({ .kind = DeviceKind::Serial,
+      .name = "serial port",
+      .path = port.path,
+      .unusableReason = port.permitted ? "" : kSerialPermission });
+  }
   return all;
 }
 
@@ -173,6 +180,8 @@ std::vector<std::string> namesOf(const FoundDevice& device)
       return { "spacemouse:" + device.path };
     case DeviceKind::Falcon:
       return { "falcon" };
+    case DeviceKind::Serial:
+      return { "wooden:" + device.path };
     default:
       return { "wooden:" + device.path, "phd1:" + device.path };
   }

@@ -37,13 +37,17 @@ enum class Habit
 class HaplyService
 {
 public:
-  explicit HaplyService(const std::string& inventory)
+  /// @param at  a port; 0: any that is free
+  explicit HaplyService(const std::string& inventory, std::uint16_t at = 0)
     : inventory_(inventory)
     , listening_(socket(AF_INET, SOCK_STREAM, 0))
   {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK); // and any free port
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(at);
+    const int on = 1;
+    (void)setsockopt(listening_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
     EXPECT_EQ(bind(listening_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
     EXPECT_EQ(listen(listening_, 1), 0);
     socklen_t size = sizeof(address);
