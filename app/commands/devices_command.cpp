@@ -16,7 +16,8 @@ void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&))
     "Say of each family of devices what it needs, which are there, which are not, and why");
   command->add_option("--probe", options->probe,
     "Exchange zero force with one device for a second and say how fast it answers: spacemouse, "
-    "spacenavd, falcon, falcon:FIRMWARE, wooden:PATH[,ARM], phd1:PATH, haply, forcedimension, "
+    "spacenavd, gamepad, falcon, falcon:FIRMWARE, wooden:PATH[,ARM], phd1:PATH, haply, "
+    "forcedimension, "
     "openigtlink; ARM is v2015, v2019, polhem, aluhaptics or a file");
   CLI::Option* identify = command->add_option("--identify", options->identify,
     "Measure an arm that nobody holds, with at most 0.3 N in a minute: mass, friction, delay, and "

@@ -28,6 +28,7 @@ struct Library
   int (*enableForce)(unsigned char, char);
   int (*setWatchdog)(unsigned char, char);
   int (*position)(double*, double*, double*, char);
+  bool (*hasWrist)(char);
   int (*orientation)(double (*)[3], char);
   unsigned int (*buttons)(char);
   int (*setForceAndTorque)(double, double, double, double, double, double, char);
@@ -65,6 +66,7 @@ Library load(const std::string& path)
   find(file, path, "dhdEnableForce", library.enableForce);
   find(file, path, "dhdSetWatchdog", library.setWatchdog);
   find(file, path, "dhdGetPosition", library.position);
+  find(file, path, "dhdHasWrist", library.hasWrist);
   find(file, path, "dhdGetOrientationFrame", library.orientation);
   find(file, path, "dhdGetButtonMask", library.buttons);
   find(file, path, "dhdSetForceAndTorque", library.setForceAndTorque);
@@ -86,6 +88,7 @@ public:
     : library_(library)
     , arm_(arm)
     , name_(textOf(library.systemName(arm)))
+    , hasWrist_(library.hasWrist(arm))
   {
     (void)library_.setWatchdog(kWatchdog, arm_);
     (void)library_.enableForce(1, arm_);
@@ -159,15 +162,20 @@ private:
     return { -of.y(), of.x(), of.z() };
   }
 
-  static Eigen::Quaterniond orientationOf(const double (&frame)[3][3]) noexcept
+  // of a pen along x of their frame, whose tip is at the arm; without a wrist it stays upright
+  [[nodiscard]] Eigen::Quaterniond orientationOf(const double (&frame)[3][3]) const noexcept
   {
-    Eigen::Matrix3d turned;
+    if (!hasWrist_)
+    {
+      return Eigen::Quaterniond::Identity();
+    }
+    Eigen::Matrix3d pen;
     for (int column = 0; column < 3; ++column)
     {
-      turned.col(column) = fromDevice({ frame[0][column], frame[1][column], frame[2][column] });
+      pen.col(column) = fromDevice({ frame[0][column], frame[1][column], frame[2][column] });
     }
     const Eigen::Matrix3d turn =
-      turned * Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ());
+      pen * Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY());
     const bool possible = turn.allFinite() && std::abs(turn.determinant() - 1.0) < 0.05;
     return possible ? Eigen::Quaterniond(turn).normalized() : Eigen::Quaterniond::Identity();
   }
@@ -175,6 +183,7 @@ private:
   Library library_;
   char arm_;
   std::string name_;
+  bool hasWrist_;
   bool homed_ = false;
 };
 

@@ -55,11 +55,12 @@ TEST(DeviceFamilies, AreAllListedWithWhatEachNeeds)
 {
   setenv("SPNAV_SOCKET", "/nowhere/spnav.sock", 1);
   const Told told = tell();
-  for (const auto& [device, need] : { std::pair("spacemouse[:PATH]", "udev rules"),
-         { "falcon[:FIRMWARE]", "firmware" }, { "phd1:PATH", "hidapi" },
-         { "wooden:PATH[,ARM]", "group dialout" }, { "spacenavd", "libspnav" },
-         { "haply[:PORT]", "service" }, { "forcedimension[:LIBRARY]", "libdrd" },
-         { "openigtlink[:ADDRESS:PORT][,TOOL]", "libopenigtlink" } })
+  for (const auto& [device, need] :
+    { std::pair("spacemouse[:PATH]", "udev rules"), { "falcon[:FIRMWARE]", "firmware" },
+      { "phd1:PATH", "hidapi" }, { "wooden:PATH[,ARM]", "group dialout" },
+      { "gamepad[:PATH]", "group input" }, { "spacenavd", "libspnav" },
+      { "haply[:PORT]", "service" }, { "forcedimension[:LIBRARY]", "libdrd" },
+      { "openigtlink[:ADDRESS:PORT][,TOOL]", "libopenigtlink" } })
   {
     std::istringstream lines(told.text);
     std::string line;
