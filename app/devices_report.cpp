@@ -3,6 +3,7 @@
 #include "app/devices_identify.h"
 #include "app/program/devices_options.h"
 #include "haptics/devices/driver.h"
+#include "haptics/devices/forcedimension/forcedimension_driver.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
@@ -12,9 +13,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -29,27 +30,75 @@ using Clock = std::chrono::steady_clock;
 constexpr int kNoneThere = 3;
 constexpr int kNoneUsable = 6;
 
+// what is wrong with a device, by the refusal of what needs it; empty: nothing
+template <typename Need>
+std::string unusableReasonOf(const Need& need)
+{
+  try
+  {
+    need();
+    return "";
+  }
+  catch (const Error& error)
+  {
+    const std::string what = error.what(); // begins with the name
+    return what.substr(what.find(": ") + 2);
+  }
+}
+
+std::string unusableReasonOf(const char* name)
+{
+  return unusableReasonOf([name] { (void)openDriver(name); });
+}
+
 struct Family
 {
-  DeviceKind kind;
+  std::optional<DeviceKind> kind; ///< none: it is not plugged in, but a program or a library
   const char* name;
-  const char* absent;                ///< what to do where none is there
-  const char* (*library)() noexcept; ///< what is wrong with the library it needs
+  const char* device; ///< as --device takes it
+  const char* needs;
+  const char* state; ///< what to do where none is plugged in; of the others, where one is there
+  std::string (*unusable)(); ///< why none can be used whatever is plugged in, and what to do
+  bool isHeld = false;       ///< not plugged in, but where nothing is wrong, a device is there
 };
 
-constexpr std::array kFamilies{
-  Family{ DeviceKind::SpaceMouse, "SpaceMouse", "plug one in; it moves the tool, without force",
-    &hidUnusableReason },
-  Family{ DeviceKind::Falcon, "Novint Falcon",
+const std::array kFamilies{
+  Family{ DeviceKind::SpaceMouse, "SpaceMouse", "spacemouse[:PATH]", "hidapi, udev rules",
+    "plug one in; it moves the tool, without force",
+    [] { return std::string(hidUnusableReason()); } },
+  Family{ DeviceKind::Gamepad, "game pads", "gamepad[:PATH]",
+    "a seat at the machine or group input",
+    "plug one in; its sticks move the tool, and it rumbles as the force does",
+    [] { return std::string(); } },
+  Family{ DeviceKind::Falcon, "Novint Falcon", "falcon[:FIRMWARE]", "libusb, udev rules, firmware",
     "plug in USB and power; the first time give firmware as --device falcon:FILE",
-    &usbUnusableReason },
+    [] { return std::string(usbUnusableReason()); } },
   Family{ DeviceKind::RawHid, "WoodenHaptics, PHD1 and other raw HID boards",
-    "plug one in; use it by its path, as --device wooden:/dev/hidraw2", &hidUnusableReason },
+    "wooden:PATH[,ARM], phd1:PATH", "hidapi, udev rules",
+    "plug one in; use it by its path, as --device wooden:/dev/hidraw2",
+    [] { return std::string(hidUnusableReason()); } },
+  Family{ DeviceKind::Serial, "WoodenHaptics and Polhem in lines of text", "wooden:PATH[,ARM]",
+    "group dialout", "plug one in; use it by its path, as --device wooden:/dev/ttyACM0",
+    [] { return std::string(); } },
+  Family{ {}, "six-axis mice through spacenavd", "spacenavd", "libspnav, spacenavd",
+    "spacenavd runs and may hold the SpaceMouse; give --device spacenavd then",
+    [] { return unusableReasonOf("spacenavd"); }, true },
+  Family{ {}, "Haply Inverse3", "haply[:PORT]", "libwebsockets, the makers' service",
+    "its service knows one: can be used", [] { return unusableReasonOf("haply"); }, true },
+  Family{ {}, "Force Dimension omega, delta, sigma, lambda", "forcedimension[:LIBRARY]",
+    "libdrd of the makers' SDK 3",
+    "libdrd is there; palp devices --probe forcedimension tells whether an arm is",
+    [] { return unusableReasonOf(requireForceDimension); } },
+  Family{ {}, "OpenIGTLink trackers", "openigtlink[:ADDRESS:PORT][,TOOL]",
+    "libopenigtlink, a tracker that sends",
+    "port 18944 is free; a tracker has to connect once the window listens",
+    [] { return unusableReasonOf("openigtlink"); } },
 };
 
 void print(const FoundDevice& device)
 {
-  std::cout << "  " << device.name << " (" << device.ids << ") at " << device.path << ": "
+  std::cout << "  " << device.name << (device.ids.empty() ? "" : " (" + device.ids + ")") << " at "
+            << device.path << ": "
             << (device.unusableReason.empty() ? "can be used" : device.unusableReason) << '\n';
 }
 
@@ -58,56 +107,55 @@ void probeFirmware(FoundDevice& device)
 {
   if (device.kind == DeviceKind::Falcon && device.unusableReason.empty())
   {
-    try
-    {
-      (void)openDriver("falcon");
-    }
-    catch (const Error& error)
-    {
-      const std::string what = error.what(); // begins with the name
-      device.unusableReason = what.substr(what.find(": ") + 2);
-    }
+    device.unusableReason = unusableReasonOf("falcon");
   }
 }
 
-// spacenavd and its clients agree on this name
-bool spacenavdRuns()
+// what is not plugged in: its program or library
+bool printState(const Family& family)
 {
-  const char* socket = std::getenv("SPNAV_SOCKET"); // NOLINT(concurrency-mt-unsafe): nobody sets it
-  return std::filesystem::exists(socket != nullptr ? socket : "/run/spnav.sock");
+  const std::string reason = family.unusable();
+  std::cout << "  " << (reason.empty() ? family.state : "none; " + reason) << '\n';
+  return family.isHeld && reason.empty();
+}
+
+void printPlugged(const Family& family, const std::vector<FoundDevice>& all)
+{
+  const auto isOurs = [&](const FoundDevice& one) { return one.kind == family.kind; };
+  if (std::ranges::none_of(all, isOurs))
+  {
+    const std::string broken = family.unusable();
+    std::cout << "  none; " << (broken.empty() ? family.state : broken) << '\n';
+  }
+  for (const FoundDevice& device : all)
+  {
+    if (isOurs(device))
+    {
+      print(device);
+    }
+  }
 }
 
 int list(std::vector<FoundDevice> all)
 {
   std::ranges::for_each(all, probeFirmware);
-  for (const auto& [kind, name, absent, library] : kFamilies)
-  {
-    std::cout << name << ": protocol tested against an emulation; not yet on hardware\n";
-    const auto isOurs = [kind = kind](const FoundDevice& one) { return one.kind == kind; };
-    if (std::ranges::none_of(all, isOurs))
-    {
-      const std::string broken = library();
-      std::cout << "  none; " << (broken.empty() ? absent : broken) << '\n';
-    }
-    for (const FoundDevice& device : all)
-    {
-      if (isOurs(device))
-      {
-        print(device);
-      }
-    }
-  }
-  if (spacenavdRuns())
-  {
-    std::cout << "spacenavd runs and may hold the SpaceMouse; give --device spacenavd then\n";
-  }
-  if (all.empty())
-  {
-    return kNoneThere;
-  }
-  const bool usable =
+  bool usable =
     std::ranges::any_of(all, [](const auto& one) { return one.unusableReason.empty(); });
-  return usable ? 0 : kNoneUsable;
+  for (const Family& family : kFamilies)
+  {
+    std::cout << family.name << " (--device " << family.device << "): needs " << family.needs
+              << '\n';
+    if (family.kind)
+    {
+      printPlugged(family, all);
+    }
+    else
+    {
+      usable = printState(family) || usable;
+    }
+  }
+  std::cout << "Each protocol was tested against an emulation, none yet on hardware\n";
+  return usable ? 0 : all.empty() ? kNoneThere : kNoneUsable;
 }
 
 int probe(const std::string& name)

@@ -12,13 +12,13 @@ namespace palp
 void addDevicesCommand(CLI::App& app, int (*show)(const DevicesOptions&))
 {
   auto options = std::make_shared<DevicesOptions>();
-  CLI::App* command =
-    app.add_subcommand("devices", "Say which devices are there, which are not, and why");
+  CLI::App* command = app.add_subcommand("devices",
+    "Say of each family of devices what it needs, which are there, which are not, and why");
   command->add_option("--probe", options->probe,
     "Exchange zero force with one device for a second and say how fast it answers: spacemouse, "
-    "spacenavd, falcon, falcon:FIRMWARE, wooden:PATH[,ARM], phd1:PATH, haply, forcedimension; ARM "
-    "is v2015, v2019, polhem, "
-    "aluhaptics or a file");
+    "spacenavd, gamepad, falcon, falcon:FIRMWARE, wooden:PATH[,ARM], phd1:PATH, haply, "
+    "forcedimension, "
+    "openigtlink; ARM is v2015, v2019, polhem, aluhaptics or a file");
   CLI::Option* identify = command->add_option("--identify", options->identify,
     "Measure an arm that nobody holds, with at most 0.3 N in a minute: mass, friction, delay, and "
     "whether its motion follows its motors; kept for this user");

@@ -32,11 +32,61 @@ void openExport(ViewOptions& options, const std::filesystem::path& folder)
   const ScenePlan given = std::exchange(options.plan, options.made->plan);
   options.plan.device = given.device;
   options.plan.deadMan = given.deadMan;
+  options.plan.placement = given.placement;
   options.plan.servoPeriod = given.servoPeriod;
   options.plan.window = true;
   options.plan.plots = given.plots; // without any, no sample would be kept
   options.plan.presses.reset();
   options.plan.recording.reset();
+}
+
+double numberWithin(const std::string& text, const char* option, const Bounds& bounds)
+{
+  const double number = parseNumber(text, option);
+  if (!(number >= bounds.least && number <= bounds.most))
+  {
+    throw Error(ErrorCode::BadValue,
+      std::string(option) + ": '" + text + "' is out of range; give " +
+        std::string(bounds.inWords));
+  }
+  return number;
+}
+
+void addPlacement(CLI::App& command, DevicePlacement& placement)
+{
+  addParsed(command, "--device-scale",
+    "Motion of the tool by that of the hand at a device, 0.2 to 5: above 1 a small arm reaches "
+    "more "
+    "of the body, and less stiff tissue can be felt; a newton stays one",
+    "1",
+    [&placement](const std::string& text)
+    {
+      constexpr double kMost = DevicePlacement::kLargestScale;
+      placement.scale = numberWithin(text, "--device-scale", { 1.0 / kMost, kMost, "0.2 to 5" });
+    });
+  addParsed(command, "--clutch",
+    "Button of a device, 1 to 32, that holds the tool, without force, while the hand goes "
+    "elsewhere; "
+    "0: none",
+    "2",
+    [&placement](const std::string& text)
+    {
+      const double button = numberWithin(text, "--clutch", { 0.0, 32.0, "0 to 32" });
+      placement.clutch = static_cast<int>(button);
+      if (placement.clutch != button)
+      {
+        throw Error(ErrorCode::BadValue, "--clutch: '" + text + "' is no button; give 0 to 32");
+      }
+    });
+}
+
+void checkButtons(const ScenePlan& plan)
+{
+  if (plan.deadMan && plan.placement.clutch == 1)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--clutch: 1 is the button that --dead-man wants held; give another, or 0");
+  }
 }
 
 } // namespace
@@ -51,7 +101,8 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   addOrganFile(*command, options->plan.meshes.front().organ);
   addParsed(*command, "--device",
     "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
-    "replay:FILE (a samples.csv that was exported); spacemouse; spacenavd; falcon[:FIRMWARE]; "
+    "replay:FILE (a samples.csv that was exported); spacemouse; spacenavd; gamepad[:PATH]; "
+    "falcon[:FIRMWARE]; "
     "wooden:PATH[,ARM.conf]; phd1:PATH; haply[:PORT]; forcedimension[:LIBRARY]; "
     "openigtlink[:ADDRESS:PORT][,TOOL] (see palp devices)",
     options->plan.device.name,
@@ -59,6 +110,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
     { options->plan.device = parseDevice(text); });
   command->add_flag(
     "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
+  addPlacement(*command, options->plan.placement);
   addParsed(*command, "--rate",
     "Ticks of the servo, 1kHz to 4kHz: stiffer tissue can be felt, for more of a processor", "1kHz",
     [options = options.get()](const std::string& text)
@@ -79,6 +131,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
         openExport(*options, folder);
       }
       // a wrong value is told before a missing display
+      checkButtons(options->plan);
       (void)options->plan.press.tissue.law();
       checkExists(options->plan.meshes.front());
       checkMap(options->plan.meshes.front(), options->plan.press.tissue.options);

@@ -3,6 +3,7 @@
 #include "app/input/organ_plan.h"
 #include "app/input/press_options.h"
 #include "app/input/press_places.h"
+#include "haptics/devices/device.h"
 #include "pipeline/model/overlay.h"
 #include "pipeline/model/reference_curve.h"
 
@@ -112,6 +113,7 @@ struct ScenePlan
   std::optional<TrainingPlan> training{};   ///< nodules to be found in the only body
   bool chain = false;   ///< through the safety chain of the paper's device, armed; simulated time
   bool deadMan = false; ///< force only while the first button of the device is held
+  DevicePlacement placement{ .clutch = 2 }; ///< of this run: its scale and clutch
   double servoPeriod = 0.001; ///< of this run, 250 us to 1 ms; no part of the scene [s]
   bool window = true;         ///< else: a path in simulated time, without servo thread
   bool validity = true;       ///< each sample is rated by the rules of validity

@@ -29,6 +29,7 @@ constexpr std::array kWords{
   Words{ Flag::SlewLimited, "rate limited" },
   Words{ Flag::Workspace, "end of workspace" },
   Words{ Flag::WatchdogExpired, "window too slow" },
+  Words{ Flag::Clutched, "clutch held: the tool stays" },
   Words{ Flag::Rebased, "felt from below the surface until lifted" },
 };
 

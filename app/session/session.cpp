@@ -113,7 +113,7 @@ void Session::open(SceneBody body, std::vector<OrganPlan> organs)
   useDevice(choice, std::move(holder));
 }
 
-ToolPose Session::restingPose() const
+ToolPose Session::restingPose(const Eigen::Vector3d& up) const
 {
   // above the highest point of all, pointing down
   std::optional<Eigen::Vector3d> highest;
@@ -122,11 +122,18 @@ ToolPose Session::restingPose() const
   {
     for (const Eigen::Vector3d& point : body.haptic->points())
     {
-      highest = !highest || highest->z() < point.z() ? point : *highest;
+      highest = !highest || highest->dot(up) < point.dot(up) ? point : *highest;
     }
   }
-  return { .apex = *highest + kClearance * Eigen::Vector3d::UnitZ(),
-    .axis = -Eigen::Vector3d::UnitZ() };
+  return { .apex = *highest + kClearance * up, .axis = -up };
+}
+
+DevicePlacement Session::placement() const
+{
+  DevicePlacement placement = plan_.placement;
+  placement.rotation = facing_;
+  placement.origin = restingPose(facing_.col(2)).apex;
+  return placement;
 }
 
 std::unique_ptr<Device> Session::makeDevice(const DeviceChoice& choice)
@@ -153,8 +160,7 @@ std::unique_ptr<Device> Session::makeDevice(const DeviceChoice& choice)
     servo_.reset();
     device_.reset();
   }
-  return openDevice(
-    choice.name, { .origin = restingPose().apex }, loadArm(armFile(identityOf(choice.name))));
+  return openDevice(choice.name, placement(), loadArm(armFile(identityOf(choice.name))));
 }
 
 void Session::useDevice(const DeviceChoice& choice)
@@ -203,8 +209,27 @@ void Session::useDevice(const DeviceChoice& choice, std::unique_ptr<Device> devi
   guided_ = device_->guided();
   choice_ = choice;
   recording_.device = choice.name;
+  startServo();
+}
+
+bool Session::turnDevice(const Eigen::Matrix3d& seen)
+{
+  if (choice_.kind != DeviceChoice::Kind::Driver)
+  {
+    return false;
+  }
+  endRecording(body_);
+  servo_.reset(); // stops before its device goes elsewhere
+  facing_ = seen;
+  const bool placed = device_->place(placement());
+  startServo();
+  return placed;
+}
+
+void Session::startServo()
+{
   recording_.scene.armed =
-    choice.kind == DeviceChoice::Kind::Hand; // only a simulated hand cannot be hurt
+    choice_.kind == DeviceChoice::Kind::Hand; // only a simulated hand cannot be hurt
   armedAt_ = 0.0;
   recordedFrom_ = 0.0;
   if (guided_ != nullptr)

@@ -98,6 +98,24 @@ public:
   /// The same with a device of the caller's.
   void useDevice(const DeviceChoice& choice, std::unique_ptr<Device> device);
 
+  /// Turns the device so that its right, away from the user and up are those of a view, and puts it
+  /// above the body as it is seen there. Its force is off until armed. A recording begins.
+  /// @param seen  columns right, away, up in the coordinates of the body, orthonormal
+  /// @return      false, and nothing else: it has no place of its own
+  bool turnDevice(const Eigen::Matrix3d& seen);
+
+  /// How far the device reaches now [m]; a radius of 0: no bound.
+  struct Reach
+  {
+    Eigen::Vector3d center;
+    double radius;
+  };
+  [[nodiscard]] Reach reach()
+  {
+    const DeviceLimits limits = device_->limits();
+    return { limits.workspaceCenter + servo_->newest().moved, limits.workspaceRadius };
+  }
+
   /// Lets the tool lag behind a device that no hand can feel, the more the stiffer the tissue is
   /// there; the reference is the tissue in use now. See LaggingTool. A recording begins.
   /// @throws Error  as useDevice
@@ -230,11 +248,14 @@ private:
   void save(const SceneBody& body, std::optional<Recording> press);
   [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);
   void keepHolding();
-  [[nodiscard]] ToolPose restingPose() const;
+  void startServo();
+  [[nodiscard]] ToolPose restingPose(const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ()) const;
+  [[nodiscard]] DevicePlacement placement() const;
 
   ScenePlan plan_;
   ServoOptions servoOptions_;
-  DeviceChoice choice_; // of the device
+  DeviceChoice choice_;                                  // of the device
+  Eigen::Matrix3d facing_ = Eigen::Matrix3d::Identity(); // of it, in the coordinates of the body
   SceneBody body_;
   Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;

@@ -63,6 +63,7 @@ Window::Window(Session& session, BuildTrace& trace)
   , orientation_(*renderer_)
   , scaleBar_(*renderer_)
   , balls_(*renderer_)
+  , reach_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
   , validity_(session.recording().scene.law)
   , takesKept_(session.earlier().size())
@@ -182,6 +183,8 @@ void Window::refresh()
   }
   shown_.flags = sample.flags;
   shown_.state = sample.state;
+  const Session::Reach reach = session_.reach();
+  isStale_ = reach_.show(reach.center, reach.radius) || isStale_;
   if (isStale_ || !looksAlike(sample, shown_))
   {
     const bool isOther = shown_.organ != sample.organ;

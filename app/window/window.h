@@ -15,6 +15,7 @@
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/figure/balls.h"
 #include "pipeline/figure/orientation.h"
+#include "pipeline/figure/reach_outline.h"
 #include "pipeline/figure/realism.h"
 #include "pipeline/figure/scale_bar.h"
 #include "pipeline/figure/surroundings.h"
@@ -280,6 +281,7 @@ private:
   Orientation orientation_;
   ScaleBar scaleBar_;
   Balls balls_;
+  ReachOutline reach_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
 
   QTimer* frames_ = nullptr; // of the picture

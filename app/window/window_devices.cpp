@@ -99,6 +99,20 @@ void Window::makeDeviceMenu()
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
   device->addAction(
     tr("S&can for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
+  QAction* turn = device->addAction(tr("&Turn the device to the view"), this,
+    [this]
+    {
+      const CameraPlace place = cameraPlace();
+      Eigen::Matrix3d seen;
+      seen.col(1) = (place.focus - place.position).normalized();
+      seen.col(0) = seen.col(1).cross(place.up).normalized();
+      seen.col(2) = seen.col(0).cross(seen.col(1));
+      const bool turned = isFree() && session_.turnDevice(seen);
+      say(turned ? tr("Right, up and away at the device are those of the picture; arm it anew")
+                 : tr("This device follows the picture, or moves by itself"));
+    });
+  turn->setObjectName("turn-device");
+  turn->setToolTip(tr("What is right, up and away in the picture is so at the device"));
   QAction* sound = device->addAction(tr("&Hear the force"));
   sound->setObjectName("sound");
   sound->setCheckable(true);

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -16,9 +17,10 @@ constexpr auto kPeriod = 1ms;
 constexpr auto kPatience = 1s;
 constexpr auto kCommandAge = 20ms;
 constexpr auto kReopenEvery = 500ms;
-constexpr auto kLook = 10ms;       // of the watching thread
-constexpr int kLastWords = 10;     // packets of zero force
-constexpr double kSmoothing = 0.1; // of the time of a transfer, by each one
+constexpr auto kLook = 10ms;          // of the watching thread
+constexpr int kLastWords = 10;        // packets of zero force
+constexpr double kFastestTurn = 40.0; // of a hand [rad/s]
+constexpr double kSmoothing = 0.1;    // of the time of a transfer, by each one
 
 double seconds(std::chrono::nanoseconds duration) noexcept
 {
@@ -32,6 +34,7 @@ BusDevice::BusDevice(Open open, const DevicePlacement& placement)
   , driver_(open_())
   , limits_(driver_->limits())
   , placement_(placement)
+  , rotation_(placement.rotation * limits_.facing)
   , velocity_(limits_.quantum)
   , watcher_([this](const std::stop_token& stop) { watch(stop); })
 {
@@ -57,9 +60,29 @@ BusDevice::~BusDevice()
 
 DeviceLimits BusDevice::limits() const
 {
+  // a force that is felt as it is over a motion that is scaled: the tool's mechanism is that of the
+  // arm by the scale
   DeviceLimits limits = limits_;
-  limits.workspaceCenter = placement_.rotation * limits.workspaceCenter + placement_.origin;
+  limits.scale = placement_.scale;
+  for (double* dynamic : { &limits.damping, &limits.mass, &limits.handDamping })
+  {
+    *dynamic /= limits.scale;
+  }
+  limits.quantum *= limits.scale;
+  limits.workspaceRadius *= limits.scale;
+  limits.workspaceCenter = limits.scale * (rotation_ * limits.workspaceCenter) + placement_.origin;
   return limits;
+}
+
+bool BusDevice::place(const DevicePlacement& placement)
+{
+  placement_ = placement;
+  rotation_ = placement.rotation * limits_.facing;
+  status_.moved.setZero();
+  held_ = false;
+  heard_.buttons = 0; // a clutch that is held takes hold anew
+  index(true);
+  return true;
 }
 
 std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double) noexcept
@@ -86,17 +109,19 @@ std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double
     const Clock::time_point now = Clock::now();
     busTime_ += there_ ? kSmoothing * (seconds(now - begin) - busTime_) : seconds(now - begin);
     speed_ = velocity_(heard_.position, seconds(begin - asked));
+    turn(seconds(begin - asked));
     asked_ = begin;
     when_ = now;
     answered_ = false;
     there_ = true;
+    index(force.isZero(0.0));
   }
   releaseDriver(code);
   status_.homed = heard_.homed;
   status_.stopped = heard_.stopped;
   status_.buttons = heard_.buttons;
   status_.sent =
-    heard_.sent ? std::optional<Eigen::Vector3d>(placement_.rotation * *heard_.sent) : std::nullopt;
+    heard_.sent ? std::optional<Eigen::Vector3d>(rotation_ * *heard_.sent) : std::nullopt;
   status_.age = seconds(Clock::now() - when_);
   return there_ && code != IoCode::Gone ? std::optional(pose()) : std::nullopt;
 }
@@ -123,7 +148,7 @@ IoCode BusDevice::transfer(
     status_.delay = seconds(begin - asked_);
   }
   return driver_->tick(
-    placement_.rotation.transpose() * force, seconds(begin - std::exchange(last_, begin)), sample);
+    rotation_.transpose() * force, seconds(begin - std::exchange(last_, begin)), sample);
 }
 
 bool BusDevice::takeDriver() noexcept
@@ -138,11 +163,40 @@ void BusDevice::releaseDriver(IoCode code) noexcept
   owner_.store(code == IoCode::Gone ? Owner::Lost : Owner::Nobody);
 }
 
+// a tracker that errs, or a grip that wakes, turns the tool no faster than a hand
+void BusDevice::turn(double dt) noexcept
+{
+  const Eigen::Vector3d told = heard_.orientation * -Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d about = axis_.cross(told);
+  const double sine = about.norm();
+  const double most = kFastestTurn * dt;
+  const bool leaps = there_ && sine > 0.0 && std::atan2(sine, axis_.dot(told)) > most;
+  axis_ = leaps ? (Eigen::AngleAxisd(most, about / sine) * axis_).normalized() : told;
+}
+
+// a force that is still there ends while it moves with the tool that it holds; then the tool stays
+void BusDevice::index(bool rests) noexcept
+{
+  const Eigen::Vector3d reached =
+    placement_.scale * (rotation_ * heard_.position) + placement_.origin;
+  status_.clutched = placement_.clutch > 0 && (heard_.buttons >> (placement_.clutch - 1) & 1U) != 0;
+  held_ = status_.clutched && (held_ || rests || !limits_.rendersForce);
+  if (held_)
+  {
+    status_.moved = apex_ - reached;
+  }
+  apex_ = reached + status_.moved;
+}
+
 ToolPose BusDevice::pose() const noexcept
 {
   ToolPose pose;
-  pose.apex = placement_.rotation * heard_.position + placement_.origin;
-  pose.velocity = placement_.rotation * speed_;
+  pose.apex = apex_;
+  pose.axis = rotation_ * axis_;
+  if (!held_)
+  {
+    pose.velocity = placement_.scale * (rotation_ * speed_);
+  }
   return pose;
 }
 

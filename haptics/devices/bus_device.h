@@ -12,13 +12,6 @@
 namespace palp
 {
 
-/// Where a device stands in the frame of the surface.
-struct DevicePlacement
-{
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< from the device's frame
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();       ///< of the device's frame [m]
-};
-
 /// A driver in the thread of the servo: one exchange sends a force and waits for the next pose.
 ///
 /// So a force is late by an exchange and by the time of the servo step, and by nothing else. The
@@ -28,6 +21,9 @@ struct DevicePlacement
 /// device that was unplugged, or whose transfer failed, it closes, with zero force if it still
 /// hears, and opens again when it is back. A new driver then knows nothing of the old one, so that
 /// the device has to be homed anew. The last forces sent are zero.
+///
+/// While the button of its clutch is held the tool stays where it is: at once, or from where a
+/// force has come to its end; the motion since then is left out of every later pose.
 class BusDevice final : public Device
 {
 public:
@@ -46,6 +42,7 @@ public:
   BusDevice& operator=(const BusDevice&) = delete;
 
   [[nodiscard]] DeviceLimits limits() const override;
+  [[nodiscard]] bool place(const DevicePlacement& placement) override;
   [[nodiscard]] std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double dt) noexcept override;
   void answer(const Eigen::Vector3d& force) noexcept override;
@@ -73,6 +70,8 @@ private:
     const Eigen::Vector3d& force, Clock::time_point begin, DriverSample& sample) noexcept;
   [[nodiscard]] bool takeDriver() noexcept;
   void releaseDriver(IoCode code) noexcept;
+  void turn(double dt) noexcept;
+  void index(bool rests) noexcept;
   [[nodiscard]] ToolPose pose() const noexcept;
   void watch(const std::stop_token& stop) noexcept;
   void endForce() noexcept;
@@ -82,6 +81,7 @@ private:
   std::unique_ptr<Driver> driver_; // its owner's; none while the device is unplugged
   DeviceLimits limits_;
   DevicePlacement placement_;
+  Eigen::Matrix3d rotation_; // of it, from the driver's own frame
   std::atomic<Owner> owner_ = Owner::Nobody;
   std::atomic<int> losses_ = 0;
   std::atomic<Clock::time_point> renewed_ = Clock::now(); // the force, by the servo
@@ -89,15 +89,18 @@ private:
   // of the servo's thread
   DeviceStatus status_;
   VelocityEstimator velocity_;
-  DriverSample heard_;                              // last
-  Eigen::Vector3d speed_ = Eigen::Vector3d::Zero(); // of it [m/s]
-  bool there_ = false;                              // has said where it is since it was opened
-  int toldLosses_ = 0;                              // which the servo must not miss
-  bool answered_ = true;                            // its last pose
-  double busTime_ = 0.0;                            // [s], smoothed
-  Clock::time_point last_ = Clock::now();           // transfer began
-  Clock::time_point asked_;                         // the transfer of the last pose began
-  Clock::time_point when_;                          // and ended
+  DriverSample heard_;                               // last
+  Eigen::Vector3d apex_ = Eigen::Vector3d::Zero();   // in the frame of the surface [m]
+  Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();  // of it [m/s]
+  Eigen::Vector3d axis_ = -Eigen::Vector3d::UnitZ(); // of the tool, in its frame
+  bool held_ = false;                                // by the clutch
+  bool there_ = false;                               // has said where it is since it was opened
+  int toldLosses_ = 0;                               // which the servo must not miss
+  bool answered_ = true;                             // its last pose
+  double busTime_ = 0.0;                             // [s], smoothed
+  Clock::time_point last_ = Clock::now();            // transfer began
+  Clock::time_point asked_;                          // the transfer of the last pose began
+  Clock::time_point when_;                           // and ended
 
   std::jthread watcher_; // last: it uses all the others
 };

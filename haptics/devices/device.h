@@ -14,6 +14,10 @@ namespace palp
 /// arm adds (van Beek et al. 2015, see HandMechanics), for a light grip.
 inline constexpr double kGripDamping = 1.0;
 
+/// From a frame with x to the user, y right, z up, as arms often have it, to that of
+/// DeviceLimits::facing.
+inline const Eigen::Matrix3d kFacesUser{ { 0.0, 1.0, 0.0 }, { -1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+
 /// What a device can do and bear.
 struct DeviceLimits
 {
@@ -30,16 +34,36 @@ struct DeviceLimits
   double velocityDelay = 0.0;   ///< of the velocity in its poses [s]
   double workspaceRadius = 0.0; ///< how far it reaches [m]; 0: no bound
   Eigen::Vector3d workspaceCenter = Eigen::Vector3d::Zero(); ///< in the frame of its poses [m]
+  /// Motion of the tool by that of the hand, as it is placed; every length, speed and stiffness
+  /// here is of the tool.
+  double scale = 1.0;
+  /// Of a driver: from its frame to one with x right, y away from the user, z up.
+  Eigen::Matrix3d facing = Eigen::Matrix3d::Identity();
+};
+
+/// Where a device stands in the frame of the surface.
+struct DevicePlacement
+{
+  static constexpr double kLargestScale = 5.0; ///< and its inverse the smallest
+
+  /// From a frame with x right, y away from the user, z up: what drivers differ in is undone
+  /// before.
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< of the device's frame [m]
+  double scale = 1.0; ///< motion of the tool by that of the hand; a newton stays one
+  int clutch = 0;     ///< button that holds the tool while the hand goes elsewhere, from 1; 0: none
 };
 
 /// What a device says beside its pose.
 struct DeviceStatus
 {
   bool homed = true;
-  bool stopped = false;      ///< by an emergency stop of its own
-  std::uint32_t buttons = 0; ///< a bit each, the first in bit 0
-  double age = 0.0;          ///< of the pose, since the hardware sent it [s]
-  double delay = 0.0;        ///< from the last pose that was answered to its force [s]; 0: unknown
+  bool stopped = false;                            ///< by an emergency stop of its own
+  std::uint32_t buttons = 0;                       ///< a bit each, the first in bit 0
+  double age = 0.0;                                ///< of the pose, since the hardware sent it [s]
+  bool clutched = false;                           ///< its clutch is held: no force
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero(); ///< its frame, by its clutch, since limits() [m]
+  double delay = 0.0; ///< from the last pose that was answered to its force [s]; 0: unknown
   /// Of the force of this exchange, what the motors were given [N]; none: all of it.
   std::optional<Eigen::Vector3d> sent{};
 };
@@ -55,6 +79,13 @@ public:
   virtual ~Device() = default;
 
   [[nodiscard]] virtual DeviceLimits limits() const = 0;
+
+  /// Puts it somewhere else, with limits() of there; no servo may use it meanwhile.
+  /// @return  false: it has no place of its own
+  [[nodiscard]] virtual bool place(const DevicePlacement&)
+  {
+    return false;
+  }
 
   /// One tick: takes the force, gives the pose at its end. May wait for a bus.
   ///

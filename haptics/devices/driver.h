@@ -11,8 +11,9 @@ namespace palp
 /// What a driver has heard, in the frame of its device.
 struct DriverSample
 {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();              ///< of the handle [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity(); ///< of the handle, unit
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the handle [m]
+  /// Of the handle, unit: from a frame whose -z points from handle to apex. Identity: upright.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   std::uint32_t buttons = 0;
   bool homed = true;
   bool stopped = false; ///< by an emergency stop of the device's own

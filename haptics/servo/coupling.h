@@ -84,6 +84,7 @@ struct LoopDynamics
   double delay = 0.0;          ///< t_d, from pose to force beyond the tick [s]
   double friction = 0.0;       ///< f_c of the mechanism [N]
   double quantum = 0.0;        ///< q of its encoder [m]
+  double scale = 1.0;          ///< motion of the tool by that of the hand
 };
 
 /// Speed at which a hand presses, for which friction is made a damping [m/s].
@@ -103,7 +104,8 @@ inline constexpr double kPressSpeed = 0.05;
 [[nodiscard]] constexpr double stableStiffness(const LoopDynamics& loop) noexcept
 {
   const double late = loop.period / 2.0 + loop.delay;
-  const double rubbing = 4.0 * loop.friction / (std::numbers::pi * kPressSpeed) / late;
+  const double speed = loop.scale * kPressSpeed;
+  const double rubbing = 4.0 * loop.friction / (std::numbers::pi * speed) / late;
   const double held = loop.quantum > 0.0 ? 2.0 * loop.friction / loop.quantum : rubbing;
   return (loop.deviceDamping + loop.virtualDamping) / late + std::min(rubbing, held);
 }

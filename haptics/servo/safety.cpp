@@ -27,6 +27,14 @@ double dampingOf(const DeviceLimits& device, const SafetySettings& settings)
                            : settings.passivityDamping;
 }
 
+// of a tool that moves so much more than the hand
+SafetySettings ofTool(SafetySettings settings, double scale)
+{
+  settings.fastest *= scale;
+  settings.passivityDamping /= scale;
+  return settings;
+}
+
 [[noreturn]] void refuse(
   const std::string& whose, const char* name, double value, const char* bounds)
 {
@@ -39,8 +47,8 @@ double dampingOf(const DeviceLimits& device, const SafetySettings& settings)
 
 SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& settings)
   : device_(device)
-  , settings_(settings)
-  , passivity_(dampingOf(device, settings), device.quantum,
+  , settings_(ofTool(settings, device.scale))
+  , passivity_(dampingOf(device, settings_), device.quantum,
       { kSurely * device.damping, kSurely * device.friction })
   , guard_(device.quantum)
   , period_(settings.period, kFastest * settings.period)
@@ -50,7 +58,7 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
   for (const auto& [name, value] : { Named{ "period", settings.period },
          { "stiffnessFraction", settings.stiffnessFraction }, { "slewRate", settings.slewRate },
          { "softSlewRate", settings.softSlewRate }, { "softStart", settings.softStart },
-         { "decay", settings.decay }, { "fastest", settings.fastest } })
+         { "decay", settings.decay }, { "fastest", settings.fastest }, { "scale", device.scale } })
   {
     if (!(value > 0.0) || !std::isfinite(value))
     {
@@ -234,9 +242,8 @@ Eigen::Vector3d SafetyChain::push(
 void SafetyChain::watchSwings(const Sample& sample) noexcept
 {
   const bool atEnd = (flags_ & static_cast<std::uint32_t>(Flag::Workspace)) != 0;
-  const Eigen::Vector3d normal = sample.contact.touching()
-    ? sample.contact.normal
-    : (device_.workspaceCenter - last_.apex).normalized();
+  const Eigen::Vector3d normal =
+    sample.contact.touching() ? sample.contact.normal : (center_ - last_.apex).normalized();
   const Eigen::Vector3d along = atEnd || sample.contact.touching() ? normal : normal_;
   normal_ = along;
   guard_.record(last_.velocity.dot(along), atEnd || sample.contact.touching(), dt_);

@@ -132,6 +132,7 @@ private:
   bool measured_ = false;                             // the device tells its delay
   double newestDelay_ = 0.0;                          // [s]
   double stored_ = 0.0;                               // in the rendered springs [J]
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // of the workspace, now [m]
   double elapsed_ = 0.0;                              // since the last tick, as it was [s]
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(); // of the last contact
 

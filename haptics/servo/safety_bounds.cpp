@@ -46,6 +46,7 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
   const double bare = stableStiffness(loop);
   loop.deviceDamping += device_.handDamping;
   loop.friction = device_.friction;
+  loop.scale = device_.scale;
   loop.quantum = device_.quantum;
   // no more by hand and friction than passivity control can replace, when the hand lets go or is
   // faster than friction counts for
@@ -60,7 +61,7 @@ double SafetyChain::stiffnessLimit(double damping) const noexcept
 
 Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept
 {
-  const Eigen::Vector3d reach = pose.apex - device_.workspaceCenter;
+  const Eigen::Vector3d reach = pose.apex - center_;
   const double distance = reach.norm();
   if (!(device_.workspaceRadius > 0.0) || distance <= device_.workspaceRadius)
   {

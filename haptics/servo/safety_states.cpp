@@ -100,6 +100,7 @@ void SafetyChain::beginTick(const DeviceStatus& status, double elapsed) noexcept
   sinceLast_ += std::max(elapsed, dt_);
   period_.record(elapsed);
   elapsed_ = std::max(elapsed, kShortest);
+  center_ = device_.workspaceCenter + status.moved;
   if (status.delay > 0.0)
   {
     measured_ = true;
@@ -162,7 +163,11 @@ void SafetyChain::advance(const DeviceStatus& status, const SafetyOrders& orders
   }
 
   const bool held = !settings_.deadMan || (status.buttons & 1U) != 0;
-  const bool wanted = orders.armed && held && watched && latched_ == 0;
+  if (status.clutched)
+  {
+    raise(Flag::Clutched);
+  }
+  const bool wanted = orders.armed && held && watched && !status.clutched && latched_ == 0;
   if (wanted && state_ == DeviceState::Ready)
   {
     forceOff(DeviceState::SoftStart);

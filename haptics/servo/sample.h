@@ -30,6 +30,7 @@ enum class Flag : std::uint32_t
   Rebased = 8192,          ///< contact is felt from a depth below the surface, until the tool lifts
   WatchdogExpired = 16384, ///< the main thread is silent: the force fades until it is back
   DampingLimited = 32768,  ///< the law damps more than the device can render
+  Clutched = 65536,        ///< the tool stays while the hand goes elsewhere; no force
 };
 
 /// Where a device stands between closed and felt.
@@ -60,6 +61,7 @@ struct Sample
   double surfaceDepth = 0.0; ///< of relaxing tissue at the tool, also of what is left [m]
   std::uint32_t flags = 0;   ///< of Flag
   DeviceState state = DeviceState::Active;
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero(); ///< the device's frame, by its clutch [m]
 };
 
 } // namespace palp

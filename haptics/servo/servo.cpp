@@ -97,12 +97,15 @@ Sample Servo::computeSample(
     const ToolPose held{ .apex = held_.apex, .axis = held_.axis };
     Sample sample = step(scene, memory_, *chain_, pose, device_.status(), orders, elapsed, held);
     held_ = sample.pose;
+    sample.moved = device_.status().moved;
     return sample;
   }
   held_ = pose.value_or(ToolPose{ .apex = held_.apex, .axis = held_.axis });
   Sample sample = pose ? step(scene, memory_, held_, elapsed) : Sample{};
   sample.pose = held_;
   sample.flags |= pose ? 0U : static_cast<std::uint32_t>(Flag::DeviceLost);
+  sample.moved = device_.status().moved;
+  sample.flags |= device_.status().clutched ? static_cast<std::uint32_t>(Flag::Clutched) : 0U;
   if (stopped)
   {
     sample.force.setZero();

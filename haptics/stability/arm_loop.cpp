@@ -169,7 +169,8 @@ private:
       .quantum = arm_.quantum,
       .delay = arm_.statedDelay,
       .velocityDelay = arm_.quantum > 0.0 ? VelocityEstimator::kLongestDelay : 0.0,
-      .workspaceRadius = arm_.world == ArmWorld::Workspace ? kReach : 0.0 };
+      .workspaceRadius = arm_.world == ArmWorld::Workspace ? kReach : 0.0,
+      .scale = arm_.scale };
   }
 
   const ArmCase& arm_;
@@ -226,10 +227,26 @@ void seeSpeed(ArmResult& result, double fraction, double speed)
   most = std::max(most, speed);
 }
 
+// the same forces over a motion that is scaled
+ArmCase atTool(ArmCase arm)
+{
+  for (double* dynamic :
+    { &arm.mass, &arm.damping, &arm.statedHand, &arm.handStiffness, &arm.handDamping })
+  {
+    *dynamic /= arm.scale;
+  }
+  for (double* motion : { &arm.quantum, &arm.handDepth, &arm.startSpeed })
+  {
+    *motion *= arm.scale;
+  }
+  return arm;
+}
+
 } // namespace
 
-ArmResult simulateArm(const ArmCase& arm, bool chain)
+ArmResult simulateArm(const ArmCase& hand, bool chain)
 {
+  const ArmCase arm = atTool(hand);
   const Geometry geometry{ arm.world };
   Between controller(arm, chain);
   Arm state{ .apex = geometry.start(), .velocity = Vector3d::Zero() };

@@ -32,6 +32,7 @@ struct ArmCase
   double handDamping = 0.0;   ///< [N s/m]
   double handForce = 1.0;     ///< [N]
   double handDepth = 0.005;   ///< of what the spring of a hand pulls to [m]
+  double scale = 1.0;         ///< motion of the tool by that of the hand, which all else is of
   double period = 0.001;      ///< of the bus [s]
   double startSpeed = 0.2;    ///< [m/s]
   double duration = 8.0;      ///< [s]
@@ -41,7 +42,7 @@ struct ArmCase
   double drawnSpeed = 0.0; ///< of the hand along that, over 30 mm from 1 s on [m/s]
 };
 
-/// What the arm did.
+/// What the arm did; lengths and speeds are of the tool.
 struct ArmResult
 {
   double energy = 0.0;        ///< least of port energy + what the mechanism dissipated [J]

@@ -29,6 +29,12 @@ inline Vector3d positionAt(int reach)
   return woodenTool(WoodenCounts{ start[0], start[1], start[2] + reach });
 }
 
+// from the arm's frame, with x to the user and y right, to that of the scene
+inline Vector3d inScene(const Vector3d& ofArm)
+{
+  return { ofArm.y(), -ofArm.x(), ofArm.z() };
+}
+
 // counts after which the arm is so much lower than at its start
 inline int reachFor(double travel)
 {
@@ -154,7 +160,7 @@ protected:
   // the tool stands 5 mm above a block, and 4 mm deep in it once the arm has reached down
   [[nodiscard]] static DevicePlacement placement()
   {
-    return { .origin = Vector3d(0, 0, -4.0_mm) - positionAt(reachFor(9.0_mm)) };
+    return { .origin = Vector3d(0, 0, -4.0_mm) - inScene(positionAt(reachFor(9.0_mm))) };
   }
 
   void start(std::unique_ptr<Device> device)

@@ -61,7 +61,7 @@ TEST_F(HidServo, TheBoardPushesAsTheChainSays)
   for (std::size_t i = 0; i < board_->pushed.size(); ++i)
   {
     const auto& [at, currents] = board_->pushed[i];
-    const Vector3d felt = test::woodenForce(at, currents);
+    const Vector3d felt = test::inScene(test::woodenForce(at, currents));
     const double rounding = test::woodenRounding(at);
     const auto isFelt = [&](const Sample& sample) // to 0.5 degrees, 0.9 %
     { return (felt - sample.force).norm() <= 0.0087 * sample.force.norm() + rounding; };

@@ -90,14 +90,6 @@ TEST_F(HidRig, WhatIsNoHidDeviceIsRefusedByName)
   EXPECT_NE(openHid(kNode), nullptr);
 }
 
-TEST_F(HidRig, DevicesNamesSpacenavd)
-{
-  EXPECT_EQ(tellDevices().text.find("spacenavd"), std::string::npos);
-  setenv("SPNAV_SOCKET", "/", 1); // something that exists
-  EXPECT_NE(tellDevices().text.find("spacenavd runs"), std::string::npos);
-  unsetenv("SPNAV_SOCKET");
-}
-
 TEST_F(HidRig, ProbeMeasuresTheExchange)
 {
   const Told told = tellDevices({ .probe = std::string("wooden:") + kNode });

@@ -55,6 +55,8 @@ constexpr double kLargestCount = 4096.0;
 constexpr std::uint8_t kRed = 0x8;   // home it
 constexpr std::uint8_t kBlue = 0x4;  // pull it out once
 constexpr std::uint8_t kGreen = 0x2; // ready
+const Eigen::Matrix3d kFacing{ { 1.0, 0.0, 0.0 }, { 0.0, 0.0, -1.0 },
+  { 0.0, 1.0, 0.0 } };               // its y is up, its z to the user
 constexpr double kPulledOut = 0.170; // z of its frame [m]
 
 constexpr int kPurges = 3; // exchanges that begin with one: a late reply may come after the first
@@ -217,7 +219,8 @@ DeviceLimits FalconDriver::limits() const
     .quantum = 48.0_um,
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
-    .workspaceRadius = 40.0_mm };
+    .workspaceRadius = 40.0_mm,
+    .facing = kFacing };
 }
 
 IoCode FalconDriver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept

@@ -28,6 +28,7 @@ struct Library
   int (*enableForce)(unsigned char, char);
   int (*setWatchdog)(unsigned char, char);
   int (*position)(double*, double*, double*, char);
+  bool (*hasWrist)(char);
   int (*orientation)(double (*)[3], char);
   unsigned int (*buttons)(char);
   int (*setForceAndTorque)(double, double, double, double, double, double, char);
@@ -47,8 +48,15 @@ void find(void* file, const std::string& path, const char* name, Function*& func
   }
 }
 
-Library load(void* file, const std::string& path)
+Library load(const std::string& path)
 {
+  void* file = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: its threads may outlive an arm
+  if (file == nullptr)
+  {
+    throw Error(ErrorCode::NoDevice,
+      "Force Dimension: cannot load " + path +
+        "; install the makers' SDK 3, or give its libdrd as --device forcedimension:FILE");
+  }
   Library library{};
   find(file, path, "drdOpen", library.open);
   find(file, path, "drdClose", library.close);
@@ -58,12 +66,15 @@ Library load(void* file, const std::string& path)
   find(file, path, "dhdEnableForce", library.enableForce);
   find(file, path, "dhdSetWatchdog", library.setWatchdog);
   find(file, path, "dhdGetPosition", library.position);
+  find(file, path, "dhdHasWrist", library.hasWrist);
   find(file, path, "dhdGetOrientationFrame", library.orientation);
   find(file, path, "dhdGetButtonMask", library.buttons);
   find(file, path, "dhdSetForceAndTorque", library.setForceAndTorque);
   find(file, path, "dhdGetForce", library.force);
   return library;
 }
+
+constexpr const char* kLibrary = "libdrd.so.3";
 
 std::string textOf(const char* text)
 {
@@ -77,6 +88,7 @@ public:
     : library_(library)
     , arm_(arm)
     , name_(textOf(library.systemName(arm)))
+    , hasWrist_(library.hasWrist(arm))
   {
     (void)library_.setWatchdog(kWatchdog, arm_);
     (void)library_.enableForce(1, arm_);
@@ -150,15 +162,20 @@ private:
     return { -of.y(), of.x(), of.z() };
   }
 
-  static Eigen::Quaterniond orientationOf(const double (&frame)[3][3]) noexcept
+  // of a pen along x of their frame, whose tip is at the arm; without a wrist it stays upright
+  [[nodiscard]] Eigen::Quaterniond orientationOf(const double (&frame)[3][3]) const noexcept
   {
-    Eigen::Matrix3d turned;
+    if (!hasWrist_)
+    {
+      return Eigen::Quaterniond::Identity();
+    }
+    Eigen::Matrix3d pen;
     for (int column = 0; column < 3; ++column)
     {
-      turned.col(column) = fromDevice({ frame[0][column], frame[1][column], frame[2][column] });
+      pen.col(column) = fromDevice({ frame[0][column], frame[1][column], frame[2][column] });
     }
     const Eigen::Matrix3d turn =
-      turned * Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ());
+      pen * Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY());
     const bool possible = turn.allFinite() && std::abs(turn.determinant() - 1.0) < 0.05;
     return possible ? Eigen::Quaterniond(turn).normalized() : Eigen::Quaterniond::Identity();
   }
@@ -166,6 +183,7 @@ private:
   Library library_;
   char arm_;
   std::string name_;
+  bool hasWrist_;
   bool homed_ = false;
 };
 
@@ -173,15 +191,7 @@ private:
 
 std::unique_ptr<Driver> openForceDimension(const std::string& library)
 {
-  const std::string path = library.empty() ? "libdrd.so.3" : library;
-  void* file = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays: its threads may outlive an arm
-  if (file == nullptr)
-  {
-    throw Error(ErrorCode::NoDevice,
-      "Force Dimension: cannot load " + path +
-        "; install the makers' SDK 3, or give its libdrd as --device forcedimension:FILE");
-  }
-  const Library functions = load(file, path);
+  const Library functions = load(library.empty() ? kLibrary : library);
   const int arm = functions.open();
   if (arm < 0)
   {
@@ -190,6 +200,11 @@ std::unique_ptr<Driver> openForceDimension(const std::string& library)
         "); switch it on and plug it in, and see the makers' HapticDesk");
   }
   return std::make_unique<ForceDimensionDriver>(functions, static_cast<char>(arm));
+}
+
+void requireForceDimension()
+{
+  (void)load(kLibrary);
 }
 
 } // namespace palp

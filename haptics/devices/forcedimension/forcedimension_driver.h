@@ -14,4 +14,8 @@ namespace palp
 /// @throws Error   NoDevice: no such library, one that lacks a function, no arm; and what to do
 [[nodiscard]] std::unique_ptr<Driver> openForceDimension(const std::string& library);
 
+/// Looks for that library where the system does, and opens no arm: that may release its brakes.
+/// @throws Error  NoDevice: no such library, one that lacks a function; and what to do
+void requireForceDimension();
+
 } // namespace palp

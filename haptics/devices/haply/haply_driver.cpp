@@ -56,8 +56,9 @@ public:
     const HaplyState& state = link_.state();
     homed_ = state.calibrated;
     start_ = homed_ && !start_ ? std::optional(state.position) : start_;
+    upright_ = homed_ && !upright_ && state.hasGrip ? std::optional(state.orientation) : upright_;
     sample = { .position = state.position - start_.value_or(state.position),
-      .orientation = state.orientation,
+      .orientation = state.orientation * upright_.value_or(state.orientation).inverse(),
       .buttons = state.buttons,
       .homed = homed_,
       .sent = sent };
@@ -67,7 +68,8 @@ public:
 private:
   HaplyLink link_;
   bool homed_ = false;
-  std::optional<Eigen::Vector3d> start_; // [m]
+  std::optional<Eigen::Vector3d> start_;      // [m]
+  std::optional<Eigen::Quaterniond> upright_; // of the grip, which may wake later
 };
 
 } // namespace

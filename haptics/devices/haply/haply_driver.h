@@ -10,7 +10,8 @@ namespace palp
 
 /// A Haply Inverse3 or Minverse with its grip, through the service that its makers run beside it.
 ///
-/// Its frame begins where its cursor is when it is first calibrated. The service lets the arm go
+/// Its frame begins where its cursor is when it is first calibrated; as its grip is held then, or
+/// when it wakes, it is upright. The service lets the arm go
 /// idle once commands stop, and it is the service that would have to: a program that dies has no
 /// hand on the arm's own wire.
 /// @param port    of the service on this machine; empty: 10001

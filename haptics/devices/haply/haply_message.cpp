@@ -72,7 +72,9 @@ void takeGrip(const json& grips, HaplyState& state)
     return;
   }
   const json& grip = at(grips.front(), "state");
-  state.orientation = quaternion(at(grip, "orientation")).value_or(state.orientation);
+  const auto held = quaternion(at(grip, "orientation"));
+  state.orientation = held.value_or(state.orientation);
+  state.hasGrip = state.hasGrip || held;
   const auto bit = [](const json& pressed, unsigned place)
   { return pressed.is_boolean() && pressed.get<bool>() ? 1U << place : 0U; };
   const json& wireless = at(grip, "buttons");

@@ -16,6 +16,7 @@ struct HaplyState
   Eigen::Vector3d position = Eigen::Vector3d::Zero();              ///< x right, y away, z up [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity(); ///< of the grip, unit
   std::uint32_t buttons = 0;                                       ///< of the grip
+  bool hasGrip = false;                                            ///< and has told how it is held
   bool calibrated = false;                                         ///< and powered
   bool oldWords = false; ///< the service is older than 3.5 and calls a force otherwise
 };

@@ -110,7 +110,8 @@ DeviceLimits WoodenDriver::limits() const
     .quantum = 54.0_um,
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
-    .workspaceRadius = arm_.radius };
+    .workspaceRadius = arm_.radius,
+    .facing = kFacesUser };
 }
 
 IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample& sample) noexcept
@@ -143,6 +144,7 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample&
       if (heard)
       {
         angles_ = jointAngles(arm_, heard->encoders);
+        orientation_ = wristOrientation(arm_, angles_, heard->encoders);
         calibrate_ = heard->calibrate;
         homed_ = told_ && !calibrate_;
         button_ = heard->button;
@@ -152,6 +154,7 @@ IoCode WoodenDriver::tick(const Eigen::Vector3d& force, double dt, DriverSample&
   if (code == IoCode::Ok)
   {
     sample = { .position = forwardKinematics(arm_, angles_),
+      .orientation = orientation_,
       .buttons = button_ ? 1U : 0U,
       .homed = homed_,
       .heat = heat_.fraction(),

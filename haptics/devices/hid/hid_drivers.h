@@ -53,8 +53,9 @@ private:
   std::size_t reportSize_;
   MotorHeat heat_;
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();
-  bool calibrate_ = false; // asked for by the board
-  bool told_ = false;      // that it stands at rest
+  Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity(); // of the handle
+  bool calibrate_ = false;                                          // asked for by the board
+  bool told_ = false;                                               // that it stands at rest
   bool button_ = false;
   bool homed_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -65,7 +66,9 @@ std::optional<WoodenArm> publishedArm(std::string_view name) noexcept
       .origin = { 0.140, 0.0, 0.100 },
       .torque = { 0.0538, 0.0538, 0.0538 },
       .sign = { -1.0, -1.0, -1.0 },
-      .rest = { 0.0, 0.0, -5000.0 } };
+      .rest = { 0.0, 0.0, -5000.0 },
+      .wrist = { 1024.0, 1024.0, 1024.0 },
+      .wristSign = { -1.0, 1.0, -1.0 } };
   }
   if (name == "aluhaptics")
   {
@@ -85,6 +88,7 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
     Key{ "body", arm.body, true }, Key{ "origin", arm.origin, false },
     Key{ "torque", arm.torque, true }, Key{ "counts", arm.counts, true },
     Key{ "sign", arm.sign, false }, Key{ "rest", arm.rest, false },
+    Key{ "wrist", arm.wrist, false }, Key{ "wrist_sign", arm.wristSign, false },
     Key{ "radius", { &arm.radius, 1 }, true }, Key{ "max_force", { &arm.maxForce, 1 }, true },
     Key{ "max_current", { &arm.maxCurrent, 1 }, true },
     Key{ "continuous_current", { &arm.continuousCurrent, 1 }, true },
@@ -107,12 +111,15 @@ WoodenArm parseWoodenArm(std::string_view text, const std::string& name)
           ": not a known key with its numbers; write as in: length = 0.080 0.205 0.245");
     }
   }
-  for (const double sign : arm.sign)
+  const auto isSign = [](double sign) { return std::abs(sign) == 1.0; };
+  if (!std::ranges::all_of(arm.sign, isSign) || !std::ranges::all_of(arm.wristSign, isSign))
   {
-    if (std::abs(sign) != 1.0)
-    {
-      throw Error(ErrorCode::BadFile, name + ": a sign is neither 1 nor -1; give one of them");
-    }
+    throw Error(ErrorCode::BadFile, name + ": a sign is neither 1 nor -1; give one of them");
+  }
+  if (std::ranges::any_of(arm.wrist, [](double counts) { return counts < 0.0; }))
+  {
+    throw Error(ErrorCode::BadFile,
+      name + ": wrist has fewer than 0 counts in a turn; give them, or 0 0 0 for none");
   }
   if (arm.continuousCurrent >= arm.maxCurrent)
   {
@@ -190,6 +197,28 @@ Eigen::Vector3d forwardKinematics(const WoodenArm& arm, const Eigen::Vector3d& a
   const double reach = upper * std::sin(angles[1]) + fore * std::sin(angles[2]);
   return { std::cos(angles[0]) * reach - arm.origin[0], std::sin(angles[0]) * reach - arm.origin[1],
     shoulder + upper * std::cos(angles[1]) - fore * std::cos(angles[2]) - arm.origin[2] };
+}
+
+Eigen::Quaterniond wristOrientation(const WoodenArm& arm, const Eigen::Vector3d& angles,
+  const std::array<std::int16_t, 6>& encoders) noexcept
+{
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  constexpr double kRight = 0.5 * std::numbers::pi;
+  Vector3d turns;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (!(arm.wrist[i] > 0.0))
+    {
+      return Eigen::Quaterniond::Identity();
+    }
+    turns[static_cast<int>(i)] =
+      arm.wristSign[i] * 2.0 * std::numbers::pi * encoders[3 + i] / arm.wrist[i];
+  }
+  const Eigen::Quaterniond pen = AngleAxisd(angles[0], Vector3d::UnitZ()) *
+    AngleAxisd(kRight - angles[2], Vector3d::UnitY()) * AngleAxisd(turns[0], Vector3d::UnitX()) *
+    AngleAxisd(turns[1], Vector3d::UnitY()) * AngleAxisd(turns[2], Vector3d::UnitX());
+  return pen * AngleAxisd(kRight, Vector3d::UnitY()); // whose x runs from tip to handle
 }
 
 Eigen::Matrix3d positionJacobian(const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept

@@ -2,7 +2,7 @@
 
 #include "haptics/devices/bytes.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <string>
@@ -25,6 +25,8 @@ struct WoodenArm
   std::array<double, 3> counts{ 2000.0, 2000.0, 2000.0 }; ///< in a turn of the motor
   std::array<double, 3> sign{ 1.0, 1.0, 1.0 };            ///< of body against motor
   std::array<double, 3> rest{ 0.0, 0.0, 6000.0 };         ///< counts where it is calibrated
+  std::array<double, 3> wrist{ 0.0, 0.0, 0.0 };           ///< counts in a turn; one of 0: no wrist
+  std::array<double, 3> wristSign{ -1.0, -1.0, -1.0 };    ///< of its axes against their encoders
   double radius = 0.100;                                  ///< of the workspace [m]
   double maxForce = 5.0;                                  ///< [N]
   double maxCurrent = 2.0;                                ///< in a motor, for peakTime [A]
@@ -72,6 +74,13 @@ void encodeWoodenCalibration(const WoodenArm& arm, MutableBytes report) noexcept
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Eigen::Vector3d forwardKinematics(
   const WoodenArm& arm, const Eigen::Vector3d& angles) noexcept;
+
+/// Orientation of the handle in the frame of its workspace, as DriverSample has it: a pen along the
+/// last axis of the wrist, whose tip is at the arm. Without a wrist it stays upright.
+/// @source    forsslund/haptikfabrikenapi, src/kinematics.cpp, computeRotation
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Eigen::Quaterniond wristOrientation(const WoodenArm& arm,
+  const Eigen::Vector3d& angles, const std::array<std::int16_t, 6>& encoders) noexcept;
 
 /// Derivative of the place by the angles of the bodies [m/rad].
 /// @realtime  pure; no allocation, no lock, no exception

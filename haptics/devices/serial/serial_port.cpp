@@ -4,6 +4,7 @@
 #include "haptics/error.h"
 #include "haptics/files/descriptor.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <termios.h>
@@ -36,6 +37,22 @@ bool makeRaw(int descriptor) noexcept
 
 } // namespace
 
+std::vector<SerialPort> serialPorts(const std::filesystem::path& folder)
+{
+  std::vector<SerialPort> ports;
+  std::error_code unread; // a folder that cannot be read shows none
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unread))
+  {
+    const std::string name = entry.path().filename();
+    if (name.starts_with("ttyACM") || name.starts_with("ttyUSB"))
+    {
+      ports.push_back({ entry.path(), access(entry.path().c_str(), R_OK | W_OK) == 0 });
+    }
+  }
+  std::ranges::sort(ports, {}, &SerialPort::path);
+  return ports;
+}
+
 bool isSerialPort(const std::string& path)
 {
   const Descriptor file(openTerminal(path));
@@ -49,7 +66,7 @@ std::unique_ptr<Transport> openSerialPort(const std::string& path)
   {
     throw Error(ErrorCode::NoDevice,
       path +
-        (errno == EACCES ? ": no permission; join the group dialout, then log in again"
+        (errno == EACCES ? std::string(": ") + kSerialPermission
                          : ": cannot be opened; plug it in again"));
   }
   auto transport = std::make_unique<FileTransport>(file);

@@ -2,11 +2,27 @@
 
 #include "haptics/devices/transport.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace palp
 {
+
+/// A port of USB, on which a board may be.
+struct SerialPort
+{
+  std::string path;
+  bool permitted = false; ///< to read and write it
+};
+
+inline constexpr const char* kSerialPermission =
+  "no permission; join the group dialout, then log in again";
+
+/// Ports that are plugged in, by their paths; none is opened, as that may reset a board.
+/// @param folder  where the system shows them
+[[nodiscard]] std::vector<SerialPort> serialPorts(const std::filesystem::path& folder = "/dev");
 
 /// Whether a path is a serial port, whose opening may reset a board.
 [[nodiscard]] bool isSerialPort(const std::string& path);

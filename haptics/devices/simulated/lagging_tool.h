@@ -32,6 +32,10 @@ public:
   void setScene(const Scene& scene);
 
   [[nodiscard]] DeviceLimits limits() const override;
+  [[nodiscard]] bool place(const DevicePlacement& placement) override
+  {
+    return device_->place(placement);
+  }
   [[nodiscard]] std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double dt) noexcept override;
   [[nodiscard]] GuidedTool* guided() noexcept override;

@@ -2,6 +2,7 @@
 
 #include "haptics/devices/falcon/falcon_driver.h"
 #include "haptics/devices/forcedimension/forcedimension_driver.h"
+#include "haptics/devices/gamepad/gamepad_driver.h"
 #include "haptics/devices/guard/guarded_driver.h"
 #include "haptics/devices/haply/haply_driver.h"
 #include "haptics/devices/hid/hid_drivers.h"
@@ -142,6 +143,7 @@ struct Kind
 constexpr std::array kKinds{
   Kind{ "spacemouse", openSpaceMouse },
   Kind{ "spacenavd", [](const std::string&) { return openSpacenav(); } },
+  Kind{ "gamepad", openGamepad },
   Kind{ "falcon", openFalconArm },
   Kind{ "wooden", openWooden },
   Kind{ "phd1", openPhd1 },
@@ -162,6 +164,19 @@ std::vector<FoundDevice> findDevices()
 {
   std::vector<FoundDevice> all = listHid();
   std::ranges::move(listUsb(), std::back_inserter(all));
+  for (const FoundGamepad& pad : listGamepads())
+  {
+    all.push_back({ .kind = DeviceKind::Gamepad,
+      .name = pad.name + (pad.rumbles ? ", rumbles" : ", does not rumble"),
+      .path = pad.path });
+  }
+  for (const SerialPort& port : serialPorts())
+  {
+    all.push_back({ .kind = DeviceKind::Serial,
+      .name = "serial port",
+      .path = port.path,
+      .unusableReason = port.permitted ? "" : kSerialPermission });
+  }
   return all;
 }
 
@@ -173,6 +188,10 @@ std::vector<std::string> namesOf(const FoundDevice& device)
       return { "spacemouse:" + device.path };
     case DeviceKind::Falcon:
       return { "falcon" };
+    case DeviceKind::Gamepad:
+      return { "gamepad:" + device.path };
+    case DeviceKind::Serial:
+      return { "wooden:" + device.path };
     default:
       return { "wooden:" + device.path, "phd1:" + device.path };
   }

@@ -13,15 +13,15 @@ namespace palp
 
 /// For people: the names that openDriver takes.
 inline constexpr const char* kHardwareNames =
-  "spacemouse, spacenavd, falcon, wooden:PATH, phd1:PATH, haply, forcedimension "
+  "spacemouse, spacenavd, gamepad, falcon, wooden:PATH, phd1:PATH, haply, forcedimension "
   "or openigtlink";
 
 /// Opens what drives a device, by the name that a user gives it.
 ///
-/// spacemouse, spacemouse:PATH; spacenavd; falcon, falcon:FIRMWARE; wooden:PATH[,ARM], a HID board
-/// or a serial port, and an arm of publishedArm or a file; phd1:PATH;
-/// haply[:PORT]; forcedimension[:LIBRARY]; openigtlink[:ADDRESS:PORT][,TOOL]. A board with generic
-/// ids is never opened without its path.
+/// spacemouse, spacemouse:PATH; spacenavd; gamepad[:PATH]; falcon, falcon:FIRMWARE;
+/// wooden:PATH[,ARM], a HID board or a serial port, and an arm of publishedArm or a file;
+/// phd1:PATH; haply[:PORT]; forcedimension[:LIBRARY]; openigtlink[:ADDRESS:PORT][,TOOL]. A board
+/// with generic ids is never opened without its path.
 ///
 /// @throws Error  BadValue: not such a name; NoDevice: why it cannot be used, and what to do;
 ///                BadFile: firmware or configuration

@@ -95,6 +95,19 @@ TEST(Program, WithoutItsSiblingsNamesTheMissingOneAndGoesOnWithoutPictures)
   EXPECT_EQ(run(experiment + " --no-picture").code, 0);
 }
 
+TEST(Program, RefusesAScaleOrClutchThatNoDeviceHas)
+{
+  for (const auto& [options, fix] : { std::pair("--device-scale 9", "0.2 to 5"),
+         std::pair("--device-scale nan", "--device-scale"), std::pair("--clutch 1.5", "0 to 32"),
+         std::pair("--clutch 33", "0 to 32"), std::pair("--clutch 1 --dead-man", "give another") })
+  {
+    const Finished finished = palp(std::string("view ") + options);
+    EXPECT_EQ(finished.code, 2) << options;
+    EXPECT_NE(finished.err.find(fix), std::string::npos) << finished.err;
+    EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+  }
+}
+
 TEST(Program, ShowsNoControlCharacterOfAnOption)
 {
   const Finished finished = palp("force --law \"$(printf '\\033[31m')\"");

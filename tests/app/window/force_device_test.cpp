@@ -1,14 +1,18 @@
 #include "app/session/device_words.h"
 #include "tests/app/window/window_rig.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 #include <tuple>
+#include <vtkCamera.h>
 
 namespace palp
 {
@@ -52,9 +56,10 @@ struct MadeUpArm
 {
   std::atomic<bool> plugged = true;
   std::atomic<bool> homed = false;
-  std::atomic<double> depth = -5e-3; // that it goes to [m]
-  std::atomic<double> force = 0.0;   // last told [N]
-  Eigen::Vector3d top;               // of the body [m]
+  std::atomic<double> depth = -5e-3;     // that it goes to [m]
+  std::atomic<double> force = 0.0;       // last told [N]
+  Eigen::Vector3d top;                   // of the body [m]
+  std::optional<DevicePlacement> placed; // last; read while no servo uses it
 };
 
 class MadeUpDevice final : public Device
@@ -69,6 +74,11 @@ public:
     return {
       .model = "made up", .rendersForce = true, .needsHoming = true, .maxForce = 3.0, .damping = 1.0
     };
+  }
+  [[nodiscard]] bool place(const DevicePlacement& placement) override
+  {
+    arm_.placed = placement;
+    return true;
   }
   [[nodiscard]] std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double) noexcept override
@@ -190,6 +200,50 @@ TEST_F(DeviceTest, IsLeftWithoutForceWhenTheWindowCloses)
   window_.reset();
   session_.reset();
   EXPECT_EQ(arm_.force, 0.0);
+}
+
+TEST_F(DeviceTest, IsTurnedToTheViewAndHasNoForceUntilArmedAnew)
+{
+  session_->useDevice({ .kind = DeviceChoice::Kind::Driver, .name = "made up" },
+    std::make_unique<MadeUpDevice>(arm_));
+  arm_.homed = true;
+  armAndPress();
+  vtkRenderer& renderer = *canvas_->renderWindow()->GetRenderers()->GetFirstRenderer();
+  renderer.GetActiveCamera()->Azimuth(70.0);
+  renderer.GetActiveCamera()->Elevation(20.0);
+  window_->findChild<QAction*>("turn-device")->trigger();
+  EXPECT_FALSE(session_->armed());
+  EXPECT_TRUE(waitForNoForce());
+  ASSERT_TRUE(arm_.placed);
+  // by the picture itself: right is right, up is up, and away is neither but farther
+  const Eigen::Vector3d focus(renderer.GetActiveCamera()->GetFocalPoint());
+  const auto seen = [&](int axis)
+  {
+    const auto display = [&](const Eigen::Vector3d& point)
+    {
+      renderer.SetWorldPoint(point.x(), point.y(), point.z(), 1.0);
+      renderer.WorldToDisplay();
+      return Eigen::Vector3d(renderer.GetDisplayPoint());
+    };
+    return Eigen::Vector3d(
+      display(focus + 0.01 * arm_.placed->rotation.col(axis)) - display(focus));
+  };
+  EXPECT_GT(seen(0).x(), 5.0);
+  EXPECT_LT(std::abs(seen(0).y()), 0.01 * seen(0).x());
+  EXPECT_GT(seen(2).y(), 5.0);
+  EXPECT_LT(std::abs(seen(2).x()), 0.01 * seen(2).y());
+  EXPECT_LT(seen(1).head(2).norm(), 0.5);
+  EXPECT_GT(seen(1).z(), 0.0);
+  EXPECT_NEAR(arm_.placed->rotation.determinant(), 1.0, 1e-9);
+  armAndPress();
+}
+
+TEST_F(WindowTest, AMouseIsNotTurnedToTheView)
+{
+  Session& session = *session_;
+  EXPECT_FALSE(session.turnDevice(Eigen::Matrix3d::Identity()));
+  std::ignore = pressWithForce(100);
+  release();
 }
 
 } // namespace

@@ -1,10 +1,12 @@
 #include "haptics/devices/hid/hid_drivers.h"
+#include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/haptics/devices/memory_transport.h"
 #include "tests/support/wooden_reference.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <memory>
@@ -162,6 +164,61 @@ TEST(WoodenDriver, TellsTheButtonOfItsHandle)
       EXPECT_EQ(sample.buttons, pressed ? 1U : 0U);
     }
   }
+}
+
+// by the makers' computeRotation, worked out by hand: a pen along x of what turns about the body
+// (z), the fore arm (y), then the wrist (x, y, x); polhem_v1 has 1024 counts and signs - + -
+TEST(WoodenDriver, APolhemTellsWhereItsPenPoints)
+{
+  struct Row
+  {
+    std::array<std::int16_t, 6> counts; // from the rest of the arm on: of c, -5000 is level
+    Vector3d pen;                       // from its tip to its handle
+  };
+  const double half = std::sqrt(0.5);
+  const std::array rows{ Row{ { 0, 0, -5000, 0, 0, 0 }, { 1, 0, 0 } },
+    Row{ { 0, 0, -5000, 0, 0, 321 }, { 1, 0, 0 } },  // rolled in the fingers
+    Row{ { 0, 0, -5000, 0, -256, 0 }, { 0, 0, 1 } }, // a quarter turn up
+    Row{ { 0, 0, -5000, 0, -128, 77 }, { half, 0, half } },
+    Row{ { 0, 0, -5000, 256, -256, 0 }, { 0, 1, 0 } },     // and over
+    Row{ { -9000, 0, -5000, 0, 0, 0 }, { 0, 1, 0 } },      // the body, by 18 gears of 2000 counts
+    Row{ { 0, 0, -2500, 0, 0, 0 }, { half, 0, -half } } }; // the fore arm hangs by half
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), *publishedArm("polhem"), 14);
+  DriverSample sample;
+  for (const auto& [counts, pen] : rows)
+  {
+    Packet report(14);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+    {
+      writeInt<std::int16_t>(report, 2 * i, counts[i]);
+    }
+    wire.replies.push_back(report);
+    ASSERT_EQ(driver.tick(Vector3d::Zero(), 1.0_ms, sample), IoCode::Ok);
+    const Vector3d axis = sample.orientation * -Vector3d::UnitZ();
+    EXPECT_LT((axis + pen).norm(), 1e-9) << counts[0] << ' ' << counts[2] << ' ' << counts[4];
+  }
+}
+
+TEST(WoodenDriver, AnArmWithoutAWristHoldsItsToolUpright)
+{
+  Wire wire;
+  WoodenDriver driver(std::make_unique<MemoryTransport>(wire), WoodenArm{}, 14);
+  DriverSample sample;
+  Packet report = woodenReport(false);
+  writeInt<std::int16_t>(report, 8, 500);
+  wire.replies.push_back(report);
+  (void)driver.tick(Vector3d::Zero(), 1.0_ms, sample);
+  EXPECT_EQ(sample.orientation.coeffs(), Eigen::Quaterniond::Identity().coeffs());
+}
+
+TEST(WoodenArm, TakesAWristFromItsText)
+{
+  const WoodenArm arm = parseWoodenArm("wrist = 1024 1024 4096\nwrist_sign = -1 1 -1\n", "a.txt");
+  EXPECT_EQ(arm.wrist[2], 4096.0);
+  EXPECT_EQ(arm.wristSign[1], 1.0);
+  EXPECT_THROW((void)parseWoodenArm("wrist = -1 1024 1024\n", "a.txt"), Error);
+  EXPECT_THROW((void)parseWoodenArm("wrist_sign = 2 1 1\n", "a.txt"), Error);
 }
 
 } // namespace

@@ -117,6 +117,41 @@ TEST(ArmLoop, AHandThatLetsGoLeavesNoLimitCycle)
   }
 }
 
+// a tool that moves more than the hand, or less: the hand does not tremble, held or let go
+TEST(ArmLoop, AMotionThatIsScaledMakesNoLimitCycle)
+{
+  for (const double scale : { 0.2, 2.0, 5.0 })
+  {
+    for (const double mass : { 0.05, 0.3 })
+    {
+      for (const double damping : { 0.2, 1.0 })
+      {
+        for (const auto& [real, told] :
+          { std::pair{ 0.6_ms, 0.6_ms }, std::pair{ 3.0_ms, 0.0_ms } })
+        {
+          for (const ArmWorld world : { ArmWorld::Plane, ArmWorld::Workspace })
+          {
+            const ArmCase arm{ .mass = mass,
+              .damping = damping,
+              .quantum = 48.0_um,
+              .delay = real,
+              .statedDelay = told,
+              .statedHand = kGripDamping,
+              .scale = scale,
+              .duration = 20.0,
+              .world = world,
+              .law = world == ArmWorld::Plane ? rigid() : nothing() };
+            const ArmResult result = simulateArm(arm);
+            EXPECT_LE(result.lateSpeed / scale, 0.005)
+              << scale << ", " << mass << " kg, " << damping << " N s/m, " << real << " s";
+            EXPECT_GT(result.peakForce, 0.4);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(ArmLoop, TheEndOfTheWorkspaceHoldsAnArm)
 {
   for (const double delay : { 0.0_ms, 3.0_ms, 5.0_ms })

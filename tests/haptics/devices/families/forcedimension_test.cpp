@@ -74,20 +74,36 @@ TEST_F(ForceDimension, PlaceAndForceAreInOneFrame)
   EXPECT_NEAR(sample_.position.x(), -0.02, 1e-12); // its y is to the right
 }
 
-TEST_F(ForceDimension, ATurnOfItsWristIsTheTurnOfTheHandle)
+// theirs: x to the user, along a pen that is held level; y right, z up
+TEST_F(ForceDimension, ItsPenPointsWhereTheToolDoes)
 {
+  const auto driver = openDriver(kName);
+  const auto axisAfter = [&](double angle, const Vector3d& about)
+  {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, about).toRotationMatrix();
+    for (int i = 0; i < 9; ++i)
+    {
+      arm_->frame[i / 3][i % 3] = turn(i / 3, i % 3);
+    }
+    (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
+    return Vector3d(sample_.orientation * -Vector3d::UnitZ()); // right, away, up
+  };
+  EXPECT_LT((axisAfter(0.0, Vector3d::UnitX()) - Vector3d(0, 1, 0)).norm(), 1e-9);
+  EXPECT_LT((axisAfter(0.3, Vector3d::UnitX()) - Vector3d(0, 1, 0)).norm(), 1e-9) << "rolled";
+  // its handle goes up, or to the right, and so its tip the other way
+  const Vector3d down(0, std::cos(0.3), -std::sin(0.3));
+  EXPECT_LT((axisAfter(-0.3, Vector3d::UnitY()) - down).norm(), 1e-9);
+  const Vector3d left(-std::sin(0.3), std::cos(0.3), 0);
+  EXPECT_LT((axisAfter(0.3, Vector3d::UnitZ()) - left).norm(), 1e-9);
+}
+
+// which its library tells by a frame that never turns
+TEST_F(ForceDimension, WithoutAWristTheToolStandsUpright)
+{
+  arm_->hasWrist = false;
   const auto driver = openDriver(kName);
   (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
   EXPECT_LT(sample_.orientation.angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
-  // about its x, to the user: the other way about away from him, which is y here
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Vector3d::UnitX()).toRotationMatrix();
-  for (int i = 0; i < 9; ++i)
-  {
-    arm_->frame[i / 3][i % 3] = turn(i / 3, i % 3);
-  }
-  (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample_);
-  const Eigen::Quaterniond expected(Eigen::AngleAxisd(-0.3, Vector3d::UnitY()));
-  EXPECT_LT(sample_.orientation.angularDistance(expected), 1e-9);
 }
 
 TEST_F(ForceDimension, TellsWhatItsMotorsCouldNot)

@@ -37,13 +37,17 @@ enum class Habit
 class HaplyService
 {
 public:
-  explicit HaplyService(const std::string& inventory)
+  /// @param at  a port; 0: any that is free
+  explicit HaplyService(const std::string& inventory, std::uint16_t at = 0)
     : inventory_(inventory)
     , listening_(socket(AF_INET, SOCK_STREAM, 0))
   {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK); // and any free port
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(at);
+    const int on = 1;
+    (void)setsockopt(listening_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
     EXPECT_EQ(bind(listening_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
     EXPECT_EQ(listen(listening_, 1), 0);
     socklen_t size = sizeof(address);
@@ -69,6 +73,8 @@ public:
   std::array<std::atomic<double>, 3> force{};
   std::array<std::atomic<double>, 3> place{ 0.0, -0.12, 0.15 };
   std::atomic<bool> named = false; // it was told which program this is
+  std::atomic<bool> awake = true;  // its grip
+  std::atomic<bool> tilted = true; // a quarter turn about y
   std::string word = "vector";     // of a force
 
 private:
@@ -190,8 +196,8 @@ private:
       R"(},"cursor_velocity":{"x":0,"y":0,"z":0},"control_mode":"force"},"status":{"calibrated":)" +
       (calibrated ? "true" : "false") +
       R"(,"in_use":true,"power_supply":true,"ready":true,"started":true}}],)"
-      R"("wireless_verse_grip":[{"device_id":"61548","state":{"buttons":{"a":false,"b":true,)"
-      R"("c":false},"orientation":{"w":0.70710678,"x":0.0,"y":0.0,"z":0.70710678}}}]})";
+      R"("wireless_verse_grip":[)" +
+      (awake ? grip() : "") + "]}";
     switch (now)
     {
       case Habit::Silent:
@@ -218,6 +224,13 @@ private:
       default:
         say(frame(text, 0x81));
     }
+  }
+
+  [[nodiscard]] std::string grip() const
+  {
+    return R"({"device_id":"61548","state":{"buttons":{"a":false,"b":true,"c":false},"orientation":)" +
+      std::string(tilted ? R"({"w":0.70710678,"x":0.0,"y":0.70710678,"z":0.0}}})"
+                         : R"({"w":1.0,"x":0.0,"y":0.0,"z":0.0}}})");
   }
 
   void large()

@@ -55,6 +55,10 @@ extern "C"
     *z = gArm.place[2];
     return gArm.there ? 1 : -1; // DHD_TIMEGUARD: asked too early, the newest there is
   }
+  bool dhdHasWrist(char)
+  {
+    return gArm.hasWrist;
+  }
   int dhdGetOrientationFrame(double frame[3][3], char)
   {
     for (int i = 0; i < 9; ++i)

@@ -1,6 +1,7 @@
 // An arm behind a serial port, against a board made up from what its makers' firmware prints and
 // scans: "%hd %hd %hd %hd %hd %hd %hd\n" both ways, one line for each that came.
 
+#include "haptics/devices/serial/serial_port.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -10,6 +11,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <string>
@@ -203,6 +206,26 @@ TEST(WoodenText, ItsEndIsToldAndWhatIsNoPortIsRefusedInOneSentence)
       EXPECT_EQ(std::string(error.what()).find(path), 0U) << error.what();
     }
   }
+}
+
+TEST(WoodenText, ItsPortsAreFoundWithoutOpeningOne)
+{
+  const std::filesystem::path folder =
+    testing::TempDir() + "palp_ports_" + std::to_string(getpid());
+  std::filesystem::create_directory(folder);
+  for (const char* name : { "ttyUSB0", "tty0", "ttyS0", "hidraw0" })
+  {
+    (void)std::ofstream(folder / name);
+  }
+  std::filesystem::create_symlink("nowhere", folder / "ttyACM3"); // what nobody may open
+  const std::vector<SerialPort> found = serialPorts(folder);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].path, folder / "ttyACM3");
+  EXPECT_FALSE(found[0].permitted);
+  EXPECT_EQ(found[1].path, folder / "ttyUSB0");
+  EXPECT_TRUE(found[1].permitted);
+  std::filesystem::remove_all(folder);
+  EXPECT_TRUE(serialPorts(folder).empty());
 }
 
 } // namespace
