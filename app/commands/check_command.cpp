@@ -234,7 +234,11 @@ std::string doneIn(const RepairedMesh& repaired)
   add(repaired.slivers, "sliver", "slivers", " removed");
   add(repaired.filled, "hole", "holes", " closed");
   add(repaired.turned, "triangle", "triangles", " turned");
-  return line.empty() ? "nothing to repair" : line;
+  line = line.empty() ? "nothing to repair" : line;
+  add(repaired.splitLeft, "point", "points", " left where parts meet, as these would cross");
+  add(repaired.sliversLeft, "sliver", "slivers", " left, as the surface would cross itself");
+  add(repaired.holesLeft, "hole", "holes", " left, as what closes them would cross the surface");
+  return line;
 }
 
 // before any work

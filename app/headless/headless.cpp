@@ -3,6 +3,7 @@
 #include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
 #include "app/headless/renderer.h"
+#include "app/places/met_organ.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
 #include "app/press/playback.h"
@@ -305,6 +306,11 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   if (repeated)
   {
     checkInputs(*repeated, plan, recording);
+  }
+  for (const PressPlace& place : plan.presses ? plan.presses->places : std::vector<PressPlace>())
+  {
+    const std::string note = noteOfOrgan(place, *plan.presses, recording);
+    std::cerr << (note.empty() ? "" : "palp: warning: " + note + '\n');
   }
   const ScriptedPath* path = given.path ? &*given.path : nullptr;
   trace.build("press", "force at every millisecond",

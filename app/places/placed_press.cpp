@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <sstream>
 
 namespace palp
@@ -38,8 +39,7 @@ std::string inWords(const Eigen::Vector3d& place)
 
 [[noreturn]] void refusePlace(const PressPlace& place, const std::string& what)
 {
-  const std::string name = place.name.empty() ? "" : printable(place.name) + ", ";
-  throw Error(ErrorCode::BadValue, "the place " + name + inWords(place.position) + " mm: " + what);
+  throw Error(ErrorCode::BadValue, "the place " + inWords(place) + ": " + what);
 }
 
 struct OnTriangle
@@ -60,22 +60,6 @@ OnTriangle alongLine(const PressPlace& place, const Eigen::Vector3d& toward, con
       "it around");
   }
   return { hit.triangle, place.position + hit.distance * direction };
-}
-
-// of several organs that which the line meets first, or whose surface is nearest
-const Scene& pressedOrgan(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
-{
-  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  const auto distanceTo = [&](const Scene& organ)
-  {
-    const Surface& surface = *organ.surface;
-    return presses.toward
-      ? rayEntry(surface.tree(), place.position, presses.toward->normalized()).distance
-      : (findClosestPoint(surface, place.position, kAnywhere).point - place.position).norm();
-  };
-  const auto nearest = std::ranges::min_element(scene.others, {}, distanceTo);
-  const bool isFirst = nearest == scene.others.end() || distanceTo(scene) <= distanceTo(*nearest);
-  return isFirst ? scene : *nearest;
 }
 
 OnTriangle ontoSurface(const PressPlace& place, const Surface& surface)
@@ -114,8 +98,11 @@ SurfacePoint feltPoint(const OnTriangle& place, double depth, const Scene& scene
 class Descent
 {
 public:
-  Descent(const Scene& scene, const SurfacePoint& point)
-    : scene_(scene)
+  /// @param all    in which it is free
+  /// @param organ  of these that is pressed
+  Descent(const Scene& all, int organ, const SurfacePoint& point)
+    : all_(all)
+    , organ_(organ)
     , point_(point)
   {
   }
@@ -125,31 +112,43 @@ public:
     return point_.position - travel * point_.normal;
   }
 
-  [[nodiscard]] double depthAt(double travel) const noexcept
+  // in one organ
+  [[nodiscard]] double depthAt(double travel, int organ) const noexcept
   {
-    return findContact(*scene_.surface, scene_.law.tip(),
-      { .apex = apexAt(travel), .axis = -point_.normal }, scene_.rule)
+    const Scene& scene = organOf(all_, organ);
+    return findContact(*scene.surface, scene.law.tip(),
+      { .apex = apexAt(travel), .axis = -point_.normal }, scene.rule)
       .depth;
   }
 
-  // the last travel at which the tool is free; nothing: it is nowhere near
-  [[nodiscard]] std::optional<double> freeAt() const
+  // an organ that the tool is in, that which is pressed before others; nothing: it is free
+  [[nodiscard]] std::optional<int> touchedAt(double travel) const noexcept
   {
-    const double farthest = -2.0 * baseRadius(scene_.law.tip());
+    std::optional<int> touched;
+    for (int i = 0; i < organCount(all_) && touched != organ_; ++i)
+    {
+      touched = depthAt(travel, i) > 0.0 && (!touched || i == organ_) ? i : touched;
+    }
+    return touched;
+  }
+
+  // the last travel at which the tool is free, or the farthest
+  [[nodiscard]] double freeAt() const
+  {
+    const double farthest = -2.0 * baseRadius(all_.law.tip());
     double travel = 0.0;
-    while (depthAt(travel) > 0.0 && travel >= farthest)
+    while (touchedAt(travel) && travel >= farthest)
     {
       travel -= kAbove;
     }
-    const bool isFree = !(depthAt(travel) > 0.0) && !(depthAt(travel - kAbove) > 0.0);
-    return isFree ? std::optional(travel) : std::nullopt;
+    return travel;
   }
 
   // where a contact gets as deep as asked; nothing: the tool cannot get that deep
   [[nodiscard]] std::optional<double> travelTo(double depth, double from) const
   {
     double high = depth;
-    while (!(depthAt(high) >= depth))
+    while (!(depthAt(high, organ_) >= depth))
     {
       high += 0.25 * depth;
       if (high > 2.0 * depth + kAbove)
@@ -158,12 +157,14 @@ public:
       }
     }
     constexpr int kHalvings = 60;
-    return bisect([&](double travel) { return depthAt(travel) < depth; }, { from, high }, kHalvings)
+    return bisect(
+      [&](double travel) { return depthAt(travel, organ_) < depth; }, { from, high }, kHalvings)
       .high;
   }
 
 private:
-  const Scene& scene_;
+  const Scene& all_;
+  int organ_;
   SurfacePoint point_;
 };
 
@@ -193,19 +194,22 @@ struct Travel
 
 Travel travelOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
-  const Scene& organ = pressedOrgan(place, presses, scene);
-  const SurfacePoint point = pointOn(place, presses, organ);
-  const Descent descent(organ, point);
-  const std::optional<double> free = descent.freeAt();
-  const std::optional<double> bottom = free ? descent.travelTo(presses.depth, *free) : std::nullopt;
+  const int organ = organAt(place, presses, scene);
+  const SurfacePoint point = pointOn(place, presses, organOf(scene, organ));
+  const Descent descent(scene, organ, point);
+  const double free = descent.freeAt();
+  if (descent.touchedAt(free) == organ || descent.touchedAt(free - kAbove) == organ)
+  {
+    refusePlace(place, "the tool does not fit there; give another place, or a smaller tool");
+  }
+  const std::optional<double> bottom = descent.travelTo(presses.depth, free);
   if (!bottom)
   {
     refusePlace(place,
-      free ? "the tool gets no contact of " + quantityText(presses.depth, Quantity::Length) +
-          " there; give less, another place, or a smaller tool"
-           : "the tool does not fit there; give another place, or a smaller tool");
+      "the tool gets no contact of " + quantityText(presses.depth, Quantity::Length) +
+        " there; give less, another place, or a smaller tool");
   }
-  return { descent, -point.normal, *free - kAbove, *bottom };
+  return { descent, -point.normal, free - kAbove, *bottom };
 }
 
 ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
@@ -223,9 +227,29 @@ ScriptedPath pathOf(const PressPlace& place, const PlacedPresses& presses, const
 
 } // namespace
 
+std::string inWords(const PressPlace& place)
+{
+  return (place.name.empty() ? "" : printable(place.name) + ", ") + inWords(place.position) + " mm";
+}
+
 SurfacePoint pressedPoint(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
 {
-  return pointOn(place, presses, pressedOrgan(place, presses, scene));
+  return pointOn(place, presses, organOf(scene, organAt(place, presses, scene)));
+}
+
+// of several organs that which the line meets first, or whose surface is nearest
+int organAt(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)
+{
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  const auto distanceTo = [&](int organ)
+  {
+    const Surface& surface = *organOf(scene, organ).surface;
+    return presses.toward
+      ? rayEntry(surface.tree(), place.position, presses.toward->normalized()).distance
+      : (findClosestPoint(surface, place.position, kAnywhere).point - place.position).norm();
+  };
+  const auto all = std::views::iota(0, organCount(scene));
+  return *std::ranges::min_element(all, {}, distanceTo);
 }
 
 ToolPose pressedPose(const PressPlace& place, const PlacedPresses& presses, const Scene& scene)

@@ -5,6 +5,7 @@
 #include "haptics/servo/scene.h"
 #include "haptics/surface/surface_point.h"
 
+#include <string>
 #include <vector>
 
 namespace palp
@@ -25,6 +26,13 @@ constexpr double kFarthestPlace = 5e-3; ///< of a place that is meant to be on t
 /// The tool at rest at a place, with the contact as deep as asked; see pathsOf.
 /// @throws Error  BadValue: as pathsOf
 [[nodiscard]] ToolPose pressedPose(
+  const PressPlace& place, const PlacedPresses& presses, const Scene& scene);
+
+/// Its name and position, for people.
+[[nodiscard]] std::string inWords(const PressPlace& place);
+
+/// Which organ of a scene a place stands for, as in a Sample; see pressedPoint.
+[[nodiscard]] int organAt(
   const PressPlace& place, const PlacedPresses& presses, const Scene& scene);
 
 /// The motion of each press: from 1 mm above the surface along the inward normal of the point that

@@ -2,6 +2,7 @@
 
 #include "app/panels/press_bar.h"
 #include "app/panels/press_list.h"
+#include "app/places/met_organ.h"
 #include "app/places/placed_press.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
@@ -125,8 +126,9 @@ void Window::makePressBar()
 
 bool Window::pressAtPlace()
 {
+  QString note;
   const bool isPressed = attempt(
-    [this]
+    [this, &note]
     {
       const PlacedPresses presses = pressBar_->presses();
       if (!session_.isLed())
@@ -135,8 +137,9 @@ bool Window::pressAtPlace()
           "the tool is held by " + session_.recording().device +
             "; choose mouse or hand as the device, which can be led to a place");
       }
-      const SurfacePoint point =
-        pressedPoint(presses.places.front(), presses, session_.recording().scene);
+      const PressPlace& place = presses.places.front();
+      const SurfacePoint point = pressedPoint(place, presses, session_.recording().scene);
+      note = QString::fromStdString(noteOfOrgan(place, presses, session_.recording()));
       pointer_.pressAt(point, presses.depth, presses.speed);
       aim();
       if (pressList_ != nullptr && !search_) // which tells what comes of it
@@ -148,7 +151,8 @@ bool Window::pressAtPlace()
   {
     message_->warn({});
   }
-  refusedPlace_ = isPressed ? QString() : message_->text();
+  note.isEmpty() ? void() : message_->warn(note);
+  refusedPlace_ = isPressed && note.isEmpty() ? QString() : message_->text();
   return isPressed;
 }
 

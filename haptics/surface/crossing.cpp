@@ -185,15 +185,28 @@ std::vector<int> buriedTriangles(const BoxTree& tree, std::span<const int> piece
   return all;
 }
 
-std::vector<int> crossingTriangles(const BoxTree& tree, std::span<const Triangle> triangles)
+std::vector<std::array<int, 2>> crossingPairs(
+  const BoxTree& tree, std::span<const Triangle> triangles)
 {
-  std::vector<int> all;
+  std::vector<std::array<int, 2>> all;
   forCrossings(tree, triangles,
     [&](int one, int other, const Eigen::Vector3d&)
     {
-      all.insert(all.end(), { one, other });
+      all.push_back({ std::min(one, other), std::max(one, other) });
       return true;
     });
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::vector<int> crossingTriangles(const BoxTree& tree, std::span<const Triangle> triangles)
+{
+  std::vector<int> all;
+  for (const auto& [one, other] : crossingPairs(tree, triangles))
+  {
+    all.insert(all.end(), { one, other });
+  }
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -4,6 +4,7 @@
 #include "haptics/surface/winding.h"
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,9 +33,14 @@ namespace palp
 /// @param aside  by asideOf
 [[nodiscard]] bool isBuried(const Winding& winding, const Facet& facet, double aside) noexcept;
 
-/// The triangles that pass through others, or that others pass through, each once and in order.
+/// The pairs of triangles that pass through each other, the lower index first, each once and in
+/// order.
 ///
 /// @param triangles  that the tree was built of
+[[nodiscard]] std::vector<std::array<int, 2>> crossingPairs(
+  const BoxTree& tree, std::span<const Triangle> triangles);
+
+/// The triangles of these pairs, each once and in order.
 [[nodiscard]] std::vector<int> crossingTriangles(
   const BoxTree& tree, std::span<const Triangle> triangles);
 

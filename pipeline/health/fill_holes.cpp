@@ -1,5 +1,6 @@
 #include "pipeline/health/fill_holes.h"
 
+#include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "pipeline/health/open_sides.h"
 
@@ -52,6 +53,29 @@ bool isClosed(std::span<const Triangle> triangles, const std::vector<Side>& bord
   const auto& [firstTriangle, firstK] = border.front();
   return border.size() >= 3 &&
     triangles[at(triangle)][(at(k) + 1) % 3] == triangles[at(firstTriangle)][at(firstK)];
+}
+
+// drops what passes through the surface, or through another filling
+void dropCrossing(std::span<const Eigen::Vector3d> points, const std::vector<Triangle>& triangles,
+  std::vector<std::vector<Triangle>>& fillings)
+{
+  std::vector<Triangle> all = triangles;
+  std::vector<std::size_t> fillingOf; // of each that is added
+  for (std::size_t i = 0; i < fillings.size(); ++i)
+  {
+    all.insert(all.end(), fillings[i].begin(), fillings[i].end());
+    fillingOf.resize(all.size() - triangles.size(), i);
+  }
+  if (fillingOf.empty())
+  {
+    return;
+  }
+  for (const int triangle : crossingTriangles(BoxTree(points, all), all))
+  {
+    at(triangle) < triangles.size() ? void()
+                                    : fillings[fillingOf[at(triangle) - triangles.size()]].clear();
+  }
+  std::erase_if(fillings, [](const std::vector<Triangle>& filling) { return filling.empty(); });
 }
 
 } // namespace
@@ -107,13 +131,13 @@ std::vector<Triangle> smallestFilling(
   return result;
 }
 
-std::size_t fillHoles(
+FilledHoles fillHoles(
   std::span<const Eigen::Vector3d> points, std::vector<Triangle>& triangles, double longest)
 {
   const Edges edges = edgesOf(points.size(), triangles);
   const std::vector<std::vector<Side>> holes = borders(triangles, edges);
   std::set<std::array<int, 2>> known(edges.all.begin(), edges.all.end());
-  std::size_t count = 0;
+  std::vector<std::vector<Triangle>> fillings;
   for (const std::vector<Side>& border : holes)
   {
     const std::vector<int> chain = chainOf(triangles, border);
@@ -124,16 +148,21 @@ std::size_t fillHoles(
     {
       continue;
     }
-    const std::vector<Triangle> filling = smallestFilling(points, chain);
+    std::vector<Triangle> filling = smallestFilling(points, chain);
     const std::vector<std::array<int, 2>> inner = innerEdges(filling, chain);
     if (std::ranges::none_of(inner, [&](const auto& edge) { return known.contains(edge); }))
     {
       known.insert(inner.begin(), inner.end());
-      triangles.insert(triangles.end(), filling.begin(), filling.end());
-      ++count;
+      fillings.push_back(std::move(filling));
     }
   }
-  return count;
+  const std::size_t all = fillings.size();
+  dropCrossing(points, triangles, fillings);
+  for (const std::vector<Triangle>& filling : fillings)
+  {
+    triangles.insert(triangles.end(), filling.begin(), filling.end());
+  }
+  return { fillings.size(), all - fillings.size() };
 }
 
 } // namespace palp

@@ -22,12 +22,19 @@ namespace palp
 [[nodiscard]] std::vector<Triangle> smallestFilling(
   std::span<const Eigen::Vector3d> points, std::span<const int> chain);
 
+/// Holes that were closed, and those that are left since what would close them passes through the
+/// surface.
+struct FilledHoles
+{
+  std::size_t closed = 0;
+  std::size_t left = 0;
+};
+
 /// Closes the holes that are not longer around than a limit, and have at most 500 edges.
 ///
 /// @param triangles  turned alike; those that close holes are added
 /// @param longest    [m]
-/// @return           holes that were closed
-std::size_t fillHoles(
+FilledHoles fillHoles(
   std::span<const Eigen::Vector3d> points, std::vector<Triangle>& triangles, double longest);
 
 } // namespace palp

@@ -70,9 +70,15 @@ RepairedMesh repairedMesh(
   result.merged = points.size() - result.points.size();
   result.removed = triangles.size() - result.triangles.size();
   result.turned = turnAlike(result);
-  result.split = splitNonManifold(result.points, result.triangles);
-  result.slivers = removeSlivers(result.points, result.triangles);
-  result.filled = fillHoles(result.points, result.triangles, largestHole);
+  const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
+  const auto [slivers, sliversLeft] = removeSlivers(result.points, result.triangles);
+  const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
+  result.split = split;
+  result.splitLeft = splitLeft;
+  result.slivers = slivers;
+  result.sliversLeft = sliversLeft;
+  result.filled = filled;
+  result.holesLeft = holesLeft;
   result.turned += turnAlike(result); // what is closed now
   return result;
 }

@@ -15,11 +15,15 @@ struct RepairedMesh
   std::vector<Eigen::Vector3d> points; ///< [m]
   std::vector<Triangle> triangles;     ///< facing outward where closed
   std::size_t merged = 0;              ///< points that coincided with others, or were not used
-  std::size_t removed = 0; ///< triangles without three corners, there twice, or within the body
-  std::size_t slivers = 0; ///< collapsed, or flipped into others
-  std::size_t split = 0;   ///< points made of those where parts met, not as a manifold
-  std::size_t filled = 0;  ///< holes
-  std::size_t turned = 0;  ///< triangles
+  std::size_t removed = 0;     ///< triangles without three corners, there twice, or within the body
+  std::size_t slivers = 0;     ///< collapsed, or flipped into others
+  std::size_t split = 0;       ///< points made of those where parts met, not as a manifold
+  std::size_t filled = 0;      ///< holes
+  std::size_t turned = 0;      ///< triangles
+  std::size_t splitLeft = 0;   ///< points where parts still meet, which cannot move apart without
+                               ///< passing through each other
+  std::size_t sliversLeft = 0; ///< without which the surface would pass through itself
+  std::size_t holesLeft = 0;   ///< that cannot be closed without passing through it
 };
 
 /// Merges points, removes degenerate and duplicate triangles, slivers, and what bodies that touch
@@ -27,7 +31,8 @@ struct RepairedMesh
 /// turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
-/// a thousandth of an edge, so that it stays apart in every file.
+/// a thousandth of an edge, so that it stays apart in every file. Nothing is done by which a
+/// triangle would pass through another that did not before.
 ///
 /// @param points       finite [m]
 /// @param triangles    indices in range

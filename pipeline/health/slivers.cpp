@@ -1,5 +1,7 @@
 #include "pipeline/health/slivers.h"
 
+#include "haptics/surface/crossing.h"
+
 #include <Eigen/Geometry>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
@@ -51,8 +53,8 @@ double flatnessOf(const HalfEdges& mesh, OpenMesh::FaceHandle face)
     placeOf(mesh, mesh.to_vertex_handle(mesh.next_halfedge_handle(side))));
 }
 
-// whether the triangles around a point keep their normals when it goes to another
-bool keepsNormals(const HalfEdges& mesh, Vertex from, Vertex to)
+// whether the triangles around a point may change, and keep their normals, when it goes to another
+bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to)
 {
   const Eigen::Vector3d there = placeOf(mesh, to);
   for (const Halfedge out : mesh.voh_range(from))
@@ -70,7 +72,7 @@ bool keepsNormals(const HalfEdges& mesh, Vertex from, Vertex to)
     const Eigen::Vector3d before =
       normalOf(placeOf(mesh, from), placeOf(mesh, b), placeOf(mesh, c));
     const Eigen::Vector3d after = normalOf(there, placeOf(mesh, b), placeOf(mesh, c));
-    if (before.dot(after) < kTurn)
+    if (before.dot(after) < kTurn || mesh.status(mesh.face_handle(out)).locked())
     {
       return false;
     }
@@ -84,8 +86,7 @@ bool collapse(HalfEdges& mesh, Halfedge shortest)
   {
     const Vertex from = mesh.from_vertex_handle(way);
     const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
-    if (!onBorder && mesh.is_collapse_ok(way) &&
-      keepsNormals(mesh, from, mesh.to_vertex_handle(way)))
+    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, mesh.to_vertex_handle(way)))
     {
       mesh.collapse(way);
       return true;
@@ -97,11 +98,13 @@ bool collapse(HalfEdges& mesh, Halfedge shortest)
 bool flip(HalfEdges& mesh, Halfedge longest)
 {
   const auto edge = mesh.edge_handle(longest);
-  if (mesh.is_boundary(edge) || !mesh.is_flip_ok(edge))
+  const Halfedge behind = mesh.opposite_halfedge_handle(longest);
+  if (mesh.is_boundary(edge) || !mesh.is_flip_ok(edge) ||
+    mesh.status(mesh.face_handle(longest)).locked() ||
+    mesh.status(mesh.face_handle(behind)).locked())
   {
     return false;
   }
-  const Halfedge behind = mesh.opposite_halfedge_handle(longest);
   const auto opposite = [&](Halfedge side)
   { return placeOf(mesh, mesh.to_vertex_handle(mesh.next_halfedge_handle(side))); };
   const Eigen::Vector3d a = placeOf(mesh, mesh.from_vertex_handle(longest));
@@ -165,7 +168,39 @@ void removeFrom(HalfEdges& mesh)
       (isNeedle && collapse(mesh, sides[0])) || flip(mesh, sides[2]);
     }
   }
-  mesh.garbage_collection();
+}
+
+// of each face, by its number; one that is gone has no area
+std::vector<Triangle> trianglesOf(const HalfEdges& mesh)
+{
+  std::vector<Triangle> triangles(mesh.n_faces(), Triangle{});
+  for (const OpenMesh::FaceHandle face : mesh.faces())
+  {
+    std::ranges::transform(mesh.fv_range(face), triangles[at(face.idx())].begin(), &Vertex::idx);
+  }
+  return triangles;
+}
+
+// Locks the faces that have to stay as they are, so that none passes through another that did not
+// do so before; false: all may change as they did.
+bool lockCrossing(std::span<const Eigen::Vector3d> points, const HalfEdges& changed,
+  const std::vector<bool>& crossed, HalfEdges& mesh)
+{
+  const std::vector<Triangle> before = trianglesOf(mesh);
+  const std::vector<Triangle> after = trianglesOf(changed);
+  bool locks = false;
+  for (const std::array<int, 2>& pair : crossingPairs(BoxTree(points, after), after))
+  {
+    for (const int i : pair)
+    {
+      if (!(crossed[at(pair[0])] && crossed[at(pair[1])]) && before[at(i)] != after[at(i)])
+      {
+        mesh.status(OpenMesh::FaceHandle(i)).set_locked(true);
+        locks = true;
+      }
+    }
+  }
+  return locks;
 }
 
 } // namespace
@@ -178,28 +213,43 @@ double flatness(
   return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
 
-std::size_t removeSlivers(std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles)
+RemovedSlivers removeSlivers(std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles)
 {
-  std::optional<HalfEdges> mesh = halfEdgesOf(points, triangles);
-  const std::size_t before = mesh ? countOf(*mesh) : 0;
+  constexpr int kTries = 20;
+  std::optional<HalfEdges> given = halfEdgesOf(points, triangles);
+  const std::size_t before = given ? countOf(*given) : 0;
   if (before == 0)
   {
-    return 0;
+    return {};
   }
-  removeFrom(*mesh);
+  std::vector<bool> crossed(triangles.size());
+  for (const int triangle : crossingTriangles(BoxTree(points, triangles), triangles))
+  {
+    crossed[at(triangle)] = true;
+  }
+  HalfEdges mesh = *given;
+  removeFrom(mesh);
+  const std::size_t least = countOf(mesh);
+  for (int tries = 0; lockCrossing(points, mesh, crossed, *given); ++tries)
+  {
+    mesh = *given;
+    tries < kTries ? removeFrom(mesh) : void(); // then all are left
+  }
+  const std::size_t left = std::max(countOf(mesh), least);
+  mesh.garbage_collection();
   points.clear();
   triangles.clear();
-  for (const Vertex vertex : mesh->vertices())
+  for (const Vertex vertex : mesh.vertices())
   {
-    points.push_back(placeOf(*mesh, vertex));
+    points.push_back(placeOf(mesh, vertex));
   }
-  for (const OpenMesh::FaceHandle face : mesh->faces())
+  for (const OpenMesh::FaceHandle face : mesh.faces())
   {
     Triangle triangle{};
-    std::ranges::transform(mesh->fv_range(face), triangle.begin(), &Vertex::idx);
+    std::ranges::transform(mesh.fv_range(face), triangle.begin(), &Vertex::idx);
     triangles.push_back(triangle);
   }
-  return before - std::min(before, countOf(*mesh));
+  return { before - std::min(before, left), left - least };
 }
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "pipeline/health/split_mesh.h"
 
+#include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "pipeline/health/open_sides.h"
 
@@ -7,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <numeric>
+#include <random>
+#include <set>
 
 namespace palp
 {
@@ -58,84 +61,6 @@ void joinWedges(std::span<const Eigen::Vector3d> points, std::span<const Triangl
   }
 }
 
-// the points that have several
-std::vector<bool> withSeveral(std::size_t points, const std::vector<Triangle>& triangles,
-  const std::vector<std::array<int, 3>>& fans)
-{
-  std::vector<int> first(points, -1);
-  std::vector<bool> result(points);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      int& known = first[at(triangles[i][k])];
-      known = known < 0 ? fans[i][k] : known;
-      result[at(triangles[i][k])] = result[at(triangles[i][k])] || known != fans[i][k];
-    }
-  }
-  return result;
-}
-
-// a point of its own for each fan, near the fan's triangles
-class Fans
-{
-public:
-  Fans(std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles,
-    const std::vector<std::array<int, 3>>& fans)
-    : points_(points)
-  {
-    const std::vector<bool> parted = withSeveral(points.size(), triangles, fans);
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-    {
-      const auto& [a, b, c] = triangles[i];
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        if (parted[at(triangles[i][k])])
-        {
-          Fan& fan = ofPoint_[triangles[i][k]][fans[i][k]];
-          fan.middles += (points[at(a)] + points[at(b)] + points[at(c)]) / 3.0;
-          ++fan.triangles;
-        }
-      }
-    }
-  }
-
-  std::size_t part()
-  {
-    const std::size_t before = points_.size();
-    for (auto& [point, fans] : ofPoint_)
-    {
-      const Eigen::Vector3d place = points_[at(point)];
-      int number = point;
-      for (auto& [corner, fan] : fans)
-      {
-        constexpr double kApart = 1e-3;
-        const Eigen::Vector3d to = fan.middles / static_cast<double>(fan.triangles) - place;
-        points_.resize(std::max(points_.size(), at(number) + 1));
-        points_[at(number)] = place + kApart * to;
-        fan.point = std::exchange(number, static_cast<int>(points_.size()));
-      }
-    }
-    return points_.size() - before;
-  }
-
-  [[nodiscard]] int pointOf(int point, int fan) const
-  {
-    const auto parted = ofPoint_.find(point);
-    return parted == ofPoint_.end() ? point : parted->second.at(fan).point;
-  }
-
-private:
-  struct Fan
-  {
-    Eigen::Vector3d middles = Eigen::Vector3d::Zero(); // their sum
-    int triangles = 0;
-    int point = -1;
-  };
-  std::vector<Eigen::Vector3d>& points_;
-  std::map<int, std::map<int, Fan>> ofPoint_;
-};
-
 // cuts a triangle off all others
 void isolate(int triangle, Edges& edges)
 {
@@ -149,39 +74,175 @@ void isolate(int triangle, Edges& edges)
   }
 }
 
-// gives each fan its own points
-std::size_t partFans(
-  std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles, const Edges& edges)
+// A surface on the way to be parted.
+struct Parting
 {
-  const auto numbers = fansOf(triangles, edges);
-  Fans fans(points, triangles, numbers);
-  const std::size_t added = fans.part();
-  for (std::size_t i = 0; i < triangles.size() && added > 0; ++i)
+  std::vector<Eigen::Vector3d>& points;
+  std::vector<Triangle>& triangles;
+  std::vector<int> origin; // of each point: which one it was
+};
+
+// gives each fan a point of its own, where the one that they had is
+void partFans(Parting& parting, const Edges& edges)
+{
+  const auto fans = fansOf(parting.triangles, edges);
+  std::vector<int> first(parting.points.size(), -1);
+  std::map<int, int> pointOf; // of other fans than the first
+  for (std::size_t i = 0; i < parting.triangles.size(); ++i)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
-      triangles[i][k] = fans.pointOf(triangles[i][k], numbers[i][k]);
+      int& corner = parting.triangles[i][k];
+      int& keeps = first[at(corner)];
+      keeps = keeps < 0 ? fans[i][k] : keeps;
+      if (fans[i][k] != keeps)
+      {
+        const auto next = static_cast<int>(parting.points.size());
+        const auto [added, isNew] = pointOf.try_emplace(fans[i][k], next);
+        if (isNew)
+        {
+          const Eigen::Vector3d place = parting.points[at(corner)];
+          parting.points.push_back(place);
+          parting.origin.push_back(parting.origin[at(corner)]);
+        }
+        corner = added->second;
+      }
     }
   }
-  return added;
 }
+
+// moves points that were one apart, into their own triangles
+class Apart
+{
+public:
+  explicit Apart(Parting& parting)
+    : parting_(parting)
+    , places_(parting.points)
+    , ways_(parting.points.size(), Eigen::Vector3d::Zero())
+    , sharing_(parting.points.size())
+    , stays_(parting.points.size())
+  {
+    for (const int origin : parting.origin)
+    {
+      ++sharing_[at(origin)];
+    }
+    std::vector<int> triangles(ways_.size());
+    for (const auto& [a, b, c] : parting.triangles)
+    {
+      const Eigen::Vector3d middle = (places_[at(a)] + places_[at(b)] + places_[at(c)]) / 3.0;
+      for (const int corner : { a, b, c })
+      {
+        ways_[at(corner)] += middle - places_[at(corner)];
+        ++triangles[at(corner)];
+      }
+    }
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+    {
+      ways_[i] *= kApart / std::max(triangles[i], 1);
+      isParted(i) ? put(i, ways_[i]) : void();
+    }
+  }
+
+  // the points of triangles that pass through others since
+  [[nodiscard]] std::set<int> crossing(const std::vector<bool>& crossed) const
+  {
+    std::set<int> origins;
+    const BoxTree tree(parting_.points, parting_.triangles);
+    for (const auto& [one, other] : crossingPairs(tree, parting_.triangles))
+    {
+      for (const int triangle : { one, other })
+      {
+        for (const int corner : parting_.triangles[at(triangle)])
+        {
+          !(crossed[at(one)] && crossed[at(other)]) && isParted(at(corner))
+            ? void(origins.insert(parting_.origin[at(corner)]))
+            : void();
+        }
+      }
+    }
+    return origins;
+  }
+
+  // elsewhere, but as near
+  void move(const std::set<int>& origins)
+  {
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      if (origins.contains(parting_.origin[i]))
+      {
+        const double far = ways_[i].norm();
+        const Eigen::Vector3d aside(any(random_), any(random_), any(random_));
+        put(i, std::abs(any(random_)) * ways_[i] + 0.5 * far * aside);
+      }
+    }
+  }
+
+  // where they were
+  void leave(const std::set<int>& origins)
+  {
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      if (origins.contains(parting_.origin[i]))
+      {
+        parting_.points[i] = places_[i];
+        stays_[at(parting_.origin[i])] = true;
+      }
+    }
+  }
+
+  [[nodiscard]] SplitPoints count() const
+  {
+    SplitPoints result;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      const bool isAdded = parting_.origin[i] != static_cast<int>(i);
+      result.added += isAdded && isParted(i) ? 1U : 0U;
+      result.left += stays_[i] ? 1U : 0U;
+    }
+    return result;
+  }
+
+private:
+  static constexpr double kApart = 1e-3; // of the way to the triangles' middles
+
+  // in single precision, as files have it
+  void put(std::size_t point, const Eigen::Vector3d& off)
+  {
+    parting_.points[point] = (places_[point] + off).cast<float>().cast<double>();
+  }
+
+  [[nodiscard]] bool isParted(std::size_t point) const
+  {
+    const int origin = parting_.origin[point];
+    return sharing_[at(origin)] > 1 && !stays_[at(origin)];
+  }
+
+  Parting& parting_;
+  std::vector<Eigen::Vector3d> places_;
+  std::vector<Eigen::Vector3d> ways_;
+  std::vector<int> sharing_; // of each that was
+  std::vector<bool> stays_;  // likewise
+  std::mt19937 random_;
+};
 
 } // namespace
 
-std::size_t splitNonManifold(std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles)
+SplitPoints splitNonManifold(std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles)
 {
-  Edges edges = edgesOf(points.size(), triangles);
+  constexpr int kTries = 30;
+  const std::vector<Triangle> before = triangles;
+  const std::size_t given = points.size();
+  Parting parting{ points, triangles, std::vector<int>(given) };
+  std::iota(parting.origin.begin(), parting.origin.end(), 0);
+  Edges edges = edgesOf(given, triangles);
   for (const std::vector<Side>& sides : unpairedSides(triangles, edges))
   {
     sides.size() > 1 ? joinWedges(points, triangles, sides, edges) : void();
   }
-  const std::size_t added = partFans(points, triangles, edges);
+  partFans(parting, edges);
   // what hangs together around both ends of such an edge can only be torn
   edges = edgesOf(points.size(), triangles);
-  if (edges.crowded == 0)
-  {
-    return added;
-  }
   for (const std::vector<Side>& sides : unpairedSides(triangles, edges))
   {
     for (std::size_t i = 1; i < sides.size(); ++i)
@@ -189,7 +250,24 @@ std::size_t splitNonManifold(std::vector<Eigen::Vector3d>& points, std::vector<T
       isolate(sides[i].triangle, edges);
     }
   }
-  return added + partFans(points, triangles, edges);
+  edges.crowded > 0 ? partFans(parting, edges) : void();
+  if (points.size() == given)
+  {
+    return {};
+  }
+  std::vector<bool> crossed(triangles.size());
+  for (const int triangle :
+    crossingTriangles(BoxTree(std::span(points).first(given), before), before))
+  {
+    crossed[at(triangle)] = true;
+  }
+  Apart apart(parting);
+  int tries = 0;
+  for (std::set<int> bad = apart.crossing(crossed); !bad.empty(); bad = apart.crossing(crossed))
+  {
+    ++tries <= kTries ? apart.move(bad) : apart.leave(bad);
+  }
+  return apart.count();
 }
 
 } // namespace palp

@@ -184,6 +184,37 @@ TEST_F(OrganScene, TellsWhichOrganWasPressedAndLeavesThatDeformed)
   EXPECT_NEAR(middleOf("right"), 30.0, 0.5);
 }
 
+// the ball at the right stands 8 mm beside that at the left, nearer than the tool is wide
+TEST_F(OrganScene, TellsOfAPressThatMeetsAnotherOrganThanItsPlaces)
+{
+  const auto placed = [&](const std::string& organs, const std::string& name)
+  {
+    std::ofstream(out(name + ".json"))
+      << R"({"palp_scene": 1, "organs": [)" << organs << R"(], "presses": {"depth": "2mm",
+        "places": [{"at": ["-30mm", "0mm", "30mm"]}, {"name": "gap", "at":
+        ["-1.5mm", "0mm", "9.4mm"]}]}, "window": false, "exports": ["samples"],
+        "tool": "sphere:6mm"})";
+    return test::palp("scene " + out(name + ".json").string() + " --out " + out(name).string());
+  };
+  const Finished alone = placed(kLeft, "alone");
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(alone.err.find("the place"), std::string::npos) << alone.err;
+  const Finished both = placed(std::string(kLeft) + ',' + kRight, "both");
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_EQ(both.err.find("-30,0,30"), std::string::npos) << both.err;
+  EXPECT_NE(
+    both.err.find("the place gap, -1.5,0,9.4 mm is on left, but the tool meets right first"),
+    std::string::npos)
+    << both.err;
+  EXPECT_NE(rows("both", "presses.csv").find("\"gap\",\"right\""), std::string::npos);
+  const Finished covered =
+    placed(std::string(kLeft) + R"(,{"name": "skin", "bundled": "sphere_100"})", "covered");
+  EXPECT_EQ(covered.code, 2);
+  EXPECT_NE(
+    covered.err.find("is on left, but a tool comes to it through skin only"), std::string::npos)
+    << covered.err;
+}
+
 TEST_F(OrganScene, IsRepeatedToTheByte)
 {
   ASSERT_EQ(press(std::string(kSkin) + ',' + kLeft + ',' + kRight, "both").code, 0);
