@@ -50,7 +50,7 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
   , settings_(ofTool(settings, device.scale))
   , passivity_(dampingOf(device, settings_), device.quantum,
       { kSurely * device.damping, kSurely * device.friction })
-  , guard_(device.quantum)
+  , guard_(device.quantum / device.scale) // of the hand, which feels the swings
   , period_(settings.period, kFastest * settings.period)
   , delays_(settings.period, 0.0)
 {
@@ -246,7 +246,7 @@ void SafetyChain::watchSwings(const Sample& sample) noexcept
     sample.contact.touching() ? sample.contact.normal : (center_ - last_.apex).normalized();
   const Eigen::Vector3d along = atEnd || sample.contact.touching() ? normal : normal_;
   normal_ = along;
-  guard_.record(last_.velocity.dot(along), atEnd || sample.contact.touching(), dt_);
+  guard_.record(last_.velocity.dot(along) / device_.scale, atEnd || sample.contact.touching(), dt_);
 }
 
 // shortened to the largest force, then to the largest change

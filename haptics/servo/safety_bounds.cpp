@@ -69,12 +69,13 @@ Eigen::Vector3d SafetyChain::workspaceForce(const ToolPose& pose) noexcept
   }
   raise(Flag::Workspace);
   const Eigen::Vector3d outward = reach / distance;
+  const double viscous = kWallDamping / device_.scale; // the wall is the arm's, and so of the hand
   const double stiffness =
-    guard_.stiffnessShare() * std::min(kWallStiffness, stiffnessLimit(kWallDamping));
+    guard_.stiffnessShare() * std::min(kWallStiffness / device_.scale, stiffnessLimit(viscous));
   const double depth = distance - device_.workspaceRadius;
   const double reach0 = std::min(depth, kWallForce / stiffness);
   stored_ += stiffness * reach0 * (depth - 0.5 * reach0);
-  const double damping = std::max(renderedDamping(kWallDamping), guard_.damping(stiffness));
+  const double damping = std::max(renderedDamping(viscous), guard_.damping(stiffness));
   const double push = stiffness * depth + damping * pose.velocity.dot(outward);
   return -std::clamp(push, 0.0, kWallForce) * outward;
 }

@@ -14,12 +14,12 @@ namespace
 // of radius 1 m about the origin, across each axis
 vtkSmartPointer<vtkActor> makeCircles()
 {
-  constexpr int kSides = 96;
+  constexpr int kCorners = 96;
   vtkNew<vtkAppendPolyData> circles;
   for (int axis = 0; axis < 3; ++axis)
   {
     vtkNew<vtkRegularPolygonSource> circle;
-    circle->SetNumberOfSides(kSides);
+    circle->SetNumberOfSides(kCorners);
     circle->SetRadius(1.0);
     circle->SetNormal(Eigen::Vector3d::Unit(axis).eval().data());
     circle->GeneratePolygonOff();

@@ -207,6 +207,7 @@ TEST_F(DeviceTest, IsTurnedToTheViewAndHasNoForceUntilArmedAnew)
   session_->useDevice({ .kind = DeviceChoice::Kind::Driver, .name = "made up" },
     std::make_unique<MadeUpDevice>(arm_));
   arm_.homed = true;
+  EXPECT_TRUE(waitForState("ready, force off"));
   armAndPress();
   vtkRenderer& renderer = *canvas_->renderWindow()->GetRenderers()->GetFirstRenderer();
   renderer.GetActiveCamera()->Azimuth(70.0);
@@ -235,7 +236,7 @@ TEST_F(DeviceTest, IsTurnedToTheViewAndHasNoForceUntilArmedAnew)
   EXPECT_LT(seen(1).head(2).norm(), 0.5);
   EXPECT_GT(seen(1).z(), 0.0);
   EXPECT_NEAR(arm_.placed->rotation.determinant(), 1.0, 1e-9);
-  armAndPress();
+  EXPECT_TRUE(waitForState("ready, force off"));
 }
 
 TEST_F(WindowTest, AMouseIsNotTurnedToTheView)

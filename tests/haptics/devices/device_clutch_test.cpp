@@ -46,10 +46,20 @@ protected:
     {
       const Vector3d way = to - arm_.says.position;
       arm_.says.position += way * std::min(1.0, 20.0_um / std::max(1e-12, way.norm()));
-      auto pose = device_->exchange(last_.force, 1.0_ms);
-      pose->velocity = (pose->apex - last_.pose.apex) / 1.0_ms; // in the time of these ticks
-      const Sample next = step(
-        scene_, memory_, *chain_, pose, device_->status(), { .armed = true }, 1.0_ms, last_.pose);
+      // in the time of these ticks, however busy the machine is
+      const int before = arm_.ticks;
+      std::optional<ToolPose> pose;
+      while (arm_.ticks == before)
+      {
+        pose = device_->exchange(last_.force, 1.0_ms);
+      }
+      pose->velocity = (pose->apex - last_.pose.apex) / 1.0_ms;
+      DeviceStatus status = device_->status();
+      status.age = 0.0;
+      status.delay = 0.0;
+      status.sent.reset();
+      const Sample next =
+        step(scene_, memory_, *chain_, pose, status, { .armed = true }, 1.0_ms, last_.pose);
       leap_ = std::max(leap_, (next.force - last_.force).norm());
       way_ = std::max(way_, (next.pose.apex - last_.pose.apex).norm());
       flags_ |= next.flags;
