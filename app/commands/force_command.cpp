@@ -28,9 +28,8 @@ namespace palp
 namespace
 {
 
-using namespace units::literals;
-
-constexpr double kLargestDepth = 1.0; // [m]; no organ is deeper
+constexpr double kLargestDepth = 1.0;  // [m]; no organ is deeper
+constexpr double kLeastDeepest = 1e-6; // [m]; for which tables are made
 
 struct ForceOptions
 {
@@ -56,10 +55,9 @@ void tellFactors(const ForceLaw& law, const ContactGeometry& deepest)
   }
   std::cerr << "palp: factors at the largest depth: " << (acting.empty() ? "none acts" : acting)
             << '\n';
-  const bool bare = law.settings().mode == LawMode::Corrected &&
+  if (law.settings().mode == LawMode::Corrected &&
     law.settings().constitution == ConstitutiveModel::NeoHookean &&
-    !law.largeStrain(deepest).inside;
-  if (bare)
+    !law.largeStrain(deepest).inside)
   {
     std::cerr << (law.settings().coatings.empty()
         ? "palp: this tool and place are outside what finite elements of large strain were made "
@@ -281,25 +279,25 @@ void printHistory(const ForceOptions& options)
 {
   const ForceHistory history = readForceHistory(options.history);
   ContactGeometry geometry = options.geometry.geometry;
-  const Pressed pressed = pressedBy(options, std::max(history.deepest(), 1.0_um));
+  const Pressed pressed = pressedBy(options, std::max(history.deepest(), kLeastDeepest));
   const auto elastic = [&](double depth)
   {
     geometry.depth = depth;
     const Response at = pressed.response(geometry);
     return ElasticForce{ at.force, at.stiffness };
   };
-  const std::vector<double> forces =
-    forcesOver(elastic, pressed.law.settings().relaxation, history);
   std::cout << "time_s,depth_mm,force_N\n";
-  for (std::size_t i = 0; i < forces.size(); ++i)
+  std::size_t i = 0;
+  for (const double force : forcesOver(elastic, pressed.law.settings().relaxation, history))
   {
-    writeCsvRow(std::cout, std::array{ history.points[i].time, history.depthsMm[i], forces[i] });
+    writeCsvRow(std::cout, std::array{ history.points[i].time, history.depthsMm[i], force });
+    ++i;
   }
   geometry.depth = std::max(0.0, history.deepest());
   tellLimits(pressed.law, pressed.rules(geometry), geometry, options.geometry.given);
 }
 
-void refuseTimeless(const ForceOptions& options)
+void force(const ForceOptions& options, Work work)
 {
   if (options.history.empty() && !options.tissue.options.relaxation.empty())
   {
@@ -307,11 +305,6 @@ void refuseTimeless(const ForceOptions& options)
       "--relaxation: acts over time; add --history FILE.csv with columns time_s and depth_mm, or "
       "leave it out");
   }
-}
-
-void force(const ForceOptions& options, Work work)
-{
-  refuseTimeless(options);
   if (work == Work::Check)
   {
     (void)pressedBy(options, options.depths.si.back());

@@ -119,7 +119,8 @@ void describeNodules(std::ostream& out, const Scene& scene)
   {
     out << "# organ file: depth_mm = local_depth_mm, at which law and factors hold, without the "
            "thickness, + f (G + 4/15 B a^2) - what the pressure gains by moving aside, f = force_N "
-           "/ E*; G, B and slope: organ_constant_per_m, organ_bend_per_m3, organ_slope_per_m2\n";
+           "/ E*; G, B, slope and 1/D of an edge: organ_constant_per_m, organ_bend_per_m3, "
+           "organ_slope_per_m2, organ_edge_per_m\n";
   }
   out << "# lateral_x/y/z_N: of what lies in the tissue on the tool, besides force_N along the "
          "normal\n";
@@ -215,7 +216,7 @@ void writeColumns(std::ostream& out, const Recording& recording, bool hasExtents
   out << (hasMemory(scene) ? ",friction_x_N,friction_y_N,friction_z_N,surface_depth_mm" : "")
       << (inside.empty() ? "" : ",factor_" + inside)
       << (hasSeries(scene) ? ",local_depth_mm,organ_constant_per_m,organ_slope_per_m2,"
-                             "organ_bend_per_m3"
+                             "organ_bend_per_m3,organ_edge_per_m"
                            : "")
       << (inside.empty() && !hasSeries(scene) ? "" : ",lateral_x_N,lateral_y_N,lateral_z_N")
       << '\n';
@@ -267,8 +268,8 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
     const BodyCompliance body = scene.series != nullptr && contact.touching()
       ? scene.series->field->at(contact.center, contact.normal).body
       : BodyCompliance{};
-    row.insert(
-      row.end(), { toMillimeters(sample.localDepth), body.constant, body.slope, body.bend });
+    row.insert(row.end(),
+      { toMillimeters(sample.localDepth), body.constant, body.slope, body.bend, body.edge });
   }
   if (!insideOf(all).empty() || hasSeries(all))
   {

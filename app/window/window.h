@@ -342,8 +342,8 @@ private:
 template <typename Made>
 std::optional<Made> Window::inBackground(const QString& what, std::function<Made()> work)
 {
-  auto made = background_.make<Made>(
-    std::move(work), [&](const FollowedWork::Step& step) { showProgress(what, step); });
+  const auto show = [&](const FollowedWork::Step& step) { showProgress(what, step); };
+  auto made = background_.make<Made>(std::move(work), show);
   message_->unfollow(what);
   return made;
 }

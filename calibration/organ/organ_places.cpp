@@ -58,9 +58,7 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
     PlacedCompliance& place = all.emplace_back();
     place.position = one.position;
     place.normal = one.normal;
-    const double edge = surface.shape().edgeDistance(one.position);
-    place.edge =
-      edge < kBesideEdge * model.side() ? 1.0 / std::max(edge, kNearest * model.side()) : 0.0;
+    place.edge = nearnessToEdge(surface, one.position, model.side());
     const bool isFree = !isHeld(one, supports);
     const auto& compliance = isFree ? found[next++] : std::nullopt;
     place.trust = compliance ? trustOf(one, model, surface)
@@ -157,7 +155,7 @@ void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
             other.edge > 0.0 && place.edge > 0.0 ? std::min(kMost, place.edge / other.edge) : 1.0;
           sum.constant += other.constant +
             (nearer > 1.0 ? 2.0 * other.slope.norm() / other.edge * (nearer - 1.0) : 0.0);
-          sum.slope += nearer > 1.0 ? other.slope : Eigen::Vector3d(Eigen::Vector3d::Zero());
+          sum.slope += (nearer > 1.0 ? nearer * nearer : 0.0) * other.slope;
           sum.bend += nearer > 1.0 ? other.bend : 0.0;
           count += 1.0;
         }
@@ -190,6 +188,12 @@ double spacingOf(const Surface& surface, double cell)
   constexpr double kLeastSpacing = 0.5; // cells
   const double area = surfaceArea(surface.points(), surface.triangles());
   return std::max(kLeastSpacing * cell, std::sqrt(kPerPlace * area / kMost));
+}
+
+double nearnessToEdge(const Surface& surface, const Eigen::Vector3d& place, double cell)
+{
+  const double edge = surface.shape().edgeDistance(place);
+  return edge < kBesideEdge * cell ? 1.0 / std::max(edge, kNearest * cell) : 0.0;
 }
 
 std::vector<SurfacePoint> organPlaces(const Surface& surface, double spacing)

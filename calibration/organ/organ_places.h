@@ -24,6 +24,11 @@ struct OrganWork
 /// Distance of places that is small against the cells, of a few thousand of them [m].
 [[nodiscard]] double spacingOf(const Surface& surface, double cell);
 
+/// One over the distance of a place to a sharp edge, for a field that is as beside it [1/m]; 0
+/// from five cells on.
+[[nodiscard]] double nearnessToEdge(
+  const Surface& surface, const Eigen::Vector3d& place, double cell);
+
 /// Places all over a surface, each with the normal of what a tool meets there: of a flat face also
 /// next to its edges. The same surface gives the same.
 /// @throws Error  as placeGrid

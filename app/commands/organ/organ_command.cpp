@@ -10,6 +10,7 @@
 #include "app/supports/support_text.h"
 #include "calibration/figures/table.h"
 #include "calibration/organ/organ_compliance.h"
+#include "calibration/organ/organ_places.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
@@ -161,7 +162,8 @@ void addRows(const OrganOptions& options, const PressedBody& pressed, const Surf
   const HalfSpace law(options.tip);
   const BodyCompliance body{ .constant = modulus * compliance->constant,
     .slope = modulus * compliance->slope.norm(),
-    .bend = modulus * compliance->bend };
+    .bend = modulus * compliance->bend,
+    .edge = nearnessToEdge(pressed.surface, point.position, model.side()) };
   for (const double depth : options.depths.si)
   {
     if (depth > 0.0)

@@ -13,7 +13,17 @@ struct BodyCompliance
   double constant = 0.0; ///< E* G0 [1/m]; negative over a near support
   double slope = 0.0;    ///< length of E* b, along the surface [1/m^2]
   double bend = 0.0;     ///< E* tr A [1/m^3]
+  double edge = 0.0;     ///< 1/D, one over the distance to the sharp edge that slope is of [1/m];
+                         ///< 0: none is near
 };
+
+/// By how much the pressure of a round tip moves to the stiffer side: x (1 + x / D)^2 = R b f.
+///
+/// @param pull  R b f: radius of the tip, slope, force over E* [m]; 0 or more
+/// @param edge  1/D, as in BodyCompliance [1/m]
+/// @return      x [m]
+/// @realtime    pure; no allocation, no lock, no exception
+[[nodiscard]] double asideOf(double pull, double edge) noexcept;
 
 /// What a body of its own compliance answers.
 struct SeriesContact
@@ -27,12 +37,13 @@ struct SeriesContact
 /// A contact on a half-space in series with the body.
 ///
 /// With a slope the middle of the pressure moves to the stiffer side, by at most half of the
-/// contact radius.
+/// contact radius; beside an edge the constant falls on that way as one over the distance, as in a
+/// wedge.
 ///
 /// @param depth   of the tip [m], more than 0
 /// @param radius  of the tip at its apex [m]; 0: sharp or flat, whose pressure is taken to stay
 ///                where it is
-/// @source        d = d(a) + F (G0 + 4/15 a^2 tr A) - 2 F |b| x + x^2 / (2 R), x = R |b| F, from
+/// @source        d = d(a) + F (G0 + 4/15 a^2 tr A) - 2 F |b| x / (1 + x / D) + x^2 / (2 R), from
 ///                the complementary energy of the body, whose pressure is as a paraboloid's
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] SeriesContact inSeries(

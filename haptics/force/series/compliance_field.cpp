@@ -12,14 +12,41 @@ namespace palp
 namespace
 {
 
-constexpr double kReach = 2.3;  // spacings
-constexpr double kBeside = 0.5; // cosine of normals from which on a place counts in full
+constexpr double kReach = 2.3;    // spacings
+constexpr double kNearest = 0.25; // to an edge that a place tells of, by its own distance
+constexpr double kRound = 0.15;   // likewise, within which it comes to that
+constexpr double kBeside = 0.7;   // cosine of normals from which on a place counts in full
+constexpr double kAskew = 0.3;    // likewise, to which it is beyond an edge and does not count
 
 std::uint64_t keyOf(const std::array<int, 3>& cell)
 {
   constexpr std::uint64_t mask = (1U << 21U) - 1U;
   const auto part = [&](std::size_t i) { return static_cast<std::uint64_t>(cell[i]) & mask; };
   return part(0) << 42U | part(1) << 21U | part(2);
+}
+
+// how much nearer to an edge than a place something is, and the gradient of its logarithm; it ends
+// before the edge where the place tells too little of that
+struct Nearer
+{
+  double value;
+  Eigen::Vector3d turn;
+};
+Nearer nearerOf(const Eigen::Vector3d& edge, const Eigen::Vector3d& away)
+{
+  const double past = 1.0 + edge.dot(away) - kNearest;
+  const double round = std::hypot(past, kRound);
+  const double nearer = 1.0 / (kNearest + 0.5 * (past + round));
+  return { nearer, -0.5 * nearer * (1.0 + past / round) * edge };
+}
+
+// of what is never negative, and spread over powers of ten beside an edge
+float ratioOf(float wanted, double blend)
+{
+  constexpr double kMost = 2.0;
+  return blend > 0.0
+    ? static_cast<float>(std::clamp(static_cast<double>(wanted) / blend, 1.0 / kMost, kMost))
+    : 1.0F;
 }
 
 } // namespace
@@ -30,11 +57,9 @@ ComplianceField::ComplianceField(
   , cell_(spacing)
   , poisson_(poisson)
 {
-  // so that no place within reach is told of as beyond the edge
-  const double nearest = 0.8 / reach_;
   for (const PlacedCompliance& place : places)
   {
-    const Eigen::Vector3d away = -std::min(place.edge, nearest) * place.slope.normalized();
+    const Eigen::Vector3d away = -place.edge * place.slope.normalized();
     places_.push_back({ .position = place.position.cast<float>(),
       .normal = place.normal.cast<float>(),
       .gradient = (2.0 * place.slope).cast<float>(),
@@ -42,6 +67,7 @@ ComplianceField::ComplianceField(
       .constant = static_cast<float>(place.constant),
       .slope = static_cast<float>(place.slope.norm()),
       .bend = static_cast<float>(place.bend),
+      .beside = static_cast<float>(place.edge),
       .doubtful = place.trust == ComplianceTrust::Known ? 0.0F : 1.0F });
   }
   sortIntoCells();
@@ -92,7 +118,7 @@ ComplianceField::Weight ComplianceField::weightOf(
   const Place& place, const Eigen::Vector3d& away, const Eigen::Vector3d& normal) const noexcept
 {
   const double squared = away.squaredNorm();
-  const double beside = normal.dot(place.normal.cast<double>()) / kBeside;
+  const double beside = (normal.dot(place.normal.cast<double>()) - kAskew) / (kBeside - kAskew);
   if (squared >= reach_ * reach_ || beside <= 0.0)
   {
     return { 0.0, 0.0 };
@@ -116,8 +142,9 @@ void ComplianceField::sharpen()
       const BodyCompliance blend =
         at(wanted[i].position.cast<double>(), wanted[i].normal.cast<double>()).body;
       next[i].constant += wanted[i].constant - static_cast<float>(blend.constant);
-      next[i].slope += wanted[i].slope - static_cast<float>(blend.slope);
+      next[i].slope *= ratioOf(wanted[i].slope, blend.slope);
       next[i].bend += wanted[i].bend - static_cast<float>(blend.bend);
+      next[i].beside *= ratioOf(wanted[i].beside, blend.edge);
     }
     places_ = std::move(next);
   }
@@ -141,22 +168,23 @@ ComplianceField::Local ComplianceField::at(
       continue;
     }
     const Eigen::Vector3d along = place.gradient.cast<double>();
-    const Eigen::Vector3d edge = place.edge.cast<double>();
-    const double nearer = 1.0 / (1.0 + edge.dot(away)); // to the edge than the place is
-    const Eigen::Vector3d turn = -nearer * edge;        // gradient of its logarithm
+    const auto [nearer, turn] = nearerOf(place.edge.cast<double>(), away);
     const double change = nearer * along.dot(away);
     const double constant = static_cast<double>(place.constant) + change;
     const double slope = static_cast<double>(place.slope) * nearer * nearer;
-    const double bend = static_cast<double>(place.bend) * nearer * nearer * nearer;
+    const auto bend = static_cast<double>(place.bend);
+    const double beside = static_cast<double>(place.beside) * nearer;
     weights += weight.value;
     turning += weight.slope * away;
     sum.body.constant += weight.value * constant;
     sum.body.slope += weight.value * slope;
     sum.body.bend += weight.value * bend;
+    sum.body.edge += weight.value * beside;
     sum.constant +=
       weight.slope * constant * away + weight.value * (nearer * along + change * turn);
     sum.slope += slope * (weight.slope * away + 2.0 * weight.value * turn);
-    sum.bend += bend * (weight.slope * away + 3.0 * weight.value * turn);
+    sum.bend += bend * weight.slope * away;
+    sum.edge += beside * (weight.slope * away + weight.value * turn);
     sum.doubtful += weight.value * static_cast<double>(place.doubtful);
   }
   if (!(weights > 0.0))
@@ -173,10 +201,12 @@ ComplianceField::Local ComplianceField::at(
   Local local;
   local.body = { .constant = sum.body.constant / weights,
     .slope = sum.body.slope / weights,
-    .bend = sum.body.bend / weights };
+    .bend = sum.body.bend / weights,
+    .edge = sum.body.edge / weights };
   local.constant = along(sum.constant, local.body.constant);
   local.slope = along(sum.slope, local.body.slope);
   local.bend = along(sum.bend, local.body.bend);
+  local.edge = along(sum.edge, local.body.edge);
   local.doubtful = sum.doubtful / weights;
   return local;
 }

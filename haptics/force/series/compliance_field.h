@@ -38,9 +38,9 @@ struct PlacedCompliance
 /// The compliance of a body over its surface, which is known at places all over it.
 ///
 /// Each place tells of its surroundings by its value and twice its slope, which is the gradient of
-/// the constant, and beside an edge as one over the distance D to it: constant by 1/D, slope by
-/// 1/D^2, bend by 1/D^3, as in a wedge. These are blended, twice continuously differentiable along
-/// the surface.
+/// the constant, and beside an edge as one over the distance D to it: constant and edge by 1/D,
+/// slope by 1/D^2, as in a wedge. These are blended, twice continuously differentiable along the
+/// surface.
 class ComplianceField
 {
 public:
@@ -51,6 +51,7 @@ public:
     Eigen::Vector3d constant = Eigen::Vector3d::Zero(); ///< grad E* G0 [1/m^2]
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();    ///< grad E* |b| [1/m^3]
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();     ///< grad E* tr A [1/m^4]
+    Eigen::Vector3d edge = Eigen::Vector3d::Zero();     ///< grad 1/D [1/m^2]
     double doubtful = 0.0; ///< part of what is told here that may not be believed [-]
   };
 
@@ -88,6 +89,7 @@ private:
     float constant;
     float slope;
     float bend;
+    float beside; // 1/D [1/m]
     float doubtful;
   };
 

@@ -38,8 +38,8 @@ std::vector<double> radiiOf(const HalfSpace& contact, double last, double deepes
   return radii;
 }
 
-// int a^power f df by the cube root of the force, up to each step
-std::vector<double> integralsOf(const CubicSpline& radii, const SplineAxis& axis, int power)
+// int a^2 f df by the cube root of the force, up to each step
+std::vector<double> widenedOf(const CubicSpline& radii, const SplineAxis& axis)
 {
   constexpr std::array kNodes{ 0.1127016653792583, 0.5, 0.8872983346207417 };
   constexpr std::array kWeights{ 5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0 };
@@ -50,7 +50,7 @@ std::vector<double> integralsOf(const CubicSpline& radii, const SplineAxis& axis
     for (std::size_t k = 0; k < kNodes.size(); ++k)
     {
       const double root = axis.step() * (i + kNodes[k]);
-      sum += kWeights[k] * std::pow(radii(root).value, power) * 3.0 * std::pow(root, 5);
+      sum += kWeights[k] * std::pow(radii(root).value, 2) * 3.0 * std::pow(root, 5);
     }
     sums.push_back(sums.back() + axis.step() * sum);
   }
@@ -68,8 +68,7 @@ SeriesLaw::SeriesLaw(const ForceLaw& law)
   const double deepest = kDeepest * baseRadius(law.tip());
   axis_.last = std::cbrt(contact(deepest).force);
   radii_.emplace(axis_, radiiOf(contact, axis_.last, deepest));
-  firsts_.emplace(axis_, integralsOf(*radii_, axis_, 1));
-  seconds_.emplace(axis_, integralsOf(*radii_, axis_, 2));
+  widened_.emplace(axis_, widenedOf(*radii_, axis_));
 }
 
 SeriesLaw::Radius SeriesLaw::radiusOf(double force) const noexcept
@@ -80,15 +79,13 @@ SeriesLaw::Radius SeriesLaw::radiusOf(double force) const noexcept
     root > 0.0 && root < axis_.last ? radius.slope / (3.0 * root * root) : 0.0 };
 }
 
-SeriesLaw::Width SeriesLaw::widthOf(double force) const noexcept
+double SeriesLaw::widened(double force) const noexcept
 {
   const double root = std::min(std::cbrt(std::max(0.0, force)), axis_.last);
   const double edge = root * root * root;
   const double radius = (*radii_)(root).value;
-  const double more = 0.5 * (force * force - edge * edge); // beyond the tables it is as wide
-  return { .radius = radius,
-    .first = (*firsts_)(root).value + radius * more,
-    .second = (*seconds_)(root).value + radius * radius * more };
+  // beyond the tables it is as wide
+  return (*widened_)(root).value + 0.5 * radius * radius * (force * force - edge * edge);
 }
 
 SeriesLaw::Yield SeriesLaw::yieldOf(double force, const BodyCompliance& body) const noexcept
@@ -102,15 +99,19 @@ SeriesLaw::Yield SeriesLaw::yieldOf(double force, const BodyCompliance& body) co
   {
     return yield;
   }
-  const double aside = round_ * body.slope * force;
+  const double aside = asideOf(round_ * body.slope * force, body.edge);
   if (aside <= 0.5 * a)
   {
-    yield.depth -= 1.5 * body.slope * aside * force;
-    yield.slope -= 3.0 * body.slope * aside;
+    const double far = 1.0 + body.edge * aside;
+    const double less = 2.0 * body.slope * aside / far;
+    yield.depth += 0.5 * aside * aside / round_ - force * less;
+    yield.slope -= less + body.slope * aside / (far * (far + 2.0 * body.edge * aside));
     return yield;
   }
-  yield.depth += a * (0.125 * a / round_ - force * body.slope);
-  yield.slope += 0.25 * a * width.slope / round_ - body.slope * (a + force * width.slope);
+  const double far = 1.0 + 0.5 * body.edge * a;
+  yield.depth += a * (0.125 * a / round_ - force * body.slope / far);
+  yield.slope +=
+    0.25 * a * width.slope / round_ - body.slope / far * (a + force * width.slope / far);
   return yield;
 }
 
@@ -140,61 +141,71 @@ double SeriesLaw::start(
 }
 
 // from which on the pressure moves aside by no more than half of the contact's radius
-double SeriesLaw::forceAtHold(double slope) const noexcept
+double SeriesLaw::forceAtHold(const BodyCompliance& body) const noexcept
 {
   double root = axis_.last;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 5; ++i)
   {
-    root = std::min(
-      axis_.last, std::sqrt(radiusOf(root * root * root).value / root / (2.0 * round_ * slope)));
+    const double wide = radiusOf(root * root * root).value / root;
+    const double level = std::sqrt(0.5 * wide / (round_ * body.slope)); // without an edge
+    const double slower = 1.0 - 0.5 * level * wide * body.edge;
+    root = slower > 0.0 ? std::min(axis_.last, level / slower) : axis_.last;
   }
   return root * root * root;
+}
+
+SeriesLaw::Gain SeriesLaw::gainOf(double force, const BodyCompliance& body) const noexcept
+{
+  if (!(round_ > 0.0 && body.slope > 0.0))
+  {
+    return {};
+  }
+  double held = force;
+  double aside = asideOf(round_ * body.slope * force, body.edge);
+  if (aside > 0.5 * radiusOf(force).value)
+  {
+    held = std::min(force, forceAtHold(body));
+    aside = asideOf(round_ * body.slope * held, body.edge);
+  }
+  const double nearer = held * aside / (1.0 + body.edge * aside);
+  Gain gain{ .energy = held * (0.5 * aside * aside / round_ - body.slope * nearer),
+    .slope = -held * nearer,
+    .edge = body.slope * nearer * nearer };
+  // from there on by Gauss and Legendre's rule in the cube root of the force
+  constexpr std::array kNodes{ 0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+    0.93056815579702629 };
+  constexpr std::array kWeights{ 0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+    0.17392742256872693 };
+  const double low = std::cbrt(held);
+  const double span = std::cbrt(force) - low;
+  for (std::size_t i = 0; i < kNodes.size() && force > held; ++i)
+  {
+    const double root = low + span * kNodes[i];
+    const double f = root * root * root;
+    const double a = radiusOf(f).value;
+    const double part = 3.0 * root * root * span * kWeights[i];
+    const double far = 1.0 + 0.5 * body.edge * a;
+    gain += { .energy = part * a * (0.125 * a / round_ - f * body.slope / far),
+      .slope = -part * f * a / far,
+      .edge = 0.5 * part * f * body.slope * (a / far) * (a / far) };
+  }
+  return gain;
 }
 
 Eigen::Vector3d SeriesLaw::lateral(const ComplianceField::Local& local, double force) const noexcept
 {
   const double f = force / modulus_;
-  const Width width = widthOf(f);
-  Eigen::Vector3d sum = 0.5 * f * f * local.constant + kWidened * width.second * local.bend;
-  if (round_ > 0.0)
-  {
-    const double slope = local.body.slope;
-    double part = round_ * slope * f * f * f;
-    if (round_ * slope * f > 0.5 * width.radius)
-    {
-      const double held = forceAtHold(slope);
-      part = round_ * slope * held * held * held + width.first - widthOf(held).first;
-    }
-    sum -= part * local.slope;
-  }
-  return modulus_ * sum;
+  const Gain gain = gainOf(f, local.body);
+  return modulus_ *
+    (0.5 * f * f * local.constant + kWidened * widened(f) * local.bend + gain.slope * local.slope +
+      gain.edge * local.edge);
 }
 
 double SeriesLaw::energy(const BodyCompliance& body, double force) const noexcept
 {
   const double f = force / modulus_;
-  const Width width = widthOf(f);
-  double sum = 0.5 * f * f * body.constant + kWidened * width.second * body.bend;
-  if (round_ > 0.0 && body.slope > 0.0)
-  {
-    const double held = std::min(f, forceAtHold(body.slope));
-    sum -= 0.5 * round_ * body.slope * body.slope * held * held * held;
-    // int a^2 df by Simpson's rule in the cube root of the force
-    const double low = std::cbrt(held);
-    const double high = std::cbrt(f);
-    constexpr int kParts = 16;
-    double held2 = 0.0;
-    for (int i = 0; i <= kParts; ++i)
-    {
-      const double root = low + (high - low) * i / kParts;
-      const double weight = i == 0 || i == kParts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-      const double a = radiusOf(root * root * root).value;
-      held2 += weight * a * a * 3.0 * root * root;
-    }
-    held2 *= (high - low) / (3.0 * kParts);
-    sum += 0.125 * held2 / round_ - body.slope * (width.first - widthOf(held).first);
-  }
-  return modulus_ * sum;
+  return modulus_ *
+    (0.5 * f * f * body.constant + kWidened * widened(f) * body.bend + gainOf(f, body).energy);
 }
 
 } // namespace palp

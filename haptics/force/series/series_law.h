@@ -25,8 +25,9 @@ struct SeriesResponse
 ///
 /// The complementary energy over E* of a force f = F/E* is that of the contact and
 /// f^2/2 G0 + 4/15 tr A int a^2 f df, less what the pressure gains by moving to the stiffer side,
-/// x = R b f, at most half of the contact radius a(f) on a half-space. The depth is its derivative
-/// by the force; the lateral force is that along the surface.
+/// f^2 b x / (1 + x/D) - f x^2 / (2 R), asideOf(R b f, 1/D), at most half of the contact radius
+/// a(f) on a half-space. The depth is its derivative by the force; the lateral force is that along
+/// the surface.
 class SeriesLaw
 {
 public:
@@ -98,19 +99,30 @@ private:
     double value; // a [m]
     double slope; // da/df
   };
-  struct Width
+
+  // of what the pressure gains by moving aside: the complementary energy, and its derivatives
+  struct Gain
   {
-    double radius; // a [m]
-    double first;  // int a f df
-    double second; // int a^2 f df
+    double energy; // [m^2]
+    double slope;  // by b
+    double edge;   // by 1/D
+
+    Gain& operator+=(const Gain& other) noexcept
+    {
+      energy += other.energy;
+      slope += other.slope;
+      edge += other.edge;
+      return *this;
+    }
   };
 
   [[nodiscard]] Radius radiusOf(double force) const noexcept;
-  [[nodiscard]] Width widthOf(double force) const noexcept;
+  [[nodiscard]] double widened(double force) const noexcept; // int a^2 f df
+  [[nodiscard]] Gain gainOf(double force, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;
   [[nodiscard]] double start(
     const Response& first, const BodyCompliance& body, double depth) const noexcept;
-  [[nodiscard]] double forceAtHold(double slope) const noexcept;
+  [[nodiscard]] double forceAtHold(const BodyCompliance& body) const noexcept;
 
   // where steps do not get there: over a near support, whose pull has an end
   template <typename Contact>
@@ -148,8 +160,7 @@ private:
   double round_;    // radius of the tip at its apex [m]; 0: sharp or flat
   SplineAxis axis_; // of the cube root of f
   std::optional<CubicSpline> radii_;
-  std::optional<CubicSpline> firsts_;
-  std::optional<CubicSpline> seconds_;
+  std::optional<CubicSpline> widened_;
 };
 
 } // namespace palp

@@ -134,12 +134,19 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
     const double local = 1e-3 * samples["local_depth_mm"][i];
     const double f = samples["force_N"][i] / modulus;
     const double slope = samples["organ_slope_per_m2"][i];
-    const double aside = std::min(radius * slope * f, 0.5 * a);
+    const double edge = samples["organ_edge_per_m"][i];
+    double aside = 0.0; // x (1 + x / D)^2 = R b f, by halving
+    for (double step = radius; step > 1e-9; step *= 0.5)
+    {
+      const double next = aside + step;
+      aside = next * std::pow(1.0 + edge * next, 2) < radius * slope * f ? next : aside;
+    }
+    aside = std::min(aside, 0.5 * a);
     const double depth = local +
       f *
         (samples["organ_constant_per_m"][i] +
           4.0 / 15.0 * samples["organ_bend_per_m3"][i] * a * a) -
-      2.0 * f * slope * aside + 0.5 * aside * aside / radius;
+      2.0 * f * slope * aside / (1.0 + edge * aside) + 0.5 * aside * aside / radius;
     EXPECT_NEAR(1e3 * depth, samples["depth_mm"][i], 2e-3 * samples["depth_mm"][i] + 1e-6);
     EXPECT_NEAR(0.5 * a * std::log((radius + a) / (radius - a)), local, 1e-4 * local + 1e-9);
   }

@@ -259,8 +259,13 @@ TEST_F(WindowTest, DroppedOrganFileIsFelt)
     OrganTable table;
     table.mesh = mesh;
     table.spacing = 200.0_mm;
-    table.count = 1;
-    table.places = { PlacedCompliance{ .constant = 1000.0 } };
+    for (int face = 0; face < 6; ++face) // whichever the pointer is on
+    {
+      const double outward = face % 2 == 0 ? 1.0 : -1.0;
+      table.places.push_back(
+        { .normal = outward * Eigen::Vector3d::Unit(face / 2), .constant = 1000.0 });
+    }
+    table.count = table.places.size();
     const std::filesystem::path file = folder.path() / "liver.organ";
     writeOrganTable(file, table);
     return window_->openFiles({ QString::fromStdString(file.string()) });
@@ -269,7 +274,7 @@ TEST_F(WindowTest, DroppedOrganFileIsFelt)
   EXPECT_EQ(session_->recording().scene.series, nullptr);
   EXPECT_TRUE(drop(identityOf(session_->body().files.front())));
   ASSERT_NE(session_->recording().scene.series, nullptr);
-  EXPECT_EQ(session_->recording().scene.series->field->places(), 1U);
+  EXPECT_EQ(session_->recording().scene.series->field->places(), 6U);
   EXPECT_EQ(session_->body().sources.front().bundled, "liver");
   press(40);
   const Sample sample = session_->newest();

@@ -144,9 +144,10 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
     Body{ .file = "edge60_4mm",
       .size = { 0.1, 0.1, 0.05 },
       .place = -0.046,
-      .limit = 0.25,
+      .limit = 0.06,
       .lean = std::numbers::pi / -6.0 },
-    Body{ .file = "edge90_2mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.048, .limit = 0.24 },
+    Body{ .file = "edge90_4mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.046, .limit = 0.08 },
+    Body{ .file = "edge90_2mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.048, .limit = 0.2 },
     Body{ .file = "lobe30_20mm", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true }),
   [](const auto& body) { return std::string(body.param.file); });
 

@@ -1,9 +1,11 @@
 #include "haptics/force/linear/series_contact.h"
 
 #include "haptics/units.h"
+#include "tests/support/csv_table.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace palp
 {
@@ -75,6 +77,30 @@ TEST(SeriesContact, SaysWhereTheSupportIsTooNear)
   EXPECT_TRUE(far.isBeyond);
   EXPECT_TRUE(std::isfinite(far.contact.force));
   EXPECT_NEAR(far.contact.radius, 4.0_mm, 0.3_mm);
+}
+
+// a quarter of space, whose edge is so near that the ball presses over it: its compliance by that
+// of elements 6 to 20 mm away, g / D less what a block of 50 mm is stiffer by its base
+TEST(SeriesContact, BesideAnEdgeIsThatOfFiniteElements)
+{
+  constexpr double kWedge = 0.34; // E* G0 D
+  constexpr double kBase = -20.6; // [1/m]
+  constexpr double kModulus = 50e3 / (1.0 - 0.45 * 0.45);
+  for (const int distance : { 2, 4, 6, 8, 20 })
+  {
+    const double edge = 1000.0 / distance;
+    const BodyCompliance body{
+      .constant = kBase + kWedge * edge, .slope = 0.5 * kWedge * edge * edge, .edge = edge
+    };
+    const test::CsvTable table = test::readCsv(
+      PALP_SOURCE_DIR "/data/reference/organ_edge90_" + std::to_string(distance) + "mm.csv");
+    for (std::size_t i = 1; i < table["depth_m"].size(); ++i)
+    {
+      const double force =
+        kModulus * inSeries(sphere(), body, table["depth_m"][i], 10.0_mm).contact.force;
+      EXPECT_NEAR(force, table["force_N"][i], 0.045 * force) << distance << ' ' << i;
+    }
+  }
 }
 
 // on the slope of a lobe the pressure goes to the stiffer side, and the force with it

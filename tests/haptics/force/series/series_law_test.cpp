@@ -30,7 +30,9 @@ SeriesResponse pressed(const ForceLaw& law, const BodyCompliance& body, double d
 }
 
 const BodyCompliance kBodies[] = { {}, { .constant = 30.0 }, { .constant = 800.0, .slope = 9e3 },
-  { .constant = -12.0, .bend = 5e3 }, { .constant = 60.0, .slope = 4e3, .bend = -4e3 } };
+  { .constant = -12.0, .bend = 5e3 }, { .constant = 60.0, .slope = 4e3, .bend = -4e3 },
+  { .constant = 150.0, .slope = 4.2e4, .edge = 500.0 },
+  { .constant = 25.0, .slope = 2.6e3, .bend = 2e3, .edge = 125.0 } };
 
 // bisection of the same law by its half-space alone
 TEST(SeriesLaw, IsTheRootThatHalvingFinds)
@@ -116,9 +118,10 @@ TEST(SeriesLaw, ItsLateralForceIsTheSlopeOfTheEnergy)
   const SeriesLaw series(law);
   const auto bodyAt = [](double s)
   {
-    return BodyCompliance{
-      .constant = 60.0 + 3e3 * s, .slope = 1.5e3 + 2e5 * s, .bend = 2e3 + 4e5 * s
-    };
+    return BodyCompliance{ .constant = 60.0 + 3e3 * s,
+      .slope = 3e3 + 2e5 * s,
+      .bend = 2e3 + 4e5 * s,
+      .edge = 130.0 + 2e4 * s };
   };
   for (const double deepest : { 1.0_mm, 4.0_mm, 7.0_mm })
   {
@@ -139,6 +142,7 @@ TEST(SeriesLaw, ItsLateralForceIsTheSlopeOfTheEnergy)
     local.constant = Eigen::Vector3d(3e3, 0.0, 0.0);
     local.slope = Eigen::Vector3d(2e5, 0.0, 0.0);
     local.bend = Eigen::Vector3d(4e5, 0.0, 0.0);
+    local.edge = Eigen::Vector3d(2e4, 0.0, 0.0);
     const double force = pressed(law, bodyAt(0.0), deepest).felt.force;
     EXPECT_NEAR(series.lateral(local, force).x(), -slope, 5e-3 * std::abs(slope)) << deepest;
   }
