@@ -307,8 +307,7 @@ void force(const ForceOptions& options, Work work)
   }
   if (work == Work::Check)
   {
-    (void)pressedBy(options, options.depths.si.back());
-    return;
+    return (void)pressedBy(options, options.depths.si.back());
   }
   options.history.empty() ? printForces(options) : printHistory(options);
 }

@@ -283,8 +283,7 @@ private:
   Balls balls_;
   ReachOutline reach_;
   std::unique_ptr<ForceCharts> charts_; // null: the plan names no curves
-
-  QTimer* frames_ = nullptr; // of the picture
+  QTimer* frames_ = nullptr;            // of the picture
   PointerTool pointer_;
   std::vector<std::shared_ptr<const Surface>> felt_; // by it
   std::uint32_t acting_ = 0; // flags since the panels were last brought up to date
