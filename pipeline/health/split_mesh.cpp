@@ -139,7 +139,7 @@ public:
     for (std::size_t i = 0; i < ways_.size(); ++i)
     {
       ways_[i] *= kApart / std::max(triangles[i], 1);
-      isParted(i) ? put(i, ways_[i]) : void();
+      isParted(i) ? put(i, 1.0, 0.05) : void(); // not as even as the surface: edges may meet edges
     }
   }
 
@@ -166,15 +166,9 @@ public:
   // elsewhere, but as near
   void move(const std::set<int>& origins)
   {
-    std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
-      if (origins.contains(parting_.origin[i]))
-      {
-        const double far = ways_[i].norm();
-        const Eigen::Vector3d aside(any(random_), any(random_), any(random_));
-        put(i, std::abs(any(random_)) * ways_[i] + 0.5 * far * aside);
-      }
+      origins.contains(parting_.origin[i]) ? put(i, std::abs(any_(random_)), 0.5) : void();
     }
   }
 
@@ -206,9 +200,11 @@ public:
 private:
   static constexpr double kApart = 1e-3; // of the way to the triangles' middles
 
-  // in single precision, as files have it
-  void put(std::size_t point, const Eigen::Vector3d& off)
+  // so much of its way, and so much of that anywhere; in single precision, as files have it
+  void put(std::size_t point, double along, double aside)
   {
+    const Eigen::Vector3d anywhere(any_(random_), any_(random_), any_(random_));
+    const Eigen::Vector3d off = along * ways_[point] + aside * ways_[point].norm() * anywhere;
     parting_.points[point] = (places_[point] + off).cast<float>().cast<double>();
   }
 
@@ -224,6 +220,7 @@ private:
   std::vector<int> sharing_; // of each that was
   std::vector<bool> stays_;  // likewise
   std::mt19937 random_;
+  std::uniform_real_distribution<double> any_{ -1.0, 1.0 };
 };
 
 } // namespace

@@ -184,7 +184,8 @@ TEST_F(OrganScene, TellsWhichOrganWasPressedAndLeavesThatDeformed)
   EXPECT_NEAR(middleOf("right"), 30.0, 0.5);
 }
 
-// the ball at the right stands 8 mm beside that at the left, nearer than the tool is wide
+// The way to the place on the ball at the left is 31.2 mm beside the middle of the other one, whose
+// radius is 30 mm: with a ball of 6 mm that is met 2 mm earlier.
 TEST_F(OrganScene, TellsOfAPressThatMeetsAnotherOrganThanItsPlaces)
 {
   const auto placed = [&](const std::string& organs, const std::string& name)
@@ -192,18 +193,20 @@ TEST_F(OrganScene, TellsOfAPressThatMeetsAnotherOrganThanItsPlaces)
     std::ofstream(out(name + ".json"))
       << R"({"palp_scene": 1, "organs": [)" << organs << R"(], "presses": {"depth": "2mm",
         "places": [{"at": ["-30mm", "0mm", "30mm"]}, {"name": "gap", "at":
-        ["-1.5mm", "0mm", "9.4mm"]}]}, "window": false, "exports": ["samples"],
+        ["-10mm", "0mm", "22.36mm"]}]}, "window": false, "exports": ["samples"],
         "tool": "sphere:6mm"})";
     return test::palp("scene " + out(name + ".json").string() + " --out " + out(name).string());
   };
   const Finished alone = placed(kLeft, "alone");
   ASSERT_EQ(alone.code, 0) << alone.err;
   EXPECT_EQ(alone.err.find("the place"), std::string::npos) << alone.err;
-  const Finished both = placed(std::string(kLeft) + ',' + kRight, "both");
+  const char* beside = R"(,{"name": "right", "bundled": "sphere_30", "frame":
+    {"origin": ["6.6mm", "0mm", "-5.9mm"]}})";
+  const Finished both = placed(std::string(kLeft) + beside, "both");
   ASSERT_EQ(both.code, 0) << both.err;
   EXPECT_EQ(both.err.find("-30,0,30"), std::string::npos) << both.err;
   EXPECT_NE(
-    both.err.find("the place gap, -1.5,0,9.4 mm is on left, but the tool meets right first"),
+    both.err.find("the place gap, -10,0,22.36 mm is on left, but the tool meets right first"),
     std::string::npos)
     << both.err;
   EXPECT_NE(rows("both", "presses.csv").find("\"gap\",\"right\""), std::string::npos);

@@ -17,23 +17,26 @@ using Eigen::Vector3d;
 
 using Corners = std::array<Vector3d, 3>;
 
-// on which side of a plane through three points a fourth one lies; of single precision it is exact
-// but for the last bits
-int sideOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& x)
+using Long = Eigen::Matrix<long double, 3, 1>;
+
+// six times the volume over a triangle; of single precision it is exact but for the last bits
+long double volumeOver(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& x)
 {
-  using Long = Eigen::Matrix<long double, 3, 1>;
   const Long o = x.cast<long double>();
-  const long double volume =
-    (a.cast<long double>() - o).dot((b.cast<long double>() - o).cross(c.cast<long double>() - o));
-  return volume > 0.0L ? 1 : volume < 0.0L ? -1 : 0;
+  return (a.cast<long double>() - o)
+    .dot((b.cast<long double>() - o).cross(c.cast<long double>() - o));
 }
 
-// whether the line from a to b goes through the inside of a triangle
+// Whether the line from a to b goes through the inside of a triangle. What ends at it, to a
+// millionth of its length, only touches it.
 bool pierces(const Vector3d& a, const Vector3d& b, const Corners& t)
 {
-  const int turn = sideOf(a, b, t[0], t[1]);
-  return sideOf(t[0], t[1], t[2], a) * sideOf(t[0], t[1], t[2], b) < 0 && turn != 0 &&
-    turn == sideOf(a, b, t[1], t[2]) && turn == sideOf(a, b, t[2], t[0]);
+  const long double above = volumeOver(t[0], t[1], t[2], a);
+  const long double below = volumeOver(t[0], t[1], t[2], b);
+  const double touching = 1e-6 * (b - a).norm() * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  const long double first = volumeOver(a, b, t[0], t[1]);
+  return above * below < 0.0L && std::min(std::abs(above), std::abs(below)) > touching &&
+    first * volumeOver(a, b, t[1], t[2]) > 0.0L && first * volumeOver(a, b, t[2], t[0]) > 0.0L;
 }
 
 bool cross(const Corners& one, const Corners& other)
