@@ -10,7 +10,8 @@ namespace
 
 constexpr std::int64_t kLate = 50'000'000; // a silence that is still a late tick [ns]
 constexpr double kReturn = 0.1;            // from zero to full force after one [s]
-constexpr double kTell = 0.1; // a stop, so that the servo sees it however late it is [s]
+constexpr double kTell = 0.1;     // a stop, so that the servo sees it however late it is [s]
+constexpr double kLongest = 0.01; // a tick, also that which was stopped itself [s]
 
 } // namespace
 
@@ -69,12 +70,13 @@ double GuardedDriver::gain(double dt) noexcept
   const bool suspended = slept - std::exchange(asleep_, slept) > kSuspended;
   const std::uint32_t fired = guard_->fired();
   const bool ended = fired != std::exchange(fired_, fired);
-  stoppedFor_ = std::max(0.0, stoppedFor_ - dt);
+  const double passed = std::min(dt, kLongest);
+  stoppedFor_ = std::max(0.0, stoppedFor_ - passed);
   if (suspended || guard_->leaving() || !guard_->lives() || (ended && silence > kLate))
   {
     stoppedFor_ = kTell;
   }
-  gain_ = ended || stoppedFor_ > 0.0 ? 0.0 : std::min(1.0, gain_ + dt / kReturn);
+  gain_ = ended || stoppedFor_ > 0.0 ? 0.0 : std::min(1.0, gain_ + passed / kReturn);
   return gain_;
 }
 
