@@ -196,6 +196,7 @@ void Window::refresh()
     still_ = 0;
     setSmooth(false);
     renderWindow_->Render();
+    showReadings();
     sound_.setForce(shown_.contact.touching() ? shown_.response.force : 0.0);
   }
   smoothen(sample);
@@ -203,8 +204,7 @@ void Window::refresh()
   drawCoarse();
 }
 
-// All that tells of the press is of the one sample that the picture shows; of the device, live.
-// Nobody reads faster than the panels are brought up to date, and each text lays its panel out.
+// all that tells of the press is of the one sample that the picture shows; of the device, live
 void Window::showReadings()
 {
   const Sample& live = review_ ? session_.newest() : shown_;
