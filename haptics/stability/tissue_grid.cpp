@@ -24,14 +24,13 @@ struct Tissue
   double relaxes;  // part of the modulus that decays [-]
   double friction; // mu [-]
   double nodule;   // its modulus over that of the tissue; 1: none
-
-  auto operator<=>(const Tissue&) const = default;
 };
 
 // 120 x 120 x 30 mm, its upper face at z = 0
 std::shared_ptr<const Surface> block()
 {
   std::vector<Eigen::Vector3d> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
   {
     corners.emplace_back((i & 1) != 0 ? 60.0_mm : -60.0_mm, (i & 2) != 0 ? 60.0_mm : -60.0_mm,
@@ -87,12 +86,13 @@ std::vector<StabilityCase> tissueCases(int count)
   const Levels relaxes = levels({ 0.0, 0.4, 0.9 });
   const Levels friction = levels({ 0.0, 0.3, 1.0 });
   const Levels nodule = levels({ 1.0, 0.2, 10.0 });
-  std::map<Tissue, std::shared_ptr<const Scene>> scenes;
+  std::map<std::array<double, 4>, std::shared_ptr<const Scene>> scenes;
   std::vector<StabilityCase> cases;
   for (int i = 0; i < count; ++i)
   {
     const Tissue tissue{ modulus[i], relaxes[i], friction[i], nodule[i] };
-    std::shared_ptr<const Scene>& scene = scenes[tissue];
+    std::shared_ptr<const Scene>& scene =
+      scenes[{ tissue.modulus, tissue.relaxes, tissue.friction, tissue.nodule }];
     scene = scene != nullptr ? scene : sceneOf(tissue);
     StabilityCase made{ .name = "arm at tissue that remembers",
       .material = makeMaterial(tissue.modulus, kPoisson),
