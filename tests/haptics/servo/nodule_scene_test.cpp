@@ -4,6 +4,7 @@
 #include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
 #include "tests/haptics/force/reference_table.h"
+#include "tests/haptics/servo/work_over.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/surfaces.h"
 
@@ -19,6 +20,7 @@ namespace
 {
 
 using namespace units::literals;
+using test::workOver;
 
 const PlacedNodule kStiff{ { 0.0, 0.0, -10.0_mm }, 5.0_mm, 5.0 };
 
@@ -124,19 +126,6 @@ TEST(NoduleScene, SafetyChainSendsTheLateralForceToo)
   }
   EXPECT_NEAR(sample.force.x(), sample.lateral.x(), 1e-6);
   EXPECT_NEAR(sample.force.x(), 0.0484034, 0.003);
-}
-
-// work of the hand over a closed path of poses
-double workOver(const Scene& world, int steps, const std::function<ToolPose(double)>& path)
-{
-  double work = 0.0;
-  for (int i = 0; i < steps; ++i)
-  {
-    const Eigen::Vector3d move =
-      path((i + 1.0) / steps).apex - path(static_cast<double>(i) / steps).apex;
-    work -= step(world, path((i + 0.5) / steps)).force.dot(move);
-  }
-  return work;
 }
 
 // down, along, up and back in the air, with the tool's reference point along circles about the

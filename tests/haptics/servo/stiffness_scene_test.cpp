@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
+#include "tests/haptics/servo/work_over.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/surfaces.h"
 
@@ -18,6 +19,7 @@ namespace
 {
 
 using namespace units::literals;
+using test::workOver;
 
 constexpr double kYoung = 50.0_kPa;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -111,19 +113,6 @@ TEST(StiffnessScene, ForceIsTheSlopeOfItsStiffness)
     EXPECT_NEAR(
       step(world, at({ 3.0_mm, 1.0_mm, -depth })).response.stiffness, slope, 0.01 * slope);
   }
-}
-
-// work of the hand over a way of poses
-double workOver(const Scene& world, int steps, const std::function<ToolPose(double)>& path)
-{
-  double work = 0.0;
-  for (int i = 0; i < steps; ++i)
-  {
-    const Eigen::Vector3d move =
-      path((i + 1.0) / steps).apex - path(static_cast<double>(i) / steps).apex;
-    work -= step(world, path((i + 0.5) / steps)).force.dot(move);
-  }
-  return work;
 }
 
 double loopOfPressed(const Scene& world, double from, double to)
