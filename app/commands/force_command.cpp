@@ -163,7 +163,6 @@ void printHead(const Pressed& pressed, const ContactGeometry& geometry, std::spa
 void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGeometry& geometry)
 {
   const auto& [law, nodules, stiffness, validity] = pressed;
-  const double plain = law(geometry).force;
   const Response response = pressed.response(geometry);
   row.insert(row.end(),
     { response.force, units::toMillimeters(response.contactRadius),
@@ -177,6 +176,7 @@ void addForces(std::vector<double>& row, const Pressed& pressed, const ContactGe
     }
     if (nodules || stiffness)
     {
+      const double plain = law(geometry).force;
       row.push_back(plain > 0.0 ? response.force / plain : 1.0);
     }
     const InclinedForce felt = inclinedForce(response.force, geometry.tilt);
