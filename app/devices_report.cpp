@@ -4,6 +4,7 @@
 #include "app/program/devices_options.h"
 #include "haptics/devices/driver.h"
 #include "haptics/devices/forcedimension/forcedimension_driver.h"
+#include "haptics/devices/haply/haply_driver.h"
 #include "haptics/devices/usb/found_device.h"
 #include "haptics/devices/usb/open_device.h"
 #include "haptics/error.h"
@@ -84,7 +85,8 @@ const std::array kFamilies{
     "spacenavd runs and may hold the SpaceMouse; give --device spacenavd then",
     [] { return unusableReasonOf("spacenavd"); }, true },
   Family{ {}, "Haply Inverse3", "haply[:PORT]", "libwebsockets, the makers' service",
-    "its service knows one: can be used", [] { return unusableReasonOf("haply"); }, true },
+    "its service knows one: can be used", [] { return unusableReasonOf([] { findHaply(); }); },
+    true },
   Family{ {}, "Force Dimension omega, delta, sigma, lambda", "forcedimension[:LIBRARY]",
     "libdrd of the makers' SDK 3",
     "libdrd is there; palp devices --probe forcedimension tells whether an arm is",

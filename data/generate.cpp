@@ -7,7 +7,7 @@
 #include "data/shapes.h"
 #include "haptics/error.h"
 #include "haptics/surface/decimation/decimate.h"
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"

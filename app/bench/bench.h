@@ -19,7 +19,7 @@ struct BenchRow
   std::string work;
   std::size_t vertices = 0; ///< of the mesh; 0 where there is none
   std::string mode;         ///< moving, jump, cold, paced, still, or how many points are displaced
-  std::string variant{};    ///< of a law or baseline: which one, "" for the scene's own law
+  std::string variant{};    ///< of a law, tissue or baseline: which one, "" for the scene's own
   double median = 0.0;      ///< [us], as are those below
   double mean = 0.0;
   double deviation = 0.0;

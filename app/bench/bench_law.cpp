@@ -1,5 +1,5 @@
 #include "app/bench/bench.h"
-#include "app/program/data_files.h"
+#include "app/bench/bench_work.h"
 #include "haptics/servo/scene.h"
 #include "haptics/servo/tissue_memory.h"
 #include "haptics/units.h"
@@ -39,28 +39,10 @@ BenchRow benchOne(const char* variant, const ForceLaw& law)
   return row;
 }
 
-// ten of them in a row, 20 mm apart
-std::shared_ptr<const NoduleField> nodulesUnder(const ForceLaw& law)
-{
-  std::vector<EmbeddedNodule> nodules;
-  for (int i = 0; i < 10; ++i)
-  {
-    nodules.push_back({ .nodule = { { 20.0_mm * i, 0.0, -10.0_mm }, 5.0_mm, 5.0 },
-      .depth = 10.0_mm,
-      .place = { .thickness = 30.0_mm } });
-  }
-  return std::make_shared<const NoduleField>(law, std::move(nodules));
-}
-
 // what a tick of tissue that relaxes and rubs takes above one that does not
-BenchRow benchMemory(const char* variant, const Material& tissue, LawSettings settings)
+BenchRow benchMemory(const char* variant)
 {
-  settings.relaxation.add({ 0.3, 50.0_ms });
-  settings.relaxation.add({ 0.2, 0.6 });
-  settings.friction = 0.3;
-  Scene scene;
-  scene.law = ForceLaw(scene.law.tip(), tissue, settings);
-  scene.nodules = *variant != '\0' ? nodulesUnder(scene.law) : nullptr;
+  const Scene scene = benchTissue(*variant != '\0');
   TissueMemory memory;
   Sample sample;
   sample.contact = { .depth = 5.0_mm,
@@ -90,17 +72,15 @@ std::vector<BenchRow> benchLaw()
 {
   const ForceLaw paper = Scene{}.law;
   const Material& tissue = paper.material();
-  const LawSettings everything{ .mode = LawMode::Corrected,
-    .largeStrain = readLargeStrain(
-      dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv")) };
+  const LawSettings everything = benchSettings();
   LawSettings coated = everything;
   coated.coatings.add({ 2.0_mm, { 4.0 * tissue.youngModulus, tissue.poissonRatio } });
   return { benchOne("", paper), benchOne("cone", ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, tissue)),
     benchOne("exact", ForceLaw(paper.tip(), tissue, { .mode = LawMode::Exact })),
     benchOne("corrected", ForceLaw(paper.tip(), tissue, everything)),
     benchOne("paraboloid", ForceLaw(ParaboloidTip{ 10.0_mm }, tissue, everything)),
-    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)), benchMemory("", tissue, everything),
-    benchMemory("nodules", tissue, everything) };
+    benchOne("coated", ForceLaw(paper.tip(), tissue, coated)), benchMemory(""),
+    benchMemory("nodules") };
 }
 
 } // namespace palp

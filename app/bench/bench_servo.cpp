@@ -38,7 +38,44 @@ private:
   std::vector<char> bytes_ = std::vector<char>(64UL << 20U);
 };
 
-void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& rows)
+// as an organ file of cells of 4 mm tells of a body
+Scene organOn(const Mesh& mesh)
+{
+  constexpr double kSpacing = 5.0_mm;
+  std::vector<PlacedCompliance> places;
+  const int count = static_cast<int>(kBenchSide / kSpacing);
+  for (int i = 0; i < count * count; ++i)
+  {
+    PlacedCompliance& place = places.emplace_back();
+    place.position = { kSpacing * (i % count) - 0.5 * kBenchSide,
+      kSpacing * (i / count) - 0.5 * kBenchSide, mesh.points.front().z() };
+    place.constant = 50.0;
+    place.slope = { 300.0, 0.0, 0.0 };
+  }
+  Scene scene;
+  scene.series = seriesBodyOf(
+    std::make_shared<const ComplianceField>(places, kSpacing, scene.law.material().poissonRatio),
+    scene.law);
+  return scene;
+}
+
+// after its soft start, round and round
+BenchRow benchMoving(ServoTick& tick, std::size_t vertices, int ticks, const char* variant)
+{
+  const auto move = [&](int i) { (void)tick(poseAtTick(i)); };
+  for (int i = 0; i < kSoftStart; ++i)
+  {
+    move(i);
+  }
+  BenchRow row = benchRow("servo_step", vertices, "moving",
+    timed(
+      ticks, [](int) {}, move));
+  row.variant = variant;
+  return row;
+}
+
+void benchSurface(
+  int n, int ticks, const Scene& tissue, CacheFlush& flush, std::vector<BenchRow>& rows)
 {
   const Mesh mesh = makeGrid(n, kBenchSide);
   const std::size_t vertices = mesh.points.size();
@@ -48,13 +85,11 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
 
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   ServoTick tick(surface);
-  const auto nothing = [](int) {};
-  const auto move = [&](int i) { (void)tick(poseAtTick(i)); };
-  for (int i = 0; i < kSoftStart; ++i)
-  {
-    move(i);
-  }
-  rows.push_back(benchRow("servo_step", vertices, "moving", timed(ticks, nothing, move)));
+  rows.push_back(benchMoving(tick, vertices, ticks, ""));
+  ServoTick onOrgan(surface, organOn(mesh));
+  rows.push_back(benchMoving(onOrgan, vertices, ticks, "organ"));
+  ServoTick inTissue(surface, tissue);
+  rows.push_back(benchMoving(inTissue, vertices, ticks, "nodules, relaxation, friction"));
 
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-35.0_mm, 35.0_mm);
@@ -64,6 +99,7 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
   };
   rows.push_back(
     benchRow("servo_step", vertices, "jump", timed(ticks, jump, [&](int) { (void)tick(pose); })));
+  const auto move = [&](int i) { (void)tick(poseAtTick(i)); };
   rows.push_back(benchRow("servo_step", vertices, "cold", timed(ticks / 40, flush, move)));
 
   auto due = std::chrono::steady_clock::now();
@@ -82,7 +118,9 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
     }
   };
   const int repetitions = std::min(vertices > 20'000 ? 20 : 200, ticks / 20);
-  rows.push_back(benchRow("query_brute", vertices, "moving", timed(repetitions, nothing, all)));
+  rows.push_back(benchRow("query_brute", vertices, "moving",
+    timed(
+      repetitions, [](int) {}, all)));
 }
 
 } // namespace
@@ -90,12 +128,13 @@ void benchSurface(int n, int ticks, CacheFlush& flush, std::vector<BenchRow>& ro
 std::vector<BenchRow> benchServo(std::size_t most, int ticks)
 {
   std::vector<BenchRow> rows = benchLaw();
+  const Scene tissue = benchTissue(true);
   CacheFlush flush;
   for (const int n : { 40, 50, 60, 70, 80, 90, 100, 316, 1000 })
   {
     if (static_cast<std::size_t>(n) * static_cast<std::size_t>(n) <= most)
     {
-      benchSurface(n, ticks, flush, rows);
+      benchSurface(n, ticks, tissue, flush, rows);
     }
   }
   return rows;

@@ -1,6 +1,7 @@
 #include "app/bench/bench.h"
 #include "app/bench/bench_dome.h"
 #include "app/bench/bench_work.h"
+#include "pipeline/motion/moved_surface.h"
 
 namespace palp
 {
@@ -38,6 +39,43 @@ BenchRow benchDent(
   return benchFrames("dent", drawn.zone.size(), mode, frame);
 }
 
+// a body that moves as a whole, by as many places and modes as an organ file has
+OrganMotionModes motionOn(const Mesh& mesh)
+{
+  constexpr std::size_t kPlaces = 600;
+  constexpr Eigen::Index kModes = 24;
+  OrganMotionModes modes{ .radius = 30.0_mm };
+  for (std::size_t i = 0; i < kPlaces; ++i)
+  {
+    modes.places.push_back(
+      { mesh.points[i * mesh.points.size() / kPlaces], Eigen::Vector3d::UnitZ(), true });
+  }
+  modes.loads = Eigen::MatrixXf::Constant(kModes, kPlaces, 1.0F);
+  modes.modes = Eigen::MatrixXf::Constant(3 * kPlaces, kModes, 1.0F);
+  return modes;
+}
+
+// every point and normal of a surface, on top of a dent, which is not counted
+BenchRow benchMotion(int n)
+{
+  const BenchDome dome{ n, kBenchSide };
+  const Mesh mesh = dome.mesh();
+  DrawnSurface drawn(mesh);
+  drawn.press(dome.press(dome.radiusOf(500), 0.0));
+  MovedSurface moved(std::make_shared<const OrganMotion>(motionOn(mesh)), drawn.rest);
+  DrawnSurface all(mesh);
+  const MovedArrays to{ all.points.data(), all.normals.data(), all.displacement.data() };
+  const auto frame = [&](int i)
+  {
+    const OrganLoad load{ .center = mesh.points[static_cast<std::size_t>(100 + i)],
+      .normal = Eigen::Vector3d::UnitZ(),
+      .force = 1e-6 };
+    moved.load({ &load, 1 });
+    moved.move(drawn.displacement.data(), drawn.normals.data(), to);
+  };
+  return benchFrames("motion", mesh.points.size(), "all", frame);
+}
+
 } // namespace
 
 std::vector<BenchRow> benchUpdate(std::size_t most)
@@ -54,6 +92,11 @@ std::vector<BenchRow> benchUpdate(std::size_t most)
       rows.push_back(benchFrames(
         "update", vertices(n), "moving", [&](int i) { update(benchPose(20.0_ms * i)); }));
     }
+  }
+  constexpr int kTwentyThousand = 141;
+  if (vertices(kTwentyThousand) <= most)
+  {
+    rows.push_back(benchMotion(kTwentyThousand));
   }
   for (const int n : { 100, 1000 })
   {

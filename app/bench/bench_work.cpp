@@ -3,6 +3,8 @@
 #include "app/program/data_files.h"
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace palp
 {
@@ -13,6 +15,7 @@ using namespace units::literals;
 
 constexpr double kCircle = 30.0_mm; // radius of the tool's path
 constexpr double kSpeed = 0.1;      // [m/s]
+constexpr int kNodules = 10;
 
 std::vector<float> inFloats(const std::vector<Eigen::Vector3d>& points)
 {
@@ -45,8 +48,41 @@ DeviceLimits benchDevice()
   };
 }
 
-ServoTick::ServoTick(std::shared_ptr<const Surface> surface)
+LawSettings benchSettings()
+{
+  return { .mode = LawMode::Corrected,
+    .largeStrain = readLargeStrain(
+      dataFile("tables/large_strain_sphere.csv"), dataFile("tables/large_strain_cone.csv")) };
+}
+
+Scene benchTissue(bool nodules)
+{
+  LawSettings settings = benchSettings();
+  settings.relaxation.add({ 0.3, 50.0_ms });
+  settings.relaxation.add({ 0.2, 0.6 });
+  settings.friction = 0.3;
+  Scene scene;
+  scene.law = ForceLaw(scene.law.tip(), scene.law.material(), settings);
+  std::vector<EmbeddedNodule> found;
+  for (int i = 0; nodules && i < kNodules; ++i)
+  {
+    const double angle = 2.0 * std::numbers::pi * i / kNodules;
+    found.push_back(
+      { .nodule = { { kCircle * std::cos(angle), kCircle * std::sin(angle), -10.0_mm }, 5.0_mm,
+          5.0 },
+        .depth = 10.0_mm,
+        .place = { .thickness = 30.0_mm } });
+  }
+  if (nodules)
+  {
+    scene.nodules = std::make_shared<const NoduleField>(scene.law, std::move(found));
+  }
+  return scene;
+}
+
+ServoTick::ServoTick(std::shared_ptr<const Surface> surface, Scene scene)
   : chain_(benchDevice(), { .fastest = 1e6 })
+  , scene_(std::move(scene))
 {
   scene_.surface = std::move(surface);
   scene_.damping = 1.0;

@@ -33,11 +33,18 @@ constexpr double kBenchDepth = units::fromMillimeters(5.0);
 
 [[nodiscard]] DeviceLimits benchDevice();
 
+/// The corrected law with its tables, for a ball of the scene's own size and tissue.
+[[nodiscard]] LawSettings benchSettings();
+
+/// Tissue that relaxes by two terms and rubs, without a surface.
+/// @param nodules  ten of them, along the tool's path
+[[nodiscard]] Scene benchTissue(bool nodules);
+
 /// All that a servo thread does between two exchanges with a device.
 class ServoTick
 {
 public:
-  explicit ServoTick(std::shared_ptr<const Surface> surface);
+  explicit ServoTick(std::shared_ptr<const Surface> surface, Scene scene = {});
   Sample operator()(const ToolPose& pose);
 
 private:

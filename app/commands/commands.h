@@ -30,7 +30,6 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work = Work::Do
 void addCheckCommand(CLI::App& app);
 void addSceneCommand(CLI::App& app, const Renderer* pictures, int (*view)(const ViewOptions&));
 void addForceCommand(CLI::App& app, Work work = Work::Do);
-void addFitCommand(CLI::App& app, const Renderer* pictures);
 void addCalibrateCommand(CLI::App& app, const Renderer* pictures, Work work = Work::Do);
 void addSweepCommand(CLI::App& app, const Renderer* pictures);
 void addPhantomCommand(CLI::App& app);

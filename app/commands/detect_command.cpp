@@ -129,9 +129,6 @@ figures::Table emptyTable()
 figures::Table detect(const DetectOptions& options)
 {
   const NoduleContrast contrast(lawOf(options), placeOf(options));
-  std::vector<double> differences;
-  std::ranges::transform(
-    kJustNoticeable, std::back_inserter(differences), &JustNoticeable::fraction);
   figures::Table table = emptyTable();
   for (std::size_t i = 0; i < options.covers.si.size(); ++i)
   {
@@ -139,7 +136,7 @@ figures::Table detect(const DetectOptions& options)
       toMillimeters(options.covers.unit) };
     std::vector<figures::Cell> outside;
     for (const std::optional<Detectable>& one :
-      smallestDetectable(contrast, options.covers.si[i], options.ratio, differences))
+      smallestDetectable(contrast, options.covers.si[i], options.ratio, kJustNoticeable))
     {
       diameters.emplace_back(one ? figures::Cell(toMillimeters(2.0 * one->nodule.radius)) : "-");
       outside.emplace_back(one ? brokenNames(contrast.rules(one->nodule)) : "-");
@@ -179,8 +176,8 @@ std::string headOf(const DetectOptions& options)
     millimeters(options.depth) + " deep; nu " + shortest(options.tissue.poisson) + ", " +
     (std::isinf(thickness) ? "half-space" : "thickness " + millimeters(thickness)) + ", law " +
     describeLaw(options.tissue.law().settings()) + "\n" +
-    "# diameter from which on the force differs so much from that beside the nodule; -: none that "
-    "fits the body, or of a radius up to 4 covers, of larger ones nothing is known\n";
+    "# diameter from which on this differs so much from beside the nodule, pressed equally deep; "
+    "-: none that fits the body, or of a radius up to 4 covers, of larger ones nothing is known\n";
   for (const JustNoticeable& difference : kJustNoticeable)
   {
     head += "# " + percentOf(difference) + " percent: " + difference.name + " (" +
@@ -260,9 +257,12 @@ void addDetectCommand(CLI::App& app, const Renderer* pictures)
   addOverwrite(*command, options->overwrite);
   command->add_flag("--no-picture", options->noPicture, "Write the data only");
   command->footer(
-    "A nodule is noticed where the force right above it is 7, 15, 22 or 45 % more, or less, than\n"
-    "beside it: what people tell apart of forces, of stiffness with a finger, of compliance, and\n"
-    "of stiffness with a stylus. outside_limits: rules of palp force --validity that it breaks.\n"
+    "A nodule is noticed where, right above it and pressed as deep as beside it, the force "
+    "differs\n"
+    "by 7 %, stiffness by 15 % with a finger and 45 % with a stylus, or compliance, depth by "
+    "force,\n"
+    "by 22 %: 28.2 % more force, or 18 % less.\n"
+    "outside_limits: rules of palp force --validity that it breaks.\n"
     "7.7 is a hepatocellular carcinoma in healthy liver, see palp tissues. Force and contrast\n"
     "share Young's modulus, which does not count here.\n"
     "Examples:\n"

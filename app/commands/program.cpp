@@ -1,6 +1,7 @@
 #include "app/commands/program.h"
 
 #include "app/commands/commands.h"
+#include "app/commands/fit/fit_command.h"
 #include "app/commands/organ/organ_command.h"
 #include "app/commands/train/train_command.h"
 #include "app/import/import_command.h"

@@ -57,13 +57,28 @@ constexpr std::array kParts{
 struct ReportOptions
 {
   std::filesystem::path out;
+  std::vector<std::string> parts; // names; empty: all
   bool quick = false;
   bool resume = false;
   bool overwrite = false;
 };
 
+std::vector<std::string> namesOfParts()
+{
+  std::vector<std::string> names;
+  std::ranges::transform(kParts, std::back_inserter(names), &Part::name);
+  return names;
+}
+
+bool isAsked(const Part& part, const ReportOptions& options)
+{
+  return options.parts.empty() ||
+    std::ranges::find(options.parts, part.name) != options.parts.end();
+}
+
 // the parts that are finished, in their order; the rest is left where the user stops it
-std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& interrupt)
+std::vector<Section> makeParts(
+  Folder& folder, const ReportOptions& options, const Interrupt& interrupt)
 {
   std::vector<Section> sections;
   for (std::size_t i = 0; i < kParts.size(); ++i)
@@ -73,7 +88,7 @@ std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& inte
       sections.push_back(std::move(*before));
       continue;
     }
-    if (interrupt.token().stop_requested())
+    if (interrupt.token().stop_requested() || !isAsked(kParts[i], options))
     {
       continue;
     }
@@ -83,10 +98,9 @@ std::vector<Section> makeParts(Folder& folder, bool quick, const Interrupt& inte
     ProgressLine progress(part);
     try
     {
-      Section section =
-        kParts[i].make({ .quick = quick, .stop = interrupt.token(), .tell = [&](double fraction) {
-                          progress(fraction);
-                        } });
+      Section section = kParts[i].make({ .quick = options.quick,
+        .stop = interrupt.token(),
+        .tell = [&](double fraction) { progress(fraction); } });
       section.name = kParts[i].name;
       section.title = kParts[i].title;
       folder.keep(section);
@@ -124,12 +138,14 @@ Section claimByClaim(const std::vector<Section>& sections)
   return all;
 }
 
-std::vector<std::string> unfinishedOf(const std::vector<Section>& sections)
+std::vector<std::string> unfinishedOf(
+  const std::vector<Section>& sections, const ReportOptions& options)
 {
   std::vector<std::string> titles;
   for (const Part& part : kParts)
   {
-    if (std::ranges::find(sections, part.name, &Section::name) == sections.end())
+    if (isAsked(part, options) &&
+      std::ranges::find(sections, part.name, &Section::name) == sections.end())
     {
       titles.emplace_back(part.title);
     }
@@ -148,13 +164,13 @@ void makeReport(const ReportOptions& options, const Renderer* pictures)
     options.resume        ? Before::Resume
       : options.overwrite ? Before::Replace
                           : Before::Refuse);
-  std::vector<Section> sections = makeParts(folder, options.quick, interrupt);
+  std::vector<Section> sections = makeParts(folder, options, interrupt);
   if (sections.empty())
   {
     throw Error(ErrorCode::NoSolution,
       options.out.string() + ": no part is finished; what was there is as it was");
   }
-  const auto unfinished = unfinishedOf(sections);
+  const std::vector<std::string> unfinished = unfinishedOf(sections, options);
   const Section claims = claimByClaim(sections);
   folder.keep(claims);
   // after the errors, before what it refers to
@@ -171,9 +187,11 @@ void makeReport(const ReportOptions& options, const Renderer* pictures)
   const std::string page = (folder.output().path() / "report.html").string();
   if (!unfinished.empty())
   {
+    const auto asked = static_cast<std::size_t>(
+      std::ranges::count_if(kParts, [&](const Part& part) { return isAsked(part, options); }));
     throw Error(ErrorCode::NoSolution,
-      page + ": " + std::to_string(kParts.size() - unfinished.size()) + " of " +
-        std::to_string(kParts.size()) + " parts are finished; --resume goes on from here");
+      page + ": " + std::to_string(asked - unfinished.size()) + " of " + std::to_string(asked) +
+        " parts are finished; --resume goes on from here");
   }
   std::cerr << "palp: " << page << '\n';
 }
@@ -187,12 +205,15 @@ void addReportCommand(CLI::App& app, const Renderer* pictures)
     "Measure error against run time and the paper's claims here; one page, with its data");
   command->add_option("--out", options->out, "Folder for report.html, CSV and JSON")->required();
   command->add_flag("--quick", options->quick, "A minute, not a quarter of an hour");
+  command->add_option("NAME", options->parts, "Which parts; all if none")
+    ->check(CLI::IsMember(namesOfParts()));
   command->add_flag("--resume", options->resume, "Go on with what --out holds of this report");
   addOverwrite(*command, options->overwrite);
   command->footer(
     "Ctrl-C leaves a page of the finished parts. Let nothing else run meanwhile: times are taken.\n"
     "Examples:\n"
     "  palp report --quick --out report\n"
+    "  palp report profiles servo --out report\n"
     "  palp report --out report            and, after an interruption:\n"
     "  palp report --out report --resume");
   command->callback([options, pictures] { makeReport(*options, pictures); });

@@ -219,8 +219,7 @@ void addOutputs(CLI::App& command, RunOptions& options)
   command.add_flag(
     "--all-samples", options.allSamples, "Keep in samples.csv also the samples without contact");
   command.add_flag("--refined", options.refined,
-    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm, beside a "
-    "rim to 0.02 mm");
+    "Divide the triangles of the dent in deformed.vtp until they follow it to 0.01 mm");
   command.add_flag("--no-picture", options.noPicture, "Write the data only")
     ->excludes("--plots")
     ->excludes("--movie");

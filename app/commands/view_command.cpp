@@ -10,7 +10,9 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace palp
 {
@@ -31,6 +33,7 @@ void openExport(ViewOptions& options, const std::filesystem::path& folder)
   }
   const ScenePlan given = std::exchange(options.plan, options.made->plan);
   options.plan.device = given.device;
+  options.plan.second = given.second;
   options.plan.deadMan = given.deadMan;
   options.plan.placement = given.placement;
   options.plan.servoPeriod = given.servoPeriod;
@@ -50,6 +53,33 @@ double numberWithin(const std::string& text, const char* option, const Bounds& b
         std::string(bounds.inWords));
   }
   return number;
+}
+
+void addDevices(CLI::App& command, ScenePlan& plan)
+{
+  command
+    .add_option_function<std::vector<std::string>>(
+      "--device",
+      [&plan](const std::vector<std::string>& names)
+      {
+        if (names.size() > 2)
+        {
+          throw Error(ErrorCode::BadValue, "--device: a scene has two hands; give one or two");
+        }
+        plan.device = parseDevice(names.front());
+        if (names.size() == 2)
+        {
+          plan.second = parseDevice(names.back());
+          checkHands(plan.device, *plan.second);
+        }
+      },
+      "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
+      "replay:FILE (a samples.csv that was exported); spacemouse; spacenavd; gamepad[:PATH]; "
+      "falcon[:FIRMWARE]; "
+      "wooden:PATH[,ARM.conf]; phd1:PATH; haply[:PORT]; forcedimension[:LIBRARY]; "
+      "openigtlink[:ADDRESS:PORT][,TOOL] (see palp devices); given twice: two hands")
+    ->default_str(plan.device.name)
+    ->allow_extra_args(false);
 }
 
 void addPlacement(CLI::App& command, DevicePlacement& placement)
@@ -99,15 +129,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   options->plan.press.addTo(*command);
   addStiffness(*command, options->plan.meshes.front().stiffness);
   addOrganFile(*command, options->plan.meshes.front().organ);
-  addParsed(*command, "--device",
-    "mouse; hand (a simulated arm that follows the mouse and yields to the force); path:FILE; "
-    "replay:FILE (a samples.csv that was exported); spacemouse; spacenavd; gamepad[:PATH]; "
-    "falcon[:FIRMWARE]; "
-    "wooden:PATH[,ARM.conf]; phd1:PATH; haply[:PORT]; forcedimension[:LIBRARY]; "
-    "openigtlink[:ADDRESS:PORT][,TOOL] (see palp devices)",
-    options->plan.device.name,
-    [options = options.get()](const std::string& text)
-    { options->plan.device = parseDevice(text); });
+  addDevices(*command, options->plan);
   command->add_flag(
     "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");
   addPlacement(*command, options->plan.placement);

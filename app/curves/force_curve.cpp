@@ -22,7 +22,7 @@ constexpr std::string_view kTool = "# tool: ";
 
 ForceRows readForceRows(const std::filesystem::path& file)
 {
-  const NumberTable table = NumberTable::readColumns(file, std::array{ "depth_mm", "force_N" });
+  const NumberTable table = NumberTable::readRecording(file, std::array{ "depth_mm", "force_N" });
   if (table.rows.empty())
   {
     throw Error(ErrorCode::BadFile, file.string() + ": no row below the header; give a curve");

@@ -19,7 +19,7 @@ struct ForceRows
 
 /// Reads F(depth) from a CSV whose header names depth_mm and force_N among any others: a table of
 /// `palp force`, of `palp calibrate`, an exported samples.csv, or a measurement.
-/// @throws Error  BadFile: as NumberTable::readColumns; no row
+/// @throws Error  BadFile: as NumberTable::readRecording; no row
 [[nodiscard]] ForceRows readForceRows(const std::filesystem::path& file);
 
 /// What to say of rows that were recorded with another tool than they are taken for; else empty.

@@ -99,16 +99,17 @@ void drawMovie(const OffscreenContext& context, const SceneBody& body, const Rec
     }
   };
   drawFigure(*window, momentOf(body, recording, calibration, shown), lookOf(plan), look,
-    [&](PressView& view, Surroundings& around, vtkRenderer& renderer)
+    [&](PressView& view, OtherHand& other, Surroundings& around, vtkRenderer& renderer)
     {
       double turn = 0.0;
       int organ = shown.organ;
       for (std::size_t i = 0; i < frames.size(); ++i)
       {
         const Sample& sample = *frames[i].sample;
+        const PressMoment moment = momentOf(body, recording, calibration, sample);
         std::exchange(organ, sample.organ) == sample.organ
-          ? view.show(sample)
-          : showMoment(view, around, momentOf(body, recording, calibration, sample));
+          ? other.show(sample, moment.second)
+          : showMoment(view, other, around, moment);
         renderer.GetActiveCamera()->Azimuth(units::toDegrees(frames[i].turn - turn));
         renderer.ResetCameraClippingRange();
         turn = frames[i].turn;

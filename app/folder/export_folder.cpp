@@ -148,7 +148,7 @@ ExportFolder readExport(const fs::path& folder)
   made.device = object.text("device", "");
   made.inputs = readList(object, "inputs");
   made.outputs = readList(object, "outputs");
-  (void)readList(object, kBeside);
+  made.beside = readList(object, kBeside);
   object.finish();
   return made;
 }

@@ -23,6 +23,7 @@ struct ExportFolder
   std::string device{};            ///< that held the tool
   std::vector<MeshFile> inputs{};  ///< name and hash of what it was made from
   std::vector<MeshFile> outputs{}; ///< and of what it holds
+  std::vector<MeshFile> beside{};  ///< and of what was added, which palp run does not repeat
 };
 
 /// The names of all files that an export may leave.

@@ -2,6 +2,7 @@
 
 #include "app/input/mesh_file.h"
 #include "app/input/tip_text.h"
+#include "app/places/met_organ.h"
 #include "app/places/placed_press.h"
 #include "app/press/playback.h"
 #include "app/press/recorded_rows.h"
@@ -12,8 +13,44 @@
 namespace palp
 {
 
-void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* path)
+namespace
 {
+
+// @return  notes on those that met another organ than that of their place
+std::vector<std::string> pressPlaces(
+  Recording& recording, const PlacedPresses& presses, bool isChained)
+{
+  const Scene& scene = recording.scene;
+  const std::vector<ScriptedPath> paths = pathsOf(presses, scene);
+  std::vector<int> asked;
+  for (const PressPlace& place : presses.places)
+  {
+    recording.names.push_back(place.name);
+    const ToolPose start = paths[asked.size()].poseAt(0.0, -Eigen::Vector3d::UnitZ());
+    asked.push_back(organAt(place, presses, scene));
+    checkStart(place, asked.back(), start, recording);
+  }
+  std::vector<std::string> notes;
+  std::size_t next = 0;
+  recording.samples = playEach(paths, scene, isChained,
+    [&](std::span<const Sample> samples)
+    {
+      const std::size_t i = next++;
+      const Sample* deepest = deepestOf(samples);
+      const int met = deepest != nullptr ? deepest->organ : asked[i];
+      notes.push_back(
+        noteOfOrgan(presses.places[i], recording.organName(asked[i]), recording.organName(met)));
+    });
+  std::erase(notes, "");
+  return notes;
+}
+
+} // namespace
+
+std::vector<std::string> playInto(
+  Recording& recording, const ScenePlan& plan, const ScriptedPath* path)
+{
+  std::vector<std::string> notes;
   const std::string& device = plan.device.name;
   if (plan.recording)
   {
@@ -24,12 +61,7 @@ void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* p
   else if (plan.presses)
   {
     recording.device = "given places";
-    for (const PressPlace& place : plan.presses->places)
-    {
-      recording.names.push_back(place.name);
-    }
-    recording.samples =
-      playEach(pathsOf(*plan.presses, recording.scene), recording.scene, plan.chain);
+    notes = pressPlaces(recording, *plan.presses, plan.chain);
   }
   else if (path)
   {
@@ -41,6 +73,7 @@ void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* p
   {
     keepContact(recording);
   }
+  return notes;
 }
 
 std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
@@ -73,6 +106,7 @@ ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording
   plan.validity = recording.rated;
   plan.training = body.training;
   plan.device = {};
+  plan.second.reset();
   plan.recording = RecordedPress{ .device = recording.device, .names = recording.names };
   plan.chain = false;
   plan.window = false;

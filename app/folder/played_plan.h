@@ -6,6 +6,7 @@
 #include "haptics/devices/simulated/scripted_path.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace palp
@@ -16,8 +17,10 @@ namespace palp
 ///
 /// @param recording  its scene is pressed; its device, names and samples are filled
 /// @param path       of the plan's device; null where it has places or a recording
-/// @throws Error     as pathsOf, play, readRows
-void playInto(Recording& recording, const ScenePlan& plan, const ScriptedPath* path);
+/// @return           notes on presses that met another organ than that of their place
+/// @throws Error     as pathsOf, checkStart, play, readRows
+std::vector<std::string> playInto(
+  Recording& recording, const ScenePlan& plan, const ScriptedPath* path);
 
 /// The files that a plan names.
 [[nodiscard]] std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan);

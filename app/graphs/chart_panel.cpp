@@ -10,6 +10,7 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -35,6 +36,7 @@ QToolButton* addButton(
 ChartPanel::ChartPanel(const QString& name, QWidget* parent)
   : QWidget(parent)
   , canvas_(new QVTKOpenGLNativeWidget)
+  , hint_(new QLabel)
   , row_(new QHBoxLayout)
 {
   window_->SetMultiSamples(0);
@@ -68,6 +70,19 @@ ChartPanel::ChartPanel(const QString& name, QWidget* parent)
   layout->setSpacing(0);
   layout->addLayout(row_);
   layout->addWidget(canvas_, 1);
+  hint_->setObjectName("hint");
+  hint_->setAlignment(Qt::AlignCenter);
+  hint_->setWordWrap(true);
+  hint_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  hint_->hide();
+  auto* over = new QVBoxLayout(canvas_);
+  over->addWidget(hint_);
+}
+
+void ChartPanel::setHint(const QString& hint)
+{
+  hint_->setText(hint);
+  hint_->setVisible(!hint.isEmpty());
 }
 
 void ChartPanel::offerPause()

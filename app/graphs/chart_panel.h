@@ -10,6 +10,7 @@
 #include <vector>
 
 class QHBoxLayout;
+class QLabel;
 class QToolButton;
 class QVTKOpenGLNativeWidget;
 
@@ -48,6 +49,9 @@ public:
 
   [[nodiscard]] std::vector<vtkPalpChart*> charts() const;
 
+  /// What to do where there is nothing to draw; empty: there is.
+  void setHint(const QString& hint);
+
   /// Draws, where anybody sees it.
   void draw();
 
@@ -62,6 +66,7 @@ private:
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkContextInteractorStyle> style_;
   QVTKOpenGLNativeWidget* canvas_;
+  QLabel* hint_;
   QHBoxLayout* row_;
   QToolButton* pause_ = nullptr; // null: not offered
 };

@@ -22,6 +22,7 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
   }
   qobject_cast<QBoxLayout*>(layout())->insertWidget(0, tabs_); // the buttons' row is full
   setScene(showEmptyScene(window()));                          // before the first press
+  setHint(pages_.front().hint);
   connect(tabs_, &QTabBar::currentChanged, this, &PlotPanel::refresh);
 }
 
@@ -43,6 +44,7 @@ void PlotPanel::refresh()
     put(std::move(plots));
     page_ = page;
   }
+  setHint(plots_.empty() ? pages_[static_cast<std::size_t>(page)].hint : QString());
   draw();
 }
 

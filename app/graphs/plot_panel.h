@@ -17,11 +17,13 @@ class PlotPanel : public ChartPanel
   Q_OBJECT
 
 public:
-  /// What a tab is called, and how its plots are made.
+  /// What a tab is called, how its plots are made, and what to do where there is nothing to make
+  /// them of.
   struct Page
   {
     QString name;
     std::function<Plots()> make;
+    QString hint{};
   };
 
   explicit PlotPanel(std::vector<Page> pages, QWidget* parent = nullptr);

@@ -3,7 +3,6 @@
 #include "app/folder/export_folder.h"
 #include "app/folder/played_plan.h"
 #include "app/headless/renderer.h"
-#include "app/places/met_organ.h"
 #include "app/press/body.h"
 #include "app/press/export.h"
 #include "app/press/playback.h"
@@ -263,6 +262,15 @@ void tellDifferences(const ExportFolder& repeated, const std::filesystem::path& 
                    ? ": repeated to the byte"
                    : ": made by palp " + repeated.version + ", comes out another in " + other)
             << '\n';
+  for (const MeshFile& file : repeated.beside)
+  {
+    std::cerr << "palp: " << (repeated.folder / file.name).string() << ": not repeated\n";
+  }
+  if (const auto takes = takesIn(repeated.folder).size(); takes > 1)
+  {
+    std::cerr << "palp: " << takes - 1 << " earlier recordings are exports of their own, as "
+              << earlierTake(repeated.folder, 1).string() << "; repeat each by itself\n";
+  }
   if (const std::string edited = differences(repeated, repeated.folder); !edited.empty())
   {
     std::cerr << "palp: warning: " << repeated.folder.string()
@@ -307,18 +315,17 @@ void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictu
   {
     checkInputs(*repeated, plan, recording);
   }
-  for (const PressPlace& place : plan.presses ? plan.presses->places : std::vector<PressPlace>())
-  {
-    const std::string note = noteOfOrgan(place, *plan.presses, recording);
-    std::cerr << (note.empty() ? "" : "palp: warning: " + note + '\n');
-  }
   const ScriptedPath* path = given.path ? &*given.path : nullptr;
-  trace.build("press", "force at every millisecond",
+  const std::vector<std::string> notes = trace.build("press", "force at every millisecond",
     [&]
     {
       const ProgressLine progress("pressing");
-      playInto(recording, plan, path);
+      return playInto(recording, plan, path);
     });
+  for (const std::string& note : notes)
+  {
+    std::cerr << "palp: warning: " << note << '\n';
+  }
   recording.device = repeated ? repeated->device : recording.device;
   const Calibration* known = calibration ? &*calibration : nullptr;
   tell(recording, known, path);

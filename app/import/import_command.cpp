@@ -10,6 +10,7 @@
 #include "app/program/progress_line.h"
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "haptics/files/replace_file.h"
 #include "haptics/units.h"
@@ -22,6 +23,7 @@
 #include <array>
 #include <future>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -86,12 +88,11 @@ std::size_t parseComponents(const std::string& text)
   return static_cast<std::size_t>(count);
 }
 
-std::string listOf(const FileOrgans& found, UnitChoice unit)
+std::string listOf(const FileOrgans& found, UnitChoice known)
 {
   figures::Table table{
     .name = "labels", .caption = "Labels", .columns = { "label", "name", "voxels", "volume_ml" }
   };
-  const UnitChoice known = unit ? unit : unitNamed(found.unit);
   for (const FileOrgan& organ : found.organs)
   {
     const double length = known ? unitLength(*known) : 0.0;
@@ -187,6 +188,17 @@ FileOrgans found(const ImportOptions& options)
   return organs;
 }
 
+// where the image gives none
+void colorAs(std::vector<FileOrgan>& organs, const std::filesystem::path& names)
+{
+  const auto colors = names.empty() ? std::map<double, std::string>() : readLabelColors(names);
+  for (FileOrgan& organ : organs)
+  {
+    const auto found = colors.find(csvNumber(organ.label).value_or(-1.0)); // 2+3 is none
+    organ.color = organ.color.empty() && found != colors.end() ? found->second : organ.color;
+  }
+}
+
 ImportSource sourceOf(const ImportOptions& options, const FileOrgans& organs, LengthUnit unit)
 {
   ImportSource source{ .image = describeFile(options.image), .names = options.names.filename() };
@@ -201,7 +213,10 @@ void runImport(const ImportOptions& options)
   if (options.out.empty())
   {
     const FileOrgans organs = found(options);
-    std::cout << (organs.organs.empty() ? "" : listOf(organs, options.unit));
+    const UnitChoice known = options.unit ? options.unit : unitNamed(organs.unit);
+    std::cout << (organs.organs.empty() ? "" : listOf(organs, known));
+    known || organs.organs.empty() ? void()
+                                   : tell("the file names no unit; give --unit mm for volumes");
     return;
   }
   const auto output = openOutput(
@@ -209,6 +224,7 @@ void runImport(const ImportOptions& options)
   const Interrupt interrupt([&output] { output->discard(); });
   FileOrgans all = found(options);
   std::vector<std::string> warnings;
+  colorAs(all.organs, options.names);
   const LengthUnit unit = unitOf(all, options.unit, options.image, warnings);
   const ImportSource source = sourceOf(options, all, unit);
   std::vector<std::string> files;
@@ -250,7 +266,8 @@ void addParts(CLI::App& command, ImportOptions& options)
 {
   ImagePart* part = &options.part;
   addParsed(command, "--names",
-    "Table of the labels' names: of 3D Slicer, ITK-SNAP, or JSON as of TotalSegmentator", "",
+    "Table of the labels' names and colors: of 3D Slicer, ITK-SNAP, or JSON as of TotalSegmentator",
+    "",
     [&options](const std::string& text)
     {
       options.names = text;
@@ -286,7 +303,8 @@ void addImportCommand(CLI::App& app)
     "Make organs of a segmentation or a scan: smooth closed surfaces and a scene that opens them");
   command
     ->add_option("IN", options->image,
-      "Image: MHA, MHD, NII, NII.GZ, NRRD, VTI; a DICOM segmentation; a folder of DICOM images")
+      "Image: MHA, MHD, NII, NII.GZ, NRRD, NHDR, VTI; a DICOM segmentation; a folder of DICOM "
+      "images")
     ->required();
   command->add_option("--out", options->out, "Folder for it; without it the labels are listed");
   addParts(*command, *options);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "pipeline/process/file_organs.h"
 #include "pipeline/surface_io/length_unit.h"
 

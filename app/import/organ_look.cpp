@@ -34,7 +34,10 @@ constexpr std::array kKnown{ Known{ "vessel", { "show", "#d8654f", nullptr } },
   Known{ "body", { "through", "#b17a65", "skin" } },
   Known{ "fat", { "through", "#e6dc46", "fat" } }, Known{ "bone", { "show", "#f1d691", nullptr } },
   Known{ "rib", { "show", "#f1d691", nullptr } },
-  Known{ "vertebra", { "show", "#f1d691", nullptr } } };
+  Known{ "vertebra", { "show", "#f1d691", nullptr } },
+  Known{ "spine", { "show", "#f1d691", nullptr } },
+  Known{ "sacrum", { "show", "#f1d691", nullptr } },
+  Known{ "femur", { "show", "#f1d691", nullptr } } };
 
 // of names that tell nothing, in turn: muscle, tissue, connective tissue, bone, mass
 constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", "#f1d691", "#90ee90" };

@@ -6,8 +6,10 @@
 #include "haptics/files/input_text.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
+#include <span>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -19,27 +21,36 @@ namespace
 
 constexpr std::string_view kHash = ", SHA-256 ";
 
-// where the voxels of a MetaImage are; empty: in the file itself
-std::filesystem::path dataBeside(const std::filesystem::path& file)
+// what follows one of some words and a sign at the beginning of a line, without blanks
+std::string fieldIn(
+  const std::filesystem::path& file, std::span<const std::string_view> words, char sign)
 {
-  if (file.extension() != ".mhd")
-  {
-    return {};
-  }
   std::ifstream in(file, std::ios::binary);
   for (std::string line; std::getline(in, line);)
   {
     constexpr std::string_view blanks = " \t\r";
-    const std::size_t equals = line.find('=');
-    if (line.starts_with("ElementDataFile") && equals != line.npos)
+    const std::size_t found = line.find(sign);
+    const auto isKey = [&](std::string_view word) { return line.starts_with(word); };
+    if (found != line.npos && std::ranges::any_of(words, isKey))
     {
-      const std::size_t begin = line.find_first_not_of(blanks, equals + 1);
+      const std::size_t begin = line.find_first_not_of(blanks, found + 1);
       const std::size_t end = line.find_last_not_of(blanks) + 1;
-      const std::string name = begin < end ? line.substr(begin, end - begin) : "";
-      return name == "LOCAL" || name.empty() ? "" : file.parent_path() / name;
+      return begin < end ? line.substr(begin, end - begin) : "";
     }
   }
   return {};
+}
+
+// where the voxels of a header are; empty: in the file itself
+std::filesystem::path dataBeside(const std::filesystem::path& file)
+{
+  static constexpr std::array<std::string_view, 1> kMeta{ "ElementDataFile" };
+  static constexpr std::array<std::string_view, 2> kNrrd{ "data file", "datafile" };
+  const std::string ending = lowered(file.extension().string());
+  const std::string name = ending == ".mhd" ? fieldIn(file, kMeta, '=')
+    : ending == ".nhdr"                     ? fieldIn(file, kNrrd, ':')
+                                            : std::string();
+  return name == "LOCAL" || name.empty() ? "" : file.parent_path() / name;
 }
 
 } // namespace

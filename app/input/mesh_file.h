@@ -16,15 +16,16 @@ namespace palp
 /// Where a surface came from, so that the same one can be found again.
 struct MeshFile
 {
-  std::string name;   ///< without its folder
-  std::string sha256; ///< of its bytes, hexadecimal; of MHD with those of its data behind
-  std::string unit;   ///< that its coordinates were read in
-  std::string space;  ///< axes of its coordinates: "LPS" of a patient, else empty
-  ImagePart part;     ///< of an image
+  std::string name; ///< without its folder
+  std::string
+    sha256;          ///< of its bytes, hexadecimal; of MHD and NHDR with those of their data behind
+  std::string unit;  ///< that its coordinates were read in
+  std::string space; ///< axes of its coordinates: "LPS" of a patient, else empty
+  ImagePart part;    ///< of an image
   bool moved = false; ///< by the frame that a scene gives it
 };
 
-/// The file, and the one behind it that holds the voxels of an MHD.
+/// The file, and the one behind it that holds the voxels of an MHD or NHDR.
 [[nodiscard]] std::vector<std::filesystem::path> filesBehind(const std::filesystem::path& file);
 
 /// Device, node, size, and times of content and of entry, of a file and of that behind it: others

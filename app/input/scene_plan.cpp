@@ -27,6 +27,21 @@ DeviceChoice parseDevice(const std::string& name)
     .file = script ? name.substr(name.find(':') + 1) : "" };
 }
 
+void checkHands(const DeviceChoice& first, const DeviceChoice& second)
+{
+  if (second.kind == DeviceChoice::Kind::Mouse || second.kind == DeviceChoice::Kind::Hand)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--device: '" + second.name +
+        "' follows the pointer, which leads the first hand; give it first, or another device");
+  }
+  if (second.kind == DeviceChoice::Kind::Driver && second.name == first.name)
+  {
+    throw Error(ErrorCode::BadValue,
+      "--device: two hands cannot share '" + second.name + "'; name another device");
+  }
+}
+
 void checkExists(const MeshSource& mesh)
 {
   if (mesh.bundled.empty() && !std::filesystem::exists(mesh.file))

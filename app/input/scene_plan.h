@@ -64,6 +64,10 @@ struct DeviceChoice
 /// mouse, hand, path:FILE, replay:FILE, or the name of a driver's device.
 [[nodiscard]] DeviceChoice parseDevice(const std::string& name);
 
+/// Whether two hands can have these at once.
+/// @throws Error  BadValue: the same hardware, or a second that follows the pointer
+void checkHands(const DeviceChoice& first, const DeviceChoice& second);
+
 /// A press of before, which is repeated sample by sample.
 struct RecordedPress
 {
@@ -108,6 +112,7 @@ struct ScenePlan
   std::vector<OrganPlan> organs{}; ///< one for each mesh, each pressed by itself; none: one body
   PressOptions press{};
   DeviceChoice device{};
+  std::optional<DeviceChoice> second{};     ///< of another hand, in a window; none: one hand
   std::optional<PlacedPresses> presses{};   ///< instead of a device
   std::optional<RecordedPress> recording{}; ///< instead of a device
   std::optional<TrainingPlan> training{};   ///< nodules to be found in the only body

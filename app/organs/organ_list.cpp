@@ -89,12 +89,13 @@ QToolButton* makeButton(const char* name, std::size_t place)
   return button;
 }
 
-ChoiceBox* makeChoice(const char* name, std::size_t place, const QStringList& choices)
+// at least so many letters wide; all of them are in its list
+ChoiceBox* makeChoice(const char* name, std::size_t place, const QStringList& choices, int letters)
 {
-  constexpr int kLetters = 7; // at least; all of them are in its list
   auto* box = new ChoiceBox((name + std::to_string(place)).c_str(), choices);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  box->setMinimumContentsLength(kLetters);
+  box->setIconSize(QSize(0, 0)); // there is none, and the names of organs want the room
+  box->setMinimumContentsLength(letters);
   return box;
 }
 
@@ -120,7 +121,8 @@ OrganList::OrganList(QWidget* parent)
   rows_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   rows_->header()->setMinimumSectionSize(kIcon);
   rows_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  rows_->header()->setSectionResizeMode(kTissue, QHeaderView::Stretch);
+  rows_->header()->setStretchLastSection(false);
+  rows_->header()->setSectionResizeMode(kName, QHeaderView::Stretch); // cut where it is long
   connect(rows_, &QTreeWidget::currentItemChanged, this, &OrganList::chosenChanged);
 }
 
@@ -160,11 +162,13 @@ void OrganList::show(const std::vector<OrganPlan>& organs)
 
 void OrganList::addRow(std::size_t place)
 {
+  constexpr int kRoleLetters = 6; // of the widest
+  constexpr int kTissueLetters = 7;
   auto* row = new QTreeWidgetItem(rows_);
   auto* eye = makeButton("organEye", place);
   auto* color = makeButton("organColor", place);
   color->setToolTip(tr("Color"));
-  ChoiceBox* role = makeChoice("organRole", place, roleNames());
+  ChoiceBox* role = makeChoice("organRole", place, roleNames(), kRoleLetters);
   role->setToolTip(tr("Pressed: felt and opaque\nThrough and Shown: seen, and no obstacle to the "
                       "tool"));
   QStringList tissues;
@@ -172,7 +176,7 @@ void OrganList::addRow(std::size_t place)
   {
     tissues << QString::fromStdString(preset.title);
   }
-  ChoiceBox* tissue = makeChoice("organTissue", place, tissues << tr("Custom"));
+  ChoiceBox* tissue = makeChoice("organTissue", place, tissues << tr("Custom"), kTissueLetters);
   rows_->setItemWidget(row, kEye, eye);
   rows_->setItemWidget(row, kColor, color);
   rows_->setItemWidget(row, kRole, role);
@@ -195,6 +199,7 @@ void OrganList::showRow(std::size_t place)
   const OrganPlan& organ = organs_[place];
   const QString name = QString::fromStdString(organ.name);
   rows_->topLevelItem(static_cast<int>(place))->setText(kName, name);
+  rows_->topLevelItem(static_cast<int>(place))->setToolTip(kName, name);
   const bool isSeen = organ.role != OrganRole::Hide;
   auto* eye = partOf<QToolButton>(*rows_, place, kEye);
   eye->setIcon(eyeIcon(palette(), isSeen));
@@ -208,8 +213,10 @@ void OrganList::showRow(std::size_t place)
   choice(kRole)->show(static_cast<int>(organ.role));
   choice(kTissue)->show(presetOf(organ));
   const double young = units::toKilopascals(organ.press.tissue.young);
-  choice(kTissue)->setToolTip(
-    tr("E = %1 kPa, \u03bd = %2").arg(young, 0, 'g', 4).arg(organ.press.tissue.poisson, 0, 'g', 3));
+  choice(kTissue)->setToolTip(tr("%1: E = %2 kPa, \u03bd = %3")
+                                .arg(choice(kTissue)->currentText())
+                                .arg(young, 0, 'g', 4)
+                                .arg(organ.press.tissue.poisson, 0, 'g', 3));
 }
 
 // what is refused is shown again by whoever refuses

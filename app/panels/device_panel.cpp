@@ -7,6 +7,7 @@
 #include <QCheckBox>
 #include <QColor>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QEvent>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -15,6 +16,7 @@
 #include <QSignalBlocker>
 
 #include <cmath>
+#include <utility>
 
 namespace palp
 {
@@ -38,6 +40,25 @@ QString colored(const appearance::Color& color, const QString& text)
     .arg(QColor::fromRgbF(color[0], color[1], color[2]).name(), text);
 }
 
+// with a name that it may not have had
+void select(QComboBox& list, const QString& name)
+{
+  const QSignalBlocker quiet(&list);
+  if (list.findText(name) < 0)
+  {
+    list.addItem(name);
+  }
+  list.setCurrentText(name);
+}
+
+// of a row that can be away with its title
+void showRow(QWidget& field, bool shown)
+{
+  auto* form = qobject_cast<QFormLayout*>(field.parentWidget()->layout());
+  form->labelForField(&field)->setVisible(shown);
+  field.setVisible(shown);
+}
+
 // a dot as in traffic: may a hand feel something?
 QString stateText(const Sample& sample)
 {
@@ -56,11 +77,36 @@ QString stateText(const Sample& sample)
   return advice.isEmpty() ? text : text + "<br>" + advice;
 }
 
+QString handText(bool renders, const Sample& sample)
+{
+  return renders ? stateText(sample) : DevicePanel::tr("Display only: no force feedback");
+}
+
+QString forceText(bool renders, const Sample& sample)
+{
+  const QString model = DevicePanel::tr("model %1 N").arg(sample.response.force, 0, 'f', 2);
+  return renders ? DevicePanel::tr("%1, sent %2 N").arg(model).arg(sample.force.norm(), 0, 'f', 2)
+                 : model;
+}
+
+// of each hand, where there are two
+template <typename Text>
+QString ofHands(const Session& session, const Sample& first, const Sample* second, Text text,
+  const char* lineBreak)
+{
+  const QString one = text(session.rendersForce(0), first);
+  return second == nullptr
+    ? one
+    : "1: " + one + lineBreak + "2: " + text(session.rendersForce(1), *second);
+}
+
 } // namespace
 
 DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   : QWidget(parent)
   , device_(new QComboBox)
+  , second_(new QComboBox)
+  , scale_(new QDoubleSpinBox)
   , lag_(new QCheckBox(tr("Tool lags where it is stiff")))
   , arm_(new QPushButton(tr("Turn force on")))
   , stop_(new QPushButton(tr("STOP (Esc)")))
@@ -71,6 +117,7 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   device_->setObjectName("device");
   device_->addItems(devices);
   form->addRow(tr("Input device"), device_);
+  addPlaces(*form);
 
   lag_->setObjectName("lag");
   lag_->setToolTip(tr("Stiffness for the eye: the tool goes half as deep as asked in the tissue in "
@@ -103,6 +150,30 @@ DevicePanel::DevicePanel(const QStringList& devices, QWidget* parent)
   connect(device_, &QComboBox::currentTextChanged, this, &DevicePanel::deviceChanged);
 }
 
+// what is there only with a device that is held in a hand
+void DevicePanel::addPlaces(QFormLayout& form)
+{
+  second_->setObjectName("second-device");
+  second_->setAccessibleName(tr("Second hand"));
+  second_->setToolTip(tr("What another hand moves a tool of its own with, in the same body"));
+  form.addRow(tr("Second hand"), second_);
+  scale_->setObjectName("scale");
+  scale_->setAccessibleName(tr("Scale"));
+  scale_->setToolTip(tr("s [-], more than 0, 0.2 to 5: motion of the tool by that of the hand; a "
+                        "newton stays one. While C is held the tool stays and the hand goes on"));
+  scale_->setRange(1.0 / DevicePlacement::kLargestScale, DevicePlacement::kLargestScale);
+  scale_->setSingleStep(0.1);
+  scale_->setKeyboardTracking(false);
+  form.addRow(tr("Scale"), scale_);
+  showRow(*second_, false);
+  showRow(*scale_, false);
+  second_->addItem(tr("none"));
+  connect(second_, &QComboBox::currentTextChanged, this,
+    [this](const QString& name) { Q_EMIT secondChanged(name == tr("none") ? QString() : name); });
+  connect(
+    scale_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DevicePanel::scaleChanged);
+}
+
 void DevicePanel::changeEvent(QEvent* event)
 {
   QWidget::changeEvent(event);
@@ -115,28 +186,32 @@ void DevicePanel::changeEvent(QEvent* event)
   }
 }
 
-void DevicePanel::offer(const QStringList& devices)
+void DevicePanel::offer(const QStringList& devices, const QStringList& second)
 {
-  const QSignalBlocker quiet(device_);
-  const QString current = device_->currentText();
-  device_->clear();
-  device_->addItems(devices);
-  device_->setCurrentText(current);
-}
-
-void DevicePanel::choose(const QString& device)
-{
-  const QSignalBlocker quiet(device_);
-  if (device_->findText(device) < 0)
+  for (const auto& [list, names] : { std::pair(device_, devices), std::pair(second_, second) })
   {
-    device_->addItem(device);
+    const QSignalBlocker quiet(list);
+    const QString current = list->currentText();
+    list->clear();
+    list->addItems(names);
+    select(*list, current);
   }
-  device_->setCurrentText(device);
 }
 
-void DevicePanel::show(const Session& session, const Sample& sample, std::uint32_t acting)
+void DevicePanel::choose(const QString& device, const QString& second)
+{
+  select(*device_, device);
+  select(*second_, second.isEmpty() ? tr("none") : second);
+  showRow(*second_, second_->count() > 1);
+}
+
+void DevicePanel::show(
+  const Session& session, const Sample& sample, const Sample* second, std::uint32_t acting)
 {
   const bool renders = session.rendersForce();
+  const QSignalBlocker quiet(scale_);
+  showRow(*scale_, session.isPlaced());
+  scale_->hasFocus() ? void() : scale_->setValue(session.scale());
   lag_->setEnabled(!renders && session.scripted() == nullptr);
   arm_->setVisible(renders); // what the device cannot do takes no room
   stop_->setVisible(renders);
@@ -146,10 +221,8 @@ void DevicePanel::show(const Session& session, const Sample& sample, std::uint32
   arm_->setChecked(renders && session.armed());
   arm_->setText(renders && session.armed() ? tr("Turn force off") : tr("Turn force on"));
   stop_->setEnabled(renders);
-  state_->setText(renders ? stateText(sample) : tr("Display only: no force feedback"));
-  const QString model = tr("model %1 N").arg(sample.response.force, 0, 'f', 2);
-  force_->setText(
-    renders ? tr("%1, sent %2 N").arg(model).arg(sample.force.norm(), 0, 'f', 2) : model);
+  state_->setText(ofHands(session, sample, second, handText, "<br>"));
+  force_->setText(ofHands(session, sample, second, forceText, "\n"));
 
   QString text = tr("%1 N").arg(session.largestForce(), 0, 'g', 3);
   if (renders)
@@ -157,7 +230,8 @@ void DevicePanel::show(const Session& session, const Sample& sample, std::uint32
     const double stiffest = units::toNewtonsPerMillimeter(session.stableStiffness());
     text += tr(" and %1 N/mm").arg(stiffest, 0, 'g', 3);
   }
-  if (!isFault(sample.state, sample.flags))
+  const bool isSecondFaulty = second != nullptr && isFault(second->state, second->flags);
+  if (!isFault(sample.state, sample.flags) && !isSecondFaulty)
   {
     const std::string names = describeFlags(acting);
     text += names.empty() ? QString()

@@ -22,7 +22,7 @@
 namespace palp
 {
 
-const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.vti *.dcm";
+const char* const kImageFiles = "*.mha *.mhd *.nii *.nii.gz *.nrrd *.nhdr *.vti *.dcm";
 
 bool isImageFile(const QString& file)
 {

@@ -14,6 +14,7 @@
 #include <QStyle>
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp
 {
@@ -35,6 +36,12 @@ QString textOf(const Eigen::Vector3d& place)
 }
 
 } // namespace
+
+double depthToType(const Contact& deepest)
+{
+  constexpr double kStep = 1e-6; // [m], to which a tool comes as deep as it is asked
+  return kStep * std::round(deepest.depth / kStep);
+}
 
 PressBar::PressBar(QWidget* parent)
   : QToolBar(tr("Press at a place"), parent)
@@ -161,9 +168,9 @@ PlacedPresses PressBar::presses()
 {
   const QString text = place_->text();
   const int last = text.lastIndexOf(',');
-  const QString behind = text.mid(last + 1).trimmed();
-  if (std::ranges::any_of(behind, [](QChar c) { return c.isLetter(); })) // a unit
+  if (text.count(',') == 3 && !text.contains(';')) // x,y,z and a depth
   {
+    const QString behind = text.mid(last + 1).trimmed();
     depth_->setSi(parsePressDepth(behind.toStdString(), "Depth"));
     depth_->forget();
     place_->setText(text.left(last));
@@ -181,7 +188,7 @@ void PressBar::showPlace(const Eigen::Vector3d& place)
 void PressBar::showPress(const Contact& deepest)
 {
   showPlace(deepest.center);
-  depth_->setSi(deepest.depth);
+  depth_->setSi(depthToType(deepest));
   depth_->forget();
 }
 

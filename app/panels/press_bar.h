@@ -14,6 +14,9 @@ namespace palp
 
 class QuantityBox;
 
+/// A depth that may be asked for again, to a micrometer [m].
+[[nodiscard]] double depthToType(const Contact& deepest);
+
 /// Where to press, how deep and how fast, to be typed; the place of the last press stands there.
 class PressBar : public QToolBar
 {

@@ -43,7 +43,7 @@ QString contrastText(std::size_t number, double contrast)
   for (const JustNoticeable& difference : kJustNoticeable)
   {
     text += QStringLiteral("&nbsp;&nbsp;%1 times the %2 % that people notice of %3<br>")
-              .arg(std::abs(contrast) / difference.fraction, 0, 'f', 1)
+              .arg(std::abs(difference.difference(contrast)) / difference.fraction, 0, 'f', 1)
               .arg(100.0 * difference.fraction, 0, 'f', 0)
               .arg(difference.name);
   }

@@ -1,38 +1,75 @@
 #include "app/places/met_organ.h"
 
 #include "app/places/placed_press.h"
-#include "app/press/playback.h"
+#include "haptics/contact/find_contact.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 
+#include <utility>
+
 namespace palp
 {
-
-std::string noteOfOrgan(
-  const PressPlace& place, const PlacedPresses& presses, const Recording& recording)
+namespace
 {
-  const Scene& scene = recording.scene;
-  if (scene.others.empty())
+
+std::string whereOf(const PressPlace& place, const std::string& asked)
+{
+  return "the place " + inWords(place) + " is on " + printable(asked) + ", but ";
+}
+
+} // namespace
+
+void checkStart(
+  const PressPlace& place, int asked, const ToolPose& start, const Recording& recording)
+{
+  for (int i = 0; i < organCount(recording.scene); ++i)
   {
-    return {};
+    const Scene& organ = organOf(recording.scene, i);
+    if (i != asked && findContact(*organ.surface, organ.law.tip(), start, organ.rule).touching())
+    {
+      const std::string covering = printable(recording.organName(i));
+      throw Error(ErrorCode::BadValue,
+        whereOf(place, recording.organName(asked)) + "a tool comes to it through " + covering +
+          " only; give a place on " + covering + ", or give that a role other than press");
+    }
   }
-  PlacedPresses one = presses;
-  one.places = { place };
-  const std::vector<Sample> samples = playEach(pathsOf(one, scene), scene);
-  const std::string asked = printable(recording.organName(organAt(place, presses, scene)));
-  const std::string start = "the place " + inWords(place) + " is on " + asked + ", but ";
-  if (const Sample& first = samples.front(); first.contact.touching())
-  {
-    const std::string covering = printable(recording.organName(first.organ));
-    throw Error(ErrorCode::BadValue,
-      start + "a tool comes to it through " + covering + " only; give a place on " + covering +
-        ", or give that a role other than press");
-  }
-  const Sample* deepest = deepestOf(samples);
-  const std::string met = deepest ? printable(recording.organName(deepest->organ)) : asked;
+}
+
+std::string noteOfOrgan(const PressPlace& place, const std::string& asked, const std::string& met)
+{
+  const std::string other = printable(met);
   return met == asked ? ""
-                      : start + "the tool meets " + met + " first and presses that; give " + met +
-      " a role other than press, or take a smaller tool";
+                      : whereOf(place, asked) + "the tool meets " + other +
+      " first and presses that; give " + other + " a role other than press, or take a smaller tool";
+}
+
+void AwaitedPress::begin(
+  const PlacedPresses& presses, const Recording& recording, const PressLog& log)
+{
+  place_.reset();
+  if (recording.scene.others.empty())
+  {
+    return;
+  }
+  const PressPlace& place = presses.places.front();
+  const int asked = organAt(place, presses, recording.scene);
+  const ScriptedPath path = pathsOf(presses, recording.scene).front();
+  checkStart(place, asked, path.poseAt(0.0, -Eigen::Vector3d::UnitZ()), recording);
+  place_ = place;
+  asked_ = recording.organName(asked);
+  before_ = log.presses().empty() ? 0 : log.presses().back().id;
+}
+
+std::string AwaitedPress::end(const PressLog& log)
+{
+  const KeptPress* deepest = nullptr;
+  for (const KeptPress& press : log.presses())
+  {
+    const double depth = deepest != nullptr ? deepest->summary.deepest.depth : 0.0;
+    deepest = press.id > before_ && press.summary.deepest.depth > depth ? &press : deepest;
+  }
+  const std::optional<PressPlace> place = std::exchange(place_, std::nullopt);
+  return place && deepest != nullptr ? noteOfOrgan(*place, asked_, deepest->organ) : "";
 }
 
 } // namespace palp

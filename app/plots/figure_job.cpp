@@ -27,6 +27,7 @@ void packMap(std::string& bytes, const SurfaceMap& map)
   packValues(bytes, std::string(map.values->GetName()));
   packValues(bytes, valuesOf(map));
   packValues(bytes, map.title);
+  packValues(bytes, map.origin);
   packOne(bytes, map.low);
   packOne(bytes, map.high);
 }
@@ -36,7 +37,8 @@ bool unpackMap(std::string_view& bytes, SurfaceMap& map)
   std::string name;
   std::vector<float> values;
   const bool read = unpackValues(bytes, name) && unpackValues(bytes, values) &&
-    unpackValues(bytes, map.title) && unpackOne(bytes, map.low) && unpackOne(bytes, map.high);
+    unpackValues(bytes, map.title) && unpackValues(bytes, map.origin) &&
+    unpackOne(bytes, map.low) && unpackOne(bytes, map.high);
   map.values = vtkSmartPointer<vtkFloatArray>::New();
   map.values->SetName(name.c_str());
   for (const float value : values)

@@ -2,6 +2,7 @@
 
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
+#include "app/press/review.h"
 #include "haptics/units.h"
 #include "pipeline/charts/plot_files.h"
 #include "pipeline/figure/orientation.h"
@@ -70,6 +71,8 @@ PressMoment momentOf(const SceneBody& body, const Recording& recording,
   const SceneBody& pressed = body.felt(organs, sample.organ);
   PressMoment moment{ pressed, organOf(recording.scene, sample.organ).law,
     organOf(calibration, sample.organ), sample, map };
+  moment.second =
+    recording.second ? nearestSample(recording.second->samples, sample.time) : nullptr;
   for (std::size_t i = 0; i < organs.size(); ++i)
   {
     const SceneBody& organ = body.organs[i];
@@ -105,10 +108,10 @@ void prepareView(PressView& view, Surroundings& around, const PressMoment& momen
   view.setMap(moment.map);
 }
 
-void showMoment(PressView& view, Surroundings& around, const PressMoment& moment)
+void showMoment(PressView& view, OtherHand& other, Surroundings& around, const PressMoment& moment)
 {
   prepareView(view, around, moment);
-  view.show(moment.sample);
+  other.show(moment.sample, moment.second);
 }
 
 bool isPatient(const SceneBody& body)
@@ -116,16 +119,25 @@ bool isPatient(const SceneBody& body)
   return spaceOf(body.files) == "LPS";
 }
 
+std::string toolAndTissue(const ForceLaw& law)
+{
+  const Material& tissue = law.material();
+  return describeTip(law.tip()) +
+    ", E = " + appearance::fixedText(units::toKilopascals(tissue.youngModulus), 1) +
+    " kPa, \u03bd = " + appearance::fixedText(tissue.poissonRatio, 2) + ", " +
+    describeLaw(law.settings());
+}
+
 std::string captionOf(const PressMoment& moment)
 {
-  const Material& tissue = moment.law.material();
-  const auto number = [](double value, int decimals)
-  { return appearance::fixedText(value, decimals); };
-  return moment.body.name + ", " + describeTip(moment.law.tip()) +
-    ", E = " + number(units::toKilopascals(tissue.youngModulus), 1) +
-    " kPa, \u03bd = " + number(tissue.poissonRatio, 2) + ", " + describeLaw(moment.law.settings()) +
-    "\ndepth " + number(units::toMillimeters(moment.sample.contact.depth), 2) + " mm, force " +
-    number(moment.sample.response.force, 2) + " N";
+  const std::string ofMap = moment.map != nullptr ? moment.map->origin : "";
+  const std::string press = toolAndTissue(moment.law) + "\ndepth " +
+    appearance::fixedText(units::toMillimeters(moment.sample.contact.depth), 2) + " mm, force " +
+    appearance::fixedText(moment.sample.response.force, 2) + " N";
+  return moment.body.name + ", " +
+    (ofMap.empty()                         ? press
+        : moment.sample.contact.touching() ? ofMap + "\npressed by " + press
+                                           : ofMap);
 }
 
 int dpiOf(ImageSize size)
@@ -148,6 +160,7 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   vtkNew<vtkRenderer> renderer;
   window.AddRenderer(renderer);
   PressView view(*renderer);
+  OtherHand other(*renderer, view);
   Orientation orientation(*renderer);
   orientation.setPatient(isPatient(moment.body));
   orientation.setVisible(figure.hasAxes);
@@ -158,9 +171,10 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
   renderer->SetUseFXAA(samples == 0 && !figure.isRealistic);
   widenLines(*renderer, scale);
   Surroundings around(*renderer);
-  showMoment(view, around, moment);
+  showMoment(view, other, around, moment);
   look(view, *renderer);
   view.setLook(figure.body);
+  moment.second != nullptr ? other.show(moment.sample, moment.second) : void();
   Realism realism(*renderer);
   if (figure.isRealistic)
   {
@@ -176,7 +190,7 @@ void drawFigure(vtkRenderWindow& window, const PressMoment& moment, const Figure
     renderer->SetBackground(0.0, 0.0, 0.0);
     renderer->SetBackgroundAlpha(0.0);
   }
-  use(view, around, *renderer);
+  use(view, other, around, *renderer);
   window.RemoveRenderer(renderer);
 }
 
@@ -184,7 +198,7 @@ void writeFigure(vtkRenderWindow& window, const PressMoment& moment, const Figur
   const ViewUse& look, const std::filesystem::path& file)
 {
   drawFigure(window, moment, figure, look,
-    [&](PressView&, Surroundings&, vtkRenderer&)
+    [&](PressView&, OtherHand&, Surroundings&, vtkRenderer&)
     { writePng(window, file, figure.isTransparent ? Backdrop::Transparent : Backdrop::Opaque); });
 }
 

@@ -5,6 +5,7 @@
 #include "app/press/calibration.h"
 #include "app/press/recording.h"
 #include "haptics/servo/sample.h"
+#include "pipeline/figure/other_hand.h"
 #include "pipeline/figure/surroundings.h"
 #include "pipeline/model/overlay.h"
 #include "pipeline/view/press_view.h"
@@ -30,7 +31,8 @@ struct PressMoment
   const SurfaceMap* map = nullptr; ///< colors of the body; null: its own
   appearance::Color color = appearance::kLiver;
   std::vector<Surrounding> around{};
-  vtkPolyData* drawn = nullptr; ///< in the place of the body's surface; null: that one
+  const Sample* second = nullptr; ///< of another hand at that time; null: there is none
+  vtkPolyData* drawn = nullptr;   ///< in the place of the body's surface; null: that one
 };
 
 /// That of a sample in a recording: of several organs, the one that it tells of amid the others.
@@ -54,12 +56,16 @@ struct FigureLook
 void prepareView(PressView& view, Surroundings& around, const PressMoment& moment);
 
 /// A view as it is drawn for a moment.
-void showMoment(PressView& view, Surroundings& around, const PressMoment& moment);
+void showMoment(PressView& view, OtherHand& other, Surroundings& around, const PressMoment& moment);
 
 /// Whether the coordinates are a patient's: x to the left, y to the back, z to the head.
 [[nodiscard]] bool isPatient(const SceneBody& body);
 
-/// Tool, tissue, law, depth and force in a line.
+/// Tool, tissue and law, for people.
+[[nodiscard]] std::string toolAndTissue(const ForceLaw& law);
+
+/// Tool, tissue, law, depth and force; of a map what that comes from, and the press where there is
+/// one.
 [[nodiscard]] std::string captionOf(const PressMoment& moment);
 
 /// The dots per inch at which a picture has the letters and lines of a smaller one, larger.
@@ -67,7 +73,8 @@ void showMoment(PressView& view, Surroundings& around, const PressMoment& moment
 
 using ViewUse = std::function<void(PressView& view, vtkRenderer& renderer)>;
 
-using FigureUse = std::function<void(PressView& view, Surroundings& around, vtkRenderer& renderer)>;
+using FigureUse = std::function<void(
+  PressView& view, OtherHand& other, Surroundings& around, vtkRenderer& renderer)>;
 
 /// Shows a press in a window of no renderers yet, as large as the picture, while it is used.
 ///

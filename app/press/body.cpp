@@ -8,7 +8,7 @@
 #include "haptics/contact/embed_stiffness.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
@@ -108,15 +108,10 @@ std::shared_ptr<const ComplianceField> placedCompliance(
       "file, or leave it out");
   }
   OrganTable table = readOrganOf(source.organ, identityOf(felt));
-  const Eigen::Isometry3d frame = source.frame();
-  for (PlacedCompliance& place : table.places)
-  {
-    place.position = frame * place.position;
-    place.normal = frame.linear() * place.normal;
-    place.slope = frame.linear() * place.slope;
-  }
-  return std::make_shared<const ComplianceField>(
-    std::move(table.places), table.spacing, table.poisson);
+  table.place(source.frame());
+  return std::make_shared<const ComplianceField>(std::move(table.places), table.spacing,
+    table.poisson,
+    table.motion.places.empty() ? nullptr : std::make_shared<const OrganMotion>(table.motion));
 }
 
 void checkUnchanged(const std::filesystem::path& file, const FileStamps& before)

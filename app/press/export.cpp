@@ -23,8 +23,9 @@ namespace palp
 
 Press pressOf(const Sample& sample, const Tip& tip, const Calibration& calibration)
 {
-  const double extent = calibration.extents.extentRadius(drawnDepth(sample));
-  return pressOf(sample, tip, extent, calibration.style);
+  return pressOf(
+    sample, tip, [&](double depth) { return calibration.extents.extentRadius(depth); },
+    calibration.style);
 }
 
 void writeDeformed(const std::filesystem::path& file, const SceneBody& body,

@@ -22,7 +22,7 @@ double ForceHistory::deepest() const noexcept
 ForceHistory readForceHistory(const std::filesystem::path& file)
 {
   constexpr double kLargest = 1.0; // [m], either side of the surface
-  const NumberTable table = NumberTable::readColumns(file, std::array{ "time_s", "depth_mm" });
+  const NumberTable table = NumberTable::readRecording(file, std::array{ "time_s", "depth_mm" });
   ForceHistory history;
   for (const auto& [values, line] : table.rows)
   {

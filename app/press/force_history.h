@@ -22,8 +22,8 @@ struct ForceHistory
 
 /// Reads a CSV whose header names time_s and depth_mm among any others.
 ///
-/// @throws Error  BadFile: as NumberTable::readColumns; no row, times that do not increase, a depth
-///                beyond 1 m
+/// @throws Error  BadFile: as NumberTable::readRecording; no row, times that do not increase, a
+///                depth beyond 1 m
 [[nodiscard]] ForceHistory readForceHistory(const std::filesystem::path& file);
 
 /// The force at each point of a history, at one place.

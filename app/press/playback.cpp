@@ -108,15 +108,17 @@ bool isFinerThanSamples(const ScriptedPath& path)
   return std::ranges::adjacent_find(path.knots(), isFine) != path.knots().end();
 }
 
-std::vector<Sample> playEach(
-  const std::vector<ScriptedPath>& paths, const Scene& scene, bool chained)
+std::vector<Sample> playEach(const std::vector<ScriptedPath>& paths, const Scene& scene,
+  bool chained, const std::function<void(std::span<const Sample>)>& played)
 {
   constexpr double kPause = 100.0; // ticks
   double start = 0.0;              // of a path, in ticks
   std::vector<Sample> all;
   for (const ScriptedPath& path : paths)
   {
-    for (Sample& sample : play(path, scene, chained))
+    std::vector<Sample> samples = play(path, scene, chained);
+    played ? played(samples) : void();
+    for (Sample& sample : samples)
     {
       // on the grid of milliseconds, so that no sum of two times rounds off it
       const double ticks = (sample.time - path.startTime()) * kTicksPerSecond;

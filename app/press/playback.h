@@ -4,6 +4,8 @@
 #include "haptics/servo/sample.h"
 #include "haptics/servo/scene.h"
 
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace palp
@@ -23,7 +25,9 @@ namespace palp
 
 /// Plays one path after the other, each as play() does, with 0.1 s between them in which the tool
 /// is taken to the next one's start.
-[[nodiscard]] std::vector<Sample> playEach(
-  const std::vector<ScriptedPath>& paths, const Scene& scene, bool chained = false);
+/// @param played  is given the samples of each, in the order of the paths
+[[nodiscard]] std::vector<Sample> playEach(const std::vector<ScriptedPath>& paths,
+  const Scene& scene, bool chained = false,
+  const std::function<void(std::span<const Sample>)>& played = nullptr);
 
 } // namespace palp

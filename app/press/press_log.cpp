@@ -1,6 +1,7 @@
 #include "app/press/press_log.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace palp
@@ -11,22 +12,22 @@ namespace
 // from the last sample before a time on
 Recording partOf(const Recording& recording, double from)
 {
-  Recording part;
-  part.device = recording.device;
-  part.mesh = recording.mesh;
-  part.unit = recording.unit;
-  part.files = recording.files;
-  part.organs = recording.organs;
-  part.command = recording.command;
-  part.scene = recording.scene;
-  part.rated = recording.rated;
-  part.interval = recording.interval;
+  Recording part = recording.head();
+  part.names.clear();
   const std::vector<Sample>& all = recording.samples;
   auto first = std::ranges::lower_bound(all, from, {}, &Sample::time);
   first -= first == all.begin() ? 0 : 1;
   const auto leftOut = static_cast<std::size_t>(first - all.begin());
   part.thinned = recording.thinned - std::min(recording.thinned, leftOut);
   part.samples.assign(first, all.end());
+  if (recording.second)
+  {
+    const std::vector<Sample>& others = recording.second->samples;
+    auto second = std::ranges::lower_bound(others, from, {}, &Sample::time);
+    second -= second == others.begin() ? 0 : 1;
+    part.second.emplace().device = recording.second->device;
+    part.second->samples.assign(second, others.end());
+  }
   return part;
 }
 
@@ -112,21 +113,25 @@ std::size_t PressLog::keepAll(const Recording& samples)
   return found.size();
 }
 
-std::vector<std::string> PressLog::namesIn(const Recording& recording) const
+PressNames PressLog::names() const
 {
-  std::vector<std::string> names;
-  for (const PressSummary& press : findPresses(recording))
+  std::vector<PressSummary> all;
+  std::ranges::transform(presses_, std::back_inserter(all), &KeptPress::summary);
+  return [all = std::move(all)](const Recording& recording)
   {
-    const auto isSame = [&press](const KeptPress& kept) // no two have the same place to the bit
+    std::vector<std::string> names;
+    for (const PressSummary& press : findPresses(recording))
     {
-      const Contact& deepest = kept.summary.deepest;
-      return kept.summary.begin == press.begin && deepest.depth == press.deepest.depth &&
-        deepest.center == press.deepest.center;
-    };
-    const auto kept = std::ranges::find_if(presses_, isSame);
-    names.push_back(kept != presses_.end() ? kept->summary.name : press.name);
-  }
-  return names;
+      const auto isSame = [&press](const PressSummary& kept) // no two have a place to the bit
+      {
+        return kept.begin == press.begin && kept.deepest.depth == press.deepest.depth &&
+          kept.deepest.center == press.deepest.center;
+      };
+      const auto kept = std::ranges::find_if(all, isSame);
+      names.push_back(kept != all.end() ? kept->name : press.name);
+    }
+    return names;
+  };
 }
 
 const KeptPress* PressLog::find(int id) const noexcept

@@ -3,6 +3,7 @@
 #include "app/press/presses.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,6 +35,10 @@ struct KeptPress
 
   static constexpr std::size_t kCurve = 400;
 };
+
+/// Tells the names of the presses of a recording, in their order, as a log called them; of one that
+/// is gone its own. For any thread.
+using PressNames = std::function<std::vector<std::string>(const Recording& recording)>;
 
 /// The presses of a session, each found by itself when its tool is released. Main thread only.
 class PressLog
@@ -73,9 +78,8 @@ public:
     return presses_;
   }
 
-  /// The names of the presses of a recording, in their order, as they are here; of one that is
-  /// gone its own.
-  [[nodiscard]] std::vector<std::string> namesIn(const Recording& recording) const;
+  /// As they are called now.
+  [[nodiscard]] PressNames names() const;
 
   /// Null where it is gone.
   [[nodiscard]] const KeptPress* find(int id) const noexcept;

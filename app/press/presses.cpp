@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <sstream>
+#include <utility>
 
 namespace palp
 {
@@ -23,13 +25,28 @@ namespace
 constexpr double kCalm = 0.01;  // [s] over which the steps of a device are no motion
 constexpr double kNewton = 1.0; // force at which stiffnesses are compared [N]
 
+// Of a force that goes with a power of the depth, as its stiffness tells: work from the surface on,
+// and stiffness at 1 N where that is not deeper.
+void beginAtSurface(PressSummary& press, const Sample& first)
+{
+  const Response& at = first.response;
+  if (at.force > 0.0)
+  {
+    const double power = std::max(1.0, at.stiffness * first.contact.depth / at.force);
+    press.energy = at.force * first.contact.depth / (1.0 + power);
+    if (at.force >= kNewton)
+    {
+      press.stiffness = at.stiffness * std::pow(kNewton / at.force, 1.0 - 1.0 / power);
+    }
+  }
+}
+
 // on the way in, where the force comes to 1 N, between two samples
 void watchStiffness(PressSummary& press, const Response& before, const Response& now)
 {
-  if (!press.stiffness && now.force >= kNewton)
+  if (!press.stiffness && before.force < kNewton && now.force >= kNewton)
   {
-    const double gain = now.force - before.force;
-    const double part = gain > 0.0 ? std::clamp((kNewton - before.force) / gain, 0.0, 1.0) : 1.0;
+    const double part = (kNewton - before.force) / (now.force - before.force);
     press.stiffness = before.stiffness + part * (now.stiffness - before.stiffness);
   }
 }
@@ -103,6 +120,19 @@ bool mayLift(std::span<const Sample> samples, std::size_t next)
     gap;
 }
 
+// Whether a press was recorded from its touch on, not from somewhere in the tissue: its first depth
+// is what a step or two of it add.
+bool isFromTouch(std::span<const Sample> samples, std::size_t first)
+{
+  if (first + 1 == samples.size() || (first > 0 && !samples[first - 1].contact.touching()))
+  {
+    return true;
+  }
+  const auto rate = depthRate(samples.subspan(first), Way::Forward, kCalm);
+  const double step = samples[first + 1].time - samples[first].time;
+  return samples[first].contact.depth <= 2.0 * rate.value_or(0.0) * step;
+}
+
 // Whether samples that thinning left out after one may have been apart: only where an earlier one
 // of its interval is, for of those that are equally shallow the first is kept.
 bool mayHideLift(const Recording& recording, std::size_t last)
@@ -135,15 +165,26 @@ bool isReleased(const Recording& recording, std::size_t last, std::size_t next)
   return (!isThinned || mayHideLift(recording, last)) && mayLift(samples, next);
 }
 
-// in quotes, as a table takes it
-std::string cell(const std::string& text)
+PressSummary beginPress(std::string name, std::span<const Sample> samples, std::size_t first)
 {
-  std::string quoted = "\"";
-  for (const char c : text)
+  const Sample& sample = samples[first];
+  PressSummary press{ .name = std::move(name),
+    .begin = sample.time,
+    .end = sample.time,
+    .force = sample.response.force,
+    .deepest = sample.contact,
+    .organ = sample.organ };
+  if (isFromTouch(samples, first))
   {
-    quoted.append(c == '"' ? 2 : 1, c);
+    beginAtSurface(press, sample);
   }
-  return quoted + '"';
+  return press;
+}
+
+// in quotes, as a table takes it
+auto cell(const std::string& text)
+{
+  return std::quoted(text, '"', '"');
 }
 
 // where the deepest contact is, in the frame of the mesh
@@ -172,26 +213,15 @@ std::vector<std::size_t> noduleCounts(const Scene& scene)
 
 std::size_t noduleCount(const Scene& scene)
 {
-  const std::vector<std::size_t> counts = noduleCounts(scene);
+  const auto counts = noduleCounts(scene);
   return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
 }
 
-void explainContrasts(std::ostream& out, const Scene& scene)
+void explainContrasts(std::ostream& out)
 {
-  if (noduleCount(scene) > 0)
-  {
-    out << "# nodule_percent: what each nodule alone adds to the force without any, where it was "
-           "deepest; people notice 7 of force, 15 of stiffness by finger, 22 of compliance, 45 of "
-           "stiffness by stylus\n";
-  }
-}
-
-void nameContrasts(std::ostream& out, const Scene& scene)
-{
-  for (std::size_t i = 0; i < noduleCount(scene); ++i)
-  {
-    out << ",nodule_" << i << "_percent";
-  }
+  out << "# nodule_percent: what each nodule alone adds to the force without any, where it was "
+         "deepest; people notice 7 of force, 15 of stiffness by finger, 22 of compliance, 45 of "
+         "stiffness by stylus\n";
 }
 
 // empty of the nodules in other organs
@@ -237,8 +267,7 @@ std::vector<PressSummary> findPresses(const Recording& recording)
 {
   const std::span<const Sample> samples = recording.samples;
   std::vector<PressSummary> presses;
-  Sample last;                        // that touched
-  std::optional<std::size_t> touched; // its place
+  std::optional<std::size_t> touched; // the last that did
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     if (!samples[i].contact.touching())
@@ -247,12 +276,12 @@ std::vector<PressSummary> findPresses(const Recording& recording)
     }
     if (!touched || isReleased(recording, *touched, i))
     {
-      presses.push_back({ .name = pressName(presses.size()), .begin = samples[i].time });
-      presses.back().organ = samples[i].organ;
-      last = {}; // of no force at the surface
+      presses.push_back(beginPress(pressName(presses.size()), samples, i));
     }
-    addSample(presses.back(), last, samples[i]);
-    last = samples[i];
+    else
+    {
+      addSample(presses.back(), samples[*touched], samples[i]);
+    }
     touched = i;
   }
   for (std::size_t i = 0; i < presses.size(); ++i)
@@ -275,20 +304,26 @@ void writePresses(std::ostream& out, const Recording& recording)
   out << "# palp " << PALP_VERSION << '\n'
       << "# each press from touch to release; force of the law; place, normal and thickness where "
          "it was deepest, in the frame of the mesh\n"
-      << "# energy: work on the way to the largest depth; stiffness: empty where 1 N was not "
-         "reached; outside_limits: rules of validity that the deepest contact breaks\n";
-  explainContrasts(out, scene);
+      << "# energy: work on the way to the largest depth, from the first sample on where that is "
+         "not the touch; stiffness: empty where 1 N was not reached on the way; outside_limits: "
+         "rules of validity that the deepest contact breaks\n";
+  const std::size_t nodules = noduleCount(scene);
+  nodules > 0 ? explainContrasts(out) : void();
   out << "name," << (isOne ? "" : "organ,")
       << "start_s,duration_s,force_N,depth_mm,stiffness_at_1N_N_per_mm,energy_uJ,x_mm,y_mm,"
          "z_mm,normal_x,normal_y,normal_z,thickness_mm,tool,young_kPa,poisson,law"
       << (recording.rated ? ",outside_limits" : "");
-  nameContrasts(out, scene);
+  for (std::size_t i = 0; i < nodules; ++i)
+  {
+    out << ",nodule_" << i << "_percent";
+  }
   out << '\n';
   for (const PressSummary& press : findPresses(recording))
   {
     const Scene& organ = organOf(scene, press.organ);
-    out << cell(press.name) << ',' << (isOne ? "" : cell(recording.organName(press.organ)) + ',')
-        << shortest(press.begin) << ',' << shortest(press.end - press.begin) << ','
+    out << cell(press.name) << ',';
+    isOne ? out : out << cell(recording.organName(press.organ)) << ',';
+    out << shortest(press.begin) << ',' << shortest(press.end - press.begin) << ','
         << shortest(press.force) << ',' << shortest(toMillimeters(press.deepest.depth)) << ','
         << (press.stiffness ? shortest(units::toNewtonsPerMillimeter(*press.stiffness)) : "") << ','
         << shortest(units::toMicrojoules(press.energy));

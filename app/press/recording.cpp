@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace palp
@@ -45,14 +46,13 @@ std::size_t thinRange(
   return static_cast<std::size_t>(left - samples.begin()) - begin;
 }
 
-} // namespace
-
-void keepContact(Recording& recording)
+// of a hand those of contact, and their neighbors
+template <typename Track>
+void keepContactOf(Track& track)
 {
-  recording.contactOnly = true;
-  const std::vector<Sample>& all = recording.samples;
+  const std::vector<Sample>& all = track.samples;
   const auto touches = [&](std::size_t i) { return i < all.size() && all[i].contact.touching(); };
-  const bool none = recording.deepest() == nullptr;
+  const bool none = deepestOf(all) == nullptr;
   std::vector<Sample> kept;
   std::size_t thinned = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -61,17 +61,18 @@ void keepContact(Recording& recording)
     if (touches(i - 1) || touches(i) || touches(i + 1) || isEnd) // 0 - 1 is beyond the end
     {
       kept.push_back(all[i]);
-      thinned += i < recording.thinned ? 1 : 0;
+      thinned += i < track.thinned ? 1 : 0;
     }
   }
-  recording.samples = std::move(kept);
-  recording.thinned = thinned;
+  track.samples = std::move(kept);
+  track.thinned = thinned;
 }
 
-void bound(Recording& recording, std::size_t kept)
+template <typename Track>
+void boundTrack(Track& track, std::size_t kept)
 {
   const std::size_t minute = kept / 10; // at a time, so that moving the rest is rare
-  std::vector<Sample>& samples = recording.samples;
+  std::vector<Sample>& samples = track.samples;
   if (samples.size() > minute) // from here on no copy of all is made to grow by
   {
     samples.reserve(kept + 4 * minute);
@@ -79,20 +80,59 @@ void bound(Recording& recording, std::size_t kept)
   // of a fixed number in all, of which those left out take none: what is full grows no more
   if (samples.size() > kept + 3 * minute)
   {
-    const std::size_t first = recording.thinned;
-    recording.thinned += thinRange(samples, first, first + minute, recording.interval);
-    while (recording.thinned > 2 * minute)
+    const std::size_t first = track.thinned;
+    track.thinned += thinRange(samples, first, first + minute, track.interval);
+    while (track.thinned > 2 * minute)
     {
-      recording.interval *= 2.0;
-      recording.thinned = thinRange(samples, 0, recording.thinned, recording.interval);
+      track.interval *= 2.0;
+      track.thinned = thinRange(samples, 0, track.thinned, track.interval);
     }
   }
 }
 
+template <typename Track>
+void thinTrack(Track& track)
+{
+  track.thinned = thinRange(track.samples, 0, track.samples.size(), track.interval);
+  track.samples.shrink_to_fit();
+}
+
+} // namespace
+
+void keepContact(Recording& recording)
+{
+  recording.contactOnly = true;
+  keepContactOf(recording);
+  recording.second ? keepContactOf(*recording.second) : void();
+}
+
+void bound(Recording& recording, std::size_t kept)
+{
+  boundTrack(recording, kept);
+  recording.second ? boundTrack(*recording.second, kept) : void();
+}
+
+void append(Recording& recording, std::vector<Sample> samples)
+{
+  constexpr double kApart = 1.0; // [s]
+  std::vector<Sample>& all = recording.samples;
+  if (all.empty())
+  {
+    all = std::move(samples);
+    return;
+  }
+  const double late = samples.empty() ? 0.0 : all.back().time + kApart - samples.front().time;
+  for (Sample& sample : samples)
+  {
+    sample.time += late > kApart ? late : 0.0;
+  }
+  all.insert(all.end(), samples.begin(), samples.end());
+}
+
 void thin(Recording& recording)
 {
-  recording.thinned = thinRange(recording.samples, 0, recording.samples.size(), recording.interval);
-  recording.samples.shrink_to_fit();
+  thinTrack(recording);
+  recording.second ? thinTrack(*recording.second) : void();
 }
 
 namespace
@@ -180,15 +220,72 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   return rules;
 }
 
+Rule betweenRule(const Calibration& calibration, const Sample& sample, const Sample& other)
+{
+  Rule rule{ "hands", "-", 0.0, 1.0,
+    "two contacts nearer than both R_d together: each is felt as if there were no other" };
+  if (sample.contact.touching() && other.contact.touching() && sample.organ == other.organ)
+  {
+    const Calibration& organ = organOf(calibration, sample.organ);
+    const double reach = organ.extentRadius(sample) + organ.extentRadius(other);
+    const double apart = (sample.contact.center - other.contact.center).norm();
+    rule.value = apart > 0.0 ? reach / apart : std::numeric_limits<double>::infinity();
+  }
+  return rule;
+}
+
+void forEachInOrder(const Recording& recording, const std::function<void(const HandSample&)>& each)
+{
+  std::array<const Sample*, 2> last{};
+  const std::span<const Sample> firsts = recording.samples;
+  const std::span<const Sample> seconds =
+    recording.second ? std::span<const Sample>(recording.second->samples) : firsts.first(0);
+  for (std::size_t i = 0, k = 0; i + k < firsts.size() + seconds.size();)
+  {
+    const bool isFirst =
+      k == seconds.size() || (i < firsts.size() && firsts[i].time <= seconds[k].time);
+    const Sample& sample = isFirst ? firsts[i++] : seconds[k++];
+    last[isFirst ? 0 : 1] = &sample;
+    each({ &sample, last[isFirst ? 1 : 0], isFirst ? 1 : 2 });
+  }
+}
+
 std::string Recording::organName(int organ) const
 {
   const std::vector<std::size_t> felt = feltOrgans(organs);
   return felt.empty() ? "" : organs[felt[static_cast<std::size_t>(organ)]].name;
 }
 
+Recording Recording::head() const
+{
+  return { .mesh = mesh,
+    .unit = unit,
+    .device = device,
+    .files = files,
+    .command = command,
+    .names = names,
+    .organs = organs,
+    .scene = scene,
+    .samples = {},
+    .thinned = thinned,
+    .interval = interval,
+    .rated = rated,
+    .contactOnly = contactOnly,
+    .second = second };
+}
+
 const Sample* Recording::deepest() const noexcept
 {
   return deepestOf(samples);
+}
+
+bool Recording::isTouched() const noexcept
+{
+  const auto any = [](const std::vector<Sample>& all)
+  {
+    return std::ranges::any_of(all, [](const Sample& sample) { return sample.contact.touching(); });
+  };
+  return any(samples) || (!samples.empty() && second && any(second->samples));
 }
 
 std::span<const Sample> Recording::lastPress() const noexcept

@@ -8,13 +8,24 @@
 #include "haptics/servo/scene.h"
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace palp
 {
+
+/// What another hand did at the same time, with a tool and a tissue like the first's.
+struct SecondHand
+{
+  std::string device{};
+  std::vector<Sample> samples{}; ///< see Recording, as the others
+  std::size_t thinned = 0;
+  double interval = 0.1;
+};
 
 /// Who pressed what, and everything that was measured. Of a tool that rests away from the surface
 /// only the first and the last sample are kept; of a long recording, see bound().
@@ -29,16 +40,29 @@ struct Recording
   std::vector<OrganPlan> organs{};  ///< of its scene, also those that are not felt; none: one body
   Scene scene{};
   std::vector<Sample> samples{};
-  std::size_t thinned = 0;  ///< of these the first, between which others were left out
-  double interval = 0.1;    ///< of which of those only the extremes are kept [s]
-  bool rated = true;        ///< how far each sample may be believed is told, too
-  bool contactOnly = false; ///< see keepContact
+  std::size_t thinned = 0;            ///< of these the first, between which others were left out
+  double interval = 0.1;              ///< of which of those only the extremes are kept [s]
+  bool rated = true;                  ///< how far each sample may be believed is told, too
+  bool contactOnly = false;           ///< see keepContact
+  std::optional<SecondHand> second{}; ///< none: one hand, of which all else tells
 
   /// Of an organ of its scene, as in a Sample; empty where there is but one body.
   [[nodiscard]] std::string organName(int organ) const;
 
+  /// All but the first hand's samples, which may be many.
+  [[nodiscard]] Recording head() const;
+
   /// The first sample of the largest depth; nothing when the tool never touched.
   [[nodiscard]] const Sample* deepest() const noexcept;
+
+  /// Whether any hand touched, while the first was there.
+  [[nodiscard]] bool isTouched() const noexcept;
+
+  /// Of all hands.
+  [[nodiscard]] std::size_t sampleCount() const noexcept
+  {
+    return samples.size() + (second ? second->samples.size() : 0);
+  }
 
   /// The samples of the last contact without a gap; the present one, where the tool touches.
   [[nodiscard]] std::span<const Sample> lastPress() const noexcept;
@@ -55,6 +79,10 @@ void bound(Recording& recording, std::size_t kept = kKeptWhole);
 
 /// The same of all samples of a recording that has ended.
 void thin(Recording& recording);
+
+/// Adds the samples of another recording, of whole samples as these are; later where their times
+/// are not.
+void append(Recording& recording, std::vector<Sample> samples);
 
 /// Leaves the samples of contact, each with the one before and the one after it, and the header
 /// that says so; where nothing touches, the first and the last.
@@ -76,6 +104,22 @@ void keepContact(Recording& recording);
 [[nodiscard]] std::vector<Rule> rulesAt(
   const Scene& scene, const Validity& validity, const Contact& contact);
 
+/// A sample of one hand or of two.
+struct HandSample
+{
+  const Sample* sample;
+  const Sample* other; ///< the last before it of the other hand; null: none
+  int hand;            ///< 1 or 2
+};
+
+/// Those of all hands in the order of their times.
+void forEachInOrder(const Recording& recording, const std::function<void(const HandSample&)>& each);
+
+/// Whether the contact of another hand is so far that neither dent reaches the other's: each force
+/// knows of one tool. Holds where one of them does not touch, or touches another organ.
+[[nodiscard]] Rule betweenRule(
+  const Calibration& calibration, const Sample& sample, const Sample& other);
+
 /// The conditions of each organ's law, in the order of the scene.
 [[nodiscard]] std::vector<Validity> validityOf(const Scene& scene);
 
@@ -85,7 +129,8 @@ void keepContact(Recording& recording);
 /// none below; mean curvature, convex positive, and half the difference of the principal ones) and
 /// the factors of the law there, by which force_N is the product of the paper's force and theirs.
 /// A tip without a paper's law begins with its exact one. Of several organs it names the one that
-/// is touched, which all of the row tells of.
+/// is touched, which all of the row tells of. Of two hands it names the hand, the rows of both in
+/// the order of their times.
 ///
 /// Times, positions and forces sent read back to the last bit. The same recording gives the same
 /// bytes: no date, no host.

@@ -8,9 +8,10 @@
 namespace palp
 {
 
-// comment lines, the second with numbers after its parts
+// comment lines, the last with numbers after its parts
 inline constexpr std::string_view kContactOnly =
   "# contact only: of the rest, the sample before and the one after each contact";
+inline constexpr std::string_view kSecondDevice = "# second device: ";
 inline constexpr std::string_view kThinned = "# of a long recording: before ";
 inline constexpr std::string_view kThinnedTo =
   " s only the samples of the least and the largest depth and force within each ";

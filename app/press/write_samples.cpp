@@ -7,10 +7,13 @@
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/embed_nodules.h"
 #include "haptics/files/csv_text.h"
+#include "haptics/servo/tissue_at.h"
 #include "haptics/units.h"
 
 #include <algorithm>
+#include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace palp
@@ -48,12 +51,19 @@ std::string insideOf(const Scene& scene)
   return hasNodules(scene) ? "nodules" : hasMap ? "stiffness" : "";
 }
 
-void describeRules(
-  std::ostream& out, const Scene& scene, const Validity& validity, const std::string& of)
+bool pushesAside(const Scene& scene)
+{
+  return anyOrgan(scene, TissueAt::pushesAside);
+}
+
+void describeRules(std::ostream& out, const Scene& scene, const Validity& validity,
+  const std::string& of, const Rule* last)
 {
   out << "# broken_rules" << of << ": a sum of the conditions that the place does not meet\n";
   std::uint32_t bit = 1;
-  for (const Rule& rule : rulesAt(scene, validity, {}))
+  std::vector<Rule> rules = rulesAt(scene, validity, {});
+  last != nullptr ? rules.push_back(*last) : void();
+  for (const Rule& rule : rules)
   {
     out << "#   " << bit << " " << rule.name << ": " << rule.why << '\n';
     bit *= 2;
@@ -61,15 +71,15 @@ void describeRules(
 }
 
 // each organ's, where there are several
-void describeRules(
-  std::ostream& out, const Recording& recording, const std::vector<Validity>& validity)
+void describeRules(std::ostream& out, const Recording& recording,
+  const std::vector<Validity>& validity, const Rule* last)
 {
   for (std::size_t i = 0; i < validity.size(); ++i)
   {
     const int organ = static_cast<int>(i);
     const std::string name = recording.organName(organ);
     describeRules(
-      out, organOf(recording.scene, organ), validity[i], name.empty() ? name : " of " + name);
+      out, organOf(recording.scene, organ), validity[i], name.empty() ? name : " of " + name, last);
   }
 }
 
@@ -101,10 +111,6 @@ void describeNodules(std::ostream& out, const NoduleField& nodules)
 // what force_N was computed from, besides the law
 void describeNodules(std::ostream& out, const Scene& scene)
 {
-  if (insideOf(scene).empty() && !hasSeries(scene))
-  {
-    return;
-  }
   for (int i = 0; i < organCount(scene); ++i)
   {
     const auto& nodules = organOf(scene, i).nodules;
@@ -122,8 +128,11 @@ void describeNodules(std::ostream& out, const Scene& scene)
            "/ E*; G, B, slope and 1/D of an edge: organ_constant_per_m, organ_bend_per_m3, "
            "organ_slope_per_m2, organ_edge_per_m\n";
   }
-  out << "# lateral_x/y/z_N: of what lies in the tissue on the tool, besides force_N along the "
-         "normal\n";
+  out << "# depth_slope: of depth_mm as the tool moves along the normal, on which it is pushed by "
+         "force_N times that\n"
+      << (pushesAside(scene) ? "# lateral_x/y/z_N: besides, of the tissue and its shape on the "
+                               "tool, before any limit\n"
+                             : "");
 }
 
 std::string elasticityOf(const ForceLaw& law)
@@ -171,6 +180,9 @@ void describeRecording(std::ostream& out, const Recording& recording)
   out << "# palp " << PALP_VERSION << '\n'
       << "# mesh: " << recording.mesh << " (coordinates read in " << recording.unit << ")\n"
       << origin(recording) << "# device: " << recording.device << '\n'
+      << (recording.second ? std::string(kSecondDevice) + recording.second->device +
+               "\n# hand: 1 or 2, each with a tool, a contact and a force of its own\n"
+                           : "")
       << "# tool: " << describeTip(recording.scene.law.tip()) << '\n';
   describeTissues(out, recording);
   out << "# tool: position of the apex in the frame of the mesh; force_N: the law before damping "
@@ -202,13 +214,14 @@ void writeColumns(std::ostream& out, const Recording& recording, bool hasExtents
 {
   const Scene& scene = recording.scene;
   const std::string inside = insideOf(scene);
-  out << "time_s,tool_x_mm,tool_y_mm,tool_z_mm," << (recording.organs.empty() ? "" : "organ,")
+  out << "time_s," << (recording.second ? "hand," : "") << "tool_x_mm,tool_y_mm,tool_z_mm,"
+      << (recording.organs.empty() ? "" : "organ,")
       << "depth_mm,force_N,force_x_N,force_y_N,force_z_N,"
          "contact_radius_mm,"
       << (hasExtents ? "extent_radius_mm," : "")
       << "stiffness_N_per_mm,axis_x,axis_y,axis_z,normal_x,normal_y,normal_z,tilt_deg,flags"
       << (recording.rated ? ",broken_rules" : "")
-      << ",thickness_mm,curvature_per_m,curvature_spread_per_m";
+      << ",thickness_mm,curvature_per_m,curvature_spread_per_m,depth_slope";
   for (const Factor& factor : scene.law.factors({}))
   {
     out << ",factor_" << factor.name;
@@ -218,13 +231,12 @@ void writeColumns(std::ostream& out, const Recording& recording, bool hasExtents
       << (hasSeries(scene) ? ",local_depth_mm,organ_constant_per_m,organ_slope_per_m2,"
                              "organ_bend_per_m3,organ_edge_per_m"
                            : "")
-      << (inside.empty() && !hasSeries(scene) ? "" : ",lateral_x_N,lateral_y_N,lateral_z_N")
-      << '\n';
+      << (pushesAside(scene) ? ",lateral_x_N,lateral_y_N,lateral_z_N" : "") << '\n';
 }
 
 // what follows the place of the tool
 std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibration* calibration,
-  const std::vector<Validity>& validity)
+  const std::vector<Validity>& validity, const Rule* last)
 {
   using units::toMillimeters;
   const Scene& scene = organOf(all, sample.organ);
@@ -243,10 +255,13 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
   if (!validity.empty())
   {
     const Validity& rules = validity[static_cast<std::size_t>(sample.organ)];
-    row.push_back(static_cast<double>(brokenRules(rulesAt(scene, rules, contact))));
+    std::vector<Rule> asked = rulesAt(scene, rules, contact);
+    last != nullptr ? asked.push_back(*last) : void();
+    row.push_back(static_cast<double>(brokenRules(asked)));
   }
   row.insert(row.end(),
-    { toMillimeters(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread });
+    { toMillimeters(contact.thickness), contact.surfaceCurvature, contact.curvatureSpread,
+      contact.slope });
   const ContactGeometry geometry = lawGeometryOf(scene, contact);
   for (const Factor& factor : scene.law.factors(geometry))
   {
@@ -266,12 +281,12 @@ std::vector<double> rowOf(const Sample& sample, const Scene& all, const Calibrat
   if (hasSeries(all))
   {
     const BodyCompliance body = scene.series != nullptr && contact.touching()
-      ? scene.series->field->at(contact.center, contact.normal).body
+      ? scene.series->at(contact.center, contact.normal, contact.depth).body
       : BodyCompliance{};
     row.insert(row.end(),
       { toMillimeters(sample.localDepth), body.constant, body.slope, body.bend, body.edge });
   }
-  if (!insideOf(all).empty() || hasSeries(all))
+  if (pushesAside(all))
   {
     row.insert(row.end(), { sample.lateral.x(), sample.lateral.y(), sample.lateral.z() });
   }
@@ -285,19 +300,32 @@ void writeSamples(std::ostream& out, const Recording& recording, const Calibrati
   describeRecording(out, recording);
   const std::vector<Validity> validity =
     recording.rated ? validityOf(recording.scene) : std::vector<Validity>{};
-  describeRules(out, recording, validity);
-  writeColumns(out, recording, calibration != nullptr);
-  for (const Sample& sample : recording.samples)
+  const auto betweenHands = [&](const Sample& sample, const Sample& other)
   {
+    return recording.second && calibration != nullptr
+      ? std::optional(betweenRule(*calibration, sample, other))
+      : std::nullopt;
+  };
+  const std::optional<Rule> last = betweenHands({}, {});
+  describeRules(out, recording, validity, last ? &*last : nullptr);
+  writeColumns(out, recording, calibration != nullptr);
+  const auto write = [&](const HandSample& row)
+  {
+    const Sample& sample = *row.sample;
     const Eigen::Vector3d& apex = sample.pose.apex;
-    out << shortest(sample.time) << ',' << exactMillimeters(apex.x()) << ','
-        << exactMillimeters(apex.y()) << ',' << exactMillimeters(apex.z()) << ',';
+    out << shortest(sample.time) << ',' << (recording.second ? std::to_string(row.hand) + ',' : "")
+        << exactMillimeters(apex.x()) << ',' << exactMillimeters(apex.y()) << ','
+        << exactMillimeters(apex.z()) << ',';
     if (!recording.organs.empty())
     {
       out << (sample.contact.touching() ? recording.organName(sample.organ) : "") << ',';
     }
-    writeCsvRow(out, rowOf(sample, recording.scene, calibration, validity));
-  }
+    const std::optional<Rule> between =
+      betweenHands(sample, row.other != nullptr ? *row.other : Sample{});
+    writeCsvRow(
+      out, rowOf(sample, recording.scene, calibration, validity, between ? &*between : nullptr));
+  };
+  forEachInOrder(recording, write);
 }
 
 } // namespace palp

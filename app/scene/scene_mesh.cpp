@@ -7,6 +7,9 @@
 #include "haptics/units.h"
 #include "pipeline/surface_io/length_unit.h"
 
+#include <string>
+#include <utility>
+
 namespace palp
 {
 namespace
@@ -24,6 +27,12 @@ void readFrame(JsonObject object, MeshSource& mesh)
 
 PlacedNodule readNodule(JsonObject object)
 {
+  for (const auto& [key, example] : { std::pair("center", R"(["0mm", "0mm", "-12mm"])"),
+         { "radius", "\"5mm\"" }, { "ratio", "8" } })
+  {
+    object.has(key) ? void()
+                    : object.refuse(key, std::string("is missing; give it, as in ") + example);
+  }
   PlacedNodule nodule{ triple(object, "center", Quantity::Length, kSceneReach), 0.0, 0.0 };
   const std::string radius = object.text("radius", "");
   checkAt(

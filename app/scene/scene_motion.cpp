@@ -67,6 +67,29 @@ void readReplacement(JsonObject& object, ScenePlan& plan, const std::filesystem:
   }
 }
 
+DeviceChoice readDevice(JsonObject& scene, const char* entry, const std::string& name,
+  const std::filesystem::path& folder)
+{
+  const DeviceChoice choice = parseDevice(name);
+  if (choice.isScript() && choice.file.empty())
+  {
+    scene.refuse(entry, inQuotes(name) + " names no file; write " + name + "FILE.csv");
+  }
+  return choice.isScript() ? parseDevice(name.substr(0, name.find(':') + 1) +
+                               (folder / choice.file).lexically_normal().string())
+                           : choice;
+}
+
+// of another hand
+void readSecond(JsonObject& scene, ScenePlan& plan, const std::filesystem::path& folder)
+{
+  if (const std::string name = scene.text("second_device", ""); !name.empty())
+  {
+    plan.second = readDevice(scene, "second_device", name, folder);
+    checkAt(scene, "second_device", [&] { checkHands(plan.device, *plan.second); });
+  }
+}
+
 } // namespace
 
 TrainingPlan readTraining(JsonObject object)
@@ -114,24 +137,18 @@ CameraPlace readCamera(JsonObject object)
 void readMotion(JsonObject& scene, ScenePlan& plan, const std::filesystem::path& folder)
 {
   readReplacement(scene, plan, folder);
-  const std::string name = scene.text("device", "mouse");
-  plan.device = parseDevice(name);
-  const bool scripted = plan.device.isScript();
-  if (scripted && plan.device.file.empty())
-  {
-    scene.refuse("device", inQuotes(name) + " names no file; write " + name + "FILE.csv");
-  }
-  if (scripted)
-  {
-    plan.device = parseDevice(
-      name.substr(0, name.find(':') + 1) + (folder / plan.device.file).lexically_normal().string());
-  }
+  plan.device = readDevice(scene, "device", scene.text("device", "mouse"), folder);
+  readSecond(scene, plan, folder);
   plan.deadMan = scene.flag("dead_man", false);
   plan.window = scene.flag("window", !plan.isKnown());
   plan.chain = scene.flag("chain", false);
   if (plan.chain && plan.window)
   {
     scene.refuse("chain", "a window has the chain of its device; leave this out");
+  }
+  if (plan.second && !plan.window)
+  {
+    scene.refuse("second_device", "two hands press in a window only; set window to true");
   }
   if (!plan.window && !plan.isKnown())
   {

@@ -182,6 +182,13 @@ private:
       { "contact", word(kContactRules, plan.press.contact) }, { "validity", plan.validity } };
   }
 
+  [[nodiscard]] std::string device(const DeviceChoice& choice) const
+  {
+    const std::string& name = choice.name;
+    return choice.isScript() ? name.substr(0, name.find(':') + 1) + std::string(file(choice.file))
+                             : name;
+  }
+
   void addMotion(Json& scene, const ScenePlan& plan) const
   {
     if (plan.presses)
@@ -195,9 +202,11 @@ private:
     }
     else
     {
-      const std::string& name = plan.device.name;
-      scene["device"] =
-        plan.device.isScript() ? name.substr(0, name.find(':') + 1) + file(plan.device.file) : name;
+      scene["device"] = device(plan.device);
+    }
+    if (plan.second)
+    {
+      scene["second_device"] = device(*plan.second);
     }
     scene["dead_man"] = plan.deadMan;
     scene["window"] = plan.window;

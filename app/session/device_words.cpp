@@ -1,6 +1,5 @@
 #include "app/session/device_words.h"
 
-#include <algorithm>
 #include <array>
 
 namespace palp
@@ -22,6 +21,7 @@ constexpr std::array kWords{
   Words{ Flag::Jump, "pose jumped" },
   Words{ Flag::NotHomed, "not homed" },
   Words{ Flag::Late, "tick late" },
+  Words{ Flag::DrivesMotion, "the force speeds up what it should brake" },
   Words{ Flag::StiffnessLimited, "stiffness limited" },
   Words{ Flag::DampingLimited, "damping limited" },
   Words{ Flag::Passivity, "damped for passivity" },
@@ -30,6 +30,7 @@ constexpr std::array kWords{
   Words{ Flag::Workspace, "end of workspace" },
   Words{ Flag::WatchdogExpired, "window too slow" },
   Words{ Flag::Clutched, "clutch held: the tool stays" },
+  Words{ Flag::MotorsWarm, "motors warm" },
   Words{ Flag::Rebased, "felt from below the surface until lifted" },
 };
 
@@ -57,16 +58,6 @@ const char* describe(DeviceState state) noexcept
   return "";
 }
 
-bool isFault(DeviceState state, std::uint32_t flags) noexcept
-{
-  constexpr Flag kFaults[] = { Flag::EmergencyStop, Flag::NotFinite, Flag::DeviceLost, Flag::Stale,
-    Flag::Jump, Flag::Late };
-  const bool ended = state == DeviceState::Closed || state == DeviceState::Ready;
-  return ended &&
-    std::ranges::any_of(
-      kFaults, [&](Flag flag) { return (flags & static_cast<std::uint32_t>(flag)) != 0; });
-}
-
 const char* advise(DeviceState state, std::uint32_t flags) noexcept
 {
   if (state == DeviceState::Closed)
@@ -78,9 +69,19 @@ const char* advise(DeviceState state, std::uint32_t flags) noexcept
     return "Falcon: pull the grip out, then push it in; WoodenHaptics: hold the arm at rest and "
            "press its button";
   }
+  if ((flags & static_cast<std::uint32_t>(Flag::DrivesMotion)) != 0)
+  {
+    return "a motor seems to push the other way: measure this arm by palp devices --identify, or "
+           "arm it again if you jerked it";
+  }
   if (isFault(state, flags))
   {
     return "arm it again when the cause is gone";
+  }
+  if ((flags & static_cast<std::uint32_t>(Flag::MotorsWarm)) != 0)
+  {
+    return "press less, or let the arm rest for half a minute: its motors will soon give less "
+           "force";
   }
   return "";
 }

@@ -13,9 +13,6 @@ namespace palp
 /// What the user can do so that a force comes, or comes back; empty when nothing has to be done.
 [[nodiscard]] const char* advise(DeviceState state, std::uint32_t flags) noexcept;
 
-/// True when flags hold a fault that ends the force until the device is armed anew.
-[[nodiscard]] bool isFault(DeviceState state, std::uint32_t flags) noexcept;
-
 /// What acts on the force of a sample, for people; empty when nothing does.
 [[nodiscard]] std::string describeFlags(std::uint32_t flags);
 

@@ -11,6 +11,13 @@
 namespace palp
 {
 
+namespace
+{
+
+constexpr double kApart = 0.06; // of two presses, longer than a bounce [s]
+
+} // namespace
+
 PointerTool::PointerTool(std::function<SightLine(double, double)> view)
   : view_(std::move(view))
 {
@@ -91,18 +98,28 @@ void PointerTool::hover(int x, int y)
   }
 }
 
-void PointerTool::press(int x, int y, double time)
+// what is pressed is given back: the tool rises from there, and is apart for longer than a bounce
+void PointerTool::lift(double time)
 {
+  const double depth = std::min(given_ ? given_->deepest : pressed_, deepest_);
+  apartAt_ = depth > 0.0 ? time + depth / GuidedTool::kSpeed + kApart : apartAt_;
   pressed_ = 0.0;
   given_.reset();
+}
+
+bool PointerTool::press(int x, int y, double time)
+{
+  lift(time);
   hover(x, y);
-  if (below(*last_))
+  pressing_ = below(*last_).has_value();
+  if (pressing_)
   {
-    pressing_ = true;
-    pressedAt_ = time;
     from_ = std::max(held_, kTouch);
     pressed_ = from_;
+    pressedAt_ = held_ > 0.0 ? time : std::max(time, apartAt_);
+    isLifting_ = pressedAt_ > time;
   }
+  return pressing_;
 }
 
 void PointerTool::drag(int pixelsDown)
@@ -115,10 +132,7 @@ void PointerTool::drag(int pixelsDown)
 
 void PointerTool::release(double time)
 {
-  if (pressed_ != from_)
-  {
-    pressed_ = 0.0;
-  }
+  pressed_ != from_ ? lift(time) : void();
   pressing_ = false;
   last_.reset(); // the drag was no way over the surface
   update(time);
@@ -154,27 +168,38 @@ void PointerTool::pressAt(const SurfacePoint& point, double depth, double speed)
   given_ = { .depth = depth, .speed = speed };
 }
 
-void PointerTool::lead(double time)
+void PointerTool::lead(const Sample& newest)
 {
   if (!given_)
   {
     return;
   }
-  constexpr double kMost = 0.05; // [s]
-  const double passed = std::clamp(time - given_->last.value_or(time), 0.0, kMost);
-  given_->last = time;
-  if (given_->rested >= kShortest)
+  constexpr double kMost = 0.05; // of a call [s]
+  constexpr double kNever = 1.0; // without touch, the tool does not fit there [s]
+  constexpr double kSlow = 0.1;  // of its speed, below which the tool is where it can get
+  using Phase = Given::Phase;
+  Given& given = *given_;
+  given.waited += std::clamp(newest.time - given.last.value_or(newest.time), 0.0, kMost);
+  given.last = newest.time;
+  const double depth = newest.contact.touching() ? newest.contact.depth : 0.0;
+  if (given.phase == Phase::Rise)
   {
-    given_->now -= given_->speed * passed;
-    given_->now < 0.0 ? given_.reset() : void();
+    depth > 0.0 ? void() : given_.reset();
   }
-  else if (given_->now < given_->depth)
+  else if (given.phase == Phase::Lift)
   {
-    given_->now = std::min(given_->depth, given_->now + given_->speed * passed);
+    given.waited = depth > 0.0 ? 0.0 : given.waited;
+    given.phase = given.waited >= kApart ? Phase::Press : Phase::Lift;
+    given.waited = given.phase == Phase::Press ? 0.0 : given.waited;
   }
-  else
+  else if (depth > given.deepest + kSlow * given.speed * given.waited)
   {
-    given_->rested += passed;
+    given.deepest = depth;
+    given.waited = 0.0;
+  }
+  else if (given.waited >= (given.deepest > 0.0 ? kShortest : kNever))
+  {
+    given.phase = Phase::Rise;
   }
 }
 
@@ -182,6 +207,7 @@ void PointerTool::letGo()
 {
   given_.reset();
   pressing_ = false;
+  isLifting_ = false;
   held_ = 0.0;
   pressed_ = 0.0;
   last_.reset();
@@ -189,9 +215,10 @@ void PointerTool::letGo()
 
 void PointerTool::update(double time)
 {
-  if (!pressing_ && time - pressedAt_ >= kShortest)
+  isLifting_ = isLifting_ && time < pressedAt_;
+  if (!pressing_ && pressed_ > 0.0 && time - pressedAt_ >= kShortest)
   {
-    pressed_ = 0.0;
+    lift(time);
   }
 }
 
@@ -201,10 +228,15 @@ std::optional<PressTarget> PointerTool::target() const
   {
     return std::nullopt;
   }
-  const double wanted = given_ ? given_->now : pressing_ || pressed_ > 0.0 ? pressed_ : held_;
-  return PressTarget{
-    .position = point_->position, .normal = point_->normal, .depth = std::min(wanted, deepest_)
-  };
+  const bool isGiven = given_ && given_->phase != Given::Phase::Lift;
+  const double wanted = isLifting_ ? 0.0
+    : given_                       ? (given_->phase == Given::Phase::Press ? given_->depth : 0.0)
+    : pressing_ || pressed_ > 0.0  ? pressed_
+                                   : held_;
+  return PressTarget{ .position = point_->position,
+    .normal = point_->normal,
+    .depth = std::min(wanted, deepest_),
+    .speed = isGiven ? given_->speed : 0.0 };
 }
 
 } // namespace palp

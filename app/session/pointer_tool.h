@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/devices/simulated/guided_tool.h"
+#include "haptics/servo/sample.h"
 #include "haptics/surface/surface_point.h"
 
 #include <functional>
@@ -21,10 +22,11 @@ struct SightLine
 /// The mouse pointer as a tool: what its events ask of the tool, without a screen.
 ///
 /// The tool hovers where the pointer is. The left button presses there, at first visibly but
-/// lightly; dragging down goes deeper. A click is shown for a moment after its button is up. The
-/// wheel holds a depth while the pointer slides over the surface. A pointer that leaves the surface
-/// lets go of it, also where no event tells of the gap between two places. No depth is beyond half
-/// of the body's thickness below the place.
+/// lightly; dragging down goes deeper. A click is shown for a moment after its button is up, and
+/// the tool lifts before the next, so that each is a press of its own. The wheel holds a depth
+/// while the pointer slides over the surface. A pointer that leaves the surface lets go of it, also
+/// where no event tells of the gap between two places. No depth is beyond half of the body's
+/// thickness below the place.
 class PointerTool
 {
 public:
@@ -44,23 +46,23 @@ public:
   // Events; x, y in pixels, time in seconds since any moment.
 
   void hover(int x, int y);
-  void press(int x, int y, double time);
+  /// @return  whether it is over the body
+  bool press(int x, int y, double time);
   void drag(int pixelsDown);
   void release(double time);
   void wheel(int notches);
   void deepen(double by); ///< what the wheel holds [m]
 
-  /// Presses once at a place, whatever the pointer does meanwhile: down, kShortest of rest, and up.
-  /// A button, the wheel or letGo() ends it.
+  /// Presses once at a place, whatever the pointer does meanwhile: apart from what was pressed
+  /// before, down, kShortest of rest, and up. A button, the wheel or letGo() ends it.
   /// @param point  on the surface
   /// @param depth  [m]
   /// @param speed  [m/s], more than 0
   void pressAt(const SurfacePoint& point, double depth, double speed);
 
-  /// Leads such a press on. Whoever is late stretches it and leaves out none of it: a call counts
-  /// for 50 ms at most, and for nothing while the tool is not led.
-  /// @param time  of the newest sample [s]
-  void lead(double time);
+  /// Leads such a press on, by what the tool did. Whoever is late stretches its rest: a call counts
+  /// for 50 ms at most.
+  void lead(const Sample& newest);
 
   /// Whether such a press goes on.
   [[nodiscard]] bool pressesByItself() const noexcept
@@ -74,7 +76,7 @@ public:
   /// Ends each press: Escape, another window, a pointer that is no longer in the view.
   void letGo();
 
-  /// Ends a click that was shown long enough.
+  /// Ends a click that was shown long enough, and begins one that waits for a lift.
   void update(double time);
 
   /// Nothing until the pointer has been over the body.
@@ -84,10 +86,18 @@ private:
   // a press that goes by itself
   struct Given
   {
-    double depth;                 // [m]
-    double speed;                 // [m/s]
-    double now = 0.0;             // depth at this moment [m]
-    double rested = 0.0;          // [s]
+    enum class Phase
+    {
+      Lift,
+      Press,
+      Rise,
+    };
+
+    double depth; // [m]
+    double speed; // [m/s]
+    Phase phase = Phase::Lift;
+    double deepest = 0.0;         // that the tool was [m]
+    double waited = 0.0;          // since something came of it [s]
     std::optional<double> last{}; // time that it was led to [s]
   };
 
@@ -100,6 +110,7 @@ private:
   [[nodiscard]] std::optional<SurfacePoint> below(const Pixel& pixel) const;
   [[nodiscard]] bool leftSurface(const Pixel& to) const;
   void moveTo(const SurfacePoint& point);
+  void lift(double time);
   [[nodiscard]] const Surface& surfaceAt(const SurfacePoint& point) const;
 
   std::function<SightLine(double, double)> view_;
@@ -112,6 +123,8 @@ private:
   double from_ = 0.0;                 // depth that the drag started from [m]
   bool pressing_ = false;             // the button is down
   double pressedAt_ = 0.0;            // [s]
+  double apartAt_ = -1e9;             // when the tool is surely apart from the press before [s]
+  bool isLifting_ = false;            // until then
   std::optional<Given> given_;
 };
 

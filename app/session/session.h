@@ -5,6 +5,8 @@
 #include "app/press/calibration.h"
 #include "app/press/press_log.h"
 #include "app/press/recording.h"
+#include "app/session/hand.h"
+#include "app/session/sample_readers.h"
 #include "haptics/devices/device.h"
 #include "haptics/devices/simulated/guided_tool.h"
 #include "haptics/servo/servo.h"
@@ -21,13 +23,13 @@ namespace palp
 
 class Autosave;
 class BuildTrace;
-class LaggingTool;
 class ScriptedDevice;
 struct ExportFolder;
 
-/// A live press: body, tissue, the device that holds the tool, the servo thread, the recording.
+/// A live press: body, tissue, one hand or two with their devices and servo threads, the recording.
 ///
-/// The only writer of the scene. Main thread only.
+/// What is told of a tool without naming a hand is of the first: presses, training and curves are
+/// its own. The only writer of the scene. Main thread only.
 class Session
 {
 public:
@@ -98,11 +100,44 @@ public:
   /// The same with a device of the caller's.
   void useDevice(const DeviceChoice& choice, std::unique_ptr<Device> device);
 
+  /// Gives a second hand its device, or another one, or takes it away. A recording begins.
+  /// @throws Error  as useDevice, checkHands; the old one then stays, or where it was asked for
+  ///                again and is gone, there is one hand
+  void useSecond(const std::optional<DeviceChoice>& choice);
+
+  /// The same with a device of the caller's.
+  void useSecond(const DeviceChoice& choice, std::unique_ptr<Device> device);
+
+  [[nodiscard]] bool hasSecond() const noexcept
+  {
+    return hands_.size() > 1;
+  }
+
+  /// Of the second hand; null where there is one.
+  [[nodiscard]] const Sample* newestOfSecond() noexcept
+  {
+    return hasSecond() ? &hands_.back().servo->newest() : nullptr;
+  }
+
   /// Turns the device so that its right, away from the user and up are those of a view, and puts it
   /// above the body as it is seen there. Its force is off until armed. A recording begins.
   /// @param seen  columns right, away, up in the coordinates of the body, orthonormal
   /// @return      false, and nothing else: it has no place of its own
   bool turnDevice(const Eigen::Matrix3d& seen);
+
+  /// Moves the tool so much further than the hand; else as turnDevice.
+  bool scaleDevice(double scale);
+  [[nodiscard]] double scale() const noexcept
+  {
+    return plan_.placement.scale;
+  }
+
+  /// Whether any device has a place of its own.
+  [[nodiscard]] bool isPlaced() const;
+
+  /// Holds the tools of devices, without force, while their hands go elsewhere: a clutch for hands
+  /// that have no button free.
+  void holdTools(bool held);
 
   /// How far the device reaches now [m]; a radius of 0: no bound.
   struct Reach
@@ -112,8 +147,8 @@ public:
   };
   [[nodiscard]] Reach reach()
   {
-    const DeviceLimits limits = device_->limits();
-    return { limits.workspaceCenter + servo_->newest().moved, limits.workspaceRadius };
+    const DeviceLimits limits = first().device->limits();
+    return { limits.workspaceCenter + newest().moved, limits.workspaceRadius };
   }
 
   /// Lets the tool lag behind a device that no hand can feel, the more the stiffer the tissue is
@@ -122,7 +157,7 @@ public:
   void lag(bool lags);
   [[nodiscard]] bool lags() const noexcept
   {
-    return lagging_ != nullptr;
+    return first().lagging != nullptr;
   }
 
   /// Names that parseDevice takes: of the devices that move by themselves only those that are there
@@ -130,7 +165,7 @@ public:
   [[nodiscard]] static std::vector<std::string> devices();
 
   /// Whether the user wants to feel force; off for every device but a simulated hand until asked.
-  /// A fault takes the wish back.
+  /// A fault takes the wish back, of either hand for both.
   void arm(bool armed);
 
   /// Zero force at once and until taken back; then the device must be armed again.
@@ -139,20 +174,23 @@ public:
   /// False for devices that move the tool themselves.
   [[nodiscard]] bool isLed() const noexcept
   {
-    return guided_ != nullptr;
+    return first().guided != nullptr;
   }
 
   /// The device that plays a path; null for any other.
   [[nodiscard]] ScriptedDevice* scripted() const noexcept;
 
-  /// False for devices that no hand can feel.
-  [[nodiscard]] bool rendersForce() const
+  /// False where no hand can feel anything.
+  [[nodiscard]] bool rendersForce() const;
+  /// The same of one hand.
+  /// @param hand  0, or 1 where there is a second
+  [[nodiscard]] bool rendersForce(std::size_t hand) const
   {
-    return device_->limits().rendersForce;
+    return hands_[hand].device->limits().rendersForce;
   }
-  /// What the device can render without trembling [N/m]; infinite where no hand can feel it.
+  /// What the devices can render without trembling [N/m]; infinite where no hand can feel it.
   [[nodiscard]] double stableStiffness() const;
-  /// Beyond it a force is shortened [N].
+  /// Beyond it a force is shortened, that of a weaker device first [N].
   [[nodiscard]] double largestForce() const;
   [[nodiscard]] bool armed() const noexcept
   {
@@ -163,12 +201,12 @@ public:
   void aim(const PressTarget& target);
 
   /// Fetches what the servo thread did since the last call.
-  /// @param each  called for each new sample, in order
+  /// @param each  called for each new sample of the first hand, in order
   void update(const std::function<void(const Sample&)>& each);
 
   [[nodiscard]] const Sample& newest() noexcept
   {
-    return servo_->newest();
+    return first().servo->newest();
   }
   /// Whether a sample is of the tool, the tissue and the organs in use, not of those before.
   [[nodiscard]] bool isCurrent(const Sample& sample) const noexcept
@@ -177,11 +215,11 @@ public:
   }
   [[nodiscard]] const Timing& timing() const noexcept
   {
-    return servo_->timing();
+    return first().servo->timing();
   }
   [[nodiscard]] const std::string& schedule() const noexcept
   {
-    return servo_->schedule();
+    return first().servo->schedule();
   }
   [[nodiscard]] const SceneBody& body() const noexcept
   {
@@ -197,6 +235,12 @@ public:
   [[nodiscard]] const Recording& recording() const noexcept
   {
     return recording_;
+  }
+
+  /// The samples of a recording of this session, to be copied on another thread while it goes on.
+  [[nodiscard]] std::function<std::vector<Sample>()> samplesOf(const Recording& recording) const
+  {
+    return readers_.of(recording, &recording == &recording_);
   }
 
   /// A recording that another body, tool, tissue or device ended, with what it was made on.
@@ -241,35 +285,46 @@ private:
   [[nodiscard]] Scene nextScene() const;
   void use(Scene scene);
   void drain(const SceneBody& body, const std::function<void(const Sample&)>& each);
-  void record(const Sample& sample, const std::function<void(const Sample&)>& each);
+  [[nodiscard]] Hand& first() noexcept
+  {
+    return hands_.front();
+  }
+  [[nodiscard]] const Hand& first() const noexcept
+  {
+    return hands_.front();
+  }
+  void record(Hand& hand, const Sample& sample, const std::function<void(const Sample&)>& each);
+  void disarmAtFault();
   void endRecording(const SceneBody& body);
   [[nodiscard]] std::optional<SceneBody> knownBody(const ScenePlan& plan) const;
-  void boundEarlier();
+  void boundAll();
   void save(const SceneBody& body, std::optional<Recording> press);
-  [[nodiscard]] std::unique_ptr<Device> makeDevice(const DeviceChoice& choice);
+  [[nodiscard]] std::unique_ptr<Device> makeDevice(std::size_t hand, const DeviceChoice& choice);
   void keepHolding();
-  void startServo();
+  bool placeDevices(const Eigen::Matrix3d& facing, double scale);
+  void hold(std::size_t hand, const DeviceChoice& choice, std::unique_ptr<Device> device);
+  void give(std::size_t hand, const DeviceChoice& choice, std::unique_ptr<Device> device);
+  void stopServos();
+  void startServos();
+  void tellScene();
   [[nodiscard]] ToolPose restingPose(const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ()) const;
-  [[nodiscard]] DevicePlacement placement() const;
+  [[nodiscard]] DevicePlacement placement(std::size_t hand) const;
 
   ScenePlan plan_;
   ServoOptions servoOptions_;
-  DeviceChoice choice_;                                  // of the device
-  Eigen::Matrix3d facing_ = Eigen::Matrix3d::Identity(); // of it, in the coordinates of the body
+  Eigen::Matrix3d facing_ = Eigen::Matrix3d::Identity(); // of devices, in those of the body
   SceneBody body_;
   Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;
-  double armedAt_ = 0.0;          // time of the servo from which on a fault is a new one [s]
-  double recordedFrom_ = 0.0;     // and from which on a sample is of the tool and tissue in use [s]
-  std::optional<Sample> resting_; // the last that was like the one recorded before it
+  double armedAt_ = 0.0;      // time of the servo from which on a fault is a new one [s]
+  double recordedFrom_ = 0.0; // and from which on a sample is of the tool and tissue in use [s]
   std::vector<Take> earlier_;
+  SampleReaders readers_; // of all recordings
   PressLog presses_;
   Autosave* autosave_ = nullptr;
-  std::unique_ptr<Device> device_;
-  GuidedTool* guided_ = nullptr;           // of the device; null where it moves by itself
-  std::optional<Material> lagReference_{}; // none: no tool lags
-  LaggingTool* lagging_ = nullptr;         // the device; null where it is another
-  std::unique_ptr<Servo> servo_;           // last: it uses the device
+  std::optional<Material> lagReference_{};         // none: no tool lags
+  std::atomic<bool> fault_ = false;                // of a hand, which disarms both
+  std::vector<Hand> hands_ = std::vector<Hand>(1); // one or two; last: servos use all above
 };
 
 } // namespace palp

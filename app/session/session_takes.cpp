@@ -7,8 +7,10 @@
 #include "app/scene/scene_text.h"
 #include "app/session/session.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vtkPolyData.h>
 
@@ -29,21 +31,34 @@ void Session::save(const SceneBody& body, std::optional<Recording> press)
 
 void Session::endRecording(const SceneBody& body)
 {
-  if (servo_)
+  if (std::ranges::all_of(hands_, [](const Hand& hand) { return hand.servo != nullptr; }))
   {
     drain(body, [](const Sample&) {});
     save(body, presses_.end(recording_));
   }
-  if (recording_.deepest())
+  if (recording_.isTouched())
   {
+    static_assert(std::is_nothrow_move_constructible_v<Take>); // samples stay where they are
     std::vector<Sample> samples = std::exchange(recording_.samples, {});
+    std::optional<SecondHand> second = std::exchange(recording_.second, {});
     earlier_.push_back({ body, recording_, calibration_ });
-    earlier_.back().recording.samples = std::move(samples);
+    Recording& ended = earlier_.back().recording;
+    ended.samples = std::move(samples);
+    ended.second = std::move(second);
   }
+  recording_.samples.empty() ? void() : readers_.wait();
   recording_.samples.clear();
+  recording_.second.reset();
   recording_.thinned = 0;
   recording_.interval = Recording{}.interval;
-  resting_.reset();
+  for (Hand& hand : hands_)
+  {
+    hand.resting.reset();
+  }
+  if (hasSecond())
+  {
+    recording_.second.emplace().device = hands_.back().choice.name;
+  }
 }
 
 // the one that is open, or was the last, where that is the same
@@ -103,12 +118,20 @@ std::size_t Session::add(Take take)
   return found;
 }
 
-void Session::boundEarlier()
+// not while somebody copies, which takes less than a second
+void Session::boundAll()
 {
+  constexpr std::size_t kUrgent = kKeptWhole * 27 / 20; // of 1.4 times kKeptWhole that fit
+  if (readers_.any() && recording_.samples.size() < kUrgent)
+  {
+    return;
+  }
+  readers_.wait();
+  bound(recording_);
   const auto samples = [this]
   {
-    return std::accumulate(earlier_.begin(), earlier_.end(), recording_.samples.size(),
-      [](std::size_t sum, const Take& take) { return sum + take.recording.samples.size(); });
+    return std::accumulate(earlier_.begin(), earlier_.end(), recording_.sampleCount(),
+      [](std::size_t sum, const Take& take) { return sum + take.recording.sampleCount(); });
   };
   for (Take& take : earlier_)
   {

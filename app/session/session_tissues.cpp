@@ -2,7 +2,6 @@
 
 #include "app/scene/scene_text.h"
 #include "app/session/session.h"
-#include "haptics/devices/simulated/lagging_tool.h"
 #include "haptics/error.h"
 
 #include <utility>
@@ -56,16 +55,8 @@ void Session::use(Scene scene)
   endRecording(body_);
   calibration_ = std::move(calibration);
   recording_.scene = std::move(scene);
-  if (guided_ != nullptr)
-  {
-    guided_->setScene(recording_.scene);
-  }
-  if (lagging_ != nullptr)
-  {
-    lagging_->setScene(recording_.scene);
-  }
-  servo_->setScene(recording_.scene);
-  recordedFrom_ = servo_->newest().time + kForgiving;
+  tellScene();
+  recordedFrom_ = newest().time + kForgiving;
 }
 
 std::function<Session::Felt()> Session::feltWith(

@@ -59,6 +59,7 @@ bool Background::run(Work work, const Follow& follow)
     timer.start(kEvery);
     loop.exec();
     going_.reset();
+    next();
     hasEnded(result) ? void() : going->giveUp(); // the program may end, too
   }
   std::erase_if(givenUp_, [](const auto& other) { return hasEnded(other); });
@@ -69,6 +70,33 @@ bool Background::run(Work work, const Follow& follow)
   }
   result.get();
   return true;
+}
+
+void Background::later(Work start)
+{
+  waiting_.push_back(std::move(start));
+  next();
+}
+
+void Background::next()
+{
+  QTimer::singleShot(0, here_.get(),
+    [this]
+    {
+      if (!isBusy() && !waiting_.empty())
+      {
+        const Work start = std::move(waiting_.front());
+        waiting_.pop_front();
+        start();
+        next();
+      }
+    });
+}
+
+void Background::giveUpAll() noexcept
+{
+  waiting_.clear();
+  giveUp();
 }
 
 void Background::giveUp() noexcept

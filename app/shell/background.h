@@ -2,6 +2,9 @@
 
 #include "haptics/threads/followed_work.h"
 
+#include <QObject>
+
+#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
@@ -45,8 +48,25 @@ public:
     return going_ != nullptr;
   }
 
+  /// Calls what runs work once none goes on any longer, from the event loop, in the order of the
+  /// calls.
+  /// @param start  does not throw
+  void later(Work start);
+
+  [[nodiscard]] std::size_t waiting() const noexcept
+  {
+    return waiting_.size();
+  }
+
+  /// Gives up also what waits.
+  void giveUpAll() noexcept;
+
 private:
+  void next();
+
   std::shared_ptr<FollowedWork> going_; // null: nothing goes on
+  std::deque<Work> waiting_;
+  std::unique_ptr<QObject> here_ = std::make_unique<QObject>(); // calls back while it is
   std::vector<std::future<void>> givenUp_;
 };
 

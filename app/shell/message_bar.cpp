@@ -9,6 +9,9 @@
 #include <QTimer>
 #include <QToolButton>
 
+#include <algorithm>
+#include <utility>
+
 namespace palp
 {
 namespace
@@ -53,6 +56,9 @@ MessageBar::MessageBar(QWidget* over)
   connect(end_, &QTimer::timeout, this, &QWidget::hide);
   connect(close, &QToolButton::clicked, this, &QWidget::hide);
   over->installEventFilter(this);
+  const QMargins margins = row->contentsMargins();
+  line_ = QPushButton(tr("Cancel")).sizeHint().height() + margins.top() + margins.bottom() +
+    2 * frameWidth();
   hide();
 }
 
@@ -60,6 +66,17 @@ void MessageBar::tell(const QString& text)
 {
   show(text, false);
   end_->start(kLong);
+}
+
+void MessageBar::add(const QString& text)
+{
+  if (isHidden() || !followed_.isEmpty()) // work tells itself again and again
+  {
+    tell(text);
+    return;
+  }
+  text_->setText(tr("%1. %2").arg(text_->text(), text));
+  place();
 }
 
 void MessageBar::warn(const QString& text)
@@ -98,7 +115,7 @@ void MessageBar::follow(const QString& text, const QString& step, std::optional<
   const QString whole = step.isEmpty() ? text : text + ": " + step;
   progress_->setRange(0, percent ? 100 : 0);
   progress_->setValue(percent.value_or(0));
-  if (text_->text() != whole || height() != heightForWidth(width()))
+  if (text_->text() != whole || height() != wantedHeight())
   {
     text_->setText(whole);
     place();
@@ -143,16 +160,24 @@ bool MessageBar::eventFilter(QObject* over, QEvent* event)
 void MessageBar::hideEvent(QHideEvent* event)
 {
   QFrame::hideEvent(event);
-  Q_EMIT covers(0);
+  place();
+}
+
+int MessageBar::wantedHeight() const
+{
+  return isHidden() ? line_ : std::max(line_, heightForWidth(parentWidget()->width()));
 }
 
 void MessageBar::place()
 {
   const QWidget* over = parentWidget();
-  const int height = heightForWidth(over->width());
+  const int height = wantedHeight();
   setGeometry(0, over->height() - height, over->width(), height);
   raise();
-  isHidden() ? void() : Q_EMIT covers(height);
+  if (std::exchange(covered_, height) != height)
+  {
+    Q_EMIT covers(height);
+  }
 }
 
 } // namespace palp

@@ -29,6 +29,9 @@ public:
   /// What was done; goes away by itself. Here and below: an empty text shows nothing.
   void tell(const QString& text);
 
+  /// Tells it behind what is shown, which stays as it is.
+  void add(const QString& text);
+
   /// What went wrong, and what to do; stays until it is closed, or until there is something newer.
   void warn(const QString& text);
 
@@ -58,7 +61,8 @@ public:
   bool eventFilter(QObject* over, QEvent* event) override;
 
 Q_SIGNALS:
-  /// @param height  of the widget below that it covers, from below, once it is another; 0: nothing
+  /// @param height  of the widget below that is its own, from below, once it is another: of a line
+  ///                and its buttons at least, so that nothing there moves when they come and go
   void covers(int height);
 
 protected:
@@ -66,6 +70,7 @@ protected:
 
 private:
   void show(const QString& text, bool isWarning);
+  [[nodiscard]] int wantedHeight() const;
   void place();
 
   QLabel* icon_;
@@ -73,6 +78,8 @@ private:
   QHBoxLayout* choices_;
   QProgressBar* progress_;
   QString followed_; // empty: no work is
+  int line_ = 0;     // height of one, with its buttons
+  int covered_ = 0;
   QTimer* end_;
 };
 

@@ -4,10 +4,13 @@
 #include "app/input/quantity.h"
 #include "haptics/error.h"
 #include "haptics/surface/closest_point.h"
+#include "haptics/units.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace palp
@@ -90,24 +93,83 @@ Support labelOf(
     areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
 }
 
+Support within(double reach, const Eigen::Vector3d& center, const Surface& surface)
+{
+  const auto holds = [reach, center](const Eigen::Vector3d& x)
+  { return (x - center).norm() <= reach; };
+  return { holds,
+    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+}
+
+// of what faces a direction within an angle, on the surface
+Eigen::Vector3d middleOf(const Surface& surface, const Eigen::Vector3d& way, double angle)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area = 0.0;
+  for (const Triangle& corners : surface.triangles())
+  {
+    const Eigen::Vector3d& p = surface.points()[at(corners[0])];
+    const Eigen::Vector3d& q = surface.points()[at(corners[1])];
+    const Eigen::Vector3d& r = surface.points()[at(corners[2])];
+    const Eigen::Vector3d normal = (q - p).cross(r - p);
+    if (normal.dot(way) >= std::cos(angle) * normal.norm())
+    {
+      sum += normal.norm() * (p + q + r) / 3.0;
+      area += normal.norm();
+    }
+  }
+  return findClosestPoint(surface, sum / std::max(area, 1e-300), 1e9).point;
+}
+
+// what holds a liver that stands in LPS, y to the back, z to the head; none: no such word
+std::optional<Support> presetOf(const std::string& name, const Surface& surface)
+{
+  using namespace units::literals;
+  if (name == "posterior")
+  {
+    return directionOf({ "", "", "0,1,0", "60deg" }, surface);
+  }
+  if (name == "ligaments")
+  {
+    return directionOf({ "", "", "0,1,1", "30deg" }, surface);
+  }
+  if (name == "hilum")
+  {
+    constexpr double kReach = 20.0_mm; // of the vessels that go in there
+    return within(kReach, middleOf(surface, -Eigen::Vector3d::UnitZ(), 60.0_deg), surface);
+  }
+  return std::nullopt;
+}
+
+Support placedOf(
+  const std::vector<std::string>& words, const Surface& surface, const FindRegion& find)
+{
+  return words[1] == "label" ? labelOf(words, surface, find)
+    : words[1] == "box"      ? boxOf(words, surface)
+                             : directionOf(words, surface);
+}
+
 } // namespace
 
 Support parseSupport(const std::string& text, const Surface& surface, const FindRegion& find)
 {
-  const std::vector<std::string> words = wordsOf(text);
-  const bool isLabel = words.size() == 3 && words[1] == "label" && !words[2].empty();
-  const bool isKnown = (words[0] == "bonded" || words[0] == "sliding") &&
-    (isLabel || (words.size() == 4 && (words[1] == "box" || words[1] == "direction")));
-  if (!isKnown)
+  std::vector<std::string> words = wordsOf(text);
+  words.size() == 1 ? void(words.insert(words.begin(), "bonded")) : void();
+  const bool isKind = words[0] == "bonded" || words[0] == "sliding";
+  const bool isPlaced = isKind &&
+    ((words.size() == 3 && words[1] == "label" && !words[2].empty()) ||
+      (words.size() == 4 && (words[1] == "box" || words[1] == "direction")));
+  const std::optional<Support> preset =
+    isKind && words.size() == 2 ? presetOf(words[1], surface) : std::nullopt;
+  if (!isPlaced && !preset)
   {
     throw Error(ErrorCode::BadValue,
       std::string(kOption) + ": '" + text +
         "' is no support; write bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
-        "bonded:direction:X,Y,Z:30deg or bonded:label:7, or any with sliding");
+        "bonded:direction:X,Y,Z:30deg, bonded:label:7, posterior, ligaments or hilum, or any with "
+        "sliding");
   }
-  Support support = isLabel ? labelOf(words, surface, find)
-    : words[1] == "box"     ? boxOf(words, surface)
-                            : directionOf(words, surface);
+  Support support = preset ? *preset : placedOf(words, surface, find);
   if (support.along.isZero())
   {
     throw Error(ErrorCode::BadValue,

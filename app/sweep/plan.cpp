@@ -300,7 +300,6 @@ PlanTold planSweep(const Sweep& sweep, const std::filesystem::path& beside,
   {
     refuseFile(folder, failed.value());
   }
-  clearAbandoned(folder);
   const CaseFolders folders{ folder };
   const bool earlier = std::filesystem::exists(folders.results());
   const std::string before = planned(folder);

@@ -36,21 +36,29 @@ QStringList linesOf(QProcess& palp)
   return said;
 }
 
+// with all its threads behind the window, from its first moment on
+class ProgramBehind : public QProcess
+{
+protected:
+  void setupChildProcess() override // between fork and exec, where little may be called
+  {
+    constexpr int kNiceness = 10;
+    setpriority(PRIO_PROCESS, 0, kNiceness);
+  }
+};
+
 } // namespace
 
 EndedProgram runProgram(const char* name, const QStringList& arguments)
 {
   constexpr int kEvery = 50; // [ms]
-  QProcess palp;
+  ProgramBehind palp;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert("PALP_PROGRESS", "1");
   palp.setProcessEnvironment(environment);
   palp.setReadChannel(QProcess::StandardError);
   palp.start(QString::fromStdString((prefix() / "bin" / name).string()), arguments);
-  constexpr int kBehindTheWindow = 10; // niceness
-  palp.waitForStarted()
-    ? void(setpriority(PRIO_PROCESS, static_cast<id_t>(palp.processId()), kBehindTheWindow))
-    : void();
+  palp.waitForStarted();
   QStringList lines;
   while (FollowedWork::ofThisThread()->isWanted() && !palp.waitForFinished(kEvery) &&
     palp.state() != QProcess::NotRunning)

@@ -3,37 +3,50 @@
 #include "pipeline/model/coarse_mesh.h"
 
 #include <chrono>
+#include <utility>
 #include <vtkPolyData.h>
 
 namespace palp
 {
 
+vtkSmartPointer<vtkPolyData> CoarseLevel::levelOf(vtkPolyData& fine)
+{
+  return fine.GetNumberOfCells() > kMost ? coarseMesh(fine, kDrawn) : nullptr;
+}
+
+void CoarseLevel::take(vtkPolyData& fine, vtkSmartPointer<vtkPolyData> coarse)
+{
+  fine_ = &fine;
+  coarse_ = std::move(coarse);
+  isNew_ = coarse_ != nullptr;
+}
+
 void CoarseLevel::follow(vtkPolyData& fine)
 {
-  if (&fine == fine_)
+  if (&fine == fine_ || work_.valid())
   {
     return;
   }
-  fine_ = nullptr;
-  coarse_ = nullptr;
+  take(fine, nullptr);
   if (fine.GetNumberOfCells() > kMost)
   {
-    fine_ = &fine;
+    worked_ = fine_;
     const auto copy = vtkSmartPointer<vtkPolyData>::New(); // of its own, to be asked by that thread
     copy->ShallowCopy(fine_);
-    work_ = std::async(std::launch::async, [copy] { return coarseMesh(*copy, kDrawn); });
+    work_ = std::async(std::launch::async, [copy] { return levelOf(*copy); });
   }
 }
 
 bool CoarseLevel::becomesReady()
 {
   using std::chrono_literals::operator""s;
-  if (!work_.valid() || work_.wait_for(0s) != std::future_status::ready)
+  if (work_.valid() && work_.wait_for(0s) == std::future_status::ready)
   {
-    return false;
+    vtkSmartPointer<vtkPolyData> made = work_.get();
+    worked_ == fine_ ? take(*worked_, std::move(made)) : void();
+    worked_ = nullptr;
   }
-  coarse_ = work_.get();
-  return true;
+  return std::exchange(isNew_, false);
 }
 
 vtkPolyData* CoarseLevel::of(const vtkPolyData& fine) const noexcept

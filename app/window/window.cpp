@@ -52,11 +52,27 @@ bool looksAlike(const Sample& a, const Sample& b)
     std::abs(a.response.force - b.response.force) < kForce && (a.force - b.force).norm() < kForce;
 }
 
+bool looksAlike(const Sample* a, const Sample* b)
+{
+  return a == nullptr || b == nullptr ? a == b : looksAlike(*a, *b);
+}
+
+// of the second hand, live or at that time of a recording; null: there is none
+const Sample* secondBeside(const Sample& sample, Session& session, const Recording* reviewed)
+{
+  if (reviewed == nullptr)
+  {
+    return session.newestOfSecond();
+  }
+  return reviewed->second ? nearestSample(reviewed->second->samples, sample.time) : nullptr;
+}
+
 } // namespace
 
 Window::Window(Session& session, BuildTrace& trace)
   : session_(session)
   , view_(*renderer_)
+  , other_(*renderer_, view_)
   , around_(*renderer_)
   , fast_(fastPass())
   , realism_(*renderer_)
@@ -185,14 +201,15 @@ void Window::refresh()
   shown_.state = sample.state;
   const Session::Reach reach = session_.reach();
   isStale_ = reach_.show(reach.center, reach.radius) || isStale_;
-  if (isStale_ || !looksAlike(sample, shown_))
+  const Sample* second = secondBeside(sample, session_, review_ ? &pictured().recording : nullptr);
+  if (isStale_ || !looksAlike(sample, shown_) || !looksAlike(second, other_.shown()))
   {
     const bool isOther = shown_.organ != sample.organ;
     shown_ = sample;
     isOther ? showOther() : void();
     isStale_ = false;
     chartsAreStale_ = true; // the section
-    view_.show(shown_);
+    other_.show(shown_, second);
     still_ = 0;
     setSmooth(false);
     renderWindow_->Render();
@@ -208,7 +225,9 @@ void Window::refresh()
 void Window::showReadings()
 {
   const Sample& live = review_ ? session_.newest() : shown_;
-  devicePanel_->show(session_, live, acted_ | live.flags);
+  const Sample* second = session_.newestOfSecond();
+  const std::uint32_t flags = acted_ | live.flags | (second != nullptr ? second->flags : 0U);
+  devicePanel_->show(session_, live, second, flags);
   const Contact& contact = shown_.contact;
   const Calibration& calibration = calibrationShown();
   forceLabel_->setText(!contact.touching()
@@ -288,33 +307,16 @@ void Window::showValidity(const Sample& sample)
   {
     Scene scene = organShown();
     scene.nodules = search_ ? nullptr : scene.nodules; // which the rules would tell of
-    validityPanel_->showRules(rulesAt(scene, validity_, contact), contrastsAt(scene, contact));
+    std::vector<Rule> rules = rulesAt(scene, validity_, contact);
+    if (const Sample* second = other_.shown())
+    {
+      rules.push_back(betweenRule(pictured().calibration, sample, *second));
+    }
+    validityPanel_->showRules(rules, contrastsAt(scene, contact));
   }
   else
   {
     validityPanel_->showNoContact();
-  }
-}
-
-void Window::showProgress(const QString& what, const FollowedWork::Step& step)
-{
-  constexpr int kWhole = 100;
-  message_->follow(what, QString::fromStdString(step.what),
-    step.done ? std::optional(static_cast<int>(kWhole * *step.done)) : std::nullopt,
-    [this] { background_.giveUp(); });
-}
-
-bool Window::attempt(const std::function<void()>& work)
-{
-  try
-  {
-    work();
-    return true;
-  }
-  catch (const std::exception& error)
-  {
-    message_->warn(QString::fromStdString(error.what()));
-    return false;
   }
 }
 

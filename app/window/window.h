@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/map/map_work.h"
+#include "app/places/met_organ.h"
 #include "app/plots/press_figure.h"
 #include "app/plots/press_plots.h"
 #include "app/press/review.h"
@@ -15,11 +16,11 @@
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/figure/balls.h"
 #include "pipeline/figure/orientation.h"
+#include "pipeline/figure/other_hand.h"
 #include "pipeline/figure/reach_outline.h"
 #include "pipeline/figure/realism.h"
 #include "pipeline/figure/scale_bar.h"
 #include "pipeline/figure/surroundings.h"
-#include "pipeline/view/press_view.h"
 
 #include <QElapsedTimer>
 #include <QMainWindow>
@@ -65,9 +66,8 @@ class PlotPanel;
 class ValidityPanel;
 class TissuePanel;
 
-/// The window: the body in 3-D, tool and tissue at the left, live curves at the right.
-///
-/// Draws what the servo thread publishes and never holds that thread up.
+/// The window: the body in 3-D, tool and tissue at the left, live curves at the right. Draws what
+/// the servo thread publishes and never holds that thread up.
 class Window : public QMainWindow
 {
   Q_OBJECT
@@ -83,9 +83,7 @@ public:
 
   /// Says how to begin, where nobody has yet.
   void greet();
-
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
-
   bool openFile(const QString& file);       // a body; asks for what the file does not tell
   bool openFiles(const QStringList& files); // of any kind that is read, or folders
   bool loadPresses(const QString& folder);  // of an export
@@ -194,7 +192,6 @@ private:
   void finishTraining();
   void askSheet();
   [[nodiscard]] const Session::Take* lastSearch() const;
-
   void makePressList();
   void showTicked();
   void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);
@@ -210,7 +207,6 @@ private:
   void followPointer();
   void slide(int right, int up);
   void letGo();
-
   // what is played: a device's path, or what was recorded
   struct Pictured
   {
@@ -248,19 +244,22 @@ private:
   void showValidity(const Sample& sample);
   void applyTissue();
   bool changeTissue();
+  void tellDevices();
   void applyDevice(const QString& name);
+  void changeDevice(const std::function<void()>& change);
   bool useFelt(const std::function<Session::Felt()>& work);
   void sayWhatIsKept();
   void sayWhatIsThinned();
   void say(const QString& what);
   void writeCurves(const QString& file, const Plots& plots, std::optional<ImageSize> size);
   void askFigure();
+  bool saveInTurn(const std::function<void()>& save);
   bool attempt(const std::function<void()>& work);
   void showProgress(const QString& what, const FollowedWork::Step& step);
   template <typename Made>
   std::optional<Made> inBackground(const QString& what, std::function<Made()> work);
   [[nodiscard]] Exported exported(const Pictured& seen);
-  bool exportTake(const QString& directory, const Pictured& seen, const Timing* timing);
+  bool exportOne(const QString& to, Exported made, const Timing* timing);
   bool exportMap(const std::filesystem::path& folder, const StiffnessMap& map);
   bool saveMovie(const QString& file, MovieKind kind);
   bool exportInto(const QString& directory);
@@ -272,6 +271,7 @@ private:
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkPalpPressStyle> style_;
   PressView view_;
+  OtherHand other_;
   Surroundings around_;
   const vtkSmartPointer<vtkRenderPass> fast_;
   Realism realism_;
@@ -294,8 +294,7 @@ private:
   int still_ = 0;            // pictures since it last changed
   int timingsLeftOut_ = 0;
   bool chartsAreStale_ = true;
-  std::optional<std::pair<int, int>> fittedTo_ =
-    std::pair(0, 0); // size that all of the body is seen in
+  std::optional<std::pair<int, int>> fittedTo_ = std::pair(0, 0); // all of the body is seen so
   std::size_t takesKept_;
   WindowMemory memory_;
   bool saidThinned_ = false;
@@ -315,7 +314,8 @@ private:
   PlotPanel* plots_ = nullptr;             // null: never shown
   OrganList* organs_ = nullptr;            // null: there were no organs so far
   PressBar* pressBar_ = nullptr;
-  std::deque<PressPlace> queued_;  // to be pressed
+  std::deque<PressPlace> queued_; // to be pressed
+  AwaitedPress awaited_;
   QString refusedPlace_;           // why the last press at a place was not made
   PressList* pressList_ = nullptr; // null: no sample is kept
   QUndoStack undo_;

@@ -1,6 +1,7 @@
 // Which device moves the tool.
 
 #include "app/panels/device_panel.h"
+#include "app/shell/hold_key.h"
 #include "app/window/window.h"
 
 #include <QAction>
@@ -30,37 +31,64 @@ void Window::offerDevices()
 {
   const std::vector<std::string> found = Session::devices();
   const QStringList names = deviceNames(session_, found);
-  devicePanel_->offer(names + QStringList(tr(kScan)));
-  devicePanel_->choose(QString::fromStdString(session_.recording().device));
   QStringList others = names;
   others.removeAll("mouse");
   others.removeAll("hand");
+  devicePanel_->offer(names + QStringList(tr(kScan)), others);
+  tellDevices();
   say(others.isEmpty() ? tr("No device found that can be used; palp devices tells why")
                        : tr("Devices: %1").arg(others.join(", ")));
 }
 
+void Window::tellDevices()
+{
+  const Recording& now = session_.recording();
+  devicePanel_->choose(QString::fromStdString(now.device),
+    QString::fromStdString(now.second ? now.second->device : ""));
+}
+
 void Window::applyDevice(const QString& name)
 {
-  if (!isFree())
+  const bool scans = name == tr(kScan) && isFree();
+  scans ? offerDevices()
+        : changeDevice([&] { session_.useDevice(parseDevice(name.toStdString())); });
+}
+
+void Window::changeDevice(const std::function<void()>& change)
+{
+  const auto names = [this]
   {
-    devicePanel_->choose(QString::fromStdString(session_.recording().device));
-    return;
-  }
-  if (name == tr(kScan))
+    const Recording& now = session_.recording();
+    return std::pair(now.device, now.second ? now.second->device : "");
+  };
+  const auto before = names();
+  const bool isUsed = isFree() && attempt(change);
+  tellDevices();
+  if (isUsed || names() != before)
   {
-    offerDevices();
-    return;
+    applyTissue(); // what is stable depends on the devices
   }
-  attempt([&] { session_.useDevice(parseDevice(name.toStdString())); });
-  devicePanel_->choose(QString::fromStdString(session_.recording().device));
-  applyTissue(); // what is stable depends on the device
 }
 
 void Window::makeDevicePanel()
 {
   // nobody looks at the USB until the user wants a device from there
   devicePanel_ = new DevicePanel(deviceNames(session_, { "mouse", "hand" }) << tr(kScan));
+  tellDevices();
   connect(devicePanel_, &DevicePanel::deviceChanged, this, &Window::applyDevice);
+  connect(devicePanel_, &DevicePanel::secondChanged, this,
+    [this](const QString& name)
+    {
+      changeDevice(
+        [&]
+        {
+          const auto choice =
+            name.isEmpty() ? std::nullopt : std::optional(parseDevice(name.toStdString()));
+          session_.useSecond(choice);
+        });
+    });
+  connect(devicePanel_, &DevicePanel::scaleChanged, this,
+    [this](double scale) { changeDevice([&] { session_.scaleDevice(scale); }); });
   connect(devicePanel_, &DevicePanel::lagAsked, this,
     [this](bool lags)
     {
@@ -97,6 +125,7 @@ void Window::makeDeviceMenu()
     },
     QKeySequence(Qt::Key_Escape));
   stop->setShortcutContext(Qt::ApplicationShortcut); // wherever the focus is
+  new HoldKey(Qt::Key_C, *this, [this](bool isHeld) { session_.holdTools(isHeld); });
   device->addAction(
     tr("S&can for devices"), this, [this] { offerDevices(); }, QKeySequence::Refresh);
   QAction* turn = device->addAction(tr("&Turn the device to the view"), this,

@@ -6,6 +6,7 @@
 #include "app/folder/played_plan.h"
 #include "app/map/map_files.h"
 #include "app/press/export.h"
+#include "app/scene/scene_text.h"
 #include "app/shell/message_bar.h"
 #include "app/window/child_program.h"
 #include "app/window/exported.h"
@@ -20,6 +21,7 @@
 #include <QAction>
 #include <QTemporaryDir>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -56,6 +58,7 @@ std::filesystem::path pathOf(const QTemporaryDir& folder)
 // what was recorded goes into a folder of its own, from which all else is made
 void stage(const std::filesystem::path& folder, Exported& made)
 {
+  made.take();
   if (!made.plan.allSamples)
   {
     keepContact(made.recording);
@@ -101,6 +104,35 @@ std::filesystem::path writeMovie(std::filesystem::path to, MovieKind kind, Expor
   return to;
 }
 
+std::function<Recording()> partOf(const Session& session, const Recording& recording)
+{
+  return [part = recording.head(), samples = session.samplesOf(recording)]() mutable
+  {
+    part.samples = samples();
+    return std::move(part);
+  };
+}
+
+// whether one table tells of both: of the same body, tool, tissue and hand, apart in between
+template <typename Pictured>
+bool continues(const ScenePlan& opened, const Pictured& before, const Pictured& after)
+{
+  const auto isPart = [](const Recording& recording)
+  { return !recording.samples.empty() && recording.thinned == 0 && !recording.second; };
+  const auto sceneOf = [&opened](const Pictured& seen)
+  {
+    ScenePlan plan = planOf(opened, seen.body, seen.recording);
+    plan.recording.reset();
+    return sceneText(plan, "/");
+  };
+  return isPart(before.recording) && isPart(after.recording) &&
+    !before.recording.samples.back().contact.touching() &&
+    !after.recording.samples.front().contact.touching() &&
+    std::ranges::equal(
+      before.recording.files, after.recording.files, {}, &MeshFile::sha256, &MeshFile::sha256) &&
+    before.recording.device == after.recording.device && sceneOf(before) == sceneOf(after);
+}
+
 } // namespace
 
 CameraPlace Window::cameraPlace() const
@@ -125,10 +157,11 @@ void Window::lookFrom(const CameraPlace& place)
 // a copy, as the window goes on
 Exported Window::exported(const Pictured& seen)
 {
-  Recording recording = seen.recording;
-  recording.names = session_.presses().namesIn(recording);
-  ScenePlan plan = planOf(session_.plan(), seen.body, recording);
-  Exported made{ std::move(plan), std::move(recording), seen.calibration };
+  Exported made{ .plan = planOf(session_.plan(), seen.body, seen.recording),
+    .recording = seen.recording.head(),
+    .calibration = seen.calibration,
+    .parts = { partOf(session_, seen.recording) },
+    .names = session_.presses().names() };
   made.plan.allSamples = allSamplesExport_->isChecked();
   made.plan.refined = refinedExport_->isChecked();
   made.plan.camera = cameraPlace();
@@ -141,12 +174,12 @@ bool Window::saveMovie(const QString& file, MovieKind kind)
   {
     return false;
   }
-  return attempt(
-    [&]
+  return saveInTurn(
+    [this, file, kind]
     {
       takeSamples();
       const Pictured seen = pictured();
-      if (seen.recording.deepest() == nullptr)
+      if (!seen.recording.isTouched())
       {
         throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
       }
@@ -174,6 +207,10 @@ bool Window::exportData(const QString& directory)
   {
     return false;
   }
+  if (background_.isBusy()) // whose progress would take a question away
+  {
+    return saveInTurn([this, directory] { exportData(directory); });
+  }
   const QString found = filesFoundIn(directory.toStdString());
   if (found.isEmpty())
   {
@@ -185,7 +222,7 @@ bool Window::exportData(const QString& directory)
 }
 
 // false: canceled
-bool Window::exportTake(const QString& directory, const Pictured& seen, const Timing* timing)
+bool Window::exportOne(const QString& to, Exported made, const Timing* timing)
 {
   const auto stage = std::make_shared<QTemporaryDir>();
   if (timing)
@@ -193,9 +230,9 @@ bool Window::exportTake(const QString& directory, const Pictured& seen, const Ti
     writeTiming(pathOf(*stage) / "servo.csv", *timing);
   }
   return inBackground<bool>(tr("Exporting"),
-    [made = exported(seen), directory, stage]() mutable
+    [made = std::move(made), to, stage]() mutable
     {
-      writeExport(directory, *stage, std::move(made));
+      writeExport(to, *stage, std::move(made));
       return true;
     })
     .has_value();
@@ -216,23 +253,29 @@ bool Window::exportMap(const std::filesystem::path& folder, const StiffnessMap& 
 
 bool Window::exportInto(const QString& directory)
 {
-  return attempt(
-    [&]
+  return saveInTurn(
+    [this, directory]
     {
       takeSamples();
       const std::filesystem::path folder = directory.toStdString();
       const int saved = autosave_ != nullptr ? autosave_->saved() : 0; // presses go on meanwhile
-      const bool isNewest = session_.recording().deepest() != nullptr || session_.earlier().empty();
+      const bool isNewest = session_.recording().isTouched() || session_.earlier().empty();
       const std::size_t takes = session_.earlier().size() + (isNewest ? 1 : 0);
+      const auto taken = [this](std::size_t i) { return recorded(session_.earlier().size() - i); };
       QStringList written;
       bool goesOn = true;
-      for (std::size_t i = 0; goesOn && i < takes; ++i) // the oldest first
+      std::size_t folders = 0;
+      for (std::size_t i = 0; goesOn && i < takes; ++folders) // the oldest first
       {
-        const bool isLast = i + 1 == takes; // whose folder is opened and repeated
-        const std::filesystem::path name = earlierTake("", i + 1);
-        goesOn = exportTake(QString::fromStdString((isLast ? folder : folder / name).string()),
-          recorded(session_.earlier().size() - i),
-          isLast && isNewest ? &session_.timing() : nullptr);
+        Exported all = exported(taken(i));
+        while (++i < takes && continues(session_.plan(), taken(i - 1), taken(i)))
+        {
+          all.parts.push_back(partOf(session_, taken(i).recording));
+        }
+        const bool isLast = i == takes; // whose folder is opened and repeated
+        const std::filesystem::path name = earlierTake("", folders + 1);
+        goesOn = exportOne(QString::fromStdString((isLast ? folder : folder / name).string()),
+          std::move(all), isLast && isNewest ? &session_.timing() : nullptr);
         written << (isLast ? tr("scene, samples, presses, deformed mesh and pictures")
                            : QString::fromStdString(name.string()));
       }
@@ -241,12 +284,16 @@ bool Window::exportInto(const QString& directory)
         goesOn = exportMap(folder, *map);
         written << tr("stiffness map");
       }
+      else if (goesOn && map_)
+      {
+        written << tr("not the stiffness map, which is of another tool or tissue");
+      }
       if (!goesOn)
       {
         say(tr("Not exported whole: it was canceled"));
         return;
       }
-      for (std::size_t i = takes; isExport(earlierTake(folder, i)); ++i) // of what was replaced
+      for (std::size_t i = folders; isExport(earlierTake(folder, i)); ++i) // of what was replaced
       {
         std::filesystem::remove_all(earlierTake(folder, i));
       }

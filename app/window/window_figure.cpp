@@ -20,19 +20,6 @@ namespace palp
 namespace
 {
 
-// of what is drawn, without the samples, which may be many
-Recording withoutSamples(const Recording& recording)
-{
-  return { .mesh = recording.mesh,
-    .unit = recording.unit,
-    .device = recording.device,
-    .files = recording.files,
-    .command = recording.command,
-    .organs = recording.organs,
-    .scene = recording.scene,
-    .rated = recording.rated };
-}
-
 // what the other program makes of a folder
 void drawInto(const QString& what, const std::filesystem::path& made,
   const std::filesystem::path& to,
@@ -92,32 +79,35 @@ void Window::askFigure()
 bool Window::saveFigure(
   const QString& file, ImageSize size, const FigureLook& look, const std::optional<Sample>& moment)
 {
-  return attempt(
-    [&]
+  std::function<void()> save;
+  const auto prepare = [&]
+  {
+    if (!file.endsWith(".png", Qt::CaseInsensitive))
     {
-      if (!file.endsWith(".png", Qt::CaseInsensitive))
-      {
-        throw Error(
-          ErrorCode::BadFile, file.toStdString() + ": a figure is written as PNG; end it in .png");
-      }
-      const Pictured seen = pictured();
-      const SurfaceMap* map = shownMap();
-      const FigureJob job{ .size = size,
-        .look = look,
-        .camera = cameraPlace(),
-        .sample = moment.value_or(shown_),
-        .map = map != nullptr ? std::optional(*map) : std::nullopt };
-      const Recording head = withoutSamples(seen.recording);
+      throw Error(
+        ErrorCode::BadFile, file.toStdString() + ": a figure is written as PNG; end it in .png");
+    }
+    const SurfaceMap* map = shownMap();
+    const FigureJob job{ .size = size,
+      .look = look,
+      .camera = cameraPlace(),
+      .sample = moment.value_or(shown_),
+      .map = map != nullptr ? std::optional(*map) : std::nullopt };
+    Exported made = exported(pictured());
+    made.parts.clear(); // of which it shows one moment
+    save = [this, file, size, made = std::move(made), job = pack(job)]
+    {
       const auto written = inBackground<bool>(tr("Saving the figure"),
-        [to = file.toStdString(), made = exported({ seen.body, head, seen.calibration }),
-          job = pack(job)]
+        [to = file.toStdString(), made, job]
         {
           drawFigure(to, made, job);
           return true;
         });
       say(written ? tr("Written to %1: %2 x %3 pixels").arg(file).arg(size.width).arg(size.height)
                   : tr("No figure: it was canceled"));
-    });
+    };
+  };
+  return attempt(prepare) && saveInTurn(save);
 }
 
 // of curves; a file of numbers is no picture, and written at once
@@ -137,19 +127,23 @@ void Window::writeCurves(const QString& file, const Plots& plots, std::optional<
     return;
   }
   const ChartSheet sheet = ChartSheet::of(plots, to, size);
-  const auto written = inBackground<bool>(tr("Saving the curves"),
-    [to, job = pack(sheet, plots)]
-    {
-      drawCurves(to, job);
-      return true;
-    });
-  const QString pixels = tr("Written to %1: %2 x %3 pixels");
-  const QString points = tr("Written to %1: lines and text, %2 x %3 points");
-  say(written ? (sheet.ending == ".png" ? pixels : points)
-                  .arg(file)
-                  .arg(sheet.size.width)
-                  .arg(sheet.size.height)
-              : tr("No curves: it was canceled"));
+  const auto save = [this, file, to, sheet, job = pack(sheet, plots)]
+  {
+    const auto written = inBackground<bool>(tr("Saving the curves"),
+      [to, job]
+      {
+        drawCurves(to, job);
+        return true;
+      });
+    const QString pixels = tr("Written to %1: %2 x %3 pixels");
+    const QString points = tr("Written to %1: lines and text, %2 x %3 points");
+    say(written ? (sheet.ending == ".png" ? pixels : points)
+                    .arg(file)
+                    .arg(sheet.size.width)
+                    .arg(sheet.size.height)
+                : tr("No curves: it was canceled"));
+  };
+  background_.isBusy() ? void(saveInTurn(save)) : save();
 }
 
 bool Window::savePlots(const QString& file, std::optional<ImageSize> size)

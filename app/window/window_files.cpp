@@ -13,6 +13,7 @@
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkPolyData.h>
 
 #include <QApplication>
 #include <QFileDialog>
@@ -169,15 +170,27 @@ void Window::say(const QString& what)
 // false: given up
 bool Window::openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs)
 {
-  std::optional<SceneBody> body =
-    inBackground<SceneBody>(tr("Reading %1").arg(fileName(meshes.front())),
-      [plan = ScenePlan{ .meshes = meshes, .organs = organs }] { return loadBodies(plan); });
-  if (!body)
+  struct Read
+  {
+    SceneBody body;
+    vtkSmartPointer<vtkPolyData> coarse;
+  };
+  std::optional<Read> read = inBackground<Read>(tr("Reading %1").arg(fileName(meshes.front())),
+    [plan = ScenePlan{ .meshes = meshes, .organs = organs }, isSlow = hasCard_ == false]
+    {
+      Read made{ loadBodies(plan), {} };
+      vtkPolyData* fine = made.body.display;
+      made.coarse = isSlow && fine != nullptr ? CoarseLevel::levelOf(*fine) : nullptr;
+      return made;
+    });
+  if (!read)
   {
     return false;
   }
+  const vtkSmartPointer<vtkPolyData> fine = read->body.display;
   takeSamples();
-  session_.open(*std::move(body), organs);
+  session_.open(std::move(read->body), organs);
+  fine != nullptr ? coarse_.take(*fine, read->coarse) : void();
   clearCharts();
   showBody();
   pressBar_->clearPlace();
@@ -206,6 +219,10 @@ bool Window::openFile(const QString& file)
     return false;
   }
   MeshSource source{ .file = file.toStdString() };
+  if (!attempt([&] { checkExists(source); })) // no answer to a question opens it
+  {
+    return false;
+  }
   std::vector<FileOrgan> organs; // labels of it, an organ each; none: it is one body
   std::optional<OpenDialog> dialog;
   bool opened = false;
@@ -227,7 +244,7 @@ bool Window::openFile(const QString& file)
       organs = isAsked ? dialog->organs() : organs;
     }
   }
-  devicePanel_->choose(QString::fromStdString(session_.recording().device));
+  tellDevices();
   if (opened)
   {
     memory_.addRecentFile(file);
@@ -237,19 +254,20 @@ bool Window::openFile(const QString& file)
       const bool isTold = organs.empty() || note.find("warning: ") != std::string::npos;
       isTold ? void(notes << QString::fromStdString(note)) : void();
     }
-    say(tr("Opened %1. %2").arg(QString::fromStdString(session_.body().name), notes.join("; ")));
+    const QString name = QString::fromStdString(session_.body().name);
+    const QString told = notes.join("; ");
+    say(tr("Opened %1").arg(told.startsWith(name + ':') ? told : (name + ". " + told).trimmed()));
   }
   return opened;
 }
 
 bool Window::saveScreenshot(const QString& file)
 {
-  return attempt(
-    [&]
+  message_->tell({}); // which the picture gives room to, and does not show
+  renderWindow_->Render();
+  return saveInTurn(
+    [this, file, picture = canvas_->grabFramebuffer()]
     {
-      message_->tell({}); // which the picture gives room to, and does not show
-      renderWindow_->Render();
-      const QImage picture = canvas_->grabFramebuffer();
       const auto written = inBackground<bool>(tr("Saving the screenshot"),
         [picture, to = file.toStdString()]
         {

@@ -189,11 +189,13 @@ void Window::makePlots(bool shown)
       organOf(recording.scene, organ).law, press, &organOf(session_.calibration(), organ));
   };
   plots_ = new PlotPanel(
-    { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); } },
+    { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); },
+        tr("Nothing to show yet: press the surface") },
       { tr("Forces"), forces },
       { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },
       { tr("Presses"), [this] { return pressForces(pressList_->ticked()); } },
-      { tr("Differences"), [this] { return pressDifferences(pressList_->ticked()); } } });
+      { tr("Differences"), [this] { return pressDifferences(pressList_->ticked()); },
+        tr("Nothing to compare yet: tick two presses or more in the list of presses") } });
   connect(plots_, &PlotPanel::saveAsked, this,
     [this]
     {

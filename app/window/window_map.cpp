@@ -6,6 +6,7 @@
 #include "app/panels/press_bar.h"
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
+#include "haptics/units.h"
 
 #include <QAction>
 #include <QMenu>
@@ -72,7 +73,7 @@ void Window::askMap()
   if (!presses.empty() && presses.back().summary.organ == *organ)
   {
     last = presses.back().summary.deepest.center;
-    usual.depth = presses.back().summary.deepest.depth;
+    usual.depth = depthToType(presses.back().summary.deepest);
   }
   MapDialog dialog(usual, last, this);
   if (dialog.exec() == QDialog::Accepted)
@@ -116,12 +117,16 @@ void Window::takeMap()
   {
     return; // another body is open by now
   }
-  say(tr("Stiffness map: %1 of %2 places pressed, %3 to %4 N/mm; File > Export data writes it, too")
-        .arg(made.map.pressed())
-        .arg(made.map.places.size())
-        .arg(made.colors.low, 0, 'f', 2)
-        .arg(made.colors.high, 0, 'f', 2));
+  const QString found = tr("Stiffness map: %1 of %2 places pressed, %3 to %4 N/mm; ")
+                          .arg(made.map.pressed())
+                          .arg(made.map.places.size())
+                          .arg(made.colors.low, 0, 'f', 2)
+                          .arg(made.colors.high, 0, 'f', 2);
   map_ = std::move(made);
+  say(found +
+    (currentMap() != nullptr ? tr("File > Export data writes it, too")
+                             : tr("it is of the tool and the tissue before, and exported once "
+                                  "these are taken back (Ctrl+Z)")));
   mapIsStale_ = false;
   clearMap_->setEnabled(true);
   mapColors_->setEnabled(true);
@@ -142,6 +147,12 @@ void Window::dropMap()
 
 void Window::showMap()
 {
+  if (map_)
+  {
+    const MapRequest& asked = map_->map.asked;
+    map_->colors.origin = "stiffness by " + toolAndTissue(map_->map.scene.law) + ", " +
+      units::inMillimeters(asked.depth) + " deep";
+  }
   view_.setMap(shownMap());
   isStale_ = true;
 }

@@ -193,12 +193,21 @@ void Window::openPlaces(const QString& file)
       [this, places = presses.places] { queued_.assign(places.begin(), places.end()); } } });
 }
 
-// the next of several places, which names its press, once the one before is kept
+// what the one before met is told, and the next of several places, which names its press, pressed
 void Window::pressQueued()
 {
   PressLog& log = session_.presses();
   const bool isFree = !pointer_.pressesByItself() && !session_.newest().contact.touching();
-  if (!queued_.empty() && isFree && !log.isPressing())
+  if (!isFree || log.isPressing())
+  {
+    return;
+  }
+  if (const std::string note = awaited_.end(log); !note.empty())
+  {
+    message_->warn(QString::fromStdString(note));
+    refusedPlace_ = message_->text();
+  }
+  if (!queued_.empty())
   {
     const PressPlace place = queued_.front();
     queued_.pop_front();

@@ -188,7 +188,7 @@ void Window::chooseRealism()
   }
 }
 
-// in the place of a surface that would take long to draw, once there is time for it
+// in the place of a surface that would take long to draw, once it is there
 void Window::drawCoarse()
 {
   vtkPolyData* fine = session_.body().display;
@@ -196,12 +196,14 @@ void Window::drawCoarse()
   {
     coarse_.follow(*fine);
   }
-  if (coarse_.becomesReady() && coarse_.of(*fine) != nullptr)
+  vtkPolyData* coarse = coarse_.becomesReady() ? coarse_.of(*fine) : nullptr;
+  if (coarse != nullptr)
   {
-    showPictured();
-    say(tr("Drawn with %L1 triangles, as %L2 take long here; all of them are felt and exported")
-          .arg(coarse_.of(*fine)->GetNumberOfCells())
-          .arg(fine->GetNumberOfCells()));
+    view_.shows(*coarse) ? void() : showPictured();
+    message_->add(
+      tr("Drawn with %L1 triangles, as %L2 take long here; all of them are felt and exported")
+        .arg(coarse->GetNumberOfCells())
+        .arg(fine->GetNumberOfCells()));
   }
 }
 
@@ -245,7 +247,7 @@ void Window::smoothen(const Sample& newest)
   {
     setSmooth(true);
     shown_ = newest;
-    view_.show(shown_);
+    other_.show(shown_, other_.shown());
     renderWindow_->Render();
     showReadings();
   }

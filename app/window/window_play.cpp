@@ -166,14 +166,14 @@ void Window::play(const PlayOrder& order)
 void Window::reviewLatest()
 {
   takeSamples();
-  review(session_.recording().deepest() ? 0 : 1);
+  review(session_.recording().isTouched() ? 0 : 1);
 }
 
 // while the tool rests
 void Window::review(std::size_t ago)
 {
   const Recording& recording = recorded(ago).recording;
-  if (!recording.deepest())
+  if (!recording.isTouched())
   {
     say(tr("Nothing is recorded yet: press first"));
     return;

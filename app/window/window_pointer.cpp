@@ -2,7 +2,6 @@
 
 #include "app/panels/press_bar.h"
 #include "app/panels/press_list.h"
-#include "app/places/met_organ.h"
 #include "app/places/placed_press.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
@@ -60,11 +59,11 @@ void Window::makePointer()
   };
   style_->Press = [this](int x, int y)
   {
-    pointer_.press(x, y, now());
+    const bool isOver = pointer_.press(x, y, now());
     followPointer();
-    if (const auto target = pointer_.target(); target && target->depth > 0.0)
+    if (isOver)
     {
-      pressBar_->showPlace(target->position);
+      pressBar_->showPlace(pointer_.target()->position);
     }
   };
   style_->Drag = [this](int pixelsDown)
@@ -126,9 +125,8 @@ void Window::makePressBar()
 
 bool Window::pressAtPlace()
 {
-  QString note;
   const bool isPressed = attempt(
-    [this, &note]
+    [this]
     {
       const PlacedPresses presses = pressBar_->presses();
       if (!session_.isLed())
@@ -139,7 +137,7 @@ bool Window::pressAtPlace()
       }
       const PressPlace& place = presses.places.front();
       const SurfacePoint point = pressedPoint(place, presses, session_.recording().scene);
-      note = QString::fromStdString(noteOfOrgan(place, presses, session_.recording()));
+      awaited_.begin(presses, session_.recording(), session_.presses());
       pointer_.pressAt(point, presses.depth, presses.speed);
       aim();
       if (pressList_ != nullptr && !search_) // which tells what comes of it
@@ -151,15 +149,14 @@ bool Window::pressAtPlace()
   {
     message_->warn({});
   }
-  note.isEmpty() ? void() : message_->warn(note);
-  refusedPlace_ = isPressed && note.isEmpty() ? QString() : message_->text();
+  refusedPlace_ = isPressed ? QString() : message_->text();
   return isPressed;
 }
 
 void Window::aim()
 {
   pointer_.update(now());
-  pointer_.lead(session_.newest().time);
+  pointer_.lead(session_.newest());
   if (const auto target = pointer_.target())
   {
     session_.aim(*target);

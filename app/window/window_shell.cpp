@@ -1,6 +1,7 @@
 // What a window of any program has: recent files, drag and drop, panels, help, a bar of tools.
 
 #include "app/shell/key_sheet.h"
+#include "app/shell/message_bar.h"
 #include "app/window/window.h"
 
 #include <QAction>
@@ -38,7 +39,7 @@ QStringList filesOf(const QMimeData& dragged)
 
 void Window::closeEvent(QCloseEvent* event)
 {
-  background_.giveUp();
+  background_.giveUpAll();
   memory_.save(*this);
   QMainWindow::closeEvent(event);
 }
@@ -131,6 +132,7 @@ void Window::makeHelpMenu()
         { tr("Place, Return"), tr("Press at a place that is typed above the picture") },
         { tr("Arrows, Page Down or Up"), tr("In the picture: slide, press 0.1 mm deeper or less") },
         { tr("Right-drag, Ctrl+arrows"), tr("Rotate the view") },
+        { tr("C, held"), tr("A device's tool stays while the hand goes elsewhere") },
         { tr("Middle-drag"), tr("Move the view") }, { tr("Ctrl+wheel, + or -"), tr("Zoom") } };
       showKeySheet(*this, mouse, *menuBar());
     });
@@ -170,6 +172,42 @@ void Window::makeToolBar()
     action->setIcon(style()->standardIcon(entry.icon));
     action->setIconVisibleInMenu(false);
     bar->addAction(action);
+  }
+}
+
+void Window::showProgress(const QString& what, const FollowedWork::Step& step)
+{
+  constexpr int kWhole = 100;
+  const QString waiting = background_.waiting() > 0
+    ? tr(" (then %1 more to save)").arg(background_.waiting())
+    : QString();
+  message_->follow(what, QString::fromStdString(step.what) + waiting,
+    step.done ? std::optional(static_cast<int>(kWhole * *step.done)) : std::nullopt,
+    [this] { background_.giveUp(); });
+}
+
+// at once, or after what is saved already
+bool Window::saveInTurn(const std::function<void()>& save)
+{
+  if (!background_.isBusy())
+  {
+    return attempt(save);
+  }
+  background_.later([this, save] { attempt(save); });
+  return true;
+}
+
+bool Window::attempt(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+    return true;
+  }
+  catch (const std::exception& error)
+  {
+    message_->warn(QString::fromStdString(error.what()));
+    return false;
   }
 }
 

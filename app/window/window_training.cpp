@@ -6,6 +6,7 @@
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
 #include "app/train/panel/training_panel.h"
+#include "app/window/exported.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
 
@@ -223,7 +224,8 @@ bool Window::saveSheet(const QString& directory)
       {
         throw Error(ErrorCode::BadValue, "training: none was graded yet; finish one first");
       }
-      if (exportTake(directory, { take->body, take->recording, take->calibration }, nullptr))
+      if (exportOne(
+            directory, exported({ take->body, take->recording, take->calibration }), nullptr))
       {
         say(tr("Written to %1: %2").arg(directory, "score.html, score.json, score.csv"));
       }

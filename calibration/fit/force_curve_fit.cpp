@@ -127,7 +127,7 @@ private:
   template <typename Profile>
   [[nodiscard]] RootBracket inside(const Profile& profile, double value, RootBracket whole) const
   {
-    const auto end = [&](double limit)
+    const auto end = [&](double limit, double unknown)
     {
       const auto excess = [&](double part) // of the way to the limit
       { return profile(value + part * (limit - value)) - most_; };
@@ -143,7 +143,7 @@ private:
         }
         else if (around.high >= 1.0)
         {
-          return limit < value ? -kInfinity : kInfinity;
+          return unknown;
         }
         else
         {
@@ -151,7 +151,7 @@ private:
         }
       }
     };
-    return { end(whole.low), end(whole.high) };
+    return { end(whole.low, -kInfinity), end(whole.high, kInfinity) };
   }
 
   [[nodiscard]] RootBracket contactsSearched() const
@@ -217,9 +217,7 @@ private:
   {
     if (model_.searchesExtra())
     {
-      const auto profile = [this](double extra) { return best(extra).value; };
-      const auto [low, high] = inside(profile, fit.extra.value, model_.extra);
-      fit.extra = { fit.extra.value, low, high };
+      fit.extra = extraInterval(fit.extra.value);
     }
     else
     {
@@ -229,6 +227,23 @@ private:
     fit.scale.high = scaleEnd(fit, 1.0);
     const auto [low, high] = contactInterval(fit);
     fit.contact = { fit.contact.value, low, high };
+  }
+
+  // from the first to the last value that the curve allows, whether or not all between are
+  Estimate extraInterval(double value)
+  {
+    const auto profile = [this](double extra) { return best(extra).value; };
+    RootBracket allowed{ value, value };
+    for (const double extra : spread(model_.extra, kExtras))
+    {
+      const bool isOutside = extra < allowed.low || extra > allowed.high;
+      if (isOutside && profile(extra) <= most_)
+      {
+        allowed = { std::min(allowed.low, extra), std::max(allowed.high, extra) };
+      }
+    }
+    return { value, inside(profile, allowed.low, model_.extra).low,
+      inside(profile, allowed.high, model_.extra).high };
   }
 
   RootBracket contactInterval(const CurveFit& fit)

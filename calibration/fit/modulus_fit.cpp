@@ -2,6 +2,8 @@
 
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
+#include "haptics/force/linear/layer.h"
+#include "haptics/numerics/roots.h"
 #include "haptics/threads/followed_work.h"
 #include "haptics/units.h"
 
@@ -27,14 +29,19 @@ double thicknessOf(double inverse)
   return inverse > 0.0 ? 1.0 / inverse : std::numeric_limits<double>::infinity();
 }
 
-CurveModel modelOf(const ModulusQuestion& question, LawMode mode)
+ForceLaw lawOf(const ModulusQuestion& question, LawMode mode)
 {
   LawSettings settings = question.settings;
   settings.mode = mode;
-  const ForceLaw law(question.tip, { kUnitModulus, question.poissonRatio }, settings);
+  return { question.tip, { kUnitModulus, question.poissonRatio }, settings };
+}
+
+CurveModel modelOf(const ModulusQuestion& question, LawMode mode)
+{
   const double inverse = 1.0 / question.place.thickness;
   return { .shape =
-             [law, place = question.place](double depth, double inverseThickness) mutable
+             [law = lawOf(question, mode), place = question.place](
+               double depth, double inverseThickness) mutable
     {
       place.depth = depth;
       place.thickness = thicknessOf(inverseThickness);
@@ -45,13 +52,30 @@ CurveModel modelOf(const ModulusQuestion& question, LawMode mode)
     .offset = question.offset };
 }
 
-// the thinnest is half as thick as the tool goes deep
+// The thinnest body that the law knows a press of: thicker than the tool goes deep, and as the
+// contact asks. Thinner ones, where the law goes on as lines, fit the noise of thick ones.
+double thinnest(const ModulusQuestion& question, double depth)
+{
+  const ForceLaw law = lawOf(question, LawMode::Corrected);
+  const auto isTooThin = [&](double thickness)
+  {
+    ContactGeometry place = question.place;
+    place.depth = depth;
+    place.thickness = thickness;
+    return law(place).contactRadius > Layer::kWidest * thickness;
+  };
+  constexpr int kHalvings = 30;
+  const double enough = baseRadius(question.tip) / Layer::kWidest;
+  return depth < enough ? bisect(isTooThin, { depth, enough }, kHalvings).high : depth;
+}
+
 CurveModel layerModel(const ModulusQuestion& question, const Measured& loading)
 {
   CurveModel model = modelOf(question, LawMode::Corrected);
   model.extra = { 0.0, 0.0 };
   const double contact = fitForceCurve(loading, model).contact.value;
-  model.extra.high = 1.0 / std::max(0.1_mm, 0.5 * (loading.depths.maxCoeff() - contact));
+  model.extra.high =
+    1.0 / thinnest(question, std::max(0.1_mm, loading.depths.maxCoeff() - contact));
   return model;
 }
 

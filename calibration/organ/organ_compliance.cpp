@@ -234,47 +234,101 @@ std::optional<OrganCompliance> fitted(
     .bend = (found[3] + found[4]) / (radius * radius) };
 }
 
+// what the cubes give to loads at places; those that the body hangs over are left out
+struct Loaded
+{
+  std::vector<TangentPlane> planes{};
+  std::vector<std::size_t> of{}; // the places
+  Eigen::MatrixXd moved{};       // a column for each plane [m/N]
+};
+
+Loaded loadedAt(const OrganModel& model, const Surface& surface,
+  std::span<const SurfacePoint> places, const SmoothPressure& pressure)
+{
+  Loaded loaded;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const auto& [position, outward] = places[i];
+    // else the sources of the pressure would be in the body
+    if (rayEntry(surface.tree(), position + 1e-3 * pressure.radius * outward, outward).triangle < 0)
+    {
+      loaded.planes.emplace_back(surface, position, outward, pressure.radius);
+      loaded.of.push_back(i);
+    }
+  }
+  Eigen::MatrixXd loads(3L * model.nodes(), static_cast<Eigen::Index>(loaded.planes.size()));
+  for (std::size_t i = 0; i < loaded.planes.size(); ++i)
+  {
+    const auto column = static_cast<Eigen::Index>(i);
+    loads.col(column) = loadBeyond(model, loaded.planes[i], pressure);
+    model.moveSupports(loads.col(column),
+      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
+      {
+        const TangentPlane& plane = loaded.planes[i];
+        return -plane.outside(pressure.displacement(plane.inside(place - plane.place())));
+      });
+  }
+  loaded.moved = model.solve(loads);
+  return loaded;
+}
+
+SmoothPressure pressureOf(const OrganModel& model)
+{
+  return { kSides * model.side(), model.shearModulus(), model.poissonRatio() };
+}
+
 } // namespace
 
 std::vector<std::optional<OrganCompliance>> compliancesAt(
   const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
 {
-  const double radius = kSides * model.side();
-  const SmoothPressure pressure{ radius, model.shearModulus(), model.poissonRatio() };
-  std::vector<TangentPlane> planes;
-  std::vector<std::size_t> of; // the places
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    const auto& [position, outward] = places[i];
-    // else the sources of the pressure would be in the body
-    if (rayEntry(surface.tree(), position + 1e-3 * radius * outward, outward).triangle < 0)
-    {
-      planes.emplace_back(surface, position, outward, radius);
-      of.push_back(i);
-    }
-  }
-  Eigen::MatrixXd loads(3L * model.nodes(), static_cast<Eigen::Index>(planes.size()));
-  for (std::size_t i = 0; i < planes.size(); ++i)
-  {
-    const auto column = static_cast<Eigen::Index>(i);
-    loads.col(column) = loadBeyond(model, planes[i], pressure);
-    model.moveSupports(loads.col(column),
-      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
-      {
-        const TangentPlane& plane = planes[i];
-        return -plane.outside(pressure.displacement(plane.inside(place - plane.place())));
-      });
-  }
-  const Eigen::MatrixXd moved = model.solve(loads);
+  const SmoothPressure pressure = pressureOf(model);
+  const Loaded loaded = loadedAt(model, surface, places, pressure);
   std::vector<std::optional<OrganCompliance>> found(places.size());
-  for (std::size_t i = 0; i < planes.size(); ++i)
+  for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
-    const Pressed pressed = pressedBy(pressure, planes[i]);
-    const Readings readings =
-      read(model, planes[i], pressure, pressed, moved.col(static_cast<Eigen::Index>(i)));
-    found[of[i]] = fitted(readings, pressed, planes[i], radius);
+    const Pressed pressed = pressedBy(pressure, loaded.planes[i]);
+    const Readings readings = read(
+      model, loaded.planes[i], pressure, pressed, loaded.moved.col(static_cast<Eigen::Index>(i)));
+    found[loaded.of[i]] = fitted(readings, pressed, loaded.planes[i], pressure.radius);
   }
   return found;
+}
+
+Eigen::MatrixXd motionsBy(const OrganModel& model, const Surface& surface,
+  std::span<const SurfacePoint> loads, std::span<const SurfacePoint> places)
+{
+  const SmoothPressure pressure = pressureOf(model);
+  const SmoothPressure wide{ drawnRadius(model.side()), pressure.shear, pressure.poisson };
+  const Loaded loaded = loadedAt(model, surface, loads, pressure);
+  Eigen::MatrixXd motions =
+    Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * places.size()), std::ssize(loads));
+  for (std::size_t i = 0; i < loaded.planes.size(); ++i)
+  {
+    const TangentPlane& plane = loaded.planes[i];
+    const auto moved = loaded.moved.col(static_cast<Eigen::Index>(i));
+    const double part = pressedBy(pressure, plane).part;
+    for (std::size_t k = 0; k < places.size(); ++k)
+    {
+      OrganModel::Weights weights{};
+      if (!model.weightsAt(places[k].position, places[k].normal, weights))
+      {
+        continue;
+      }
+      const Eigen::Vector3d local = plane.inside(places[k].position - plane.place());
+      // above the plane as on it: there it only has to come to nothing
+      const Eigen::Vector3d below(local.x(), local.y(), std::max(0.0, local.z()));
+      Eigen::Vector3d all = plane.outside(pressure.displacement(local));
+      for (std::size_t n = 0; n < weights.nodes.size(); ++n)
+      {
+        all += weights.values[n] * moved.segment<3>(3L * weights.nodes[n]);
+      }
+      motions.block<3, 1>(
+        static_cast<Eigen::Index>(3 * k), static_cast<Eigen::Index>(loaded.of[i])) =
+        all / part + plane.outside(wide.displacement(below) - pressure.displacement(below));
+    }
+  }
+  return motions;
 }
 
 std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surface& surface,

@@ -4,6 +4,7 @@
 #include "haptics/surface/surface.h"
 #include "haptics/surface/surface_point.h"
 
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <vector>
@@ -34,5 +35,23 @@ struct OrganCompliance
 /// The same of one.
 [[nodiscard]] std::optional<OrganCompliance> complianceAt(const OrganModel& model,
   const Surface& surface, const Eigen::Vector3d& place, const Eigen::Vector3d& outward);
+
+/// Radius of the pressure under which the motion of a whole body is drawn, wide against a contact,
+/// whose dent is drawn by itself [m].
+[[nodiscard]] constexpr double drawnRadius(double side) noexcept
+{
+  constexpr double kWide = 7.5; // sides: five times the radius of the pressure that is solved for
+  return kWide * side;
+}
+
+/// How a surface moves under a newton at each of some places, inwards along its normal: of the body
+/// as a whole, by the field of a half-space under the pressure that is solved for less the same
+/// under one of drawnRadius.
+///
+/// @param loads   with outward unit normals; one that the body hangs over moves nothing
+/// @param places  where the motion is read, likewise
+/// @return        x, y, z of place after place, a column for each load [m/N]
+[[nodiscard]] Eigen::MatrixXd motionsBy(const OrganModel& model, const Surface& surface,
+  std::span<const SurfacePoint> loads, std::span<const SurfacePoint> places);
 
 } // namespace palp

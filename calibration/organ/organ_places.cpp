@@ -1,5 +1,6 @@
 #include "calibration/organ/organ_places.h"
 
+#include "calibration/organ/in_threads.h"
 #include "calibration/organ/organ_compliance.h"
 #include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/box_tree.h"
@@ -9,7 +10,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <exception>
 #include <limits>
 #include <thread>
 
@@ -80,36 +80,17 @@ std::vector<PlacedCompliance> round(const OrganModel& model, const Surface& surf
 {
   const std::size_t parts = (places.size() + kTogether - 1) / kTogether;
   std::vector<std::vector<PlacedCompliance>> found(parts);
-  std::vector<std::exception_ptr> failures(parts);
-  const auto work = [&](std::size_t part)
-  {
-    try
+  inThreads(parts,
+    [&](std::size_t part)
     {
       const std::size_t first = part * kTogether;
       found[part] = solved(model, surface,
         places.subspan(first, std::min(kTogether, places.size() - first)), supports);
-    }
-    catch (...)
-    {
-      failures[part] = std::current_exception();
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t part = 1; part < parts; ++part)
-    {
-      threads.emplace_back(work, part);
-    }
-    work(0);
-  }
+    });
   std::vector<PlacedCompliance> all;
-  for (std::size_t part = 0; part < parts; ++part)
+  for (const std::vector<PlacedCompliance>& part : found)
   {
-    if (failures[part])
-    {
-      std::rethrow_exception(failures[part]);
-    }
-    std::ranges::move(found[part], std::back_inserter(all));
+    all.insert(all.end(), part.begin(), part.end());
   }
   return all;
 }

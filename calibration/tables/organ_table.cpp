@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -94,7 +95,111 @@ PlacedCompliance placeOf(const std::filesystem::path& file, const NumberTable::R
     .trust = static_cast<ComplianceTrust>(static_cast<int>(trust)) };
 }
 
-// a file of something else, or of another version, says so before any number is read
+// of each place whether it is loaded, where it is, its normal, and for each mode what a load there
+// moves and how it moves itself
+constexpr const char* kMotionKey = "motion";
+constexpr std::size_t kMostMoved = 60'000;
+
+void writeMotion(std::ostream& out, const OrganMotionModes& motion)
+{
+  if (motion.places.empty())
+  {
+    return;
+  }
+  constexpr int kMotionDigits = 5;
+  out << "# motion_radius_mm: " << shortest(units::toMillimeters(motion.radius))
+      << "\n# motion_modes: " << motion.modes.cols()
+      << "\n# motion: loaded or not, x, y, z in mm, normal, then for each mode what a load there "
+         "moves, and x, y, z\n";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(kMotionDigits);
+  for (std::size_t i = 0; i < motion.places.size(); ++i)
+  {
+    const auto at = static_cast<Eigen::Index>(i);
+    const auto& [position, normal, isLoaded] = motion.places[i];
+    const Eigen::Vector3d millimeters = position * units::toMillimeters(1.0);
+    text << "# " << kMotionKey << ' ' << isLoaded;
+    for (const double value : millimeters)
+    {
+      text << ' ' << rounded(value);
+    }
+    for (const double value : normal)
+    {
+      text << ' ' << value;
+    }
+    for (Eigen::Index mode = 0; mode < motion.modes.cols(); ++mode)
+    {
+      text << ' ' << motion.loads(mode, at);
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+      {
+        text << ' ' << motion.modes(3 * at + axis, mode);
+      }
+    }
+    text << '\n';
+  }
+  out << text.view();
+}
+
+std::vector<float> numbersIn(std::string_view text)
+{
+  std::vector<float> numbers;
+  const char* const end = text.data() + text.size();
+  for (const char* next = text.data(); next != end;)
+  {
+    float number = 0.0F;
+    const auto [rest, error] = std::from_chars(next, end, number);
+    if (error != std::errc() || !std::isfinite(number))
+    {
+      return {};
+    }
+    numbers.push_back(number);
+    next = rest != end && *rest == ' ' ? rest + 1 : rest;
+  }
+  return numbers;
+}
+
+OrganMotionModes motionIn(const std::filesystem::path& file, const NumberTable& table)
+{
+  const std::string start = std::string("# ") + kMotionKey + " ";
+  std::vector<std::vector<float>> lines;
+  for (const std::string& line : table.comments)
+  {
+    line.starts_with(start)
+      ? lines.push_back(numbersIn(std::string_view(line).substr(start.size())))
+      : void();
+  }
+  OrganMotionModes motion;
+  if (lines.empty() || lines.size() > kMostMoved)
+  {
+    return motion;
+  }
+  constexpr double kMostModes = 100.0;
+  constexpr std::ptrdiff_t kPlace = 7; // numbers before those of the modes
+  const auto modes =
+    static_cast<Eigen::Index>(std::min(kMostModes, numberOf(file, table, "motion_modes")));
+  motion.radius = units::fromMillimeters(numberOf(file, table, "motion_radius_mm"));
+  motion.loads.resize(modes, std::ssize(lines));
+  motion.modes.resize(3 * std::ssize(lines), modes);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    const std::vector<float>& line = lines[i];
+    if (std::ssize(line) != kPlace + 4 * modes)
+    {
+      refuse(file, "has a damaged line '# motion'; make it again by palp organ");
+    }
+    motion.places.push_back({ .position = units::fromMillimeters(1.0) *
+        Eigen::Vector3f(line[1], line[2], line[3]).cast<double>(),
+      .normal = Eigen::Vector3f(line[4], line[5], line[6]).cast<double>().normalized(),
+      .isLoaded = line[0] != 0.0F });
+    const Eigen::Map<const Eigen::Matrix4Xf> all(line.data() + kPlace, 4, modes);
+    motion.loads.col(static_cast<Eigen::Index>(i)) = all.row(0);
+    motion.modes.middleRows(3 * static_cast<Eigen::Index>(i), 3) = all.bottomRows(3);
+  }
+  return motion;
+}
+
+// a file of something else, of another version or cut short says so before any number is read
 void checkVersion(const std::filesystem::path& file)
 {
   const std::string text = readText(file, "an organ file");
@@ -110,6 +215,10 @@ void checkVersion(const std::filesystem::path& file)
       "is an organ file of version " + inQuotes(version) + ", this program reads " +
         std::to_string(OrganTable::kVersion) + "; make it again by palp organ");
   }
+  if (text.back() != '\n')
+  {
+    refuse(file, "is cut short; make it again by palp organ");
+  }
 }
 
 } // namespace
@@ -118,6 +227,25 @@ bool OrganTable::continues(const OrganTable& other) const
 {
   return mesh == other.mesh && supports == other.supports && poisson == other.poisson &&
     cell == other.cell && spacing == other.spacing && count == other.count;
+}
+
+void OrganTable::place(const Eigen::Isometry3d& frame)
+{
+  for (PlacedCompliance& one : places)
+  {
+    one.position = frame * one.position;
+    one.normal = frame.linear() * one.normal;
+    one.slope = frame.linear() * one.slope;
+  }
+  const Eigen::Matrix3f turn = frame.linear().cast<float>();
+  for (std::size_t i = 0; i < motion.places.size(); ++i)
+  {
+    OrganMotionModes::Place& one = motion.places[i];
+    one.position = frame * one.position;
+    one.normal = frame.linear() * one.normal;
+    auto rows = motion.modes.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    rows = (turn * rows).eval();
+  }
 }
 
 void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
@@ -132,8 +260,9 @@ void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
          "displacement per newton, G0 + b.(x + y) + (x'Ax + y'Ay)/2"
          "\n# edge: one over the distance to a sharp edge; trust: 0 known, 1 an edge is near, 2 "
          "thinner than two cells, 3 on a support, 4 from "
-         "neighbors only\n"
-      << kHeader << '\n';
+         "neighbors only\n";
+  writeMotion(out, table.motion);
+  out << kHeader << '\n';
   for (const PlacedCompliance& place : table.places)
   {
     const Eigen::Vector3d at = place.position * units::toMillimeters(1.0);
@@ -162,6 +291,7 @@ OrganTable readOrganTable(const std::filesystem::path& file)
   {
     table.places.push_back(placeOf(file, row));
   }
+  table.motion = motionIn(file, numbers);
   if (table.places.size() > table.count)
   {
     refuse(file, "has more places than it says; make it again by palp organ");

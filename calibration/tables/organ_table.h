@@ -1,7 +1,9 @@
 #pragma once
 
 #include "haptics/force/series/compliance_field.h"
+#include "haptics/force/series/organ_motion.h"
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -14,7 +16,7 @@ namespace palp
 /// of its file.
 struct OrganTable
 {
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
 
   std::string mesh;     ///< what it is of: SHA-256 of its file, and how that was read
   std::string supports; ///< where it rests, as text
@@ -23,11 +25,15 @@ struct OrganTable
   double spacing = 4e-3; ///< of the places [m]
   std::size_t count = 0; ///< of all places; more than there are while some are still to come
   std::vector<PlacedCompliance> places;
+  OrganMotionModes motion{}; ///< at some of them; empty: not known
 
   [[nodiscard]] bool isComplete() const noexcept
   {
     return count > 0 && places.size() == count;
   }
+
+  /// Puts all of it into another frame.
+  void place(const Eigen::Isometry3d& frame);
 
   /// Whether another one is the same but for what is still to come.
   [[nodiscard]] bool continues(const OrganTable& other) const;

@@ -21,6 +21,12 @@ struct Contact
   double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open or sharp edge [m]
   double normalSpread = 0.0; ///< of the normals below the tool about their mean, rms [rad]
 
+  double slope = 1.0; ///< of depth against the normal, as the tool moves along; 1 on a plane [-]
+  Eigen::Vector3d curvatureSlope =
+    Eigen::Vector3d::Zero(); ///< of surfaceCurvature as the tool moves [1/m^2]
+  Eigen::Vector3d spreadSlope = Eigen::Vector3d::Zero();    ///< of curvatureSpread [1/m^2]
+  Eigen::Vector3d thicknessSlope = Eigen::Vector3d::Zero(); ///< of thickness [-]
+
   [[nodiscard]] bool touching() const noexcept
   {
     return depth > 0.0;

@@ -119,7 +119,7 @@ double checkedModulus(double value)
     throw Error(ErrorCode::BadValue,
       "stiffness: there are values of 0 or less in the body; give moduli above 0");
   }
-  return value;
+  return std::isnan(value) ? value : makeMaterial(value, 0.0).youngModulus; // else out of range
 }
 
 // what is felt of means at each knot

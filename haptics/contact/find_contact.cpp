@@ -1,9 +1,11 @@
 #include "haptics/contact/find_contact.h"
 
+#include "haptics/contact/ball_rule.h"
+#include "haptics/contact/height_over.h"
 #include "haptics/contact/paper_contact.h"
 #include "haptics/contact/patch.h"
+#include "haptics/numerics/smooth_step.h"
 #include "haptics/surface/closest_point.h"
-#include "haptics/tip/profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,94 +15,31 @@ namespace palp
 namespace
 {
 
-// Facets are smoothed out over a part of the contact, for what a scanner stepped comes through when
-// the mesh is fine, but over enough of them to vanish and no more than the tick has time for
-constexpr double kSmoothed = 0.63; // [-] of the contact's radius
-constexpr double kFewest = 1.8;    // [-] edge lengths; below 1.5 the facets come through
-constexpr double kMost = 6.5;      // [-] edge lengths
 constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
 constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
-
-// the ball that meets a smooth body first; a sharp or flat tip has one of radius zero
-double noseRadius(const Tip& tip) noexcept
-{
-  if (const auto* sphere = std::get_if<SphereTip>(&tip))
-  {
-    return sphere->radius;
-  }
-  if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
-  {
-    return blunt->tipRadius;
-  }
-  if (const auto* paraboloid = std::get_if<ParaboloidTip>(&tip))
-  {
-    return paraboloid->radius;
-  }
-  if (const auto* profile = std::get_if<ProfileTip>(&tip))
-  {
-    return profile->profile->noseRadius();
-  }
-  return 0.0;
-}
-
-// radius of the contact, as the undeformed surface cuts it out of the tool; a sharp or flat end is
-// inside the body, where a wider ball would reach a second wall long before the tool does
-double contactRadius(const Tip& tip, double nose, double distance) noexcept
-{
-  if (nose > 0.0)
-  {
-    const double outside = std::max(0.0, distance);
-    return std::sqrt(std::max(0.0, nose * nose - outside * outside));
-  }
-  const double depth = std::abs(distance);
-  if (const double flat = flatRadius(tip); flat > 0.0)
-  {
-    return std::min(flat, std::max(0.5 * depth, 0.25 * flat));
-  }
-  const auto* cone = std::get_if<ConeTip>(&tip);
-  const double slope = cone != nullptr ? std::tan(cone->halfAngle) : 1.0;
-  return std::min(std::min(slope, 1.0) * depth, baseRadius(tip));
-}
-
-// Distance to the surface that the facets stand for: on planes and spheres w = Q - q has the means
-// 1/2 and 1/3 of Q - h^2 and of its square, so h^2 = Q - 3/2 square / weight, without a corner
-// where a triangle leaves the ball. Along the mean normal, so that a wall behind does not count.
-double smoothed(double distance, double radius, double squaredBall, const Patch& patch) noexcept
-{
-  // no w is more than the ball's square over the nearest point's, whatever rounding makes of a ball
-  // that a corner or an edge only just enters
-  const double reached = std::clamp(
-    1.5 * patch.square.dot(patch.normal) / patch.normal.squaredNorm(), 0.0, 1.5 * radius * radius);
-  const double excess = squaredBall - reached - distance * distance; // h^2 - distance^2
-  // close to the surface the square says little: the correction fades there
-  const double scale = std::max(distance * distance, radius * radius / 16.0);
-  return distance * std::sqrt(std::max(0.25, 1.0 + excess / scale));
-}
+constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
+constexpr double kCorner = 0.4; // [-] of the least reach: the corner where the contact is wider
+constexpr double kBent = 0.3;   // [-] how near a place may come to where a hollow focuses
 
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
 struct Neighborhood
 {
-  double distance;    // of the nearest point [m], negative inside the body
-  double radius;      // of smoothing [m]
-  double squaredBall; // Q [m^2]
+  double distance; // of the nearest point [m], negative inside the body
   Patch patch;
 };
 
-Neighborhood look(
-  const Surface& surface, const Tip& tip, const Eigen::Vector3d& position, double distance) noexcept
+Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
+  double distance) noexcept
 {
-  const double contact = contactRadius(tip, noseRadius(tip), distance);
-  const double edge = surface.edgeLength();
-  const double radius =
-    std::min(contact, std::clamp(kSmoothed * contact, kFewest * edge, kMost * edge));
-  const double squaredBall = distance * distance + radius * radius;
+  const double radius = rule.smoothing(distance).value;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
-  return { distance, radius, squaredBall,
-    patchWithin(surface, position, std::sqrt(squaredBall), side, std::max(radius, 1e-9)) };
+  return { distance,
+    patchWithin(surface, position, std::sqrt(rule(distance).value), side, std::max(radius, 1e-9),
+      distance < 0.0) };
 }
 
 // whether the one nearest triangle, a fold perhaps, says inside while those about it say outside
@@ -110,58 +49,126 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
     here.patch.orientationSum.norm() > kMajority * here.patch.orientationWeight;
 }
 
+// Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
+// sphere's normals spread by at least twice as much as from where all of it counts.
+double curvedPart(const Patch& patch, double curvature, double smoothing) noexcept
+{
+  const double spread = 1.0 - patch.normal.norm() / patch.weight;
+  const double ofSphere = curvature * curvature * smoothing * smoothing / 6.0;
+  return 2.0 * spread < ofSphere ? smoothStep(std::max(0.0, 2.0 * spread / ofSphere)) : 1.0;
+}
+
+// How fast the normal below a place turns as that moves: the tensor T of curvature at a height h,
+// T / (1 + h T).
+class TurnRate
+{
+public:
+  TurnRate(const LocalShape& shape, double height) noexcept
+    : shape_(&shape)
+  {
+    const auto rate = [height](double curvature)
+    { return curvature / std::max(kBent, 1.0 + height * curvature); };
+    const double most = rate(shape.meanCurvature + shape.curvatureSpread);
+    const double least = rate(shape.meanCurvature - shape.curvatureSpread);
+    mean_ = 0.5 * (most + least);
+    share_ = shape.curvatureSpread > 0.0 ? 0.5 * (most - least) / shape.curvatureSpread : 0.0;
+  }
+
+  // along a vector across the normal
+  [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& along) const noexcept
+  {
+    return mean_ * along + share_ * (shape_->bend * along - shape_->meanCurvature * along);
+  }
+
+private:
+  const LocalShape* shape_;
+  double mean_;
+  double share_;
+};
+
+// What of the body counts as the shape of the contact, and how that changes as the tool moves: with
+// the place, with the radius as the height changes, and with the normal, which turns with the body.
+// height: over a flat body
+void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const BallRule& rule,
+  const Eigen::Vector3d& position, const Patch& patch, const Height& height) noexcept
+{
+  const double grain = kGrain * (rule.nose() + flatRadius(tip));
+  const double least = std::max(surface.shape().finest(), kFinest * grain);
+  const Sloped wide = smoothMax(rule.contactRadius(height.value), { least }, kCorner * least);
+  const double reach = std::sqrt(height.value * height.value + wide.value * wide.value);
+  const double growth = (height.value + wide.value * wide.slope) / reach;
+  const LocalShape shape = surface.shape()(position, reach, patch.normal.normalized(), grain);
+  const TurnRate turn(shape, height.value);
+  const auto slopeOf = [&](const LocalShape::Slope& of)
+  { return Eigen::Vector3d(of.place + of.radius * growth * height.slope + turn(of.normal)); };
+  contact.surfaceCurvature = shape.meanCurvature;
+  contact.curvatureSpread = shape.curvatureSpread;
+  contact.thickness = shape.thickness;
+  contact.hollow = shape.hollow;
+  contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
+  contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
+  contact.thicknessSlope = slopeOf(shape.thicknessSlope);
+}
+
 Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
 {
-  const double nose = noseRadius(tip);
-  const auto [position, reach] = reachOf(tip, pose, ContactRule::Exact);
+  auto [position, reach] = reachOf(tip, pose, ContactRule::Exact);
   if (surface.closed() && squaredDistance(surface.tree().nodes()[0], position) > reach * reach)
   {
     return {}; // quickly; behind an open sheet, contact may reach beyond its box
   }
-  const ClosestPoint nearest =
+  ClosestPoint nearest =
     findClosestPoint(surface, position, std::numeric_limits<double>::infinity());
   if (nearest.triangle < 0 || nearest.distance >= reach)
   {
     return {};
   }
-  Neighborhood here = look(surface, tip, position, nearest.distance);
+  const double off = kOff * baseRadius(tip);
+  const double raised = std::abs(nearest.distance) < off ? off - nearest.distance : 0.0;
+  if (raised > 0.0)
+  {
+    const auto triangle = static_cast<std::size_t>(nearest.triangle);
+    position += raised * unitNormal(surface.points(), surface.triangles()[triangle]);
+    nearest.distance = off;
+  }
+  const BallRule rule(tip, surface.edgeLength());
+  Neighborhood here = look(surface, rule, position, nearest.distance);
   if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
   {
-    here = look(surface, tip, position, -nearest.distance);
+    here = look(surface, rule, position, -nearest.distance);
     if (here.distance >= reach)
     {
       return {};
     }
   }
-  const auto& [distance, radius, squaredBall, patch] = here;
+  const Patch& patch = here.patch;
   const double length = patch.normal.norm();
   if (!(length > kRounding * patch.weight))
   {
     return {}; // by less than rounding, or between lobes that face each other
   }
   Contact contact;
-  contact.normal = patch.normal / length;
   contact.normalSpread = std::acos(std::min(1.0, length / patch.weight));
+  const HeightOver heightOver(patch, rule, here.distance);
+  const Height flat = heightOver(here.distance, 0.0, Eigen::Vector3d::Zero());
+  measureShape(contact, surface, tip, rule, position, patch, flat);
+  const double curved =
+    curvedPart(patch, contact.surfaceCurvature, rule.smoothing(here.distance).value);
+  const Height height =
+    heightOver(flat.value, curved * contact.surfaceCurvature, curved * contact.curvatureSlope);
+  contact.normal = height.slope.normalized();
   const double facing = -pose.axis.dot(contact.normal);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
-  const double height = smoothed(distance, radius, squaredBall, patch);
   const double rim = flatRadius(tip) * std::sin(contact.tilt); // the lowest point of a flat end
-  contact.depth = (nose + rim - height) * std::min(1.0, length / (kCoherent * patch.weight));
+  double part = std::min(1.0, length / (kCoherent * patch.weight));
   if (!surface.closed())
   {
-    contact.depth *= std::clamp(facing / kFront, 0.0, 1.0);
+    part *= std::clamp(facing / kFront, 0.0, 1.0);
   }
-  contact.center = position - height * contact.normal;
+  contact.depth = part * (rule.nose() + rim + raised - height.value);
+  contact.slope = part * height.slope.norm();
+  contact.center = position - height.value * contact.normal;
   contact.triangle = nearest.triangle;
-  const double grain = kGrain * (nose + flatRadius(tip));
-  const double span =
-    std::max({ contactRadius(tip, nose, distance), surface.shape().finest(), kFinest * grain });
-  const LocalShape shape =
-    surface.shape()(position, std::hypot(distance, span), contact.normal, grain);
-  contact.surfaceCurvature = shape.meanCurvature;
-  contact.curvatureSpread = shape.curvatureSpread;
-  contact.thickness = shape.thickness;
-  contact.hollow = shape.hollow;
   contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
     surface.edgeDistance(contact.center, contact.triangle));
   return contact;

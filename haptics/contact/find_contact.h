@@ -28,11 +28,14 @@ struct Reach
 /// Where and how deep the tool is in the undeformed surface.
 ///
 /// depth is how far the tool's deepest point along the contact normal lies below the surface
-/// (sphere: R minus the distance from its center to the surface; cone: its apex). Exact: the
-/// distance to the triangles, from which the facets are smoothed out over 0.6 of the contact's
-/// radius, at least 1.8 and at most 5 edge lengths, but never beyond the contact. So it is a
-/// continuous function of the pose, starts where the tool touches a triangle, and is that of the
-/// true plane or sphere under a mesh of one.
+/// (sphere: R minus the distance from its center to the surface; cone: its apex). Exact: below a
+/// smooth body that has as much in common with a ball about the center as the mesh has; that ball
+/// smooths the facets out over 0.6 of the contact's radius, at least 1.8 and at most 6.5 edge
+/// lengths, but never beyond the contact. So it is a smooth function of the pose, starts where the
+/// tool touches a triangle, and is that of the true plane or sphere under a mesh of one.
+///
+/// The contact carries the slopes of what a law asks for, so that the force is the gradient of one
+/// energy: a tool that is pressed in, dragged along and lifted gains no work.
 ///
 /// Two lobes at once share the normal and, where they press against each other, fade the depth.
 /// A tool whose reference point is inside a body is pushed out the nearest way; where a triangle is

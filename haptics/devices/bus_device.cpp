@@ -49,6 +49,7 @@ BusDevice::BusDevice(Open open, const DevicePlacement& placement)
     throw Error(ErrorCode::NoDevice,
       limits_.model + ": does not answer; check its power and cable, and plug it in again");
   }
+  answered_ = true; // by no servo: how long one takes to start is no delay
 }
 
 BusDevice::~BusDevice()
@@ -79,7 +80,9 @@ bool BusDevice::place(const DevicePlacement& placement)
   placement_ = placement;
   rotation_ = placement.rotation * limits_.facing;
   status_.moved.setZero();
+  answered_ = true;
   held_ = false;
+  heldByUser_ = false;
   heard_.buttons = 0; // a clutch that is held takes hold anew
   index(true);
   return true;
@@ -92,6 +95,7 @@ std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double
   if (wasLost)
   {
     there_ = false;
+    answered_ = true;
     velocity_ = VelocityEstimator(limits_.quantum);
   }
   const Clock::time_point begin = Clock::now();
@@ -120,6 +124,7 @@ std::optional<ToolPose> BusDevice::exchange(const Eigen::Vector3d& force, double
   status_.homed = heard_.homed;
   status_.stopped = heard_.stopped;
   status_.buttons = heard_.buttons;
+  status_.heat = heard_.heat;
   status_.sent =
     heard_.sent ? std::optional<Eigen::Vector3d>(rotation_ * *heard_.sent) : std::nullopt;
   status_.age = seconds(Clock::now() - when_);
@@ -147,8 +152,14 @@ IoCode BusDevice::transfer(
   {
     status_.delay = seconds(begin - asked_);
   }
-  return driver_->tick(
-    rotation_.transpose() * force, seconds(begin - std::exchange(last_, begin)), sample);
+  return tick(rotation_.transpose() * force, sample);
+}
+
+// a driver counts in this time what its motors took up, or how far its tool went
+IoCode BusDevice::tick(const Eigen::Vector3d& force, DriverSample& sample) noexcept
+{
+  const Clock::time_point now = Clock::now();
+  return driver_->tick(force, seconds(now - std::exchange(ticked_, now)), sample);
 }
 
 bool BusDevice::takeDriver() noexcept
@@ -179,7 +190,9 @@ void BusDevice::index(bool rests) noexcept
 {
   const Eigen::Vector3d reached =
     placement_.scale * (rotation_ * heard_.position) + placement_.origin;
-  status_.clutched = placement_.clutch > 0 && (heard_.buttons >> (placement_.clutch - 1) & 1U) != 0;
+  const bool button =
+    placement_.clutch > 0 && (heard_.buttons >> (placement_.clutch - 1) & 1U) != 0;
+  status_.clutched = button || heldByUser_;
   held_ = status_.clutched && (held_ || rests || !limits_.rendersForce);
   if (held_)
   {
@@ -212,7 +225,7 @@ void BusDevice::watch(const std::stop_token& stop) noexcept
     else if (Clock::now() - renewed_.load(std::memory_order_relaxed) > kCommandAge && takeDriver())
     {
       DriverSample unused;
-      releaseDriver(driver_->tick(Eigen::Vector3d::Zero(), seconds(kLook), unused));
+      releaseDriver(tick(Eigen::Vector3d::Zero(), unused));
     }
   }
 }
@@ -223,7 +236,7 @@ void BusDevice::endForce() noexcept
   DriverSample unused;
   for (int i = 0; driver_ && i < kLastWords; ++i)
   {
-    if (driver_->tick(Eigen::Vector3d::Zero(), seconds(kPeriod), unused) == IoCode::Gone)
+    if (tick(Eigen::Vector3d::Zero(), unused) == IoCode::Gone)
     {
       std::this_thread::sleep_for(kPeriod);
     }
@@ -243,6 +256,7 @@ void BusDevice::reopen(const std::stop_token& stop) noexcept
     try
     {
       driver_ = open_();
+      ticked_ = Clock::now();
       owner_ = Owner::Nobody;
     }
     catch (const std::exception&) // still unplugged

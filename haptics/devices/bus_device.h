@@ -46,6 +46,10 @@ public:
   [[nodiscard]] std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double dt) noexcept override;
   void answer(const Eigen::Vector3d& force) noexcept override;
+  void hold(bool isHeld) noexcept override
+  {
+    heldByUser_ = isHeld;
+  }
   [[nodiscard]] double busTime() const noexcept override
   {
     return busTime_;
@@ -68,6 +72,7 @@ private:
 
   [[nodiscard]] IoCode transfer(
     const Eigen::Vector3d& force, Clock::time_point begin, DriverSample& sample) noexcept;
+  [[nodiscard]] IoCode tick(const Eigen::Vector3d& force, DriverSample& sample) noexcept;
   [[nodiscard]] bool takeDriver() noexcept;
   void releaseDriver(IoCode code) noexcept;
   void turn(double dt) noexcept;
@@ -78,12 +83,14 @@ private:
   void reopen(const std::stop_token& stop) noexcept;
 
   Open open_;
-  std::unique_ptr<Driver> driver_; // its owner's; none while the device is unplugged
+  std::unique_ptr<Driver> driver_;          // its owner's; none while the device is unplugged
+  Clock::time_point ticked_ = Clock::now(); // it was, by either thread; its owner's
   DeviceLimits limits_;
   DevicePlacement placement_;
   Eigen::Matrix3d rotation_; // of it, from the driver's own frame
   std::atomic<Owner> owner_ = Owner::Nobody;
   std::atomic<int> losses_ = 0;
+  std::atomic<bool> heldByUser_ = false;                  // without a button of the device's
   std::atomic<Clock::time_point> renewed_ = Clock::now(); // the force, by the servo
 
   // of the servo's thread
@@ -98,7 +105,6 @@ private:
   int toldLosses_ = 0;                               // which the servo must not miss
   bool answered_ = true;                             // its last pose
   double busTime_ = 0.0;                             // [s], smoothed
-  Clock::time_point last_ = Clock::now();            // transfer began
   Clock::time_point asked_;                          // the transfer of the last pose began
   Clock::time_point when_;                           // and ended
 

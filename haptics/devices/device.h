@@ -34,6 +34,7 @@ struct DeviceLimits
   double velocityDelay = 0.0;   ///< of the velocity in its poses [s]
   double workspaceRadius = 0.0; ///< how far it reaches [m]; 0: no bound
   Eigen::Vector3d workspaceCenter = Eigen::Vector3d::Zero(); ///< in the frame of its poses [m]
+  bool unproven = false; ///< whether its motors push where they are told was never measured
   /// Motion of the tool by that of the hand, as it is placed; every length, speed and stiffness
   /// here is of the tool.
   double scale = 1.0;
@@ -64,6 +65,7 @@ struct DeviceStatus
   bool clutched = false;                           ///< its clutch is held: no force
   Eigen::Vector3d moved = Eigen::Vector3d::Zero(); ///< its frame, by its clutch, since limits() [m]
   double delay = 0.0; ///< from the last pose that was answered to its force [s]; 0: unknown
+  double heat = 0.0;  ///< of the motors: 1 where they bear no more than their continuous current
   /// Of the force of this exchange, what the motors were given [N]; none: all of it.
   std::optional<Eigen::Vector3d> sent{};
 };
@@ -99,6 +101,13 @@ public:
   /// Sends the force that answers the last pose at once, where the next exchange is too far off.
   /// @realtime  as exchange
   virtual void answer(const Eigen::Vector3d&) noexcept
+  {
+  }
+
+  /// Holds the tool where it is while the hand goes elsewhere, as the button of its clutch does,
+  /// for hands that have none free. Any thread; place() lets go.
+  /// @realtime  no allocation, no lock, no exception
+  virtual void hold(bool) noexcept
   {
   }
 

@@ -19,4 +19,12 @@ namespace palp
   return length > kShortest ? Eigen::Vector3d(between / length) : target;
 }
 
+/// What is left of a vector without its part along a unit vector.
+/// @realtime     pure; no allocation, no lock, no exception
+[[nodiscard]] inline Eigen::Vector3d across(
+  const Eigen::Vector3d& vector, const Eigen::Vector3d& direction) noexcept
+{
+  return vector - vector.dot(direction) * direction;
+}
+
 } // namespace palp

@@ -17,7 +17,7 @@ namespace palp
 namespace
 {
 
-std::vector<std::string> namesIn(const std::string& line)
+std::vector<std::string> columnsIn(const std::string& line)
 {
   std::vector<std::string> names = csvFields(line);
   for (std::string& name : names)
@@ -92,7 +92,7 @@ NumberTable readRows(const std::filesystem::path& file, const ChooseColumns& cho
     {
       if (header.names.empty())
       {
-        header = { .line = line, .names = namesIn(line) };
+        header = { .line = line, .names = columnsIn(line) };
         chosen = choose(header);
         continue;
       }
@@ -115,6 +115,44 @@ void refuseInfinite(const NumberTable& table, const std::filesystem::path& file)
       throw Error(ErrorCode::BadFile, where(file, line) + "not finite; give numbers");
     }
   }
+}
+
+// @param wanted  the columns to read, by the names of all
+template <typename Wanted>
+NumberTable readNamed(const std::filesystem::path& file, Wanted wanted)
+{
+  std::vector<std::string> names;
+  const auto indicesOf = [&](const Header& header)
+  {
+    names = header.names;
+    std::vector<std::size_t> chosen;
+    for (const char* column : wanted(names))
+    {
+      const auto found = std::ranges::find(names, column);
+      if (found == names.end())
+      {
+        throw Error(ErrorCode::BadFile,
+          "no column " + std::string(column) + " in " + inQuotes(header.line) +
+            "; begin with a line that names it, with commas between");
+      }
+      if (std::ranges::count(names, column) > 1)
+      {
+        throw Error(
+          ErrorCode::BadFile, "two columns " + std::string(column) + "; leave one of them out");
+      }
+      chosen.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    return chosen;
+  };
+  NumberTable table = readRows(file, indicesOf);
+  if (names.empty())
+  {
+    throw Error(ErrorCode::BadFile,
+      file.string() + ": no column " + wanted(names).front() + "; begin with a line that names it");
+  }
+  table.names = std::move(names);
+  refuseInfinite(table, file);
+  return table;
 }
 
 } // namespace
@@ -150,37 +188,33 @@ NumberTable NumberTable::readFinite(const std::filesystem::path& file, const std
 NumberTable NumberTable::readColumns(
   const std::filesystem::path& file, std::span<const char* const> columns)
 {
-  std::vector<std::string> names;
-  NumberTable table = readRows(file,
-    [&](const Header& header)
+  return readNamed(file,
+    [columns](const auto&) { return std::vector<const char*>(columns.begin(), columns.end()); });
+}
+
+NumberTable NumberTable::readRecording(
+  const std::filesystem::path& file, std::span<const char* const> columns)
+{
+  constexpr const char* kHand = "hand";
+  bool isOfHands = false;
+  NumberTable table = readNamed(file,
+    [&](const std::vector<std::string>& ofFile)
     {
-      names = header.names;
-      std::vector<std::size_t> chosen;
-      for (const char* column : columns)
+      const auto has = [&ofFile](const char* name)
+      { return std::ranges::find(ofFile, name) != ofFile.end(); };
+      isOfHands = has(kHand) && has("tool_x_mm");
+      std::vector<const char*> wanted(columns.begin(), columns.end());
+      if (isOfHands)
       {
-        const auto found = std::ranges::find(names, column);
-        if (found == names.end())
-        {
-          throw Error(ErrorCode::BadFile,
-            "no column " + std::string(column) + " in " + inQuotes(header.line) +
-              "; begin with a line that names it, with commas between");
-        }
-        if (std::ranges::count(names, column) > 1)
-        {
-          throw Error(
-            ErrorCode::BadFile, "two columns " + std::string(column) + "; leave one of them out");
-        }
-        chosen.push_back(static_cast<std::size_t>(found - names.begin()));
+        wanted.push_back(kHand);
       }
-      return chosen;
+      return wanted;
     });
-  if (names.empty())
+  if (isOfHands)
   {
-    throw Error(ErrorCode::BadFile,
-      file.string() + ": no column " + columns.front() + "; begin with a line that names it");
+    std::erase_if(table.rows, [](const Row& row) { return row.values.back() != 1.0; });
+    std::ranges::for_each(table.rows, [](Row& row) { row.values.pop_back(); });
   }
-  table.names = std::move(names);
-  refuseInfinite(table, file);
   return table;
 }
 

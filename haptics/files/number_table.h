@@ -19,7 +19,7 @@ struct NumberTable
 
   std::vector<Row> rows;
   std::vector<std::string> comments; ///< lines above the header, with their #
-  std::vector<std::string> names;    ///< of all the file's columns; readColumns() only
+  std::vector<std::string> names;    ///< of all the file's columns; not by read()
   int lastLine = 1;
 
   /// @throws Error  BadFile: missing, another header, not a number, too few columns; with the line
@@ -34,6 +34,10 @@ struct NumberTable
   /// hold words.
   /// @throws Error  BadFile: as readFinite; a column that is missing
   [[nodiscard]] static NumberTable readColumns(
+    const std::filesystem::path& file, std::span<const char* const> columns);
+
+  /// As readColumns; of an exported recording of two hands the rows of hand 1.
+  [[nodiscard]] static NumberTable readRecording(
     const std::filesystem::path& file, std::span<const char* const> columns);
 };
 

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
-#include <fstream>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
@@ -44,60 +43,16 @@ bool isFolder(const fs::path& file)
   return fs::is_directory(fs::symlink_status(file, unknown));
 }
 
-std::vector<std::string> namesIn(const fs::path& folder)
-{
-  std::vector<std::string> names;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed))
-  {
-    names.push_back(entry.path().filename().string());
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
-// in a stage that is complete: the names of files that go without another in their place
-constexpr const char* kDropped = ".dropped";
-
-// @return  0, or the reason
-int renameAll(const fs::path& stage, const fs::path& folder)
-{
-  for (const std::string& name : namesIn(stage))
-  {
-    if (name != kDropped && rename((stage / name).c_str(), (folder / name).c_str()) != 0)
-    {
-      return errno;
-    }
-  }
-  return 0;
-}
-
-// a complete stage of this user, whose run was killed while it put its files into the folder
-void finishStage(const fs::path& stage, const fs::path& folder)
-{
-  struct stat is = {};
-  std::ifstream dropped(stage / kDropped);
-  if (!dropped || lstat(stage.c_str(), &is) != 0 || !S_ISDIR(is.st_mode) || is.st_uid != geteuid())
-  {
-    return;
-  }
-  for (std::string name; std::getline(dropped, name);)
-  {
-    unlink((folder / fs::path(name).filename()).c_str()); // nowhere else
-  }
-  (void)renameAll(stage, folder);
-}
-
-// what killed runs left in a folder; only who holds the lock may ask
-void clearHidden(const fs::path& folder, const std::string& start)
+// stages that stand in a folder itself; only who holds its lock may ask
+void clearHidden(const fs::path& folder)
 {
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
+  for (const std::string& name : namesIn(folder))
   {
-    if (isHidden(entry.path().filename().string(), start))
+    if (isHidden(name))
     {
-      finishStage(entry.path(), folder);
-      fs::remove_all(entry.path(), ignored);
+      finishStage(folder / name, folder);
+      fs::remove_all(folder / name, ignored);
     }
   }
 }
@@ -140,18 +95,24 @@ Descriptor lockFolder(const fs::path& folder)
   }
 }
 
-// whether a new folder can stand for this one: nothing else in it, nothing special about it
-bool isPlain(const fs::path& folder, const fs::path& stage, const std::vector<std::string>& gone)
+// whether files have in a new folder the rights that they would have in this one
+bool isAlike(const fs::path& folder, const fs::path& stage)
 {
   struct stat is = {};
   struct stat fresh = {};
-  struct stat here = {};
   return stat(folder.c_str(), &is) == 0 && stat(stage.c_str(), &fresh) == 0 &&
-    is.st_uid == fresh.st_uid && is.st_gid == fresh.st_gid &&
-    !(stat(".", &here) == 0 && isSame(is, here)) &&
+    is.st_dev == fresh.st_dev && is.st_uid == fresh.st_uid && is.st_gid == fresh.st_gid &&
     getxattr(folder.c_str(), "system.posix_acl_access", nullptr, 0) <= 0 &&
-    getxattr(folder.c_str(), "system.posix_acl_default", nullptr, 0) <= 0 &&
-    namesIn(folder).size() == gone.size() + 1 && chmod(stage.c_str(), is.st_mode & 07777U) == 0;
+    getxattr(folder.c_str(), "system.posix_acl_default", nullptr, 0) <= 0;
+}
+
+// whether a new folder can stand for this one: nothing else in it, and nobody works there
+bool isPlain(const fs::path& folder, const fs::path& stage, const std::vector<std::string>& gone)
+{
+  struct stat is = {};
+  struct stat here = {};
+  return stat(folder.c_str(), &is) == 0 && !(stat(".", &here) == 0 && isSame(is, here)) &&
+    namesIn(folder).size() == gone.size() && chmod(stage.c_str(), is.st_mode & 07777U) == 0;
 }
 
 // empties the folder that was exchanged, but for what somebody has just put there
@@ -179,9 +140,9 @@ OutputFolder::OutputFolder(fs::path folder, std::vector<std::string> own, Earlie
   std::ranges::sort(own_);
   lock_ = lockFolder(shown_);
   folder_ = fs::canonical(shown_);
-  clearAbandoned(folder_);
-  clearHidden(folder_, hiddenStart());
-  clearHidden(folder_.parent_path(), hiddenStart(folder_.filename()));
+  clearHidden(folder_);
+  clearStages(folder_);
+  clearStages(folder_.parent_path(), folder_.filename());
   for (const std::string& name : own_)
   {
     if (isFolder(folder_ / name))
@@ -215,25 +176,32 @@ OutputFolder::~OutputFolder()
   discard();
 }
 
+// beside the folder, for whoever writes there to clear, or in it where that would be another's
 fs::path OutputFolder::stage()
 {
   const std::lock_guard guard(mutex_);
-  if (stage_.empty())
+  if (stage_.path.empty())
   {
-    stage_ = makeHidden(folder_);
-    if (stage_.empty())
+    stage_ = makeStage(folder_.parent_path(), folder_.filename());
+    isBeside_ = !stage_.path.empty() && isAlike(folder_, stage_.path);
+    if (!isBeside_)
+    {
+      stage_.path.empty() ? 0 : rmdir(stage_.path.c_str());
+      stage_ = Stage{ .path = makeHidden(folder_) };
+    }
+    if (stage_.path.empty())
     {
       refuseFile(shown_, errno);
     }
   }
-  return stage_;
+  return stage_.path;
 }
 
 void OutputFolder::publish()
 {
   const std::lock_guard guard(mutex_);
   const std::vector<std::string> staged =
-    stage_.empty() ? std::vector<std::string>{} : namesIn(stage_);
+    stage_.path.empty() ? std::vector<std::string>{} : namesIn(stage_.path);
   std::vector<std::string> gone;
   std::ranges::set_union(own_, staged, std::back_inserter(gone));
   std::erase_if(gone, [&](const std::string& name) { return !isThere(folder_ / name); });
@@ -246,7 +214,7 @@ void OutputFolder::publish()
   }
   for (const std::string& name : staged)
   {
-    if (const int failed = syncToDisk(stage_ / name))
+    if (const int failed = syncToDisk(stage_.path / name))
     {
       refuseFile(shown_ / name, failed);
     }
@@ -255,36 +223,25 @@ void OutputFolder::publish()
   {
     renameInto(earlier_ == Earlier::Keep ? std::vector<std::string>{} : gone);
   }
-  std::error_code ignored;
-  fs::remove_all(stage_, ignored);
-  stage_.clear();
+  removeStage();
   made_.clear();
   earlier_ = Earlier::Keep;
 }
 
 bool OutputFolder::exchange(const std::vector<std::string>& gone)
 {
-  if (!isPlain(folder_, stage_, gone))
+  if (!isBeside_ || !isPlain(folder_, stage_.path, gone))
   {
     return false;
   }
-  syncToDisk(stage_);
-  const std::string random = stage_.filename().string().substr(hiddenStart().size());
-  const fs::path sibling = folder_.parent_path() / (hiddenStart(folder_.filename()) + random);
-  if (rename(stage_.c_str(), sibling.c_str()) != 0)
+  syncToDisk(stage_.path);
+  if (renameat2(AT_FDCWD, stage_.path.c_str(), AT_FDCWD, folder_.c_str(), RENAME_EXCHANGE) != 0)
   {
-    return false;
-  }
-  Descriptor lock = openFolder(sibling);
-  if (!lock || (flock(lock.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) ||
-    renameat2(AT_FDCWD, sibling.c_str(), AT_FDCWD, folder_.c_str(), RENAME_EXCHANGE) != 0)
-  {
-    rename(sibling.c_str(), stage_.c_str());
     return false;
   }
   syncToDisk(folder_.parent_path());
-  lock_ = std::move(lock); // that of the earlier folder ends
-  clear(sibling, folder_, gone);
+  std::swap(lock_, stage_.lock);
+  clear(stage_.path, folder_, gone);
   return true;
 }
 
@@ -294,29 +251,31 @@ void OutputFolder::renameInto(const std::vector<std::string>& gone) const
   std::string dropped;
   for (const std::string& name : gone)
   {
-    dropped += isThere(stage_ / name) ? "" : name + '\n';
+    dropped += isThere(stage_.path / name) ? "" : name + '\n';
   }
-  replaceFile(stage_ / kDropped, dropped); // from here on the next run would finish this
+  replaceFile(stage_.path / kDropped, dropped); // from here on the next run would finish this
   for (const std::string& name : gone)
   {
     unlink((folder_ / name).c_str());
   }
-  if (const int failed = renameAll(stage_, folder_))
+  if (const int failed = emptyStage(stage_.path, folder_))
   {
     refuseFile(shown_, failed);
   }
   syncToDisk(folder_);
 }
 
+void OutputFolder::removeStage() noexcept
+{
+  std::error_code ignored;
+  stage_.path.empty() ? 0 : fs::remove_all(stage_.path, ignored);
+  stage_ = Stage();
+}
+
 void OutputFolder::discard() noexcept
 {
   const std::lock_guard guard(mutex_);
-  std::error_code ignored;
-  if (!stage_.empty())
-  {
-    fs::remove_all(stage_, ignored);
-    stage_.clear();
-  }
+  removeStage();
   for (const fs::path& folder : made_)
   {
     rmdir(folder.c_str());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/files/descriptor.h"
+#include "haptics/files/stage.h"
 
 #include <filesystem>
 #include <mutex>
@@ -13,11 +14,11 @@ namespace palp
 /// The folder that a run writes: no other run writes there meanwhile, and its files appear
 /// together, so that whatever ends the run the folder holds one run's files.
 ///
-/// A run writes into stage(), a hidden folder in it, and publishes at its end. The whole folder is
-/// then exchanged for the new one in one step. Where that cannot be (it holds other files, is the
-/// working directory, a mount point or of another owner) the earlier files are removed and the new
-/// ones renamed, one after the other: a crash in between leaves some missing until the next run
-/// there, which ends that first, but never two runs' files beside each other.
+/// A run writes into stage(), a hidden folder beside it, and publishes at its end. The whole folder
+/// is then exchanged for the new one in one step. Where that cannot be (it holds other files, is
+/// the working directory, a mount point or of other rights) the earlier files are removed and the
+/// new ones renamed, one after the other: a crash in between leaves some missing until the next run
+/// there or beside it, which ends that first, but never two runs' files beside each other.
 class OutputFolder
 {
 public:
@@ -29,8 +30,8 @@ public:
     Keep,    ///< the run goes on with them
   };
 
-  /// Locks the folder, which is made when it is missing, and clears what a killed run left, or ends
-  /// its publishing.
+  /// Locks the folder, which is made when it is missing, and clears what killed runs left there and
+  /// beside it, or ends their publishing.
   ///
   /// @param own     names of all files that such a run may leave
   /// @throws Error  BadFile: cannot be made or written, another run writes there, or Refuse and
@@ -68,6 +69,7 @@ public:
 private:
   [[nodiscard]] bool exchange(const std::vector<std::string>& gone);
   void renameInto(const std::vector<std::string>& gone) const;
+  void removeStage() noexcept;
 
   std::filesystem::path shown_;  // as the user named it
   std::filesystem::path folder_; // absolute, no links
@@ -75,7 +77,8 @@ private:
   Earlier earlier_;
   std::string found_;
   std::vector<std::filesystem::path> made_; // the folder and those above it, deepest first
-  std::filesystem::path stage_;             // empty: none
+  Stage stage_;
+  bool isBeside_ = false; // the stage, else in the folder
   std::mutex mutex_;
   Descriptor lock_;
 };

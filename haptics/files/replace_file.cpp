@@ -1,10 +1,9 @@
 #include "haptics/files/replace_file.h"
 
 #include "haptics/error.h"
-#include "haptics/files/descriptor.h"
+#include "haptics/files/stage.h"
 
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <fcntl.h>
 #include <memory>
@@ -22,16 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kRandom = "XXXXXX"; // for mkdtemp
 
 constexpr std::string_view kHidden = ".palp-";
-
-constexpr std::string_view kWaiting = ".palp-file-"; // of a single file
-
-constexpr std::chrono::minutes kMoment{ 1 }; // far more than from making a folder to locking it
-
-fs::path makeNamed(const fs::path& folder, std::string_view start)
-{
-  std::string name = (folder / start).string().append(kRandom);
-  return mkdtemp(name.data()) == nullptr ? fs::path() : fs::path(name);
-}
 
 // follows no link, as nobody can have one where only this process writes
 void writeNew(const fs::path& file, std::string_view content)
@@ -55,39 +44,21 @@ void writeNew(const fs::path& file, std::string_view content)
 
 } // namespace
 
-std::string hiddenStart(const std::string& of)
+bool isHidden(const std::string& name)
 {
-  return (of.empty() ? "" : "." + of) + std::string(kHidden);
-}
-
-bool isHidden(const std::string& name, const std::string& start)
-{
-  return name.starts_with(start) && name.size() == start.size() + kRandom.size();
+  return name.starts_with(kHidden) && name.size() == kHidden.size() + kRandom.size();
 }
 
 fs::path makeHidden(const fs::path& folder)
 {
-  return makeNamed(folder, kHidden);
+  std::string name = (folder / kHidden).string().append(kRandom);
+  return mkdtemp(name.data()) == nullptr ? fs::path() : fs::path(name);
 }
 
 Descriptor tryLockFolder(const fs::path& folder)
 {
   Descriptor lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   return lock && flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
-}
-
-void clearAbandoned(const fs::path& folder)
-{
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-  {
-    const bool isWaiting = isHidden(entry.path().filename().string(), std::string(kWaiting));
-    if (isWaiting && fs::file_time_type::clock::now() - entry.last_write_time(ignored) > kMoment &&
-      tryLockFolder(entry.path()))
-    {
-      fs::remove_all(entry.path(), ignored);
-    }
-  }
 }
 
 int syncToDisk(const fs::path& path)
@@ -103,7 +74,7 @@ std::string shownName(const fs::path& file)
   for (const fs::path& part : file)
   {
     const std::string name = part.string();
-    shown /= isHidden(name) || isHidden(name, std::string(kWaiting)) ? fs::path() : part;
+    shown /= isHidden(name) || isStage(name) ? fs::path(folderOfStage(name)) : part;
   }
   return shown.string();
 }
@@ -118,19 +89,19 @@ void refuseFile(const fs::path& file, int reason)
 void replaceFile(const fs::path& file, const std::function<void(const fs::path& fresh)>& write)
 {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const fs::path stage = makeNamed(folder, kWaiting);
-  if (stage.empty())
+  clearStages(folder);
+  const Stage stage = makeStage(folder);
+  if (stage.path.empty())
   {
     refuseFile(file, errno);
   }
-  const Descriptor lock = tryLockFolder(stage);
   const auto clean = [](const fs::path* hidden)
   {
     std::error_code ignored;
     fs::remove_all(*hidden, ignored);
   };
-  const std::unique_ptr<const fs::path, decltype(clean)> cleaned(&stage, clean);
-  const fs::path fresh = stage / file.filename();
+  const std::unique_ptr<const fs::path, decltype(clean)> cleaned(&stage.path, clean);
+  const fs::path fresh = stage.path / file.filename();
   write(fresh);
   int failed = syncToDisk(fresh);
   if (failed == 0 && rename(fresh.c_str(), file.c_str()) != 0)

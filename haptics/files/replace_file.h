@@ -10,12 +10,8 @@
 namespace palp
 {
 
-/// What the name of a hidden folder begins with, in which things wait until they are finished.
-/// @param of  the folder that it stands beside; empty: the one that it stands in
-[[nodiscard]] std::string hiddenStart(const std::string& of = {});
-
-/// Whether a name is a start and six more characters.
-[[nodiscard]] bool isHidden(const std::string& name, const std::string& start = hiddenStart());
+/// Whether a name is that of a hidden folder of makeHidden().
+[[nodiscard]] bool isHidden(const std::string& name);
 
 /// Makes a hidden folder in another one, with a name that nobody had.
 /// @return  empty, with errno, where it cannot be made
@@ -24,10 +20,6 @@ namespace palp
 /// Locks a folder as long as what is returned lives, and its process.
 /// @return  none where another has it, or it cannot be opened
 [[nodiscard]] Descriptor tryLockFolder(const std::filesystem::path& folder);
-
-/// Removes from a folder what replaceFile() left there in processes that were killed, a minute ago
-/// or earlier; what is being written stays.
-void clearAbandoned(const std::filesystem::path& folder);
 
 /// Brings the content of a file, or the names of a folder, to the disk.
 /// @return  0, or errno
@@ -42,7 +34,7 @@ int syncToDisk(const std::filesystem::path& path);
 [[noreturn]] void refuseFile(const std::filesystem::path& file, int reason);
 
 /// Replaces a file as a whole: written beside it, on the disk, then renamed. A link of that name is
-/// replaced, not followed.
+/// replaced, not followed. What killed processes left there goes first, see clearStages().
 /// @throws Error  BadFile: cannot be written; the file before remains, and nothing beside it
 void replaceFile(const std::filesystem::path& file, std::string_view content);
 

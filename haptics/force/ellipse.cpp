@@ -1,6 +1,7 @@
 #include "haptics/force/ellipse.h"
 
 #include "haptics/numerics/monotone_cubic.h"
+#include "haptics/numerics/smooth_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,9 @@ EllipseFactor::EllipseFactor()
 
 double EllipseFactor::operator()(double spread) const noexcept
 {
-  return cubicAt(spreads_, factors_, slopes_, std::clamp(spread, 0.0, kSlimmest)).value;
+  constexpr double kLeveled = 0.01; // about the end, for the slope of the factor is a force
+  const double leveled = smoothMin(std::max(0.0, spread), kSlimmest - kLeveled, kLeveled);
+  return cubicAt(spreads_, factors_, slopes_, leveled).value;
 }
 
 } // namespace palp

@@ -112,6 +112,14 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double gapSpread(const ContactGeometry& local) const noexcept;
 
+  /// Thickness of a layer as compliant as the body, which a round one is less; 0 < corrected only.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double layerThickness(const ContactGeometry& local) const noexcept;
+
+  /// Factor of the ellipse; 1 where none is formed.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double ellipse(const ContactGeometry& local) const noexcept;
+
   /// The best law known here for the same tip and tissue: every correction switched on.
   [[nodiscard]] ForceLaw corrected() const;
 
@@ -139,8 +147,6 @@ private:
     const ContactGeometry& local) const noexcept;
   [[nodiscard]] LinearContact uncoated(const ContactGeometry& local) const noexcept;
   [[nodiscard]] LinearContact linear(const ContactGeometry& local) const noexcept;
-  [[nodiscard]] double layerThickness(const ContactGeometry& local) const noexcept;
-  [[nodiscard]] double ellipse(const ContactGeometry& local) const noexcept;
 
   Tip tip_;
   Material material_;

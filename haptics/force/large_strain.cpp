@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/number_table.h"
 #include "haptics/numerics/monotone_cubic.h"
+#include "haptics/numerics/smooth_step.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -131,9 +132,15 @@ LargeStrainGrid::Ratio LargeStrainGrid::operator()(
   {
     return {};
   }
-  const Bracket s = bracket(second_, second);
+  Bracket s = bracket(second_, second);
   const Bracket n = bracket(poisson_, poisson);
   const std::size_t nextShape = std::min(s.low + 1, second_.size() - 1);
+  if (second > second_.back() && nextShape > s.low)
+  {
+    // what changes from place to place pushes a tool aside: no corner there
+    const double leveled = smoothMin(second, second_.back() + 0.5 * kNear, 0.5 * kNear);
+    s.fraction += (leveled - second_.back()) / (second_[nextShape] - second_[s.low]);
+  }
   const std::size_t nextPoisson = std::min(n.low + 1, poisson_.size() - 1);
   Ratio result{ 0.0, 0.0, within(second_, second) && within(poisson_, poisson) };
   const auto add = [&](std::size_t nu, std::size_t shape, double weight)
@@ -158,11 +165,12 @@ bool LargeStrainGrid::covers(double second, double poisson) const noexcept
 double largeStrainOf(double depth, double contactRadius, double thickness, double poisson) noexcept
 {
   constexpr double kLargestShare = 0.5; // [-] of the thickness
+  constexpr double kRoundedShare = 0.1; // [-] beyond what was fitted
   const double strain = depth / contactRadius;
   const double local = 0.28 - poisson * (0.52 + 0.52 * poisson);
   const double layer = 0.29 - poisson * (0.27 + 0.87 * poisson);
   return 1.0 + local * strain / (1.0 + 0.76 * strain) +
-    layer * std::min(depth / thickness, kLargestShare);
+    layer * smoothMin(depth / thickness, kLargestShare, kRoundedShare);
 }
 
 bool isLargeStrainKnown(

@@ -20,7 +20,7 @@ public:
   };
 
   /// @param first    increasing; its last value is where the ratio levels off
-  /// @param second   increasing; beyond, the border counts
+  /// @param second   increasing; beyond, the ratio levels off within 0.05
   /// @param poisson  nu, increasing; more than 0.05 beyond the ratio is 1, for it changes sides
   /// @param ratios   [poisson][second][first], the last running fastest; each 0.1 to 10
   /// @throws Error  BadValue: an axis out of order, or another number of ratios

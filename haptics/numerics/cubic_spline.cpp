@@ -28,17 +28,17 @@ double sum(const double* coefficients, const SplineBasis::Pieces& pieces) noexce
 
 SplineBasis splineBasis(const SplineAxis& axis, double at) noexcept
 {
-  const double step = axis.step();
+  constexpr double kSixth = 1.0 / 6.0;
   const double last = axis.intervals;
-  const double along = std::clamp((at - axis.first) / step, 0.0, last);
+  const double toSlope = last / (axis.last - axis.first);
+  const double along = std::clamp((at - axis.first) * toSlope, 0.0, last);
   const double low = std::min(std::floor(along), last - 1.0);
   const double t = along - low;
   const double s = 1.0 - t;
-  const double toSlope = 1.0 / step;
   const double toBend = toSlope * toSlope;
   return { .low = static_cast<std::size_t>(low),
-    .value = { s * s * s / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
-      (3.0 * s * s * s - 6.0 * s * s + 4.0) / 6.0, t * t * t / 6.0 },
+    .value = { kSixth * s * s * s, kSixth * (3.0 * t * t * t - 6.0 * t * t + 4.0),
+      kSixth * (3.0 * s * s * s - 6.0 * s * s + 4.0), kSixth * t * t * t },
     .slope = { -0.5 * s * s * toSlope, (1.5 * t * t - 2.0 * t) * toSlope,
       (2.0 * s - 1.5 * s * s) * toSlope, 0.5 * t * t * toSlope },
     .bend = { s * toBend, (3.0 * t - 2.0) * toBend, (3.0 * s - 2.0) * toBend, t * toBend } };
@@ -111,21 +111,22 @@ BicubicSpline::BicubicSpline(
   }
 }
 
-BicubicSpline::Value BicubicSpline::operator()(double x, double y) const noexcept
+BicubicSpline::Value BicubicSpline::operator()(
+  const SplineBasis& x, const SplineBasis& y) const noexcept
 {
-  const SplineBasis inX = splineBasis(x_, x);
-  const SplineBasis inY = splineBasis(y_, y);
-  Value result;
+  SplineBasis::Pieces across{}; // the curve over y at x
+  SplineBasis::Pieces change{}; // and how it changes with x
   for (std::size_t i = 0; i < kPieces; ++i)
   {
-    const double* row = coefficients_.data() + (inX.low + i) * coefficientsOn(y_) + inY.low;
-    const double value = sum(row, inY.value);
-    result.value += inX.value[i] * value;
-    result.x += inX.slope[i] * value;
-    result.y += inX.value[i] * sum(row, inY.slope);
-    result.yy += inX.value[i] * sum(row, inY.bend);
+    const double* row = coefficients_.data() + (x.low + i) * coefficientsOn(y_) + y.low;
+    for (std::size_t k = 0; k < kPieces; ++k)
+    {
+      across[k] += x.value[i] * row[k];
+      change[k] += x.slope[i] * row[k];
+    }
   }
-  return result;
+  return { sum(across.data(), y.value), sum(change.data(), y.value), sum(across.data(), y.slope),
+    sum(across.data(), y.bend) };
 }
 
 } // namespace palp

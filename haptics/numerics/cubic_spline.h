@@ -84,7 +84,13 @@ public:
 
   /// @param x   beyond its axis, the border; as y
   /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] Value operator()(double x, double y) const noexcept;
+  [[nodiscard]] Value operator()(double x, double y) const noexcept
+  {
+    return (*this)(splineBasis(x_, x), splineBasis(y_, y));
+  }
+
+  /// The same where one of both is asked for often: by what of each axis is not 0 there.
+  [[nodiscard]] Value operator()(const SplineBasis& x, const SplineBasis& y) const noexcept;
 
 private:
   SplineAxis x_;

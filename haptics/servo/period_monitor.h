@@ -39,33 +39,25 @@ public:
     else
     {
       --histogram_[ticks_[next_]];
+      slower_ -= ticks_[next_] > bin_ ? 1U : 0U;
     }
     ++histogram_[bin];
+    slower_ += bin > bin_ ? 1U : 0U;
     ticks_[next_] = bin;
     next_ = (next_ + 1) % ticks_.size();
+    leaveOutSlowest();
   }
 
   /// @return    [s], to a tenth of the nominal period, at least the shortest
   /// @realtime  no allocation, no lock, no exception
   [[nodiscard]] double period() const noexcept
   {
-    // the slowest hundredth is left out
-    std::size_t slower = 0;
-    std::size_t bin = kBins - 1;
-    for (; bin > 0; --bin)
-    {
-      slower += histogram_[bin];
-      if (slower * 100 > count_)
-      {
-        break;
-      }
-    }
-    const double longest = nominal_ * static_cast<double>(bin + 1) / kBinsPerPeriod;
-    if (bin > kBinsPerPeriod)
+    const double longest = nominal_ * static_cast<double>(bin_ + 1) / kBinsPerPeriod;
+    if (bin_ > kBinsPerPeriod)
     {
       return longest;
     }
-    const bool known = bin < kBinsPerPeriod && count_ == ticks_.size();
+    const bool known = bin_ < kBinsPerPeriod && count_ == ticks_.size();
     return known ? std::fmax(longest, shortest_) : nominal_;
   }
 
@@ -73,12 +65,27 @@ private:
   static constexpr int kBinsPerPeriod = 10;
   static constexpr int kBins = 40 * kBinsPerPeriod;
 
+  // a tick moves the bin by little: from its last place on, as period() is asked in every tick
+  void leaveOutSlowest() noexcept
+  {
+    for (; slower_ * 100 > count_; slower_ -= histogram_[bin_])
+    {
+      ++bin_;
+    }
+    for (; bin_ > 0 && (slower_ + histogram_[bin_]) * 100 <= count_; --bin_)
+    {
+      slower_ += histogram_[bin_];
+    }
+  }
+
   double nominal_;
   double shortest_;
   std::array<std::uint16_t, 1000> ticks_{};
   std::array<std::uint16_t, kBins> histogram_{};
   std::size_t count_ = 0;
   std::size_t next_ = 0;
+  std::size_t bin_ = 0;    // of the slowest tick but for a hundredth of all
+  std::size_t slower_ = 0; // ticks in the bins beyond
 };
 
 } // namespace palp

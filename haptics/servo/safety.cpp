@@ -83,10 +83,10 @@ SafetyChain::SafetyChain(const DeviceLimits& device, const SafetySettings& setti
   }
 }
 
-void SafetyChain::limit(
-  Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept
+void SafetyChain::limit(Sample& sample, const DepthLaw& law, const Scene& scene,
+  const TissueAt* tissue, TissueMemory* memory) noexcept
 {
-  const Eigen::Vector3d wanted = rendered(sample, law, scene, memory);
+  const Eigen::Vector3d wanted = rendered(sample, law, scene, tissue, memory);
   const Eigen::Vector3d wall = workspaceForce(last_);
   const Eigen::Vector3d damping = passivity_.damp({ .position = last_.apex,
     .velocity = last_.velocity,
@@ -134,8 +134,8 @@ double SafetyChain::largestForce(const Scene& scene) const noexcept
 }
 
 // the law through the coupling, with damping along the normal
-Eigen::Vector3d SafetyChain::rendered(
-  Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept
+Eigen::Vector3d SafetyChain::rendered(Sample& sample, const DepthLaw& law, const Scene& scene,
+  const TissueAt* tissue, TissueMemory* memory) noexcept
 {
   const double depth = sample.contact.depth;
   const double stiffest = guard_.stiffnessShare() * stiffnessLimit(scene.damping);
@@ -168,17 +168,16 @@ Eigen::Vector3d SafetyChain::rendered(
     fault(Flag::NotFinite);
     return Eigen::Vector3d::Zero();
   }
-  Eigen::Vector3d force = push(sample.contact.normal, felt, scene);
-  if (scene.nodules != nullptr || scene.stiffness != nullptr || scene.series != nullptr)
+  Eigen::Vector3d force = push(sample.contact, felt, scene);
+  if (tissue != nullptr && TissueAt::pushesAside(scene))
   {
-    const TissueAt tissue(scene, sample.contact);
-    const SeriesResponse answer = tissue.answer(felt.proxyDepth);
+    const SeriesResponse answer = tissue->answer(felt.proxyDepth);
     const double elastic = answer.felt.force;
     // what the body pushes aside relaxes as the rest
     sample.lateral = (memory == nullptr  ? 1.0
                          : elastic > 0.0 ? felt.force / elastic
                                          : 0.0) *
-      tissue.lateral(answer);
+      tissue->lateral(answer);
     force += sample.lateral;
   }
   return memory != nullptr ? Eigen::Vector3d(force + friction) : force;
@@ -219,7 +218,7 @@ double SafetyChain::highestNormalForce(const Scene& scene) const noexcept
 }
 
 Eigen::Vector3d SafetyChain::push(
-  const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept
+  const Contact& contact, const Rendered& felt, const Scene& scene) noexcept
 {
   if (!(felt.force > 0.0))
   {
@@ -235,7 +234,9 @@ Eigen::Vector3d SafetyChain::push(
   {
     raise(Flag::DampingLimited);
   }
-  return std::max(0.0, felt.force - damping * last_.velocity.dot(normal)) * normal;
+  const Eigen::Vector3d& normal = contact.normal;
+  const double elastic = contact.slope * felt.force;
+  return std::max(0.0, elastic - damping * last_.velocity.dot(normal)) * normal;
 }
 
 // at tissue or at the end of the workspace
@@ -247,6 +248,10 @@ void SafetyChain::watchSwings(const Sample& sample) noexcept
   const Eigen::Vector3d along = atEnd || sample.contact.touching() ? normal : normal_;
   normal_ = along;
   guard_.record(last_.velocity.dot(along) / device_.scale, atEnd || sample.contact.touching(), dt_);
+  if (device_.unproven && drive_.record(last_.velocity / device_.scale, sent_, dt_))
+  {
+    fault(Flag::DrivesMotion);
+  }
 }
 
 // shortened to the largest force, then to the largest change

@@ -2,7 +2,8 @@
 
 #include "haptics/devices/device.h"
 #include "haptics/servo/coupling.h"
-#include "haptics/servo/oscillation_guard.h"
+#include "haptics/servo/guards/drive_guard.h"
+#include "haptics/servo/guards/oscillation_guard.h"
 #include "haptics/servo/passivity.h"
 #include "haptics/servo/period_monitor.h"
 #include "haptics/servo/sample.h"
@@ -68,10 +69,11 @@ public:
   /// @param sample  pose and contact of this tick
   /// @param law     at this contact
   /// @param scene   for damping, largest force and version
-  /// @param memory  of tissue whose law this is, to settle where the tool is felt to be; null: none
+  /// @param tissue  whose law this is, which may push the tool aside; null: it does not
+  /// @param memory  of it, to settle where the tool is felt to be; null: none
   /// @realtime      no allocation, no lock, no exception
   void limit(Sample& sample, const DepthLaw& law, const Scene& scene,
-    TissueMemory* memory = nullptr) noexcept;
+    const TissueAt* tissue = nullptr, TissueMemory* memory = nullptr) noexcept;
 
   [[nodiscard]] DeviceState state() const noexcept
   {
@@ -99,13 +101,13 @@ private:
   void advance(const DeviceStatus& status, const SafetyOrders& orders) noexcept;
   void fault(Flag flag) noexcept;
   void forceOff(DeviceState state) noexcept;
-  [[nodiscard]] Eigen::Vector3d rendered(
-    Sample& sample, const DepthLaw& law, const Scene& scene, TissueMemory* memory) noexcept;
+  [[nodiscard]] Eigen::Vector3d rendered(Sample& sample, const DepthLaw& law, const Scene& scene,
+    const TissueAt* tissue, TissueMemory* memory) noexcept;
   void rebase(const DepthLaw& law, double depth, double stiffest, bool changed) noexcept;
   void resumeFraction() noexcept;
   [[nodiscard]] double highestNormalForce(const Scene& scene) const noexcept;
   [[nodiscard]] Eigen::Vector3d push(
-    const Eigen::Vector3d& normal, const Rendered& felt, const Scene& scene) noexcept;
+    const Contact& contact, const Rendered& felt, const Scene& scene) noexcept;
   [[nodiscard]] double renderedDamping(double wanted) const noexcept;
   [[nodiscard]] Eigen::Vector3d workspaceForce(const ToolPose& pose) noexcept;
   void watchSwings(const Sample& sample) noexcept;
@@ -127,6 +129,7 @@ private:
   SafetySettings settings_;
   PassivityController passivity_;
   OscillationGuard guard_;
+  DriveGuard drive_;
   PeriodMonitor period_;
   PeriodMonitor delays_;
   bool measured_ = false;                             // the device tells its delay

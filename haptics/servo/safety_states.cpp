@@ -31,6 +31,7 @@ struct HeartbeatAge
 constexpr HeartbeatAge kDeviceHeartbeat{ 0.003, 0.020 };
 constexpr HeartbeatAge kMainThreadHeartbeat{ 0.200, 0.300 };
 constexpr double kMainThreadGone = 2.0; // [s]
+constexpr double kWarm = 0.8;           // of the heat at which motors give less, which is told
 
 } // namespace
 
@@ -110,6 +111,10 @@ void SafetyChain::beginTick(const DeviceStatus& status, double elapsed) noexcept
   if (status.sent && status.sent->allFinite())
   {
     passivity_.given(*status.sent);
+  }
+  if (status.heat > kWarm)
+  {
+    raise(Flag::MotorsWarm);
   }
 }
 

@@ -31,6 +31,8 @@ enum class Flag : std::uint32_t
   WatchdogExpired = 16384, ///< the main thread is silent: the force fades until it is back
   DampingLimited = 32768,  ///< the law damps more than the device can render
   Clutched = 65536,        ///< the tool stays while the hand goes elsewhere; no force
+  MotorsWarm = 131072,     ///< soon they bear no more than their continuous current
+  DrivesMotion = 262144,   ///< the force speeds up what it should brake
 };
 
 /// Where a device stands between closed and felt.
@@ -44,6 +46,17 @@ enum class DeviceState : std::uint8_t
   Active,
   Decay, ///< force falls to zero
 };
+
+/// True when flags hold a fault that ends the force until the device is armed anew.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] constexpr bool isFault(DeviceState state, std::uint32_t flags) noexcept
+{
+  constexpr std::uint32_t kFaults = static_cast<std::uint32_t>(Flag::EmergencyStop) |
+    static_cast<std::uint32_t>(Flag::NotFinite) | static_cast<std::uint32_t>(Flag::DeviceLost) |
+    static_cast<std::uint32_t>(Flag::Stale) | static_cast<std::uint32_t>(Flag::Jump) |
+    static_cast<std::uint32_t>(Flag::Late) | static_cast<std::uint32_t>(Flag::DrivesMotion);
+  return (state == DeviceState::Closed || state == DeviceState::Ready) && (flags & kFaults) != 0;
+}
 
 /// One turn of the servo loop: what was read, what was found, what was sent.
 struct Sample

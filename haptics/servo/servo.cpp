@@ -89,7 +89,9 @@ Sample Servo::computeSample(
 {
   const bool stopped = stopped_.load(std::memory_order_relaxed) ||
     (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed));
-  const SafetyOrders orders{ .armed = scene.armed,
+  std::atomic<bool>* const fault = options_.fault;
+  const bool failed = fault != nullptr && fault->load(std::memory_order_relaxed);
+  const SafetyOrders orders{ .armed = scene.armed && !failed,
     .stop = stopped,
     .heartbeatAge = seconds(Clock::now() - looked_.load(std::memory_order_relaxed)) };
   if (chain_)
@@ -98,6 +100,10 @@ Sample Servo::computeSample(
     Sample sample = step(scene, memory_, *chain_, pose, device_.status(), orders, elapsed, held);
     held_ = sample.pose;
     sample.moved = device_.status().moved;
+    if (fault != nullptr && scene.armed && isFault(sample.state, sample.flags))
+    {
+      fault->store(true, std::memory_order_relaxed);
+    }
     return sample;
   }
   held_ = pose.value_or(ToolPose{ .apex = held_.apex, .axis = held_.axis });
@@ -129,9 +135,12 @@ Servo::Clock::time_point Servo::nextAfter(
     if (now + inBus > next)
     {
       const Clock::duration pace = std::max<Clock::duration>(options_.period, inBus);
+      next = std::max(now, due + ServoOptions::kShortest);
+      lost_ = std::max(Clock::duration::zero(), lost_ + (next - due) - pace);
       timing_.skipped.fetch_add(
-        static_cast<std::uint64_t>((now - due) / pace), std::memory_order_relaxed);
-      return std::max(now, due + ServoOptions::kShortest);
+        static_cast<std::uint64_t>(lost_ / pace), std::memory_order_relaxed);
+      lost_ %= pace;
+      return next;
     }
     device_.answer(force);
   }
@@ -167,7 +176,7 @@ void Servo::run(const std::stop_token& stop) noexcept
     }
     const Clock::time_point begin = Clock::now();
     Sample sample = computeSample(scene_.read(), pose, elapsed);
-    sample.time = seconds(awake - start);
+    sample.time = seconds(awake - options_.epoch.value_or(start));
     force = sample.force;
     timing_.step.record(Clock::now() - begin);
 

@@ -32,6 +32,11 @@ struct ServoOptions
   bool history = true;                ///< keep every sample for plots and export
   bool deadMan = false;               ///< force only while the device's first button is held
   const std::atomic<bool>* stop = nullptr; ///< an emergency stop that outlives servos, for signals
+  /// Of two hands: set by a fault of either while it is armed, disarms both until cleared; outlives
+  /// servos.
+  std::atomic<bool>* fault = nullptr;
+  /// From which on times are told; none: from the first tick.
+  std::optional<std::chrono::steady_clock::time_point> epoch{};
 };
 
 /// The loop that a hand feels: device, contact, law, limits, device, at a fixed rate.
@@ -120,6 +125,7 @@ private:
   std::atomic<bool> stopped_ = false;
   std::atomic<Clock::time_point> looked_ = Clock::now(); // when the main thread was last seen
   Timing timing_;
+  Clock::duration lost_{}; // of the bus, less than a period
   std::string schedule_;
   std::atomic<pid_t> number_ = 0; // of the thread in the kernel
   std::latch scheduled_{ 1 }; // locking memory holds up every thread: the first tick is after it

@@ -21,7 +21,7 @@ void push(Sample& sample, const Scene& scene, const Eigen::Vector3d& lateral) no
 {
   const Eigen::Vector3d& normal = sample.contact.normal;
   const double viscous = -scene.damping * sample.pose.velocity.dot(normal);
-  const double sum = sample.response.force + viscous;
+  const double sum = sample.contact.slope * sample.response.force + viscous;
   if (!std::isfinite(sum) || !(scene.forceLimit >= 0.0)) // before max and min, which hide a NaN
   {
     raise(sample, Flag::NotFinite);
@@ -57,34 +57,40 @@ Sample sampleAt(const ToolPose& pose) noexcept
   return sample;
 }
 
-void respond(Sample& sample, const Scene& scene) noexcept
+void respond(Sample& sample, const TissueAt& tissue) noexcept
 {
-  if (sample.contact.touching())
-  {
-    const TissueAt tissue(scene, sample.contact);
-    const SeriesResponse answer = tissue.answer(sample.contact.depth);
-    sample.response = answer.felt;
-    sample.localDepth = answer.local;
-    sample.lateral = tissue.lateral(answer);
-    sample.proxyDepth = sample.contact.depth;
-  }
+  const SeriesResponse answer = tissue.answer(sample.contact.depth);
+  sample.response = answer.felt;
+  sample.localDepth = answer.local;
+  sample.lateral = tissue.lateral(answer);
+  sample.proxyDepth = sample.contact.depth;
 }
 
-// the organ that is touched, where there are several
-Sample evaluateContact(const Scene& scene, OrganTouch& touch, const ToolPose& pose) noexcept
+// of the first organ
+Sample touchFirst(const Scene& scene, const ToolPose& pose) noexcept
+{
+  Sample sample = sampleAt(pose);
+  if (sample.flags == 0 && scene.surface != nullptr)
+  {
+    sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
+  }
+  return sample;
+}
+
+// of the organ that is touched, where there are several
+Sample touch(const Scene& scene, OrganTouch& before, const ToolPose& pose) noexcept
 {
   if (scene.others.empty())
   {
-    return evaluateContact(scene, pose);
+    return touchFirst(scene, pose);
   }
-  touch.follow(scene);
+  before.follow(scene);
   Sample sample = sampleAt(pose);
   if (sample.flags == 0)
   {
-    sample.contact = touchOrgan(scene, pose, touch);
+    sample.contact = touchOrgan(scene, pose, before);
   }
-  sample.organ = touch.organ;
-  respond(sample, organOf(scene, sample.organ));
+  sample.organ = before.organ;
   return sample;
 }
 
@@ -97,11 +103,10 @@ Response evaluateLaw(const Scene& scene, const Contact& contact, double depth) n
 
 Sample evaluateContact(const Scene& scene, const ToolPose& pose) noexcept
 {
-  Sample sample = sampleAt(pose);
-  if (sample.flags == 0 && scene.surface != nullptr)
+  Sample sample = touchFirst(scene, pose);
+  if (sample.contact.touching())
   {
-    sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
-    respond(sample, scene);
+    respond(sample, TissueAt(scene, sample.contact));
   }
   return sample;
 }
@@ -118,25 +123,29 @@ Sample step(const Scene& scene, const ToolPose& pose) noexcept
 
 Sample step(const Scene& scene, TissueMemory& memory, const ToolPose& pose, double dt) noexcept
 {
-  Sample sample = evaluateContact(scene, memory.touch(), pose);
+  Sample sample = touch(scene, memory.touch(), pose);
   const Scene& organ = organOf(scene, sample.organ);
-  Eigen::Vector3d friction = Eigen::Vector3d::Zero();
   const bool remembers = memory.begin(organ, sample, dt);
+  if (sample.contact.touching())
+  {
+    respond(sample, memory.tissue());
+  }
+  Eigen::Vector3d aside = sample.lateral;
   if (remembers)
   {
     const double depth = sample.contact.depth;
     const double elastic = sample.response.force;
     sample.response = sample.contact.touching() ? memory.at(depth) : Response{};
     const Rendered felt{ sample.response.force, sample.response.stiffness, depth };
-    friction = memory.settle(felt, std::numeric_limits<double>::infinity(), sample);
+    aside = memory.settle(felt, std::numeric_limits<double>::infinity(), sample);
     // what the body pushes aside relaxes as the rest
     sample.lateral *= sample.contact.touching() && elastic > 0.0 ? felt.force / elastic : 0.0;
-    friction += sample.lateral;
+    aside += sample.lateral;
   }
   // what lies deeper than the tool damps nothing
   if (sample.contact.touching() && !(remembers && sample.response.force == 0.0))
   {
-    push(sample, organ, friction);
+    push(sample, organ, aside);
   }
   return sample;
 }
@@ -152,18 +161,15 @@ Sample step(const Scene& scene, TissueMemory& memory, SafetyChain& chain,
   sample.organ = memory.touch().organ;
   if (admitted)
   {
-    sample = evaluateContact(scene, memory.touch(), *admitted);
+    sample = touch(scene, memory.touch(), *admitted);
   }
   const Scene& organ = organOf(scene, sample.organ);
-  if (memory.begin(organ, sample, dt))
-  {
-    const auto law = [&](double depth) noexcept { return memory.at(depth); };
-    chain.limit(sample, law, organ, &memory);
-    return sample;
-  }
-  const TissueAt tissue(organ, sample.contact);
-  const auto law = [&](double depth) noexcept { return tissue(depth); };
-  chain.limit(sample, law, organ);
+  const bool remembers = memory.begin(organ, sample, dt);
+  const TissueAt& tissue = memory.tissue();
+  sample.localDepth = tissue.answer(sample.contact.depth).local;
+  const auto law = [&](double depth) noexcept
+  { return remembers ? memory.at(depth) : tissue(depth); };
+  chain.limit(sample, law, organ, &tissue, remembers ? &memory : nullptr);
   return sample;
 }
 

@@ -3,6 +3,7 @@
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/embed_nodules.h"
 #include "haptics/contact/embed_stiffness.h"
+#include "haptics/force/energy_slopes.h"
 
 #include <algorithm>
 #include <limits>
@@ -19,16 +20,36 @@ TissueAt::TissueAt(const Scene& scene, const Contact& contact) noexcept
   {
     stiffness_ = scene.stiffness->at(stiffnessContactOf(contact), scene.law, geometry_);
   }
-  if (scene.series != nullptr && contact.touching())
+  if (!contact.touching())
   {
-    body_ = scene.series->field->at(contact.center, contact.normal);
+    return;
+  }
+  if (scene.nodules != nullptr)
+  {
+    nodules_ = scene.nodules->at(noduleContactOf(contact));
+  }
+  if (scene.series != nullptr)
+  {
+    body_ = scene.series->at(contact.center, contact.normal, contact.depth);
     // what is below is in the body's compliance
     geometry_.thickness = std::numeric_limits<double>::infinity();
   }
+  plain_ = scene.law(geometry_);
+  here_ = find(contact.depth);
+}
+
+bool TissueAt::pushesAside(const Scene& scene) noexcept
+{
+  return scene.law.settings().mode == LawMode::Corrected || scene.nodules != nullptr ||
+    scene.stiffness != nullptr || scene.series != nullptr;
 }
 
 Response TissueAt::plain(double depth) const noexcept
 {
+  if (depth == geometry_.depth)
+  {
+    return plain_;
+  }
   ContactGeometry geometry = geometry_;
   geometry.depth = depth;
   return scene_->law(geometry);
@@ -41,16 +62,16 @@ Response TissueAt::local(double depth) const noexcept
   {
     response = (*stiffness_)(response, depth);
   }
-  if (scene_->nodules != nullptr)
+  if (nodules_)
   {
-    const NoduleResponse more = (*scene_->nodules)(noduleContactOf(*contact_), depth).response;
+    const NoduleResponse more = (*nodules_)(depth);
     response.force += more.force;
     response.stiffness += more.stiffness;
   }
   return response;
 }
 
-SeriesResponse TissueAt::answer(double depth) const noexcept
+SeriesResponse TissueAt::find(double depth) const noexcept
 {
   return body_
     ? scene_->series->law([this](double at) noexcept { return local(at); }, body_->body, depth)
@@ -59,14 +80,19 @@ SeriesResponse TissueAt::answer(double depth) const noexcept
 
 Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
 {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  const Response response = plain(answer.local);
+  ContactGeometry geometry = geometry_;
+  geometry.depth = answer.local;
+  const EnergySlopes slopes = energySlopes(scene_->law, geometry, response);
+  Eigen::Vector3d force = -(slopes.curvature * contact_->curvatureSlope +
+    slopes.spread * contact_->spreadSlope + slopes.thickness * contact_->thicknessSlope);
   if (stiffness_)
   {
-    force += stiffness_->lateral(plain(answer.local), answer.local);
+    force = stiffness_->lateral(response, force, answer.local);
   }
-  if (scene_->nodules != nullptr)
+  if (nodules_)
   {
-    force += (*scene_->nodules)(noduleContactOf(*contact_), answer.local).lateral;
+    force += nodules_->lateral(answer.local);
   }
   if (body_)
   {

@@ -17,14 +17,20 @@ public:
   /// @realtime              pure; no allocation, no lock, no exception; the others likewise
   TissueAt(const Scene& scene, const Contact& contact) noexcept;
 
-  /// As if the contact were another depth there.
+  /// Whether a tissue may push a tool aside: else lateral() is zero everywhere.
+  [[nodiscard]] static bool pushesAside(const Scene& scene) noexcept;
+
+  /// As if the contact were another depth there; at its own for nothing.
   [[nodiscard]] Response operator()(double depth) const noexcept
   {
     return answer(depth).felt;
   }
 
   /// The same with how deep the tool is in the body.
-  [[nodiscard]] SeriesResponse answer(double depth) const noexcept;
+  [[nodiscard]] SeriesResponse answer(double depth) const noexcept
+  {
+    return depth == geometry_.depth ? here_ : find(depth);
+  }
 
   /// Of what the tissue pushes the tool aside with, while it stays where it touches [N].
   [[nodiscard]] Eigen::Vector3d lateral(const SeriesResponse& answer) const noexcept;
@@ -32,12 +38,16 @@ public:
 private:
   [[nodiscard]] Response plain(double depth) const noexcept;
   [[nodiscard]] Response local(double depth) const noexcept;
+  [[nodiscard]] SeriesResponse find(double depth) const noexcept;
 
   const Scene* scene_;
   const Contact* contact_;
   ContactGeometry geometry_; // as the law is asked
   std::optional<StiffnessField::Blend> stiffness_;
+  std::optional<NoduleField::Local> nodules_;
   std::optional<ComplianceField::Local> body_;
+  Response plain_{};      // of the law alone, at the depth of the contact
+  SeriesResponse here_{}; // of all of it, likewise
 };
 
 } // namespace palp

@@ -34,6 +34,7 @@ Response TissueMemory::elastic(double depth) const noexcept
 
 bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) noexcept
 {
+  tissue_.emplace(scene, sample.contact);
   if (scene.law.rows() == nullptr)
   {
     rows_.reset();
@@ -47,7 +48,6 @@ bool TissueMemory::begin(const Scene& scene, const Sample& sample, double dt) no
     forget(scene, sample.organ);
   }
   law_ = &scene.law;
-  tissue_.emplace(scene, sample.contact);
   const bool touching = sample.contact.touching();
   moved_ = touched_ && touching ? Eigen::Vector3d(apex_ - before) : Eigen::Vector3d::Zero();
   if (touching && !touched_)

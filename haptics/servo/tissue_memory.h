@@ -30,14 +30,21 @@ public:
     return touch_;
   }
 
-  /// Takes time and the tool's motion from the tissue; forgets all where the scene is another.
+  /// Looks at the tissue of a contact; takes time and the tool's motion from what it remembers, and
+  /// forgets all where the scene is another.
   ///
   /// @param scene     the organ that the sample tells of
-  /// @param sample    pose and contact of this tick
+  /// @param sample    pose and contact of this tick, which outlives it
   /// @param dt        since the last tick [s]
-  /// @return          whether the law of the scene has a memory; if not, nothing else is to do
+  /// @return          whether the law of the scene has a memory; if not, tissue() is all there is
   /// @realtime        no allocation, no lock, no exception
   bool begin(const Scene& scene, const Sample& sample, double dt) noexcept;
+
+  /// What is touched in this tick, as if it had no past; after begin() only.
+  [[nodiscard]] const TissueAt& tissue() const noexcept
+  {
+    return *tissue_;
+  }
 
   /// The law of this tick; without a contact radius.
   /// @realtime  pure; no allocation, no lock, no exception

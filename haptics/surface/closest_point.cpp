@@ -1,5 +1,7 @@
 #include "haptics/surface/closest_point.h"
 
+#include "haptics/numerics/box_probe.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -114,21 +116,24 @@ struct Closest
 struct Waiting
 {
   std::int32_t node;
-  double squared;
+  float squared; // distance, at most [m^2]
 };
 
 Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, double reach) noexcept
 {
   const auto nodes = tree.nodes();
+  const BoxProbe probe(position);
   const auto boxOf = [&](std::int32_t node) {
-    return Waiting{ node, squaredDistance(nodes[static_cast<std::size_t>(node)], position) };
+    return Waiting{ node, probe.squaredDistance(nodes[static_cast<std::size_t>(node)]) };
   };
   std::array<Waiting, BoxTree::kDepth> stack;
   std::size_t waiting = 0;
   Closest best{ .squared = reach * reach };
-  for (Waiting current = tree.empty() ? Waiting{ 0, best.squared } : boxOf(0);;)
+  for (Waiting current = tree.empty() ? Waiting{ 0, std::numeric_limits<float>::infinity() }
+                                      : boxOf(0);
+       ;)
   {
-    while (current.squared < best.squared)
+    while (static_cast<double>(current.squared) < best.squared)
     {
       const BoxTree::Node& node = nodes[static_cast<std::size_t>(current.node)];
       if (node.count > 0)
@@ -141,7 +146,8 @@ Closest closestFacet(const BoxTree& tree, const Eigen::Vector3d& position, doubl
       const Waiting right = boxOf(node.first);
       const bool rightFirst = right.squared < left.squared;
       current = rightFirst ? right : left;
-      if (const Waiting& far = rightFirst ? left : right; far.squared < best.squared)
+      if (const Waiting& far = rightFirst ? left : right;
+          static_cast<double>(far.squared) < best.squared)
       {
         stack[waiting++] = far;
       }

@@ -136,7 +136,7 @@ Eigen::Vector4f ShapeField::build(std::span<Entry> entries, const Pieces& pieces
   nodes_.emplace_back();
   sums_.emplace_back();
   leaves.push_back(leaf ? entries : std::span<Entry>());
-  Sums sums;
+  ShapePart sums;
   Eigen::Vector4f weight = Eigen::Vector4f::Zero();
   if (leaf)
   {
@@ -177,7 +177,7 @@ Eigen::Vector4f ShapeField::build(std::span<Entry> entries, const Pieces& pieces
   return weight;
 }
 
-// visit(index, weight) for the parts in a ball; the weight falls smoothly to its rim
+// visit(index, root, offset) for the parts in a ball; the weight root^2 falls smoothly to its rim
 template <typename Visit>
 void ShapeField::search(
   const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept
@@ -204,7 +204,7 @@ void ShapeField::search(
     }
     if (const float part = 1.0F - scale * squared; near && part > 0.0F)
     {
-      visit(i, part * part);
+      visit(i, part, Eigen::Vector3f(node.center - from));
     }
     current = waiting > 0 ? stack[--waiting] : -1;
   }
@@ -213,39 +213,11 @@ void ShapeField::search(
 LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
   const Eigen::Vector3d& normal, double grain) const noexcept
 {
-  const Eigen::Vector3f toward = normal.cast<float>();
-  Sums sum;
-  float area = 0.0F;
+  ShapeAverage average(normal, radius);
   search(center, radius, grain,
-    [&](std::size_t i, float weight)
-    {
-      const Sums& part = sums_[i];
-      const float across = toward.dot(part.area);
-      if (across > 0.0F)
-      {
-        const float facing = weight * across / part.area.norm();
-        area += weight * across;
-        sum.bend += facing * part.bend;
-        sum.slenderness += facing * part.slenderness;
-        sum.hollow += facing * part.hollow;
-      }
-    });
-  if (!(area > 0.0F))
-  {
-    return {};
-  }
-  const Eigen::Vector3d u = normal.unitOrthogonal();
-  const Eigen::Vector3d v = normal.cross(u);
-  const Eigen::Matrix3d tensor = (sum.bend / area).cast<double>();
-  const double uu = u.dot(tensor * u);
-  const double vv = v.dot(tensor * v);
-  const double root = static_cast<double>(area) / static_cast<double>(sum.slenderness);
-  LocalShape shape;
-  shape.meanCurvature = 0.5 * (uu + vv);
-  shape.curvatureSpread = std::hypot(0.5 * (uu - vv), u.dot(tensor * v));
-  shape.thickness = root * root;
-  shape.hollow = static_cast<double>(sum.hollow / area);
-  return shape;
+    [&](std::size_t i, float root, const Eigen::Vector3f& offset)
+    { average.add(sums_[i], root, offset); });
+  return average.shape();
 }
 
 // thickness and sharpness of the leaves, from what is about them
@@ -256,18 +228,19 @@ void ShapeField::measureLeaves(
   std::vector<SharpEdges::Segment> sharp;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
-    Sums& leaf = sums_[i];
+    ShapePart& leaf = sums_[i];
     if (nodes_[i].right != 0 || leaf.area.isZero(0.0F))
     {
       continue;
     }
     const Eigen::Vector3d coordinates = origin_ + nodes_[i].center.cast<double>();
-    Sums sum;
+    ShapePart sum;
     float area = 0.0F;
     search(coordinates, around, 0.0,
-      [&](std::size_t k, float weight)
+      [&](std::size_t k, float root, const Eigen::Vector3f& /*offset*/)
       {
-        const Sums& part = sums_[k];
+        const float weight = root * root;
+        const ShapePart& part = sums_[k];
         const float across = leaf.area.dot(part.area);
         if (across > 0.0F)
         {
@@ -329,8 +302,8 @@ void ShapeField::addUp()
   {
     if (nodes_[i].right != 0)
     {
-      const Sums& left = sums_[i + 1];
-      const Sums& right = sums_[static_cast<std::size_t>(nodes_[i].right)];
+      const ShapePart& left = sums_[i + 1];
+      const ShapePart& right = sums_[static_cast<std::size_t>(nodes_[i].right)];
       sums_[i].slenderness = left.slenderness + right.slenderness;
       sums_[i].hollow = left.hollow + right.hollow;
     }

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "haptics/surface/local_shape.h"
 #include "haptics/surface/sharp_edges.h"
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,15 +14,6 @@ namespace palp
 
 class BoxTree;
 struct LinkedTriangles; // haptics/surface/facet_part.h
-
-/// What a force law asks of the surface that a tool presses, averaged over the contact.
-struct LocalShape
-{
-  double meanCurvature = 0.0;                                 ///< [1/m], convex positive
-  double curvatureSpread = 0.0;                               ///< half the difference [1/m]
-  double thickness = std::numeric_limits<double>::infinity(); ///< of the body, hollows filled [m]
-  double hollow = 0.0; ///< part of it below which a hollow or a gap lets the wall bend [-]
-};
 
 /// Curvature and thickness of a surface, averaged over any ball, and its sharp edges.
 ///
@@ -83,15 +74,6 @@ private:
     std::int32_t right = 0; // right child, the left one follows; 0: a leaf
   };
 
-  // of the same part
-  struct Sums
-  {
-    Eigen::Vector3f area = Eigen::Vector3f::Zero(); // along the outward normal [m^2]
-    Eigen::Matrix3f bend = Eigen::Matrix3f::Zero(); // area times the tensor of curvature [m]
-    float slenderness = 0.0F;                       // area over the root of the thickness [m^1.5]
-    float hollow = 0.0F;                            // area above a hollow [m^2]
-  };
-
   // that two triangles have in common, or a part of it
   struct Side
   {
@@ -102,7 +84,7 @@ private:
   // of the surface, smaller than a cell
   struct Piece
   {
-    Sums sums;
+    ShapePart sums;
     std::array<int, 2> sides{}; // the first of them, and the one behind the last
   };
 
@@ -136,10 +118,10 @@ private:
   void addUp();
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  std::vector<Node> nodes_; // depth first
-  std::vector<Sums> sums_;
-  SharpEdges edges_;  // from the origin
-  double cell_ = 0.0; // longest side of a leaf [m]
+  std::vector<Node> nodes_;     // depth first
+  std::vector<ShapePart> sums_; // of the same parts
+  SharpEdges edges_;            // from the origin
+  double cell_ = 0.0;           // longest side of a leaf [m]
   double finest_ = 0.0;
 };
 

@@ -225,6 +225,27 @@ double flatRadius(const Tip& tip) noexcept
   return 0.0;
 }
 
+double noseRadius(const Tip& tip) noexcept
+{
+  if (const auto* sphere = std::get_if<SphereTip>(&tip))
+  {
+    return sphere->radius;
+  }
+  if (const auto* blunt = std::get_if<BluntConeTip>(&tip))
+  {
+    return blunt->tipRadius;
+  }
+  if (const auto* paraboloid = std::get_if<ParaboloidTip>(&tip))
+  {
+    return paraboloid->radius;
+  }
+  if (const auto* profile = std::get_if<ProfileTip>(&tip))
+  {
+    return profile->profile->noseRadius();
+  }
+  return 0.0;
+}
+
 Tip checkedTip(Tip tip)
 {
   std::visit([](const auto& shape) { check(shape); }, tip);

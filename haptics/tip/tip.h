@@ -109,6 +109,9 @@ auto onTip(const Tip& tip, Function function) noexcept -> decltype(function(Sphe
 /// Radius of the flat that touches first [m]; 0 where the apex is a point.
 [[nodiscard]] double flatRadius(const Tip& tip) noexcept;
 
+/// Radius of the ball that meets a smooth body first [m]; 0 where the tip is sharp or flat.
+[[nodiscard]] double noseRadius(const Tip& tip) noexcept;
+
 /// Checks every dimension of a tip.
 /// @throws Error  BadValue: names the dimension, its range and what to give
 [[nodiscard]] Tip checkedTip(Tip tip);

@@ -175,6 +175,20 @@ Line cutTool(const Press& press, const Frame& frame)
   return tool;
 }
 
+// goes along with the body below the contact
+Line withBody(const vtkPalpDeformFilter& press, const Line& line, const Frame& frame)
+{
+  Line moved;
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+  {
+    const Eigen::Vector3d point = frame.center + units::fromMillimeters(line.x[i]) * frame.along +
+      units::fromMillimeters(line.y[i]) * frame.up;
+    const Eigen::Vector2d now = frame.inPlane(press.WithBody(point, frame.center));
+    moved.add(now.x(), now.y());
+  }
+  return moved;
+}
+
 // the curve of a patch's edge on one side, laid as it is over the surface at rest
 void addBezier(Plot& plot, const Dent& dent, int direction, double side, const Frame& frame,
   const Cut& cut, Line& control)
@@ -250,12 +264,13 @@ std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vecto
     .along = region.toSurface({ edge.x(), edge.y(), 0.0 }) - center,
     .up = region.normal() };
 
-  const Line tool = cutTool(press.GetPress(), frame);
+  const bool moves = press.GetPress().motion != nullptr;
+  const Line tool = withBody(press, cutTool(press.GetPress(), frame), frame);
   const Cut cut = cutDent(press, frame);
   plot->addLine("tool", tool.x, tool.y, kToolLine, 4.0F);
   plot->addLine("surface at rest", cut.rest.x, cut.rest.y, appearance::curveColor(5));
   plot->addLine("surface as drawn", cut.drawn.x, cut.drawn.y, appearance::curveColor(1), 2.5F);
-  if (!press.GetPress().fitted)
+  if (!press.GetPress().fitted && !moves)
   {
     constexpr int kOpposite = PressField::kDirections / 2;
     Line control;
@@ -264,7 +279,7 @@ std::unique_ptr<Plot> sectionPlot(vtkPalpDeformFilter& press, const Eigen::Vecto
     addBezier(*plot, press.GetDent(), back, -1.0, frame, cut, control);
     plot->addPoints("its control points", control.x, control.y, appearance::curveColor(0));
   }
-  if (elements)
+  if (elements && !moves)
   {
     addElements(*plot, *elements, cut.rest);
   }

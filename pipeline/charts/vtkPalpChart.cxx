@@ -30,6 +30,7 @@ vtkPalpChart::vtkPalpChart()
 {
   this->SetShowLegend(false);
   this->SetAutoSize(false);
+  this->SetRenderEmpty(true); // else axes have no place, which their titles stand at
   for (const int side : { vtkAxis::BOTTOM, vtkAxis::LEFT })
   {
     vtkAxis* axis = this->GetAxis(side);

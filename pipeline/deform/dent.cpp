@@ -100,6 +100,31 @@ void Dent::update(const Press& press, const DentArrays& arrays)
   }
 }
 
+void Dent::deepen(
+  std::span<const std::int32_t> touched, const DentArrays& other, const DentArrays& arrays)
+{
+  const auto depth = [](const DentArrays& of, std::size_t at)
+  { return Eigen::Map<const Eigen::Vector3f>(of.displacement + 3 * at).squaredNorm(); };
+  for (const std::int32_t point : touched)
+  {
+    const bool isShared = region_.find(point) >= 0;
+    meetsOther_ = meetsOther_ || isShared;
+    isShared ? void() : besides_.push_back(point);
+    const auto at = static_cast<std::size_t>(point);
+    if (depth(other, at) > depth(arrays, at))
+    {
+      std::copy_n(other.points + 3 * at, 3, arrays.points + 3 * at);
+      std::copy_n(other.displacement + 3 * at, 3, arrays.displacement + 3 * at);
+      arrays.zone[at] = other.zone[at];
+      deepened_.push_back(point);
+    }
+  }
+  for (const std::int32_t point : touched)
+  {
+    computeNormal(point, arrays);
+  }
+}
+
 void Dent::lay(const Press& press, double outer)
 {
   const double inner = press.fitted ? press.fitted->inner : press.contactRadius;
@@ -112,6 +137,10 @@ void Dent::lay(const Press& press, double outer)
 void Dent::forgetPress(const DentArrays& arrays)
 {
   before_.assign(region_.points().begin(), region_.points().end());
+  before_.insert(before_.end(), besides_.begin(), besides_.end());
+  besides_.clear();
+  deepened_.clear();
+  meetsOther_ = false;
   region_.clear();
   for (const std::int32_t point : before_)
   {

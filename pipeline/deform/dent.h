@@ -1,12 +1,14 @@
 #pragma once
 
 #include "haptics/contact/contact.h"
+#include "haptics/force/series/organ_motion.h"
 #include "haptics/pose.h"
 #include "pipeline/deform/press_field.h"
 #include "pipeline/deform/press_region.h"
 #include "pipeline/deform/tool_body.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,6 +32,11 @@ struct Press
   Eigen::Vector3d carried = Eigen::Vector3d::Zero();
 
   bool isLiteral = false; ///< contactRadius is drawn also where it leaves the surface at an angle
+
+  /// What moves the whole body below the dent, of all tools on it; null or none: it stays. Contact
+  /// and pose are then as they are seen from the body where the tool is.
+  std::shared_ptr<const OrganMotion> motion{};
+  std::vector<OrganLoad> loads{};
 };
 
 /// The arrays of a surface as drawn, three floats a point, one byte a zone.
@@ -64,6 +71,33 @@ public:
   ///
   /// @param arrays  as reset() or the last update() left them
   void update(const Press& press, const DentArrays& arrays);
+
+  /// Puts points where another dent of the same surface has them, wherever that one is deeper,
+  /// until the next update().
+  ///
+  /// @param touched  by the other: its points, and their neighbors
+  /// @param other    as its update() left them
+  /// @param arrays   as update() left them
+  void deepen(
+    std::span<const std::int32_t> touched, const DentArrays& other, const DentArrays& arrays);
+
+  /// The points where it was.
+  [[nodiscard]] std::span<const std::int32_t> deepened() const noexcept
+  {
+    return deepened_;
+  }
+
+  /// The points and neighbors of the other that are not of region().
+  [[nodiscard]] std::span<const std::int32_t> besides() const noexcept
+  {
+    return besides_;
+  }
+
+  /// Whether the other dent touched points or neighbors of this one.
+  [[nodiscard]] bool meetsOther() const noexcept
+  {
+    return meetsOther_;
+  }
 
   /// The points of the dent, which differ from rest, and their neighbors, whose normals do.
   [[nodiscard]] const PressRegion& region() const noexcept
@@ -112,6 +146,9 @@ private:
   std::optional<ToolBody> body_; // where the tissue that is carried along would be at rest
   Eigen::Vector3d carried_ = Eigen::Vector3d::Zero(); // at the contact [m]
   std::vector<std::int32_t> before_;                  // points of the last press
+  std::vector<std::int32_t> deepened_;
+  std::vector<std::int32_t> besides_; // touched by the other dent alone
+  bool meetsOther_ = false;
 };
 
 } // namespace palp

@@ -13,6 +13,7 @@ namespace
 
 constexpr double kEdgesOnRadius = 5.0; // [-] edges from the contact's center to its circle
 constexpr int kMaxLevel = 6;
+constexpr int kFurther = 7;               // beside a rim, of edges as long as the tool is wide
 constexpr double kNear = 0.65;            // [-] of the tolerance
 constexpr double kMaxTriangles = 24000.0; // as many as a picture is quick with
 
@@ -50,7 +51,7 @@ void DentPatch::build(const Dent& dent, int level, double tolerance)
     halveEdges(dent, 0.0);
   }
   displace(dent);
-  for (int i = 0; i < kMaxLevel && tolerance > 0.0; ++i)
+  for (int i = 0; i < kFurther && tolerance > 0.0; ++i)
   {
     halveEdges(dent, tolerance);
     displace(dent);
@@ -66,7 +67,7 @@ void DentPatch::takeCorners(const Dent& dent)
   {
     const std::int32_t point = region.points()[i];
     const Eigen::Vector3f normal = region.areaAround(point).normalized().cast<float>();
-    corners_.push_back({ region.rest(point), normal, region.geodesics()[i] });
+    corners_.push_back({ region.rest(point), normal, region.geodesics()[i], {} });
   }
   triangles.clear();
   region.forEachTriangle([&](const Triangle& triangle) { triangles.push_back(triangle); });
@@ -138,7 +139,8 @@ void DentPatch::addMiddle(int a, int b, const Dent& dent)
     const Eigen::Vector3d rest = 0.5 * (first.rest + second.rest);
     const Eigen::Vector3f normal = (first.normal + second.normal).normalized();
     middle = { std::min(a, b), std::max(a, b), static_cast<int>(corners_.size()) };
-    corners_.push_back({ rest, normal, geodesicBetween(a, b, 0.5, rest, dent) });
+    corners_.push_back({ rest, normal, geodesicBetween(a, b, 0.5, rest, dent),
+      { static_cast<std::size_t>(a), static_cast<std::size_t>(b) } });
   }
 }
 

@@ -21,8 +21,15 @@ public:
 
   /// @param level      halvings of every edge, 0 to 6
   /// @param tolerance  edges that are farther from the displaced surface are halved further, up to
-  ///                   6 times [m]; 0: none
+  ///                   7 times [m]; 0: none
   void build(const Dent& dent, int level, double tolerance = 0.0);
+
+  /// The two points that a point is half way between, which come before it.
+  /// @param point  behind those of the dent's region
+  [[nodiscard]] const std::array<std::size_t, 2>& between(std::size_t point) const
+  {
+    return corners_[point].between;
+  }
 
   std::vector<Eigen::Vector3f> points;       ///< [m]
   std::vector<Eigen::Vector3f> normals;      ///< unit
@@ -39,6 +46,7 @@ private:
     Eigen::Vector3d rest;
     Eigen::Vector3f normal;
     GeodesicCoordinates geodesic;
+    std::array<std::size_t, 2> between{}; // others, half way, where it is no point of the surface
   };
 
   static constexpr int kWhole = -1;

@@ -14,6 +14,7 @@ namespace
 constexpr double kDeepest = 0.99;     // [-] of the depth: sink where a contact ends
 constexpr double kFitReach = 1.5;     // [-] of the contact radius
 constexpr double kPressedOn = 0.8;    // [-] of the contact radius
+constexpr double kSteeper = 2.0;      // [-] of the fitted slope against the contact radius
 constexpr double kTinyRadius = 1e-12; // [m]
 constexpr double kFilledPit = 0.1;    // [-] of the contact radius: pressed onto the tool
 constexpr double kOpenPit = 0.4;      // [-] of the contact radius: not reached by the tool
@@ -111,16 +112,19 @@ std::array<Eigen::Vector3d, 3> PressField::controlPoints(
   return { point(curve.inner, curve.sink), point(curve.meet, 0.0), point(curve.outer, 0.0) };
 }
 
-// the fitted shape between a direction's own ends
+// the fitted shape between a direction's own ends; its control values suit the slope they were
+// fitted with, and one that steepens as the tool sinks would lift what is around it
 SurfaceProfile PressField::fittedTo(const RingCurve& curve) const noexcept
 {
   SurfaceProfile profile = *fittedCurve_;
   const double scale = curve.sink / profile.sink;
+  const double wider = curve.inner / profile.inner;
+  const double steepest = kSteeper * scale * profile.slope / wider;
   profile.inner = curve.inner;
   profile.sink = curve.sink;
-  profile.slope = curve.sink / (curve.meet - curve.inner);
+  profile.slope = std::min(steepest, curve.sink / (curve.meet - curve.inner));
   profile.control = { scale * profile.control[0], scale * profile.control[1] };
-  profile.rest *= scale; // so that it ends where it does elsewhere
+  profile.rest *= scale * wider * wider; // so that it ends where it does elsewhere
   return profile;
 }
 

@@ -3,11 +3,14 @@
 #include "haptics/servo/sample.h"
 #include "pipeline/deform/dent.h"
 #include "pipeline/deform/fitted_surfaces.h"
+#include "pipeline/motion/organ_press.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace palp
 {
@@ -23,6 +26,13 @@ struct DentStyle
 
   /// What the tool carries along the surface [m]; empty: nothing.
   std::function<Eigen::Vector3d(const Sample& sample)> carried{};
+
+  /// How the body moves as a whole; null: it stays.
+  std::shared_ptr<const OrganMotion> motion{};
+
+  /// All that presses the body, the tool of a sample first, as deep as it is drawn; not empty where
+  /// it moves.
+  std::function<std::vector<OrganLoad>(const Sample& sample, double depth)> loads{};
 };
 
 /// The depth of the surface under a tool: of tissue that relaxes also what has not yet come back.
@@ -51,27 +61,63 @@ struct DentStyle
   return dented;
 }
 
+/// What the tool of a sample moves its body with; nothing where that stays.
+[[nodiscard]] inline std::vector<OrganLoad> loadsOf(const Sample& sample, const DentStyle& style)
+{
+  if (style.motion == nullptr || !sample.contact.touching())
+  {
+    return {};
+  }
+  std::vector<OrganLoad> loads = style.loads(sample, drawnDepth(sample));
+  loads.front() = style.motion->fitted(loads.front());
+  return loads;
+}
+
 /// The press of a sample, alike in every picture and file made of it.
 ///
-/// @param extentRadius  R_d of the table at the drawn depth [m]
-[[nodiscard]] inline Press pressOf(
-  const Sample& sample, const Tip& tip, double extentRadius, const DentStyle& style)
+/// A body that gives way as a whole moves by a wide field, as far as the tool is deep without its
+/// own contact; in it is the dent of the rest.
+///
+/// @param extentAt  R_d of the table by the depth of the dent [m]
+/// @param beside    of loadsOf, of another tool on the same body
+[[nodiscard]] inline Press pressOf(const Sample& sample, const Tip& tip,
+  const std::function<double(double)>& extentAt, const DentStyle& style,
+  const std::vector<OrganLoad>& beside = {})
 {
   const double depth = sample.contact.touching() ? drawnDepth(sample) : 0.0;
   const double radius = sample.response.contactRadius;
-  Contact contact = sample.contact;
-  ToolPose pose = sample.pose;
-  pose.apex -= (depth - contact.depth) * contact.normal;
-  contact.depth = depth;
-  contact.normal = drawnNormal(contact.normal, sample.pose.axis, tip);
-  return { .contact = contact,
-    .pose = pose,
+  Press press{ .contact = sample.contact,
+    .pose = sample.pose,
     .tip = tip,
-    .contactRadius = style.isLiteral ? radius : drawnContactRadius(tip, depth, radius),
-    .extentRadius = style.extent ? style.extent(sample, extentRadius) : extentRadius,
-    .fitted = style.fitted ? style.fitted->at(depth) : std::nullopt,
+    .fitted = std::nullopt,
     .carried = style.carried ? style.carried(sample) : Eigen::Vector3d(Eigen::Vector3d::Zero()),
     .isLiteral = style.isLiteral };
+  press.pose.apex -= (depth - sample.contact.depth) * sample.contact.normal;
+  press.contact.depth = depth;
+  press.motion = style.motion;
+  press.loads = loadsOf(sample, style);
+  press.loads.insert(press.loads.end(), beside.begin(), beside.end());
+  if (style.motion != nullptr && depth > 0.0)
+  {
+    seeFromBody(*style.motion, press.loads, tip, press.contact, press.pose);
+  }
+  const double drawn = press.contact.depth;
+  press.contact.normal = drawnNormal(sample.contact.normal, press.pose.axis, tip);
+  press.contactRadius = style.isLiteral ? radius : drawnContactRadius(tip, drawn, radius);
+  const double extent = style.extent ? style.extent(sample, extentAt(drawn)) : extentAt(drawn);
+  // a dent that nowhere sinks as far as R_d says still reaches as far as the tool
+  press.extentRadius = extent > 0.0 ? std::max(extent, press.contactRadius) : extent;
+  press.fitted = style.fitted ? style.fitted->at(drawn) : std::nullopt;
+  return press;
+}
+
+/// The same.
+/// @param extentRadius  at the drawn depth [m]
+[[nodiscard]] inline Press pressOf(
+  const Sample& sample, const Tip& tip, double extentRadius, const DentStyle& style)
+{
+  return pressOf(
+    sample, tip, [extentRadius](double) { return extentRadius; }, style);
 }
 
 } // namespace palp

@@ -2,9 +2,12 @@
 
 #include "haptics/units.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
@@ -49,6 +52,7 @@ bool readTriangles(vtkCellArray* polys, vtkIdType pointCount, std::vector<palp::
 
 vtkPalpDeformFilter::vtkPalpDeformFilter()
 {
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Touched->SetName("TouchedPoints");
   this->PatchNormals->SetName("Normals");
@@ -81,6 +85,13 @@ void vtkPalpDeformFilter::SetPress(const palp::Press& press)
   this->Modified();
 }
 
+int vtkPalpDeformFilter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == 1 ? 1 : 0);
+  return 1;
+}
+
 int vtkPalpDeformFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
@@ -103,20 +114,30 @@ int vtkPalpDeformFilter::RequestData(
     return 0;
   }
   this->Dent.update(this->Press, this->Arrays());
+  this->Deepen();
 
-  const auto touched = this->Dent.region().points();
-  this->Touched->SetNumberOfValues(static_cast<vtkIdType>(touched.size()));
-  std::copy(touched.begin(), touched.end(), this->Touched->GetPointer(0));
-
+  const bool moves = this->Press.motion != nullptr;
+  if (moves)
+  {
+    this->MoveBody();
+  }
+  else
+  {
+    const auto touched = this->Dent.region().points();
+    const auto besides = this->Dent.besides();
+    this->Touched->SetNumberOfValues(static_cast<vtkIdType>(touched.size() + besides.size()));
+    int* const end = std::copy(touched.begin(), touched.end(), this->Touched->GetPointer(0));
+    std::copy(besides.begin(), besides.end(), end);
+  }
   output->ShallowCopy(input);
-  output->SetPoints(this->Points);
-  output->GetPointData()->SetNormals(this->Normals);
-  output->GetPointData()->AddArray(this->Displacement);
+  output->SetPoints(moves ? this->MovedPoints : this->Points);
+  output->GetPointData()->SetNormals(moves ? this->MovedNormals : this->Normals);
+  output->GetPointData()->AddArray(moves ? this->MovedDisplacement : this->Displacement);
   output->GetPointData()->AddArray(this->Zone);
   output->GetFieldData()->AddArray(this->Touched);
-  this->Points->Modified();
-  this->Normals->Modified();
-  this->Displacement->Modified();
+  output->GetPoints()->Modified();
+  output->GetPointData()->GetNormals()->Modified();
+  output->GetPointData()->GetArray("Displacement")->Modified();
   this->Zone->Modified();
   this->Touched->Modified();
 
@@ -153,6 +174,7 @@ bool vtkPalpDeformFilter::TakeInput(vtkPolyData* input)
   this->RestPoints = points;
   this->RestPolys = polys;
   this->RestTime = time;
+  this->Moved = {};
 
   const auto size = static_cast<std::size_t>(3 * count);
   this->Dent = palp::Dent({ this->RestPositions->GetPointer(0), size }, triangles);
@@ -165,6 +187,77 @@ bool vtkPalpDeformFilter::TakeInput(vtkPolyData* input)
   this->Zone->SetNumberOfTuples(count);
   this->Dent.reset(this->Arrays());
   return true;
+}
+
+// every point, on top of its dent
+void vtkPalpDeformFilter::MoveBody()
+{
+  const vtkIdType count = this->Zone->GetNumberOfTuples();
+  if (!this->Moved.isOf(this->Press.motion.get()))
+  {
+    const auto size = static_cast<std::size_t>(3 * count);
+    this->Moved = { this->Press.motion, { this->RestPositions->GetPointer(0), size } };
+    this->MovedPoints = vtkSmartPointer<vtkPoints>::New();
+    this->MovedPoints->SetData(floats("Points", 3, count));
+    this->MovedNormals = floats("Normals", 3, count);
+    this->MovedDisplacement = floats("Displacement", 3, count);
+  }
+  this->Moved.load(this->Press.loads);
+  this->Moved.move(this->Displacement->GetPointer(0), this->Normals->GetPointer(0),
+    { .points = static_cast<float*>(this->MovedPoints->GetVoidPointer(0)),
+      .normals = this->MovedNormals->GetPointer(0),
+      .displacement = this->MovedDisplacement->GetPointer(0) });
+  if (this->Touched->GetNumberOfValues() != count)
+  {
+    this->Touched->SetNumberOfValues(count);
+  }
+  std::iota(this->Touched->GetPointer(0), this->Touched->GetPointer(0) + count, 0);
+}
+
+// as the triangles of the surface move that its points lie on
+void vtkPalpDeformFilter::MovePatch()
+{
+  const auto shared = this->Dent.region().points();
+  this->PatchMoved.clear();
+  for (std::size_t i = 0; i < this->Patch.points.size(); ++i)
+  {
+    if (i < shared.size())
+    {
+      this->PatchMoved.push_back(this->Moved.at(shared[i]));
+      continue;
+    }
+    const auto [a, b] = this->Patch.between(i);
+    const auto& first = this->PatchMoved[a];
+    const auto& second = this->PatchMoved[b];
+    this->PatchMoved.push_back(
+      { 0.5F * (first.move + second.move), 0.5F * (first.turn + second.turn) });
+  }
+}
+
+Eigen::Vector3d vtkPalpDeformFilter::WithBody(
+  const Eigen::Vector3d& point, const Eigen::Vector3d& place) const
+{
+  if (!this->Press.motion)
+  {
+    return point;
+  }
+  const palp::OrganMotion::Moved moved = this->Press.motion->movedAt(place, this->Press.loads);
+  return point + palp::vectorOf(moved.move) + palp::vectorOf(moved.turn).cross(point - place);
+}
+
+// in the body at rest, whatever moves that
+void vtkPalpDeformFilter::Deepen()
+{
+  if (this->GetNumberOfInputConnections(1) == 0)
+  {
+    return;
+  }
+  auto* other = SafeDownCast(this->GetInputAlgorithm(1, 0));
+  if (other && other->Points &&
+    other->Points->GetNumberOfPoints() == this->Points->GetNumberOfPoints())
+  {
+    this->Dent.deepen(other->Dent.region().points(), other->Arrays(), this->Arrays());
+  }
 }
 
 palp::DentArrays vtkPalpDeformFilter::Arrays()
@@ -180,6 +273,8 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
   this->UsedPatchLevel =
     this->PatchLevel < 0 ? palp::DentPatch::levelFor(this->Dent) : this->PatchLevel;
   this->Patch.build(this->Dent, this->UsedPatchLevel, this->PatchTolerance);
+  const bool moves = this->Press.motion != nullptr;
+  moves ? this->MovePatch() : this->PatchMoved.clear();
   const auto count = static_cast<vtkIdType>(this->Patch.points.size());
   for (vtkDataArray* array : { static_cast<vtkDataArray*>(this->PatchPositions),
          static_cast<vtkDataArray*>(this->PatchNormals),
@@ -194,11 +289,23 @@ void vtkPalpDeformFilter::FillPatch(vtkPolyData* patch)
   for (vtkIdType i = 0; i < count; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
-    this->PatchPositions->SetTypedTuple(i, this->Patch.points[at].data());
-    this->PatchNormals->SetTypedTuple(i, this->Patch.normals[at].data());
-    const Eigen::Vector3f& displacement = this->Patch.displacement[at];
-    this->PatchDisplacement->SetTypedTuple(i, displacement.data());
+    Eigen::Vector3f point = this->Patch.points[at];
+    Eigen::Vector3f normal = this->Patch.normals[at];
+    Eigen::Vector3f displacement = this->Patch.displacement[at];
     const double millimeters = palp::units::toMillimeters(static_cast<double>(displacement.norm()));
+    if (moves)
+    {
+      const palp::OrganMotion::Moved& moved = this->PatchMoved[at];
+      const Eigen::Vector3f turn = palp::vectorOf(moved.turn).cast<float>();
+      const Eigen::Vector3f by =
+        palp::vectorOf(moved.move).cast<float>() + turn.cross(displacement);
+      point += by;
+      displacement += by;
+      normal = (normal + turn.cross(normal)).normalized();
+    }
+    this->PatchPositions->SetTypedTuple(i, point.data());
+    this->PatchNormals->SetTypedTuple(i, normal.data());
+    this->PatchDisplacement->SetTypedTuple(i, displacement.data());
     this->PatchLength->SetValue(i, static_cast<float>(millimeters));
     this->PatchDistance->SetValue(i, this->Patch.distance[at]);
     this->PatchZone->SetValue(i, static_cast<unsigned char>(this->Patch.zone[at]));

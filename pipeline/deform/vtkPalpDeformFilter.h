@@ -2,16 +2,21 @@
  * @class   vtkPalpDeformFilter
  * @brief   presses a tool into a triangle surface
  *
+ * Input 1, which may be missing, is output 0 of another such filter with the same input 0: each
+ * point of output 0 goes where the deeper of both dents has it, in a body at rest that this filter
+ * then moves.
+ *
  * Output 0 is the input with the dent: same topology, points in float [m], and the point arrays
  *   "Normals"       float x 3, unit, outward
  *   "Displacement"  float x 3 [m], from rest
  *   "Zone"          unsigned char, 0 rest, 1 ring, 2 on the tool
- * and the field array "TouchedPoints" (int), the points whose position or normal is not at rest.
+ * and the field array "TouchedPoints" (int), the points whose position or normal is not at rest:
+ * all of them where the press moves the body as a whole, by which every point and normal is moved.
  *
  * Output 1 is the dent alone, for overlays and for a view closer than the mesh is fine: the
  * triangles with a displaced corner, divided PatchLevel times, and the point arrays "Normals", and
  *   "Displacement"       float x 3 [m], from rest
- *   "Displacement [mm]"  float, length of the displacement
+ *   "Displacement [mm]"  float, length of the displacement, without the body's own motion
  *   "Distance"           float [m], from the contact's center along the undeformed surface
  *   "Zone"               as above
  * It costs nothing until GeneratePatch is on; its arrays are changed in place, too.
@@ -25,6 +30,7 @@
 
 #include "pipeline/deform/dent.h"
 #include "pipeline/deform/dent_patch.h"
+#include "pipeline/motion/moved_surface.h"
 
 #include <memory>
 #include <vtkCellArray.h>
@@ -73,7 +79,7 @@ public:
 
   ///@{
   /**
-   * Edges of output 1 that are farther from the displaced surface are halved further, up to 6
+   * Edges of output 1 that are farther from the displaced surface are halved further, up to 7
    * times [m]; 0: none. Default: 0.
    */
   vtkSetClampMacro(PatchTolerance, double, 0.0, 1.0);
@@ -101,10 +107,17 @@ public:
     return this->Patch;
   }
 
+  /**
+   * Where a point is that goes along with a place of the surface at rest, as the body moved in the
+   * last update; where the body stays, as it is.
+   */
+  Eigen::Vector3d WithBody(const Eigen::Vector3d& point, const Eigen::Vector3d& place) const;
+
 protected:
   vtkPalpDeformFilter();
   ~vtkPalpDeformFilter() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -114,11 +127,15 @@ private:
   void operator=(const vtkPalpDeformFilter&) = delete;
 
   bool TakeInput(vtkPolyData* input);
+  void Deepen();
   void FillPatch(vtkPolyData* patch);
   palp::DentArrays Arrays();
+  void MoveBody();
+  void MovePatch();
 
   palp::Press Press;
   palp::Dent Dent;
+  palp::MovedSurface Moved; // of the rest position
   palp::DentPatch Patch;
   bool GeneratePatch = false;
   int PatchLevel = -1;
@@ -137,6 +154,13 @@ private:
   vtkSmartPointer<vtkFloatArray> Displacement;
   vtkSmartPointer<vtkUnsignedCharArray> Zone;
   vtkNew<vtkIntArray> Touched;
+
+  // output 0 where the body moves: of the above, moved
+  vtkSmartPointer<vtkPoints> MovedPoints;
+  vtkSmartPointer<vtkFloatArray> MovedNormals;
+  vtkSmartPointer<vtkFloatArray> MovedDisplacement;
+
+  std::vector<palp::OrganMotion::Moved> PatchMoved; // of each point, where the body moves
 
   // output 1, the same
   vtkNew<vtkPoints> PatchPoints;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
+#include <vtkMapper.h>
 #include <vtkNew.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
@@ -31,6 +33,33 @@ float brightness(double height)
   return static_cast<float>(std::lerp(kFloor, kCeiling, height * height * (3.0 - 2.0 * height)));
 }
 
+// whether they are to be found on a color bar, as of what has an ambient part
+bool keepsColors(vtkActor& actor)
+{
+  vtkMapper* mapper = actor.GetMapper();
+  return mapper != nullptr && mapper->GetScalarVisibility() != 0 &&
+    mapper->GetArrayName() != nullptr && actor.GetProperty()->GetAmbient() > 0.0;
+}
+
+// a change makes the shader anew
+void replaceOnce(vtkActor& actor, const std::string& tag, const std::string& code)
+{
+  vtkShaderProperty& shader = *actor.GetShaderProperty();
+  std::string name;
+  std::string value;
+  bool first = false;
+  bool all = false;
+  if (shader.GetNumberOfShaderReplacements() > 0)
+  {
+    shader.GetNthShaderReplacement(0, name, first, value, all);
+  }
+  if (name != tag)
+  {
+    shader.ClearAllFragmentShaderReplacements();
+    shader.AddFragmentShaderReplacement(tag, true, tag + '\n' + code, false);
+  }
+}
+
 void makePhysical(vtkActor& actor)
 {
   constexpr double kRoughness = 0.35; // wet
@@ -39,11 +68,11 @@ void makePhysical(vtkActor& actor)
   property.SetMetallic(0.0);
   property.SetRoughness(kRoughness);
   // it takes colors as shares of light, and we have them as a screen shows them
-  vtkShaderProperty& shader = *actor.GetShaderProperty();
-  shader.GetNumberOfShaderReplacements() > 0
-    ? void()
-    : shader.AddFragmentShaderReplacement("//VTK::Color::Impl", true,
-        "//VTK::Color::Impl\n  diffuseColor = pow(diffuseColor, vec3(2.2));\n", false);
+  keepsColors(actor)
+    ? replaceOnce(actor, "//VTK::Light::Impl",
+        "  gl_FragData[0].rgb = diffuseColor / diffuseIntensity * (0.7 + 0.3 * "
+        "abs(normalVCVSOutput.z));\n")
+    : replaceOnce(actor, "//VTK::Color::Impl", "  diffuseColor = pow(diffuseColor, vec3(2.2));\n");
 }
 
 template <typename Use>

@@ -193,7 +193,7 @@ std::uintmax_t claimedBytes(const std::filesystem::path& file) noexcept
     return ends(".mha") || ends(".mhd") ? readMetaHeader(file).bytes
       : ends(".nii") || ends(".nii.gz") ? readNiftiHeader(file).bytes
       : ends(".vti")                    ? vtiBytes(file)
-      : ends(".nrrd")                   ? nrrdBytes(file)
+      : ends(".nrrd") || ends(".nhdr")  ? nrrdBytes(file)
                                         : 0;
   }
   catch (const std::exception&)

@@ -2,15 +2,15 @@
 
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/whole_file.h"
 #include "pipeline/formats/outer_surface.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -42,23 +42,29 @@ constexpr std::array kMshElements{ MshElement{ 2 }, MshElement{ 3, VTK_TRIANGLE,
   MshElement{ 27, VTK_HEXAHEDRON, 8 }, MshElement{ 18, VTK_WEDGE, 6 },
   MshElement{ 14, VTK_PYRAMID, 5 }, MshElement{ 1 }, MshElement{ 8, VTK_QUAD, 4 },
   MshElement{ 20, VTK_HEXAHEDRON, 8 }, MshElement{ 15, VTK_WEDGE, 6 },
-  MshElement{ 13, VTK_PYRAMID, 5 } };
+  MshElement{ 13, VTK_PYRAMID, 5 }, MshElement{ 9, VTK_TRIANGLE, 3 },
+  MshElement{ 10, VTK_TRIANGLE, 3 }, MshElement{ 12, VTK_TRIANGLE, 3 },
+  MshElement{ 15, VTK_TRIANGLE, 3 }, MshElement{ 15, VTK_TRIANGLE, 3 },
+  MshElement{ 21, VTK_TRIANGLE, 3 }, MshElement{ 4 }, MshElement{ 5 }, MshElement{ 6 },
+  MshElement{ 20, VTK_TETRA, 4 }, MshElement{ 35, VTK_TETRA, 4 }, MshElement{ 56, VTK_TETRA, 4 } };
 
 class MshReader
 {
 public:
   explicit MshReader(const std::filesystem::path& file)
     : file_(file)
-    , text_(std::filesystem::file_size(file), '\0')
+    , text_(wholeFile(file))
   {
-    std::ifstream(file, std::ios::binary)
-      .read(text_.data(), static_cast<std::streamsize>(text_.size()));
     points_->SetDataTypeToDouble();
     grid_->Allocate();
   }
 
   vtkSmartPointer<vtkPolyData> read()
   {
+    if (text_.starts_with("$NOD")) // of version 1
+    {
+      refuseVersion();
+    }
     find("$MeshFormat");
     readFormat();
     find("$Nodes");
@@ -74,6 +80,12 @@ private:
   [[noreturn]] void refuseCut() const
   {
     refuse(file_, "cut off, or it counts more than it holds; export or copy it again");
+  }
+
+  [[noreturn]] void refuseVersion() const
+  {
+    refuse(
+      file_, "of a version that is not read here; save it by gmsh -save -format msh41, or as .vtk");
   }
 
   // goes behind the line of a section
@@ -97,13 +109,18 @@ private:
     isNew_ = version == 4.1;
     if ((version != 2.2 && version != 4.1) || size != 8)
     {
-      refuse(file_,
-        "of a version that is not read here; save it by gmsh -save -format msh41, or as .vtk");
+      refuseVersion();
     }
     at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1;
-    if (isBinary_ && value<int>() != 1)
+    if (isBinary_) // followed by a 1, in the order of bytes of the machine that wrote it
     {
-      refuse(file_, "of the other order of bytes; save it as text");
+      constexpr int kSwappedOne = 1 << 24;
+      const int one = value<int>();
+      isSwapped_ = one == kSwappedOne;
+      if (one != 1 && !isSwapped_)
+      {
+        refuse(file_, "damaged, it tells no order of bytes; export it again");
+      }
     }
   }
 
@@ -139,10 +156,14 @@ private:
     {
       refuseCut();
     }
-    Number result{};
-    std::memcpy(&result, text_.data() + at_, sizeof result);
-    at_ += sizeof result;
-    return result;
+    std::array<char, sizeof(Number)> bytes{};
+    std::copy_n(text_.data() + at_, bytes.size(), bytes.begin());
+    at_ += bytes.size();
+    if (isSwapped_)
+    {
+      std::ranges::reverse(bytes);
+    }
+    return std::bit_cast<Number>(bytes);
   }
 
   template <typename Stored>
@@ -169,12 +190,19 @@ private:
     return given;
   }
 
-  void addNode(std::int64_t tag)
+  double coordinate()
+  {
+    return isBinary_ ? value<double>() : number<double>();
+  }
+
+  // parameters: of its place on a line or face of the model, behind it
+  void addNode(std::int64_t tag, int parameters = 0)
   {
     std::array<double, 3> p{};
-    for (double& x : p)
+    std::ranges::generate(p, [this] { return coordinate(); });
+    for (; parameters > 0; --parameters)
     {
-      x = isBinary_ ? value<double>() : number<double>();
+      (void)coordinate();
     }
     places_[tag] = points_->InsertNextPoint(p.data());
   }
@@ -253,15 +281,12 @@ private:
     }
     for (; blocks > 0; --blocks)
     {
-      (void)integer<int>(); // dimension and tag of the entity
-      (void)integer<int>();
-      if (integer<int>() != 0)
-      {
-        refuse(file_, "its nodes have parameters; save it without");
-      }
+      const auto dimension = static_cast<int>(integer<int>());
+      (void)integer<int>(); // tag of the entity
+      const int parameters = integer<int>() != 0 ? std::clamp(dimension, 0, 3) : 0;
       std::vector<std::int64_t> tags(static_cast<std::size_t>(count(integer<std::size_t>())));
       std::ranges::generate(tags, [this] { return integer<std::size_t>(); });
-      std::ranges::for_each(tags, [this](std::int64_t tag) { addNode(tag); });
+      std::ranges::for_each(tags, [&](std::int64_t tag) { addNode(tag, parameters); });
     }
   }
 
@@ -289,6 +314,7 @@ private:
   std::string text_;
   std::size_t at_ = 0;
   bool isBinary_ = false;
+  bool isSwapped_ = false;
   bool isNew_ = false;
   std::unordered_map<std::int64_t, vtkIdType> places_;
   vtkNew<vtkPoints> points_;

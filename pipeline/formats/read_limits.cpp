@@ -76,7 +76,7 @@ std::vector<std::filesystem::path> neededFiles(const std::filesystem::path& file
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(),
     [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return { ending == ".mhd" ? file.parent_path() : file };
+  return { ending == ".mhd" || ending == ".nhdr" ? file.parent_path() : file };
 }
 
 } // namespace palp

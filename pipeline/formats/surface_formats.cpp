@@ -52,12 +52,12 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".obj", "OBJ", "", readObj }, Format{ ".ply", "PLY", "ply", readPly },
   Format{ ".off", "OFF", "", readOff }, Format{ ".vtk", "legacy VTK", "# vtk DataFile", readVtk },
   Format{ ".vtp", "VTP", "<", readVtp }, Format{ ".vtu", "VTU", "<", readVtu },
-  Format{ ".msh", "MSH", "$MeshFormat", readMsh },
-  Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
+  Format{ ".msh", "MSH", "", readMsh }, Format{ ".mha", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".mhd", "MetaImage", "", nullptr, readMetaImage },
   Format{ ".nii", "NIfTI", "", nullptr, readNifti },
   Format{ ".nii.gz", "NIfTI", "", nullptr, readNifti },
   Format{ ".nrrd", "NRRD", "NRRD000", nullptr, readNrrd },
+  Format{ ".nhdr", "NRRD", "NRRD000", nullptr, readNrrd },
   Format{ ".vti", "VTI", "<", nullptr, readVti },
   Format{ ".dcm", "DICOM", "", nullptr, readDicomSegments } };
 
@@ -70,7 +70,7 @@ constexpr std::array kOthers{ std::pair{
   std::pair{ ".3mf", "a package of 3MF; save its mesh as .stl" },
   std::pair{ ".step", "a CAD model; export its surface as .stl" },
   std::pair{ ".stp", "a CAD model; export its surface as .stl" },
-  std::pair{ ".nhdr", "the header of an NRRD in two files; save it as one .nrrd" },
+  std::pair{ ".json", "no surface or image; give a scene to palp scene" },
   std::pair{ ".hdr", "the header of an image in two files; save it as one .nii" },
   std::pair{ ".img", "an image in two files; save it as one .nii" },
   std::pair{ ".mgz", "an image of FreeSurfer; save it by mri_convert as .nii.gz" } };
@@ -87,7 +87,7 @@ constexpr std::array kOthers{ std::pair{
   refuse(file,
     "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu, "
     ".msh), an "
-    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .vti), a folder of DICOM images or a DICOM "
+    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .nhdr, .vti), a folder of DICOM images or a DICOM "
     "segmentation (.dcm)");
 }
 
@@ -128,7 +128,7 @@ void checkFile(const std::filesystem::path& file, const Format& format)
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   if (size == 0)
   {
-    refuse(file, "empty; export the surface again");
+    refuse(file, "empty; export it again");
   }
   std::string start(std::strlen(format.signature), '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/meshes/stated_space.h"
+#include "pipeline/formats/meshes/whole_file.h"
 #include "pipeline/formats/outer_surface.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -56,13 +56,77 @@ void checkComponents(const std::filesystem::path& file, const std::string& tags)
   }
 }
 
+// what a tag gives as a value; empty: nothing
+std::string_view valueOf(std::string_view tag, std::string_view key)
+{
+  const std::size_t at = tag.find(key);
+  tag.remove_prefix(at == tag.npos ? tag.size() : at + key.size());
+  return tag.substr(0, tag.find('"'));
+}
+
+// the one that data begin with
+std::uint64_t firstNumber(std::string_view data, bool isText, std::size_t wide, bool isBig)
+{
+  constexpr std::string_view kDigits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes(isText ? std::string_view() : data.substr(0, wide));
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; isText && i < std::min(data.size(), 2 * wide); ++i)
+  {
+    bits = bits << 6 | static_cast<std::uint32_t>(kDigits.find(data[i]) & 63);
+    if (i % 4 != 0) // which completes a byte
+    {
+      bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)));
+    }
+  }
+  bytes.resize(wide);
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < wide; ++i)
+  {
+    number = number << 8 | static_cast<unsigned char>(bytes[isBig ? i : wide - 1 - i]);
+  }
+  return number;
+}
+
+// VTK takes room for as many blocks as a compressed array claims
+void checkBlocks(const std::filesystem::path& file, std::string_view all)
+{
+  const std::size_t appended = std::min(all.find("<AppendedData"), all.size());
+  const std::string_view tags = all.substr(0, appended);
+  const std::size_t first = std::min(all.find('_', appended), all.size() - 1) + 1;
+  const bool isRaw = all.substr(appended, first - appended).find("\"raw\"") != all.npos;
+  const std::size_t wide = valueOf(tags, "header_type=\"") == "UInt64" ? 8 : 4;
+  const bool isBig = valueOf(tags, "byte_order=\"") == "BigEndian";
+  const bool isPacked = !valueOf(tags, "compressor=\"").empty();
+  for (std::size_t at = tags.find("<DataArray"); isPacked && at != tags.npos;
+       at = tags.find("<DataArray", at + 1))
+  {
+    const std::size_t end = std::min(tags.find('>', at), tags.size());
+    const std::string_view tag = tags.substr(at, end - at);
+    const std::string_view format = valueOf(tag, "format=\"");
+    const bool isApart = format == "appended";
+    const double offset = std::strtod(std::string(valueOf(tag, "offset=\"")).c_str(), nullptr);
+    const double rest = static_cast<double>(all.size() - first);
+    const std::size_t begin = isApart
+      ? first + static_cast<std::size_t>(std::max(0.0, std::min(rest, offset)))
+      : std::min(all.find_first_not_of(" \t\r\n>", end), all.size());
+    const std::string_view data = all.substr(begin);
+    const std::uint64_t blocks =
+      isApart || format == "binary" ? firstNumber(data, !isApart || !isRaw, wide, isBig) : 0;
+    if (blocks > data.size() / wide) // of which each takes a number at least
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": damaged, one of its arrays claims " + std::to_string(blocks) +
+          " blocks, more than it holds; export it again");
+    }
+  }
+}
+
 } // namespace
 
 std::string checkedXml(const std::filesystem::path& file)
 {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::filesystem::file_size(file), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text = wholeFile(file);
   constexpr std::size_t enough = 1024; // [bytes], for a tag and remarks or blank lines about it
   constexpr std::size_t shortest = 32; // that a file cut off later can be
   if (text.size() >= shortest && text.substr(0, enough).find("<VTKFile") == text.npos)
@@ -75,6 +139,7 @@ std::string checkedXml(const std::filesystem::path& file)
     throw Error(ErrorCode::BadFile,
       file.string() + ": cut off, its last tag </VTKFile> is missing; export or copy it again");
   }
+  checkBlocks(file, text);
   text.resize(std::min(text.size(), text.find("<AppendedData")));
   checkComponents(file, text);
   return text;
@@ -86,9 +151,7 @@ namespace
 // VTK looks for ever at 256 blanks behind an array, and at blanks in a last line of their own
 void openLegacy(const std::filesystem::path& file, vtkDataSetReader& reader)
 {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::filesystem::file_size(file), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text = wholeFile(file);
   constexpr std::size_t kLongest = 255;
   const auto isBlank = [](char c) { return c == ' ' || c == '\r'; };
   std::size_t run = 0;
@@ -175,7 +238,8 @@ namespace
 std::string inWords(std::string text)
 {
   constexpr std::array kShort{ "may be too short", "not long enough", "Error reading ascii",
-    "Error reading binary", "file is truncated", "Data cannot be read", "Error in binary read" };
+    "Error reading binary", "file is truncated", "Data cannot be read", "Error in binary read",
+    "cell array header", "offset header", "Cannot read number" };
   const auto says = [&](const char* words) { return text.find(words) != text.npos; };
   return std::ranges::any_of(kShort, says)
     ? "cut off, or it counts more than it holds"

@@ -17,8 +17,8 @@ struct PictureRoom
 {
   double width;
   double height;
-  double foot;  ///< that something else covers, from below
-  double scale; ///< of layout, more than 1 on a screen of many dots per inch
+  double foot = 0.0;  ///< that something else covers, from below
+  double scale = 1.0; ///< of layout, more than 1 on a screen of many dots per inch
 
   /// Full of the body from side to side; what is told of it has its place above.
   [[nodiscard]] bool isNarrow() const noexcept

@@ -11,10 +11,11 @@ namespace palp
 struct SurfaceMap
 {
   vtkSmartPointer<vtkFloatArray>
-    values{};          ///< one per point, in the unit of the title; NaN: unknown
-  std::string title{}; ///< of the color bar
-  double low = 0.0;    ///< the least value
-  double high = 0.0;   ///< the largest
+    values{};           ///< one per point, in the unit of the title; NaN: unknown
+  std::string title{};  ///< of the color bar
+  std::string origin{}; ///< what the values come from, in a caption
+  double low = 0.0;     ///< the least value
+  double high = 0.0;    ///< the largest
 };
 
 } // namespace palp

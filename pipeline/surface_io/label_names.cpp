@@ -6,9 +6,13 @@
 #include "haptics/files/number_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace palp
 {
@@ -59,32 +63,54 @@ std::string_view withoutNumbers(std::string_view text)
   return text;
 }
 
+struct NamedColor
+{
+  LabelName label;
+  std::string color; // empty: there is none
+};
+
+// of the first three of some numbers, red, green and blue
+std::string colorOf(std::string_view numbers)
+{
+  std::istringstream words{ std::string(numbers) };
+  std::array<int, 3> parts{};
+  for (int& part : parts)
+  {
+    constexpr int most = 255;
+    if (!(words >> part) || part < 0 || part > most)
+    {
+      return {};
+    }
+  }
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", static_cast<unsigned>(parts[0]),
+    static_cast<unsigned>(parts[1]), static_cast<unsigned>(parts[2]));
+  return text.data();
+}
+
 // of a color table or of ITK-SNAP; none: a line of neither
-std::optional<LabelName> nameIn(std::string_view line)
+std::optional<NamedColor> labelIn(std::string_view line)
 {
   const std::size_t gap = std::min(line.find_first_of(" \t"), line.size());
   const std::optional<double> value = csvNumber(line.substr(0, gap));
   const std::string_view rest = trimmed(line.substr(gap));
   const std::size_t open = rest.find('"');
   const std::size_t close = rest.rfind('"');
-  const std::string_view name = open != rest.npos && close > open
-    ? rest.substr(open + 1, close - open - 1)
-    : withoutNumbers(rest);
-  return value && !name.empty() && !csvNumber(name)
-    ? std::optional(LabelName{ .value = *value, .name = std::string(name) })
-    : std::nullopt;
+  const bool isQuoted = open != rest.npos && close > open;
+  const std::string_view name =
+    isQuoted ? rest.substr(open + 1, close - open - 1) : withoutNumbers(rest);
+  if (!value || name.empty() || csvNumber(name))
+  {
+    return std::nullopt;
+  }
+  return NamedColor{ { .value = *value, .name = std::string(name) },
+    colorOf(isQuoted ? rest.substr(0, open) : rest.substr(name.size())) };
 }
 
-} // namespace
-
-std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
+// of a table in lines
+std::vector<NamedColor> labelsIn(const std::filesystem::path& file, const std::string& text)
 {
-  const std::string text = readText(file, "the table of names");
-  if (trimmed(text).starts_with('{'))
-  {
-    return namesInJson(file, text);
-  }
-  std::vector<LabelName> names;
+  std::vector<NamedColor> labels;
   int number = 0;
   for (const std::string_view row : split(text, '\n'))
   {
@@ -94,16 +120,49 @@ std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
     {
       continue;
     }
-    const std::optional<LabelName> name = nameIn(line);
-    if (!name)
+    const std::optional<NamedColor> label = labelIn(line);
+    if (!label)
     {
       throw Error(ErrorCode::BadFile,
         where(file, number) + inQuotes(line) +
           " is no label; write a value and its name, like 5 liver 221 130 101 255");
     }
-    names.push_back(*name);
+    labels.push_back(*label);
+  }
+  return labels;
+}
+
+bool isJson(const std::string& text)
+{
+  return trimmed(text).starts_with('{');
+}
+
+} // namespace
+
+std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
+{
+  const std::string text = readText(file, "the table of names");
+  if (isJson(text))
+  {
+    return namesInJson(file, text);
+  }
+  std::vector<LabelName> names;
+  for (NamedColor& one : labelsIn(file, text))
+  {
+    names.push_back(std::move(one.label));
   }
   return names;
+}
+
+std::map<double, std::string> readLabelColors(const std::filesystem::path& file)
+{
+  std::map<double, std::string> colors;
+  const std::string text = readText(file, "the table of names");
+  for (const NamedColor& one : isJson(text) ? std::vector<NamedColor>() : labelsIn(file, text))
+  {
+    one.color.empty() ? void() : void(colors.emplace(one.label.value, one.color));
+  }
+  return colors;
 }
 
 std::vector<std::string> valuesOfLabels(

@@ -3,6 +3,9 @@
 #include "pipeline/process/file_surface.h"
 
 #include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace palp
 {
@@ -13,6 +16,10 @@ namespace palp
 ///
 /// @throws Error  BadFile: cannot be read, or what is wrong in which line
 [[nodiscard]] std::vector<LabelName> readLabelNames(const std::filesystem::path& file);
+
+/// Colors of labels, as "#dd8265", by their values; of JSON none.
+/// @throws Error  as readLabelNames
+[[nodiscard]] std::map<double, std::string> readLabelColors(const std::filesystem::path& file);
 
 /// The labels, names of the table as their values; others stay, for the image may name them.
 /// @throws Error  BadValue: a name of several values

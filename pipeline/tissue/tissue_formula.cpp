@@ -3,7 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 
-#include <cmath>
+#include <sstream>
 #include <vtkFunctionParser.h>
 #include <vtkObject.h>
 
@@ -13,6 +13,9 @@ namespace
 {
 
 using namespace units::literals;
+
+constexpr double kSoftest = 1.0; // [Pa], as makeMaterial takes it
+constexpr double kStiffest = 1e10;
 
 } // namespace
 
@@ -49,12 +52,15 @@ double TissueFormula::operator()(const Eigen::Vector3d& position) const
   parser_->SetScalarVariableValue(2, place.z());
   parser_->SetScalarVariableValue(3, place.head<2>().norm());
   const double value = parser_->GetScalarResult() * 1.0_kPa;
-  if (!(value > 0.0 && std::isfinite(value)))
+  if (!(value >= kSoftest && value <= kStiffest))
   {
+    std::ostringstream what;
+    value > 0.0 ? what << "' gives " << units::toKilopascals(value) << " kPa"
+                : what << "' is not above 0 kPa";
     throw Error(ErrorCode::BadValue,
-      "'" + text_ + "' is not above 0 kPa at " + units::inMillimeters(position.x()) + ", " +
+      "'" + text_ + what.str() + " at " + units::inMillimeters(position.x()) + ", " +
         units::inMillimeters(position.y()) + ", " + units::inMillimeters(position.z()) +
-        "; mend the formula");
+        "; mend the formula, so that it gives 1 Pa to 10 GPa; its numbers are kPa");
   }
   return value;
 }

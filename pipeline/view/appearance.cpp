@@ -102,6 +102,19 @@ double roundUp(double value) noexcept
   return 10.0 * power;
 }
 
+int decimalsOf(double round) noexcept
+{
+  constexpr int kMost = 12;
+  double scaled = std::abs(round);
+  int decimals = 0;
+  while (decimals < kMost && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled)
+  {
+    scaled *= 10.0;
+    ++decimals;
+  }
+  return decimals;
+}
+
 void makeInkLine(vtkPolyData& line, vtkActor2D& actor, int points)
 {
   vtkNew<vtkPoints> places;

@@ -64,8 +64,8 @@ inline constexpr Color kInk{ 0.10, 0.11, 0.13 };
 inline constexpr Color kPaper{ 1.0, 1.0, 1.0 };
 inline constexpr Color kSky{ 0.95, 0.96, 0.97 };
 inline constexpr Color kGround{ 0.72, 0.75, 0.79 };
-inline constexpr Color kMeasured{ 0.00, 0.35, 0.65 };
-inline constexpr Color kLaw{ 0.85, 0.37, 0.01 };
+inline constexpr Color kMeasured = kCurves[0];
+inline constexpr Color kLaw = kCurves[1];
 
 /// A font with Greek letters and brackets, which the toolkit's own one has not.
 ///
@@ -86,6 +86,9 @@ void setFont(vtkTextProperty& text, int size, const Color& color = kInk, bool bo
 /// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten not below a value; 1 below
 /// 1e-12.
 [[nodiscard]] double roundUp(double value) noexcept;
+
+/// Digits behind the point that such a number needs, up to 12.
+[[nodiscard]] int decimalsOf(double round) noexcept;
 
 void setColor(vtkProperty& property, const Color& color);
 

@@ -28,6 +28,11 @@ ControlNet::ControlNet(vtkRenderer& renderer)
 void ControlNet::show(const OverlayState& state)
 {
   fillControlNet(state.press.GetDent(), *net_);
+  for (vtkIdType i = 0; i < net_->GetNumberOfPoints(); ++i)
+  {
+    const Eigen::Vector3d point(net_->GetPoint(i));
+    net_->GetPoints()->SetPoint(i, state.press.WithBody(point, point).eval().data());
+  }
   actor_->VisibilityOn();
 }
 

@@ -35,8 +35,6 @@ DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkPro
   renderer.AddActor(actor_);
 
   legend_->SetLookupTable(map_);
-  legend_->SetNumberOfLabels(6);
-  legend_->SetLabelFormat("%.3g");
   legend_->SetUnconstrainedFontSize(true);
   legend_->SetBarRatio(0.25);
   appearance::setFont(*legend_->GetTitleTextProperty(), 14, appearance::kInk, true);
@@ -71,21 +69,26 @@ void DentColors::hide()
   legend_->VisibilityOff();
 }
 
-// between round bounds, with the values of a map that is one in their middle
+// between round bounds, with the values of a map that is one in their middle; each label is exact
 void DentColors::showLegend(const SurfaceMap& map)
 {
   constexpr double kLeastSpread = 0.02; // of the largest, that colors are to tell apart
   constexpr double kSteps = 10.0;
   const double more = std::max(0.0, 0.5 * (kLeastSpread * map.high - (map.high - map.low)));
   const double step = appearance::roundUp((map.high - map.low + 2.0 * more) / kSteps);
-  showLegend(*surfaceColors_, map.title.c_str(), step * std::floor((map.low - more) / step),
-    step * std::ceil((map.high + more) / step));
+  const double low = std::floor((map.low - more) / step);
+  const double pairs = std::ceil(0.5 * (std::ceil((map.high + more) / step) - low));
+  showLegend(*surfaceColors_, map.title.c_str(), step * low, step * (low + 2.0 * pairs));
+  legend_->SetNumberOfLabels(static_cast<int>(pairs) + 1);
+  legend_->SetLabelFormat(("%." + std::to_string(appearance::decimalsOf(step)) + "f").c_str());
 }
 
 void DentColors::showLegend(vtkLookupTable& colors, const char* title, double low, double high)
 {
   colors.SetTableRange(low, high);
   legend_->SetLookupTable(&colors);
+  legend_->SetNumberOfLabels(6);
+  legend_->SetLabelFormat("%.3g");
   legend_->SetTitle(title);
   legend_->SetVisibility(hasLegend_);
 }
@@ -100,7 +103,7 @@ void DentColors::setLaw(const ForceLaw& law)
   validity_.emplace(law);
 }
 
-void DentColors::show(const OverlayState& state, By by)
+void DentColors::show(const OverlayState& state, By by, double deepest)
 {
   const Contact& contact = state.sample.contact;
   mapper_->SetInputConnection(state.press.GetOutputPort(1));
@@ -111,7 +114,9 @@ void DentColors::show(const OverlayState& state, By by)
   actor_->VisibilityOn();
   if (by == By::Displacement)
   {
-    colorBy("Displacement [mm]", "displacement\n[mm]", units::toMillimeters(contact.depth));
+    // of the dent alone where the body gives way as a whole
+    colorBy("Displacement [mm]", "displacement\n[mm]",
+      units::toMillimeters(std::max(state.press.GetPress().contact.depth, deepest)));
   }
   else if (by == By::Pressure)
   {

@@ -35,7 +35,8 @@ public:
   /// @param property  of the surface around it
   DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property);
 
-  void show(const OverlayState& state, By by);
+  /// @param deepest  of another dent with the same colors, whose range is that of the deeper [m]
+  void show(const OverlayState& state, By by, double deepest = 0.0);
   void hide();
 
   /// The legend of the colors of the whole surface.

@@ -2,6 +2,7 @@
 
 #include "haptics/units.h"
 #include "pipeline/deform/press_of.h"
+#include "pipeline/layout/fill_picture.h"
 #include "pipeline/view/appearance.h"
 #include "pipeline/view/control_net.h"
 #include "pipeline/view/force_arrow.h"
@@ -98,6 +99,8 @@ void PressView::setSurface(vtkPolyData* surface, bool isClosed)
 
 void PressView::setColor(const appearance::Color& color)
 {
+  color_ = color;
+  ++version_;
   appearance::setColor(*surface_->GetProperty(), color);
   dent_->setBase(color);
 }
@@ -115,11 +118,14 @@ void PressView::setLook(const BodyLook& look)
   renderer_.GetActiveCamera()->GetDirectionOfProjection(cutAlong_.data());
   cut_->SetNormal(cutAlong_.data());
   cut_->SetOrigin(surfaceMapper_->GetInput() ? surfaceMapper_->GetCenter() : cut_->GetOrigin());
-  for (vtkMapper* mapper : { static_cast<vtkMapper*>(surfaceMapper_), dent_->mapper() })
-  {
-    mapper->RemoveAllClippingPlanes();
-    look.isCut ? mapper->AddClippingPlane(cut_) : void();
-  }
+  cut(*surfaceMapper_);
+  cut(*dent_->mapper());
+}
+
+void PressView::cut(vtkMapper& mapper)
+{
+  mapper.RemoveAllClippingPlanes();
+  look_.isCut ? mapper.AddClippingPlane(cut_) : void();
 }
 
 void PressView::setMap(const SurfaceMap* map)
@@ -154,6 +160,7 @@ void PressView::colorSurface()
 void PressView::setTip(const Tip& tip)
 {
   tip_ = tip;
+  ++version_;
   tool_->setTip(tip);
 }
 
@@ -187,11 +194,22 @@ bool PressView::isVisible(Overlay overlay) const
   return visible_[indexOf(overlay)];
 }
 
+Press PressView::drawnPress(const Sample& sample, const std::vector<OrganLoad>& beside) const
+{
+  return pressOf(
+    sample, tip_, [this](double depth) { return extentRadius(depth); }, style_, beside);
+}
+
+std::vector<OrganLoad> PressView::loadsOf(const Sample& sample) const
+{
+  return palp::loadsOf(drawnSample(sample, left_), style_);
+}
+
 void PressView::show(const Sample& sample)
 {
   const Sample dented = drawnSample(sample, left_);
   left_ = sample.contact.touching() ? sample : left_;
-  deform_->SetPress(pressOf(dented, tip_, extentRadius(drawnDepth(dented)), style_));
+  deform_->SetPress(drawnPress(dented, beside_));
   deform_->SetGeneratePatch(dented.contact.touching());
   deform_->Update();
   const OverlayState state{ sample, tip_, deform_->GetPress().extentRadius, *deform_ };
@@ -235,16 +253,19 @@ DentColors::By PressView::colors() const
                                              : DentColors::By::Nothing;
 }
 
-// the dent is drawn by itself where it is finer than the mesh or has colors
+// the dent is drawn by itself where it is finer than the mesh or has colors; two that meet are one
 void PressView::placeDent(const OverlayState& state)
 {
   const DentColors::By by = colors();
-  const bool apart = state.sample.contact.touching() && by != DentColors::By::Map &&
+  const bool touches = state.sample.contact.touching();
+  const Dent& dent = deform_->GetDent();
+  const bool apart = (touches || !dent.deepened().empty()) && !dent.meetsOther() &&
+    by != DentColors::By::Map &&
     (by != DentColors::By::Nothing || deform_->GetUsedPatchLevel() > 0);
   surfaceMapper_->SetHideDent(apart);
-  if (apart)
+  if (apart && touches)
   {
-    dent_->show(state, by);
+    dent_->show(state, by, deepestBeside_);
   }
   else
   {
@@ -278,6 +299,9 @@ void PressView::lookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up)
   double bounds[6];
   whole().GetBounds(bounds);
   renderer_.ResetCamera(bounds);
+  const int* size = renderer_.GetSize();
+  const bool isNarrow = PictureRoom{ .width = 1.0 * size[0], .height = 1.0 * size[1] }.isNarrow();
+  isNarrow && !around_.IsValid() ? fillPicture(renderer_, *rest_) : void();
 }
 
 void PressView::lookAtWhole(const Eigen::Vector3d& position, const Eigen::Vector3d& normal)

@@ -144,6 +144,56 @@ public:
   /// R_d of the table for a depth [m]; 0 without a table.
   [[nodiscard]] double extentRadius(double depth) const noexcept;
 
+  /// The press that is drawn of a sample, by the tool, R_d and style in use.
+  /// @param beside  of another tool, which moves the body with it
+  [[nodiscard]] Press drawnPress(const Sample& sample, const std::vector<OrganLoad>& beside) const;
+
+  /// What the tool of a sample moves the body with, as it would be shown.
+  [[nodiscard]] std::vector<OrganLoad> loadsOf(const Sample& sample) const;
+
+  [[nodiscard]] const Tip& tip() const noexcept
+  {
+    return tip_;
+  }
+
+  /// Another number after setTip() and setColor().
+  [[nodiscard]] int version() const noexcept
+  {
+    return version_;
+  }
+  [[nodiscard]] vtkProperty& surfaceProperty()
+  {
+    return *surface_->GetProperty();
+  }
+  [[nodiscard]] const appearance::Color& color() const noexcept
+  {
+    return color_;
+  }
+
+  /// Opens what a mapper draws as the surface is open, or not.
+  void cut(vtkMapper& mapper);
+
+  /// Whether dents are drawn by themselves, left out of the surface.
+  [[nodiscard]] bool drawsDentsApart() const
+  {
+    return surfaceMapper_->GetHideDent();
+  }
+
+  /// Of another dent with the same colors [m]; takes effect in show().
+  void setDeepestBeside(double depth) noexcept
+  {
+    deepestBeside_ = depth;
+  }
+
+  /// What another hand moves the body with, too; takes effect in show().
+  void setBeside(std::vector<OrganLoad> loads) noexcept
+  {
+    beside_ = std::move(loads);
+  }
+
+  /// What their colors mean.
+  [[nodiscard]] DentColors::By colors() const;
+
   /// The surface as last shown [m], with the arrays of vtkPalpDeformFilter.
   [[nodiscard]] vtkPolyData* deformed();
 
@@ -160,13 +210,16 @@ private:
   void placeCut(const Contact& contact);
   void colorSurface();
   void placeDent(const OverlayState& state);
-  [[nodiscard]] DentColors::By colors() const;
 
   vtkRenderer& renderer_;
   Tip tip_{ SphereTip{ .radius = 0.01 } };
   std::optional<ExtentTable> extents_;
   DentStyle style_;
-  Sample left_{};         // the last that touched, whose dent may still come back
+  Sample left_{};                 // the last that touched, whose dent may still come back
+  double deepestBeside_ = 0.0;    // [m]
+  std::vector<OrganLoad> beside_; // of another hand
+  int version_ = 0;
+  appearance::Color color_ = appearance::kLiver;
   double diagonal_ = 0.0; // of the surface's box [m]
   double above_ = 0.0;    // the surface reach tool and arrow [m]
 

@@ -46,7 +46,7 @@ void SurfaceCircle::show(const OverlayState& state)
   addLevelLines(*vtkPolyData::SafeDownCast(state.press.GetOutputDataObject(1)),
     state.press.GetPatch().triangles, "Distance", "Displacement", static_cast<float>(radius),
     *line_);
-  putOnField(state.press.GetDent(), radius);
+  state.press.GetPress().motion ? void() : putOnField(state.press.GetDent(), radius);
   actor_->SetVisibility(radius > 0.0);
 }
 

@@ -4,7 +4,7 @@
 #include "data/liver_mesh.h"
 #include "data/press_path.h"
 #include "haptics/surface/closest_point.h"
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"

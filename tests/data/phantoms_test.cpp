@@ -1,5 +1,5 @@
 #include "haptics/surface/closest_point.h"
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/health/mesh_health.h"
 #include "pipeline/model/poly_data.h"

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 namespace palp::test
@@ -16,7 +15,6 @@ namespace palp::test
 using namespace units::literals;
 
 constexpr double kStep = 0.02_mm;
-constexpr double kEdge = 60.0_deg; // that the surface turns by within the tool
 
 // what stays the same along a slide
 enum class Held
@@ -124,45 +122,6 @@ inline std::vector<bool> folds(const std::vector<Pose>& poses, const Tool& tool)
     result[static_cast<std::size_t>(i)] = turn * tool.radius > along(last) - along(first);
   }
   return result;
-}
-
-// Folds that lead along the slide, which its path does not show: within the tool the surface turns
-// away as it does over the rim of a lobe.
-inline bool hasEdgeWithin(const Surface& surface, const Tool& tool, const Pose& pose)
-{
-  const std::vector<Eigen::Vector3d> points(surface.points().begin(), surface.points().end());
-  std::vector<Triangle> turned;
-  std::ranges::copy_if(surface.triangles(), std::back_inserter(turned),
-    [&](const Triangle& triangle)
-    { return unitNormal(points, triangle).dot(pose.contact.normal) < std::cos(kEdge); });
-  return !turned.empty() &&
-    findClosestPoint(Surface(points, turned), pose.middle, tool.radius).triangle >= 0;
-}
-
-// Clefts between walls that lead back: over half of the contact's radius the nearest triangle turns
-// by more than the tool itself, but less over all of it.
-inline bool hasCleftAt(const std::vector<Pose>& poses, const Tool& tool, std::size_t place)
-{
-  const double stretch = 0.5 * std::sqrt(tool.depth * (2.0 * tool.radius - tool.depth));
-  for (std::size_t first = place; poses[place].along - poses[first].along < stretch; --first)
-  {
-    std::size_t last = place;
-    while (last + 1 < poses.size() && poses[last].along - poses[first].along < stretch)
-    {
-      ++last;
-    }
-    const double cosine = poses[first].away.dot(poses[last].away);
-    const double length = poses[last].along - poses[first].along;
-    if (std::acos(std::clamp(cosine, -1.0, 1.0)) * tool.radius > length)
-    {
-      return true;
-    }
-    if (first == 0)
-    {
-      break;
-    }
-  }
-  return false;
 }
 
 } // namespace palp::test

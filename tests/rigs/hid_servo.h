@@ -56,7 +56,8 @@ struct Traffic
   std::atomic<int> pushes = 0;    // commands whose currents are not all zero
   std::atomic<bool> rests = true; // the last command has none
   std::atomic<int> closed = 0;
-  std::vector<double> times; // from a command to the first answer [us]; read after the end
+  std::vector<std::size_t> from; // of each push, the packet whose answer was heard last; as times
+  std::vector<double> times;     // from a command to the first answer [us]; read after the end
 };
 
 class CountedTransport final : public Transport
@@ -81,6 +82,7 @@ public:
     {
       const auto turns = Board::turnsOfTheWrist(into);
       traffic_.lost += ++traffic_.heard == 1 ? 0 : static_cast<std::uint16_t>(turns - turns_ - 1);
+      packet_ += static_cast<std::uint16_t>(turns - turns_);
       turns_ = turns;
       traffic_.times.push_back(
         std::chrono::duration<double, std::micro>(Board::Clock::now() - asked_).count());
@@ -97,6 +99,10 @@ public:
     traffic_.rests = std::ranges::all_of(
       bytes.subspan(1, 6), [](std::byte byte) { return byte == std::byte{ 0 }; });
     traffic_.pushes += traffic_.rests ? 0 : 1;
+    if (!traffic_.rests)
+    {
+      traffic_.from.push_back(packet_);
+    }
     return wire_->write(bytes);
   }
 
@@ -105,6 +111,7 @@ private:
   Traffic& traffic_;
   Board::Clock::time_point asked_;
   std::uint16_t turns_ = 0;
+  std::size_t packet_ = 0; // that was answered last
 };
 
 // forces that the servo hands on, counted with those that go out
@@ -217,13 +224,17 @@ protected:
       waitFor([soon](const Sample& sample) { return isForced(sample) || sample.time > soon; }));
   }
 
-  // again, where a machine under load has interrupted the force: it is whole once the tool lifted
+  // again, where a machine under load has interrupted the force: it is whole once the tool lifted,
+  // and where its taps looked like swings that grow, once it was away for two seconds
   void pressDown()
   {
+    double away = 0.0;
     do
     {
       board_->reach = 0;
-      waitFor([](const Sample& sample) { return sample.contact.depth == 0.0; });
+      const Sample up = waitFor([](const Sample& sample) { return sample.contact.depth == 0.0; });
+      waitFor([&](const Sample& sample) { return sample.time >= up.time + away; });
+      away = 2.1;
       if (getsForce())
       {
         waitFor([](const Sample& sample) { return sample.state != DeviceState::SoftStart; });

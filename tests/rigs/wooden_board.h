@@ -32,12 +32,6 @@ public:
     Short,   // reports that are cut off
   };
 
-  struct Push
-  {
-    WoodenCounts at;
-    WoodenCurrents currents;
-  };
-
   using Clock = std::chrono::steady_clock;
   static constexpr WoodenCounts kStart{ 764, 764, 3667 }; // in the workspace
 
@@ -81,7 +75,8 @@ public:
   std::atomic<Clock::time_point> lastPush{}; // when the last of them came
   std::atomic<Clock::time_point> rested{};   // when the first zero after one of them came
   std::atomic<Clock::time_point> pulled{};   // when its wire was
-  std::vector<Push> pushed;                  // those packets; the thread's, until it has ended
+  std::vector<WoodenCurrents> pushed;        // in those packets; the thread's, until it has ended
+  std::vector<WoodenCounts> places; // where it was, in the answer to each packet; as pushed
 
 private:
   struct Message // 14 bytes, little-endian as this machine
@@ -112,7 +107,7 @@ private:
     {
       lastPush = Clock::now();
       ++pushes;
-      pushed.push_back({ at_, currents });
+      pushed.push_back(currents);
       beforeCalibration += calibrated_ ? 0 : 1;
     }
     else if (pushing)
@@ -181,6 +176,7 @@ private:
       std::memcpy(&told, in.data() + 1, sizeof told); // behind the number of the report
       hear(told);
       move();
+      places.push_back(at_);
       std::array<std::byte, 64> out{};
       const std::size_t length = answer(out);
       if (mood != Mood::Silent && send(end_, out.data(), length, MSG_NOSIGNAL) < 0)

@@ -34,7 +34,6 @@ struct Fuzzed
   /// Runs where nothing may go wrong.
   std::function<void(const std::string&)> take;
   std::function<std::string(const std::string&)> pack{}; ///< of the content, for storing
-  int share = 1; ///< one file of so many is tried, where reading takes long
 };
 
 /// One damaged file.

@@ -239,7 +239,9 @@ void addOrganCommand(CLI::App& app)
     ->add_option("--support", options->supports,
       "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
       "bonded:direction:X,Y,Z:30deg where the surface faces so, or bonded:label:7 where it touches "
-      "another label of its image; sliding holds across it only")
+      "another label of its image; sliding holds across it only. Of a liver in LPS also posterior "
+      "(faces the back within 60deg), ligaments (back and head, 30deg), hilum (20 mm around the "
+      "middle of what faces the feet), bonded or sliding:posterior")
     ->required()
     ->allow_extra_args(false);
   const auto add = [&](const char* name, const char* what, const char* usual, auto take)
@@ -275,7 +277,8 @@ void addOrganCommand(CLI::App& app)
     "what is below; cells too large where those are less than two; edge where one is nearer than\n"
     "two cells. With --out the same everywhere, at a thousand places or more, some minutes.\n"
     "Examples:\n"
-    "  palp organ --support bonded:direction:0,1,0:60deg --cell 6mm --out liver.organ\n"
+    "  palp organ --support posterior --cell 6mm --out liver.organ\n"
+    "  palp organ --support ligaments --support hilum --cell 6mm --out hanging.organ\n"
     "  palp organ liver.stl --support bonded:direction:0,1,0:60deg --at -48.5,38.4,39.5\n"
     "  palp organ lobe.stl --support bonded:box:30,-60,-40:40,60,10 --at 0,0,0 --depth 1:6:1mm\n"
     "  palp organ ct.nii.gz --label 5 --support bonded:label:10 --out liver.organ");

@@ -1,6 +1,7 @@
 #include "app/commands/organ/organ_file.h"
 
 #include "app/program/progress_line.h"
+#include "calibration/organ/organ_motion_modes.h"
 #include "calibration/organ/organ_places.h"
 #include "calibration/tables/organ_table.h"
 #include "haptics/error.h"
@@ -126,6 +127,12 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   {
     table.places.empty() ? void() : writeOrganTable(begun, table);
     throw Error(ErrorCode::NoSolution, table.places.empty() ? kNoPlaceYet : kStopped);
+  }
+  writeOrganTable(begun, table);
+  progress.tell("motion of the whole body, to be drawn");
+  if (!addMotion(table, model, surface, interrupt.token()))
+  {
+    throw Error(ErrorCode::NoSolution, kStopped);
   }
   writeOrganTable(plan.out, table);
   std::filesystem::remove(begun);

@@ -80,7 +80,7 @@ double answerTime(const OrganPress& press, const Scene& scene)
   constexpr double kDepth = 3.0_mm;
   const ToolPose pose{ .apex = press.place.position - kDepth * press.place.normal,
     .axis = -press.place.normal };
-  const Contact contact = step(scene, pose).contact;
+  Contact contact = step(scene, pose).contact;
   double sum = 0.0;
   const auto times = timed(
     5, [](int) {},
@@ -88,7 +88,8 @@ double answerTime(const OrganPress& press, const Scene& scene)
     {
       for (int call = 0; call < kCalls; ++call)
       {
-        sum += evaluateLaw(scene, contact, kDepth + 1e-9 * (call + k)).force;
+        contact.depth = kDepth + 1e-9 * (call + k);
+        sum += evaluateLaw(scene, contact, contact.depth).force;
       }
     });
   return sum > 0.0 ? statisticsOf(times).median / kCalls : kMissing;

@@ -275,7 +275,6 @@ Merged mergeResults(Manifest& manifest, const MergeOptions& options, const fs::p
     throw Error(ErrorCode::BadValue,
       out.string() + ": is there already; pass --overwrite to replace it, or choose another --out");
   }
-  clearAbandoned(out.has_parent_path() ? out.parent_path() : ".");
   Merger merger(manifest, options);
   Merged merged;
   replaceFile(out,

@@ -220,6 +220,7 @@ DeviceLimits FalconDriver::limits() const
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
     .workspaceRadius = 40.0_mm,
+    .unproven = true,
     .facing = kFacing };
 }
 

@@ -3,9 +3,12 @@
 #include "haptics/error.h"
 #include "haptics/units.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <dlfcn.h>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace palp
@@ -76,6 +79,29 @@ Library load(const std::string& path)
 
 constexpr const char* kLibrary = "libdrd.so.3";
 
+// arms of one name
+struct Family
+{
+  std::string_view name;
+  double maxForce; // [N]
+  double radius;   // of the sphere in its workspace [m]
+};
+
+// @source  chai3d/chai3d src/devices/CDeltaDevices.cpp, of which Force Dimension is an author
+constexpr std::array kFamilies{
+  Family{ "omega", 12.0, 75.0_mm },
+  Family{ "sigma", 12.0, 75.0_mm },
+  Family{ "delta", 20.0, 150.0_mm },
+};
+
+// of another arm, less than any of theirs, and no bound of its reach
+Family familyOf(const std::string& name) noexcept
+{
+  const auto* found = std::ranges::find_if(
+    kFamilies, [&](const Family& one) { return name.find(one.name) != name.npos; });
+  return found == kFamilies.end() ? Family{ "", 8.0, 0.0 } : *found;
+}
+
 std::string textOf(const char* text)
 {
   return text != nullptr ? text : "unknown";
@@ -88,6 +114,7 @@ public:
     : library_(library)
     , arm_(arm)
     , name_(textOf(library.systemName(arm)))
+    , family_(familyOf(name_))
     , hasWrist_(library.hasWrist(arm))
   {
     (void)library_.setWatchdog(kWatchdog, arm_);
@@ -102,19 +129,20 @@ public:
   ForceDimensionDriver(const ForceDimensionDriver&) = delete;
   ForceDimensionDriver& operator=(const ForceDimensionDriver&) = delete;
 
-  // the least of the makers' arms, until identified
+  // damping, friction and delay conservative, until identified
   [[nodiscard]] DeviceLimits limits() const override
   {
     return { .model = "Force Dimension " + name_,
       .rendersForce = true,
       .needsHoming = true,
-      .maxForce = 8.0,
+      .maxForce = family_.maxForce,
       .damping = 0.2,
       .friction = 0.05,
       .handDamping = kGripDamping,
       .quantum = 10.0_um,
       .delay = 1.0_ms,
-      .velocityDelay = 4.5_ms };
+      .velocityDelay = 4.5_ms,
+      .workspaceRadius = family_.radius };
   }
 
   [[nodiscard]] IoCode tick(
@@ -183,6 +211,7 @@ private:
   Library library_;
   char arm_;
   std::string name_;
+  Family family_;
   bool hasWrist_;
   bool homed_ = false;
 };

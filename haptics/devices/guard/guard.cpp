@@ -15,6 +15,7 @@
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -146,6 +147,18 @@ Guard::Guard(int device, GuardWire wire, const ZeroPacket& zero)
     throw;
   }
   link_ = ours.release();
+  constexpr auto kPatience = std::chrono::seconds(5); // of a machine with much else to do
+  for (const auto last = std::chrono::steady_clock::now() + kPatience; block_->watched == 0;)
+  {
+    if (!lives() || std::chrono::steady_clock::now() > last)
+    {
+      kill(process_, SIGKILL);
+      end();
+      refuse("it was started and does not answer");
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  beat();
 }
 
 bool Guard::lives() const noexcept
@@ -155,6 +168,11 @@ bool Guard::lives() const noexcept
 }
 
 Guard::~Guard()
+{
+  end();
+}
+
+void Guard::end() noexcept
 {
   block_->closed = 1;
   close(link_);

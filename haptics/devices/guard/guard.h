@@ -18,8 +18,9 @@ class Guard
 public:
   static constexpr auto kLimit = std::chrono::microseconds(3000);
 
+  /// Returns once the guardian watches: no force is to come before.
   /// @param device  its open file, which the guardian gets a copy of
-  /// @throws Error  NoDevice: palp-guard is not there or cannot be started
+  /// @throws Error  NoDevice: palp-guard is not there, cannot be started, or is silent for 5 s
   Guard(int device, GuardWire wire, const ZeroPacket& zero);
 
   /// Ends the guardian; the device must have been sent zero.
@@ -66,6 +67,8 @@ public:
   }
 
 private:
+  void end() noexcept;
+
   GuardBlock* block_ = nullptr; // shared memory
   pid_t process_ = -1;
   int link_ = -1; // its other end is the guardian's

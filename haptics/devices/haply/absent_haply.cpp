@@ -9,6 +9,12 @@ namespace palp
 
 std::unique_ptr<Driver> openHaply(const std::string&)
 {
+  findHaply();
+  return {};
+}
+
+void findHaply()
+{
   throw Error(ErrorCode::NoDevice,
     "Haply Inverse3: this build has no libwebsockets; install libwebsockets-dev and build again");
 }

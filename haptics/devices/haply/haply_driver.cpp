@@ -15,27 +15,41 @@ namespace
 using namespace units::literals;
 using namespace std::chrono_literals;
 
+constexpr std::uint16_t kUsualPort = 10'001;
+
 class HaplyDriver final : public Driver
 {
 public:
   explicit HaplyDriver(std::uint16_t port)
     : link_(port)
   {
+    constexpr double kTurned = 50.0_mm; // that no hand goes meanwhile
+    const Eigen::Vector3d before = link_.state().position;
+    const bool replied = link_.exchange(Eigen::Vector3d::Zero(), 100ms);
+    const HaplyState& now = link_.state();
+    const bool isAsked = replied && !now.oldWords; // for the middle
+    if (now.centered || (isAsked && (now.position - before).norm() > kTurned))
+    {
+      start_ = Eigen::Vector3d::Zero();
+      reach_ = now.reach;
+    }
   }
 
-  // nobody has measured one here: low on purpose
+  // force and step of Haply's data sheet: 4 N in 80 % of the workspace, 10 N at its peak, 0.01 mm;
+  // damping and friction nobody has measured here: low on purpose
   [[nodiscard]] DeviceLimits limits() const override
   {
     return { .model = "Haply Inverse3",
       .rendersForce = true,
       .needsHoming = true,
-      .maxForce = 3.0,
+      .maxForce = 4.0,
       .damping = 0.2,
       .friction = 0.05,
       .handDamping = kGripDamping,
-      .quantum = 50.0_um,
+      .quantum = 10.0_um,
       .delay = 1.0_ms,
-      .velocityDelay = 4.5_ms };
+      .velocityDelay = 4.5_ms,
+      .workspaceRadius = reach_ };
   }
 
   [[nodiscard]] IoCode tick(
@@ -68,7 +82,8 @@ public:
 private:
   HaplyLink link_;
   bool homed_ = false;
-  std::optional<Eigen::Vector3d> start_;      // [m]
+  std::optional<Eigen::Vector3d> start_; // zero of its poses: the middle, where it is known [m]
+  double reach_ = 0.0;                   // from there [m]; 0: not known
   std::optional<Eigen::Quaterniond> upright_; // of the grip, which may wake later
 };
 
@@ -76,7 +91,7 @@ private:
 
 std::unique_ptr<Driver> openHaply(const std::string& port)
 {
-  std::uint16_t number = 10'001;
+  std::uint16_t number = kUsualPort;
   const char* end = port.data() + port.size();
   const auto read = std::from_chars(port.data(), end, number);
   if (!port.empty() && (read.ec != std::errc{} || read.ptr != end || number == 0))
@@ -85,6 +100,11 @@ std::unique_ptr<Driver> openHaply(const std::string& port)
       "--device: haply:" + port + ": not a port; write as in haply or haply:10001");
   }
   return std::make_unique<HaplyDriver>(number);
+}
+
+void findHaply()
+{
+  const HaplyLink link(kUsualPort);
 }
 
 } // namespace palp

@@ -18,4 +18,8 @@ namespace palp
 /// @throws Error  NoDevice: no service, no arm, or this build has no libwebsockets; BadValue: port
 [[nodiscard]] std::unique_ptr<Driver> openHaply(const std::string& port);
 
+/// Asks the service on its usual port for an arm, to which it sends nothing.
+/// @throws Error  NoDevice: as openHaply()
+void findHaply();
+
 } // namespace palp

@@ -13,6 +13,7 @@ namespace
 using nlohmann::json;
 
 const json kNothing;
+const char* const kCentered = "arm_front_centered"; // a preset
 
 const json& at(const json& object, const char* key)
 {
@@ -103,6 +104,9 @@ bool takeHaplyMessage(std::string_view text, HaplyState& state)
     state.oldWords = at(message, "session_id").is_null();
   }
   state.position = *position;
+  const json& config = at(*arm, "config");
+  state.centered = config.is_object() ? at(config, "preset") == kCentered : state.centered;
+  state.reach = at(config, "type") == "minverse" ? 0.04 : state.reach;
   const json& status = at(*arm, "status");
   if (at(status, "calibrated").is_boolean())
   {
@@ -124,6 +128,7 @@ std::string haplyCommand(const HaplyState& arm, const Eigen::Vector3d& force, bo
   if (first && !arm.oldWords)
   {
     message["session"] = { { "configure", { { "profile", { { "name", "palp" } } } } } };
+    message["inverse3"][0]["configure"] = { { "preset", kCentered } };
   }
   return message.dump();
 }

@@ -18,18 +18,22 @@ struct HaplyState
   std::uint32_t buttons = 0;                                       ///< of the grip
   bool hasGrip = false;                                            ///< and has told how it is held
   bool calibrated = false;                                         ///< and powered
+  bool centered = false; ///< its positions are from the middle of the workspace
+  double reach = 0.1;    ///< from there to every side [m]
   bool oldWords = false; ///< the service is older than 3.5 and calls a force otherwise
 };
 
 /// Takes up one message; what it does not name stays as it was.
 /// @param state  once it has an id, of this arm; before, of the first in the message
 /// @return       false: not a message of the service, or without this arm; the state is unchanged
-/// @source       docs.haply.co/inverseSDK, WebSocket Protocol and Simulation Channel, 3.5 and 3.1
+/// @source       docs.haply.co/inverseSDK, WebSocket Protocol and Simulation Channel, 3.5 and 3.1;
+///               presets and reach: Mount and Workspace, tutorial 05
 [[nodiscard]] bool takeHaplyMessage(std::string_view text, HaplyState& state);
 
 /// A force for one tick, after which the arm is idle again.
 /// @param force  [N], finite
-/// @param first  with the name of this program, for the service's list
+/// @param first  with the name of this program, for the service's list, and the wish for positions
+///               from the middle of the workspace
 [[nodiscard]] std::string haplyCommand(
   const HaplyState& arm, const Eigen::Vector3d& force, bool first);
 

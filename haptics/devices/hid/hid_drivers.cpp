@@ -111,6 +111,7 @@ DeviceLimits WoodenDriver::limits() const
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
     .workspaceRadius = arm_.radius,
+    .unproven = true,
     .facing = kFacesUser };
 }
 
@@ -179,7 +180,8 @@ DeviceLimits Phd1Driver::limits() const
     .quantum = 10.0_um,
     .delay = 1.0_ms,
     .velocityDelay = 4.5_ms,
-    .workspaceRadius = 100.0_mm };
+    .workspaceRadius = 100.0_mm,
+    .unproven = true };
 }
 
 IoCode Phd1Driver::tick(const Eigen::Vector3d& force, double, DriverSample& sample) noexcept

@@ -20,9 +20,10 @@ public:
   /// @param peakTime    [s]
   MotorHeat(double peak, double continuous, double peakTime) noexcept;
 
-  /// Shortens currents, all alike, as far as the hottest motor needs, and takes them up.
-  /// @param currents  [A], at most the peak each
-  /// @param dt        for which they flow [s]
+  /// Takes up the currents that flowed until now, then shortens new ones, all alike, as far as the
+  /// hottest motor needs.
+  /// @param currents  that flow from now on [A], at most the peak each
+  /// @param dt        since the last call [s]
   /// @return          what is left of each, 0 to 1
   /// @realtime        no allocation, no lock, no exception
   double take(std::array<double, 3>& currents, double dt) noexcept;
@@ -36,6 +37,7 @@ private:
   double continuous_;
   double timeConstant_;             // [s]
   std::array<double, 3> squares_{}; // mean of I^2 [A^2]
+  std::array<double, 3> flowing_{}; // since the last call [A]
 };
 
 } // namespace palp

@@ -18,9 +18,12 @@ DeviceLimits IdentifiedDriver::limits() const
   DeviceLimits limits = driver_->limits();
   const auto& [x, y, z] = arm_.axes;
   limits.damping = arm_.scale * std::max(kLeast, std::min({ x.damping, y.damping, z.damping }));
+  limits.friction = arm_.scale * std::min({ x.friction, y.friction, z.friction });
+  limits.mass = arm_.scale * std::min({ x.mass, y.mass, z.mass });
   limits.quantum = arm_.encoderStep > 0.0 ? arm_.encoderStep : limits.quantum;
   limits.delay = std::max(limits.delay, arm_.delay);
   limits.maxForce *= arm_.scale;
+  limits.unproven = false;
   return limits;
 }
 

@@ -16,6 +16,7 @@ struct PressTarget
   Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< on the surface [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward unit vector; the tool points back
   double depth = 0.0; ///< of the contact, at most [m]; 0: hover above the place
+  double speed = 0.0; ///< at which the depth of a contact changes [m/s]; 0: as fast as it may
 
   bool operator==(const PressTarget&) const = default;
 };
@@ -28,7 +29,8 @@ struct PressTarget
 /// anew. Each pose is tried with touchOrgan before it is taken, so that none is deeper than the
 /// target, or than half the body's thickness below the contact, and none lies on its side against
 /// the surface, as over the edge of a thin lobe; a tool that is too deep because its target was
-/// lifted withdraws first. It stays away from a place where it does not fit.
+/// lifted withdraws first. It stays away from a place where it does not fit. Where the target has a
+/// speed, the depth is a straight line over time, however late a tick is.
 ///
 /// The main thread steers; one other thread advances.
 class GuidedTool
@@ -62,6 +64,9 @@ public:
   }
 
 private:
+  static constexpr double kNear = 0.003;    // from its place, the tool is there [m]
+  static constexpr double kHighest = 0.015; // above a place, to come down from [m]
+
   struct Trial // a pose, and what the tool touches there, after the pose that it has
   {
     ToolPose pose;
@@ -74,6 +79,7 @@ private:
   [[nodiscard]] bool mayStay(const Trial& trial) const noexcept;
   [[nodiscard]] Trial settled(Trial trial, double depth, double reach) const noexcept;
   [[nodiscard]] Eigen::Vector3d gap() const noexcept;
+  [[nodiscard]] double depthAfter(double dt) const noexcept;
   void watch(double dt) noexcept;
   [[nodiscard]] bool isAbove() const noexcept;
   [[nodiscard]] bool mustLift() const noexcept;
@@ -91,7 +97,8 @@ private:
   // of the thread that advances
   const Scene* world_ = nullptr; // as read in this tick
   std::optional<std::uint64_t> version_;
-  std::optional<PressTarget> goal_;
+  std::optional<PressTarget> asked_;
+  std::optional<PressTarget> goal_; // that which was asked for, as deep as it is by now
   Trial now_;
   ToolPose start_;
   std::optional<Eigen::Vector3d> approached_; // the place that the tool came down to last [m]

@@ -28,6 +28,7 @@ constexpr std::size_t kShortRow = 4;
 constexpr std::size_t kLongRow = 7;
 
 constexpr std::string_view kDepth = "depth_mm";
+constexpr std::string_view kHand = "hand"; // of which the first's rows are taken
 using Names = std::array<std::string_view, kLongRow>;
 constexpr Names kOfPaths{ "time_s", "x_mm", "y_mm", "z_mm", "ax", "ay", "az" };
 constexpr Names kOfRecordings{ "time_s", "tool_x_mm", "tool_y_mm", "tool_z_mm", "axis_x", "axis_y",
@@ -88,6 +89,10 @@ public:
         continue;
       }
       const Cells& cells = cellsOf(row);
+      if (hand_ && cells.size() == width_ && cells[static_cast<std::size_t>(*hand_)] != "1")
+      {
+        continue; // of another hand
+      }
       PathKnot next = knot(cells);
       const bool isApart = depthOf(cells) == 0.0;
       if (wasApart_ && isApart && next.time > knots.back().time + kGap)
@@ -162,8 +167,13 @@ private:
       columns_[i] = static_cast<std::size_t>(std::ranges::find(cells, names[i]) - cells.begin());
     }
     width_ = cells.size();
-    const auto depth = std::ranges::find(cells, kDepth);
-    depth_ = depth == cells.end() ? std::nullopt : std::optional(depth - cells.begin());
+    const auto find = [&](std::string_view name)
+    {
+      const auto at = std::ranges::find(cells, name);
+      return at == cells.end() ? std::nullopt : std::optional(at - cells.begin());
+    };
+    depth_ = find(kDepth);
+    hand_ = &names == &kOfRecordings ? find(kHand) : std::nullopt;
     return true;
   }
 
@@ -223,6 +233,7 @@ private:
   std::vector<std::size_t> columns_;      // of time, position and axis below a header
   std::size_t width_ = 0;                 // of the header; 0 without one
   std::optional<std::ptrdiff_t> depth_{}; // column
+  std::optional<std::ptrdiff_t> hand_{};  // likewise
   bool wasApart_ = false;                 // the tool in the row before, of a recording
 };
 

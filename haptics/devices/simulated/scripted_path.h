@@ -63,6 +63,7 @@ private:
 /// Path from the text of a CSV file `time_s,x_mm,y_mm,z_mm[,ax,ay,az]`, or of an exported
 /// samples.csv, whose tool_x_mm to axis_z are found by name among its other columns. Where such a
 /// recording leaves samples out between two without contact, the tool stays and then appears.
+/// Of two hands the first one's rows are taken.
 ///
 /// Names and words may stand in quotes. The header row of a path may be absent; lines that start
 /// with # and empty lines are skipped. The decimal point is a point in every locale. An axis is

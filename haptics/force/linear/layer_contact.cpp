@@ -1,6 +1,7 @@
 #include "haptics/force/linear/layer_contact.h"
 
 #include "haptics/force/linear/contact_depth.h"
+#include "haptics/numerics/smooth_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ constexpr double kHollowSpacing = 0.99;
 
 double fractionOfBall(double thickness, double curvature) noexcept
 {
-  return curvature > 0.0 ? std::min(1.0, 0.5 * thickness * curvature) : 0.0;
+  return curvature > 0.0 ? smoothStep(0.5 * thickness * curvature) : 0.0;
 }
 
 LayerContact::LayerContact(const Tip& tip, double poissonRatio, Base base)

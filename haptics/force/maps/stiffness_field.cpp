@@ -220,11 +220,12 @@ Response StiffnessField::Blend::operator()(const Response& plain, double depth) 
       factor * (plain.stiffness + 2.0 * plain.force * slope + energy * (slope * slope + bend)) };
 }
 
-Eigen::Vector3d StiffnessField::Blend::lateral(const Response& plain, double depth) const noexcept
+Eigen::Vector3d StiffnessField::Blend::lateral(
+  const Response& plain, const Eigen::Vector3d& shape, double depth) const noexcept
 {
   if (!(depth > 0.0 && std::isfinite(depth)))
   {
-    return Eigen::Vector3d::Zero();
+    return shape;
   }
   const double root = rootOf(depth, field_->axis_).value;
   const SplineBasis basis = splineBasis(field_->axis_, root);
@@ -244,7 +245,7 @@ Eigen::Vector3d StiffnessField::Blend::lateral(const Response& plain, double dep
     });
   if (!(sum > 0.0))
   {
-    return Eigen::Vector3d::Zero();
+    return shape;
   }
   const Eigen::Vector3d gradient = (logSums - logs / sum * sums) / sum;
   const Eigen::Vector3d along = gradient - gradient.dot(contact_.normal) * contact_.normal;
@@ -252,7 +253,7 @@ Eigen::Vector3d StiffnessField::Blend::lateral(const Response& plain, double dep
   const double turn =
     std::max(kLeastTurn, 1.0 + contact_.curvature * (field_->height_ - contact_.depth));
   const double energy = energy_ * plain.force * depth * field_->energies_(root).value;
-  return -std::exp(logs / sum) * energy / turn * along;
+  return std::exp(logs / sum) * (shape - energy / turn * along);
 }
 
 Rule StiffnessField::rule(const StiffnessContact& contact) const noexcept

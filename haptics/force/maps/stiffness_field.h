@@ -50,8 +50,10 @@ public:
     /// @realtime     pure; no allocation, no lock, no exception
     [[nodiscard]] Response operator()(const Response& plain, double depth) const noexcept;
 
-    /// Along the surface, on the tool, toward what is softer [N]; as the other.
-    [[nodiscard]] Eigen::Vector3d lateral(const Response& plain, double depth) const noexcept;
+    /// Along the surface, on the tool: toward what is softer, and off its shape [N]; as the other.
+    /// @param shape  what the shape of the body does by the law alone [N]
+    [[nodiscard]] Eigen::Vector3d lateral(
+      const Response& plain, const Eigen::Vector3d& shape, double depth) const noexcept;
 
   private:
     friend class StiffnessField;

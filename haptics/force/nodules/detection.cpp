@@ -42,13 +42,19 @@ double largestBelow(const NoduleContrast& contrast, double cover)
   return std::min({ kLargestBall, fits, kClosestNodule / (1.0 - kClosestNodule) * cover });
 }
 
-// ever larger nodules, up to the largest or to one that is noticed by all
-template <typename Of>
-std::vector<Detectable> grow(const Of& of, double largest, std::span<const double> differences)
+// beyond what people notice [-]
+double excess(const JustNoticeable& noticed, const Detectable& one)
 {
-  const double most = std::ranges::max(differences);
+  return std::abs(noticed.difference(one.contrast)) - noticed.fraction;
+}
+
+// ever larger nodules, up to the largest or to one that is noticed in every way
+template <typename Of>
+std::vector<Detectable> grow(const Of& of, double largest, std::span<const JustNoticeable> noticed)
+{
   std::vector<Detectable> grown{ of(kSmallestBall) };
-  while (grown.back().nodule.radius < largest && std::abs(grown.back().contrast) < most)
+  const auto isMissed = [&](const JustNoticeable& one) { return excess(one, grown.back()) < 0.0; };
+  while (grown.back().nodule.radius < largest && std::ranges::any_of(noticed, isMissed))
   {
     grown.push_back(of(std::min(largest, kGrowth * grown.back().nodule.radius)));
   }
@@ -80,8 +86,8 @@ NoduleRules NoduleContrast::rules(const Nodule& nodule) const
     press_.law().settings().constitution);
 }
 
-std::vector<std::optional<Detectable>> smallestDetectable(
-  const NoduleContrast& contrast, double cover, double ratio, std::span<const double> differences)
+std::vector<std::optional<Detectable>> smallestDetectable(const NoduleContrast& contrast,
+  double cover, double ratio, std::span<const JustNoticeable> noticed)
 {
   const auto of = [&](double radius)
   {
@@ -89,22 +95,22 @@ std::vector<std::optional<Detectable>> smallestDetectable(
     return Detectable{ nodule, contrast(nodule) };
   };
   (void)checkedNodule({ .radius = kSmallestBall, .top = cover, .ratio = ratio });
-  const std::vector<Detectable> grown = grow(of, largestBelow(contrast, cover), differences);
+  const std::vector<Detectable> grown = grow(of, largestBelow(contrast, cover), noticed);
   std::vector<std::optional<Detectable>> found;
-  for (const double difference : differences)
+  for (const JustNoticeable& difference : noticed)
   {
-    const auto over = [&](const Detectable& one) { return std::abs(one.contrast) - difference; };
-    const auto noticed =
+    const auto over = [&](const Detectable& one) { return excess(difference, one); };
+    const auto first =
       std::ranges::find_if(grown, [&](const Detectable& one) { return over(one) >= 0.0; });
-    if (noticed == grown.end() || noticed == grown.begin())
+    if (first == grown.end() || first == grown.begin())
     {
-      found.push_back(noticed == grown.end() ? std::nullopt : std::optional(*noticed));
+      found.push_back(first == grown.end() ? std::nullopt : std::optional(*first));
       continue;
     }
-    const Detectable& before = *std::prev(noticed);
+    const Detectable& before = *std::prev(first);
     const RootBracket root = falsePosition([&](double radius) { return over(of(radius)); },
-      { before.nodule.radius, noticed->nodule.radius }, over(before),
-      std::max(over(*noticed), kNearlyThere), kBallTolerance, kMostTrials);
+      { before.nodule.radius, first->nodule.radius }, over(before),
+      std::max(over(*first), kNearlyThere), kBallTolerance, kMostTrials);
     found.emplace_back(of(root.high));
   }
   return found;

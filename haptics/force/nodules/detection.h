@@ -15,16 +15,25 @@ namespace palp
 /// A difference that people just notice.
 struct JustNoticeable
 {
-  const char* name;   ///< of what they compare
-  double fraction;    ///< Weber's [-]
-  const char* source; ///< who measured it
+  const char* name;          ///< of what they compare
+  double fraction;           ///< Weber's [-]
+  const char* source;        ///< who measured it
+  bool isCompliance = false; ///< depth by force, which falls where the force rises
+
+  /// What of a contrast people compare, both pressed equally deep: force and modulus differ by the
+  /// contrast itself [-].
+  /// @param contrast  force over that beside, less 1; above -1 [-]
+  [[nodiscard]] constexpr double difference(double contrast) const noexcept
+  {
+    return isCompliance ? -contrast / (1.0 + contrast) : contrast;
+  }
 };
 
 /// From the best of conditions to those of a tool.
 inline constexpr std::array kJustNoticeable{
   JustNoticeable{ "force", 0.07, "Pang, Tan, Durlach 1991" },
   JustNoticeable{ "modulus by finger", 0.15, "Bergmann Tiest, Kappers 2009" },
-  JustNoticeable{ "compliance", 0.22, "Tan 1995" },
+  JustNoticeable{ "compliance", 0.22, "Tan 1995", true },
   JustNoticeable{ "modulus by stylus", 0.45,
     "3 times that by finger, without the feel of the surface; Bergmann Tiest, Kappers 2009" },
 };
@@ -55,7 +64,7 @@ private:
   double thickness_;       // of the body [m]
 };
 
-/// The smallest nodule whose contrast comes to a difference.
+/// The smallest nodule whose contrast people notice.
 struct Detectable
 {
   Nodule nodule;
@@ -68,9 +77,10 @@ struct Detectable
 ///
 /// @param cover        depth of the nodule's highest point [m]
 /// @param ratio        its Young's modulus over that of the tissue [-]
-/// @param differences  of the contrast, up or down [-]
+/// @param noticed      up or down
 /// @throws Error       BadValue: as checkedNodule; no nodule fits below the cover
 [[nodiscard]] std::vector<std::optional<Detectable>> smallestDetectable(
-  const NoduleContrast& contrast, double cover, double ratio, std::span<const double> differences);
+  const NoduleContrast& contrast, double cover, double ratio,
+  std::span<const JustNoticeable> noticed);
 
 } // namespace palp

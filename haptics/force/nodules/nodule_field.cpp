@@ -59,14 +59,20 @@ NoduleField::Squares NoduleField::squaresAt(const NoduleContact& at) const noexc
   return squares;
 }
 
-NoduleForce NoduleField::operator()(const NoduleContact& at, double depth) const noexcept
+NoduleField::Local::Local(const NoduleField& field, const NoduleContact& at) noexcept
+  : field_(&field)
+  , contact_(at)
+  , place_(field.energy_.at(field.squaresAt(at)))
 {
-  const Squares squares = squaresAt(at);
-  const Nodules::Answer answer = energy_(depth, std::span(squares).first(nodules_.size()));
-  NoduleForce force{ .response = answer.response };
-  for (std::size_t i = 0; i < nodules_.size(); ++i)
+}
+
+Eigen::Vector3d NoduleField::Local::lateral(double depth) const noexcept
+{
+  const Nodules::Answer answer = field_->energy_(depth, place_);
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < field_->nodules_.size(); ++i)
   {
-    force.lateral += answer.repulsion[i] * aside(nodules_[i], at);
+    force += answer.repulsion[i] * field_->aside(field_->nodules_[i], contact_);
   }
   return force;
 }
@@ -119,7 +125,7 @@ NoduleRules NoduleField::rules(const NoduleContact& at, const Response& plain) c
       press.bend = std::max(press.bend, std::abs(depth / one.depth - 1.0));
     }
   }
-  const double added = (*this)(at, at.depth).response.force;
+  const double added = energy_(at.depth, squares).response.force;
   const double force = plain.force + added;
   press.added = force > 0.0 ? added / force : 0.0;
   return noduleRules(felt, press, constitution_);

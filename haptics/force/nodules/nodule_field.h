@@ -41,13 +41,6 @@ struct NoduleContact
   double depth;           ///< of that point [m]
 };
 
-/// What nodules do to a tool.
-struct NoduleForce
-{
-  NoduleResponse response{};                         ///< along the normal
-  Eigen::Vector3d lateral = Eigen::Vector3d::Zero(); ///< on the tool, besides that [N]
-};
-
 /// Nodules in a body of any shape, felt by one tool.
 ///
 /// Their energy is a function of two distances that the shape of the body does not blur: the depth
@@ -58,6 +51,30 @@ struct NoduleForce
 class NoduleField
 {
 public:
+  /// The nodules under one contact.
+  class Local
+  {
+  public:
+    /// What they do to the tool along the normal.
+    /// @param depth  at which the tool is felt while it stays where it touches [m]
+    /// @realtime     pure; no allocation, no lock, no exception
+    [[nodiscard]] NoduleResponse operator()(double depth) const noexcept
+    {
+      return field_->energy_(depth, place_).response;
+    }
+
+    /// Besides that, on the tool [N]; as the other.
+    [[nodiscard]] Eigen::Vector3d lateral(double depth) const noexcept;
+
+  private:
+    friend class NoduleField;
+    Local(const NoduleField& field, const NoduleContact& at) noexcept;
+
+    const NoduleField* field_;
+    NoduleContact contact_;
+    Nodules::Place place_;
+  };
+
   /// @param nodules  one or more
   /// @throws Error   BadValue: as HomogeneousPress, Nodules
   NoduleField(const ForceLaw& law, std::vector<EmbeddedNodule> nodules);
@@ -67,9 +84,11 @@ public:
     return nodules_;
   }
 
-  /// @param depth  at which the tool is felt while it stays where it touches [m]
-  /// @realtime     pure; no allocation, no lock, no exception
-  [[nodiscard]] NoduleForce operator()(const NoduleContact& at, double depth) const noexcept;
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] Local at(const NoduleContact& contact) const noexcept
+  {
+    return { *this, contact };
+  }
 
   /// How much each nodule alone adds to the force without any, or takes, over that force [-].
   /// @param plain  the law's answer without nodules there

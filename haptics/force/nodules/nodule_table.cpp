@@ -59,11 +59,17 @@ NoduleTable::NoduleTable(
 {
 }
 
-NoduleTable::Entry NoduleTable::operator()(double lateralSquare, double rootOfDepth) const noexcept
+NoduleTable::Aside NoduleTable::at(double lateralSquare) const noexcept
 {
-  const double whole = lateralSquare + reachSquare_;
-  const BicubicSpline::Value at = energies_(lateralSquare / whole, rootOfDepth);
-  return { at.value, at.x * reachSquare_ / (whole * whole), at.y, at.yy };
+  const double part = 1.0 / (lateralSquare + reachSquare_);
+  return { splineBasis(kLateral, lateralSquare * part), reachSquare_ * part * part };
+}
+
+NoduleTable::Entry NoduleTable::operator()(
+  const Aside& aside, const SplineBasis& root) const noexcept
+{
+  const BicubicSpline::Value at = energies_(aside.basis, root);
+  return { at.value, at.x * aside.bySquare, at.y, at.yy };
 }
 
 } // namespace palp

@@ -12,6 +12,13 @@ namespace palp
 class NoduleTable
 {
 public:
+  /// The table at one distance from the nodule.
+  struct Aside
+  {
+    SplineBasis basis;
+    double bySquare; ///< of its coordinate, d/d(lateral^2) [1/m^2]
+  };
+
   struct Entry
   {
     double value;      ///< energy that is added over that of the press [-]
@@ -28,9 +35,12 @@ public:
     const HomogeneousPress& press, const Nodule& nodule, const HomogeneousPress& reference);
 
   /// @param lateralSquare  of the distance from the tool's axis to the nodule's [m^2], 0 or more
-  /// @param rootOfDepth    [sqrt(m)]; beyond that of the press, the border
   /// @realtime             pure; no allocation, no lock, no exception
-  [[nodiscard]] Entry operator()(double lateralSquare, double rootOfDepth) const noexcept;
+  [[nodiscard]] Aside at(double lateralSquare) const noexcept;
+
+  /// @param root  of the depth, on the axis of the press
+  /// @realtime    pure; no allocation, no lock, no exception
+  [[nodiscard]] Entry operator()(const Aside& aside, const SplineBasis& root) const noexcept;
 
 private:
   double reachSquare_; // of the distance at which half of the table lies [m^2]

@@ -66,7 +66,17 @@ Nodules::Nodules(const HomogeneousPress& reference, std::vector<NoduleTable> tab
   checkCount(tables_.size());
 }
 
-Nodules::Answer Nodules::operator()(double depth, std::span<const double> squares) const noexcept
+Nodules::Place Nodules::at(std::span<const double> squares) const noexcept
+{
+  Place place;
+  for (std::size_t i = 0; i < tables_.size(); ++i)
+  {
+    place[i] = tables_[i].at(squares[i]);
+  }
+  return place;
+}
+
+Nodules::Answer Nodules::operator()(double depth, const Place& place) const noexcept
 {
   Answer answer;
   if (!(depth > 0.0 && std::isfinite(depth)))
@@ -79,10 +89,11 @@ Nodules::Answer Nodules::operator()(double depth, std::span<const double> square
     increment::bounded(q, HomogeneousPress::kInUse * axis_.last, axis_.last);
 
   // sum of the increments of first order, by the root of the depth
+  const SplineBasis basis = splineBasis(axis_, root.value);
   increment::Series sum{ 0.0, 0.0, 0.0 };
   for (std::size_t i = 0; i < tables_.size(); ++i)
   {
-    const NoduleTable::Entry one = tables_[i](squares[i], root.value);
+    const NoduleTable::Entry one = tables_[i](place[i], basis);
     const increment::Series first = increment::toFirstOrder(one.value);
     sum.value += first.value;
     sum.slope += first.slope * one.byRoot;

@@ -40,6 +40,9 @@ public:
     std::array<double, kMost> repulsion{}; ///< -2 dU/d(lateral^2) [N/m]
   };
 
+  /// The tables at one place, which may be asked at many depths.
+  using Place = std::array<NoduleTable::Aside, kMost>; // of each nodule; the rest unset
+
   /// @param nodules  as they lie where they are pressed
   /// @throws Error   BadValue: as checkedNodule, deeper than the body, or more than kMost
   Nodules(const HomogeneousPress& press, std::span<const Nodule> nodules);
@@ -53,10 +56,20 @@ public:
     return tables_.size();
   }
 
-  /// @param depth    [m]; 0 or less, or not finite: no contact
   /// @param squares  of the distances from the tool's axis to the nodules' [m^2], one each
   /// @realtime       pure; no allocation, no lock, no exception
-  [[nodiscard]] Answer operator()(double depth, std::span<const double> squares) const noexcept;
+  [[nodiscard]] Place at(std::span<const double> squares) const noexcept;
+
+  /// @param depth  [m]; 0 or less, or not finite: no contact
+  /// @param place  of these nodules
+  /// @realtime     pure; no allocation, no lock, no exception
+  [[nodiscard]] Answer operator()(double depth, const Place& place) const noexcept;
+
+  /// The same at once.
+  [[nodiscard]] Answer operator()(double depth, std::span<const double> squares) const noexcept
+  {
+    return (*this)(depth, at(squares));
+  }
 
 private:
   SplineAxis axis_;      // of sqrt(depth)

@@ -32,12 +32,26 @@ struct Nearer
   double value;
   Eigen::Vector3d turn;
 };
-Nearer nearerOf(const Eigen::Vector3d& edge, const Eigen::Vector3d& away)
+Nearer nearerOf(const Eigen::Vector3d& edge, const Eigen::Vector3d& away) noexcept
 {
   const double past = 1.0 + edge.dot(away) - kNearest;
-  const double round = std::hypot(past, kRound);
+  const double round = std::sqrt(past * past + kRound * kRound);
   const double nearer = 1.0 / (kNearest + 0.5 * (past + round));
   return { nearer, -0.5 * nearer * (1.0 + past / round) * edge };
+}
+
+// to where something is beside a wedge from there
+void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
+{
+  BodyCompliance& body = local.body;
+  const double nearer = 1.0 / std::max(kNearest, 1.0 - local.edge.dot(away) / body.edge);
+  const double squared = nearer * nearer;
+  body.constant += 2.0 * body.slope / body.edge * (nearer - 1.0);
+  body.slope *= squared;
+  body.edge *= nearer;
+  local.constant *= squared;
+  local.slope *= squared * nearer;
+  local.edge *= squared;
 }
 
 // of what is never negative, and spread over powers of ten beside an edge
@@ -51,11 +65,14 @@ float ratioOf(float wanted, double blend)
 
 } // namespace
 
-ComplianceField::ComplianceField(
-  std::span<const PlacedCompliance> places, double spacing, double poisson)
+ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, double spacing,
+  double poisson, std::shared_ptr<const OrganMotion> motion)
   : reach_(kReach * spacing)
+  , perReach_(1.0 / reach_)
   , cell_(spacing)
+  , open_(nearerOf(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()).value)
   , poisson_(poisson)
+  , motion_(std::move(motion))
 {
   for (const PlacedCompliance& place : places)
   {
@@ -118,15 +135,20 @@ ComplianceField::Weight ComplianceField::weightOf(
   const Place& place, const Eigen::Vector3d& away, const Eigen::Vector3d& normal) const noexcept
 {
   const double squared = away.squaredNorm();
-  const double beside = (normal.dot(place.normal.cast<double>()) - kAskew) / (kBeside - kAskew);
-  if (squared >= reach_ * reach_ || beside <= 0.0)
+  if (squared >= reach_ * reach_)
   {
     return { 0.0, 0.0 };
   }
-  const double t = std::sqrt(squared) / reach_;
+  constexpr double kTurns = 1.0 / (kBeside - kAskew);
+  const double beside = kTurns * (normal.dot(place.normal.cast<double>()) - kAskew);
+  if (beside <= 0.0)
+  {
+    return { 0.0, 0.0 };
+  }
+  const double t = std::sqrt(squared) * perReach_;
   const double rest = 1.0 - t;
   const double cube = (beside >= 1.0 ? 1.0 : smoothStep(beside)) * rest * rest * rest;
-  return { cube * rest * (4.0 * t + 1.0), -20.0 * cube / (reach_ * reach_) };
+  return { cube * rest * (4.0 * t + 1.0), -20.0 * cube * perReach_ * perReach_ };
 }
 
 // what blending evens out is added beforehand, so that it goes through the places' values
@@ -151,12 +173,16 @@ void ComplianceField::sharpen()
 }
 
 ComplianceField::Local ComplianceField::at(
-  const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept
+  const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double height) const noexcept
 {
-  Local sum; // of what is weighted, and of gradients of that
-  const auto found = cells_.find(keyOf(cellOf(center)));
+  // constant, slope, bend and edge, weighted, and the gradients of that
+  Eigen::Vector4d values = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, 3, 4> gradients = Eigen::Matrix<double, 3, 4>::Zero();
   double weights = 0.0;
-  Eigen::Vector3d turning = Eigen::Vector3d::Zero(); // gradient of their sum
+  double doubtful = 0.0;
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero(); // gradient of the weights
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero(); // of the places
+  const auto found = cells_.find(keyOf(cellOf(center)));
   const Range range = found != cells_.end() ? found->second : Range{};
   for (std::uint32_t k = range.first; k < range.last; ++k)
   {
@@ -168,46 +194,46 @@ ComplianceField::Local ComplianceField::at(
       continue;
     }
     const Eigen::Vector3d along = place.gradient.cast<double>();
-    const auto [nearer, turn] = nearerOf(place.edge.cast<double>(), away);
+    const bool isBeside = place.beside > 0.0F;
+    const auto [nearer, turn] = isBeside ? nearerOf(place.edge.cast<double>(), away)
+                                         : Nearer{ open_, Eigen::Vector3d::Zero() };
     const double change = nearer * along.dot(away);
-    const double constant = static_cast<double>(place.constant) + change;
-    const double slope = static_cast<double>(place.slope) * nearer * nearer;
-    const auto bend = static_cast<double>(place.bend);
-    const double beside = static_cast<double>(place.beside) * nearer;
+    Eigen::Vector4d told(place.constant, place.slope, place.bend, place.beside);
+    told[0] += change;
+    told[1] *= nearer * nearer;
+    told[3] *= nearer;
+    gradients.col(0) += weight.value * nearer * along;
+    if (isBeside)
+    {
+      gradients.col(0) += weight.value * change * turn;
+      gradients.col(1) += 2.0 * weight.value * told[1] * turn;
+      gradients.col(3) += weight.value * told[3] * turn;
+    }
+    const Eigen::Vector3d turned = weight.slope * away;
+    gradients.noalias() += turned * told.transpose();
+    values += weight.value * told;
     weights += weight.value;
-    turning += weight.slope * away;
-    sum.body.constant += weight.value * constant;
-    sum.body.slope += weight.value * slope;
-    sum.body.bend += weight.value * bend;
-    sum.body.edge += weight.value * beside;
-    sum.constant +=
-      weight.slope * constant * away + weight.value * (nearer * along + change * turn);
-    sum.slope += slope * (weight.slope * away + 2.0 * weight.value * turn);
-    sum.bend += bend * weight.slope * away;
-    sum.edge += beside * (weight.slope * away + weight.value * turn);
-    sum.doubtful += weight.value * static_cast<double>(place.doubtful);
+    turning += turned;
+    outward += weight.value * place.normal.cast<double>();
+    doubtful += weight.value * static_cast<double>(place.doubtful);
   }
   if (!(weights > 0.0))
   {
-    Local none;
-    none.doubtful = 1.0;
-    return none;
+    return { .body = {}, .doubtful = 1.0 };
   }
-  const auto along = [&](const Eigen::Vector3d& gradient, double value) -> Eigen::Vector3d
+  values /= weights;
+  gradients = (gradients - turning * values.transpose()) / weights;
+  gradients -= normal * (normal.transpose() * gradients);
+  Local local{ .body = { values[0], values[1], values[2], values[3] },
+    .constant = gradients.col(0),
+    .slope = gradients.col(1),
+    .bend = gradients.col(2),
+    .edge = gradients.col(3),
+    .doubtful = doubtful / weights };
+  if (height > 0.0 && local.body.edge > 0.0)
   {
-    const Eigen::Vector3d whole = (gradient - value * turning) / weights;
-    return whole - whole.dot(normal) * normal;
-  };
-  Local local;
-  local.body = { .constant = sum.body.constant / weights,
-    .slope = sum.body.slope / weights,
-    .bend = sum.body.bend / weights,
-    .edge = sum.body.edge / weights };
-  local.constant = along(sum.constant, local.body.constant);
-  local.slope = along(sum.slope, local.body.slope);
-  local.bend = along(sum.bend, local.body.bend);
-  local.edge = along(sum.edge, local.body.edge);
-  local.doubtful = sum.doubtful / weights;
+    bringNearer(local, height * (normal - outward.normalized()));
+  }
   return local;
 }
 

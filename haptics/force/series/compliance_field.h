@@ -1,11 +1,13 @@
 #pragma once
 
 #include "haptics/force/linear/series_contact.h"
+#include "haptics/force/series/organ_motion.h"
 
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -58,14 +60,18 @@ public:
   /// @param places   spread evenly, no two nearer than the spacing, no gap wider
   /// @param spacing  [m]
   /// @param poisson  of the body that was solved for [-]
-  ComplianceField(std::span<const PlacedCompliance> places, double spacing, double poisson);
+  /// @param motion   of the same body, for pictures; null: not known
+  ComplianceField(std::span<const PlacedCompliance> places, double spacing, double poisson,
+    std::shared_ptr<const OrganMotion> motion = nullptr);
 
   /// @param center  of a contact, on the surface [m]
   /// @param normal  outward, of unit length
+  /// @param height  of what meets the body there, over the center [m]: beside an edge, over which
+  ///                normals lean, its foot is the nearest point of the face
   /// @return        of a half-space where no place is near
   /// @realtime      pure; no allocation, no lock, no exception
-  [[nodiscard]] Local at(
-    const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept;
+  [[nodiscard]] Local at(const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
+    double height = 0.0) const noexcept;
 
   [[nodiscard]] std::size_t places() const noexcept
   {
@@ -74,6 +80,11 @@ public:
   [[nodiscard]] double poissonRatio() const noexcept
   {
     return poisson_;
+  }
+  /// What pictures move the surface by; null: not known.
+  [[nodiscard]] const std::shared_ptr<const OrganMotion>& motion() const noexcept
+  {
+    return motion_;
   }
 
 private:
@@ -111,9 +122,12 @@ private:
   void sortIntoCells();
   void sharpen();
 
-  double reach_; // of a place [m]
-  double cell_;  // side of a cell [m]
+  double reach_;    // of a place [m]
+  double perReach_; // one over it
+  double cell_;     // side of a cell [m]
+  double open_;     // what an edge counts for that is not there [-]
   double poisson_;
+  std::shared_ptr<const OrganMotion> motion_;
   std::vector<Place> places_;
   std::unordered_map<std::uint64_t, Range> cells_;
   std::vector<std::uint32_t> near_; // places of cell after cell

@@ -15,6 +15,14 @@ struct SeriesBody
   std::shared_ptr<const ComplianceField> field; ///< never null
   SeriesLaw law;
   double height = 0.0; ///< of the tool's reference point over its deepest one [m]
+
+  /// At a contact of a depth.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] ComplianceField::Local at(
+    const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double depth) const noexcept
+  {
+    return field->at(center, normal, law.roundness() - depth);
+  }
 };
 
 /// @return  null where there is no field

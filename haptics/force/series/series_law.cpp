@@ -81,11 +81,15 @@ SeriesLaw::Radius SeriesLaw::radiusOf(double force) const noexcept
 
 double SeriesLaw::widened(double force) const noexcept
 {
-  const double root = std::min(std::cbrt(std::max(0.0, force)), axis_.last);
-  const double edge = root * root * root;
-  const double radius = (*radii_)(root).value;
-  // beyond the tables it is as wide
-  return (*widened_)(root).value + 0.5 * radius * radius * (force * force - edge * edge);
+  const double root = std::cbrt(std::max(0.0, force));
+  const double known = (*widened_)(root).value;
+  if (root <= axis_.last)
+  {
+    return known;
+  }
+  const double edge = axis_.last * axis_.last * axis_.last;
+  const double radius = (*radii_)(root).value; // as wide as where the tables end
+  return known + 0.5 * radius * radius * (force * force - edge * edge);
 }
 
 SeriesLaw::Yield SeriesLaw::yieldOf(double force, const BodyCompliance& body) const noexcept
@@ -115,21 +119,18 @@ SeriesLaw::Yield SeriesLaw::yieldOf(double force, const BodyCompliance& body) co
   return yield;
 }
 
-// the contact as a power of the depth, which it nearly is
-double SeriesLaw::start(
-  const Response& first, const BodyCompliance& body, double depth) const noexcept
+// the contact as a power of the depth, and what the body gives as one of the force, which they
+// nearly are
+double SeriesLaw::start(const Response& first, const Yield& most, double depth) const noexcept
 {
   const double force = first.force / modulus_;
   if (!(force > 0.0))
   {
     return depth;
   }
-  const double power = std::clamp(first.stiffness * depth / first.force, 1.0, 3.0);
-  const double given = yieldOf(force, body).depth / depth;
-  if (given < 0.0)
-  {
-    return depth;
-  }
+  const double power = std::clamp(first.stiffness * depth / first.force, 1.0, 3.0) *
+    std::clamp(most.slope * force / most.depth, 0.25, 2.0);
+  const double given = most.depth / depth;
   // y + given y^power = 1
   double y = 1.0 / (1.0 + given);
   for (int i = 0; i < 2; ++i)

@@ -47,24 +47,28 @@ public:
       return {};
     }
     const Response first = contact(depth);
-    double local = start(first, body, depth);
+    const Yield most = yieldOf(first.force / modulus_, body);
+    Try last{ depth, first, 1.0 + first.stiffness / modulus_ * most.slope };
+    if (!(last.slope > kLeast))
+    {
+      return halved(contact, body, depth);
+    }
+    double local = most.depth > 0.0 ? start(first, most, depth) : depth - most.depth / last.slope;
     for (int i = 0; i < kMostSteps; ++i)
     {
-      const Response here = contact(local);
-      const Yield yield = yieldOf(here.force / modulus_, body);
-      const double slope = 1.0 + here.stiffness / modulus_ * yield.slope;
-      const double step = (depth - local - yield.depth) / slope;
-      if (!(slope > kLeast) || !(local + step > 0.0))
+      const Response felt = contact(local);
+      const Yield yield = yieldOf(felt.force / modulus_, body);
+      const Try here{ local, felt, 1.0 + felt.stiffness / modulus_ * yield.slope };
+      const double step = (depth - local - yield.depth) / here.slope;
+      if (!(here.slope > kLeast) || !(local + step > 0.0))
       {
         break;
       }
-      if (std::abs(step) < kNear * local)
+      if (step * step * std::abs(local - last.local) < kNear * local * local * local)
       {
-        // what is left is the square of the step
-        return { { std::max(0.0, here.force + here.stiffness * step), here.contactRadius,
-                   here.stiffness / slope },
-          local + step, false };
+        return here.toward(last, step);
       }
+      last = here;
       local += step;
     }
     return halved(contact, body, depth);
@@ -77,6 +81,12 @@ public:
   [[nodiscard]] Eigen::Vector3d lateral(
     const ComplianceField::Local& local, double force) const noexcept;
 
+  /// Radius of the tip at its apex [m]; 0: sharp or flat, whose pressure stays where it is.
+  [[nodiscard]] double roundness() const noexcept
+  {
+    return round_;
+  }
+
   /// What the body adds to the complementary energy [J].
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double energy(const BodyCompliance& body, double force) const noexcept;
@@ -84,13 +94,36 @@ public:
 private:
   static constexpr int kMostSteps = 8;   // three are usual
   static constexpr double kLeast = 0.25; // of the slope of the depth by the local depth
-  static constexpr double kNear = 1e-5;  // of the depth
+  static constexpr double kNear = 1e-8;  // of the depth's cube: steps to where lines will do
 
   // by which a body gives way to a force over E*, and its derivative
   struct Yield
   {
     double depth;
     double slope;
+  };
+
+  // the depth of the contact, what it answers, and how the depth of the tool grows with it
+  struct Try
+  {
+    double local = 0.0;
+    Response felt{};
+    double slope = 0.0;
+
+    // a step on, by the parabolas that have the slopes of another try, too
+    [[nodiscard]] SeriesResponse toward(const Try& last, double step) const noexcept
+    {
+      const double between = local - last.local;
+      const double part = between != 0.0 ? 1.0 / between : 0.0;
+      const double stiffer = part * (felt.stiffness - last.felt.stiffness);
+      const double steeper = part * (slope - last.slope);
+      const double wider = part * (felt.contactRadius - last.felt.contactRadius);
+      const double way = step * (1.0 - 0.5 * steeper / slope * step);
+      const double force = felt.force + way * (felt.stiffness + 0.5 * stiffer * way);
+      return { { std::max(0.0, force), felt.contactRadius + wider * way,
+                 (felt.stiffness + stiffer * way) / (slope + steeper * way) },
+        local + way, false };
+    }
   };
 
   // of a half-space's contact at a force over E*
@@ -120,8 +153,7 @@ private:
   [[nodiscard]] double widened(double force) const noexcept; // int a^2 f df
   [[nodiscard]] Gain gainOf(double force, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;
-  [[nodiscard]] double start(
-    const Response& first, const BodyCompliance& body, double depth) const noexcept;
+  [[nodiscard]] double start(const Response& first, const Yield& most, double depth) const noexcept;
   [[nodiscard]] double forceAtHold(const BodyCompliance& body) const noexcept;
 
   // where steps do not get there: over a near support, whose pull has an end
@@ -157,7 +189,7 @@ private:
   }
 
   double modulus_;  // E* [Pa]
-  double round_;    // radius of the tip at its apex [m]; 0: sharp or flat
+  double round_;    // as roundness
   SplineAxis axis_; // of the cube root of f
   std::optional<CubicSpline> radii_;
   std::optional<CubicSpline> widened_;

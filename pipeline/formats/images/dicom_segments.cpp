@@ -1,6 +1,7 @@
 #include "pipeline/formats/images/dicom_segments.h"
 
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/images/dicom_elements.h"
 #include "pipeline/formats/images/dicom_values.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"
@@ -256,11 +257,15 @@ void checkKind(const std::filesystem::path& file, const DataSet& data)
 
 PatientImage readDicomSegments(const std::filesystem::path& file)
 {
+  if (!checkElements(file))
+  {
+    refuse(file, "no DICOM file, whatever its name; rename or convert it");
+  }
   blameForACrash(file); // by an assertion of GDCM
   gdcm::Reader reader;
   if (!readWhole(reader, file))
   {
-    refuse(file, "no DICOM file, cut off, or damaged; export or copy it again");
+    refuse(file, "cut off or damaged; export or copy it again");
   }
   const DataSet& data = reader.GetFile().GetDataSet();
   checkKind(file, data);

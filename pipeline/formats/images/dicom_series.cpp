@@ -2,13 +2,13 @@
 
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/images/dicom_elements.h"
 #include "pipeline/formats/images/dicom_values.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <gdcmReader.h>
@@ -128,14 +128,6 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
   }
 }
 
-// as files of DICOM do behind 128 bytes; GDCM tries others, too
-bool saysDicom(const std::filesystem::path& file)
-{
-  std::array<char, 132> head{};
-  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-  return std::string_view(head.data() + 128, 4) == "DICM";
-}
-
 // each beside the others, whatever their distances
 void checkLine(const std::filesystem::path& folder, std::span<const DicomSlice> slices)
 {
@@ -177,19 +169,15 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
     {
       refuse(file, "cannot be opened; check its permissions, and copy what a link leads to");
     }
+    if (!checkElements(file))
+    {
+      continue; // another kind of file
+    }
     blameForACrash(file); // by an assertion of GDCM
     gdcm::Reader reader;
     reader.SetFileName(file.c_str());
-    if (!reader.CanRead())
-    {
-      continue;
-    }
     if (!reader.ReadUpToTag(kVoxels))
     {
-      if (!saysDicom(file))
-      {
-        continue; // another kind of file
-      }
       refuse(file, "cut off or damaged; export or copy it again");
     }
     const DataSet& data = reader.GetFile().GetDataSet();
@@ -265,9 +253,9 @@ double stack(const std::filesystem::path& folder, DicomSeries& series)
     steps.push_back(height(slices[i]) - height(slices[i - 1]));
   }
   std::vector<double> ordered = steps;
-  std::ranges::nth_element(
-    ordered, ordered.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-  const double usual = ordered[steps.size() / 2];
+  const auto middle = ordered.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
+  std::ranges::nth_element(ordered, middle); // of two the smaller, as an image may be missing
+  const double usual = *middle;
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     const std::string between = nameOf(slices[i]) + " and " + nameOf(slices[i + 1]);

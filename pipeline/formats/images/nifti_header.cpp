@@ -179,7 +179,11 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& file)
         "its dim[" + std::to_string(i) + "] is " + std::to_string(read) +
           ", no number of voxels; export it again");
     }
-    if (i > 3 && count > 1)
+    if (i > 4 && count > 1)
+    {
+      refuse(file, "several values at each voxel; give an image of one");
+    }
+    if (i == 4 && count > 1)
     {
       refuse(file,
         "a series of " + std::to_string(count) +

@@ -12,6 +12,46 @@
 namespace palp
 {
 
+namespace
+{
+
+// where a header says that its voxels are; of one without them beside it
+std::filesystem::path dataOf(const std::filesystem::path& file, const NrrdFields& fields)
+{
+  const std::string name = fieldOf(fields, "data file") + fieldOf(fields, "datafile");
+  if (!isNrrdHeader(file))
+  {
+    if (!name.empty())
+    {
+      refuse(
+        file, "its voxels are in another file; name its header .nhdr, or save it as one .nrrd");
+    }
+    return file;
+  }
+  const std::filesystem::path beside = name;
+  if (name.empty() || name.starts_with("LIST") || name.find('%') != name.npos)
+  {
+    refuse(file, "it names no file of its voxels, or several; save it as one .nrrd");
+  }
+  if (beside.has_parent_path())
+  {
+    refuse(file, "its data are not beside it; put both into one folder");
+  }
+  const std::filesystem::path data = file.parent_path() / beside;
+  if (std::error_code none; !std::filesystem::is_regular_file(data, none))
+  {
+    refuse(file, "its data, " + inQuotes(name) + ", are not beside it; copy both");
+  }
+  return data;
+}
+
+} // namespace
+
+bool isNrrdHeader(const std::filesystem::path& file)
+{
+  return lowered(file.extension().string()) == ".nhdr";
+}
+
 NrrdHeader readNrrdHeader(const std::filesystem::path& file)
 {
   std::ifstream in(file, std::ios::binary);
@@ -37,11 +77,13 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& file)
       refuse(file, "its header has " + inQuotes(line.substr(0, colon)) + " twice; export it again");
     }
   }
-  if (!in)
+  const bool isAlone = isNrrdHeader(file); // and may end as a file does
+  if (!in && !isAlone)
   {
     refuse(file, "cut off in its header; export or copy it again");
   }
-  header.end = static_cast<std::uintmax_t>(in.tellg());
+  header.begin = isAlone ? 0 : static_cast<std::uintmax_t>(in.tellg());
+  header.data = dataOf(file, header.fields);
   return header;
 }
 

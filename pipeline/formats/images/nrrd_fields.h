@@ -12,14 +12,19 @@ namespace palp
 /// The lines of a header, "name: value" or Slicer's own "name:=value".
 using NrrdFields = std::map<std::string, std::string>;
 
-/// The text that an NRRD begins with.
+/// The text that an NRRD begins with, or that is a file of its own, .nhdr.
 struct NrrdHeader
 {
   NrrdFields fields;
-  std::uintmax_t end = 0; ///< where the voxels begin [bytes]
+  std::filesystem::path data{}; ///< file of the voxels
+  std::uintmax_t begin = 0;     ///< where they begin in it [bytes]
 };
 
-/// @throws Error  BadFile: no such lines, cut off, or a field given twice
+/// Whether a file is a header whose voxels are in another, by its name.
+[[nodiscard]] bool isNrrdHeader(const std::filesystem::path& file);
+
+/// @throws Error  BadFile: no such lines, cut off, or a field given twice; voxels in another file
+///                than the one beside an .nhdr
 [[nodiscard]] NrrdHeader readNrrdHeader(const std::filesystem::path& file);
 
 /// @return  empty where it is missing

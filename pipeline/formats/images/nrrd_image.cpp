@@ -28,13 +28,6 @@ namespace
 // what is not read here
 void checkHeader(const std::filesystem::path& file, const NrrdFields& fields)
 {
-  for (const char* elsewhere : { "data file", "datafile" })
-  {
-    if (fields.contains(elsewhere))
-    {
-      refuse(file, "its voxels are in another file; save it as one .nrrd");
-    }
-  }
   for (const char* skip : { "line skip", "lineskip", "byte skip", "byteskip" })
   {
     if (const std::string count = fieldOf(fields, skip); !count.empty() && count != "0")
@@ -272,7 +265,7 @@ std::uintmax_t bytesOf(const Sizes& sizes, int type)
 // before there is room for what it claims
 void checkLength(const std::filesystem::path& file, const NrrdHeader& header, std::uintmax_t bytes)
 {
-  const std::uintmax_t there = std::filesystem::file_size(file) - header.end;
+  const std::uintmax_t there = std::filesystem::file_size(header.data) - header.begin;
   const bool isRaw = fieldOf(header.fields, "encoding") == "raw";
   if (there < (isRaw ? bytes : bytes / kDeflateRatio))
   {
@@ -287,15 +280,15 @@ void checkLength(const std::filesystem::path& file, const NrrdHeader& header, st
 void readVoxels(
   const std::filesystem::path& file, const NrrdHeader& header, std::span<unsigned char> voxels)
 {
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(header.end));
+  std::ifstream in(header.data, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(header.begin));
   if (fieldOf(header.fields, "encoding") == "raw")
   {
     in.read(reinterpret_cast<char*>(voxels.data()), static_cast<std::streamsize>(voxels.size()));
   }
   else
   {
-    inflateInto(voxels, in, std::filesystem::file_size(file) - header.end, file);
+    inflateInto(voxels, in, std::filesystem::file_size(header.data) - header.begin, file);
   }
 }
 

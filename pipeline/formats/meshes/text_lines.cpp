@@ -2,10 +2,10 @@
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/meshes/whole_file.h"
 #include "pipeline/process/child_process.h"
 
 #include <algorithm>
-#include <fstream>
 
 namespace palp
 {
@@ -22,10 +22,7 @@ TextLines::TextLines(const std::filesystem::path& file, char comment)
   : file_(file.string())
   , comment_(comment)
 {
-  whole_.resize(std::filesystem::file_size(file));
-  std::ifstream in(file, std::ios::binary);
-  in.read(whole_.data(), static_cast<std::streamsize>(whole_.size()));
-  whole_.resize(static_cast<std::size_t>(in.gcount()));
+  whole_ = wholeFile(file);
   text_ = whole_;
   if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
   {

@@ -45,13 +45,13 @@ bool isNamed(const Label& label, double step, const std::string& text)
 
 } // namespace
 
-std::vector<Label> labelsOf(const PatientImage& volume)
+std::vector<Label> labelsOf(const PatientImage& volume, const ImageValues& first)
 {
   std::vector<Label> labels;
   const int layers = volume.image->GetNumberOfScalarComponents();
   for (int layer = 0; layer < layers; ++layer)
   {
-    const ImageValues values = valuesOf(*volume.image, layer);
+    const ImageValues values = layer == 0 ? first : valuesOf(*volume.image, layer);
     const auto namedOf = [&](double value)
     {
       return std::ranges::find_if(volume.segments,

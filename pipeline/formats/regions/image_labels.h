@@ -22,7 +22,8 @@ struct Label
 
 /// All that have voxels, by layer and value; the background is one of them.
 /// @param volume  a label map, or segments in layers
-[[nodiscard]] std::vector<Label> labelsOf(const PatientImage& volume);
+/// @param first   values of its first layer
+[[nodiscard]] std::vector<Label> labelsOf(const PatientImage& volume, const ImageValues& first);
 
 /// Those that are bodies: not the background, nor what no segment of a layer is.
 [[nodiscard]] std::vector<Label> bodiesAmong(std::vector<Label> labels);

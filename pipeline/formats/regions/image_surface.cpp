@@ -13,18 +13,32 @@ namespace palp
 namespace
 {
 
-// by a level, where it is no label map
-ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const std::string& name)
+// of a gray image
+void checkDiffer(const PatientImage& volume, const ImageValues& values, const std::string& name)
 {
-  const ImageValues values = volume.segments.empty() ? valuesOf(*volume.image) : ImageValues{};
+  if (!(values.low < values.high))
+  {
+    checkNumbers(values, name);
+    refuseImage(name,
+      "no body in it, all its voxels are " + inWords(volume.slope * values.low + volume.intercept) +
+        "; give another image");
+  }
+}
+
+// by a level, where it is no label map
+ImageRegion levelOf(const PatientImage& volume, const ImagePart& part, const ImageValues& values,
+  const std::string& name)
+{
   if (!volume.segments.empty() || values.labels)
   {
     refuseImage(name,
-      "a label map, whose values have no order (" + labelsInWords(labelsOf(volume), volume) +
+      "a label map, whose values have no order (" +
+        labelsInWords(labelsOf(volume, values), volume) +
         "); give one as the label, or several with commas" + (part.level ? ", not a level" : ""));
   }
   if (!part.level)
   {
+    checkDiffer(volume, values, name);
     const double one = volume.slope * values.low + volume.intercept;
     const double other = volume.slope * values.high + volume.intercept;
     refuseImage(name,
@@ -74,10 +88,9 @@ FileOrgan organOf(const LabelGroup& labels, const PatientImage& volume, std::siz
 }
 
 // those that are asked for, else all that are large enough
-std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const ImagePart& part, bool isList,
-  const std::string& name, std::vector<std::string>& notes)
+std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const std::vector<Label>& known,
+  const ImagePart& part, bool isList, const std::string& name, std::vector<std::string>& notes)
 {
-  const std::vector<Label> known = labelsOf(volume);
   std::vector<LabelGroup> wanted;
   for (const std::string& word : part.labels)
   {
@@ -116,11 +129,12 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const ImagePart
 FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, const std::string& name)
 {
   checkVolume(volume, name);
+  const ImageValues values = valuesOf(*volume.image);
   const bool isByLabel = !part.labels.empty();
-  isByLabel ? checkNumbers(valuesOf(*volume.image), name) : void();
+  isByLabel ? checkNumbers(values, name) : void();
   ImageRegion region = isByLabel
-    ? regionOfLabels(volume, chosenLabels(labelsOf(volume), part.labels, volume, name))
-    : levelOf(volume, part, name);
+    ? regionOfLabels(volume, chosenLabels(labelsOf(volume, values), part.labels, volume, name))
+    : levelOf(volume, part, values, name);
   region.notes.insert(region.notes.begin(), volume.notes.begin(), volume.notes.end());
   return bodyOf(volume, std::move(region), part.components, name).surface;
 }
@@ -130,22 +144,24 @@ FileOrgans imageOrgans(
 {
   checkVolume(volume, name);
   FileOrgans all{ .unit = volume.unit, .space = volume.space, .notes = volume.notes };
+  const ImageValues values = part.band ? ImageValues{} : valuesOf(*volume.image);
   if (part.band || part.level)
   {
     ImageRegion region =
-      part.band ? regionOfBand(volume, *part.band, name) : levelOf(volume, part, name);
+      part.band ? regionOfBand(volume, *part.band, name) : levelOf(volume, part, values, name);
     all.organs.push_back(bodyOf(volume, std::move(region), part.components, name));
     return all;
   }
-  const ImageValues values = valuesOf(*volume.image);
   all.low = volume.slope * values.low + volume.intercept;
   all.high = volume.slope * values.high + volume.intercept;
   if (part.labels.empty() && !isLabelMap(volume, values))
   {
+    checkDiffer(volume, values, name);
     return all;
   }
   checkNumbers(values, name);
-  for (const LabelGroup& labels : wantedLabels(volume, part, isList, name, all.notes))
+  for (const LabelGroup& labels :
+    wantedLabels(volume, labelsOf(volume, values), part, isList, name, all.notes))
   {
     all.organs.push_back(
       isList ? listed(labels, volume) : organOf(labels, volume, part.components, name));

@@ -22,34 +22,45 @@ struct Occurrence
 template <typename Voxel>
 using Histogram = std::map<Voxel, Occurrence>;
 
-// of the finite values; nothing when there are too many
+// takes the finite values, and counts the others; no histogram when there are too many
 template <typename Voxel>
-Histogram<Voxel> histogram(const VoxelLayer<Voxel>& voxels, const int* size)
+Histogram<Voxel> histogram(const VoxelLayer<Voxel>& voxels, const int* size, ImageValues& values)
 {
   constexpr std::size_t most = 256;
-  Histogram<Voxel> values;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Histogram<Voxel> all;
+  bool areFew = true;
+  values.low = kInfinity;
+  values.high = -kInfinity;
   for (vtkIdType i = 0; i < voxels.count;)
   {
-    const Voxel value = voxels[i];
-    const vtkIdType end = (i / size[0] + 1) * size[0]; // of the row
+    const Voxel stored = voxels[i];
+    const vtkIdType end = areFew ? (i / size[0] + 1) * size[0] : i + 1; // of the row
     vtkIdType next = i + 1;
-    while (next < end && voxels[next] == value)
+    while (next < end && voxels[next] == stored)
     {
       ++next;
     }
-    if (std::isfinite(static_cast<double>(value)))
+    if (const auto value = static_cast<double>(stored); !std::isfinite(value))
     {
-      Occurrence& one = values[value];
-      one.often += next - i;
-      one.box.add(indexOf(size, i), indexOf(size, next - 1));
+      values.firstOf = values.notFinite == 0 ? indexOf(size, i) : values.firstOf;
+      values.notFinite += next - i; // infinite ones may be a row
     }
-    if (values.size() > most)
+    else
     {
-      return {};
+      values.low = std::min(values.low, value);
+      values.high = std::max(values.high, value);
+      if (areFew)
+      {
+        Occurrence& one = all[stored];
+        one.often += next - i;
+        one.box.add(indexOf(size, i), indexOf(size, next - 1));
+        areFew = all.size() <= most;
+      }
     }
     i = next;
   }
-  return values;
+  return areFew ? all : Histogram<Voxel>();
 }
 
 // labels fill regions: of the neighbors that are not both background, most are equal
@@ -95,25 +106,7 @@ ImageValues valuesOf(vtkImageData& image, int layer)
   withVoxels(image, layer,
     [&](const auto& voxels)
     {
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      for (vtkIdType i = 0; i < voxels.count; ++i)
-      {
-        const auto value = static_cast<double>(voxels[i]);
-        if (!std::isfinite(value))
-        {
-          if (values.notFinite++ == 0)
-          {
-            values.firstOf = indexOf(size, i);
-          }
-          continue;
-        }
-        low = value < low ? value : low;
-        high = value > high ? value : high;
-      }
-      values.low = low;
-      values.high = high;
-      const auto all = histogram(voxels, size);
+      const auto all = histogram(voxels, size, values);
       bool whole = all.size() > 2;
       for (const auto& [value, one] : all)
       {

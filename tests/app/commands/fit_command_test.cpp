@@ -87,6 +87,33 @@ TEST_F(FitCommand, FindsTheModulusOfHertzWithEverySetting)
   EXPECT_EQ(result["laws"].size(), 4u); // paper, exact, corrected, power
 }
 
+TEST_F(FitCommand, WarnsWhereUnitsMustBeOthers)
+{
+  const std::string head = "depth_mm,force_N\n";
+  std::string meters = head;
+  std::string millinewtons = head;
+  std::string right = head;
+  for (int i = 1; i <= 40; ++i)
+  {
+    const double depth = 0.1 * i; // [mm]
+    const double force =
+      4.0 / 3.0 * 8e3 / (1.0 - 0.45 * 0.45) * std::sqrt(4e-3 * 1e-9 * depth * depth * depth);
+    meters += std::to_string(1e-3 * depth) + ',' + std::to_string(force) + '\n';
+    millinewtons += std::to_string(depth) + ',' + std::to_string(1e3 * force) + '\n';
+    right += std::to_string(depth) + ',' + std::to_string(force) + '\n';
+  }
+  const auto said = [&](const std::string& rows)
+  {
+    const test::Finished run =
+      fit(write("rows.csv", rows) + kBall + "--contact 0mm --offset 0N --overwrite");
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_NE(said(meters).find("is depth_mm in mm"), std::string::npos);
+  EXPECT_NE(said(millinewtons).find("is depth_mm in mm"), std::string::npos);
+  EXPECT_EQ(said(right).find("is depth_mm in mm"), std::string::npos);
+}
+
 TEST_F(FitCommand, WritesWhatWasMeasuredAndFittedRowByRow)
 {
   write("press.csv", hertzian(1e-3, 1));

@@ -2,7 +2,9 @@
 #include "tests/support/process.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -19,48 +21,22 @@ namespace palp
 namespace
 {
 
+using test::Files;
+using test::filesIn;
+using test::restore;
 using test::Stepped;
 using test::Victim;
 using Clock = std::chrono::steady_clock;
-using Files = std::map<std::string, std::string>; // text by name, without what is hidden
 
-Files filesIn(const std::filesystem::path& folder)
-{
-  Files files;
-  std::error_code missing;
-  for (auto at = std::filesystem::recursive_directory_iterator(folder, missing);
-       at != std::filesystem::recursive_directory_iterator(); ++at)
-  {
-    const bool hidden = at->path().filename().string().starts_with(".");
-    if (at->is_directory() && hidden)
-    {
-      at.disable_recursion_pending();
-    }
-    else if (!at->is_directory())
-    {
-      files[std::filesystem::relative(at->path(), folder).string()] = test::readAll(at->path());
-    }
-  }
-  return files;
-}
-
-void restore(const std::filesystem::path& folder, const Files& files)
-{
-  std::filesystem::remove_all(folder);
-  for (const auto& [name, text] : files)
-  {
-    std::filesystem::create_directories((folder / name).parent_path());
-    std::ofstream(folder / name, std::ios::binary) << text;
-  }
-}
+constexpr std::array kOtherParts{ "force_error", "surface_error", "tissue_error", "organ_error",
+  "curvature", "inclination", "extents", "dynamics", "scaling", "forces", "stability", "servo" };
+constexpr unsigned kChanges = 120; // of the files of a report
 
 #ifdef PALP_SLOW
 constexpr int kUsual = 1000;
-constexpr unsigned kChanges = 120; // of files of a report, at most, from one kill to the next
 constexpr std::chrono::minutes kLongest{ 12 }; // for one command, whose runs may take seconds
 #else
 constexpr int kUsual = 2;
-constexpr unsigned kChanges = 40;
 constexpr std::chrono::minutes kLongest{ 1 };
 #endif
 
@@ -284,47 +260,88 @@ TEST_F(Killed, Tables)
   }
 }
 
-// goes on after each kill, and anew when it is finished
+// of whole files of a report
+bool isCut(const Files::value_type& file)
+{
+  const auto& [name, text] = file;
+  const auto ends = [&](const char* extension, const char* end)
+  { return name.ends_with(extension) && !text.ends_with(end); };
+  return text.empty() || ends(".json", "}\n") || ends(".csv", "\n") || ends(".svg", "</svg>\n") ||
+    ends(".html", "</html>\n");
+}
+
+// whether a command ends before it is killed, after 20 ms to 40 s, alike for each factor of time
+bool endsBefore(const std::string& command, std::mt19937& random)
+{
+  const Victim victim(command);
+  const double wait = 0.02 * std::pow(2000.0, std::uniform_real_distribution<>()(random)); // [s]
+  for (const auto start = Clock::now();
+       !victim.ended() && Clock::now() - start < std::chrono::duration<double>(wait);)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return victim.ended();
+}
+
+// A part anew in the place of an old report, or added to one. Its writing is walked through with
+// the part that takes no time, its computing is cut off at any moment of any part.
 TEST_F(Killed, Report)
 {
-  const Files old{ { "machine.json", std::string("{}") + kBefore },
-    { "report.html", std::string("<html>") + kBefore } };
-  restore(out_, old);
-  const auto isOld = [](const auto& file) { return file.second.ends_with(kBefore); };
-  const auto isCut = [](const auto& file)
+  const std::string command = PALP_PROGRAM " report --quick --out " + out_.string() + " ";
+  ASSERT_EQ(test::runCommand(command + "profiles").code, 0);
+  const Files some = filesIn(out_);
+  const auto isKept = [&](const Files& files)
   {
-    return file.second.empty() ||
-      (file.first.ends_with(".json") && !file.second.ends_with("}\n")) ||
-      (file.first.ends_with(".csv") && !file.second.ends_with('\n'));
+    return std::ranges::all_of(some,
+      [&](const auto& file)
+      {
+        const bool isNew = file.first == "report.html" || file.first.starts_with("claims");
+        return isNew || (files.contains(file.first) && files.at(file.first) == file.second);
+      });
+  };
+  const auto isGone = [](const Files& files)
+  {
+    return std::ranges::none_of(
+      files, [](const auto& file) { return file.first.starts_with("profiles"); });
   };
   std::mt19937 random = moments();
-  std::string how = " --overwrite";
-  int reports = 0;
   int looks = 0;
+  int finished = 0;
+  int unchanged = 0;
   int kill = 0;
-  for (const auto start = Clock::now(); kill < kills() && Clock::now() - start < 2 * kLongest;
+  for (const auto start = Clock::now(); kill < kills() && Clock::now() - start < 4 * kLongest;
        ++kill)
   {
-    bool before = false;
+    const bool goesOn = (kill + kill / 4) % 2 == 1;
     const auto isSound = [&]
     {
-      const Files files = filesIn(out_);
-      before = std::ranges::all_of(files, isOld);
-      return before || (std::ranges::none_of(files, isOld) && std::ranges::none_of(files, isCut));
+      const Files now = filesIn(out_);
+      unchanged += now == some ? 1 : 0;
+      return std::ranges::none_of(now, isCut) && (isKept(now) || (!goesOn && isGone(now)));
     };
-    bool goesOn = true;
+    restore(out_, some);
+    const std::string how = goesOn ? "--resume " : "--overwrite ";
+    if (kill % 4 < 3)
     {
-      Stepped victim(PALP_PROGRAM " report --quick --out " + out_.string() + how, folder_.path());
-      for (auto left = random() % kChanges; left > 0 && (goesOn = victim.next()); --left, ++looks)
+      Stepped victim(command + how + "inclination", folder_.path());
+      bool isRunning = true;
+      for (auto left = random() % kChanges; left > 0 && (isRunning = victim.next());
+           --left, ++looks)
       {
         ASSERT_TRUE(isSound()) << "in run " << kill;
       }
+      finished += isRunning ? 0 : 1;
+    }
+    else
+    {
+      finished +=
+        endsBefore(command + how + kOtherParts[random() % kOtherParts.size()], random) ? 1 : 0;
     }
     ASSERT_TRUE(isSound()) << "after kill " << kill;
-    reports += goesOn ? 0 : 1;
-    how = goesOn && !before ? " --resume" : " --overwrite";
   }
-  std::printf("%d looks, %d kills, %d reports finished\n", looks, kill, reports);
+  std::printf("%d kills and %d looks between changes: %d found the files before; %d reports "
+              "finished\n",
+    kill, looks, unchanged, finished);
 }
 
 } // namespace

@@ -95,11 +95,14 @@ TEST(Program, WithoutItsSiblingsNamesTheMissingOneAndGoesOnWithoutPictures)
   EXPECT_EQ(run(experiment + " --no-picture").code, 0);
 }
 
-TEST(Program, RefusesAScaleOrClutchThatNoDeviceHas)
+TEST(Program, RefusesAScaleAClutchOrHandsThatNoDeviceHas)
 {
   for (const auto& [options, fix] : { std::pair("--device-scale 9", "0.2 to 5"),
          std::pair("--device-scale nan", "--device-scale"), std::pair("--clutch 1.5", "0 to 32"),
-         std::pair("--clutch 33", "0 to 32"), std::pair("--clutch 1 --dead-man", "give another") })
+         std::pair("--clutch 33", "0 to 32"), std::pair("--clutch 1 --dead-man", "give another"),
+         std::pair("--device falcon --device falcon", "name another device"),
+         std::pair("--device falcon --device mouse", "give it first"),
+         std::pair("--device mouse --device falcon --device haply", "give one or two") })
   {
     const Finished finished = palp(std::string("view ") + options);
     EXPECT_EQ(finished.code, 2) << options;

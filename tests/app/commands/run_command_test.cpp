@@ -4,6 +4,7 @@
 #include "haptics/servo/servo_step.h"
 #include "tests/app/commands/run_rig.h"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -133,6 +134,42 @@ TEST_F(RunCommand, EachFactorFollowsFromItsPlace)
     ++asked;
   }
   EXPECT_GE(asked, 3);
+}
+
+// the vector on the tool by its columns, and the slope by how the depth changes on the way
+TEST_F(RunCommand, TheForceOnTheToolFollowsFromItsRow)
+{
+  const Finished finished =
+    palp("run --no-picture --law corrected --tip sphere:10mm --depth 6mm --toward 0,-1,0"
+         " --at 0,200,0 --at -20,200,-30 --at -20,200,30 --out " +
+      (folder_.path() / "out").string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const test::CsvTable rows = test::readCsv(folder_.path() / "out/samples.csv");
+  const auto at = [&rows](const char* start, const char* end, std::size_t k)
+  {
+    const auto column = [&](const char* axis) { return rows[std::string(start) + axis + end][k]; };
+    return Eigen::Vector3d(column("x"), column("y"), column("z"));
+  };
+  double most = 0.0;
+  for (std::size_t k = 1; k < rows["force_N"].size(); ++k)
+  {
+    const Eigen::Vector3d normal = at("normal_", "", k);
+    const Eigen::Vector3d lateral = at("lateral_", "_N", k);
+    const double slope = rows["depth_slope"][k];
+    ASSERT_LT((at("force_", "_N", k) - rows["force_N"][k] * slope * normal - lateral).norm(), 1e-8);
+    most = std::max(most, lateral.norm() / std::max(0.1, rows["force_N"][k]));
+    const auto center = [&](std::size_t i)
+    { return Eigen::Vector3d(at("tool_", "_mm", i) - 10.0 * at("axis_", "", i)); };
+    const Eigen::Vector3d moved = center(k) - center(k - 1);
+    if (rows["depth_mm"][k - 1] > 0.5 && moved.norm() < 0.1)
+    {
+      const Eigen::Vector3d before = rows["depth_slope"][k - 1] * at("normal_", "", k - 1);
+      const double expected = -0.5 * (slope * normal + before).dot(moved);
+      EXPECT_NEAR(rows["depth_mm"][k] - rows["depth_mm"][k - 1], expected, 0.01 * moved.norm())
+        << k;
+    }
+  }
+  EXPECT_GT(most, 0.03); // or this shows nothing of the shape
 }
 
 TEST_F(RunCommand, AReplayOfTheExportGivesTheSameForces)

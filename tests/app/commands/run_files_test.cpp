@@ -128,25 +128,57 @@ TEST_F(RunCommand, AFullDiskLeavesTheEarlierFilesAndOneSentence)
   }
 }
 
+// folders in which runs of some folder prepare their files
+long stagesIn(const std::filesystem::path& folder)
+{
+  return std::ranges::count_if(std::filesystem::directory_iterator(folder),
+    [](const auto& entry)
+    { return entry.path().filename().string().find(".palp-") != std::string::npos; });
+}
+
 TEST_F(RunCommand, ASignalLeavesNothingBehind)
 {
   const auto out = folder_.path() / "out";
   for (const char* signal : { "INT", "TERM", "HUP" })
   {
     const Finished ended = test::runCommand(PALP_PROGRAM " run --out " + out.string() +
-      " 2>/dev/null & running=$!; until [ -e " + out.string() +
-      "/.palp-* ]; do sleep 0.01; done; kill -" + signal + " $running; wait $running");
+      " 2>/dev/null & running=$!; until [ -e " + (folder_.path() / ".out.palp-").string() +
+      "* ]; do sleep 0.01; done; kill -" + signal + " $running; wait $running");
     EXPECT_GT(ended.code, 128) << signal; // as a shell tells it
     EXPECT_FALSE(std::filesystem::exists(out)) << signal;
+    EXPECT_EQ(stagesIn(folder_.path()), 0) << signal;
   }
+}
+
+// what is left then goes with the next run beside it, but not what another is writing
+TEST_F(RunCommand, ClearsWhatAKilledRunLeftBesideIt)
+{
+  const std::string run = PALP_PROGRAM " run --no-picture --out " + folder_.path().string();
+  const auto begun = [&](const std::string& name)
+  {
+    return run + "/" + name + " >/dev/null 2>&1 & running=$!; until ls -d " +
+      (folder_.path() / ("." + name + ".palp-")).string() +
+      "* >/dev/null 2>&1; do sleep 0.01; done; ";
+  };
+  (void)test::runCommand(begun("killed") + "kill -KILL $running; wait $running");
+  EXPECT_EQ(stagesIn(folder_.path()), 1);
+  // stopped, so that it still writes while the next one runs
+  const Finished both = test::runCommand(begun("slow") + "kill -STOP $running; " + run +
+    "/next; echo $?; ls -d " + folder_.path().string() +
+    "/.slow.palp-* | wc -l; kill -CONT $running; wait $running; echo $?");
+  EXPECT_EQ(both.out, "0\n1\n0\n") << both.err;
+  EXPECT_EQ(stagesIn(folder_.path()), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "slow" / "samples.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "next" / "samples.csv"));
 }
 
 TEST_F(RunCommand, TwoAtOnceDoNotMix)
 {
   const std::string out = (folder_.path() / "out").string();
   const std::string run = PALP_PROGRAM " run --out " + out;
-  const Finished both = test::runCommand(run + " >/dev/null 2>&1 & running=$!; until ls -d " + out +
-    "/.palp-* >/dev/null 2>&1 || ! kill -0 $running; do sleep 0.01; done; " + run +
+  const Finished both = test::runCommand(run + " >/dev/null 2>&1 & running=$!; until ls -d " +
+    (folder_.path() / ".out.palp-").string() +
+    "* >/dev/null 2>&1 || ! kill -0 $running; do sleep 0.01; done; " + run +
     "; echo $?; wait $running; echo $?");
   EXPECT_EQ(both.out, "2\n0\n") << both.err;
   EXPECT_NE(both.err.find("another palp is writing there"), std::string::npos) << both.err;

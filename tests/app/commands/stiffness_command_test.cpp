@@ -177,6 +177,7 @@ TEST_F(StiffnessFiles, RefusesInASentence)
       Case{ "labels:" + there + ":1=liverr", "liverr" }, Case{ "labels:" + there, "labels:FILE" },
       Case{ "image:" + nan, "is no number" }, Case{ "image:none.nii", "not found" },
       Case{ "formula:6+", "is no formula" }, Case{ "formula:z", "not above 0 kPa" },
+      Case{ "formula:1e12", "gives 1e+12 kPa at" }, Case{ "formula:1e-4", "1 Pa to 10 GPa" },
       Case{ "random:0.3:8", "has no unit" }, Case{ "random:2:8mm", "out of range" },
       Case{ "elastic", "labels:FILE" }, Case{ "formula:6", "law 'corrected'", " --law paper " } })
   {

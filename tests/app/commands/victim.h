@@ -1,9 +1,13 @@
 #pragma once
 
+#include "tests/support/process.h"
+
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <spawn.h>
 #include <string>
 #include <sys/ptrace.h>
@@ -14,6 +18,39 @@
 
 namespace palp::test
 {
+
+/// Text by name, without what is hidden.
+using Files = std::map<std::string, std::string>;
+
+inline Files filesIn(const std::filesystem::path& folder)
+{
+  Files files;
+  std::error_code missing;
+  for (auto at = std::filesystem::recursive_directory_iterator(folder, missing);
+       at != std::filesystem::recursive_directory_iterator(); ++at)
+  {
+    const bool hidden = at->path().filename().string().starts_with(".");
+    if (at->is_directory() && hidden)
+    {
+      at.disable_recursion_pending();
+    }
+    else if (!at->is_directory())
+    {
+      files[std::filesystem::relative(at->path(), folder).string()] = readAll(at->path());
+    }
+  }
+  return files;
+}
+
+inline void restore(const std::filesystem::path& folder, const Files& files)
+{
+  std::filesystem::remove_all(folder);
+  for (const auto& [name, text] : files)
+  {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name, std::ios::binary) << text;
+  }
+}
 
 /// A program in a group of its own, killed with its children
 class Victim

@@ -49,7 +49,9 @@ TEST(ForceCurve, IsFoundByItsColumnsAmongOthers)
 TEST(ForceCurve, IsFoundBesideWordsBlanksAndQuotes)
 {
   for (const char* text : { "specimen,depth_mm,force_N\nliver A,1,0.25\n\"fat, skin\",4,2\n",
-         "\"depth_mm\",\"force_N\"\n\"1\",0.25\n4,2\n", "depth_mm, force_N\n 1 ,\t0.25\n4, 2\n" })
+         "\"depth_mm\",\"force_N\"\n\"1\",0.25\n4,2\n", "depth_mm, force_N\n 1 ,\t0.25\n4, 2\n",
+         "hand,depth_mm,force_N\nleft,1,0.25\nright,4,2\n",
+         "depth_mm,force_N,hand\n1,0.25,2\n4,2,1\n" })
   {
     const ReferenceCurve curve = readForceCurve(test::writtenCsv(text));
     EXPECT_EQ(curve.x, (std::vector<double>{ 0.001, 0.004 })) << text;

@@ -107,6 +107,8 @@ TEST_F(BadImages, ThatAreNoVolumeOfOneValue)
   std::ranges::fill(few, '\0');
   few[900] = '\1';
   expectRefusal("one.mha", metaHeader({}) + few, "has 1 voxel, too few");
+  std::ranges::fill(few, '\0');
+  expectRefusal("none.mha", metaHeader({}) + few, "no body in it, all its voxels are 0", "");
 }
 
 TEST_F(BadImages, ThatClaimTooMuchOrReachOutside)
@@ -117,6 +119,11 @@ TEST_F(BadImages, ThatClaimTooMuchOrReachOutside)
     metaHeader({ { "ElementNumberOfChannels", "1000000000" } }) + voxels(), "several values");
   std::ofstream(folder_.path() / "outside.raw", std::ios::binary) << voxels();
   expectRefusal("outside.mhd", metaHeader({ { "ElementDataFile", "../outside.raw" } }), "outside");
+  expectRefusal("outside.nhdr",
+    nrrdHeader("uchar",
+      "dimension: 3\nsizes: 12 12 12\nspace directions: (5,0,0) (0,5,0) (0,0,5)\n",
+      "encoding: raw\ndata file: ../outside.raw"),
+    "not beside it");
 }
 
 TEST_F(BadImages, OfVoxelsThatAreNoNumbers)

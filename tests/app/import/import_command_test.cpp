@@ -1,4 +1,4 @@
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
@@ -223,6 +223,13 @@ TEST_F(ImportCommand, ListsTheLabelsWhereNoFolderIsNamed)
   const test::Finished finished = import(blocks().string());
   EXPECT_EQ(finished.code, 0) << finished.err;
   EXPECT_EQ(finished.out, "label,name,voxels,volume_ml\n1,,1440,180\n2,,1008,126\n3,,1,0.125\n");
+  std::string text = test::readAll(blocks());
+  const std::string unit = "DistanceUnits = mm\n";
+  text.erase(text.find(unit), unit.size());
+  std::ofstream(folder_.path() / "none.mha", std::ios::binary) << text;
+  const test::Finished without = import((folder_.path() / "none.mha").string());
+  EXPECT_EQ(without.out, "label,name,voxels,volume_ml\n1,,1440,\n2,,1008,\n3,,1,\n");
+  EXPECT_NE(without.err.find("names no unit; give --unit mm"), std::string::npos) << without.err;
 }
 
 // as a scanner gives it: 12 bits from -1024 on, in files of no order

@@ -1,5 +1,8 @@
 #include "app/places/met_organ.h"
 
+#include "app/folder/played_plan.h"
+#include "app/places/placed_press.h"
+#include "app/press/playback.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
@@ -36,9 +39,14 @@ Recording stepOf(double height, double lid = 0.0)
   return recording;
 }
 
-std::string noteAt(double x, const Recording& recording)
+// of the press that is played anyway
+std::string noteAt(double x, Recording recording)
 {
-  return noteOfOrgan({ "P", { x, 0.0, 0.0 } }, { .depth = 2.0_mm }, recording);
+  ScenePlan plan;
+  plan.presses = PlacedPresses{ .places = { { "P", { x, 0.0, 0.0 } } }, .depth = 2.0_mm };
+  const std::vector<std::string> notes = playInto(recording, plan, nullptr);
+  EXPECT_LE(notes.size(), 1u);
+  return notes.empty() ? "" : notes.front();
 }
 
 // a ball of R = 10 mm whose center is at 10 - 2 = 8 mm is as wide there as its radius
@@ -53,6 +61,22 @@ TEST(MetOrgan, IsToldWhereItIsNotThatOfThePlace)
   Recording one = step;
   one.scene.others.clear();
   EXPECT_EQ(noteAt(45.0_mm, one), "");
+}
+
+// what a live session keeps of it tells the same
+TEST(MetOrgan, IsToldOnceByTheKeptPress)
+{
+  Recording step = stepOf(8.0_mm);
+  PressLog log;
+  const PlacedPresses presses{ .places = { { "P", { 45.0_mm, 0.0, 0.0 } } }, .depth = 2.0_mm };
+  AwaitedPress awaited;
+  awaited.begin(presses, step, log);
+  step.samples = playEach(pathsOf(presses, step.scene), step.scene);
+  ASSERT_EQ(log.keepAll(step), 1u);
+  EXPECT_EQ(awaited.end(log), noteAt(45.0_mm, stepOf(8.0_mm)));
+  EXPECT_EQ(awaited.end(log), "");
+  awaited.begin(presses, step, log);
+  EXPECT_EQ(awaited.end(log), "") << "that was the one before";
 }
 
 TEST(MetOrgan, RefusesAPlaceWithinAnother)

@@ -76,6 +76,46 @@ TEST(Presses, HaveTheFiguresOfHertz)
   EXPECT_EQ(presses[0].name, "press 1");
 }
 
+// a recording that begins with the tool in the tissue tells what was done from there: the work of
+// Hertz between the two depths, and no stiffness at a force that was passed before
+TEST(Presses, OfARecordingThatBeginsInTheTissueHaveTheWorkFromThere)
+{
+  const double k = 4.0 / 3.0 * kModulus * std::sqrt(kRadius);
+  const auto work = [k](double depth) { return 0.4 * k * std::pow(depth, 2.5); };
+  for (const double first : { 1.0_mm, 4.0_mm })
+  {
+    std::vector<double> depths;
+    for (int i = 0; i <= 500; ++i)
+    {
+      depths.push_back(first + i * (6.0_mm - first) / 500);
+    }
+    const auto presses = findPresses(pressed(depths));
+    ASSERT_EQ(presses.size(), 1U);
+    EXPECT_NEAR(presses[0].energy, work(6.0_mm) - work(first), 1e-4 * work(6.0_mm));
+    EXPECT_EQ(presses[0].stiffness.has_value(), first < 2.0_mm); // 0.24 N and 1.9 N at first
+  }
+}
+
+// as fast as 1 to 3 m/s, so that the first sample is far below the surface, without one above it
+TEST(Presses, OfFewSamplesHaveTheFiguresOfHertz)
+{
+  const double k = 4.0 / 3.0 * kModulus * std::sqrt(kRadius);
+  const double stiffness = 1.5 * k * std::sqrt(std::pow(1.0 / k, 2.0 / 3.0));
+  for (const double step : { 1.0_mm, 3.0_mm })
+  {
+    const auto presses = findPresses(pressed({ step, 2.0 * step }));
+    ASSERT_EQ(presses.size(), 1U);
+    const double first = 0.4 * k * std::pow(step, 2.5);
+    const double trapezoid = 0.5 * k * (1.0 + std::sqrt(8.0)) * std::pow(step, 2.5);
+    EXPECT_NEAR(presses[0].energy, first + trapezoid, 1e-6 * trapezoid);
+    if (k * std::pow(step, 1.5) > 1.0) // reached before the first sample
+    {
+      ASSERT_TRUE(presses[0].stiffness.has_value());
+      EXPECT_NEAR(*presses[0].stiffness, stiffness, 1e-6 * stiffness);
+    }
+  }
+}
+
 TEST(Presses, ABounceEndsNone)
 {
   const auto countOf = [](std::size_t apart)

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <initializer_list>
+#include <iterator>
 #include <random>
 #include <sstream>
+#include <vector>
 
 namespace palp
 {
@@ -104,6 +107,28 @@ TEST(Recording, OfTenMinutesIsWhole)
   bound(recording);
   EXPECT_EQ(recording.samples.size(), kKeptWhole);
   EXPECT_EQ(recording.thinned, 0U);
+}
+
+// as of two programs, whose clocks both begin at 0
+TEST(Recording, AppendsSamplesAtTheirTimesOrAfterTheLast)
+{
+  const auto samplesAt = [](std::initializer_list<double> times)
+  {
+    std::vector<Sample> samples;
+    for (const double time : times)
+    {
+      samples.emplace_back().time = time;
+    }
+    return samples;
+  };
+  Recording all;
+  append(all, samplesAt({ 3.0, 4.0 }));
+  append(all, samplesAt({ 9.0, 9.5 }));
+  append(all, samplesAt({ 2.0, 2.25 }));
+  append(all, {});
+  std::vector<double> times;
+  std::ranges::transform(all.samples, std::back_inserter(times), &Sample::time);
+  EXPECT_EQ(times, (std::vector<double>{ 3.0, 4.0, 9.0, 9.5, 10.5, 10.75 }));
 }
 
 } // namespace

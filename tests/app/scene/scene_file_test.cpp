@@ -157,6 +157,22 @@ TEST_F(SceneFile, NamesFileAndPathOfWhatIsWrong)
   EXPECT_NE(refusal("[]").find("mine.json: /: must be an object"), std::string::npos);
 }
 
+TEST_F(SceneFile, RefusesASecondHandThatCannotBe)
+{
+  for (const auto& [patch, message] :
+    { std::pair(R"({"second_device": "mouse"})", "'mouse' follows the pointer"),
+      std::pair(R"({"device": "falcon", "second_device": "falcon"})", "two hands cannot share"),
+      std::pair(R"({"second_device": "path:"})", "'path:' names no file"),
+      std::pair(
+        R"({"device": "path:a.csv", "second_device": "falcon"})", "two hands press in a window") })
+  {
+    json document = least();
+    document.merge_patch(json::parse(patch));
+    const std::string told = refusal(document.dump());
+    EXPECT_EQ(told.rfind("mine.json: /second_device: " + std::string(message), 0), 0U) << told;
+  }
+}
+
 json organs()
 {
   return json::parse(R"({"palp_scene": 1, "tissue": {"young": "7kPa"}, "organs": [
@@ -220,6 +236,14 @@ TEST_F(SceneFile, NamesTheOrganThatIsWrong)
     { R"([{"op": "add", "path": "/organs/1/nodules", "value":
         [{"center": ["0mm", "0mm", "0mm"], "radius": "5mm", "ratio": 5}]}])",
       "mine.json: /organs/1: nodules take the law" },
+    { R"([{"op": "add", "path": "/organs/1/nodules", "value": [{"radius": "5mm", "ratio": 5}]}])",
+      "mine.json: /organs/1/nodules/0/center: is missing" },
+    { R"([{"op": "add", "path": "/organs/1/nodules", "value":
+        [{"center": ["0mm", "0mm", "0mm"], "ratio": 5}]}])",
+      "mine.json: /organs/1/nodules/0/radius: is missing" },
+    { R"([{"op": "add", "path": "/organs/1/nodules", "value":
+        [{"center": ["0mm", "0mm", "0mm"], "radius": "5mm"}]}])",
+      "mine.json: /organs/1/nodules/0/ratio: is missing" },
   };
   json document = organs();
   document["organs"][0]["role"] = "press";

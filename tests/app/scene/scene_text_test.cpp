@@ -198,6 +198,19 @@ TEST_F(SceneText, NamesFilesBesideItAsSuchAndOthersWhole)
   EXPECT_EQ(moved.recording->device, "hand");
 }
 
+TEST_F(SceneText, KeepsTheDeviceOfASecondHand)
+{
+  ScenePlan plan;
+  plan.device = parseDevice("path:/out/a.csv");
+  plan.second = parseDevice("replay:/out/b.csv");
+  const ScenePlan again = parseScene(sceneText(plan, "/out"), "/elsewhere/scene.json");
+  ASSERT_TRUE(again.second);
+  EXPECT_EQ(again.second->name, "replay:/elsewhere/b.csv");
+  EXPECT_EQ(again.device.name, "path:/elsewhere/a.csv");
+  plan.second.reset();
+  EXPECT_EQ(sceneText(plan, "/out").find("second"), std::string::npos);
+}
+
 // a quantity is written as people would, where that loses nothing
 TEST(QuantityText, IsInTheUsualUnitWhereThatIsExact)
 {

@@ -71,7 +71,11 @@ public:
     for (; now < time; now += tick)
     {
       pointer.update(now);
-      pointer.lead(now);
+      if (!ticks.empty() && now >= ledAt_ + led)
+      {
+        pointer.lead(ticks.back().sample);
+        ledAt_ = now;
+      }
       const std::optional<PressTarget> target = pointer.target();
       if (target)
       {
@@ -79,6 +83,7 @@ public:
       }
       const ToolPose pose = *device_.exchange(Eigen::Vector3d::Zero(), tick);
       ticks.push_back({ now, target ? target->depth : 0.0, step(scene_, pose) });
+      ticks.back().sample.time = now;
     }
   }
 
@@ -110,12 +115,14 @@ public:
   }
 
   double now = 0.0; ///< [s]
+  double led = 0.0; ///< how seldom the pointer hears of the tool [s]
   PointerTool pointer;
   std::vector<Tick> ticks;
 
 private:
   Scene scene_;
   Pointer device_;
+  double ledAt_ = 0.0; // [s]
 };
 
 } // namespace palp::test

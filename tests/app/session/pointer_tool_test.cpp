@@ -1,8 +1,7 @@
 #include "app/session/pointer_tool.h"
 
 #include "haptics/units.h"
-#include "tests/app/session/pointer_bench.h"
-#include "tests/app/session/pressed_bodies.h"
+#include "tests/app/session/pointer_rig.h"
 #include "tests/support/surfaces.h"
 
 #include <cmath>
@@ -17,17 +16,7 @@ namespace
 using namespace test;
 using namespace units::literals;
 
-class PointerToolTest : public ::testing::Test
-{
-protected:
-  [[nodiscard]] double asked() const
-  {
-    return bench.pointer.target() ? bench.pointer.target()->depth : -1.0;
-  }
-
-  test::PointerBench bench{ block(), SphereTip{ 10.0_mm }, kAbove };
-  PointerTool& pointer = bench.pointer;
-};
+using PointerToolTest = PointerRig;
 
 TEST_F(PointerToolTest, AsksForNothingBeforeItIsOverTheBody)
 {
@@ -71,6 +60,29 @@ TEST_F(PointerToolTest, AClickIsSeenForAMoment)
   bench.runTo(0.1 + PointerTool::kShortest);
   EXPECT_NEAR(bench.newest().contact.depth, 1.0_mm, 0.05_mm);
   bench.run(0.05);
+  EXPECT_FALSE(bench.newest().contact.touching());
+}
+
+// as fast as a double click, each as a click by itself is
+TEST_F(PointerToolTest, QuickClicksAreOnePressEach)
+{
+  for (int i = 0; i < 5; ++i)
+  {
+    pointer.press(400 + 8 * i, 400, bench.now);
+    bench.run(0.08);
+    pointer.release(bench.now);
+    bench.run(0.12);
+  }
+  bench.run(0.5);
+  int presses = 0;
+  double apart = 1.0; // [s] since the tool touched
+  for (const test::Tick& tick : bench.ticks)
+  {
+    const bool touches = tick.sample.contact.touching();
+    presses += touches && apart > 0.02 ? 1 : 0;
+    apart = touches ? 0.0 : apart + 1e-3;
+  }
+  EXPECT_EQ(presses, 5);
   EXPECT_FALSE(bench.newest().contact.touching());
 }
 
@@ -224,85 +236,6 @@ TEST(PointerTool, IsNoDeeperThanAskedForByTheGeometryOfABall)
   const auto depth = [=](const Sample& sample)
   { return kRadius + kBall - (sample.pose.apex - kRadius * sample.pose.axis).norm(); };
   EXPECT_LT(bench.excess(depth), kAllowed);
-}
-
-// down, a rest, and up, as deep as it was told and no deeper
-TEST_F(PointerToolTest, APressByItselfGoesToItsDepthAndBack)
-{
-  pointer.hover(400, 400);
-  bench.run(0.5);
-  for (const auto& [depth, speed] :
-    { std::pair(4.0_mm, 0.01), std::pair(0.3_mm, 0.002), std::pair(8.0_mm, 0.2) })
-  {
-    bench.ticks.clear();
-    const SurfacePoint place{ .position = { 6.0_mm, -3.0_mm, pointer.target()->position.z() },
-      .normal = Eigen::Vector3d::UnitZ() };
-    pointer.pressAt(place, depth, speed);
-    bench.run(0.5 * depth / speed);
-    EXPECT_TRUE(pointer.pressesByItself());
-    pointer.hover(500, 300); // which leads it nowhere
-    bench.run(1.5 * depth / speed + PointerTool::kShortest + 0.2);
-    EXPECT_FALSE(pointer.pressesByItself());
-    double deepest = 0.0;
-    for (const Tick& tick : bench.ticks)
-    {
-      deepest = std::max(deepest, tick.sample.contact.depth);
-      if (tick.sample.contact.touching())
-      {
-        EXPECT_LT((tick.sample.pose.apex - place.position).head<2>().norm(), 1e-6);
-      }
-    }
-    EXPECT_LE(deepest, depth + 1e-6);
-    EXPECT_NEAR(deepest, depth, 0.01_mm);
-    EXPECT_FALSE(bench.newest().contact.touching());
-  }
-}
-
-// a machine that does much else leads it now and then
-TEST_F(PointerToolTest, APressByItselfLeavesOutNothingWhereItIsLedLate)
-{
-  pointer.hover(400, 400);
-  bench.run(0.5);
-  for (const double late : { 0.001, 0.03, 0.3, 2.0 })
-  {
-    pointer.pressAt({ pointer.target()->position, pointer.target()->normal }, 4.0_mm, 0.01);
-    double time = bench.now;
-    double rest = 0.0;
-    double before = 0.0;
-    for (int i = 0; i < 5000 && pointer.pressesByItself(); ++i)
-    {
-      pointer.lead(time);
-      pointer.lead(time); // nothing moved in between
-      EXPECT_LE(std::abs(asked() - before), 0.05 * 0.01 + 1e-12) << late;
-      rest += asked() == before && asked() == 4.0_mm ? std::min(late, 0.05) : 0.0;
-      before = asked();
-      time += late;
-    }
-    EXPECT_FALSE(pointer.pressesByItself());
-    EXPECT_GE(rest, PointerTool::kShortest - 1e-9) << late;
-  }
-}
-
-TEST_F(PointerToolTest, APressByItselfEndsWhenTheHandTakesOver)
-{
-  const auto begin = [&]
-  {
-    pointer.hover(400, 400);
-    bench.run(0.2);
-    pointer.pressAt({ pointer.target()->position, pointer.target()->normal }, 4.0_mm, 0.01);
-    bench.run(0.3);
-    EXPECT_GT(asked(), 2.0_mm);
-  };
-  begin();
-  pointer.letGo();
-  EXPECT_EQ(asked(), 0.0);
-  begin();
-  pointer.press(420, 400, bench.now);
-  EXPECT_DOUBLE_EQ(asked(), PointerTool::kTouch);
-  pointer.letGo();
-  begin();
-  pointer.wheel(1);
-  EXPECT_DOUBLE_EQ(asked(), PointerTool::kDepthPerNotch);
 }
 
 } // namespace

@@ -1,3 +1,5 @@
+#include "data/shapes.h"
+#include "haptics/units.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/process.h"
 
@@ -7,11 +9,17 @@
 #include <gtest/gtest.h>
 #include <sstream>
 #include <vector>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
 
 namespace palp
 {
 namespace
 {
+
+using namespace units::literals;
 
 // the remark of each row
 std::vector<std::string> remarks(const std::string& options)
@@ -156,6 +164,71 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
     (folder.path() / "other").string() + " --organ " + file.string());
   EXPECT_EQ(other.code, 2) << other.err;
   EXPECT_NE(other.err.find("another surface"), std::string::npos) << other.err;
+}
+
+// how far points of a pressed surface went down, by x [mm]
+std::vector<std::pair<double, double>> sunk(const std::filesystem::path& file)
+{
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkPolyData* mesh = reader->GetOutput();
+  vtkDataArray* moved = mesh->GetPointData()->GetArray("Displacement");
+  std::vector<std::pair<double, double>> all;
+  for (vtkIdType i = 0; moved != nullptr && i < mesh->GetNumberOfPoints(); ++i)
+  {
+    const double down = -moved->GetComponent(i, 2);
+    all.emplace_back(mesh->GetPoint(i)[0] - moved->GetComponent(i, 0), down);
+  }
+  return all;
+}
+
+// a lobe that is clamped at one end goes down beyond the tool as Timoshenko's beam does there
+TEST(OrganCommand, WhatIsFarFromTheToolMovesAsTheBodyDoes)
+{
+  const test::TemporaryFolder folder;
+  const Eigen::Vector3d size(100.0_mm, 30.0_mm, 16.0_mm);
+  const Mesh box = makeBox(size, 4.0_mm);
+  const auto file = folder.path() / "lobe.obj";
+  std::ofstream lobe(file);
+  for (const Eigen::Vector3d& point : box.points)
+  {
+    lobe << "v " << 1e3 * point.transpose() << '\n';
+  }
+  for (const auto& [a, b, c] : box.triangles)
+  {
+    lobe << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  }
+  lobe.close();
+  const std::string organ = " --organ " + (folder.path() / "lobe.organ").string();
+  const test::Finished made = test::runCommand(PALP_PROGRAM " organ " + file.string() +
+    " --unit mm --cell 5mm --poisson 0.3 --support bonded:box:-60,-60,-60:-49.9,60,60 --out" +
+    organ.substr(8));
+  ASSERT_EQ(made.code, 0) << made.err;
+  for (const bool isOrgan : { false, true })
+  {
+    const auto out = folder.path() / (isOrgan ? "lobe" : "half_space");
+    const test::Finished run = test::runCommand(PALP_PROGRAM " run " + file.string() +
+      " --unit mm --at 20,0,0 --depth 3mm --law exact --young 50kPa --poisson 0.3 --no-picture "
+      "--out " +
+      out.string() + (isOrgan ? organ : ""));
+    ASSERT_EQ(run.code, 0) << run.err;
+    const double force = std::ranges::max(test::readCsv(out / "samples.csv")["force_N"]);
+    const double bend = 50.0_kPa * size.y() * std::pow(size.z(), 3) / 12.0;
+    const double shear = 5.0 / 6.0 * 50.0_kPa / 2.6 * size.y() * size.z();
+    const double arm = 70.0_mm;
+    for (const auto& [x, down] : sunk(out / "deformed.vtp"))
+    {
+      const double beyond = 1e-3 * (x + 50.0) - arm;
+      const double beam =
+        force * arm * arm * (arm / 3.0 + 0.5 * beyond) / bend + force * arm / shear;
+      if (x > 45.0) // where the beam is straight
+      {
+        EXPECT_NEAR(1e-3 * down, isOrgan ? beam : 0.0, isOrgan ? 0.1 * beam : 1e-12) << x;
+      }
+      EXPECT_TRUE(x > -49.0 || std::abs(down) < (isOrgan ? 0.05 : 1e-12)) << x << ' ' << down;
+    }
+  }
 }
 
 TEST(OrganCommand, RefusesInOneSentence)

@@ -58,12 +58,35 @@ TEST(SupportText, HoldsWhatTouchesAnotherLabel)
   EXPECT_FALSE(support.holds({ 10.0_mm, 0.0, 0.0 }));
 }
 
+// a block that stands as a patient's liver: y to the back, z to the head
+TEST(SupportText, HoldsALiverByWhatHoldsIt)
+{
+  const Support back = parseSupport("posterior", block());
+  EXPECT_TRUE(back.along.isZero());
+  EXPECT_TRUE(back.holds({ 10.0_mm, 50.0_mm, -20.0_mm }));
+  EXPECT_FALSE(back.holds({ 10.0_mm, -50.0_mm, -20.0_mm }));
+  EXPECT_FALSE(back.holds({ 10.0_mm, 0.0, 0.0 }));
+  const Support slides = parseSupport("sliding:posterior", block());
+  EXPECT_NEAR(slides.along.y(), 1.0, 1e-12);
+  const Support hilum = parseSupport("bonded:hilum", block());
+  EXPECT_TRUE(hilum.holds({ 12.0_mm, -12.0_mm, -50.0_mm }));
+  EXPECT_FALSE(hilum.holds({ 25.0_mm, 0.0, -50.0_mm }));
+  EXPECT_FALSE(hilum.holds({ 0.0, 0.0, 0.0 }));
+  const Mesh ball = makeSphere(40.0_mm, 3);
+  const Surface round(ball.points, ball.triangles);
+  const Support hangs = parseSupport("ligaments", round);
+  const Eigen::Vector3d above(0.0, std::sqrt(0.5), std::sqrt(0.5));
+  EXPECT_TRUE(hangs.holds(40.0_mm * above));
+  EXPECT_FALSE(hangs.holds({ 0.0, 0.0, 40.0_mm }));
+  EXPECT_FALSE(hangs.holds({ 0.0, 40.0_mm, 0.0 }));
+}
+
 TEST(SupportText, RefusesWhatItDoesNotKnow)
 {
-  for (const char* text :
-    { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1", "bonded:box:0,0:1,1,1",
-      "bonded:box:200,200,200:210,210,210", "bonded:direction:0,0,0:30deg",
-      "bonded:direction:0,0,1:30", "bonded:box:0,0,0:1,1,1:2", "bonded:label:", "bonded:label:7" })
+  for (const char* text : { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1",
+         "bonded:box:0,0:1,1,1", "bonded:box:200,200,200:210,210,210",
+         "bonded:direction:0,0,0:30deg", "bonded:direction:0,0,1:30", "bonded:box:0,0,0:1,1,1:2",
+         "bonded:label:", "bonded:label:7", "anterior", "glued:hilum", "posterior:60deg" })
   {
     EXPECT_THROW(parseSupport(text, block()), Error) << text;
   }

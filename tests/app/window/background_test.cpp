@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "tests/app/application.h"
 
+#include <QTest>
 #include <QTimer>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace palp
 {
@@ -85,6 +87,32 @@ TEST_F(BackgroundTest, IsGivenUpAtOnceAndDoesOneWorkAtATime)
   mayEnd = true;
   background_ = {};
   EXPECT_TRUE(ended) << "but the end does";
+}
+
+TEST_F(BackgroundTest, DoesWhatWaitsInItsOrder)
+{
+  std::vector<int> done;
+  const auto none = [](const FollowedWork::Step&) {};
+  const auto work = [&](int number)
+  {
+    return background_.run([] { std::this_thread::sleep_for(60ms); }, none) ? done.push_back(number)
+                                                                            : void();
+  };
+  QTimer::singleShot(0,
+    [&]
+    {
+      EXPECT_TRUE(background_.isBusy());
+      background_.later([&] { work(2); });
+      background_.later([&] { work(3); });
+      EXPECT_EQ(background_.waiting(), 2U);
+    });
+  work(1);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return done.size() == 3; }, 30'000));
+  EXPECT_EQ(done, (std::vector{ 1, 2, 3 }));
+  background_.later([&] { work(4); });
+  background_.giveUpAll();
+  QTest::qWait(100);
+  EXPECT_EQ(done.size(), 3U);
 }
 
 TEST_F(BackgroundTest, PassesOnWhatIsThrown)

@@ -4,6 +4,8 @@
 
 #include <QComboBox>
 #include <QImage>
+#include <QLabel>
+#include <QTabBar>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QWheelEvent>
@@ -116,6 +118,26 @@ TEST_F(WindowCharts, AreSavedAtTheSizeThatIsAskedFor)
 }
 
 // a curve of its own for each press, which outlives a change of the tool and is hidden by its name
+TEST_F(WindowCharts, TellWhatToDoWhereThereIsNothingToShow)
+{
+  PlotPanel* plots = showPlots();
+  auto* hint = plots->findChild<QLabel*>("hint");
+  ASSERT_NE(hint, nullptr);
+  EXPECT_TRUE(hint->isVisible());
+  EXPECT_TRUE(hint->text().contains("press the surface")) << hint->text().toStdString();
+  press(60);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !hint->isVisible(); }, kPatience));
+  EXPECT_FALSE(plots->plots().empty());
+  release();
+  waitForPresses(1);
+  auto* tabs = plots->findChild<QTabBar*>("plotTabs");
+  tabs->setCurrentIndex(4);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return hint->isVisible(); }, kPatience));
+  EXPECT_TRUE(hint->text().contains("tick two presses")) << hint->text().toStdString();
+  tabs->setCurrentIndex(0);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !hint->text().contains("tick"); }, kPatience));
+}
+
 TEST_F(WindowCharts, ShowEachTickedPressInAColorOfItsOwn)
 {
   auto* rows = window_->findChild<QTreeWidget*>("pressRows");

@@ -2,15 +2,22 @@
 #include "tests/app/window/window_rig.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QEvent>
 #include <QLabel>
 #include <QPushButton>
+#include <QTemporaryDir>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <memory>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <vtkCamera.h>
 
@@ -60,6 +67,7 @@ struct MadeUpArm
   std::atomic<double> force = 0.0;       // last told [N]
   Eigen::Vector3d top;                   // of the body [m]
   std::optional<DevicePlacement> placed; // last; read while no servo uses it
+  std::atomic<bool> held = false;        // by its clutch, without a button
 };
 
 class MadeUpDevice final : public Device
@@ -79,6 +87,10 @@ public:
   {
     arm_.placed = placement;
     return true;
+  }
+  void hold(bool held) noexcept override
+  {
+    arm_.held = held;
   }
   [[nodiscard]] std::optional<ToolPose> exchange(
     const Eigen::Vector3d& force, double) noexcept override
@@ -178,6 +190,66 @@ TEST_F(DeviceTest, ThatIsPluggedInAgainIsHomedAndArmedAnew)
   EXPECT_TRUE(QTest::qWaitFor([&] { return !armButton_->isChecked(); }, kPatience));
   EXPECT_EQ(arm_.force, 0.0);
   armAndPress();
+}
+
+TEST_F(DeviceTest, OfASecondHandIsToldOfBesideTheFirstAndDisarmedWithIt)
+{
+  MadeUpArm other;
+  other.top = arm_.top + Eigen::Vector3d(30e-3, 0.0, 20e-3); // in the air
+  other.homed = true;
+  session_->useSecond({ .name = "also made up" }, std::make_unique<MadeUpDevice>(other));
+  EXPECT_TRUE(waitForState("1: "));
+  EXPECT_TRUE(waitForState("needs homing"));
+  EXPECT_TRUE(state_->text().contains("ready, force off")) << state_->text().toStdString();
+  arm_.homed = true;
+  armAndPress();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return state_->text().count("force on") == 2; }, kPatience));
+  EXPECT_TRUE(window_->findChild<QLabel*>("rendered")->text().contains("\n2: model 0.00 N"));
+  other.plugged = false;
+  EXPECT_TRUE(waitForState("plug it in again"));
+  EXPECT_TRUE(waitForNoForce());
+  EXPECT_FALSE(session_->armed());
+  session_->useSecond(std::nullopt);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !state_->text().contains("2: "); }, kPatience));
+}
+
+TEST_F(DeviceTest, IsScaledAndHeldInTheWindow)
+{
+  auto* scale = window_->findChild<QDoubleSpinBox*>("scale");
+  EXPECT_FALSE(scale->isVisibleTo(window_.get())) << "of a device without a place";
+  session_->useDevice({ .kind = DeviceChoice::Kind::Driver, .name = "made up" },
+    std::make_unique<MadeUpDevice>(arm_));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return scale->isVisibleTo(window_.get()); }, kPatience));
+  EXPECT_EQ(scale->value(), 1.0);
+  scale->setValue(2.5);
+  ASSERT_TRUE(arm_.placed);
+  EXPECT_EQ(arm_.placed->scale, 2.5);
+  EXPECT_EQ(arm_.placed->clutch, 2);
+
+  canvas_->setFocus();
+  QTest::keyPress(canvas_, Qt::Key_C);
+  EXPECT_TRUE(arm_.held);
+  QTest::keyRelease(canvas_, Qt::Key_C);
+  EXPECT_FALSE(arm_.held);
+  QTest::keyPress(canvas_, Qt::Key_C);
+  QApplication::sendEvent(window_.get(), std::make_unique<QEvent>(QEvent::WindowDeactivate).get());
+  EXPECT_FALSE(arm_.held);
+}
+
+TEST_F(DeviceTest, OfASecondHandIsChosenInTheWindow)
+{
+  auto* second = window_->findChild<QComboBox*>("second-device");
+  EXPECT_FALSE(second->isVisibleTo(window_.get())) << "there is none to choose";
+  const QTemporaryDir folder;
+  const std::string file = folder.filePath("right.csv").toStdString();
+  std::ofstream(file) << "time_s,x_mm,y_mm,z_mm\n0,0,0,500\n60,0,0,500\n";
+  second->addItem(QString::fromStdString("path:" + file));
+  second->setCurrentIndex(1);
+  EXPECT_TRUE(session_->hasSecond());
+  EXPECT_TRUE(second->isVisibleTo(window_.get()));
+  second->setCurrentIndex(0);
+  EXPECT_FALSE(session_->hasSecond());
+  EXPECT_EQ(second->currentText(), "none");
 }
 
 TEST_F(DeviceTest, IsStoppedByTheButtonUntilArmedAnew)

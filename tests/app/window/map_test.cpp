@@ -181,11 +181,47 @@ TEST_F(MapTest, OfAnotherToolIsMarkedAndNotExported)
   release();
   EXPECT_TRUE(waitForLift());
   ASSERT_TRUE(window_->exportData(QString::fromStdString((folder_.path() / "out").string())));
-  EXPECT_FALSE(said().contains("stiffness map"));
+  EXPECT_TRUE(said().contains("not the stiffness map")) << said().toStdString();
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/stiffness_map.csv"));
   EXPECT_TRUE(action("mapColors")->isEnabled()) << "still seen, with a bar that says of before";
   ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
   EXPECT_FALSE(action("mapColors")->isEnabled()) << "another body has no such places";
+}
+
+// not the tool of now
+TEST_F(MapTest, AFigureTellsWhatTheMapWasPressedBy)
+{
+  const auto caption = [this]
+  {
+    const QString file = QString::fromStdString((folder_.path() / "figure.png").string());
+    EXPECT_TRUE(window_->saveFigure(file, { 640, 480 }, { .hasCaption = true }));
+    const QImage figure(file);
+    EXPECT_FALSE(figure.isNull());
+    return figure.copy(0, 0, 300, 36);
+  };
+  ask({ { "mapDepth", "2" }, { "mapSpacing", "20" } });
+  waitForMap();
+  const QImage before = caption();
+  type("radius", "5");
+  waitForFrames();
+  EXPECT_EQ(caption(), before);
+  action("clearMapAction")->trigger();
+  waitForFrames();
+  EXPECT_NE(caption(), before) << "of the press, without a map";
+}
+
+TEST_F(MapTest, OfAToolThatIsChangedMeanwhileSaysHowItIsExported)
+{
+  ask({ { "mapDepth", "2" }, { "mapSpacing", "3" } });
+  type("radius", "5");
+  waitForMap();
+  EXPECT_TRUE(said().contains("of the tool and the tissue before")) << said().toStdString();
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  press(60);
+  release();
+  EXPECT_TRUE(waitForLift());
+  ASSERT_TRUE(window_->exportData(QString::fromStdString((folder_.path() / "out").string())));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/stiffness_map.csv"));
 }
 
 TEST_F(MapTest, CanBeCancelled)

@@ -1,6 +1,7 @@
 #include "tests/app/window/window_rig.h"
 
 #include <QImage>
+#include <QPushButton>
 
 #include <algorithm>
 #include <cstdlib>
@@ -88,7 +89,7 @@ TEST_F(MessageOverPicture, CoversNothingThatTheFootOfThePictureTells)
     bar->tell({});
     const Marks alone = marks();
     ASSERT_GT(alone.count, 2000);
-    EXPECT_GT(alone.lowest, canvas_->height() - 30) << "they stand at the foot";
+    EXPECT_GT(alone.lowest, canvas_->height() - 60) << "they stand above the foot";
     bar->warn("liver.stl: 12 edges have one triangle only; the surface is open there, and what is "
               "pressed near its rim is not what a closed body would give; close the holes with "
               "palp check liver.stl --close-holes 20mm --repair clean.vtp, and open that one");
@@ -99,6 +100,18 @@ TEST_F(MessageOverPicture, CoversNothingThatTheFootOfThePictureTells)
     EXPECT_EQ(marks().lowest, alone.lowest) << "they come down again";
   }
   release();
+}
+
+// a picture takes longer than what works in the background may hold up the window
+TEST_F(MessageOverPicture, ALineWithAButtonMovesNothing)
+{
+  auto* bar = window_->findChild<MessageBar*>();
+  bar->tell({});
+  (void)picture();
+  bar->follow("Saving the figure", "drawing", 50, [] {});
+  EXPECT_EQ(picturesIn(600), 0);
+  bar->unfollow("Saving the figure");
+  EXPECT_EQ(picturesIn(600), 0);
 }
 
 // where the picture is narrowest: the least window, with a panel beside the charts
@@ -133,6 +146,23 @@ TEST_F(MessageOverPicture, NoMarkStandsOnAnotherOrIsCut)
   EXPECT_GT(drawn, 3000);
   EXPECT_EQ(both, 0);
   EXPECT_EQ(atSides, 0);
+}
+
+TEST_F(WindowTest, WhatIsAddedToAQuestionLeavesItsAnswers)
+{
+  auto* bar = window_->findChild<MessageBar*>();
+  int restored = 0;
+  bar->ask("Not exported yet: 2 presses", { { "Restore", [&] { ++restored; } } });
+  bar->add("Drawn with 60 triangles");
+  EXPECT_EQ(said(), "Not exported yet: 2 presses. Drawn with 60 triangles");
+  for (auto* button : bar->findChildren<QPushButton*>())
+  {
+    button->text() == "Restore" ? button->click() : void();
+  }
+  EXPECT_EQ(restored, 1);
+  bar->tell({});
+  bar->add("Drawn with 70 triangles");
+  EXPECT_EQ(said(), "Drawn with 70 triangles");
 }
 
 } // namespace

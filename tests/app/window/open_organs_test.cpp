@@ -281,5 +281,22 @@ TEST_F(WindowTest, DroppedOrganFileIsFelt)
   EXPECT_LT(sample.localDepth, 0.99 * sample.contact.depth);
 }
 
+// as no answer to a question opens it
+TEST_F(WindowTest, AFileThatIsGoneIsToldInTheBar)
+{
+  bool hasAsked = false;
+  QTimer::singleShot(1000, window_.get(),
+    [&]
+    {
+      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      hasAsked = dialog != nullptr;
+      hasAsked ? dialog->reject() : void();
+    });
+  EXPECT_FALSE(window_->openFile("/nowhere/gone.stl"));
+  QTest::qWait(1200);
+  EXPECT_FALSE(hasAsked);
+  EXPECT_TRUE(said().contains("gone.stl: there is no such file")) << said().toStdString();
+}
+
 } // namespace
 } // namespace palp

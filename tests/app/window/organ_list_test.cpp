@@ -4,6 +4,9 @@
 
 #include <QComboBox>
 #include <QDockWidget>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QStyleOptionComboBox>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -42,6 +45,22 @@ protected:
   OrganListTest()
     : WindowTest(liverBehindBall())
   {
+  }
+
+  // on a small screen, too
+  void expectNamesAreSeen() const
+  {
+    const auto* rows = part<QTreeWidget>("organRows");
+    const auto widthOf = [rows](const QString& text)
+    { return rows->fontMetrics().horizontalAdvance(text); };
+    EXPECT_GE(rows->columnWidth(2), widthOf("gallbladder") + 6);
+    EXPECT_LE(rows->header()->length(), rows->viewport()->width()) << "the last column is cut";
+    const auto* role = part<QComboBox>("organRole0");
+    QStyleOptionComboBox option;
+    option.initFrom(role);
+    const QRect text = role->style()->subControlRect(
+      QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, role);
+    EXPECT_GE(text.width(), widthOf("Pressed"));
   }
 
   template <typename Widget>
@@ -99,6 +118,16 @@ protected:
     return session_->recording().organName(organ);
   }
 };
+
+TEST_F(OrganListTest, NamesTheOrgansOnAnyScreen)
+{
+  for (const QSize size : { QSize(1008, 720), QSize(1424, 812) })
+  {
+    window_->resize(size);
+    QTest::qWait(300);
+    expectNamesAreSeen();
+  }
+}
 
 TEST_F(OrganListTest, TheMousePressesWhatIsFeltBehindWhatIsSeenThrough)
 {
@@ -178,6 +207,61 @@ TEST_F(OrganListTest, AnotherBodyTakesTheirPlace)
   EXPECT_EQ(pressedOrgan(), "");
   ASSERT_EQ(session_->earlier().size(), 1U);
   EXPECT_EQ(session_->earlier()[0].recording.organs.size(), 2U);
+}
+
+// tops of blocks of 100 x 100 mm at 0 and, beside it, at 8 mm; a ball reaches into the lower one
+ScenePlan steppedBlocks()
+{
+  ScenePlan plan;
+  plan.meshes = { { .bundled = "block_50" },
+    { .bundled = "block_50", .origin = { 100.001_mm, 0.0, 8.0_mm } },
+    { .bundled = "sphere_30", .origin = { -20.0_mm, 0.0, 20.0_mm } } };
+  plan.organs = { { .name = "low" }, { .name = "high" }, { .name = "ball" } };
+  return plan;
+}
+
+class MetOrganTest : public WindowTest
+{
+protected:
+  MetOrganTest()
+    : WindowTest(steppedBlocks())
+  {
+  }
+
+  void pressAt(const char* place) const
+  {
+    auto* field = window_->findChild<QLineEdit*>("pressPlace");
+    field->selectAll();
+    QTest::keyClicks(field, place);
+    QTest::keyClick(field, Qt::Key_Return);
+  }
+};
+
+// a ball of R = 10 mm is as wide as its radius where it passes the wall at x = 50 mm
+TEST_F(MetOrganTest, APressThatMeetsAnotherOrganIsTold)
+{
+  pressAt("45, 0, 0, 2 mm");
+  waitForPresses(1);
+  EXPECT_TRUE(QTest::qWaitFor([this]
+    { return said().contains("is on low, but the tool meets high first and presses that"); },
+    kPatience))
+    << said().toStdString();
+  EXPECT_EQ(session_->presses().presses()[0].organ, "high");
+  pressAt("30, 30, 0, 2 mm");
+  EXPECT_EQ(said(), "");
+  waitForPresses(2);
+  EXPECT_EQ(session_->presses().presses()[1].organ, "low");
+}
+
+TEST_F(MetOrganTest, APlaceWithinAnotherIsRefused)
+{
+  pressAt("-20, 0, 0, 2 mm");
+  EXPECT_TRUE(said().contains("is on low, but a tool comes to it through ball only"))
+    << said().toStdString();
+  pressAt("30, 30, 0, 2 mm");
+  EXPECT_EQ(said(), "") << "mended";
+  waitForPresses(1);
+  EXPECT_EQ(session_->presses().presses()[0].organ, "low");
 }
 
 } // namespace

@@ -7,8 +7,10 @@
 #include <QPushButton>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <optional>
 #include <vector>
 
 namespace palp
@@ -63,6 +65,43 @@ TEST_F(PressBarTest, PressesWhereAndAsDeepAsTyped)
   const std::vector<double> forces = test::readCsv(out + "/samples.csv")["force_N"];
   ASSERT_FALSE(forces.empty());
   EXPECT_NEAR(most.response.force, *std::ranges::max_element(forces), 0.01 * most.response.force);
+}
+
+// at each sample, however late the window is
+TEST_F(PressBarTest, PressesAtTheTypedSpeed)
+{
+  typePlace("-48.5, 38.4, 39.5");
+  type("pressDepth", "2");
+  for (const double speed : { 1e-3, 10e-3, 100e-3 })
+  {
+    type("pressSpeed", (QString::number(1e3 * speed) + " mm/s").toUtf8());
+    const std::size_t before = session_->presses().presses().size();
+    pressButton();
+    waitForPresses(before + 1);
+    const PressSummary press = session_->presses().presses().back().summary;
+    double most = 0.0;
+    std::optional<double> first; // depth [m]
+    int samples = 0;
+    for (const Sample& sample : session_->recording().samples)
+    {
+      if (sample.time < press.begin)
+      {
+        continue;
+      }
+      const double depth = sample.contact.depth;
+      first = first.value_or(depth);
+      const double line = std::min(2e-3, *first + speed * (sample.time - press.begin));
+      most = std::max(most, std::abs(depth - line));
+      ++samples;
+      if (depth > 2e-3 - 1e-7)
+      {
+        break;
+      }
+    }
+    EXPECT_LT(most, 1e-6) << speed;
+    EXPECT_GT(samples, 5) << speed;
+    EXPECT_NEAR(press.deepest.depth, 2e-3, 1e-6) << speed;
+  }
 }
 
 TEST_F(PressBarTest, KnowsThePlaceOfAPressByTheMouse)
@@ -166,6 +205,15 @@ TEST_F(PressBarTest, NamesWhatIsWrongWithAPlace)
     pressButton();
     EXPECT_TRUE(said().contains("no comma between its numbers")) << said().toStdString();
   }
+  for (const char* place : { "abc", "-50 -20 60 3mm 20mm/s", "1,2,3mm" })
+  {
+    typePlace(place);
+    pressButton();
+    EXPECT_TRUE(said().startsWith("Place: ")) << said().toStdString();
+  }
+  typePlace("-48.5,38.4,39.5, 5"); // a depth without its unit
+  pressButton();
+  EXPECT_TRUE(said().startsWith("Depth: ") && said().contains("unit")) << said().toStdString();
 }
 
 // as long as a field holds it, whatever else is typed

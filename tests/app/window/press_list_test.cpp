@@ -11,6 +11,8 @@
 #include <QTreeWidget>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <optional>
 
@@ -68,6 +70,14 @@ protected:
       }
     }
     ADD_FAILURE() << text.toStdString() << " is not there";
+  }
+
+  void restore() const
+  {
+    for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
+    {
+      button->text() == "Restore" ? button->click() : void();
+    }
   }
 };
 
@@ -178,10 +188,7 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
   Autosave after(folder_.path());
   window_->saveTo(after);
   EXPECT_TRUE(said().startsWith("Not exported yet: 2 presses of before")) << said().toStdString();
-  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
-  {
-    button->text() == "Restore" ? button->click() : void();
-  }
+  restore();
   waitForRows(4);
   EXPECT_EQ(cell(2, "Press"), "left lobe (2)") << "as it was called, and told from the other";
   EXPECT_EQ(cell(2, "F max [N]"), first);
@@ -189,6 +196,48 @@ TEST_F(PressListTest, RestoresWhatWasNotExported)
   EXPECT_EQ(cell(3, "E [kPa]"), "25.0");
   EXPECT_TRUE(window_->exportData(QString::fromStdString((folder_.path() / "out").string())));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / "earlier-1" / "samples.csv"));
+  after.clear();
+  session_->saveTo(nullptr);
+}
+
+// restored, loaded and made now: of one body, tool and tissue they are one recording
+TEST_F(PressListTest, ExportsThePressesOfOneToolIntoOneFolder)
+{
+  const auto out = folder_.path() / "out";
+  const auto exportedNames = [&]
+  {
+    EXPECT_TRUE(window_->exportData(QString::fromStdString(out.string())));
+    EXPECT_FALSE(std::filesystem::exists(out / "earlier-1"));
+    std::ifstream table(out / "presses.csv");
+    std::vector<std::string> names;
+    for (std::string line; std::getline(table, line);)
+    {
+      line.starts_with('"') ? names.push_back(line.substr(1, line.find('"', 1) - 1)) : void();
+    }
+    return names;
+  };
+  std::optional<Autosave> before(folder_.path() / "state");
+  window_->saveTo(*before);
+  pressOnce(60);
+  pressOnce(40);
+  rows().topLevelItem(0)->setText(0, "left lobe");
+  before.reset();
+  Autosave after(folder_.path() / "state");
+  window_->saveTo(after);
+  restore();
+  waitForRows(4);
+  pressOnce(50);
+  const std::vector<std::string> first{ "left lobe", "press 2", "left lobe", "press 2", "press 5" };
+  EXPECT_EQ(exportedNames(), first);
+  const test::Finished again = test::runCommand(
+    PALP_PROGRAM " run " + out.string() + " --out " + (folder_.path() / "again").string());
+  ASSERT_EQ(again.code, 0) << again.err;
+  const auto samples = folder_.path() / "again" / "samples.csv";
+  EXPECT_EQ(test::readAll(samples), test::readAll(out / "samples.csv"));
+  EXPECT_TRUE(window_->loadPresses(QString::fromStdString(out.string())));
+  waitForRows(10);
+  std::filesystem::remove_all(out);
+  EXPECT_EQ(exportedNames().size(), 10U);
   after.clear();
   session_->saveTo(nullptr);
 }

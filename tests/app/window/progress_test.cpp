@@ -160,6 +160,31 @@ TEST_F(Progress, TheWindowGoesOnWhileFiguresAndCurvesAreDrawn)
   }
 }
 
+// each is asked for while the first is drawn
+TEST_F(Progress, WhatIsSavedMeanwhileIsSavedAfterwards)
+{
+  press(60);
+  release();
+  waitForPresses(1);
+  const auto file = [this](const char* name) { return folder_.path() / name; };
+  const auto named = [&](const char* name) { return QString::fromStdString(file(name).string()); };
+  QTimer::singleShot(100,
+    [&]
+    {
+      EXPECT_TRUE(window_->saveChart(1, named("curve.png"), { 400, 300 }));
+      EXPECT_TRUE(window_->saveScreenshot(named("shot.png")));
+      EXPECT_TRUE(window_->exportData(named("export")));
+      EXPECT_FALSE(std::filesystem::exists(file("figure.png"))) << "drawn before all was asked for";
+    });
+  EXPECT_TRUE(window_->saveFigure(named("figure.png"), { 1280, 720 }, { .isRealistic = true }));
+  const auto isAll = [&] { return std::filesystem::exists(file("export") / "scene.json"); };
+  EXPECT_TRUE(QTest::qWaitFor(isAll, 4 * kPatience));
+  for (const char* name : { "figure.png", "curve.png", "shot.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
+  }
+}
+
 TEST_F(Progress, OfAFigureIsCanceledAndLeavesNoFile)
 {
   press(80);

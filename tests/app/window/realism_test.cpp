@@ -1,11 +1,18 @@
 #include "app/shell/window_memory.h"
 #include "pipeline/figure/gl_renderer.h"
 #include "tests/app/window/window_rig.h"
+#include "tests/support/surfaces.h"
 
 #include <QImage>
 
+#include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <utility>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
 
 namespace palp
 {
@@ -92,6 +99,60 @@ TEST_F(RealismTest, IsOffWithoutACardTurnedOnByHandAndRemembered)
   EXPECT_GT(changeOf(ball, dull).body, 0.3);
   EXPECT_EQ(WindowMemory().isRealistic(), false);
   EXPECT_FALSE(action()->toolTip().isEmpty());
+}
+
+class LargeSurface : public WindowTest
+{
+protected:
+  // a ball of 60 mm
+  [[nodiscard]] QString file() const
+  {
+    const auto [points, triangles] = test::ball(60.0, 190);
+    const std::filesystem::path path = folder_.path() / "ball.off";
+    std::ofstream out(path);
+    out << "OFF\n" << points.size() << ' ' << triangles.size() << " 0\n";
+    for (const Eigen::Vector3d& p : points)
+    {
+      out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    }
+    for (const Triangle& triangle : triangles)
+    {
+      out << "3 " << triangle[0] << ' ' << triangle[1] << ' ' << triangle[2] << '\n';
+    }
+    return QString::fromStdString(path.string());
+  }
+
+  // of what is drawn with the most
+  [[nodiscard]] vtkIdType triangles() const
+  {
+    vtkActorCollection& actors =
+      *canvas_->renderWindow()->GetRenderers()->GetFirstRenderer()->GetActors();
+    vtkIdType most = 0;
+    actors.InitTraversal();
+    while (vtkActor* actor = actors.GetNextActor())
+    {
+      auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
+      const bool isDrawn = mapper != nullptr && mapper->GetInput() != nullptr;
+      most = std::max(most, isDrawn ? mapper->GetInput()->GetNumberOfCells() : 0);
+    }
+    return most;
+  }
+};
+
+TEST_F(LargeSurface, IsNeverDrawnWholeWhereThatTakesLong)
+{
+  if (!drawsInSoftware(rendererNameOf(*canvas_->renderWindow())))
+  {
+    GTEST_SKIP() << "a graphics card draws";
+  }
+  waitForFrames();
+  ASSERT_TRUE(window_->openFile(file()));
+  EXPECT_EQ(session_->body().display->GetNumberOfCells(), 12 * 190 * 190);
+  EXPECT_GT(triangles(), 10'000);
+  EXPECT_LT(triangles(), 100'000) << "in the first picture";
+  waitForFrames(2);
+  EXPECT_TRUE(said().contains("Opened ball.off")) << said().toStdString();
+  EXPECT_TRUE(said().contains("433,200 take long here")) << said().toStdString();
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "app/folder/export_folder.h"
 #include "app/graphs/plot_panel.h"
+#include "haptics/files/csv_text.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/window/window_rig.h"
 #include "tests/support/csv_table.h"
@@ -235,6 +236,41 @@ TEST_F(WindowTest, WhatItExportsIsRepeatedToTheByte)
   EXPECT_EQ(count, 9U);
   const test::CsvTable samples = test::readCsv(first / "samples.csv");
   EXPECT_LE(std::ranges::count(samples["depth_mm"], 0.0), 4); // contact only
+}
+
+ScenePlan relaxing()
+{
+  ScenePlan plan;
+  plan.press.tissue.options.mode = LawMode::Corrected;
+  plan.press.tissue.options.relaxation = parseRelaxation("0.5:200ms");
+  return plan;
+}
+
+class RelaxingTissue : public WindowTest
+{
+protected:
+  RelaxingTissue()
+    : WindowTest(relaxing())
+  {
+  }
+};
+
+// not as the law would answer without what was done before
+TEST_F(RelaxingTissue, IsExportedAsItWasFelt)
+{
+  press(100);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return peakForce() > 0.5; }, kPatience));
+  release();
+  EXPECT_TRUE(waitForLift());
+  const std::filesystem::path first = folder_.path() / "first";
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(first.string())));
+  const test::CsvTable samples = test::readCsv(first / "samples.csv");
+  EXPECT_EQ(std::ranges::max(samples["force_N"]), peakForce());
+  const std::string presses = test::readAll(first / "presses.csv");
+  EXPECT_NE(presses.find(',' + shortest(peakForce()) + ','), std::string::npos) << presses;
+  const test::Finished run = test::runCommand(
+    PALP_PROGRAM " run " + first.string() + " --out " + (folder_.path() / "again").string());
+  EXPECT_NE(run.err.find("repeated to the byte"), std::string::npos) << run.err;
 }
 
 TEST_F(WindowTest, ExportsTheDentAsFineAsInThePicture)

@@ -3,6 +3,7 @@
 
 #include <QAbstractButton>
 #include <QDockWidget>
+#include <QImage>
 #include <QLabel>
 #include <QScrollArea>
 #include <QStatusBar>
@@ -91,6 +92,36 @@ protected:
     EXPECT_GE(canvas_->height(), 320);
   }
 };
+
+// share of the columns of the picture in which the liver is, which it is not cut off by
+double widthOfLiver(const QImage& picture)
+{
+  int columns = 0;
+  for (int x = 0; x < picture.width(); ++x)
+  {
+    int red = 0;
+    for (int y = 0; y < picture.height(); ++y)
+    {
+      const QColor color = picture.pixelColor(x, y);
+      red += color.red() > color.green() + 30 && color.red() > color.blue() + 30 ? 1 : 0;
+    }
+    columns += red > 2 ? 1 : 0;
+    EXPECT_FALSE(red > 2 && (x == 0 || x + 1 == picture.width())) << "it is cut off";
+  }
+  return static_cast<double>(columns) / picture.width();
+}
+
+TEST_F(Sizes, TheLiverFillsANarrowPicture)
+{
+  for (const QSize size : { QSize(1008, 720), QSize(1040, 900) })
+  {
+    window_->resize(size);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return window_->size() == size; }, kPatience));
+    ASSERT_LT(canvas_->width(), canvas_->height());
+    waitForFrames();
+    EXPECT_NEAR(widthOfLiver(canvas_->grabFramebuffer()), 0.9, 0.03) << size.height();
+  }
+}
 
 TEST_F(Sizes, NothingIsClippedInLightAndDark)
 {

@@ -69,6 +69,7 @@ protected:
     const std::vector<std::pair<QString, QString>>& lines)
   {
     std::size_t next = 0;
+    const QDialog* answered = nullptr;
     QTimer typist;
     QObject::connect(&typist, &QTimer::timeout,
       [&]
@@ -83,7 +84,12 @@ protected:
                                          : dialog->findChild<QLineEdit*>(name))
         {
           ++next;
+          answered = dialog;
           line(field, text);
+        }
+        else if (dialog == answered) // the list of its completer took the Return
+        {
+          QTest::keyClick(dialog, Qt::Key_Return);
         }
       });
     typist.start(200);

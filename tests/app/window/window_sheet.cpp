@@ -15,6 +15,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -144,6 +145,25 @@ protected:
   }
 };
 
+// at 1440x860, light: data/window.png
+TEST_F(Sheet, Readme)
+{
+  pressAt("-34.54, -17.88, 70.18, 3 mm", 1);
+  bringUp("Force over time");
+  show(
+    "0_readme",
+    [&]
+    {
+      window_->findChild<MessageBar*>()->tell({});
+      press(110);
+    },
+    [&]
+    {
+      release();
+      EXPECT_TRUE(waitForLift());
+    });
+}
+
 TEST_F(Sheet, Pressing)
 {
   show("1_start", [&] { window_->findChild<MessageBar*>()->tell({}); });
@@ -224,7 +244,9 @@ TEST_F(Sheet, Messages)
       window_->findChild<QLineEdit*>("pressPlace")->setText("900, 0, 0");
       QTest::keyClick(window_->findChild<QLineEdit*>("pressPlace"), Qt::Key_Return);
     });
-  showDialog("11_open", [&] { window_->openFile(PALP_SHARE "/meshes/nothing.stl"); });
+  const std::filesystem::path cut = folder_.path() / "cut.stl";
+  std::ofstream(cut) << "solid";
+  showDialog("11_open", [&] { window_->openFile(QString::fromStdString(cut.string())); });
   showDialog("12_figure", [&] { trigger("figureAction"); });
   showDialog("13_export", [&] { trigger("exportAction"); });
   showDialog("14_map_dialog", [&] { trigger("mapAction"); });

@@ -103,5 +103,20 @@ TEST_P(AnyPress, IsFoundToSixDigitsWithoutNoise)
     << fit.scale.low - kScale << ' ' << fit.scale.high - kScale;
 }
 
+// steeper than the curve from the first exponent that is searched, which fits best
+TEST(ForceCurveFit, TheEndOfWhatIsSearchedIsNoEndOfAnInterval)
+{
+  std::mt19937 random(3);
+  CurveModel steep;
+  steep.shape = [](double depth, double exponent) { return std::pow(depth / 5.0_mm, exponent); };
+  steep.extra = { 1.4, 3.0 };
+  steep.contact = kContact;
+  const CurveFit fit = fitForceCurve(pressed({ 1.0, 30, 0.03, 0.3 }, random), steep);
+  EXPECT_EQ(fit.extra.value, 1.4);
+  EXPECT_TRUE(std::isinf(fit.extra.low) && fit.extra.low < 0.0) << fit.extra.low;
+  EXPECT_LT(fit.extra.high, 3.0);
+  EXPECT_GE(fit.scale.high, fit.scale.value);
+}
+
 } // namespace
 } // namespace palp::fit

@@ -1,5 +1,6 @@
 #include "calibration/organ/organ_places.h"
 #include "data/shapes.h"
+#include "haptics/force/linear/layer_contact.h"
 #include "haptics/servo/servo_step.h"
 #include "haptics/servo/tissue_at.h"
 #include "haptics/units.h"
@@ -144,10 +145,10 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
     Body{ .file = "edge60_4mm",
       .size = { 0.1, 0.1, 0.05 },
       .place = -0.046,
-      .limit = 0.06,
+      .limit = 0.08,
       .lean = std::numbers::pi / -6.0 },
     Body{ .file = "edge90_4mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.046, .limit = 0.08 },
-    Body{ .file = "edge90_2mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.048, .limit = 0.2 },
+    Body{ .file = "edge90_2mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.048, .limit = 0.15 },
     Body{ .file = "lobe30_20mm", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true }),
   [](const auto& body) { return std::string(body.param.file); });
 
@@ -250,6 +251,56 @@ TEST(OrganLobe, TheStepTellsItsTimeAndNeverAllocates)
   const test::AllocationGuard guard;
   EXPECT_GT(step(lobe(), at(-10.0_mm, 3.0_mm)).response.force, 0.0);
   EXPECT_EQ(guard.count(), 0U);
+}
+
+// Both, body and contact, relax as one: of a linear material with a history the force is that of
+// the elastic one, here of the exact bonded layer, in Boltzmann's integral.
+TEST(OrganTissue, RelaxesOverTheWholeDepth)
+{
+  constexpr double kHeight = 30.0_mm;
+  constexpr double kSpeed = 20.0_mm; // a second
+  constexpr double kDeepest = 4.0_mm;
+  const PronyTerm terms[] = { { 0.3, 50.0_ms }, { 0.2, 0.6 } };
+  Scene scene = sceneOf({ .file = "", .size = { 0.12, 0.12, kHeight } }, 12.0_mm);
+  LawSettings settings{ .mode = LawMode::Corrected, .constitution = ConstitutiveModel::Linear };
+  for (const PronyTerm& term : terms)
+  {
+    settings.relaxation.add(term);
+  }
+  scene.law = ForceLaw(scene.law.tip(), scene.law.material(), settings);
+  scene.series = seriesBodyOf(scene.series->field, scene.law);
+  const LayerContact layer(SphereTip{ 10.0_mm }, kPoisson, Base::Bonded);
+  const double modulus = scene.law.material().contactModulus();
+  const auto depthAt = [&](double t) { return std::min(kDeepest, kSpeed * t); };
+  const auto expected = [&](double now)
+  {
+    constexpr int kParts = 2000;
+    double sum = 0.0;
+    double before = 0.0;
+    for (int i = 1; i <= kParts; ++i)
+    {
+      const double force = modulus * layer(depthAt(now * i / kParts), kHeight, 0.0).force;
+      const double since = now * (1.0 - (i - 0.5) / kParts);
+      double left = 1.0;
+      for (const PronyTerm& term : terms)
+      {
+        left -= term.fraction * (1.0 - std::exp(-since / term.time));
+      }
+      sum += left * (force - before);
+      before = force;
+    }
+    return sum;
+  };
+  TissueMemory memory;
+  for (int tick = 0; tick <= 1500; ++tick)
+  {
+    const double now = 1.0_ms * tick;
+    const Sample sample = step(scene, memory, at(0.0, depthAt(now)), 1.0_ms);
+    if (tick == 100 || tick == 200 || tick == 400 || tick == 1500)
+    {
+      EXPECT_NEAR(sample.response.force, expected(now), 0.015 * expected(now)) << now;
+    }
+  }
 }
 
 } // namespace

@@ -37,6 +37,20 @@ OrganTable tableOf(std::size_t places)
   return table;
 }
 
+OrganMotionModes motionOf(std::size_t places, Eigen::Index modes)
+{
+  OrganMotionModes motion{ .radius = 30e-3 };
+  for (std::size_t i = 0; i < places; ++i)
+  {
+    const double x = 1e-3 * static_cast<double>(i);
+    motion.places.push_back(
+      { { x, 0.0123, -0.3 }, Eigen::Vector3d(1.0, 2.0, -3.0).normalized(), i % 3 != 0 });
+  }
+  motion.loads = 1e3F * Eigen::MatrixXf::Random(modes, static_cast<Eigen::Index>(places));
+  motion.modes = 0.01F * Eigen::MatrixXf::Random(3 * static_cast<Eigen::Index>(places), modes);
+  return motion;
+}
+
 std::string refusalOf(const std::string& text)
 {
   const auto file = fileOf("refused.organ");
@@ -68,7 +82,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST(OrganTable, ReadsWhatItWroteSmallAndFast)
 {
-  const OrganTable table = tableOf(2500);
+  OrganTable table = tableOf(2500);
+  table.motion = motionOf(600, 24);
   const auto file = fileOf("liver.organ");
   writeOrganTable(file, table);
   EXPECT_LT(std::filesystem::file_size(file), 1'000'000U);
@@ -88,15 +103,30 @@ TEST(OrganTable, ReadsWhatItWroteSmallAndFast)
     EXPECT_EQ(read.places[i].edge, table.places[i].edge);
     EXPECT_EQ(read.places[i].trust, table.places[i].trust);
   }
+  ASSERT_EQ(read.motion.places.size(), 600U);
+  EXPECT_EQ(read.motion.radius, table.motion.radius);
+  EXPECT_LT((read.motion.loads - table.motion.loads).norm(), 1e-4F * table.motion.loads.norm());
+  EXPECT_LT((read.motion.modes - table.motion.modes).norm(), 1e-4F * table.motion.modes.norm());
+  EXPECT_LT((read.motion.places[333].position - table.motion.places[333].position).norm(), 1e-6);
+  EXPECT_FALSE(read.motion.places[333].isLoaded);
 }
 
 TEST(OrganTable, RefusesInOneSentence)
 {
-  const std::string good = textOf(tableOf(3));
+  OrganTable table = tableOf(3);
+  table.motion = motionOf(2, 2);
+  const std::string good = textOf(table);
   EXPECT_EQ(refusalOf(good), "");
   EXPECT_NE(refusalOf("").find("is no organ file"), std::string::npos);
   EXPECT_NE(refusalOf("x,y\n1,2\n").find("is no organ file"), std::string::npos);
-  EXPECT_NE(refusalOf(replaced(good, "organ 1", "organ 7")).find("version '7'"), std::string::npos);
+  EXPECT_NE(refusalOf(replaced(good, "organ 2", "organ 7")).find("version '7'"), std::string::npos);
+  // made before edges were known as well, and without what is drawn
+  const std::string old = refusalOf(replaced(good, "organ 2", "organ 1"));
+  EXPECT_NE(old.find("version '1'"), std::string::npos);
+  EXPECT_NE(old.find("again by palp organ"), std::string::npos);
+  EXPECT_NE(refusalOf(replaced(good, "motion_modes: 2", "motion_modes: 3")).find("damaged"),
+    std::string::npos);
+  EXPECT_NE(refusalOf(replaced(good, "motion 1 ", "motion x ")).find("damaged"), std::string::npos);
   EXPECT_NE(refusalOf(replaced(good, "abc", "abd")).find("another surface"), std::string::npos);
   EXPECT_NE(
     refusalOf(replaced(good, "places: 3", "places: 9")).find("not finished"), std::string::npos);

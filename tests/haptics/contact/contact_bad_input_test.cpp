@@ -112,7 +112,10 @@ TEST(ContactBadInput, AToolLargerThanTheMesh)
     EXPECT_GT(contact.normal.z(), 0.99);
   }
   const Surface sheet = test::makeSurface(test::sheet(2.0_mm, 5));
-  EXPECT_NEAR(press(sheet, kSphere, { 0.0, 0.0, -3.0_mm }).depth, 3.0_mm, 0.5_mm);
+  // a sheet without end at that depth has more in common with the tool
+  const double depth = press(sheet, kSphere, { 0.0, 0.0, -3.0_mm }).depth;
+  EXPECT_GT(depth, 2.0_mm);
+  EXPECT_LT(depth, 3.0_mm);
 }
 
 // pushed out the nearest way, deeper than the radius: R plus the distance to the surface
@@ -153,7 +156,10 @@ TEST(ContactBadInput, TwoLobesAtOnce)
   const double inside = 2.0_mm; // R minus the distance of the center to both walls
   const Contact contact =
     press(groove, kSphere, { 0.0, 0.0, std::numbers::sqrt2 * (10.0_mm - inside) - 10.0_mm });
-  EXPECT_NEAR(contact.depth, inside, 1e-6);
+  // more than one wall, and less than two contacts that do not feel each other, whose energies add
+  // up
+  EXPECT_GT(contact.depth, inside);
+  EXPECT_LT(contact.depth, std::pow(2.0, 1.0 / 2.5) * inside);
   EXPECT_GT(contact.normal.z(), 0.999);
 }
 

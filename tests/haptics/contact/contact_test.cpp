@@ -147,6 +147,26 @@ TEST(Contact, OnTheSidesOfTrianglesIsAsBesideThem)
 }
 
 // as a ball only just meets a corner or an edge, rounding alone says how much of it is within
+// the center of its nose within the surface, where no triangle is seen from either side
+TEST(Contact, PressedByItsRadiusASphereIsAsDeepAsThat)
+{
+  const Surface surface = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 20));
+  for (const double x : { 0.0, 2.5_mm, 1.3_mm, 20.0_mm })
+  {
+    for (const double y : { 0.0, 2.5_mm, 0.7_mm })
+    {
+      for (const double off : { 0.0, 1e-18, -1e-18, 1e-15, -1e-12, 1e-10, -1e-10, 1e-6, -1e-6 })
+      {
+        const ToolPose pose{ .apex = { x, y, -10.0_mm + off }, .axis = -Eigen::Vector3d::UnitZ() };
+        const Contact contact =
+          findContact(surface, SphereTip{ 10.0_mm }, pose, ContactRule::Exact);
+        EXPECT_NEAR(contact.depth, 10.0_mm - off, 1e-9) << x << ' ' << y << ' ' << off;
+        EXPECT_NEAR(contact.slope, 1.0, 1e-5) << x << ' ' << y << ' ' << off;
+      }
+    }
+  }
+}
+
 TEST(Contact, ACornerOrAnEdgeThatIsOnlyJustMetIsFeltAsThat)
 {
   const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 10));

@@ -1,5 +1,6 @@
 #include "haptics/contact/patch.h"
 
+#include "haptics/contact/lens.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
@@ -26,9 +27,12 @@ DiscIntegral subdivided(
   if (levels == 0)
   {
     const double area = 0.5 * (b - a).cross(c - a).norm();
-    const double value = squaredRadius - ((a + b + c) / 3.0 - center).squaredNorm();
-    const double inside = std::max(0.0, value);
-    return { .weight = area * inside, .square = area * inside * inside };
+    const Eigen::Vector3d middle = (a + b + c) / 3.0 - center;
+    const double inside = std::max(0.0, squaredRadius - middle.squaredNorm());
+    const double reached = inside > 0.0 ? area : 0.0;
+    return { .area = reached,
+      .weight = area * inside,
+      .solidAngle = reached * std::abs(middle.dot(facet.normal)) / std::pow(middle.norm(), 3) };
   }
   const Eigen::Vector3d ab = 0.5 * (a + b);
   const Eigen::Vector3d bc = 0.5 * (b + c);
@@ -40,7 +44,8 @@ DiscIntegral subdivided(
   {
     const DiscIntegral value = subdivided(part, center, squaredRadius, levels - 1);
     sum.weight += value.weight;
-    sum.square += value.square;
+    sum.area += value.area;
+    sum.solidAngle += value.solidAngle;
   }
   return sum;
 }
@@ -59,7 +64,8 @@ TEST(Patch, TriangleAndBallAgreeWithSubdivision)
     const DiscIntegral exact = integrate(facet, center, squaredRadius);
     const DiscIntegral sum = subdivided(facet, center, squaredRadius, 7);
     EXPECT_NEAR(exact.weight, sum.weight, 5e-4);
-    EXPECT_NEAR(exact.square, sum.square, 5e-4);
+    EXPECT_NEAR(exact.area, sum.area, 5e-3);
+    EXPECT_NEAR(exact.solidAngle, sum.solidAngle, 0.02 * sum.solidAngle + 2e-3);
   }
 }
 
@@ -75,7 +81,8 @@ TEST(Patch, ATriangleAndAFarLargerBallAgreeWithSubdivision)
     const DiscIntegral exact = integrate(facet, center, squaredRadius);
     const DiscIntegral sum = subdivided(facet, center, squaredRadius, 9);
     EXPECT_NEAR(exact.weight, sum.weight, 3e-3 * sum.weight);
-    EXPECT_NEAR(exact.square, sum.square, 3e-3 * sum.square);
+    EXPECT_NEAR(exact.area, sum.area, 2e-2 * sum.area);
+    EXPECT_NEAR(exact.solidAngle, sum.solidAngle, 2e-2 * sum.solidAngle);
   }
 }
 
@@ -84,7 +91,9 @@ TEST(Patch, WholeDiscInsideATriangle)
   const Facet facet = facetOf({ -9.0, -9.0, 0.0 }, { 9.0, -9.0, 0.0 }, { 0.0, 9.0, 0.0 });
   const DiscIntegral disc = integrate(facet, { 0.1, 0.2, 0.6 }, 1.0);
   EXPECT_NEAR(disc.weight, std::numbers::pi * std::pow(0.64, 2) / 2.0, 1e-14);
-  EXPECT_NEAR(disc.square, std::numbers::pi * std::pow(0.64, 3) / 3.0, 1e-14);
+  EXPECT_NEAR(disc.area, std::numbers::pi * 0.64, 1e-14);
+  EXPECT_NEAR(disc.rim, std::numbers::pi, 1e-14);
+  EXPECT_NEAR(disc.solidAngle, 2.0 * std::numbers::pi * (1.0 - 0.6), 1e-14); // of a cone
 }
 
 // however a plane is cut into triangles, the parts add up to the disc
@@ -97,29 +106,108 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
            Eigen::Vector3d(0.37, -1.1, 0.9), Eigen::Vector3d(1.0, 1.0, -0.2) })
     {
       const double disc = 1.21 - center.z() * center.z();
-      const Patch patch = patchWithin(plane, center, 1.1, std::copysign(1.0, center.z()), 1.0);
+      const bool isInside = center.z() < 0.0;
+      const Patch patch = patchWithin(plane, center, 1.1, isInside ? -1.0 : 1.0, 1.0, isInside);
+      const Lens half = lensOf(1.21, center.z(), 0.0);
       EXPECT_NEAR(patch.weight, std::numbers::pi * disc * disc / 2.0, 1e-12);
-      EXPECT_NEAR(patch.square.z(), std::numbers::pi * disc * disc * disc / 3.0, 1e-12);
+      EXPECT_NEAR(patch.area.z(), std::numbers::pi * disc, 1e-12);
+      EXPECT_NEAR(patch.moment, half.moment, 1e-6 * half.moment);
+      EXPECT_NEAR(patch.volume, half.volume, 1e-6 * half.volume);
+      EXPECT_NEAR(patch.solidAngle, half.solidAngle, 1e-6);
       EXPECT_NEAR(patch.normal.z(), patch.weight, 1e-12);
     }
   }
 }
 
-// The claim the depth rests on: h^2 = Q - 3/2 square / weight on a sphere of any radius. Along the
-// mean normal, a ball about a body's whole side (0.6 about one of radius
-// 0.7) is no such part of it.
-TEST(Patch, DistanceToASphereFollowsFromWeightAndSquare)
+// The claim the depth rests on: the moment of a body within a ball changes by the normal's sum as
+// the ball moves, and by the volume as it grows.
+TEST(Patch, TheMomentChangesByTheNormalAndTheVolume)
 {
-  const double height = 0.3;
-  for (const double bodyRadius : { 0.7, 2.0, 50.0 })
+  const Surface body = test::makeSurface(test::block({ 2.0, 1.5, 1.0 }, 5));
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
+  constexpr double step = 1e-5;
+  for (int i = 0; i < 100; ++i)
+  {
+    const Eigen::Vector3d center(position(random), 0.75 * position(random), 0.3);
+    const double radius = 0.4 + 0.2 * position(random);
+    const auto at = [&](const Eigen::Vector3d& place, double squaredRadius)
+    { return patchWithin(body, place, std::sqrt(squaredRadius), 0.0, 1.0, place.z() < 0.0); };
+    const double squaredRadius = radius * radius;
+    const Patch patch = at(center, squaredRadius);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3d move = step * Eigen::Vector3d::Unit(k);
+      const double change =
+        at(center + move, squaredRadius).moment - at(center - move, squaredRadius).moment;
+      EXPECT_NEAR(change / (2.0 * step), -patch.normal[k], 1e-8);
+    }
+    const Patch larger = at(center, squaredRadius + step);
+    const Patch smaller = at(center, squaredRadius - step);
+    EXPECT_NEAR((larger.moment - smaller.moment) / (2.0 * step), patch.volume, 1e-8);
+    EXPECT_NEAR(
+      (larger.volume - smaller.volume) / (2.0 * step), 0.5 * radius * patch.solidAngle, 1e-6);
+  }
+}
+
+// on a fine mesh of a ball it is that of two balls
+TEST(Patch, TheMomentOfABallIsThatOfItsLens)
+{
+  for (const double bodyRadius : { 2.0, 20.0 })
   {
     const Surface body = test::makeSurface(test::ball(bodyRadius, 300));
-    const Eigen::Vector3d center =
-      (bodyRadius + height) * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
-    const double radius = bodyRadius < 1.0 ? 0.4 : bodyRadius < 10.0 ? 0.6 : 1.0;
-    const Patch patch = patchWithin(body, center, radius, 1.0, 1.0);
-    const double h = std::sqrt(radius * radius - 1.5 * patch.square.norm() / patch.normal.norm());
-    EXPECT_NEAR(h, height, 2e-3 * (bodyRadius > 10.0 ? 3.0 : 1.0));
+    for (const double height : { 0.3, -0.2 })
+    {
+      const Eigen::Vector3d center =
+        (bodyRadius + height) * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
+      const Patch patch = patchWithin(body, center, 0.6, 0.0, 1.0, height < 0.0);
+      const Lens lens = lensOf(0.36, height, 1.0 / bodyRadius);
+      EXPECT_NEAR(patch.moment, lens.moment, 4e-3 * lens.moment);
+      EXPECT_NEAR(patch.volume, lens.volume, 4e-3 * lens.volume);
+    }
+  }
+}
+
+// by spheres about the ball's center, each held by the body as far as the law of cosines says
+TEST(Lens, IsTheSumOfItsSpheres)
+{
+  for (const double curvature : { 0.0, 0.3, -0.4 })
+  {
+    for (const double height : { 0.6, -0.4 })
+    {
+      double moment = 0.0;
+      double volume = 0.0;
+      constexpr int count = 20000;
+      for (int i = 0; i < count; ++i)
+      {
+        const double r = (i + 0.5) / count;
+        // of a ball of radius 1/k about a place height + 1/k away, times 2 k
+        const double cosine = (curvature * (r * r + height * height) + 2.0 * height) /
+          (2.0 * r * (1.0 + curvature * height));
+        const double held = 2.0 * std::numbers::pi * (1.0 - std::clamp(cosine, -1.0, 1.0));
+        volume += held * r * r / count;
+        moment += held * r * r * (1.0 - r * r) / count;
+      }
+      const Lens lens = lensOf(1.0, height, curvature);
+      EXPECT_NEAR(lens.moment, moment, 1e-7);
+      EXPECT_NEAR(lens.volume, volume, 1e-7);
+      const double step = 1e-6;
+      EXPECT_NEAR(lens.heightSlope,
+        (lensOf(1.0, height + step, curvature).moment -
+          lensOf(1.0, height - step, curvature).moment) /
+          (2.0 * step),
+        1e-8);
+      EXPECT_NEAR(lens.curvatureSlope,
+        (lensOf(1.0, height, curvature + step).moment -
+          lensOf(1.0, height, curvature - step).moment) /
+          (2.0 * step),
+        1e-8);
+      EXPECT_NEAR(lens.solidAngleSlope,
+        (lensOf(1.0 + step, height, curvature).solidAngle -
+          lensOf(1.0 - step, height, curvature).solidAngle) /
+          (2.0 * step),
+        1e-7);
+    }
   }
 }
 
@@ -132,7 +220,7 @@ TEST(Patch, ATriangleLeavesTheBallGently)
   {
     const DiscIntegral last = integrate(facet, { 0.0, 0.0, 1.0 }, 1.0 + reach);
     EXPECT_NEAR(last.weight, std::numbers::pi * reach * reach / 2.0, 1e-9 * reach);
-    EXPECT_NEAR(last.square, std::numbers::pi * std::pow(reach, 3) / 3.0, 1e-9 * reach * reach);
+    EXPECT_NEAR(last.area, std::numbers::pi * reach, 1e-9 * reach + 1e-15);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <gtest/gtest.h>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -28,11 +29,14 @@ struct Fake
   std::atomic<bool> pulled = false;
   std::atomic<bool> homed = true;
   std::atomic<bool> stopped = false;
-  std::atomic<int> failing = 0;     // transfers that do not reach it, from now on
-  std::atomic<double> last = 0.0;   // size of the last force that reached it [N]
-  std::atomic<double> left = 0.0;   // the same, when its driver was closed
-  std::vector<Vector3d> forces;     // read after the thread has ended
-  std::atomic<bool> blocks = false; // its bus: no transfer comes to an end
+  std::atomic<double> heat = 0.0;
+  std::atomic<int> failing = 0;   // transfers that do not reach it, from now on
+  std::atomic<double> last = 0.0; // size of the last force that reached it [N]
+  std::atomic<double> left = 0.0; // the same, when its driver was closed
+  std::vector<Vector3d> forces;   // read after the thread has ended
+  std::vector<double> times;      // as told [s]; the same
+  std::vector<std::chrono::steady_clock::time_point> ends; // of ticks; the same
+  std::atomic<bool> blocks = false;                        // its bus: no transfer comes to an end
   std::atomic<bool> blocked = false;
 };
 
@@ -64,7 +68,7 @@ public:
     };
   }
 
-  IoCode tick(const Vector3d& force, double, DriverSample& sample) noexcept override
+  IoCode tick(const Vector3d& force, double dt, DriverSample& sample) noexcept override
   {
     for (; fake_.blocks; fake_.blocked = true) // as a USB transfer may
     {
@@ -77,10 +81,13 @@ public:
       return IoCode::Gone;
     }
     fake_.forces.push_back(force);
+    fake_.times.push_back(dt);
+    fake_.ends.push_back(std::chrono::steady_clock::now());
     fake_.last = force.norm();
     sample = { .position = Vector3d(1.0_mm, 2.0_mm, 3.0_mm + ++ticks_ * 1.0_um),
       .homed = fake_.homed,
-      .stopped = fake_.stopped };
+      .stopped = fake_.stopped,
+      .heat = fake_.heat };
     return IoCode::Ok;
   }
 
@@ -168,6 +175,43 @@ TEST(BusDevice, MeasuresHowLateAForceIs)
   EXPECT_EQ(device.status().delay, delay); // that pose had been answered
 }
 
+// a servo that starts late, at first or because the device was put elsewhere, is no delay
+TEST(BusDevice, APoseFromBeforeItsServoIsNotWaitedFor)
+{
+  Fake fake;
+  BusDevice device(opening(fake), {});
+  for (int start = 0; start < 2; ++start)
+  {
+    std::this_thread::sleep_for(5ms);
+    (void)device.exchange(Vector3d::Zero(), 1.0_ms);
+    EXPECT_EQ(device.status().delay, 0.0);
+    EXPECT_TRUE(device.place({}));
+  }
+}
+
+// motors take up heat in it, and a tool that goes at a rate its way
+TEST(BusDevice, TellsEachTimeOnceWhicheverThreadTicks)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  Fake fake;
+  {
+    BusDevice device(opening(fake), {});
+    for (int round = 0; round < 10; ++round)
+    {
+      exchangeUntil(device, Vector3d(0, 0, 1), [&](const auto&) { return fake.last == 1.0; });
+      while (fake.last != 0.0) // until the watching thread has ended it
+      {
+        std::this_thread::sleep_for(1ms);
+      }
+    }
+  }
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  const std::chrono::duration<double> atLeast = fake.ends.end()[-2] - fake.ends.front();
+  const double told = std::accumulate(fake.times.begin(), fake.times.end(), 0.0);
+  EXPECT_LE(told, passed.count());
+  EXPECT_GE(told, atLeast.count());
+}
+
 TEST(BusDevice, NoPoseIsYoungerThanNow)
 {
   Fake fake;
@@ -181,13 +225,15 @@ TEST(BusDevice, NoPoseIsYoungerThanNow)
   EXPECT_EQ(youngest, 0.0);
 }
 
-TEST(BusDevice, PassesOnThatItsDeviceIsStopped)
+TEST(BusDevice, PassesOnThatItsDeviceIsStoppedAndHowWarmItsMotorsAre)
 {
   Fake fake;
   fake.stopped = true;
+  fake.heat = 0.75;
   BusDevice device(opening(fake), {});
   EXPECT_TRUE(device.exchange(Vector3d::Zero(), 1.0_ms));
   EXPECT_TRUE(device.status().stopped);
+  EXPECT_EQ(device.status().heat, 0.75);
 }
 
 // some errors pass: a device that is still there would hold the last force for ever

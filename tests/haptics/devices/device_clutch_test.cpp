@@ -139,5 +139,33 @@ TEST_F(ClutchedServo, TheEndOfItsReachGoesWithIt)
   EXPECT_LT(last_.force.x(), -0.1);
 }
 
+// a key of the program's takes the place of a button
+TEST(HeldTool, OfATrackerWithoutButtonsStaysUntilItIsLetGoOrPlaced)
+{
+  Arm arm;
+  arm.limits = { .model = "tracker" };
+  const auto device = placed(arm, { .clutch = 2 });
+  const auto apexAt = [&](double x)
+  {
+    arm.says.position = Vector3d(x, 0, 0);
+    std::optional<ToolPose> pose;
+    for (const int before = arm.ticks; arm.ticks == before;)
+    {
+      pose = device->exchange(Vector3d::Zero(), 1.0_ms);
+    }
+    return pose->apex.x();
+  };
+  EXPECT_NEAR(apexAt(10.0_mm), 10.0_mm, 1e-12);
+  device->hold(true);
+  EXPECT_NEAR(apexAt(40.0_mm), 10.0_mm, 1e-12);
+  EXPECT_TRUE(device->status().clutched);
+  device->hold(false);
+  EXPECT_NEAR(apexAt(45.0_mm), 15.0_mm, 1e-12);
+  EXPECT_FALSE(device->status().clutched);
+  device->hold(true);
+  EXPECT_TRUE(device->place({ .origin = Vector3d(0.1, 0, 0) }));
+  EXPECT_NEAR(apexAt(20.0_mm), 0.1 + 20.0_mm, 1e-12);
+}
+
 } // namespace
 } // namespace palp

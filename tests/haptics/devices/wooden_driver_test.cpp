@@ -125,6 +125,18 @@ TEST(WoodenDriver, AMotorGetsItsPeakForFourSecondsAndThenWhatItBearsForEver)
   EXPECT_EQ(later[1], 2.0);
 }
 
+// 4 A^2 towards 1, by the time constant at which 2 A for 4 s is as much as 1 A for ever
+TEST(WoodenDriver, ACurrentCountsAsLongAsItFlows)
+{
+  MotorHeat heat(2.0, 1.0, 4.0);
+  std::array<double, 3> currents{ 2.0, 0.0, 0.0 };
+  heat.take(currents, 10.0); // of nothing
+  EXPECT_EQ(heat.fraction(), 0.0);
+  currents = {};
+  heat.take(currents, 1.0);
+  EXPECT_NEAR(heat.fraction(), 4.0 * (1.0 - std::pow(0.75, 0.25)), 1e-12);
+}
+
 TEST(WoodenDriver, SendsNoMoreThanItsMotorsBear)
 {
   Wire wire;

@@ -2,6 +2,7 @@
 
 #include "haptics/error.h"
 
+#include <chrono>
 #include <csignal>
 #include <functional>
 #include <gtest/gtest.h>
@@ -19,14 +20,10 @@ namespace
 
 using Names = std::set<std::string>;
 
-Names namesIn(const std::filesystem::path& folder)
+Names setOf(const std::filesystem::path& folder)
 {
-  Names names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-  {
-    names.insert(entry.path().filename().string());
-  }
-  return names;
+  const std::vector<std::string> names = namesIn(folder);
+  return { names.begin(), names.end() };
 }
 
 std::string refusal(const std::function<void()>& work)
@@ -74,7 +71,7 @@ TEST_F(Output, ReplacesAFileWhole)
   std::ofstream(file) << "a longer text than the next";
   replaceFile(file, "short");
   EXPECT_EQ(test::readAll(file), "short");
-  EXPECT_EQ(namesIn(folder_.path()), Names{ "a.csv" });
+  EXPECT_EQ(setOf(folder_.path()), Names{ "a.csv" });
 }
 
 TEST_F(Output, KeepsTheFileThatCannotBeReplaced)
@@ -91,7 +88,7 @@ TEST_F(Output, KeepsTheFileThatCannotBeReplaced)
   (void)refusal([&] { replaceFile(folder_.path() / "b.csv", "text"); });
   (void)refusal([&] { replaceFile(folder_.path() / "none" / "a.csv", "text"); });
   EXPECT_EQ(test::readAll(file), "before");
-  EXPECT_EQ(namesIn(folder_.path()), (Names{ "a.csv", "b.csv" }));
+  EXPECT_EQ(setOf(folder_.path()), (Names{ "a.csv", "b.csv" }));
 }
 
 TEST_F(Output, FollowsNoLink)
@@ -110,11 +107,11 @@ TEST_F(Output, AppearsAtTheEndOnly)
     replaceFile(output.stage() / "a.csv", "1");
     EXPECT_FALSE(std::filesystem::exists(out_ / "a.csv"));
   }
-  EXPECT_EQ(namesIn(folder_.path()), Names{}); // nor the folders made for it
+  EXPECT_EQ(setOf(folder_.path()), Names{}); // nor the folders made for it
   write("1");
   expectBoth("1");
-  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv" }));
-  EXPECT_EQ(namesIn(out_.parent_path()), Names{ "out" });
+  EXPECT_EQ(setOf(out_), (Names{ "a.csv", "b.csv" }));
+  EXPECT_EQ(setOf(out_.parent_path()), Names{ "out" });
 }
 
 TEST_F(Output, RefusesOrReplacesWhatAnEarlierRunLeft)
@@ -125,7 +122,7 @@ TEST_F(Output, RefusesOrReplacesWhatAnEarlierRunLeft)
   expectBoth("1");
   write("2", Earlier::Replace);
   expectBoth("2");
-  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv" }));
+  EXPECT_EQ(setOf(out_), (Names{ "a.csv", "b.csv" }));
   write("3", Earlier::Keep);
   expectBoth("3");
 }
@@ -138,7 +135,7 @@ TEST_F(Output, LeavesTheFilesOfOthers)
   write("2", Earlier::Replace);
   expectBoth("2");
   EXPECT_EQ(test::readAll(out_ / "notes.txt"), "mine");
-  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv", "notes.txt", "more" }));
+  EXPECT_EQ(setOf(out_), (Names{ "a.csv", "b.csv", "notes.txt", "more" }));
 }
 
 TEST_F(Output, LetsOneRunIn)
@@ -191,11 +188,11 @@ TEST_F(Output, ClearsWhatAKilledRunLeft)
   std::filesystem::create_directories(out_ / ".palp-abcdef");
   std::ofstream(out_ / ".palp-abcdef" / "a.csv") << "half";
   std::filesystem::create_directories(out_.parent_path() / ".out.palp-abcdef");
-  std::filesystem::create_directories(out_.parent_path() / ".other.palp-abcdef"); // not its own
+  std::filesystem::create_directories(out_.parent_path() / ".other.palp-abcdef"); // beside it
   std::ofstream(out_ / ".palp-notes") << "of the user";
   write("2", Earlier::Replace);
-  EXPECT_EQ(namesIn(out_), (Names{ "a.csv", "b.csv", ".palp-notes" }));
-  EXPECT_EQ(namesIn(out_.parent_path()), (Names{ "out", ".other.palp-abcdef" }));
+  EXPECT_EQ(setOf(out_), (Names{ "a.csv", "b.csv", ".palp-notes" }));
+  EXPECT_EQ(setOf(out_.parent_path()), Names{ "out" });
 }
 
 // lets a child go on for so many stops at system calls, then kills it
@@ -277,8 +274,8 @@ TEST_F(Output, KilledAtAnySystemCallTheFolderIsOldOrNew)
     expectBoth("last");
     Names all = files;
     all.insert({ "a.csv", "b.csv" });
-    EXPECT_EQ(namesIn(out_), all);
-    EXPECT_EQ(namesIn(out_.parent_path()), Names{ "out" });
+    EXPECT_EQ(setOf(out_), all);
+    EXPECT_EQ(setOf(out_.parent_path()), Names{ "out" });
   }
 }
 

@@ -37,9 +37,23 @@ TEST(LargeStrainGrid, IsLinearAcrossShapesAndPoissonsRatios)
   EXPECT_DOUBLE_EQ(grid()(0.5, 0.1, 0.4).value, (1.03 + 1.06 + 0.97 + 0.96) / 4.0);
 }
 
+// across shapes, which change from place to place, without a corner: no force may jump there
 TEST(LargeStrainGrid, HoldsItsBorderOutsideAndSaysSo)
 {
-  EXPECT_DOUBLE_EQ(grid()(2.0, 0.3, 0.5).value, 0.9);
+  EXPECT_DOUBLE_EQ(grid()(2.0, 0.2, 0.5).value, 0.9);
+  EXPECT_DOUBLE_EQ(grid()(2.0, -0.1, 0.5).value, 0.95);
+  const double beyond = 0.9 - 0.25 * 0.025; // half of what its slope makes of 0.05
+  EXPECT_DOUBLE_EQ(grid()(2.0, 0.3, 0.5).value, beyond);
+  EXPECT_DOUBLE_EQ(grid()(2.0, 9.0, 0.5).value, beyond);
+  constexpr double step = 1e-4;
+  double last = -0.25;
+  for (double shape = 0.15; shape < 0.3; shape += step)
+  {
+    const double slope =
+      (grid()(2.0, shape + step, 0.5).value - grid()(2.0, shape, 0.5).value) / step;
+    EXPECT_NEAR(slope, last, 0.25 * 2.0 * step / 0.05) << shape;
+    last = slope;
+  }
   EXPECT_FALSE(grid()(2.0, 0.1, 0.4).inside);
   EXPECT_FALSE(grid()(0.5, 0.3, 0.4).inside);
 }

@@ -1,4 +1,4 @@
-#include "haptics/servo/oscillation_guard.h"
+#include "haptics/servo/guards/oscillation_guard.h"
 
 #include "haptics/units.h"
 

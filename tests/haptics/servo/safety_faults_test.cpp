@@ -16,6 +16,16 @@ namespace
 using namespace test;
 
 // whatever a device says: finite, bounded in size and rate
+TEST(SafetyChain, TellsMotorsThatWillSoonGiveLess)
+{
+  Bench bench;
+  EXPECT_FALSE(has(bench.at(0.0), Flag::MotorsWarm));
+  bench.status.heat = 0.81;
+  EXPECT_TRUE(has(bench.at(0.0), Flag::MotorsWarm));
+  bench.status.heat = 0.79;
+  EXPECT_FALSE(has(bench.at(0.0), Flag::MotorsWarm));
+}
+
 TEST(SafetyChain, BoundsEverythingThatAMillionWildTicksCanBring)
 {
   std::mt19937_64 random(7);

@@ -1,7 +1,7 @@
 #include "haptics/surface/decimation/decimate.h"
 
 #include "haptics/error.h"
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 #include "tests/support/surfaces.h"
 
 #include <gtest/gtest.h>

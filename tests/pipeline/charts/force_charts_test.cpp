@@ -1,8 +1,11 @@
 #include "pipeline/charts/force_charts.h"
 
 #include "haptics/units.h"
+#include "pipeline/charts/vtkPalpChart.h"
+#include "pipeline/view/appearance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 #include <tuple>
@@ -11,6 +14,7 @@
 #include <vtkAxis.h>
 #include <vtkContextView.h>
 #include <vtkNew.h>
+#include <vtkPlot.h>
 #include <vtkRenderWindow.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
@@ -73,6 +77,39 @@ TEST_F(Charts, ShrinkOnceASpikeIsNoLongerSeen)
   EXPECT_LE(top(*view_, vtkAxis::LEFT), 4.0);
   EXPECT_GE(top(*depthView_, vtkAxis::BOTTOM), 4.0);
   EXPECT_LE(top(*depthView_, vtkAxis::BOTTOM), 8.0);
+}
+
+// of WCAG 2.1: luminances of sRGB
+double contrastOf(const appearance::Color& a, const appearance::Color& b)
+{
+  const auto luminance = [](const appearance::Color& color)
+  {
+    const auto linear = [](double c)
+    { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(color[0]) + 0.7152 * linear(color[1]) + 0.0722 * linear(color[2]);
+  };
+  const auto [low, high] = std::minmax({ luminance(a), luminance(b) });
+  return (high + 0.05) / (low + 0.05);
+}
+
+TEST_F(Charts, ShowEachLiveCurveClearlyOnLightAndOnDark)
+{
+  constexpr double kOfGraphics = 3.0; // WCAG 2.1, 1.4.11
+  constexpr appearance::Color kDark{ 0.13, 0.14, 0.16 };
+  for (vtkContextView* view : { view_.Get(), depthView_.Get() })
+  {
+    auto& chart = *vtkChartXY::SafeDownCast(view->GetScene()->GetItem(0));
+    for (vtkIdType i = 0; i < chart.GetNumberOfPlots(); ++i)
+    {
+      vtkPlot& plot = *chart.GetPlot(i);
+      appearance::Color color{};
+      plot.GetColor(color.data());
+      const bool isCurve = !plot.GetLabel().empty(); // others are in ink
+      EXPECT_TRUE(!isCurve || contrastOf(color, appearance::kPaper) >= kOfGraphics)
+        << plot.GetLabel();
+      EXPECT_TRUE(!isCurve || contrastOf(color, kDark) >= kOfGraphics) << plot.GetLabel();
+    }
+  }
 }
 
 TEST_F(Charts, StayWhileTheyArePausedAndForgetWhatIsCleared)
@@ -265,6 +302,23 @@ TEST_F(Charts, KeepTheirTitlesOffTheNumbersAtEachScale)
       EXPECT_GT(numbers.first, title.second) << "at scale " << scale << ", " << force << " N";
     }
   }
+}
+
+TEST_F(Charts, KeepTheirTitlesApartWhereNoCurveIsSeen)
+{
+  auto& chart = *vtkPalpChart::SafeDownCast(view_->GetScene()->GetItem(0));
+  for (vtkIdType i = 0; i < chart.GetNumberOfPlots(); ++i)
+  {
+    chart.SetCurveShown(chart.GetPlot(i)->GetLabel(), false);
+  }
+  chart.SetKeyed(false); // whose letters have the color of a title
+  chart.GetAxis(vtkAxis::LEFT)->GetTitleProperties()->SetColor(1.0, 0.0, 0.0);
+  chart.GetAxis(vtkAxis::BOTTOM)->GetTitleProperties()->SetColor(0.0, 1.0, 0.0);
+  view_->GetRenderWindow()->Render();
+  const auto force = columnsOf(*view_->GetRenderWindow(), 320, 0, 1);
+  const auto time = columnsOf(*view_->GetRenderWindow(), 320, 1, 0);
+  ASSERT_GT(force.second, force.first);
+  EXPECT_GT(time.first, force.second + 40) << "in the middle of its axis";
 }
 
 } // namespace

@@ -214,6 +214,44 @@ TEST(DrawnNormal, LeavesTwelveDegreesToAFlank)
   }
 }
 
+// how far a place outside the contact comes up again, over the whole range of depth [m]
+double mostRaised(const Tip& tip, double tilt)
+{
+  PressedBody block = pressedBody(
+    "fine", makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 1.0_mm), { 0.3_mm, 0.2_mm, 0.0 }, { 0, 0, 1 });
+  Presser presser(block, tip, "paper", "fitted", tilt);
+  Findings findings;
+  std::vector<double> deepest(block.surface.count());
+  double raised = 0.0;
+  for (double fraction = 0.02; fraction < 2.0; fraction += 0.05)
+  {
+    presser.press(fraction * baseRadius(tip), 0.0, findings);
+    for (std::size_t i = 0; i < deepest.size(); ++i)
+    {
+      const double sink = DentedSurface::at(block.surface.displacement, i).norm();
+      if (block.surface.zone[i] != static_cast<unsigned char>(Zone::Contact))
+      {
+        raised = std::max(raised, deepest[i] - sink);
+        deepest[i] = std::max(deepest[i], sink);
+      }
+    }
+  }
+  return raised;
+}
+
+TEST(FittedDent, NoPlaceComesUpAsAToolThatLeansSinks)
+{
+  for (const Tip& tip : { Tip(SphereTip{ 10.0_mm }), Tip(ConeTip{ 45.0_deg, 10.0_mm }),
+         Tip(ConeTip{ 45.0_deg, 6.0_mm }), Tip(BluntConeTip{ 45.0_deg, 2.0_mm, 10.0_mm }),
+         Tip(BluntConeTip{ 45.0_deg, 4.0_mm, 10.0_mm }) })
+  {
+    for (const double tilt : { 20.0_deg, 30.0_deg })
+    {
+      EXPECT_LE(mostRaised(tip, tilt), 1.0_um) << tip.index() << " " << tilt / 1.0_deg;
+    }
+  }
+}
+
 // a point of a rough surface, above the fit of it, comes under the rim of the tool
 TEST(DentSlide, APointThatStandsOutMovesOnUnderTheRim)
 {

@@ -73,5 +73,15 @@ TEST(PressOf, SurfaceMayBeDeeperThanTheTool)
   EXPECT_EQ(pressOf(sample, kBall, 15.0_mm, {}).contact.depth, 2.0_mm);
 }
 
+// R_d of a table is that of a sink of a set depth, and ends inside of a contact that is less deep
+TEST(PressOf, TheExtentIsNeverInsideTheContact)
+{
+  const Press tiny = pressOf(pressedTo(0.1_mm), kBall, 0.6_mm, {});
+  EXPECT_NEAR(tiny.contactRadius, 1.0_mm, 1e-9);
+  EXPECT_EQ(tiny.extentRadius, tiny.contactRadius);
+  EXPECT_EQ(pressOf(pressedTo(2.0_mm), kBall, 15.0_mm, {}).extentRadius, 15.0_mm);
+  EXPECT_EQ(pressOf(pressedTo(2.0_mm), kBall, 0.0, {}).extentRadius, 0.0); // no table
+}
+
 } // namespace
 } // namespace palp

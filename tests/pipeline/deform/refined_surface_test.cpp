@@ -124,7 +124,7 @@ TEST(RefinedSurface, HasTheWholeDentBetweenThePointsOfACoarseMesh)
         filter->Update();
         const Inside fine = insideOf(*refinedSurface(*filter), press);
         EXPECT_LE(fine.points, 1.0_um);
-        EXPECT_LE(fine.triangles, 0.02_mm); // beside a rim, where no edge is halved further
+        EXPECT_LE(fine.triangles, 0.01_mm);
       }
     }
   }

@@ -105,6 +105,12 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
   EXPECT_NE(
     refusal("gap").find("are 5 mm apart, the others 2.5 mm: images are missing"), std::string::npos)
     << refusal("gap");
+  DicomGrid few = kAxial;
+  few.slices = 4;
+  writeDicom(folder_.path(), "few", few, "--write-xfer-little", { .without = 2 });
+  EXPECT_NE(
+    refusal("few").find("are 5 mm apart, the others 2.5 mm: images are missing"), std::string::npos)
+    << refusal("few");
   writeDicom(folder_.path(), "uneven", kAxial, "--write-xfer-little");
   const std::filesystem::path last = folder_.path() / "uneven/uneven1_94.dcm";
   std::string moved = test::readAll(last);
@@ -148,16 +154,67 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
     std::string::npos);
 }
 
-// the file is named, also where GDCM ends the process
-TEST_F(Dicom, OneDamagedFileIsNamed)
+// the file is named, and what is wrong with it
+TEST_F(Dicom, OneFileThatIsCutOffIsNamed)
 {
-  for (const std::uintmax_t size : { 132, 140, 200, 320, 700, 900 })
+  writeDicom(folder_.path(), "head", kAxial, "--write-xfer-little");
+  const std::filesystem::path file = folder_.path() / "head/head1_10.dcm";
+  for (auto size = std::filesystem::file_size(file) - 2; size > 132; size = size * 9 / 10)
   {
-    writeDicom(folder_.path(), "head", kAxial, "--write-xfer-little");
-    std::filesystem::resize_file(folder_.path() / "head/head1_10.dcm", size);
-    EXPECT_NE(refusal("head").find("head1_10.dcm: "), std::string::npos)
+    std::filesystem::resize_file(file, size);
+    EXPECT_NE(refusal("head").find("head1_10.dcm: cut off"), std::string::npos)
       << size << ' ' << refusal("head");
   }
+}
+
+TEST_F(Dicom, OneDamagedFileIsNamedWithTheElement)
+{
+  using std::string_literals::operator""s;
+  const std::string rows = "\x28\0\x10\0US"s;
+  const std::string voxels = "\xe0\x7f\x10\0OW\0\0"s;
+  const std::tuple<std::string, std::string, const char*> all[] = {
+    { rows, "\x28\0\x10\0X?"s, "its element (0028,0010) at byte " },
+    { voxels, voxels + "\0\0\0\x60"s, " claims 1610612736 bytes, of which there are " },
+    { voxels, "\x28\0\x42\0US\xff\xff"s, "its element (0028,0042) at byte " },
+    { voxels, "\x28\0\x42\0SQ\0\0\xff\xff\xff\xff"s, "where an item of a sequence should" },
+    { rows, "\x28\0\x09\0US"s, "voxels, but no Rows" },
+    { "1.2.840.10008.1.2.1"s, "1.2.840.10008.1.2.9"s, "transfer syntax '1.2.840.10008.1.2.9'" }
+  };
+  for (const auto& [what, by, words] : all)
+  {
+    writeDicom(folder_.path(), "one", kAxial, "--write-xfer-little");
+    const std::filesystem::path file = folder_.path() / "one/one1_10.dcm";
+    std::string bytes = test::readAll(file);
+    bytes.replace(bytes.find(what), by.size(), by);
+    std::ofstream(file, std::ios::binary) << bytes;
+    const std::string told = refusal("one");
+    EXPECT_NE(told.find("one1_10.dcm: "), std::string::npos) << told;
+    EXPECT_NE(told.find(words), std::string::npos) << told;
+  }
+}
+
+// as on a disk, with the icon of an image
+TEST_F(Dicom, ADirectoryBesideTheImagesIsPassedOver)
+{
+  writeDicom(folder_.path(), "disk", kAxial, "--write-xfer-little");
+  write("directory.txt",
+    "(0004,1130) CS [DISK]\n(0004,1220) SQ\n(fffe,e000) na\n(0004,1430) CS [IMAGE]\n"
+    "(0088,0200) SQ\n(fffe,e000) na\n(0028,0010) US 1\n(0028,0011) US 2\n"
+    "(7fe0,0010) OW 0001\n(fffe,e00d) na\n(fffe,e0dd) na\n(fffe,e00d) na\n(fffe,e0dd) na\n"
+    "(0008,0016) UI [1.2.840.10008.1.3.10]\n(0008,0018) UI [1.2.3]\n");
+  const std::string from = (folder_.path() / "directory.txt").string();
+  const std::string to = (folder_.path() / "disk/DICOMDIR").string();
+  ASSERT_EQ(runCommand(words("dump2dcm -q ", from, ' ', to)).code, 0);
+  EXPECT_EQ(refusal("disk"), "taken");
+}
+
+// as archives do to whole blocks; GDCM and DCMTK read on
+TEST_F(Dicom, AFileFilledUpWithZerosIsWhole)
+{
+  writeDicom(folder_.path(), "filled", kAxial, "--write-xfer-little");
+  std::ofstream(folder_.path() / "filled/filled1_10.dcm", std::ios::binary | std::ios::app)
+    << std::string(512, '\0');
+  EXPECT_EQ(refusal("filled"), "taken");
 }
 
 // changed by a program that writes whole files

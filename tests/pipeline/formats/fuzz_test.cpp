@@ -39,7 +39,7 @@ TEST_P(Fuzz, EndsAsASurfaceOrATrueSentence)
 #ifdef PALP_SLOW
   const int count = fuzzCount();
 #else // without the sanitizer the same again, for the limits of time and memory
-  const int count = fuzzCount(kSanitized ? 10'000 : 400) / kind.share;
+  const int count = fuzzCount(kSanitized ? 10'000 : 400);
 #endif
   expectGoodFates(kind, fuzz(kind, count, memory, time));
 }

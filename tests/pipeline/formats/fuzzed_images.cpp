@@ -259,9 +259,6 @@ std::vector<Fuzzed> dicomKinds()
   return { kind };
 }
 
-// GDCM takes and clears what a length claims before it looks, up to the limit of memory
-constexpr int kDicomShare = 20;
-
 } // namespace
 
 std::vector<Fuzzed> fuzzedImages()
@@ -271,7 +268,6 @@ std::vector<Fuzzed> fuzzedImages()
     { metaKinds, nrrdKinds, segmentKinds, dicomSegmentKinds, dicomKinds, otherImages })
   {
     std::ranges::move(kinds(), std::back_inserter(all));
-    all.back().share = kinds == dicomSegmentKinds || kinds == dicomKinds ? kDicomShare : 1;
   }
   return all;
 }

@@ -129,10 +129,10 @@ std::vector<Fuzzed> vtkKinds()
 
 std::vector<Fuzzed> mshKinds()
 {
-  const MshBlock block;
+  MshBlock block;
   return { surface("block.msh",
     { block.write(2.2, false), block.write(2.2, true), block.write(4.1, false),
-      block.write(4.1, true) },
+      block.write(4.1, true), block.write(4.1, true, true, 2) },
     { cutOff("cut off", 14), replaced("version", "(MeshFormat\n)[24]", "$019", "version"),
       replaced("count of nodes", "(Nodes\n)[0-9]+", "$01999999999", kCount),
       replaced("section", "\\$Elements", "$Nothing", "missing"), foreign(offText(), kKind) }) };

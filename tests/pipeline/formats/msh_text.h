@@ -24,8 +24,13 @@ public:
     }
   }
 
-  [[nodiscard]] std::string write(double version, bool isBinary) const
+  /// @param isOther  of the other order of bytes
+  /// @param dimension  of a part of the model whose parameters the nodes have; 0: none have
+  [[nodiscard]] std::string write(
+    double version, bool isBinary, bool isOther = false, int dimension = 0)
   {
+    isOther_ = isOther;
+    dimension_ = dimension;
     std::string text = "$MeshFormat\n" + std::string(version < 3.0 ? "2.2" : "4.1") +
       (isBinary ? " 1 8\n" : " 0 8\n");
     isBinary_ = isBinary;
@@ -36,11 +41,11 @@ public:
 
 private:
   template <typename Number>
-  static std::string bytes(Number number)
+  [[nodiscard]] std::string bytes(Number number) const
   {
     std::string result(sizeof number, '\0');
     std::memcpy(result.data(), &number, sizeof number);
-    return result;
+    return isOther_ ? std::string(result.rbegin(), result.rend()) : result;
   }
 
   template <typename Number>
@@ -94,7 +99,8 @@ private:
       "$Nodes\n" + number(2) + number(8) + number(1) + number(8) + line(); // in two blocks
     for (const std::size_t first : { 0U, 4U })
     {
-      text += put(3) + put(1) + put(0) + number(4) + line();
+      text += put(dimension_ > 0 ? dimension_ : 3) + put(1) + put(dimension_ > 0 ? 1 : 0) +
+        number(4) + line();
       for (std::size_t i = first; i < first + 4; ++i)
       {
         text += number(static_cast<std::size_t>(tagOf(static_cast<int>(i)))) + line();
@@ -102,6 +108,10 @@ private:
       for (std::size_t i = first; i < first + 4; ++i)
       {
         text += place(i);
+        for (int k = 0; k < dimension_; ++k)
+        {
+          text += put(0.25);
+        }
       }
     }
     text += "\n$EndNodes\n$Elements\n" + number(3) + number(9) + number(1) + number(9) + line();
@@ -144,7 +154,9 @@ private:
   }
 
   std::vector<Eigen::Vector3d> nodes_;
-  mutable bool isBinary_ = false;
+  bool isBinary_ = false;
+  bool isOther_ = false;
+  int dimension_ = 0;
 };
 
 } // namespace palp::test

@@ -191,6 +191,40 @@ TEST_F(Images, AnNrrdIsTakenToItsPlaceFromWhateverAxes)
   }
 }
 
+// the header a file of its own, and the voxels beside it
+TEST_F(Images, AnNrrdInTwoFilesIsTakenToItsPlace)
+{
+  const Grid& grid = kGrids[2];
+  const Vector3d center = inLps(grid, grid.axes * Vector3d(21.5, 23.5, 20.5) + grid.origin);
+  const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(30.0, 3);
+  for (const How& how : { How{}, How{ "int16", false, true, true } })
+  {
+    const std::string whole = nrrd(grid, { { center, 30.0, "Liver", 0, 3 } }, how);
+    const std::size_t end = whole.find("\n\n");
+    const auto header = [&](const std::string& data, const std::string& last = "\n\n")
+    { return write("ball.nhdr", whole.substr(0, end) + "\ndata file: " + data + last); };
+    write("ball.data", whole.substr(end + 2));
+    for (const char* last : { "\n\n", "\n", "" })
+    {
+      const LoadedSurface surface = readSurface(header("ball.data", last), {}, { {}, { "3" } });
+      EXPECT_NEAR(volumeMm3(*surface.mesh), exact, 0.01 * exact);
+      EXPECT_LT((centroidMm(*surface.mesh) - center).norm(), 0.1 * 2.2);
+    }
+    for (const auto& [data, words] : std::vector<std::pair<std::string, std::string>>{
+           { "none.data", "its data, 'none.data', are not beside it; copy both" },
+           { "../ball.data", "its data are not beside it; put both into one folder" },
+           { "/etc/passwd", "its data are not beside it; put both into one folder" },
+           { "ball%03d.data 1 9 1", "or several; save it as one .nrrd" } })
+    {
+      const std::string why = refusal(header(data), { {}, { "3" } });
+      EXPECT_NE(why.find(words), std::string::npos) << why;
+    }
+    write("ball.data", whole.substr(end + 2, 900));
+    const std::string why = refusal(header("ball.data"), { {}, { "3" } });
+    EXPECT_NE(why.find("cut off"), std::string::npos) << why;
+  }
+}
+
 // layers may overlap: a tumor is in the liver, and both are whole
 TEST_F(Images, LayersOfAnNrrdAreTakenByTheirNames)
 {

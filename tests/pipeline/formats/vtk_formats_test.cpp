@@ -49,6 +49,52 @@ TEST(VtkFormats, AnArrayOfFourBillionComponentsIsRefusedByItsCount)
   }
 }
 
+// VTK takes room for a size of each
+TEST(VtkFormats, AnArrayOfMoreBlocksThanThereAreIsRefusedByTheirNumber)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "cube.vtp";
+  for (const bool isBig : { false, true })
+  {
+    for (const char* where :
+      { "AppendedData encoding=\"raw\"", "AppendedData encoding=\"base64\"", "format=\"binary\"" })
+    {
+      for (const auto& [type, number] :
+        { std::pair("UInt32", "4294967295"), { "UInt64", "18446744073709551615" } })
+      {
+        const bool isText = std::string(where).find("raw") == std::string::npos;
+        vtkNew<vtkCubeSource> cube;
+        vtkNew<vtkXMLPolyDataWriter> writer;
+        writer->SetInputConnection(cube->GetOutputPort());
+        writer->SetFileName(file.c_str());
+        writer->SetHeaderType(std::string(type) == "UInt32" ? 32 : 64);
+        writer->SetEncodeAppendedData(isText);
+        *where == 'f' ? writer->SetDataModeToBinary() : writer->SetDataModeToAppended();
+        isBig ? writer->SetByteOrderToBigEndian() : writer->SetByteOrderToLittleEndian();
+        writer->Write();
+        EXPECT_EQ(readSurface(file, LengthUnit::Meter).mesh->GetNumberOfPolys(), 12) << where;
+        std::string text = readAll(file);
+        ASSERT_NE(text.find(where), text.npos) << where;
+        const std::size_t end = text.find('>', text.find(where));
+        const std::size_t data = text.find_first_not_of(" \n_", end + 1);
+        text.replace(data, isText ? 12 : 8, isText ? 12 : 8, isText ? '/' : '\xff');
+        std::ofstream(file, std::ios::binary) << text;
+        try
+        {
+          (void)readSurface(file, LengthUnit::Meter);
+          ADD_FAILURE() << where << type << ": accepted";
+        }
+        catch (const Error& error)
+        {
+          EXPECT_NE(std::string(error.what()).find(number + std::string(" blocks, more than")),
+            std::string::npos)
+            << where << ": " << error.what();
+        }
+      }
+    }
+  }
+}
+
 std::string legacy(const TemporaryFolder& folder, bool binary)
 {
   const std::filesystem::path file = folder.path() / "cube.vtk";

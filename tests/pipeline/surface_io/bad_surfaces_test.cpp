@@ -60,7 +60,7 @@ std::vector<BadFile> badFiles()
     { "corner.step", kStl, ErrorCode::BadFile, "a CAD model; export its surface as .stl" },
     { "scene.glb", kStl, ErrorCode::BadFile, "a scene of glTF; export its mesh as .ply" },
     { "part.3mf", kStl, ErrorCode::BadFile, "a package of 3MF; save its mesh as .stl" },
-    { "two.nhdr", kStl, ErrorCode::BadFile, "in two files; save it as one .nrrd" },
+    { "two.hdr", kStl, ErrorCode::BadFile, "in two files; save it as one .nii" },
     { "one.dcm", kStl, ErrorCode::BadFile, "no DICOM file" },
     { "corner.xyz", kStl, ErrorCode::BadFile, "give a surface (.stl, .obj" },
     { "noending", kStl, ErrorCode::BadFile, "give a surface (.stl, .obj" },

@@ -37,6 +37,18 @@ TEST_F(LabelNames, AreReadAsThreeProgramsWriteThem)
   }
 }
 
+TEST_F(LabelNames, ColorsAreThoseOfTheTable)
+{
+  const std::map<double, std::string> colors{ { 1.0, "#dd8265" }, { 40.0, "#0097ce" } };
+  EXPECT_EQ(readLabelColors(table("1 Liver 221 130 101 255\n40 portal vein 0 151 206 255\n"
+                                  "7 spleen\n8 duct 300 0 0 255\n")),
+    colors);
+  EXPECT_EQ(
+    readLabelColors(table("1 221 130 101 1 1 1 \"Liver\"\n40 0 151 206 1 0 1 \"vein 2\"\n")),
+    colors);
+  EXPECT_TRUE(readLabelColors(table(R"({"1": "Liver"})")).empty());
+}
+
 // a number is a value, whatever is called so
 TEST_F(LabelNames, ANameOfTwoValuesIsRefused)
 {

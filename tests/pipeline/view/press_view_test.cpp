@@ -5,14 +5,19 @@
 #include "tests/pipeline/view/press_pictures.h"
 
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vtkActor2DCollection.h>
 #include <vtkCleanPolyData.h>
 #include <vtkFloatArray.h>
 #include <vtkMassProperties.h>
 #include <vtkPointData.h>
+#include <vtkScalarBarActor.h>
+#include <vtkScalarsToColors.h>
 #include <vtkTriangleFilter.h>
 
 namespace palp
@@ -202,6 +207,52 @@ TEST(PressView, HasABaselineOfEachLook)
   view.renderer->SetBackground(0.16, 0.17, 0.19);
   view.renderer->SetBackground2(0.30, 0.32, 0.35);
   expectBaseline(*view.picture(body, sample), "look_dark");
+}
+
+vtkScalarBarActor* legendIn(vtkRenderer& renderer)
+{
+  vtkActor2DCollection& flat = *renderer.GetActors2D();
+  flat.InitTraversal();
+  while (vtkActor2D* actor = flat.GetNextActor2D())
+  {
+    if (auto* bar = vtkScalarBarActor::SafeDownCast(actor))
+    {
+      return bar;
+    }
+  }
+  return nullptr;
+}
+
+// whatever the values of a map are, each label is another and is the very value that it stands at
+TEST(PressView, LabelsOfAMapAreExact)
+{
+  const Specimen body = block();
+  View view(body, kSphere);
+  vtkNew<vtkFloatArray> values;
+  values->SetName("Stiffness");
+  values->SetNumberOfValues(body.surface->GetNumberOfPoints());
+  values->FillValue(1.0F);
+  for (const auto& [low, high] : { std::pair(1.111, 1.139), std::pair(0.5, 1.7),
+         std::pair(120.0, 951.0), std::pair(2.0, 2.0), std::pair(0.00311, 0.0034) })
+  {
+    const SurfaceMap map{ .values = values.Get(), .title = "stiffness", .low = low, .high = high };
+    view.view.setMap(&map);
+    (void)view.picture(body, Sample{});
+    vtkScalarBarActor* bar = legendIn(*view.renderer);
+    ASSERT_NE(bar, nullptr);
+    const double* range = bar->GetLookupTable()->GetRange();
+    EXPECT_LE(range[0], low);
+    EXPECT_GE(range[1], high);
+    const int count = bar->GetNumberOfLabels();
+    ASSERT_GE(count, 3);
+    for (int i = 0; i < count; ++i)
+    {
+      const double value = range[0] + i * (range[1] - range[0]) / (count - 1);
+      std::array<char, 64> text{};
+      ASSERT_GT(std::snprintf(text.data(), text.size(), bar->GetLabelFormat(), value), 0);
+      EXPECT_NEAR(std::atof(text.data()), value, 1e-4 * (range[1] - range[0])) << text.data();
+    }
+  }
 }
 
 TEST(PressView, DrawsNoToolThatIsNowhere)

@@ -3,6 +3,7 @@
 #include "haptics/devices/falcon/falcon_kinematics.h"
 #include "haptics/units.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -126,6 +127,48 @@ TEST(FalconKinematics, PlaceAndAnglesAreInverse)
     const auto back = falconPosition(*angles, falconCenter());
     ASSERT_TRUE(back);
     EXPECT_LT((*falconAngles(*back) - *angles).norm(), 1e-9);
+  }
+}
+
+// three equal legs, a third of a turn apart
+TEST(FalconKinematics, AThirdOfATurnExchangesItsLegs)
+{
+  const Eigen::AngleAxisd third(-120.0_deg, Vector3d::UnitZ());
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i)
+  {
+    const Vector3d position = randomPosition(random);
+    const auto here = falconAngles(position);
+    const auto there = falconAngles(third * position);
+    ASSERT_TRUE(here && there);
+    EXPECT_NEAR((*there)[1], (*here)[0], 1e-9);
+    EXPECT_NEAR((*there)[2], (*here)[1], 1e-9);
+    EXPECT_NEAR((*there)[0], (*here)[2], 1e-9);
+  }
+}
+
+// what the makers' driver sent for a force, in libnifalcon util/translate_packet.py: where the grip
+// was is unknown, so that only the direction among the legs is compared
+TEST(FalconKinematics, ItsLegsStandWhereThePublishedTracesHaveThem)
+{
+  struct Trace
+  {
+    Vector3d force;
+    Vector3d counts;
+  };
+  const auto directionOf = [](const Vector3d& counts)
+  {
+    const double third = 120.0_deg;
+    return std::atan2(counts[1] * std::sin(third) + counts[2] * std::sin(2.0 * third),
+      counts[0] + counts[1] * std::cos(third) + counts[2] * std::cos(2.0 * third));
+  };
+  for (const auto& [force, counts] : { Trace{ Vector3d(0, -12.5, 0), Vector3d(-2900, 27, 929) },
+         Trace{ Vector3d(-12.5, 0, 0), Vector3d(399, -3087, 1135) },
+         Trace{ Vector3d(10.0, 0, 0), Vector3d(-679, 2529, -1862) } })
+  {
+    const double ours = directionOf(-*falconTorques(falconCenter(), force));
+    EXPECT_LT(std::abs(std::remainder(ours - directionOf(counts), 360.0_deg)), 5.0_deg)
+      << force.transpose();
   }
 }
 

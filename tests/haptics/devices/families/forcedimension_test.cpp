@@ -106,6 +106,26 @@ TEST_F(ForceDimension, WithoutAWristTheToolStandsUpright)
   EXPECT_LT(sample_.orientation.angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
 }
 
+// as their own CDeltaDevices.cpp of CHAI3D has them; an arm that it does not name gets less
+TEST_F(ForceDimension, HasTheForceAndReachThatItsMakersState)
+{
+  struct Arm
+  {
+    const char* name;
+    double newtons;
+    double millimeters;
+  };
+  for (const auto& [name, newtons, millimeters] :
+    { Arm{ "omega.3", 12, 75 }, Arm{ "omega.7", 12, 75 }, Arm{ "sigma.7", 12, 75 },
+      Arm{ "delta.3", 20, 150 }, Arm{ "delta.6", 20, 150 }, Arm{ "prototype", 8, 0 } })
+  {
+    arm_->name = name;
+    const DeviceLimits limits = openDriver(kName)->limits();
+    EXPECT_EQ(limits.maxForce, newtons) << name;
+    EXPECT_NEAR(limits.workspaceRadius, 1e-3 * millimeters, 1e-12) << name;
+  }
+}
+
 TEST_F(ForceDimension, TellsWhatItsMotorsCouldNot)
 {
   arm_->initialized = true;

@@ -72,10 +72,11 @@ public:
   std::atomic<int> bad = 0;
   std::array<std::atomic<double>, 3> force{};
   std::array<std::atomic<double>, 3> place{ 0.0, -0.12, 0.15 };
-  std::atomic<bool> named = false; // it was told which program this is
-  std::atomic<bool> awake = true;  // its grip
-  std::atomic<bool> tilted = true; // a quarter turn about y
-  std::string word = "vector";     // of a force
+  std::atomic<bool> named = false;                   // it was told which program this is
+  std::atomic<bool> awake = true;                    // its grip
+  std::atomic<bool> tilted = true;                   // a quarter turn about y
+  std::string word = "vector";                       // of a force
+  std::array<double, 3> middle{ 0.02, -0.17, 0.16 }; // of the workspace, from its base
 
 private:
   void run(const std::stop_token& stop)
@@ -175,6 +176,9 @@ private:
       force[1] = vector.at("y").get<double>();
       force[2] = vector.at("z").get<double>();
       named = named || told.contains("session");
+      isCentered_ = isCentered_ ||
+        (word == "vector" && arm.contains("configure") &&
+          arm["configure"].at("preset") == "arm_front_centered");
       ++commands;
     }
     catch (const nlohmann::json::exception&)
@@ -189,10 +193,10 @@ private:
     const auto number = [](double value) { return nlohmann::json(value).dump(); };
     const Habit now = habit;
     const std::string id = now == Habit::OtherArm ? "0BAD" : "049D";
-    const std::string x = now == Habit::NoWhere ? "null" : number(place[0]);
+    const auto at = [&](std::size_t i) { return number(place[i] - (isCentered_ ? middle[i] : 0)); };
+    const std::string x = now == Habit::NoWhere ? "null" : at(0);
     const std::string text = R"({"inverse3":[{"device_id":")" + id +
-      R"(","state":{"cursor_position":{"x":)" + x + R"(,"y":)" + number(place[1]) + R"(,"z":)" +
-      number(place[2]) +
+      R"(","state":{"cursor_position":{"x":)" + x + R"(,"y":)" + at(1) + R"(,"z":)" + at(2) +
       R"(},"cursor_velocity":{"x":0,"y":0,"z":0},"control_mode":"force"},"status":{"calibrated":)" +
       (calibrated ? "true" : "false") +
       R"(,"in_use":true,"power_supply":true,"ready":true,"started":true}}],)"
@@ -273,6 +277,7 @@ private:
   int listening_;
   int client_ = -1;
   bool greeted_ = false;
+  bool isCentered_ = false; // where its places are from
   std::jthread thread_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <chrono>
+#include <tuple>
 
 namespace palp
 {
@@ -70,15 +71,37 @@ TEST(Haply, PushesAndTellsWhereItIs)
       Vector3d(service.force[0], service.force[1], service.force[2]), Vector3d(0.5, -1.0, 2.0));
     EXPECT_EQ(*sample.sent, Vector3d(0.5, -1.0, 2.0));
     EXPECT_TRUE(sample.homed);
-    EXPECT_EQ(sample.position, Vector3d::Zero()); // its frame begins where it was calibrated
-    EXPECT_EQ(sample.buttons, 2U);                // the second of its grip
+    // its frame begins in the middle of its workspace, or where it was calibrated
+    const Vector3d middle(service.middle.data());
+    const Vector3d start = old ? Vector3d::Zero() : Vector3d(Vector3d(0.0, -0.12, 0.15) - middle);
+    EXPECT_LT((sample.position - start).norm(), 1e-9);
+    EXPECT_EQ(sample.buttons, 2U); // the second of its grip
     service.place[2] = 0.16;
     for (int i = 0; i < 5; ++i)
     {
       ASSERT_TRUE(replies(*driver, Vector3d::Zero(), sample));
     }
-    EXPECT_LT((sample.position - Vector3d(0, 0, 0.01)).norm(), 1e-9);
+    EXPECT_LT((sample.position - start - Vector3d(0, 0, 0.01)).norm(), 1e-9);
     EXPECT_EQ(service.named, !old);
+  }
+}
+
+// tutorial 05 of the makers: a ball of 100 mm about the middle, 40 mm of a Minverse; data sheet: 4
+// N in 80 % of the workspace, steps of 0.01 mm
+TEST(Haply, ReachesAsFarAsItsMakersSay)
+{
+  std::string small = kInventory;
+  small.replace(small.find("inverse3\", \"port"), 8, "minverse");
+  for (const auto& [inventory, word, reach] : { std::tuple(kInventory, "vector", 100.0_mm),
+         std::tuple(small, "vector", 40.0_mm), std::tuple(kOldInventory, "values", 0.0) })
+  {
+    HaplyService service(inventory);
+    service.word = word;
+    const DeviceLimits limits = open(service)->limits();
+    EXPECT_EQ(limits.workspaceRadius, reach) << inventory;
+    EXPECT_EQ(limits.workspaceCenter, Vector3d::Zero());
+    EXPECT_EQ(limits.maxForce, 4.0);
+    EXPECT_EQ(limits.quantum, 10.0_um);
   }
 }
 

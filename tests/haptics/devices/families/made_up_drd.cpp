@@ -32,7 +32,7 @@ extern "C"
   }
   const char* dhdGetSystemName(char)
   {
-    return "omega.7";
+    return gArm.name;
   }
   const char* dhdErrorGetLastStr()
   {

@@ -7,6 +7,7 @@ struct DrdArm
   bool open = false;
   bool initialized = false; ///< its pole was put into its pit
   bool forceOn = false;
+  const char* name = "omega.7";
   bool hasWrist = true;
   int watchdog = 0;
   double place[3] = { 0, 0, 0 };

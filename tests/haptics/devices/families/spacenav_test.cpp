@@ -7,9 +7,12 @@
 #include "tests/haptics/devices/families/spacenav_daemon.h"
 #include "tests/haptics/devices/memory_transport.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <optional>
 #include <string>
+#include <thread>
 
 namespace palp
 {
@@ -76,6 +79,30 @@ TEST(Spacenavd, ButtonsAreHeldUntilTheyAreReleased)
   daemon.press(99, true); // none of a mouse's
   (void)driver->tick(Vector3d::Zero(), 1.0_ms, sample);
   EXPECT_EQ(sample.buttons, 0x200U);
+}
+
+TEST(Spacenavd, ItsSecondButtonHoldsTheTool)
+{
+  SpacenavDaemon daemon;
+  const auto device = openDevice("spacenavd", { .clutch = 2 });
+  const auto push = [&]
+  {
+    std::optional<ToolPose> pose;
+    for (int i = 0; i < 20; ++i)
+    {
+      daemon.move({ 350, 0, 0, 0, 0, 0 });
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      pose = device->exchange(Vector3d::Zero(), 1.0_ms);
+    }
+    return pose->apex;
+  };
+  daemon.press(1, true);
+  EXPECT_EQ(push(), push());
+  EXPECT_TRUE(device->status().clutched);
+  daemon.press(1, false);
+  const Vector3d before = push();
+  EXPECT_GT(push().x(), before.x());
+  EXPECT_FALSE(device->status().clutched);
 }
 
 TEST(Spacenavd, AnOldDaemonThatKnowsOneProtocolIsUnderstood)

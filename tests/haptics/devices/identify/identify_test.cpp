@@ -197,6 +197,9 @@ TEST(Identify, AMeasuredArmHasItsOwnLimitsAndNewtons)
   IdentifiedDriver driver(std::make_unique<ToldDriver>(told), arm);
   const DeviceLimits limits = driver.limits();
   EXPECT_DOUBLE_EQ(limits.damping, 0.15); // of its freest axis, in newtons of the hand
+  EXPECT_DOUBLE_EQ(limits.friction, 0.015);
+  EXPECT_DOUBLE_EQ(limits.mass, 0.05);
+  EXPECT_FALSE(limits.unproven);
   EXPECT_DOUBLE_EQ(limits.maxForce, 2.0);
   EXPECT_EQ(limits.quantum, 20e-6);
   EXPECT_EQ(limits.delay, 0.003);

@@ -61,6 +61,7 @@ protected:
   Scene scene_;
   GuidedTool tool_{ kFar };
   ToolPose pose_;
+  Vector3d top_ = Vector3d::Zero();
 };
 
 TEST_F(GuidedToolTest, RestsUntilItsFirstTarget)
@@ -98,6 +99,49 @@ TEST_F(GuidedToolTest, PressesToItsDepthAtABoundedSpeedAndNeverBeyond)
   tool_.moveTo({});
   run(100);
   EXPECT_EQ(pose_.apex, Vector3d(0, 0, GuidedTool::kHover));
+}
+
+// whatever the tick, on a plane and on a ball, down and up
+TEST_F(GuidedToolTest, ChangesItsDepthAtTheSpeedOfItsTarget)
+{
+  constexpr double kDepth = 4.0_mm;
+  const auto lineFrom = [this](double depth, double speed, double toDepth)
+  {
+    double most = 0.0;
+    double time = 0.0;
+    double first = -1.0; // time at the surface, or of the first tick
+    tool_.moveTo({ .position = top_, .depth = depth, .speed = speed });
+    for (int i = 0; time < 0.3 + 1.3 * std::max(depth, toDepth) / speed; ++i)
+    {
+      const double tick = i % 50 == 49 ? 17.0_ms : i % 7 == 3 ? 2.5_ms : 1.0_ms;
+      pose_ = tool_.advance(tick);
+      time += tick;
+      const double now = contact().depth;
+      if (now > 0.0 || toDepth > 0.0)
+      {
+        first = first < 0.0 ? time - (now > 0.0 && depth > 0.0 ? now / speed : tick) : first;
+        const double line = depth > 0.0 ? std::min(depth, speed * (time - first))
+                                        : std::max(0.0, toDepth - speed * (time - first));
+        most = std::max(most, line > 0.0 ? std::abs(now - line) : 0.0);
+      }
+    }
+    return first < 0.0 ? HUGE_VAL : most;
+  };
+  for (const double height : { 0.0, 50.0_mm })
+  {
+    height > 0.0 ? useSurface(test::ball(height, 48)) : void();
+    top_ = Vector3d(0, 0, height);
+    for (const double speed : { 0.01e-3, 1e-3, 10e-3, 100e-3, 1.0 })
+    {
+      const double depth = speed < 1e-3 ? 0.02_mm : kDepth;
+      tool_.moveTo({ .position = top_ });
+      run(300);
+      EXPECT_LT(lineFrom(depth, speed, 0.0), 1e-6) << speed;
+      EXPECT_NEAR(contact().depth, depth, 1e-7) << speed;
+      EXPECT_LT(lineFrom(0.0, speed, depth), 1e-6) << speed;
+      EXPECT_FALSE(contact().touching()) << speed;
+    }
+  }
 }
 
 TEST_F(GuidedToolTest, SlidesOverThePlaneAtItsDepth)

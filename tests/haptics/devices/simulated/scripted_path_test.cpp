@@ -160,6 +160,7 @@ TEST(ScriptedPath, ReadsQuotedNamesAndWords)
   for (const char* text : { "\"time_s\",\"x_mm\",\"y_mm\",\"z_mm\"\n0,1,2,53\n\"0.5\",1,2,49\n",
          "note,time_s,x_mm,y_mm,z_mm\n\"down, slow\",0,1,2,53\n\"the \"\"end\"\"\",0.5,1,2,49\n",
          "time_s,x_mm,y_mm,z_mm,note\n0,1,2,53,\n0.5,1,2,49,end\n",
+         "hand,time_s,x_mm,y_mm,z_mm\nleft,0,1,2,53\nright,0.5,1,2,49\n",
          "time_s,x_mm,y_mm,z_mm,\r\n0,1,2,53,\r\n+0.5,+1,2,49,\r\n", "0,1,2,53,\n0.5,1,2,+49,\n" })
   {
     const ScriptedPath path = parsePath(text, "quoted.csv");

@@ -79,14 +79,14 @@ TEST(SeriesContact, SaysWhereTheSupportIsTooNear)
   EXPECT_NEAR(far.contact.radius, 4.0_mm, 0.3_mm);
 }
 
-// a quarter of space, whose edge is so near that the ball presses over it: its compliance by that
-// of elements 6 to 20 mm away, g / D less what a block of 50 mm is stiffer by its base
+// a quarter of space, whose edge is so near that the ball presses over it: one compliance g / D,
+// less what a block of 50 mm is stiffer by its base, at all depths and distances
 TEST(SeriesContact, BesideAnEdgeIsThatOfFiniteElements)
 {
-  constexpr double kWedge = 0.34; // E* G0 D
-  constexpr double kBase = -20.6; // [1/m]
+  constexpr double kWedge = 0.385; // E* G0 D
+  constexpr double kBase = -26.0;  // [1/m]
   constexpr double kModulus = 50e3 / (1.0 - 0.45 * 0.45);
-  for (const int distance : { 2, 4, 6, 8, 20 })
+  for (const int distance : { 2, 4, 6, 8 })
   {
     const double edge = 1000.0 / distance;
     const BodyCompliance body{
@@ -98,7 +98,7 @@ TEST(SeriesContact, BesideAnEdgeIsThatOfFiniteElements)
     {
       const double force =
         kModulus * inSeries(sphere(), body, table["depth_m"][i], 10.0_mm).contact.force;
-      EXPECT_NEAR(force, table["force_N"][i], 0.045 * force) << distance << ' ' << i;
+      EXPECT_NEAR(force, table["force_N"][i], 0.01 * force) << distance << ' ' << i;
     }
   }
 }

@@ -17,8 +17,10 @@ namespace
 using namespace units::literals;
 
 constexpr double kHalfSpace = std::numeric_limits<double>::infinity();
-constexpr double kForce = 0.07;
-constexpr double kFinger = 0.15;
+constexpr JustNoticeable kForce = kJustNoticeable[0];
+constexpr JustNoticeable kFinger = kJustNoticeable[1];
+constexpr JustNoticeable kCompliance = kJustNoticeable[2];
+constexpr JustNoticeable kStylus = kJustNoticeable[3];
 
 const Tip kCone = BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm };
 
@@ -30,10 +32,10 @@ NoduleContrast contrastOf(const Tip& tip, double nu, double thickness, double de
 
 // 0 for none
 std::vector<double> diametersMm(const NoduleContrast& contrast, double cover, double ratio,
-  std::initializer_list<double> differences)
+  std::initializer_list<JustNoticeable> noticed)
 {
   std::vector<double> diameters;
-  for (const auto& one : smallestDetectable(contrast, cover, ratio, differences))
+  for (const auto& one : smallestDetectable(contrast, cover, ratio, noticed))
   {
     diameters.push_back(one ? units::toMillimeters(2.0 * one->nodule.radius) : 0.0);
   }
@@ -52,7 +54,7 @@ TEST(Detection, DiametersAreThoseOfTheOracle)
     double depth;     // [m]
     double cover;     // [m]
     double ratio;
-    std::array<double, 4> diameters; // at 7, 15, 22 and 45 % [mm]; 0: none, or too large
+    std::array<double, 4> diameters; // at 7, 15, 22 and 45 % of force [mm]; 0: none, or too large
   };
   const Case cases[]{ { SphereTip{ 10.0_mm }, 0.45, 40.0_mm, 4.0_mm, 5.0_mm, 5.0,
                         { 7.593, 10.916, 13.427, 21.376 } },
@@ -71,7 +73,8 @@ TEST(Detection, DiametersAreThoseOfTheOracle)
   for (const Case& one : cases)
   {
     const NoduleContrast contrast = contrastOf(one.tip, one.nu, one.thickness, one.depth);
-    const auto found = diametersMm(contrast, one.cover, one.ratio, { 0.07, 0.15, 0.22, 0.45 });
+    const auto found = diametersMm(
+      contrast, one.cover, one.ratio, { kForce, kFinger, { "force", 0.22, "none" }, kStylus });
     for (std::size_t i = 0; i < found.size(); ++i)
     {
       EXPECT_NEAR(found[i], one.diameters[i], 0.015 * one.diameters[i]) << i;
@@ -82,6 +85,31 @@ TEST(Detection, DiametersAreThoseOfTheOracle)
   RecordProperty("worst", std::to_string(worst));
 }
 
+// the same program, of half-spaces, by the depth that a newton takes: beside less above
+TEST(Detection, ComplianceIsThatOfTheOracle)
+{
+  struct Case
+  {
+    Tip tip;
+    double nu;
+    double depth; // [m]
+    double cover; // [m]
+    double ratio;
+    double diameter; // [mm]
+  };
+  for (const Case& one : { Case{ SphereTip{ 6.0_mm }, 0.33, 4.0_mm, 4.0_mm, 7.7, 13.916 },
+         { SphereTip{ 10.0_mm }, 0.49, 5.0_mm, 6.0_mm, 10.0, 17.254 },
+         { PunchTip{ 5.0_mm }, 0.45, 1.0_mm, 5.0_mm, 3.0, 26.454 },
+         { SphereTip{ 10.0_mm }, 0.45, 4.0_mm, 5.0_mm, 0.2, 15.586 },
+         { PunchTip{ 5.0_mm }, 0.45, 1.0_mm, 3.0_mm, 0.2, 12.450 },
+         { SphereTip{ 8.0_mm }, 0.33, 3.0_mm, 2.0_mm, 0.4, 11.572 } })
+  {
+    const NoduleContrast contrast = contrastOf(one.tip, one.nu, kHalfSpace, one.depth);
+    EXPECT_NEAR(diametersMm(contrast, one.cover, one.ratio, { kCompliance })[0], one.diameter,
+      0.015 * one.diameter);
+  }
+}
+
 // A table of the same energy without images of surface and tool, in steps of half a millimeter, for
 // the flat punch of 1 to 10 mm that feels best; nu 0.45, half-space.
 TEST(Detection, BestPunchFeelsWhatTheSimplerLawTells)
@@ -89,7 +117,7 @@ TEST(Detection, BestPunchFeelsWhatTheSimplerLawTells)
   struct Row
   {
     double ratio;
-    double difference;
+    JustNoticeable noticed;
     std::array<double, 4> diameters; // below 2, 5, 10 and 20 mm [mm]; 0: none
   };
   const double covers[]{ 2.0_mm, 5.0_mm, 10.0_mm, 20.0_mm };
@@ -104,11 +132,11 @@ TEST(Detection, BestPunchFeelsWhatTheSimplerLawTells)
       {
         const NoduleContrast contrast =
           contrastOf(PunchTip{ a * 1.0_mm }, 0.45, kHalfSpace, 1.0_mm);
-        const double found = diametersMm(contrast, covers[i], row.ratio, { row.difference })[0];
+        const double found = diametersMm(contrast, covers[i], row.ratio, { row.noticed })[0];
         best = found > 0.0 ? std::min(best, found) : best;
       }
       EXPECT_NEAR(best, row.diameters[i], 0.5 + 0.02 * row.diameters[i])
-        << row.ratio << " times, " << row.difference << ", cover " << covers[i];
+        << row.ratio << " times, " << row.noticed.name << ", cover " << covers[i];
     }
   }
 }
@@ -186,7 +214,9 @@ TEST(Detection, WhatItFindsComesToTheDifferenceAndNoMore)
   for (const double ratio : { 0.2, 0.5, 3.0, 50.0 })
   {
     const std::array differences{ 0.05, 0.2 };
-    const auto found = smallestDetectable(contrast, 4.0_mm, ratio, differences);
+    const std::array noticed{ JustNoticeable{ "force", differences[0], "none" },
+      JustNoticeable{ "force", differences[1], "none" } };
+    const auto found = smallestDetectable(contrast, 4.0_mm, ratio, noticed);
     for (std::size_t i = 0; i < found.size(); ++i)
     {
       ASSERT_TRUE(found[i]) << ratio;

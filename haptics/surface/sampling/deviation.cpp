@@ -1,4 +1,4 @@
-#include "haptics/surface/deviation.h"
+#include "haptics/surface/sampling/deviation.h"
 
 #include "haptics/surface/closest_point.h"
 

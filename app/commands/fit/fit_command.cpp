@@ -1,4 +1,6 @@
-#include "app/commands/commands.h"
+#include "app/commands/fit/fit_command.h"
+
+#include "app/commands/fit/file_fit.h"
 #include "app/curves/force_curve.h"
 #include "app/headless/renderer.h"
 #include "app/input/law_options.h"
@@ -32,7 +34,6 @@ namespace palp
 namespace
 {
 
-using fit::Estimate;
 using fit::FittedCurve;
 using Json = nlohmann::ordered_json;
 using units::toMillimeters;
@@ -52,15 +53,6 @@ struct FitOptions
   std::filesystem::path out;
   bool overwrite = false;
   bool noPicture = false;
-};
-
-struct FileFit
-{
-  FittedCurve curve;
-  fit::Rows rows;
-  std::size_t rowsInFile;
-  std::string note;    // of a recording with another tool
-  std::string outside; // rules that the deepest row breaks
 };
 
 fit::ModulusQuestion questionOf(const FitOptions& options)
@@ -125,13 +117,6 @@ std::vector<FileFit> fitFiles(const FitOptions& options)
   return fits;
 }
 
-void add(Json& json, const std::string& name, const Estimate& estimate, double unit = 1.0)
-{
-  json[name] = estimate.value / unit;
-  json[name + "_low"] = estimate.low / unit; // null where it is not known
-  json[name + "_high"] = estimate.high / unit;
-}
-
 Json settingsJson(const FitOptions& options)
 {
   const ContactGeometry& place = options.geometry.geometry;
@@ -150,53 +135,6 @@ Json settingsJson(const FitOptions& options)
     { "tilt_deg", units::toDegrees(place.tilt) }, { "contact_mm", optional(options.contact, mm) },
     { "offset_N", optional(options.offset, 1.0) }, { "confidence", fit::kConfidence },
     { "intervals", "profile likelihood" } };
-}
-
-Json lawsJson(const fit::ModulusFit& fitted)
-{
-  Json laws = Json::array();
-  for (const fit::LawFit& law : fitted.laws)
-  {
-    const bool hasModulus = &law.curve.extra != fitted.exponent();
-    Json& json = laws.emplace_back();
-    json["law"] = law.name;
-    json["young_Pa"] = hasModulus ? Json(law.curve.scale.value) : Json();
-    json["contact_mm"] = toMillimeters(law.curve.contact.value);
-    json["parameters"] = law.parameters;
-    json["sum_of_squares_N2"] = law.curve.sumOfSquares;
-    json["aic"] = law.aic;
-    json["aic_weight"] = law.weight;
-  }
-  return laws;
-}
-
-Json fitJson(const FileFit& file, const std::filesystem::path& path)
-{
-  const double mm = units::fromMillimeters(1.0);
-  const fit::ModulusFit& fitted = file.curve.fit;
-  const fit::LawFit& asked = fitted.asked();
-  Json json{ { "curve", path.string() } };
-  add(json, "young_Pa", asked.curve.scale);
-  add(json, "contact_mm", asked.curve.contact, mm);
-  json["exponent"] = nullptr; // of too few rows
-  if (const Estimate* exponent = fitted.exponent())
-  {
-    add(json, "exponent", *exponent);
-  }
-  if (const auto thickness = fitted.thickness())
-  {
-    add(json, "thickness_mm", *thickness, mm);
-  }
-  json["offset_N"] = asked.curve.offset;
-  json["noise_N"] = fitted.noise;
-  json["durbin_watson"] = fitted.durbinWatson;
-  json["rows"] = { { "in_file", file.rowsInFile }, { "first", file.rows.first + 1 },
-    { "last", file.rows.first + file.rows.count } };
-  json["law"] = asked.name;
-  json["best_law"] = fitted.laws[fitted.best].name;
-  json["laws"] = lawsJson(fitted);
-  json["outside_limits"] = file.outside;
-  return json;
 }
 
 // one curve stands by itself, several in a list
@@ -218,65 +156,6 @@ Json allJson(const FitOptions& options, const std::vector<FileFit>& fits)
     json["curves"] = std::move(curves);
   }
   return json;
-}
-
-std::string inWords(const Estimate& estimate, double unit = 1.0)
-{
-  const auto end = [unit](double value)
-  { return std::isinf(value) ? std::string("unknown") : figures::shown(value / unit); };
-  return figures::shown(estimate.value / unit) + " (" + end(estimate.low) + " to " +
-    end(estimate.high) + ")";
-}
-
-void tellResult(const FileFit& file)
-{
-  const double mm = units::fromMillimeters(1.0);
-  const fit::ModulusFit& fitted = file.curve.fit;
-  std::cout << file.curve.name << ": E " << inWords(fitted.asked().curve.scale, 1e3) << " kPa";
-  std::cout << ", contact at " << inWords(fitted.asked().curve.contact, mm) << " mm";
-  if (const Estimate* exponent = fitted.exponent())
-  {
-    std::cout << ", exponent " << inWords(*exponent);
-  }
-  if (const auto thickness = fitted.thickness())
-  {
-    std::cout << ", thickness " << inWords(*thickness, mm) << " mm";
-  }
-  std::cout << "; best explained by the law '" << fitted.laws[fitted.best].name << "'\n";
-}
-
-// what a reader of the numbers has to know, on standard error
-void tellLimits(const FileFit& file, bool searchesOffset)
-{
-  const auto tell = [&](const std::string& what)
-  { std::cerr << "palp: " << file.curve.name << ": " << what << '\n'; };
-  const fit::ModulusFit& fitted = file.curve.fit;
-  file.note.empty() ? void() : tell(file.note);
-  if (file.rows.count < file.rowsInFile)
-  {
-    tell("rows " + std::to_string(file.rows.first + 1) + " to " +
-      std::to_string(file.rows.first + file.rows.count) + " of " + std::to_string(file.rowsInFile) +
-      " are the loading; the others are left out");
-  }
-  const Eigen::VectorXd& depths = file.curve.loading.depths;
-  const double contact = fitted.asked().curve.contact.value;
-  if (searchesOffset && (depths.array() <= contact).count() < 2)
-  {
-    tell("no rows before the contact tell the force of no contact, which widens the interval; "
-         "--offset 0N where the sensor was set to zero");
-  }
-  if (depths.minCoeff() - contact > depths.maxCoeff() - depths.minCoeff())
-  {
-    tell("warning: the contact is far before the first row, so E means nothing; see fit.png");
-  }
-  if (fitted.isSystematic)
-  {
-    tell("what the law '" + fitted.asked().name +
-      "' leaves is not noise, so the interval is too narrow; see residuals.png");
-  }
-  file.outside.empty()
-    ? void()
-    : tell("at the largest depth the law is outside its limits (" + file.outside + ")");
 }
 
 void runFit(const FitOptions& options, const Renderer* pictures)

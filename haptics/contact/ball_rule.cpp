@@ -1,0 +1,61 @@
+#include "haptics/contact/ball_rule.h"
+
+#include "haptics/numerics/smooth_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp
+{
+namespace
+{
+
+// Facets are smoothed out over a part of the contact, for what a scanner stepped comes through when
+// the mesh is fine, but over enough of them to vanish and no more than the tick has time for
+constexpr double kSmoothed = 0.63; // [-] of the contact's radius
+constexpr double kFewest = 1.8;    // [-] edge lengths; below 1.5 the facets come through
+constexpr double kMost = 6.5;      // [-] edge lengths
+constexpr double kRounded = 0.4; // [-] of the fewest: corners of that rule, whose slope is a force
+
+} // namespace
+
+BallRule::BallRule(const Tip& tip, double edgeLength) noexcept
+  : nose_(noseRadius(tip))
+  , edge_(edgeLength)
+{
+  if (const double flat = flatRadius(tip); flat > 0.0)
+  {
+    least_ = 0.25 * flat;
+    most_ = flat;
+    return;
+  }
+  const auto* cone = std::get_if<ConeTip>(&tip);
+  steepness_ = cone != nullptr ? std::min(std::tan(cone->halfAngle), 1.0) : 1.0;
+  most_ = baseRadius(tip);
+}
+
+Sloped BallRule::contactRadius(double height) const noexcept
+{
+  if (nose_ > 0.0)
+  {
+    const double outside = std::max(0.0, height);
+    const double radius = std::sqrt(std::max(0.0, nose_ * nose_ - outside * outside));
+    return { radius, radius > 0.0 ? -outside / radius : 0.0 };
+  }
+  const double depth = std::abs(height);
+  const double radius = std::max(steepness_ * depth, least_);
+  const bool isInner = radius > least_ && radius < most_;
+  return { std::min(radius, most_), isInner ? std::copysign(steepness_, height) : 0.0 };
+}
+
+Sloped BallRule::smoothing(double height) const noexcept
+{
+  const Sloped contact = contactRadius(height);
+  const double fewest = kFewest * edge_;
+  const double width = kRounded * fewest;
+  const Sloped part{ kSmoothed * contact.value, kSmoothed * contact.slope };
+  const Sloped wanted = smoothMin(part, { kMost * edge_ }, width);
+  return smoothMin(contact, smoothMax(wanted, { fewest }, width), width);
+}
+
+} // namespace palp

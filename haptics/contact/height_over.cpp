@@ -1,0 +1,115 @@
+#include "haptics/contact/height_over.h"
+
+#include "haptics/contact/lens.h"
+#include "haptics/numerics/smooth_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp
+{
+namespace
+{
+
+constexpr double kSmallest = 1e-3;   // [-] of Q: a smaller contact leaves nothing of the digits
+constexpr double kSmall = 4e-3;      // [-] from which on all of the moment counts
+constexpr double kRound = 0.5;       // [-] 1 / ball: curvature to which it is that of the body,
+constexpr double kRoundest = 0.4;    // [-] and by how much it levels off beyond
+constexpr double kFarthest = 0.9999; // [-] of the ball's radius
+constexpr double kSteepest = 0.2;    // [-] of what a plane's moment loses
+constexpr int kSteps = 30;           // of Newton's method; three are usual
+constexpr double kClose = 1e-11;     // [m]
+
+struct Leveled
+{
+  double value;
+  double slope;
+};
+
+// so that the body stays larger than the ball
+Leveled leveled(double curvature, double ball) noexcept
+{
+  const double size = std::abs(curvature);
+  const double beyond = std::max(0.0, size * ball - kRound) / kRoundest;
+  const double within = std::min(size, kRound / ball) + kRoundest / ball * beyond / (1.0 + beyond);
+  return { std::copysign(within, curvature), 1.0 / ((1.0 + beyond) * (1.0 + beyond)) };
+}
+
+} // namespace
+
+HeightOver::HeightOver(const Patch& patch, const BallRule& rule, double nearest) noexcept
+  : patch_(&patch)
+  , rule_(&rule)
+  , nearest_(nearest)
+  , smoothing_(rule.smoothing(nearest).value)
+  , given_(rule(nearest).value)
+  , ball_(std::sqrt(given_))
+  , part_(smoothStep((1.0 - nearest * nearest / given_ - kSmallest) / (kSmall - kSmallest)))
+  , moment_(std::clamp(patch.moment, 0.0, 8.0 * std::numbers::pi / 15.0 * given_ * given_ * ball_))
+{
+}
+
+double HeightOver::Excess::byHeight(double fallThere) const noexcept
+{
+  return std::max(growth * byQ + fallThere, kSteepest * fallThere);
+}
+
+HeightOver::Excess HeightOver::excessAt(double height, double curvature) const noexcept
+{
+  const auto [own, growth] = (*rule_)(height);
+  const double more = own - given_;
+  const Lens body = lensOf(given_, height, curvature);
+  const double volume = patch_->volume - body.volume;
+  const double angle = patch_->solidAngle - body.solidAngle;
+  const double second = 0.5 * ball_ * angle;
+  const double third =
+    0.25 * angle / ball_ + 0.5 * ball_ * (patch_->solidAngleSlope - body.solidAngleSlope);
+  const double square = height * height;
+  const double larger = std::max(0.0, own - square) / (given_ - square);
+  return { .value =
+             moment_ - body.moment + more * (volume + more * (0.5 * second + more * third / 6.0)),
+    .byQ = volume + more * (second + 0.5 * more * third),
+    .fall = -body.heightSlope * larger * larger,
+    .growth = growth,
+    .more = more };
+}
+
+Height HeightOver::operator()(
+  double start, double curvature, const Eigen::Vector3d& curvatureSlope) const noexcept
+{
+  const Eigen::Vector3d normal = patch_->normal.normalized();
+  if (part_ == 0.0)
+  {
+    return { nearest_, normal };
+  }
+  const Leveled bent = leveled(curvature, ball_);
+  double low = std::max(nearest_ - smoothing_, -kFarthest * ball_); // the mesh has less
+  double high = std::min(nearest_ + smoothing_, kFarthest * ball_); // it has more
+  double height = std::clamp(start, low, high);
+  Excess excess{};
+  for (int i = 0; i < kSteps; ++i)
+  {
+    excess = excessAt(height, bent.value);
+    const double last = height;
+    (excess.value > 0.0 ? high : low) = last;
+    height = last - excess.value / excess.byHeight(excess.fall);
+    if (!(height >= low && height <= high))
+    {
+      height = 0.5 * (low + high);
+    }
+    if (std::abs(height - last) < kClose)
+    {
+      break;
+    }
+  }
+  const double more = excess.more;
+  const Lens own = lensOf(given_ + more, height, bent.value);
+  const Eigen::Vector3d change = patch_->normal + patch_->fading +
+    more * (patch_->area + 0.5 * more * patch_->rim) +
+    bent.slope * own.curvatureSlope * curvatureSlope;
+  const Eigen::Vector3d slope = change / excess.byHeight(-own.heightSlope);
+  return { nearest_ + part_ * (height - nearest_), normal + part_ * (slope - normal) };
+}
+
+} // namespace palp

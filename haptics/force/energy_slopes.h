@@ -1,0 +1,26 @@
+#pragma once
+
+#include "haptics/force/force_law.h"
+
+namespace palp
+{
+
+/// How the energy of a press changes with the place, at the same depth.
+struct EnergySlopes
+{
+  double curvature = 0.0; ///< over surfaceCurvature [J m]
+  double spread = 0.0;    ///< over curvatureSpread [J m]
+  double thickness = 0.0; ///< [J/m]
+};
+
+/// Slopes of the integral of a law's force over the depth, from those of the force: it grows as a
+/// power of the depth, and what the curvature does to it alike, what the thickness does by a half
+/// more, as the radius of contact over it.
+///
+/// @param response  of the law there
+/// @return          zeros where the law asks for the depth alone
+/// @realtime        pure; no allocation, no lock, no exception
+[[nodiscard]] EnergySlopes energySlopes(
+  const ForceLaw& law, const ContactGeometry& local, const Response& response) noexcept;
+
+} // namespace palp
