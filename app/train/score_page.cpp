@@ -79,10 +79,10 @@ std::string cross(const Eigen::Vector2d& at, const char* color, const std::strin
   constexpr double kArm = 3.0; // [mm]
   const auto line = [&](double turn)
   {
-    return "M" + number(at.x() - kArm) + " " + number(at.y() - turn * kArm) + "L" +
+    return number(at.x() - kArm) + " " + number(at.y() - turn * kArm) + "L" +
       number(at.x() + kArm) + " " + number(at.y() + turn * kArm);
   };
-  return R"(<path d=")" + line(1.0) + line(-1.0) + R"(" stroke=")" + color +
+  return R"(<path d="M)" + line(1.0) + "M" + line(-1.0) + R"(" stroke=")" + color +
     R"(" stroke-width="1.2" fill="none"><title>)" + title + "</title></path>\n";
 }
 

@@ -109,7 +109,8 @@ void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces&
         Entry entry{ .coordinates = {},
           .area = piece.sums.area.norm(),
           .piece = static_cast<int>(pieces.all.size()) };
-        entry.coordinates << center.array(),
+        entry.coordinates.head<3>() = center.array();
+        entry.coordinates.tail<3>() =
           static_cast<float>(cell_) * piece.sums.area.normalized().array();
         entries.push_back(entry);
         pieces.all.push_back(piece);

@@ -103,7 +103,7 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
     }
     const Label& label = bodies[i];
     text << (text.tellp() > 0 ? ", " : "") << shortest(label.shown)
-         << (label.segment.name.empty() ? "" : " " + shownName(label.segment.name)) << " ("
+         << (label.segment.name.empty() ? "" : " ") << shownName(label.segment.name) << " ("
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
     voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';
   }

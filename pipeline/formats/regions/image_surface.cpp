@@ -68,7 +68,7 @@ FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
   };
   for (const Label& label : labels)
   {
-    organ.label += (organ.label.empty() ? "" : "+") + shortest(label.shown);
+    organ.label.append(organ.label.empty() ? "" : "+").append(shortest(label.shown));
     organ.voxels += static_cast<std::uint64_t>(label.voxels);
   }
   organ.voxelVolume = static_cast<double>(organ.voxels) * voxelVolume(volume);

@@ -2,6 +2,7 @@
 
 #include "tests/support/process.h"
 
+#include <algorithm>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace palp::test
 {
@@ -42,9 +44,12 @@ inline Files filesIn(const std::filesystem::path& folder)
   return files;
 }
 
+/// As before any run: what a killed one was publishing would else be finished there by the next.
 inline void restore(const std::filesystem::path& folder, const Files& files)
 {
-  std::filesystem::remove_all(folder);
+  const std::filesystem::directory_iterator beside(folder.parent_path());
+  const std::vector<std::filesystem::path> all(begin(beside), end(beside));
+  std::ranges::for_each(all, [](const auto& path) { std::filesystem::remove_all(path); });
   for (const auto& [name, text] : files)
   {
     std::filesystem::create_directories((folder / name).parent_path());

@@ -35,7 +35,7 @@ private:
 /// All rows of data/reference/NAME.csv; none where the file is missing, so that tests must check.
 inline std::vector<ReferenceRow> referenceTable(const std::string& name)
 {
-  std::ifstream stream(std::string(PALP_SOURCE_DIR) + "/data/reference/" + name + ".csv");
+  std::ifstream stream(PALP_SOURCE_DIR "/data/reference/" + name + ".csv");
   std::vector<std::string> header;
   std::vector<ReferenceRow> rows;
   std::string line;
