@@ -42,7 +42,9 @@ constexpr std::array kExperiments{
   Named{ "forces", "Figs. 15 and 16: laws against finite elements",
     { "forces_sphere", "forces_cone", "force_difference" }, fem::forces },
   Named{ "organ", "Bodies that give way as a whole, by cells of 8 to 3 mm, against fine elements",
-    { "organ" }, report::organExperiment },
+    { "organ" },
+    [](fem::Resolution resolution, const std::stop_token& stop)
+    { return report::organExperiment(resolution, stop); } },
 };
 
 struct ExperimentOptions
@@ -80,20 +82,17 @@ std::vector<std::string> filesOf(const std::vector<Named>& wanted)
   return names;
 }
 
-// what is finished; where earlier files would be replaced by some of the new ones only, nothing
-void endEarly(const char* name, OutputFolder& output)
+// What is finished is kept; where earlier files would be replaced by some of the new ones only,
+// nothing. Says so.
+std::string endEarly(const char* name, OutputFolder& output)
 {
   const bool fresh = output.found().empty();
   const bool some = fresh && !std::filesystem::is_empty(output.stage());
-  if (some)
-  {
-    output.publish();
-  }
-  throw Error(ErrorCode::NoSolution,
-    std::string(name) + ": interrupted; " +
-      (some       ? output.path().string() + " holds what was finished before it"
-          : fresh ? "nothing was finished before it"
-                  : output.path().string() + " is as it was"));
+  some ? output.publish() : output.discard();
+  return std::string(name) + ": interrupted; " +
+    (some       ? output.path().string() + " holds what was finished before it"
+        : fresh ? "nothing was finished before it"
+                : output.path().string() + " is as it was");
 }
 
 void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
@@ -104,19 +103,21 @@ void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
   }
   const std::vector<Named> wanted = wantedOf(options.names);
   const auto output = openOutput(options.out, filesOf(wanted), options.overwrite);
-  const Interrupt interrupt;
+  Interrupt interrupt;
   for (const Named& named : wanted)
   {
     std::cerr << "palp: " << named.what << '\n';
     const fem::Experiment experiment = [&]
     {
+      interrupt.endBy([&] { return endEarly(named.name, *output); });
       const ProgressLine progress(named.name);
       return named.run(
         options.quick ? fem::Resolution::Quick : fem::Resolution::Full, interrupt.token());
     }();
+    interrupt.endBy({});
     if (interrupt.token().stop_requested())
     {
-      endEarly(named.name, *output);
+      throw Error(ErrorCode::NoSolution, endEarly(named.name, *output));
     }
     replaceFile(output->stage() / (experiment.numbers.name + ".csv"), fem::csv(experiment));
     if (!options.noPicture)

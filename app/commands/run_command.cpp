@@ -241,7 +241,7 @@ void addRunCommand(CLI::App& app, const Renderer* pictures, Work work)
   options->mesh.addTo(*command);
   options->press.addTo(*command);
   addStiffness(*command, options->mesh.stiffness);
-  addOrganFile(*command, options->mesh.organ);
+  addOrganFile(*command, options->mesh);
   options->places.addTo(*command);
   command
     ->add_option("--path", options->path,

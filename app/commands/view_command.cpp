@@ -128,7 +128,7 @@ void addViewCommand(CLI::App& app, int (*view)(const ViewOptions&))
   options->plan.meshes.front().addTo(*command);
   options->plan.press.addTo(*command);
   addStiffness(*command, options->plan.meshes.front().stiffness);
-  addOrganFile(*command, options->plan.meshes.front().organ);
+  addOrganFile(*command, options->plan.meshes.front());
   addDevices(*command, options->plan);
   command->add_flag(
     "--dead-man", options->plan.deadMan, "Force only while the first button of the device is held");

@@ -6,6 +6,7 @@
 #include "app/program/data_files.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_text.h"
+#include "app/supports/support_text.h"
 #include "app/train/curriculum.h"
 #include "app/train/score_sheet.h"
 #include "haptics/error.h"
@@ -56,6 +57,11 @@ std::vector<MeshFile> inputsOf(const ScenePlan& plan, const Recording& recording
     if (!mesh.organ.empty())
     {
       inputs.push_back(describeFile(mesh.organ));
+    }
+    for (const std::string& support : mesh.supports)
+    {
+      const fs::path points = pointsOfSupport(support);
+      points.empty() ? void() : inputs.push_back(describeFile(points));
     }
   }
   if (plan.training)

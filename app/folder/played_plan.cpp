@@ -6,6 +6,7 @@
 #include "app/places/placed_press.h"
 #include "app/press/playback.h"
 #include "app/press/recorded_rows.h"
+#include "app/supports/support_text.h"
 
 #include <algorithm>
 #include <iterator>
@@ -86,6 +87,7 @@ std::vector<std::filesystem::path> inputsOf(const ScenePlan& plan)
     inputs.push_back(mesh.haptic);
     std::ranges::copy(filesBehind(mesh.stiffness.file), std::back_inserter(inputs));
     inputs.push_back(mesh.organ);
+    std::ranges::transform(mesh.supports, std::back_inserter(inputs), pointsOfSupport);
   }
   inputs.push_back(plan.device.file);
   inputs.push_back(plan.recording ? plan.recording->file : std::filesystem::path());

@@ -38,10 +38,14 @@ Eigen::Isometry3d MeshSource::frame() const
     Turn(rotation.y(), Eigen::Vector3d::UnitY()) * Turn(rotation.x(), Eigen::Vector3d::UnitX());
 }
 
-void addOrganFile(CLI::App& command, std::filesystem::path& file)
+void addOrganFile(CLI::App& command, MeshSource& mesh)
 {
-  command.add_option("--organ", file,
+  command.add_option("--organ", mesh.organ,
     "Where the whole body gives way: the file that palp organ FILE --support ... --out made of it");
+  command
+    .add_option("--support", mesh.supports,
+      "Where it rests, as palp organ takes it; an organ file of other supports is refused")
+    ->allow_extra_args(false);
 }
 
 void MeshSource::addTo(CLI::App& command)

@@ -35,7 +35,8 @@ struct MeshSource
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero(); ///< about its x, then y, then z [rad]
   std::vector<PlacedNodule> nodules{};                ///< in the file's frame [m]
   StiffnessSource stiffness{};                        ///< likewise
-  std::filesystem::path organ{}; ///< how it gives way as a whole, by `palp organ`; empty: not
+  std::filesystem::path organ{};       ///< how it gives way as a whole, by `palp organ`; empty: not
+  std::vector<std::string> supports{}; ///< where it rests, as text; those of the organ file
 
   /// From the file's coordinates to the scene's [m].
   [[nodiscard]] Eigen::Isometry3d frame() const;
@@ -44,8 +45,8 @@ struct MeshSource
   void addTo(CLI::App& command);
 };
 
-/// The organ file of a surface.
-void addOrganFile(CLI::App& command, std::filesystem::path& file);
+/// The organ file of a surface, and where it rests.
+void addOrganFile(CLI::App& command, MeshSource& mesh);
 
 /// The tool, and the part of the tissue that a modulus is never told without.
 /// @param usual  what holds without the option, for the help; empty: not shown

@@ -2,6 +2,7 @@
 
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
+#include "app/supports/support_text.h"
 #include "app/train/hidden_nodules.h"
 #include "calibration/tables/organ_table.h"
 #include "haptics/contact/embed_nodules.h"
@@ -16,6 +17,7 @@
 #include <Eigen/Geometry>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <iomanip>
@@ -96,11 +98,15 @@ TissueMap placedMap(
   };
 }
 
-// in the scene, of the only surface of a body
+// in the scene, of the only surface of a body; null: it has none
 std::shared_ptr<const ComplianceField> placedCompliance(
   const std::vector<MeshSource>& meshes, const MeshFile& felt)
 {
   const MeshSource& source = meshes.front();
+  if (std::ranges::all_of(meshes, [](const MeshSource& mesh) { return mesh.organ.empty(); }))
+  {
+    return nullptr;
+  }
   if (meshes.size() > 1)
   {
     throw Error(ErrorCode::BadValue,
@@ -108,6 +114,7 @@ std::shared_ptr<const ComplianceField> placedCompliance(
       "file, or leave it out");
   }
   OrganTable table = readOrganOf(source.organ, identityOf(felt));
+  checkSupports(source.supports, source.organ, table.supports);
   table.place(source.frame());
   return std::make_shared<const ComplianceField>(std::move(table.places), table.spacing,
     table.poisson,
@@ -172,10 +179,8 @@ SceneBody loadParts(
       body.stiffness = placedMap(source, pointsOf(*loaded.mesh), std::move(body.stiffness));
     }
     origin.moved = !source.frame().isApprox(Eigen::Isometry3d::Identity());
-    if (!source.organ.empty())
-    {
-      body.compliance = placedCompliance(meshes, origin);
-    }
+    body.compliance = placedCompliance(meshes, origin);
+    noteSupports(source.supports, source.organ, body.notes);
   }
   progress.emplace("preparing " + printable(body.name));
   body.haptic = std::make_shared<const Surface>(haptic.points, haptic.triangles);

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <pthread.h>
 #include <unistd.h>
 #include <utility>
@@ -48,11 +49,8 @@ Interrupt::Interrupt(std::function<void()> last)
         if (!last_)
         {
           source_.request_stop();
-          if (sentence_ != nullptr)
-          {
-            (void)sigtimedwait(&signals_, nullptr, &kPatience);
-            endUnless(finished.stop_requested());
-          }
+          (void)sigtimedwait(&signals_, nullptr, &kPatience);
+          endUnless(finished.stop_requested());
           continue;
         }
         last_();
@@ -63,11 +61,26 @@ Interrupt::Interrupt(std::function<void()> last)
     });
 }
 
-void Interrupt::endUnless(bool stopped) const
+void Interrupt::endBy(std::function<std::string()> last)
 {
-  if (!stopped)
+  const std::lock_guard lock(mutex_);
+  order_ = std::move(last);
+}
+
+void Interrupt::endUnless(bool stopped)
+{
+  const std::lock_guard lock(mutex_);
+  const char* const sentence = sentence_;
+  if (!stopped && (order_ || sentence != nullptr))
   {
-    std::fprintf(stderr, "\npalp: %s\n", sentence_.load());
+    try
+    {
+      std::fprintf(stderr, "\npalp: %s\n", order_ ? order_().c_str() : sentence);
+    }
+    catch (const std::exception& error)
+    {
+      std::fprintf(stderr, "\npalp: %s\n", error.what());
+    }
     std::_Exit(kNoSolution);
   }
 }

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <csignal>
 #include <functional>
+#include <mutex>
 #include <stop_token>
+#include <string>
 #include <thread>
 
 namespace palp
@@ -33,17 +35,23 @@ public:
     sentence_ = sentence;
   }
 
+  /// The same, and a function puts the files in order and says the sentence, from another thread.
+  /// @param last  empty: it stops by itself from now on; where it ends already, no return
+  void endBy(std::function<std::string()> last);
+
   [[nodiscard]] std::stop_token token() const
   {
     return source_.get_token();
   }
 
 private:
-  void endUnless(bool stopped) const;
+  void endUnless(bool stopped);
 
   std::stop_source source_;
   std::function<void()> last_;
   std::atomic<const char*> sentence_ = nullptr;
+  std::mutex mutex_;
+  std::function<std::string()> order_; // under the mutex
   sigset_t signals_{};
   sigset_t before_{};
   std::jthread listener_;

@@ -4,6 +4,7 @@
 #include "app/input/quantity.h"
 #include "app/scene/scene_entries.h"
 #include "app/stiffness/stiffness_text.h"
+#include "app/supports/support_text.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io/length_unit.h"
 
@@ -82,6 +83,12 @@ MeshSource readMesh(JsonObject object, const std::filesystem::path& folder)
   if (const std::string organ = object.text("organ", ""); !organ.empty())
   {
     mesh.organ = (folder / organ).lexically_normal();
+  }
+  for (const std::string& text : object.texts("supports", {}))
+  {
+    const std::filesystem::path points = pointsOfSupport(text);
+    mesh.supports.push_back(
+      points.empty() ? text : withPoints(text, (folder / points).lexically_normal().string()));
   }
   object.finish();
   if (mesh.bundled.empty() == file.empty())

@@ -5,6 +5,7 @@
 #include "app/input/tip_text.h"
 #include "app/scene/scene_entries.h"
 #include "app/stiffness/stiffness_text.h"
+#include "app/supports/support_text.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/tip/profile.h"
 
@@ -119,6 +120,11 @@ private:
     if (!source.organ.empty())
     {
       mesh["organ"] = file(source.organ);
+    }
+    for (const std::string& support : source.supports)
+    {
+      const fs::path points = pointsOfSupport(support);
+      mesh["supports"].push_back(points.empty() ? support : withPoints(support, file(points)));
     }
     for (const PlacedNodule& nodule : source.nodules)
     {

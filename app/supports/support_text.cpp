@@ -2,7 +2,10 @@
 
 #include "app/input/press_places.h"
 #include "app/input/quantity.h"
+#include "app/program/sha256.h"
+#include "app/supports/support_parts.h"
 #include "haptics/error.h"
+#include "haptics/files/input_text.h"
 #include "haptics/surface/closest_point.h"
 #include "haptics/units.h"
 
@@ -20,6 +23,8 @@ namespace
 
 constexpr const char* kOption = "--support";
 constexpr double kRounding = 1e-6; // [m]
+constexpr std::string_view kPoints = ":points:";
+constexpr char kHash = '#'; // before what a file of points held
 
 std::vector<std::string> wordsOf(const std::string& text)
 {
@@ -93,6 +98,20 @@ Support labelOf(
     areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
 }
 
+Support paintedOf(const std::string& text, const Surface& surface)
+{
+  const auto parts = std::make_shared<const SupportParts>(surface);
+  const auto held =
+    std::make_shared<const std::vector<bool>>(readHeldParts(*parts, pointsOfSupport(text)));
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < held->size(); ++i)
+  {
+    area += (*held)[i] ? parts->all()[i].area : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  }
+  return { [parts, held](const Eigen::Vector3d& x) { return (*held)[parts->nearest(x).part]; },
+    area };
+}
+
 Support within(double reach, const Eigen::Vector3d& center, const Surface& surface)
 {
   const auto holds = [reach, center](const Eigen::Vector3d& x)
@@ -141,10 +160,11 @@ std::optional<Support> presetOf(const std::string& name, const Surface& surface)
   return std::nullopt;
 }
 
-Support placedOf(
-  const std::vector<std::string>& words, const Surface& surface, const FindRegion& find)
+Support placedOf(const std::string& text, const std::vector<std::string>& words,
+  const Surface& surface, const FindRegion& find)
 {
   return words[1] == "label" ? labelOf(words, surface, find)
+    : words[1] == "points"   ? paintedOf(text, surface)
     : words[1] == "box"      ? boxOf(words, surface)
                              : directionOf(words, surface);
 }
@@ -157,7 +177,8 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
   words.size() == 1 ? void(words.insert(words.begin(), "bonded")) : void();
   const bool isKind = words[0] == "bonded" || words[0] == "sliding";
   const bool isPlaced = isKind &&
-    ((words.size() == 3 && words[1] == "label" && !words[2].empty()) ||
+    (!pointsOfSupport(text).empty() ||
+      (words.size() == 3 && words[1] == "label" && !words[2].empty()) ||
       (words.size() == 4 && (words[1] == "box" || words[1] == "direction")));
   const std::optional<Support> preset =
     isKind && words.size() == 2 ? presetOf(words[1], surface) : std::nullopt;
@@ -166,10 +187,10 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
     throw Error(ErrorCode::BadValue,
       std::string(kOption) + ": '" + text +
         "' is no support; write bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
-        "bonded:direction:X,Y,Z:30deg, bonded:label:7, posterior, ligaments or hilum, or any with "
-        "sliding");
+        "bonded:direction:X,Y,Z:30deg, bonded:label:7, bonded:points:FILE, posterior, ligaments "
+        "or hilum, or any with sliding");
   }
-  Support support = preset ? *preset : placedOf(words, surface, find);
+  Support support = preset ? *preset : placedOf(text, words, surface, find);
   if (support.along.isZero())
   {
     throw Error(ErrorCode::BadValue,
@@ -178,6 +199,90 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
   support.along = words[0] == "sliding" ? Eigen::Vector3d(support.along.normalized())
                                         : Eigen::Vector3d(Eigen::Vector3d::Zero());
   return support;
+}
+
+std::filesystem::path pointsOfSupport(const std::string& text)
+{
+  for (const char* kind : { "bonded", "sliding" })
+  {
+    if (const std::string start = std::string(kind).append(kPoints); text.starts_with(start))
+    {
+      return text.substr(start.size());
+    }
+  }
+  return {};
+}
+
+std::string withPoints(const std::string& text, const std::string& file)
+{
+  return text.substr(0, text.find(kPoints) + kPoints.size()) + file;
+}
+
+std::string describeSupports(
+  const std::vector<std::string>& supports, const std::filesystem::path& folder)
+{
+  std::string all;
+  for (const std::string& support : supports)
+  {
+    std::string text = support;
+    if (const std::filesystem::path points = pointsOfSupport(support); !points.empty())
+    {
+      constexpr std::size_t kTold = 12; // digits
+      Sha256 hash;
+      hash.addFile(points);
+      const std::filesystem::path from =
+        std::filesystem::absolute(folder / "x").parent_path().lexically_normal();
+      const std::filesystem::path to =
+        std::filesystem::absolute(points).lexically_normal().lexically_relative(from);
+      text = withPoints(support, to.string() + kHash + hash.hex().substr(0, kTold));
+    }
+    all.append(all.empty() ? "" : " ").append(text);
+  }
+  return all;
+}
+
+void checkSupports(const std::vector<std::string>& supports, const std::filesystem::path& organ,
+  const std::string& described)
+{
+  if (!supports.empty() && describeSupports(supports, organ.parent_path()) != described)
+  {
+    throw Error(ErrorCode::BadFile,
+      printable(organ.string()) + ": is of a body that rests on " + described +
+        ", and other supports are given; make it again by palp organ, or leave them out");
+  }
+}
+
+void noteSupports(const std::vector<std::string>& supports, const std::filesystem::path& organ,
+  std::vector<std::string>& notes)
+{
+  if (!supports.empty() && organ.empty())
+  {
+    notes.emplace_back("warning: where it rests is not in the force without an organ file; palp "
+                       "organ makes one");
+  }
+}
+
+std::vector<std::string> supportsIn(
+  const std::string& described, const std::filesystem::path& folder)
+{
+  std::vector<std::string> supports;
+  for (std::size_t begin = 0; begin < described.size();)
+  {
+    // a name of a file may hold blanks, and ends at its hash
+    const std::string rest = described.substr(begin);
+    const std::size_t hash = pointsOfSupport(rest).empty() ? 0 : rest.find(kHash);
+    const std::size_t end = std::min(
+      described.find(' ', begin + (hash == std::string::npos ? 0 : hash)), described.size());
+    std::string text = described.substr(begin, end - begin);
+    if (const std::filesystem::path points = pointsOfSupport(text); !points.empty())
+    {
+      const std::string name = points.string().substr(0, points.string().rfind(kHash));
+      text = withPoints(text, (folder / name).lexically_normal().string());
+    }
+    supports.push_back(std::move(text));
+    begin = end + 1;
+  }
+  return supports;
 }
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/graphs/chart_panel.h"
 #include "app/graphs/plot_panel.h"
 #include "app/organs/organ_list.h"
+#include "app/organs/support_painting.h"
 #include "app/panels/device_panel.h"
 #include "app/panels/diagnostics_panel.h"
 #include "app/panels/press_list.h"
@@ -23,6 +24,7 @@
 #include <vtkRenderer.h>
 
 #include <QAction>
+#include <QDockWidget>
 #include <QLabel>
 #include <QScreen>
 #include <QTimer>
@@ -142,6 +144,10 @@ Window::Window(Session& session, BuildTrace& trace)
 Window::~Window()
 {
   message_->disconnect(this); // it is hidden after the picture that it covers is gone
+  if (auto* supports = findChild<QDockWidget*>(tr("Supports")))
+  {
+    supports->disconnect(this); // likewise
+  }
 }
 
 void Window::takeSamples()

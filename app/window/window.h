@@ -12,6 +12,7 @@
 #include "app/shell/window_memory.h"
 #include "app/sound/force_sound.h"
 #include "app/window/coarse_level.h"
+#include "app/window/search.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
 #include "pipeline/figure/balls.h"
@@ -60,6 +61,7 @@ class PlayBar;
 class TrainingPanel;
 class PressBar;
 class PressList;
+class SupportPainting;
 class BuildTrace;
 class ChartPanel;
 class PlotPanel;
@@ -97,6 +99,7 @@ public:
   bool saveCurves(const QString& file);
   bool saveChart(std::size_t chart, const QString& file, ImageSize size); // of charts_, counted
   bool saveSheet(const QString& directory);  // of the search that was graded last
+  bool solveOrgan(const QString& file);      // on the supports of the panel
   bool exportData(const QString& directory); // asks in the bar where files would be replaced
 
 protected:
@@ -110,7 +113,6 @@ private:
   static constexpr const char* kHint =
     "Drag down: press    Wheel: hold a depth    Right-drag: rotate    Middle-drag: move    "
     "Ctrl+wheel: zoom    H: all keys";
-
   void makeView();
   void makeDocks();
   void makeCharts();
@@ -175,13 +177,13 @@ private:
   [[nodiscard]] const SurfaceMap* shownMap() const;
   [[nodiscard]] const StiffnessMap* currentMap() const;
 
+  void showSupports();
+  void followSupports();
+  void paintByPointer();
+  void openSupports();
+  [[nodiscard]] const SceneBody& supported() const;
+
   // the search for hidden nodules
-  struct Search
-  {
-    double from = 0.0;                // [s]
-    std::vector<double> marks{};      // times [s]
-    std::vector<Balls::Ball> balls{}; // of them
-  };
   void makeTraining();
   void showTraining();
   void startTraining(const TrainingPlan& plan);
@@ -256,8 +258,15 @@ private:
   bool saveInTurn(const std::function<void()>& save);
   bool attempt(const std::function<void()>& work);
   void showProgress(const QString& what, const FollowedWork::Step& step);
+  // with a bar to cancel it by; none: it was canceled
   template <typename Made>
-  std::optional<Made> inBackground(const QString& what, std::function<Made()> work);
+  std::optional<Made> inBackground(const QString& what, std::function<Made()> work)
+  {
+    const auto show = [&](const FollowedWork::Step& step) { showProgress(what, step); };
+    auto made = background_.make<Made>(std::move(work), show);
+    message_->unfollow(what);
+    return made;
+  }
   [[nodiscard]] Exported exported(const Pictured& seen);
   bool exportOne(const QString& to, Exported made, const Timing* timing);
   bool exportMap(const std::filesystem::path& folder, const StiffnessMap& map);
@@ -324,9 +333,10 @@ private:
   bool mapIsStale_ = false;
   QAction* mapColors_ = nullptr;
   QAction* clearMap_ = nullptr;
-  std::optional<Search> search_;      // none: nothing is hidden
-  TrainingPanel* training_ = nullptr; // null: never shown
-  Autosave* autosave_ = nullptr;      // null: nobody wants it
+  std::optional<Search> search_;              // none: nothing is hidden
+  TrainingPanel* training_ = nullptr;         // null: never shown
+  std::unique_ptr<SupportPainting> painting_; // likewise
+  Autosave* autosave_ = nullptr;              // null: nobody wants it
   PlayBar* playBar_ = nullptr;
   QAction* refinedExport_ = nullptr;
   QAction* allSamplesExport_ = nullptr;
@@ -336,15 +346,5 @@ private:
   ForceSound sound_;
   Background background_;
 };
-
-/// Makes something while the window goes on, with a bar to cancel it by; none: it was canceled.
-template <typename Made>
-std::optional<Made> Window::inBackground(const QString& what, std::function<Made()> work)
-{
-  const auto show = [&](const FollowedWork::Step& step) { showProgress(what, step); };
-  auto made = background_.make<Made>(std::move(work), show);
-  message_->unfollow(what);
-  return made;
-}
 
 } // namespace palp

@@ -5,7 +5,7 @@
 #include "app/graphs/plot_panel.h"
 #include "app/plots/chart_job.h"
 #include "app/plots/figure_job.h"
-#include "app/window/child_program.h"
+#include "app/shell/child_program.h"
 #include "app/window/exported.h"
 #include "app/window/window.h"
 #include "haptics/error.h"

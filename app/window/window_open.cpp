@@ -5,6 +5,7 @@
 #include "app/panels/tissue_panel.h"
 #include "app/places/fiducial_file.h"
 #include "app/scene/scene_file.h"
+#include "app/supports/support_text.h"
 #include "app/window/window.h"
 #include "calibration/tables/organ_table.h"
 #include "haptics/error.h"
@@ -49,6 +50,22 @@ FileKind kindOf(const QString& file)
     : ends(".json")                            ? FileKind::Scene
     : ends(".csv") && QFileInfo(file).isFile() ? kindOfTable(file)
                                                : FileKind::Body;
+}
+
+// none where those that were painted are not there, or are others by now
+std::vector<std::string> supportsBeside(
+  const std::filesystem::path& organ, const std::string& described)
+{
+  std::vector<std::string> supports = supportsIn(described, organ.parent_path());
+  try
+  {
+    checkSupports(supports, organ, described);
+  }
+  catch (const Error&)
+  {
+    supports.clear();
+  }
+  return supports;
 }
 
 } // namespace
@@ -96,6 +113,7 @@ void Window::openOrgan(const QString& file)
     if (identityOf(felt) == table.mesh)
     {
       meshes[i].organ = file.toStdString();
+      meshes[i].supports = supportsBeside(file.toStdString(), table.supports);
       isOfIt = true;
     }
   }

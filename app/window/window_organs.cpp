@@ -32,6 +32,7 @@ void Window::showBody()
   fittedTo_ = std::pair(0, 0);
   queued_.clear();
   dropMap();
+  openSupports();
 }
 
 // anew for other organs; none is shown for one body
@@ -43,7 +44,12 @@ void Window::makeOrganList()
     organs_ = new OrganList;
     addDock(this, Qt::RightDockWidgetArea, tr("Organs"), organs_);
     connect(organs_, &OrganList::changed, this, &Window::changeOrgans);
-    connect(organs_, &OrganList::chosenChanged, this, [this] { panel_->setScene(tissueInUse()); });
+    connect(organs_, &OrganList::chosenChanged, this,
+      [this]
+      {
+        panel_->setScene(tissueInUse());
+        openSupports();
+      });
   }
   if (organs_ != nullptr)
   {

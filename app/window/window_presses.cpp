@@ -112,6 +112,8 @@ void Window::makeEditMenu()
   redo->setShortcuts({ QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y") });
   edit->addActions({ undo, redo });
   addMap(*edit);
+  edit->addAction(tr("S&upports…"), this, [this] { showSupports(); })
+    ->setObjectName("supportsAction");
 }
 
 void Window::saveTo(Autosave& autosave)

@@ -11,12 +11,12 @@ namespace palp
 {
 
 /// Cuts a triangle into parts whose edges are shorter than a length that grows with their distance
-/// from a place, and calls use(middle, area vector) for each.
+/// from a place, and calls use(corners) for each.
 ///
 /// @param length  where they are near [m]
 /// @param growth  of it by the distance [-]; 0: as short everywhere
 template <typename Use>
-void forParts(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& place,
+void forPieces(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& place,
   double length, double growth, const Use& use)
 {
   std::size_t longest = 0;
@@ -32,13 +32,25 @@ void forParts(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector
   const Eigen::Vector3d middle = (first + second + opposite) / 3.0;
   if (edges[longest] <= std::max(length, growth * (middle - place).norm()))
   {
-    const Eigen::Vector3d area = 0.5 * (second - first).cross(opposite - first);
-    use(middle, area);
+    use({ first, second, opposite });
     return;
   }
   const Eigen::Vector3d half = 0.5 * (first + second);
-  forParts({ first, half, opposite }, place, length, growth, use);
-  forParts({ half, second, opposite }, place, length, growth, use);
+  forPieces({ first, half, opposite }, place, length, growth, use);
+  forPieces({ half, second, opposite }, place, length, growth, use);
+}
+
+/// The same, and calls use(middle, area vector) for each.
+template <typename Use>
+void forParts(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& place,
+  double length, double growth, const Use& use)
+{
+  forPieces(corners, place, length, growth,
+    [&use](const std::array<Eigen::Vector3d, 3>& part)
+    {
+      const auto& [first, second, opposite] = part;
+      use((first + second + opposite) / 3.0, 0.5 * (second - first).cross(opposite - first));
+    });
 }
 
 /// The same of all triangles of a surface.

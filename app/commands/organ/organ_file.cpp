@@ -1,6 +1,7 @@
 #include "app/commands/organ/organ_file.h"
 
 #include "app/program/progress_line.h"
+#include "app/supports/support_text.h"
 #include "calibration/organ/organ_motion_modes.h"
 #include "calibration/organ/organ_places.h"
 #include "calibration/tables/organ_table.h"
@@ -38,10 +39,7 @@ OrganTable emptyTable(const OrganFilePlan& plan, const SceneBody& body, std::siz
 {
   OrganTable table;
   table.mesh = identityOf(body.files.front());
-  for (const std::string& support : plan.supports)
-  {
-    table.supports.append(table.supports.empty() ? "" : " ").append(support);
-  }
+  table.supports = describeSupports(plan.supports, plan.out.parent_path());
   table.poisson = plan.poisson;
   table.cell = plan.cell;
   table.spacing = spacingOf(*body.haptic, plan.cell);

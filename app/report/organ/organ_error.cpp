@@ -2,6 +2,7 @@
 
 #include "app/bench/bench.h"
 #include "app/report/organ/organ_bodies.h"
+#include "app/report/organ/solving_course.h"
 #include "app/report/pareto.h"
 #include "calibration/experiments/experiment_parts.h"
 #include "calibration/organ/organ_places.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <map>
 #include <ranges>
+#include <utility>
 
 namespace palp::report
 {
@@ -139,8 +141,8 @@ void addRow(Table& table, const OrganBody& body, const OrganPress& press, const 
     answerTime(press, scene), errors.largest, errors.rms() });
 }
 
-void addBody(
-  Table& table, const OrganBody& body, std::span<const double> sides, const std::stop_token& stop)
+void addBody(Table& table, const OrganBody& body, std::span<const double> sides,
+  const std::stop_token& stop, SolvingCourse& course)
 {
   for (const OrganPress& press : body.presses)
   {
@@ -152,6 +154,7 @@ void addBody(
     {
       return;
     }
+    course.begin(body, side);
     const auto start = Clock::now();
     const OrganModel model(*body.surface, side, kYoung, body.poisson, std::span(&body.support, 1));
     const double spacing = spacingOf(*body.surface, side);
@@ -290,7 +293,8 @@ void addKinds(fem::Experiment& experiment, std::span<const double> sides)
 
 } // namespace
 
-fem::Experiment organExperiment(fem::Resolution resolution, const std::stop_token& stop)
+fem::Experiment organExperiment(
+  fem::Resolution resolution, const std::stop_token& stop, std::function<void(double)> tell)
 {
   const bool quick = resolution == fem::Resolution::Quick;
   fem::Experiment experiment;
@@ -301,9 +305,11 @@ fem::Experiment organExperiment(fem::Resolution resolution, const std::stop_toke
       "error_max_pct", "error_rms_pct" } };
   constexpr std::array kSides{ 8.0_mm, 6.0_mm, 4.0_mm, 3.0_mm };
   const auto sides = std::span(kSides).first(quick ? 2 : kSides.size());
-  for (const OrganBody& body : organBodies(quick))
+  const std::vector<OrganBody> bodies = organBodies(quick);
+  SolvingCourse course(bodies, sides, std::move(tell));
+  for (const OrganBody& body : bodies)
   {
-    addBody(experiment.numbers, body, sides, stop);
+    addBody(experiment.numbers, body, sides, stop, course);
   }
   addKinds(experiment, sides);
   return experiment;
@@ -311,8 +317,8 @@ fem::Experiment organExperiment(fem::Resolution resolution, const std::stop_toke
 
 Section organAgainstTime(const Effort& effort)
 {
-  fem::Experiment found =
-    organExperiment(effort.quick ? fem::Resolution::Quick : fem::Resolution::Full, effort.stop);
+  fem::Experiment found = organExperiment(
+    effort.quick ? fem::Resolution::Quick : fem::Resolution::Full, effort.stop, effort.tell);
   effort.reached(1.0); // an interrupted one lacks rows
   Section section;
   section.text = { std::move(found.finding),

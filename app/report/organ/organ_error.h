@@ -4,6 +4,8 @@
 #include "app/report/effort.h"
 #include "calibration/experiments/experiments.h"
 
+#include <functional>
+
 namespace palp::report
 {
 
@@ -12,10 +14,11 @@ namespace palp::report
 ///
 /// A quick one presses one body of each kind, by cells of 8 and 6 mm.
 ///
+/// @param tell    part of it that is done, 0 to 1, from any thread; none: who follows this thread
 /// @return        what is there where it was stopped
 /// @throws Error  BadFile: a table of reference or the liver is missing
-[[nodiscard]] fem::Experiment organExperiment(
-  fem::Resolution resolution, const std::stop_token& stop = {});
+[[nodiscard]] fem::Experiment organExperiment(fem::Resolution resolution,
+  const std::stop_token& stop = {}, std::function<void(double)> tell = {});
 
 /// The same as a part of the report.
 /// @throws Interrupted

@@ -68,7 +68,8 @@ protected:
         .part = { .level = between(-1.0, 200.0), .labels = {} },
         .unit = LengthUnit::Centimeter,
         .origin = place(10.0),
-        .rotation = place(6.2) } };
+        .rotation = place(6.2),
+        .supports = { "sliding:hilum", "bonded:points:/data/rests here.csv" } } };
     const std::vector<Tip> tips{ SphereTip{ between(1e-3, 0.01) },
       ConeTip{ between(0.2, 1.4), between(2e-3, 0.01) }, PunchTip{ between(1e-3, 0.01) },
       ParaboloidTip{ between(1e-3, 0.01) } };
@@ -136,6 +137,7 @@ TEST_F(SceneText, ReadsBackToTheLastBit)
     EXPECT_EQ(after.meshes[1].unit, before.meshes[1].unit);
     EXPECT_EQ(after.meshes[1].origin, before.meshes[1].origin);
     EXPECT_EQ(after.meshes[1].rotation, before.meshes[1].rotation);
+    EXPECT_EQ(after.meshes[1].supports, before.meshes[1].supports);
     const TissueOptions& was = before.press.tissue;
     const TissueOptions& is = after.press.tissue;
     EXPECT_EQ(is.tip.index(), was.tip.index());

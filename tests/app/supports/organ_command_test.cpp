@@ -166,6 +166,51 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
   EXPECT_NE(other.err.find("another surface"), std::string::npos) << other.err;
 }
 
+// what is painted anew is solved anew, and what is pressed says on what it rests
+TEST(OrganCommand, AFileIsOfTheSupportsThatWerePainted)
+{
+  const test::TemporaryFolder folder;
+  const auto paint = [&](double most)
+  {
+    std::ofstream out(folder.path() / "rest.csv");
+    out << "x_mm,y_mm,z_mm\n";
+    for (double x = -49.0; x < most; x += 1.0)
+    {
+      for (double y = -49.0; y < 50.0; y += 1.0)
+      {
+        out << x << ',' << y << ",-50\n";
+      }
+    }
+  };
+  const std::string support = " --support bonded:points:" + (folder.path() / "rest.csv").string();
+  const std::string organ = (folder.path() / "block.organ").string();
+  const auto make = [&]
+  {
+    return test::runCommand(PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 16mm" +
+      support + " --out " + organ);
+  };
+  const auto run = [&](const std::string& more)
+  {
+    return test::runCommand(PALP_PROGRAM " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 "
+                                         "--law exact --poisson 0.45 --samples-only --out " +
+      test::freshFolder().string() + more);
+  };
+  paint(50.0);
+  ASSERT_EQ(make().code, 0);
+  EXPECT_NE(make().err.find("already"), std::string::npos);
+  EXPECT_EQ(run(" --organ " + organ + support).code, 0);
+  const test::Finished other = run(" --organ " + organ + " --support posterior");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("rests on bonded:points:rest.csv"), std::string::npos) << other.err;
+  EXPECT_NE(run(support).err.find("not in the force"), std::string::npos);
+  paint(0.0);
+  EXPECT_EQ(run(" --organ " + organ + support).code, 2) << "other points than it was made of";
+  const test::Finished anew = make();
+  EXPECT_EQ(anew.err.find("already"), std::string::npos) << anew.err;
+  EXPECT_EQ(anew.code, 0) << anew.err;
+  EXPECT_EQ(run(" --organ " + organ + support).code, 0);
+}
+
 // how far points of a pressed surface went down, by x [mm]
 std::vector<std::pair<double, double>> sunk(const std::filesystem::path& file)
 {

@@ -1,5 +1,6 @@
 #include "app/supports/support_text.h"
 
+#include "calibration/organ/organ_compliance.h"
 #include "data/shapes.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
@@ -79,6 +80,92 @@ TEST(SupportText, HoldsALiverByWhatHoldsIt)
   EXPECT_TRUE(hangs.holds(40.0_mm * above));
   EXPECT_FALSE(hangs.holds({ 0.0, 0.0, 40.0_mm }));
   EXPECT_FALSE(hangs.holds({ 0.0, 40.0_mm, 0.0 }));
+}
+
+// points every half of a millimeter over a half of the base
+std::filesystem::path paintedHalf(const std::filesystem::path& folder)
+{
+  const auto file = folder / "half painted.csv";
+  std::ofstream out(file);
+  out << "x_mm,y_mm,z_mm\n";
+  for (double x = -49.75; x < 0.0; x += 0.5)
+  {
+    for (double y = -49.75; y < 50.0; y += 0.5)
+    {
+      out << x << ',' << y << ",-50\n";
+    }
+  }
+  return file;
+}
+
+TEST(SupportText, PaintIsAsStiffAsABoxOfTheSameSurface)
+{
+  const test::TemporaryFolder folder;
+  const Support box = parseSupport("bonded:box:-51,-51,-51:0,51,-49.9", block());
+  const Support painted =
+    parseSupport("bonded:points:" + paintedHalf(folder.path()).string(), block());
+  const auto compliance = [](const Support& support, double x)
+  {
+    const OrganModel model(block(), 7.0_mm, 50.0_kPa, 0.45, std::span(&support, 1));
+    const auto found = complianceAt(model, block(), { x, 5.0_mm, 0.0 }, Eigen::Vector3d::UnitZ());
+    return found ? model.contactModulus() * found->constant : 0.0;
+  };
+  for (const double x : { -25.0_mm, 25.0_mm })
+  {
+    const double known = compliance(box, x);
+    EXPECT_NEAR(compliance(painted, x), known, 0.01 * std::abs(known)) << x;
+  }
+  EXPECT_GT(compliance(box, 25.0_mm), 1.5 * std::abs(compliance(box, -25.0_mm))) << "it tells";
+  const Support slides =
+    parseSupport("sliding:points:" + (folder.path() / "half painted.csv").string(), block());
+  EXPECT_LT((slides.along + Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+}
+
+TEST(SupportText, RefusesPointsThatAreNone)
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "rest.csv";
+  const auto refusal = [&](const char* text)
+  {
+    std::ofstream(file) << text;
+    try
+    {
+      (void)parseSupport("bonded:points:" + file.string(), block());
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("rest.csv"), std::string::npos) << error.what();
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(""), "");
+  EXPECT_NE(refusal("0,0,-50\n"), "") << "without a header";
+  EXPECT_NE(refusal("x_mm,y_mm,z_mm\n").find("no point"), std::string::npos);
+  EXPECT_NE(refusal("x_mm,y_mm,z_mm\n0,0,-50\n0,below,-50\n").find(":3:"), std::string::npos);
+  EXPECT_NE(refusal("x_mm,y_mm,z_mm\n0,0,nan\n"), "");
+  const std::string away = refusal("x_mm,y_mm,z_mm\n0,0,-50\n0,0,-60\n");
+  EXPECT_NE(away.find(":3: the point is 10 mm away"), std::string::npos) << away;
+  std::filesystem::remove(file);
+  EXPECT_THROW((void)parseSupport("bonded:points:" + file.string(), block()), Error);
+  EXPECT_THROW((void)parseSupport("bonded:points:", block()), Error);
+  EXPECT_THROW((void)parseSupport("glued:points:" + file.string(), block()), Error);
+}
+
+// what an organ file says of them, which a file of points that holds something else is not
+TEST(SupportText, AnOrganFileTellsItsSupportsAgain)
+{
+  const test::TemporaryFolder folder;
+  const std::string file = paintedHalf(folder.path()).string();
+  const std::vector<std::string> supports{ "posterior", "bonded:points:" + file,
+    "sliding:box:0,0,0:1,2,3" };
+  const std::string told = describeSupports(supports, folder.path());
+  EXPECT_EQ(told.find(folder.path().string()), std::string::npos) << "both may go elsewhere";
+  EXPECT_EQ(supportsIn(told, folder.path()), supports);
+  EXPECT_NO_THROW(checkSupports(supports, folder.path() / "x.organ", told));
+  std::ofstream(file, std::ios::app) << "1,1,-50\n";
+  EXPECT_THROW(checkSupports(supports, folder.path() / "x.organ", told), Error);
+  EXPECT_NO_THROW(checkSupports({}, folder.path() / "x.organ", told)) << "none are asked for";
 }
 
 TEST(SupportText, RefusesWhatItDoesNotKnow)

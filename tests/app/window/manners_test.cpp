@@ -195,6 +195,7 @@ TEST_F(Manners, GreetsOnce)
 // what it is, in which unit, within which range
 TEST_F(Manners, EveryQuantityTellsItsSymbolItsUnitAndItsRange)
 {
+  window_->findChild<QAction*>("supportsAction")->trigger();
   const QRegularExpression told("^.{1,4} \\[.+\\], (more than 0|0 or more|0 to )|^\u03b4 \\[mm\\]");
   int quantities = 0;
   for (const QAbstractSpinBox* box : window_->findChildren<QAbstractSpinBox*>())
@@ -234,6 +235,7 @@ TEST_F(Manners, TheBarOfToolsDoesWhatTheMenusDo)
 // for those who cannot see it, or do not know it yet
 TEST_F(Manners, EveryControlHasANameAndSaysWhatItDoes)
 {
+  window_->findChild<QAction*>("supportsAction")->trigger();
   int controls = 0;
   const auto check = [&](const QWidget* control)
   {

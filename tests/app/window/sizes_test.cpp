@@ -123,6 +123,18 @@ TEST_F(Sizes, TheLiverFillsANarrowPicture)
   }
 }
 
+TEST_F(Sizes, NothingIsClippedBesideTheSupports)
+{
+  window_->findChild<QAction*>("supportsAction")->trigger();
+  const auto* panel = window_->findChild<QDockWidget*>("Supports");
+  EXPECT_TRUE(QTest::qWaitFor([panel] { return panel->isVisible(); }, kPatience));
+  const QSize size = QSize(1024, 768) - QSize(16, 48);
+  window_->resize(size);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return window_->size() == size; }, kPatience));
+  waitForFrames();
+  expectNothingClipped();
+}
+
 TEST_F(Sizes, NothingIsClippedInLightAndDark)
 {
   const char* pictures = std::getenv("PALP_SIZES_PICTURES"); // a folder, to look at them

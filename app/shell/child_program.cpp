@@ -1,4 +1,4 @@
-#include "app/window/child_program.h"
+#include "app/shell/child_program.h"
 
 #include "haptics/error.h"
 #include "haptics/files/prefix.h"

@@ -1,0 +1,204 @@
+// Where the body rests: painted on it with the pointer, solved as an organ file by a program behind
+// the window.
+
+#include "app/organs/support_painting.h"
+#include "app/organs/support_panel.h"
+#include "app/panels/panel_area.h"
+#include "app/program/data_files.h"
+#include "app/shell/child_program.h"
+#include "app/shell/dock.h"
+#include "app/shell/message_bar.h"
+#include "app/supports/support_text.h"
+#include "app/window/vtkPalpPressStyle.h"
+#include "app/window/window.h"
+#include "haptics/error.h"
+#include "haptics/files/csv_text.h"
+#include "haptics/surface/surface_point.h"
+#include "haptics/units.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QScrollArea>
+
+namespace palp
+{
+namespace
+{
+
+// what is felt of a surface, as a command reads it
+QStringList argumentsOf(const MeshSource& source)
+{
+  QStringList words;
+  const std::filesystem::path file = !source.haptic.empty() ? source.haptic
+    : source.bundled.empty()                                ? source.file
+                             : dataFile("meshes/" + source.bundled + ".vtp");
+  source.bundled == "liver" ? void() : words.push_back(QString::fromStdString(file.string()));
+  const auto add = [&words](const char* option, const std::string& value)
+  { words << option << QString::fromStdString(value); };
+  source.unit ? add("--unit", unitName(*source.unit)) : void();
+  source.part.series.empty() ? void() : add("--series", source.part.series);
+  source.part.level ? add("--level", shortest(*source.part.level)) : void();
+  std::string labels;
+  for (const std::string& label : source.part.labels)
+  {
+    labels.append(labels.empty() ? "" : ",").append(label);
+  }
+  labels.empty() ? void() : add("--label", labels);
+  return words;
+}
+
+} // namespace
+
+// made when it is first asked for
+void Window::showSupports()
+{
+  if (!isFree())
+  {
+    return;
+  }
+  if (painting_ == nullptr)
+  {
+    auto* panel = new SupportPanel;
+    auto* area = new QScrollArea;
+    scrollDownOnly(*area, panel);
+    auto* dock = addDock(this, Qt::RightDockWidgetArea, tr("Supports"), area);
+    if (auto* curves = findChild<QDockWidget*>(tr("Force over depth")))
+    {
+      tabifyDockWidget(curves, dock); // the force over time stays in sight
+    }
+    painting_ =
+      std::make_unique<SupportPainting>(*renderer_, *panel, undo_, [this] { isStale_ = true; });
+    connect(dock, &QDockWidget::visibilityChanged, this,
+      [this, dock, panel]
+      {
+        painting_->setVisible(!dock->isHidden());
+        dock->isHidden() ? panel->endPainting() : void();
+      });
+    followSupports();
+    paintByPointer();
+    openSupports();
+  }
+  auto* dock = findChild<QDockWidget*>(tr("Supports"));
+  dock->show();
+  bringUp(dock);
+}
+
+// what the panel asks for
+void Window::followSupports()
+{
+  SupportPanel* panel = &painting_->panel();
+  connect(panel, &SupportPanel::paintToggled, this,
+    [this, before = view_.look().tool](bool paints) mutable
+    {
+      BodyLook look = view_.look();
+      before = paints ? look.tool : before;
+      look.tool = paints ? ToolLook::Outlined : before; // it hides what is below it
+      view_.setLook(look);
+      isStale_ = true;
+    });
+  connect(panel, &SupportPanel::clearAsked, this, [this] { painting_->clear(); });
+  connect(panel, &SupportPanel::othersChanged, this,
+    [this](const QString& supports)
+    { attempt([&] { painting_->setOthers(supports.toStdString()); }); });
+  connect(panel, &SupportPanel::solveAsked, this,
+    [this]
+    {
+      const QString file = QFileDialog::getSaveFileName(
+        this, tr("Solve into an organ file"), "body.organ", tr("Organ files (*.organ)"));
+      file.isEmpty() ? false : solveOrgan(file);
+    });
+}
+
+// the brush takes the place of the tool while it paints
+void Window::paintByPointer()
+{
+  const auto paints = [this] { return painting_->panel().paints(); };
+  const auto paint = [this](int x, int y)
+  {
+    pointer_.hover(x, y);
+    followPointer();
+    const SightLine line = sightLine(x, y);
+    const auto place = pick(*supported().haptic, line.origin, line.direction);
+    place ? painting_->paint(*place) : void();
+  };
+  style_->Press = [paints, paint, press = style_->Press](int x, int y)
+  { paints() ? paint(x, y) : press(x, y); };
+  style_->Drag = [this, paints, paint, drag = style_->Drag](int pixelsDown)
+  {
+    const int* at = canvas_->interactor()->GetEventPosition();
+    paints() ? paint(at[0], at[1]) : drag(pixelsDown);
+  };
+  style_->Release = [this, release = style_->Release]
+  {
+    painting_->endStroke();
+    release();
+  };
+  style_->Wheel = [paints, wheel = style_->Wheel](int notches)
+  { paints() ? void() : wheel(notches); };
+  style_->Deepen = [this, paints, deepen = style_->Deepen](int steps)
+  {
+    const auto target = pointer_.target();
+    if (!paints() || !target)
+    {
+      deepen(steps);
+      return;
+    }
+    painting_->paint({ target->position, target->normal });
+    painting_->endStroke();
+  };
+}
+
+// the organ that is chosen, or the only body
+const SceneBody& Window::supported() const
+{
+  return session_.body().felt(session_.organs(), chosenFelt().value_or(0));
+}
+
+void Window::openSupports()
+{
+  if (painting_ != nullptr)
+  {
+    const MeshSource& source = supported().sources.front();
+    attempt([&] { painting_->open(supported().haptic, source.frame(), source.supports); });
+  }
+}
+
+// by palp organ, behind the window, which stays at 1 kHz; then felt
+bool Window::solveOrgan(const QString& file)
+{
+  return attempt(
+    [&]
+    {
+      const std::vector<MeshSource>& sources = supported().sources;
+      if (sources.size() > 1)
+      {
+        throw Error(ErrorCode::BadValue,
+          "an organ file is of one surface, these are several in one body; join them in one file");
+      }
+      const QString out = QFileInfo(file).absoluteFilePath();
+      QStringList words = QStringList("organ") + argumentsOf(sources.front());
+      for (const std::string& support : painting_->write(out.toStdString()))
+      {
+        words << "--support" << QString::fromStdString(support);
+      }
+      words << "--cell" << QString("%1mm").arg(units::toMillimeters(painting_->panel().cell()));
+      words << "--poisson" << QString::number(tissueInUse().law.material().poissonRatio);
+      words << "--out" << out;
+      painting_->panel().endPainting();
+      const auto ended = inBackground<EndedProgram>(
+        tr("Solving how it gives way"), [words] { return runProgram("palp", words); });
+      if (!ended)
+      {
+        say(tr("Canceled: what was reached waits beside %1; Solve again goes on").arg(file));
+        return;
+      }
+      throwUnlessWell(*ended);
+      openOrgan(out);
+    });
+}
+
+} // namespace palp
