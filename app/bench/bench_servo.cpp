@@ -1,7 +1,7 @@
 #include "app/bench/bench.h"
 #include "app/bench/bench_work.h"
 #include "data/shapes.h"
-#include "haptics/contact/patch.h"
+#include "haptics/contact/disc_integral.h"
 #include "haptics/units.h"
 
 #include <algorithm>

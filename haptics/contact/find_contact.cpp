@@ -9,14 +9,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace palp
 {
 namespace
 {
 
-constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
-constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
+constexpr double kCoherent = 0.5; // [-] length of the mean normal below which lobes oppose
+constexpr double kGradual = 0.2;  // [-] where that begins, of the corner of this rule
+constexpr double kEven = 0.01;    // [-] spread of the normals to which they turn with the tensor of
+constexpr double kUneven = 0.02;  // curvature, and from which on each triangle is asked
+constexpr double kMajority = 0.5; // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
@@ -29,7 +34,10 @@ constexpr double kBent = 0.3;   // [-] how near a place may come to where a holl
 struct Neighborhood
 {
   double distance; // of the nearest point [m], negative inside the body
+  PatchBall ball;
   Patch patch;
+  int triangle = -1;   // nearest
+  double raised = 0.0; // the ball's center, off the surface [m]
 };
 
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
@@ -37,9 +45,14 @@ Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vec
 {
   const double radius = rule.smoothing(distance).value;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
-  return { distance,
-    patchWithin(surface, position, std::sqrt(rule(distance).value), side, std::max(radius, 1e-9),
-      distance < 0.0) };
+  const PatchBall ball{ position, std::sqrt(rule(distance).value), side, std::max(radius, 1e-9) };
+  return { distance, ball, patchWithin(surface, ball, distance < 0.0) };
+}
+
+// of the normals about their mean: what that is shorter than they
+double spreadOf(const Patch& patch) noexcept
+{
+  return 1.0 - patch.normal.norm() / patch.weight;
 }
 
 // whether the one nearest triangle, a fold perhaps, says inside while those about it say outside
@@ -49,11 +62,43 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
     here.patch.orientationSum.norm() > kMajority * here.patch.orientationWeight;
 }
 
+// How the mean normal below a place changes as that moves.
+class NormalChange
+{
+public:
+  NormalChange(const Surface& surface, const BallRule& rule, const Neighborhood& here) noexcept
+  {
+    const PatchSlopes slopes = slopesWithin(surface, here.ball);
+    const Patch& patch = here.patch;
+    const double length = patch.normal.norm();
+    const Eigen::Vector3d normal = patch.normal / length;
+    const Eigen::Vector3d wider = rule(here.distance).slope * normal; // of Q
+    turn_ = (slopes.normal + patch.area * wider.transpose()).transpose() / length;
+    share_ = length / patch.weight *
+      (turn_ * normal - (slopes.weight + slopes.area * wider) / patch.weight);
+  }
+
+  // along a vector across the normal
+  [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& along) const noexcept
+  {
+    return turn_ * along;
+  }
+  // of its length by the weight [1/m]
+  [[nodiscard]] const Eigen::Vector3d& share() const noexcept
+  {
+    return share_;
+  }
+
+private:
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d share_;
+};
+
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
 // sphere's normals spread by at least twice as much as from where all of it counts.
 double curvedPart(const Patch& patch, double curvature, double smoothing) noexcept
 {
-  const double spread = 1.0 - patch.normal.norm() / patch.weight;
+  const double spread = spreadOf(patch);
   const double ofSphere = curvature * curvature * smoothing * smoothing / 6.0;
   return 2.0 * spread < ofSphere ? smoothStep(std::max(0.0, 2.0 * spread / ofSphere)) : 1.0;
 }
@@ -88,17 +133,25 @@ private:
 
 // What of the body counts as the shape of the contact, and how that changes as the tool moves: with
 // the place, with the radius as the height changes, and with the normal, which turns with the body.
-// height: over a flat body
+// height: over a flat body; change: where the normals below the place differ
 void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const BallRule& rule,
-  const Eigen::Vector3d& position, const Patch& patch, const Height& height) noexcept
+  const Neighborhood& here, const Height& height,
+  const std::optional<NormalChange>& change) noexcept
 {
   const double grain = kGrain * (rule.nose() + flatRadius(tip));
   const double least = std::max(surface.shape().finest(), kFinest * grain);
   const Sloped wide = smoothMax(rule.contactRadius(height.value), { least }, kCorner * least);
   const double reach = std::sqrt(height.value * height.value + wide.value * wide.value);
   const double growth = (height.value + wide.value * wide.slope) / reach;
-  const LocalShape shape = surface.shape()(position, reach, patch.normal.normalized(), grain);
-  const TurnRate turn(shape, height.value);
+  const LocalShape shape =
+    surface.shape()(here.ball.center, reach, here.patch.normal.normalized(), grain);
+  const TurnRate even(shape, height.value);
+  const double uneven = smoothStep((spreadOf(here.patch) - kEven) / (kUneven - kEven));
+  const auto turn = [&](const Eigen::Vector3d& along) -> Eigen::Vector3d
+  {
+    return uneven > 0.0 && change ? (1.0 - uneven) * even(along) + uneven * (*change)(along)
+                                  : even(along);
+  };
   const auto slopeOf = [&](const LocalShape::Slope& of)
   { return Eigen::Vector3d(of.place + of.radius * growth * height.slope + turn(of.normal)); };
   contact.surfaceCurvature = shape.meanCurvature;
@@ -110,7 +163,8 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
 }
 
-Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
+std::optional<Neighborhood> lookBelow(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, const BallRule& rule) noexcept
 {
   auto [position, reach] = reachOf(tip, pose, ContactRule::Exact);
   if (surface.closed() && squaredDistance(surface.tree().nodes()[0], position) > reach * reach)
@@ -131,7 +185,6 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
     position += raised * unitNormal(surface.points(), surface.triangles()[triangle]);
     nearest.distance = off;
   }
-  const BallRule rule(tip, surface.edgeLength());
   Neighborhood here = look(surface, rule, position, nearest.distance);
   if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
   {
@@ -141,34 +194,56 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
       return {};
     }
   }
-  const Patch& patch = here.patch;
-  const double length = patch.normal.norm();
-  if (!(length > kRounding * patch.weight))
+  here.triangle = nearest.triangle;
+  here.raised = raised;
+  return here;
+}
+
+Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
+{
+  const BallRule rule(tip, surface.edgeLength());
+  const std::optional<Neighborhood> here = lookBelow(surface, tip, pose, rule);
+  if (!here || !(here->patch.normal.norm() > kRounding * here->patch.weight))
   {
     return {}; // by less than rounding, or between lobes that face each other
   }
+  const Eigen::Vector3d& position = here->ball.center;
+  const double share = 1.0 - spreadOf(here->patch);
+  std::optional<NormalChange> change;
+  if (1.0 - share > kEven)
+  {
+    change.emplace(surface, rule, *here);
+  }
   Contact contact;
-  contact.normalSpread = std::acos(std::min(1.0, length / patch.weight));
-  const HeightOver heightOver(patch, rule, here.distance);
-  const Height flat = heightOver(here.distance, 0.0, Eigen::Vector3d::Zero());
-  measureShape(contact, surface, tip, rule, position, patch, flat);
+  contact.normalSpread = std::acos(std::min(1.0, share));
+  const HeightOver heightOver(here->patch, rule, here->distance);
+  const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
+  measureShape(contact, surface, tip, rule, *here, flat, change);
   const double curved =
-    curvedPart(patch, contact.surfaceCurvature, rule.smoothing(here.distance).value);
+    curvedPart(here->patch, contact.surfaceCurvature, rule.smoothing(here->distance).value);
   const Height height =
     heightOver(flat.value, curved * contact.surfaceCurvature, curved * contact.curvatureSlope);
-  contact.normal = height.slope.normalized();
-  const double facing = -pose.axis.dot(contact.normal);
+  const Eigen::Vector3d upward = height.slope.normalized();
+  const double facing = -pose.axis.dot(upward);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
   const double rim = flatRadius(tip) * std::sin(contact.tilt); // the lowest point of a flat end
-  double part = std::min(1.0, length / (kCoherent * patch.weight));
+  const double depth = rule.nose() + rim + here->raised - height.value;
+  Sloped part = smoothMin({ share / kCoherent, 1.0 / kCoherent }, { 1.0 }, kGradual);
   if (!surface.closed())
   {
-    part *= std::clamp(facing / kFront, 0.0, 1.0);
+    const double front = std::clamp(facing / kFront, 0.0, 1.0);
+    part = { front * part.value, front * part.slope };
   }
-  contact.depth = part * (rule.nose() + rim + raised - height.value);
-  contact.slope = part * height.slope.norm();
+  contact.depth = part.value * depth;
+  Eigen::Vector3d outward = part.value * height.slope;
+  if (part.slope > 0.0 && change)
+  {
+    outward -= part.slope * depth * change->share();
+  }
+  contact.slope = outward.norm();
+  contact.normal = outward / contact.slope;
   contact.center = position - height.value * contact.normal;
-  contact.triangle = nearest.triangle;
+  contact.triangle = here->triangle;
   contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
     surface.edgeDistance(contact.center, contact.triangle));
   return contact;

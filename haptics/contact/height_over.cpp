@@ -106,7 +106,7 @@ Height HeightOver::operator()(
   const double more = excess.more;
   const Lens own = lensOf(given_ + more, height, bent.value);
   const Eigen::Vector3d change = patch_->normal + patch_->fading +
-    more * (patch_->area + 0.5 * more * patch_->rim) +
+    more * (patch_->area + patch_->volumeFading + 0.5 * more * patch_->rim) +
     bent.slope * own.curvatureSlope * curvatureSlope;
   const Eigen::Vector3d slope = change / excess.byHeight(-own.heightSlope);
   return { nearest_ + part_ * (height - nearest_), normal + part_ * (slope - normal) };

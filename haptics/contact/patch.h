@@ -23,46 +23,42 @@ struct Patch
   double volume = 0.0;                              ///< of the same: d moment / d Q [m^3]
   double solidAngle = 0.0;      ///< of the ball's sphere within the body [rad^2]
   double solidAngleSlope = 0.0; ///< over Q [rad^2/m^2]
-  Eigen::Vector3d fading = Eigen::Vector3d::Zero(); ///< -d moment by what fades out [m^4]
+  Eigen::Vector3d fading = Eigen::Vector3d::Zero();       ///< -d moment by what fades out [m^4]
+  Eigen::Vector3d volumeFading = Eigen::Vector3d::Zero(); ///< -d volume by the same [m^2]
   Eigen::Vector3d orientationSum =
     Eigen::Vector3d::Zero();      ///< as normal, with all triangles in full
   double orientationWeight = 0.0; ///< as weight, with all triangles in full
 };
 
-/// The part of a triangle within a ball.
-struct DiscIntegral
+/// How its normal and its weight change as the center moves, at the same radius.
+struct PatchSlopes
 {
-  double area = 0.0;       ///< [m^2]
-  double weight = 0.0;     ///< [m^4]
-  double rim = 0.0;        ///< of the ball's rim: d area / d Q [-]
-  double solidAngle = 0.0; ///< seen from the center of the ball [rad^2]
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(); ///< a column for each way to move [m^3]
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero(); ///< [m^3]
+  double area = 0.0;                                ///< d weight / d Q [m^2]
 };
 
-/// What of one triangle lies within a ball, in closed form.
-///
-/// With q the squared distance to the center and Q the squared radius, they are the integrals of
-/// 1 and of w = Q - q, with the solid angle. In the plane of the triangle the ball is a disc, and
-/// Green's theorem leaves straight pieces and arcs.
-///
-/// @param facet          with its unit normal
-/// @param center         of the ball [m]
-/// @param squaredRadius  Q [m^2], above 0
-/// @realtime             pure; no allocation, no lock, no exception
-[[nodiscard]] DiscIntegral integrate(
-  const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept;
+/// What of a surface is summed, and how.
+struct PatchBall
+{
+  Eigen::Vector3d center; ///< [m]
+  double radius;          ///< [m], above 0
+  double side; ///< 1: the center is well outside the body, -1: well inside; between, both count
+  double fade; ///< height behind a plane at which a triangle no longer counts [m], above 0
+};
 
 /// Sums the triangles within a ball, those that face its center in full.
 ///
 /// Triangles that turn their back fade out with the distance of the center behind their plane, so
 /// that the far side of a thin lobe does not count.
 ///
-/// @param radius  of the ball [m], above 0
-/// @param side    1: the center is well outside the body, -1: well inside; between, both sides
-///                count
 /// @param isInside  the center is inside the body
-/// @param fade    height behind a plane at which a triangle no longer counts [m], above 0
-/// @realtime      pure; no allocation, no lock, no exception
-[[nodiscard]] Patch patchWithin(const Surface& surface, const Eigen::Vector3d& center,
-  double radius, double side, double fade, bool isInside) noexcept;
+/// @realtime        pure; no allocation, no lock, no exception
+[[nodiscard]] Patch patchWithin(
+  const Surface& surface, const PatchBall& ball, bool isInside) noexcept;
+
+/// By another look at the same triangles.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] PatchSlopes slopesWithin(const Surface& surface, const PatchBall& ball) noexcept;
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "haptics/contact/patch.h"
 
+#include "haptics/contact/disc_integral.h"
 #include "haptics/contact/lens.h"
 #include "tests/support/surfaces.h"
 
@@ -107,7 +108,7 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
     {
       const double disc = 1.21 - center.z() * center.z();
       const bool isInside = center.z() < 0.0;
-      const Patch patch = patchWithin(plane, center, 1.1, isInside ? -1.0 : 1.0, 1.0, isInside);
+      const Patch patch = patchWithin(plane, { center, 1.1, isInside ? -1.0 : 1.0, 1.0 }, isInside);
       const Lens half = lensOf(1.21, center.z(), 0.0);
       EXPECT_NEAR(patch.weight, std::numbers::pi * disc * disc / 2.0, 1e-12);
       EXPECT_NEAR(patch.area.z(), std::numbers::pi * disc, 1e-12);
@@ -131,8 +132,9 @@ TEST(Patch, TheMomentChangesByTheNormalAndTheVolume)
   {
     const Eigen::Vector3d center(position(random), 0.75 * position(random), 0.3);
     const double radius = 0.4 + 0.2 * position(random);
-    const auto at = [&](const Eigen::Vector3d& place, double squaredRadius)
-    { return patchWithin(body, place, std::sqrt(squaredRadius), 0.0, 1.0, place.z() < 0.0); };
+    const auto at = [&](const Eigen::Vector3d& place, double squaredRadius) {
+      return patchWithin(body, { place, std::sqrt(squaredRadius), 0.0, 1.0 }, place.z() < 0.0);
+    };
     const double squaredRadius = radius * radius;
     const Patch patch = at(center, squaredRadius);
     for (int k = 0; k < 3; ++k)
@@ -160,7 +162,7 @@ TEST(Patch, TheMomentOfABallIsThatOfItsLens)
     {
       const Eigen::Vector3d center =
         (bodyRadius + height) * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
-      const Patch patch = patchWithin(body, center, 0.6, 0.0, 1.0, height < 0.0);
+      const Patch patch = patchWithin(body, { center, 0.6, 0.0, 1.0 }, height < 0.0);
       const Lens lens = lensOf(0.36, height, 1.0 / bodyRadius);
       EXPECT_NEAR(patch.moment, lens.moment, 4e-3 * lens.moment);
       EXPECT_NEAR(patch.volume, lens.volume, 4e-3 * lens.volume);
