@@ -240,10 +240,9 @@ void addOrganCommand(CLI::App& app)
       "Where it rests, may be given again: bonded:box:X0,Y0,Z0:X1,Y1,Z1 in mm, "
       "bonded:direction:X,Y,Z:30deg where the surface faces so, bonded:label:7 where it touches "
       "another label of its image, or bonded:points:FILE where it was painted, x_mm,y_mm,z_mm in "
-      "its "
-      "frame; sliding holds across it only. Of a liver in LPS also posterior "
-      "(faces the back within 60deg), ligaments (back and head, 30deg), hilum (20 mm around the "
-      "middle of what faces the feet), bonded or sliding:posterior")
+      "its frame; sliding holds across it only. Of a liver in LPS also posterior (faces the back "
+      "within 60deg), ligaments (back and head, 30deg), hilum (20 mm around the middle of what "
+      "faces the feet), bonded or sliding:posterior")
     ->required()
     ->allow_extra_args(false);
   const auto add = [&](const char* name, const char* what, const char* usual, auto take)
