@@ -306,6 +306,7 @@ fem::Experiment organExperiment(
       "error_max_pct", "error_rms_pct" } };
   constexpr std::array kSides{ 8.0_mm, 6.0_mm, 4.0_mm, 3.0_mm };
   const auto sides = std::span(kSides).first(quick ? 2 : kSides.size());
+  tell = tell ? std::move(tell) : tellFollower();
   const std::vector<OrganBody> bodies = [quick]
   {
     FollowedWork reading; // whose progress is not that of the solutions
