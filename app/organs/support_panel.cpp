@@ -77,6 +77,7 @@ SupportPanel::SupportPanel(QWidget* parent)
   buttons->addWidget(clear_, 0, 1);
   buttons->addWidget(solve_, 1, 0, 1, 2);
   auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 2, 0, 2); // the picture wants the room
   layout->addWidget(group);
   layout->addLayout(buttons);
   layout->addWidget(legend_);

@@ -14,7 +14,8 @@ namespace
 
 constexpr int kWake = SIGURG; // does nothing by default
 constexpr timespec kPatience{ .tv_sec = 1, .tv_nsec = 500'000'000 };
-constexpr int kNoSolution = 5; // exit code
+constexpr timespec kLess{ .tv_sec = 0, .tv_nsec = 500'000'000 }; // files take time, too
+constexpr int kNoSolution = 5;                                   // exit code
 
 } // namespace
 
@@ -49,7 +50,7 @@ Interrupt::Interrupt(std::function<void()> last)
         if (!last_)
         {
           source_.request_stop();
-          (void)sigtimedwait(&signals_, nullptr, &kPatience);
+          (void)sigtimedwait(&signals_, nullptr, hasOrder() ? &kLess : &kPatience);
           endUnless(finished.stop_requested());
           continue;
         }
@@ -65,6 +66,12 @@ void Interrupt::endBy(std::function<std::string()> last)
 {
   const std::lock_guard lock(mutex_);
   order_ = std::move(last);
+}
+
+bool Interrupt::hasOrder()
+{
+  const std::lock_guard lock(mutex_);
+  return order_ != nullptr;
 }
 
 void Interrupt::endUnless(bool stopped)

@@ -45,6 +45,7 @@ public:
   }
 
 private:
+  [[nodiscard]] bool hasOrder();
   void endUnless(bool stopped);
 
   std::stop_source source_;

@@ -8,6 +8,7 @@
 #include "calibration/organ/organ_places.h"
 #include "haptics/numerics/statistics.h"
 #include "haptics/servo/servo_step.h"
+#include "haptics/threads/followed_work.h"
 #include "haptics/units.h"
 
 #include <algorithm>
@@ -305,7 +306,13 @@ fem::Experiment organExperiment(
       "error_max_pct", "error_rms_pct" } };
   constexpr std::array kSides{ 8.0_mm, 6.0_mm, 4.0_mm, 3.0_mm };
   const auto sides = std::span(kSides).first(quick ? 2 : kSides.size());
-  const std::vector<OrganBody> bodies = organBodies(quick);
+  tell = tell ? std::move(tell) : tellFollower();
+  const std::vector<OrganBody> bodies = [quick]
+  {
+    FollowedWork reading; // whose progress is not that of the solutions
+    const FollowedWork::OfThread isIt(reading);
+    return organBodies(quick);
+  }();
   SolvingCourse course(bodies, sides, std::move(tell));
   for (const OrganBody& body : bodies)
   {

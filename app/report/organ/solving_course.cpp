@@ -39,17 +39,11 @@ double workOf(std::span<const OrganBody> bodies, std::span<const double> sides)
   return all;
 }
 
-std::function<void(double)> toFollower()
-{
-  return [work = FollowedWork::ofThisThread()](double part)
-  { work != nullptr ? work->tell(part) : void(); };
-}
-
 } // namespace
 
 SolvingCourse::SolvingCourse(std::span<const OrganBody> bodies, std::span<const double> sides,
   std::function<void(double)> tell)
-  : tell_(tell ? std::move(tell) : toFollower())
+  : tell_(std::move(tell))
   , all_(workOf(bodies, sides))
   , teller_(
       [this](const std::stop_token& finished)
@@ -79,6 +73,12 @@ void SolvingCourse::show(Clock::time_point now) const
   const double expected = done_ > 0.0 ? now_ / done_ * secondsOf(begun_ - start_) : kGuess;
   const double part = now_ > 0.0 ? 1.0 - std::exp(-secondsOf(now - begun_) / expected) : 0.0;
   tell_((done_ + part * now_) / all_);
+}
+
+std::function<void(double)> tellFollower()
+{
+  return [work = FollowedWork::ofThisThread()](double part)
+  { work != nullptr ? work->tell(part) : void(); };
 }
 
 } // namespace palp::report

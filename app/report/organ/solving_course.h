@@ -17,8 +17,7 @@ class SolvingCourse
 {
 public:
   /// @param bodies  each by cells of each of the sides
-  /// @param tell    part that is done, 0 to 1; called from any thread, and grows; none: who follows
-  ///                this thread is told
+  /// @param tell    part that is done, 0 to 1; called from any thread, and grows
   SolvingCourse(std::span<const OrganBody> bodies, std::span<const double> sides,
     std::function<void(double)> tell);
 
@@ -40,5 +39,8 @@ private:
   Clock::time_point begun_{}; // when that began
   std::jthread teller_;       // last: it uses the others
 };
+
+/// Tells who follows this thread, from any thread.
+[[nodiscard]] std::function<void(double)> tellFollower();
 
 } // namespace palp::report

@@ -192,7 +192,6 @@ TEST_F(Manners, GreetsOnce)
   EXPECT_TRUE(said().isEmpty());
 }
 
-// what it is, in which unit, within which range
 TEST_F(Manners, EveryQuantityTellsItsSymbolItsUnitAndItsRange)
 {
   window_->findChild<QAction*>("supportsAction")->trigger();
