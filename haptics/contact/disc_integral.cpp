@@ -303,23 +303,18 @@ DiscIntegral integrate(
   return boundary.close(crosses[0] > 0.0 && crosses[1] > 0.0 && crosses[2] > 0.0);
 }
 
-// By Gauss's theorem, of w and of 1, which are integrals over the straight pieces of the boundary:
-// those of the arcs are what is left of a closed curve, and there w is 0.
-DiscSlopes slopesOf(const Facet& facet, const Eigen::Vector3d& center, double squaredRadius,
+// By Gauss's theorem, of w over the straight pieces of the boundary: on the arcs it is 0.
+Eigen::Vector3d weightSlope(const Facet& facet, const Eigen::Vector3d& center, double squaredRadius,
   const DiscIntegral& inside) noexcept
 {
   const double height = facet.normal.dot(facet.corners[0] - center);
-  Eigen::Vector3d length = Eigen::Vector3d::Zero();
-  Eigen::Vector3d weight = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k)
   {
     const Chord chord(facet, k, center, squaredRadius);
-    length += chord.length() * chord.side;
-    weight += (chord.length() * squaredRadius - chord.squares()) * chord.side;
+    sum += (chord.length() * squaredRadius - chord.squares()) * chord.side;
   }
-  const Eigen::Vector3d plane = 2.0 * height * facet.normal;
-  return { .area = inside.rim * plane - length.cross(facet.normal),
-    .weight = inside.area * plane - weight.cross(facet.normal) };
+  return 2.0 * height * inside.area * facet.normal - sum.cross(facet.normal);
 }
 
 // By Stokes's theorem, of the radial fields whose divergence is w and 1 and which vanish on the

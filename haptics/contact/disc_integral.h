@@ -29,16 +29,11 @@ struct DiscIntegral
 [[nodiscard]] DiscIntegral integrate(
   const Facet& facet, const Eigen::Vector3d& center, double squaredRadius) noexcept;
 
-/// How they change as the center of the ball moves, at the same radius.
-struct DiscSlopes
-{
-  Eigen::Vector3d area;   ///< [m]
-  Eigen::Vector3d weight; ///< [m^3]
-};
-
+/// How the weight of a triangle changes as the center of the ball moves, at the same radius [m^3].
+///
 /// @param inside  of the same triangle and ball
 /// @realtime      pure; no allocation, no lock, no exception
-[[nodiscard]] DiscSlopes slopesOf(const Facet& facet, const Eigen::Vector3d& center,
+[[nodiscard]] Eigen::Vector3d weightSlope(const Facet& facet, const Eigen::Vector3d& center,
   double squaredRadius, const DiscIntegral& inside) noexcept;
 
 /// By how much the change of what one triangle adds to the moment and the volume of a body is more

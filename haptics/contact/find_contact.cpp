@@ -17,11 +17,9 @@ namespace palp
 namespace
 {
 
-constexpr double kCoherent = 0.5; // [-] length of the mean normal below which lobes oppose
-constexpr double kGradual = 0.2;  // [-] where that begins, of the corner of this rule
-constexpr double kEven = 0.01;    // [-] spread of the normals to which they turn with the tensor of
-constexpr double kUneven = 0.02;  // curvature, and from which on each triangle is asked
-constexpr double kMajority = 0.5; // [-] length of the mean normal that is a clear majority
+constexpr double kCoherent = 0.5;  // [-] length of the mean normal below which lobes oppose
+constexpr double kGradual = 0.2;   // [-] where that begins, of the corner of this rule
+constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a clear majority
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
@@ -62,37 +60,19 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
     here.patch.orientationSum.norm() > kMajority * here.patch.orientationWeight;
 }
 
-// How the mean normal below a place changes as that moves.
-class NormalChange
+// How the length of the mean normal by the weight changes as a place moves [1/m].
+Eigen::Vector3d shareSlope(
+  const Surface& surface, const BallRule& rule, const Neighborhood& here) noexcept
 {
-public:
-  NormalChange(const Surface& surface, const BallRule& rule, const Neighborhood& here) noexcept
-  {
-    const PatchSlopes slopes = slopesWithin(surface, here.ball);
-    const Patch& patch = here.patch;
-    const double length = patch.normal.norm();
-    const Eigen::Vector3d normal = patch.normal / length;
-    const Eigen::Vector3d wider = rule(here.distance).slope * normal; // of Q
-    turn_ = (slopes.normal + patch.area * wider.transpose()).transpose() / length;
-    share_ = length / patch.weight *
-      (turn_ * normal - (slopes.weight + slopes.area * wider) / patch.weight);
-  }
-
-  // along a vector across the normal
-  [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& along) const noexcept
-  {
-    return turn_ * along;
-  }
-  // of its length by the weight [1/m]
-  [[nodiscard]] const Eigen::Vector3d& share() const noexcept
-  {
-    return share_;
-  }
-
-private:
-  Eigen::Matrix3d turn_;
-  Eigen::Vector3d share_;
-};
+  const PatchSlopes slopes = slopesWithin(surface, here.ball);
+  const Patch& patch = here.patch;
+  const Eigen::Vector3d normal = patch.normal.normalized();
+  const Eigen::Vector3d wider = rule(here.distance).slope * normal; // of Q
+  const Eigen::Vector3d length =
+    slopes.normal.transpose() * normal + normal.dot(patch.area) * wider;
+  const Eigen::Vector3d weight = slopes.weight + slopes.area * wider;
+  return (length - (1.0 - spreadOf(patch)) * weight) / patch.weight;
+}
 
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
 // sphere's normals spread by at least twice as much as from where all of it counts.
@@ -133,10 +113,9 @@ private:
 
 // What of the body counts as the shape of the contact, and how that changes as the tool moves: with
 // the place, with the radius as the height changes, and with the normal, which turns with the body.
-// height: over a flat body; change: where the normals below the place differ
+// height: over a flat body
 void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const BallRule& rule,
-  const Neighborhood& here, const Height& height,
-  const std::optional<NormalChange>& change) noexcept
+  const Neighborhood& here, const Height& height) noexcept
 {
   const double grain = kGrain * (rule.nose() + flatRadius(tip));
   const double least = std::max(surface.shape().finest(), kFinest * grain);
@@ -145,13 +124,7 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   const double growth = (height.value + wide.value * wide.slope) / reach;
   const LocalShape shape =
     surface.shape()(here.ball.center, reach, here.patch.normal.normalized(), grain);
-  const TurnRate even(shape, height.value);
-  const double uneven = smoothStep((spreadOf(here.patch) - kEven) / (kUneven - kEven));
-  const auto turn = [&](const Eigen::Vector3d& along) -> Eigen::Vector3d
-  {
-    return uneven > 0.0 && change ? (1.0 - uneven) * even(along) + uneven * (*change)(along)
-                                  : even(along);
-  };
+  const TurnRate turn(shape, height.value);
   const auto slopeOf = [&](const LocalShape::Slope& of)
   { return Eigen::Vector3d(of.place + of.radius * growth * height.slope + turn(of.normal)); };
   contact.surfaceCurvature = shape.meanCurvature;
@@ -209,16 +182,11 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   }
   const Eigen::Vector3d& position = here->ball.center;
   const double share = 1.0 - spreadOf(here->patch);
-  std::optional<NormalChange> change;
-  if (1.0 - share > kEven)
-  {
-    change.emplace(surface, rule, *here);
-  }
   Contact contact;
   contact.normalSpread = std::acos(std::min(1.0, share));
   const HeightOver heightOver(here->patch, rule, here->distance);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
-  measureShape(contact, surface, tip, rule, *here, flat, change);
+  measureShape(contact, surface, tip, rule, *here, flat);
   const double curved =
     curvedPart(here->patch, contact.surfaceCurvature, rule.smoothing(here->distance).value);
   const Height height =
@@ -236,9 +204,10 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   }
   contact.depth = part.value * depth;
   Eigen::Vector3d outward = part.value * height.slope;
-  if (part.slope > 0.0 && change)
+  if (part.slope > 0.0) // of a center in the body it would push the tool out through a thin one
   {
-    outward -= part.slope * depth * change->share();
+    outward -=
+      std::max(0.0, here->ball.side) * part.slope * depth * shareSlope(surface, rule, *here);
   }
   contact.slope = outward.norm();
   contact.normal = outward / contact.slope;

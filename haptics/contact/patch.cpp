@@ -115,8 +115,9 @@ PatchSlopes slopesWithin(const Surface& surface, const PatchBall& ball) noexcept
   visit(surface, ball,
     [&](const Seen& one)
     {
-      const DiscSlopes disc = slopesOf(one.facet, ball.center, squaredRadius, one.inside);
-      const Eigen::Vector3d change = one.part * disc.weight + one.inside.weight * one.change;
+      const Eigen::Vector3d change =
+        one.part * weightSlope(one.facet, ball.center, squaredRadius, one.inside) +
+        one.inside.weight * one.change;
       slopes.normal += one.facet.normal * change.transpose();
       slopes.weight += change;
       slopes.area += one.part * one.inside.area;

@@ -9,51 +9,42 @@ namespace
 
 constexpr double kChange = 1e-3; // by which each is changed, of the tool's curvature and itself
 
-// relative, of what a law makes of a place, over one of its values
-template <typename Of>
-double relativeSlope(
-  const ContactGeometry& local, double ContactGeometry::*what, double change, Of of) noexcept
-{
-  ContactGeometry there = local;
-  there.*what += change;
-  return (of(there) / of(local) - 1.0) / change;
-}
+// Where the slope of a force is taken, and by how much its integral over the depth is more: exact
+// where it grows as the depth's power of 1.5 or 3, and to 4 % from 1.5 to 3.5.
+constexpr double kDepth = 0.7310; // [-]
+constexpr double kWeight = 0.64;  // [-]
 
 } // namespace
 
-EnergySlopes energySlopes(
-  const ForceLaw& law, const ContactGeometry& local, const Response& response) noexcept
+EnergySlopes energySlopes(const ForceLaw& law, const ContactGeometry& local) noexcept
 {
-  if (law.settings().mode != LawMode::Corrected || !(response.force > 0.0))
+  if (law.settings().mode != LawMode::Corrected || !(local.depth > 0.0))
   {
     return {};
   }
-  const double power = 1.0 + response.stiffness * local.depth / response.force;
-  const double energy = response.force * local.depth / power;
+  ContactGeometry here = local;
+  here.depth = kDepth * local.depth;
+  const double force = law(here).force;
+  // over one of its values
+  const auto slope = [&](double ContactGeometry::*what, double change)
+  {
+    ContactGeometry there = here;
+    there.*what += change;
+    return kWeight * local.depth * (law(there).force - force) / change;
+  };
   const double bend = kChange / baseRadius(law.tip());
   EnergySlopes slopes;
   if (law.settings().curvature && !(flatRadius(law.tip()) > 0.0))
   {
-    const auto ellipse = [&](const ContactGeometry& at) { return law.ellipse(at); };
-    slopes.spread = energy * relativeSlope(local, &ContactGeometry::curvatureSpread, bend, ellipse);
-    // the gap grows by r^2 / 2 R0: of a half-space dF/dk = -dF/dd a^2 / 3
-    const double a = response.contactRadius;
-    slopes.curvature = -response.stiffness * a * a / 3.0 * local.depth / power +
-      energy * relativeSlope(local, &ContactGeometry::surfaceCurvature, bend, ellipse);
+    slopes.curvature = slope(&ContactGeometry::surfaceCurvature, bend);
+    ContactGeometry longer = here; // in one direction, which is a factor of the force
+    longer.curvatureSpread += bend;
+    slopes.spread =
+      kWeight * local.depth * force * (law.ellipse(longer) / law.ellipse(here) - 1.0) / bend;
   }
   if (law.settings().thickness && std::isfinite(local.thickness))
   {
-    const double thicker = kChange * local.thickness;
-    const auto layer = [&](const ContactGeometry& at) { return law.layerThickness(at); };
-    const auto force = [&](const ContactGeometry& at)
-    { return at.thickness == local.thickness ? response.force : law(at).force; };
-    const double byThickness = response.force * local.depth / (power + 0.5) *
-      relativeSlope(local, &ContactGeometry::thickness, thicker, force);
-    slopes.thickness = byThickness;
-    const double layerByThickness =
-      relativeSlope(local, &ContactGeometry::thickness, thicker, layer);
-    slopes.curvature += byThickness / layerByThickness *
-      relativeSlope(local, &ContactGeometry::surfaceCurvature, bend, layer);
+    slopes.thickness = slope(&ContactGeometry::thickness, kChange * local.thickness);
   }
   return slopes;
 }

@@ -13,14 +13,11 @@ struct EnergySlopes
   double thickness = 0.0; ///< [J/m]
 };
 
-/// Slopes of the integral of a law's force over the depth, from those of the force: it grows as a
-/// power of the depth, and what the curvature does to it alike, what the thickness does by a half
-/// more, as the radius of contact over it.
+/// Slopes of the integral of a law's force over the depth, by those of the force at one depth,
+/// which stands for all: they grow as a power of it.
 ///
-/// @param response  of the law there
-/// @return          zeros where the law asks for the depth alone
-/// @realtime        pure; no allocation, no lock, no exception
-[[nodiscard]] EnergySlopes energySlopes(
-  const ForceLaw& law, const ContactGeometry& local, const Response& response) noexcept;
+/// @return    zeros where the law asks for the depth alone
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] EnergySlopes energySlopes(const ForceLaw& law, const ContactGeometry& local) noexcept;
 
 } // namespace palp

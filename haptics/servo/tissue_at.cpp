@@ -83,7 +83,7 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   const Response response = plain(answer.local);
   ContactGeometry geometry = geometry_;
   geometry.depth = answer.local;
-  const EnergySlopes slopes = energySlopes(scene_->law, geometry, response);
+  const EnergySlopes slopes = energySlopes(scene_->law, geometry);
   Eigen::Vector3d force = -(slopes.curvature * contact_->curvatureSlope +
     slopes.spread * contact_->spreadSlope + slopes.thickness * contact_->thicknessSlope);
   if (stiffness_)

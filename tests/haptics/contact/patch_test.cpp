@@ -152,6 +152,41 @@ TEST(Patch, TheMomentChangesByTheNormalAndTheVolume)
   }
 }
 
+// The same where triangles count in part: the sides of those no longer cancel with their
+// neighbors'.
+TEST(Patch, WhatFadesChangesTheMomentAndTheVolumeAsWell)
+{
+  const Surface body = test::makeSurface(test::block({ 2.0, 1.5, 1.0 }, 5));
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
+  constexpr double step = 1e-5;
+  double faded = 0.0;
+  for (int i = 0; i < 100; ++i)
+  {
+    const Eigen::Vector3d center(position(random), 0.75 * position(random), 0.2);
+    const auto ballAt = [](const Eigen::Vector3d& place) {
+      return PatchBall{ place, 0.6, 1.0, 0.3 };
+    };
+    const Patch patch = patchWithin(body, ballAt(center), false);
+    const PatchSlopes slopes = slopesWithin(body, ballAt(center));
+    faded += patch.fading.norm();
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3d move = step * Eigen::Vector3d::Unit(k);
+      const Patch after = patchWithin(body, ballAt(center + move), false);
+      const Patch before = patchWithin(body, ballAt(center - move), false);
+      const auto slope = [&](auto of) { return ((of(after) - of(before)) / (2.0 * step)); };
+      EXPECT_NEAR(
+        slope([](const Patch& p) { return p.moment; }), -patch.normal[k] - patch.fading[k], 1e-6);
+      EXPECT_NEAR(slope([](const Patch& p) { return p.volume; }),
+        -patch.area[k] - patch.volumeFading[k], 1e-4);
+      EXPECT_NEAR(slope([](const Patch& p) { return p.normal.x(); }), slopes.normal(0, k), 1e-6);
+      EXPECT_NEAR(slope([](const Patch& p) { return p.weight; }), slopes.weight[k], 1e-6);
+    }
+  }
+  EXPECT_GT(faded, 0.1);
+}
+
 // on a fine mesh of a ball it is that of two balls
 TEST(Patch, TheMomentOfABallIsThatOfItsLens)
 {
