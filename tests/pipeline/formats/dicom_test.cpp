@@ -193,6 +193,17 @@ TEST_F(Dicom, OneDamagedFileIsNamedWithTheElement)
   }
 }
 
+TEST_F(Dicom, ADescriptionIsReadWhateverItsCode)
+{
+  for (const char* stored : { "B\xe4uche", "B\xc3\xa4uche" }) // ISO_IR 100 and 192
+  {
+    writeDicom(folder_.path(), "code", kAxial, "--write-xfer-little", { .description = stored });
+    EXPECT_TRUE(mentions(readSurface(folder_.path() / "code", {}, { .level = kDicomLevel }),
+      "series \"B\xc3\xa4uche\" (CT)"))
+      << stored;
+  }
+}
+
 // a scanner's report of the dose, or a colored picture, is a series of its own beside the images
 TEST_F(Dicom, WhatIsNoVolumeLeavesTheOtherSeriesToBeRead)
 {
