@@ -154,7 +154,8 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
       high = high.max(point.array());
     }
   }
-  const LengthUnit guess = guessUnit((high - low).maxCoeff(), image.string());
+  const LengthUnit guess =
+    guessUnit((high - low).maxCoeff(), image.string(), organs.organs.front().surface.field);
   warnings.push_back(std::string("the file names no unit; ") + unitName(guess) +
     " is the only one that gives the size of organs; --unit " + unitName(guess) + " confirms it");
   return guess;

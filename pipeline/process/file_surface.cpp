@@ -26,6 +26,7 @@ void packSurface(std::string& bytes, const FileSurface& surface)
   packValues(bytes, surface.triangles);
   packValues(bytes, surface.unit);
   packValues(bytes, surface.space);
+  packOne(bytes, surface.field);
   packEach(bytes, surface.notes, packValues<std::string>);
 }
 
@@ -33,6 +34,7 @@ bool unpackSurface(std::string_view& bytes, FileSurface& surface)
 {
   return unpackValues(bytes, surface.points) && unpackValues(bytes, surface.triangles) &&
     unpackValues(bytes, surface.unit) && unpackValues(bytes, surface.space) &&
+    unpackOne(bytes, surface.field) &&
     unpackEach(bytes, surface.notes, unpackValues<std::string>) && indicesInRange(surface);
 }
 

@@ -20,6 +20,7 @@ constexpr std::array kUnits{ LengthUnit::Millimeter, LengthUnit::Centimeter, Len
 constexpr std::span kUsualUnits(kUnits.data(), 3); // of meshes that name none
 constexpr double kSmallestBody = 5.0_mm;
 constexpr double kLargestBody = 600.0_mm;
+constexpr double kLargestImage = 2500.0_mm; // of a whole patient
 
 // the sides of a body are rounded in the file, so that its limits are as well
 constexpr double kSlack = 1e-6;
@@ -79,7 +80,7 @@ UnitChoice parseUnit(std::string_view text)
   return unit;
 }
 
-LengthUnit guessUnit(double longestSide, const std::string& file)
+LengthUnit guessUnit(double longestSide, const std::string& file, double field)
 {
   std::ostringstream sizes;
   UnitChoice fitting;
@@ -89,7 +90,9 @@ LengthUnit guessUnit(double longestSide, const std::string& file)
     const double side = longestSide * unitLength(unit);
     sizes << (unit == LengthUnit::Millimeter ? "" : ", ") << units::toMillimeters(side) << " mm if "
           << unitName(unit);
-    if (side >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack))
+    const double whole = field > 0.0 ? field * unitLength(unit) : side;
+    if (whole >= kSmallestBody * (1.0 - kSlack) && side <= kLargestBody * (1.0 + kSlack) &&
+      whole <= kLargestImage)
     {
       fitting = unit;
       ++fits;

@@ -34,9 +34,13 @@ using UnitChoice = std::optional<LengthUnit>;
 
 /// The one unit that makes a body the size of an organ or a part of one, 5 to 600 mm.
 ///
+/// Of an image, also one that makes it 5 mm to 2.5 m long: a small region of it, as a lesion, tells
+/// nothing by its own size.
+///
 /// @param longestSide  of the bounding box, in the unit that is sought
 /// @param file         stands before the message
+/// @param field        longest side of the image, in the same; 0: of no image
 /// @throws Error       BadMesh: no unit fits, or two do; says what each would give
-[[nodiscard]] LengthUnit guessUnit(double longestSide, const std::string& file);
+[[nodiscard]] LengthUnit guessUnit(double longestSide, const std::string& file, double field = 0.0);
 
 } // namespace palp

@@ -236,8 +236,8 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
   {
     double box[6];
     repaired.mesh->GetBounds(box);
-    unit =
-      guessUnit(std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string());
+    unit = guessUnit(
+      std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] }), file.string(), read.field);
     why = "a guess";
     warnings.push_back(std::string("the file names no unit; ") + unitName(*unit) +
       " is the only one that gives the size of an organ or a part of one; --unit " +

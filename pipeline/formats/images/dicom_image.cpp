@@ -111,7 +111,8 @@ void readVoxels(const DicomSlice& slice, std::span<float> values)
 
 PatientImage readDicom(const std::filesystem::path& folder, const std::string& asked)
 {
-  DicomSeries series = chosenSeries(folder, asked);
+  std::vector<std::string> notes;
+  DicomSeries series = chosenSeries(folder, asked, notes);
   const double step = stack(folder, series);
   checkLength(folder, series);
   const DicomSlice& first = series.slices.front();
@@ -130,6 +131,7 @@ PatientImage readDicom(const std::filesystem::path& folder, const std::string& a
   }
   blameForACrash({});
 
+  result.notes = std::move(notes);
   placeInPatient(result, first.alongRow, first.alongColumn, first.position);
   result.notes.push_back("series \"" + series.description + "\" (" + series.modality + "), " +
     std::to_string(count) + " images");

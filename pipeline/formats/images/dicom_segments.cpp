@@ -108,7 +108,8 @@ std::vector<SegmentFrame> framesOf(const std::filesystem::path& file, const Data
   return frames;
 }
 
-// which slice each frame is; slices of no segment may be missing
+// which slice each frame is; slices of no segment may be missing, also before the first and after
+// the last, so that no segment is cut there
 void stackFrames(
   const std::filesystem::path& file, SegmentGrid& grid, std::vector<SegmentFrame>& frames)
 {
@@ -128,6 +129,10 @@ void stackFrames(
       grid.step = step > kSame ? std::min(grid.step, step) : grid.step;
     }
   }
+  if (!std::isfinite(grid.step))
+  {
+    refuse(file, "one slice alone, no volume; give all of the segmentation");
+  }
   grid.first = lowest.position;
   constexpr double kMost = 10'000.0; // slices
   constexpr double kOff = 0.1;       // of a step or a pixel
@@ -142,9 +147,10 @@ void stackFrames(
       refuse(
         file, "its slices are no even stack of one place; resample it, or save it as .seg.nrrd");
     }
-    frame.slice = static_cast<int>(std::lround(slice));
-    grid.slices = std::max(grid.slices, frame.slice + 1);
+    frame.slice = static_cast<int>(std::lround(slice)) + 1;
+    grid.slices = std::max(grid.slices, frame.slice + 2);
   }
+  grid.first -= grid.step * normal;
 }
 
 // bits one after the other across all frames, the lowest of a byte first

@@ -91,6 +91,22 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
   return slice;
 }
 
+void add(DicomSeries& series, const std::filesystem::path& file, const DataSet& data)
+{
+  series.uid = textOf(data, kSeries);
+  series.description = textOf(data, kDescription);
+  series.modality = textOf(data, kModality);
+  series.number = static_cast<int>(std::clamp(decimalOf(data, kNumber, 0.0), 0.0, 1e9));
+  try
+  {
+    series.slices.push_back(sliceOf(file, data));
+  }
+  catch (const Error& error) // the others may be good
+  {
+    series.fault = series.fault.empty() ? error.what() : series.fault;
+  }
+}
+
 std::string inWords(const DicomSeries& series)
 {
   const DicomSlice& first = series.slices.front();
@@ -185,12 +201,7 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
     {
       continue;
     }
-    DicomSeries& series = found[textOf(data, kSeries)];
-    series.uid = textOf(data, kSeries);
-    series.description = textOf(data, kDescription);
-    series.modality = textOf(data, kModality);
-    series.number = static_cast<int>(std::clamp(decimalOf(data, kNumber, 0.0), 0.0, 1e9));
-    series.slices.push_back(sliceOf(file, data));
+    add(found[textOf(data, kSeries)], file, data);
   }
   blameForACrash({});
   if (found.empty())
@@ -203,31 +214,41 @@ std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder)
   {
     all.push_back(std::move(series));
   }
-  std::ranges::stable_sort(all, {}, &DicomSeries::number);
+  std::ranges::stable_sort(all, {},
+    [](const DicomSeries& series) { return std::pair(!series.fault.empty(), series.number); });
   return all;
 }
 
-DicomSeries chosenSeries(const std::filesystem::path& folder, const std::string& asked)
+DicomSeries chosenSeries(
+  const std::filesystem::path& folder, const std::string& asked, std::vector<std::string>& notes)
 {
   const std::vector<DicomSeries> all = dicomSeriesIn(folder);
+  const auto volumes =
+    static_cast<std::size_t>(std::ranges::count(all, std::string(), &DicomSeries::fault));
   std::string list;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     const std::string place = std::to_string(i + 1);
-    if (asked == place || (!asked.empty() && asked == all[i].uid))
+    const bool isMeant = asked == place || (!asked.empty() && asked == all[i].uid);
+    if (!all[i].fault.empty() && (isMeant || volumes == 0))
+    {
+      throw Error(ErrorCode::BadFile, all[i].fault);
+    }
+    if (isMeant)
     {
       return all[i];
     }
-    list += (i > 0 ? ", " : "") + place + " " + inWords(all[i]);
+    i < volumes ? void(list += (i > 0 ? ", " : "") + place + " " + inWords(all[i]))
+                : notes.push_back("left out: " + all[i].fault);
   }
   if (!asked.empty())
   {
     refuse(folder, "no series " + inQuotes(asked) + " in it; it has " + list);
   }
-  if (all.size() > 1)
+  if (volumes > 1)
   {
-    refuse(folder,
-      "has " + std::to_string(all.size()) + " series: " + list + "; name one as the series");
+    refuse(
+      folder, "has " + std::to_string(volumes) + " series: " + list + "; name one as the series");
   }
   return all.front();
 }

@@ -31,21 +31,23 @@ struct DicomSeries
   std::string modality; ///< as CT
   int number = 0;
   std::vector<DicomSlice> slices;
+  std::string fault{}; ///< why it is no volume, as a report or a picture; empty: it may be one
 };
 
-/// The series in a folder, by their numbers. Files that are no DICOM images are passed over.
+/// The series in a folder, by their numbers, those with a fault last. Files that are no DICOM
+/// images are passed over.
 ///
 /// @param folder   without the folders in it
-/// @throws Error   BadFile: none; an image that has no place in space, or is no plain slice of one
-///                 value a voxel
+/// @throws Error   BadFile: none; a file that is cut off or damaged
 [[nodiscard]] std::vector<DicomSeries> dicomSeriesIn(const std::filesystem::path& folder);
 
 /// The one that is asked for.
 ///
-/// @param asked   its place in the list, from 1, or its UID; empty: the only one
-/// @throws Error  BadFile: none, or several and nothing asked; lists them
+/// @param asked   its place in the list, from 1, or its UID; empty: the only one without a fault
+/// @param notes   gets the faults of the others, where nothing is asked
+/// @throws Error  BadFile: none, or several and nothing asked, which are listed; its fault
 [[nodiscard]] DicomSeries chosenSeries(
-  const std::filesystem::path& folder, const std::string& asked);
+  const std::filesystem::path& folder, const std::string& asked, std::vector<std::string>& notes);
 
 /// Orders the slices from the first voxel on, so that row, column and order are right-handed.
 ///

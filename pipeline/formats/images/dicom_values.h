@@ -19,7 +19,8 @@ namespace palp
 /// SOP class of a segmentation: several masks in one file.
 inline constexpr const char* kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4";
 
-/// Without the blanks and zeros that fill it up; empty: not there.
+/// In UTF-8, without the blanks and zeros that fill it up; empty: not there. What is not valid
+/// UTF-8 is taken for ISO 8859-1.
 [[nodiscard]] std::string textOf(const gdcm::DataSet& data, const gdcm::Tag& tag);
 
 /// As many decimals as are asked for; nothing where there are others.

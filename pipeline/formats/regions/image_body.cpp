@@ -82,9 +82,20 @@ void toPatient(const PatientImage& volume, std::vector<Eigen::Vector3d>& points)
   }
 }
 
+// of a voxel [unit]
+Eigen::Array3d sidesOf(const PatientImage& volume)
+{
+  const Eigen::Vector3d spacing(volume.image->GetSpacing());
+  return (Form(volume.toPatient).topLeftCorner<3, 3>() * spacing.asDiagonal())
+    .colwise()
+    .norm()
+    .transpose();
+}
+
 // in the patient's axes, facing outward also in a mirror and of a body below its level
 FileSurface placed(const PatientImage& volume, ImageContour& contour)
 {
+  const Eigen::Array3i size(volume.image->GetDimensions());
   toPatient(volume, contour.points);
   if (enclosedVolume(contour.points, contour.triangles) < 0.0)
   {
@@ -97,16 +108,8 @@ FileSurface placed(const PatientImage& volume, ImageContour& contour)
     .triangles = std::move(contour.triangles),
     .unit = volume.unit,
     .notes = {},
-    .space = volume.space };
-}
-
-double longestSide(const PatientImage& volume)
-{
-  const Eigen::Vector3d spacing(volume.image->GetSpacing());
-  return (Form(volume.toPatient).topLeftCorner<3, 3>() * spacing.asDiagonal())
-    .colwise()
-    .norm()
-    .maxCoeff();
+    .space = volume.space,
+    .field = (sidesOf(volume) * size.cast<double>()).maxCoeff() };
 }
 
 } // namespace
@@ -257,7 +260,7 @@ FileOrgan bodyOf(
   organ.voxels = static_cast<std::uint64_t>(voxels);
   organ.voxelVolume = static_cast<double>(voxels) * voxelVolume(volume);
   organ.enclosed = grown * std::abs(contour.enclosed);
-  organ.voxel = longestSide(volume);
+  organ.voxel = sidesOf(volume).maxCoeff();
   toPatient(volume, contour.from);
   organ.from = std::move(contour.from);
   organ.surface = placed(volume, contour);

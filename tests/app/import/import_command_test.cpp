@@ -33,6 +33,14 @@ const std::filesystem::path& phantom()
   return folder;
 }
 
+Surface surfaceOf(const std::filesystem::path& file)
+{
+  const LoadedSurface loaded = readSurface(file);
+  EXPECT_EQ(loaded.space, "LPS");
+  EXPECT_TRUE(loaded.closed);
+  return { pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh) };
+}
+
 class ImportCommand : public testing::Test
 {
 protected:
@@ -121,13 +129,6 @@ TEST_F(ImportCommand, MakesTheOrgansOfALabelMap)
   // a mask tells a surface to half a voxel; where parts meet, to another half
   for (const char* name : { "vessels", "nodules" })
   {
-    const auto surfaceOf = [](const std::filesystem::path& file)
-    {
-      const LoadedSurface loaded = readSurface(file);
-      EXPECT_EQ(loaded.space, "LPS");
-      EXPECT_TRUE(loaded.closed);
-      return Surface(pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh));
-    };
     const Surface made = surfaceOf(out_ / (std::string(name) + ".vtp"));
     const Surface exact = surfaceOf(phantom() / (std::string(name) + ".vtp"));
     EXPECT_LT(deviation(made, exact).rootMeanSquare, 1.5_mm) << name;
@@ -204,11 +205,6 @@ TEST_F(ImportCommand, JoinsLabelsToOneOrgan)
   ASSERT_EQ(importPhantom("--label liver+vessels+3").code, 0);
   EXPECT_EQ(files(),
     (std::vector<std::string>{ "import.json", "liver.vtp", "liver_haptic.vtp", "scene.json" }));
-  const auto surfaceOf = [](const std::filesystem::path& file)
-  {
-    const LoadedSurface loaded = readSurface(file);
-    return Surface(pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh));
-  };
   const Surface exact = surfaceOf(phantom() / "liver.vtp");
   for (const char* name : { "liver.vtp", "liver_haptic.vtp" })
   {
@@ -230,6 +226,26 @@ TEST_F(ImportCommand, ListsTheLabelsWhereNoFolderIsNamed)
   const test::Finished without = import((folder_.path() / "none.mha").string());
   EXPECT_EQ(without.out, "label,name,voxels,volume_ml\n1,,1440,\n2,,1008,\n3,,1,\n");
   EXPECT_NE(without.err.find("names no unit; give --unit mm"), std::string::npos) << without.err;
+}
+
+// MetaImage by ITK names no unit, and by its own size the lesion would be one of 40 mm
+TEST_F(ImportCommand, TakesALesionInTheUnitOfItsImage)
+{
+  const auto image = write("lesion.mha", 110,
+    [](int x, int y, int z) { return (x == 9 || x == 10) && y / 2 == 20 && z / 2 == 40 ? 1 : 0; });
+  std::string text = test::readAll(image);
+  const std::string sides = "ElementSpacing = 5 5 5\nDistanceUnits = mm\n";
+  text.replace(text.find(sides), sides.size(), "ElementSpacing = 2 2 2.5\n");
+  std::ofstream(image, std::ios::binary) << text;
+  const test::Finished finished = import(image.string() + " --out " + out_.string());
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("names no unit; mm is"), std::string::npos) << finished.err;
+  const json organ = read("import.json").at("organs").at(0);
+  EXPECT_NEAR(organ.at("voxels_ml"), 8 * 2.0 * 2.0 * 2.5 * 1e-3, 1e-9);
+  double middle[3];
+  readSurface(out_ / "label_1.vtp").mesh->GetCenter(middle);
+  EXPECT_LT(
+    (Eigen::Vector3d(middle) - Eigen::Vector3d(19.0, 81.0, 201.25) * 1.0_mm).norm(), 0.2_mm);
 }
 
 // as a scanner gives it: 12 bits from -1024 on, in files of no order

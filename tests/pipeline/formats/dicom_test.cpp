@@ -193,6 +193,49 @@ TEST_F(Dicom, OneDamagedFileIsNamedWithTheElement)
   }
 }
 
+TEST_F(Dicom, ADescriptionIsReadWhateverItsCode)
+{
+  for (const char* stored : { "B\xe4uche", "B\xc3\xa4uche" }) // ISO_IR 100 and 192
+  {
+    writeDicom(folder_.path(), "code", kAxial, "--write-xfer-little", { .description = stored });
+    EXPECT_TRUE(mentions(readSurface(folder_.path() / "code", {}, { .level = kDicomLevel }),
+      "series \"B\xc3\xa4uche\" (CT)"))
+      << stored;
+  }
+}
+
+// a scanner's report of the dose, or a colored picture, is a series of its own beside the images
+TEST_F(Dicom, WhatIsNoVolumeLeavesTheOtherSeriesToBeRead)
+{
+  writeDicom(folder_.path(), "dose", kAxial, "--write-xfer-little");
+  const Vector3d nowhere = Vector3d::Zero();
+  std::string header = dicomHeader(kAxial, nowhere, 0, { .series = "1.2.3.9" });
+  const std::string place = "(0020,0032) DS [0\\0\\0]\n";
+  header.erase(header.find(place), place.size());
+  const std::string bytes(std::size_t{ 2 } * 40 * 36, '\0');
+  write("dose.raw", bytes);
+  write("dose.txt", header + "(7fe0,0010) OW =" + (folder_.path() / "dose.raw").string() + "\n");
+  const auto report = folder_.path() / "dose/report.dcm";
+  ASSERT_EQ(
+    runCommand(words("dump2dcm -q ", (folder_.path() / "dose.txt").string(), ' ', report.string()))
+      .code,
+    0);
+  const std::string fault = "report.dcm: has no Image Position (Patient)";
+  for (const char* which : { "", "1" })
+  {
+    const LoadedSurface surface =
+      readSurface(folder_.path() / "dose", {}, { .level = kDicomLevel, .series = which });
+    EXPECT_TRUE(mentions(surface, "\"abdomen\" (CT), 14 images")) << which;
+    EXPECT_EQ(mentions(surface, fault), *which == '\0') << which;
+  }
+  for (const char* which : { "2", "1.2.3.9" })
+  {
+    EXPECT_NE(
+      refusal("dose", { .level = kDicomLevel, .series = which }).find(fault), std::string::npos)
+      << which;
+  }
+}
+
 // as on a disk, with the icon of an image
 TEST_F(Dicom, ADirectoryBesideTheImagesIsPassedOver)
 {

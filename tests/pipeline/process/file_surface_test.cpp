@@ -12,7 +12,8 @@ FileSurface tetrahedron()
   return { .points = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
     .triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 3, 2 } },
     .unit = "mm",
-    .notes = { "a note", "another" } };
+    .notes = { "a note", "another" },
+    .field = 320.0 };
 }
 
 TEST(FileSurface, ComesBackAsItWas)
@@ -23,6 +24,7 @@ TEST(FileSurface, ComesBackAsItWas)
   EXPECT_EQ(back->triangles, tetrahedron().triangles);
   EXPECT_EQ(back->unit, "mm");
   EXPECT_EQ(back->notes, tetrahedron().notes);
+  EXPECT_EQ(back->field, 320.0);
 }
 
 TEST(FileSurface, IsNothingWhenCutOffAnywhereOrTooLong)

@@ -9,11 +9,11 @@ namespace palp::test
 namespace
 {
 
-std::string refusal(double longestSide)
+std::string refusal(double longestSide, double field = 0.0)
 {
   try
   {
-    const LengthUnit unit = guessUnit(longestSide, "body.stl");
+    const LengthUnit unit = guessUnit(longestSide, "body.stl", field);
     return std::string("taken in ") + unitName(unit);
   }
   catch (const Error& error)
@@ -47,6 +47,21 @@ TEST(LengthUnit, IsRefusedWhereTwoFit)
   }
   EXPECT_EQ(guessUnit(4.9, ""), LengthUnit::Centimeter);
   EXPECT_EQ(guessUnit(60.1, ""), LengthUnit::Millimeter);
+}
+
+// a lesion of 4.1 mm is none of 41 mm, and a kidney of 50 mm none of 500 mm
+TEST(LengthUnit, OfARegionIsThatOfItsImage)
+{
+  for (const double side : { 0.6, 4.1, 50.0, 230.0 })
+  {
+    EXPECT_EQ(refusal(side, 320.0), "taken in mm") << side;
+    EXPECT_EQ(refusal(1e-3 * side, 0.32), "taken in m") << side;
+  }
+  EXPECT_EQ(refusal(500.0, 2000.0), "taken in mm");
+  for (const double side : { 0.6, 4.1, 41.0 }) // of 60 mm, or of 600
+  {
+    EXPECT_NE(refusal(side, 60.0).find("more than one unit"), std::string::npos) << side;
+  }
 }
 
 TEST(LengthUnit, IsRefusedWhereNoneFitsAndSaysWhatEachWouldGive)
