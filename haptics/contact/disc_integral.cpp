@@ -17,13 +17,13 @@ namespace
 // of the disc's squared radius over the squared side from which on its rim is straight, and sectors
 // so much larger than their difference that rounding would be all of it
 constexpr double kStraight = 1e4;
-constexpr double kThird = 1.0 / 3.0;
+constexpr double kOneThird = 1.0 / 3.0;
 
 // The integral of w over a triangle within the ball, given w at its corners and the squared sides:
 // with barycentric coordinates l, w = sum of l_i w_i and of l_i l_j times the square of side ij.
 double integrateInside(double area, double sumW, double sumSides) noexcept
 {
-  return area * kThird * (sumW + 0.25 * sumSides);
+  return area * kOneThird * (sumW + 0.25 * sumSides);
 }
 
 // The part with w > 0 of a triangle over which w is as good as linear.
@@ -240,7 +240,7 @@ struct Chord
   {
     return length() *
       (first + along * (enter + leave) +
-        kThird * squared * (enter * enter + enter * leave + leave * leave));
+        kOneThird * squared * (enter * enter + enter * leave + leave * leave));
   }
   // across: of from and side, squared
   [[nodiscard]] double inverseCubes(double across) const noexcept
@@ -332,10 +332,10 @@ SeamIntegral seamsOf(
     {
       const Eigen::Vector3d across = chord.from.cross(chord.side);
       const double nearer = cubed * chord.inverseCubes(across.squaredNorm());
-      seams.moment += (kThird * squaredRadius * length - 0.2 * chord.squares() -
+      seams.moment += (kOneThird * squaredRadius * length - 0.2 * chord.squares() -
                         2.0 / 15.0 * squaredRadius * nearer) *
         across;
-      seams.volume += kThird * (length - nearer) * across;
+      seams.volume += kOneThird * (length - nearer) * across;
     }
   }
   return seams;
