@@ -37,7 +37,7 @@ std::filesystem::path dataOf(const std::filesystem::path& file, const NrrdFields
   {
     refuse(file, "its data are not beside it; put both into one folder");
   }
-  const std::filesystem::path data = file.parent_path() / beside;
+  std::filesystem::path data = file.parent_path() / beside;
   if (std::error_code none; !std::filesystem::is_regular_file(data, none))
   {
     refuse(file, "its data, " + inQuotes(name) + ", are not beside it; copy both");

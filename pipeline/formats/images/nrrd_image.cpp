@@ -127,7 +127,7 @@ std::string unitOf(const std::filesystem::path& file, const NrrdFields& fields)
     named.emplace(parts[i] == "\u00b5m" || parts[i] == "microns" ? "um" : parts[i]);
   }
   named.erase("");
-  const std::string unit = named.empty() ? "" : *named.begin();
+  std::string unit = named.empty() ? "" : *named.begin();
   const bool isKnown = unit.empty() || unit == "um" || unit == "mm" || unit == "cm" || unit == "m";
   if (named.size() > 1 || !isKnown)
   {
