@@ -169,7 +169,7 @@ void tellTissues(const std::vector<ImportedOrgan>& organs)
 FileOrgans found(const ImportOptions& options)
 {
   const ProgressLine progress("reading " + printable(options.image.filename().string()));
-  const FileOrgans organs = readFileOrgans(options.image, options.part, options.out.empty());
+  FileOrgans organs = readFileOrgans(options.image, options.part, options.out.empty());
   for (const std::string& note : organs.notes)
   {
     tell(note);
@@ -236,7 +236,8 @@ void runImport(const ImportOptions& options)
   for (const std::string& file : files)
   {
     progress(organs.size(), files.size());
-    const std::size_t ahead = organs.size() + 2 * std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t ahead = organs.size() + 2 * processors;
     while (making.size() < std::min(ahead, files.size()))
     {
       FileOrgan& organ = all.organs[making.size()];
