@@ -89,6 +89,30 @@ FileStamps stampsOf(const std::filesystem::path& file)
   return stamps;
 }
 
+void checkUnchanged(const std::filesystem::path& file, const FileStamps& before)
+{
+  if (stampsOf(file) != before)
+  {
+    throw Error(
+      ErrorCode::BadFile, printable(file.string()) + ": was changed while it was read; run again");
+  }
+}
+
+LoadedSurface readUnchanged(
+  const std::filesystem::path& file, UnitChoice unit, const ImagePart& part)
+{
+  const FileStamps before = stampsOf(file);
+  try
+  {
+    return readSurface(file, unit, part);
+  }
+  catch (const Error&)
+  {
+    checkUnchanged(file, before);
+    throw;
+  }
+}
+
 MeshFile describeFile(const std::filesystem::path& file)
 {
   Sha256 hash;

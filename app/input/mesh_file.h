@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/process/file_surface.h"
+#include "pipeline/surface_io/surface_io.h"
 
 #include <ctime>
 #include <filesystem>
@@ -32,6 +33,14 @@ struct MeshFile
 /// once somebody touched them.
 using FileStamps = std::vector<std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>>;
 [[nodiscard]] FileStamps stampsOf(const std::filesystem::path& file);
+
+/// @throws Error  BadFile: its stamps are others now
+void checkUnchanged(const std::filesystem::path& file, const FileStamps& before);
+
+/// See readSurface; a file that cannot be read may have taken the place of another meanwhile.
+/// @throws Error  as that, and BadFile: was changed while it was read
+[[nodiscard]] LoadedSurface readUnchanged(
+  const std::filesystem::path& file, UnitChoice unit, const ImagePart& part);
 
 /// @param file    as named by the user
 /// @throws Error  BadFile: cannot be read

@@ -71,7 +71,7 @@ SupportPanel::SupportPanel(QWidget* parent)
   addRow(rows, tr("Brush"), brush_);
   addRow(rows, tr("Radius"), radius_);
   addRow(rows, tr("Also"), others_);
-  addRow(rows, tr("Cubes"), cell_);
+  addRow(rows, tr("Cell size"), cell_);
   auto* buttons = new QGridLayout;
   buttons->addWidget(paint_, 0, 0);
   buttons->addWidget(clear_, 0, 1);

@@ -121,15 +121,6 @@ std::shared_ptr<const ComplianceField> placedCompliance(
     table.motion.places.empty() ? nullptr : std::make_shared<const OrganMotion>(table.motion));
 }
 
-void checkUnchanged(const std::filesystem::path& file, const FileStamps& before)
-{
-  if (stampsOf(file) != before)
-  {
-    throw Error(
-      ErrorCode::BadFile, printable(file.string()) + ": was changed while it was read; run again");
-  }
-}
-
 // what is felt of a surface: itself, or one of fewer points
 std::filesystem::path feltFile(const MeshSource& source, const std::filesystem::path& shown)
 {
@@ -158,12 +149,13 @@ SceneBody loadParts(
     progress.emplace("reading " + printable(file.filename().string()));
     auto hashed = std::async(std::launch::async, describeFile, felt); // meanwhile
     const LoadedSurface loaded = surface != nullptr ? madeReady(*surface, file, source.unit)
-                                                    : readSurface(file, source.unit, source.part);
+                                                    : readUnchanged(file, source.unit, source.part);
     body.unit = unitName(loaded.unit);
     body.notes.insert(body.notes.end(), loaded.notes.begin(), loaded.notes.end());
     shown ? display.add(*loaded.mesh, source.frame()) : void();
     coarser = coarser || felt != file;
-    haptic.add(felt != file ? *readSurface(felt, source.unit).mesh : *loaded.mesh, source.frame());
+    haptic.add(
+      felt != file ? *readUnchanged(felt, source.unit, {}).mesh : *loaded.mesh, source.frame());
     MeshFile& origin = body.files.emplace_back(hashed.get());
     checkUnchanged(felt, before);
     origin.unit = body.unit;
