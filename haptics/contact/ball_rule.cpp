@@ -48,14 +48,16 @@ Sloped BallRule::contactRadius(double height) const noexcept
   return { std::min(radius, most_), isInner ? std::copysign(steepness_, height) : 0.0 };
 }
 
-Sloped BallRule::smoothing(double height) const noexcept
+BallSize BallRule::operator()(double height) const noexcept
 {
   const Sloped contact = contactRadius(height);
   const double fewest = kFewest * edge_;
   const double width = kRounded * fewest;
   const Sloped part{ kSmoothed * contact.value, kSmoothed * contact.slope };
   const Sloped wanted = smoothMin(part, { kMost * edge_ }, width);
-  return smoothMin(contact, smoothMax(wanted, { fewest }, width), width);
+  const Sloped smoothing = smoothMin(contact, smoothMax(wanted, { fewest }, width), width);
+  const auto [radius, slope] = smoothing;
+  return { smoothing, { height * height + radius * radius, 2.0 * (height + radius * slope) } };
 }
 
 } // namespace palp

@@ -6,8 +6,14 @@
 namespace palp
 {
 
-/// How large a ball about a tool's nose tells how high the surface is below it; each of its radii
-/// with its slope over that height.
+/// A ball about a tool's nose; slopes are over the height of the nose.
+struct BallSize
+{
+  Sloped smoothing; ///< radius over which the surface is smoothed [m]
+  Sloped squared;   ///< Q, the square of its own radius [m^2]
+};
+
+/// How large a ball about a tool's nose tells how high the surface is below it.
 class BallRule
 {
 public:
@@ -24,15 +30,7 @@ public:
   /// @param height  of the nose's center over the surface, negative inside [m]
   [[nodiscard]] Sloped contactRadius(double height) const noexcept;
 
-  /// Radius over which the surface is smoothed [m].
-  [[nodiscard]] Sloped smoothing(double height) const noexcept;
-
-  /// Squared radius of the ball, Q [m^2].
-  [[nodiscard]] Sloped operator()(double height) const noexcept
-  {
-    const auto [radius, slope] = smoothing(height);
-    return { height * height + radius * radius, 2.0 * (height + radius * slope) };
-  }
+  [[nodiscard]] BallSize operator()(double height) const noexcept;
 
 private:
   double nose_;

@@ -32,6 +32,7 @@ constexpr double kBent = 0.3;   // [-] how near a place may come to where a holl
 struct Neighborhood
 {
   double distance; // of the nearest point [m], negative inside the body
+  BallSize size;
   PatchBall ball;
   Patch patch;
   int triangle = -1;   // nearest
@@ -41,10 +42,11 @@ struct Neighborhood
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
   double distance) noexcept
 {
-  const double radius = rule.smoothing(distance).value;
+  const BallSize size = rule(distance);
+  const double radius = size.smoothing.value;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
-  const PatchBall ball{ position, std::sqrt(rule(distance).value), side, std::max(radius, 1e-9) };
-  return { distance, ball, patchWithin(surface, ball, distance < 0.0) };
+  const PatchBall ball{ position, std::sqrt(size.squared.value), side, std::max(radius, 1e-9) };
+  return { distance, size, ball, patchWithin(surface, ball, distance < 0.0) };
 }
 
 // of the normals about their mean: what that is shorter than they
@@ -61,13 +63,12 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
 }
 
 // How the length of the mean normal by the weight changes as a place moves [1/m].
-Eigen::Vector3d shareSlope(
-  const Surface& surface, const BallRule& rule, const Neighborhood& here) noexcept
+Eigen::Vector3d shareSlope(const Surface& surface, const Neighborhood& here) noexcept
 {
   const PatchSlopes slopes = slopesWithin(surface, here.ball);
   const Patch& patch = here.patch;
   const Eigen::Vector3d normal = patch.normal.normalized();
-  const Eigen::Vector3d wider = rule(here.distance).slope * normal; // of Q
+  const Eigen::Vector3d wider = here.size.squared.slope * normal; // of Q
   const Eigen::Vector3d length =
     slopes.normal.transpose() * normal + normal.dot(patch.area) * wider;
   const Eigen::Vector3d weight = slopes.weight + slopes.area * wider;
@@ -184,11 +185,11 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   const double share = 1.0 - spreadOf(here->patch);
   Contact contact;
   contact.normalSpread = std::acos(std::min(1.0, share));
-  const HeightOver heightOver(here->patch, rule, here->distance);
+  const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   measureShape(contact, surface, tip, rule, *here, flat);
   const double curved =
-    curvedPart(here->patch, contact.surfaceCurvature, rule.smoothing(here->distance).value);
+    curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
   const Height height =
     heightOver(flat.value, curved * contact.surfaceCurvature, curved * contact.curvatureSlope);
   const Eigen::Vector3d upward = height.slope.normalized();
@@ -206,8 +207,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   Eigen::Vector3d outward = part.value * height.slope;
   if (part.slope > 0.0) // of a center in the body it would push the tool out through a thin one
   {
-    outward -=
-      std::max(0.0, here->ball.side) * part.slope * depth * shareSlope(surface, rule, *here);
+    outward -= std::max(0.0, here->ball.side) * part.slope * depth * shareSlope(surface, *here);
   }
   contact.slope = outward.norm();
   contact.normal = outward / contact.slope;

@@ -21,14 +21,8 @@ constexpr double kSteepest = 0.2;    // [-] of what a plane's moment loses
 constexpr int kSteps = 30;           // of Newton's method; three are usual
 constexpr double kClose = 1e-11;     // [m]
 
-struct Leveled
-{
-  double value;
-  double slope;
-};
-
 // so that the body stays larger than the ball
-Leveled leveled(double curvature, double ball) noexcept
+Sloped leveled(double curvature, double ball) noexcept
 {
   const double size = std::abs(curvature);
   const double beyond = std::max(0.0, size * ball - kRound) / kRoundest;
@@ -38,12 +32,13 @@ Leveled leveled(double curvature, double ball) noexcept
 
 } // namespace
 
-HeightOver::HeightOver(const Patch& patch, const BallRule& rule, double nearest) noexcept
+HeightOver::HeightOver(
+  const Patch& patch, const BallRule& rule, double nearest, const BallSize& given) noexcept
   : patch_(&patch)
   , rule_(&rule)
   , nearest_(nearest)
-  , smoothing_(rule.smoothing(nearest).value)
-  , given_(rule(nearest).value)
+  , smoothing_(given.smoothing.value)
+  , given_(given.squared.value)
   , ball_(std::sqrt(given_))
   , part_(smoothStep((1.0 - nearest * nearest / given_ - kSmallest) / (kSmall - kSmallest)))
   , moment_(std::clamp(patch.moment, 0.0, 8.0 * std::numbers::pi / 15.0 * given_ * given_ * ball_))
@@ -57,7 +52,7 @@ double HeightOver::Excess::byHeight(double fallThere) const noexcept
 
 HeightOver::Excess HeightOver::excessAt(double height, double curvature) const noexcept
 {
-  const auto [own, growth] = (*rule_)(height);
+  const auto [own, growth] = (*rule_)(height).squared;
   const double more = own - given_;
   const Lens body = lensOf(given_, height, curvature);
   const double volume = patch_->volume - body.volume;
@@ -83,7 +78,7 @@ Height HeightOver::operator()(
   {
     return { nearest_, normal };
   }
-  const Leveled bent = leveled(curvature, ball_);
+  const Sloped bent = leveled(curvature, ball_);
   double low = std::max(nearest_ - smoothing_, -kFarthest * ball_); // the mesh has less
   double high = std::min(nearest_ + smoothing_, kFarthest * ball_); // it has more
   double height = std::clamp(start, low, high);

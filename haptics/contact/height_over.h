@@ -25,8 +25,10 @@ class HeightOver
 {
 public:
   /// @param patch    within that ball; outlives this object, as rule does
-  /// @param nearest  signed distance of the nearest point, to which the given ball belongs [m]
-  HeightOver(const Patch& patch, const BallRule& rule, double nearest) noexcept;
+  /// @param nearest  signed distance of the nearest point [m]
+  /// @param given    the ball that belongs to it by the rule
+  HeightOver(
+    const Patch& patch, const BallRule& rule, double nearest, const BallSize& given) noexcept;
 
   /// @param start           a height that is near, as of another curvature [m]
   /// @param curvature       of the smooth body [1/m], convex positive

@@ -112,10 +112,6 @@ public:
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double gapSpread(const ContactGeometry& local) const noexcept;
 
-  /// Thickness of a layer as compliant as the body, which a round one is less; 0 < corrected only.
-  /// @realtime  pure; no allocation, no lock, no exception
-  [[nodiscard]] double layerThickness(const ContactGeometry& local) const noexcept;
-
   /// Factor of the ellipse; 1 where none is formed.
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] double ellipse(const ContactGeometry& local) const noexcept;
@@ -147,6 +143,7 @@ private:
     const ContactGeometry& local) const noexcept;
   [[nodiscard]] LinearContact uncoated(const ContactGeometry& local) const noexcept;
   [[nodiscard]] LinearContact linear(const ContactGeometry& local) const noexcept;
+  [[nodiscard]] double layerThickness(const ContactGeometry& local) const noexcept;
 
   Tip tip_;
   Material material_;

@@ -80,7 +80,6 @@ SeriesResponse TissueAt::find(double depth) const noexcept
 
 Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
 {
-  const Response response = plain(answer.local);
   ContactGeometry geometry = geometry_;
   geometry.depth = answer.local;
   const EnergySlopes slopes = energySlopes(scene_->law, geometry);
@@ -88,7 +87,7 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
     slopes.spread * contact_->spreadSlope + slopes.thickness * contact_->thicknessSlope);
   if (stiffness_)
   {
-    force = stiffness_->lateral(response, force, answer.local);
+    force = stiffness_->lateral(plain(answer.local), force, answer.local);
   }
   if (nodules_)
   {
