@@ -50,8 +50,11 @@ Interrupt::Interrupt(std::function<void()> last)
         if (!last_)
         {
           source_.request_stop();
-          (void)sigtimedwait(&signals_, nullptr, hasOrder() ? &kLess : &kPatience);
-          endUnless(finished.stop_requested());
+          if (const std::optional<timespec> longest = patience())
+          {
+            (void)sigtimedwait(&signals_, nullptr, &*longest);
+            endUnless(finished.stop_requested());
+          }
           continue;
         }
         last_();
@@ -62,27 +65,37 @@ Interrupt::Interrupt(std::function<void()> last)
     });
 }
 
-void Interrupt::endBy(std::function<std::string()> last)
+void Interrupt::endWhatDoesNotStop(const char* sentence)
 {
-  const std::lock_guard lock(mutex_);
-  order_ = std::move(last);
+  endBy([sentence] { return std::string(sentence); }, kPatience);
 }
 
-bool Interrupt::hasOrder()
+void Interrupt::endBy(std::function<std::string()> last)
+{
+  endBy(std::move(last), kLess);
+}
+
+void Interrupt::endBy(std::function<std::string()> last, const timespec& patience)
 {
   const std::lock_guard lock(mutex_);
-  return order_ != nullptr;
+  end_ = std::move(last);
+  patience_ = patience;
+}
+
+std::optional<timespec> Interrupt::patience()
+{
+  const std::lock_guard lock(mutex_);
+  return end_ ? std::optional(patience_) : std::nullopt;
 }
 
 void Interrupt::endUnless(bool stopped)
 {
   const std::lock_guard lock(mutex_);
-  const char* const sentence = sentence_;
-  if (!stopped && (order_ || sentence != nullptr))
+  if (!stopped && end_)
   {
     try
     {
-      std::fprintf(stderr, "\npalp: %s\n", order_ ? order_().c_str() : sentence);
+      std::fprintf(stderr, "\npalp: %s\n", end_().c_str());
     }
     catch (const std::exception& error)
     {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <atomic>
 #include <csignal>
+#include <ctime>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -30,12 +31,10 @@ public:
   /// Work that does not stop within 1.5 s, or at a second Ctrl-C, ends with the program: for work
   /// whose files are complete at any time.
   /// @param sentence  told then, with exit code 5; lives as long as this
-  void endWhatDoesNotStop(const char* sentence) noexcept
-  {
-    sentence_ = sentence;
-  }
+  void endWhatDoesNotStop(const char* sentence);
 
-  /// The same, and a function puts the files in order and says the sentence, from another thread.
+  /// The same within 0.5 s, for a function, which is called from another thread then, has to put
+  /// the files in order before it gives the sentence.
   /// @param last  empty: it stops by itself from now on; where it ends already, no return
   void endBy(std::function<std::string()> last);
 
@@ -45,14 +44,15 @@ public:
   }
 
 private:
-  [[nodiscard]] bool hasOrder();
+  void endBy(std::function<std::string()> last, const timespec& patience);
+  [[nodiscard]] std::optional<timespec> patience();
   void endUnless(bool stopped);
 
   std::stop_source source_;
   std::function<void()> last_;
-  std::atomic<const char*> sentence_ = nullptr;
   std::mutex mutex_;
-  std::function<std::string()> order_; // under the mutex
+  std::function<std::string()> end_; // under the mutex; empty: it stops by itself
+  timespec patience_{};              // likewise
   sigset_t signals_{};
   sigset_t before_{};
   std::jthread listener_;
