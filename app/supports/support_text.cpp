@@ -55,16 +55,23 @@ Eigen::Vector3d areaOf(const Surface& surface, const Holds& holds)
   return area;
 }
 
+// all within a part of space
+template <typename Holds>
+Support heldWithin(const Surface& surface, const Holds& holds)
+{
+  return { holds,
+    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+}
+
 Support boxOf(const std::vector<std::string>& words, const Surface& surface)
 {
   const Eigen::Vector3d one = parsePlace(words[2], kOption).position;
   const Eigen::Vector3d other = parsePlace(words[3], kOption).position;
   const Eigen::Vector3d low = one.cwiseMin(other).array() - kRounding;
   const Eigen::Vector3d high = one.cwiseMax(other).array() + kRounding;
-  const auto holds = [low, high](const Eigen::Vector3d& x)
-  { return (x - low).minCoeff() >= 0.0 && (high - x).minCoeff() >= 0.0; };
-  return { holds,
-    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+  return heldWithin(surface,
+    [low, high](const Eigen::Vector3d& x)
+    { return (x - low).minCoeff() >= 0.0 && (high - x).minCoeff() >= 0.0; });
 }
 
 Support directionOf(const std::vector<std::string>& words, const Surface& surface)
@@ -92,10 +99,9 @@ Support labelOf(
       std::string(kOption) + ": label:" + words[2] +
         " is of a label map, which the surface is not of; give its image and --label, or a box");
   }
-  const auto holds = [region = find(words[2])](const Eigen::Vector3d& x)
-  { return distanceTo(region.surface->tree(), x, region.reach) < region.reach; };
-  return { holds,
-    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+  return heldWithin(surface,
+    [region = find(words[2])](const Eigen::Vector3d& x)
+    { return distanceTo(region.surface->tree(), x, region.reach) < region.reach; });
 }
 
 Support paintedOf(const std::string& text, const Surface& surface)
@@ -110,14 +116,6 @@ Support paintedOf(const std::string& text, const Surface& surface)
   }
   return { [parts, held](const Eigen::Vector3d& x) { return (*held)[parts->nearest(x).part]; },
     area };
-}
-
-Support within(double reach, const Eigen::Vector3d& center, const Surface& surface)
-{
-  const auto holds = [reach, center](const Eigen::Vector3d& x)
-  { return (x - center).norm() <= reach; };
-  return { holds,
-    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
 }
 
 // of what faces a direction within an angle, on the surface
@@ -155,7 +153,9 @@ std::optional<Support> presetOf(const std::string& name, const Surface& surface)
   if (name == "hilum")
   {
     constexpr double kReach = 20.0_mm; // of the vessels that go in there
-    return within(kReach, middleOf(surface, -Eigen::Vector3d::UnitZ(), 60.0_deg), surface);
+    const Eigen::Vector3d middle = middleOf(surface, -Eigen::Vector3d::UnitZ(), 60.0_deg);
+    return heldWithin(
+      surface, [middle](const Eigen::Vector3d& x) { return (x - middle).norm() <= kReach; });
   }
   return std::nullopt;
 }
