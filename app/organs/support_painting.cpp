@@ -6,6 +6,7 @@
 #include "haptics/error.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -20,12 +21,6 @@ constexpr std::array kKinds{ "bonded", "sliding" };
 std::size_t kindOf(const std::string& support)
 {
   return support.starts_with(kKinds[1]) ? 1 : 0;
-}
-
-// which needs the image that the body is of, and is not drawn
-bool isOfLabel(const std::string& support)
-{
-  return support.find(":label:") != std::string::npos;
 }
 
 std::filesystem::path pointsBeside(const std::filesystem::path& organ, const char* kind)
@@ -51,35 +46,37 @@ std::shared_ptr<const Surface> inFile(
 
 } // namespace
 
-SupportPainting::SupportPainting(
-  vtkRenderer& renderer, SupportPanel& panel, QUndoStack& undo, std::function<void()> changed)
+SupportPainting::SupportPainting(vtkRenderer& renderer, SupportPanel& panel, QUndoStack& undo,
+  std::function<void()> changed, ReadBehind behind)
   : panel_(panel)
   , undo_(undo)
   , changed_(std::move(changed))
+  , behind_(std::move(behind))
   , patches_(renderer)
 {
 }
 
-void SupportPainting::open(std::shared_ptr<const Surface> felt, const Eigen::Isometry3d& frame,
-  const std::vector<std::string>& supports)
+void SupportPainting::open(std::shared_ptr<const Surface> felt, const MeshSource& source)
 {
   before_.reset();
   felt_ = std::move(felt);
-  file_ = inFile(felt_, frame);
-  frame_ = frame;
+  source_ = source;
+  frame_ = source.frame();
+  file_ = inFile(felt_, frame_);
   parts_.emplace(*file_);
   paint_.assign(parts_->all().size(), Held::Free);
   others_ = { {}, paint_ };
   panel_.showOthers({});
   draw();
-  std::vector<std::string> typed;
-  std::ranges::copy_if(supports, std::back_inserter(typed),
-    [](const std::string& text) { return pointsOfSupport(text).empty(); });
-  others_ = othersOf(typed);
-  QStringList words;
-  std::ranges::transform(typed, std::back_inserter(words), &QString::fromStdString);
-  panel_.showOthers(words.join(' '));
-  use(paintOf(supports));
+  use(paintOf(source.supports));
+  std::string typed;
+  for (const std::string& support : source.supports)
+  {
+    pointsOfSupport(support).empty() ? typed.append(typed.empty() ? "" : " ").append(support)
+                                     : typed;
+  }
+  panel_.showOthers(QString::fromStdString(typed));
+  setOthers(typed);
 }
 
 SupportPainting::Paint SupportPainting::paintOf(const std::vector<std::string>& supports) const
@@ -98,16 +95,29 @@ SupportPainting::Paint SupportPainting::paintOf(const std::vector<std::string>& 
   return paint;
 }
 
-SupportPainting::Others SupportPainting::othersOf(const std::vector<std::string>& texts) const
+// none: the body is another by now
+std::optional<SupportPainting::Others> SupportPainting::othersOf(
+  const std::vector<std::string>& texts)
 {
+  const auto felt = felt_;
+  std::vector<std::string> labels;
+  std::ranges::transform(texts, std::back_inserter(labels), &labelOfSupport);
+  std::erase(labels, std::string());
+  const std::optional<FindRegion> find = labels.empty()
+    ? FindRegion{}
+    : behind_([source = source_, labels] { return readRegions(source, labels); });
+  if (felt_ != felt)
+  {
+    return std::nullopt;
+  }
+  if (!find)
+  {
+    throw Error(ErrorCode::BadValue, "canceled: it rests on what it did before; type it again");
+  }
   Others others{ texts, Paint(parts_->all().size(), Held::Free) };
   for (const std::string& text : texts)
   {
-    if (isOfLabel(text))
-    {
-      continue;
-    }
-    const Support support = parseSupport(text, *file_);
+    const Support support = parseSupport(text, *file_, *find);
     for (std::size_t i = 0; i < others.held.size(); ++i)
     {
       others.held[i] =
@@ -120,14 +130,14 @@ SupportPainting::Others SupportPainting::othersOf(const std::vector<std::string>
 void SupportPainting::setOthers(const std::string& supports)
 {
   std::istringstream words(supports);
-  std::vector<std::string> texts;
-  for (std::string word; words >> word;)
+  const std::vector<std::string> texts{ std::istream_iterator<std::string>(words), {} };
+  if (!parts_ || texts == others_.texts)
   {
-    texts.push_back(word);
+    return;
   }
-  if (parts_ && texts != others_.texts)
+  if (std::optional<Others> others = othersOf(texts))
   {
-    others_ = othersOf(texts);
+    others_ = *std::move(others);
     draw();
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "app/input/press_options.h"
 #include "app/supports/support_parts.h"
+#include "app/supports/support_region.h"
 #include "haptics/surface/surface.h"
 #include "pipeline/figure/painted_patches.h"
 
@@ -26,17 +28,19 @@ class SupportPanel;
 class SupportPainting
 {
 public:
+  using ReadBehind = std::function<std::optional<FindRegion>(std::function<FindRegion()> read)>;
+
   /// @param panel, undo  outlive this object, as the renderer does
   /// @param changed      the picture is another
-  SupportPainting(
-    vtkRenderer& renderer, SupportPanel& panel, QUndoStack& undo, std::function<void()> changed);
+  /// @param behind       reads while the window lives on; none: it was given up
+  SupportPainting(vtkRenderer& renderer, SupportPanel& panel, QUndoStack& undo,
+    std::function<void()> changed, ReadBehind behind);
 
   /// Another body, with its supports; what was painted is gone unless it is the same surface.
-  /// @param felt   what is felt of it
-  /// @param frame  from its file's coordinates to the picture's
+  /// @param felt    what is felt of it, in the picture
+  /// @param source  its file, in a frame of its own, and its supports
   /// @throws Error  as parseSupport
-  void open(std::shared_ptr<const Surface> felt, const Eigen::Isometry3d& frame,
-    const std::vector<std::string>& supports);
+  void open(std::shared_ptr<const Surface> felt, const MeshSource& source);
 
   [[nodiscard]] SupportPanel& panel() const noexcept
   {
@@ -79,18 +83,20 @@ private:
 
   void use(Paint paint);
   void remember(const QString& what, Paint before);
-  [[nodiscard]] Others othersOf(const std::vector<std::string>& texts) const;
+  [[nodiscard]] std::optional<Others> othersOf(const std::vector<std::string>& texts);
   [[nodiscard]] Paint paintOf(const std::vector<std::string>& supports) const;
   void draw();
 
   SupportPanel& panel_;
   QUndoStack& undo_;
   std::function<void()> changed_;
+  ReadBehind behind_;
   PaintedPatches patches_;
   std::shared_ptr<const Surface> felt_{}; // in the picture
   std::shared_ptr<const Surface> file_{}; // the same in the frame of its file
-  Eigen::Isometry3d frame_ = Eigen::Isometry3d::Identity();
-  std::optional<SupportParts> parts_{}; // of file_
+  MeshSource source_{};
+  Eigen::Isometry3d frame_ = Eigen::Isometry3d::Identity(); // of its file in the picture
+  std::optional<SupportParts> parts_{};                     // of file_
   Paint paint_;
   Others others_;
   std::optional<Paint> before_{}; // a stroke; none: none goes on

@@ -85,8 +85,13 @@ SupportPanel::SupportPanel(QWidget* parent)
   connect(paint_, &QPushButton::toggled, this, &SupportPanel::paintToggled);
   connect(clear_, &QPushButton::clicked, this, &SupportPanel::clearAsked);
   connect(solve_, &QPushButton::clicked, this, &SupportPanel::solveAsked);
-  connect(
-    others_, &QLineEdit::editingFinished, this, [this] { Q_EMIT othersChanged(others_->text()); });
+  connect(others_, &QLineEdit::editingFinished, this,
+    [this]
+    {
+      const bool isNew = others_->isModified(); // the end comes twice, by Return and as it is left
+      others_->setModified(false);
+      isNew ? Q_EMIT othersChanged(others_->text()) : void();
+    });
   showAreas({});
 }
 

@@ -24,6 +24,7 @@ namespace
 constexpr const char* kOption = "--support";
 constexpr double kRounding = 1e-6; // [m]
 constexpr std::string_view kPoints = ":points:";
+constexpr std::string_view kLabel = ":label:";
 constexpr char kHash = '#'; // before what a file of points held
 
 std::vector<std::string> wordsOf(const std::string& text)
@@ -34,6 +35,19 @@ std::vector<std::string> wordsOf(const std::string& text)
     c == ':' ? void(words.emplace_back()) : words.back().push_back(c);
   }
   return words;
+}
+
+// of a text that begins with a kind and this; empty: it does not
+std::string restAfter(std::string_view what, const std::string& text)
+{
+  for (const char* kind : { "bonded", "sliding" })
+  {
+    if (const std::string start = std::string(kind).append(what); text.starts_with(start))
+    {
+      return text.substr(start.size());
+    }
+  }
+  return {};
 }
 
 // the sum of the area vectors of the triangles that it holds by their middles [m^2]
@@ -177,8 +191,7 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
   words.size() == 1 ? void(words.insert(words.begin(), "bonded")) : void();
   const bool isKind = words[0] == "bonded" || words[0] == "sliding";
   const bool isPlaced = isKind &&
-    (!pointsOfSupport(text).empty() ||
-      (words.size() == 3 && words[1] == "label" && !words[2].empty()) ||
+    (!pointsOfSupport(text).empty() || (words.size() == 3 && !labelOfSupport(text).empty()) ||
       (words.size() == 4 && (words[1] == "box" || words[1] == "direction")));
   const std::optional<Support> preset =
     isKind && words.size() == 2 ? presetOf(words[1], surface) : std::nullopt;
@@ -203,14 +216,12 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
 
 std::filesystem::path pointsOfSupport(const std::string& text)
 {
-  for (const char* kind : { "bonded", "sliding" })
-  {
-    if (const std::string start = std::string(kind).append(kPoints); text.starts_with(start))
-    {
-      return text.substr(start.size());
-    }
-  }
-  return {};
+  return restAfter(kPoints, text);
+}
+
+std::string labelOfSupport(const std::string& text)
+{
+  return restAfter(kLabel, text);
 }
 
 std::string withPoints(const std::string& text, const std::string& file)

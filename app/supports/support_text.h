@@ -1,26 +1,15 @@
 #pragma once
 
+#include "app/supports/support_region.h"
 #include "calibration/organ/organ_model.h"
 #include "haptics/surface/surface.h"
 
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace palp
 {
-
-/// Another region of the image that a body is of.
-struct SupportRegion
-{
-  std::shared_ptr<const Surface> surface; ///< never null
-  double reach = 0.0;                     ///< to what it holds [m]
-};
-
-/// @param label  value or name
-using FindRegion = std::function<SupportRegion(const std::string& label)>;
 
 /// Where a body rests, as text: `KIND:box:X0,Y0,Z0:X1,Y1,Z1` in mm holds it within a box,
 /// `KIND:direction:X,Y,Z:ANGLE` where its surface faces a direction within an angle,
@@ -37,6 +26,9 @@ using FindRegion = std::function<SupportRegion(const std::string& label)>;
 
 /// The file of points of such a text; empty: it has none.
 [[nodiscard]] std::filesystem::path pointsOfSupport(const std::string& text);
+
+/// The label of such a text, by value or name; empty: it has none.
+[[nodiscard]] std::string labelOfSupport(const std::string& text);
 
 /// The same text with another file of points.
 [[nodiscard]] std::string withPoints(const std::string& text, const std::string& file);

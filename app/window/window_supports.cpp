@@ -8,7 +8,7 @@
 #include "app/shell/child_program.h"
 #include "app/shell/dock.h"
 #include "app/shell/message_bar.h"
-#include "app/supports/support_text.h"
+#include "app/supports/support_region.h"
 #include "app/window/vtkPalpPressStyle.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
@@ -70,8 +70,10 @@ void Window::showSupports()
     {
       tabifyDockWidget(curves, dock); // the force over time stays in sight
     }
-    painting_ =
-      std::make_unique<SupportPainting>(*renderer_, *panel, undo_, [this] { isStale_ = true; });
+    const auto changed = [this] { isStale_ = true; };
+    const auto behind = [this](const std::function<FindRegion()>& read)
+    { return inBackground<FindRegion>(tr("Reading what it rests on"), read); };
+    painting_ = std::make_unique<SupportPainting>(*renderer_, *panel, undo_, changed, behind);
     connect(dock, &QDockWidget::visibilityChanged, this,
       [this, dock, panel]
       {
@@ -162,8 +164,7 @@ void Window::openSupports()
 {
   if (painting_ != nullptr)
   {
-    const MeshSource& source = supported().sources.front();
-    attempt([&] { painting_->open(supported().haptic, source.frame(), source.supports); });
+    attempt([&] { painting_->open(supported().haptic, supported().sources.front()); });
   }
 }
 

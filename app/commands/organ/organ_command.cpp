@@ -7,6 +7,7 @@
 #include "app/places/fiducial_file.h"
 #include "app/places/placed_press.h"
 #include "app/press/body.h"
+#include "app/supports/support_region.h"
 #include "app/supports/support_text.h"
 #include "calibration/figures/table.h"
 #include "calibration/organ/organ_compliance.h"
@@ -18,7 +19,6 @@
 #include "haptics/surface/ray.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
-#include "pipeline/surface_io/label_names.h"
 #include "pipeline/surface_io/surface_io.h"
 
 #include <CLI/CLI.hpp>
@@ -51,26 +51,9 @@ struct OrganOptions
   std::filesystem::path out;
 };
 
-// another label of the image that the body is of
-SupportRegion regionOf(const MeshSource& mesh, const std::string& label)
-{
-  ImagePart part = mesh.part;
-  part.labels = valuesOfLabels({ label }, part.names);
-  part.components = ImagePart::kAllComponents;
-  const FileOrgan organ = readFileOrgans(mesh.file, part, false).organs.front();
-  const LoadedSurface loaded = madeReady(organ.surface, mesh.file, mesh.unit);
-  constexpr double kBeside = 1.5; // voxels, for both surfaces are smoothed
-  return { std::make_shared<const Surface>(pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh)),
-    kBeside * unitLength(loaded.unit) * organ.voxel };
-}
-
 std::vector<Support> supportsOf(const OrganOptions& options, const Surface& surface)
 {
-  FindRegion find;
-  if (!options.mesh.part.labels.empty())
-  {
-    find = [&mesh = options.mesh](const std::string& label) { return regionOf(mesh, label); };
-  }
+  const FindRegion find = regionsBeside(options.mesh);
   std::vector<Support> supports;
   for (const std::string& text : options.supports)
   {

@@ -11,6 +11,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 
 #include <cmath>
 #include <filesystem>
@@ -153,6 +154,39 @@ TEST_F(Supports, IsPaintedByTheKeyboardAloneAndTyped)
   QTest::keyClicks(others, "sliding:nowhere");
   QTest::keyClick(others, Qt::Key_Return);
   EXPECT_TRUE(said().contains("sliding:nowhere")) << said().toStdString();
+}
+
+// a slab of 40 x 40 x 10 mm on another label, which is read from its image behind the window;
+// voxels of 2 mm, so the surface is smooth by about one of them where they meet
+TEST_F(Supports, ALabelThatItRestsOnIsSeen)
+{
+  std::ofstream image(folder_.path() / "slabs.nrrd", std::ios::binary);
+  image << "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\n"
+           "sizes: 24 24 14\nspace directions: (2,0,0) (0,2,0) (0,0,2)\n"
+           "kinds: domain domain domain\nencoding: raw\nspace origin: (-23,-23,-23)\n\n";
+  for (int voxel = 0; voxel < 24 * 24 * 14; ++voxel)
+  {
+    const int x = voxel % 24;
+    const int y = voxel / 24 % 24;
+    const int z = voxel / (24 * 24);
+    const bool isIn = x >= 2 && x < 22 && y >= 2 && y < 22 && z >= 2 && z < 12;
+    image.put(static_cast<char>(isIn ? (z < 7 ? 7 : 3) : 0));
+  }
+  image.close();
+  std::ofstream(folder_.path() / "slab.json")
+    << R"({"meshes": [{"file": "slabs.nrrd", "label": "3"}]})";
+  ASSERT_TRUE(window_->openFile(path("slab.json"))) << said().toStdString();
+  auto* others = panel_->findChild<QLineEdit*>("otherSupports");
+  QTest::keyClicks(others, "bonded:label:7");
+  QTest::keyClick(others, Qt::Key_Return);
+  const auto area = [this]
+  { return QRegularExpression("[0-9.]+(?= cm)").match(legend()).captured().toDouble(); };
+  EXPECT_TRUE(QTest::qWaitFor([&] { return area() > 0.0; }, kPatience));
+  EXPECT_NEAR(area(), 16.0, 3.0) << legend().toStdString();
+  QTest::keyClicks(others, " bonded:label:9");
+  QTest::keyClick(others, Qt::Key_Return);
+  EXPECT_TRUE(QTest::qWaitFor([this] { return said().contains("9"); }, kPatience));
+  EXPECT_GT(area(), 10.0) << "as before";
 }
 
 // painted, solved by the program behind the window, felt, and shown again with its file

@@ -1,0 +1,55 @@
+#include "app/supports/support_region.h"
+
+#include "app/input/press_options.h"
+#include "pipeline/model/poly_data.h"
+#include "pipeline/surface_io/label_names.h"
+#include "pipeline/surface_io/length_unit.h"
+#include "pipeline/surface_io/surface_io.h"
+
+#include <vtkPolyData.h>
+
+#include <map>
+#include <utility>
+
+namespace palp
+{
+namespace
+{
+
+SupportRegion readRegion(const MeshSource& mesh, const std::string& label)
+{
+  constexpr double kBeside = 1.5; // voxels, for both surfaces are smoothed
+  ImagePart part = mesh.part;
+  part.labels = valuesOfLabels({ label }, part.names);
+  part.components = ImagePart::kAllComponents;
+  const FileOrgan organ = readFileOrgans(mesh.file, part, false).organs.front();
+  const LoadedSurface loaded = madeReady(organ.surface, mesh.file, mesh.unit);
+  return { std::make_shared<const Surface>(pointsOf(*loaded.mesh), trianglesOf(*loaded.mesh)),
+    kBeside * unitLength(loaded.unit) * organ.voxel };
+}
+
+} // namespace
+
+FindRegion regionsBeside(const MeshSource& mesh)
+{
+  return mesh.part.labels.empty() ? FindRegion{} : [&mesh](const std::string& label) {
+    return readRegion(mesh, label);
+  };
+}
+
+FindRegion readRegions(const MeshSource& mesh, const std::vector<std::string>& labels)
+{
+  const FindRegion read = regionsBeside(mesh);
+  if (!read)
+  {
+    return {};
+  }
+  std::map<std::string, SupportRegion> regions;
+  for (const std::string& label : labels)
+  {
+    regions.emplace(label, read(label));
+  }
+  return [regions = std::move(regions)](const std::string& label) { return regions.at(label); };
+}
+
+} // namespace palp
