@@ -5,6 +5,7 @@
 #include "pipeline/health/fill_holes.h"
 #include "pipeline/health/slivers.h"
 #include "pipeline/health/split_mesh.h"
+#include "pipeline/health/weld_seams.h"
 #include "pipeline/model/merged_mesh.h"
 #include "pipeline/surface_io/surface_facing.h"
 
@@ -61,6 +62,10 @@ RepairedMesh repairedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
 {
   MergedMesh merged = mergedMesh(points, triangles);
+  if (weldSeams(merged.points, merged.triangles))
+  {
+    merged = mergedMesh(merged.points, merged.triangles);
+  }
   dropBuried(merged);
   const std::vector<bool> repeated = repeatedTriangles(merged.triangles);
   std::size_t i = 0;

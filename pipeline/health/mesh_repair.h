@@ -14,7 +14,8 @@ struct RepairedMesh
 {
   std::vector<Eigen::Vector3d> points; ///< [m]
   std::vector<Triangle> triangles;     ///< facing outward where closed
-  std::size_t merged = 0;              ///< points that coincided with others, or were not used
+  std::size_t merged =
+    0; ///< points that coincided with others, or nearly so at a seam, or were not used
   std::size_t removed = 0;     ///< triangles without three corners, there twice, or within the body
   std::size_t slivers = 0;     ///< collapsed, or flipped into others
   std::size_t split = 0;       ///< points made of those where parts met, not as a manifold
@@ -26,9 +27,9 @@ struct RepairedMesh
   std::size_t holesLeft = 0;   ///< that cannot be closed without passing through it
 };
 
-/// Merges points, removes degenerate and duplicate triangles, slivers, and what bodies that touch
-/// have between them, parts what meets in a non-manifold edge or point, closes small holes, and
-/// turns triangles alike.
+/// Merges points, welds seams, removes degenerate and duplicate triangles, slivers, and what bodies
+/// that touch have between them, parts what meets in a non-manifold edge or point, closes small
+/// holes, and turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
 /// a thousandth of an edge, so that it stays apart in every file. Nothing is done by which a

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -64,6 +65,47 @@ TEST(MeshRepair, MergesRemovesAndTurns)
   EXPECT_TRUE(healthOf(mended).findings.empty());
   EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volumeOf(sphere.points, sphere.triangles),
     1e-6 * std::pow(0.03, 3));
+}
+
+// a body whose triangles, or halves, were written by themselves, each corner a little elsewhere
+TEST(MeshRepair, WeldsSeamsButNoGap)
+{
+  const Mesh sphere = makeSphere(0.03, 3); // edges of 4 mm
+  std::mt19937 random(5);
+  for (const bool isSoup : { true, false })
+  {
+    for (const double off : { 1e-9, 1e-7, 5e-7, 1e-3 }) // [m]
+    {
+      std::uniform_real_distribution<double> by(-off, off);
+      Mesh parts = sphere;
+      std::map<int, int> upper;
+      for (Triangle& corners : parts.triangles)
+      {
+        const bool isUp = sphere.points[at(corners[0])].z() > 0.0;
+        for (int& corner : corners)
+        {
+          const Vector3d point =
+            sphere.points[at(corner)] + Vector3d(by(random), by(random), by(random));
+          const auto next = static_cast<int>(parts.points.size());
+          const int copy = isSoup ? next
+            : isUp                ? upper.try_emplace(corner, next).first->second
+                                  : corner;
+          copy == next ? parts.points.push_back(point) : void();
+          corner = copy;
+        }
+      }
+      const RepairedMesh mended = repaired(parts);
+      if (off < 1e-4)
+      {
+        EXPECT_EQ(mended.points.size(), sphere.points.size()) << isSoup << off;
+        EXPECT_TRUE(healthOf(mended).findings.empty()) << isSoup << off;
+      }
+      else
+      {
+        EXPECT_GT(mended.points.size(), sphere.points.size()) << isSoup << off;
+      }
+    }
+  }
 }
 
 // two cubes side by side share a face, and a sheet of two sides encloses nothing
