@@ -38,6 +38,7 @@ const Tag kSeries(0x0020, 0x000e);
 const Tag kNumber(0x0020, 0x0011);
 const Tag kPosition(0x0020, 0x0032);
 const Tag kOrientation(0x0020, 0x0037);
+const Tag kFrame(0x0020, 0x0052);
 const Tag kFrames(0x0028, 0x0008);
 const Tag kSpacing(0x0028, 0x0030);
 const Tag kIntercept(0x0028, 0x1052);
@@ -79,7 +80,8 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
     .columnSpacing = spacing->back(),
     .rowSpacing = spacing->front(),
     .slope = decimalOf(data, kSlope, 1.0),
-    .intercept = decimalOf(data, kIntercept, 0.0) };
+    .intercept = decimalOf(data, kIntercept, 0.0),
+    .frame = textOf(data, kFrame) };
   const bool isSquare = std::abs(slice.alongRow.norm() - 1.0) < kAlike &&
     std::abs(slice.alongColumn.norm() - 1.0) < kAlike &&
     std::abs(slice.alongRow.dot(slice.alongColumn)) < kAlike;
@@ -140,6 +142,12 @@ void checkAlike(const std::filesystem::path& folder, const DicomSeries& series)
       refuse(folder,
         nameOf(slice) + " has another size, direction or spacing than " + nameOf(first) +
           "; keep the images of one stack in the folder");
+    }
+    if (!slice.frame.empty() && !first.frame.empty() && slice.frame != first.frame)
+    {
+      refuse(folder,
+        nameOf(slice) + " has another Frame of Reference than " + nameOf(first) +
+          ", so their places do not go together; keep the images of one in the folder");
     }
   }
 }

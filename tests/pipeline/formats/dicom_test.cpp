@@ -292,6 +292,19 @@ TEST_F(Dicom, OneImageOfAnotherLengthOrPlaceIsNamed)
   }
 }
 
+// as of a patient who got up between
+TEST_F(Dicom, OneImageOfAnotherFrameOfReferenceIsNamed)
+{
+  writeDicom(folder_.path(), "one", kAxial, "--write-xfer-little",
+    { .extra = "(0020,0052) UI [1.2.3.7]\n" });
+  EXPECT_EQ(refusal("one"), "taken");
+  const std::string file = (folder_.path() / "one/one1_10.dcm").string();
+  ASSERT_EQ(runCommand("dcmodify -q -nb -m '(0020,0052)=1.2.3.8' " + file).code, 0);
+  const std::string told = refusal("one");
+  EXPECT_NE(told.find("one1_10.dcm has another Frame of Reference than"), std::string::npos)
+    << told;
+}
+
 // slices that are shifted along themselves
 TEST_F(Dicom, ATiltedGantryIsRefusedWithItsAngle)
 {
