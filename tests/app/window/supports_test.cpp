@@ -174,8 +174,8 @@ TEST_F(Supports, ALabelThatItRestsOnIsSeen)
   }
   image.close();
   std::ofstream(folder_.path() / "slab.json")
-    << R"({"meshes": [{"file": "slabs.nrrd", "label": "3"}]})";
-  ASSERT_TRUE(window_->openFile(path("slab.json"))) << said().toStdString();
+    << R"({"palp_scene": 1, "meshes": [{"file": "slabs.nrrd", "label": "3"}]})";
+  ASSERT_TRUE(window_->openFiles({ path("slab.json") })) << said().toStdString();
   auto* others = panel_->findChild<QLineEdit*>("otherSupports");
   QTest::keyClicks(others, "bonded:label:7");
   QTest::keyClick(others, Qt::Key_Return);
