@@ -36,8 +36,9 @@ namespace palp
 namespace
 {
 
-constexpr int kFrameMs = 16;    // the picture
-constexpr int kPlotMs = 100;    // the curves, which cost more and need less
+constexpr int kFrameMs = 16; // the picture
+constexpr int kPlotMs = 33;  // panels and charts, which cost more and need less, by turns
+constexpr int kPlotTurns = 3;
 constexpr int kTimingMs = 1000; // what always changes a little
 
 // whether nobody could tell their pictures apart
@@ -249,6 +250,16 @@ void Window::showReadings()
 void Window::refreshPanels()
 {
   acted_ = std::exchange(acting_, 0);
+  panelTurn_ = (panelTurn_ + 1) % kPlotTurns;
+  if (panelTurn_ > 0)
+  {
+    if (!undrawn_.empty())
+    {
+      undrawn_.back()->draw();
+      undrawn_.pop_back();
+    }
+    return;
+  }
   followMap();
   showReadings();
   search_ ? training_->showProgress(session_.newest().time - search_->from, search_->marks.size())
@@ -290,19 +301,11 @@ void Window::refreshCharts()
   {
     charts_->mark(review_ && reviewed_ == 0 ? &shown_ : nullptr);
     charts_->refresh();
-    drawCharts();
+    undrawn_ = chartPanels_;
   }
   if (plots_)
   {
     plots_->refresh();
-  }
-}
-
-void Window::drawCharts()
-{
-  for (ChartPanel* panel : chartPanels_)
-  {
-    panel->draw();
   }
 }
 

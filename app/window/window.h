@@ -232,7 +232,6 @@ private:
 
   void takeSamples();
   void clearCharts();
-  void drawCharts();
   void refresh();
   void fitView();
   void takeTheme();
@@ -302,6 +301,7 @@ private:
   bool isStale_ = true;      // the picture, whatever the newest sample is
   int still_ = 0;            // pictures since it last changed
   int timingsLeftOut_ = 0;
+  int panelTurn_ = 0; // 0: of the panels, else of a chart
   bool chartsAreStale_ = true;
   std::optional<std::pair<int, int>> fittedTo_ = std::pair(0, 0); // all of the body is seen so
   std::size_t takesKept_;
@@ -316,6 +316,7 @@ private:
   PlayOrder order_;                          // that it has
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
+  std::vector<ChartPanel*> undrawn_;     // of these, since they were refreshed
   std::vector<ChartPanel*> chartPanels_; // of charts_
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;

@@ -154,7 +154,7 @@ ChartPanel* Window::makeChartPanel(std::size_t chart)
     [this]
     {
       clearCharts();
-      drawCharts();
+      undrawn_ = chartPanels_;
     });
   connect(panel, &ChartPanel::saveAsked, this,
     [this, chart]

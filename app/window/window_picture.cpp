@@ -75,7 +75,7 @@ void Window::takeTheme()
   orientation_.setInk(dark ? appearance::kSky : appearance::kInk);
   scaleBar_.setInk(dark ? appearance::kSky : appearance::kInk);
   isStale_ = true;
-  drawCharts();
+  undrawn_ = chartPanels_;
   chartsAreStale_ = true;
 }
 
