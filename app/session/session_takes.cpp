@@ -5,6 +5,7 @@
 #include "app/folder/played_plan.h"
 #include "app/program/exec_program.h"
 #include "app/scene/scene_text.h"
+#include "app/session/live_bodies.h"
 #include "app/session/session.h"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ std::function<Session::Take()> Session::takeOf(const ExportFolder& folder) const
   return [folder, known = knownBody(folder.plan), scene = recording_.scene]
   {
     const ScenePlan& made = folder.plan;
-    SceneBody body = known ? *known : loadBodies(made);
+    SceneBody body = known ? *known : loadLiveBodies(made);
     Recording recording;
     recording.mesh = body.name;
     recording.unit = body.unit;

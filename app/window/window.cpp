@@ -225,7 +225,7 @@ void Window::refresh()
   }
   smoothen(sample);
   chooseRealism();
-  drawCoarse();
+  tellCoarse();
 }
 
 // all that tells of the press is of the one sample that the picture shows; of the device, live
@@ -247,6 +247,7 @@ void Window::showReadings()
         (calibration.fits(contact) ? QString() : tr("    dent estimated")));
 }
 
+// or one of the charts: all in a turn may take longer than a picture
 void Window::refreshPanels()
 {
   acted_ = std::exchange(acting_, 0);

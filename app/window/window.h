@@ -11,7 +11,6 @@
 #include "app/shell/message_bar.h"
 #include "app/shell/window_memory.h"
 #include "app/sound/force_sound.h"
-#include "app/window/coarse_level.h"
 #include "app/window/search.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
@@ -130,7 +129,7 @@ private:
   void addToolLooks(QMenu& menu);
   void addRealism(QMenu& menu);
   void chooseRealism();
-  void drawCoarse();
+  void tellCoarse();
   void setRealistic(bool on);
   void addMarks(QMenu& menu);
   void addOpening(QMenu& file);
@@ -283,7 +282,7 @@ private:
   Surroundings around_;
   const vtkSmartPointer<vtkRenderPass> fast_;
   Realism realism_;
-  CoarseLevel coarse_;
+  vtkSmartPointer<vtkPolyData> coarseTold_; // of the body that is drawn with it
   QAction* realistic_ = nullptr;
   std::optional<bool> hasCard_{}; // whether a graphics card draws; none: not known yet
   Orientation orientation_;
