@@ -131,7 +131,7 @@ void Session::drain(const SceneBody& body, const std::function<void(const Sample
         }
       });
   }
-  save(body, presses_.keep(recording_));
+  presses_.isReleased() ? save(body, presses_.keep(recording())) : void();
   disarmAtFault();
   boundAll();
 }

@@ -84,7 +84,7 @@ Window::Window(Session& session, BuildTrace& trace)
   , balls_(*renderer_)
   , reach_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
-  , validity_(session.recording().scene.law)
+  , validity_(session.scene().law)
   , takesKept_(session.earlier().size())
 {
   constexpr QSize kFrame{ 16, 48 }; // about what a title bar and borders take
@@ -168,7 +168,7 @@ void Window::takeSamples()
 // once, where it begins
 void Window::sayWhatIsThinned()
 {
-  const bool isThinned = session_.recording().thinned > 0;
+  const bool isThinned = session_.isThinned();
   if (isThinned && !saidThinned_)
   {
     say(tr("A long recording: of what is older than ten minutes, the least and the largest depth "
@@ -250,7 +250,6 @@ void Window::showReadings()
 // or one of the charts: all in a turn may take longer than a picture
 void Window::refreshPanels()
 {
-  acted_ = std::exchange(acting_, 0);
   panelTurn_ = (panelTurn_ + 1) % kPlotTurns;
   if (panelTurn_ > 0)
   {
@@ -261,6 +260,7 @@ void Window::refreshPanels()
     }
     return;
   }
+  acted_ = std::exchange(acting_, 0);
   followMap();
   showReadings();
   search_ ? training_->showProgress(session_.newest().time - search_->from, search_->marks.size())

@@ -300,8 +300,8 @@ private:
   bool isStale_ = true;      // the picture, whatever the newest sample is
   int still_ = 0;            // pictures since it last changed
   int timingsLeftOut_ = 0;
-  int panelTurn_ = 0; // 0: of the panels, else of a chart
   bool chartsAreStale_ = true;
+  int panelTurn_ = 0; // 0: of the panels, else of a chart
   std::optional<std::pair<int, int>> fittedTo_ = std::pair(0, 0); // all of the body is seen so
   std::size_t takesKept_;
   WindowMemory memory_;
@@ -315,8 +315,8 @@ private:
   PlayOrder order_;                          // that it has
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
-  std::vector<ChartPanel*> undrawn_;     // of these, since they were refreshed
   std::vector<ChartPanel*> chartPanels_; // of charts_
+  std::vector<ChartPanel*> undrawn_;     // of these, since they were refreshed
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample
