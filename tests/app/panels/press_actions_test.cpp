@@ -25,8 +25,9 @@ TEST(PressList, ComparesWhereTwoPressesAreTicked)
     const auto compare = std::ranges::find(actions, "Compare", &QAction::text);
     return compare != actions.end() && (*compare)->isEnabled();
   };
-  const auto add = [&](int id)
-  { log.restore({ .id = id, .law = ForceLaw(SphereTip{ 10e-3 }, Material{ 50e3, 0.33 }) }); };
+  const auto add = [&](int id) {
+    log.restore({ .id = id, .law = ForceLaw(SphereTip{ 10e-3 }, Material{ 50e3, 0.33 }) });
+  };
   EXPECT_FALSE(compares()) << "there is none";
   add(1);
   EXPECT_FALSE(compares());
