@@ -154,7 +154,7 @@ QAction* PressList::addAction(
 void PressList::makeActions()
 {
   makeAgain();
-  addAction(tr("Compare"),
+  compare_ = addAction(tr("Compare"),
     tr("Forces of the ticked presses over depth, and their differences from the first"),
     [this] { Q_EMIT compareAsked(); });
   ofOne_.push_back(addAction(tr("Fit E"), tr("Young's modulus that this curve alone tells of"),
@@ -274,6 +274,7 @@ void PressList::takeEdit(const QTreeWidgetItem& row)
   }
   isTicked ? void(ticked_.insert(id)) : void(ticked_.erase(id));
   isTicked ? void(byHand_.insert(id)) : void(byHand_.erase(id));
+  enable();
   Q_EMIT tickedChanged();
 }
 
@@ -313,6 +314,7 @@ void PressList::enable()
   {
     action->setEnabled(selected().size() < 2 && current() != 0);
   }
+  compare_->setEnabled(ticked().size() > 1);
   delete_->setEnabled(!selected().empty());
 }
 

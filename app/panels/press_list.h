@@ -76,6 +76,7 @@ private:
   QTreeWidget* rows_;
   QHBoxLayout* buttons_;
   std::vector<QAction*> ofOne_; // that act on one press
+  QAction* compare_ = nullptr;
   QAction* delete_ = nullptr;
 };
 

@@ -60,7 +60,7 @@ void addCaption(vtkRenderer& renderer, const std::string& caption, double scale)
 } // namespace
 
 PressMoment momentOf(const SceneBody& body, const Recording& recording,
-  const Calibration& calibration, const Sample& sample, const SurfaceMap* map)
+  const Calibration& calibration, const Sample& sample, const SurfaceMap* map, bool isQuick)
 {
   const auto colorOf = [](const OrganPlan& organ)
   {
@@ -73,6 +73,7 @@ PressMoment momentOf(const SceneBody& body, const Recording& recording,
     organOf(calibration, sample.organ), sample, map };
   moment.second =
     recording.second ? nearestSample(recording.second->samples, sample.time) : nullptr;
+  moment.drawn = isQuick && map == nullptr ? pressed.coarse.Get() : nullptr;
   for (std::size_t i = 0; i < organs.size(); ++i)
   {
     const SceneBody& organ = body.organs[i];
@@ -82,7 +83,7 @@ PressMoment momentOf(const SceneBody& body, const Recording& recording,
     }
     else if (organs[i].role != OrganRole::Hide)
     {
-      moment.around.push_back({ .surface = organ.display,
+      moment.around.push_back({ .surface = isQuick && organ.coarse ? organ.coarse : organ.display,
         .color = colorOf(organs[i]),
         .isTranslucent = organs[i].role == OrganRole::Through,
         .isClosed = organ.haptic->closed() });

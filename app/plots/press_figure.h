@@ -36,8 +36,10 @@ struct PressMoment
 };
 
 /// That of a sample in a recording: of several organs, the one that it tells of amid the others.
+/// @param isQuick  by the coarse level of each body that has one, but where a map is of all points
 [[nodiscard]] PressMoment momentOf(const SceneBody& body, const Recording& recording,
-  const Calibration& calibration, const Sample& sample, const SurfaceMap* map = nullptr);
+  const Calibration& calibration, const Sample& sample, const SurfaceMap* map = nullptr,
+  bool isQuick = false);
 
 /// What a figure of it has beside the body, the tool and their dent.
 struct FigureLook

@@ -27,6 +27,7 @@ struct SceneBody
   std::vector<MeshSource> sources;                     ///< that it was loaded from
   std::vector<MeshFile> files;                         ///< that are felt
   vtkSmartPointer<vtkPolyData> display;                ///< [m]; null where nobody looks
+  vtkSmartPointer<vtkPolyData> coarse{};               ///< [m]; see loadLiveBodies; null: none
   std::shared_ptr<const Surface> haptic;               ///< [m]
   std::vector<PlacedNodule> nodules;                   ///< in it [m]
   TissueMap stiffness;                                 ///< in it; empty: the same everywhere

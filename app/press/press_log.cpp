@@ -64,7 +64,7 @@ void PressLog::follow(const Sample& sample) noexcept
 
 std::optional<Recording> PressLog::keep(const Recording& recording)
 {
-  return now_ - lastTouch_ >= kBounce ? end(recording) : std::nullopt;
+  return isReleased() ? end(recording) : std::nullopt;
 }
 
 std::optional<Recording> PressLog::end(const Recording& recording)

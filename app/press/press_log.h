@@ -61,6 +61,12 @@ public:
     next_ = std::move(name);
   }
 
+  /// Whether the tool was released of a press that keep() has not kept yet.
+  [[nodiscard]] bool isReleased() const noexcept
+  {
+    return isPressing() && now_ - lastTouch_ >= kBounce;
+  }
+
   /// Keeps the press that the tool was released of since, if any.
   /// @return  its samples, with the one before
   std::optional<Recording> keep(const Recording& recording);

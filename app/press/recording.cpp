@@ -19,31 +19,50 @@ namespace palp
 namespace
 {
 
-// of each interval the extremes; returns how many are left of those from begin to end
-std::size_t thinRange(
-  std::vector<Sample>& samples, std::size_t begin, std::size_t end, double interval)
+// moves down the extremes of the interval above the gap, and no others of it
+void thinInterval(std::vector<Sample>& samples, Gap& gap, double interval)
 {
   const auto depth = [](const Sample& sample) { return sample.contact.depth; };
   const auto force = [](const Sample& sample) { return sample.response.force; };
-  auto left = samples.begin() + static_cast<std::ptrdiff_t>(begin);
-  const auto stop = samples.begin() + static_cast<std::ptrdiff_t>(end);
-  for (auto at = left; at != stop;)
+  Sample* const begin = samples.data() + gap.from;
+  const double number = std::floor(begin->time / interval);
+  Sample* const end = std::find_if(begin, samples.data() + gap.thinsTo,
+    [&](const Sample& sample) { return std::floor(sample.time / interval) != number; });
+  const std::array extremes{ std::ranges::min_element(begin, end, {}, depth),
+    std::ranges::max_element(begin, end, {}, depth),
+    std::ranges::min_element(begin, end, {}, force),
+    std::ranges::max_element(begin, end, {}, force) };
+  for (Sample* at = begin; at != end; ++at)
   {
-    const double number = std::floor(at->time / interval);
-    const auto next = std::find_if(
-      at, stop, [&](const Sample& sample) { return std::floor(sample.time / interval) != number; });
-    const std::array extremes{ std::ranges::min_element(at, next, {}, depth),
-      std::ranges::max_element(at, next, {}, depth), std::ranges::min_element(at, next, {}, force),
-      std::ranges::max_element(at, next, {}, force) };
-    std::array<Sample, extremes.size()> kept;
-    const auto last = std::copy_if(at, next, kept.begin(),
-      [&, from = at](const Sample&) mutable
-      { return std::ranges::find(extremes, from++) != extremes.end(); });
-    left = std::copy(kept.begin(), last, left);
-    at = next;
+    if (std::ranges::find(extremes, at) != extremes.end())
+    {
+      samples[gap.to++] = *at;
+    }
   }
-  samples.erase(left, stop);
-  return static_cast<std::size_t>(left - samples.begin()) - begin;
+  gap.from = static_cast<std::size_t>(end - samples.data());
+}
+
+// of a track with a gap
+template <typename Track>
+void narrow(Track& track, std::size_t most)
+{
+  std::vector<Sample>& samples = track.samples;
+  Gap& gap = track.gap;
+  const std::size_t stop = gap.from + std::min(most, samples.size() - gap.from);
+  while (gap.from < std::min(stop, gap.thinsTo))
+  {
+    thinInterval(samples, gap, track.interval);
+    track.thinned = gap.to;
+  }
+  for (; gap.from < stop; ++gap.to, ++gap.from)
+  {
+    samples[gap.to] = samples[gap.from];
+  }
+  if (gap.from == samples.size())
+  {
+    samples.resize(gap.to);
+    gap = {};
+  }
 }
 
 // of a hand those of contact, and their neighbors
@@ -69,31 +88,38 @@ void keepContactOf(Track& track)
 }
 
 template <typename Track>
-void boundTrack(Track& track, std::size_t kept)
+void boundTrack(Track& track, std::size_t most, std::size_t kept)
 {
-  const std::size_t minute = kept / 10; // at a time, so that moving the rest is rare
+  const std::size_t part = kept / 20; // at a time, so that moving the rest is rare
   std::vector<Sample>& samples = track.samples;
-  if (samples.size() > minute) // from here on no copy of all is made to grow by
+  if (samples.size() > kept / 100) // from here on no copy of all is made to grow by
   {
-    samples.reserve(kept + 4 * minute);
+    samples.reserve(kept + 4 * part);
   }
   // of a fixed number in all, of which those left out take none: what is full grows no more
-  if (samples.size() > kept + 3 * minute)
+  if (track.gap.thinsTo == 0 && samples.size() > kept + 3 * part)
   {
-    const std::size_t first = track.thinned;
-    track.thinned += thinRange(samples, first, first + minute, track.interval);
-    while (track.thinned > 2 * minute)
-    {
-      track.interval *= 2.0;
-      track.thinned = thinRange(samples, 0, track.thinned, track.interval);
-    }
+    const bool isMuch = track.thinned > 2 * part; // parts of an interval, or of too many
+    const std::size_t first = isMuch ? 0 : track.thinned;
+    const double intervals = (samples[track.thinned].time - samples[first].time) / track.interval;
+    track.interval *= 4.0 * intervals > static_cast<double>(part) ? 2.0 : 1.0; // of 4 samples each
+    track.gap = { .to = first, .from = first, .thinsTo = track.thinned + part };
   }
+  track.gap.thinsTo > 0 ? narrow(track, most) : void();
+}
+
+template <typename Track>
+void closeGapOf(Track& track)
+{
+  track.gap.thinsTo > 0 ? narrow(track, track.samples.size()) : void();
 }
 
 template <typename Track>
 void thinTrack(Track& track)
 {
-  track.thinned = thinRange(track.samples, 0, track.samples.size(), track.interval);
+  closeGapOf(track);
+  track.gap.thinsTo = track.samples.size();
+  closeGapOf(track);
   track.samples.shrink_to_fit();
 }
 
@@ -108,8 +134,20 @@ void keepContact(Recording& recording)
 
 void bound(Recording& recording, std::size_t kept)
 {
-  boundTrack(recording, kept);
-  recording.second ? boundTrack(*recording.second, kept) : void();
+  closeGap(recording);
+  boundSome(recording, std::numeric_limits<std::size_t>::max(), kept);
+}
+
+void boundSome(Recording& recording, std::size_t most, std::size_t kept)
+{
+  boundTrack(recording, most, kept);
+  recording.second ? boundTrack(*recording.second, most, kept) : void();
+}
+
+void closeGap(Recording& recording)
+{
+  closeGapOf(recording);
+  recording.second ? closeGapOf(*recording.second) : void();
 }
 
 void append(Recording& recording, std::vector<Sample> samples)

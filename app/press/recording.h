@@ -18,6 +18,15 @@
 namespace palp
 {
 
+/// A part of a recording's samples that were moved down or left out, from `to` up to `from`, while
+/// it is bounded: they are none of it.
+struct Gap
+{
+  std::size_t to = 0;
+  std::size_t from = 0;
+  std::size_t thinsTo = 0; ///< up to where others are left out; 0: there is no gap
+};
+
 /// What another hand did at the same time, with a tool and a tissue like the first's.
 struct SecondHand
 {
@@ -25,6 +34,7 @@ struct SecondHand
   std::vector<Sample> samples{}; ///< see Recording, as the others
   std::size_t thinned = 0;
   double interval = 0.1;
+  Gap gap{};
 };
 
 /// Who pressed what, and everything that was measured. Of a tool that rests away from the surface
@@ -42,6 +52,7 @@ struct Recording
   std::vector<Sample> samples{};
   std::size_t thinned = 0;            ///< of these the first, between which others were left out
   double interval = 0.1;              ///< of which of those only the extremes are kept [s]
+  Gap gap{};                          ///< none but between two calls of boundSome
   bool rated = true;                  ///< how far each sample may be believed is told, too
   bool contactOnly = false;           ///< see keepContact
   std::optional<SecondHand> second{}; ///< none: one hand, of which all else tells
@@ -72,10 +83,18 @@ constexpr std::size_t kKeptWhole = 600'000; ///< samples, ten minutes
 
 /// Bounds a recording that grows: of what is older than the last `kept` samples those stay that
 /// have the least and the largest depth and force within each interval, which doubles where they
-/// are too many. Never more than 1.4 times `kept` stay, the deepest among them, in memory that is
+/// are too many. Never more than 1.2 times `kept` stay, the deepest among them, in memory that is
 /// taken once.
 /// @param kept  a multiple of 1000
 void bound(Recording& recording, std::size_t kept = kKeptWhole);
+
+/// A part of that, as all of it takes longer than a picture may wait: samples may be added before
+/// the next, but those that are there are not to be looked at while there is a gap, see closeGap.
+/// @param most  samples of each hand that are moved, about
+void boundSome(Recording& recording, std::size_t most, std::size_t kept = kKeptWhole);
+
+/// Does the rest at once, if there is any.
+void closeGap(Recording& recording);
 
 /// The same of all samples of a recording that has ended.
 void thin(Recording& recording);

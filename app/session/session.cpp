@@ -2,6 +2,7 @@
 
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
+#include "app/session/live_bodies.h"
 
 #include <utility>
 #include <vtkPolyData.h>
@@ -50,7 +51,7 @@ Session::Session(ScenePlan plan, BuildTrace& trace, const std::atomic<bool>* sto
     .history = plan_.records(),
     .deadMan = plan_.deadMan,
     .stop = stop }
-  , body_(trace.build("surface", "felt and shown", [&] { return loadBodies(plan_); }))
+  , body_(trace.build("surface", "felt and shown", [&] { return loadLiveBodies(plan_); }))
   , recording_(startOf(plan_, body_, trace))
   , calibration_(trace.build("calibration", "how far the surface gives way",
       [&] { return loadCalibration(plan_.press, recording_.scene); }))
@@ -130,7 +131,7 @@ void Session::drain(const SceneBody& body, const std::function<void(const Sample
         }
       });
   }
-  save(body, presses_.keep(recording_));
+  presses_.isReleased() ? save(body, presses_.keep(recording())) : void();
   disarmAtFault();
   boundAll();
 }

@@ -234,13 +234,24 @@ public:
   /// of them.
   [[nodiscard]] const Recording& recording() const noexcept
   {
+    closeGap(recording_);
     return recording_;
+  }
+
+  /// Of the recording, which takes longer to be asked for while it is bounded.
+  [[nodiscard]] const Scene& scene() const noexcept
+  {
+    return recording_.scene;
+  }
+  [[nodiscard]] bool isThinned() const noexcept
+  {
+    return recording_.thinned > 0;
   }
 
   /// The samples of a recording of this session, to be copied on another thread while it goes on.
   [[nodiscard]] std::function<std::vector<Sample>()> samplesOf(const Recording& recording) const
   {
-    return readers_.of(recording, &recording == &recording_);
+    return readers_.of(recording, &recording == &this->recording());
   }
 
   /// A recording that another body, tool, tissue or device ended, with what it was made on.
@@ -314,7 +325,7 @@ private:
   ServoOptions servoOptions_;
   Eigen::Matrix3d facing_ = Eigen::Matrix3d::Identity(); // of devices, in those of the body
   SceneBody body_;
-  Recording recording_; // its scene is the one that the servo thread has
+  mutable Recording recording_; // its scene is the one that the servo thread has
   Calibration calibration_;
   double armedAt_ = 0.0;      // time of the servo from which on a fault is a new one [s]
   double recordedFrom_ = 0.0; // and from which on a sample is of the tool and tissue in use [s]

@@ -5,6 +5,7 @@
 #include "app/folder/played_plan.h"
 #include "app/program/exec_program.h"
 #include "app/scene/scene_text.h"
+#include "app/session/live_bodies.h"
 #include "app/session/session.h"
 
 #include <algorithm>
@@ -34,9 +35,9 @@ void Session::endRecording(const SceneBody& body)
   if (std::ranges::all_of(hands_, [](const Hand& hand) { return hand.servo != nullptr; }))
   {
     drain(body, [](const Sample&) {});
-    save(body, presses_.end(recording_));
+    save(body, presses_.end(recording()));
   }
-  if (recording_.isTouched())
+  if (recording().isTouched())
   {
     static_assert(std::is_nothrow_move_constructible_v<Take>); // samples stay where they are
     std::vector<Sample> samples = std::exchange(recording_.samples, {});
@@ -84,7 +85,7 @@ std::function<Session::Take()> Session::takeOf(const ExportFolder& folder) const
   return [folder, known = knownBody(folder.plan), scene = recording_.scene]
   {
     const ScenePlan& made = folder.plan;
-    SceneBody body = known ? *known : loadBodies(made);
+    SceneBody body = known ? *known : loadLiveBodies(made);
     Recording recording;
     recording.mesh = body.name;
     recording.unit = body.unit;
@@ -121,13 +122,14 @@ std::size_t Session::add(Take take)
 // not while somebody copies, which takes less than a second
 void Session::boundAll()
 {
-  constexpr std::size_t kUrgent = kKeptWhole * 27 / 20; // of 1.4 times kKeptWhole that fit
+  constexpr std::size_t kUrgent = kKeptWhole * 7 / 6; // of 1.2 times kKeptWhole that fit
+  constexpr std::size_t kAtOnce = 50'000;             // samples, in some milliseconds
   if (readers_.any() && recording_.samples.size() < kUrgent)
   {
     return;
   }
   readers_.wait();
-  bound(recording_);
+  boundSome(recording_, kAtOnce);
   const auto samples = [this]
   {
     return std::accumulate(earlier_.begin(), earlier_.end(), recording_.sampleCount(),

@@ -36,8 +36,9 @@ namespace palp
 namespace
 {
 
-constexpr int kFrameMs = 16;    // the picture
-constexpr int kPlotMs = 100;    // the curves, which cost more and need less
+constexpr int kFrameMs = 16; // the picture
+constexpr int kPlotMs = 33;  // panels and charts, which cost more and need less, by turns
+constexpr int kPlotTurns = 3;
 constexpr int kTimingMs = 1000; // what always changes a little
 
 // whether nobody could tell their pictures apart
@@ -83,7 +84,7 @@ Window::Window(Session& session, BuildTrace& trace)
   , balls_(*renderer_)
   , reach_(*renderer_)
   , pointer_([this](double x, double y) { return sightLine(x, y); })
-  , validity_(session.recording().scene.law)
+  , validity_(session.scene().law)
   , takesKept_(session.earlier().size())
 {
   constexpr QSize kFrame{ 16, 48 }; // about what a title bar and borders take
@@ -167,7 +168,7 @@ void Window::takeSamples()
 // once, where it begins
 void Window::sayWhatIsThinned()
 {
-  const bool isThinned = session_.recording().thinned > 0;
+  const bool isThinned = session_.isThinned();
   if (isThinned && !saidThinned_)
   {
     say(tr("A long recording: of what is older than ten minutes, the least and the largest depth "
@@ -224,7 +225,7 @@ void Window::refresh()
   }
   smoothen(sample);
   chooseRealism();
-  drawCoarse();
+  tellCoarse();
 }
 
 // all that tells of the press is of the one sample that the picture shows; of the device, live
@@ -246,8 +247,19 @@ void Window::showReadings()
         (calibration.fits(contact) ? QString() : tr("    dent estimated")));
 }
 
+// or one of the charts: all in a turn may take longer than a picture
 void Window::refreshPanels()
 {
+  panelTurn_ = (panelTurn_ + 1) % kPlotTurns;
+  if (panelTurn_ > 0)
+  {
+    if (!undrawn_.empty())
+    {
+      undrawn_.back()->draw();
+      undrawn_.pop_back();
+    }
+    return;
+  }
   acted_ = std::exchange(acting_, 0);
   followMap();
   showReadings();
@@ -290,19 +302,11 @@ void Window::refreshCharts()
   {
     charts_->mark(review_ && reviewed_ == 0 ? &shown_ : nullptr);
     charts_->refresh();
-    drawCharts();
+    undrawn_ = chartPanels_;
   }
   if (plots_)
   {
     plots_->refresh();
-  }
-}
-
-void Window::drawCharts()
-{
-  for (ChartPanel* panel : chartPanels_)
-  {
-    panel->draw();
   }
 }
 

@@ -11,7 +11,6 @@
 #include "app/shell/message_bar.h"
 #include "app/shell/window_memory.h"
 #include "app/sound/force_sound.h"
-#include "app/window/coarse_level.h"
 #include "app/window/search.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
@@ -130,7 +129,7 @@ private:
   void addToolLooks(QMenu& menu);
   void addRealism(QMenu& menu);
   void chooseRealism();
-  void drawCoarse();
+  void tellCoarse();
   void setRealistic(bool on);
   void addMarks(QMenu& menu);
   void addOpening(QMenu& file);
@@ -232,7 +231,6 @@ private:
 
   void takeSamples();
   void clearCharts();
-  void drawCharts();
   void refresh();
   void fitView();
   void takeTheme();
@@ -284,7 +282,7 @@ private:
   Surroundings around_;
   const vtkSmartPointer<vtkRenderPass> fast_;
   Realism realism_;
-  CoarseLevel coarse_;
+  vtkSmartPointer<vtkPolyData> coarseTold_; // of the body that is drawn with it
   QAction* realistic_ = nullptr;
   std::optional<bool> hasCard_{}; // whether a graphics card draws; none: not known yet
   Orientation orientation_;
@@ -303,6 +301,7 @@ private:
   int still_ = 0;            // pictures since it last changed
   int timingsLeftOut_ = 0;
   bool chartsAreStale_ = true;
+  int panelTurn_ = 0; // 0: of the panels, else of a chart
   std::optional<std::pair<int, int>> fittedTo_ = std::pair(0, 0); // all of the body is seen so
   std::size_t takesKept_;
   WindowMemory memory_;
@@ -317,6 +316,7 @@ private:
 
   QVTKOpenGLNativeWidget* canvas_ = nullptr;
   std::vector<ChartPanel*> chartPanels_; // of charts_
+  std::vector<ChartPanel*> undrawn_;     // of these, since they were refreshed
   TissuePanel* panel_ = nullptr;
   DevicePanel* devicePanel_ = nullptr;
   ValidityPanel* validityPanel_ = nullptr; // null: the plan rates no sample

@@ -4,6 +4,7 @@
 #include "app/panels/folder_dialog.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/press_bar.h"
+#include "app/session/live_bodies.h"
 #include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
@@ -13,7 +14,6 @@
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkPolyData.h>
 
 #include <QApplication>
 #include <QFileDialog>
@@ -170,27 +170,15 @@ void Window::say(const QString& what)
 // false: given up
 bool Window::openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs)
 {
-  struct Read
-  {
-    SceneBody body;
-    vtkSmartPointer<vtkPolyData> coarse;
-  };
-  std::optional<Read> read = inBackground<Read>(tr("Reading %1").arg(fileName(meshes.front())),
-    [plan = ScenePlan{ .meshes = meshes, .organs = organs }, isSlow = hasCard_ == false]
-    {
-      Read made{ loadBodies(plan), {} };
-      vtkPolyData* fine = made.body.display;
-      made.coarse = isSlow && fine != nullptr ? CoarseLevel::levelOf(*fine) : nullptr;
-      return made;
-    });
-  if (!read)
+  std::optional<SceneBody> body =
+    inBackground<SceneBody>(tr("Reading %1").arg(fileName(meshes.front())),
+      [plan = ScenePlan{ .meshes = meshes, .organs = organs }] { return loadLiveBodies(plan); });
+  if (!body)
   {
     return false;
   }
-  const vtkSmartPointer<vtkPolyData> fine = read->body.display;
   takeSamples();
-  session_.open(std::move(read->body), organs);
-  fine != nullptr ? coarse_.take(*fine, read->coarse) : void();
+  session_.open(*std::move(body), organs);
   clearCharts();
   showBody();
   pressBar_->clearPlace();

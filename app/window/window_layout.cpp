@@ -78,7 +78,7 @@ void Window::makeView()
 
 void Window::makeDocks()
 {
-  panel_ = new TissuePanel(session_.recording().scene, session_.plan().validity);
+  panel_ = new TissuePanel(session_.scene(), session_.plan().validity);
   connect(panel_, &TissuePanel::tissueChanged, this, &Window::changeTissue);
   addDock(this, Qt::LeftDockWidgetArea, tr("Tool and tissue"), new PanelArea(panel_));
   makeDevicePanel();
@@ -154,7 +154,7 @@ ChartPanel* Window::makeChartPanel(std::size_t chart)
     [this]
     {
       clearCharts();
-      drawCharts();
+      undrawn_ = chartPanels_;
     });
   connect(panel, &ChartPanel::saveAsked, this,
     [this, chart]

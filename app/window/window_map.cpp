@@ -44,7 +44,7 @@ std::optional<int> Window::chosenFelt() const
 // the place of an organ among those that are felt; none: it is not, or no longer
 std::optional<int> Window::placeOf(const StiffnessMap& map) const
 {
-  const Scene& scene = session_.recording().scene;
+  const Scene& scene = session_.scene();
   for (int organ = 0; organ < organCount(scene); ++organ)
   {
     if (organOf(scene, organ).surface == map.scene.surface)
@@ -81,7 +81,7 @@ void Window::askMap()
     attempt(
       [&]
       {
-        Scene scene = organOf(session_.recording().scene, *organ);
+        Scene scene = organOf(session_.scene(), *organ);
         scene.others.clear();
         const SceneBody& body = session_.body().felt(session_.organs(), *organ);
         mapWork_.emplace(scene, dialog.request(), *body.display);
@@ -168,7 +168,7 @@ const SurfaceMap* Window::shownMap() const
 const StiffnessMap* Window::currentMap() const
 {
   const std::optional<int> organ = map_ ? placeOf(map_->map) : std::nullopt;
-  const bool holds = organ && map_->map.holdsIn(organOf(session_.recording().scene, *organ));
+  const bool holds = organ && map_->map.holdsIn(organOf(session_.scene(), *organ));
   return holds ? &map_->map : nullptr;
 }
 

@@ -171,7 +171,7 @@ void Window::openScene(const QString& file)
   }
   if (plan.organs.empty()) // which have theirs
   {
-    Scene scene = session_.recording().scene;
+    Scene scene = session_.scene();
     scene.law = plan.press.tissue.law();
     scene.rule = plan.press.contact;
     scene.damping = plan.press.damping;

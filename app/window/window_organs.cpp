@@ -67,7 +67,7 @@ bool Window::openLabels(const MeshSource& image, std::vector<FileOrgan> labels)
   std::vector<std::string> names(labels.size());
   std::ranges::transform(labels, names.begin(), &FileOrgan::name);
   const std::vector<OrganLook> looks = looksOf(names);
-  const Scene& scene = session_.recording().scene;
+  const Scene& scene = session_.scene();
   PressOptions press;
   press.tissue = optionsOf(scene.law, session_.recording().rated);
   press.contact = scene.rule;
@@ -91,7 +91,7 @@ bool Window::openLabels(const MeshSource& image, std::vector<FileOrgan> labels)
 // as the session has them: in the list, below the pointer, in the picture
 void Window::showOrgans()
 {
-  const Scene& scene = session_.recording().scene;
+  const Scene& scene = session_.scene();
   std::vector<std::shared_ptr<const Surface>> felt{ scene.surface };
   for (const Scene& organ : scene.others)
   {
@@ -132,9 +132,9 @@ bool Window::useOrgans(const std::vector<OrganPlan>& organs)
         throw Error(ErrorCode::BadValue, "those organs are no longer open");
       }
       endReview();
-      const std::uint64_t before = session_.recording().scene.version;
+      const std::uint64_t before = session_.scene().version;
       isUsed = useFelt(session_.feltWith(organs));
-      session_.recording().scene.version != before ? clearCharts() : void();
+      session_.scene().version != before ? clearCharts() : void();
       sayWhatIsKept();
     });
   showOrgans();
@@ -161,7 +161,7 @@ void Window::keepUndo(const std::vector<OrganPlan>& before)
 // that of the organ that is chosen, with the tool
 Scene Window::tissueInUse() const
 {
-  Scene scene = session_.recording().scene;
+  Scene scene = session_.scene();
   if (!session_.organs().empty())
   {
     const PressOptions& press = session_.organs()[organs_->chosen()].press;
@@ -173,12 +173,12 @@ Scene Window::tissueInUse() const
 
 const Scene& Window::organShown() const
 {
-  return organOf(pictured().recording.scene, shown_.organ);
+  return organOf(review_ ? pictured().recording.scene : session_.scene(), shown_.organ);
 }
 
 const Calibration& Window::calibrationShown() const
 {
-  return organOf(pictured().calibration, shown_.organ);
+  return organOf(review_ ? pictured().calibration : session_.calibration(), shown_.organ);
 }
 
 } // namespace palp

@@ -75,7 +75,7 @@ void Window::takeTheme()
   orientation_.setInk(dark ? appearance::kSky : appearance::kInk);
   scaleBar_.setInk(dark ? appearance::kSky : appearance::kInk);
   isStale_ = true;
-  drawCharts();
+  undrawn_ = chartPanels_;
   chartsAreStale_ = true;
 }
 
@@ -185,25 +185,25 @@ void Window::chooseRealism()
   {
     hasCard_ = !drawsInSoftware(rendererNameOf(*renderWindow_));
     realistic_->setChecked(memory_.isRealistic().value_or(*hasCard_));
+    *hasCard_ ? showPictured() : void(); // whole
   }
 }
 
-// in the place of a surface that would take long to draw, once it is there
-void Window::drawCoarse()
+// once of each body that is drawn with fewer triangles than it has
+void Window::tellCoarse()
 {
-  vtkPolyData* fine = session_.body().display;
-  if (fine != nullptr && hasCard_ == false)
+  const SceneBody& body = session_.body();
+  if (hasCard_ != false || coarseTold_ == body.coarse)
   {
-    coarse_.follow(*fine);
+    return;
   }
-  vtkPolyData* coarse = coarse_.becomesReady() ? coarse_.of(*fine) : nullptr;
-  if (coarse != nullptr)
+  coarseTold_ = body.coarse;
+  if (coarseTold_ != nullptr)
   {
-    view_.shows(*coarse) ? void() : showPictured();
     message_->add(
       tr("Drawn with %L1 triangles, as %L2 take long here; all of them are felt and exported")
-        .arg(coarse->GetNumberOfCells())
-        .arg(fine->GetNumberOfCells()));
+        .arg(body.coarse->GetNumberOfCells())
+        .arg(body.display->GetNumberOfCells()));
   }
 }
 

@@ -210,9 +210,10 @@ void Window::showPictured()
   {
     shown_ = {}; // of organs that are no longer felt
   }
-  PressMoment moment = momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap());
-  vtkPolyData* coarse = coarse_.of(*moment.body.display);
-  moment.drawn = moment.map == nullptr ? coarse : nullptr; // a map is of all points
+  const bool isQuick = hasCard_ != true; // also in the first picture, which tells what draws
+  const PressMoment moment =
+    momentOf(seen.body, seen.recording, seen.calibration, shown_, shownMap(), isQuick);
+  vtkPolyData* coarse = moment.body.coarse;
   const bool isOther =
     !view_.shows(*moment.body.display) && (coarse == nullptr || !view_.shows(*coarse));
   if (isOther && seen.recording.organs.empty())

@@ -136,7 +136,7 @@ bool Window::pressAtPlace()
             "; choose mouse or hand as the device, which can be led to a place");
       }
       const PressPlace& place = presses.places.front();
-      const SurfacePoint point = pressedPoint(place, presses, session_.recording().scene);
+      const SurfacePoint point = pressedPoint(place, presses, session_.scene());
       awaited_.begin(presses, session_.recording(), session_.presses());
       pointer_.pressAt(point, presses.depth, presses.speed);
       aim();

@@ -57,10 +57,10 @@ void Window::sayWhatIsKept()
 // of the panel, by the user; false: it stays as it was
 bool Window::changeTissue()
 {
-  Scene before = session_.recording().scene;
+  Scene before = session_.scene();
   const std::vector<OrganPlan> organs = session_.organs();
   applyTissue();
-  Scene after = session_.recording().scene;
+  Scene after = session_.scene();
   if (after.version == before.version)
   {
     return false;

@@ -1,6 +1,7 @@
 #include "app/press/recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <initializer_list>
 #include <iterator>
@@ -107,6 +108,38 @@ TEST(Recording, OfTenMinutesIsWhole)
   bound(recording);
   EXPECT_EQ(recording.samples.size(), kKeptWhole);
   EXPECT_EQ(recording.thinned, 0U);
+}
+
+// a day again, by small parts, and asked for now and then
+TEST(Recording, BoundedInPartsIsAsIfAtOnce)
+{
+  constexpr std::size_t kKept = 2000;
+  Recording whole;
+  Recording parts;
+  int compared = 0;
+  for (int i = 0; i < 100'000; ++i)
+  {
+    Sample sample;
+    sample.time = 1e-3 * i;
+    sample.contact.depth = 1e-3 * (1.0 + std::sin(0.01 * i));
+    sample.response.force = std::cos(0.017 * i);
+    whole.samples.push_back(sample);
+    parts.samples.push_back(sample);
+    bound(whole, kKept);
+    boundSome(parts, 150, kKept);
+    ASSERT_EQ(parts.samples.back().time, sample.time);
+    if (parts.gap.thinsTo == 0 || i % 9973 == 0)
+    {
+      closeGap(parts);
+      ASSERT_EQ(parts.samples.size(), whole.samples.size()) << i;
+      ASSERT_EQ(parts.thinned, whole.thinned);
+      ASSERT_TRUE(
+        std::ranges::equal(parts.samples, whole.samples, {}, &Sample::time, &Sample::time));
+      ++compared;
+    }
+  }
+  EXPECT_LT(compared, 100'000) << "and was not always at once";
+  EXPECT_GT(whole.interval, 0.4);
 }
 
 // as of two programs, whose clocks both begin at 0

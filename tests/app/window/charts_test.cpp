@@ -18,6 +18,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vtkAxis.h>
 #include <vtkDataArray.h>
 #include <vtkPen.h>
@@ -94,6 +95,35 @@ TEST_F(WindowCharts, ArePausedAndClearedTogether)
   click("timeChart", "clear");
   EXPECT_EQ(points("depthChart"), 0);
   EXPECT_GT(session_->recording().samples.size(), 10U) << "the recording keeps them";
+}
+
+// nor with the panels beside them: all together may take longer than a picture
+TEST_F(WindowCharts, AreDrawnOneInATurn)
+{
+  press(100);
+  int drawn = 0;
+  vtkNew<vtkCallbackCommand> count;
+  count->SetClientData(&drawn);
+  count->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+  std::map<vtkRenderWindow*, unsigned long> watched;
+  for (const char* name : { "timeChart", "depthChart" })
+  {
+    vtkRenderWindow* window = canvas(name)->renderWindow();
+    watched[window] = window->AddObserver(vtkCommand::EndEvent, count);
+  }
+  const QDeadlineTimer patience(kPatience);
+  for (int all = 0; all < 20 && !patience.hasExpired(); all += std::exchange(drawn, 0))
+  {
+    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    EXPECT_LE(drawn, 1);
+  }
+  EXPECT_FALSE(patience.hasExpired());
+  for (const auto& [window, observer] : watched)
+  {
+    window->RemoveObserver(observer);
+  }
+  release();
 }
 
 TEST_F(WindowCharts, AreSavedAtTheSizeThatIsAskedFor)

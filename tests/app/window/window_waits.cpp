@@ -24,6 +24,11 @@ protected:
     window_->resize(1440, 860);
     waitFor([](const Sample&) { return true; });
   }
+
+  [[nodiscard]] QString file(const char* name) const
+  {
+    return QString::fromStdString((folder_.path() / name).string());
+  }
 };
 
 // [ms] on a processor, of this thread
@@ -94,8 +99,6 @@ TEST_F(Waits, Saving)
 {
   press(60);
   QTest::qWait(1000);
-  const auto file = [this](const char* name)
-  { return QString::fromStdString((folder_.path() / name).string()); };
   printWait("at rest", [] { QTest::qWait(10'000); });
   for (const ImageSize size : { ImageSize{ 1920, 1080 }, { 3840, 2160 }, { 7680, 4320 } })
   {
@@ -111,7 +114,13 @@ TEST_F(Waits, Saving)
   }
   printWait("screenshot", [&] { window_->saveScreenshot(file("shot.png")); });
   release();
-  QTest::qWait(1000);
+}
+
+TEST_F(Waits, Exporting)
+{
+  press(60);
+  release();
+  waitForPresses(1);
   printWait("movie", [&] { window_->saveReplay(file("press.mp4")); });
   printWait("export", [&] { window_->exportData(file("export")); });
 }
@@ -172,6 +181,7 @@ TEST_F(Waits, Opening)
 
 int main(int argc, char** argv)
 {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   testing::InitGoogleTest(&argc, argv);
   palp::body = argc > 1 ? argv[1] : "";
   return RUN_ALL_TESTS();
