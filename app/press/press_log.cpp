@@ -1,7 +1,9 @@
 #include "app/press/press_log.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <span>
 #include <utility>
 
 namespace palp
@@ -31,21 +33,47 @@ Recording partOf(const Recording& recording, double from)
   return part;
 }
 
-// one of so many of its samples, the deepest and the last
+// its samples as far apart as a step, in depth or force by their largest; the deepest and the last
+std::vector<CurvePoint> curveBySteps(
+  std::span<const Sample> press, const Sample* deepest, double step)
+{
+  const auto forceOf = [](const Sample& sample) { return std::abs(sample.response.force); };
+  const double most = forceOf(*std::ranges::max_element(press, {}, forceOf));
+  std::vector<CurvePoint> curve;
+  for (const Sample& sample : press)
+  {
+    const CurvePoint point{ sample.contact.depth, sample.response.force };
+    const bool isFar = curve.empty() ||
+      std::abs(point.depth - curve.back().depth) >= step * deepest->contact.depth ||
+      std::abs(point.force - curve.back().force) >= step * most;
+    if (isFar || &sample == deepest || &sample == &press.back())
+    {
+      curve.push_back(point);
+    }
+  }
+  return curve;
+}
+
+// even along the curve: by time, a tool that is held would take the points of those that it moves
+// at
 std::vector<CurvePoint> curveOf(const PressSummary& press, const Recording& recording)
 {
   const std::vector<Sample>& all = recording.samples;
   const auto first = std::ranges::lower_bound(all, press.begin, {}, &Sample::time);
   const auto end = std::ranges::upper_bound(all, press.end, {}, &Sample::time);
-  const Sample* deepest = deepestOf(std::span(first, end));
-  const auto step = 1 + (end - first) / static_cast<std::ptrdiff_t>(KeptPress::kCurve - 2);
-  std::vector<CurvePoint> curve;
-  for (auto sample = first; sample != end; ++sample)
+  const std::span samples(first, end);
+  const Sample* deepest = deepestOf(samples);
+  if (deepest == nullptr)
   {
-    if ((sample - first) % step == 0 || sample + 1 == end || &*sample == deepest)
-    {
-      curve.push_back({ sample->contact.depth, sample->response.force });
-    }
+    return {};
+  }
+  constexpr double kFinest = 1.0 / 200;
+  double step = kFinest;
+  std::vector<CurvePoint> curve = curveBySteps(samples, deepest, step);
+  while (curve.size() > KeptPress::kCurve)
+  {
+    step *= 2.0;
+    curve = curveBySteps(samples, deepest, step);
   }
   return curve;
 }

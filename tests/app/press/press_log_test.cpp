@@ -153,6 +153,28 @@ TEST(PressLog, CurveIsBoundedAndHasTheDeepestPoint)
   }
 }
 
+// of 8 s at one depth after half a second of motion: straight lines between its points, as a chart
+// draws them, are the force
+TEST(PressLog, CurveIsEvenHoweverLongAPressIsHeld)
+{
+  Pressing servo;
+  for (int i = 0; i <= 9000; ++i)
+  {
+    const double held = 4.0_mm + 0.005_mm * std::sin(0.5 * i);
+    servo.go(i < 500 ? i * 0.008_mm : i < 8500 ? held : (9000 - i) * 0.008_mm);
+  }
+  servo.wait(30);
+  ASSERT_EQ(servo.log.presses().size(), 1U);
+  const std::vector<CurvePoint>& curve = servo.log.presses().front().curve;
+  EXPECT_LE(curve.size(), KeptPress::kCurve + 2);
+  for (std::size_t i = 1; i < curve.size(); ++i)
+  {
+    const double depth = 0.5 * (curve[i - 1].depth + curve[i].depth);
+    const double force = 0.5 * (curve[i - 1].force + curve[i].force);
+    EXPECT_NEAR(force, hertz(depth), 0.005 * hertz(4.0_mm)) << i << ' ' << depth;
+  }
+}
+
 TEST(PressLog, NeverHoldsMoreThanItsBound)
 {
   Pressing servo;
