@@ -31,6 +31,7 @@ AxesDialog::AxesDialog(std::span<vtkPalpChart* const> charts, QWidget* parent)
         new QLineEdit(QString::number(axis->GetMinimum(), 'g', 6)),
         new QLineEdit(QString::number(axis->GetMaximum(), 'g', 6)) };
       row.isHeld->setChecked(chart->IsHeld(side));
+      row.isHeld->setToolTip(tr("Keeps the axis at this range; else it follows the data"));
       const int line = grid->rowCount();
       grid->addWidget(row.isHeld, line, 0);
       grid->addWidget(row.from, line, 1);
@@ -39,6 +40,7 @@ AxesDialog::AxesDialog(std::span<vtkPalpChart* const> charts, QWidget* parent)
       {
         edit->setAccessibleName(
           row.isHeld->text() + ' ' + (edit == row.from ? tr("from") : tr("to")));
+        edit->setToolTip(tr("%1, in its unit; typing holds the axis").arg(edit->accessibleName()));
         connect(edit, &QLineEdit::textEdited, row.isHeld,
           [held = row.isHeld] { held->setChecked(true); });
       }

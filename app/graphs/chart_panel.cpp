@@ -41,6 +41,7 @@ ChartPanel::ChartPanel(const QString& name, QWidget* parent)
 {
   window_->SetMultiSamples(0);
   canvas_->setObjectName(name);
+  canvas_->setAccessibleName(tr("Chart"));
   composeAlone(*canvas_);
   canvas_->setRenderWindow(window_);
   canvas_->setMinimumSize(260, 120);

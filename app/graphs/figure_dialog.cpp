@@ -39,21 +39,32 @@ void FigureDialog::offerParts(const FigureLook& usual)
 {
   usual_ = usual;
   auto* row = new QHBoxLayout;
-  const auto add = [&](const QString& name, const char* id, bool checked)
+  const auto add = [&](const QString& name, const char* id, bool checked, const QString& what)
   {
     auto* box = new QCheckBox(name);
     box->setObjectName(id);
+    box->setToolTip(what);
     box->setChecked(checked);
     row->addWidget(box);
     return box;
   };
-  overlays_ = add(tr("Overlays"), "overlays", !usual.overlays.empty());
-  parts_ = { { add(tr("Color bar"), "colorBar", usual.hasColorBar), &FigureLook::hasColorBar },
-    { add(tr("Scale bar"), "scaleBar", usual.hasScaleBar), &FigureLook::hasScaleBar },
-    { add(tr("Axes"), "figureAxes", usual.hasAxes), &FigureLook::hasAxes },
-    { add(tr("Caption"), "caption", usual.hasCaption), &FigureLook::hasCaption },
-    { add(tr("Realistic"), "realistic", usual.isRealistic), &FigureLook::isRealistic },
-    { add(tr("Transparent"), "transparent", usual.isTransparent), &FigureLook::isTransparent } };
+  overlays_ = add(tr("Overlays"), "overlays", !usual.overlays.empty(),
+    tr("Arrow, circles, lines and readings that the window shows"));
+  parts_ = { { add(tr("Color bar"), "colorBar", usual.hasColorBar,
+                 tr("What the colors of the surface stand for")),
+               &FigureLook::hasColorBar },
+    { add(tr("Scale bar"), "scaleBar", usual.hasScaleBar, tr("A length, true at the contact")),
+      &FigureLook::hasScaleBar },
+    { add(tr("Axes"), "figureAxes", usual.hasAxes,
+        tr("Directions, by the sides of a patient where they are known")),
+      &FigureLook::hasAxes },
+    { add(tr("Caption"), "caption", usual.hasCaption, tr("Tool, tissue, law, depth and force")),
+      &FigureLook::hasCaption },
+    { add(tr("Realistic"), "realistic", usual.isRealistic,
+        tr("Wet surface, darker where little light comes; takes a second")),
+      &FigureLook::isRealistic },
+    { add(tr("Transparent"), "transparent", usual.isTransparent, tr("No background")),
+      &FigureLook::isTransparent } };
   row->addStretch(1);
   auto* grid = qobject_cast<QGridLayout*>(layout());
   const int line = grid->rowCount();

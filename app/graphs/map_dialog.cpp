@@ -42,10 +42,10 @@ MapDialog::MapDialog(
   QGridLayout& rows = *makeRows(*how);
   addRow(rows, tr("Depth"), depth_);
   addRow(rows, tr("Spacing"), spacing_);
-  depth_->setToolTip(tr("δ [mm] of each contact, along the inward normal; the stiffness dF/dδ is "
-                        "taken there"));
-  spacing_->setToolTip(tr("[mm] from each place to the next, at least; half of it takes four times "
-                          "as many presses"));
+  depth_->setToolTip(tr("δ [mm] of each contact, more than 0, up to half of the body's thickness, "
+                        "along the inward normal; the stiffness dF/dδ is taken there"));
+  spacing_->setToolTip(tr("s [mm], 0.5 to 200: from each place to the next, at least; half of it "
+                          "takes four times as many presses"));
   depth_->setCheck(
     [this] { (void)parsePressDepth(quantityText(depth_->si(), Quantity::Length), "Depth"); });
   limit(*spacing_, tr("Spacing"));
@@ -54,6 +54,7 @@ MapDialog::MapDialog(
   QGridLayout& places = *makeRows(*where);
   auto* all = new QRadioButton(tr("Whole surface"));
   all->setChecked(true);
+  all->setToolTip(tr("Places on every side of the body"));
   isRegion_->setObjectName("mapRegion");
   isRegion_->setEnabled(last.has_value());
   isRegion_->setToolTip(
@@ -61,7 +62,7 @@ MapDialog::MapDialog(
   places.addWidget(all, 0, 0, 1, 2);
   places.addWidget(isRegion_, 1, 0, 1, 2);
   addRow(places, tr("Radius"), radius_);
-  radius_->setToolTip(tr("[mm] of the region around the last press"));
+  radius_->setToolTip(tr("r [mm], 0.5 to 200: of the region around the last press"));
   radius_->setEnabled(false);
   limit(*radius_, tr("Radius"));
   connect(isRegion_, &QRadioButton::toggled, radius_, &QWidget::setEnabled);

@@ -14,6 +14,7 @@ PlotPanel::PlotPanel(std::vector<Page> pages, QWidget* parent)
   , tabs_(new QTabBar)
 {
   tabs_->setObjectName("plotTabs");
+  tabs_->setAccessibleName(tr("Plots"));
   tabs_->setExpanding(false);
   tabs_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // turned by its arrows
   for (const Page& page : pages_)

@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 
 #include <QColorDialog>
+#include <QEvent>
 #include <QHeaderView>
 #include <QPainter>
 #include <QPainterPath>
@@ -160,6 +161,16 @@ void OrganList::show(const std::vector<OrganPlan>& organs)
   }
 }
 
+// an eye is as light or dark as letters are
+void OrganList::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  for (std::size_t i = 0; event->type() == QEvent::PaletteChange && i < organs_.size(); ++i)
+  {
+    showRow(i);
+  }
+}
+
 void OrganList::addRow(std::size_t place)
 {
   constexpr int kRoleLetters = 6; // of the widest
@@ -168,6 +179,7 @@ void OrganList::addRow(std::size_t place)
   auto* eye = makeButton("organEye", place);
   auto* color = makeButton("organColor", place);
   color->setToolTip(tr("Color"));
+  color->setAccessibleName(color->toolTip());
   ChoiceBox* role = makeChoice("organRole", place, roleNames(), kRoleLetters);
   role->setToolTip(tr("Pressed: felt and opaque\nThrough and Shown: seen, and no obstacle to the "
                       "tool"));
@@ -204,12 +216,15 @@ void OrganList::showRow(std::size_t place)
   auto* eye = partOf<QToolButton>(*rows_, place, kEye);
   eye->setIcon(eyeIcon(palette(), isSeen));
   eye->setToolTip(isSeen ? tr("Hide %1").arg(name) : tr("Show %1").arg(name));
+  eye->setAccessibleName(eye->toolTip());
   partOf<QToolButton>(*rows_, place, kColor)->setIcon(colorIcon(organ));
   const auto choice = [&](Column column)
   {
     return static_cast<ChoiceBox*>(
       rows_->itemWidget(rows_->topLevelItem(static_cast<int>(place)), column));
   };
+  choice(kRole)->setAccessibleName(tr("Role of %1").arg(name));
+  choice(kTissue)->setAccessibleName(tr("Tissue of %1").arg(name));
   choice(kRole)->show(static_cast<int>(organ.role));
   choice(kTissue)->show(presetOf(organ));
   const double young = units::toKilopascals(organ.press.tissue.young);

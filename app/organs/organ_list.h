@@ -32,6 +32,9 @@ public:
   /// Without a signal; nothing where there is none of the name.
   void choose(const std::string& name);
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 Q_SIGNALS:
   void changed(const std::vector<palp::OrganPlan>& organs); ///< as asked for
   void chosenChanged();

@@ -148,19 +148,22 @@ void SupportPainting::setVisible(bool shown)
   draw();
 }
 
-void SupportPainting::paint(const SurfacePoint& place)
+void SupportPainting::paint(const std::vector<SurfacePoint>& places)
 {
-  if (!parts_)
+  if (!parts_ || places.empty())
   {
     return;
   }
   before_ = before_ ? before_ : paint_;
   const Eigen::Isometry3d toFile = frame_.inverse();
-  const SurfacePoint brush{ toFile * place.position, toFile.linear() * place.normal };
   Paint painted = paint_;
-  for (const std::size_t part : parts_->below(brush, panel_.radius()))
+  for (const SurfacePoint& place : places)
   {
-    painted[part] = static_cast<Held>(panel_.brush());
+    const SurfacePoint brush{ toFile * place.position, toFile.linear() * place.normal };
+    for (const std::size_t part : parts_->below(brush, panel_.radius()))
+    {
+      painted[part] = static_cast<Held>(panel_.brush());
+    }
   }
   use(std::move(painted));
 }

@@ -50,9 +50,9 @@ public:
   /// Draws them, or not, which leaves them as they are.
   void setVisible(bool shown);
 
-  // A stroke of the brush that the panel shows: a place after the other, then its end, which can be
+  // A stroke of the brush that the panel shows: places after places, then its end, which can be
   // taken back.
-  void paint(const SurfacePoint& place);
+  void paint(const std::vector<SurfacePoint>& places);
   void endStroke();
 
   void clear();

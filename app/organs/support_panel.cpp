@@ -47,10 +47,10 @@ QuantityBox* length(const char* name, double usual, const QString& what)
 SupportPanel::SupportPanel(QWidget* parent)
   : QWidget(parent)
   , brush_(new ChoiceBox("supportBrush", { tr("Bonded"), tr("Sliding"), tr("Erase") }))
-  , radius_(length("brushRadius", 8.0_mm, tr("r [mm], more than 0: of the brush")))
+  , radius_(length("brushRadius", 8.0_mm, tr("r [mm], 0.1 to 100: of the brush")))
   , others_(new QLineEdit)
   , cell_(length("supportCell", 6.0_mm,
-      tr("h [mm], more than 0: side of the cubes; half of it takes ten times as long")))
+      tr("h [mm], 0.1 to 100: side of the cubes; half of it takes ten times as long")))
   , paint_(button(tr("Paint"), "paintSupports",
       tr("Drag in the picture, or Page Down at the tool, paints where the body rests")))
   , clear_(button(tr("Clear"), "clearSupports", tr("Take away all that is painted")))

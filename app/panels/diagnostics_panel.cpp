@@ -32,6 +32,7 @@ DiagnosticsPanel::DiagnosticsPanel(QWidget* parent)
   setWordWrap(true);
   setTextFormat(Qt::RichText);
   setAlignment(Qt::AlignTop);
+  setMargin(6);
 }
 
 void DiagnosticsPanel::show(const Timing& timing, const std::string& schedule)

@@ -16,6 +16,10 @@ FolderDialog::FolderDialog(const QString& title, const QString& suggested, QWidg
   setLabelText(Accept, tr("Export"));
   selectFile(suggested);
   typed_ = findChild<QLineEdit*>();
+  for (const char* name : { "fileTypeLabel", "fileTypeCombo" }) // folders are of no type
+  {
+    findChild<QWidget*>(name)->hide();
+  }
 }
 
 void FolderDialog::accept()

@@ -50,19 +50,24 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
   {
     series_->setObjectName("series");
     series_->setPlaceholderText(tr("of several in the folder, e.g. 2"));
+    series_->setToolTip(tr("Its place in the list of them, or its UID"));
     rows->addRow(tr("Series of DICOM images"), series_);
   }
   if (level_ != nullptr)
   {
     level_->setObjectName("level");
     level_->setPlaceholderText(tr("e.g. 0.5 for a mask of 0 and 1"));
+    level_->setToolTip(tr("Value of the image at the surface, between those outside and inside"));
     rows->addRow(tr("Level of the surface"), level_);
     label_->setObjectName("label");
     label_->setPlaceholderText(tr("of a label map, e.g. 5, or 1,2 for both"));
+    label_->setToolTip(tr("Values of the label map that are opened, with commas between"));
     rows->addRow(tr("or label of the body"), label_);
   }
   unit_->setObjectName("unit");
   unit_->addItems({ "auto", "mm", "cm", "m" });
+  unit_->setToolTip(tr("Length that a coordinate of 1 stands for; auto: as the file or the size of "
+                       "the body tells"));
   rows->addRow(tr("Unit of the coordinates"), unit_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
   connect(buttons, &QDialogButtonBox::accepted, this, &OpenDialog::accept);
@@ -80,6 +85,8 @@ void OpenDialog::setLabels(FileOrgans found)
   }
   auto* list = new QListWidget;
   list->setObjectName("labels");
+  list->setAccessibleName(tr("Labels"));
+  list->setToolTip(tr("A tick opens the label"));
   const UnitChoice unit = unitNamed(found.unit);
   for (const FileOrgan& organ : listed_)
   {
@@ -119,6 +126,7 @@ void OpenDialog::setLabels(FileOrgans found)
   {
     areOrgans_ = new QCheckBox(tr("Each an organ of its own; else all are one body"));
     areOrgans_->setObjectName("areOrgans");
+    areOrgans_->setToolTip(tr("Organs have a tissue, a color and a role each"));
     areOrgans_->setChecked(true);
     rows->insertRow(row + 2, {}, areOrgans_);
   }

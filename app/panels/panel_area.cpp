@@ -1,7 +1,6 @@
 #include "app/panels/panel_area.h"
 
 #include <QEvent>
-#include <QScreen>
 #include <QScrollBar>
 
 #include <algorithm>
@@ -48,7 +47,7 @@ bool PanelArea::eventFilter(QObject* object, QEvent* event)
 void PanelArea::fit()
 {
   const int height = widget()->sizeHint().height();
-  setMinimumHeight(std::min(height, screen()->availableGeometry().height() / 3));
+  setMinimumHeight(std::min(height, kLeastScreen / 3));
   setMaximumHeight(height);
   fitWidth(*this);
 }

@@ -5,6 +5,9 @@
 namespace palp
 {
 
+/// Rows of the least screen that the whole window has to fit on, however large the one in use is.
+inline constexpr int kLeastScreen = 768;
+
 /// Shows all of the width of a panel, and as much of its height as there is room.
 /// @param content  becomes the area's
 void scrollDownOnly(QScrollArea& area, QWidget* content);

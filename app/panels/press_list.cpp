@@ -159,9 +159,10 @@ void PressList::makeActions()
     [this] { Q_EMIT compareAsked(); });
   ofOne_.push_back(addAction(tr("Fit E"), tr("Young's modulus that this curve alone tells of"),
     [this] { Q_EMIT fitAsked(current()); }));
-  delete_ =
-    addAction(tr("Delete"), tr("Take the presses off the list; Edit > Undo brings them back"),
-      [this] { Q_EMIT deleteAsked(selected()); });
+  delete_ = addAction(tr("Delete presses"),
+    tr("Take the presses off the list; Edit > Undo brings them back"),
+    [this] { Q_EMIT deleteAsked(selected()); });
+  delete_->setIconText(tr("Delete")); // on its button, beside the list
   delete_->setShortcut(QKeySequence::Delete);
   delete_->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   buttons_->addStretch();

@@ -85,7 +85,7 @@ QGroupBox* TissuePanel::makeTissue()
   poisson_->setToolTip(
     tr("\u03bd [-], 0 to less than 0.5: the force goes with 1/(1 - \u03bd\u00b2), Eq. (2)"));
   damping_->setToolTip(
-    tr("b [N s/m], 0 or more: b times the speed is added to the force, against the motion"));
+    tr("b [N·s/m], 0 or more: b times the speed is added to the force, against the motion"));
   rule_->setToolTip(
     tr("Where the tool is in the tissue\nExact: on the triangles, smoothed over the "
        "contact\nPaper: the nearest vertex, Sec. 3.2"));

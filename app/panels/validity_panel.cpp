@@ -33,6 +33,24 @@ QString number(const Rule& rule, double value)
     : QString::number(value, 'g', 3);
 }
 
+// how much of its limit; an error of the force as people compare those
+QString useOf(const Rule& rule)
+{
+  const std::string_view name = rule.name;
+  const bool isOfItself = name == "force_of_itself";
+  if (isOfItself || name == "force_of_maximum")
+  {
+    return QStringLiteral("%1: %2 % (limit %3 %)")
+      .arg(isOfItself ? "force error" : "error of full scale")
+      .arg(100.0 * rule.value, 0, 'f', 0)
+      .arg(100.0 * rule.limit, 0, 'f', 0);
+  }
+  return QStringLiteral("%1: %2 % of its limit (%3 of %4)")
+    .arg(QString(rule.name).replace('_', ' '))
+    .arg(100.0 * rule.fraction(), 0, 'f', 0)
+    .arg(number(rule, rule.value), number(rule, rule.limit));
+}
+
 // a nodule in what people notice at least
 QString contrastText(std::size_t number, double contrast)
 {
@@ -85,11 +103,8 @@ void ValidityPanel::showRules(std::span<const Rule> rules, std::span<const doubl
     {
       continue; // nothing to say of a rule that does not bear on this place
     }
-    text +=
-      QStringLiteral("<span style='color:%1'>&#9679;</span> %2: %3 % of its limit (%4 of %5)<br>")
-        .arg(colorOf(rule.fraction()), QString(rule.name).replace('_', ' '))
-        .arg(100.0 * rule.fraction(), 0, 'f', 0)
-        .arg(number(rule, rule.value), number(rule, rule.limit));
+    text += QStringLiteral("<span style='color:%1'>&#9679;</span> %2<br>")
+              .arg(colorOf(rule.fraction()), useOf(rule));
     if (!rule.holds())
     {
       text += QStringLiteral("&nbsp;&nbsp;<i>%1</i><br>").arg(rule.why);

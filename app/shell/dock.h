@@ -13,6 +13,7 @@ inline QDockWidget* addDock(
 {
   auto* dock = new QDockWidget(title, window);
   dock->setObjectName(title);
+  content->setAccessibleName(title); // it may be scrolled by keys, and has to say what it is
   dock->setWidget(content);
   window->addDockWidget(area, dock);
   return dock;

@@ -93,6 +93,7 @@ void MessageBar::ask(const QString& text, const std::vector<Choice>& choices)
   {
     auto* button = new QPushButton(choice.name);
     choices_->addWidget(button);
+    button->show(); // takes its room at once, of which the text's height depends
     connect(button, &QPushButton::clicked, this,
       [this, act = choice.act]
       {
@@ -112,7 +113,8 @@ void MessageBar::follow(const QString& text, const QString& step, std::optional<
     followed_ = text;
     progress_->show();
   }
-  const QString whole = step.isEmpty() ? text : text + ": " + step;
+  const bool saysMore = !step.isEmpty() && step.compare(text, Qt::CaseInsensitive) != 0;
+  const QString whole = saysMore ? text + ": " + step : text;
   progress_->setRange(0, percent ? 100 : 0);
   progress_->setValue(percent.value_or(0));
   if (text_->text() != whole || height() != wantedHeight())

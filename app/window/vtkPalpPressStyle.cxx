@@ -163,7 +163,12 @@ void vtkPalpPressStyle::OnKeyPress()
     return;
   }
   const bool moves = key->Right != 0 || key->Up != 0;
-  if (key->Nearer != 0 || (moves && this->Interactor->GetControlKey()))
+  const bool turns = this->Interactor->GetControlKey() != 0;
+  if (turns && !moves)
+  {
+    return;
+  }
+  if (key->Nearer != 0 || turns)
   {
     this->Turn();
     const int* at = this->Interactor->GetEventPosition();

@@ -261,9 +261,9 @@ private:
   std::optional<Made> inBackground(const QString& what, std::function<Made()> work)
   {
     const auto show = [&](const FollowedWork::Step& step) { showProgress(what, step); };
-    auto made = background_.make<Made>(std::move(work), show);
-    message_->unfollow(what);
-    return made;
+    const auto end = [&](const MessageBar*) { message_->unfollow(what); };
+    const std::unique_ptr<MessageBar, decltype(end)> told(message_, end); // where it fails, too
+    return background_.make<Made>(std::move(work), show);
   }
   [[nodiscard]] Exported exported(const Pictured& seen);
   bool exportOne(const QString& to, Exported made, const Timing* timing);

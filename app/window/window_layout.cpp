@@ -30,7 +30,6 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenuBar>
-#include <QScreen>
 #include <QScrollArea>
 #include <QStatusBar>
 
@@ -55,6 +54,7 @@ void Window::makeView()
 {
   canvas_ = new QVTKOpenGLNativeWidget(this);
   canvas_->setObjectName("canvas");
+  canvas_->setAccessibleName(tr("Picture of the press"));
   composeAlone(*canvas_);
   canvas_->setRenderWindow(renderWindow_);
   renderWindow_->SetMultiSamples(0);
@@ -85,7 +85,7 @@ void Window::makeDocks()
   QScrollArea* device = scrolled(devicePanel_);
   const int usual = devicePanel_->sizeHint().height();
   constexpr int kMore = 4; // lines, to tell of a fault or a limit
-  device->setMinimumHeight(std::min(usual, screen()->availableGeometry().height() / 6));
+  device->setMinimumHeight(std::min(usual, kLeastScreen / 6));
   device->setMaximumHeight(usual + kMore * devicePanel_->fontMetrics().lineSpacing());
   addDock(this, Qt::LeftDockWidgetArea, tr("Device"), device);
   QDockWidget* validity = nullptr;
@@ -190,7 +190,7 @@ void Window::makePlots(bool shown)
   };
   plots_ = new PlotPanel(
     { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); },
-        tr("Nothing to show yet: press the surface") },
+        tr("Nothing to show: seen while the surface is pressed") },
       { tr("Forces"), forces },
       { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },
       { tr("Presses"), [this] { return pressForces(pressList_->ticked()); } },

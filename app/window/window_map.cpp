@@ -120,8 +120,8 @@ void Window::takeMap()
   const QString found = tr("Stiffness map: %1 of %2 places pressed, %3 to %4 N/mm; ")
                           .arg(made.map.pressed())
                           .arg(made.map.places.size())
-                          .arg(made.colors.low, 0, 'f', 2)
-                          .arg(made.colors.high, 0, 'f', 2);
+                          .arg(made.colors.low, 0, 'g', 3)
+                          .arg(made.colors.high, 0, 'g', 3);
   map_ = std::move(made);
   say(found +
     (currentMap() != nullptr ? tr("File > Export data writes it, too")

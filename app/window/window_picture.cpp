@@ -149,7 +149,7 @@ void Window::addToolLooks(QMenu& menu)
   }
   menu.addSeparator();
   menu.addAction(
-    tr("&Next of them"), this,
+    tr("&Next look of the tool"), this,
     [looks]
     {
       const QList<QAction*> all = looks->actions();

@@ -131,6 +131,7 @@ void Window::makeHelpMenu()
         { tr("Wheel"), tr("Hold a depth while the tool slides") },
         { tr("Place, Return"), tr("Press at a place that is typed above the picture") },
         { tr("Arrows, Page Down or Up"), tr("In the picture: slide, press 0.1 mm deeper or less") },
+        { tr("F2"), tr("In the list of presses: rename") },
         { tr("Right-drag, Ctrl+arrows"), tr("Rotate the view") },
         { tr("C, held"), tr("A device's tool stays while the hand goes elsewhere") },
         { tr("Middle-drag"), tr("Move the view") }, { tr("Ctrl+wheel, + or -"), tr("Zoom") } };

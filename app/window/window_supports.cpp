@@ -66,9 +66,9 @@ void Window::showSupports()
     auto* area = new QScrollArea;
     scrollDownOnly(*area, panel);
     auto* dock = addDock(this, Qt::RightDockWidgetArea, tr("Supports"), area);
-    if (auto* curves = findChild<QDockWidget*>(tr("Force over depth")))
+    if (auto* curves = findChild<QDockWidget*>(tr("Force over time")))
     {
-      tabifyDockWidget(curves, dock); // the force over time stays in sight
+      tabifyDockWidget(curves, dock); // the higher place, where all of it is seen
     }
     const auto changed = [this] { isStale_ = true; };
     const auto behind = [this](const std::function<FindRegion()>& read)
@@ -119,16 +119,30 @@ void Window::followSupports()
 void Window::paintByPointer()
 {
   const auto paints = [this] { return painting_->panel().paints(); };
-  const auto paint = [this](int x, int y)
+  // and all of the way, as a fast hand is told of at few of its places
+  const auto last = std::make_shared<Eigen::Vector2d>();
+  const auto paint = [this, last](int x, int y)
   {
+    constexpr double kStep = 4.0; // [pixels]
     pointer_.hover(x, y);
     followPointer();
-    const SightLine line = sightLine(x, y);
-    const auto place = pick(*supported().haptic, line.origin, line.direction);
-    place ? painting_->paint(*place) : void();
+    const Eigen::Vector2d before = std::exchange(*last, Eigen::Vector2d(x, y));
+    const int steps = 1 + static_cast<int>((*last - before).norm() / kStep);
+    std::vector<SurfacePoint> places;
+    for (int i = 1; i <= steps; ++i)
+    {
+      const Eigen::Vector2d at = before + (*last - before) * i / steps;
+      const SightLine line = sightLine(at.x(), at.y());
+      const auto place = pick(*supported().haptic, line.origin, line.direction);
+      place ? places.push_back(*place) : void();
+    }
+    painting_->paint(places);
   };
-  style_->Press = [paints, paint, press = style_->Press](int x, int y)
-  { paints() ? paint(x, y) : press(x, y); };
+  style_->Press = [last, paints, paint, press = style_->Press](int x, int y)
+  {
+    *last = { x, y };
+    paints() ? paint(x, y) : press(x, y);
+  };
   style_->Drag = [this, paints, paint, drag = style_->Drag](int pixelsDown)
   {
     const int* at = canvas_->interactor()->GetEventPosition();
@@ -149,7 +163,7 @@ void Window::paintByPointer()
       deepen(steps);
       return;
     }
-    painting_->paint({ target->position, target->normal });
+    painting_->paint({ { target->position, target->normal } });
     painting_->endStroke();
   };
 }

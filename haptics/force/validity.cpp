@@ -157,7 +157,7 @@ const char* whyThick(const ForceLaw& law, bool isTooThin) noexcept
   }
   return law.settings().mode == LawMode::Corrected
     ? "a wider contact than 0.6 of the thickness was not compared with finite elements"
-    : "a wider contact feels the base by 7 %";
+    : "the tissue is too thin here: the base adds more than 7 %";
 }
 
 const char* whyInclined(const ForceLaw& law) noexcept
@@ -236,10 +236,11 @@ Rules Validity::operator()(const ContactGeometry& local, double edgeDistance) co
 
   return { {
     { "force_of_maximum", "-", shown(fraction(response.force - truth, maximum)), kJustNoticeable,
-      "the force may differ from the best law known by 7 % of the maximum, which a hand just "
-      "notices (Eq. 9)" },
+      "the force may differ from the best law known by more than 7 % of the maximum, about what a "
+      "hand can notice (Eq. 9)" },
     { "force_of_itself", "-", shown(fraction(response.force - truth, truth)), kJustNoticeable,
-      "the force may differ from the best law known by 7 % of itself, which a hand just notices" },
+      "the force may differ from the best law known by more than 7 %, about what a hand can "
+      "notice" },
     { "inclination", "rad", shown(steepestTilt(law_, local)), tilt_, whyInclined(law_) },
     { "direction", "rad", shown(local.tilt), kDirection,
       "beyond 32 degrees a hand notices the direction of the force" },

@@ -18,6 +18,9 @@ namespace palp
 namespace
 {
 
+constexpr double kLongest = 160.0; // [pixels]
+constexpr double kRight = 130.0;   // [pixels], beside the axes in the corner
+
 // the largest of 1, 2 or 5 times a power of ten that is not above a value
 double roundDown(double most)
 {
@@ -29,7 +32,8 @@ double roundDown(double most)
 } // namespace
 
 ScaleBar::ScaleBar(vtkRenderer& renderer)
-  : layOut_(renderer, [this, &renderer](const PictureRoom& room) { place(renderer, room); })
+  : renderer_(renderer)
+  , layOut_(renderer, [this, &renderer](const PictureRoom& room) { place(renderer, room); })
 {
   appearance::makeInkLine(*bar_, *actor_, 6); // an end, the bar, an end
   renderer.AddActor2D(actor_);
@@ -42,6 +46,7 @@ ScaleBar::ScaleBar(vtkRenderer& renderer)
 
 void ScaleBar::setVisible(bool visible)
 {
+  setMarks(renderer_, visible ? kLongest + kRight : 0.0);
   actor_->SetVisibility(visible);
   text_->SetVisibility(visible);
 }
@@ -54,9 +59,7 @@ void ScaleBar::setInk(const std::array<double, 3>& ink)
 
 void ScaleBar::place(vtkRenderer& renderer, const PictureRoom& room)
 {
-  constexpr double kLongest = 160.0; // [pixels]
-  constexpr double kRight = 130.0;   // [pixels], beside the axes in the corner
-  constexpr double kInset = 16.0;    // from the left side, at least
+  constexpr double kInset = 16.0; // from the left side, at least
   constexpr double kBottom = 24.0;
   constexpr double kEnd = 5.0;
   const double scale = room.scale;

@@ -34,6 +34,7 @@ public:
 private:
   void place(vtkRenderer& renderer, const PictureRoom& room);
 
+  vtkRenderer& renderer_;
   double length_ = 0.0;
   vtkNew<vtkPolyData> bar_; // [pixels]
   vtkNew<vtkActor2D> actor_;

@@ -17,10 +17,16 @@ vtkInformationDoubleKey* footKey()
   return key;
 }
 
-double footOf(vtkRenderer& renderer)
+vtkInformationDoubleKey* marksKey()
 {
-  vtkInformation& known = *renderer.GetInformation();
-  return known.Has(footKey()) ? known.Get(footKey()) : 0.0;
+  static auto* key = vtkInformationDoubleKey::MakeKey("Marks", "palp");
+  return key;
+}
+
+double known(vtkRenderer& renderer, vtkInformationDoubleKey* key)
+{
+  vtkInformation& all = *renderer.GetInformation();
+  return all.Has(key) ? all.Get(key) : 0.0;
 }
 
 } // namespace
@@ -28,6 +34,11 @@ double footOf(vtkRenderer& renderer)
 void setFoot(vtkRenderer& renderer, double height)
 {
   renderer.GetInformation()->Set(footKey(), height);
+}
+
+void setMarks(vtkRenderer& renderer, double width)
+{
+  renderer.GetInformation()->Set(marksKey(), width);
 }
 
 BeforeRender::BeforeRender(
@@ -43,10 +54,12 @@ BeforeRender::BeforeRender(
       const int* size = self.renderer_->GetSize();
       if (vtkRenderWindow* window = self.renderer_->GetRenderWindow(); window && size[0] > 0)
       {
+        const double scale = window->GetDPI() / kDpi;
         self.layOut_({ .width = static_cast<double>(size[0]),
           .height = static_cast<double>(size[1]),
-          .foot = footOf(*self.renderer_),
-          .scale = window->GetDPI() / kDpi });
+          .foot = known(*self.renderer_, footKey()),
+          .scale = scale,
+          .marks = scale * known(*self.renderer_, marksKey()) });
       }
     });
   renderer_->AddObserver(vtkCommand::StartEvent, command_);

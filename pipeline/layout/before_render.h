@@ -19,6 +19,7 @@ struct PictureRoom
   double height;
   double foot = 0.0;  ///< that something else covers, from below
   double scale = 1.0; ///< of layout, more than 1 on a screen of many dots per inch
+  double marks = 0.0; ///< width that they take at the right of the foot
 
   /// Full of the body from side to side; what is told of it has its place above.
   [[nodiscard]] bool isNarrow() const noexcept
@@ -34,6 +35,10 @@ inline constexpr double kNarrowTop = 0.86; ///< part of a narrow picture below i
 /// none.
 /// @param height  that something else covers [pixels]
 void setFoot(vtkRenderer& renderer, double height);
+
+/// Keeps lines of text off what stands at the right of the foot; at first there is nothing.
+/// @param width  that it takes [pixels of layout]
+void setMarks(vtkRenderer& renderer, double width);
 
 /// Calls a function before each picture of a renderer, as long as this lives: for what has its
 /// place in pixels, or follows the camera.

@@ -18,6 +18,17 @@ namespace
 
 constexpr int kUsual = 16; // [points]
 constexpr int kSmall = 12;
+constexpr double kInset = 16.0; // [pixels]
+
+// beside the marks at the foot where a text is not too long for that; else above them
+double footOf(const PictureRoom& room, std::size_t longest)
+{
+  constexpr double kLetter = 0.6;      // width of one, of its height
+  constexpr double kAboveMarks = 36.0; // [pixels]
+  const double width = (kInset + kLetter * kUsual * static_cast<double>(longest)) * room.scale;
+  const bool isBeside = room.marks == 0.0 || width < room.width - room.marks;
+  return room.foot + (isBeside ? kInset : kInset + kAboveMarks) * room.scale;
+}
 
 std::string millimeters(double meters)
 {
@@ -30,15 +41,20 @@ Readings::Readings(vtkRenderer& renderer)
   : layOut_(renderer,
       [this](const PictureRoom& room)
       {
-        constexpr double kInset = 16.0; // [pixels]
-        constexpr double kLine = 1.75;  // of the letters
+        constexpr double kLine = 1.75; // of the letters
         const int letters = room.isNarrow() ? kSmall : kUsual;
         const double step = kLine * letters * room.scale;
-        const auto lines = std::ranges::count_if(
-          lines_, [](const auto& line) { return line->GetVisibility() != 0; });
+        std::size_t lines = 0;
+        std::size_t longest = 0;
+        for (const auto& line : lines_)
+        {
+          const std::string text = line->GetVisibility() ? line->GetInput() : "";
+          lines += text.empty() ? 0 : 1;
+          longest = std::max(longest, text.size());
+        }
         double height = room.isNarrow()
           ? kNarrowTop * room.height - static_cast<double>(lines) * step
-          : room.foot + kInset * room.scale;
+          : footOf(room, longest);
         for (std::size_t i = kLines; i-- > 0;)
         {
           lines_[i]->GetTextProperty()->SetFontSize(letters);

@@ -70,6 +70,7 @@ TrainingPanel::TrainingPanel(const Curriculum& curriculum, QWidget* parent)
       QString::fromStdString(level.name + ": " + level.title), QString::fromStdString(level.name));
   }
   level_->setObjectName("trainingLevel");
+  level_->setToolTip(tr("How many nodules are hidden, how large, how deep and how stiff"));
   seed_->setObjectName("trainingSeed");
   seed_->setPlaceholderText(tr("random"));
   seed_->setToolTip(tr("From which the places follow, 0 to 4294967295; empty: any"));

@@ -2,13 +2,13 @@
 
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/app/application.h"
+#include "tests/app/panels/label_map.h"
 #include "tests/support/process.h"
 
 #include <QCheckBox>
 #include <QLineEdit>
 #include <QListWidget>
 
-#include <fstream>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -20,15 +20,7 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
 {
   test::application();
   const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "a.mha";
-  std::ofstream out(file, std::ios::binary);
-  out << "NDims = 3\nElementSpacing = 10 10 10\nDistanceUnits = mm\nDimSize = 6 4 4\n"
-         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
-  for (int row = 0; row < 16; ++row)
-  {
-    out << '\0' << '\0' << '\0' << '\2' << '\2' << '\7';
-  }
-  out.close();
+  const std::filesystem::path file = test::writeLabelMap(folder.path() / "a.mha");
   OpenDialog dialog(QString::fromStdString(file.string()));
   dialog.setLabels(readFileOrgans(file, {}, true));
   auto* list = dialog.findChild<QListWidget*>("labels");

@@ -29,5 +29,16 @@ TEST(ValidityPanel, TellsEachNoduleInWhatPeopleNotice)
   EXPECT_TRUE(panel.text().contains("depth: 200 % of its limit"));
 }
 
+TEST(ValidityPanel, TellsAnErrorOfTheForceInPercentOfIt)
+{
+  test::application();
+  ValidityPanel panel;
+  const std::array rules{ Rule{ "force_of_itself", "-", 0.143, 0.07, "more than a hand notices" },
+    Rule{ "force_of_maximum", "-", 0.0431, 0.07, "" } };
+  panel.showRules(rules);
+  EXPECT_TRUE(panel.text().contains("force error: 14 % (limit 7 %)"));
+  EXPECT_TRUE(panel.text().contains("error of full scale: 4 % (limit 7 %)"));
+}
+
 } // namespace
 } // namespace palp

@@ -2,18 +2,14 @@
 #include "app/shell/theme.h"
 #include "tests/app/window/window_rig.h"
 
-#include <QAbstractButton>
-#include <QComboBox>
 #include <QDialog>
 #include <QDockWidget>
 #include <QImage>
 #include <QLabel>
-#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
-#include <QRegularExpression>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -192,23 +188,6 @@ TEST_F(Manners, GreetsOnce)
   EXPECT_TRUE(said().isEmpty());
 }
 
-TEST_F(Manners, EveryQuantityTellsItsSymbolItsUnitAndItsRange)
-{
-  window_->findChild<QAction*>("supportsAction")->trigger();
-  const QRegularExpression told("^.{1,4} \\[.+\\], (more than 0|0 or more|0 to )|^\u03b4 \\[mm\\]");
-  int quantities = 0;
-  for (const QAbstractSpinBox* box : window_->findChildren<QAbstractSpinBox*>())
-  {
-    if (qobject_cast<const QDockWidget*>(box->parentWidget()) == nullptr)
-    {
-      EXPECT_TRUE(told.match(box->toolTip()).hasMatch())
-        << box->objectName().toStdString() << ": " << box->toolTip().toStdString();
-      ++quantities;
-    }
-  }
-  EXPECT_GE(quantities, 9);
-}
-
 TEST_F(Manners, TheBarOfToolsDoesWhatTheMenusDo)
 {
   auto* bar = window_->findChild<QToolBar*>("toolBar");
@@ -229,47 +208,6 @@ TEST_F(Manners, TheBarOfToolsDoesWhatTheMenusDo)
     QTest::qWaitFor([this] { return dock("Section and comparison")->isVisible(); }, kPatience));
   dock("Section and comparison")->close();
   EXPECT_FALSE(bar->actions().back()->isChecked());
-}
-
-// for those who cannot see it, or do not know it yet
-TEST_F(Manners, EveryControlHasANameAndSaysWhatItDoes)
-{
-  window_->findChild<QAction*>("supportsAction")->trigger();
-  int controls = 0;
-  const auto check = [&](const QWidget* control)
-  {
-    const bool isPart = qobject_cast<const QLineEdit*>(control) != nullptr &&
-      control->objectName().startsWith("qt_"); // of a spin box
-    if (!isPart && control->focusPolicy() != Qt::NoFocus)
-    {
-      const auto* button = qobject_cast<const QAbstractButton*>(control);
-      const bool isNamed =
-        !control->accessibleName().isEmpty() || (button && !button->text().isEmpty());
-      EXPECT_TRUE(isNamed) << control->objectName().toStdString();
-      EXPECT_FALSE(control->toolTip().isEmpty()) << control->objectName().toStdString();
-      ++controls;
-    }
-  };
-  for (const QDockWidget* panel : window_->findChildren<QDockWidget*>())
-  {
-    for (const QWidget* control : panel->widget()->findChildren<QAbstractSpinBox*>())
-    {
-      check(control);
-    }
-    for (const QWidget* control : panel->widget()->findChildren<QComboBox*>())
-    {
-      check(control);
-    }
-    for (const QWidget* control : panel->widget()->findChildren<QAbstractButton*>())
-    {
-      check(control);
-    }
-    for (const QWidget* control : panel->widget()->findChildren<QLineEdit*>())
-    {
-      check(control);
-    }
-  }
-  EXPECT_GE(controls, 20);
 }
 
 // where nothing plays it says so, and does not pretend

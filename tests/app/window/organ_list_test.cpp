@@ -1,4 +1,5 @@
 #include "app/organs/organ_list.h"
+#include "app/shell/theme.h"
 #include "haptics/units.h"
 #include "tests/app/window/window_rig.h"
 
@@ -10,6 +11,7 @@
 #include <QToolButton>
 #include <QTreeWidget>
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <vtkPolyData.h>
 
@@ -127,6 +129,28 @@ TEST_F(OrganListTest, NamesTheOrgansOnAnyScreen)
     QTest::qWait(300);
     expectNamesAreSeen();
   }
+}
+
+TEST_F(OrganListTest, AnEyeIsSeenInTheDarkToo)
+{
+  for (const Theme theme : { Theme::Dark, Theme::Light })
+  {
+    setTheme(theme);
+    QTest::qWait(100);
+    const QImage eye = part<QToolButton>("organEye1")->grab().toImage();
+    int darkest = 255;
+    int lightest = 0;
+    for (int y = 0; y < eye.height(); ++y)
+    {
+      for (int x = 0; x < eye.width(); ++x)
+      {
+        darkest = std::min(darkest, qGray(eye.pixel(x, y)));
+        lightest = std::max(lightest, qGray(eye.pixel(x, y)));
+      }
+    }
+    EXPECT_GT(lightest - darkest, 100) << (theme == Theme::Dark ? "dark" : "light");
+  }
+  setTheme(Theme::System);
 }
 
 TEST_F(OrganListTest, TheMousePressesWhatIsFeltBehindWhatIsSeenThrough)

@@ -1,5 +1,6 @@
 #include "tests/app/window/window_rig.h"
 
+#include <QDialog>
 #include <QProgressBar>
 #include <QPushButton>
 
@@ -104,12 +105,34 @@ TEST_F(Progress, OfReadingTellsPercentAndCancelEndsTheReader)
   const QString file = largeSurface();
   const std::string before = session_->body().name;
   bool isOpened = true;
-  const Told told = whileDone([&] { isOpened = window_->openFile(file); }, "reading");
+  const Told told = whileDone([&] { isOpened = window_->openFile(file); }, "Reading");
   EXPECT_FALSE(told.texts.empty()) << "done before it was told of";
   EXPECT_FALSE(isOpened);
   EXPECT_EQ(session_->body().name, before);
   EXPECT_TRUE(QTest::qWaitFor([&] { return processesWith(file.toStdString()) == 0; }, 500))
     << "it reads on unseen";
+}
+
+// which asks for what is missing, and is not told of as if it went on
+TEST_F(Progress, OfReadingEndsWhereItFails)
+{
+  const std::filesystem::path cut = folder_.path() / "cut.stl";
+  std::ofstream(cut) << "solid";
+  QTimer look;
+  QString behind = "no dialog";
+  QObject::connect(&look, &QTimer::timeout,
+    [&]
+    {
+      if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
+      {
+        behind = said();
+        dialog->reject();
+      }
+    });
+  look.start(10);
+  window_->openFile(QString::fromStdString(cut.string()));
+  EXPECT_EQ(behind, "");
+  EXPECT_EQ(said(), "");
 }
 
 TEST_F(Progress, OfAnExportTellsStepsAndPercent)

@@ -10,6 +10,7 @@
 #include <QToolBar>
 
 #include <cstdlib>
+#include <filesystem>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -128,11 +129,26 @@ TEST_F(Sizes, NothingIsClippedBesideTheSupports)
   window_->findChild<QAction*>("supportsAction")->trigger();
   const auto* panel = window_->findChild<QDockWidget*>("Supports");
   EXPECT_TRUE(QTest::qWaitFor([panel] { return panel->isVisible(); }, kPatience));
-  const QSize size = QSize(1024, 768) - QSize(16, 48);
-  window_->resize(size);
-  EXPECT_TRUE(QTest::qWaitFor([&] { return window_->size() == size; }, kPatience));
-  waitForFrames();
-  expectNothingClipped();
+  for (const QSize screen : { QSize(1024, 768), QSize(1280, 720) })
+  {
+    const QSize size = screen - QSize(16, 48);
+    window_->resize(size);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return window_->size() == size; }, kPatience));
+    waitForFrames();
+    expectNothingClipped();
+    const auto* solve = window_->findChild<QWidget*>("solveOrgan");
+    EXPECT_EQ(solve->visibleRegion(), QRegion(solve->rect())) << "without scrolling";
+  }
+}
+
+// of which a window of the same size makes no other use
+TEST_F(Sizes, NothingIsClippedOnALargeScreen)
+{
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  const test::Finished large =
+    test::runCommand("xvfb-run -a -s '-screen 0 2560x1440x24 -noreset' " + self +
+      " --gtest_filter=Sizes.NothingIsClippedBesideTheSupports");
+  EXPECT_EQ(large.code, 0) << large.out << large.err;
 }
 
 TEST_F(Sizes, NothingIsClippedInLightAndDark)

@@ -104,6 +104,29 @@ protected:
   SupportPanel* panel_ = nullptr;
 };
 
+// a hand that is as fast as pictures are slow is told of at few places of its way
+TEST_F(Supports, AFastStrokeLeavesNoGap)
+{
+  type("brushRadius", "3");
+  button("paintSupports")->setChecked(true);
+  const QPoint middle = canvas_->rect().center();
+  const QPoint half(60, 0);
+  QTest::mousePress(canvas_, Qt::LeftButton, {}, middle - half);
+  QTest::mouseMove(canvas_, middle + half);
+  QTest::mouseRelease(canvas_, Qt::LeftButton, {}, middle + half);
+  (void)painted(SupportPanel::Bonded);
+  button("paintSupports")->setChecked(false);
+  canvas_->setFocus();
+  const QImage image = canvas_->grabFramebuffer();
+  int bare = 0;
+  for (int x = middle.x() - half.x(); x <= middle.x() + half.x(); ++x)
+  {
+    const QColor color = image.pixelColor(x, middle.y() - 8);
+    bare += color.blue() > 90 && color.blue() > 3 * color.red() ? 0 : 1;
+  }
+  EXPECT_LE(bare, 30) << "but for the tool's outline";
+}
+
 TEST_F(Supports, APaintedPlaceIsSeenErasedAndTakenBack)
 {
   const int none = painted(SupportPanel::Bonded);

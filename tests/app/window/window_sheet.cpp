@@ -3,14 +3,17 @@
 // FOLDER/STATE_SIZE_THEME.png. A scale of 2 is asked for by QT_SCALE_FACTOR, with half the size.
 #include "app/panels/open_dialog.h"
 #include "app/shell/theme.h"
+#include "tests/app/panels/label_map.h"
 #include "tests/app/window/window_rig.h"
 
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPainter>
 #include <QPushButton>
+#include <QToolButton>
 #include <QWheelEvent>
 
 #include <cstdio>
@@ -29,10 +32,7 @@ std::vector<QSize> screens;
 class Sheet : public test::WindowTest
 {
 protected:
-  explicit Sheet(const ScenePlan& plan = {})
-    : WindowTest(plan)
-  {
-  }
+  using WindowTest::WindowTest;
 
   // the window with a dialog or a menu over it
   void save(const char* state, QSize screen, QWidget* over) const
@@ -73,7 +73,8 @@ protected:
     }
   }
 
-  void showDialog(const char* state, const std::function<void()>& open)
+  // of the window, or that holds it up
+  void showDialog(const char* state, const std::function<void()>& open, const QWidget* of = nullptr)
   {
     for (const QSize screen : screens)
     {
@@ -83,7 +84,9 @@ protected:
       QObject::connect(&look, &QTimer::timeout,
         [&]
         {
-          if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
+          auto* dialog = of != nullptr ? of->findChild<QDialog*>()
+                                       : qobject_cast<QDialog*>(QApplication::activeModalWidget());
+          if (dialog != nullptr)
           {
             look.stop();
             save(state, screen, dialog);
@@ -92,6 +95,7 @@ protected:
         });
       look.start(500);
       open();
+      EXPECT_TRUE(QTest::qWaitFor([&] { return !look.isActive(); }, kPatience));
     }
   }
 
@@ -244,9 +248,9 @@ TEST_F(Sheet, Messages)
       window_->findChild<QLineEdit*>("pressPlace")->setText("900, 0, 0");
       QTest::keyClick(window_->findChild<QLineEdit*>("pressPlace"), Qt::Key_Return);
     });
-  const std::filesystem::path cut = folder_.path() / "cut.stl";
+  const std::string cut = folder_.path() / "cut.stl";
   std::ofstream(cut) << "solid";
-  showDialog("11_open", [&] { window_->openFile(QString::fromStdString(cut.string())); });
+  showDialog("11_open", [&] { window_->openFile(cut.c_str()); });
   showDialog("12_figure", [&] { trigger("figureAction"); });
   showDialog("13_export", [&] { trigger("exportAction"); });
   showDialog("14_map_dialog", [&] { trigger("mapAction"); });
@@ -259,6 +263,42 @@ TEST_F(Sheet, Menus)
   showMenu("18_view_menu", "View");
   trigger("sound");
   show("19_no_sound", [] {});
+}
+
+TEST_F(Sheet, Newer)
+{
+  const auto list = [this](const char* name) { return window_->findChild<QComboBox*>(name); };
+  const std::string image = test::writeLabelMap(folder_.path() / "labels.mha");
+  showDialog("20_open_image", [&] { window_->openFile(image.c_str()); });
+  showDialog("21_axes", [&] { window_->findChild<QToolButton*>("axes")->click(); });
+  const auto showKeys = [&] { trigger("keysAction"); };
+  showDialog("22_keys", showKeys, window_.get());
+  window_->findChild<QDockWidget*>("Diagnostics")->toggleViewAction()->trigger();
+  list("kind")->setCurrentIndex(4);
+  list("law")->setCurrentIndex(2);
+  type("young", "50 MN");
+  show("23_refused", [&] { window_->findChild<MessageBar*>()->tell({}); });
+  type("young", "50 kPa");
+  pressAt("-34.54, -17.88, 70.18, 3 mm", 1);
+  trigger("reviewAction");
+  show("24_review", [] {});
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  list("device")->setCurrentText("hand");
+  auto* bar = window_->findChild<MessageBar*>();
+  show("25_hand", [=] { bar->ask("Not exported yet: 2 presses", { { "Restore", {} } }); });
+}
+
+TEST_F(Sheet, Supports)
+{
+  trigger("supportsAction");
+  window_->findChild<QPushButton*>("paintSupports")->setChecked(true);
+  show("26_supports",
+    [&]
+    {
+      QTest::mousePress(canvas_, Qt::LeftButton);
+      QTest::mouseMove(canvas_, canvas_->rect().center() + QPoint(30, 20));
+      QTest::mouseRelease(canvas_, Qt::LeftButton);
+    });
 }
 
 ScenePlan severalOrgans()
@@ -274,9 +314,8 @@ ScenePlan severalOrgans()
   return plan;
 }
 
-class OrganSheet : public Sheet
+struct OrganSheet : public Sheet
 {
-protected:
   OrganSheet()
     : Sheet(severalOrgans())
   {
