@@ -6,6 +6,8 @@
 #include "app/shell/theme.h"
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkCommand.h>
+#include <vtkContextMouseEvent.h>
 #include <vtkContextScene.h>
 #include <vtkRenderWindowInteractor.h>
 
@@ -50,6 +52,7 @@ ChartPanel::ChartPanel(const QString& name, QWidget* parent)
                          "Click at a name: hide its curve or show it"));
   canvas_->setToolTipDuration(8000);
   window_->GetInteractor()->SetInteractorStyle(style_);
+  window_->GetInteractor()->AddObserver(vtkCommand::LeaveEvent, this, &ChartPanel::leave);
   row_->addStretch(1);
   connect(addButton(*row_, 1, tr("Fit"), "fit", tr("Let the axes follow the data")),
     &QToolButton::clicked, this,
@@ -133,6 +136,16 @@ void ChartPanel::draw()
     paintGround(*window_, dark);
     window_->Render();
   }
+}
+
+// which the style of VTK does not tell the charts
+void ChartPanel::leave()
+{
+  for (vtkPalpChart* chart : charts())
+  {
+    chart->MouseLeaveEvent({});
+  }
+  draw();
 }
 
 void ChartPanel::askAxes()

@@ -62,6 +62,7 @@ Q_SIGNALS:
 
 private:
   void askAxes();
+  void leave();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkContextInteractorStyle> style_;

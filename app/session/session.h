@@ -260,6 +260,7 @@ public:
     SceneBody body;
     Recording recording;
     Calibration calibration;
+    std::optional<CameraPlace> seenFrom{}; ///< as its body was left for another; none: it is open
   };
 
   /// Those with a press in them, oldest first; thinned where together they hold more than ten
@@ -268,6 +269,9 @@ public:
   {
     return earlier_;
   }
+
+  /// Notes from where a body was seen that is open no longer.
+  void noteSeen(const CameraPlace& place);
 
   /// Those of all recordings, also of the ones that are gone.
   [[nodiscard]] PressLog& presses() noexcept

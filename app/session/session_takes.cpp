@@ -108,8 +108,17 @@ std::function<Session::Take()> Session::takeOf(const ExportFolder& folder) const
       path = readPath(made.device.file);
     }
     playInto(recording, made, path ? &*path : nullptr);
-    return Take{ std::move(body), std::move(recording), std::move(calibration) };
+    return Take{ std::move(body), std::move(recording), std::move(calibration), made.camera };
   };
+}
+
+void Session::noteSeen(const CameraPlace& place)
+{
+  for (Take& take : earlier_)
+  {
+    const bool isOpen = take.body.display == body_.display;
+    take.seenFrom = isOpen ? std::nullopt : std::optional(take.seenFrom.value_or(place));
+  }
 }
 
 std::size_t Session::add(Take take)

@@ -208,12 +208,12 @@ private:
   void followPointer();
   void slide(int right, int up);
   void letGo();
-  // what is played: a device's path, or what was recorded
-  struct Pictured
+  struct Pictured // what is played: a device's path, or what was recorded
   {
     const SceneBody& body;
     const Recording& recording;
     const Calibration& calibration;
+    std::optional<CameraPlace> seenFrom{};
   };
   [[nodiscard]] Pictured recorded(std::size_t ago) const;
   [[nodiscard]] Pictured pictured() const;

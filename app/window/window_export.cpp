@@ -164,7 +164,7 @@ Exported Window::exported(const Pictured& seen)
     .names = session_.presses().names() };
   made.plan.allSamples = allSamplesExport_->isChecked();
   made.plan.refined = refinedExport_->isChecked();
-  made.plan.camera = cameraPlace();
+  made.plan.camera = seen.seenFrom.value_or(cameraPlace());
   return made;
 }
 

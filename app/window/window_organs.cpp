@@ -20,6 +20,7 @@ namespace palp
 
 void Window::showBody()
 {
+  session_.noteSeen(cameraPlace()); // which is of the body before
   endReview();
   setWindowTitle(tr("Palp — %1").arg(QString::fromStdString(session_.body().name)));
   orientation_.setPatient(isPatient(session_.body()));

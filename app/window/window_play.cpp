@@ -76,7 +76,7 @@ Window::Pictured Window::recorded(std::size_t ago) const
     return { session_.body(), session_.recording(), session_.calibration() };
   }
   const Session::Take& take = earlier[earlier.size() - ago];
-  return { take.body, take.recording, take.calibration };
+  return { take.body, take.recording, take.calibration, take.seenFrom };
 }
 
 Window::Pictured Window::pictured() const

@@ -210,9 +210,13 @@ void vtkPalpPointedChart::PaintReadings(vtkContext2D* painter)
   for (const vtkPalpChart::Reading& reading : this->ReadingsAt(x, y))
   {
     lines.push_back(reading.Name + "  " + this->ReadingOf(vtkAxis::LEFT, reading.Value));
-    const auto& color = reading.Color;
-    painter->GetBrush()->SetColor(color[0], color[1], color[2]);
-    painter->DrawEllipse(this->At[0], this->PixelOf(vtkAxis::LEFT, reading.Value), 4.0F, 4.0F);
+    const vtkVector2f dot(this->At[0], this->PixelOf(vtkAxis::LEFT, reading.Value));
+    if (this->IsInside(dot))
+    {
+      const auto& color = reading.Color;
+      painter->GetBrush()->SetColor(color[0], color[1], color[2]);
+      painter->DrawEllipse(dot[0], dot[1], 4.0F, 4.0F);
+    }
   }
   vtkNew<vtkTextProperty> text;
   palp::appearance::setFont(*text, 12);

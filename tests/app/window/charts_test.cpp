@@ -78,6 +78,23 @@ TEST_F(WindowCharts, AreZoomedByTheWheelAndFitAgain)
   EXPECT_NEAR(width(depth, vtkAxis::BOTTOM), before, 1e-9);
 }
 
+TEST_F(WindowCharts, ForgetThePointerThatHasLeft)
+{
+  press(100);
+  release();
+  EXPECT_TRUE(waitForLift());
+  waitForRest();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return picturesIn(200) == 0; }, kPatience));
+  auto* depth = canvas("depthChart");
+  const QImage before = depth->grabFramebuffer();
+  QTest::mouseMove(depth, depth->rect().center());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return depth->grabFramebuffer() != before; }, kPatience));
+  QTest::mouseMove(canvas_, QPoint(5, 5));
+  QEvent leave(QEvent::Leave); // which the pointer of a test does not cause
+  QApplication::sendEvent(depth, &leave);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return depth->grabFramebuffer() == before; }, kPatience));
+}
+
 TEST_F(WindowCharts, ArePausedAndClearedTogether)
 {
   click("timeChart", "pause");

@@ -257,6 +257,29 @@ TEST_F(ChartPointer, ReadsTheValuesBelowIt)
 }
 
 // the outline of a tool stands several times above one place
+// of curves that a zoom has left above and below
+TEST_F(ChartPointer, DrawsNoDotBesideTheCurves)
+{
+  chart().Hold(vtkAxis::LEFT, 12.0, 13.0);
+  const auto plain = test::imageOf(*window_);
+  at(inside()[0] + 30, 200, vtkCommand::MouseMoveEvent);
+  const auto read = test::imageOf(*window_);
+  int outside = 0;
+  int within = 0;
+  for (int x = 0; x < 480; ++x)
+  {
+    for (int y = 0; y < 320; ++y)
+    {
+      const bool isChanged = std::abs(read->GetScalarComponentAsDouble(x, y, 0, 1) -
+                               plain->GetScalarComponentAsDouble(x, y, 0, 1)) > 30.0;
+      const bool isIn = y >= inside()[1] - 2 && y <= inside()[3] + 2;
+      (isIn ? within : outside) += isChanged ? 1 : 0;
+    }
+  }
+  EXPECT_GT(within, 100) << "the line";
+  EXPECT_EQ(outside, 0);
+}
+
 TEST(CurveReading, TakesTheNearestOfSeveralValues)
 {
   const std::vector<double> x{ -1.0, 1.0, 1.0, -1.0 };
