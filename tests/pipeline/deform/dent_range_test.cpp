@@ -228,8 +228,8 @@ TEST(LeaningTool, DrawsTheSurfaceByItsOwnSteps)
     double first, last, step;
   };
   const std::vector<NamedTip> tips = everyTip();
-  for (const Range& range : { Range{ "kinks", "block", "paper", 1.6, 1.9, 0.05 },
-         Range{ "kinks", "ball", "paper", 1.65, 1.8, 0.05 },
+  for (const Range& range : { Range{ "kinks", "block", "paper", 1.68, 1.72, 0.01 },
+         Range{ "kinks", "ball", "paper", 1.74, 1.78, 0.01 },
          Range{ "cone_45", "ball", "paper", 1.41, 1.425, 0.005 },
          Range{ "blunt", "block", "fitted", 0.37, 0.41, 0.01 },
          Range{ "punch", "block", "paper", 0.028, 0.034, 0.002 } })
