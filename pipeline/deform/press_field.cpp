@@ -15,6 +15,8 @@ constexpr double kDeepest = 0.99;     // [-] of the depth: sink where a contact 
 constexpr double kFitReach = 1.5;     // [-] of the contact radius
 constexpr double kPressedOn = 0.8;    // [-] of the contact radius
 constexpr double kSteeper = 2.0;      // [-] of the fitted slope against the contact radius
+constexpr double kFallen = 0.2;       // [-] of the outer control value: a sink that is none
+constexpr double kLeastFallen = 0.05; // [-] of the sink at the contact, the same
 constexpr double kTinyRadius = 1e-12; // [m]
 constexpr double kFilledPit = 0.1;    // [-] of the contact radius: pressed onto the tool
 constexpr double kOpenPit = 0.4;      // [-] of the contact radius: not reached by the tool
@@ -42,11 +44,18 @@ void PressField::lay(const PressRegion& region, const ToolBody& body, double dep
     const double turns = 4.0 * (k + 0.5) / kDirections;
     const RingCurve& a = curves_[static_cast<std::size_t>(k)];
     const RingCurve& b = curves_[static_cast<std::size_t>(k) + 1];
-    const double exact =
-      -ToolGap(surface_, region, body, directionOf(turns))(0.5 * (a.inner + b.inner));
-    bulges_[static_cast<std::size_t>(k)] = a.sink > 0.0 && b.sink > 0.0 && std::isfinite(exact)
-      ? 4.0 * (std::max(0.0, exact) - 0.5 * (a.sink + b.sink))
-      : 0.0;
+    if (!(a.sink > 0.0 && b.sink > 0.0))
+    {
+      bulges_[static_cast<std::size_t>(k)] = 0.0;
+      continue;
+    }
+    const ToolGap gap(surface_, region, body, directionOf(turns));
+    double height = gap(0.5 * (a.inner + b.inner));
+    if (!std::isfinite(height))
+    {
+      height = gap(gap.exit(gap(0.0))); // past the rim, which is a circle
+    }
+    bulges_[static_cast<std::size_t>(k)] = 4.0 * (std::max(0.0, -height) - 0.5 * (a.sink + b.sink));
   }
 }
 
@@ -95,8 +104,9 @@ inline RingCurve PressField::curveTowards(double turns) const noexcept
   const RingCurve& b = curves_[static_cast<std::size_t>(below) + 1];
   const auto between = [v](double first, double second) { return first + v * (second - first); };
   const double bulge = v * (1.0 - v) * bulges_[static_cast<std::size_t>(below)];
-  return { between(a.inner, b.inner), between(a.sink, b.sink) + bulge, between(a.meet, b.meet),
-    a.outer };
+  // beside a flat that leans the bulge alone would lift the surface
+  const double sink = std::max(0.0, between(a.sink, b.sink) + bulge);
+  return { between(a.inner, b.inner), sink, between(a.meet, b.meet), a.outer };
 }
 
 std::array<Eigen::Vector3d, 3> PressField::controlPoints(
@@ -124,7 +134,10 @@ SurfaceProfile PressField::fittedTo(const RingCurve& curve) const noexcept
   profile.sink = curve.sink;
   profile.slope = std::min(steepest, curve.sink / (curve.meet - curve.inner));
   profile.control = { scale * profile.control[0], scale * profile.control[1] };
-  profile.rest *= scale * wider * wider; // so that it ends where it does elsewhere
+  // so that it ends where it does elsewhere, but not on a contact that is much wider: there as a
+  // part of what the curve falls to, with which it goes on sinking as the contact ends at a rim
+  const double most = std::max(kFallen * profile.control[0], kLeastFallen * curve.sink);
+  profile.rest = std::min(profile.rest * scale * wider * wider, most);
   return profile;
 }
 

@@ -73,6 +73,21 @@ struct DentStyle
   return loads;
 }
 
+/// Turns the way that the surface goes, and puts the center of the contact to where a line that way
+/// through the tool's nose meets the plane of contact: from a center beside the tool no ring could
+/// be drawn about it.
+/// @param normal  of drawnNormal()
+inline void drawAlong(const Eigen::Vector3d& normal, const Tip& tip, Press& press)
+{
+  constexpr double kSteepest = 0.5; // [-] cosine from which on it goes no further away
+  Contact& contact = press.contact;
+  const Eigen::Vector3d nose = press.pose.apex - noseRadius(tip) * press.pose.axis;
+  const double height = (contact.center - nose).dot(contact.normal);
+  const double cosine = std::max(kSteepest, normal.dot(contact.normal));
+  contact.center += height * (normal / cosine - contact.normal);
+  contact.normal = normal;
+}
+
 /// The press of a sample, alike in every picture and file made of it.
 ///
 /// A body that gives way as a whole moves by a wide field, as far as the tool is deep without its
@@ -102,7 +117,7 @@ struct DentStyle
     seeFromBody(*style.motion, press.loads, tip, press.contact, press.pose);
   }
   const double drawn = press.contact.depth;
-  press.contact.normal = drawnNormal(sample.contact.normal, press.pose.axis, tip);
+  drawAlong(drawnNormal(sample.contact.normal, press.pose.axis, tip), tip, press);
   press.contactRadius = style.isLiteral ? radius : drawnContactRadius(tip, drawn, radius);
   const double extent = style.extent ? style.extent(sample, extentAt(drawn)) : extentAt(drawn);
   // a dent that nowhere sinks as far as R_d says still reaches as far as the tool

@@ -105,6 +105,25 @@ double ToolBody::lowest(const Eigen::Vector3d& origin, const Eigen::Vector3d& up
   return march(start, height, climb, radial, drift);
 }
 
+double ToolBody::rim(const Eigen::Vector3d& origin, const Eigen::Vector3d& towards,
+  const Eigen::Vector3d& up) const noexcept
+{
+  const double climb = up.dot(handle_);
+  if (!(climb > kParallel))
+  {
+    return 0.0;
+  }
+  // up to the plane of the base, from its center
+  const auto lifted = [&](const Eigen::Vector3d& from)
+  { return Eigen::Vector3d(from - from.dot(handle_) / climb * up); };
+  const Eigen::Vector3d start = lifted(origin - apex_ - heightAt(base_) * handle_);
+  const Eigen::Vector3d drift = lifted(towards);
+  const double slant = drift.squaredNorm();
+  const double along = start.dot(drift) / slant;
+  const double square = along * along - (start.squaredNorm() - base_ * base_) / slant;
+  return square < 0.0 ? 0.0 : std::sqrt(square) - along;
+}
+
 // Newton's method on a function that is concave but for what a profile's cubics leave of that: it
 // steps over the root by next to nothing, and then half its way back, so that the point is outside
 double ToolBody::march(double start, double height, double climb, const Eigen::Vector3d& radial,

@@ -46,6 +46,15 @@ public:
   [[nodiscard]] double lowest(
     const Eigen::Vector3d& origin, const Eigen::Vector3d& up) const noexcept;
 
+  /// How far the rim of the base is along a line, seen along another.
+  ///
+  /// @param origin   of the line [m]
+  /// @param towards  unit vector of it
+  /// @param up       as of lowest()
+  /// @return         t [m] of origin + t towards, the larger of two; 0 where the line passes by
+  [[nodiscard]] double rim(const Eigen::Vector3d& origin, const Eigen::Vector3d& towards,
+    const Eigen::Vector3d& up) const noexcept;
+
   /// Distance of a point from the axis [m].
   [[nodiscard]] double fromAxis(const Eigen::Vector3d& point) const noexcept
   {

@@ -56,7 +56,8 @@ double ToolGap::operator()(double radius) const noexcept
 
 double ToolGap::exit(double atCenter) const noexcept
 {
-  const double end = kRim * body_.base();
+  // of a tool that leans the rim is farther away on the side where its flank lies low
+  const double end = kRim * std::max(body_.base(), body_.rim(center_, outwards_, normal_));
   const double atEnd = (*this)(end);
   return atEnd > 0.0 ? rootBefore(end, atCenter, atEnd, *this) : end;
 }

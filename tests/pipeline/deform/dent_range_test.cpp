@@ -2,6 +2,7 @@
 #include "haptics/units.h"
 #include "tests/pipeline/deform/presser.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <memory>
 #include <ostream>
@@ -214,6 +215,32 @@ TEST(DrawnNormal, LeavesTwelveDegreesToAFlank)
   }
 }
 
+// where a tool that leans by 35 degrees: goes through the plane beside the line from its nose to
+// the nearest point, has its shaft between two directions, reaches its rim on the low side, or has
+// the edge of a flat along a direction
+TEST(LeaningTool, DrawsTheSurfaceByItsOwnSteps)
+{
+  struct Range
+  {
+    const char* tip;
+    const char* body;
+    const char* surface;
+    double first, last, step;
+  };
+  const std::vector<NamedTip> tips = everyTip();
+  for (const Range& range : { Range{ "kinks", "block", "paper", 1.68, 1.72, 0.01 },
+         Range{ "kinks", "ball", "paper", 1.74, 1.78, 0.01 },
+         Range{ "cone_45", "ball", "paper", 1.41, 1.425, 0.005 },
+         Range{ "blunt", "block", "fitted", 0.37, 0.41, 0.01 },
+         Range{ "punch", "block", "paper", 0.028, 0.034, 0.002 } })
+  {
+    SCOPED_TRACE(range.tip);
+    const auto tip = std::ranges::find(tips, range.tip, &NamedTip::name);
+    pressDeeper(
+      { *tip, range.body, "paper", range.surface, 35.0_deg }, range.first, range.last, range.step);
+  }
+}
+
 // how far a place outside the contact comes up again, over the whole range of depth [m]
 double mostRaised(const Tip& tip, double tilt)
 {
@@ -271,6 +298,7 @@ TEST(DentSlide, AConeCrossesAnEdgeByItsOwnSteps)
     "edge", makeBox({ 60.0_mm, 60.0_mm, 30.0_mm }, 2.0_mm), { 0.3_mm, 0.2_mm, 0.0 }, { 0, 0, 1 });
   Findings findings;
   double most = 0.0; // [m] that a point moves in one step
+  double turn = 0.0; // of the way down
   for (const double depth : { 2.0_mm, 4.0_mm })
   {
     Presser presser(block, ConeTip{ 40.0_deg, 8.0_mm }, "paper", "paper");
@@ -286,12 +314,14 @@ TEST(DentSlide, AConeCrossesAnEdgeByItsOwnSteps)
         most = std::max<double>(most, step.norm());
       }
       before = now;
+      turn = std::max(turn, (presser.last()->contact.normal - Eigen::Vector3d::UnitZ()).norm());
       EXPECT_TRUE(presser.last()->contact.touching()) << depth << " " << i;
     }
   }
   RecordProperty("most_mm", std::to_string(most / 1.0_mm));
+  RecordProperty("turn", std::to_string(turn));
   EXPECT_LE(most, 1.0_mm);
-  EXPECT_GE(most, 0.1_mm); // or no edge was crossed
+  EXPECT_GE(turn, 0.3); // or no edge was crossed
   expectSound(findings);
 }
 

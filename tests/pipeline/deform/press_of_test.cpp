@@ -38,6 +38,22 @@ double deepestOf(const Press& press)
   return deepest;
 }
 
+// of a sharp tool that leans the surface goes another way than the contact says
+TEST(PressOf, TheContactIsDrawnBelowTheNose)
+{
+  const Tip needle{ ConeTip{ 20.0_deg, 4.0_mm } };
+  for (const double tilt : { 0.0, 5.0_deg, 20.0_deg, 50.0_deg })
+  {
+    Sample sample = pressedTo(4.0_mm);
+    sample.pose.axis = { std::sin(tilt), 0.0, -std::cos(tilt) };
+    const Press press = pressOf(sample, needle, 12.0_mm, {});
+    const Eigen::Vector3d& way = press.contact.normal;
+    EXPECT_NEAR(press.contact.center.z(), 0.0, 1e-12);
+    EXPECT_NEAR((press.contact.center - press.pose.apex).cross(way).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(std::acos(way.z()), std::max(0.0, tilt - 8.0_deg), 1e-7);
+  }
+}
+
 // tissue that relaxes comes back after the tool
 TEST(PressOf, WhatHasNotComeBackIsSeen)
 {

@@ -186,10 +186,11 @@ private:
     }
     if (last_)
     {
-      compare(now, sinks, findings, where);
+      compare(now, sample.contact.center, sinks, findings, where);
     }
     lookForWalls(now, findings, where);
     last_ = now;
+    center_ = sample.contact.center;
     sinks_ = sinks;
     zones_ = body_.surface.zone;
   }
@@ -209,8 +210,8 @@ private:
   }
 
   // how far the contact went: its frame and its depth
-  void compare(const Press& now, const std::vector<double>& sinks, Findings& findings,
-    const std::string& where) const
+  void compare(const Press& now, const Eigen::Vector3d& center, const std::vector<double>& sinks,
+    Findings& findings, const std::string& where) const
   {
     const Contact& a = last_->contact;
     const Contact& b = now.contact;
@@ -218,7 +219,7 @@ private:
     const double turn = (b.normal - a.normal).norm();
     const auto across = [&](const Eigen::Vector3d& way)
     { return (way - way.dot(b.normal) * b.normal).norm(); };
-    const double aside = across(b.center - a.center) + across(now.pose.apex - last_->pose.apex);
+    const double aside = across(center - center_) + across(now.pose.apex - last_->pose.apex);
     const double flank = b.tilt > kUpright ? std::max(kSteepest, steepest(now)) : kSteepest;
     for (std::size_t i = 0; i < sinks.size(); ++i)
     {
@@ -318,6 +319,7 @@ private:
   double base_;
   Eigen::Vector3d axis_; // of the tool, unit
   std::optional<Press> last_;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero(); // of the last contact [m]
   std::vector<double> sinks_;
   std::vector<unsigned char> zones_;
 };

@@ -44,6 +44,28 @@ TEST_P(AnyTool, IsMetAtItsProfileWhenStraight)
   EXPECT_TRUE(std::isinf(body.lowest(beside, kUp)));
 }
 
+// a point of the line, seen from below the edge of the base, is that of a circle in space
+TEST_P(AnyTool, HasItsRimWhereItsBaseEnds)
+{
+  const double base = baseRadius(GetParam());
+  for (const double angle : { 0.0, 10.0_deg, 35.0_deg, 60.0_deg })
+  {
+    const ToolPose pose = tilted(angle);
+    const ToolBody body(GetParam(), pose);
+    const Eigen::Vector3d middle = pose.apex - tipHeight(GetParam(), base) * pose.axis;
+    const Eigen::Vector3d origin(middle.x(), middle.y(), -4.0_mm);
+    for (double turn = 0.1; turn < 6.2; turn += 0.7)
+    {
+      const Eigen::Vector3d towards(std::cos(turn), std::sin(turn), 0.0);
+      const Eigen::Vector3d below = origin + body.rim(origin, towards, kUp) * towards;
+      const Eigen::Vector3d at = below + (middle - below).dot(pose.axis) / kUp.dot(pose.axis) * kUp;
+      EXPECT_NEAR((at - middle).norm(), base, 1e-9);
+    }
+    const Eigen::Vector3d aside(0.0, 3.0 * base, 0.0);
+    EXPECT_EQ(body.rim(origin + aside, Eigen::Vector3d::UnitX(), kUp), 0.0);
+  }
+}
+
 // wherever a line enters: outside below, inside above, and no sooner seen by small steps
 TEST_P(AnyTool, IsEnteredFromOutsideWhenTilted)
 {
