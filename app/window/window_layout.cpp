@@ -190,7 +190,7 @@ void Window::makePlots(bool shown)
   };
   plots_ = new PlotPanel(
     { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); },
-        tr("Nothing to show: seen while the surface is pressed") },
+        tr("Nothing to show: press the surface and hold it") },
       { tr("Forces"), forces },
       { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },
       { tr("Presses"), [this] { return pressForces(pressList_->ticked()); } },
