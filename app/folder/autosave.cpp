@@ -18,6 +18,8 @@ namespace
 
 namespace fs = std::filesystem;
 
+constexpr const char* kDiscarded = ".discarded"; // no press, so that nobody offers it
+
 // whole, or hidden
 bool isPress(const fs::path& folder)
 {
@@ -75,6 +77,10 @@ Autosave::Autosave(fs::path root, int most)
   {
     lock_ = tryLockFolder(own_);
   }
+  for (const fs::path& program : ended())
+  {
+    fs::remove_all(program / kDiscarded, none); // where it was killed before its end
+  }
 }
 
 Autosave::~Autosave()
@@ -84,6 +90,7 @@ Autosave::~Autosave()
     written_.wait();
   }
   std::error_code none;
+  own_.empty() ? 0 : fs::remove_all(own_ / kDiscarded, none);
   fs::remove(own_, none); // where nothing is in it
 }
 
@@ -171,15 +178,21 @@ void Autosave::clear(int last)
   }
 }
 
+// the folders of programs that have
+std::vector<fs::path> Autosave::ended() const
+{
+  std::vector<fs::path> programs = foldersIn(root_);
+  std::erase_if(programs,
+    [this](const fs::path& program) { return program == own_ || !tryLockFolder(program); });
+  return programs;
+}
+
 std::vector<fs::path> Autosave::left() const
 {
   std::vector<fs::path> presses;
-  for (const fs::path& program : foldersIn(root_))
+  for (const fs::path& program : ended())
   {
-    if (program != own_ && tryLockFolder(program))
-    {
-      std::ranges::copy_if(foldersIn(program), std::back_inserter(presses), isPress);
-    }
+    std::ranges::copy_if(foldersIn(program), std::back_inserter(presses), isPress);
   }
   const auto age = [](const fs::path& folder)
   {
@@ -205,19 +218,35 @@ std::vector<int> Autosave::adopt()
   }
   if (presses.size() == found.size())
   {
-    discard();
+    for (const fs::path& program : ended())
+    {
+      std::error_code none;
+      fs::remove_all(program, none);
+    }
   }
   return presses;
 }
 
 void Autosave::discard()
 {
-  for (const fs::path& program : foldersIn(root_))
+  if (own_.empty())
   {
-    if (std::error_code none; program != own_ && tryLockFolder(program))
-    {
-      fs::remove_all(program, none);
-    }
+    return;
+  }
+  std::error_code none;
+  fs::create_directory(own_ / kDiscarded, none);
+  for (const fs::path& program : ended())
+  {
+    fs::rename(program, own_ / kDiscarded / program.filename(), none);
+  }
+}
+
+void Autosave::undiscard()
+{
+  for (const fs::path& program : foldersIn(own_ / kDiscarded))
+  {
+    std::error_code none;
+    fs::rename(program, root_ / program.filename(), none);
   }
 }
 

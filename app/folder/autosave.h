@@ -64,11 +64,15 @@ public:
   /// Where a press is.
   [[nodiscard]] std::filesystem::path folderOf(int press) const;
 
-  /// Removes those.
+  /// Sets those aside, out of left(), until this ends.
   void discard();
+
+  /// Brings back all that was discarded, into left().
+  void undiscard();
 
 private:
   void later(std::function<void()> write);
+  [[nodiscard]] std::vector<std::filesystem::path> ended() const;
 
   std::filesystem::path root_;
   std::filesystem::path own_; // in it; empty: could not be made

@@ -145,6 +145,11 @@ bool isExport(const fs::path& folder)
 
 ExportFolder readExport(const fs::path& folder)
 {
+  if (!isExport(folder))
+  {
+    throw Error(ErrorCode::BadFile,
+      folder.string() + ": is no exported folder; choose one that has a scene.json");
+  }
   ExportFolder made{ .folder = folder, .plan = readScene((folder / kScene).string()) };
   const nlohmann::json document =
     parseJson(readText(folder / kProvenance, "the provenance.json of an export"), kProvenance);

@@ -6,6 +6,7 @@
 
 #include <QGridLayout>
 #include <QGroupBox>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
@@ -134,6 +135,21 @@ double QuantityBox::read() const
   const std::string name = accessibleName().toStdString();
   return unit_.kind ? parseQuantity(typed, *unit_.kind, name, unit_.name)
                     : parseNumber(typed, name);
+}
+
+// the field's own undo ends at what was shown last
+bool QuantityBox::event(QEvent* event)
+{
+  const bool isOverride = event->type() == QEvent::ShortcutOverride;
+  if ((isOverride || event->type() == QEvent::KeyPress) &&
+    static_cast<QKeyEvent*>(event)->matches(QKeySequence::Undo))
+  {
+    const bool isTyped = !refusal_.isEmpty() || text() != read_;
+    event->setAccepted(isTyped);
+    isTyped && !isOverride ? forget() : void();
+    return true;
+  }
+  return QAbstractSpinBox::event(event);
 }
 
 // also comes when the field is left as it was

@@ -32,7 +32,8 @@ struct ShownUnit
 
 /// A quantity to type, read as on the command line; a bare number has the unit shown.
 ///
-/// What is refused stays to be mended, and the value before stays in use. A value that nobody
+/// What is refused stays to be mended, and the value before stays in use, which the key of Undo
+/// brings back; where nothing is typed that key is left to the window. A value that nobody
 /// changes stays exact, whatever digits are shown. The wheel scrolls the panel and changes nothing,
 /// unless the box was clicked.
 class QuantityBox : public QAbstractSpinBox
@@ -70,6 +71,7 @@ Q_SIGNALS:
   void refused(const QString& why); ///< empty: no longer
 
 protected:
+  bool event(QEvent* event) override;
   [[nodiscard]] StepEnabled stepEnabled() const override;
   void wheelEvent(QWheelEvent* event) override;
 

@@ -21,9 +21,10 @@ namespace palp
 namespace
 {
 
-constexpr int kArrows = 28;          // of a box [pixels]
-constexpr int kPlace = Qt::UserRole; // as text, of what is offered
-constexpr double kDepthStep = 0.1;   // [mm]
+constexpr int kArrows = 28;            // of a box [pixels]
+constexpr int kPlace = Qt::UserRole;   // as text, of what is offered
+constexpr int kPlaceName = kPlace + 1; // likewise
+constexpr double kDepthStep = 0.1;     // [mm]
 
 QString textOf(const Eigen::Vector3d& place)
 {
@@ -147,6 +148,7 @@ void PressBar::offer(const PlacedPresses& presses)
     const QString name = QString::fromStdString(place.name);
     auto* item = new QStandardItem(name.isEmpty() ? text : name + ": " + text);
     item->setData(text, kPlace);
+    item->setData(name, kPlaceName);
     offered_->appendRow(item);
   }
   choose_->setVisible(offered_->rowCount() > 0);
@@ -168,7 +170,14 @@ PlacedPresses PressBar::presses()
 {
   const QString text = place_->text();
   const int last = text.lastIndexOf(',');
-  if (text.count(',') == 3 && !text.contains(';')) // x,y,z and a depth
+  constexpr int kFour = 3; // commas between x,y,z and a depth
+  if (text.count(',') > kFour)
+  {
+    throw Error(ErrorCode::BadValue,
+      "Place: '" + text.section(',', kFour + 1).trimmed().toStdString() +
+        "' stands behind the depth; give x, y, z and a depth, as in -50, -20, 60, 5 mm");
+  }
+  if (text.count(',') == kFour && !text.contains(';'))
   {
     const QString behind = text.mid(last + 1).trimmed();
     depth_->setSi(parsePressDepth(behind.toStdString(), "Depth"));
@@ -177,7 +186,21 @@ PlacedPresses PressBar::presses()
   }
   PlacedPresses presses = values();
   presses.places = { parsePlace(place_->text().toStdString(), "Place") };
+  presses.places.front().name = offeredName(place_->text());
   return presses;
+}
+
+// empty: none of the list
+std::string PressBar::offeredName(const QString& place) const
+{
+  for (int row = 0; row < offered_->rowCount(); ++row)
+  {
+    if (const QStandardItem& item = *offered_->item(row); item.data(kPlace) == place)
+    {
+      return item.data(kPlaceName).toString().toStdString();
+    }
+  }
+  return {};
 }
 
 void PressBar::showPlace(const Eigen::Vector3d& place)

@@ -5,6 +5,8 @@
 
 #include <QToolBar>
 
+#include <string>
+
 class QAction;
 class QLineEdit;
 class QStandardItemModel;
@@ -25,7 +27,8 @@ class PressBar : public QToolBar
 public:
   explicit PressBar(QWidget* parent = nullptr);
 
-  /// One place; a depth that is typed behind it, as in 0, 0, 50, 5 mm, goes into its own field.
+  /// One place, with its name where it is of the list that is offered; a depth that is typed behind
+  /// it, as in 0, 0, 50, 5 mm, goes into its own field.
   /// @throws Error  BadValue: what is typed is no place, or a field holds what was refused
   [[nodiscard]] PlacedPresses presses();
 
@@ -51,6 +54,7 @@ Q_SIGNALS:
 
 private:
   void makeOffer();
+  [[nodiscard]] std::string offeredName(const QString& place) const;
   void tellRefusal(QuantityBox& field);
   [[nodiscard]] QString refusal() const; // that stands; empty: none
   void addField(const QString& label, const QString& what, QWidget* field);

@@ -1,5 +1,6 @@
 #include "app/shell/message_bar.h"
 
+#include <QApplication>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -53,9 +54,9 @@ MessageBar::MessageBar(QWidget* over)
   row->addLayout(choices_);
   row->addWidget(close, 0, Qt::AlignTop);
   end_->setSingleShot(true);
-  connect(end_, &QTimer::timeout, this, &QWidget::hide);
+  connect(end_, &QTimer::timeout, this, [this] { show({}); });
   connect(close, &QToolButton::clicked, this, &QWidget::hide);
-  over->installEventFilter(this);
+  qApp->installEventFilter(this);
   const QMargins margins = row->contentsMargins();
   line_ = QPushButton(tr("Cancel")).sizeHint().height() + margins.top() + margins.bottom() +
     2 * frameWidth();
@@ -64,7 +65,8 @@ MessageBar::MessageBar(QWidget* over)
 
 void MessageBar::tell(const QString& text)
 {
-  show(text, false);
+  text.isEmpty() ? warning_.clear() : void();
+  show(text);
   end_->start(kLong);
 }
 
@@ -75,19 +77,31 @@ void MessageBar::add(const QString& text)
     tell(text);
     return;
   }
-  text_->setText(tr("%1. %2").arg(text_->text(), text));
-  place();
+  news_ = news_.isEmpty() ? text : tr("%1. %2").arg(news_, text);
+  write();
 }
 
 void MessageBar::warn(const QString& text)
 {
-  show(text, true);
+  warning_ = text;
+  isRead_ = listens_ = false;
+  show({});
   end_->stop();
+  QTimer::singleShot(0, this, [this] { listens_ = true; });
+}
+
+void MessageBar::withdraw(const QString& warning)
+{
+  if (warning_ == warning)
+  {
+    warning_.clear();
+    write();
+  }
 }
 
 void MessageBar::ask(const QString& text, const std::vector<Choice>& choices)
 {
-  show(text, false);
+  show(text);
   end_->stop();
   for (const Choice& choice : choices)
   {
@@ -117,28 +131,27 @@ void MessageBar::follow(const QString& text, const QString& step, std::optional<
   const QString whole = saysMore ? text + ": " + step : text;
   progress_->setRange(0, percent ? 100 : 0);
   progress_->setValue(percent.value_or(0));
-  if (text_->text() != whole || height() != wantedHeight())
+  if (news_ != whole || height() != wantedHeight())
   {
-    text_->setText(whole);
-    place();
+    news_ = whole;
+    write();
   }
 }
 
 void MessageBar::unfollow(const QString& text)
 {
-  followed_ == text ? tell({}) : void();
+  followed_ == text ? show({}) : void();
 }
 
 QString MessageBar::text() const
 {
-  return isHidden() ? QString() : text_->text();
+  return isHidden() ? QString() : news_.isEmpty() ? warning_ : news_;
 }
 
-void MessageBar::show(const QString& text, bool isWarning)
+void MessageBar::show(const QString& news)
 {
-  const auto icon = isWarning ? QStyle::SP_MessageBoxWarning : QStyle::SP_MessageBoxInformation;
-  icon_->setPixmap(style()->standardIcon(icon).pixmap(fontMetrics().height()));
-  text_->setText(text);
+  isRead_ && !news.isEmpty() ? warning_.clear() : void();
+  news_ = news;
   progress_->hide();
   followed_.clear();
   while (QLayoutItem* item = choices_->takeAt(0))
@@ -146,22 +159,39 @@ void MessageBar::show(const QString& text, bool isWarning)
     item->widget()->deleteLater(); // may be the one that was pressed
     delete item;
   }
-  setVisible(!text.isEmpty());
+  write();
+}
+
+void MessageBar::write()
+{
+  const bool warns = !warning_.isEmpty();
+  const auto icon = warns ? QStyle::SP_MessageBoxWarning : QStyle::SP_MessageBoxInformation;
+  icon_->setPixmap(style()->standardIcon(icon).pixmap(fontMetrics().height()));
+  text_->setText(warns && !news_.isEmpty() ? warning_ + '\n' + news_ : warning_ + news_);
+  setVisible(!text_->text().isEmpty());
   place();
 }
 
-bool MessageBar::eventFilter(QObject* over, QEvent* event)
+// a key or a button of the mouse is something that the user does, but for one in the bar itself
+bool MessageBar::eventFilter(QObject* watched, QEvent* event)
 {
-  if (event->type() == QEvent::Resize)
+  if (event->type() == QEvent::Resize && watched == parentWidget())
   {
     place();
   }
-  return QFrame::eventFilter(over, event);
+  const bool isDone =
+    event->type() == QEvent::MouseButtonPress || event->type() == QEvent::KeyPress;
+  if (isDone && listens_ && watched->isWidgetType())
+  {
+    isRead_ = isRead_ || !isAncestorOf(static_cast<QWidget*>(watched));
+  }
+  return QFrame::eventFilter(watched, event);
 }
 
 void MessageBar::hideEvent(QHideEvent* event)
 {
   QFrame::hideEvent(event);
+  isHidden() ? warning_.clear() : void(); // closed
   place();
 }
 

@@ -26,14 +26,19 @@ public:
   /// @param over  where it stands; owns it
   explicit MessageBar(QWidget* over);
 
-  /// What was done; goes away by itself. Here and below: an empty text shows nothing.
+  /// What was done; goes away by itself. Here and below: an empty text shows nothing, and nothing
+  /// takes a warning's place that nobody can have read: it stands below.
   void tell(const QString& text);
 
   /// Tells it behind what is shown, which stays as it is.
   void add(const QString& text);
 
-  /// What went wrong, and what to do; stays until it is closed, or until there is something newer.
+  /// What went wrong, and what to do; stays until it is closed, or until there is something newer
+  /// after the user did something.
   void warn(const QString& text);
+
+  /// Takes a warning away, as that is mended; another stays.
+  void withdraw(const QString& warning);
 
   /// What the user may choose.
   struct Choice
@@ -55,7 +60,7 @@ public:
   /// Ends that, unless there is something newer.
   void unfollow(const QString& text);
 
-  /// What is shown; empty: nothing.
+  /// What is shown, the newest of it; empty: nothing.
   [[nodiscard]] QString text() const;
 
   bool eventFilter(QObject* over, QEvent* event) override;
@@ -69,7 +74,8 @@ protected:
   void hideEvent(QHideEvent* event) override;
 
 private:
-  void show(const QString& text, bool isWarning);
+  void show(const QString& news);
+  void write();
   [[nodiscard]] int wantedHeight() const;
   void place();
 
@@ -77,6 +83,10 @@ private:
   QLabel* text_;
   QHBoxLayout* choices_;
   QProgressBar* progress_;
+  QString warning_;      // empty: there is none
+  bool isRead_ = false;  // that, as the user did something since
+  bool listens_ = false; // for that: not while what led to the warning is still being done
+  QString news_;
   QString followed_; // empty: no work is
   int line_ = 0;     // height of one, with its buttons
   int covered_ = 0;

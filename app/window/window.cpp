@@ -41,6 +41,10 @@ constexpr int kPlotMs = 33;  // panels and charts, which cost more and need less
 constexpr int kPlotTurns = 3;
 constexpr int kTimingMs = 1000; // what always changes a little
 
+constexpr const char* kHint =
+  "Drag down: press    Wheel: hold a depth    Right-drag: rotate    Middle-drag: move    "
+  "Ctrl+wheel: zoom    H: all keys";
+
 // whether nobody could tell their pictures apart
 bool looksAlike(const Sample& a, const Sample& b)
 {

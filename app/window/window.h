@@ -9,8 +9,10 @@
 #include "app/session/session.h"
 #include "app/shell/background.h"
 #include "app/shell/message_bar.h"
+#include "app/shell/saves.h"
 #include "app/shell/window_memory.h"
 #include "app/sound/force_sound.h"
+#include "app/window/pictured.h"
 #include "app/window/search.h"
 #include "haptics/force/validity.h"
 #include "pipeline/charts/force_charts.h"
@@ -35,6 +37,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -87,7 +90,7 @@ public:
   // What the menus do, once a file is chosen; a failure becomes a message, and false.
   bool openFile(const QString& file);       // a body; asks for what the file does not tell
   bool openFiles(const QStringList& files); // of any kind that is read, or folders
-  bool loadPresses(const QString& folder);  // of an export
+  bool loadPresses(const QString& folder, bool isAgain = false); // of an export; once, or asked
   bool saveScreenshot(const QString& file);
   // none: of what is shown
   bool saveFigure(const QString& file, ImageSize size, const FigureLook& look,
@@ -109,9 +112,6 @@ protected:
 
 private:
   static constexpr const char* kScan = "Scan for devices…";
-  static constexpr const char* kHint =
-    "Drag down: press    Wheel: hold a depth    Right-drag: rotate    Middle-drag: move    "
-    "Ctrl+wheel: zoom    H: all keys";
   void makeView();
   void makeDocks();
   void makeCharts();
@@ -137,6 +137,7 @@ private:
   void addRecentFiles(QMenu& menu);
   bool openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs = {});
   bool openLabels(const MeshSource& image, std::vector<FileOrgan> labels);
+  bool openAsked(const QString& file);
   [[nodiscard]] FileOrgans labelsIn(const QString& file);
   void openOther(const QString& file);
   void openScene(const QString& file);
@@ -198,7 +199,9 @@ private:
   void pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf);
   void fitPressed(int id);
   std::size_t addTake(const ExportFolder& folder);
+  void offerPresses();
   void restorePresses();
+  void discardPresses(const QString& what);
   void sayListed(const QString& how, std::size_t presses);
   void renamePress(int id, const QString& name);
   void deletePresses(const std::vector<int>& ids);
@@ -208,13 +211,7 @@ private:
   void followPointer();
   void slide(int right, int up);
   void letGo();
-  struct Pictured // what is played: a device's path, or what was recorded
-  {
-    const SceneBody& body;
-    const Recording& recording;
-    const Calibration& calibration;
-    std::optional<CameraPlace> seenFrom{};
-  };
+  // what is played: a device's path, or what was recorded
   [[nodiscard]] Pictured recorded(std::size_t ago) const;
   [[nodiscard]] Pictured pictured() const;
   [[nodiscard]] const Sample& sampleToShow();
@@ -268,6 +265,7 @@ private:
   [[nodiscard]] Exported exported(const Pictured& seen);
   bool exportOne(const QString& to, Exported made, const Timing* timing);
   bool exportMap(const std::filesystem::path& folder, const StiffnessMap& map);
+  [[nodiscard]] Pictured filmed();
   bool saveMovie(const QString& file, MovieKind kind);
   bool exportInto(const QString& directory);
   [[nodiscard]] CameraPlace cameraPlace() const;
@@ -337,6 +335,7 @@ private:
   TrainingPanel* training_ = nullptr;         // null: never shown
   std::unique_ptr<SupportPainting> painting_; // likewise
   Autosave* autosave_ = nullptr;              // null: nobody wants it
+  std::set<std::filesystem::path> loaded_;    // exports
   PlayBar* playBar_ = nullptr;
   QAction* refinedExport_ = nullptr;
   QAction* allSamplesExport_ = nullptr;
@@ -345,6 +344,7 @@ private:
   DiagnosticsPanel* diagnostics_ = nullptr;
   ForceSound sound_;
   Background background_;
+  Saves saves_{ *this, background_ };
 };
 
 } // namespace palp

@@ -114,7 +114,6 @@ std::function<Recording()> partOf(const Session& session, const Recording& recor
 }
 
 // whether one table tells of both: of the same body, tool, tissue and hand, apart in between
-template <typename Pictured>
 bool continues(const ScenePlan& opened, const Pictured& before, const Pictured& after)
 {
   const auto isPart = [](const Recording& recording)
@@ -168,6 +167,18 @@ Exported Window::exported(const Pictured& seen)
   return made;
 }
 
+// what is shown, or the newest recording with a press, which may have been loaded
+Pictured Window::filmed()
+{
+  takeSamples();
+  const Pictured seen = pictured().recording.isTouched() ? pictured() : recorded(1);
+  if (!seen.recording.isTouched())
+  {
+    throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
+  }
+  return seen;
+}
+
 bool Window::saveMovie(const QString& file, MovieKind kind)
 {
   if (!isFree())
@@ -177,12 +188,7 @@ bool Window::saveMovie(const QString& file, MovieKind kind)
   return saveInTurn(
     [this, file, kind]
     {
-      takeSamples();
-      const Pictured seen = pictured();
-      if (!seen.recording.isTouched())
-      {
-        throw Error(ErrorCode::BadValue, "a movie shows a press: press first");
-      }
+      const Pictured seen = filmed();
       const auto written = inBackground<std::filesystem::path>(tr("Drawing the movie"),
         [made = exported(seen), to = file.toStdString(), kind]() mutable
         { return writeMovie(to, kind, std::move(made)); });
@@ -298,7 +304,9 @@ bool Window::exportInto(const QString& directory)
         std::filesystem::remove_all(earlierTake(folder, i));
       }
       autosave_ != nullptr ? autosave_->clear(saved) : void();
-      say(tr("Written to %1: %2").arg(directory, written.join(", ")));
+      const QString pressless =
+        isNewest && !session_.recording().isTouched() ? tr("; no press is in it") : QString();
+      say(tr("Written to %1: %2").arg(directory, written.join(", ")) + pressless);
     });
 }
 

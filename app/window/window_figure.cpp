@@ -143,7 +143,7 @@ void Window::writeCurves(const QString& file, const Plots& plots, std::optional<
                     .arg(sheet.size.height)
                 : tr("No curves: it was canceled"));
   };
-  background_.isBusy() ? void(saveInTurn(save)) : save();
+  background_.isBusy() ? void(saveInTurn(save)) : saves_.write(save);
 }
 
 bool Window::savePlots(const QString& file, std::optional<ImageSize> size)

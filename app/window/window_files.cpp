@@ -20,6 +20,7 @@
 #include <QImage>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 
 namespace palp
@@ -29,19 +30,22 @@ namespace
 
 const QKeySequence kExport("Ctrl+E");
 
-// where a field has the focus, which would take the key for going to its end
-class ExportsFromFields : public QObject
+// where a field has the focus, which would take the key for going to its end, or for undoing
+// nothing
+class KeysFromFields : public QObject
 {
 public:
   using QObject::QObject;
-  bool eventFilter(QObject*, QEvent* event) override
+  bool eventFilter(QObject* watched, QEvent* event) override
   {
     if (event->type() != QEvent::ShortcutOverride)
     {
       return false;
     }
     const auto& key = *static_cast<QKeyEvent*>(event);
-    return QKeySequence(key.key() | static_cast<int>(key.modifiers())) == kExport;
+    const auto* field = qobject_cast<QLineEdit*>(watched);
+    return QKeySequence(key.key() | static_cast<int>(key.modifiers())) == kExport ||
+      (field != nullptr && !field->isUndoAvailable() && key.matches(QKeySequence::Undo));
   }
 };
 
@@ -107,12 +111,15 @@ void Window::makeFileMenu()
   addOpening(*file);
   file->addSeparator();
   const auto addSave = [&](const QString& entry, const QString& title, const char* suggested,
-                         const QString& kinds, bool (Window::*save)(const QString&))
+                         const QString& kinds, bool (Window::*save)(const QString&),
+                         bool isFilmed = false)
   {
     return file->addAction(entry, this,
       [=, this]
       {
-        const QString name = QFileDialog::getSaveFileName(this, title, suggested, kinds);
+        const bool mayAsk = !isFilmed || attempt([this] { (void)filmed(); });
+        const QString name =
+          mayAsk ? QFileDialog::getSaveFileName(this, title, suggested, kinds) : QString();
         if (!name.isEmpty())
         {
           (this->*save)(name);
@@ -128,10 +135,10 @@ void Window::makeFileMenu()
       QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S))
     ->setObjectName("figureAction");
   addSave(tr("Save &movie of the press…"), tr("Save movie"), "press.mp4",
-    tr("Movies (*.mp4 *.ogv)"), &Window::saveReplay)
+    tr("Movies (*.mp4 *.ogv)"), &Window::saveReplay, true)
     ->setObjectName("movieAction");
   addSave(tr("Save &turntable…"), tr("Save turntable"), "turntable.mp4", tr("Movies (*.mp4 *.ogv)"),
-    &Window::saveTurntable)
+    &Window::saveTurntable, true)
     ->setObjectName("turntableAction");
   QAction* curves = addSave(tr("Save &curves…"), tr("Save curves"), "curves.png",
     tr("Plots (*.png *.svg *.pdf *.csv)"), &Window::saveCurves);
@@ -147,7 +154,7 @@ void Window::makeFileMenu()
     });
   exporting->setObjectName("exportAction");
   exporting->setShortcut(kExport);
-  qApp->installEventFilter(new ExportsFromFields(this));
+  qApp->installEventFilter(new KeysFromFields(this));
   refinedExport_ = file->addAction(tr("Export the dent &refined"));
   refinedExport_->setObjectName("refinedExport");
   refinedExport_->setCheckable(true);
@@ -206,11 +213,17 @@ bool Window::openFile(const QString& file)
   {
     return false;
   }
+  bool isOpened = false;
+  attempt([&] { isOpened = openAsked(file); });
+  tellDevices();
+  return isOpened;
+}
+
+// with what has to be asked for; throws what no answer to that mends
+bool Window::openAsked(const QString& file)
+{
   MeshSource source{ .file = file.toStdString() };
-  if (!attempt([&] { checkExists(source); })) // no answer to a question opens it
-  {
-    return false;
-  }
+  checkExists(source);
   std::vector<FileOrgan> organs; // labels of it, an organ each; none: it is one body
   std::optional<OpenDialog> dialog;
   bool opened = false;
@@ -220,10 +233,14 @@ bool Window::openFile(const QString& file)
     {
       isAsked = opened = organs.empty() ? openBody({ source }) : openLabels(source, organs);
     }
-    catch (const std::exception& error)
+    catch (const Error& error)
     {
       if (!dialog)
       {
+        if (error.code() != ErrorCode::BadValue || background_.isBusy())
+        {
+          throw;
+        }
         dialog.emplace(file, this).setLabels(isImageFile(file) ? labelsIn(file) : FileOrgans{});
       }
       dialog->setReason(QString::fromStdString(error.what()));
@@ -232,7 +249,6 @@ bool Window::openFile(const QString& file)
       organs = isAsked ? dialog->organs() : organs;
     }
   }
-  tellDevices();
   if (opened)
   {
     memory_.addRecentFile(file);

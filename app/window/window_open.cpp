@@ -13,6 +13,8 @@
 
 #include <QFileInfo>
 
+#include <utility>
+
 namespace palp
 {
 namespace
@@ -202,11 +204,16 @@ void Window::openScene(const QString& file)
 void Window::openPlaces(const QString& file)
 {
   PlacedPresses presses = pressBar_->values();
-  presses.places = readFiducials(file.toStdString()).places;
+  Fiducials found = readFiducials(file.toStdString());
+  presses.places = std::move(found.places);
   pressBar_->offer(presses);
-  message_->ask(tr("%1: %2, to be chosen at Place")
-                  .arg(QFileInfo(file).fileName(),
-                    QString::fromStdString(counted(presses.places.size(), "place", "places"))),
+  const auto count = [](std::size_t number, const char* what)
+  { return QString::fromStdString(counted(number, what)); };
+  const QString leftOut = found.unplaced > 0
+    ? tr("; %1 without a place left out").arg(count(found.unplaced, "point"))
+    : QString();
+  message_->ask(tr("%1: %2, to be chosen at Place%3")
+                  .arg(QFileInfo(file).fileName(), count(presses.places.size(), "place"), leftOut),
     { { tr("Press all"),
       [this, places = presses.places] { queued_.assign(places.begin(), places.end()); } } });
 }
@@ -222,6 +229,7 @@ void Window::pressQueued()
   }
   if (const std::string note = awaited_.end(log); !note.empty())
   {
+    log.nameNext({}); // which was of that press
     message_->warn(QString::fromStdString(note));
     refusedPlace_ = message_->text();
   }
@@ -230,7 +238,7 @@ void Window::pressQueued()
     const PressPlace place = queued_.front();
     queued_.pop_front();
     pressBar_->showPlace(place.position);
-    log.nameNext(pressAtPlace() ? place.name : std::string{});
+    pressAtPlace() ? log.nameNext(place.name) : void();
   }
 }
 

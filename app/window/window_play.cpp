@@ -68,7 +68,7 @@ void Window::addEarlierTakes(QMenu& menu)
 }
 
 // with all that a recording was made on
-Window::Pictured Window::recorded(std::size_t ago) const
+Pictured Window::recorded(std::size_t ago) const
 {
   const std::vector<Session::Take>& earlier = session_.earlier();
   if (ago == 0 || ago > earlier.size())
@@ -79,7 +79,7 @@ Window::Pictured Window::recorded(std::size_t ago) const
   return { take.body, take.recording, take.calibration, take.seenFrom };
 }
 
-Window::Pictured Window::pictured() const
+Pictured Window::pictured() const
 {
   return recorded(review_ ? reviewed_ : 0);
 }

@@ -15,6 +15,7 @@
 #include <vtkRenderer.h>
 
 #include <QEvent>
+#include <QLineEdit>
 #include <QTimer>
 
 #include <algorithm>
@@ -111,14 +112,17 @@ void Window::makePressBar()
 {
   pressBar_ = new PressBar(this);
   addToolBar(pressBar_);
-  connect(pressBar_, &PressBar::pressAsked, this, &Window::pressAtPlace);
+  connect(pressBar_, &PressBar::pressAsked, this,
+    [this]
+    {
+      const bool isTyped = qobject_cast<QLineEdit*>(focusWidget()) != nullptr;
+      pressAtPlace() && isTyped ? canvas_->setFocus() : void(); // whose keys act on the press
+    });
   connect(pressBar_, &PressBar::refused, this,
     [this, before = QString()](const QString& why) mutable
     {
-      if (!why.isEmpty() || message_->text() == before) // what else is told stays
-      {
-        message_->warn(why);
-      }
+      message_->withdraw(before);
+      why.isEmpty() ? void() : message_->warn(why);
       before = why;
     });
 }
@@ -139,16 +143,14 @@ bool Window::pressAtPlace()
       const SurfacePoint point = pressedPoint(place, presses, session_.scene());
       awaited_.begin(presses, session_.recording(), session_.presses());
       pointer_.pressAt(point, presses.depth, presses.speed);
+      session_.presses().nameNext(place.name);
       aim();
       if (pressList_ != nullptr && !search_) // which tells what comes of it
       {
         bringUp(qobject_cast<QDockWidget*>(pressList_->parentWidget()));
       }
     });
-  if (isPressed && message_->text() == refusedPlace_) // which is mended
-  {
-    message_->warn({});
-  }
+  isPressed ? message_->withdraw(refusedPlace_) : void(); // which is mended
   refusedPlace_ = isPressed ? QString() : message_->text();
   return isPressed;
 }

@@ -1,7 +1,5 @@
 // Presses as things of the window: listed, compared, repeated; and what is changed can be undone.
 
-#include "app/folder/autosave.h"
-#include "app/folder/export_folder.h"
 #include "app/input/law_options.h"
 #include "app/input/tip_text.h"
 #include "app/organs/organ_list.h"
@@ -12,7 +10,6 @@
 #include "app/press/press_fit.h"
 #include "app/shell/change.h"
 #include "app/shell/dock.h"
-#include "app/shell/message_bar.h"
 #include "app/window/window.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
@@ -116,85 +113,6 @@ void Window::makeEditMenu()
     ->setObjectName("supportsAction");
 }
 
-void Window::saveTo(Autosave& autosave)
-{
-  autosave_ = &autosave;
-  session_.saveTo(autosave_);
-  if (const std::size_t left = autosave.left().size(); left > 0)
-  {
-    const QString what = QString::fromStdString(counted(left, "press", "presses"));
-    message_->ask(tr("Not exported yet: %1 of before").arg(what),
-      { { tr("Restore"), [this] { restorePresses(); } },
-        { tr("Discard"), [this] { autosave_->discard(); } } });
-  }
-}
-
-// as earlier recordings, each on the body that was pressed
-std::size_t Window::addTake(const ExportFolder& folder)
-{
-  std::optional<Session::Take> take =
-    inBackground<Session::Take>(tr("Pressing once more"), session_.takeOf(folder));
-  const std::size_t found = take ? session_.add(*std::move(take)) : 0;
-  takesKept_ = session_.earlier().size();
-  return found;
-}
-
-bool Window::loadPresses(const QString& folder)
-{
-  if (!isFree())
-  {
-    return false;
-  }
-  return attempt(
-    [&]
-    {
-      endReview(); // which counts recordings from the last
-      std::size_t loaded = 0;
-      for (const std::filesystem::path& take : takesIn(folder.toStdString()))
-      {
-        loaded += addTake(readExport(take));
-      }
-      sayListed(tr("loaded from %1").arg(folder), loaded);
-    });
-}
-
-void Window::sayListed(const QString& how, std::size_t presses)
-{
-  const QString what = QString::fromStdString(counted(presses, "press", "presses"));
-  const std::vector<KeptPress>& all = session_.presses().presses();
-  const auto isElsewhere = [&](const KeptPress& press)
-  { return press.mesh != session_.body().name; };
-  const auto other = std::ranges::find_if(all, isElsewhere);
-  const QString of = other == all.end()
-    ? QString()
-    : tr("; some are of %1, not of what is open").arg(QString::fromStdString(other->mesh));
-  say(tr("%1 %2: in the list of presses, and exported with the data%3").arg(what, how, of));
-}
-
-void Window::restorePresses()
-{
-  if (!isFree())
-  {
-    return;
-  }
-  endReview();
-  std::size_t restored = 0;
-  for (const int press : autosave_->adopt())
-  {
-    attempt(
-      [&]
-      {
-        const std::size_t found = addTake(readExport(autosave_->folderOf(press)));
-        found > 0 ? session_.presses().noteSaved(press) : void();
-        restored += found;
-      });
-  }
-  if (restored > 0)
-  {
-    sayListed(tr("restored"), restored);
-  }
-}
-
 // there, as deep as then
 void Window::pressAgain(int id, const std::function<ForceLaw(const KeptPress&)>& lawOf)
 {
@@ -283,15 +201,6 @@ void Window::renamePress(int id, const QString& name)
   if (after != before)
   {
     undo_.push(new Change(tr("rename a press"), call(before), call(after)));
-  }
-}
-
-// as it is called now; set aside where it is gone
-void Window::saveAs(int saved)
-{
-  if (autosave_ != nullptr && saved > 0)
-  {
-    autosave_->update(saved, session_.presses().namesOf(saved));
   }
 }
 

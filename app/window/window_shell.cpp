@@ -39,6 +39,11 @@ QStringList filesOf(const QMimeData& dragged)
 
 void Window::closeEvent(QCloseEvent* event)
 {
+  if (!saves_.mayClose())
+  {
+    event->ignore();
+    return;
+  }
   background_.giveUpAll();
   memory_.save(*this);
   QMainWindow::closeEvent(event);
@@ -190,11 +195,12 @@ void Window::showProgress(const QString& what, const FollowedWork::Step& step)
 // at once, or after what is saved already
 bool Window::saveInTurn(const std::function<void()>& save)
 {
+  const auto saveNow = [this, save] { return attempt([&] { saves_.write(save); }); };
   if (!background_.isBusy())
   {
-    return attempt(save);
+    return saveNow();
   }
-  background_.later([this, save] { attempt(save); });
+  background_.later(saveNow);
   return true;
 }
 
@@ -207,6 +213,7 @@ bool Window::attempt(const std::function<void()>& work)
   }
   catch (const std::exception& error)
   {
+    saves_.keepOpen(); // else nobody reads it
     message_->warn(QString::fromStdString(error.what()));
     return false;
   }

@@ -204,8 +204,13 @@ bool Window::solveOrgan(const QString& file)
       words << "--poisson" << QString::number(tissueInUse().law.material().poissonRatio);
       words << "--out" << out;
       painting_->panel().endPainting();
-      const auto ended = inBackground<EndedProgram>(
-        tr("Solving how it gives way"), [words] { return runProgram("palp", words); });
+      std::optional<EndedProgram> ended;
+      saves_.write(
+        [&]
+        {
+          ended = inBackground<EndedProgram>(
+            tr("Solving how it gives way"), [words] { return runProgram("palp", words); });
+        });
       if (!ended)
       {
         say(tr("Canceled: what was reached waits beside %1; Solve again goes on").arg(file));

@@ -100,7 +100,7 @@ LengthUnit guessUnit(double longestSide, const std::string& file, double field)
   }
   if (fits != 1)
   {
-    throw Error(ErrorCode::BadMesh,
+    throw Error(ErrorCode::BadValue,
       file + ": " + (fits == 0 ? "no unit" : "more than one unit") +
         " gives the size of an organ or a part of one (longest side " + sizes.str() +
         "); give --unit mm, cm or m");

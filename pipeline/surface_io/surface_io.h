@@ -34,13 +34,14 @@ struct LoadedSurface
 /// @param file    STL, OBJ, PLY, OFF, VTK, VTP or VTU; or an image, in the patient's axes (LPS)
 /// @param unit    wins over what the file says
 /// @param part    of an image: MetaImage, NIfTI or VTI
-/// @throws Error  BadFile: unreadable, or not of its format; BadMesh: nothing to press, or the
-///                unit is in doubt
+/// @throws Error  BadFile: unreadable, or not of its format; BadMesh: nothing to press; BadValue:
+///                what the file leaves open and the caller has to say: unit, level, label, series
 [[nodiscard]] LoadedSurface readSurface(
   const std::filesystem::path& file, UnitChoice unit = {}, const ImagePart& part = {});
 
 /// What a file holds, as it stands there: read by a process of its own.
-/// @throws Error  BadFile: unreadable, or not of its format; BadMesh: no surface in it
+/// @throws Error  BadFile: unreadable, or not of its format; BadMesh: no surface in it; BadValue:
+///                as readSurface
 [[nodiscard]] FileSurface readFileSurface(
   const std::filesystem::path& file, const ImagePart& part = {});
 
@@ -55,7 +56,7 @@ struct LoadedSurface
 
 /// What readSurface makes of what a file holds.
 /// @param file    its name, for messages
-/// @throws Error  BadMesh: as readSurface
+/// @throws Error  BadMesh, BadValue: as readSurface
 [[nodiscard]] LoadedSurface madeReady(
   const FileSurface& read, const std::filesystem::path& file, UnitChoice unit = {});
 

@@ -255,8 +255,9 @@ DicomSeries chosenSeries(
   }
   if (volumes > 1)
   {
-    refuse(
-      folder, "has " + std::to_string(volumes) + " series: " + list + "; name one as the series");
+    throw Error(ErrorCode::BadValue,
+      folder.string() + ": has " + std::to_string(volumes) + " series: " + list +
+        "; name one as the series");
   }
   return all.front();
 }

@@ -46,7 +46,7 @@ struct DicomSeries
 ///
 /// @param asked   its place in the list, from 1, or its UID; empty: the only one without a fault
 /// @param notes   gets the faults of the others, where nothing is asked
-/// @throws Error  BadFile: none, or several and nothing asked, which are listed; its fault
+/// @throws Error  BadFile: none; its fault; BadValue: several and nothing asked, which are listed
 [[nodiscard]] DicomSeries chosenSeries(
   const std::filesystem::path& folder, const std::string& asked, std::vector<std::string>& notes);
 

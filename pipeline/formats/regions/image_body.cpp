@@ -121,9 +121,9 @@ std::string inWords(double value)
   return text.str();
 }
 
-void refuseImage(const std::string& name, const std::string& what)
+void refuseImage(const std::string& name, const std::string& what, ErrorCode code)
 {
-  throw Error(ErrorCode::BadMesh, name + ": " + what);
+  throw Error(code, name + ": " + what);
 }
 
 void checkVolume(const PatientImage& volume, const std::string& name)

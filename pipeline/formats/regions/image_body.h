@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/error.h"
 #include "pipeline/formats/regions/image_labels.h"
 #include "pipeline/process/file_organs.h"
 
@@ -48,7 +49,9 @@ void checkNumbers(const ImageValues& values, const std::string& name);
 /// A number in a message, with six digits.
 [[nodiscard]] std::string inWords(double value);
 
-/// @throws Error  BadMesh: the name, and what is wrong with it
-[[noreturn]] void refuseImage(const std::string& name, const std::string& what);
+/// @param code    BadValue where the caller has to say what the image does not tell
+/// @throws Error  of that code: the name, and what is wrong with it
+[[noreturn]] void refuseImage(
+  const std::string& name, const std::string& what, ErrorCode code = ErrorCode::BadMesh);
 
 } // namespace palp

@@ -127,6 +127,28 @@ TEST_F(AutosaveTest, LeavesNothingWhereNothingIsKept)
   EXPECT_TRUE(fs::is_empty(root_));
 }
 
+TEST_F(AutosaveTest, BringsBackWhatWasDiscardedUntilItEnds)
+{
+  for (const int length : { 20, 30 })
+  {
+    Autosave(root_).save(plan(), pressOf(length));
+  }
+  {
+    Autosave next(root_);
+    const std::vector<fs::path> before = next.left();
+    ASSERT_EQ(before.size(), 2U);
+    next.discard();
+    EXPECT_TRUE(next.left().empty());
+    next.clear(); // an export of presses since then
+    next.undiscard();
+    EXPECT_EQ(next.left(), before);
+    EXPECT_EQ(rowsIn(before[1]), 30U);
+    next.discard();
+  }
+  EXPECT_TRUE(Autosave(root_).left().empty());
+  EXPECT_TRUE(fs::is_empty(root_));
+}
+
 TEST_F(AutosaveTest, KeepsNoMoreThanItsBound)
 {
   {

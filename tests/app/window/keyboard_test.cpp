@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 
 #include <cmath>
@@ -118,6 +119,32 @@ TEST_F(Keyboard, ExportsFromWithinAField)
       asked = 0;
     }
   }
+}
+
+// first what is typed and refused, then what was changed
+TEST_F(Keyboard, UndoesFromWithinAField)
+{
+  const auto modulus = [this] { return session_->scene().law.material().youngModulus; };
+  const double before = modulus();
+  type("young", "20");
+  ASSERT_EQ(modulus(), 20e3);
+  auto* field = window_->findChild<QAbstractSpinBox*>("young");
+  auto* reason = window_->findChild<QLabel*>("youngReason");
+  field->setFocus();
+  type("young", "30 apples");
+  ASSERT_TRUE(reason->isVisible());
+  QTest::keyClick(field, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(field->text(), "20 kPa");
+  EXPECT_FALSE(reason->isVisible());
+  EXPECT_EQ(modulus(), 20e3);
+  QTest::keyClick(field, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(modulus(), before);
+  EXPECT_EQ(field->text(), "50 kPa");
+  type("young", "20");
+  auto* place = window_->findChild<QLineEdit*>("pressPlace");
+  place->setFocus();
+  QTest::keyClick(place, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(modulus(), before);
 }
 
 TEST_F(Keyboard, HidesTheToolAndShowsItAgain)

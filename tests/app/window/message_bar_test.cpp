@@ -3,6 +3,7 @@
 #include <QImage>
 #include <QLabel>
 #include <QPushButton>
+#include <QToolButton>
 
 #include <algorithm>
 #include <cstdlib>
@@ -190,6 +191,32 @@ TEST_F(WindowTest, WhatIsAddedToAQuestionLeavesItsAnswers)
   bar->tell({});
   bar->add("Drawn with 70 triangles");
   EXPECT_EQ(said(), "Drawn with 70 triangles");
+}
+
+// or until the user does something
+TEST_F(WindowTest, AWarningStandsUntilItCanHaveBeenRead)
+{
+  auto* bar = window_->findChild<MessageBar*>();
+  const auto shown = [bar] { return bar->findChild<QLabel*>("message")->text(); };
+  EXPECT_FALSE(window_->saveScreenshot("/proc/nope.png"));
+  const QString warning = shown();
+  EXPECT_TRUE(warning.startsWith("/proc/nope.png: ")) << warning.toStdString();
+  bar->follow("Exporting", "writing", 50, [] {});
+  EXPECT_EQ(shown(), warning + "\nExporting: writing");
+  bar->unfollow("Exporting");
+  EXPECT_EQ(shown(), warning);
+  bar->tell("Written");
+  EXPECT_EQ(shown(), warning + "\nWritten");
+  EXPECT_EQ(said(), "Written") << "the newest";
+  waitForFrames(1);
+  QTest::keyClick(canvas_, Qt::Key_Plus);
+  EXPECT_EQ(shown(), warning + "\nWritten") << "while nothing is newer";
+  bar->tell("Opened");
+  EXPECT_EQ(shown(), "Opened");
+  bar->warn("Device lost");
+  bar->findChild<QToolButton*>("closeMessage")->click();
+  bar->tell("Connected");
+  EXPECT_EQ(shown(), "Connected");
 }
 
 } // namespace

@@ -281,21 +281,35 @@ TEST_F(WindowTest, DroppedOrganFileIsFelt)
   EXPECT_LT(sample.localDepth, 0.99 * sample.contact.depth);
 }
 
-// as no answer to a question opens it
-TEST_F(WindowTest, AFileThatIsGoneIsToldInTheBar)
+// no answer to a question opens these
+TEST_F(WindowTest, AFileThatCannotBeReadIsToldInTheBar)
 {
-  bool hasAsked = false;
-  QTimer::singleShot(1000, window_.get(),
+  int asked = 0;
+  QTimer look;
+  QObject::connect(&look, &QTimer::timeout,
     [&]
     {
-      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-      hasAsked = dialog != nullptr;
-      hasAsked ? dialog->reject() : void();
+      if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
+      {
+        ++asked;
+        dialog->reject();
+      }
     });
-  EXPECT_FALSE(window_->openFile("/nowhere/gone.stl"));
-  QTest::qWait(1200);
-  EXPECT_FALSE(hasAsked);
-  EXPECT_TRUE(said().contains("gone.stl: there is no such file")) << said().toStdString();
+  look.start(10);
+  const auto tells = [&](const char* name, const std::string& bytes, const char* why)
+  {
+    const std::filesystem::path file = folder_.path() / name;
+    bytes.empty() ? void() : void(std::ofstream(file) << bytes);
+    const QString path = QString::fromStdString(file.string());
+    EXPECT_FALSE(window_->openFile(path)) << name;
+    EXPECT_TRUE(said().startsWith(path + ": ") && said().contains(why)) << said().toStdString();
+  };
+  const std::string whole = test::readAll(PALP_SHARE "/meshes/block_50.vtp");
+  tells("gone.stl", "", "there is no such file");
+  tells("word.stl", "solid x", "not an STL file");
+  tells("cut.vtp", whole.substr(0, whole.size() / 2), "export");
+  tells("picture.png", "\x89PNG\r\n", "give a surface");
+  EXPECT_EQ(asked, 0);
 }
 
 } // namespace

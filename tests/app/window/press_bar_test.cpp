@@ -67,6 +67,20 @@ TEST_F(PressBarTest, PressesWhereAndAsDeepAsTyped)
   EXPECT_NEAR(most.response.force, *std::ranges::max_element(forces), 0.01 * most.response.force);
 }
 
+// so that the next key acts on the picture
+TEST_F(PressBarTest, ReturnGivesThePictureTheKeys)
+{
+  auto* field = window_->findChild<QLineEdit*>("pressPlace");
+  field->setFocus();
+  typePlace("0, 0, 900");
+  QTest::keyClick(field, Qt::Key_Return);
+  EXPECT_EQ(window_->focusWidget(), field) << "what is refused is to be mended there";
+  typePlace("-48.5, 38.4, 39.5");
+  QTest::keyClick(field, Qt::Key_Return);
+  EXPECT_EQ(window_->focusWidget(), canvas_);
+  waitForPresses(1);
+}
+
 // at each sample, however late the window is
 TEST_F(PressBarTest, PressesAtTheTypedSpeed)
 {
@@ -176,6 +190,27 @@ TEST_F(PressBarTest, OffersAndPressesThePlacesOfAList)
   }
 }
 
+// as palp run does
+TEST_F(PressBarTest, TellsOfPointsWithoutAPlaceAndNamesAPressByItsPoint)
+{
+  const auto file = folder_.path() / "places.mrk.json";
+  std::ofstream(file) << R"({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
+    "coordinateUnits": "mm", "controlPoints": [
+    {"label": "back", "position": [-48.5, 38.4, 39.5], "positionStatus": "defined"},
+    {"label": "top", "position": [0, 0, 0], "positionStatus": "undefined"}]}]})";
+  ASSERT_TRUE(window_->openFiles({ QString::fromStdString(file.string()) }));
+  EXPECT_TRUE(said().contains("1 place, ") && said().endsWith("1 point without a place left out"))
+    << said().toStdString();
+  pressButton();
+  waitForPresses(1);
+  typePlace("-14.8, -3.6, 77.5");
+  pressButton();
+  waitForPresses(2);
+  const auto& presses = session_->presses().presses();
+  EXPECT_EQ(presses[0].summary.name, "back");
+  EXPECT_EQ(presses[1].summary.name, "press 2");
+}
+
 TEST_F(PressBarTest, RefusesInOneSentence)
 {
   const auto said = [this]
@@ -211,6 +246,9 @@ TEST_F(PressBarTest, NamesWhatIsWrongWithAPlace)
     pressButton();
     EXPECT_TRUE(said().startsWith("Place: ")) << said().toStdString();
   }
+  typePlace("-48.5,38.4,39.5, 5 mm, 3mm/s"); // a speed, which has its own field
+  pressButton();
+  EXPECT_TRUE(said().startsWith("Place: '3mm/s' stands behind the depth")) << said().toStdString();
   typePlace("-48.5,38.4,39.5, 5"); // a depth without its unit
   pressButton();
   EXPECT_TRUE(said().startsWith("Depth: ") && said().contains("unit")) << said().toStdString();

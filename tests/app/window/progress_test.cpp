@@ -1,6 +1,8 @@
 #include "tests/app/window/window_rig.h"
 
+#include <QAbstractButton>
 #include <QDialog>
+#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 
@@ -113,11 +115,11 @@ TEST_F(Progress, OfReadingTellsPercentAndCancelEndsTheReader)
     << "it reads on unseen";
 }
 
-// which asks for what is missing, and is not told of as if it went on
+// which asks for the unit, and is not told of as if it went on
 TEST_F(Progress, OfReadingEndsWhereItFails)
 {
-  const std::filesystem::path cut = folder_.path() / "cut.stl";
-  std::ofstream(cut) << "solid";
+  const std::filesystem::path odd = folder_.path() / "odd.obj";
+  std::ofstream(odd) << "v 0 0 0\nv 9e9 0 0\nv 0 9e9 0\nf 1 2 3\n";
   QTimer look;
   QString behind = "no dialog";
   QObject::connect(&look, &QTimer::timeout,
@@ -130,7 +132,7 @@ TEST_F(Progress, OfReadingEndsWhereItFails)
       }
     });
   look.start(10);
-  window_->openFile(QString::fromStdString(cut.string()));
+  window_->openFile(QString::fromStdString(odd.string()));
   EXPECT_EQ(behind, "");
   EXPECT_EQ(said(), "");
 }
@@ -224,6 +226,79 @@ TEST_F(Progress, OfAFigureIsCanceledAndLeavesNoFile)
   EXPECT_TRUE(said().contains("canceled")) << said().toStdString();
   EXPECT_FALSE(std::filesystem::exists(file));
   EXPECT_TRUE(QTest::qWaitFor([] { return processesWith("--figure") == 0; }, 3000));
+}
+
+// a window that is closed while a file is written
+class Quitting : public Progress
+{
+protected:
+  Quitting()
+  {
+    press(80);
+    release();
+    waitForPresses(1);
+  }
+
+  // closes once an export goes on, and answers; returns what was asked
+  QString quitDuringExport(const QString& answer)
+  {
+    QString asked;
+    QTimer hand;
+    QObject::connect(&hand, &QTimer::timeout,
+      [&]
+      {
+        auto* box = window_->findChild<QMessageBox*>("quitQuestion");
+        if (box == nullptr)
+        {
+          said().startsWith("Exporting") ? void(window_->close()) : void();
+          return;
+        }
+        hand.stop();
+        asked = box->text();
+        EXPECT_TRUE(window_->isVisible());
+        EXPECT_EQ(box->defaultButton()->text(), "&Wait, then quit");
+        for (auto* button : box->buttons())
+        {
+          button->text().remove('&') == answer ? button->click() : void();
+        }
+      });
+    hand.start(10);
+    window_->exportData(QString::fromStdString(out_.string()));
+    return asked;
+  }
+
+  [[nodiscard]] bool isClosed() const
+  {
+    return QTest::qWaitFor([this] { return !window_->isVisible(); }, kPatience);
+  }
+
+  std::filesystem::path out_ = folder_.path() / "out";
+};
+
+TEST_F(Quitting, WaitsForAnExport)
+{
+  const QString asked = quitDuringExport("Wait, then quit");
+  EXPECT_TRUE(asked.startsWith("A file is still being written")) << asked.toStdString();
+  EXPECT_TRUE(isClosed());
+  EXPECT_TRUE(std::filesystem::exists(out_ / "scene.json"));
+}
+
+TEST_F(Quitting, GivesAnExportUpWhereThatIsAsked)
+{
+  quitDuringExport("Quit without it");
+  EXPECT_TRUE(isClosed());
+  EXPECT_FALSE(std::filesystem::exists(out_ / "scene.json"));
+}
+
+TEST_F(Quitting, StaysWhereItIsCanceledOrTheExportFails)
+{
+  quitDuringExport("Cancel");
+  EXPECT_TRUE(std::filesystem::exists(out_ / "scene.json"));
+  out_ = "/proc/nowhere";
+  quitDuringExport("Wait, then quit");
+  waitForFrames(); // in which it would close
+  EXPECT_TRUE(window_->isVisible());
+  EXPECT_TRUE(said().contains("/proc/nowhere")) << said().toStdString();
 }
 
 } // namespace

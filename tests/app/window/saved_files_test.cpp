@@ -106,15 +106,10 @@ TEST_F(WindowTest, SavesAFigureAsItsDialogIsFilledIn)
   release();
 }
 
-// made when it is asked for; what it saves is what the press shows
-TEST_F(WindowTest, SavesAMovieOfThePress)
+TEST_F(WindowTest, SaysThatAnExportHasNoPress)
 {
-  press(80);
-  release();
-  ASSERT_TRUE(window_->saveReplay(QString::fromStdString((folder_.path() / "press.mp4").string())));
-  const auto file = std::filesystem::directory_iterator(folder_.path())->path();
-  EXPECT_EQ(file.stem(), "press");
-  EXPECT_GT(std::filesystem::file_size(file), 10'000U);
+  ASSERT_TRUE(window_->exportData(QString::fromStdString((folder_.path() / "out").string())));
+  EXPECT_TRUE(said().endsWith("no press is in it")) << said().toStdString();
 }
 
 TEST_F(WindowTest, ShowsTheSectionOfAPressOnRequest)

@@ -248,9 +248,9 @@ TEST_F(Sheet, Messages)
       window_->findChild<QLineEdit*>("pressPlace")->setText("900, 0, 0");
       QTest::keyClick(window_->findChild<QLineEdit*>("pressPlace"), Qt::Key_Return);
     });
-  const std::string cut = folder_.path() / "cut.stl";
-  std::ofstream(cut) << "solid";
-  showDialog("11_open", [&] { window_->openFile(cut.c_str()); });
+  const std::string odd = folder_.path() / "odd.obj"; // of no organ's size
+  std::ofstream(odd) << "v 0 0 0\nv 9e9 0 0\nv 0 9e9 0\nf 1 2 3\n";
+  showDialog("11_open", [&] { window_->openFile(odd.c_str()); });
   showDialog("12_figure", [&] { trigger("figureAction"); });
   showDialog("13_export", [&] { trigger("exportAction"); });
   showDialog("14_map_dialog", [&] { trigger("mapAction"); });

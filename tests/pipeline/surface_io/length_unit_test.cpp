@@ -18,7 +18,7 @@ std::string refusal(double longestSide, double field = 0.0)
   }
   catch (const Error& error)
   {
-    EXPECT_EQ(error.code(), ErrorCode::BadMesh);
+    EXPECT_EQ(error.code(), ErrorCode::BadValue);
     return error.what();
   }
 }

@@ -1,0 +1,83 @@
+#include "app/folder/autosave.h"
+#include "tests/app/window/window_rig.h"
+
+#include <QPushButton>
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <optional>
+
+namespace palp
+{
+namespace
+{
+
+// presses that a program left, and the question about them
+class RestoredPresses : public test::WindowTest
+{
+protected:
+  RestoredPresses()
+  {
+    std::optional<Autosave> before(folder_.path());
+    window_->saveTo(*before);
+    press(60);
+    release();
+    waitForPresses(1);
+    before.reset(); // as another program would end
+    window_->saveTo(now_.emplace(folder_.path()));
+  }
+
+  ~RestoredPresses() override
+  {
+    session_->saveTo(nullptr);
+  }
+
+  void answer(const QString& choice) const
+  {
+    for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
+    {
+      button->text() == choice ? button->click() : void();
+    }
+  }
+
+  std::optional<Autosave> now_;
+};
+
+TEST_F(RestoredPresses, AreOfferedAgainWhereDiscardIsUndone)
+{
+  const auto& presses = session_->presses().presses();
+  const double force = presses.front().summary.force;
+  answer("Discard");
+  EXPECT_TRUE(said().startsWith("Discarded 1 press of before; Undo")) << said().toStdString();
+  EXPECT_TRUE(now_->left().empty());
+  canvas_->setFocus();
+  QTest::keyClick(canvas_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(said().startsWith("Not exported yet: 1 press of before")) << said().toStdString();
+  answer("Restore");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return presses.size() == 2; }, kPatience));
+  EXPECT_EQ(presses.back().summary.force, force);
+}
+
+// nobody wants a press twice without a word
+TEST_F(RestoredPresses, AreNotLoadedTwiceUnasked)
+{
+  const auto out = folder_.path() / "out";
+  const QString folder = QString::fromStdString(out.string());
+  const auto listed = [this] { return session_->presses().presses().size(); };
+  ASSERT_TRUE(window_->exportData(folder));
+  ASSERT_TRUE(window_->loadPresses(folder));
+  ASSERT_EQ(listed(), 2U);
+  window_->loadPresses(folder + "/../out/");
+  EXPECT_EQ(listed(), 2U);
+  EXPECT_TRUE(said().endsWith("is loaded already")) << said().toStdString();
+  answer("Load again");
+  EXPECT_EQ(listed(), 3U);
+
+  const QString none = QString::fromStdString((folder_.path() / "empty").string());
+  std::filesystem::create_directory(folder_.path() / "empty");
+  EXPECT_FALSE(window_->loadPresses(none));
+  EXPECT_TRUE(said().startsWith(none + ": is no exported folder")) << said().toStdString();
+}
+
+} // namespace
+} // namespace palp
