@@ -1,4 +1,5 @@
 #include "app/folder/autosave.h"
+#include "app/folder/export_folder.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QPushButton>
@@ -6,14 +7,17 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <optional>
+#include <vtkCamera.h>
 
 namespace palp
 {
 namespace
 {
 
+using test::WindowTest;
+
 // presses that a program left, and the question about them
-class RestoredPresses : public test::WindowTest
+class RestoredPresses : public WindowTest
 {
 protected:
   RestoredPresses()
@@ -77,6 +81,26 @@ TEST_F(RestoredPresses, AreNotLoadedTwiceUnasked)
   std::filesystem::create_directory(folder_.path() / "empty");
   EXPECT_FALSE(window_->loadPresses(none));
   EXPECT_TRUE(said().startsWith(none + ": is no exported folder")) << said().toStdString();
+}
+
+// each as its own body was seen, not as the one that is open
+TEST_F(WindowTest, AnEarlierBodyIsExportedFromWhereItWasSeen)
+{
+  press(80);
+  release();
+  EXPECT_TRUE(waitForLift());
+  const Eigen::Vector3d from(
+    canvas_->renderWindow()->GetRenderers()->GetFirstRenderer()->GetActiveCamera()->GetPosition());
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/block_50.vtp"));
+  waitForFrames();
+  press(80);
+  release();
+  EXPECT_TRUE(waitForLift());
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
+  const auto cameraOf = [this](const char* folder)
+  { return readExport(folder_.path() / folder).plan.camera.value().position; };
+  EXPECT_LT((cameraOf("earlier-1") - from).norm(), 1e-6 * from.norm());
+  EXPECT_GT((cameraOf(".") - from).norm(), 0.01 * from.norm());
 }
 
 } // namespace

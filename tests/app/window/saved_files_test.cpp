@@ -21,7 +21,6 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <set>
-#include <vtkCamera.h>
 
 namespace palp
 {
@@ -340,26 +339,6 @@ TEST_F(WindowTest, KeepsAndExportsWhatAChangeEnds)
   EXPECT_NEAR(peakIn(both / "earlier-1"), peak, 1e-9);
   EXPECT_GT(std::abs(peakIn(both) - peak), 1e-3);
   EXPECT_FALSE(std::filesystem::exists(both / "earlier-2")) << "of another session";
-}
-
-// each as its own body was seen, not as the one that is open
-TEST_F(WindowTest, AnEarlierBodyIsExportedFromWhereItWasSeen)
-{
-  press(80);
-  release();
-  EXPECT_TRUE(waitForLift());
-  const Eigen::Vector3d from(
-    canvas_->renderWindow()->GetRenderers()->GetFirstRenderer()->GetActiveCamera()->GetPosition());
-  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/block_50.vtp"));
-  waitForFrames();
-  press(80);
-  release();
-  EXPECT_TRUE(waitForLift());
-  ASSERT_TRUE(window_->exportData(QString::fromStdString(folder_.path().string())));
-  const auto cameraOf = [this](const char* folder)
-  { return readExport(folder_.path() / folder).plan.camera.value().position; };
-  EXPECT_LT((cameraOf("earlier-1") - from).norm(), 1e-6 * from.norm());
-  EXPECT_GT((cameraOf(".") - from).norm(), 0.01 * from.norm());
 }
 
 } // namespace
