@@ -208,7 +208,7 @@ protected:
   // by what the tool and the view come to
   [[nodiscard]] bool acts(int key, Qt::KeyboardModifiers modifiers)
   {
-    constexpr int kAnswerMs = 30;
+    constexpr double kAnswer = 0.05; // [s] of the servo's own time, which may be kept waiting
     const auto state = [this]
     {
       const double* eye = canvas_->renderWindow()
@@ -223,7 +223,9 @@ protected:
     const int triggered = triggered_;
     const Eigen::VectorXd before = state();
     QTest::keyClick(canvas_, static_cast<Qt::Key>(key), modifiers);
-    QTest::qWait(triggered == triggered_ ? kAnswerMs : 0);
+    const double at = session_->newest().time;
+    EXPECT_TRUE(QTest::qWaitFor(
+      [&] { return triggered_ > triggered || session_->newest().time > at + kAnswer; }, kPatience));
     const bool hasMoved = !state().isApprox(before, 1e-9);
     hasMoved ? waitForRest() : void(); // else the next one would seem to have done it
     return triggered_ > triggered || hasMoved;
