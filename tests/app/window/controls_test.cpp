@@ -226,7 +226,8 @@ protected:
     const double at = session_->newest().time;
     EXPECT_TRUE(QTest::qWaitFor(
       [&] { return triggered_ > triggered || session_->newest().time > at + kAnswer; }, kPatience));
-    const bool hasMoved = !state().isApprox(before, 1e-9);
+    constexpr double kMoved = 1e-5; // [m]; a tool that comes to rest moves by less
+    const bool hasMoved = (state() - before).norm() > kMoved;
     hasMoved ? waitForRest() : void(); // else the next one would seem to have done it
     return triggered_ > triggered || hasMoved;
   }
