@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
 #include <vtkDataArray.h>
@@ -180,14 +181,16 @@ std::vector<vtkPalpChart::Reading> vtkPalpChart::ReadingsAt(double x, double y)
     }
     else
     {
-      double nearest = std::numeric_limits<double>::infinity();
+      // at the line, as its value is told there; of several, the one nearest to the pointer
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      std::pair nearest(kReach, kInfinity);
       for (std::size_t k = 0; k < at.size(); ++k)
       {
-        const double aside = std::abs(at[k] - x) / across;
-        const double distance = std::hypot(aside, (values[k] - y) / up);
-        if (aside < kReach && distance < nearest)
+        const std::pair away(
+          std::max(1.0, std::abs(at[k] - x) / across), std::abs(values[k] - y) / up);
+        if (away < nearest)
         {
-          nearest = distance;
+          nearest = away;
           value = values[k];
         }
       }

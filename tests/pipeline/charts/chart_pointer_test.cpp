@@ -280,6 +280,27 @@ TEST_F(ChartPointer, DrawsNoDotBesideTheCurves)
   EXPECT_EQ(outside, 0);
 }
 
+// at the line, not below the pointer: what is recorded is read there as the curves beside it are
+TEST_F(ChartPointer, ReadsThePointAtTheLine)
+{
+  std::vector<double> x;
+  std::vector<double> y;
+  for (int i = 0; i <= 500; ++i)
+  {
+    x.push_back(0.02 * i);
+    y.push_back(0.04 * i);
+  }
+  plots_[0]->addPoints("recorded", x, y, kRed);
+  (void)test::imageOf(*window_);
+  for (const double pointer : { 2.0, 9.0, 19.0 })
+  {
+    const auto readings = chart().ReadingsAt(5.0, pointer);
+    ASSERT_EQ(readings.size(), 3U);
+    EXPECT_EQ(readings[2].Name, "recorded");
+    EXPECT_NEAR(readings[2].Value, 10.0, 0.1) << pointer; // a pixel is 0.05
+  }
+}
+
 TEST(CurveReading, TakesTheNearestOfSeveralValues)
 {
   const std::vector<double> x{ -1.0, 1.0, 1.0, -1.0 };
