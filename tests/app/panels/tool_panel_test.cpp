@@ -3,12 +3,11 @@
 #include "app/input/tip_text.h"
 #include "app/press/calibration.h"
 #include "haptics/error.h"
+#include "tests/app/dialog_closer.h"
 #include "tests/app/panels/panel_rig.h"
 
-#include <QDialog>
 #include <QLineEdit>
 #include <QSignalSpy>
-#include <QTimer>
 
 #include <gtest/gtest.h>
 #include <map>
@@ -168,20 +167,9 @@ TEST_F(TissuePanelTest, RefusesAFileThatIsNoProfile)
 TEST_F(TissuePanelTest, KeepsTheToolWhereNoFileIsChosen)
 {
   const QSignalSpy changes(panel_.get(), &TissuePanel::tissueChanged);
-  bool asked = false;
-  QTimer closer;
-  QObject::connect(&closer, &QTimer::timeout,
-    [&]
-    {
-      if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
-      {
-        asked = true;
-        dialog->reject();
-      }
-    });
-  closer.start(100);
+  const test::DialogCloser closer;
   list("kind").setCurrentIndex(FromFile);
-  EXPECT_TRUE(asked);
+  EXPECT_GT(closer.count(), 0);
   EXPECT_EQ(list("kind").currentIndex(), Sphere);
   EXPECT_EQ(changes.count(), 0);
 }

@@ -4,6 +4,7 @@
 #include "data/shapes.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
+#include "tests/app/supports/slabs.h"
 #include "tests/support/process.h"
 
 #include <fstream>
@@ -239,19 +240,7 @@ TEST_F(SupportCommand, TellsTheForceOfTheBlockAndThatOfAHalfSpace)
 TEST_F(SupportCommand, HoldsALabelByAnotherOfItsImage)
 {
   const auto image = folder_.path() / "slabs.nrrd";
-  std::ofstream out(image, std::ios::binary);
-  out << "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\n"
-         "sizes: 44 44 24\nspace directions: (2,0,0) (0,2,0) (0,0,2)\n"
-         "kinds: domain domain domain\nencoding: raw\nspace origin: (-43,-43,-47)\n\n";
-  for (int voxel = 0; voxel < 44 * 44 * 24; ++voxel)
-  {
-    const int x = voxel % 44;
-    const int y = voxel / 44 % 44;
-    const int z = voxel / (44 * 44);
-    const bool isIn = x >= 2 && x < 42 && y >= 2 && y < 42 && z >= 2 && z < 22;
-    out.put(static_cast<char>(isIn ? (z < 12 ? 7 : 3) : 0));
-  }
-  out.close();
+  test::writeSlabs(image, 40, 20);
   const auto pressed = [&](const std::string& support)
   {
     return test::runCommand(PALP_PROGRAM " organ " + image.string() +

@@ -1,5 +1,6 @@
 // What each control of the window and its dialogs tells, also to those who cannot see it, and which
 // keys there are.
+#include "tests/app/dialog_closer.h"
 #include "tests/app/panels/label_map.h"
 #include "tests/app/window/window_rig.h"
 
@@ -131,23 +132,15 @@ protected:
   // looks at what opens, and closes it
   static void expectDialog(const std::function<void()>& open, int controls, int quantities)
   {
-    bool isSeen = false;
-    QTimer look;
-    connect(&look, &QTimer::timeout,
-      [&]
+    const test::DialogCloser closer(
+      [&](QDialog& dialog)
       {
-        if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
-        {
-          SCOPED_TRACE(dialog->windowTitle().toStdString());
-          isSeen = true;
-          EXPECT_GE(checkNames(*dialog), controls);
-          EXPECT_EQ(checkQuantities(*dialog), quantities);
-          dialog->reject();
-        }
+        SCOPED_TRACE(dialog.windowTitle().toStdString());
+        EXPECT_GE(checkNames(dialog), controls);
+        EXPECT_EQ(checkQuantities(dialog), quantities);
       });
-    look.start(100);
     open();
-    EXPECT_TRUE(isSeen);
+    EXPECT_GT(closer.count(), 0);
   }
 
   template <typename... Arguments>

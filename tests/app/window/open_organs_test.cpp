@@ -3,6 +3,7 @@
 #include "haptics/surface/area_and_volume.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
+#include "tests/app/dialog_closer.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QCheckBox>
@@ -284,18 +285,7 @@ TEST_F(WindowTest, DroppedOrganFileIsFelt)
 // no answer to a question opens these
 TEST_F(WindowTest, AFileThatCannotBeReadIsToldInTheBar)
 {
-  int asked = 0;
-  QTimer look;
-  QObject::connect(&look, &QTimer::timeout,
-    [&]
-    {
-      if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
-      {
-        ++asked;
-        dialog->reject();
-      }
-    });
-  look.start(10);
+  const test::DialogCloser closer;
   const auto tells = [&](const char* name, const std::string& bytes, const char* why)
   {
     const std::filesystem::path file = folder_.path() / name;
@@ -309,7 +299,7 @@ TEST_F(WindowTest, AFileThatCannotBeReadIsToldInTheBar)
   tells("word.stl", "solid x", "not an STL file");
   tells("cut.vtp", whole.substr(0, whole.size() / 2), "export");
   tells("picture.png", "\x89PNG\r\n", "give a surface");
-  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(closer.count(), 0);
 }
 
 } // namespace

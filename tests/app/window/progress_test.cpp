@@ -1,3 +1,4 @@
+#include "tests/app/dialog_closer.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QAbstractButton>
@@ -120,18 +121,8 @@ TEST_F(Progress, OfReadingEndsWhereItFails)
 {
   const std::filesystem::path odd = folder_.path() / "odd.obj";
   std::ofstream(odd) << "v 0 0 0\nv 9e9 0 0\nv 0 9e9 0\nf 1 2 3\n";
-  QTimer look;
   QString behind = "no dialog";
-  QObject::connect(&look, &QTimer::timeout,
-    [&]
-    {
-      if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
-      {
-        behind = said();
-        dialog->reject();
-      }
-    });
-  look.start(10);
+  const test::DialogCloser closer([&](QDialog&) { behind = said(); });
   window_->openFile(QString::fromStdString(odd.string()));
   EXPECT_EQ(behind, "");
   EXPECT_EQ(said(), "");

@@ -1,8 +1,8 @@
+#include "tests/app/dialog_closer.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QAction>
 #include <QComboBox>
-#include <QDialog>
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -30,22 +30,11 @@ TEST_F(WindowTest, SavesAMovieOfThePress)
 // with nothing pressed there is no question; a press of before the last change counts
 TEST_F(WindowTest, AMovieIsOfAPressThatWasMade)
 {
-  bool hasAsked = false;
-  QTimer look;
-  QObject::connect(&look, &QTimer::timeout,
-    [&]
-    {
-      if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
-      {
-        hasAsked = true;
-        dialog->reject();
-      }
-    });
-  look.start(10);
+  const test::DialogCloser closer;
   for (const char* name : { "movieAction", "turntableAction" })
   {
     window_->findChild<QAction*>(name)->trigger();
-    EXPECT_FALSE(hasAsked) << name;
+    EXPECT_EQ(closer.count(), 0) << name;
     EXPECT_TRUE(said().contains("press first")) << said().toStdString();
   }
   press(60);
@@ -54,7 +43,7 @@ TEST_F(WindowTest, AMovieIsOfAPressThatWasMade)
   window_->findChild<QComboBox*>("kind")->setCurrentIndex(1);
   ASSERT_FALSE(session_->recording().isTouched());
   window_->findChild<QAction*>("movieAction")->trigger();
-  EXPECT_TRUE(hasAsked) << said().toStdString();
+  EXPECT_GT(closer.count(), 0) << said().toStdString();
 }
 
 } // namespace

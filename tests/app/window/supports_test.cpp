@@ -3,6 +3,7 @@
 #include "data/shapes.h"
 #include "haptics/files/number_table.h"
 #include "haptics/units.h"
+#include "tests/app/supports/slabs.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QComboBox>
@@ -183,19 +184,7 @@ TEST_F(Supports, IsPaintedByTheKeyboardAloneAndTyped)
 // voxels of 2 mm, so the surface is smooth by about one of them where they meet
 TEST_F(Supports, ALabelThatItRestsOnIsSeen)
 {
-  std::ofstream image(folder_.path() / "slabs.nrrd", std::ios::binary);
-  image << "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\n"
-           "sizes: 24 24 14\nspace directions: (2,0,0) (0,2,0) (0,0,2)\n"
-           "kinds: domain domain domain\nencoding: raw\nspace origin: (-23,-23,-23)\n\n";
-  for (int voxel = 0; voxel < 24 * 24 * 14; ++voxel)
-  {
-    const int x = voxel % 24;
-    const int y = voxel / 24 % 24;
-    const int z = voxel / (24 * 24);
-    const bool isIn = x >= 2 && x < 22 && y >= 2 && y < 22 && z >= 2 && z < 12;
-    image.put(static_cast<char>(isIn ? (z < 7 ? 7 : 3) : 0));
-  }
-  image.close();
+  test::writeSlabs(folder_.path() / "slabs.nrrd", 20, 10);
   std::ofstream(folder_.path() / "slab.json")
     << R"({"palp_scene": 1, "meshes": [{"file": "slabs.nrrd", "label": "3"}]})";
   ASSERT_TRUE(window_->openFiles({ path("slab.json") })) << said().toStdString();
