@@ -100,12 +100,10 @@ std::optional<SupportPainting::Others> SupportPainting::othersOf(
   const std::vector<std::string>& texts)
 {
   const auto felt = felt_;
-  std::vector<std::string> labels;
-  std::ranges::transform(texts, std::back_inserter(labels), &labelOfSupport);
-  std::erase(labels, std::string());
-  const std::optional<FindRegion> find = labels.empty()
-    ? FindRegion{}
-    : behind_([source = source_, labels] { return readRegions(source, labels); });
+  const auto read = [source = source_, texts] { return readRegions(source, texts); };
+  const bool isOfLabels = std::ranges::any_of(
+    texts, [](const std::string& text) { return !labelOfSupport(text).empty(); });
+  const std::optional<FindRegion> find = isOfLabels ? behind_(read) : FindRegion{};
   if (felt_ != felt)
   {
     return std::nullopt;

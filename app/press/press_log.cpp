@@ -54,8 +54,7 @@ std::vector<CurvePoint> curveBySteps(
   return curve;
 }
 
-// even along the curve: by time, a tool that is held would take the points of those that it moves
-// at
+// even along the curve: by time, the points would be of where the tool is held
 std::vector<CurvePoint> curveOf(const PressSummary& press, const Recording& recording)
 {
   const std::vector<Sample>& all = recording.samples;
@@ -68,11 +67,9 @@ std::vector<CurvePoint> curveOf(const PressSummary& press, const Recording& reco
     return {};
   }
   constexpr double kFinest = 1.0 / 200;
-  double step = kFinest;
-  std::vector<CurvePoint> curve = curveBySteps(samples, deepest, step);
-  while (curve.size() > KeptPress::kCurve)
+  std::vector<CurvePoint> curve;
+  for (double step = kFinest; curve.empty() || curve.size() > KeptPress::kCurve; step *= 2.0)
   {
-    step *= 2.0;
     curve = curveBySteps(samples, deepest, step);
   }
   return curve;

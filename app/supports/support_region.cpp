@@ -30,24 +30,20 @@ SupportRegion readRegion(const MeshSource& mesh, const std::string& label)
 
 } // namespace
 
-FindRegion regionsBeside(const MeshSource& mesh)
+FindRegion readRegions(const MeshSource& mesh, const std::vector<std::string>& supports)
 {
-  return mesh.part.labels.empty() ? FindRegion{} : [&mesh](const std::string& label) {
-    return readRegion(mesh, label);
-  };
-}
-
-FindRegion readRegions(const MeshSource& mesh, const std::vector<std::string>& labels)
-{
-  const FindRegion read = regionsBeside(mesh);
-  if (!read)
+  if (mesh.part.labels.empty())
   {
     return {};
   }
   std::map<std::string, SupportRegion> regions;
-  for (const std::string& label : labels)
+  for (const std::string& support : supports)
   {
-    regions.emplace(label, read(label));
+    if (const std::string label = labelOfSupport(support);
+        !label.empty() && !regions.contains(label))
+    {
+      regions.emplace(label, readRegion(mesh, label));
+    }
   }
   return [regions = std::move(regions)](const std::string& label) { return regions.at(label); };
 }

@@ -1,15 +1,26 @@
 #pragma once
 
-#include "app/supports/support_region.h"
 #include "calibration/organ/organ_model.h"
 #include "haptics/surface/surface.h"
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace palp
 {
+
+/// Another region of the image that a body is of.
+struct SupportRegion
+{
+  std::shared_ptr<const Surface> surface; ///< never null
+  double reach = 0.0;                     ///< to what it holds [m]
+};
+
+/// @param label  value or name
+using FindRegion = std::function<SupportRegion(const std::string& label)>;
 
 /// Where a body rests, as text: `KIND:box:X0,Y0,Z0:X1,Y1,Z1` in mm holds it within a box,
 /// `KIND:direction:X,Y,Z:ANGLE` where its surface faces a direction within an angle,

@@ -14,8 +14,7 @@ struct RepairedMesh
 {
   std::vector<Eigen::Vector3d> points; ///< [m]
   std::vector<Triangle> triangles;     ///< facing outward where closed
-  std::size_t merged =
-    0; ///< points that coincided with others, or nearly so at a seam, or were not used
+  std::size_t merged = 0;              ///< points at the place of others or of a seam, or not used
   std::size_t removed = 0;     ///< triangles without three corners, there twice, or within the body
   std::size_t slivers = 0;     ///< collapsed, or flipped into others
   std::size_t split = 0;       ///< points made of those where parts met, not as a manifold

@@ -8,7 +8,6 @@
 #include "app/places/placed_press.h"
 #include "app/press/body.h"
 #include "app/supports/support_region.h"
-#include "app/supports/support_text.h"
 #include "calibration/figures/table.h"
 #include "calibration/organ/organ_compliance.h"
 #include "calibration/organ/organ_places.h"
@@ -53,7 +52,7 @@ struct OrganOptions
 
 std::vector<Support> supportsOf(const OrganOptions& options, const Surface& surface)
 {
-  const FindRegion find = regionsBeside(options.mesh);
+  const FindRegion find = readRegions(options.mesh, options.supports);
   std::vector<Support> supports;
   for (const std::string& text : options.supports)
   {
