@@ -197,7 +197,7 @@ public:
     for (const auto& [folder, all] : names)
     {
       folders_[folder] =
-        openOutput(folder, all, options.overwrite, filesBehind(options.source.file));
+        &outputs_.open(folder, all, options.overwrite, filesBehind(options.source.file));
     }
   }
 
@@ -220,7 +220,8 @@ private:
     return std::filesystem::absolute(file).lexically_normal().parent_path();
   }
 
-  std::map<std::filesystem::path, std::unique_ptr<OutputFolder>> folders_;
+  Outputs outputs_;
+  std::map<std::filesystem::path, OutputFolder*> folders_;
 };
 
 std::string doneIn(const RepairedMesh& repaired)

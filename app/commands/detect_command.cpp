@@ -6,7 +6,6 @@
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "app/program/exec_program.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
@@ -205,10 +204,10 @@ void runDetect(const DetectOptions& options, const Renderer* pictures)
   {
     execProgram("palp-draw");
   }
-  const auto output = keeps ? openOutput(options.out, { "detect.csv", "detect.png" },
-                                options.overwrite, { fileOf(options.tissue.tip) })
-                            : nullptr;
-  const Interrupt interrupt([&output] { output ? output->discard() : void(); });
+  Outputs outputs;
+  OutputFolder* output = keeps ? &outputs.open(options.out, { "detect.csv", "detect.png" },
+                                   options.overwrite, { fileOf(options.tissue.tip) })
+                               : nullptr;
   const std::array tables{ detect(options) };
   const std::string text = headOf(options) + figures::csv(tables[0], kDigits);
   if (keeps)

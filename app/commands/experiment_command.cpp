@@ -102,8 +102,8 @@ void runExperiments(const ExperimentOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   const std::vector<Named> wanted = wantedOf(options.names);
+  Interrupt interrupt; // before there is a folder to put in order
   const auto output = openOutput(options.out, filesOf(wanted), options.overwrite);
-  Interrupt interrupt;
   for (const Named& named : wanted)
   {
     std::cerr << "palp: " << named.what << '\n';

@@ -7,7 +7,6 @@
 #include "app/input/scene_plan.h"
 #include "app/map/map_files.h"
 #include "app/press/recording.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
 #include "app/scene/scene_file.h"
@@ -157,9 +156,9 @@ MapSubject subjectOf(const MapOptions& options)
 void makeMap(const MapOptions& options)
 {
   const MapRequest request = requestOf(options);
-  const auto output =
-    openOutput(options.out, { kMapTable, kMapSurface }, options.overwrite, { options.mesh.file });
-  const Interrupt interrupt([&output] { output->discard(); });
+  Outputs outputs;
+  OutputFolder& output =
+    outputs.open(options.out, { kMapTable, kMapSurface }, options.overwrite, { options.mesh.file });
   const auto& [body, scene] = subjectOf(options);
   for (const std::string& note : body.notes)
   {
@@ -178,8 +177,8 @@ void makeMap(const MapOptions& options)
       "the tool gets " + units::inMillimeters(request.depth) +
         " deep nowhere; give less --depth or a smaller --tip");
   }
-  writeMap(output->stage(), map, body, true);
-  output->publish();
+  writeMap(output.stage(), map, body, true);
+  output.publish();
   tell(map, options.out);
 }
 

@@ -3,7 +3,6 @@
 #include "app/input/option_values.h"
 #include "app/input/quantity.h"
 #include "app/input/scene_plan.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/scene/scene_text.h"
 #include "calibration/figures/table.h"
@@ -218,19 +217,19 @@ void runPhantom(const PhantomOptions& options)
   {
     own.push_back(part.name + ".vtp");
   }
-  const auto output = openOutput(options.out, own, options.overwrite);
-  const Interrupt interrupt([&output] { output->discard(); });
+  Outputs outputs;
+  OutputFolder& output = outputs.open(options.out, own, options.overwrite);
   const LabelMap map = labelMapOf(phantom, options.voxel);
   for (const PhantomPart& part : phantom.parts)
   {
-    writeSurface(output->stage() / (part.name + ".vtp"),
+    writeSurface(output.stage() / (part.name + ".vtp"),
       *makePolyData(part.surface.points, part.surface.triangles), "LPS");
   }
-  replaceFile(output->stage() / image, imageOf(map, options.voxel));
-  replaceFile(output->stage() / colors, colorsOf(phantom));
+  replaceFile(output.stage() / image, imageOf(map, options.voxel));
+  replaceFile(output.stage() / colors, colorsOf(phantom));
   replaceFile(
-    output->stage() / "scene.json", sceneText(planOf(phantom, output->stage()), output->stage()));
-  output->publish();
+    output.stage() / "scene.json", sceneText(planOf(phantom, output.stage()), output.stage()));
+  output.publish();
   warnOfCoarseVoxels(phantom, map, options.voxel);
   std::cout << tableOf(phantom, map, options.voxel);
 }

@@ -135,9 +135,10 @@ void repeat(const RunOptions& options, const Renderer* pictures)
     execProgram("palp-draw");
   }
   BuildTrace silent(false);
-  const auto output =
-    openOutput(options.out, exportFiles(), options.overwrite, inputsOf(made.plan));
-  playPlan(made.plan, *output, pictures, silent, &made);
+  Outputs outputs;
+  OutputFolder& output =
+    outputs.open(options.out, exportFiles(), options.overwrite, inputsOf(made.plan));
+  playPlan(made.plan, output, pictures, silent, &made);
 }
 
 bool draws(const RunOptions& options)
@@ -185,8 +186,10 @@ void run(const RunOptions& options, const Renderer* pictures)
   }
   const ScenePlan plan = planOf(options);
   BuildTrace silent(false);
-  const auto output = openOutput(options.out, exportFiles(), options.overwrite, inputsOf(plan));
-  playPlan(plan, *output, pictures, silent);
+  Outputs outputs;
+  OutputFolder& output =
+    outputs.open(options.out, exportFiles(), options.overwrite, inputsOf(plan));
+  playPlan(plan, output, pictures, silent);
 }
 
 // what is drawn and kept of a press

@@ -1,5 +1,4 @@
 #include "app/commands/commands.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
 #include "app/report/stability_map.h"
@@ -28,9 +27,9 @@ struct StabilityOptions
 
 void studyStability(const StabilityOptions& options)
 {
-  const auto output =
-    openOutput(options.out, { "stability.csv", "stability.svg" }, options.overwrite);
-  const Interrupt interrupt([&output] { output->discard(); });
+  Outputs outputs;
+  OutputFolder& output =
+    outputs.open(options.out, { "stability.csv", "stability.svg" }, options.overwrite);
   const std::vector<JudgedCase> cases = [&]
   {
     ProgressLine progress("closed loops");
@@ -38,9 +37,9 @@ void studyStability(const StabilityOptions& options)
   }();
   std::ostringstream map;
   drawStabilityMap(map, cases);
-  replaceFile(output->stage() / "stability.csv", figures::csv(stabilityTable(cases)));
-  replaceFile(output->stage() / "stability.svg", map.str());
-  output->publish();
+  replaceFile(output.stage() / "stability.csv", figures::csv(stabilityTable(cases)));
+  replaceFile(output.stage() / "stability.svg", map.str());
+  output.publish();
   std::cout << stabilitySummary(cases);
 }
 

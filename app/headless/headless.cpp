@@ -10,7 +10,6 @@
 #include "app/press/recording.h"
 #include "app/program/build_trace.h"
 #include "app/program/exec_program.h"
-#include "app/program/interrupt.h"
 #include "app/program/progress_line.h"
 #include "app/train/score_sheet.h"
 #include "haptics/devices/simulated/scripted_path.h"
@@ -287,7 +286,6 @@ void tellDifferences(const ExportFolder& repeated, const std::filesystem::path& 
 void playPlan(const ScenePlan& plan, OutputFolder& output, const Renderer* pictures,
   BuildTrace& trace, const ExportFolder* repeated)
 {
-  const Interrupt interrupt([&output] { output.discard(); });
   Recording recording;
   recording.rated = plan.validity;
   recording.organs = plan.organs;

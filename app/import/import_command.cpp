@@ -5,7 +5,6 @@
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
 #include "calibration/figures/table.h"
@@ -219,9 +218,9 @@ void runImport(const ImportOptions& options)
                                    : tell("the file names no unit; give --unit mm for volumes");
     return;
   }
-  const auto output = openOutput(
+  Outputs outputs;
+  OutputFolder& output = outputs.open(
     options.out, importFiles(options.out), options.overwrite, filesBehind(options.image));
-  const Interrupt interrupt([&output] { output->discard(); });
   FileOrgans all = found(options);
   std::vector<std::string> warnings;
   colorAs(all.organs, options.names);
@@ -246,15 +245,15 @@ void runImport(const ImportOptions& options)
     }
     organs.push_back(making[organs.size()].get());
     organs.back().file = file;
-    writeOrgan(output->stage(), organs.back(), all.space);
+    writeOrgan(output.stage(), organs.back(), all.space);
     for (const std::string& warning : organs.back().warnings)
     {
       warnings.push_back(organs.back().name + ": " + warning);
     }
   }
-  replaceFile(output->stage() / kImportScene, importScene(source, organs));
-  replaceFile(output->stage() / kImportManifest, importManifest(source, organs));
-  output->publish();
+  replaceFile(output.stage() / kImportScene, importScene(source, organs));
+  replaceFile(output.stage() / kImportManifest, importManifest(source, organs));
+  output.publish();
   for (const std::string& warning : warnings)
   {
     tell("warning: " + warning);

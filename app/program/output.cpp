@@ -49,4 +49,31 @@ std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
   return output;
 }
 
+Outputs::Outputs()
+  : interrupt_(
+      [this]
+      {
+        const std::lock_guard lock(mutex_);
+        for (const auto& folder : folders_)
+        {
+          folder->discard();
+        }
+      })
+{
+}
+
+Outputs::~Outputs()
+{
+  const std::lock_guard lock(mutex_);
+  folders_.clear();
+}
+
+OutputFolder& Outputs::open(const std::filesystem::path& folder, std::vector<std::string> own,
+  bool overwrite, const std::vector<std::filesystem::path>& inputs)
+{
+  const std::lock_guard lock(mutex_);
+  folders_.push_back(openOutput(folder, std::move(own), overwrite, inputs));
+  return *folders_.back();
+}
+
 } // namespace palp

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "app/program/interrupt.h"
 #include "haptics/files/output_folder.h"
 
 #include <memory>
+#include <mutex>
+#include <vector>
 
 namespace CLI
 {
@@ -32,5 +35,28 @@ void keepInputs(const std::filesystem::path& folder, const std::vector<std::stri
 [[nodiscard]] std::unique_ptr<OutputFolder> openOutput(const std::filesystem::path& folder,
   std::vector<std::string> own, bool overwrite,
   const std::vector<std::filesystem::path>& inputs = {});
+
+/// The folders that a command writes; while it lives, Ctrl-C, SIGTERM and a terminal that closes
+/// end the program, but leave nothing there that is not published.
+///
+/// Made as Interrupt is, which none is beside it.
+class Outputs
+{
+public:
+  Outputs();
+  ~Outputs();
+  Outputs(const Outputs&) = delete;
+  Outputs& operator=(const Outputs&) = delete;
+
+  /// As openOutput; the folder lives as long as this.
+  [[nodiscard]] OutputFolder& open(const std::filesystem::path& folder,
+    std::vector<std::string> own, bool overwrite,
+    const std::vector<std::filesystem::path>& inputs = {});
+
+private:
+  std::mutex mutex_; // over the folders: none is half made when a signal ends the program
+  std::vector<std::unique_ptr<OutputFolder>> folders_;
+  Interrupt interrupt_;
+};
 
 } // namespace palp

@@ -9,7 +9,6 @@
 #include "app/input/quantity.h"
 #include "app/input/tip_text.h"
 #include "app/program/exec_program.h"
-#include "app/program/interrupt.h"
 #include "app/program/output.h"
 #include "app/program/progress_line.h"
 #include "calibration/fit/fit_figures.h"
@@ -166,20 +165,20 @@ void runFit(const FitOptions& options, const Renderer* pictures)
   }
   std::vector<std::filesystem::path> inputs = options.files;
   inputs.push_back(fileOf(options.tip));
-  const auto output = openOutput(
+  Outputs outputs;
+  OutputFolder& output = outputs.open(
     options.out, { "fit.json", "fit.csv", "fit.png", "residuals.png" }, options.overwrite, inputs);
-  const Interrupt interrupt([&output] { output->discard(); });
   const std::vector<FileFit> fits = fitFiles(options);
   std::vector<FittedCurve> curves;
   std::ranges::transform(fits, std::back_inserter(curves), &FileFit::curve);
   const std::array tables{ fit::fitTable(curves) };
-  replaceFile(output->stage() / "fit.json", allJson(options, fits).dump(2) + "\n");
-  replaceFile(output->stage() / "fit.csv", figures::csv(tables[0]));
+  replaceFile(output.stage() / "fit.json", allJson(options, fits).dump(2) + "\n");
+  replaceFile(output.stage() / "fit.csv", figures::csv(tables[0]));
   if (!options.noPicture)
   {
-    pictures->drawFigures(fit::fitFigures(curves), tables, figures::Layout::Alone, output->stage());
+    pictures->drawFigures(fit::fitFigures(curves), tables, figures::Layout::Alone, output.stage());
   }
-  output->publish();
+  output.publish();
   for (const FileFit& file : fits)
   {
     tellResult(file);

@@ -103,8 +103,10 @@ void play(const ScenePlan& plan, const TrainOptions& options, const Renderer* pi
     execProgram("palp-draw");
   }
   BuildTrace silent(false);
-  const auto output = openOutput(options.out, exportFiles(), options.overwrite, inputsOf(plan));
-  playPlan(plan, *output, pictures, silent, made);
+  Outputs outputs;
+  OutputFolder& output =
+    outputs.open(options.out, exportFiles(), options.overwrite, inputsOf(plan));
+  playPlan(plan, output, pictures, silent, made);
 }
 
 void repeat(const TrainOptions& options, const Renderer* pictures)

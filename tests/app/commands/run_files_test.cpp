@@ -143,8 +143,8 @@ TEST_F(RunCommand, ASignalLeavesNothingBehind)
   {
     const Finished ended = test::runCommand(PALP_PROGRAM " run --out " + out.string() +
       " 2>/dev/null & running=$!; until [ -e " + (folder_.path() / ".out.palp-").string() +
-      "* ]; do sleep 0.01; done; kill -" + signal + " $running; wait $running");
-    EXPECT_GT(ended.code, 128) << signal; // as a shell tells it
+      "* ]; do :; done; kill -" + signal + " $running; wait $running"); // as early as can be
+    EXPECT_GT(ended.code, 128) << signal;                               // as a shell tells it
     EXPECT_FALSE(std::filesystem::exists(out)) << signal;
     EXPECT_EQ(stagesIn(folder_.path()), 0) << signal;
   }
