@@ -83,9 +83,12 @@ LocalShape ShapeAverage::shape() const noexcept
   const double slender = mean(4);
   shape.thickness = 1.0 / (slender * slender);
   const LocalShape::Slope thinner = slope(4, Eigen::Vector2d::Zero());
-  const double factor = -2.0 * shape.thickness / slender;
-  shape.thicknessSlope = { factor * thinner.place, factor * thinner.radius,
-    factor * thinner.normal };
+  if (std::isfinite(shape.thickness)) // else it does not change
+  {
+    const double factor = -2.0 * shape.thickness / slender;
+    shape.thicknessSlope = { factor * thinner.place, factor * thinner.radius,
+      factor * thinner.normal };
+  }
   shape.hollow = static_cast<double>(hollow_) / static_cast<double>(sums_(0, 0));
   return shape;
 }

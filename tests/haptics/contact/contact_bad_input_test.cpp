@@ -32,6 +32,8 @@ bool usable(const Contact& contact)
     contact.center.allFinite() && std::isfinite(contact.tilt) &&
     std::isfinite(contact.surfaceCurvature) && !std::isnan(contact.thickness) &&
     contact.thickness >= 0.0 && !std::isnan(contact.edgeDistance) &&
+    std::isfinite(contact.curvatureSpread) && contact.curvatureSlope.allFinite() &&
+    contact.spreadSlope.allFinite() && contact.thicknessSlope.allFinite() &&
     (!contact.touching() || std::abs(contact.normal.norm() - 1.0) < 1e-9);
 }
 

@@ -1,11 +1,14 @@
 #include "haptics/servo/servo_step.h"
 
+#include "haptics/contact/embed_nodules.h"
 #include "haptics/units.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/surfaces.h"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <limits>
+#include <memory>
 
 namespace palp
 {
@@ -79,6 +82,40 @@ TEST(ServoStep, WhatIsNotFiniteGivesNoForce)
     const Sample sample = step(world, at(-2.0_mm, -0.1));
     EXPECT_EQ(sample.force, Eigen::Vector3d::Zero()) << bad;
     EXPECT_TRUE(sample.flags & static_cast<std::uint32_t>(Flag::NotFinite)) << bad;
+  }
+}
+
+// whose thickness is not known: under the law, over a nodule, in a map and where it gives way
+TEST(ServoStep, AnOpenSheetPushesAsABodyWithoutEnd)
+{
+  Scene world = scene();
+  world.surface = std::make_shared<const Surface>(test::makeSurface(test::sheet(0.1, 21)));
+  const double flat = step(world, at(-2.0_mm)).force.z();
+  ASSERT_GT(flat, 0.1);
+  world.law = ForceLaw(world.law.tip(), world.law.material(),
+    { .mode = LawMode::Corrected, .constitution = ConstitutiveModel::Linear });
+  const Sample corrected = step(world, at(-2.0_mm));
+  EXPECT_NEAR(corrected.force.z(), flat, 0.03 * flat); // a ball is no paraboloid
+  EXPECT_NEAR(corrected.force.head<2>().norm(), 0.0, 1e-6);
+
+  Scene soft = world;
+  const PlacedNodule nodule{ { 3.0_mm, 0.0, -8.0_mm }, 4.0_mm, 5.0 };
+  soft.nodules = embedNodules(*world.surface, world.law, std::array{ nodule });
+  const Sample beside = step(soft, at(-2.0_mm));
+  EXPECT_GT(beside.force.z(), 1.01 * flat);
+  EXPECT_LT(beside.force.x(), -1e-4); // away from what is stiff
+
+  Scene yielding = world;
+  const std::array place{ PlacedCompliance{ .constant = 50.0, .slope = { 0.0, 200.0, 0.0 } } };
+  yielding.series =
+    seriesBodyOf(std::make_shared<const ComplianceField>(place, 50.0_mm, 0.33), world.law);
+  const Sample given = step(yielding, at(-2.0_mm));
+  EXPECT_LT(given.force.z(), 0.9 * flat);
+  EXPECT_GT(given.force.y(), 1e-4); // toward what is soft
+  for (const Sample& sample : { corrected, beside, given })
+  {
+    EXPECT_EQ(sample.flags, 0U);
+    EXPECT_TRUE(sample.force.allFinite());
   }
 }
 
