@@ -51,6 +51,7 @@ Scene organOn(const Mesh& mesh)
       kSpacing * (i / count) - 0.5 * kBenchSide, mesh.points.front().z() };
     place.constant = 50.0;
     place.slope = { 300.0, 0.0, 0.0 };
+    place.bend = -2e4;
   }
   Scene scene;
   scene.series = seriesBodyOf(
@@ -59,13 +60,15 @@ Scene organOn(const Mesh& mesh)
   return scene;
 }
 
-// after its soft start, round and round
+// round and round, after a soft start in the air and a way down that no limit holds back
 BenchRow benchMoving(ServoTick& tick, std::size_t vertices, int ticks, const char* variant)
 {
   const auto move = [&](int i) { (void)tick(poseAtTick(i)); };
   for (int i = 0; i < kSoftStart; ++i)
   {
-    move(i);
+    ToolPose above = poseAtTick(i);
+    above.apex.z() += kBenchDepth * (4.0 - 4.0 * i / kSoftStart);
+    (void)tick(above);
   }
   BenchRow row = benchRow("servo_step", vertices, "moving",
     timed(

@@ -25,14 +25,16 @@ struct Knee
 };
 
 // where the law becomes stiffer than the limit; infinite values count as stiffer
-Knee kneeOf(const DepthLaw& law, double upTo, double limit) noexcept
+// @param last  what the law says at upTo
+Knee kneeOf(const DepthLaw& law, double upTo, const Response& last, double limit) noexcept
 {
-  const auto isSoft = [&](double depth)
+  const auto isSoft = [limit](const Response& at, double depth)
+  { return at.stiffness <= limit && at.force <= limit * depth; };
+  if (isSoft(last, upTo))
   {
-    const Response at = law(depth);
-    return at.stiffness <= limit && at.force <= limit * depth;
-  };
-  const double depth = isSoft(upTo) ? upTo : lastWhere(isSoft, 0.0, upTo);
+    return { upTo, last.force };
+  }
+  const double depth = lastWhere([&](double at) { return isSoft(law(at), at); }, 0.0, upTo);
   return { depth, depth > 0.0 ? law(depth).force : 0.0 };
 }
 
@@ -54,7 +56,7 @@ Rendered couple(const DepthLaw& law, double depth, double limit) noexcept
   {
     return {};
   }
-  const Knee knee = kneeOf(law, depth, limit);
+  const Knee knee = kneeOf(law, depth, at, limit);
   if (knee.depth == depth)
   {
     return { at.force, at.stiffness, depth, false, depth, at.force };
@@ -67,7 +69,6 @@ Rendered couple(const DepthLaw& law, double depth, double limit) noexcept
   return { force, limit, inverse(law, force, knee.depth, depth), true, knee.depth, knee.force };
 }
 
-// by Gauss in the root of the depth, exact for the powers 1, 3/2 and 2 of punch, sphere and cone
 double storedEnergy(const DepthLaw& law, const Rendered& felt, double depth) noexcept
 {
   if (!(felt.force > 0.0))
@@ -75,20 +76,7 @@ double storedEnergy(const DepthLaw& law, const Rendered& felt, double depth) noe
     return 0.0;
   }
   const double spring = 0.5 * (felt.kneeForce + felt.force) * (depth - felt.kneeDepth);
-  struct Node
-  {
-    double root;
-    double weight;
-  };
-  static const double kSpread = std::sqrt(0.15);
-  double energy = 0.0;
-  for (const auto& [root, weight] : { Node{ 0.5 - kSpread, 5.0 / 18.0 }, Node{ 0.5, 8.0 / 18.0 },
-         Node{ 0.5 + kSpread, 5.0 / 18.0 } })
-  {
-    const double force = law(felt.kneeDepth * root * root).force;
-    energy += std::isfinite(force) ? weight * 2.0 * root * felt.kneeDepth * force : 0.0;
-  }
-  return spring + energy;
+  return spring + law.energy(felt.kneeDepth);
 }
 
 double depthOf(const DepthLaw& law, double force, double limit, double upTo) noexcept
@@ -97,7 +85,7 @@ double depthOf(const DepthLaw& law, double force, double limit, double upTo) noe
   {
     return 0.0;
   }
-  const Knee knee = kneeOf(law, upTo, limit);
+  const Knee knee = kneeOf(law, upTo, law(upTo), limit);
   const double depth = force > knee.force ? knee.depth + (force - knee.force) / limit
                                           : inverse(law, force, 0.0, knee.depth);
   return std::fmin(depth, upTo);

@@ -3,21 +3,54 @@
 #include "haptics/force/force_law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace palp
 {
 
+/// Energy of a force law up to a depth [J], by Gauss in the root of the depth: exact for the powers
+/// 1, 3/2 and 2 of punch, sphere and cone.
+///
+/// @param law    callable as Response(double depth) noexcept, asked three times; what is not finite
+///               counts nothing
+/// @param depth  [m]
+template <typename Law>
+[[nodiscard]] double energyTo(const Law& law, double depth) noexcept
+{
+  constexpr double kSpread = 0.3872983346207417; // sqrt(0.15)
+  const auto part = [&](double root, double weight)
+  {
+    const double force = law(depth * root * root).force;
+    return std::isfinite(force) ? weight * 2.0 * root * depth * force : 0.0;
+  };
+  return part(0.5 - kSpread, 5.0 / 18.0) + part(0.5, 8.0 / 18.0) + part(0.5 + kSpread, 5.0 / 18.0);
+}
+
 /// A force law at one place, as a function of depth alone; borrows what it is made from.
 class DepthLaw
 {
 public:
-  /// @param ask  callable as Response(double depth) noexcept; must outlive this
+  /// @param ask  callable as Response(double depth) noexcept; must outlive this; where it has
+  ///             energy(double depth) noexcept that is its energy, else energyTo
   template <typename Ask>
   DepthLaw(const Ask& ask) noexcept // a view, as string_view
     : ask_(&ask)
     , call_([](const void* self, double depth) noexcept
         { return (*static_cast<const Ask*>(self))(depth); })
+    , energy_(
+        [](const void* self, double depth) noexcept
+        {
+          const Ask& law = *static_cast<const Ask*>(self);
+          if constexpr (requires { law.energy(depth); })
+          {
+            return law.energy(depth);
+          }
+          else
+          {
+            return energyTo(law, depth);
+          }
+        })
   {
   }
 
@@ -26,9 +59,16 @@ public:
     return call_(ask_, depth);
   }
 
+  /// What a tool brings in on its way to a depth [J].
+  [[nodiscard]] double energy(double depth) const noexcept
+  {
+    return energy_(ask_, depth);
+  }
+
 private:
   const void* ask_;
   Response (*call_)(const void*, double) noexcept;
+  double (*energy_)(const void*, double) noexcept;
 };
 
 /// What the user feels of a law.
@@ -72,7 +112,7 @@ struct Rendered
 ///
 /// @param felt   of couple, by the same law
 /// @param depth  of the same question [m]
-/// @realtime     pure; three questions to the law; no allocation, no lock, no exception
+/// @realtime     pure; no allocation, no lock, no exception
 [[nodiscard]] double storedEnergy(const DepthLaw& law, const Rendered& felt, double depth) noexcept;
 
 /// What the stability of a sampled loop depends on.

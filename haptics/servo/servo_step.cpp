@@ -22,7 +22,8 @@ void push(Sample& sample, const Scene& scene, const Eigen::Vector3d& lateral) no
   const Eigen::Vector3d& normal = sample.contact.normal;
   const double viscous = -scene.damping * sample.pose.velocity.dot(normal);
   const double sum = sample.contact.slope * sample.response.force + viscous;
-  if (!std::isfinite(sum) || !(scene.forceLimit >= 0.0)) // before max and min, which hide a NaN
+  // before max and min, which hide a NaN
+  if (!std::isfinite(sum) || !lateral.allFinite() || !(scene.forceLimit >= 0.0))
   {
     raise(sample, Flag::NotFinite);
     return;
@@ -167,9 +168,15 @@ Sample step(const Scene& scene, TissueMemory& memory, SafetyChain& chain,
   const bool remembers = memory.begin(organ, sample, dt);
   const TissueAt& tissue = memory.tissue();
   sample.localDepth = tissue.answer(sample.contact.depth).local;
-  const auto law = [&](double depth) noexcept
-  { return remembers ? memory.at(depth) : tissue(depth); };
-  chain.limit(sample, law, organ, &tissue, remembers ? &memory : nullptr);
+  if (remembers)
+  {
+    const auto law = [&](double depth) noexcept { return memory.at(depth); };
+    chain.limit(sample, law, organ, &tissue, &memory);
+  }
+  else
+  {
+    chain.limit(sample, tissue, organ, &tissue, nullptr);
+  }
   return sample;
 }
 

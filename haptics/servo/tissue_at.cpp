@@ -4,6 +4,7 @@
 #include "haptics/contact/embed_nodules.h"
 #include "haptics/contact/embed_stiffness.h"
 #include "haptics/force/energy_slopes.h"
+#include "haptics/servo/coupling.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,6 +16,7 @@ TissueAt::TissueAt(const Scene& scene, const Contact& contact) noexcept
   : scene_(&scene)
   , contact_(&contact)
   , geometry_(contactGeometryOf(contact))
+  , askedDepth_(contact.depth)
 {
   if (scene.stiffness != nullptr)
   {
@@ -35,7 +37,7 @@ TissueAt::TissueAt(const Scene& scene, const Contact& contact) noexcept
     geometry_.thickness = std::numeric_limits<double>::infinity();
   }
   plain_ = scene.law(geometry_);
-  here_ = find(contact.depth);
+  asked_ = find(contact.depth);
 }
 
 bool TissueAt::pushesAside(const Scene& scene) noexcept
@@ -76,6 +78,19 @@ SeriesResponse TissueAt::find(double depth) const noexcept
   return body_
     ? scene_->series->law([this](double at) noexcept { return local(at); }, body_->body, depth)
     : SeriesResponse{ local(depth), depth, false };
+}
+
+// in series: of the contact by itself, and of the body by its complementary energy
+double TissueAt::energy(double depth) const noexcept
+{
+  const SeriesResponse at = answer(depth);
+  if (!body_ || at.isBeyond)
+  {
+    return energyTo(*this, depth);
+  }
+  const double force = at.felt.force;
+  return energyTo([this](double deep) noexcept { return local(deep); }, at.local) +
+    force * (depth - at.local) - scene_->series->law.energy(body_->body, force);
 }
 
 Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept

@@ -20,7 +20,7 @@ public:
   /// Whether a tissue may push a tool aside: else lateral() is zero everywhere.
   [[nodiscard]] static bool pushesAside(const Scene& scene) noexcept;
 
-  /// As if the contact were another depth there; at its own for nothing.
+  /// As if the contact were another depth there; at the last that was asked for nothing.
   [[nodiscard]] Response operator()(double depth) const noexcept
   {
     return answer(depth).felt;
@@ -29,8 +29,16 @@ public:
   /// The same with how deep the tool is in the body.
   [[nodiscard]] SeriesResponse answer(double depth) const noexcept
   {
-    return depth == geometry_.depth ? here_ : find(depth);
+    if (depth != askedDepth_)
+    {
+      asked_ = find(depth);
+      askedDepth_ = depth;
+    }
+    return asked_;
   }
+
+  /// What a tool brings in on its way to a depth [J].
+  [[nodiscard]] double energy(double depth) const noexcept;
 
   /// Of what the tissue pushes the tool aside with, while it stays where it touches [N].
   [[nodiscard]] Eigen::Vector3d lateral(const SeriesResponse& answer) const noexcept;
@@ -46,8 +54,9 @@ private:
   std::optional<StiffnessField::Blend> stiffness_;
   std::optional<NoduleField::Local> nodules_;
   std::optional<ComplianceField::Local> body_;
-  Response plain_{};      // of the law alone, at the depth of the contact
-  SeriesResponse here_{}; // of all of it, likewise
+  Response plain_{}; // of the law alone, at the depth of the contact
+  mutable double askedDepth_;
+  mutable SeriesResponse asked_{}; // there, of all of it
 };
 
 } // namespace palp

@@ -13,10 +13,10 @@ namespace
 {
 
 constexpr double kReach = 2.3;    // spacings
-constexpr double kNearest = 0.25; // to an edge that a place tells of, by its own distance
-constexpr double kRound = 0.15;   // likewise, within which it comes to that
-constexpr double kBeside = 0.7;   // cosine of normals from which on a place counts in full
-constexpr double kAskew = 0.3;    // likewise, to which it is beyond an edge and does not count
+constexpr float kNearest = 0.25F; // to an edge that a place tells of, by its own distance
+constexpr float kRound = 0.15F;   // likewise, within which it comes to that
+constexpr float kBeside = 0.7F;   // cosine of normals from which on a place counts in full
+constexpr float kAskew = 0.3F;    // likewise, to which it is beyond an edge and does not count
 
 std::uint64_t keyOf(const std::array<int, 3>& cell)
 {
@@ -29,22 +29,22 @@ std::uint64_t keyOf(const std::array<int, 3>& cell)
 // before the edge where the place tells too little of that
 struct Nearer
 {
-  double value;
-  Eigen::Vector3d turn;
+  float value;
+  Eigen::Vector3f turn;
 };
-Nearer nearerOf(const Eigen::Vector3d& edge, const Eigen::Vector3d& away) noexcept
+Nearer nearerOf(const Eigen::Vector3f& edge, const Eigen::Vector3f& away) noexcept
 {
-  const double past = 1.0 + edge.dot(away) - kNearest;
-  const double round = std::sqrt(past * past + kRound * kRound);
-  const double nearer = 1.0 / (kNearest + 0.5 * (past + round));
-  return { nearer, -0.5 * nearer * (1.0 + past / round) * edge };
+  const float past = 1.0F + edge.dot(away) - kNearest;
+  const float round = std::sqrt(past * past + kRound * kRound);
+  const float nearer = 1.0F / (kNearest + 0.5F * (past + round));
+  return { nearer, -0.5F * nearer * (1.0F + past / round) * edge };
 }
 
 // to where something is beside a wedge from there
 void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
 {
   BodyCompliance& body = local.body;
-  const double nearer = 1.0 / std::max(kNearest, 1.0 - local.edge.dot(away) / body.edge);
+  const double nearer = 1.0 / std::max<double>(kNearest, 1.0 - local.edge.dot(away) / body.edge);
   const double squared = nearer * nearer;
   body.constant += 2.0 * body.slope / body.edge * (nearer - 1.0);
   body.slope *= squared;
@@ -67,10 +67,10 @@ float ratioOf(float wanted, double blend)
 
 ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, double spacing,
   double poisson, std::shared_ptr<const OrganMotion> motion)
-  : reach_(kReach * spacing)
-  , perReach_(1.0 / reach_)
+  : reach_(static_cast<float>(kReach * spacing))
+  , perReach_(1.0F / reach_)
   , cell_(spacing)
-  , open_(nearerOf(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()).value)
+  , open_(nearerOf(Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()).value)
   , poisson_(poisson)
   , motion_(std::move(motion))
 {
@@ -131,24 +131,21 @@ void ComplianceField::sortIntoCells()
 }
 
 // one of Wendland's, 1 at the place and 0 from the reach on
-ComplianceField::Weight ComplianceField::weightOf(
-  const Place& place, const Eigen::Vector3d& away, const Eigen::Vector3d& normal) const noexcept
+inline ComplianceField::Weight ComplianceField::weightOf(
+  const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept
 {
-  const double squared = away.squaredNorm();
-  if (squared >= reach_ * reach_)
+  const float squared = away.squaredNorm();
+  constexpr float kTurns = 1.0F / (kBeside - kAskew);
+  const float beside = kTurns * (normal.dot(place.normal) - kAskew);
+  if (squared >= reach_ * reach_ || beside <= 0.0F)
   {
-    return { 0.0, 0.0 };
+    return { 0.0F, 0.0F };
   }
-  constexpr double kTurns = 1.0 / (kBeside - kAskew);
-  const double beside = kTurns * (normal.dot(place.normal.cast<double>()) - kAskew);
-  if (beside <= 0.0)
-  {
-    return { 0.0, 0.0 };
-  }
-  const double t = std::sqrt(squared) * perReach_;
-  const double rest = 1.0 - t;
-  const double cube = (beside >= 1.0 ? 1.0 : smoothStep(beside)) * rest * rest * rest;
-  return { cube * rest * (4.0 * t + 1.0), -20.0 * cube * perReach_ * perReach_ };
+  const float t = std::sqrt(squared) * perReach_;
+  const float rest = 1.0F - t;
+  const float facing = beside >= 1.0F ? 1.0F : static_cast<float>(smoothStep(beside));
+  const float cube = facing * rest * rest * rest;
+  return { cube * rest * (4.0F * t + 1.0F), -20.0F * cube * perReach_ * perReach_ };
 }
 
 // what blending evens out is added beforehand, so that it goes through the places' values
@@ -175,64 +172,62 @@ void ComplianceField::sharpen()
 ComplianceField::Local ComplianceField::at(
   const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double height) const noexcept
 {
-  // constant, slope, bend and edge, weighted, and the gradients of that
-  Eigen::Vector4d values = Eigen::Vector4d::Zero();
-  Eigen::Matrix<double, 3, 4> gradients = Eigen::Matrix<double, 3, 4>::Zero();
-  double weights = 0.0;
-  double doubtful = 0.0;
-  Eigen::Vector3d turning = Eigen::Vector3d::Zero(); // gradient of the weights
-  Eigen::Vector3d outward = Eigen::Vector3d::Zero(); // of the places
+  // of constant, slope, bend and edge by columns, times the weight and its gradient
+  Eigen::Matrix4f sums = Eigen::Matrix4f::Zero();
+  Eigen::Vector4f weights = Eigen::Vector4f::Zero(); // by themselves
+  Eigen::Vector3f outward = Eigen::Vector3f::Zero(); // of the places
+  float doubtful = 0.0F;
+  const Eigen::Vector3f facing = normal.cast<float>();
   const auto found = cells_.find(keyOf(cellOf(center)));
   const Range range = found != cells_.end() ? found->second : Range{};
   for (std::uint32_t k = range.first; k < range.last; ++k)
   {
     const Place& place = places_[near_[k]];
-    const Eigen::Vector3d away = center - place.position.cast<double>();
-    const Weight weight = weightOf(place, away, normal);
-    if (weight.value <= 0.0)
+    const Eigen::Vector3f away = (center - place.position.cast<double>()).cast<float>();
+    const Weight weight = weightOf(place, away, facing);
+    if (weight.value <= 0.0F)
     {
       continue;
     }
-    const Eigen::Vector3d along = place.gradient.cast<double>();
     const bool isBeside = place.beside > 0.0F;
-    const auto [nearer, turn] = isBeside ? nearerOf(place.edge.cast<double>(), away)
-                                         : Nearer{ open_, Eigen::Vector3d::Zero() };
-    const double change = nearer * along.dot(away);
-    Eigen::Vector4d told(place.constant, place.slope, place.bend, place.beside);
-    told[0] += change;
-    told[1] *= nearer * nearer;
-    told[3] *= nearer;
-    gradients.col(0) += weight.value * nearer * along;
+    const auto [nearer, turn] =
+      isBeside ? nearerOf(place.edge, away) : Nearer{ open_, Eigen::Vector3f::Zero() };
+    const float change = nearer * place.gradient.dot(away);
+    const Eigen::Vector4f told(
+      place.constant + change, place.slope * nearer * nearer, place.bend, place.beside * nearer);
+    sums.col(0).tail<3>() += weight.value * nearer * place.gradient;
     if (isBeside)
     {
-      gradients.col(0) += weight.value * change * turn;
-      gradients.col(1) += 2.0 * weight.value * told[1] * turn;
-      gradients.col(3) += weight.value * told[3] * turn;
+      sums.col(0).tail<3>() += weight.value * change * turn;
+      sums.col(1).tail<3>() += 2.0F * weight.value * told[1] * turn;
+      sums.col(3).tail<3>() += weight.value * told[3] * turn;
     }
-    const Eigen::Vector3d turned = weight.slope * away;
-    gradients.noalias() += turned * told.transpose();
-    values += weight.value * told;
-    weights += weight.value;
-    turning += turned;
-    outward += weight.value * place.normal.cast<double>();
-    doubtful += weight.value * static_cast<double>(place.doubtful);
+    Eigen::Vector4f how;
+    how << weight.value, weight.slope * away;
+    sums.noalias() += how * told.transpose();
+    weights += how;
+    outward += weight.value * place.normal;
+    doubtful += weight.value * place.doubtful;
   }
-  if (!(weights > 0.0))
+  const auto all = static_cast<double>(weights[0]);
+  if (!(all > 0.0))
   {
     return { .body = {}, .doubtful = 1.0 };
   }
-  values /= weights;
-  gradients = (gradients - turning * values.transpose()) / weights;
+  const Eigen::Vector4d values = sums.row(0).transpose().cast<double>() / all;
+  Eigen::Matrix<double, 3, 4> gradients =
+    (sums.bottomRows<3>().cast<double>() - weights.tail<3>().cast<double>() * values.transpose()) /
+    all;
   gradients -= normal * (normal.transpose() * gradients);
   Local local{ .body = { values[0], values[1], values[2], values[3] },
     .constant = gradients.col(0),
     .slope = gradients.col(1),
     .bend = gradients.col(2),
     .edge = gradients.col(3),
-    .doubtful = doubtful / weights };
+    .doubtful = static_cast<double>(doubtful) / all };
   if (height > 0.0 && local.body.edge > 0.0)
   {
-    bringNearer(local, height * (normal - outward.normalized()));
+    bringNearer(local, height * (normal - outward.cast<double>().normalized()));
   }
   return local;
 }

@@ -106,8 +106,8 @@ private:
 
   struct Weight
   {
-    double value;
-    double slope; // by half the square of the distance [1/m^2]
+    float value;
+    float slope; // by half the square of the distance [1/m^2]
   };
 
   struct Range
@@ -118,14 +118,14 @@ private:
 
   [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
   [[nodiscard]] Weight weightOf(
-    const Place& place, const Eigen::Vector3d& away, const Eigen::Vector3d& normal) const noexcept;
+    const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept;
   void sortIntoCells();
   void sharpen();
 
-  double reach_;    // of a place [m]
-  double perReach_; // one over it
-  double cell_;     // side of a cell [m]
-  double open_;     // what an edge counts for that is not there [-]
+  float reach_;    // of a place [m]
+  float perReach_; // one over it
+  double cell_;    // side of a cell [m]
+  float open_;     // what an edge counts for that is not there [-]
   double poisson_;
   std::shared_ptr<const OrganMotion> motion_;
   std::vector<Place> places_;
