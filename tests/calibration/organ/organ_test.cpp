@@ -227,7 +227,7 @@ TEST_P(AgainstElements, TheForceAgrees)
 
 INSTANTIATE_TEST_SUITE_P(Organ, AgainstElements,
   testing::Values(
-    Body{ .file = "layer_50mm", .size = { 0.16, 0.16, 0.05 }, .cell = 5.0_mm, .limit = 0.008 },
+    Body{ .file = "layer_50mm", .size = { 0.2, 0.2, 0.05 }, .cell = 6.25_mm, .limit = 0.005 },
     Body{ .file = "layer_20mm", .size = { 0.1, 0.1, 0.02 }, .limit = 0.01 },
     Body{ .file = "edge90_centre", .size = { 0.1, 0.1, 0.05 }, .cell = 5.0_mm, .limit = 0.035 },
     Body{ .file = "edge90_20mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.03, .cell = 5.0_mm },
