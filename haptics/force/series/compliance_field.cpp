@@ -44,9 +44,14 @@ Nearer nearerOf(const Eigen::Vector3f& edge, const Eigen::Vector3f& away) noexce
 void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
 {
   BodyCompliance& body = local.body;
-  const double nearer = 1.0 / std::max<double>(kNearest, 1.0 - local.edge.dot(away) / body.edge);
+  const double most = (1.0 - static_cast<double>(kNearest)) / body.edge;
+  // no more than it is away, where an edge fades out among places that have none
+  const double toward =
+    std::clamp(local.edge.dot(away) / (body.edge * body.edge), -away.norm(), away.norm());
+  const double reached = std::min(toward, most);
+  const double nearer = 1.0 / (1.0 - body.edge * reached);
   const double squared = nearer * nearer;
-  body.constant += 2.0 * body.slope / body.edge * (nearer - 1.0);
+  body.constant += 2.0 * body.slope * nearer * reached;
   body.slope *= squared;
   body.edge *= nearer;
   local.constant *= squared;
