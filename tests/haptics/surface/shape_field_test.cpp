@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <limits>
 #include <numbers>
 #include <random>
 #include <tuple>
@@ -64,29 +63,6 @@ TEST(ShapeField, AGapInTheBodyIsToldAsAHollowIs)
     EXPECT_NEAR(shape.thickness, 2.0 * radius, 0.1 * radius);
     EXPECT_NEAR(shape.hollow, isTold, 0.2) << middle;
   }
-}
-
-// a block whose faces are there twice, once turned over, and a sheet with two faces; askew, so that
-// places are not exact
-TEST(ShapeField, AWallTurnedOverIsNoThickness)
-{
-  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
-  const auto thicknessOf = [&](test::Mesh mesh)
-  {
-    for (Eigen::Vector3d& point : mesh.first)
-    {
-      point = turn * point;
-    }
-    for (const auto& [a, b, c] : std::vector<Triangle>(mesh.second))
-    {
-      mesh.second.push_back({ a, c, b });
-    }
-    const Surface surface = test::makeSurface(mesh);
-    return shapeAt(surface, Eigen::Vector3d::Zero(), 5.0_mm, turn * Eigen::Vector3d::UnitZ())
-      .thickness;
-  };
-  EXPECT_NEAR(thicknessOf(test::block({ 0.1, 0.1, 0.05 }, 10)), 0.05, 1e-6);
-  EXPECT_EQ(thicknessOf(test::sheet(0.1, 11)), std::numeric_limits<double>::infinity());
 }
 
 // a bowl on its rim, outer radius 50 mm, pressed on its outside: no law knows how its wall is held
