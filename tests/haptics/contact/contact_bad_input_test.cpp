@@ -212,6 +212,33 @@ TEST(ContactBadInput, AnOpenSheetIsPressedFromItsFrontOnly)
   }
 }
 
+// down beside it, past its plane, and on: what is felt fades out and never jumps
+TEST(ContactBadInput, BesideAnOpenSheetNoForceJumps)
+{
+  for (const int cells : { 10, 20 })
+  {
+    const Surface sheet = test::makeSurface(test::sheet(0.1, cells + 1));
+    for (const double past : { 2.0_mm, 3.0_mm, 6.0_mm })
+    {
+      constexpr double kStep = 20.0_um;
+      const auto forceAt = [&](double height) // of Hertz, up to a constant, 1 at a depth of 10 mm
+      {
+        const Contact contact = press(sheet, kSphere, { 0.05 + past, 1.0_mm, height });
+        EXPECT_LE(contact.slope, 2.001) << past << " " << height;
+        return contact.slope * std::pow(contact.depth / 10.0_mm, 1.5);
+      };
+      double last = forceAt(0.0);
+      for (double height = -kStep; height > -40.0_mm; height -= kStep)
+      {
+        const double force = forceAt(height);
+        EXPECT_NEAR(force, last, 0.1) << past << " " << height;
+        last = force;
+      }
+      EXPECT_LT(last, 0.01) << past;
+    }
+  }
+}
+
 TEST(ContactBadInput, NoPoseGivesWhatIsNotANumber)
 {
   const Surface surfaces[] = { test::makeSurface(test::ball(20.0_mm, 4)),

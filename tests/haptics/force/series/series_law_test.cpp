@@ -244,5 +244,31 @@ TEST(ComplianceField, DoesNotJumpWhereAnEdgeIsNoLongerTold)
   }
 }
 
+// a ball on a curved body, where the places of a row lie beside an edge and those about it do not:
+// it is as near to that edge as it is, however little the row says
+TEST(ComplianceField, AnEdgeFadesOutAmongPlacesThatHaveNone)
+{
+  std::vector<PlacedCompliance> places;
+  for (int i = 0; i < 400; ++i)
+  {
+    const Eigen::Vector3d at((i % 20) * 4.0_mm, (i / 20) * 4.0_mm, 0.0);
+    places.push_back({ .position = at,
+      .constant = 20.0,
+      .slope = { 300.0, 0.0, 0.0 },
+      .edge = i % 20 == 10 ? 50.0 : 0.0 });
+  }
+  const ComplianceField field(places, 4.0_mm, kPoisson);
+  const Eigen::Vector3d leaning = Eigen::Vector3d(0.3, 0.0, 1.0).normalized();
+  constexpr double kHeight = 10.0_mm;
+  // over a distance, slope by slope, and four times so near to an edge
+  constexpr double kMost = 4.0 * 2.0 * 300.0 * 0.3 * kHeight;
+  for (double x = 20.0_mm; x < 60.0_mm; x += 0.1_mm)
+  {
+    const Eigen::Vector3d at(x, 38.0_mm, 0.0);
+    const double told = field.at(at, leaning).body.constant;
+    EXPECT_NEAR(field.at(at, leaning, kHeight).body.constant, told, kMost) << x;
+  }
+}
+
 } // namespace
 } // namespace palp
