@@ -6,10 +6,10 @@
 #include "haptics/servo/servo_step.h"
 #include "tests/haptics/servo/odd_worlds.h"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <optional>
 #include <random>
-#include <sstream>
 
 namespace palp
 {
@@ -134,7 +134,7 @@ SafetyChain strongArm()
 }
 
 // in jumps, by each way to step; stops at the first that is wrong
-void tryPoses(const Scene& scene, Random& random, const std::string& name)
+void tryPoses(const Scene& scene, Random& random)
 {
   TissueMemory memory;
   TissueMemory felt;
@@ -143,11 +143,11 @@ void tryPoses(const Scene& scene, Random& random, const std::string& name)
   {
     const char* wrong = wrongIn(sample, scene);
     const Eigen::IOFormat exact(Eigen::FullPrecision, 0, ", ", ", ");
-    EXPECT_EQ(wrong, nullptr) << name << ", " << how << ": " << wrong << " at "
-                              << sample.pose.apex.format(exact) << " along "
-                              << sample.pose.axis.format(exact) << ", " << sample.contact.depth
-                              << " deep, slope " << sample.contact.slope << ", "
-                              << sample.response.force << " N, aside " << sample.lateral.norm();
+    EXPECT_EQ(wrong, nullptr) << how << ": " << wrong << " at " << sample.pose.apex.format(exact)
+                              << " along " << sample.pose.axis.format(exact) << ", "
+                              << sample.contact.depth << " deep, slope " << sample.contact.slope
+                              << ", " << sample.response.force << " N, aside "
+                              << sample.lateral.norm();
     return wrong == nullptr;
   };
   for (int i = 0; i < kPoses; ++i)
@@ -197,9 +197,9 @@ TEST(AnyScene, EverySurfaceTipAndLawGivesNumbers)
           Scene scene{ .surface = surface, .rule = rule };
           scene.law = law.value_or(scene.law);
           scene.damping = anyOf(random, { 0.0, 1.0, 100.0 });
-          tryPoses(scene, random,
-            surfaceName + ", " + tipName + ", " + lawName +
-              (rule == ContactRule::Exact ? "" : ", by points"));
+          SCOPED_TRACE(testing::Message() << surfaceName << ", " << tipName << ", " << lawName
+                                          << (rule == ContactRule::Exact ? "" : ", by points"));
+          tryPoses(scene, random);
         }
       }
     }
@@ -276,7 +276,9 @@ TEST(AnyScene, WhateverLiesInABodyGivesNumbers)
       {
         continue; // nodules and maps are for some laws and bodies only
       }
-      tryPoses(scene, random, surfaceName + ", " + tipName + ", " + lawName + ", " + extraName);
+      SCOPED_TRACE(testing::Message()
+        << surfaceName << ", " << tipName << ", " << lawName << ", " << extraName);
+      tryPoses(scene, random);
     }
   }
 }

@@ -7,7 +7,6 @@
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -109,6 +108,7 @@ inline std::vector<Named<std::shared_ptr<const Surface>>> oddSurfaces()
     { "1 km off", moved(ball(50.0_mm, 8), { 1e3, -1e3, 1e3 }) },
     { "sheet 1 km off", moved(flat, { 1e3, -1e3, 1e3 }) } };
   std::vector<Named<std::shared_ptr<const Surface>>> surfaces;
+  surfaces.reserve(meshes.size());
   for (const auto& [name, mesh] : meshes)
   {
     surfaces.push_back({ name, std::make_shared<const Surface>(makeSurface(mesh)) });
