@@ -117,14 +117,12 @@ struct OrganModel::State
   // whether a cube within the grid is one of those that hang together
   [[nodiscard]] bool counts(const Cube& cube) const
   {
-    for (int corner = 0; corner < kCubeCorners; ++corner)
+    int corner = 0;
+    while (corner < kCubeCorners && number[cornerIndex(cornerOf(cube, corner))] >= 0)
     {
-      if (number[cornerIndex(cornerOf(cube, corner))] < 0)
-      {
-        return false;
-      }
+      ++corner;
     }
-    return true;
+    return corner == kCubeCorners;
   }
 
   void addCubes()
