@@ -105,7 +105,7 @@ TEST(ServoStep, WhatIsNotFiniteGivesNoForce)
   }
 }
 
-// whose thickness is not known: under the law, over a nodule, in a map and where it gives way
+// whose thickness is not known: under the laws, over a nodule and where it gives way
 TEST(ServoStep, AnOpenSheetPushesAsABodyWithoutEnd)
 {
   Scene world = scene();
