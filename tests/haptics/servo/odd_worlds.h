@@ -25,15 +25,6 @@ struct Named
   What what;
 };
 
-inline Mesh moved(Mesh mesh, const Eigen::Vector3d& by)
-{
-  for (Eigen::Vector3d& point : mesh.first)
-  {
-    point += by;
-  }
-  return mesh;
-}
-
 /// Without the triangles about the origin.
 inline Mesh withHole(Mesh mesh, double radius)
 {
