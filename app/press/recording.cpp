@@ -1,5 +1,6 @@
 #include "app/press/recording.h"
 
+#include "haptics/contact/body_rules.h"
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/embed_nodules.h"
 #include "haptics/contact/embed_stiffness.h"
@@ -183,21 +184,6 @@ void leaveToOrgan(Rule& rule)
   rule.value = name == "support" ? 0.0 : rule.value;
 }
 
-// Without an organ file nobody knows how a lobe is held, and the law takes it as held below.
-Rule lobeRule(const Surface& surface, const Contact& contact)
-{
-  constexpr double kThin = 2.0;
-  const BoxTree::Node& all = surface.tree().nodes().front();
-  double whole = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < all.low.size(); ++k)
-  {
-    whole = std::min(whole, static_cast<double>(all.high[k]) - static_cast<double>(all.low[k]));
-  }
-  return { "lobe", "-", contact.touching() ? whole / contact.thickness : 0.0, kThin,
-    "thinner than half of the body: a lobe that nothing holds below bends; palp organ and --organ "
-    "take that into account" };
-}
-
 } // namespace
 
 ContactGeometry lawGeometryOf(const Scene& scene, const Contact& contact)
@@ -250,6 +236,7 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   {
     std::ranges::for_each(rules, [](Rule& rule) { leaveToOrgan(rule); });
     rules.push_back(seriesRule(*scene.series, scene.law, contact.center, contact.normal));
+    rules.push_back(facetRule(*scene.surface, scene.law.tip(), contact));
   }
   else if (scene.surface != nullptr && !scene.surface->tree().empty())
   {

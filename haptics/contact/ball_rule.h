@@ -17,8 +17,9 @@ struct BallSize
 class BallRule
 {
 public:
-  /// @param edgeLength  of the mesh [m]
-  BallRule(const Tip& tip, double edgeLength) noexcept;
+  /// @param edgeLength   of the mesh [m]
+  /// @param facetLength  of its edges that stand for what is round [m]
+  BallRule(const Tip& tip, double edgeLength, double facetLength) noexcept;
 
   [[nodiscard]] double nose() const noexcept
   {
@@ -35,6 +36,7 @@ public:
 private:
   double nose_;
   double edge_;
+  double facet_;
   double steepness_ = 0.5; // of a sharp or flat end: contact by height, within bounds
   double least_ = 0.0;
   double most_ = 0.0;

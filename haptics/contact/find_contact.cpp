@@ -190,7 +190,7 @@ std::optional<Neighborhood> lookBelow(
 
 Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
 {
-  const BallRule rule(tip, surface.edgeLength());
+  const BallRule rule(tip, surface.edgeLength(), surface.facetLength());
   const std::optional<Neighborhood> here = lookBelow(surface, tip, pose, rule);
   if (!here || !(here->patch.normal.norm() > kRounding * here->patch.weight))
   {

@@ -24,6 +24,9 @@ constexpr double kTurn = 3.0;           // cells to each side of an edge within 
 constexpr double kSharp = 0.8;          // [rad] that a sharp one turns there: 55 degrees
 constexpr float kOwnTurn = 0.25F; // of the most in a leaf, or of the mean: not of one beside it
 constexpr float kOneSide = 0.8F;  // length of the mean normal of one side of the surface
+constexpr float kRidge = 0.2F;    // [rad] half of what the surface turns at a ridge, or more
+constexpr double kAtRidge = 0.3;  // cells there, so that it is known where it is
+constexpr float kBentNode = 0.5F; // [rad] it turns by, from which on it is not all in one place
 
 double longestEdge(const std::array<Eigen::Vector3d, 3>& p)
 {
@@ -48,14 +51,14 @@ double leastCell(const BoxTree& tree)
 
 } // namespace
 
-ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double edgeLength)
+ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double facetLength)
 {
   const auto corner = [](const std::array<float, 3>& of)
   { return Eigen::Vector3f(of.data()).cast<double>().eval(); };
   const Eigen::Vector3d low = corner(tree.nodes()[0].low);
   const Eigen::Vector3d high = corner(tree.nodes()[0].high);
   const double size = (high - low).norm();
-  const double scale = std::min(kEdges * edgeLength, kWidest * size);
+  const double scale = std::min(kEdges * facetLength, kWidest * size);
   cell_ = std::max({ kFine * kFinest * size, kCoarse * scale, leastCell(tree) });
   finest_ = std::max(scale, cell_ / kFine);
   origin_ = 0.5 * (low + high);
@@ -84,36 +87,43 @@ void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces&
     const auto& even = bends[i].even;
     const auto bend = even ? std::array<Eigen::Matrix3d, 3>()
                            : bendsOf(mesh, facet, tree.triangle(static_cast<int>(i)));
+    const auto add = [&](const FacetPart& part)
+    {
+      const auto& p = part.corners;
+      Piece piece;
+      piece.sides[0] = static_cast<int>(pieces.sides.size());
+      piece.sums.area = (0.5 * (p[1] - p[0]).cross(p[2] - p[0])).cast<float>();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        if (part.sides[k] >= 0)
+        {
+          const auto side = static_cast<std::size_t>(part.sides[k]);
+          const Eigen::Vector3d& next = p[(k + 1) % 3];
+          piece.sums.bend += even ? Eigen::Matrix3f::Zero().eval()
+                                  : ((next - p[k]).norm() * bend[side]).cast<float>().eval();
+          pieces.sides.push_back(
+            { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, turns[side] });
+        }
+      }
+      piece.sides[1] = static_cast<int>(pieces.sides.size());
+      piece.sums.bend = even.value_or(piece.sums.bend);
+      const Eigen::Vector3f center = ((p[0] + p[1] + p[2]) / 3.0 - origin_).cast<float>();
+      Entry entry{ .coordinates = {},
+        .area = piece.sums.area.norm(),
+        .piece = static_cast<int>(pieces.all.size()) };
+      entry.coordinates.head<3>() = center.array();
+      entry.coordinates.tail<3>() =
+        static_cast<float>(cell_) * piece.sums.area.normalized().array();
+      entries.push_back(entry);
+      pieces.all.push_back(piece);
+    };
     cut(FacetPart{ facet.corners, { 0, 1, 2 } }, even ? finest_ : cell_,
       [&](const FacetPart& part)
       {
-        const auto& p = part.corners;
-        Piece piece;
-        piece.sides[0] = static_cast<int>(pieces.sides.size());
-        piece.sums.area = (0.5 * (p[1] - p[0]).cross(p[2] - p[0])).cast<float>();
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-          if (part.sides[k] >= 0)
-          {
-            const auto side = static_cast<std::size_t>(part.sides[k]);
-            const Eigen::Vector3d& next = p[(k + 1) % 3];
-            piece.sums.bend += even ? Eigen::Matrix3f::Zero().eval()
-                                    : ((next - p[k]).norm() * bend[side]).cast<float>().eval();
-            pieces.sides.push_back(
-              { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, turns[side] });
-          }
-        }
-        piece.sides[1] = static_cast<int>(pieces.sides.size());
-        piece.sums.bend = even.value_or(piece.sums.bend);
-        const Eigen::Vector3f center = ((p[0] + p[1] + p[2]) / 3.0 - origin_).cast<float>();
-        Entry entry{ .coordinates = {},
-          .area = piece.sums.area.norm(),
-          .piece = static_cast<int>(pieces.all.size()) };
-        entry.coordinates.head<3>() = center.array();
-        entry.coordinates.tail<3>() =
-          static_cast<float>(cell_) * piece.sums.area.normalized().array();
-        entries.push_back(entry);
-        pieces.all.push_back(piece);
+        const bool isRidge = !even &&
+          std::ranges::any_of(
+            part.sides, [&](int side) { return side >= 0 && std::abs(turns[at(side)]) > kRidge; });
+        isRidge ? cut(part, kAtRidge * cell_, add) : add(part);
       });
   }
 }
@@ -132,7 +142,11 @@ Eigen::Vector4f ShapeField::build(std::span<Entry> entries, const Pieces& pieces
     high = high.max(entry.coordinates);
   }
   int widest = 0;
-  const bool leaf = (high - low).maxCoeff(&widest) <= cell || entries.size() < 2;
+  const bool isRidge = std::ranges::any_of(entries,
+    [&](const Entry& entry)
+    { return pieces.all[at(entry.piece)].sums.bend.norm() * cell > kBentNode * entry.area; });
+  const float least = isRidge ? static_cast<float>(kAtRidge) * cell : cell;
+  const bool leaf = (high - low).maxCoeff(&widest) <= least || entries.size() < 2;
   const std::size_t self = nodes_.size();
   nodes_.emplace_back();
   sums_.emplace_back();
@@ -172,7 +186,8 @@ Eigen::Vector4f ShapeField::build(std::span<Entry> entries, const Pieces& pieces
       std::max(squaredRadius, (entry.coordinates.head<3>().matrix() - node.center).squaredNorm());
   }
   node.radius = std::sqrt(squaredRadius);
-  const bool oneSide = sums.area.norm() > kOneSide * weight[3];
+  const bool isEven = sums.bend.norm() * node.radius < kBentNode * weight[3];
+  const bool oneSide = isEven && sums.area.norm() > kOneSide * weight[3];
   node.grain = leaf ? 0.0F : oneSide ? node.radius : std::numeric_limits<float>::infinity();
   sums_[self] = sums;
   return weight;

@@ -34,8 +34,8 @@ public:
   ShapeField() = default;
 
   /// @param tree        over the triangles of the mesh
-  /// @param edgeLength  of the mesh [m]
-  ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double edgeLength);
+  /// @param facetLength  as Surface::facetLength
+  ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double facetLength);
 
   /// Averages over the part of the surface in a ball that faces along a normal.
   ///

@@ -104,6 +104,13 @@ public:
     return edgeLength_;
   }
 
+  /// The same of triangles that stand for what is round [m]: at a side of which it turns by more
+  /// than half a degree, but for ridges; 0: none, its faces are flat however they are cut.
+  [[nodiscard]] double facetLength() const noexcept
+  {
+    return facetLength_;
+  }
+
   [[nodiscard]] const BoxTree& tree() const noexcept
   {
     return tree_;
@@ -111,6 +118,7 @@ public:
 
 private:
   bool linkEdges();
+  [[nodiscard]] double measureFacets() const;
   void spreadOpenEdges();
   [[nodiscard]] std::optional<Eigen::Vector3d> findOverlap() const;
   void dropWhatIsBuried();
@@ -126,6 +134,7 @@ private:
   std::vector<int> nearestOpenEdge_; // per point, empty when closed
   bool isClosed_ = false;
   double edgeLength_ = 0.0;
+  double facetLength_ = 0.0;
   BoxTree tree_;
   ShapeField shape_;
   std::optional<Eigen::Vector3d> crossing_;

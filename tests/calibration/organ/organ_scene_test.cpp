@@ -33,13 +33,14 @@ struct Body
   double place = 0.0;  // along x, from the middle [m]
   bool isLobe = false; // held at its end instead of its base
   double limit = 0.05;
-  double lean = 0.0; // of the side face beside the place [rad]
+  double lean = 0.0;     // of the side face beside the place [rad]
+  double edges = 2.5_mm; // of the mesh [m]
 };
 
 // the places of an organ file around where it is pressed, felt in a scene
 Scene sceneOf(const Body& body, double around)
 {
-  Mesh mesh = makeBox(body.size, 2.5_mm);
+  Mesh mesh = makeBox(body.size, body.edges);
   for (Vector3d& point : mesh.points)
   {
     point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
@@ -147,8 +148,16 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
       .place = -0.046,
       .limit = 0.08,
       .lean = std::numbers::pi / -6.0 },
-    Body{ .file = "edge90_4mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.046, .limit = 0.08 },
-    Body{ .file = "edge90_2mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.048, .limit = 0.15 },
+    Body{ .file = "edge90_4mm",
+      .size = { 0.1, 0.1, 0.05 },
+      .place = -0.046,
+      .limit = 0.08,
+      .edges = 4.0_mm },
+    Body{ .file = "edge90_2mm",
+      .size = { 0.1, 0.1, 0.05 },
+      .place = -0.048,
+      .limit = 0.15,
+      .edges = 4.0_mm },
     Body{ .file = "lobe30_20mm", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true }),
   [](const auto& body) { return std::string(body.param.file); });
 

@@ -53,6 +53,30 @@ INSTANTIATE_TEST_SUITE_P(Tips, OnABlock,
       Tip{ ParaboloidTip{ .radius = 5.0_mm } }, sampled(kSphere, 8.0_mm), sampled(kCone, 8.0_mm)),
     ::testing::Values(1e-9, 0.1_mm, 1.0_mm, 5.0_mm, 9.0_mm, 12.0_mm)));
 
+// a face is flat whatever triangles it has, up to its edges
+TEST(FindContact, BesideAnEdgeDoesNotDependOnTheTriangles)
+{
+  const Eigen::Vector3d size(100.0_mm, 100.0_mm, 50.0_mm);
+  const Surface fine = test::makeSurface(test::block(size, 100));
+  EXPECT_EQ(fine.facetLength(), 0.0);
+  for (const int cells : { 1, 12, 25, 33 })
+  {
+    const Surface coarse = test::makeSurface(test::block(size, cells));
+    for (const double place : { 2.0_mm, 4.0_mm, 6.0_mm })
+    {
+      for (const double depth : { 1.0_mm, 2.0_mm, 4.0_mm })
+      {
+        const ToolPose pose = at({ 0.5 * size.x() - place, 0.0, -depth });
+        const double known = findContact(fine, kSphere, pose, ContactRule::Exact).depth;
+        EXPECT_NEAR(known, depth, 0.04 * depth);
+        EXPECT_NEAR(
+          findContact(coarse, kSphere, pose, ContactRule::Exact).depth, known, 0.01 * known)
+          << cells << ' ' << place << ' ' << depth;
+      }
+    }
+  }
+}
+
 TEST_P(OnABlock, DepthIsThatOfTheApex)
 {
   const auto& [tip, depth] = GetParam();

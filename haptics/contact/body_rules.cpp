@@ -1,0 +1,50 @@
+#include "haptics/contact/body_rules.h"
+
+#include "haptics/contact/ball_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palp
+{
+
+Rule lobeRule(const Surface& surface, const Contact& contact) noexcept
+{
+  constexpr double kLobe = 2.0;  // of the thickness, the least extent of the body
+  constexpr double kPlate = 8.0; // likewise, the side of a square plate of its size
+  const BoxTree::Node& all = surface.tree().nodes().front();
+  double least = std::numeric_limits<double>::infinity();
+  double squares = 0.0;
+  for (std::size_t k = 0; k < all.low.size(); ++k)
+  {
+    const double extent = static_cast<double>(all.high[k]) - static_cast<double>(all.low[k]);
+    least = std::min(least, extent);
+    squares += extent * extent;
+  }
+  const double wide = std::sqrt(0.5 * squares);
+  return { "lobe", "-",
+    contact.touching() ? std::max(least / kLobe, wide / kPlate) / contact.thickness : 0.0, 1.0,
+    "thinner than half of the body, or than an eighth of its extent: where nothing holds it below "
+    "it "
+    "bends, which its shape does not tell; right where it rests on its whole back, else palp organ "
+    "and --organ take that into account" };
+}
+
+Rule facetRule(const Surface& surface, const Tip& tip, const Contact& contact) noexcept
+{
+  Rule rule{ "facets", "-", 0.0, 1.0,
+    "triangles that stand for what is round are smoothed over an edge beside: up to 20 % too stiff "
+    "2 mm from one by those of 4 mm; a finer mesh tells it" };
+  if (contact.touching())
+  {
+    const double height = noseRadius(tip) - contact.depth;
+    const double smoothed =
+      BallRule(tip, surface.edgeLength(), surface.facetLength())(height).smoothing.value;
+    const double own = BallRule(tip, surface.edgeLength(), 0.0)(height).smoothing.value;
+    rule.value = smoothed > own ? smoothed / contact.edgeDistance : 0.0;
+  }
+  return rule;
+}
+
+} // namespace palp

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "haptics/contact/contact.h"
+#include "haptics/force/validity.h"
+#include "haptics/surface/surface.h"
+#include "haptics/tip/tip.h"
+
+namespace palp
+{
+
+/// Where nobody says what a body rests on, and the law takes it as held flat below the tool:
+/// whether it is so thin there that this matters.
+///
+/// Half of the body, as a lobe of a thicker one; or an eighth of its extent, as a plate: clamped
+/// all around it gives way as much again as a contact of a fifth of its thickness.
+///
+/// @source    Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, 1959, Sec. 19
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Rule lobeRule(const Surface& surface, const Contact& contact) noexcept;
+
+/// Whether triangles that stand for what is round are so large that they are smoothed over a sharp
+/// edge beside the contact.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Rule facetRule(
+  const Surface& surface, const Tip& tip, const Contact& contact) noexcept;
+
+} // namespace palp
