@@ -1,6 +1,8 @@
 #include "calibration/organ/cube_stiffness.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace palp
@@ -30,18 +32,25 @@ Gradients gradientsAt(const Eigen::Vector3d& at)
   return gradients;
 }
 
-// over points of the unit cube that stand for equal parts of a volume
-CubeStiffness integrated(double side, double youngModulus, double poissonRatio,
-  const std::vector<Eigen::Vector3d>& points, double volume)
+// a point of the unit cube, and the volume that it stands for [m^3]
+struct Part
+{
+  Eigen::Vector3d place;
+  double volume;
+};
+
+CubeStiffness integrated(
+  double side, double youngModulus, double poissonRatio, const std::vector<Part>& parts)
 {
   const double shear = youngModulus / (2.0 * (1.0 + poissonRatio));
   const double bulk = youngModulus / (3.0 * (1.0 - 2.0 * poissonRatio));
-  const double part = volume / static_cast<double>(points.size());
+  double volume = 0.0;
   CubeStiffness stiffness = CubeStiffness::Zero();
   Eigen::Matrix<double, 1, 24> dilated = Eigen::Matrix<double, 1, 24>::Zero();
-  for (const Eigen::Vector3d& point : points)
+  for (const auto& [place, part] : parts)
   {
-    const Gradients gradients = gradientsAt(point) / side;
+    volume += part;
+    const Gradients gradients = gradientsAt(place) / side;
     Eigen::Matrix<double, 6, 24> strain = Eigen::Matrix<double, 6, 24>::Zero();
     for (int corner = 0; corner < kCubeCorners; ++corner)
     {
@@ -61,40 +70,60 @@ CubeStiffness integrated(double side, double youngModulus, double poissonRatio,
 
 } // namespace
 
+void CubePoints::set(std::size_t i)
+{
+  const auto point = static_cast<int>(i);
+  const int row = point / kCubeParts;
+  const int layer = row / kCubeParts;
+  part[i] = 1.0F;
+  middle[i] =
+    (Eigen::Vector3i(point % kCubeParts, row % kCubeParts, layer).cast<float>().array() + 0.5F) /
+    static_cast<float>(kCubeParts);
+}
+
+std::size_t CubePoints::count() const noexcept
+{
+  return static_cast<std::size_t>(
+    std::ranges::count_if(part, [](float one) { return one > 0.0F; }));
+}
+
+double CubePoints::filled() const noexcept
+{
+  return std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(kCount);
+}
+
 CubeStiffness cubeStiffness(double side, double youngModulus, double poissonRatio)
 {
   const double gauss = 0.5 / std::sqrt(3.0);
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(kCubeCorners);
+  std::vector<Part> parts;
+  parts.reserve(kCubeCorners);
   for (int point = 0; point < kCubeCorners; ++point)
   {
-    points.emplace_back(0.5 + ((point & 1) != 0 ? gauss : -gauss),
-      0.5 + ((point & 2) != 0 ? gauss : -gauss), 0.5 + ((point & 4) != 0 ? gauss : -gauss));
+    parts.push_back(
+      { { 0.5 + ((point & 1) != 0 ? gauss : -gauss), 0.5 + ((point & 2) != 0 ? gauss : -gauss),
+          0.5 + ((point & 4) != 0 ? gauss : -gauss) },
+        side * side * side / kCubeCorners });
   }
-  return integrated(side, youngModulus, poissonRatio, points, side * side * side);
+  return integrated(side, youngModulus, poissonRatio, parts);
 }
 
 CubeStiffness cutCubeStiffness(
   double side, double youngModulus, double poissonRatio, const CubePoints& inside)
 {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(inside.count());
-  for (std::size_t i = 0; i < inside.size(); ++i)
+  constexpr auto count = static_cast<double>(CubePoints::size());
+  std::vector<Part> parts;
+  parts.reserve(inside.count());
+  for (std::size_t i = 0; i < CubePoints::size(); ++i)
   {
     if (inside[i])
     {
-      const auto part = static_cast<int>(i);
-      const int row = part / kCubeParts;
-      const int layer = row / kCubeParts;
-      points.emplace_back((Eigen::Vector3d(part % kCubeParts, row % kCubeParts, layer) +
-                            Eigen::Vector3d::Constant(0.5)) /
-        kCubeParts);
+      parts.push_back({ inside.middle[i].cast<double>(),
+        static_cast<double>(inside.part[i]) * side * side * side / count });
     }
   }
-  const double filled = static_cast<double>(points.size()) / static_cast<double>(inside.size());
   // what holds nodes far from the body may not resist where the body moves as a whole
   constexpr double least = 1e-5;
-  return integrated(side, youngModulus, poissonRatio, points, filled * side * side * side) +
+  return integrated(side, youngModulus, poissonRatio, parts) +
     least * cubeStiffness(side, youngModulus, poissonRatio);
 }
 

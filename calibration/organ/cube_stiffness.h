@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <bitset>
+#include <array>
 #include <cstddef>
 
 namespace palp
@@ -12,10 +12,45 @@ using CubeStiffness = Eigen::Matrix<double, 24, 24>; ///< [N/m], x, y and z of c
 /// Corner of a cube: bit 0 of its number is x, bit 1 y, bit 2 z.
 constexpr int kCubeCorners = 8;
 
-constexpr int kCubeParts = 4; ///< points along a side of a cube at which it is known what is inside
+constexpr int kCubeParts = 4; ///< parts along a side of a cube of which it is known what is inside
 
-/// Which of these points are inside, x fastest, then y and z.
-using CubePoints = std::bitset<std::size_t{ kCubeParts } * kCubeParts * kCubeParts>;
+/// What of these parts is inside a body, x fastest, then y and z.
+struct CubePoints
+{
+  static constexpr std::size_t kCount = std::size_t{ kCubeParts } * kCubeParts * kCubeParts;
+
+  std::array<float, kCount> part{};             ///< of each, 0 to 1
+  std::array<Eigen::Vector3f, kCount> middle{}; ///< of what is inside, in sides of the cube
+
+  /// Takes all of one of them.
+  void set(std::size_t i);
+
+  [[nodiscard]] static constexpr std::size_t size() noexcept
+  {
+    return kCount;
+  }
+
+  /// Whether any of one is inside.
+  [[nodiscard]] bool operator[](std::size_t i) const noexcept
+  {
+    return part[i] > 0.0F;
+  }
+
+  /// How many have something inside.
+  [[nodiscard]] std::size_t count() const noexcept;
+
+  /// Whether the cube is inside but for rounding.
+  [[nodiscard]] bool all() const noexcept
+  {
+    return filled() > kWhole;
+  }
+
+  /// Part of the cube that is inside, 0 to 1.
+  [[nodiscard]] double filled() const noexcept;
+
+private:
+  static constexpr double kWhole = 1.0 - 1e-6;
+};
 
 /// Stiffness of a cube of eight nodes whose dilatation is the mean of the cube, so that it does not
 /// lock where nu comes near 1/2.
@@ -26,9 +61,9 @@ using CubePoints = std::bitset<std::size_t{ kCubeParts } * kCubeParts * kCubePar
 /// @source               Hughes, "Generalization of selective integration procedures", 1980 (B-bar)
 [[nodiscard]] CubeStiffness cubeStiffness(double side, double youngModulus, double poissonRatio);
 
-/// The same of the part of a cube around the points that are inside: finite cells.
+/// The same of the part of a cube that is inside: finite cells.
 ///
-/// @param inside  at least one
+/// @param inside  more than nothing
 /// @source        Parvizian, Duester and Rank, Computational Mechanics 41, 2007
 [[nodiscard]] CubeStiffness cutCubeStiffness(
   double side, double youngModulus, double poissonRatio, const CubePoints& inside);

@@ -1,5 +1,6 @@
 #include "calibration/organ/cut_grid.h"
 
+#include "calibration/organ/cut_column.h"
 #include "haptics/error.h"
 #include "haptics/units.h"
 
@@ -12,94 +13,18 @@ namespace palp
 namespace
 {
 
-constexpr int kParts = kCubeParts;
+constexpr int kEmpty = -1;
+constexpr int kWhole = -2;
 
-// where a vertical line leaves or enters the body
-struct Crossing
+CubePoints wholeCube()
 {
-  double z;
-  int way; // 1: into the body, going up; -1: out of it
-};
-
-// twice the area of a triangle in the plane, seen from above
-double area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x, double y)
-{
-  return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+  CubePoints cube;
+  for (std::size_t i = 0; i < CubePoints::size(); ++i)
+  {
+    cube.set(i);
+  }
+  return cube;
 }
-
-// vertical lines through the points of the cubes
-class Lines
-{
-public:
-  Lines(const Eigen::Vector3d& low, double step, int columns, int rows)
-    : low_(low)
-    , step_(step)
-    , columns_(columns)
-    , rows_(rows)
-    , crossings_(at(columns) * at(rows))
-  {
-  }
-
-  // notes where the lines pass through a triangle
-  void cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
-  {
-    const double whole = area(a, b, c.x(), c.y());
-    const auto [firstColumn, lastColumn] =
-      within(std::minmax({ a.x(), b.x(), c.x() }), 0, columns_);
-    const auto [firstRow, lastRow] = within(std::minmax({ a.y(), b.y(), c.y() }), 1, rows_);
-    for (int j = firstRow; j <= lastRow && whole != 0.0; ++j)
-    {
-      for (int i = firstColumn; i <= lastColumn; ++i)
-      {
-        const double u = area(b, c, place(0, i), place(1, j)) / whole;
-        const double v = area(c, a, place(0, i), place(1, j)) / whole;
-        if (u >= 0.0 && v >= 0.0 && u + v <= 1.0)
-        {
-          crossings_[at(j) * at(columns_) + at(i)].push_back(
-            { u * a.z() + v * b.z() + (1.0 - u - v) * c.z(), whole > 0.0 ? -1 : 1 });
-        }
-      }
-    }
-  }
-
-  // calls use(layer) for the points of a line that are inside, of so many layers
-  template <typename Use>
-  void forInside(int column, int row, int layers, Use use)
-  {
-    std::vector<Crossing>& line = crossings_[at(row) * at(columns_) + at(column)];
-    std::ranges::sort(line, {}, &Crossing::z);
-    int inside = 0;
-    std::size_t next = 0;
-    for (int layer = 0; layer < layers; ++layer)
-    {
-      for (; next < line.size() && line[next].z <= low_.z() + step_ * (layer + 0.5); ++next)
-      {
-        inside += line[next].way;
-      }
-      inside > 0 ? use(layer) : void();
-    }
-  }
-
-private:
-  [[nodiscard]] double place(Eigen::Index axis, int i) const
-  {
-    constexpr double aside[] = { 1e-7, 1.4e-7 }; // so that no line meets an edge [-]
-    return low_[axis] + step_ * (i + 0.5 + aside[axis]);
-  }
-
-  [[nodiscard]] std::pair<int, int> within(
-    std::pair<double, double> range, Eigen::Index axis, int count) const
-  {
-    return { std::max(0, static_cast<int>(std::floor((range.first - low_[axis]) / step_ - 0.6))),
-      std::min(count - 1, static_cast<int>(std::ceil((range.second - low_[axis]) / step_ - 0.4))) };
-  }
-
-  Eigen::Vector3d low_;
-  double step_;
-  int columns_;
-  int rows_;
-  std::vector<std::vector<Crossing>> crossings_;
-};
 
 } // namespace
 
@@ -142,24 +67,24 @@ CutGrid::CutGrid(const Surface& surface, double side)
   fill(surface);
 }
 
-CubePoints CutGrid::inside(const Cube& cube) const noexcept
+const CubePoints& CutGrid::inside(const Cube& cube) const noexcept
 {
+  static const CubePoints empty;
+  static const CubePoints whole = wholeCube();
   for (std::size_t k = 0; k < 3; ++k)
   {
     if (cube[k] < 0 || cube[k] >= size_[k])
     {
-      return {};
+      return empty;
     }
   }
-  const std::size_t index = (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
-  return points_[index];
+  const int kind = kinds_[indexOf(cube)];
+  return kind == kEmpty ? empty : kind == kWhole ? whole : cut_[at(kind)];
 }
 
 std::vector<Cube> CutGrid::largestPiece(double least) const
 {
   const auto& [nx, ny, nz] = size_;
-  const auto index = [&](const Cube& c)
-  { return (at(c[2]) * at(size_[1]) + at(c[1])) * at(size_[0]) + at(c[0]); };
   std::vector<bool> met(at(nx) * at(ny) * at(nz));
   std::vector<Cube> largest;
   for (int k = 0; k < nz; ++k)
@@ -171,9 +96,9 @@ std::vector<Cube> CutGrid::largestPiece(double least) const
         std::vector<Cube> piece;
         const auto visit = [&](const Cube& cube)
         {
-          if (filled(cube) >= least && !met[index(cube)])
+          if (filled(cube) >= least && !met[indexOf(cube)])
           {
-            met[index(cube)] = true;
+            met[indexOf(cube)] = true;
             piece.push_back(cube);
           }
         };
@@ -201,27 +126,49 @@ std::vector<Cube> CutGrid::largestPiece(double least) const
 
 void CutGrid::fill(const Surface& surface)
 {
-  const int columns = size_[0] * kParts;
-  const int rows = size_[1] * kParts;
-  Lines lines(low_, side_ / kParts, columns, rows);
-  const std::span<const Eigen::Vector3d> points = surface.points();
-  for (const auto& [a, b, c] : surface.triangles())
+  const auto& [nx, ny, nz] = size_;
+  const double parts = kCubeParts / side_;
+  const auto cornersOf = [&](const Triangle& triangle)
   {
-    lines.cross(points[at(a)], points[at(b)], points[at(c)]);
-  }
-  points_.assign(at(size_[0]) * at(size_[1]) * at(size_[2]), CubePoints());
-  for (int j = 0; j < rows; ++j)
-  {
-    for (int i = 0; i < columns; ++i)
+    CutColumn::Corners corners;
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      lines.forInside(i, j, size_[2] * kParts,
-        [&](int layer)
-        {
-          CubePoints& cube =
-            points_[(at(layer / kParts) * at(size_[1]) + at(j / kParts)) * at(size_[0]) +
-              at(i / kParts)];
-          cube.set(at((layer % kParts * kParts + j % kParts) * kParts + i % kParts));
-        });
+      corners[k] = parts * (surface.points()[at(triangle[k])] - low_);
+    }
+    return corners;
+  };
+  std::vector<std::vector<std::size_t>> over(at(nx) * at(ny)); // triangles, of each column
+  for (std::size_t t = 0; t < surface.triangles().size(); ++t)
+  {
+    const CutColumn::Corners corners = cornersOf(surface.triangles()[t]);
+    const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) / kCubeParts;
+    const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) / kCubeParts;
+    for (int j = static_cast<int>(low.y()); j < std::min(ny, static_cast<int>(high.y()) + 1); ++j)
+    {
+      for (int i = static_cast<int>(low.x()); i < std::min(nx, static_cast<int>(high.x()) + 1); ++i)
+      {
+        over[at(j) * at(nx) + at(i)].push_back(t);
+      }
+    }
+  }
+  kinds_.assign(at(nx) * at(ny) * at(nz), kEmpty);
+  for (int j = 0; j < ny; ++j)
+  {
+    for (int i = 0; i < nx; ++i)
+    {
+      CutColumn column(i * kCubeParts, j * kCubeParts, nz * kCubeParts);
+      for (const std::size_t t : over[at(j) * at(nx) + at(i)])
+      {
+        column.add(cornersOf(surface.triangles()[t]));
+      }
+      const std::vector<CubePoints> cubes = column.cubes();
+      for (int k = 0; k < nz; ++k)
+      {
+        const CubePoints& cube = cubes[at(k)];
+        int& kind = kinds_[indexOf({ i, j, k })];
+        kind = cube.all() ? kWhole : cube.count() > 0 ? static_cast<int>(cut_.size()) : kEmpty;
+        kind >= 0 ? cut_.push_back(cube) : void();
+      }
     }
   }
 }

@@ -35,14 +35,13 @@ public:
     return low_;
   }
 
-  /// The points of a cube that are inside the body; none outside the grid.
-  [[nodiscard]] CubePoints inside(const Cube& cube) const noexcept;
+  /// What of a cube is inside the body; nothing outside the grid.
+  [[nodiscard]] const CubePoints& inside(const Cube& cube) const noexcept;
 
   /// Part of a cube that is inside the body, 0 to 1.
   [[nodiscard]] double filled(const Cube& cube) const noexcept
   {
-    const CubePoints points = inside(cube);
-    return static_cast<double>(points.count()) / static_cast<double>(points.size());
+    return inside(cube).filled();
   }
 
   /// The cubes that hang together by their faces, most of them.
@@ -52,10 +51,16 @@ public:
 private:
   void fill(const Surface& surface);
 
+  [[nodiscard]] std::size_t indexOf(const Cube& cube) const noexcept
+  {
+    return (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
+  }
+
   double side_;
   Eigen::Vector3d low_; // corner of the grid [m]
   Cube size_{};
-  std::vector<CubePoints> points_; // of each cube
+  std::vector<int> kinds_;      // of each cube: empty, whole or which of those that are cut
+  std::vector<CubePoints> cut_; // by the surface
 };
 
 } // namespace palp
