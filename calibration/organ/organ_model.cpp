@@ -2,11 +2,11 @@
 
 #include "calibration/organ/cube_stiffness.h"
 #include "calibration/organ/cut_grid.h"
+#include "calibration/organ/free_motion.h"
 #include "calibration/organ/surface_parts.h"
 #include "haptics/error.h"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -149,37 +149,29 @@ struct OrganModel::State
     }
   }
 
-  // what is left to move freely is named
-  void checkHeld(const Eigen::Matrix<double, 6, 6>& held) const
-  {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(held);
-    constexpr double least = 1e-9;
-    if (solver.eigenvalues()[0] > least * std::max(1e-300, solver.eigenvalues()[5]))
-    {
-      return;
-    }
-    Eigen::Index motion = 0;
-    solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&motion);
-    throw Error(ErrorCode::BadValue,
-      std::string("the supports leave the body free to ") +
-        (motion < 3 ? "move along " : "turn about ") + "xyz"[motion % 3] +
-        "; add one that holds it");
-  }
-
   void hold(const OrganModel& model, const Surface& surface, std::span<const Support> supports)
   {
     for (const Support& support : supports)
     {
       std::map<int, Grip> byCube;
+      double held = 0.0; // [m^2]
       forParts(surface, Eigen::Vector3d::Zero(), 0.5 * grid.side(), 0.0,
         [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
         {
           OrganModel::Weights weights{};
-          if (support.holds(middle) && model.weightsAt(middle, area.normalized(), weights, kLeast))
+          const bool isHeld = support.holds(middle);
+          held += isHeld ? area.norm() : 0.0;
+          if (isHeld && model.weightsAt(middle, area.normalized(), weights, kLeast))
           {
             byCube[weights.nodes[0]].add(weights, middle, area.norm());
           }
         });
+      if (held > 0.0 && byCube.empty())
+      {
+        throw Error(ErrorCode::BadValue,
+          "a support is on no cell of the body, or on a piece of it that no cells join to the "
+          "largest; give smaller cells, or a file of one piece");
+      }
       for (auto& [cube, grip] : byCube)
       {
         grip.along = support.along;
@@ -187,19 +179,28 @@ struct OrganModel::State
         grips.push_back(grip);
       }
     }
+    checkHeld();
+  }
+
+  void checkHeld() const
+  {
     const double size = grid.side() * *std::max_element(grid.size().begin(), grid.size().end());
-    Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
+    std::vector<HeldWay> held;
+    held.reserve(3 * grips.size());
     for (const Grip& grip : grips)
     {
       for (int axis = 0; axis < 3; ++axis)
       {
-        const Eigen::Vector3d way = grip.direction().col(axis);
-        Eigen::Matrix<double, 6, 1> row;
-        row << way, (grip.place - places.front()).cross(way) / size;
-        held += row * row.transpose();
+        held.push_back({ grip.place, grip.direction().col(axis) });
       }
     }
-    checkHeld(held);
+    if (const std::string motion = freeMotionOf(held, size); !motion.empty())
+    {
+      throw Error(ErrorCode::BadValue,
+        "the supports, in " + std::to_string(grips.size()) +
+          (grips.size() == 1 ? " cell" : " cells") + ", leave the body free to " + motion +
+          "; add one that holds it, or give smaller cells");
+    }
   }
 
   [[nodiscard]] double stiffnessOf(const Grip& grip) const

@@ -189,22 +189,6 @@ TEST(OrganModel, OfTwoBoxesThatShareAnEdgeIsThatOfOne)
   }
 }
 
-TEST(OrganModel, NamesAMotionThatItsSupportsLeaveFree)
-{
-  const Mesh box = makeBox({ 20.0_mm, 20.0_mm, 20.0_mm }, 5.0_mm);
-  const Surface surface(box.points, box.triangles);
-  const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm; }, Vector3d::UnitZ() };
-  try
-  {
-    const OrganModel model(surface, 5.0_mm, kYoung, kPoisson, std::span(&base, 1));
-    FAIL();
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("free to"), std::string::npos) << error.what();
-  }
-}
-
 struct Body
 {
   const char* file;    // of the reference
