@@ -1,5 +1,6 @@
 #include "app/commands/organ/organ_command.h"
 #include "app/commands/organ/organ_file.h"
+#include "app/commands/organ/organ_place.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/press_places.h"
@@ -9,12 +10,10 @@
 #include "app/press/body.h"
 #include "app/supports/support_region.h"
 #include "calibration/figures/table.h"
-#include "calibration/organ/organ_compliance.h"
-#include "calibration/organ/organ_places.h"
 #include "haptics/error.h"
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
-#include "haptics/force/linear/series_contact.h"
+#include "haptics/force/linear/half_space.h"
 #include "haptics/surface/ray.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
@@ -80,14 +79,6 @@ std::vector<PressPlace> placesOf(const OrganOptions& options)
   return places;
 }
 
-// whose pressure moves aside where the body is softer on one side [m]; 0: another tip's
-double roundnessOf(const Tip& tip)
-{
-  const auto* sphere = std::get_if<SphereTip>(&tip);
-  const auto* paraboloid = std::get_if<ParaboloidTip>(&tip);
-  return sphere ? sphere->radius : paraboloid ? paraboloid->radius : 0.0;
-}
-
 // what is pressed, and on what it rests
 struct PressedBody
 {
@@ -96,67 +87,52 @@ struct PressedBody
   OrganModel model;
 };
 
-// A place nearer to an edge than two cells is known by its neighbors only. Bonded plates of two
-// cells are 2 % too soft, thinner ones up to 20 %, and contacts wider than a third of them wrong.
-const char* remarkOf(
-  const PressedBody& body, const SurfacePoint& point, const SeriesContact& series)
+// the law of a linear body that has this shape
+Scene sceneOf(const OrganOptions& options, const SceneBody& body)
 {
-  const auto holds = [&](const Support& support) { return support.holds(point.position); };
-  if (std::ranges::any_of(body.supports, holds))
-  {
-    return "on a support";
-  }
-  const double thickness = rayExit(body.surface.tree(), point.position, -point.normal).distance;
-  const double edge = body.surface.shape().edgeDistance(point.position);
-  const bool isWide = series.isBeyond || series.contact.radius > thickness / 3.0;
-  return series.local > 0.5 * thickness   ? "too deep"
-    : isWide                              ? "support too near"
-    : thickness < 2.0 * body.model.side() ? "cells too large"
-    : edge < 2.0 * body.model.side()      ? "edge"
-                                          : "";
+  constexpr double kMost = 1e6; // [N]
+  LawSettings settings;
+  settings.mode = LawMode::Corrected;
+  settings.constitution = ConstitutiveModel::Linear;
+  Scene scene;
+  scene.surface = body.haptic;
+  scene.law = ForceLaw(options.tip, makeMaterial(options.young, options.poisson), settings);
+  scene.forceLimit = kMost;
+  return scene;
 }
 
-// before any work; each depth has a remark of its own
-std::vector<SurfacePoint> pointsAt(const std::vector<PressPlace>& places, const Scene& scene)
+// each depth has a remark of its own
+SurfacePoint pointAt(const PressPlace& place, const Scene& scene)
 {
   constexpr double kLightly = 1e-6; // [m]
-  std::vector<SurfacePoint> points;
-  points.reserve(places.size());
-  for (const PressPlace& place : places)
-  {
-    points.push_back(pressedPoint(place, { .depth = kLightly }, scene));
-  }
-  return points;
+  return pressedPoint(place, { .depth = kLightly }, scene);
 }
 
-void addRows(const OrganOptions& options, const PressedBody& pressed, const SurfacePoint& point,
-  figures::Table& table)
+// deeper than a press goes, straight down
+ToolPose poseAt(
+  const PressPlace& place, const SurfacePoint& point, double depth, const Scene& scene)
 {
-  const OrganModel& model = pressed.model;
-  const auto compliance = complianceAt(model, pressed.surface, point.position, point.normal);
-  if (!compliance)
-  {
-    throw Error(ErrorCode::BadValue,
-      "too little of the surface is around the place " + units::inMillimeters(point.position.x()) +
-        ", " + units::inMillimeters(point.position.y()) + ", " +
-        units::inMillimeters(point.position.z()) +
-        ", or the body hangs over it; give smaller cells, or another place");
-  }
-  const double modulus = model.contactModulus();
+  const double thickness = rayExit(scene.surface->tree(), point.position, -point.normal).distance;
+  return depth > 0.5 * thickness
+    ? ToolPose{ .apex = point.position - depth * point.normal, .axis = -point.normal }
+    : pressedPose(place, { .depth = depth }, scene);
+}
+
+void addRows(const OrganOptions& options, const PressedBody& pressed, const Scene& scene,
+  const PressPlace& at, figures::Table& table)
+{
+  const SurfacePoint point = pointAt(at, scene);
+  const OrganPlace place(pressed.model, pressed.supports, scene, point);
   const HalfSpace law(options.tip);
-  const BodyCompliance body{ .constant = modulus * compliance->constant,
-    .slope = modulus * compliance->slope.norm(),
-    .bend = modulus * compliance->bend,
-    .edge = nearnessToEdge(pressed.surface, point.position, model.side()) };
   for (const double depth : options.depths.si)
   {
     if (depth > 0.0)
     {
-      const SeriesContact series = inSeries(law, body, depth, roundnessOf(options.tip));
+      const OrganPlace::Answer answer = place.at(poseAt(at, point, depth, scene));
       table.rows.push_back({ toMillimeters(point.position.x()), toMillimeters(point.position.y()),
-        toMillimeters(point.position.z()), body.constant, body.slope, toMillimeters(depth),
-        modulus * series.contact.force, modulus * law(depth).force, toMillimeters(series.local),
-        std::string(remarkOf(pressed, point, series)) });
+        toMillimeters(point.position.z()), answer.body.constant, answer.body.slope,
+        toMillimeters(depth), answer.force, pressed.model.contactModulus() * law(depth).force,
+        toMillimeters(answer.local), answer.remark });
     }
   }
 }
@@ -191,9 +167,11 @@ void runOrgan(const OrganOptions& options)
       body, supportsOf(options, *body.haptic), *interrupt);
     return;
   }
-  Scene scene;
-  scene.surface = body.haptic;
-  const std::vector<SurfacePoint> points = pointsAt(places, scene);
+  const Scene scene = sceneOf(options, body);
+  for (const PressPlace& place : places)
+  {
+    (void)pointAt(place, scene); // before any work
+  }
   const std::vector<Support> supports = supportsOf(options, *body.haptic);
   const PressedBody pressed{ *body.haptic, supports,
     { *body.haptic, options.cell, options.young, options.poisson, supports } };
@@ -202,9 +180,9 @@ void runOrgan(const OrganOptions& options)
     .caption = "A body in series with the contact",
     .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
       "half_space_N", "local_depth_mm", "remark" } };
-  for (const SurfacePoint& point : points)
+  for (const PressPlace& place : places)
   {
-    addRows(options, pressed, point, table);
+    addRows(options, pressed, scene, place, table);
   }
   constexpr int kShown = 5; // digits
   std::cout << figures::csv(table, kShown);
@@ -254,8 +232,10 @@ void addOrganCommand(CLI::App& app)
       all->cell = parseWithin(text, Quantity::Length, { 0.1_mm, 0.1, "0.1mm to 100mm" }, "--cell");
     });
   command->footer(
-    "The law of the half-space in series with the body's own compliance, by finite elements in\n"
-    "cubes that its surface cuts: linear, frictionless, one material. constant and slope: E*\n"
+    "What palp run --organ --law corrected --material linear feels, solved for around places "
+    "only:\n"
+    "the contact in series with the body's own compliance, by finite elements in cubes that its\n"
+    "surface cuts: linear, frictionless, one material. constant and slope: E*\n"
     "times what the body adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"
     "of the exact layer, lobes and edges 8 mm away within 4 %. remark: on a support; too deep\n"
     "beyond half of the thickness; support too near where the contact is wider than a third of\n"

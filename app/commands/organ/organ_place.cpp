@@ -1,0 +1,88 @@
+#include "app/commands/organ/organ_place.h"
+
+#include "calibration/organ/organ_compliance.h"
+#include "calibration/organ/organ_places.h"
+#include "haptics/contact/find_contact.h"
+#include "haptics/error.h"
+#include "haptics/servo/tissue_at.h"
+#include "haptics/surface/ray.h"
+#include "haptics/units.h"
+
+#include <algorithm>
+
+namespace palp
+{
+namespace
+{
+
+// of a file, around a place: those that reach there, and those that sharpen them
+std::shared_ptr<const ComplianceField> fieldAround(const OrganModel& model,
+  std::span<const Support> supports, const Surface& surface, const SurfacePoint& point)
+{
+  constexpr double kAround = 5.0; // spacings
+  OrganTable table;
+  table.cell = model.side();
+  table.spacing = spacingOf(surface, table.cell);
+  std::vector<SurfacePoint> places = organPlaces(surface, table.spacing);
+  std::erase_if(places,
+    [&](const SurfacePoint& place)
+    {
+      return (place.position - point.position).norm() > kAround * table.spacing ||
+        place.normal.dot(point.normal) <= 0.0;
+    });
+  table.count = places.size();
+  (void)addPlaces(table, model, surface,
+    { .places = places, .supports = supports, .tell = [](const OrganTable&) {} });
+  return std::make_shared<const ComplianceField>(table.places, table.spacing, model.poissonRatio());
+}
+
+} // namespace
+
+OrganPlace::OrganPlace(const OrganModel& model, std::span<const Support> supports,
+  const Scene& scene, const SurfacePoint& point)
+  : point_(point)
+  , cell_(model.side())
+  , isHeld_(std::ranges::any_of(
+      supports, [&](const Support& support) { return support.holds(point.position); }))
+  , thickness_(rayExit(scene.surface->tree(), point.position, -point.normal).distance)
+  , edge_(scene.surface->shape().edgeDistance(point.position))
+  , scene_(scene)
+{
+  const Surface& surface = *scene.surface;
+  if (!complianceAt(model, surface, point.position, point.normal))
+  {
+    throw Error(ErrorCode::BadValue,
+      "too little of the surface is around the place " + units::inMillimeters(point.position.x()) +
+        ", " + units::inMillimeters(point.position.y()) + ", " +
+        units::inMillimeters(point.position.z()) +
+        ", or the body hangs over it; give smaller cells, or another place");
+  }
+  scene_.series = seriesBodyOf(fieldAround(model, supports, surface, point), scene.law);
+}
+
+// A place nearer to an edge than two cells is known by its neighbors only. Bonded plates of two
+// cells are 2 % too soft, thinner ones up to 20 %, and contacts wider than a third of them wrong.
+const char* OrganPlace::remarkOf(const ToolPose& pose, const SeriesResponse& answer) const
+{
+  const double travel = (point_.position - pose.apex).dot(point_.normal);
+  constexpr double kTwo = 2.0; // cells
+  const bool isWide = answer.isBeyond || answer.felt.contactRadius > thickness_ / 3.0;
+  return isHeld_                ? "on a support"
+    : travel > 0.5 * thickness_ ? "too deep"
+    : isWide                    ? "support too near"
+    : thickness_ < kTwo * cell_ ? "cells too large"
+    : edge_ < kTwo * cell_      ? "edge"
+                                : "";
+}
+
+OrganPlace::Answer OrganPlace::at(const ToolPose& pose) const
+{
+  const Contact contact = findContact(*scene_.surface, scene_.law.tip(), pose, scene_.rule);
+  const SeriesResponse answer = TissueAt(scene_, contact).answer(contact.depth);
+  return { .body = scene_.series->at(contact.center, contact.normal, contact.depth).body,
+    .force = answer.felt.force,
+    .local = answer.local,
+    .remark = remarkOf(pose, answer) };
+}
+
+} // namespace palp
