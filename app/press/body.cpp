@@ -2,6 +2,7 @@
 
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
+#include "app/supports/organ_seal.h"
 #include "app/supports/support_text.h"
 #include "app/train/hidden_nodules.h"
 #include "calibration/tables/organ_table.h"
@@ -113,6 +114,7 @@ std::shared_ptr<const ComplianceField> placedCompliance(
       "organ: an organ file is of one surface, these are several in one body; join them in one "
       "file, or leave it out");
   }
+  checkSeal(source.organ);
   OrganTable table = readOrganOf(source.organ, identityOf(felt));
   checkSupports(source.supports, source.organ, table.supports);
   table.place(source.frame());

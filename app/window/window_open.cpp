@@ -5,6 +5,7 @@
 #include "app/panels/tissue_panel.h"
 #include "app/places/fiducial_file.h"
 #include "app/scene/scene_file.h"
+#include "app/supports/organ_seal.h"
 #include "app/supports/support_text.h"
 #include "app/window/window.h"
 #include "calibration/tables/organ_table.h"
@@ -105,6 +106,7 @@ void Window::openOther(const QString& file)
 // how the body that is open, or an organ of it, gives way as a whole
 void Window::openOrgan(const QString& file)
 {
+  checkSeal(file.toStdString());
   const OrganTable table = readOrganTable(file.toStdString());
   const SceneBody& body = session_.body();
   std::vector<MeshSource> meshes = body.sources;

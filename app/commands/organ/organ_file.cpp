@@ -1,6 +1,7 @@
 #include "app/commands/organ/organ_file.h"
 
 #include "app/program/progress_line.h"
+#include "app/supports/organ_seal.h"
 #include "app/supports/support_text.h"
 #include "calibration/organ/organ_motion_modes.h"
 #include "calibration/organ/organ_places.h"
@@ -54,6 +55,7 @@ std::optional<OrganTable> tableIn(const std::filesystem::path& file, const Organ
   {
     return std::nullopt;
   }
+  checkSeal(file);
   OrganTable found = readOrganTable(file);
   return found.continues(wanted) ? std::optional(std::move(found)) : std::nullopt;
 }
@@ -115,7 +117,7 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
     constexpr auto kEvery = std::chrono::seconds(1);
     if (Clock::now() - kept > kEvery && !now.isComplete())
     {
-      writeOrganTable(begun, now);
+      writeSealed(begun, now);
       interrupt.endWhatDoesNotStop(kStopped);
       kept = Clock::now();
     }
@@ -123,16 +125,16 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   if (!addPlaces(table, model, surface,
         { .places = places, .supports = supports, .tell = tell, .stop = interrupt.token() }))
   {
-    table.places.empty() ? void() : writeOrganTable(begun, table);
+    table.places.empty() ? void() : writeSealed(begun, table);
     throw Error(ErrorCode::NoSolution, table.places.empty() ? kNoPlaceYet : kStopped);
   }
-  writeOrganTable(begun, table);
+  writeSealed(begun, table);
   progress.tell("motion of the whole body, to be drawn");
   if (!addMotion(table, model, surface, interrupt.token()))
   {
     throw Error(ErrorCode::NoSolution, kStopped);
   }
-  writeOrganTable(plan.out, table);
+  writeSealed(plan.out, table);
   std::filesystem::remove(begun);
   report(plan, table, Clock::now() - start);
 }
