@@ -17,19 +17,19 @@ namespace
 {
 
 constexpr std::string_view kTool = "# tool: ";
+constexpr const char* kLocal = "local_depth_mm";
 
-} // namespace
-
-ForceRows readForceRows(const std::filesystem::path& file)
+ForceRows rowsIn(const std::filesystem::path& file, const char* depth)
 {
-  const NumberTable table = NumberTable::readRecording(file, std::array{ "depth_mm", "force_N" });
+  const NumberTable table = NumberTable::readRecording(file, std::array{ depth, "force_N" });
   if (table.rows.empty())
   {
     throw Error(ErrorCode::BadFile, file.string() + ": no row below the header; give a curve");
   }
   ForceRows rows{ .curve = { .name = file.stem().string(), .x = {}, .y = {} },
     .recorded = std::ranges::find(table.names, "time_s") != table.names.end(),
-    .tool = {} };
+    .tool = {},
+    .isInBody = std::ranges::find(table.names, kLocal) != table.names.end() };
   const auto tool = std::ranges::find_if(
     table.comments, [](const std::string& line) { return line.starts_with(kTool); });
   if (tool != table.comments.end())
@@ -42,6 +42,19 @@ ForceRows readForceRows(const std::filesystem::path& file)
     rows.curve.y.push_back(values[1]);
   }
   return rows;
+}
+
+} // namespace
+
+ForceRows readForceRows(const std::filesystem::path& file)
+{
+  return rowsIn(file, "depth_mm");
+}
+
+ForceRows readContactRows(const std::filesystem::path& file)
+{
+  ForceRows rows = readForceRows(file);
+  return rows.isInBody ? rowsIn(file, kLocal) : rows;
 }
 
 std::string noteOfTool(const ForceRows& rows, const Tip& tip)

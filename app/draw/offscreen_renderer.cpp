@@ -230,7 +230,7 @@ void OffscreenRenderer::drawPress(const SceneBody& body, const Recording& record
     {
       std::vector<Sample> press = recording.samples;
       std::erase_if(press, [organ](const Sample& sample) { return sample.organ != organ; });
-      return forceComparison(organOf(recording.scene, organ).law, press, organs, plan.references);
+      return forceComparison(organOf(recording.scene, organ), press, organs, plan.references);
     });
   if (calibration)
   {

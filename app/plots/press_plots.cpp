@@ -2,6 +2,7 @@
 
 #include "haptics/contact/contact_geometry_of.h"
 #include "haptics/error.h"
+#include "haptics/servo/tissue_at.h"
 #include "haptics/units.h"
 #include "pipeline/charts/plot_files.h"
 
@@ -29,19 +30,36 @@ const char* nameOf(LawMode mode)
   return "";
 }
 
-// the one in use first: the band is about it
-std::vector<NamedLaw> lawsToCompare(const ForceLaw& law, const ContactGeometry& geometry)
+// the one in use first: the band is about it, and as felt where the body gives way
+std::vector<NamedLaw> lawsToCompare(const Scene& scene, const Contact& contact)
 {
+  const ForceLaw& law = scene.law;
+  const bool isInBody = scene.series != nullptr && contact.touching();
   const LawMode used = law.settings().mode;
-  const char* of = law.settings().coatings.empty() ? "" : ", without coatings";
+  const std::string of = std::string(law.settings().coatings.empty() ? "" : ", without coatings") +
+    (isInBody ? ", without the organ file" : "");
   const auto color = [](LawMode mode) { return static_cast<std::size_t>(mode); };
-  std::vector<NamedLaw> laws{ { nameOf(used), law, geometry, color(used) } };
+  std::vector<NamedLaw> laws{ { .name = nameOf(used),
+    .law = law,
+    .geometry = contact.touching() ? contactGeometryOf(contact) : ContactGeometry{},
+    .color = color(used) } };
+  if (isInBody)
+  {
+    laws.front().name += " in the body";
+    laws.front().answer = [scene, contact](double depth)
+    {
+      Contact at = contact;
+      at.depth = depth;
+      return TissueAt(scene, at).answer(depth).felt.force;
+    };
+  }
   for (const LawMode mode : { LawMode::Paper, LawMode::Exact })
   {
     if (mode != used)
     {
-      laws.push_back({ nameOf(mode) + std::string(of),
-        ForceLaw(law.tip(), law.material(), LawSettings{ .mode = mode }), {}, color(mode) });
+      laws.push_back({ .name = nameOf(mode) + of,
+        .law = ForceLaw(law.tip(), law.material(), LawSettings{ .mode = mode }),
+        .color = color(mode) });
     }
   }
   return laws;
@@ -85,7 +103,7 @@ ReferenceCurve forceCurveOf(std::span<const Sample> samples)
 
 } // namespace
 
-Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
+Plots forceComparison(const Scene& scene, std::span<const Sample> press,
   const Calibration* calibration, const std::vector<ReferenceCurve>& others)
 {
   const Sample* deepest = deepestOf(press);
@@ -97,7 +115,7 @@ Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
   }
   if (calibration)
   {
-    references.push_back(elementsOf(*calibration, law));
+    references.push_back(elementsOf(*calibration, scene.law));
   }
   std::erase_if(references, [](const ReferenceCurve& curve) { return curve.x.empty(); });
   double depth = 1.0_mm;
@@ -105,8 +123,7 @@ Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
   {
     depth = std::max(depth, *std::max_element(curve.x.begin(), curve.x.end()));
   }
-  const std::vector<NamedLaw> laws =
-    lawsToCompare(law, deepest ? contactGeometryOf(deepest->contact) : ContactGeometry{});
+  const std::vector<NamedLaw> laws = lawsToCompare(scene, deepest ? deepest->contact : Contact{});
   Plots plots;
   plots.push_back(forcePlot(laws, depth, references));
   plots.push_back(forceErrorPlot(laws, depth, references));

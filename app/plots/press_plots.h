@@ -21,12 +21,14 @@ using Plots = std::vector<std::unique_ptr<Plot>>; ///< one below the other
 /// F(depth) of the law in use, of the paper's and of the exact one, with the 7 % band; of a press,
 /// of finite elements and of others; and the differences below.
 ///
-/// The law in use knows thickness, curvature and tilt of the deepest contact, as it did there.
+/// The law in use knows thickness, curvature and tilt of the deepest contact, as it did there, and
+/// what the body gives way.
 ///
+/// @param scene        of the organ that is pressed
 /// @param press        its samples, in order
 /// @param calibration  gives the elements; null for none
 /// @param others       depth [m] and force [N]; those without points are left out
-[[nodiscard]] Plots forceComparison(const ForceLaw& law, std::span<const Sample> press,
+[[nodiscard]] Plots forceComparison(const Scene& scene, std::span<const Sample> press,
   const Calibration* calibration, const std::vector<ReferenceCurve>& others = {});
 
 /// R_d(depth) of the calibration and its quadratic fit.

@@ -2,12 +2,20 @@
 
 #include "calibration/fit/loading_rows.h"
 #include "haptics/contact/contact_geometry_of.h"
+#include "haptics/error.h"
 
 namespace palp
 {
 
 fit::ModulusFit fitPress(const KeptPress& press)
 {
+  if (press.isInBody)
+  {
+    throw Error(ErrorCode::BadValue,
+      "of a press with an organ file no E is told from its curve, as the body gave way, too; "
+      "export "
+      "it, and palp fit takes its local_depth_mm");
+  }
   std::vector<double> depths;
   std::vector<double> forces;
   for (const CurvePoint& point : press.curve)

@@ -12,7 +12,7 @@ namespace palp
 /// own, on one place, the answer is the modulus in use; of one that was computed with nodules, with
 /// friction or while it slid, what a user would be told by the curve alone.
 ///
-/// @throws Error  as fit::fitModulus
+/// @throws Error  BadValue: the body gave way by an organ file; also as fit::fitModulus
 [[nodiscard]] fit::ModulusFit fitPress(const KeptPress& press);
 
 } // namespace palp

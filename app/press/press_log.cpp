@@ -116,7 +116,8 @@ std::size_t PressLog::keepAll(const Recording& samples)
       .mesh = samples.mesh,
       .law = organ.law,
       .rule = organ.rule,
-      .damping = organ.damping };
+      .damping = organ.damping,
+      .isInBody = organ.series != nullptr };
     if (samples.names.empty())
     {
       press.summary.name =

@@ -29,6 +29,7 @@ struct KeptPress
   ForceLaw law;
   ContactRule rule = ContactRule::Exact;
   double damping = 0.0;            ///< b [N s/m]
+  bool isInBody = false;           ///< which gave way by an organ file
   std::string outside{};           ///< see outsideLimits; empty also where no sample is rated
   std::vector<CurvePoint> curve{}; ///< from touch to release, kCurve of its samples at most
   int saved = 0;                   ///< number by which Autosave has it; 0: none

@@ -186,7 +186,7 @@ void Window::makePlots(bool shown)
     const auto press = recording.lastPress();
     const int organ = press.empty() ? 0 : press.back().organ;
     return forceComparison(
-      organOf(recording.scene, organ).law, press, &organOf(session_.calibration(), organ));
+      organOf(recording.scene, organ), press, &organOf(session_.calibration(), organ));
   };
   plots_ = new PlotPanel(
     { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); },

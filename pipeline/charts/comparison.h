@@ -7,6 +7,7 @@
 #include "pipeline/model/reference_curve.h"
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,9 +25,14 @@ struct NamedLaw
     geometry{}; ///< what the law knows but the depth; by default a half-space pressed straight
   std::optional<std::size_t>
     color{}; ///< as curveColor, which then is no reference's; none: the next
+  std::function<double(double)> answer{}; ///< force [N] at a depth [m] of more than the law; or not
 
-  [[nodiscard]] double force(double depth) const noexcept
+  [[nodiscard]] double force(double depth) const
   {
+    if (answer)
+    {
+      return answer(depth);
+    }
     ContactGeometry at = geometry;
     at.depth = depth;
     return law(at).force;

@@ -71,7 +71,7 @@ fit::ModulusQuestion questionOf(const FitOptions& options)
 
 FileFit fitFile(const std::filesystem::path& file, const fit::ModulusQuestion& question)
 {
-  const ForceRows read = readForceRows(file);
+  const ForceRows read = readContactRows(file);
   const ReferenceCurve& whole = read.curve;
   try
   {
