@@ -114,7 +114,7 @@ std::size_t organIn(const ScenePlan& plan, const std::string& name)
     names.append(names.empty() ? "" : ", ").append(printable(organ.name));
   }
   throw Error(ErrorCode::BadValue,
-    "--organ: " +
+    "--pressed: " +
       (name.empty() ? std::string("the scene has several; give one")
                     : inQuotes(name) + " is none of the scene") +
       ": " + names);
@@ -129,7 +129,7 @@ MapSubject subjectOf(const MapOptions& options)
     if (!options.organ.empty())
     {
       throw Error(
-        ErrorCode::BadValue, "--organ: names one of a scene; give the scene's JSON as FILE");
+        ErrorCode::BadValue, "--pressed: names one of a scene; give the scene's JSON as FILE");
     }
     return subjectOf({ options.mesh }, options.press);
   }
@@ -191,7 +191,7 @@ void addMapCommand(CLI::App& app)
     "map", "Press at places spread evenly over a surface: its stiffness as CSV and as colors");
   options->mesh.addTo(*command);
   command->add_option(
-    "--organ", options->organ, "Which one where FILE is a scene of several organs");
+    "--pressed", options->organ, "Which one where FILE is a scene of several organs");
   const std::size_t others = command->get_options().size();
   options->press.addTo(*command);
   addStiffness(*command, options->mesh.stiffness);
@@ -222,7 +222,7 @@ void addMapCommand(CLI::App& app)
     "Examples:\n"
     "  palp map --out map                                  the bundled liver, 5 mm deep\n"
     "  palp map liver.stl --depth 3mm --spacing 5mm --tip sphere:6mm --law corrected --out map\n"
-    "  palp map organs/scene.json --organ spleen --out map  of a scene, by its tool and tissue");
+    "  palp map organs/scene.json --pressed spleen --out map  of a scene, by its tool and tissue");
   command->callback([options] { makeMap(*options); });
 }
 

@@ -64,14 +64,14 @@ TEST_F(MapCommand, OfASceneMapsTheOrganThatIsNamed)
       " --depth 2mm --spacing 15mm --around 0,0,0 --radius 20mm " + options);
   };
   for (const auto& [options, why] : { std::pair("", "give one: block, ball"),
-         std::pair("--organ liver", "'liver' is none of the scene: block, ball"),
-         std::pair("--organ block --young 5kPa", "--young: the scene has tool, tissue and law") })
+         std::pair("--pressed liver", "'liver' is none of the scene: block, ball"),
+         std::pair("--pressed block --young 5kPa", "--young: the scene has tool, tissue and law") })
   {
     const test::Finished refused = of(options);
     EXPECT_EQ(refused.code, 2) << options;
     EXPECT_NE(refused.err.find(why), std::string::npos) << options << ": " << refused.err;
   }
-  const test::Finished made = of("--organ block");
+  const test::Finished made = of("--pressed block");
   ASSERT_EQ(made.code, 0) << made.err;
   const std::string table = test::readAll(folder_.path() / "out/stiffness_map.csv");
   EXPECT_NE(table.find("# surface: block\n"), std::string::npos);
