@@ -2,6 +2,7 @@
 
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
+#include "app/stiffness/stiffness_text.h"
 #include "app/supports/support_text.h"
 #include "app/train/hidden_nodules.h"
 #include "calibration/tables/organ_table.h"
@@ -98,6 +99,17 @@ TissueMap placedMap(
   };
 }
 
+// one for an even body is taken for any: what a map does far from the tool is then left out
+void checkStiffness(const MeshSource& source, const std::string& described)
+{
+  if (!described.empty() && identityOf(source.stiffness) != described)
+  {
+    throw Error(ErrorCode::BadFile,
+      printable(source.organ.string()) + ": is of a body whose stiffness is " + described +
+        "; give the same --stiffness, or make it again by palp organ");
+  }
+}
+
 // in the scene, of the only surface of a body; null: it has none
 std::shared_ptr<const ComplianceField> placedCompliance(
   const std::vector<MeshSource>& meshes, const MeshFile& felt)
@@ -115,10 +127,12 @@ std::shared_ptr<const ComplianceField> placedCompliance(
   }
   OrganTable table = readOrganOf(source.organ, identityOf(felt));
   checkSupports(source.supports, source.organ, table.supports);
+  checkStiffness(source, table.stiffness);
   table.place(source.frame());
   return std::make_shared<const ComplianceField>(std::move(table.places), table.spacing,
     table.poisson,
-    table.motion.places.empty() ? nullptr : std::make_shared<const OrganMotion>(table.motion));
+    table.motion.places.empty() ? nullptr : std::make_shared<const OrganMotion>(table.motion),
+    table.young);
 }
 
 // what is felt of a surface: itself, or one of fewer points

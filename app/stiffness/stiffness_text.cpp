@@ -1,5 +1,6 @@
 #include "app/stiffness/stiffness_text.h"
 
+#include "app/input/mesh_file.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
@@ -162,6 +163,12 @@ std::string describeStiffness(const StiffnessSource& source, const std::string& 
       break;
   }
   return "";
+}
+
+std::string identityOf(const StiffnessSource& source)
+{
+  return describeStiffness(
+    source, source.file.empty() ? "" : "SHA-256 " + describeFile(source.file).sha256);
 }
 
 std::string mapRefusal(const MeshSource& mesh, const LawOptions& law)

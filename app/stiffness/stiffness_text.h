@@ -26,6 +26,10 @@ struct MeshSource;
 /// @param file  how the file is named there
 [[nodiscard]] std::string describeStiffness(const StiffnessSource& source, const std::string& file);
 
+/// The same wherever its file lies, by the SHA-256 of that; empty: none is given.
+/// @throws Error  BadFile: the file cannot be read
+[[nodiscard]] std::string identityOf(const StiffnessSource& source);
+
 /// Why a body with a map, or without one, cannot be pressed so; empty: it can.
 [[nodiscard]] std::string mapRefusal(const MeshSource& mesh, const LawOptions& law);
 

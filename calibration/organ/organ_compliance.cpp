@@ -179,6 +179,7 @@ Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPr
   const Pressed& pressed, const Eigen::Ref<const Eigen::VectorXd>& moved)
 {
   Readings readings;
+  const double modulus = 2.0 * pressure.shear / (1.0 - pressure.poisson); // E*
   OrganModel::Weights weights{};
   for (const double ring : kRings)
   {
@@ -198,8 +199,7 @@ Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPr
       }
       for (const Eigen::Vector2d& off : pressed.off)
       {
-        down += 1.0 /
-          (kLoadRings * kAround * std::numbers::pi * model.contactModulus() * (off - in).norm());
+        down += 1.0 / (kLoadRings * kAround * std::numbers::pi * modulus * (off - in).norm());
       }
       readings.places.push_back(in);
       readings.values.push_back(down / pressed.part);
@@ -234,25 +234,33 @@ std::optional<OrganCompliance> fitted(
     .bend = (found[3] + found[4]) / (radius * radius) };
 }
 
+SmoothPressure pressureOf(const OrganModel& model, double ratio)
+{
+  return { kSides * model.side(), ratio * model.shearModulus(), model.poissonRatio() };
+}
+
 // what the cubes give to loads at places; those that the body hangs over are left out
 struct Loaded
 {
   std::vector<TangentPlane> planes{};
-  std::vector<std::size_t> of{}; // the places
-  Eigen::MatrixXd moved{};       // a column for each plane [m/N]
+  std::vector<SmoothPressure> pressures{}; // on a half-space of the modulus around each
+  std::vector<std::size_t> of{};           // the places
+  Eigen::MatrixXd moved{};                 // a column for each plane [m/N]
 };
 
-Loaded loadedAt(const OrganModel& model, const Surface& surface,
-  std::span<const SurfacePoint> places, const SmoothPressure& pressure)
+Loaded loadedAt(
+  const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
 {
   Loaded loaded;
+  const double radius = kSides * model.side();
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const auto& [position, outward] = places[i];
     // else the sources of the pressure would be in the body
-    if (rayEntry(surface.tree(), position + 1e-3 * pressure.radius * outward, outward).triangle < 0)
+    if (rayEntry(surface.tree(), position + 1e-3 * radius * outward, outward).triangle < 0)
     {
-      loaded.planes.emplace_back(surface, position, outward, pressure.radius);
+      loaded.planes.emplace_back(surface, position, outward, radius);
+      loaded.pressures.push_back(pressureOf(model, model.ratioAround(position, radius)));
       loaded.of.push_back(i);
     }
   }
@@ -260,21 +268,17 @@ Loaded loadedAt(const OrganModel& model, const Surface& surface,
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
     const auto column = static_cast<Eigen::Index>(i);
-    loads.col(column) = loadBeyond(model, loaded.planes[i], pressure);
+    const TangentPlane& plane = loaded.planes[i];
+    const SmoothPressure& pressure = loaded.pressures[i];
+    const auto field = [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
+    { return plane.outside(pressure.displacement(plane.inside(place - plane.place()))); };
+    loads.col(column) = loadBeyond(model, plane, pressure);
     model.moveSupports(loads.col(column),
-      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
-      {
-        const TangentPlane& plane = loaded.planes[i];
-        return -plane.outside(pressure.displacement(plane.inside(place - plane.place())));
-      });
+      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d { return -field(place); });
+    model.varyLoad(loads.col(column), field, pressure.shear / model.shearModulus());
   }
   loaded.moved = model.solve(loads);
   return loaded;
-}
-
-SmoothPressure pressureOf(const OrganModel& model)
-{
-  return { kSides * model.side(), model.shearModulus(), model.poissonRatio() };
 }
 
 } // namespace
@@ -282,11 +286,11 @@ SmoothPressure pressureOf(const OrganModel& model)
 std::vector<std::optional<OrganCompliance>> compliancesAt(
   const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
 {
-  const SmoothPressure pressure = pressureOf(model);
-  const Loaded loaded = loadedAt(model, surface, places, pressure);
+  const Loaded loaded = loadedAt(model, surface, places);
   std::vector<std::optional<OrganCompliance>> found(places.size());
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
+    const SmoothPressure& pressure = loaded.pressures[i];
     const Pressed pressed = pressedBy(pressure, loaded.planes[i]);
     const Readings readings = read(
       model, loaded.planes[i], pressure, pressed, loaded.moved.col(static_cast<Eigen::Index>(i)));
@@ -298,14 +302,14 @@ std::vector<std::optional<OrganCompliance>> compliancesAt(
 Eigen::MatrixXd motionsBy(const OrganModel& model, const Surface& surface,
   std::span<const SurfacePoint> loads, std::span<const SurfacePoint> places)
 {
-  const SmoothPressure pressure = pressureOf(model);
-  const SmoothPressure wide{ drawnRadius(model.side()), pressure.shear, pressure.poisson };
-  const Loaded loaded = loadedAt(model, surface, loads, pressure);
+  const Loaded loaded = loadedAt(model, surface, loads);
   Eigen::MatrixXd motions =
     Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * places.size()), std::ssize(loads));
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
     const TangentPlane& plane = loaded.planes[i];
+    const SmoothPressure& pressure = loaded.pressures[i];
+    const SmoothPressure wide{ drawnRadius(model.side()), pressure.shear, pressure.poisson };
     const auto moved = loaded.moved.col(static_cast<Eigen::Index>(i));
     const double part = pressedBy(pressure, plane).part;
     for (std::size_t k = 0; k < places.size(); ++k)

@@ -2,18 +2,16 @@
 
 #include "calibration/organ/cube_stiffness.h"
 #include "calibration/organ/cut_grid.h"
+#include "calibration/organ/shared_cholesky.h"
+#include "calibration/organ/support_grip.h"
 #include "calibration/organ/surface_parts.h"
 #include "haptics/error.h"
 
-#include <Eigen/CholmodSupport>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 #include <vector>
 
 namespace palp
@@ -21,7 +19,7 @@ namespace palp
 namespace
 {
 
-using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Sparse = SharedCholesky::Sparse;
 using Nodes = std::array<int, kCubeCorners>;
 
 constexpr double kLeast = 0.03; // filled part of a cube that counts
@@ -35,69 +33,6 @@ Cube cornerOf(const Cube& cube, int corner)
 
 struct OrganModel::State
 {
-  // Eigen's, but for solutions by several threads at once
-  class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse>
-  {
-  public:
-    [[nodiscard]] Eigen::MatrixXd solveAll(const Eigen::MatrixXd& right) const
-    {
-      cholmod_common own; // NOLINT(cppcoreguidelines-pro-type-member-init): by the next line
-      cholmod_start(&own);
-      own.print = 0;
-      cholmod_dense known = Eigen::viewAsCholmod(right.const_cast_derived());
-      cholmod_dense* found = cholmod_solve(CHOLMOD_A, m_cholmodFactor, &known, &own);
-      Eigen::MatrixXd solution;
-      if (found != nullptr)
-      {
-        solution =
-          Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(found->x), right.rows(), right.cols());
-        cholmod_free_dense(&found, &own);
-      }
-      cholmod_finish(&own);
-      if (solution.size() != right.size())
-      {
-        throw Error(ErrorCode::NoSolution, "too little memory for the loads; give larger cells");
-      }
-      return solution;
-    }
-  };
-
-  // of a support on the surface in one cube: its mean displacement is held, not that of nodes
-  // beside
-  struct Grip
-  {
-    OrganModel::Weights weights{}; // sums over the area until this is divided by
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    double area = 0.0;
-    Eigen::Vector3d along = Eigen::Vector3d::Zero(); // as of its support
-
-    void add(const OrganModel::Weights& more, const Eigen::Vector3d& middle, double part)
-    {
-      weights.nodes = more.nodes;
-      for (std::size_t i = 0; i < more.values.size(); ++i)
-      {
-        weights.values[i] += part * more.values[i];
-      }
-      place += part * middle;
-      area += part;
-    }
-
-    void divide()
-    {
-      for (double& value : weights.values)
-      {
-        value /= area;
-      }
-      place /= area;
-    }
-
-    [[nodiscard]] Eigen::Matrix3d direction() const
-    {
-      return along.isZero() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                            : Eigen::Matrix3d(along * along.transpose());
-    }
-  };
-
   CutGrid grid;
   double young;
   double poisson;
@@ -105,8 +40,11 @@ struct OrganModel::State
   std::vector<Eigen::Vector3d> places{}; // of the nodes
   std::vector<Nodes> cubes{};
   std::vector<CubePoints> inside{}; // each of these
-  std::vector<Grip> grips{};
-  Cholesky cholesky{};
+  std::vector<SupportGrip> grips{};
+  std::vector<double> ratios{}; // moduli of the cubes over young; empty: 1
+  Sparse even{};                // lower half, of the cubes if they were, where they are not
+  Sparse varied{};              // the same as they are
+  SharedCholesky cholesky{};
 
   [[nodiscard]] std::size_t cornerIndex(const Cube& c) const
   {
@@ -138,28 +76,11 @@ struct OrganModel::State
     }
   }
 
-  // what is left to move freely is named
-  void checkHeld(const Eigen::Matrix<double, 6, 6>& held) const
-  {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(held);
-    constexpr double least = 1e-9;
-    if (solver.eigenvalues()[0] > least * std::max(1e-300, solver.eigenvalues()[5]))
-    {
-      return;
-    }
-    Eigen::Index motion = 0;
-    solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&motion);
-    throw Error(ErrorCode::BadValue,
-      std::string("the supports leave the body free to ") +
-        (motion < 3 ? "move along " : "turn about ") + "xyz"[motion % 3] +
-        "; add one that holds it");
-  }
-
   void hold(const OrganModel& model, const Surface& surface, std::span<const Support> supports)
   {
     for (const Support& support : supports)
     {
-      std::map<int, Grip> byCube;
+      std::map<int, SupportGrip> byCube;
       forParts(surface, Eigen::Vector3d::Zero(), 0.5 * grid.side(), 0.0,
         [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
         {
@@ -176,73 +97,107 @@ struct OrganModel::State
         grips.push_back(grip);
       }
     }
-    const double size = grid.side() * *std::max_element(grid.size().begin(), grid.size().end());
-    Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
-    for (const Grip& grip : grips)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const Eigen::Vector3d way = grip.direction().col(axis);
-        Eigen::Matrix<double, 6, 1> row;
-        row << way, (grip.place - places.front()).cross(way) / size;
-        held += row * row.transpose();
-      }
-    }
-    checkHeld(held);
+    checkHeld(grips, grid.side() * *std::max_element(grid.size().begin(), grid.size().end()));
   }
 
-  [[nodiscard]] double stiffnessOf(const Grip& grip) const
+  [[nodiscard]] double stiffest() const
+  {
+    return ratios.empty() ? 1.0 : std::max(1.0, *std::ranges::max_element(ratios));
+  }
+
+  [[nodiscard]] double stiffnessOf(const SupportGrip& grip) const
   {
     constexpr double stiff = 1e3; // against the cubes
-    return stiff * young / grid.side() * grip.area;
+    return stiff * young * stiffest() / grid.side() * grip.area;
   }
 
-  void factorize()
+  // of the points inside each, so that a border between two tissues may run through it
+  void vary(const ModulusRatio& ratio)
+  {
+    for (std::size_t cube = 0; ratio && cube < cubes.size(); ++cube)
+    {
+      const Eigen::Vector3d corner = places[at(cubes[cube][0])];
+      double sum = 0.0;
+      for (std::size_t point = 0; point < inside[cube].size(); ++point)
+      {
+        constexpr std::size_t n = kCubeParts;
+        const Eigen::Vector3d in(static_cast<double>(point % n), static_cast<double>(point / n % n),
+          static_cast<double>(point / (n * n)));
+        const double here = inside[cube][point]
+          ? ratio(corner + grid.side() / n * (in + Eigen::Vector3d::Constant(0.5)))
+          : 1.0;
+        sum += here > 0.0 && std::isfinite(here) ? std::log(here) : 0.0;
+      }
+      ratios.push_back(std::exp(sum / static_cast<double>(inside[cube].count())));
+    }
+  }
+
+  // of all cubes, each times its ratio
+  [[nodiscard]] Sparse assembled(std::span<const double> times) const
   {
     const CubeStiffness whole = cubeStiffness(grid.side(), young, poisson);
     std::vector<Eigen::Triplet<double>> all;
     all.reserve(cubes.size() * 300);
-    const auto add = [&](const Nodes& nodes, const auto& stiffness)
-    {
-      for (int i = 0; i < 24; ++i)
-      {
-        for (int j = 0; j < 24; ++j)
-        {
-          const int row = 3 * nodes[at(i / 3)] + i % 3;
-          const int column = 3 * nodes[at(j / 3)] + j % 3;
-          row >= column ? void(all.emplace_back(row, column, stiffness(i, j))) : void();
-        }
-      }
-    };
     for (std::size_t cube = 0; cube < cubes.size(); ++cube)
     {
-      add(cubes[cube],
-        inside[cube].all() ? whole : cutCubeStiffness(grid.side(), young, poisson, inside[cube]));
+      const double ratio = times.empty() ? 1.0 : times[cube];
+      add(all, cubes[cube],
+        CubeStiffness(ratio *
+          (inside[cube].all() ? whole
+                              : cutCubeStiffness(grid.side(), young, poisson, inside[cube]))));
     }
-    for (const Grip& grip : grips)
+    return fromTriplets(all);
+  }
+
+  template <typename Stiffness>
+  static void add(
+    std::vector<Eigen::Triplet<double>>& all, const Nodes& nodes, const Stiffness& stiffness)
+  {
+    for (int i = 0; i < 24; ++i)
+    {
+      for (int j = 0; j < 24; ++j)
+      {
+        const int row = 3 * nodes[at(i / 3)] + i % 3;
+        const int column = 3 * nodes[at(j / 3)] + j % 3;
+        row >= column ? void(all.emplace_back(row, column, stiffness(i, j))) : void();
+      }
+    }
+  }
+
+  [[nodiscard]] Sparse fromTriplets(const std::vector<Eigen::Triplet<double>>& all) const
+  {
+    const auto count = static_cast<Eigen::Index>(3 * places.size());
+    Sparse matrix(count, count); // its lower half
+    matrix.setFromTriplets(all.begin(), all.end());
+    return matrix;
+  }
+
+  void factorize()
+  {
+    varied = assembled(ratios);
+    std::vector<Eigen::Triplet<double>> held;
+    for (const SupportGrip& grip : grips)
     {
       const Eigen::Matrix3d spring = stiffnessOf(grip) * grip.direction();
-      add(grip.weights.nodes,
+      add(held, grip.weights.nodes,
         [&](int i, int j) {
           return grip.weights.values[at(i / 3)] * grip.weights.values[at(j / 3)] *
             spring(i % 3, j % 3);
         });
     }
     cholesky.cholmod().print = 0; // the error below says it
-    const auto count = static_cast<Eigen::Index>(3 * places.size());
-    Sparse matrix(count, count); // its lower half
-    matrix.setFromTriplets(all.begin(), all.end());
-    cholesky.compute(matrix);
+    cholesky.compute(Sparse(varied + fromTriplets(held)));
     if (cholesky.info() != Eigen::Success)
     {
       throw Error(ErrorCode::NoSolution,
         "the body's stiffness cannot be factorized; give larger cells or another support");
     }
+    ratios.empty() ? void(varied = Sparse()) : void(even = assembled({}));
   }
 };
 
 OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
-  double poissonRatio, std::span<const Support> supports)
+  double poissonRatio, std::span<const Support> supports, const ModulusRatio& ratio)
   : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio })
 {
   state_->addCubes();
@@ -250,6 +205,7 @@ OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
   {
     throw Error(ErrorCode::BadValue, "no cell is filled by the body; give smaller ones");
   }
+  state_->vary(ratio);
   state_->hold(*this, surface, supports);
   state_->factorize();
 }
@@ -318,7 +274,7 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
 
 void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const
 {
-  for (const State::Grip& grip : state_->grips)
+  for (const SupportGrip& grip : state_->grips)
   {
     const Eigen::Vector3d pull =
       state_->stiffnessOf(grip) * grip.direction() * supports(grip.place);
@@ -327,6 +283,41 @@ void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& s
       forces.segment<3>(3L * grip.weights.nodes[i]) += grip.weights.values[i] * pull;
     }
   }
+}
+
+double OrganModel::ratioAround(const Eigen::Vector3d& place, double radius) const
+{
+  const State& state = *state_;
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t cube = 0; cube < state.ratios.size(); ++cube)
+  {
+    const Eigen::Vector3d middle =
+      state.places[at(state.cubes[cube][0])] + Eigen::Vector3d::Constant(0.5 * state.grid.side());
+    const double squared = (middle - place).squaredNorm() + radius * radius;
+    const double weight = static_cast<double>(state.inside[cube].count()) / (squared * squared);
+    sum += weight * std::log(state.ratios[cube]);
+    weights += weight;
+  }
+  return weights > 0.0 ? std::exp(sum / weights) : 1.0;
+}
+
+void OrganModel::varyLoad(
+  Eigen::Ref<Eigen::VectorXd> forces, const Moved& field, double ratio) const
+{
+  const State& state = *state_;
+  if (state.ratios.empty())
+  {
+    return;
+  }
+  Eigen::VectorXd moved(forces.size());
+  for (std::size_t i = 0; i < state.places.size(); ++i)
+  {
+    moved.segment<3>(3 * static_cast<Eigen::Index>(i)) = field(state.places[i]);
+  }
+  const Eigen::VectorXd even = state.even.selfadjointView<Eigen::Lower>() * moved;
+  const Eigen::VectorXd varied = state.varied.selfadjointView<Eigen::Lower>() * moved;
+  forces += ratio * even - varied;
 }
 
 Eigen::MatrixXd OrganModel::solve(const Eigen::MatrixXd& forces) const

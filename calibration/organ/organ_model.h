@@ -19,7 +19,11 @@ struct Support
   Eigen::Vector3d along = Eigen::Vector3d::Zero(); ///< unit; the body slides across it; 0: bonded
 };
 
-/// Displacements of a body of one linear material, in cubes that are cut by its surface.
+/// Young's modulus of a body at a place, over that of the whole [-]; where it is not above 0 or not
+/// finite it is that of the whole.
+using ModulusRatio = std::function<double(const Eigen::Vector3d&)>;
+
+/// Displacements of a body of linear material, in cubes that are cut by its surface.
 ///
 /// The stiffness of a cut cube is that of its part inside; those with less than a thirtieth of it
 /// inside are left out. Supports hold the surface itself: its mean displacement in each cube.
@@ -29,12 +33,13 @@ public:
   /// @param surface        closed
   /// @param side           of the cubes [m]
   /// @param youngModulus   [Pa]
-  /// @param poissonRatio   0 to below 0.5 [-]
+  /// @param poissonRatio   0 to below 0.5, everywhere [-]
+  /// @param ratio          of its moduli; empty: the same everywhere
   /// @throws Error         BadMesh: the surface is open or crosses itself; BadValue: the supports
   ///                       leave a motion free, and which; no cube is filled, or over 20 million
   ///                       would be
   OrganModel(const Surface& surface, double side, double youngModulus, double poissonRatio,
-    std::span<const Support> supports);
+    std::span<const Support> supports, const ModulusRatio& ratio = {});
   ~OrganModel();
   OrganModel(OrganModel&&) noexcept;
   OrganModel& operator=(OrganModel&&) noexcept;
@@ -58,6 +63,15 @@ public:
   /// Adds what supports pull that have moved themselves.
   /// @param forces  x, y, z of node after node [N]
   void moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const;
+
+  /// Modulus around a place over that of the whole [-]: the geometric mean, weighted as the energy
+  /// of a pressure of a radius there.
+  [[nodiscard]] double ratioAround(const Eigen::Vector3d& place, double radius) const;
+
+  /// Adds what a field of displacements needs that is without load in a body that is even.
+  /// @param forces  x, y, z of node after node [N]
+  /// @param ratio   of that body's modulus to that of the whole [-]
+  void varyLoad(Eigen::Ref<Eigen::VectorXd> forces, const Moved& field, double ratio) const;
 
   /// @param forces    a column for each load; x, y, z of node after node [N]
   /// @return          displacements of the nodes, likewise [m]

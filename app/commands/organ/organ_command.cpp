@@ -7,6 +7,7 @@
 #include "app/places/fiducial_file.h"
 #include "app/places/placed_press.h"
 #include "app/press/body.h"
+#include "app/stiffness/stiffness_text.h"
 #include "app/supports/support_region.h"
 #include "calibration/figures/table.h"
 #include "calibration/organ/organ_compliance.h"
@@ -194,7 +195,8 @@ void runOrgan(const OrganOptions& options)
   const std::vector<SurfacePoint> points = pointsAt(places, scene);
   const std::vector<Support> supports = supportsOf(options, *body.haptic);
   const PressedBody pressed{ *body.haptic, supports,
-    { *body.haptic, options.cell, options.young, options.poisson, supports } };
+    { *body.haptic, options.cell, options.young, options.poisson, supports,
+      modulusRatio(body, options.young) } };
   std::cerr << "palp: " << counted(static_cast<std::size_t>(pressed.model.nodes()), "node") << '\n';
   figures::Table table{ .name = "organ",
     .caption = "A body in series with the contact",
@@ -247,13 +249,14 @@ void addOrganCommand(CLI::App& app)
       all->young = parseWithin(text, Quantity::Pressure, { 1.0, 1e12, "1Pa to 1TPa" }, "--young");
     });
   addPoisson(*command, options->poisson);
+  addStiffness(*command, options->mesh.stiffness);
   add("--cell", "Side of the cells of the body; twice this is as near as an edge is known", "4mm",
     [all](const std::string& text) {
       all->cell = parseWithin(text, Quantity::Length, { 0.1_mm, 0.1, "0.1mm to 100mm" }, "--cell");
     });
   command->footer(
     "The law of the half-space in series with the body's own compliance, by finite elements in\n"
-    "cubes that its surface cuts: linear, frictionless, one material. constant and slope: E*\n"
+    "cubes that its surface cuts: linear, frictionless. constant and slope: E* of --young\n"
     "times what the body adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"
     "of the exact layer, lobes and edges 8 mm away within 4 %. remark: on a support; too deep\n"
     "beyond half of the thickness; support too near where the contact is wider than a third of\n"

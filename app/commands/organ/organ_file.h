@@ -22,6 +22,9 @@ struct OrganFilePlan
   double cell = 4e-3;                ///< side of the cubes [m]
 };
 
+/// Of a body whose stiffness differs from place to place, over a modulus [Pa]; empty: it does not.
+[[nodiscard]] ModulusRatio modulusRatio(const SceneBody& body, double young);
+
 /// Makes an organ file of a body, or goes on with one that was begun beside it; does nothing where
 /// it is there. Says its size, the time, and the places that it cannot answer for.
 ///
