@@ -42,10 +42,12 @@ void run(const SceneOptions& options, const Renderer* pictures, int (*view)(cons
     execProgram("palp-draw");
   }
   BuildTrace trace(options.explain);
-  Outputs outputs;
-  OutputFolder& output =
-    outputs.open(options.out, exportFiles(), options.overwrite, inputsOf(plan));
-  playPlan(plan, output, pictures, trace);
+  {
+    Outputs outputs;
+    OutputFolder& output =
+      outputs.open(options.out, exportFiles(), options.overwrite, inputsOf(plan));
+    playPlan(plan, output, pictures, trace);
+  }
   if (options.explain)
   {
     trace.write(std::cout);

@@ -337,6 +337,11 @@ void feelTissue(Scene& scene, const SceneBody& body)
     throw Error(ErrorCode::BadValue,
       "organ: an organ file is of a body without coatings; leave out --coating, or the file");
   }
+  if (body.compliance != nullptr && body.stiffness)
+  {
+    throw Error(ErrorCode::BadValue,
+      "organ: an organ file is of a body of one modulus; leave out --stiffness, or the file");
+  }
   scene.series = seriesBodyOf(body.compliance, law);
   if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
   {

@@ -7,6 +7,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/closest_point.h"
+#include "haptics/surface/ray.h"
 #include "haptics/units.h"
 
 #include <Eigen/Geometry>
@@ -50,11 +51,18 @@ std::string restAfter(std::string_view what, const std::string& text)
   return {};
 }
 
-// the sum of the area vectors of the triangles that it holds by their middles [m^2]
-template <typename Holds>
-Eigen::Vector3d areaOf(const Surface& surface, const Holds& holds)
+// a support whose direction is not yet known, and the surface that it holds [m^2]
+struct Held
 {
-  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  std::function<bool(const Eigen::Vector3d&)> holds;
+  Eigen::Vector3d facing; // sum of the area vectors
+  double area = 0.0;
+};
+
+// of the triangles that it holds by their middles
+template <typename Holds>
+void addTriangles(Held& held, const Surface& surface, const Holds& holds)
+{
   for (std::size_t i = 0; i < surface.triangles().size(); ++i)
   {
     const auto& [a, b, c] = surface.triangles()[i];
@@ -63,21 +71,23 @@ Eigen::Vector3d areaOf(const Surface& surface, const Holds& holds)
     const Eigen::Vector3d& r = surface.points()[at(c)];
     if (holds((p + q + r) / 3.0, static_cast<int>(i)))
     {
-      area += 0.5 * (q - p).cross(r - p);
+      const Eigen::Vector3d area = 0.5 * (q - p).cross(r - p);
+      held.facing += area;
+      held.area += area.norm();
     }
   }
-  return area;
 }
 
 // all within a part of space
 template <typename Holds>
-Support heldWithin(const Surface& surface, const Holds& holds)
+Held heldWithin(const Surface& surface, const Holds& holds)
 {
-  return { holds,
-    areaOf(surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); }) };
+  Held held{ holds, Eigen::Vector3d::Zero() };
+  addTriangles(held, surface, [&](const Eigen::Vector3d& middle, int) { return holds(middle); });
+  return held;
 }
 
-Support boxOf(const std::vector<std::string>& words, const Surface& surface)
+Held boxOf(const std::vector<std::string>& words, const Surface& surface)
 {
   const Eigen::Vector3d one = parsePlace(words[2], kOption).position;
   const Eigen::Vector3d other = parsePlace(words[3], kOption).position;
@@ -88,24 +98,28 @@ Support boxOf(const std::vector<std::string>& words, const Surface& surface)
     { return (x - low).minCoeff() >= 0.0 && (high - x).minCoeff() >= 0.0; });
 }
 
-Support directionOf(const std::vector<std::string>& words, const Surface& surface)
+// where nothing of the body is before it that way: a hollow's wall rests on nothing
+Held directionOf(const std::vector<std::string>& words, const Surface& surface)
 {
   const Eigen::Vector3d way = parseDirection(words[2], kOption).normalized();
   const double least = std::cos(parseQuantity(words[3], Quantity::Angle, kOption));
-  const auto faces = [&surface, way, least](int triangle)
+  const auto faces = [&surface, way, least](const Eigen::Vector3d& place, int triangle)
   {
     const Triangle& corners = surface.triangles()[at(triangle)];
-    return unitNormal(surface.points(), corners).dot(way) >= least;
+    return unitNormal(surface.points(), corners).dot(way) >= least &&
+      rayEntry(surface.tree(), place + kRounding * way, way).triangle < 0;
   };
-  return { [&surface, faces](const Eigen::Vector3d& x)
+  Held held{ [&surface, faces](const Eigen::Vector3d& x)
     {
-      return faces(findClosestPoint(surface, x, std::numeric_limits<double>::infinity()).triangle);
+      return faces(
+        x, findClosestPoint(surface, x, std::numeric_limits<double>::infinity()).triangle);
     },
-    areaOf(surface, [&](const Eigen::Vector3d&, int triangle) { return faces(triangle); }) };
+    Eigen::Vector3d::Zero() };
+  addTriangles(held, surface, faces);
+  return held;
 }
 
-Support labelOf(
-  const std::vector<std::string>& words, const Surface& surface, const FindRegion& find)
+Held labelOf(const std::vector<std::string>& words, const Surface& surface, const FindRegion& find)
 {
   if (!find)
   {
@@ -118,18 +132,22 @@ Support labelOf(
     { return distanceTo(region.surface->tree(), x, region.reach) < region.reach; });
 }
 
-Support paintedOf(const std::string& text, const Surface& surface)
+Held paintedOf(const std::string& text, const Surface& surface)
 {
   const auto parts = std::make_shared<const SupportParts>(surface);
   const auto held =
     std::make_shared<const std::vector<bool>>(readHeldParts(*parts, pointsOfSupport(text)));
-  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  Held all{ [parts, held](const Eigen::Vector3d& x) { return (*held)[parts->nearest(x).part]; },
+    Eigen::Vector3d::Zero() };
   for (std::size_t i = 0; i < held->size(); ++i)
   {
-    area += (*held)[i] ? parts->all()[i].area : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    if ((*held)[i])
+    {
+      all.facing += parts->all()[i].area;
+      all.area += parts->all()[i].area.norm();
+    }
   }
-  return { [parts, held](const Eigen::Vector3d& x) { return (*held)[parts->nearest(x).part]; },
-    area };
+  return all;
 }
 
 // of what faces a direction within an angle, on the surface
@@ -153,7 +171,7 @@ Eigen::Vector3d middleOf(const Surface& surface, const Eigen::Vector3d& way, dou
 }
 
 // what holds a liver that stands in LPS, y to the back, z to the head; none: no such word
-std::optional<Support> presetOf(const std::string& name, const Surface& surface)
+std::optional<Held> presetOf(const std::string& name, const Surface& surface)
 {
   using namespace units::literals;
   if (name == "posterior")
@@ -174,7 +192,7 @@ std::optional<Support> presetOf(const std::string& name, const Surface& surface)
   return std::nullopt;
 }
 
-Support placedOf(const std::string& text, const std::vector<std::string>& words,
+Held placedOf(const std::string& text, const std::vector<std::string>& words,
   const Surface& surface, const FindRegion& find)
 {
   return words[1] == "label" ? labelOf(words, surface, find)
@@ -193,7 +211,7 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
   const bool isPlaced = isKind &&
     (!pointsOfSupport(text).empty() || (words.size() == 3 && !labelOfSupport(text).empty()) ||
       (words.size() == 4 && (words[1] == "box" || words[1] == "direction")));
-  const std::optional<Support> preset =
+  const std::optional<Held> preset =
     isKind && words.size() == 2 ? presetOf(words[1], surface) : std::nullopt;
   if (!isPlaced && !preset)
   {
@@ -203,15 +221,23 @@ Support parseSupport(const std::string& text, const Surface& surface, const Find
         "bonded:direction:X,Y,Z:30deg, bonded:label:7, bonded:points:FILE, posterior, ligaments "
         "or hilum, or any with sliding");
   }
-  Support support = preset ? *preset : placedOf(text, words, surface, find);
-  if (support.along.isZero())
+  const Held held = preset ? *preset : placedOf(text, words, surface, find);
+  const auto refuse = [&](const char* why)
+  { throw Error(ErrorCode::BadValue, std::string(kOption) + ": '" + text + "' " + why); };
+  constexpr double kNoWay = 1e-3; // of the area: as of a closed surface
+  if (!(held.area > 0.0))
   {
-    throw Error(ErrorCode::BadValue,
-      std::string(kOption) + ": '" + text + "' holds nothing of the surface; move or widen it");
+    refuse("holds nothing of the surface; move or widen it");
   }
-  support.along = words[0] == "sliding" ? Eigen::Vector3d(support.along.normalized())
-                                        : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  return support;
+  if (words[0] == "bonded")
+  {
+    return { held.holds };
+  }
+  if (held.facing.norm() < kNoWay * held.area)
+  {
+    refuse("slides across no direction, as what it holds faces all ways; give less, or bonded");
+  }
+  return { held.holds, held.facing.normalized() };
 }
 
 std::filesystem::path pointsOfSupport(const std::string& text)

@@ -23,7 +23,8 @@ struct SupportRegion
 using FindRegion = std::function<SupportRegion(const std::string& label)>;
 
 /// Where a body rests, as text: `KIND:box:X0,Y0,Z0:X1,Y1,Z1` in mm holds it within a box,
-/// `KIND:direction:X,Y,Z:ANGLE` where its surface faces a direction within an angle,
+/// `KIND:direction:X,Y,Z:ANGLE` where its surface faces a direction within an angle, with nothing
+/// of the body before it that way,
 /// `KIND:label:N` where it touches another label of its image, and `KIND:points:FILE` where it was
 /// painted, see readHeldParts. KIND is `bonded`, or `sliding`, which holds it across the mean of
 /// that surface only.

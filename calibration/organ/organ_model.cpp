@@ -52,6 +52,17 @@ struct OrganModel::State
     return (at(c[2]) * at(size[1] + 1) + at(c[1])) * at(size[0] + 1) + at(c[0]);
   }
 
+  // whether a cube within the grid is one of those that hang together
+  [[nodiscard]] bool counts(const Cube& cube) const
+  {
+    int corner = 0;
+    while (corner < kCubeCorners && number[cornerIndex(cornerOf(cube, corner))] >= 0)
+    {
+      ++corner;
+    }
+    return corner == kCubeCorners;
+  }
+
   void addCubes()
   {
     const auto& [nx, ny, nz] = grid.size();
@@ -251,7 +262,8 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
     const Eigen::Vector3d cell = (from - state.grid.low()) / side;
     const Cube cube{ static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y())),
       static_cast<int>(std::floor(cell.z())) };
-    if (!(state.grid.filled(cube) >= filled) || state.number[state.cornerIndex(cube)] < 0)
+    // a corner, or an edge, of a cube that does not count may be one of a cube that does
+    if (!(state.grid.filled(cube) >= filled) || !state.counts(cube))
     {
       continue;
     }

@@ -105,7 +105,7 @@ public:
       return;
     }
     const double along = side.dot() - side.from.squared;
-    const double root = along * along - side.squared * (side.from.squared - squaredRadius_);
+    const double root = side.squared * squaredRadius_ - side.cross * side.cross;
     const bool passes = along < 0.0 && along > -side.squared && root > 0.0;
     if (!fromInside && !toInside && !passes)
     {
@@ -153,8 +153,9 @@ public:
       turn += 2.0 * std::numbers::pi;
     }
     const double sector = turn * squaredRadius_;
+    // known up to two full turns, and at most one: what is a little below 0 is so by rounding
     double seen = 2.0 * angleOf(seenSine_, seenCosine_) + turn * (1.0 - height_ / ball_);
-    seen = seen < -kRounding ? seen + 4.0 * std::numbers::pi : std::max(0.0, seen);
+    seen = seen < -std::numbers::pi ? seen + 4.0 * std::numbers::pi : std::max(0.0, seen);
     return { .area = area_ + 0.5 * sector,
       .weight = weight_ + 0.25 * sector * squaredRadius_,
       .rim = 0.5 * turn,

@@ -36,17 +36,21 @@ struct Neighborhood
   PatchBall ball;
   Patch patch;
   int triangle = -1;   // nearest
+  double apart = 0.0;  // from the nearest point [m]
   double raised = 0.0; // the ball's center, off the surface [m]
 };
 
+// @param apart  from the nearest point, whatever side it is on [m]
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
-  double distance) noexcept
+  double distance, double apart) noexcept
 {
   const BallSize size = rule(distance);
   const double radius = size.smoothing.value;
   const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
   const PatchBall ball{ position, std::sqrt(size.squared.value), side, std::max(radius, 1e-9) };
-  return { distance, size, ball, patchWithin(surface, ball, distance < 0.0) };
+  const double inside =
+    surface.closed() ? (distance < 0.0 ? 1.0 : 0.0) : smoothStep(0.5 - 0.5 * distance / apart);
+  return { distance, size, ball, patchWithin(surface, ball, inside) };
 }
 
 // of the normals about their mean: what that is shorter than they
@@ -60,6 +64,15 @@ bool isOrientationFlipped(const Neighborhood& here, const Eigen::Vector3d& outwa
 {
   return here.distance < 0.0 && here.patch.orientationSum.dot(outward) > 0.0 &&
     here.patch.orientationSum.norm() > kMajority * here.patch.orientationWeight;
+}
+
+// Part of a contact that is left where a tool behind a sheet has come past its edge: of that the
+// ball holds ever less.
+double heldPart(const Neighborhood& here) noexcept
+{
+  const double smoothing = here.size.smoothing.value;
+  const double held = here.size.squared.value - here.apart * here.apart;
+  return smoothing > 0.0 ? smoothStep(held / (smoothing * smoothing)) : 1.0;
 }
 
 // How the length of the mean normal by the weight changes as a place moves [1/m].
@@ -159,16 +172,18 @@ std::optional<Neighborhood> lookBelow(
     position += raised * unitNormal(surface.points(), surface.triangles()[triangle]);
     nearest.distance = off;
   }
-  Neighborhood here = look(surface, rule, position, nearest.distance);
+  const double apart = (position - nearest.point).norm();
+  Neighborhood here = look(surface, rule, position, nearest.distance, apart);
   if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
   {
-    here = look(surface, rule, position, -nearest.distance);
+    here = look(surface, rule, position, -nearest.distance, apart);
     if (here.distance >= reach)
     {
       return {};
     }
   }
   here.triangle = nearest.triangle;
+  here.apart = apart;
   here.raised = raised;
   return here;
 }
@@ -200,7 +215,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   Sloped part = smoothMin({ share / kCoherent, 1.0 / kCoherent }, { 1.0 }, kGradual);
   if (!surface.closed())
   {
-    const double front = std::clamp(facing / kFront, 0.0, 1.0);
+    const double front = std::clamp(facing / kFront, 0.0, 1.0) * heldPart(*here);
     part = { front * part.value, front * part.slope };
   }
   contact.depth = part.value * depth;

@@ -40,7 +40,7 @@ struct Reach
 /// Two lobes at once share the normal and, where they press against each other, fade the depth.
 /// A tool whose reference point is inside a body is pushed out the nearest way; where a triangle is
 /// turned over, those about it say what is inside. An open sheet is pressed from its front only, by
-/// tools whose axis points against its normal.
+/// tools whose axis points against its normal; past its edge, contact fades out.
 ///
 /// @param surface  undeformed
 /// @param tip      checked

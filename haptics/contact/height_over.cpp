@@ -18,6 +18,7 @@ constexpr double kRound = 0.5;       // [-] 1 / ball: curvature to which it is t
 constexpr double kRoundest = 0.4;    // [-] and by how much it levels off beyond
 constexpr double kFarthest = 0.9999; // [-] of the ball's radius
 constexpr double kSteepest = 0.2;    // [-] of what a plane's moment loses
+constexpr double kFastest = 2.0;     // [-] by which a height changes as the ball moves
 constexpr int kSteps = 30;           // of Newton's method; three are usual
 constexpr double kClose = 1e-11;     // [m]
 
@@ -103,7 +104,10 @@ Height HeightOver::operator()(
   const Eigen::Vector3d change = patch_->normal + patch_->fading +
     more * (patch_->area + patch_->volumeFading + 0.5 * more * patch_->rim) +
     bent.slope * own.curvatureSlope * curvatureSlope;
-  const Eigen::Vector3d slope = change / excess.byHeight(-own.heightSlope);
+  // where the ball all but misses the body, or all but fills with it, no slope follows from a
+  // moment
+  const Eigen::Vector3d slope =
+    change / std::max(excess.byHeight(-own.heightSlope), change.norm() / kFastest);
   return { nearest_ + part_ * (height - nearest_), normal + part_ * (slope - normal) };
 }
 

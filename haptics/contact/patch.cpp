@@ -60,7 +60,7 @@ void visit(const Surface& surface, const PatchBall& ball, Use use) noexcept
 
 } // namespace
 
-Patch patchWithin(const Surface& surface, const PatchBall& ball, bool isInside) noexcept
+Patch patchWithin(const Surface& surface, const PatchBall& ball, double inside) noexcept
 {
   Patch patch;
   double solidAngle = 0.0;
@@ -72,28 +72,28 @@ Patch patchWithin(const Surface& surface, const PatchBall& ball, bool isInside) 
   const double toNew = 1.0 / (kNew * squaredRadius);
   const auto add = [&](const Seen& one)
   {
-    const auto& [facet, inside, height, part, change] = one;
-    const double seen = std::copysign(inside.solidAngle, -height);
-    const double nearer = -height * (byArea * inside.area + 0.2 * inside.weight);
-    const double below = -kCone * height * inside.area;
+    const auto& [facet, within, height, part, change] = one;
+    const double seen = std::copysign(within.solidAngle, -height);
+    const double nearer = -height * (byArea * within.area + 0.2 * within.weight);
+    const double below = -kCone * height * within.area;
     if (part < 1.0)
     {
       const SeamIntegral seams = seamsOf(facet, ball.center, squaredRadius);
       patch.fading += (1.0 - part) * seams.moment - (nearer - full * seen) * change;
       patch.volumeFading += (1.0 - part) * seams.volume - (below - byAngle * seen) * change;
-      patch.orientationSum += (1.0 - part) * inside.weight * facet.normal;
-      patch.orientationWeight += (1.0 - part) * inside.weight;
+      patch.orientationSum += (1.0 - part) * within.weight * facet.normal;
+      patch.orientationWeight += (1.0 - part) * within.weight;
     }
-    patch.weight += part * inside.weight;
-    patch.normal += part * inside.weight * facet.normal;
-    patch.area += part * inside.area * facet.normal;
+    patch.weight += part * within.weight;
+    patch.normal += part * within.weight * facet.normal;
+    patch.area += part * within.area * facet.normal;
     patch.volume += part * below;
     patch.moment += part * nearer;
     solidAngle += part * seen;
-    if (inside.rim > 0.0)
+    if (within.rim > 0.0)
     {
       const double reached = toNew * (squaredRadius - height * height);
-      const double rim = part * std::min(1.0, reached) * inside.rim;
+      const double rim = part * std::min(1.0, reached) * within.rim;
       patch.rim += rim * facet.normal;
       patch.solidAngleSlope += rim * height;
     }
@@ -101,7 +101,7 @@ Patch patchWithin(const Surface& surface, const PatchBall& ball, bool isInside) 
   visit(surface, ball, add);
   patch.orientationSum += patch.normal;
   patch.orientationWeight += patch.weight;
-  patch.solidAngle = (isInside ? 4.0 * std::numbers::pi : 0.0) - solidAngle;
+  patch.solidAngle = 4.0 * std::numbers::pi * inside - solidAngle;
   patch.solidAngleSlope /= squaredRadius * radius;
   patch.volume += byAngle * patch.solidAngle;
   patch.moment += full * patch.solidAngle;

@@ -52,10 +52,11 @@ struct PatchBall
 /// Triangles that turn their back fade out with the distance of the center behind their plane, so
 /// that the far side of a thin lobe does not count.
 ///
-/// @param isInside  the center is inside the body
-/// @realtime        pure; no allocation, no lock, no exception
+/// @param inside  how far the center is inside the body [-]: 0 or 1, but for between beside an open
+///                edge
+/// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] Patch patchWithin(
-  const Surface& surface, const PatchBall& ball, bool isInside) noexcept;
+  const Surface& surface, const PatchBall& ball, double inside) noexcept;
 
 /// By another look at the same triangles.
 /// @realtime  pure; no allocation, no lock, no exception

@@ -40,6 +40,7 @@ void push(Sample& sample, const Scene& scene, const Eigen::Vector3d& lateral) no
     return;
   }
   sample.force = wanted * normal + lateral;
+  sample.force += std::max(0.0, -sample.force.dot(normal)) * normal; // never pulls, either
   if (const double size = sample.force.norm(); size > scene.forceLimit)
   {
     raise(sample, Flag::Limited);

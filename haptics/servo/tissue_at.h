@@ -14,7 +14,8 @@ class TissueAt
 {
 public:
   /// @param scene, contact  outlive this object
-  /// @realtime              pure; no allocation, no lock, no exception; the others likewise
+  /// @realtime              no allocation, no lock, no exception; the others likewise
+  /// @threadsafe            no, as the last answer is kept
   TissueAt(const Scene& scene, const Contact& contact) noexcept;
 
   /// Whether a tissue may push a tool aside: else lateral() is zero everywhere.

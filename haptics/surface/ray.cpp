@@ -102,7 +102,11 @@ Below lookBelow(const BoxTree& tree, std::span<const float> hollows, const Eigen
 {
   constexpr int kMost = 64; // walls
   constexpr double kBeyond = 1e-6;
-  Below below;
+  // so near, as places are known in single precision, a triangle is one of the same wall, turned
+  // over
+  const BoxTree::Node& all = tree.nodes()[0];
+  const Eigen::Array3f size = Eigen::Array3f(all.high.data()) - Eigen::Array3f(all.low.data());
+  Below below{ .thickness = kBeyond * static_cast<double>(size.matrix().norm()) };
   for (int wall = 0; wall < kMost; ++wall)
   {
     const RayHit hit = rayExit(tree, from + below.thickness * inward, inward);

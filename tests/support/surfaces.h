@@ -142,6 +142,15 @@ inline Mesh torus(double ring, double tube, int along, int around)
   return mesh;
 }
 
+inline Mesh moved(Mesh mesh, const Eigen::Vector3d& by)
+{
+  for (Eigen::Vector3d& point : mesh.first)
+  {
+    point += by;
+  }
+  return mesh;
+}
+
 /// The body and a copy of it beside it.
 inline Mesh withCopyAt(Mesh mesh, const Eigen::Vector3d& shift)
 {

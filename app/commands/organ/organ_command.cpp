@@ -139,6 +139,8 @@ void addRows(const OrganOptions& options, const PressedBody& pressed, const Surf
   {
     throw Error(ErrorCode::BadValue,
       "too little of the surface is around the place " + units::inMillimeters(point.position.x()) +
+        ", " + units::inMillimeters(point.position.y()) + ", " +
+        units::inMillimeters(point.position.z()) +
         ", or the body hangs over it; give smaller cells, or another place");
   }
   const double modulus = model.contactModulus();

@@ -40,13 +40,18 @@ Nearer nearerOf(const Eigen::Vector3f& edge, const Eigen::Vector3f& away) noexce
   return { nearer, -0.5F * nearer * (1.0F + past / round) * edge };
 }
 
-// to where something is beside a wedge from there
+// to where something is beside a wedge from there; where 1/D ends within the blend it changes by
+// more than in a wedge, which is no way toward an edge
 void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
 {
   BodyCompliance& body = local.body;
-  const double nearer = 1.0 / std::max<double>(kNearest, 1.0 - local.edge.dot(away) / body.edge);
+  const double squaredEdge = body.edge * body.edge;
+  const double like = std::min(1.0, squaredEdge / local.edge.norm());
+  const double most = (1.0 - static_cast<double>(kNearest)) / body.edge;
+  const double reached = std::min(most, like * like * local.edge.dot(away) / squaredEdge);
+  const double nearer = 1.0 / (1.0 - body.edge * reached);
   const double squared = nearer * nearer;
-  body.constant += 2.0 * body.slope / body.edge * (nearer - 1.0);
+  body.constant += 2.0 * body.slope * nearer * reached;
   body.slope *= squared;
   body.edge *= nearer;
   local.constant *= squared;

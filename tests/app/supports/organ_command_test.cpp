@@ -164,6 +164,13 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
     (folder.path() / "other").string() + " --organ " + file.string());
   EXPECT_EQ(other.code, 2) << other.err;
   EXPECT_NE(other.err.find("another surface"), std::string::npos) << other.err;
+
+  const test::Finished map = test::runCommand(PALP_PROGRAM
+    " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 --depth 4mm --law corrected --stiffness "
+    "formula:5 --out " +
+    (folder.path() / "map").string() + " --organ " + file.string());
+  EXPECT_EQ(map.code, 2) << map.err;
+  EXPECT_NE(map.err.find("leave out --stiffness, or the file"), std::string::npos) << map.err;
 }
 
 // what is painted anew is solved anew, and what is pressed says on what it rests

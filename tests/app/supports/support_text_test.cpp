@@ -39,6 +39,34 @@ TEST(SupportText, HoldsTheSurfaceThere)
   EXPECT_FALSE(base.holds({ 0.0, 10.0_mm, 0.0 }));
 }
 
+// it faces the same way as the base, but rests on nothing
+TEST(SupportText, HoldsNoWallOfAHollow)
+{
+  Mesh hollow = makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 5.0_mm);
+  const Mesh cavity = makeBox({ 40.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);
+  const int shift = static_cast<int>(hollow.points.size());
+  for (const Eigen::Vector3d& point : cavity.points)
+  {
+    hollow.points.push_back(point - Eigen::Vector3d(0.0, 0.0, 15.0_mm));
+  }
+  for (const Triangle& t : cavity.triangles)
+  {
+    hollow.triangles.push_back({ t[0] + shift, t[2] + shift, t[1] + shift });
+  }
+  const Surface surface(hollow.points, hollow.triangles);
+  const Support base = parseSupport("bonded:direction:0,0,-1:10deg", surface);
+  EXPECT_TRUE(base.holds({ 10.0_mm, 0.0, -50.0_mm }));
+  EXPECT_FALSE(base.holds({ 10.0_mm, 0.0, -15.0_mm }));
+}
+
+// all of it holds bonded; across no direction does it slide
+TEST(SupportText, HoldsAllOfABodyButForSliding)
+{
+  const std::string all = ":box:-51,-51,-51:51,51,1";
+  EXPECT_TRUE(parseSupport("bonded" + all, block()).holds({ 0.0, 0.0, 0.0 }));
+  EXPECT_THROW((void)parseSupport("sliding" + all, block()), Error);
+}
+
 TEST(SupportText, HoldsWhatTouchesAnotherLabel)
 {
   Mesh below = makeBox({ 40.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);

@@ -190,6 +190,41 @@ TEST(OrganModel, ABodyOfTwoModuliGivesWayAsBothInSeries)
   EXPECT_NEAR(soft.ratioAround(place, 6.0_mm), 1.0 / 3.0, 1e-12);
 }
 
+// of which one is held: the other is a piece of its own, and a place on it is none of the model
+TEST(OrganModel, OfTwoBoxesThatShareAnEdgeIsThatOfOne)
+{
+  Mesh boxes = makeBox({ 20.0_mm, 20.0_mm, 20.0_mm }, 5.0_mm);
+  const Mesh one = boxes;
+  const int shift = static_cast<int>(one.points.size());
+  for (const Vector3d& point : one.points)
+  {
+    boxes.points.push_back(point + Vector3d(20.0_mm, 0.0, 20.0_mm));
+  }
+  for (const Triangle& t : one.triangles)
+  {
+    boxes.triangles.push_back({ t[0] + shift, t[1] + shift, t[2] + shift });
+  }
+  const Surface surface(boxes.points, boxes.triangles);
+  const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm || x.z() > 19.9_mm; } };
+  for (const double cell : { 2.0_mm, 3.0_mm, 4.0_mm, 5.0_mm, 6.0_mm, 10.0_mm })
+  {
+    const OrganModel model(surface, cell, kYoung, kPoisson, std::span(&base, 1));
+    OrganModel::Weights weights{};
+    int on = 0;
+    for (const Vector3d& place : { Vector3d(0.0, 0.0, 0.0), Vector3d(20.0_mm, 0.0, 20.0_mm) })
+    {
+      const bool isOn = model.weightsAt(place, Vector3d::UnitZ(), weights);
+      on += isOn ? 1 : 0;
+      for (std::size_t i = 0; isOn && i < weights.nodes.size(); ++i)
+      {
+        EXPECT_GE(weights.nodes[i], 0) << cell;
+        EXPECT_LT(weights.nodes[i], model.nodes()) << cell;
+      }
+    }
+    EXPECT_GE(on, 1) << cell;
+  }
+}
+
 TEST(OrganModel, NamesAMotionThatItsSupportsLeaveFree)
 {
   const Mesh box = makeBox({ 20.0_mm, 20.0_mm, 20.0_mm }, 5.0_mm);

@@ -48,15 +48,6 @@ test::Mesh merged(test::Mesh a, const test::Mesh& b)
   return a;
 }
 
-test::Mesh moved(test::Mesh mesh, const Eigen::Vector3d& by)
-{
-  for (Eigen::Vector3d& point : mesh.first)
-  {
-    point += by;
-  }
-  return mesh;
-}
-
 // a top face of needles, and triangles without any area, is still a plane
 TEST(ContactBadInput, SliversDoNotChangeADepth)
 {
@@ -143,7 +134,7 @@ TEST(ContactBadInput, ADeepStart)
 TEST(ContactBadInput, TwoLobesAtOnce)
 {
   const auto wall = [](double side, double gap) {
-    return moved(test::block({ 0.04, 0.04, 0.04 }, 20), { side * (0.02 + gap), 0.0, 0.01 });
+    return test::moved(test::block({ 0.04, 0.04, 0.04 }, 20), { side * (0.02 + gap), 0.0, 0.01 });
   };
   const Surface gap = test::makeSurface(merged(wall(-1.0, 6.0_mm), wall(1.0, 6.0_mm)));
   const Contact pinched = press(gap, kSphere, { 0.0, 0.0, -20.0_mm });
@@ -212,12 +203,39 @@ TEST(ContactBadInput, AnOpenSheetIsPressedFromItsFrontOnly)
   }
 }
 
+// down beside it, past its plane, and on: what is felt fades out and never jumps
+TEST(ContactBadInput, BesideAnOpenSheetNoForceJumps)
+{
+  for (const int cells : { 10, 20 })
+  {
+    const Surface sheet = test::makeSurface(test::sheet(0.1, cells + 1));
+    for (const double past : { 2.0_mm, 3.0_mm, 6.0_mm })
+    {
+      constexpr double kStep = 20.0_um;
+      const auto forceAt = [&](double height) // of Hertz, up to a constant, 1 at a depth of 10 mm
+      {
+        const Contact contact = press(sheet, kSphere, { 0.05 + past, 1.0_mm, height });
+        EXPECT_LE(contact.slope, 2.001) << past << " " << height;
+        return contact.slope * std::pow(contact.depth / 10.0_mm, 1.5);
+      };
+      double last = forceAt(0.0);
+      for (double height = -kStep; height > -40.0_mm; height -= kStep)
+      {
+        const double force = forceAt(height);
+        EXPECT_NEAR(force, last, 0.1) << past << " " << height;
+        last = force;
+      }
+      EXPECT_LT(last, 0.01) << past;
+    }
+  }
+}
+
 TEST(ContactBadInput, NoPoseGivesWhatIsNotANumber)
 {
   const Surface surfaces[] = { test::makeSurface(test::ball(20.0_mm, 4)),
     test::makeSurface(test::sheet(50.0_mm, 4)),
-    test::makeSurface(merged(
-      test::block({ 0.02, 0.02, 0.02 }, 1), moved(test::ball(5.0_mm, 3), { 0.0, 0.0, 8.0_mm }))),
+    test::makeSurface(merged(test::block({ 0.02, 0.02, 0.02 }, 1),
+      test::moved(test::ball(5.0_mm, 3), { 0.0, 0.0, 8.0_mm }))),
     test::makeSurface({ { { 0, 0, 0 }, { 1e-3, 0, 0 }, { 0, 1e-12, 0 } }, { { 0, 1, 2 } } }) };
   const Tip tips[] = { kSphere, kCone, PunchTip{ .radius = 5.0_mm },
     BluntConeTip{ .halfAngle = 30.0_deg, .tipRadius = 1.0_mm, .baseRadius = 8.0_mm },

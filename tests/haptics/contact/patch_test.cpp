@@ -120,6 +120,29 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
   }
 }
 
+// a quarter of all directions point into a block from its edge, and a half from its face, also from
+// so near that rounding says on which side of a triangle the center is
+TEST(Patch, ASideOfTrianglesIsNoPlaceWhereTheBodyFillsTheBall)
+{
+  const Surface block = test::makeSurface(test::block({ 0.1, 0.1, 0.05 }, 8));
+  for (const double beside : { -1e-8, -1e-10, 0.0, 1e-10, 1e-8 })
+  {
+    for (const double over : { 8e-10, 1.8e-9 })
+    {
+      const Patch patch =
+        patchWithin(block, { { -0.0208333, -0.05 - beside, over }, 2.5e-4, 1.0, 2.5e-4 }, false);
+      EXPECT_NEAR(patch.solidAngle, std::numbers::pi, 1e-3) << beside << " " << over;
+    }
+  }
+  const Surface large = test::makeSurface(test::block({ 10.0, 10.0, 10.0 }, 4));
+  for (const double radius : { 1e-4, 1e-3, 1e-2 })
+  {
+    const Patch patch =
+      patchWithin(large, { { 0.123468038670012, -5.0 - 1e-11, -7.5 }, radius, 1.0, radius }, false);
+    EXPECT_NEAR(patch.solidAngle, 2.0 * std::numbers::pi, 1e-3) << radius;
+  }
+}
+
 // The claim the depth rests on: the moment of a body within a ball changes by the normal's sum as
 // the ball moves, and by the volume as it grows.
 TEST(Patch, TheMomentChangesByTheNormalAndTheVolume)

@@ -54,6 +54,26 @@ TEST(ServoStep, NeverPulls)
   EXPECT_EQ(step(world, at(-2.0_mm, 10.0)).force, Eigen::Vector3d::Zero());
 }
 
+// where it pushes the tool aside, also by a part against the normal
+TEST(ServoStep, NeverPullsBesideAnEdge)
+{
+  Scene world = scene();
+  world.law = ForceLaw(world.law.tip(), world.law.material(), { .mode = LawMode::Corrected });
+  world.damping = 5.0;
+  double least = 0.0; // of that part
+  for (double x = 40.0_mm; x < 55.0_mm; x += 0.5_mm)
+  {
+    ToolPose pose = at(-2.0_mm);
+    pose.apex.x() = x;
+    const Eigen::Vector3d outward = step(world, pose).contact.normal;
+    pose.velocity = 10.0 * outward;
+    const Sample sample = step(world, pose);
+    least = std::min(least, sample.lateral.dot(outward));
+    EXPECT_GE(sample.force.dot(outward), -1e-12) << x;
+  }
+  EXPECT_LT(least, -1e-5);
+}
+
 TEST(ServoStep, IsNeverStrongerThanTheLimit)
 {
   Scene world = scene();
@@ -85,7 +105,7 @@ TEST(ServoStep, WhatIsNotFiniteGivesNoForce)
   }
 }
 
-// whose thickness is not known: under the law, over a nodule, in a map and where it gives way
+// whose thickness is not known: under the laws, over a nodule and where it gives way
 TEST(ServoStep, AnOpenSheetPushesAsABodyWithoutEnd)
 {
   Scene world = scene();

@@ -5,6 +5,7 @@
 #include "haptics/surface/ray.h"
 #include "tests/support/surfaces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
@@ -95,6 +96,29 @@ TEST(Surface, FarSideOfABlockIsItsThickness)
     rayExit(block.tree(), { 0.01, 0.02, 0.0 }, -Eigen::Vector3d::UnitZ()).distance, 0.03, 1e-12);
   EXPECT_EQ(rayExit(block.tree(), { 0.0, 0.2, 0.0 }, -Eigen::Vector3d::UnitZ()).distance,
     std::numeric_limits<double>::infinity());
+}
+
+// a block whose faces are there twice, once turned over, and a sheet with two faces; askew, so that
+// places are not exact
+TEST(Surface, AWallTurnedOverIsNoThickness)
+{
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  const auto thicknessOf = [&](test::Mesh mesh)
+  {
+    for (Eigen::Vector3d& point : mesh.first)
+    {
+      point = turn * point;
+    }
+    for (const auto& [a, b, c] : std::vector<Triangle>(mesh.second))
+    {
+      mesh.second.push_back({ a, c, b });
+    }
+    const Surface surface = test::makeSurface(mesh);
+    const Eigen::Vector3d up = turn * Eigen::Vector3d::UnitZ();
+    return surface.shape()(Eigen::Vector3d::Zero(), surface.shape().finest(), up, 0.0).thickness;
+  };
+  EXPECT_NEAR(thicknessOf(test::block({ 0.1, 0.1, 0.05 }, 10)), 0.05, 1e-6);
+  EXPECT_EQ(thicknessOf(test::sheet(0.1, 11)), std::numeric_limits<double>::infinity());
 }
 
 // a ray that meets an edge or a corner leaves through one of their triangles, in whatever pose

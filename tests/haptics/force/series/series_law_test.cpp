@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
+#include <vector>
 
 namespace palp
 {
@@ -199,6 +201,73 @@ TEST(ComplianceField, FollowsWhatItsPlacesTell)
   EXPECT_EQ(found.doubtful, 0.0);
   EXPECT_EQ(field.at(at + Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d::UnitZ()).doubtful, 1.0);
   EXPECT_EQ(field.at(at, -Eigen::Vector3d::UnitZ()).doubtful, 1.0);
+}
+
+// a ball's places tell of an edge on one side only; a tool above, whose foot on the face is
+// another, is told what all of them tell
+TEST(ComplianceField, DoesNotJumpWhereAnEdgeIsNoLongerTold)
+{
+  constexpr double slope = 8e3;
+  const auto constantAt = [](double x) { return 300.0 + 2.0 * slope * x; };
+  for (const double told : { 50.0, 20.0, 100.0 })
+  {
+    std::vector<PlacedCompliance> places;
+    for (int i = -12; i <= 12; ++i)
+    {
+      for (int k = -12; k <= 12; ++k)
+      {
+        const Eigen::Vector3d out(0.1 * i, 0.1 * k, 1.0);
+        PlacedCompliance& place = places.emplace_back();
+        place.normal = out.normalized();
+        place.position = 40.0_mm * place.normal;
+        place.constant = constantAt(place.position.x());
+        place.slope = { slope, 0.0, 0.0 };
+        place.edge = place.position.x() > 1.0_mm ? told : 0.0;
+      }
+    }
+    const ComplianceField field(places, 4.0_mm, kPoisson);
+    double before = std::numeric_limits<double>::quiet_NaN();
+    for (double x = -8.0_mm; x < 8.0_mm; x += 0.05_mm)
+    {
+      const Eigen::Vector3d normal = Eigen::Vector3d(x, 1.0_mm, 40.0_mm).normalized();
+      for (const double height : { 0.0, 8.0_mm })
+      {
+        const double found = field.at(40.0_mm * normal, normal, height).body.constant;
+        EXPECT_NEAR(found, constantAt(40.0_mm * normal.x()), 20.0) << told << ' ' << x;
+        if (height > 0.0)
+        {
+          EXPECT_FALSE(std::abs(found - before) > 4.0) << told << ' ' << x;
+          before = found;
+        }
+      }
+    }
+  }
+}
+
+// a ball on a curved body, where the places of a row lie beside an edge and those about it do not:
+// it is as near to that edge as it is, however little the row says
+TEST(ComplianceField, AnEdgeFadesOutAmongPlacesThatHaveNone)
+{
+  std::vector<PlacedCompliance> places;
+  for (int i = 0; i < 400; ++i)
+  {
+    const Eigen::Vector3d at((i % 20) * 4.0_mm, (i / 20) * 4.0_mm, 0.0);
+    places.push_back({ .position = at,
+      .constant = 20.0,
+      .slope = { 300.0, 0.0, 0.0 },
+      .edge = i % 20 == 10 ? 50.0 : 0.0 });
+  }
+  const ComplianceField field(places, 4.0_mm, kPoisson);
+  const Eigen::Vector3d leaning = Eigen::Vector3d(0.3, 0.0, 1.0).normalized();
+  constexpr double kHeight = 10.0_mm;
+  // over a distance, slope by slope, and four times so near to an edge
+  constexpr double kMost = 4.0 * 2.0 * 300.0 * 0.3 * kHeight;
+  for (double x = 20.0_mm; x < 60.0_mm; x += 0.1_mm)
+  {
+    const Eigen::Vector3d at(x, 38.0_mm, 0.0);
+    const double told = field.at(at, leaning).body.constant;
+    EXPECT_NEAR(field.at(at, leaning, kHeight).body.constant, told, kMost) << x;
+  }
 }
 
 } // namespace
