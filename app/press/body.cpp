@@ -99,13 +99,13 @@ TissueMap placedMap(
   };
 }
 
-// one for an even body is taken for any: what a map does far from the tool is then left out
 void checkStiffness(const MeshSource& source, const std::string& described)
 {
-  if (!described.empty() && identityOf(source.stiffness) != described)
+  if (identityOf(source.stiffness) != described)
   {
     throw Error(ErrorCode::BadFile,
-      printable(source.organ.string()) + ": is of a body whose stiffness is " + described +
+      printable(source.organ.string()) + ": is of a body " +
+        (described.empty() ? "of one modulus" : "whose stiffness is " + described) +
         "; give the same --stiffness, or make it again by palp organ");
   }
 }
@@ -337,11 +337,6 @@ void feelTissue(Scene& scene, const SceneBody& body)
     throw Error(ErrorCode::BadValue,
       "organ: an organ file is of a body without coatings; leave out --coating, or the file");
   }
-  if (body.compliance != nullptr && body.stiffness)
-  {
-    throw Error(ErrorCode::BadValue,
-      "organ: an organ file is of a body of one modulus; leave out --stiffness, or the file");
-  }
   scene.series = seriesBodyOf(body.compliance, law);
   if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
   {
@@ -350,7 +345,9 @@ void feelTissue(Scene& scene, const SceneBody& body)
   scene.nodules = embedNodules(*body.haptic, law, body.nodules);
   if (body.stiffness)
   {
-    scene.stiffness = embedStiffness(*body.haptic, law,
+    LawSettings settings = law.settings();
+    settings.thickness = settings.thickness && scene.series == nullptr; // else it is told twice
+    scene.stiffness = embedStiffness(*body.haptic, ForceLaw(law.tip(), law.material(), settings),
       [&map = body.stiffness, young = law.material().youngModulus](const Eigen::Vector3d& position)
       { return map(position, young); });
   }

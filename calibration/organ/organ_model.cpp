@@ -36,14 +36,15 @@ struct OrganModel::State
   CutGrid grid;
   double young;
   double poisson;
+  ModulusRatio ratio;
   std::vector<int> number{};             // of each corner of the grid; -1: of no cube that counts
   std::vector<Eigen::Vector3d> places{}; // of the nodes
   std::vector<Nodes> cubes{};
   std::vector<CubePoints> inside{}; // each of these
   std::vector<SupportGrip> grips{};
-  std::vector<double> ratios{}; // moduli of the cubes over young; empty: 1
-  Sparse even{};                // lower half, of the cubes if they were, where they are not
-  Sparse varied{};              // the same as they are
+  CubeModuli moduli{};
+  Sparse even{};   // lower half, of the cubes if they were, where they are not
+  Sparse varied{}; // the same as they are
   SharedCholesky cholesky{};
 
   [[nodiscard]] std::size_t cornerIndex(const Cube& c) const
@@ -67,7 +68,9 @@ struct OrganModel::State
   {
     const auto& [nx, ny, nz] = grid.size();
     number.assign(at(nx + 1) * at(ny + 1) * at(nz + 1), -1);
-    for (const Cube& cube : grid.largestPiece(kLeast))
+    const std::vector<Cube> all = grid.largestPiece(kLeast);
+    moduli = ratio ? CubeModuli(grid, all, ratio) : CubeModuli();
+    for (const Cube& cube : all)
     {
       Nodes nodes{};
       for (int corner = 0; corner < kCubeCorners; ++corner)
@@ -111,36 +114,10 @@ struct OrganModel::State
     checkHeld(grips, grid.side() * *std::max_element(grid.size().begin(), grid.size().end()));
   }
 
-  [[nodiscard]] double stiffest() const
-  {
-    return ratios.empty() ? 1.0 : std::max(1.0, *std::ranges::max_element(ratios));
-  }
-
   [[nodiscard]] double stiffnessOf(const SupportGrip& grip) const
   {
     constexpr double stiff = 1e3; // against the cubes
-    return stiff * young * stiffest() / grid.side() * grip.area;
-  }
-
-  // of the points inside each, so that a border between two tissues may run through it
-  void vary(const ModulusRatio& ratio)
-  {
-    for (std::size_t cube = 0; ratio && cube < cubes.size(); ++cube)
-    {
-      const Eigen::Vector3d corner = places[at(cubes[cube][0])];
-      double sum = 0.0;
-      for (std::size_t point = 0; point < inside[cube].size(); ++point)
-      {
-        constexpr std::size_t n = kCubeParts;
-        const Eigen::Vector3d in(static_cast<double>(point % n), static_cast<double>(point / n % n),
-          static_cast<double>(point / (n * n)));
-        const double here = inside[cube][point]
-          ? ratio(corner + grid.side() / n * (in + Eigen::Vector3d::Constant(0.5)))
-          : 1.0;
-        sum += here > 0.0 && std::isfinite(here) ? std::log(here) : 0.0;
-      }
-      ratios.push_back(std::exp(sum / static_cast<double>(inside[cube].count())));
-    }
+    return stiff * young * moduli.largest() / grid.side() * grip.area;
   }
 
   // of all cubes, each times its ratio
@@ -151,9 +128,9 @@ struct OrganModel::State
     all.reserve(cubes.size() * 300);
     for (std::size_t cube = 0; cube < cubes.size(); ++cube)
     {
-      const double ratio = times.empty() ? 1.0 : times[cube];
+      const double part = times.empty() ? 1.0 : times[cube];
       add(all, cubes[cube],
-        CubeStiffness(ratio *
+        CubeStiffness(part *
           (inside[cube].all() ? whole
                               : cutCubeStiffness(grid.side(), young, poisson, inside[cube]))));
     }
@@ -185,7 +162,7 @@ struct OrganModel::State
 
   void factorize()
   {
-    varied = assembled(ratios);
+    varied = assembled(moduli.ratios());
     std::vector<Eigen::Triplet<double>> held;
     for (const SupportGrip& grip : grips)
     {
@@ -203,20 +180,19 @@ struct OrganModel::State
       throw Error(ErrorCode::NoSolution,
         "the body's stiffness cannot be factorized; give larger cells or another support");
     }
-    ratios.empty() ? void(varied = Sparse()) : void(even = assembled({}));
+    moduli.ratios().empty() ? void(varied = Sparse()) : void(even = assembled({}));
   }
 };
 
 OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
   double poissonRatio, std::span<const Support> supports, const ModulusRatio& ratio)
-  : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio })
+  : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio, ratio })
 {
   state_->addCubes();
   if (state_->places.empty())
   {
     throw Error(ErrorCode::BadValue, "no cell is filled by the body; give smaller ones");
   }
-  state_->vary(ratio);
   state_->hold(*this, surface, supports);
   state_->factorize();
 }
@@ -297,28 +273,21 @@ void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& s
   }
 }
 
-double OrganModel::ratioAround(const Eigen::Vector3d& place, double radius) const
+const CubeModuli& OrganModel::moduli() const noexcept
 {
-  const State& state = *state_;
-  double sum = 0.0;
-  double weights = 0.0;
-  for (std::size_t cube = 0; cube < state.ratios.size(); ++cube)
-  {
-    const Eigen::Vector3d middle =
-      state.places[at(state.cubes[cube][0])] + Eigen::Vector3d::Constant(0.5 * state.grid.side());
-    const double squared = (middle - place).squaredNorm() + radius * radius;
-    const double weight = static_cast<double>(state.inside[cube].count()) / (squared * squared);
-    sum += weight * std::log(state.ratios[cube]);
-    weights += weight;
-  }
-  return weights > 0.0 ? std::exp(sum / weights) : 1.0;
+  return state_->moduli;
+}
+
+const ModulusRatio& OrganModel::ratio() const noexcept
+{
+  return state_->ratio;
 }
 
 void OrganModel::varyLoad(
   Eigen::Ref<Eigen::VectorXd> forces, const Moved& field, double ratio) const
 {
   const State& state = *state_;
-  if (state.ratios.empty())
+  if (state.moduli.ratios().empty())
   {
     return;
   }

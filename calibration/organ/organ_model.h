@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibration/organ/cube_moduli.h"
 #include "haptics/surface/surface.h"
 
 #include <Eigen/Core>
@@ -18,10 +19,6 @@ struct Support
     holds;                                         ///< whether it holds a place of the surface [m]
   Eigen::Vector3d along = Eigen::Vector3d::Zero(); ///< unit; the body slides across it; 0: bonded
 };
-
-/// Young's modulus of a body at a place, over that of the whole [-]; where it is not above 0 or not
-/// finite it is that of the whole.
-using ModulusRatio = std::function<double(const Eigen::Vector3d&)>;
 
 /// Displacements of a body of linear material, in cubes that are cut by its surface.
 ///
@@ -64,9 +61,8 @@ public:
   /// @param forces  x, y, z of node after node [N]
   void moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const;
 
-  /// Modulus around a place over that of the whole [-]: the geometric mean, weighted as the energy
-  /// of a pressure of a radius there.
-  [[nodiscard]] double ratioAround(const Eigen::Vector3d& place, double radius) const;
+  [[nodiscard]] const CubeModuli& moduli() const noexcept;
+  [[nodiscard]] const ModulusRatio& ratio() const noexcept; ///< as given
 
   /// Adds what a field of displacements needs that is without load in a body that is even.
   /// @param forces  x, y, z of node after node [N]

@@ -187,7 +187,7 @@ TEST(OrganModel, ABodyOfTwoModuliGivesWayAsBothInSeries)
   const auto wanted = complianceAt(same, surface, place, Vector3d::UnitZ());
   ASSERT_TRUE(found && wanted);
   EXPECT_NEAR(found->constant, wanted->constant, 1e-3 * std::abs(wanted->constant));
-  EXPECT_NEAR(soft.ratioAround(place, 6.0_mm), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(soft.moduli().around(place, 6.0_mm), 1.0 / 3.0, 1e-12);
 }
 
 // of which one is held: the other is a piece of its own, and a place on it is none of the model
