@@ -99,17 +99,6 @@ TissueMap placedMap(
   };
 }
 
-void checkStiffness(const MeshSource& source, const std::string& described)
-{
-  if (identityOf(source.stiffness) != described)
-  {
-    throw Error(ErrorCode::BadFile,
-      printable(source.organ.string()) + ": is of a body " +
-        (described.empty() ? "of one modulus" : "whose stiffness is " + described) +
-        "; give the same --stiffness, or make it again by palp organ");
-  }
-}
-
 // in the scene, of the only surface of a body; null: it has none
 std::shared_ptr<const ComplianceField> placedCompliance(
   const std::vector<MeshSource>& meshes, const MeshFile& felt)
@@ -127,7 +116,7 @@ std::shared_ptr<const ComplianceField> placedCompliance(
   }
   OrganTable table = readOrganOf(source.organ, identityOf(felt));
   checkSupports(source.supports, source.organ, table.supports);
-  checkStiffness(source, table.stiffness);
+  checkStiffness(source.stiffness, source.organ, table.stiffness);
   table.place(source.frame());
   return std::make_shared<const ComplianceField>(std::move(table.places), table.spacing,
     table.poisson,

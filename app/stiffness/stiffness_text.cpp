@@ -171,6 +171,18 @@ std::string identityOf(const StiffnessSource& source)
     source, source.file.empty() ? "" : "SHA-256 " + describeFile(source.file).sha256);
 }
 
+void checkStiffness(
+  const StiffnessSource& named, const std::filesystem::path& organ, const std::string& described)
+{
+  if (identityOf(named) != described)
+  {
+    throw Error(ErrorCode::BadFile,
+      printable(organ.string()) + ": is of a body " +
+        (described.empty() ? "of one modulus" : "whose stiffness is " + described) +
+        "; give the same --stiffness, or make it again by palp organ");
+  }
+}
+
 std::string mapRefusal(const MeshSource& mesh, const LawOptions& law)
 {
   if (!mesh.stiffness.isGiven())

@@ -12,8 +12,8 @@ namespace palp
 namespace
 {
 
-double meanOf(const CubePoints& inside, const Eigen::Vector3d& corner, double side,
-  const ModulusRatio& ratio)
+double meanOf(
+  const CubePoints& inside, const Eigen::Vector3d& corner, double side, const ModulusRatio& ratio)
 {
   constexpr std::size_t n = kCubeParts;
   double sum = 0.0;
@@ -44,8 +44,7 @@ Eigen::Vector3d cornerOf(const Cube& cube)
 
 } // namespace
 
-CubeModuli::CubeModuli(
-  const CutGrid& grid, std::span<const Cube> cubes, const ModulusRatio& ratio)
+CubeModuli::CubeModuli(const CutGrid& grid, std::span<const Cube> cubes, const ModulusRatio& ratio)
   : all_(static_cast<std::size_t>(grid.size()[0]) * static_cast<std::size_t>(grid.size()[1]) *
         static_cast<std::size_t>(grid.size()[2]),
       std::numeric_limits<double>::quiet_NaN())

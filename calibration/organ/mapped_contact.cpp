@@ -28,7 +28,8 @@ MappedContact::MappedContact(double radius, double poisson)
     for (std::size_t k = 0; k < press.knots().size(); ++k)
     {
       const double here = press.knots()[k].radius;
-      found = std::abs(here - wanted) < std::abs(found.radius - wanted) ? Contact{ k, here } : found;
+      found =
+        std::abs(here - wanted) < std::abs(found.radius - wanted) ? Contact{ k, here } : found;
     }
     return found;
   };

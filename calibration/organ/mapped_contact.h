@@ -9,8 +9,8 @@
 namespace palp
 {
 
-/// What the contact law answers by itself of a stiffness that differs from place to place, so that a
-/// body's compliance does not tell it again.
+/// What the contact law answers by itself of a stiffness that differs from place to place, so that
+/// a body's compliance does not tell it again.
 class MappedContact
 {
 public:

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "calibration/organ/cube_moduli.h"
+#include "calibration/organ/node_weights.h"
 #include "haptics/surface/surface.h"
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -41,17 +41,12 @@ public:
   OrganModel(OrganModel&&) noexcept;
   OrganModel& operator=(OrganModel&&) noexcept;
 
-  /// Forces on places near the surface, as a linear combination of the nodes' displacements: the
-  /// column for each gives the displacement there along a direction.
-  ///
-  /// A place in a cube that is filled by less is extrapolated from the next one inwards.
+  using Weights = NodeWeights;
+
+  /// A place near the surface; in a cube that is filled by less it is extrapolated from the next
+  /// one inwards.
   /// @param outward  unit
-  /// @return         empty where no such cube is within 2.5 sides
-  struct Weights
-  {
-    std::array<int, 8> nodes;
-    std::array<double, 8> values;
-  };
+  /// @return         false where no such cube is within 2.5 sides
   [[nodiscard]] bool weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& outward,
     Weights& weights, double filled = 0.5) const;
 

@@ -10,7 +10,7 @@
 namespace palp
 {
 
-void SupportGrip::add(const OrganModel::Weights& more, const Eigen::Vector3d& middle, double part)
+void SupportGrip::add(const NodeWeights& more, const Eigen::Vector3d& middle, double part)
 {
   weights.nodes = more.nodes;
   for (std::size_t i = 0; i < more.values.size(); ++i)

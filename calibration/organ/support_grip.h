@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/organ/organ_model.h"
+#include "calibration/organ/node_weights.h"
 
 #include <Eigen/Core>
 #include <span>
@@ -11,12 +11,12 @@ namespace palp
 /// A support on the surface in one cube: its mean displacement is held, not that of nodes beside.
 struct SupportGrip
 {
-  OrganModel::Weights weights{}; ///< sums over the area until this is divided by
+  NodeWeights weights{}; ///< sums over the area until this is divided by
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   double area = 0.0;
   Eigen::Vector3d along = Eigen::Vector3d::Zero(); ///< as of its support
 
-  void add(const OrganModel::Weights& more, const Eigen::Vector3d& middle, double part);
+  void add(const NodeWeights& more, const Eigen::Vector3d& middle, double part);
   void divide();
 
   /// Of what is held.

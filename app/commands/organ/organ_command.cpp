@@ -170,6 +170,11 @@ void runOrgan(const OrganOptions& options)
   {
     throw Error(ErrorCode::BadValue, "--poisson: no element of 0.5 gives way; give at most 0.4999");
   }
+  if (!isFile && options.mesh.stiffness.isGiven())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--stiffness: give --out, and press the file by palp run, which feels the map beside it");
+  }
   checkExists(options.mesh);
   std::optional<Interrupt> interrupt;
   if (isFile)
@@ -197,8 +202,7 @@ void runOrgan(const OrganOptions& options)
   const std::vector<SurfacePoint> points = pointsAt(places, scene);
   const std::vector<Support> supports = supportsOf(options, *body.haptic);
   const PressedBody pressed{ *body.haptic, supports,
-    { *body.haptic, options.cell, options.young, options.poisson, supports,
-      modulusRatio(body, options.young) } };
+    { *body.haptic, options.cell, options.young, options.poisson, supports } };
   std::cerr << "palp: " << counted(static_cast<std::size_t>(pressed.model.nodes()), "node") << '\n';
   figures::Table table{ .name = "organ",
     .caption = "A body in series with the contact",

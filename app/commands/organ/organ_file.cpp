@@ -93,14 +93,15 @@ void report(const OrganFilePlan& plan, const OrganTable& table, Clock::duration 
             << " kB, " << std::lround(seconds) << " s; " << described(table) << '\n';
 }
 
-} // namespace
-
+// over a modulus; empty: of a body that is even
 ModulusRatio modulusRatio(const SceneBody& body, double young)
 {
   return body.stiffness ? [map = body.stiffness, young](const Eigen::Vector3d& place)
   { return map(place, young) / young; }
                         : ModulusRatio{};
 }
+
+} // namespace
 
 void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   std::span<const Support> supports, Interrupt& interrupt)

@@ -17,13 +17,10 @@ struct OrganFilePlan
 {
   std::filesystem::path out;
   std::vector<std::string> supports; ///< as text
-  double young = 50e3;               ///< [Pa]
+  double young = 50e3;               ///< [Pa]; of a body with a map E* is of this
   double poisson = 0.45;             ///< [-]
   double cell = 4e-3;                ///< side of the cubes [m]
 };
-
-/// Of a body whose stiffness differs from place to place, over a modulus [Pa]; empty: it does not.
-[[nodiscard]] ModulusRatio modulusRatio(const SceneBody& body, double young);
 
 /// Makes an organ file of a body, or goes on with one that was begun beside it; does nothing where
 /// it is there. Says its size, the time, and the places that it cannot answer for.
