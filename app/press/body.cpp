@@ -2,6 +2,7 @@
 
 #include "app/program/data_files.h"
 #include "app/program/progress_line.h"
+#include "app/stiffness/stiffness_text.h"
 #include "app/supports/organ_seal.h"
 #include "app/supports/support_text.h"
 #include "app/train/hidden_nodules.h"
@@ -117,10 +118,12 @@ std::shared_ptr<const ComplianceField> placedCompliance(
   checkSeal(source.organ);
   OrganTable table = readOrganOf(source.organ, identityOf(felt));
   checkSupports(source.supports, source.organ, table.supports);
+  checkStiffness(source.stiffness, source.organ, table.stiffness);
   table.place(source.frame());
   return std::make_shared<const ComplianceField>(std::move(table.places), table.spacing,
     table.poisson,
-    table.motion.places.empty() ? nullptr : std::make_shared<const OrganMotion>(table.motion));
+    table.motion.places.empty() ? nullptr : std::make_shared<const OrganMotion>(table.motion),
+    table.young);
 }
 
 // what is felt of a surface: itself, or one of fewer points
@@ -325,11 +328,6 @@ void feelTissue(Scene& scene, const SceneBody& body)
     throw Error(ErrorCode::BadValue,
       "organ: an organ file is of a body without coatings; leave out --coating, or the file");
   }
-  if (body.compliance != nullptr && body.stiffness)
-  {
-    throw Error(ErrorCode::BadValue,
-      "organ: an organ file is of a body of one modulus; leave out --stiffness, or the file");
-  }
   scene.series = seriesBodyOf(body.compliance, law);
   if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
   {
@@ -338,7 +336,9 @@ void feelTissue(Scene& scene, const SceneBody& body)
   scene.nodules = embedNodules(*body.haptic, law, body.nodules);
   if (body.stiffness)
   {
-    scene.stiffness = embedStiffness(*body.haptic, law,
+    LawSettings settings = law.settings();
+    settings.thickness = settings.thickness && scene.series == nullptr; // else it is told twice
+    scene.stiffness = embedStiffness(*body.haptic, ForceLaw(law.tip(), law.material(), settings),
       [&map = body.stiffness, young = law.material().youngModulus](const Eigen::Vector3d& position)
       { return map(position, young); });
   }

@@ -1,5 +1,6 @@
 #include "app/stiffness/stiffness_text.h"
 
+#include "app/input/mesh_file.h"
 #include "app/input/option_values.h"
 #include "app/input/press_options.h"
 #include "app/input/quantity.h"
@@ -162,6 +163,24 @@ std::string describeStiffness(const StiffnessSource& source, const std::string& 
       break;
   }
   return "";
+}
+
+std::string identityOf(const StiffnessSource& source)
+{
+  return describeStiffness(
+    source, source.file.empty() ? "" : "SHA-256 " + describeFile(source.file).sha256);
+}
+
+void checkStiffness(
+  const StiffnessSource& named, const std::filesystem::path& organ, const std::string& described)
+{
+  if (identityOf(named) != described)
+  {
+    throw Error(ErrorCode::BadFile,
+      printable(organ.string()) + ": is of a body " +
+        (described.empty() ? "of one modulus" : "whose stiffness is " + described) +
+        "; give the same --stiffness, or make it again by palp organ");
+  }
 }
 
 std::string mapRefusal(const MeshSource& mesh, const LawOptions& law)

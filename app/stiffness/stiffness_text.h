@@ -2,6 +2,7 @@
 
 #include "pipeline/tissue/stiffness_source.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,16 @@ struct MeshSource;
 /// The text that reads back as the same.
 /// @param file  how the file is named there
 [[nodiscard]] std::string describeStiffness(const StiffnessSource& source, const std::string& file);
+
+/// The same wherever its file lies, by the SHA-256 of that; empty: none is given.
+/// @throws Error  BadFile: the file cannot be read
+[[nodiscard]] std::string identityOf(const StiffnessSource& source);
+
+/// @param organ      an organ file
+/// @param described  identity of the map that it was made of
+/// @throws Error     BadFile: it was made of another map than is named
+void checkStiffness(
+  const StiffnessSource& named, const std::filesystem::path& organ, const std::string& described);
 
 /// Why a body with a map, or without one, cannot be pressed so; empty: it can.
 [[nodiscard]] std::string mapRefusal(const MeshSource& mesh, const LawOptions& law);

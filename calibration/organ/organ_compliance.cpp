@@ -1,7 +1,11 @@
 #include "calibration/organ/organ_compliance.h"
 
+#include "calibration/organ/mapped_contact.h"
 #include "calibration/organ/smooth_pressure.h"
 #include "calibration/organ/surface_parts.h"
+#include "calibration/organ/tangent_plane.h"
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/embed_stiffness.h"
 #include "haptics/surface/ray.h"
 
 #include <Eigen/Geometry>
@@ -20,83 +24,6 @@ constexpr double kSides = 1.5;                     // of cells to the radius of 
 constexpr std::array kRings{ 0.0, 0.5, 1.0, 1.5 }; // radii
 constexpr int kLoadRings = 24;
 constexpr int kAround = 16; // places on a ring
-
-// a place on the surface, above or below one in the tangent plane
-class TangentPlane
-{
-public:
-  TangentPlane(const Surface& surface, const Eigen::Vector3d& place, const Eigen::Vector3d& outward,
-    double reach)
-    : surface_(surface)
-    , place_(place)
-    , outward_(outward)
-    , first_(outward.unitOrthogonal())
-    , second_(outward.cross(first_))
-    , reach_(reach)
-  {
-  }
-
-  [[nodiscard]] Eigen::Vector3d vector(const Eigen::Vector2d& in) const
-  {
-    return in.x() * first_ + in.y() * second_;
-  }
-
-  [[nodiscard]] std::optional<Eigen::Vector3d> onSurface(const Eigen::Vector2d& at) const
-  {
-    const Eigen::Vector3d from = place_ + vector(at) + reach_ * outward_;
-    const RayHit hit = rayEntry(surface_.tree(), from, -outward_);
-    if (hit.triangle < 0 || hit.distance > 2.0 * reach_)
-    {
-      return std::nullopt;
-    }
-    const auto& [a, b, c] = surface_.triangles()[palp::at(hit.triangle)];
-    const Eigen::Vector3d& corner = surface_.points()[palp::at(a)];
-    const bool isAlike = facesAlike(
-      (surface_.points()[palp::at(b)] - corner).cross(surface_.points()[palp::at(c)] - corner));
-    return isAlike ? std::optional(Eigen::Vector3d(from - hit.distance * outward_)) : std::nullopt;
-  }
-
-  // else it is another side of the body, beyond an edge
-  [[nodiscard]] bool facesAlike(const Eigen::Vector3d& area) const
-  {
-    return area.dot(outward_) > std::numbers::sqrt2 / 2.0 * area.norm();
-  }
-
-  // a vector seen from here, z into the body
-  [[nodiscard]] Eigen::Vector3d inside(const Eigen::Vector3d& vector) const
-  {
-    return { vector.dot(first_), vector.dot(second_), -vector.dot(outward_) };
-  }
-  [[nodiscard]] Eigen::Vector3d outside(const Eigen::Vector3d& local) const
-  {
-    return local.x() * first_ + local.y() * second_ - local.z() * outward_;
-  }
-
-  [[nodiscard]] const Surface& surface() const
-  {
-    return surface_;
-  }
-  [[nodiscard]] const Eigen::Vector3d& place() const
-  {
-    return place_;
-  }
-  [[nodiscard]] const Eigen::Vector3d& outward() const
-  {
-    return outward_;
-  }
-  [[nodiscard]] double reach() const
-  {
-    return reach_;
-  }
-
-private:
-  const Surface& surface_;
-  Eigen::Vector3d place_;
-  Eigen::Vector3d outward_;
-  Eigen::Vector3d first_;
-  Eigen::Vector3d second_;
-  double reach_;
-};
 
 Eigen::Vector2d onCircle(double radius, int i)
 {
@@ -179,6 +106,7 @@ Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPr
   const Pressed& pressed, const Eigen::Ref<const Eigen::VectorXd>& moved)
 {
   Readings readings;
+  const double modulus = 2.0 * pressure.shear / (1.0 - pressure.poisson); // E*
   OrganModel::Weights weights{};
   for (const double ring : kRings)
   {
@@ -198,8 +126,7 @@ Readings read(const OrganModel& model, const TangentPlane& plane, const SmoothPr
       }
       for (const Eigen::Vector2d& off : pressed.off)
       {
-        down += 1.0 /
-          (kLoadRings * kAround * std::numbers::pi * model.contactModulus() * (off - in).norm());
+        down += 1.0 / (kLoadRings * kAround * std::numbers::pi * modulus * (off - in).norm());
       }
       readings.places.push_back(in);
       readings.values.push_back(down / pressed.part);
@@ -234,25 +161,33 @@ std::optional<OrganCompliance> fitted(
     .bend = (found[3] + found[4]) / (radius * radius) };
 }
 
+SmoothPressure pressureOf(const OrganModel& model, double ratio)
+{
+  return { kSides * model.side(), ratio * model.shearModulus(), model.poissonRatio() };
+}
+
 // what the cubes give to loads at places; those that the body hangs over are left out
 struct Loaded
 {
   std::vector<TangentPlane> planes{};
-  std::vector<std::size_t> of{}; // the places
-  Eigen::MatrixXd moved{};       // a column for each plane [m/N]
+  std::vector<SmoothPressure> pressures{}; // on a half-space of the modulus at each
+  std::vector<std::size_t> of{};           // the places
+  Eigen::MatrixXd moved{};                 // a column for each plane [m/N]
 };
 
-Loaded loadedAt(const OrganModel& model, const Surface& surface,
-  std::span<const SurfacePoint> places, const SmoothPressure& pressure)
+Loaded loadedAt(
+  const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
 {
   Loaded loaded;
+  const double radius = kSides * model.side();
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const auto& [position, outward] = places[i];
     // else the sources of the pressure would be in the body
-    if (rayEntry(surface.tree(), position + 1e-3 * pressure.radius * outward, outward).triangle < 0)
+    if (rayEntry(surface.tree(), position + 1e-3 * radius * outward, outward).triangle < 0)
     {
-      loaded.planes.emplace_back(surface, position, outward, pressure.radius);
+      loaded.planes.emplace_back(surface, position, outward, radius);
+      loaded.pressures.push_back(pressureOf(model, model.moduli().around(position, radius)));
       loaded.of.push_back(i);
     }
   }
@@ -260,37 +195,86 @@ Loaded loadedAt(const OrganModel& model, const Surface& surface,
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
     const auto column = static_cast<Eigen::Index>(i);
-    loads.col(column) = loadBeyond(model, loaded.planes[i], pressure);
+    const TangentPlane& plane = loaded.planes[i];
+    const SmoothPressure& pressure = loaded.pressures[i];
+    const auto field = [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
+    { return plane.outside(pressure.displacement(plane.inside(place - plane.place()))); };
+    loads.col(column) = loadBeyond(model, plane, pressure);
     model.moveSupports(loads.col(column),
-      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d
-      {
-        const TangentPlane& plane = loaded.planes[i];
-        return -plane.outside(pressure.displacement(plane.inside(place - plane.place())));
-      });
+      [&](const Eigen::Vector3d& place) -> Eigen::Vector3d { return -field(place); });
+    model.varyLoad(loads.col(column), field, pressure.shear / model.shearModulus());
   }
   loaded.moved = model.solve(loads);
   return loaded;
 }
 
-SmoothPressure pressureOf(const OrganModel& model)
+// What the contact tells of the moduli by itself, over E* of the whole.
+class ToldByContact
 {
-  return { kSides * model.side(), model.shearModulus(), model.poissonRatio() };
-}
+public:
+  ToldByContact(const OrganModel& model, const Surface& surface)
+    : model_(model)
+    , surface_(surface)
+    , radius_(kSides * model.side())
+    , contact_(radius_, model.poissonRatio())
+  {
+  }
+
+  // by three places around, of which half of the constant's gradient is the slope
+  void takeOff(OrganCompliance& compliance, const TangentPlane& plane, double near) const
+  {
+    const SurfacePoint place{ .position = plane.place(), .normal = plane.outward() };
+    const double curvature = geometryAt(surface_, SphereTip{ radius_ }, place).surfaceCurvature;
+    const double perModulus = 1.0 / (near * model_.contactModulus());
+    constexpr int around = 3;
+    const double step = 0.5 * radius_;
+    for (int i = 0; i < around; ++i)
+    {
+      const double angle = 2.0 * std::numbers::pi * i / around;
+      const Eigen::Vector3d way = plane.vector({ std::cos(angle), std::sin(angle) });
+      const MappedContact::Beyond told = contact_(
+        [&](const Eigen::Vector3d& in)
+        {
+          const Eigen::Vector3d below = belowCurved(in, curvature);
+          return model_.ratio()(plane.place() + step * way + plane.outside(below)) / near;
+        });
+      compliance.constant -= perModulus * told.constant / around;
+      compliance.bend -= perModulus * told.bend / around;
+      compliance.slope -= perModulus * told.constant / (around * step) * way;
+    }
+  }
+
+private:
+  const OrganModel& model_;
+  const Surface& surface_;
+  double radius_;
+  MappedContact contact_;
+};
 
 } // namespace
 
 std::vector<std::optional<OrganCompliance>> compliancesAt(
   const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
 {
-  const SmoothPressure pressure = pressureOf(model);
-  const Loaded loaded = loadedAt(model, surface, places, pressure);
+  const Loaded loaded = loadedAt(model, surface, places);
   std::vector<std::optional<OrganCompliance>> found(places.size());
+  std::optional<ToldByContact> told;
+  if (!model.moduli().ratios().empty())
+  {
+    told.emplace(model, surface);
+  }
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
+    const SmoothPressure& pressure = loaded.pressures[i];
     const Pressed pressed = pressedBy(pressure, loaded.planes[i]);
     const Readings readings = read(
       model, loaded.planes[i], pressure, pressed, loaded.moved.col(static_cast<Eigen::Index>(i)));
-    found[loaded.of[i]] = fitted(readings, pressed, loaded.planes[i], pressure.radius);
+    std::optional<OrganCompliance>& one = found[loaded.of[i]];
+    one = fitted(readings, pressed, loaded.planes[i], pressure.radius);
+    if (one && told)
+    {
+      told->takeOff(*one, loaded.planes[i], pressure.shear / model.shearModulus());
+    }
   }
   return found;
 }
@@ -298,14 +282,14 @@ std::vector<std::optional<OrganCompliance>> compliancesAt(
 Eigen::MatrixXd motionsBy(const OrganModel& model, const Surface& surface,
   std::span<const SurfacePoint> loads, std::span<const SurfacePoint> places)
 {
-  const SmoothPressure pressure = pressureOf(model);
-  const SmoothPressure wide{ drawnRadius(model.side()), pressure.shear, pressure.poisson };
-  const Loaded loaded = loadedAt(model, surface, loads, pressure);
+  const Loaded loaded = loadedAt(model, surface, loads);
   Eigen::MatrixXd motions =
     Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * places.size()), std::ssize(loads));
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
     const TangentPlane& plane = loaded.planes[i];
+    const SmoothPressure& pressure = loaded.pressures[i];
+    const SmoothPressure wide{ drawnRadius(model.side()), pressure.shear, pressure.poisson };
     const auto moved = loaded.moved.col(static_cast<Eigen::Index>(i));
     const double part = pressedBy(pressure, plane).part;
     for (std::size_t k = 0; k < places.size(); ++k)

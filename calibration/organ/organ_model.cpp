@@ -2,18 +2,16 @@
 
 #include "calibration/organ/cube_stiffness.h"
 #include "calibration/organ/cut_grid.h"
-#include "calibration/organ/free_motion.h"
+#include "calibration/organ/shared_cholesky.h"
+#include "calibration/organ/support_grip.h"
 #include "calibration/organ/surface_parts.h"
 #include "haptics/error.h"
 
-#include <Eigen/CholmodSupport>
 #include <Eigen/Geometry>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 #include <vector>
 
 namespace palp
@@ -21,7 +19,7 @@ namespace palp
 namespace
 {
 
-using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Sparse = SharedCholesky::Sparse;
 using Nodes = std::array<int, kCubeCorners>;
 
 constexpr double kLeast = 0.03; // filled part of a cube that counts
@@ -35,78 +33,19 @@ Cube cornerOf(const Cube& cube, int corner)
 
 struct OrganModel::State
 {
-  // Eigen's, but for solutions by several threads at once
-  class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse>
-  {
-  public:
-    [[nodiscard]] Eigen::MatrixXd solveAll(const Eigen::MatrixXd& right) const
-    {
-      cholmod_common own; // NOLINT(cppcoreguidelines-pro-type-member-init): by the next line
-      cholmod_start(&own);
-      own.print = 0;
-      cholmod_dense known = Eigen::viewAsCholmod(right.const_cast_derived());
-      cholmod_dense* found = cholmod_solve(CHOLMOD_A, m_cholmodFactor, &known, &own);
-      Eigen::MatrixXd solution;
-      if (found != nullptr)
-      {
-        solution =
-          Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(found->x), right.rows(), right.cols());
-        cholmod_free_dense(&found, &own);
-      }
-      cholmod_finish(&own);
-      if (solution.size() != right.size())
-      {
-        throw Error(ErrorCode::NoSolution, "too little memory for the loads; give larger cells");
-      }
-      return solution;
-    }
-  };
-
-  // of a support on the surface in one cube: its mean displacement is held, not that of nodes
-  // beside
-  struct Grip
-  {
-    OrganModel::Weights weights{}; // sums over the area until this is divided by
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    double area = 0.0;
-    Eigen::Vector3d along = Eigen::Vector3d::Zero(); // as of its support
-
-    void add(const OrganModel::Weights& more, const Eigen::Vector3d& middle, double part)
-    {
-      weights.nodes = more.nodes;
-      for (std::size_t i = 0; i < more.values.size(); ++i)
-      {
-        weights.values[i] += part * more.values[i];
-      }
-      place += part * middle;
-      area += part;
-    }
-
-    void divide()
-    {
-      for (double& value : weights.values)
-      {
-        value /= area;
-      }
-      place /= area;
-    }
-
-    [[nodiscard]] Eigen::Matrix3d direction() const
-    {
-      return along.isZero() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                            : Eigen::Matrix3d(along * along.transpose());
-    }
-  };
-
   CutGrid grid;
   double young;
   double poisson;
+  ModulusRatio ratio;
   std::vector<int> number{};             // of each corner of the grid; -1: of no cube that counts
   std::vector<Eigen::Vector3d> places{}; // of the nodes
   std::vector<Nodes> cubes{};
   std::vector<CubePoints> inside{}; // each of these
-  std::vector<Grip> grips{};
-  Cholesky cholesky{};
+  std::vector<SupportGrip> grips{};
+  CubeModuli moduli{};
+  Sparse even{};   // lower half, of the cubes if they were, where they are not
+  Sparse varied{}; // the same as they are
+  SharedCholesky cholesky{};
 
   [[nodiscard]] std::size_t cornerIndex(const Cube& c) const
   {
@@ -129,7 +68,9 @@ struct OrganModel::State
   {
     const auto& [nx, ny, nz] = grid.size();
     number.assign(at(nx + 1) * at(ny + 1) * at(nz + 1), -1);
-    for (const Cube& cube : grid.largestPiece(kLeast))
+    const std::vector<Cube> all = grid.largestPiece(kLeast);
+    moduli = ratio ? CubeModuli(grid, all, ratio) : CubeModuli();
+    for (const Cube& cube : all)
     {
       Nodes nodes{};
       for (int corner = 0; corner < kCubeCorners; ++corner)
@@ -153,7 +94,7 @@ struct OrganModel::State
   {
     for (const Support& support : supports)
     {
-      std::map<int, Grip> byCube;
+      std::map<int, SupportGrip> byCube;
       double held = 0.0; // [m^2]
       forParts(surface, Eigen::Vector3d::Zero(), 0.5 * grid.side(), 0.0,
         [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& area)
@@ -179,83 +120,82 @@ struct OrganModel::State
         grips.push_back(grip);
       }
     }
-    checkHeld();
+    checkHeld(grips, grid.side() * *std::max_element(grid.size().begin(), grid.size().end()));
   }
 
-  void checkHeld() const
-  {
-    const double size = grid.side() * *std::max_element(grid.size().begin(), grid.size().end());
-    std::vector<HeldWay> held;
-    held.reserve(3 * grips.size());
-    for (const Grip& grip : grips)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        held.push_back({ grip.place, grip.direction().col(axis) });
-      }
-    }
-    if (const std::string motion = freeMotionOf(held, size); !motion.empty())
-    {
-      throw Error(ErrorCode::BadValue,
-        "the supports, in " + std::to_string(grips.size()) +
-          (grips.size() == 1 ? " cell" : " cells") + ", leave the body free to " + motion +
-          "; add one that holds it, or give smaller cells");
-    }
-  }
-
-  [[nodiscard]] double stiffnessOf(const Grip& grip) const
+  [[nodiscard]] double stiffnessOf(const SupportGrip& grip) const
   {
     constexpr double stiff = 1e3; // against the cubes
-    return stiff * young / grid.side() * grip.area;
+    return stiff * young * moduli.largest() / grid.side() * grip.area;
   }
 
-  void factorize()
+  // of all cubes, each times its ratio
+  [[nodiscard]] Sparse assembled(std::span<const double> times) const
   {
     const CubeStiffness whole = cubeStiffness(grid.side(), young, poisson);
     std::vector<Eigen::Triplet<double>> all;
     all.reserve(cubes.size() * 300);
-    const auto add = [&](const Nodes& nodes, const auto& stiffness)
-    {
-      for (int i = 0; i < 24; ++i)
-      {
-        for (int j = 0; j < 24; ++j)
-        {
-          const int row = 3 * nodes[at(i / 3)] + i % 3;
-          const int column = 3 * nodes[at(j / 3)] + j % 3;
-          row >= column ? void(all.emplace_back(row, column, stiffness(i, j))) : void();
-        }
-      }
-    };
     for (std::size_t cube = 0; cube < cubes.size(); ++cube)
     {
-      add(cubes[cube],
-        inside[cube].all() ? whole : cutCubeStiffness(grid.side(), young, poisson, inside[cube]));
+      const double part = times.empty() ? 1.0 : times[cube];
+      add(all, cubes[cube],
+        CubeStiffness(part *
+          (inside[cube].all() ? whole
+                              : cutCubeStiffness(grid.side(), young, poisson, inside[cube]))));
     }
-    for (const Grip& grip : grips)
+    return fromTriplets(all);
+  }
+
+  template <typename Stiffness>
+  static void add(
+    std::vector<Eigen::Triplet<double>>& all, const Nodes& nodes, const Stiffness& stiffness)
+  {
+    for (int i = 0; i < 24; ++i)
+    {
+      for (int j = 0; j < 24; ++j)
+      {
+        const int row = 3 * nodes[at(i / 3)] + i % 3;
+        const int column = 3 * nodes[at(j / 3)] + j % 3;
+        row >= column ? void(all.emplace_back(row, column, stiffness(i, j))) : void();
+      }
+    }
+  }
+
+  [[nodiscard]] Sparse fromTriplets(const std::vector<Eigen::Triplet<double>>& all) const
+  {
+    const auto count = static_cast<Eigen::Index>(3 * places.size());
+    Sparse matrix(count, count); // its lower half
+    matrix.setFromTriplets(all.begin(), all.end());
+    return matrix;
+  }
+
+  void factorize()
+  {
+    varied = assembled(moduli.ratios());
+    std::vector<Eigen::Triplet<double>> held;
+    for (const SupportGrip& grip : grips)
     {
       const Eigen::Matrix3d spring = stiffnessOf(grip) * grip.direction();
-      add(grip.weights.nodes,
+      add(held, grip.weights.nodes,
         [&](int i, int j) {
           return grip.weights.values[at(i / 3)] * grip.weights.values[at(j / 3)] *
             spring(i % 3, j % 3);
         });
     }
     cholesky.cholmod().print = 0; // the error below says it
-    const auto count = static_cast<Eigen::Index>(3 * places.size());
-    Sparse matrix(count, count); // its lower half
-    matrix.setFromTriplets(all.begin(), all.end());
-    cholesky.compute(matrix);
+    cholesky.compute(Sparse(varied + fromTriplets(held)));
     if (cholesky.info() != Eigen::Success)
     {
       throw Error(ErrorCode::NoSolution,
         "the body's stiffness cannot be factorized; give larger cells or another support");
     }
+    moduli.ratios().empty() ? void(varied = Sparse()) : void(even = assembled({}));
   }
 };
 
 OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
-  double poissonRatio, std::span<const Support> supports)
-  : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio })
+  double poissonRatio, std::span<const Support> supports, const ModulusRatio& ratio)
+  : state_(new State{ CutGrid(surface, side), youngModulus, poissonRatio, ratio })
 {
   state_->addCubes();
   if (state_->places.empty())
@@ -331,7 +271,7 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
 
 void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const
 {
-  for (const State::Grip& grip : state_->grips)
+  for (const SupportGrip& grip : state_->grips)
   {
     const Eigen::Vector3d pull =
       state_->stiffnessOf(grip) * grip.direction() * supports(grip.place);
@@ -340,6 +280,34 @@ void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& s
       forces.segment<3>(3L * grip.weights.nodes[i]) += grip.weights.values[i] * pull;
     }
   }
+}
+
+const CubeModuli& OrganModel::moduli() const noexcept
+{
+  return state_->moduli;
+}
+
+const ModulusRatio& OrganModel::ratio() const noexcept
+{
+  return state_->ratio;
+}
+
+void OrganModel::varyLoad(
+  Eigen::Ref<Eigen::VectorXd> forces, const Moved& field, double ratio) const
+{
+  const State& state = *state_;
+  if (state.moduli.ratios().empty())
+  {
+    return;
+  }
+  Eigen::VectorXd moved(forces.size());
+  for (std::size_t i = 0; i < state.places.size(); ++i)
+  {
+    moved.segment<3>(3 * static_cast<Eigen::Index>(i)) = field(state.places[i]);
+  }
+  const Eigen::VectorXd even = state.even.selfadjointView<Eigen::Lower>() * moved;
+  const Eigen::VectorXd varied = state.varied.selfadjointView<Eigen::Lower>() * moved;
+  forces += ratio * even - varied;
 }
 
 Eigen::MatrixXd OrganModel::solve(const Eigen::MatrixXd& forces) const

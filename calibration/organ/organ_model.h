@@ -1,9 +1,10 @@
 #pragma once
 
+#include "calibration/organ/cube_moduli.h"
+#include "calibration/organ/node_weights.h"
 #include "haptics/surface/surface.h"
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -19,7 +20,7 @@ struct Support
   Eigen::Vector3d along = Eigen::Vector3d::Zero(); ///< unit; the body slides across it; 0: bonded
 };
 
-/// Displacements of a body of one linear material, in cubes that are cut by its surface.
+/// Displacements of a body of linear material, in cubes that are cut by its surface.
 ///
 /// The stiffness of a cut cube is that of its part inside; those with less than a thirtieth of it
 /// inside are left out. Supports hold the surface itself: its mean displacement in each cube.
@@ -29,27 +30,23 @@ public:
   /// @param surface        closed
   /// @param side           of the cubes [m]
   /// @param youngModulus   [Pa]
-  /// @param poissonRatio   0 to below 0.5 [-]
+  /// @param poissonRatio   0 to below 0.5, everywhere [-]
+  /// @param ratio          of its moduli; empty: the same everywhere
   /// @throws Error         BadMesh: the surface is open or crosses itself; BadValue: the supports
   ///                       leave a motion free, and which; no cube is filled, or over 20 million
   ///                       would be
   OrganModel(const Surface& surface, double side, double youngModulus, double poissonRatio,
-    std::span<const Support> supports);
+    std::span<const Support> supports, const ModulusRatio& ratio = {});
   ~OrganModel();
   OrganModel(OrganModel&&) noexcept;
   OrganModel& operator=(OrganModel&&) noexcept;
 
-  /// Forces on places near the surface, as a linear combination of the nodes' displacements: the
-  /// column for each gives the displacement there along a direction.
-  ///
-  /// A place in a cube that is filled by less is extrapolated from the next one inwards.
+  using Weights = NodeWeights;
+
+  /// A place near the surface; in a cube that is filled by less it is extrapolated from the next
+  /// one inwards.
   /// @param outward  unit
-  /// @return         empty where no such cube is within 2.5 sides
-  struct Weights
-  {
-    std::array<int, 8> nodes;
-    std::array<double, 8> values;
-  };
+  /// @return         false where no such cube is within 2.5 sides
   [[nodiscard]] bool weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& outward,
     Weights& weights, double filled = 0.5) const;
 
@@ -58,6 +55,14 @@ public:
   /// Adds what supports pull that have moved themselves.
   /// @param forces  x, y, z of node after node [N]
   void moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const;
+
+  [[nodiscard]] const CubeModuli& moduli() const noexcept;
+  [[nodiscard]] const ModulusRatio& ratio() const noexcept; ///< as given
+
+  /// Adds what a field of displacements needs that is without load in a body that is even.
+  /// @param forces  x, y, z of node after node [N]
+  /// @param ratio   of that body's modulus to that of the whole [-]
+  void varyLoad(Eigen::Ref<Eigen::VectorXd> forces, const Moved& field, double ratio) const;
 
   /// @param forces    a column for each load; x, y, z of node after node [N]
   /// @return          displacements of the nodes, likewise [m]

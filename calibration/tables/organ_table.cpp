@@ -225,8 +225,9 @@ void checkVersion(const std::filesystem::path& file)
 
 bool OrganTable::continues(const OrganTable& other) const
 {
-  return mesh == other.mesh && supports == other.supports && poisson == other.poisson &&
-    cell == other.cell && spacing == other.spacing && count == other.count;
+  return mesh == other.mesh && supports == other.supports && stiffness == other.stiffness &&
+    young == other.young && poisson == other.poisson && cell == other.cell &&
+    spacing == other.spacing && count == other.count;
 }
 
 void OrganTable::place(const Eigen::Isometry3d& frame)
@@ -252,7 +253,12 @@ void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
 {
   std::ostringstream out;
   out << kFirst << OrganTable::kVersion << "\n# mesh: " << table.mesh
-      << "\n# supports: " << table.supports << "\n# poisson: " << shortest(table.poisson)
+      << "\n# supports: " << table.supports;
+  if (!table.stiffness.empty())
+  {
+    out << "\n# stiffness: " << table.stiffness << "\n# young_Pa: " << shortest(table.young);
+  }
+  out << "\n# poisson: " << shortest(table.poisson)
       << "\n# cell_mm: " << shortest(units::toMillimeters(table.cell))
       << "\n# spacing_mm: " << shortest(units::toMillimeters(table.spacing))
       << "\n# places: " << table.count
@@ -282,6 +288,11 @@ OrganTable readOrganTable(const std::filesystem::path& file)
   OrganTable table;
   table.mesh = textOf(file, numbers, "mesh");
   table.supports = textOf(file, numbers, "supports");
+  if (const auto stiffness = entry(numbers.comments, "stiffness"))
+  {
+    table.stiffness = *stiffness;
+    table.young = csvNumber(textOf(file, numbers, "young_Pa")).value_or(0.0);
+  }
   table.poisson = csvNumber(textOf(file, numbers, "poisson")).value_or(table.poisson);
   table.cell = units::fromMillimeters(numberOf(file, numbers, "cell_mm"));
   table.spacing = units::fromMillimeters(numberOf(file, numbers, "spacing_mm"));

@@ -18,8 +18,10 @@ struct OrganTable
 {
   static constexpr int kVersion = 2;
 
-  std::string mesh;     ///< what it is of: SHA-256 of its file, and how that was read
-  std::string supports; ///< where it rests, as text
+  std::string mesh;        ///< what it is of: SHA-256 of its file, and how that was read
+  std::string supports;    ///< where it rests, as text
+  std::string stiffness{}; ///< how its modulus differs from place to place, as text; empty: not
+  double young = 0.0;      ///< modulus that E* is of, where it differs to given values [Pa]; 0: any
   double poisson = 0.45;
   double cell = 4e-3;    ///< side of the cubes [m]
   double spacing = 4e-3; ///< of the places [m]

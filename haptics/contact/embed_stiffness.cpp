@@ -145,14 +145,13 @@ PlacedStiffness placedAt(
   const Eigen::Vector3d& normal = place.point.normal;
   const Eigen::Vector3d u = normal.unitOrthogonal();
   const Eigen::Vector3d v = normal.cross(u);
-  const double bend = 0.5 * place.geometry.surfaceCurvature;
+  const double curvature = place.geometry.surfaceCurvature;
   const EnergyWeights::Means means = below.weights.means(
     [&](const Eigen::Vector3d& at)
     {
-      const double across = at.head<2>().norm();
-      const double sagged = std::clamp(bend * across * across, -across, across);
+      const Eigen::Vector3d curved = belowCurved(at, curvature);
       return checkedModulus(
-               modulus(position + at.x() * u + at.y() * v - (at.z() + sagged) * normal)) /
+               modulus(position + curved.x() * u + curved.y() * v - curved.z() * normal)) /
         young;
     });
   if (!(means.known >= kLeastKnown))
@@ -163,6 +162,13 @@ PlacedStiffness placedAt(
 }
 
 } // namespace
+
+Eigen::Vector3d belowCurved(const Eigen::Vector3d& flat, double curvature) noexcept
+{
+  const double across = flat.head<2>().norm();
+  const double sagged = std::clamp(0.5 * curvature * across * across, -across, across);
+  return { flat.x(), flat.y(), flat.z() + sagged };
+}
 
 std::shared_ptr<const StiffnessField> embedStiffness(
   const Surface& surface, const ForceLaw& law, const ModulusAt& modulus)
@@ -178,6 +184,10 @@ std::shared_ptr<const StiffnessField> embedStiffness(
   for (const SurfacePoint& point : placeGrid(surface, spacing))
   {
     looked.push_back({ point, geometryAt(surface, law.tip(), point) });
+    if (!law.settings().thickness)
+    {
+      looked.back().geometry.thickness = std::numeric_limits<double>::infinity();
+    }
   }
   const std::vector<ContactGeometry> kinds = kindsOf(looked, base);
   std::vector<std::unique_ptr<const Below>> below(kinds.size());

@@ -14,6 +14,10 @@ namespace palp
 /// number where it is not known. Called by several threads at once.
 using ModulusAt = std::function<double(const Eigen::Vector3d&)>;
 
+/// A place below a curved surface that is taken for one below a flat one: x, y, z down [m].
+/// @param curvature  mean, convex positive [1/m]
+[[nodiscard]] Eigen::Vector3d belowCurved(const Eigen::Vector3d& flat, double curvature) noexcept;
+
 /// The stiffness of a body that varies from place to place, felt by the tool of a law, whose own
 /// modulus then says nothing. Takes some seconds.
 ///

@@ -18,6 +18,11 @@ TissueAt::TissueAt(const Scene& scene, const Contact& contact) noexcept
   , geometry_(contactGeometryOf(contact))
   , askedDepth_(contact.depth)
 {
+  if (scene.series != nullptr)
+  {
+    // what is below is in the body's compliance
+    geometry_.thickness = std::numeric_limits<double>::infinity();
+  }
   if (scene.stiffness != nullptr)
   {
     stiffness_ = scene.stiffness->at(stiffnessContactOf(contact), scene.law, geometry_);
@@ -33,8 +38,6 @@ TissueAt::TissueAt(const Scene& scene, const Contact& contact) noexcept
   if (scene.series != nullptr)
   {
     body_ = scene.series->at(contact.center, contact.normal, contact.depth);
-    // what is below is in the body's compliance
-    geometry_.thickness = std::numeric_limits<double>::infinity();
   }
   plain_ = scene.law(geometry_);
   asked_ = find(contact.depth);

@@ -8,6 +8,7 @@
 #include "app/places/fiducial_file.h"
 #include "app/places/placed_press.h"
 #include "app/press/body.h"
+#include "app/stiffness/stiffness_text.h"
 #include "app/supports/support_region.h"
 #include "calibration/figures/table.h"
 #include "haptics/error.h"
@@ -145,6 +146,11 @@ void runOrgan(const OrganOptions& options)
   {
     throw Error(ErrorCode::BadValue, "--poisson: no element of 0.5 gives way; give at most 0.4999");
   }
+  if (!isFile && options.mesh.stiffness.isGiven())
+  {
+    throw Error(ErrorCode::BadValue,
+      "--stiffness: give --out, and press the file by palp run, which feels the map beside it");
+  }
   checkExists(options.mesh);
   std::optional<Interrupt> interrupt;
   if (isFile)
@@ -227,6 +233,7 @@ void addOrganCommand(CLI::App& app)
       all->young = parseWithin(text, Quantity::Pressure, { 1.0, 1e12, "1Pa to 1TPa" }, "--young");
     });
   addPoisson(*command, options->poisson);
+  addStiffness(*command, options->mesh.stiffness);
   add("--cell", "Side of the cells of the body; twice this is as near as an edge is known", "4mm",
     [all](const std::string& text) {
       all->cell = parseWithin(text, Quantity::Length, { 0.1_mm, 0.1, "0.1mm to 100mm" }, "--cell");
@@ -235,7 +242,7 @@ void addOrganCommand(CLI::App& app)
     "What palp run --organ --law corrected --material linear feels, solved for around places "
     "only:\n"
     "the contact in series with the body's own compliance, by finite elements in cubes that its\n"
-    "surface cuts: linear, frictionless, one material. constant and slope: E*\n"
+    "surface cuts: linear, frictionless. constant and slope: E* of --young\n"
     "times what the body adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"
     "of the exact layer, lobes and edges 8 mm away within 4 %. remark: on a support; too deep\n"
     "beyond half of the thickness; support too near where the contact is wider than a third of\n"

@@ -1,6 +1,7 @@
 #include "app/commands/organ/organ_file.h"
 
 #include "app/program/progress_line.h"
+#include "app/stiffness/stiffness_text.h"
 #include "app/supports/organ_seal.h"
 #include "app/supports/support_text.h"
 #include "calibration/organ/organ_motion_modes.h"
@@ -41,6 +42,11 @@ OrganTable emptyTable(const OrganFilePlan& plan, const SceneBody& body, std::siz
   OrganTable table;
   table.mesh = identityOf(body.files.front());
   table.supports = describeSupports(plan.supports, plan.out.parent_path());
+  if (const StiffnessSource& stiffness = body.sources.front().stiffness; stiffness.isGiven())
+  {
+    table.stiffness = identityOf(stiffness);
+    table.young = stiffness.kind != StiffnessSource::Kind::Random ? plan.young : 0.0;
+  }
   table.poisson = plan.poisson;
   table.cell = plan.cell;
   table.spacing = spacingOf(*body.haptic, plan.cell);
@@ -89,6 +95,14 @@ void report(const OrganFilePlan& plan, const OrganTable& table, Clock::duration 
             << " kB, " << std::lround(seconds) << " s; " << described(table) << '\n';
 }
 
+// over a modulus; empty: of a body that is even
+ModulusRatio modulusRatio(const SceneBody& body, double young)
+{
+  return body.stiffness ? [map = body.stiffness, young](const Eigen::Vector3d& place)
+  { return map(place, young) / young; }
+                        : ModulusRatio{};
+}
+
 } // namespace
 
 void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
@@ -108,7 +122,8 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   interrupt.endWhatDoesNotStop(table.places.empty() ? kNoPlaceYet : kStopped);
   ProgressLine progress("places");
   progress(table.places.size(), places.size());
-  const OrganModel model(surface, plan.cell, plan.young, plan.poisson, supports);
+  const OrganModel model(
+    surface, plan.cell, plan.young, plan.poisson, supports, modulusRatio(body, plan.young));
   progress.tell(counted(static_cast<std::size_t>(model.nodes()), "node"));
   auto kept = Clock::now();
   const auto tell = [&](const OrganTable& now)

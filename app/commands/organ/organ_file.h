@@ -17,7 +17,7 @@ struct OrganFilePlan
 {
   std::filesystem::path out;
   std::vector<std::string> supports; ///< as text
-  double young = 50e3;               ///< [Pa]
+  double young = 50e3;               ///< [Pa]; of a body with a map E* is of this
   double poisson = 0.45;             ///< [-]
   double cell = 4e-3;                ///< side of the cubes [m]
 };

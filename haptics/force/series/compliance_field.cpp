@@ -71,12 +71,13 @@ float ratioOf(float wanted, double blend)
 } // namespace
 
 ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, double spacing,
-  double poisson, std::shared_ptr<const OrganMotion> motion)
+  double poisson, std::shared_ptr<const OrganMotion> motion, double young)
   : reach_(static_cast<float>(kReach * spacing))
   , perReach_(1.0F / reach_)
   , cell_(spacing)
   , open_(nearerOf(Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()).value)
   , poisson_(poisson)
+  , young_(young)
   , motion_(std::move(motion))
 {
   for (const PlacedCompliance& place : places)

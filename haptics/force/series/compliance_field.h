@@ -55,14 +55,27 @@ public:
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();     ///< grad E* tr A [1/m^4]
     Eigen::Vector3d edge = Eigen::Vector3d::Zero();     ///< grad 1/D [1/m^2]
     double doubtful = 0.0; ///< part of what is told here that may not be believed [-]
+
+    /// Of a body that gives way so many times more.
+    Local& operator*=(double factor) noexcept
+    {
+      body.constant *= factor;
+      body.slope *= factor;
+      body.bend *= factor;
+      constant *= factor;
+      slope *= factor;
+      bend *= factor;
+      return *this;
+    }
   };
 
   /// @param places   spread evenly, no two nearer than the spacing, no gap wider
   /// @param spacing  [m]
   /// @param poisson  of the body that was solved for [-]
   /// @param motion   of the same body, for pictures; null: not known
+  /// @param young    modulus that E* is of [Pa]; 0: whatever the tissue has, as in an even body
   ComplianceField(std::span<const PlacedCompliance> places, double spacing, double poisson,
-    std::shared_ptr<const OrganMotion> motion = nullptr);
+    std::shared_ptr<const OrganMotion> motion = nullptr, double young = 0.0);
 
   /// @param center  of a contact, on the surface [m]
   /// @param normal  outward, of unit length
@@ -80,6 +93,10 @@ public:
   [[nodiscard]] double poissonRatio() const noexcept
   {
     return poisson_;
+  }
+  [[nodiscard]] double youngModulus() const noexcept
+  {
+    return young_;
   }
   /// What pictures move the surface by; null: not known.
   [[nodiscard]] const std::shared_ptr<const OrganMotion>& motion() const noexcept
@@ -127,6 +144,7 @@ private:
   double cell_;    // side of a cell [m]
   float open_;     // what an edge counts for that is not there [-]
   double poisson_;
+  double young_;
   std::shared_ptr<const OrganMotion> motion_;
   std::vector<Place> places_;
   std::unordered_map<std::uint64_t, Range> cells_;

@@ -17,9 +17,11 @@ std::shared_ptr<const SeriesBody> seriesBodyOf(
     return nullptr;
   }
   const bool isSphere = std::holds_alternative<SphereTip>(law.tip());
+  const double young = field->youngModulus();
   return std::make_shared<const SeriesBody>(SeriesBody{ .field = std::move(field),
     .law = SeriesLaw(law),
-    .height = isSphere ? baseRadius(law.tip()) : 0.0 });
+    .height = isSphere ? baseRadius(law.tip()) : 0.0,
+    .softer = young > 0.0 ? law.material().youngModulus / young : 1.0 });
 }
 
 Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const Eigen::Vector3d& center,

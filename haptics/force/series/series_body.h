@@ -15,13 +15,16 @@ struct SeriesBody
   std::shared_ptr<const ComplianceField> field; ///< never null
   SeriesLaw law;
   double height = 0.0; ///< of the tool's reference point over its deepest one [m]
+  double softer = 1.0; ///< modulus of the law over that which the field is told by [-]
 
   /// At a contact of a depth.
   /// @realtime  pure; no allocation, no lock, no exception
   [[nodiscard]] ComplianceField::Local at(
     const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double depth) const noexcept
   {
-    return field->at(center, normal, law.roundness() - depth);
+    ComplianceField::Local local = field->at(center, normal, law.roundness() - depth);
+    local *= softer;
+    return local;
   }
 };
 

@@ -1,19 +1,11 @@
-#include "calibration/organ/organ_places.h"
-#include "data/shapes.h"
-#include "haptics/force/linear/layer_contact.h"
-#include "haptics/servo/servo_step.h"
-#include "haptics/servo/tissue_at.h"
-#include "haptics/units.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/csv_table.h"
+#include "tests/calibration/organ/body_scene.h"
 
-#include <algorithm>
+#include "haptics/force/linear/layer_contact.h"
+#include "haptics/servo/tissue_at.h"
+#include "tests/support/allocation_guard.h"
+
 #include <chrono>
-#include <cmath>
-#include <functional>
-#include <gtest/gtest.h>
 #include <map>
-#include <memory>
 
 namespace palp
 {
@@ -22,57 +14,10 @@ namespace
 
 using namespace units::literals;
 using Eigen::Vector3d;
-
-constexpr double kYoung = 50e3;
-constexpr double kPoisson = 0.45;
-
-struct Body
-{
-  const char* file;    // of the reference
-  Vector3d size;       // [m]
-  double place = 0.0;  // along x, from the middle [m]
-  bool isLobe = false; // held at its end instead of its base
-  double limit = 0.05;
-  double lean = 0.0;     // of the side face beside the place [rad]
-  double edges = 2.5_mm; // of the mesh [m]
-};
-
-// the places of an organ file around where it is pressed, felt in a scene
-Scene sceneOf(const Body& body, double around)
-{
-  Mesh mesh = makeBox(body.size, body.edges);
-  for (Vector3d& point : mesh.points)
-  {
-    point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
-  }
-  Scene scene;
-  scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
-  LawSettings exact;
-  exact.mode = LawMode::Exact;
-  scene.law = ForceLaw(SphereTip{ 10.0_mm }, makeMaterial(kYoung, kPoisson), exact);
-  scene.forceLimit = 1e3;
-  const Support support{ [&](const Vector3d& x)
-    { return body.isLobe ? x.x() > 0.4999 * body.size.x() : x.z() < -0.9999 * body.size.z(); } };
-  const OrganModel model(*scene.surface, 4.0_mm, kYoung, kPoisson, std::span(&support, 1));
-  OrganTable table;
-  table.cell = 4.0_mm;
-  table.spacing = spacingOf(*scene.surface, table.cell);
-  std::vector<SurfacePoint> places = organPlaces(*scene.surface, table.spacing);
-  std::erase_if(places,
-    [&](const SurfacePoint& place)
-    { return (place.position - Vector3d(body.place, 0.0, 0.0)).norm() > around; });
-  table.count = places.size();
-  EXPECT_TRUE(addPlaces(table, model, *scene.surface,
-    { .places = places, .supports = std::span(&support, 1), .tell = [](const OrganTable&) {} }));
-  scene.series = seriesBodyOf(
-    std::make_shared<const ComplianceField>(table.places, table.spacing, kPoisson), scene.law);
-  return scene;
-}
-
-ToolPose at(double x, double depth, double y = 0.0)
-{
-  return { .apex = { x, y, -depth }, .axis = -Vector3d::UnitZ() };
-}
+using test::at;
+using test::Body;
+using test::sceneOf;
+using test::workOver;
 
 // where it was stopped it goes on from, to the same table
 TEST(OrganPlaces, GoOnFromWhereTheyWereStopped)
@@ -81,7 +26,7 @@ TEST(OrganPlaces, GoOnFromWhereTheyWereStopped)
   const Surface surface(mesh.points, mesh.triangles);
   const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm; } };
   const std::span supports(&base, 1);
-  const OrganModel model(surface, 8.0_mm, kYoung, kPoisson, supports);
+  const OrganModel model(surface, 8.0_mm, test::kYoung, test::kPoisson, supports);
   const std::vector<SurfacePoint> places = organPlaces(surface, 4.0_mm);
   OrganTable whole;
   ASSERT_TRUE(addPlaces(whole, model, surface,
@@ -108,30 +53,9 @@ class OrganScene : public testing::TestWithParam<Body>
 {
 };
 
-// forces of fine finite elements with contact
 TEST_P(OrganScene, TheToolFeelsTheForceOfFiniteElements)
 {
-  const Body& body = GetParam();
-  const Scene scene = sceneOf(body, 12.0_mm);
-  Scene half = scene;
-  half.series = nullptr;
-  const test::CsvTable table =
-    test::readCsv(std::string(PALP_SOURCE_DIR "/data/reference/organ_") + body.file + ".csv");
-  double worst = 0.0;
-  double before = 0.0;
-  for (std::size_t i = 0; i < table["depth_m"].size(); ++i)
-  {
-    const double depth = table["depth_m"][i];
-    const double force = table["force_N"][i];
-    const double felt = step(scene, at(body.place, depth)).response.force;
-    EXPECT_NEAR(felt, force, body.limit * force) << depth;
-    worst = std::max(worst, std::abs(felt / force - 1.0));
-    before =
-      std::max(before, std::abs(step(half, at(body.place, depth)).response.force / force - 1.0));
-  }
-  RecordProperty("error_percent", std::to_string(100.0 * worst));
-  RecordProperty("half_space_percent", std::to_string(100.0 * before));
-  EXPECT_LT(worst, before);
+  test::expectForceOfElements(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
@@ -166,18 +90,6 @@ const Scene& lobe()
   static const Scene scene =
     sceneOf({ .file = "", .size = { 0.06, 0.1, 0.03 }, .place = -0.01, .isLobe = true }, 24.0_mm);
   return scene;
-}
-
-// work of the hand over a way of poses
-double workOver(const Scene& scene, int steps, const std::function<ToolPose(double)>& path)
-{
-  double work = 0.0;
-  for (int i = 0; i < steps; ++i)
-  {
-    const Vector3d move = path((i + 1.0) / steps).apex - path(static_cast<double>(i) / steps).apex;
-    work -= step(scene, path((i + 0.5) / steps)).force.dot(move);
-  }
-  return work;
 }
 
 TEST(OrganLobe, TheLateralForceIsTheSlopeOfTheEnergy)
@@ -217,17 +129,8 @@ TEST(OrganLobe, ASlideNeverJumps)
 
 TEST(OrganLobe, NoLoopGivesEnergy)
 {
-  const auto loop = [](double from, double to)
-  {
-    const double pressed = workOver(lobe(), 600, [&](double t) { return at(from, 5.0_mm * t); });
-    const double along =
-      workOver(lobe(), 1500, [&](double t) { return at(from + (to - from) * t, 5.0_mm); });
-    const double lifted =
-      workOver(lobe(), 600, [&](double t) { return at(to, 5.0_mm * (1.0 - t)); });
-    return std::abs(pressed + along + lifted) / pressed;
-  };
-  EXPECT_LT(loop(-18.0_mm, 0.0), 0.01);
-  EXPECT_LT(loop(0.0, -18.0_mm), 0.01);
+  EXPECT_LT(test::gainOfLoop(lobe(), -18.0_mm, 0.0), 0.01);
+  EXPECT_LT(test::gainOfLoop(lobe(), 0.0, -18.0_mm), 0.01);
 }
 
 TEST(OrganLobe, TheStepTellsItsTimeAndNeverAllocates)
@@ -278,7 +181,7 @@ TEST(OrganTissue, RelaxesOverTheWholeDepth)
   }
   scene.law = ForceLaw(scene.law.tip(), scene.law.material(), settings);
   scene.series = seriesBodyOf(scene.series->field, scene.law);
-  const LayerContact layer(SphereTip{ 10.0_mm }, kPoisson, Base::Bonded);
+  const LayerContact layer(SphereTip{ 10.0_mm }, test::kPoisson, Base::Bonded);
   const double modulus = scene.law.material().contactModulus();
   const auto depthAt = [&](double t) { return std::min(kDeepest, kSpeed * t); };
   const auto expected = [&](double now)
