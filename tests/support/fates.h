@@ -1,18 +1,13 @@
 #pragma once
 
 #include "tests/support/damage.h"
+#include "tests/support/sampled.h"
 
 #include <string>
 #include <vector>
 
 namespace palp::test
 {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true; ///< takes more memory than any limit
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// How far a file came.
 enum class Stage : int
