@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <regex>
 
 namespace palp::test
@@ -82,6 +84,27 @@ void damage(std::string& text, const Fuzzed& kind, Random& random)
   }
 }
 
+// where a pattern matches, and what stands there then
+struct Place
+{
+  std::size_t begin;
+  std::size_t length;
+  std::string text;
+};
+
+std::vector<Place> placesIn(
+  const std::string& whole, const std::regex& expression, const std::string& by)
+{
+  std::vector<Place> places;
+  for (std::sregex_iterator match(whole.begin(), whole.end(), expression), end; match != end;
+       ++match)
+  {
+    places.push_back({ static_cast<std::size_t>(match->position()),
+      static_cast<std::size_t>(match->length()), match->format(by) });
+  }
+  return places;
+}
+
 } // namespace
 
 Damaged damagedFile(const Fuzzed& kind, int number)
@@ -125,19 +148,23 @@ Fault cutOff(std::string words, std::size_t shortest, bool refused)
 Fault replaced(const char* name, const std::string& pattern, const std::string& by,
   std::string words, bool refused)
 {
+  // looked for once in each whole file, which takes longer than most readers
+  const auto known = std::make_shared<std::map<std::string, std::vector<Place>>>();
   return { name,
-    [expression = std::regex(pattern), by](
+    [expression = std::regex(pattern), by, known](
       const std::string& whole, Random& random) -> std::optional<std::string>
     {
-      const std::vector<std::smatch> matches(
-        std::sregex_iterator(whole.begin(), whole.end(), expression), {});
-      if (matches.empty())
+      const auto [at, isNew] = known->try_emplace(whole);
+      if (isNew)
+      {
+        at->second = placesIn(whole, expression, by);
+      }
+      if (at->second.empty())
       {
         return std::nullopt;
       }
-      const std::smatch& match = matches[below(random, matches.size())];
-      return std::string(whole.begin(), match[0].first) + match.format(by) +
-        std::string(match[0].second, whole.end());
+      const Place& place = at->second[below(random, at->second.size())];
+      return std::string(whole).replace(place.begin, place.length, place.text);
     },
     std::move(words), refused };
 }

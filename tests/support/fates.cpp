@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <regex>
 
 namespace palp::test
@@ -23,11 +24,18 @@ bool isSentence(const std::string& message, const std::string& file)
 // what the program says then
 const std::string kOfACrash = "damaged or cut off: the reader crashed or exceeded its limits";
 
+// made once, which takes longer than any search
+const std::regex& expressionOf(const std::string& words)
+{
+  static std::map<std::string, std::regex> known;
+  return known.try_emplace(words, words).first->second;
+}
+
 } // namespace
 
 void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates)
 {
-  const Fault* fault = damagedFile(kind, number).fault;
+  const Fault* fault = result.fault;
   const std::string message = result.message;
   const auto wrong = [&](const std::string& what)
   {
@@ -61,7 +69,7 @@ void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates)
   {
     ++fates.known;
     const std::string told = contained ? kOfACrash : message;
-    const bool isNamed = std::regex_search(told, std::regex(fault->words));
+    const bool isNamed = std::regex_search(told, expressionOf(fault->words));
     fates.named += isNamed;
     constexpr std::size_t most = 400;
     if (!isNamed && fates.unnamed.size() < most)

@@ -1,18 +1,13 @@
 #pragma once
 
 #include "tests/support/damage.h"
+#include "tests/support/sampled.h"
 
 #include <string>
 #include <vector>
 
 namespace palp::test
 {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true; ///< takes more memory than any limit
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// How far a file came.
 enum class Stage : int
@@ -25,6 +20,7 @@ enum class Stage : int
 /// What became of one damaged file.
 struct Result
 {
+  const Fault* fault = nullptr; ///< see Damaged
   Stage reached = Stage::Reading;
   bool refused = false;
   double time = 0.0; ///< [s] of processor time
@@ -48,7 +44,7 @@ struct Fates
 };
 
 /// Adds one to the fates.
-/// @param number  of the file, see damagedFile
+/// @param number  of the file
 void judge(const Fuzzed& kind, int number, const Result& result, Fates& fates);
 
 /// Prints a line of figures, and fails where 5 s, 1 GB, or 95 % of named causes are missed.

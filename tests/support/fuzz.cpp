@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <set>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -22,7 +23,7 @@
 extern "C" const char* __asan_default_options() // NOLINT(bugprone-reserved-identifier): its name
 {
   return "max_allocation_size_mb=832:allocator_may_return_null=1:malloc_context_size=4:"
-         "quarantine_size_mb=16";
+         "quarantine_size_mb=16:allocator_release_to_os_interval_ms=-1";
 }
 #endif
 
@@ -99,7 +100,7 @@ public:
 
   Fates run(int count)
   {
-    constexpr int kBatch = 1000; // files in one process: what they leak goes with it
+    constexpr int kBatch = 2500; // files in one process: what they leak goes with it
     const char* minutes = std::getenv("PALP_FUZZ_MINUTES");
     const auto last = std::chrono::steady_clock::now() +
       std::chrono::minutes(minutes != nullptr ? std::atoi(minutes) : kEndless);
@@ -133,7 +134,8 @@ private:
       for (int number = first; number < end; ++number)
       {
         shared_->number = number;
-        work(damagedFile(kind_, number).text, kind_.read, true);
+        const Damaged damaged = damagedFile(kind_, number);
+        work(damaged, kind_.read, true);
         (void)!write(ends[1], &shared_->result, sizeof(Result));
       }
       _exit(0);
@@ -153,7 +155,7 @@ private:
   // reading and taking apart, as it is in earnest
   Result alone(int number)
   {
-    const std::string text = damagedFile(kind_, number).text;
+    const Damaged damaged = damagedFile(kind_, number);
     const std::filesystem::path answer = folder_.path() / "answer";
     Result reading;
     if (kind_.read)
@@ -164,7 +166,7 @@ private:
         std::ofstream(answer, std::ios::binary) << bytes;
         return bytes;
       };
-      reading = apart([&] { work(text, readOnly, false); });
+      reading = apart([&] { work(damaged, readOnly, false); });
       if (reading.refused || reading.reached == Stage::Reading)
       {
         return reading;
@@ -172,7 +174,7 @@ private:
     }
     const auto readAnswer = [&](const std::filesystem::path&) { return readAll(answer); };
     using Read = std::function<std::string(const std::filesystem::path&)>;
-    Result taking = apart([&] { work(text, kind_.read ? Read(readAnswer) : Read(), true); });
+    Result taking = apart([&] { work(damaged, kind_.read ? Read(readAnswer) : Read(), true); });
     taking.time += reading.time;
     taking.peak = std::max(taking.peak, reading.peak);
     return taking;
@@ -219,13 +221,14 @@ private:
     }
   }
 
-  void work(const std::string& text,
-    const std::function<std::string(const std::filesystem::path&)>& read, bool taken) const
+  void work(const Damaged& damaged,
+    const std::function<std::string(const std::filesystem::path&)>& read, bool taken)
   {
     Result& result = shared_->result;
-    result = {};
+    result = { .fault = damaged.fault };
     const std::filesystem::path file = folder_.path() / kind_.file;
-    std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+    std::filesystem::remove(file); // one that is cut to nothing goes to the disk at once, on ext4
+    std::ofstream(file, std::ios::binary) << damaged.text;
     forgetPeak();
     const double start = cpuTime();
     allow(time_);
@@ -234,9 +237,10 @@ private:
       const std::string bytes = read ? read(file) : file.string();
       result.reached = Stage::Taking;
       allow(time_);
-      if (taken)
+      if (taken && !(read && taken_.contains(bytes)))
       {
         kind_.take(bytes);
+        taken_.insert(bytes);
       }
       result.reached = Stage::Done;
     }
@@ -273,6 +277,7 @@ private:
   }
 
   const Fuzzed& kind_;
+  std::set<std::string> taken_; // answers of the reader: much damage changes none
   std::size_t memory_;
   double time_;
   Shared* shared_;

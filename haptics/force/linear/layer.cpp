@@ -25,20 +25,34 @@ double deficit(double y, double nu, Base base)
     (k * (1.0 - e * e) - 4.0 * y * e) / (k * (1.0 + e * e) + (1.0 + k * k + 4.0 * y * y) * e);
 }
 
+// of each row, which are the same for every material, and most of the work
+const std::vector<PunchEquation>& equations()
+{
+  static const std::vector<PunchEquation> all = []
+  {
+    std::vector<PunchEquation> rows(kRows, PunchEquation(gaussLegendre(80, 0.0, kMaxDepth), 16));
+    for (int row = 0; row < kRows; ++row)
+    {
+      rows[static_cast<std::size_t>(row)].setRadius(row * kStep);
+    }
+    return rows;
+  }();
+  return all;
+}
+
 } // namespace
 
 Layer::Layer(double poissonRatio, Base base)
   : rows_(kRows)
 {
-  PunchEquation equation(gaussLegendre(80, 0.0, kMaxDepth), 16);
-  const std::vector<double>& y = equation.wavenumbers();
+  const std::vector<double>& y = equations().front().wavenumbers();
   Eigen::VectorXd deficits(static_cast<Eigen::Index>(y.size()));
   std::transform(y.begin(), y.end(), deficits.begin(),
     [&](double at) { return deficit(at, poissonRatio, base); });
-  for (int row = 0; row < kRows; ++row)
+  for (std::size_t row = 0; row < rows_.size(); ++row)
   {
-    equation.setRadius(row * kStep);
-    rows_[static_cast<std::size_t>(row)].value = equation.solve(equation.kernel(deficits));
+    const PunchEquation& equation = equations()[row];
+    rows_[row].value = equation.solve(equation.kernel(deficits));
   }
   setSlopes(rows_, 1, kStep);
 }

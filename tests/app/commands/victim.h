@@ -1,10 +1,10 @@
 #pragma once
 
+#include "tests/support/file_calls.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
 #include <csignal>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <spawn.h>
 #include <string>
 #include <sys/ptrace.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -146,7 +145,7 @@ public:
       }
       const int signal = WSTOPSIG(status);
       const bool isCall = signal == (SIGTRAP | 0x80);
-      if (isCall && changesFiles())
+      if (isCall && changesFiles(stopped_, folder_))
       {
         return true;
       }
@@ -157,57 +156,6 @@ public:
   }
 
 private:
-  [[nodiscard]] bool changesFiles() const
-  {
-    __ptrace_syscall_info call{};
-    if (ptrace(PTRACE_GET_SYSCALL_INFO, stopped_, sizeof call, &call) <= 0 ||
-      call.op != PTRACE_SYSCALL_INFO_ENTRY)
-    {
-      return false;
-    }
-    const auto argument = [&call](int i) { return static_cast<long>(call.entry.args[i]); };
-    switch (call.entry.nr)
-    {
-      case SYS_rename:
-      case SYS_renameat:
-      case SYS_renameat2:
-      case SYS_unlink:
-      case SYS_unlinkat:
-      case SYS_mkdir:
-      case SYS_mkdirat:
-      case SYS_rmdir:
-      case SYS_link:
-      case SYS_linkat:
-      case SYS_symlink:
-      case SYS_symlinkat:
-      case SYS_truncate:
-        return true;
-      case SYS_open:
-        return (argument(1) & (O_CREAT | O_TRUNC)) != 0;
-      case SYS_openat:
-        return (argument(2) & (O_CREAT | O_TRUNC)) != 0;
-      case SYS_write:
-      case SYS_writev:
-      case SYS_pwrite64:
-      case SYS_ftruncate:
-      case SYS_fallocate:
-      case SYS_sendfile:
-        return isInFolder(argument(0));
-      case SYS_copy_file_range:
-        return isInFolder(argument(2));
-      default:
-        return false;
-    }
-  }
-
-  [[nodiscard]] bool isInFolder(long descriptor) const
-  {
-    std::error_code gone;
-    const std::filesystem::path file = std::filesystem::read_symlink(
-      "/proc/" + std::to_string(stopped_) + "/fd/" + std::to_string(descriptor), gone);
-    return file.string().starts_with(folder_.string());
-  }
-
   std::filesystem::path folder_;
   pid_t main_ = 0;
   pid_t stopped_ = 0; // the thread that waits to go on

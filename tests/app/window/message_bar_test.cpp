@@ -39,7 +39,7 @@ protected:
     const auto isStill = [&]
     {
       const QImage before = std::exchange(now, canvas_->grabFramebuffer());
-      QTest::qWait(800);
+      waitForFrames();
       return before == now;
     };
     EXPECT_TRUE(QTest::qWaitFor(isStill, kPatience));

@@ -35,7 +35,7 @@ protected:
     const auto isStill = [&]
     {
       const QImage before = std::exchange(picture, canvas_->grabFramebuffer());
-      QTest::qWait(700);
+      waitForFrames();
       return before == picture;
     };
     EXPECT_TRUE(QTest::qWaitFor(isStill, kPatience));

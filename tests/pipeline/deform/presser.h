@@ -102,12 +102,13 @@ struct Worst
   double value = -1.0;
   std::string where;
 
-  void see(double other, const std::string& position)
+  /// @param position  makes the words for it, which takes longer than all else at most places
+  void see(double other, const auto& position)
   {
     if (other > value)
     {
       value = other;
-      where = position;
+      where = position();
     }
   }
 };
@@ -178,11 +179,12 @@ private:
     const Press now =
       pressOf(sample, law_.tip(), extents_.extentRadius(sample.contact.depth), style_);
     body_.surface.press(now);
+    const auto here = [&where] { return where; };
     std::vector<double> sinks(body_.surface.count());
     for (std::size_t i = 0; i < sinks.size(); ++i)
     {
       sinks[i] = DentedSurface::at(body_.surface.displacement, i).norm();
-      findings.inside.see(insideOf(pose, DentedSurface::at(body_.surface.points, i)), where);
+      findings.inside.see(insideOf(pose, DentedSurface::at(body_.surface.points, i)), here);
     }
     if (last_)
     {
@@ -227,8 +229,8 @@ private:
       const double change = sinks[i] - sinks_[i];
       const double lever = turn * std::min((rest - b.center).norm(), 3.0 * base_);
       const double motion = 1.5 * std::abs(deeper) + flank * (aside + lever);
-      const std::string here =
-        where + ", " + std::to_string((rest - b.center).norm() / 1.0_mm) + " mm away";
+      const auto here = [&]
+      { return where + ", " + std::to_string((rest - b.center).norm() / 1.0_mm) + " mm away"; };
       const bool isContact = body_.surface.zone[i] == 2 || zones_[i] == 2;
       const bool isPassed = isShaft(now, rest, aside);
       if (deeper > 0.0 && !isContact && !(isPassed && aside > 0.1 * deeper))
@@ -301,7 +303,7 @@ private:
         {
           const double own = std::abs(height - (*before)[0]) / h;
           findings.wall.see(std::abs(drawn - (*before)[1]) / h / (steepest(now) + own),
-            where + ", r " + std::to_string(r / 1.0_mm));
+            [&] { return where + ", r " + std::to_string(r / 1.0_mm); });
         }
         before = { height, drawn };
       }

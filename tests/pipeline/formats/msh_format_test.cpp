@@ -3,6 +3,7 @@
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/formats/msh_text.h"
+#include "tests/pipeline/many_reader.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ protected:
   {
     try
     {
-      (void)readSurface(write(bytes), LengthUnit::Millimeter);
+      (void)reader_.read(write(bytes), LengthUnit::Millimeter);
     }
     catch (const Error& error)
     {
@@ -36,6 +37,7 @@ protected:
   }
 
   TemporaryFolder folder_;
+  ManyReader reader_;
 };
 
 TEST_F(Msh, OfAnyFormGivesTheOuterSurface)

@@ -1,0 +1,33 @@
+#pragma once
+
+namespace palp::test
+{
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true; ///< takes more time and memory than any limit
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// Which samples a test of arithmetic takes: all; under a sanitizer, which finds nothing in one
+/// that it does not in another, the first of every few.
+class Sampled
+{
+public:
+  explicit Sampled(int few = 10)
+    : few_(kSanitized ? few : 1)
+  {
+  }
+
+  /// @return  whether to take the next one
+  [[nodiscard]] bool takes()
+  {
+    return count_++ % few_ == 0;
+  }
+
+private:
+  int few_;
+  int count_ = 0;
+};
+
+} // namespace palp::test
