@@ -15,17 +15,13 @@ namespace
 double meanOf(
   const CubePoints& inside, const Eigen::Vector3d& corner, double side, const ModulusRatio& ratio)
 {
-  constexpr std::size_t n = kCubeParts;
   double sum = 0.0;
-  for (std::size_t point = 0; point < inside.size(); ++point)
+  for (std::size_t i = 0; i < CubePoints::size(); ++i)
   {
-    const Eigen::Vector3d in(static_cast<double>(point % n), static_cast<double>(point / n % n),
-      static_cast<double>(point / (n * n)));
-    const double here =
-      inside[point] ? ratio(corner + side / n * (in + Eigen::Vector3d::Constant(0.5))) : 1.0;
-    sum += here > 0.0 && std::isfinite(here) ? std::log(here) : 0.0;
+    const double here = inside[i] ? ratio(corner + side * inside.middle[i].cast<double>()) : 1.0;
+    sum += here > 0.0 && std::isfinite(here) ? inside.part[i] * std::log(here) : 0.0;
   }
-  return std::exp(sum / static_cast<double>(inside.count()));
+  return std::exp(sum / static_cast<double>(CubePoints::size()) / inside.filled());
 }
 
 std::size_t indexOf(const Cube& cube, const Cube& size)
