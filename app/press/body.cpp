@@ -90,8 +90,10 @@ TissueMap placedMap(
   const Eigen::Isometry3d toFile = source.frame().inverse();
   Eigen::AlignedBox3d box = boxOf(points);
   constexpr double kMargin = 0.01; // [m] beside the body, for what lies along its border
-  box.extend(box.min() - Eigen::Vector3d::Constant(kMargin));
-  box.extend(box.max() + Eigen::Vector3d::Constant(kMargin));
+  // a formula need not make sense beside the body
+  const double margin = source.stiffness.kind == StiffnessSource::Kind::Formula ? 0.0 : kMargin;
+  box.extend(box.min() - Eigen::Vector3d::Constant(margin));
+  box.extend(box.max() + Eigen::Vector3d::Constant(margin));
   return [map = tissueMapOf(source.stiffness, source.unit, box), before = std::move(before),
            toFile](const Eigen::Vector3d& position, double young)
   {

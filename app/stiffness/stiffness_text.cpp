@@ -178,8 +178,10 @@ void checkStiffness(
   {
     throw Error(ErrorCode::BadFile,
       printable(organ.string()) + ": is of a body " +
-        (described.empty() ? "of one modulus" : "whose stiffness is " + described) +
-        "; give the same --stiffness, or make it again by palp organ");
+        (described.empty() ? "of one modulus; leave out --stiffness, or make it again with it"
+                           : "whose stiffness is " + described +
+              "; give the same --stiffness, or make it again with another one") +
+        ", by palp organ");
   }
 }
 

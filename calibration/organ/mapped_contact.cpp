@@ -1,9 +1,14 @@
 #include "calibration/organ/mapped_contact.h"
 
+#include "haptics/contact/contact_geometry_of.h"
+#include "haptics/contact/embed_stiffness.h"
 #include "haptics/force/force_law.h"
 #include "haptics/force/nodules/homogeneous_press.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace palp
 {
@@ -16,10 +21,13 @@ constexpr double kWide = 1.3;
 
 } // namespace
 
-MappedContact::MappedContact(double radius, double poisson)
+MappedContact::MappedContact(const OrganModel& model, const Surface& surface, double radius)
+  : model_(model)
+  , surface_(surface)
+  , radius_(radius)
 {
   const double sphere = kSphere * radius;
-  const ForceLaw law(SphereTip{ sphere }, makeMaterial(1.0, poisson),
+  const ForceLaw law(SphereTip{ sphere }, makeMaterial(1.0, model.poissonRatio()),
     { .mode = LawMode::Corrected, .constitution = ConstitutiveModel::Linear });
   const HomogeneousPress press(law, {}, kWide * kWide * radius * radius / sphere);
   const auto nearest = [&](double wanted)
@@ -40,7 +48,7 @@ MappedContact::MappedContact(double radius, double poisson)
 
 // By d = d(a) + F (G0 + 4/15 a^2 tr A) at a force that is m times as much: without the map the
 // radius would be a m^(1/3), and d - d(a) is 3 F / (4 a) times what m makes of both.
-MappedContact::Beyond MappedContact::operator()(
+MappedContact::Beyond MappedContact::beyond(
   const std::function<double(const Eigen::Vector3d&)>& ratio) const
 {
   const EnergyWeights::Means means = weights_->means(ratio);
@@ -59,6 +67,55 @@ MappedContact::Beyond MappedContact::operator()(
   const Told wide = told(wide_);
   const double steep = (wide.given - narrow.given) / (wide.square - narrow.square);
   return { .constant = narrow.given - steep * narrow.square, .bend = 15.0 / 4.0 * steep };
+}
+
+// by three places around, of which half of the constant's gradient is the slope
+MappedContact::Told MappedContact::operator()(const TangentPlane& plane, double near) const
+{
+  const SurfacePoint place{ .position = plane.place(), .normal = plane.outward() };
+  const double curvature = geometryAt(surface_, SphereTip{ radius_ }, place).surfaceCurvature;
+  const double perModulus = 1.0 / (near * model_.contactModulus());
+  constexpr int around = 3;
+  const double step = 0.5 * radius_;
+  Told told{ .isAtBorder = isAtBorder(plane) };
+  for (int i = 0; i < around; ++i)
+  {
+    const double angle = 2.0 * std::numbers::pi * i / around;
+    const Eigen::Vector3d way = plane.vector({ std::cos(angle), std::sin(angle) });
+    const auto [constant, bend] = beyond(
+      [&](const Eigen::Vector3d& in)
+      {
+        const Eigen::Vector3d below = plane.outside(belowCurved(in, curvature));
+        return model_.ratio()(plane.place() + step * way + below) / near;
+      });
+    told.constant += perModulus * constant / around;
+    told.bend += perModulus * bend / around;
+    told.slope += perModulus * constant / (around * step) * way;
+  }
+  return told;
+}
+
+bool MappedContact::isAtBorder(const TangentPlane& plane) const
+{
+  constexpr double kReach = 2.0; // radii of the pressure
+  constexpr double kAlike = 1.5; // times as stiff
+  constexpr int around = 16;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (double distance = 0.0; distance <= kReach; distance += 0.5)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      const double angle = 2.0 * std::numbers::pi * i / around;
+      const Eigen::Vector3d aside =
+        plane.vector({ distance * std::cos(angle), distance * std::sin(angle) });
+      const double ratio =
+        model_.ratio()(plane.place() + radius_ * aside - 0.5 * radius_ * plane.outward());
+      least = ratio > 0.0 ? std::min(least, ratio) : least; // what is not known does not count
+      most = ratio > 0.0 ? std::max(most, ratio) : most;
+    }
+  }
+  return most > kAlike * least;
 }
 
 } // namespace palp

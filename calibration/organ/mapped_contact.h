@@ -1,5 +1,7 @@
 #pragma once
 
+#include "calibration/organ/organ_model.h"
+#include "calibration/organ/tangent_plane.h"
 #include "haptics/force/maps/energy_weights.h"
 
 #include <Eigen/Core>
@@ -9,25 +11,25 @@
 namespace palp
 {
 
-/// What the contact law answers by itself of a stiffness that differs from place to place, so that
-/// a body's compliance does not tell it again.
+/// What the contact law tells by itself of a modulus that differs from place to place, so that a
+/// body's compliance does not tell it again.
 class MappedContact
 {
 public:
-  /// Beyond a half-space of the modulus at the place, as BodyCompliance has it.
-  struct Beyond
+  /// Beyond a half-space of the modulus at a place, as OrganCompliance has it.
+  struct Told
   {
-    double constant = 0.0; ///< times E* of that half-space [1/m]
-    double bend = 0.0;     ///< likewise [1/m^3]
+    double constant = 0.0;                           ///< [m/N]
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero(); ///< [1/N]
+    double bend = 0.0;                               ///< [1/(m N)]
+    bool isAtBorder = false; ///< the modulus changes by half within two radii beside the place
   };
 
-  /// @param radius   of the smooth pressure that the body is solved for [m]
-  /// @param poisson  0 to below 0.5 [-]
-  MappedContact(double radius, double poisson);
+  /// @param radius  of the smooth pressure that the body is loaded by [m]
+  MappedContact(const OrganModel& model, const Surface& surface, double radius);
 
-  /// @param ratio  modulus over that at the place: x and y along the surface, z below it [m]; not
-  ///               finite where it is not known
-  [[nodiscard]] Beyond operator()(const std::function<double(const Eigen::Vector3d&)>& ratio) const;
+  /// @param near  modulus at the place over that of the whole [-]
+  [[nodiscard]] Told operator()(const TangentPlane& plane, double near) const;
 
 private:
   // depths at which a sphere's contact spans that of the pressure
@@ -37,6 +39,19 @@ private:
     double radius; // [m]
   };
 
+  // as BodyCompliance, times E* at the place
+  struct Beyond
+  {
+    double constant; // [1/m]
+    double bend;     // [1/m^3]
+  };
+
+  [[nodiscard]] Beyond beyond(const std::function<double(const Eigen::Vector3d&)>& ratio) const;
+  [[nodiscard]] bool isAtBorder(const TangentPlane& plane) const;
+
+  const OrganModel& model_;
+  const Surface& surface_;
+  double radius_;
   std::optional<EnergyWeights> weights_;
   Contact narrow_{};
   Contact wide_{};

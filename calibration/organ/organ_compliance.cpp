@@ -4,8 +4,6 @@
 #include "calibration/organ/smooth_pressure.h"
 #include "calibration/organ/surface_parts.h"
 #include "calibration/organ/tangent_plane.h"
-#include "haptics/contact/contact_geometry_of.h"
-#include "haptics/contact/embed_stiffness.h"
 #include "haptics/surface/ray.h"
 
 #include <Eigen/Geometry>
@@ -208,48 +206,22 @@ Loaded loadedAt(
   return loaded;
 }
 
-// What the contact tells of the moduli by itself, over E* of the whole.
-class ToldByContact
+// Where the modulus changes beside the place, what the body gives way is no smooth field beyond
+// that of a half-space: of that its mean over the pressure is told.
+void takeOff(OrganCompliance& compliance, const MappedContact::Told& told, double radius)
 {
-public:
-  ToldByContact(const OrganModel& model, const Surface& surface)
-    : model_(model)
-    , surface_(surface)
-    , radius_(kSides * model.side())
-    , contact_(radius_, model.poissonRatio())
+  compliance.constant -= told.constant;
+  compliance.slope -= told.slope;
+  compliance.bend -= told.bend;
+  compliance.isAtBorder = told.isAtBorder;
+  if (told.isAtBorder)
   {
+    constexpr double kSquare = 1.0 / 3.0; // half of the pressure's mean r^2, over that of c
+    compliance.constant += kSquare * radius * radius * compliance.bend;
+    compliance.bend = 0.0;
+    compliance.slope.setZero();
   }
-
-  // by three places around, of which half of the constant's gradient is the slope
-  void takeOff(OrganCompliance& compliance, const TangentPlane& plane, double near) const
-  {
-    const SurfacePoint place{ .position = plane.place(), .normal = plane.outward() };
-    const double curvature = geometryAt(surface_, SphereTip{ radius_ }, place).surfaceCurvature;
-    const double perModulus = 1.0 / (near * model_.contactModulus());
-    constexpr int around = 3;
-    const double step = 0.5 * radius_;
-    for (int i = 0; i < around; ++i)
-    {
-      const double angle = 2.0 * std::numbers::pi * i / around;
-      const Eigen::Vector3d way = plane.vector({ std::cos(angle), std::sin(angle) });
-      const MappedContact::Beyond told = contact_(
-        [&](const Eigen::Vector3d& in)
-        {
-          const Eigen::Vector3d below = belowCurved(in, curvature);
-          return model_.ratio()(plane.place() + step * way + plane.outside(below)) / near;
-        });
-      compliance.constant -= perModulus * told.constant / around;
-      compliance.bend -= perModulus * told.bend / around;
-      compliance.slope -= perModulus * told.constant / (around * step) * way;
-    }
-  }
-
-private:
-  const OrganModel& model_;
-  const Surface& surface_;
-  double radius_;
-  MappedContact contact_;
-};
+}
 
 } // namespace
 
@@ -258,10 +230,10 @@ std::vector<std::optional<OrganCompliance>> compliancesAt(
 {
   const Loaded loaded = loadedAt(model, surface, places);
   std::vector<std::optional<OrganCompliance>> found(places.size());
-  std::optional<ToldByContact> told;
+  std::optional<MappedContact> mapped;
   if (!model.moduli().ratios().empty())
   {
-    told.emplace(model, surface);
+    mapped.emplace(model, surface, kSides * model.side());
   }
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
@@ -271,9 +243,10 @@ std::vector<std::optional<OrganCompliance>> compliancesAt(
       model, loaded.planes[i], pressure, pressed, loaded.moved.col(static_cast<Eigen::Index>(i)));
     std::optional<OrganCompliance>& one = found[loaded.of[i]];
     one = fitted(readings, pressed, loaded.planes[i], pressure.radius);
-    if (one && told)
+    if (one && mapped)
     {
-      told->takeOff(*one, loaded.planes[i], pressure.shear / model.shearModulus());
+      const double ratio = pressure.shear / model.shearModulus();
+      takeOff(*one, (*mapped)(loaded.planes[i], ratio), pressure.radius);
     }
   }
   return found;

@@ -19,6 +19,7 @@ struct OrganCompliance
   double constant = 0.0;                           ///< G0 [m/N]; negative over a near support
   Eigen::Vector3d slope = Eigen::Vector3d::Zero(); ///< b, in the tangent plane [1/N]
   double bend = 0.0;                               ///< tr A [1/(m N)]
+  bool isAtBorder = false;                         ///< between two moduli, which it tells less of
 };
 
 /// Reads it around smooth pressures of a radius of one and a half cells, all of them at once.

@@ -32,13 +32,15 @@ bool isHeld(const SurfacePoint& place, std::span<const Support> supports)
 }
 
 // of a place that is solved for
-ComplianceTrust trustOf(const SurfacePoint& place, const OrganModel& model, const Surface& surface)
+ComplianceTrust trustOf(const OrganCompliance& compliance, const SurfacePoint& place,
+  const OrganModel& model, const Surface& surface)
 {
   if (rayExit(surface.tree(), place.position, -place.normal).distance < kThin * model.side())
   {
     return ComplianceTrust::Thin;
   }
-  return surface.shape().edgeDistance(place.position) < kEdges * model.side()
+  return compliance.isAtBorder ||
+      surface.shape().edgeDistance(place.position) < kEdges * model.side()
     ? ComplianceTrust::Edge
     : ComplianceTrust::Known;
 }
@@ -61,7 +63,7 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
     place.edge = nearnessToEdge(surface, one.position, model.side());
     const bool isFree = !isHeld(one, supports);
     const auto& compliance = isFree ? found[next++] : std::nullopt;
-    place.trust = compliance ? trustOf(one, model, surface)
+    place.trust = compliance ? trustOf(*compliance, one, model, surface)
       : isFree               ? ComplianceTrust::Unknown
                              : ComplianceTrust::Supported;
     if (compliance)

@@ -7,6 +7,7 @@
 #include "calibration/organ/organ_motion_modes.h"
 #include "calibration/organ/organ_places.h"
 #include "calibration/tables/organ_table.h"
+#include "haptics/contact/embed_stiffness.h"
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/units.h"
@@ -27,6 +28,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kTool = 0.01; // radius of one that every map must be felt by [m]
 constexpr const char* kStopped =
   "interrupted; what was reached waits beside --out, run the same again to go on from there";
 
@@ -68,8 +70,8 @@ std::optional<OrganTable> tableIn(const std::filesystem::path& file, const Organ
 
 std::string described(const OrganTable& table)
 {
-  constexpr std::array kWhy{ "", "near an edge", "where it is thinner than two cells",
-    "on a support", "with too little surface around" };
+  constexpr std::array kWhy{ "", "near an edge or another tissue",
+    "where it is thinner than two cells", "on a support", "with too little surface around" };
   std::array<std::size_t, kWhy.size()> counts{};
   for (const PlacedCompliance& place : table.places)
   {
@@ -103,6 +105,20 @@ ModulusRatio modulusRatio(const SceneBody& body, double young)
                         : ModulusRatio{};
 }
 
+// refused before it is solved where a press would refuse it
+void checkMap(const SceneBody& body, const OrganFilePlan& plan)
+{
+  if (body.stiffness)
+  {
+    const ForceLaw law(SphereTip{ kTool }, makeMaterial(plan.young, plan.poisson),
+      { .mode = LawMode::Corrected,
+        .constitution = ConstitutiveModel::Linear,
+        .thickness = false });
+    (void)embedStiffness(*body.haptic, law,
+      [&](const Eigen::Vector3d& place) { return body.stiffness(place, plan.young); });
+  }
+}
+
 } // namespace
 
 void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
@@ -119,6 +135,7 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   }
   const std::filesystem::path begun = begunOf(plan.out);
   OrganTable table = tableIn(begun, wanted).value_or(wanted);
+  checkMap(body, plan);
   interrupt.endWhatDoesNotStop(table.places.empty() ? kNoPlaceYet : kStopped);
   ProgressLine progress("places");
   progress(table.places.size(), places.size());

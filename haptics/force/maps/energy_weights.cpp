@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace palp
@@ -172,6 +173,8 @@ EnergyWeights::Means EnergyWeights::means(
   const std::function<double(const Eigen::Vector3d&)>& ratio) const
 {
   Eigen::MatrixX3d parts = Eigen::MatrixX3d::Zero(weights_.cols(), 3); // known, logs, inverses
+  double least = std::numeric_limits<double>::infinity();              // of the logs
+  double most = -least;
   std::size_t begin = 0;
   for (std::size_t c = 0; c < ends_.size(); ++c)
   {
@@ -181,17 +184,25 @@ EnergyWeights::Means EnergyWeights::means(
       if (const double at = ratio(places_[i]); std::isfinite(at))
       {
         part += Eigen::RowVector3d(1.0, std::log(at), 1.0 / at);
+        least = std::min(least, std::log(at));
+        most = std::max(most, std::log(at));
       }
     }
     part /= static_cast<double>(ends_[c] - begin);
     begin = ends_[c];
   }
+  if (least > most) // nothing is known
+  {
+    least = most = 0.0;
+  }
   const Eigen::MatrixX3d sums = weights_ * parts;
   Means means{ .logs = {}, .spreads = {}, .known = sums.col(0).minCoeff() };
   for (Eigen::Index k = 0; k < sums.rows(); ++k)
   {
-    const double geometric = sums(k, 1) / sums(k, 0);
-    const double harmonic = -std::log(sums(k, 2) / sums(k, 0));
+    // some weights are a little negative, which very soft tissue makes much of
+    const double geometric = std::clamp(sums(k, 1) / sums(k, 0), least, most);
+    const double inverse = std::max(std::exp(-most), sums(k, 2) / sums(k, 0));
+    const double harmonic = std::clamp(-std::log(inverse), least, geometric);
     means.logs.push_back(kGeometric * geometric + kHarmonic * harmonic);
     means.spreads.push_back(std::expm1(geometric - harmonic));
   }

@@ -34,6 +34,7 @@ struct Body
     Vector3d::Zero();    // from the middle to where its modulus changes [m]; 0: nowhere
   double ratio = 1.0;    // of the modulus beyond it
   double edges = 2.5_mm; // of the mesh [m]
+  double cell = 4.0_mm;
 };
 
 // over that of the tissue that is pressed
@@ -73,9 +74,10 @@ inline Scene sceneOf(const Body& body, double around)
   scene.forceLimit = 1e3;
   const Support support{ [&](const Vector3d& x)
     { return body.isLobe ? x.x() > 0.4999 * body.size.x() : x.z() < -0.9999 * body.size.z(); } };
-  const OrganModel model(*scene.surface, 4.0_mm, kYoung, kPoisson, std::span(&support, 1), ratio);
+  const OrganModel model(
+    *scene.surface, body.cell, kYoung, kPoisson, std::span(&support, 1), ratio);
   OrganTable table;
-  table.cell = 4.0_mm;
+  table.cell = body.cell;
   table.spacing = spacingOf(*scene.surface, table.cell);
   std::vector<SurfacePoint> places = organPlaces(*scene.surface, table.spacing);
   std::erase_if(places,

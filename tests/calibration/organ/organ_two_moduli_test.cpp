@@ -1,5 +1,8 @@
 #include "tests/calibration/organ/body_scene.h"
 
+#include <array>
+#include <utility>
+
 namespace palp
 {
 namespace
@@ -69,6 +72,34 @@ TEST(OrganLobeOfTwoModuli, NoLoopGivesEnergy)
     24.0_mm);
   EXPECT_LT(test::gainOfLoop(scene, -18.0_mm, 0.0), 0.01);
   EXPECT_LT(test::gainOfLoop(scene, 0.0, -18.0_mm), 0.01);
+}
+
+// across a border that reaches the surface, by any cells: against finite elements of 1.25 mm (N, E
+// of 10 kPa, border at 4 mm, 3 mm deep), and in a slide nothing jumps
+TEST(OrganBesideStifferTissue, TheForceGrowsWithoutAJump)
+{
+  for (const double cell : { 6.0_mm, 4.0_mm, 3.0_mm })
+  {
+    const Scene scene = test::sceneOf({ .file = "",
+                                        .size = { 0.06, 0.06, 0.03 },
+                                        .border = { 4.0_mm, 0.0, 0.0 },
+                                        .ratio = 4.0,
+                                        .cell = cell },
+      24.0_mm);
+    const auto force = [&](double x) { return step(scene, test::at(x, 3.0_mm)).response.force; };
+    constexpr std::array kForces{ std::pair{ 0.0_mm, 0.4624 }, std::pair{ 2.0_mm, 0.5757 },
+      std::pair{ 4.0_mm, 0.7046 }, std::pair{ 8.0_mm, 0.9502 }, std::pair{ 12.0_mm, 1.1013 } };
+    for (const auto& [x, told] : kForces)
+    {
+      const double wanted = told * test::kYoung / 10e3;
+      EXPECT_NEAR(force(x), wanted, 0.15 * wanted) << x << ' ' << cell;
+    }
+    for (double x = -4.0_mm; x < 12.0_mm; x += 0.02_mm)
+    {
+      const double now = force(x);
+      EXPECT_NEAR(force(x + 0.02_mm), now, 0.01 * now) << x << ' ' << cell;
+    }
+  }
 }
 
 } // namespace

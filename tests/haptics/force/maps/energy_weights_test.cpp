@@ -117,6 +117,26 @@ TEST(EnergyWeights, AnEvenStiffnessIsFeltAsItIs)
   EXPECT_NEAR(means.known, 1.0, 1e-12);
 }
 
+// also of very soft and very stiff tissue at any depth: never beyond either of the two
+TEST(EnergyWeights, AMeanLiesBetweenWhatIsThere)
+{
+  const EnergyWeights weights(pressBy(10.0_mm));
+  for (const double ratio : { 1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6 })
+  {
+    for (double border = 0.5_mm; border < 80.0_mm; border *= 1.3)
+    {
+      const EnergyWeights::Means means =
+        weights.means([&](const Eigen::Vector3d& at) { return at.z() > border ? ratio : 1.0; });
+      for (std::size_t k = 0; k < means.logs.size(); ++k)
+      {
+        EXPECT_GE(means.logs[k], std::min(0.0, std::log(ratio)) - 1e-12) << ratio << ' ' << border;
+        EXPECT_LE(means.logs[k], std::max(0.0, std::log(ratio)) + 1e-12) << ratio << ' ' << border;
+        EXPECT_GE(means.spreads[k], -1e-12) << ratio << ' ' << border;
+      }
+    }
+  }
+}
+
 TEST(EnergyWeights, WhatIsNotKnownDoesNotCount)
 {
   const EnergyWeights weights(pressBy(10.0_mm));
