@@ -52,21 +52,21 @@ MappedContact::Beyond MappedContact::beyond(
   const std::function<double(const Eigen::Vector3d&)>& ratio) const
 {
   const EnergyWeights::Means means = weights_->means(ratio);
-  struct Told
+  struct Given
   {
-    double given;  // [1/m]
+    double depth;  // over force, times E* [1/m]
     double square; // of the radius [m^2]
   };
-  const auto told = [&](const Contact& contact)
+  const auto given = [&](const Contact& contact)
   {
     const double third = std::exp(means.logs[contact.knot] / 3.0);
     const double radius = contact.radius * third;
-    return Told{ 0.75 / radius * (1.0 / (third * third) - 1.0), radius * radius };
+    return Given{ 0.75 / radius * (1.0 / (third * third) - 1.0), radius * radius };
   };
-  const Told narrow = told(narrow_);
-  const Told wide = told(wide_);
-  const double steep = (wide.given - narrow.given) / (wide.square - narrow.square);
-  return { .constant = narrow.given - steep * narrow.square, .bend = 15.0 / 4.0 * steep };
+  const Given narrow = given(narrow_);
+  const Given wide = given(wide_);
+  const double steep = (wide.depth - narrow.depth) / (wide.square - narrow.square);
+  return { .constant = narrow.depth - steep * narrow.square, .bend = 15.0 / 4.0 * steep };
 }
 
 // by three places around, of which half of the constant's gradient is the slope
