@@ -17,6 +17,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace palp
 {
@@ -129,9 +130,13 @@ std::vector<double> logEnergies(const HomogeneousPress& press, const EnergyWeigh
   std::ranges::transform(
     means.logs, std::back_inserter(factors), [](double log) { return std::exp(log); });
   std::vector<double> logs = press.weightedEnergies(factors);
+  auto [least, most] = std::pair(factors.front(), factors.front());
   for (std::size_t k = 1; k < logs.size(); ++k)
   {
-    logs[k] = std::log(logs[k] / press.knots()[k].energy);
+    // a mean of factors, of which a polynomial between steep ones may make anything
+    least = std::min(least, factors[k]);
+    most = std::max(most, factors[k]);
+    logs[k] = std::log(std::clamp(logs[k] / press.knots()[k].energy, least, most));
   }
   logs.front() = means.logs.front();
   return logs;
