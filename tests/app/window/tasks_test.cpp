@@ -69,7 +69,6 @@ protected:
     const std::vector<std::pair<QString, QString>>& lines)
   {
     std::size_t next = 0;
-    const QDialog* answered = nullptr;
     QTimer typist;
     QObject::connect(&typist, &QTimer::timeout,
       [&]
@@ -84,12 +83,8 @@ protected:
                                          : dialog->findChild<QLineEdit*>(name))
         {
           ++next;
-          answered = dialog;
+          field->setCompleter(nullptr); // its list would take the Return, or go to another folder
           line(field, text);
-        }
-        else if (dialog == answered) // the list of its completer took the Return
-        {
-          QTest::keyClick(dialog, Qt::Key_Return);
         }
       });
     typist.start(200);
