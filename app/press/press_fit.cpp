@@ -13,8 +13,7 @@ fit::ModulusFit fitPress(const KeptPress& press)
   {
     throw Error(ErrorCode::BadValue,
       "of a press with an organ file no E is told from its curve, as the body gave way, too; "
-      "export "
-      "it, and palp fit takes its local_depth_mm");
+      "export it, and palp fit takes its local_depth_mm");
   }
   std::vector<double> depths;
   std::vector<double> forces;

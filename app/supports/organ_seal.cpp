@@ -46,8 +46,7 @@ void checkSeal(const std::filesystem::path& file)
     throw Error(ErrorCode::BadFile,
       printable(file.string()) +
         ": is not as palp organ wrote it, by its SHA-256: damaged, or edited; make it again, or "
-        "take "
-        "its line '# sha256:' out to have it as it is");
+        "take its line '# sha256:' out to have it as it is");
   }
 }
 

@@ -22,6 +22,7 @@ public:
   /// Everywhere the same.
   CubeModuli() = default;
 
+  /// @param grid   which has to outlive this
   /// @param cubes  of the grid, that count
   CubeModuli(const CutGrid& grid, std::span<const Cube> cubes, const ModulusRatio& ratio);
 
@@ -36,14 +37,9 @@ public:
   [[nodiscard]] double around(const Eigen::Vector3d& place, double distance) const noexcept;
 
 private:
-  [[nodiscard]] Cube cubeAt(const Eigen::Vector3d& place) const noexcept;
-  [[nodiscard]] double of(const Cube& cube) const noexcept;
-
+  const CutGrid* grid_ = nullptr;
   std::vector<double> ratios_{};
-  std::vector<double> all_{}; // of the whole grid; NaN: of a cube that does not count
-  Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
-  Cube size_{};
-  double side_ = 0.0;
+  std::vector<double> all_{}; // of the whole grid; 0: of a cube that does not count
 };
 
 } // namespace palp

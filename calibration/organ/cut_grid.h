@@ -3,6 +3,7 @@
 #include "calibration/organ/cube_stiffness.h"
 #include "haptics/surface/surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -48,13 +49,51 @@ public:
   /// @param least  part of one that has to be inside the body, for it to count
   [[nodiscard]] std::vector<Cube> largestPiece(double least) const;
 
-private:
-  void fill(const Surface& surface);
+  /// In which cube a place is [m]; it may be outside the grid.
+  [[nodiscard]] Cube cubeAt(const Eigen::Vector3d& place) const noexcept
+  {
+    const Eigen::Vector3d cell = ((place - low_) / side_).array().floor();
+    return { static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()) };
+  }
 
+  /// The corner of a cube at which its numbers stand [m].
+  [[nodiscard]] Eigen::Vector3d cornerOf(const Cube& cube) const noexcept
+  {
+    return low_ + side_ * Eigen::Vector3d(cube[0], cube[1], cube[2]);
+  }
+
+  /// Calls for each cube of the grid in which places of a box are [m].
+  template <typename Each>
+  void forEach(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Each& each) const
+  {
+    Cube first = cubeAt(low);
+    Cube last = cubeAt(high);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      first[axis] = std::max(0, first[axis]);
+      last[axis] = std::min(size_[axis] - 1, last[axis]);
+    }
+    Cube cube{};
+    for (cube[2] = first[2]; cube[2] <= last[2]; ++cube[2])
+    {
+      for (cube[1] = first[1]; cube[1] <= last[1]; ++cube[1])
+      {
+        for (cube[0] = first[0]; cube[0] <= last[0]; ++cube[0])
+        {
+          each(cube);
+        }
+      }
+    }
+  }
+
+  /// Of a cube of the grid, among all of them.
   [[nodiscard]] std::size_t indexOf(const Cube& cube) const noexcept
   {
     return (at(cube[2]) * at(size_[1]) + at(cube[1])) * at(size_[0]) + at(cube[0]);
   }
+
+private:
+  void fill(const Surface& surface);
 
   double side_;
   Eigen::Vector3d low_; // corner of the grid [m]

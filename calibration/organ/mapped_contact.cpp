@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace palp
 {
@@ -44,6 +45,14 @@ MappedContact::MappedContact(const OrganModel& model, const Surface& surface, do
   narrow_ = nearest(kNarrow * radius);
   wide_ = nearest(kWide * radius);
   weights_.emplace(press);
+}
+
+std::optional<MappedContact> mappedContactOf(
+  const OrganModel& model, const Surface& surface, double radius)
+{
+  return model.moduli().ratios().empty()
+    ? std::nullopt
+    : std::optional<MappedContact>(std::in_place, model, surface, radius);
 }
 
 // By d = d(a) + F (G0 + 4/15 a^2 tr A) at a force that is m times as much: without the map the

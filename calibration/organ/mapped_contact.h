@@ -57,4 +57,9 @@ private:
   Contact wide_{};
 };
 
+/// Of a body whose modulus differs from place to place; none of an even one.
+/// @param radius  as MappedContact
+[[nodiscard]] std::optional<MappedContact> mappedContactOf(
+  const OrganModel& model, const Surface& surface, double radius);
+
 } // namespace palp

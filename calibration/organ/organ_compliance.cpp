@@ -18,7 +18,6 @@ namespace palp
 namespace
 {
 
-constexpr double kSides = 1.5;                     // of cells to the radius of the pressure
 constexpr std::array kRings{ 0.0, 0.5, 1.0, 1.5 }; // radii
 constexpr int kLoadRings = 24;
 constexpr int kAround = 16; // places on a ring
@@ -161,7 +160,7 @@ std::optional<OrganCompliance> fitted(
 
 SmoothPressure pressureOf(const OrganModel& model, double ratio)
 {
-  return { kSides * model.side(), ratio * model.shearModulus(), model.poissonRatio() };
+  return { pressedRadius(model.side()), ratio * model.shearModulus(), model.poissonRatio() };
 }
 
 // what the cubes give to loads at places; those that the body hangs over are left out
@@ -177,7 +176,7 @@ Loaded loadedAt(
   const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
 {
   Loaded loaded;
-  const double radius = kSides * model.side();
+  const double radius = pressedRadius(model.side());
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const auto& [position, outward] = places[i];
@@ -225,16 +224,11 @@ void takeOff(OrganCompliance& compliance, const MappedContact::Told& told, doubl
 
 } // namespace
 
-std::vector<std::optional<OrganCompliance>> compliancesAt(
-  const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places)
+std::vector<std::optional<OrganCompliance>> compliancesAt(const OrganModel& model,
+  const Surface& surface, const MappedContact* mapped, std::span<const SurfacePoint> places)
 {
   const Loaded loaded = loadedAt(model, surface, places);
   std::vector<std::optional<OrganCompliance>> found(places.size());
-  std::optional<MappedContact> mapped;
-  if (!model.moduli().ratios().empty())
-  {
-    mapped.emplace(model, surface, kSides * model.side());
-  }
   for (std::size_t i = 0; i < loaded.planes.size(); ++i)
   {
     const SmoothPressure& pressure = loaded.pressures[i];
@@ -243,7 +237,7 @@ std::vector<std::optional<OrganCompliance>> compliancesAt(
       model, loaded.planes[i], pressure, pressed, loaded.moved.col(static_cast<Eigen::Index>(i)));
     std::optional<OrganCompliance>& one = found[loaded.of[i]];
     one = fitted(readings, pressed, loaded.planes[i], pressure.radius);
-    if (one && mapped)
+    if (one && mapped != nullptr)
     {
       const double ratio = pressure.shear / model.shearModulus();
       takeOff(*one, (*mapped)(loaded.planes[i], ratio), pressure.radius);
@@ -292,7 +286,8 @@ std::optional<OrganCompliance> complianceAt(const OrganModel& model, const Surfa
   const Eigen::Vector3d& place, const Eigen::Vector3d& outward)
 {
   const SurfacePoint point{ .position = place, .normal = outward };
-  return compliancesAt(model, surface, std::span(&point, 1)).front();
+  const auto mapped = mappedContactOf(model, surface, pressedRadius(model.side()));
+  return compliancesAt(model, surface, mapped ? &*mapped : nullptr, std::span(&point, 1)).front();
 }
 
 } // namespace palp

@@ -12,6 +12,8 @@
 namespace palp
 {
 
+class MappedContact;
+
 /// What a body adds to the displacement of its own surface at a place, beyond a half-space:
 /// G_reg(p + x, p + y) = G0 + b.(x + y) + (x'Ax + y'Ay) / 2, for a load at p + x, read at p + y.
 struct OrganCompliance
@@ -27,11 +29,19 @@ struct OrganCompliance
 /// The field of a half-space under this is known; the cubes have to give only what the body does
 /// otherwise, where its surface is not flat and where it is held.
 ///
+/// @param mapped  of the model, takes a while to make; null: it is even
 /// @param places  with outward unit normals
 /// @return        of each; none where less than half of a ring is on the body, or the body hangs
 ///                over it
-[[nodiscard]] std::vector<std::optional<OrganCompliance>> compliancesAt(
-  const OrganModel& model, const Surface& surface, std::span<const SurfacePoint> places);
+[[nodiscard]] std::vector<std::optional<OrganCompliance>> compliancesAt(const OrganModel& model,
+  const Surface& surface, const MappedContact* mapped, std::span<const SurfacePoint> places);
+
+/// Radius of those pressures [m].
+[[nodiscard]] constexpr double pressedRadius(double side) noexcept
+{
+  constexpr double kSides = 1.5;
+  return kSides * side;
+}
 
 /// The same of one.
 [[nodiscard]] std::optional<OrganCompliance> complianceAt(const OrganModel& model,

@@ -40,7 +40,7 @@ struct OrganModel::State
   std::vector<int> number{};             // of each corner of the grid; -1: of no cube that counts
   std::vector<Eigen::Vector3d> places{}; // of the nodes
   std::vector<Nodes> cubes{};
-  std::vector<CubePoints> inside{}; // each of these
+  std::vector<Cube> cells{}; // of the grid, each of these
   std::vector<SupportGrip> grips{};
   CubeModuli moduli{};
   Sparse even{};   // lower half, of the cubes if they were, where they are not
@@ -68,9 +68,9 @@ struct OrganModel::State
   {
     const auto& [nx, ny, nz] = grid.size();
     number.assign(at(nx + 1) * at(ny + 1) * at(nz + 1), -1);
-    const std::vector<Cube> all = grid.largestPiece(kLeast);
-    moduli = ratio ? CubeModuli(grid, all, ratio) : CubeModuli();
-    for (const Cube& cube : all)
+    cells = grid.largestPiece(kLeast);
+    moduli = ratio ? CubeModuli(grid, cells, ratio) : CubeModuli();
+    for (const Cube& cube : cells)
     {
       Nodes nodes{};
       for (int corner = 0; corner < kCubeCorners; ++corner)
@@ -80,13 +80,11 @@ struct OrganModel::State
         if (known < 0)
         {
           known = static_cast<int>(places.size());
-          places.emplace_back(
-            grid.low() + grid.side() * Eigen::Vector3d(place[0], place[1], place[2]));
+          places.push_back(grid.cornerOf(place));
         }
         nodes[at(corner)] = known;
       }
       cubes.push_back(nodes);
-      inside.push_back(grid.inside(cube));
     }
   }
 
@@ -138,10 +136,10 @@ struct OrganModel::State
     for (std::size_t cube = 0; cube < cubes.size(); ++cube)
     {
       const double part = times.empty() ? 1.0 : times[cube];
+      const CubePoints& inside = grid.inside(cells[cube]);
       add(all, cubes[cube],
-        CubeStiffness(part *
-          (inside[cube].all() ? whole
-                              : cutCubeStiffness(grid.side(), young, poisson, inside[cube]))));
+        CubeStiffness(
+          part * (inside.all() ? whole : cutCubeStiffness(grid.side(), young, poisson, inside))));
     }
     return fromTriplets(all);
   }
@@ -244,16 +242,13 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
   for (int step = 0; step < kSteps; ++step)
   {
     const Eigen::Vector3d from = place - outward * (0.25 * step + 1e-7) * side;
-    const Eigen::Vector3d cell = (from - state.grid.low()) / side;
-    const Cube cube{ static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y())),
-      static_cast<int>(std::floor(cell.z())) };
+    const Cube cube = state.grid.cubeAt(from);
     // a corner, or an edge, of a cube that does not count may be one of a cube that does
     if (!(state.grid.filled(cube) >= filled) || !state.counts(cube))
     {
       continue;
     }
-    const Eigen::Vector3d within =
-      (place - state.grid.low()) / side - Eigen::Vector3d(cube[0], cube[1], cube[2]);
+    const Eigen::Vector3d within = (place - state.grid.cornerOf(cube)) / side;
     for (int corner = 0; corner < kCubeCorners; ++corner)
     {
       double value = 1.0;

@@ -1,6 +1,7 @@
 #include "calibration/organ/organ_places.h"
 
 #include "calibration/organ/in_threads.h"
+#include "calibration/organ/mapped_contact.h"
 #include "calibration/organ/organ_compliance.h"
 #include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/box_tree.h"
@@ -46,12 +47,13 @@ ComplianceTrust trustOf(const OrganCompliance& compliance, const SurfacePoint& p
 }
 
 std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& surface,
-  std::span<const SurfacePoint> places, std::span<const Support> supports)
+  const MappedContact* mapped, std::span<const SurfacePoint> places,
+  std::span<const Support> supports)
 {
   std::vector<SurfacePoint> free;
   std::ranges::copy_if(places, std::back_inserter(free),
     [&](const SurfacePoint& place) { return !isHeld(place, supports); });
-  const auto found = compliancesAt(model, surface, free);
+  const auto found = compliancesAt(model, surface, mapped, free);
   const double modulus = model.contactModulus();
   std::vector<PlacedCompliance> all;
   std::size_t next = 0; // of those that are free
@@ -78,7 +80,8 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
 
 // a part of the places for each thread
 std::vector<PlacedCompliance> round(const OrganModel& model, const Surface& surface,
-  std::span<const SurfacePoint> places, std::span<const Support> supports)
+  const MappedContact* mapped, std::span<const SurfacePoint> places,
+  std::span<const Support> supports)
 {
   const std::size_t parts = (places.size() + kTogether - 1) / kTogether;
   std::vector<std::vector<PlacedCompliance>> found(parts);
@@ -86,7 +89,7 @@ std::vector<PlacedCompliance> round(const OrganModel& model, const Surface& surf
     [&](std::size_t part)
     {
       const std::size_t first = part * kTogether;
-      found[part] = solved(model, surface,
+      found[part] = solved(model, surface, mapped,
         places.subspan(first, std::min(kTogether, places.size() - first)), supports);
     });
   std::vector<PlacedCompliance> all;
@@ -197,6 +200,7 @@ bool addPlaces(
   OrganTable& table, const OrganModel& model, const Surface& surface, const OrganWork& work)
 {
   const std::size_t step = kTogether * std::max(1U, std::thread::hardware_concurrency());
+  const auto mapped = mappedContactOf(model, surface, pressedRadius(model.side()));
   while (table.places.size() < work.places.size())
   {
     if (work.stop.stop_requested())
@@ -205,8 +209,8 @@ bool addPlaces(
     }
     const std::size_t first = table.places.size();
     std::ranges::move(
-      round(model, surface, work.places.subspan(first, std::min(step, work.places.size() - first)),
-        work.supports),
+      round(model, surface, mapped ? &*mapped : nullptr,
+        work.places.subspan(first, std::min(step, work.places.size() - first)), work.supports),
       std::back_inserter(table.places));
     if (table.places.size() == work.places.size())
     {

@@ -26,8 +26,8 @@ Rule lobeRule(const Surface& surface, const Contact& contact) noexcept
   return { "lobe", "-",
     contact.touching() ? std::max(least / kLobe, wide / kPlate) / contact.thickness : 0.0, 1.0,
     "thinner than half of the body, or than an eighth of its extent: where nothing holds it below "
-    "it "
-    "bends, which its shape does not tell; right where it rests on its whole back, else palp organ "
+    "it bends, which its shape does not tell; right where it rests on its whole back, else palp "
+    "organ "
     "and --organ take that into account" };
 }
 
