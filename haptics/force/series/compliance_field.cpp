@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace palp
@@ -107,32 +106,41 @@ ComplianceField::Cell ComplianceField::cellOf(const Eigen::Vector3d& place) cons
 // each cell knows every place that reaches into it, so that a contact looks at one cell only
 void ComplianceField::sortIntoCells()
 {
-  std::map<std::uint64_t, std::vector<std::uint32_t>> lists;
-  const int around = static_cast<int>(std::ceil(reach_ / cell_));
-  for (std::size_t i = 0; i < places_.size(); ++i)
+  const auto forReached = [this](const auto& visit)
   {
-    const Eigen::Vector3d position = places_[i].position.cast<double>();
-    const Cell middle = cellOf(position);
-    const int side = 2 * around + 1;
-    for (int k = 0; k < side * side * side; ++k)
+    for (std::uint32_t i = 0; i < places_.size(); ++i)
     {
-      const Cell cell{ middle[0] + k % side - around, middle[1] + k / side % side - around,
-        middle[2] + k / (side * side) - around };
-      const Eigen::Vector3d low = cell_ * Eigen::Vector3d(cell[0], cell[1], cell[2]);
-      const Eigen::Vector3d nearest =
-        position.cwiseMax(low).cwiseMin(low + Eigen::Vector3d::Constant(cell_));
-      if ((nearest - position).norm() < reach_)
-      {
-        lists[keyOf(cell)].push_back(static_cast<std::uint32_t>(i));
-      }
+      forCellsWithin(places_[i].position.cast<double>(), [&](Range& cell) { visit(cell, i); });
     }
-  }
-  for (const auto& [key, list] : lists)
+  };
+  forReached([](Range& cell, std::uint32_t) { ++cell.last; });
+  std::uint32_t count = 0;
+  for (auto& [key, cell] : cells_)
   {
-    Range& range = cells_[key];
-    range.first = static_cast<std::uint32_t>(near_.size());
-    near_.insert(near_.end(), list.begin(), list.end());
-    range.last = static_cast<std::uint32_t>(near_.size());
+    const std::uint32_t first = std::exchange(count, count + cell.last);
+    cell = { first, first };
+  }
+  near_.resize(count);
+  forReached([this](Range& cell, std::uint32_t i) { near_[cell.last++] = i; });
+}
+
+template <typename Visit>
+void ComplianceField::forCellsWithin(const Eigen::Vector3d& position, const Visit& visit)
+{
+  const int around = static_cast<int>(std::ceil(reach_ / cell_));
+  const Cell middle = cellOf(position);
+  const int side = 2 * around + 1;
+  for (int k = 0; k < side * side * side; ++k)
+  {
+    const Cell cell{ middle[0] + k % side - around, middle[1] + k / side % side - around,
+      middle[2] + k / (side * side) - around };
+    const Eigen::Vector3d low = cell_ * Eigen::Vector3d(cell[0], cell[1], cell[2]);
+    const Eigen::Vector3d nearest =
+      position.cwiseMax(low).cwiseMin(low + Eigen::Vector3d::Constant(cell_));
+    if ((nearest - position).norm() < reach_)
+    {
+      visit(cells_[keyOf(cell)]);
+    }
   }
 }
 

@@ -137,6 +137,8 @@ private:
   [[nodiscard]] Weight weightOf(
     const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept;
   void sortIntoCells();
+  template <typename Visit>
+  void forCellsWithin(const Eigen::Vector3d& position, const Visit& visit); // reach of there
   void sharpen();
 
   float reach_;    // of a place [m]
