@@ -162,7 +162,7 @@ PressField::Sink Dent::sinkAt(
     sink.depth += geodesic.facing * (front.depth - sink.depth);
   }
   sink.depth += geodesic.extra;
-  return sink;
+  return field_.keptOutside(sink, rest, *body_);
 }
 
 // the contact goes along as a whole; around it, as around one that is about to slip, ever less
@@ -195,8 +195,8 @@ void Dent::displace(std::size_t from, std::size_t to, const DentArrays& arrays) 
       continue;
     }
     const Eigen::Vector3d rest = region_.rest(points[i]);
-    const PressField::Sink sink = field_.sinkAt(geodesics[i], rest, *body_);
-    const Eigen::Vector3d moved = displacement(geodesics[i], sink.depth + geodesics[i].extra);
+    const PressField::Sink sink = sinkAt(geodesics[i], rest);
+    const Eigen::Vector3d moved = displacement(geodesics[i], sink.depth);
     const Eigen::Vector3d sunk = rest + moved;
     const auto at = static_cast<std::size_t>(points[i]);
     for (Eigen::Index k = 0; k < 3; ++k)

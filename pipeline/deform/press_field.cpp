@@ -150,14 +150,29 @@ inline double PressField::smoothSink(double distance, const RingCurve& curve) co
     follows(curve) ? fittedTo(curve).sinkAt(distance) : curve.sinkAt(distance), deepest);
 }
 
-// a side below the tool goes down with the surface above it, less and less with its own depth, so
-// that it is compressed and does not fold
+// of the fitted surface above a place that lies lower by so much, as far as it goes along: on the
+// tool, and no farther beside it than the contact is wide
+double PressField::sinkAbove(const GeodesicCoordinates& geodesic, double below,
+  const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
+{
+  const double radius = geodesic.local.head<2>().norm();
+  const RingCurve curve = curveTowards(diamondAngle(geodesic.local.x(), geodesic.local.y()));
+  if (radius > curve.inner)
+  {
+    return (1.0 - smoothStep(radius / curve.inner - 1.0)) * smoothSink(radius, curve);
+  }
+  const double toTool = body.lowest(rest, normal_);
+  const double onTool = std::isfinite(toTool) ? below - toTool : curve.sink;
+  return std::min(onTool, std::max(deepest_, curve.sink));
+}
+
+// a side goes down with the surface above it, less and less with its own depth, so that it is
+// compressed and does not fold
 [[gnu::noinline]] double PressField::sideSink(const GeodesicCoordinates& geodesic,
   const Eigen::Vector3d& rest, const RingCurve& curve, const ToolBody& body) const noexcept
 {
-  const double toTool = body.lowest(rest, normal_);
   const double below = std::max(0.0, -heightOverFit(geodesic));
-  const double above = std::isfinite(toTool) ? std::min(below - toTool, deepest_) : 0.0;
+  const double above = sinkAbove(geodesic, below, rest, body);
   const double traveled = std::min(1.0, geodesic.distance / curve.outer);
   const double left =
     std::max(0.0, 1.0 - below / curve.outer) * (1.0 - traveled * traveled * traveled * traveled);
@@ -207,16 +222,22 @@ PressField::Sink PressField::sinkAt(const GeodesicCoordinates& geodesic,
   const double sink = geodesic.isFront() ? frontSink(geodesic, rest, curve, body)
                                          : sideSink(geodesic, rest, curve, body);
   const bool isUnder = geodesic.isFront() && geodesic.distance <= curve.inner && sink > 0.0;
-  const Eigen::Vector3d sunk = rest - sink * normal_;
-  if (!isUnder && body.contains(sunk))
+  return isUnder ? Sink{ sink, Zone::Contact } : keptOutside({ sink, Zone::Ring }, rest, body);
+}
+
+PressField::Sink PressField::keptOutside(
+  const Sink& sink, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept
+{
+  const Eigen::Vector3d sunk = rest - sink.depth * normal_;
+  if (body.contains(sunk))
   {
     // infinite where the tool points along the surface or away from it
     if (const double up = body.lowest(sunk, normal_); std::isfinite(up))
     {
-      return { sink - up, Zone::Contact };
+      return { sink.depth - up, Zone::Contact };
     }
   }
-  return { sink, isUnder ? Zone::Contact : Zone::Ring };
+  return sink;
 }
 
 } // namespace palp

@@ -67,6 +67,10 @@ public:
   [[nodiscard]] Sink sinkAt(const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest,
     const ToolBody& body) const noexcept;
 
+  /// The same sink, or that below the tool where it would leave the point inside.
+  [[nodiscard]] Sink keptOutside(
+    const Sink& sink, const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
+
   /// The ring's curve in one of kDirections.
   [[nodiscard]] const RingCurve& curve(int direction) const noexcept
   {
@@ -97,6 +101,8 @@ private:
     const RingCurve& curve, const ToolBody& body) const noexcept;
   [[nodiscard]] double frontSink(const GeodesicCoordinates& geodesic, const Eigen::Vector3d& rest,
     const RingCurve& curve, const ToolBody& body) const noexcept;
+  [[nodiscard]] double sinkAbove(const GeodesicCoordinates& geodesic, double below,
+    const Eigen::Vector3d& rest, const ToolBody& body) const noexcept;
   [[nodiscard]] double heightOverFit(const GeodesicCoordinates& geodesic) const noexcept
   {
     return geodesic.local.z() - surface_.height(geodesic.local.x(), geodesic.local.y());
