@@ -241,6 +241,7 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   else if (scene.surface != nullptr && !scene.surface->tree().empty())
   {
     rules.push_back(lobeRule(*scene.surface, contact));
+    rules.push_back(openRule(contact));
   }
   return rules;
 }

@@ -31,6 +31,14 @@ Rule lobeRule(const Surface& surface, const Contact& contact) noexcept
     "and --organ take that into account" };
 }
 
+Rule openRule(const Contact& contact) noexcept
+{
+  const bool isUnknown = contact.touching() && std::isinf(contact.thickness);
+  return { "open", "-", isUnknown ? 1.0 : 0.0, 0.5,
+    "the surface is open, and what lies behind it is not known: the body is taken as without end, "
+    "too soft by a fifth where its base is six contact radii below" };
+}
+
 Rule facetRule(const Surface& surface, const Tip& tip, const Contact& contact) noexcept
 {
   Rule rule{ "facets", "-", 0.0, 1.0,

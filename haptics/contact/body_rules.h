@@ -18,6 +18,14 @@ namespace palp
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Rule lobeRule(const Surface& surface, const Contact& contact) noexcept;
 
+/// Whether nothing is known of what lies behind the surface, which is open: the law then takes the
+/// body as without end. A bonded base 2, 6 and 10 contact radii below makes it 1.8, 1.2 and 1.1
+/// times as stiff (flat punch, nu 0.45).
+///
+/// @source    haptics/force/linear/layer_contact.h
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Rule openRule(const Contact& contact) noexcept;
+
 /// Whether triangles that stand for what is round are so large that they are smoothed over a sharp
 /// edge beside the contact.
 /// @realtime  pure; no allocation, no lock, no exception

@@ -4,6 +4,7 @@
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <utility>
 
@@ -81,6 +82,26 @@ TEST(FacetRule, SeesRoundMeshesBesideAnEdge)
   EXPECT_FALSE(holds(25, 2.0, 4.0_mm));
   EXPECT_TRUE(holds(25, 2.0, 20.0_mm));
   EXPECT_TRUE(holds(100, 2.0, 4.0_mm));
+}
+
+TEST(OpenRule, SeesThatNothingIsKnownBehindASurface)
+{
+  test::Mesh block = test::block({ 60.0_mm, 60.0_mm, 30.0_mm }, 12);
+  const Surface whole = test::makeSurface(block);
+  std::erase_if(block.second, // all but its upper face
+    [&](const auto& corners)
+    {
+      return std::ranges::any_of(corners,
+        [&](int point) { return block.first[static_cast<std::size_t>(point)].z() < -1.0_um; });
+    });
+  const Surface sheet = test::makeSurface(std::move(block));
+  const auto holds = [](const Surface& surface, double depth) {
+    return openRule(pressed(surface, { 3.0_mm, 5.0_mm, 0.0 }, depth, -Vector3d::UnitZ())).holds();
+  };
+  EXPECT_TRUE(holds(whole, 1.0_mm));
+  EXPECT_FALSE(holds(sheet, 1.0_mm));
+  EXPECT_FALSE(holds(sheet, 12.0_mm));
+  EXPECT_TRUE(holds(sheet, -1.0_mm)) << "nothing is touched";
 }
 
 } // namespace
