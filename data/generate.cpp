@@ -31,9 +31,9 @@ constexpr double kDisplayEdge = 2.12_mm; // about 20,000 points
 constexpr std::size_t kHapticPoints = 2500;
 constexpr double kBlockSpacing = 2.5_mm;
 
-void write(const std::filesystem::path& file, const Surface& surface)
+void write(const std::filesystem::path& file, const Surface& surface, const std::string& space = "")
 {
-  writeSurface(file, *makePolyData(surface.points(), surface.triangles()));
+  writeSurface(file, *makePolyData(surface.points(), surface.triangles()), space);
   std::cout << file.filename().string() << ": " << surface.points().size() << " points, "
             << surface.triangles().size() << " triangles\n";
 }
@@ -49,8 +49,8 @@ void generate(const std::filesystem::path& directory)
   const Surface liver = surfaceOf(makeLiver(kDisplayEdge));
   TriangleMesh coarse = decimated(liver.points(), liver.triangles(), kHapticPoints);
   const Surface haptic(std::move(coarse.points), std::move(coarse.triangles));
-  write(directory / "liver.vtp", liver);
-  write(directory / "liver_haptic.vtp", haptic);
+  write(directory / "liver.vtp", liver, "LPS");
+  write(directory / "liver_haptic.vtp", haptic, "LPS");
   const Deviation apart = deviation(liver, haptic);
   std::cout << "liver_haptic.vtp: " << units::toMillimeters(apart.largest)
             << " mm from liver.vtp at most, " << units::toMillimeters(apart.rootMeanSquare)

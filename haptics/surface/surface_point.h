@@ -12,7 +12,8 @@ namespace palp
 struct SurfacePoint
 {
   Eigen::Vector3d position; ///< on the triangles [m]
-  Eigen::Vector3d normal;   ///< outward unit normal, blended from the corners of the triangle
+  Eigen::Vector3d
+    normal; ///< outward unit normal, blended from the corners, but not over edges of the body
 };
 
 /// @param position  on the triangle [m]
