@@ -264,6 +264,18 @@ bool OrganModel::weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& 
   return false;
 }
 
+bool OrganModel::isBesideSupport(
+  const Eigen::Vector3d& place, const Eigen::Vector3d& outward) const noexcept
+{
+  constexpr double kNear = 2.0; // sides, as wide as the load is
+  return std::ranges::any_of(state_->grips,
+    [&](const SupportGrip& grip)
+    {
+      const Eigen::Vector3d away = grip.place - place;
+      return grip.along.isZero(0.0) && away.norm() < kNear * side() && -outward.dot(away) < side();
+    });
+}
+
 void OrganModel::moveSupports(Eigen::Ref<Eigen::VectorXd> forces, const Moved& supports) const
 {
   for (const SupportGrip& grip : state_->grips)

@@ -50,6 +50,11 @@ public:
   [[nodiscard]] bool weightsAt(const Eigen::Vector3d& place, const Eigen::Vector3d& outward,
     Weights& weights, double filled = 0.5) const;
 
+  /// Whether a bonded support is so near beside a place that cubes do not tell what it holds.
+  /// @param outward  unit
+  [[nodiscard]] bool isBesideSupport(
+    const Eigen::Vector3d& place, const Eigen::Vector3d& outward) const noexcept;
+
   using Moved = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>; ///< by place [m]
 
   /// Adds what supports pull that have moved themselves.

@@ -26,10 +26,12 @@ constexpr double kThin = 2.0;         // cells
 constexpr std::size_t kTogether = 32; // loads that are solved at once by a thread
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-bool isHeld(const SurfacePoint& place, std::span<const Support> supports)
+// or so near beside a support that what is solved for would be noise
+bool isHeld(const SurfacePoint& place, const OrganModel& model, std::span<const Support> supports)
 {
-  return std::ranges::any_of(
-    supports, [&](const Support& support) { return support.holds(place.position); });
+  return model.isBesideSupport(place.position, place.normal) ||
+    std::ranges::any_of(
+      supports, [&](const Support& support) { return support.holds(place.position); });
 }
 
 // of a place that is solved for
@@ -52,7 +54,7 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
 {
   std::vector<SurfacePoint> free;
   std::ranges::copy_if(places, std::back_inserter(free),
-    [&](const SurfacePoint& place) { return !isHeld(place, supports); });
+    [&](const SurfacePoint& place) { return !isHeld(place, model, supports); });
   const auto found = compliancesAt(model, surface, mapped, free);
   const double modulus = model.contactModulus();
   std::vector<PlacedCompliance> all;
@@ -62,8 +64,8 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
     PlacedCompliance& place = all.emplace_back();
     place.position = one.position;
     place.normal = one.normal;
-    place.edge = nearnessToEdge(surface, one.position, model.side());
-    const bool isFree = !isHeld(one, supports);
+    const bool isFree = !isHeld(one, model, supports);
+    place.edge = isFree ? nearnessToEdge(surface, one.position, model.side()) : 0.0;
     const auto& compliance = isFree ? found[next++] : std::nullopt;
     place.trust = compliance ? trustOf(*compliance, one, model, surface)
       : isFree               ? ComplianceTrust::Unknown

@@ -117,7 +117,10 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
     constexpr double kLeastTurn = 0.3;
     const double turn = std::max(
       kLeastTurn, 1.0 + contact_->surfaceCurvature * (scene_->series->height - contact_->depth));
-    force += scene_->series->law.lateral(*body_, answer.felt.force) / turn;
+    const Eigen::Vector3d more = scene_->series->law.lateral(*body_, answer.felt.force) / turn;
+    // no round tool without friction is pushed more sideways than up; values that leap between
+    // places, as over a thin rim beside a support, would say so
+    force += std::min(1.0, answer.felt.force / more.norm()) * more;
   }
   return force;
 }
