@@ -266,15 +266,11 @@ std::vector<Fuzzed> dicomKinds()
 
 } // namespace
 
-std::vector<Fuzzed> fuzzedImages()
+std::vector<FuzzedGroup> fuzzedImages()
 {
-  std::vector<Fuzzed> all;
-  for (auto* kinds :
-    { metaKinds, nrrdKinds, segmentKinds, dicomSegmentKinds, dicomKinds, otherImages })
-  {
-    std::ranges::move(kinds(), std::back_inserter(all));
-  }
-  return all;
+  return { { { "ball.mha", "ball.mhd" }, metaKinds }, { { "ball.nrrd" }, nrrdKinds },
+    { { "ball.seg.nrrd" }, segmentKinds }, { { "segments.dcm" }, dicomSegmentKinds },
+    { { "ball.dcm" }, dicomKinds }, { { "ball.nii", "ball.nii.gz", "ball.vti" }, otherImages } };
 }
 
 } // namespace palp::test
