@@ -1,86 +1,28 @@
 // palp-read FILE [joined|organs|list|values] [KEY=VALUE...]: reads a surface, the bodies in an
-// image, their list or values for the program that started it. Readers of other people's files may
-// crash or run away, and here they do it alone.
-#include "pipeline/formats/joined_corners.h"
-#include "pipeline/formats/read_limits.h"
-#include "pipeline/formats/surface_formats.h"
-#include "pipeline/process/child_process.h"
+// image, their list or values for the program that started it. DICOM it leaves to a sibling.
+#include "haptics/files/input_text.h"
+#include "haptics/files/prefix.h"
+#include "pipeline/formats/read_program.h"
 
-#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h itself is no C++20
-#include <cstdlib>
-#include <string_view>
-#include <utility>
+#include <unistd.h>
 
 namespace
 {
 
-// a number, and what stands behind the colon after it
-std::pair<double, std::string> numberBefore(std::string_view text)
+bool isDicom(const std::filesystem::path& file)
 {
-  const std::size_t colon = std::min(text.find(':'), text.size() - 1);
-  return { std::strtod(text.data(), nullptr), std::string(text.substr(colon + 1)) };
-}
-
-void take(palp::ImagePart& part, std::string_view key, std::string_view value)
-{
-  if (key == "level")
-  {
-    part.level = std::strtod(value.data(), nullptr);
-  }
-  else if (key == "band")
-  {
-    const auto [low, high] = numberBefore(value);
-    part.band = { low, std::strtod(high.c_str(), nullptr) };
-  }
-  else if (key == "components")
-  {
-    part.components = std::strtoull(value.data(), nullptr, 10);
-  }
-  else if (key == "name")
-  {
-    const auto [number, name] = numberBefore(value);
-    part.names.push_back({ number, name });
-  }
-  else if (key == "series")
-  {
-    part.series = value;
-  }
-  else if (key == "label")
-  {
-    part.labels.emplace_back(value);
-  }
+  std::error_code none;
+  return std::filesystem::is_directory(file, none) ||
+    palp::lowered(file.extension().string()) == ".dcm";
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  // the limit of time counts all threads, and one reads as fast
-  vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
-  const std::filesystem::path file = argc > 1 ? argv[1] : "";
-  const std::string_view mode = argc > 2 ? argv[2] : "";
-  palp::ImagePart part;
-  std::string array;
-  for (int i = 2; i < argc; ++i)
+  if (argc > 1 && isDicom(argv[1]))
   {
-    const std::string_view word = argv[i];
-    const std::size_t equals = std::min(word.find('='), word.size() - 1);
-    take(part, word.substr(0, equals), word.substr(equals + 1));
-    array = word.substr(0, equals) == "array" ? word.substr(equals + 1) : array;
+    execv((palp::prefix() / "bin/palp-read-dicom").c_str(), argv); // where it is not, that is told
   }
-  palp::answer(
-    [&]
-    {
-      if (mode == "values")
-      {
-        return pack(palp::readValues(file, array));
-      }
-      if (mode == "organs" || mode == "list")
-      {
-        return pack(palp::readOrgans(file, part, mode == "list"));
-      }
-      palp::FileSurface surface = palp::readFile(file, part);
-      return pack(mode == "joined" ? withJoinedCorners(std::move(surface)) : surface);
-    },
-    palp::readLimits(file), palp::neededFiles(file));
+  palp::readForAnother(argc, argv, {});
 }

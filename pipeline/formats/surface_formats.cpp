@@ -3,8 +3,6 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/image_formats.h"
-#include "pipeline/formats/images/dicom_image.h"
-#include "pipeline/formats/images/dicom_segments.h"
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/formats/meshes/surface_readers.h"
@@ -58,10 +56,9 @@ constexpr std::array kFormats{ Format{ ".stl", "STL", "", readStl },
   Format{ ".nii.gz", "NIfTI", "", nullptr, readNifti },
   Format{ ".nrrd", "NRRD", "NRRD000", nullptr, readNrrd },
   Format{ ".nhdr", "NRRD", "NRRD000", nullptr, readNrrd },
-  Format{ ".vti", "VTI", "<", nullptr, readVti },
-  Format{ ".dcm", "DICOM", "", nullptr, readDicomSegments } };
+  Format{ ".vti", "VTI", "<", nullptr, readVti }, Format{ ".dcm", "DICOM", "", nullptr } };
 
-constexpr Format kDicom{ "/", "DICOM", "", nullptr };
+constexpr Format kDicomFolder{ "/", "DICOM", "", nullptr };
 
 // of other programs, with the way out
 constexpr std::array kOthers{ std::pair{
@@ -95,7 +92,7 @@ const Format& formatOf(const std::filesystem::path& file)
 {
   if (std::error_code none; std::filesystem::is_directory(file, none))
   {
-    return kDicom;
+    return kDicomFolder;
   }
   const std::string name = lowered(file.filename().string());
   for (const Format& format : kFormats)
@@ -247,10 +244,17 @@ auto withoutVtkErrors(const std::filesystem::path& file, const Format& format, R
   }
 }
 
-PatientImage imageOf(const std::filesystem::path& file, const Format& format, const ImagePart& part)
+PatientImage imageOf(const std::filesystem::path& file, const Format& format, const ImagePart& part,
+  const DicomReaders& dicom)
 {
   checkFits(file);
-  PatientImage volume = format.readImage ? format.readImage(file) : readDicom(file, part.series);
+  if (format.readImage == nullptr && dicom.series == nullptr)
+  {
+    refuse(file, "DICOM is read by palp-read-dicom, which is not there; build or install it");
+  }
+  PatientImage volume = format.readImage ? format.readImage(file)
+    : &format == &kDicomFolder           ? dicom.series(file, part.series)
+                                         : dicom.segments(file);
   for (const LabelName& label : part.names)
   {
     if (label.value != 0.0) // which is no region
@@ -265,8 +269,8 @@ PatientImage imageOf(const std::filesystem::path& file, const Format& format, co
 const Format& checkedFormat(const std::filesystem::path& file, const ImagePart& part)
 {
   const Format& format = formatOf(file);
-  &format == &kDicom ? void() : checkFile(file, format);
-  if (&format != &kDicom && !part.series.empty())
+  &format == &kDicomFolder ? void() : checkFile(file, format);
+  if (&format != &kDicomFolder && !part.series.empty())
   {
     refuse(file, "no folder of DICOM images; leave the series out");
   }
@@ -275,7 +279,8 @@ const Format& checkedFormat(const std::filesystem::path& file, const ImagePart& 
 
 } // namespace
 
-FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
+FileSurface readFile(
+  const std::filesystem::path& file, const ImagePart& part, const DicomReaders& dicom)
 {
   constexpr double kRead = 0.6; // about, of all the time
   const Format& format = checkedFormat(file, part);
@@ -294,7 +299,7 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
         answerProgress(kRead);
         return surfaceOf(file, *data);
       }
-      const PatientImage volume = imageOf(file, format, part);
+      const PatientImage volume = imageOf(file, format, part, dicom);
       answerProgress(kRead);
       FileSurface surface = imageSurface(volume, part, file.string());
       checkPoints(file, surface.points);
@@ -302,7 +307,8 @@ FileSurface readFile(const std::filesystem::path& file, const ImagePart& part)
     });
 }
 
-FileValues readValues(const std::filesystem::path& file, const std::string& array)
+FileValues readValues(
+  const std::filesystem::path& file, const std::string& array, const DicomReaders& dicom)
 {
   const Format& format = checkedFormat(file, {});
   if (array.empty() != (format.read == nullptr))
@@ -315,11 +321,12 @@ FileValues readValues(const std::filesystem::path& file, const std::string& arra
     [&]
     {
       return format.read ? arrayValues(*format.read(file), array, file)
-                         : imageValues(imageOf(file, format, {}), file);
+                         : imageValues(imageOf(file, format, {}, dicom), file);
     });
 }
 
-FileOrgans readOrgans(const std::filesystem::path& file, const ImagePart& part, bool isList)
+FileOrgans readOrgans(
+  const std::filesystem::path& file, const ImagePart& part, bool isList, const DicomReaders& dicom)
 {
   const Format& format = checkedFormat(file, part);
   if (format.read)
@@ -329,7 +336,7 @@ FileOrgans readOrgans(const std::filesystem::path& file, const ImagePart& part, 
   return withoutVtkErrors(file, format,
     [&]
     {
-      FileOrgans all = imageOrgans(imageOf(file, format, part), part, isList, file.string());
+      FileOrgans all = imageOrgans(imageOf(file, format, part, dicom), part, isList, file.string());
       for (const FileOrgan& organ : all.organs)
       {
         checkPoints(file, organ.surface.points);

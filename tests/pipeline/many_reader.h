@@ -4,21 +4,47 @@
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/surface_io/surface_io.h"
 
+#include <gtest/gtest.h>
+
 namespace palp::test
 {
 
-/// Reads many files, every fifth as the program does; the others in the process of the test, where
-/// a sanitizer tells more of a crash, and without a start of palp-read for each.
+/// Reads many files, every fifth as the program does, which must say nothing by itself; the others
+/// in the process of the test, where a sanitizer tells more of a crash, and without a start of
+/// palp-read for each.
 class ManyReader
 {
 public:
   LoadedSurface read(const std::filesystem::path& file, UnitChoice unit = {})
   {
-    return count_++ % 5 == 0 ? readSurface(file, unit)
-                             : madeReady(withJoinedCorners(readFile(file)), file, unit);
+    const bool asProgram = count_++ % 5 == 0;
+    const Said said(asProgram);
+    return asProgram ? readSurface(file, unit)
+                     : madeReady(withJoinedCorners(readFile(file)), file, unit);
   }
 
 private:
+  // to standard error; what VTK says within the test, it says within palp-read to nobody
+  class Said
+  {
+  public:
+    explicit Said(bool isNothing)
+      : isNothing_(isNothing)
+    {
+      testing::internal::CaptureStderr();
+    }
+    ~Said()
+    {
+      const std::string text = testing::internal::GetCapturedStderr();
+      EXPECT_TRUE(text.empty() || !isNothing_) << text;
+    }
+    Said(const Said&) = delete;
+    Said& operator=(const Said&) = delete;
+
+  private:
+    bool isNothing_;
+  };
+
   int count_ = 0;
 };
 

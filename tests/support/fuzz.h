@@ -38,11 +38,10 @@ inline int fuzzCount(int some = 10'000)
 }
 
 /// A kind's file, as the name of a test.
-[[nodiscard]] inline std::string nameOf(const Fuzzed& kind)
+[[nodiscard]] inline std::string nameOf(std::string file)
 {
-  std::string name = kind.file;
-  std::ranges::replace(name, '.', '_');
-  return name;
+  std::ranges::replace(file, '.', '_');
+  return file;
 }
 
 } // namespace palp::test

@@ -121,7 +121,8 @@ TEST(Program, ShowsNoControlCharacterOfAnOption)
 
 TEST(Program, IsHardenedLikeAllBesideIt)
 {
-  for (const char* name : { "palp", "palp-read", "palp-draw", "palp-view", "palp-devices" })
+  for (const char* name :
+    { "palp", "palp-read", "palp-read-dicom", "palp-draw", "palp-view", "palp-devices" })
   {
     const auto file = std::filesystem::path(PALP_PROGRAM).parent_path() / name;
     const Finished told = test::runCommand("readelf -hldW --dyn-syms " + file.string());

@@ -301,7 +301,7 @@ class Fuzz : public testing::TestWithParam<std::size_t>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Texts, Fuzz, testing::Range<std::size_t>(0, kFuzzedTexts),
-  [](const auto& which) { return nameOf(fuzzedTexts()[which.param]); });
+  [](const auto& which) { return nameOf(fuzzedTexts()[which.param].file); });
 
 TEST_P(Fuzz, EndsAsNumbersOrATrueSentence)
 {

@@ -1,6 +1,7 @@
 #include "tests/pipeline/surface_files.h"
 
 #include "haptics/units.h"
+#include "tests/pipeline/many_reader.h"
 #include "tests/pipeline/sample_files.h"
 
 #include <random>
@@ -58,19 +59,18 @@ TEST_P(EveryFormat, IsReadInTheUnitThatIsAsked)
 TEST_P(EveryFormat, SurvivesBeingCutOff)
 {
   const std::string whole = GetParam().content;
-  testing::internal::CaptureStderr();
+  ManyReader reader;
   for (std::size_t length = 0; length + 2 < whole.size(); length += whole.size() / 20)
   {
     try
     {
-      const LoadedSurface surface = load(GetParam().name, whole.substr(0, length));
+      const LoadedSurface surface = reader.read(write(GetParam().name, whole.substr(0, length)));
       EXPECT_FALSE(surface.notes.empty());
     }
     catch (const Error&)
     {
     }
   }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(ByHand, EveryFormat,
@@ -108,12 +108,13 @@ TEST_P(EveryWriter, IsRefusedWhenCutOffAtAnyTenth)
 {
   const std::string name = GetParam();
   const std::string whole = readAll(write("whole" + name, makeSphere(50.0_mm, 3)));
-  testing::internal::CaptureStderr();
+  ManyReader reader;
   for (std::size_t tenth = 0; tenth < 10; ++tenth)
   {
     try
     {
-      const LoadedSurface surface = load("cut" + name, whole.substr(0, whole.size() * tenth / 10));
+      const LoadedSurface surface =
+        reader.read(write("cut" + name, whole.substr(0, whole.size() * tenth / 10)));
       // OBJ has no counts and no end: what is there is taken, and is open
       EXPECT_EQ(name, "surface.obj") << tenth;
       EXPECT_TRUE(mentions(surface, "warning")) << tenth;
@@ -124,7 +125,6 @@ TEST_P(EveryWriter, IsRefusedWhenCutOffAtAnyTenth)
         std::string(error.what()).starts_with((folder_.path() / ("cut" + name)).string()));
     }
   }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_P(EveryWriter, NeverCrashesOnDamage)
@@ -134,7 +134,7 @@ TEST_P(EveryWriter, NeverCrashesOnDamage)
   std::mt19937 random(20); // any
   const auto below = [&](std::size_t n)
   { return std::uniform_int_distribution(0ul, n - 1)(random); };
-  testing::internal::CaptureStderr();
+  ManyReader reader;
   for (int round = 0; round < 60; ++round)
   {
     std::string damaged = whole;
@@ -146,7 +146,8 @@ TEST_P(EveryWriter, NeverCrashesOnDamage)
     }
     try
     {
-      const Mesh mesh = meshOf(load("damaged" + name, damaged, LengthUnit::Millimeter));
+      const Mesh mesh =
+        meshOf(reader.read(write("damaged" + name, damaged), LengthUnit::Millimeter));
       for (const Triangle& t : mesh.triangles)
       {
         for (const int corner : t)
@@ -160,7 +161,6 @@ TEST_P(EveryWriter, NeverCrashesOnDamage)
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,3 +1,5 @@
+#include "pipeline/formats/dicom/dicom_image.h"
+#include "pipeline/formats/dicom/dicom_segments.h"
 #include "pipeline/formats/surface_formats.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/formats/fuzzed_parts.h"
@@ -207,6 +209,8 @@ std::vector<Fuzzed> otherImages()
         foreign(offText(), kKind) }) };
 }
 
+constexpr DicomReaders kDicom{ .series = readDicom, .segments = readDicomSegments };
+
 std::vector<Fuzzed> dicomSegmentKinds()
 {
   const TemporaryFolder folder;
@@ -215,7 +219,8 @@ std::vector<Fuzzed> dicomSegmentKinds()
       replaced("class", "1\\.66\\.4", "1.66.5", "one image of a series", false),
       replaced("kind", "BINARY", "OTHERS", "fractions"),
       replaced("place", "-3[0-9]", "-3x", "Position"), foreign(offText(), "DICOM") });
-  kind.read = [](const std::filesystem::path& file) { return pack(readOrgans(file, {}, false)); };
+  kind.read = [](const std::filesystem::path& file)
+  { return pack(readOrgans(file, {}, false, kDicom)); };
   kind.take = takeOrgans;
   return { kind };
 }
@@ -254,22 +259,18 @@ std::vector<Fuzzed> dicomKinds()
     }
     std::filesystem::copy(
       file, folder / "damaged", std::filesystem::copy_options::overwrite_existing);
-    return pack(readFile(folder, { .level = kDicomLevel }));
+    return pack(readFile(folder, { .level = kDicomLevel }, kDicom));
   };
   return { kind };
 }
 
 } // namespace
 
-std::vector<Fuzzed> fuzzedImages()
+std::vector<FuzzedGroup> fuzzedImages()
 {
-  std::vector<Fuzzed> all;
-  for (auto* kinds :
-    { metaKinds, nrrdKinds, segmentKinds, dicomSegmentKinds, dicomKinds, otherImages })
-  {
-    std::ranges::move(kinds(), std::back_inserter(all));
-  }
-  return all;
+  return { { { "ball.mha", "ball.mhd" }, metaKinds }, { { "ball.nrrd" }, nrrdKinds },
+    { { "ball.seg.nrrd" }, segmentKinds }, { { "segments.dcm" }, dicomSegmentKinds },
+    { { "ball.dcm" }, dicomKinds }, { { "ball.nii", "ball.nii.gz", "ball.vti" }, otherImages } };
 }
 
 } // namespace palp::test

@@ -140,14 +140,12 @@ std::vector<Fuzzed> mshKinds()
 
 } // namespace
 
-std::vector<Fuzzed> fuzzedMeshes()
+std::vector<FuzzedGroup> fuzzedMeshes()
 {
-  std::vector<Fuzzed> all;
-  for (auto* kinds : { stlKinds, textKinds, plyKinds, vtkKinds, mshKinds })
-  {
-    std::ranges::move(kinds(), std::back_inserter(all));
-  }
-  return all;
+  return { { { "text.stl", "binary.stl" }, stlKinds }, { { "ball.obj", "ball.off" }, textKinds },
+    { { "text.ply", "binary.ply" }, plyKinds },
+    { { "ball.vtk", "ball.vtp", "text.vtp", "tetra.vtu" }, vtkKinds },
+    { { "block.msh" }, mshKinds } };
 }
 
 } // namespace palp::test

@@ -63,8 +63,15 @@ inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 /// What palp-read answers of an image.
 [[nodiscard]] std::string readImageBytes(const std::filesystem::path& file);
 
-/// The kinds of either.
-[[nodiscard]] std::vector<Fuzzed> fuzzedMeshes();
-[[nodiscard]] std::vector<Fuzzed> fuzzedImages();
+/// Kinds that are made together, for that may take long: other programs write some.
+struct FuzzedGroup
+{
+  std::vector<std::string> files; ///< of each kind, in turn
+  std::vector<Fuzzed> (*make)();
+};
+
+/// Those of either.
+[[nodiscard]] std::vector<FuzzedGroup> fuzzedMeshes();
+[[nodiscard]] std::vector<FuzzedGroup> fuzzedImages();
 
 } // namespace palp::test

@@ -1,4 +1,4 @@
-#include "pipeline/formats/images/dicom_elements.h"
+#include "pipeline/formats/dicom/dicom_elements.h"
 
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"

@@ -1,9 +1,9 @@
-#include "pipeline/formats/images/dicom_series.h"
+#include "pipeline/formats/dicom/dicom_series.h"
 
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
-#include "pipeline/formats/images/dicom_elements.h"
-#include "pipeline/formats/images/dicom_values.h"
+#include "pipeline/formats/dicom/dicom_elements.h"
+#include "pipeline/formats/dicom/dicom_values.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"
 

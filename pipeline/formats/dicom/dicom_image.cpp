@@ -1,7 +1,7 @@
-#include "pipeline/formats/images/dicom_image.h"
+#include "pipeline/formats/dicom/dicom_image.h"
 
-#include "pipeline/formats/images/dicom_series.h"
-#include "pipeline/formats/images/dicom_values.h"
+#include "pipeline/formats/dicom/dicom_series.h"
+#include "pipeline/formats/dicom/dicom_values.h"
 #include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"

@@ -1,4 +1,4 @@
-#include "pipeline/formats/images/dicom_values.h"
+#include "pipeline/formats/dicom/dicom_values.h"
 
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"

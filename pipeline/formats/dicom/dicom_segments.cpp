@@ -1,8 +1,8 @@
-#include "pipeline/formats/images/dicom_segments.h"
+#include "pipeline/formats/dicom/dicom_segments.h"
 
 #include "haptics/files/input_text.h"
-#include "pipeline/formats/images/dicom_elements.h"
-#include "pipeline/formats/images/dicom_values.h"
+#include "pipeline/formats/dicom/dicom_elements.h"
+#include "pipeline/formats/dicom/dicom_values.h"
 #include "pipeline/formats/meshes/refuse.h"
 #include "pipeline/process/child_process.h"
 
