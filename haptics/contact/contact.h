@@ -16,6 +16,7 @@ struct Contact
   int triangle = -1;                                ///< below the center; -1 when apart
   double surfaceCurvature = 0.0;                    ///< mean, 1/R0 [1/m], convex positive
   double curvatureSpread = 0.0;                     ///< half the difference [1/m]
+  double curvedPart = 1.0; ///< of these that is below the tool, not at an edge beside [-]
   double thickness = std::numeric_limits<double>::infinity(); ///< of the body below [m]
   double hollow = 0.0; ///< part of what lies around above a hollow within the body [-]
   double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open or sharp edge [m]

@@ -203,10 +203,10 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   measureShape(contact, surface, tip, rule, *here, flat);
-  const double curved =
+  contact.curvedPart =
     curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
-  const Height height =
-    heightOver(flat.value, curved * contact.surfaceCurvature, curved * contact.curvatureSlope);
+  const Height height = heightOver(flat.value, contact.curvedPart * contact.surfaceCurvature,
+    contact.curvedPart * contact.curvatureSlope);
   const Eigen::Vector3d upward = height.slope.normalized();
   const double facing = -pose.axis.dot(upward);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));

@@ -105,18 +105,36 @@ const Scene& lobe()
   return scene;
 }
 
+void expectSlopeOfEnergy(const Scene& scene, double x, double depth)
+{
+  const auto energy = [&](double aside)
+  { return workOver(scene, 2000, [&](double t) { return at(aside, depth * t); }); };
+  constexpr double kStep = 0.05_mm;
+  const double slope = (energy(x + kStep) - energy(x - kStep)) / (2.0 * kStep);
+  const double lateral = step(scene, at(x, depth)).force.x();
+  EXPECT_NEAR(lateral, -slope, 5e-3 * std::abs(slope)) << x << ' ' << depth;
+}
+
 TEST(OrganLobe, TheLateralForceIsTheSlopeOfTheEnergy)
 {
   for (const double depth : { 2.0_mm, 5.0_mm })
   {
-    const auto energy = [&](double x)
-    { return workOver(lobe(), 2000, [&](double t) { return at(x, depth * t); }); };
     for (double x = -18.0_mm; x < 0.0; x += 2.7_mm)
     {
-      constexpr double kStep = 0.05_mm;
-      const double slope = (energy(x + kStep) - energy(x - kStep)) / (2.0 * kStep);
-      const double lateral = step(lobe(), at(x, depth)).force.x();
-      EXPECT_NEAR(lateral, -slope, 5e-3 * std::abs(slope)) << x << ' ' << depth;
+      expectSlopeOfEnergy(lobe(), x, depth);
+    }
+  }
+}
+
+TEST(OrganEdge, TheLateralForceIsTheSlopeOfTheEnergy)
+{
+  const Scene scene =
+    sceneOf({ .file = "", .size = { 0.06, 0.06, 0.03 }, .place = -0.023 }, 20.0_mm);
+  for (const double depth : { 1.0_mm, 2.0_mm, 4.0_mm })
+  {
+    for (const double x : { -24.0_mm, -22.3_mm, -20.0_mm }) // the edge is at -30 mm
+    {
+      expectSlopeOfEnergy(scene, x, depth);
     }
   }
 }
