@@ -52,30 +52,38 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
   const MappedContact* mapped, std::span<const SurfacePoint> places,
   std::span<const Support> supports)
 {
-  std::vector<SurfacePoint> free;
-  std::ranges::copy_if(places, std::back_inserter(free),
-    [&](const SurfacePoint& place) { return !isHeld(place, model, supports); });
-  const auto found = compliancesAt(model, surface, mapped, free);
-  const double modulus = model.contactModulus();
   std::vector<PlacedCompliance> all;
-  std::size_t next = 0; // of those that are free
+  std::vector<SurfacePoint> free;
   for (const SurfacePoint& one : places)
   {
     PlacedCompliance& place = all.emplace_back();
     place.position = one.position;
     place.normal = one.normal;
-    const bool isFree = !isHeld(one, model, supports);
-    place.edge = isFree ? nearnessToEdge(surface, one.position, model.side()) : 0.0;
-    const auto& compliance = isFree ? found[next++] : std::nullopt;
-    place.trust = compliance ? trustOf(*compliance, one, model, surface)
-      : isFree               ? ComplianceTrust::Unknown
-                             : ComplianceTrust::Supported;
-    if (compliance)
+    place.trust = ComplianceTrust::Supported;
+    if (!isHeld(one, model, supports))
+    {
+      place.trust = ComplianceTrust::Unknown;
+      place.edge = nearnessToEdge(surface, one.position, model.side());
+      free.push_back(one);
+    }
+  }
+  const auto found = compliancesAt(model, surface, mapped, free);
+  const double modulus = model.contactModulus();
+  std::size_t next = 0; // of those that are free
+  for (PlacedCompliance& place : all)
+  {
+    if (place.trust == ComplianceTrust::Supported)
+    {
+      continue;
+    }
+    if (const auto& compliance = found[next])
     {
       place.constant = modulus * compliance->constant;
       place.slope = modulus * compliance->slope;
       place.bend = modulus * compliance->bend;
+      place.trust = trustOf(*compliance, free[next], model, surface);
     }
+    ++next;
   }
   return all;
 }

@@ -113,13 +113,8 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   }
   if (body_)
   {
-    // a place that is pressed moves by less than a tool on a convex surface
-    constexpr double kLeastTurn = 0.3;
-    const double turn = std::max(kLeastTurn,
-      1.0 +
-        contact_->curvedPart * contact_->surfaceCurvature *
-          (scene_->series->height - contact_->depth));
-    const Eigen::Vector3d more = scene_->series->law.lateral(*body_, answer.felt.force) / turn;
+    const double slower = stiffnessContactOf(*contact_).toolPerPlace(scene_->series->height);
+    const Eigen::Vector3d more = scene_->series->law.lateral(*body_, answer.felt.force) / slower;
     // no round tool without friction is pushed more sideways than up; values that leap between
     // places, as over a thin rim beside a support, would say so
     force += std::min(1.0, answer.felt.force / more.norm()) * more;

@@ -162,7 +162,8 @@ PressField::Sink Dent::sinkAt(
     sink.depth += geodesic.facing * (front.depth - sink.depth);
   }
   sink.depth += geodesic.extra;
-  return field_.keptOutside(sink, rest, *body_);
+  const bool isAsOfField = !geodesic.isBetween() && geodesic.extra == 0.0F;
+  return isAsOfField ? sink : field_.keptOutside(sink, rest, *body_);
 }
 
 // the contact goes along as a whole; around it, as around one that is about to slip, ever less

@@ -14,10 +14,9 @@ namespace palp
 namespace
 {
 
-constexpr double kReach = 2.3;     // spacings
-constexpr int kSharpenings = 12;   // after which the blend goes through the places' values
-constexpr double kBeside = 0.5;    // cosine of normals from which on a place counts in full
-constexpr double kLeastTurn = 0.3; // of 1 + curvature times height
+constexpr double kReach = 2.3;   // spacings
+constexpr int kSharpenings = 12; // after which the blend goes through the places' values
+constexpr double kBeside = 0.5;  // cosine of normals from which on a place counts in full
 // the largest spread of what was compared with finite elements; there the force is 4.2 % off
 constexpr double kSpread = 0.15;
 
@@ -249,11 +248,8 @@ Eigen::Vector3d StiffnessField::Blend::lateral(
   }
   const Eigen::Vector3d gradient = (logSums - logs / sum * sums) / sum;
   const Eigen::Vector3d along = gradient - gradient.dot(contact_.normal) * contact_.normal;
-  // a place that is pressed moves by less than a tool on a convex surface
-  const double turn =
-    std::max(kLeastTurn, 1.0 + contact_.curvature * (field_->height_ - contact_.depth));
   const double energy = energy_ * plain.force * depth * field_->energies_(root).value;
-  return std::exp(logs / sum) * (shape - energy / turn * along);
+  return std::exp(logs / sum) * (shape - energy / contact_.toolPerPlace(field_->height_) * along);
 }
 
 Rule StiffnessField::rule(const StiffnessContact& contact) const noexcept

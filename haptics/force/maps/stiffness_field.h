@@ -30,6 +30,15 @@ struct StiffnessContact
   Eigen::Vector3d normal; ///< outward, of unit length
   double depth;           ///< of that point [m]
   double curvature;       ///< of the surface, mean, convex positive [1/m]
+
+  /// How far a tool goes for each length of the place that it presses, which on a convex surface
+  /// goes less far.
+  /// @param height  of a round tool's center over its deepest point [m]
+  [[nodiscard]] double toolPerPlace(double height) const noexcept
+  {
+    constexpr double kLeast = 0.3; // in a hollow
+    return std::max(kLeast, 1.0 + curvature * (height - depth));
+  }
 };
 
 /// The stiffness of a body that varies from place to place, felt by one tool.

@@ -216,15 +216,13 @@ Step largestStep(const Function& sinkAt, double length)
 
 // where a tool is sunk beyond its base its shaft cuts a wall; where it leans over what lies beside
 // it, its own flank does, from where that is met from above to where it is from below
-bool isWall(const Press& press, const Eigen::Vector3d& higher, const Eigen::Vector3d& lower)
+bool isWall(const ToolBody& body, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
-  const ToolBody body(press.tip, press.pose);
   const auto isOn = [&](const Eigen::Vector3d& point)
   { return std::abs(body.inside(point)) < 1.0_um; };
   const auto isOnShaft = [&](const Eigen::Vector3d& point)
-  { return std::abs(body.fromAxis(point) - baseRadius(press.tip)) < 1.0_um; };
-  return isOnShaft(higher) || isOnShaft(lower) ||
-    (isOn(higher) && isOn(lower) && body.inside(0.5 * (higher + lower)) > 0.0);
+  { return std::abs(body.fromAxis(point) - body.base()) < 1.0_um; };
+  return isOnShaft(a) || isOnShaft(b) || (isOn(a) && isOn(b) && body.inside(0.5 * (a + b)) > 0.0);
 }
 
 struct AlongEdge
@@ -254,8 +252,7 @@ AlongEdge lookAlong(
   {
     along.inside = std::max(along.inside, body.inside(sunkAt(fraction)));
   }
-  const bool risesAlong = sinkAt(low) < sinkAt(low + width);
-  if (isWall(press, sunkAt(risesAlong ? low : low + width), sunkAt(risesAlong ? low + width : low)))
+  if (isWall(body, sunkAt(low), sunkAt(low + width)))
   {
     along.step = 0.0;
   }
