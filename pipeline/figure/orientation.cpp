@@ -22,6 +22,28 @@ namespace
 constexpr std::array<const char*, 6> kSides{ "L", "R", "P", "A", "S", "I" };
 constexpr std::array<const char*, 6> kAxes{ "x", "", "y", "", "z", "" };
 
+// of an axis, as it is seen
+struct End
+{
+  const char* name;
+  Eigen::Vector2d at; // [-] of its length
+  double away;        // from the eye, likewise
+
+  // a shorter one would have its letter on others
+  [[nodiscard]] bool hasLetter() const
+  {
+    constexpr double kSeen = 0.25;
+    return *name != '\0' && at.norm() > kSeen;
+  }
+
+  // nearer to the eye, with its letter on that of the other
+  [[nodiscard]] bool covers(const End& other) const
+  {
+    constexpr double kLetters = 0.35;
+    return hasLetter() && away < other.away && (at - other.at).norm() < kLetters;
+  }
+};
+
 } // namespace
 
 Orientation::Orientation(vtkRenderer& renderer)
@@ -73,29 +95,36 @@ void Orientation::place(vtkRenderer& renderer, const PictureRoom& room)
   constexpr double kArm = 30.0;    // [pixels]
   constexpr double kLetter = 41.0; // from the middle
   constexpr double kMiddle = 54.0; // from the corner
-  constexpr double kSeen = 0.25;   // [-] of an axis: a shorter one would have its letter on others
   vtkCamera& camera = *renderer.GetActiveCamera();
   const Eigen::Vector3d sight(camera.GetDirectionOfProjection());
   const Eigen::Vector3d right = sight.cross(Eigen::Vector3d(camera.GetViewUp())).normalized();
   const Eigen::Vector3d up = right.cross(sight);
   const double scale = room.scale;
   const Eigen::Vector2d middle(room.width - kMiddle * scale, room.foot + kMiddle * scale);
+  std::array<End, kEnds> ends;
   for (std::size_t i = 0; i < kEnds; ++i)
   {
     const Eigen::Vector3d axis =
       (i % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i / 2));
-    const Eigen::Vector2d seen(axis.dot(right), axis.dot(up));
-    const char* name = isPatient_ ? kSides[i] : kAxes[i];
-    const bool isNamed = *name != '\0';
-    const Eigen::Vector2d end = middle + (isNamed ? kArm * scale : 0.0) * seen;
-    const Eigen::Vector2d at = middle + kLetter * scale * seen;
+    ends[i] = { .name = (isPatient_ ? kSides : kAxes)[i],
+      .at = { axis.dot(right), axis.dot(up) },
+      .away = axis.dot(sight) };
+  }
+  for (std::size_t i = 0; i < kEnds; ++i)
+  {
+    const End& one = ends[i];
+    const bool isCovered =
+      std::ranges::any_of(ends, [&](const End& other) { return other.covers(one); });
+    const double arm = *one.name != '\0' ? kArm * scale : 0.0;
+    const Eigen::Vector2d end = middle + arm * one.at;
+    const Eigen::Vector2d letter = middle + kLetter * scale * one.at;
     lines_->GetPoints()->SetPoint(2 * static_cast<vtkIdType>(i), middle.x(), middle.y(), 0.0);
     lines_->GetPoints()->SetPoint(2 * static_cast<vtkIdType>(i) + 1, end.x(), end.y(), 0.0);
-    letters_[i]->SetInput(name);
-    letters_[i]->SetPosition(at.x(), at.y());
-    letters_[i]->SetVisibility(isVisible_ && isNamed && seen.norm() > kSeen);
+    letters_[i]->SetInput(one.name);
+    letters_[i]->SetPosition(letter.x(), letter.y());
+    letters_[i]->SetVisibility(isVisible_ && one.hasLetter() && !isCovered);
     // what points away from the eye is fainter
-    letters_[i]->GetTextProperty()->SetOpacity(axis.dot(sight) > 0.3 ? 0.45 : 1.0);
+    letters_[i]->GetTextProperty()->SetOpacity(one.away > 0.3 ? 0.45 : 1.0);
   }
   lines_->GetPoints()->Modified();
   cross_->SetVisibility(isVisible_);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 #include <string>
+#include <vector>
 #include <vtkActor2DCollection.h>
 #include <vtkCamera.h>
 
@@ -70,6 +71,35 @@ TEST_F(Annotations, NameThePatientsSides)
   EXPECT_LT(placeOf("R")->x(), placeOf("L")->x());
   EXPECT_GT(placeOf("S")->y(), placeOf("I")->y());
   EXPECT_FALSE(placeOf("A") || placeOf("P"));
+}
+
+TEST_F(Annotations, LettersNeverLieOnEachOther)
+{
+  Orientation orientation(*renderer_);
+  orientation.setPatient(true);
+  const std::string sides = "LRAPSI";
+  constexpr int kViews = 100; // spread evenly over all directions
+  for (int view = 0; view < kViews; ++view)
+  {
+    const double z = (2.0 * view + 1.0) / kViews - 1.0;
+    const double angle = 2.399963 * view; // [rad] the golden one
+    const double radius = std::sqrt(1.0 - z * z);
+    lookFrom({ radius * std::cos(angle), radius * std::sin(angle), z }, { 0.1, 0.2, 1.0 });
+    std::vector<Eigen::Vector2d> places;
+    for (const char side : sides)
+    {
+      const std::optional<Eigen::Vector2d> at = placeOf(std::string(1, side));
+      for (const Eigen::Vector2d& other : places)
+      {
+        EXPECT_TRUE(!at || (*at - other).norm() > 12.0) << side << " in view " << view;
+      }
+      if (at)
+      {
+        places.push_back(*at);
+      }
+    }
+    EXPECT_GE(places.size(), 3U) << "view " << view;
+  }
 }
 
 TEST_F(Annotations, NameOnlyAxesWhereNobodyKnowsThePatient)
