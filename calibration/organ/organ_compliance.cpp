@@ -4,6 +4,7 @@
 #include "calibration/organ/smooth_pressure.h"
 #include "calibration/organ/surface_parts.h"
 #include "calibration/organ/tangent_plane.h"
+#include "haptics/surface/closest_point.h"
 #include "haptics/surface/ray.h"
 
 #include <Eigen/Geometry>
@@ -163,7 +164,18 @@ SmoothPressure pressureOf(const OrganModel& model, double ratio)
   return { pressedRadius(model.side()), ratio * model.shearModulus(), model.poissonRatio() };
 }
 
-// what the cubes give to loads at places; those that the body hangs over are left out
+// whether the field of the pressure, whose source is above the place, is steep within the body: it
+// hangs over the place, or a wall of it rises beside
+bool isNearSource(const Surface& surface, const SurfacePoint& place, double radius)
+{
+  constexpr double kNear = 0.9; // of the height of the source
+  const auto above = [&](double radii) -> Eigen::Vector3d
+  { return place.position + radii * radius * place.normal; };
+  return rayEntry(surface.tree(), above(1e-3), place.normal).triangle >= 0 ||
+    distanceTo(surface.tree(), above(1.0), radius) < kNear * radius;
+}
+
+// what the cubes give to loads at places; those near the source are left out
 struct Loaded
 {
   std::vector<TangentPlane> planes{};
@@ -180,8 +192,7 @@ Loaded loadedAt(
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const auto& [position, outward] = places[i];
-    // else the sources of the pressure would be in the body
-    if (rayEntry(surface.tree(), position + 1e-3 * radius * outward, outward).triangle < 0)
+    if (!isNearSource(surface, places[i], radius))
     {
       loaded.planes.emplace_back(surface, position, outward, radius);
       loaded.pressures.push_back(pressureOf(model, model.moduli().around(position, radius)));

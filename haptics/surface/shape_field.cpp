@@ -49,6 +49,22 @@ double leastCell(const BoxTree& tree)
   return std::max(std::sqrt(4.0 * area / kMaxPieces), 2.0 * length / pieces);
 }
 
+// Leaves out sides across which the surface does not turn sharply, though it does along them:
+// facets of a cylinder beside its rim.
+// @param bend  of what is around, over its area [1/m]
+template <typename Side>
+void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eigen::Vector3f& normal,
+  float around)
+{
+  std::erase_if(sides,
+    [&](const Side& side)
+    {
+      const Eigen::Vector3f across = (side.ends[1] - side.ends[0]).cross(normal).normalized();
+      constexpr auto sharp = static_cast<float>(kSharp);
+      return 2.0F * side.turn < sharp && across.dot(bend * across) * around < sharp; // a half each
+    });
+}
+
 } // namespace
 
 ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double facetLength)
@@ -273,7 +289,9 @@ void ShapeField::measureLeaves(
     const float curvature = sum.bend.trace() / area;
     if (static_cast<double>(curvature) * around > kSharp)
     {
-      addTurning(sidesOf(leaves[i], pieces), kOwnTurn * curvature * leaf.area.norm(), sharp);
+      std::vector<Side> sides = sidesOf(leaves[i], pieces);
+      keepSharp(sides, sum.bend / area, sum.area, static_cast<float>(around));
+      addTurning(sides, kOwnTurn * curvature * leaf.area.norm(), sharp);
     }
   }
   edges_ = SharpEdges(std::move(sharp));

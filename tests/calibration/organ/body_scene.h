@@ -5,13 +5,16 @@
 #include "haptics/contact/embed_stiffness.h"
 #include "haptics/servo/servo_step.h"
 #include "haptics/units.h"
+#include "tests/support/cells.h"
 #include "tests/support/csv_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <memory>
+#include <vector>
 
 namespace palp::test
 {
@@ -35,7 +38,44 @@ struct Body
   double ratio = 1.0;    // of the modulus beyond it
   double edges = 2.5_mm; // of the mesh [m]
   double cell = 4.0_mm;
+  double wall = 0.0; // height of what stands on its end, 25 mm wide [m]
 };
+
+// its top is at the origin
+inline Mesh meshOf(const Body& body)
+{
+  if (body.wall <= 0.0)
+  {
+    Mesh box = makeBox(body.size, body.edges);
+    for (Vector3d& point : box.points)
+    {
+      point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
+    }
+    return box;
+  }
+  const auto divided = [&](const std::vector<double>& ends)
+  {
+    std::vector<double> planes{ ends.front() };
+    for (std::size_t i = 1; i < ends.size(); ++i)
+    {
+      const double length = ends[i] - ends[i - 1];
+      const int count = static_cast<int>(std::ceil(length / body.edges));
+      for (int k = 1; k <= count; ++k)
+      {
+        planes.push_back(ends[i - 1] + length * k / count);
+      }
+    }
+    return planes;
+  };
+  const double end = 0.5 * body.size.x();
+  const double foot = 25.0_mm - end;
+  const std::array planes{ divided({ -end, foot, end }),
+    divided({ -0.5 * body.size.y(), 0.5 * body.size.y() }),
+    divided({ -body.size.z(), 0.0, body.wall }) };
+  return cells(planes,
+    [&](const std::array<int, 3>& cell)
+    { return planes[0][at(cell[0])] < foot - 1e-9 || planes[2][at(cell[2])] < -1e-9; });
+}
 
 // over that of the tissue that is pressed
 inline double ratioAt(const Body& body, const Vector3d& place)
@@ -47,11 +87,7 @@ inline double ratioAt(const Body& body, const Vector3d& place)
 // the places of an organ file around where it is pressed, felt in a scene
 inline Scene sceneOf(const Body& body, double around)
 {
-  Mesh mesh = makeBox(body.size, body.edges);
-  for (Vector3d& point : mesh.points)
-  {
-    point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
-  }
+  const Mesh mesh = meshOf(body);
   Scene scene;
   scene.surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   LawSettings settings;

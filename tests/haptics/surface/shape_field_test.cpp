@@ -291,6 +291,43 @@ TEST(ShapeField, MeasuresTheDistanceToASharpEdge)
   }
 }
 
+// facets of a cylinder turn by 15 degrees where they meet, also beside its rim, by however few
+// triangles
+TEST(ShapeField, CountsNoFacetOfACylinderAsAnEdgeBesideItsRim)
+{
+  constexpr int kFacets = 24;
+  constexpr double kRadius = 40.0_mm;
+  constexpr double kHeight = 50.0_mm;
+  test::Mesh mesh;
+  for (int i = 0; i < 2 * kFacets; ++i)
+  {
+    const double angle = 2.0 * std::numbers::pi * (i % kFacets) / kFacets;
+    mesh.first.emplace_back(
+      kRadius * std::cos(angle), kRadius * std::sin(angle), i < kFacets ? 0.0 : -kHeight);
+  }
+  for (int i = 0; i < kFacets; ++i)
+  {
+    const int next = (i + 1) % kFacets;
+    mesh.second.push_back({ i, kFacets + next, next });
+    mesh.second.push_back({ i, kFacets + i, kFacets + next });
+    if (i > 0 && next > 0)
+    {
+      mesh.second.push_back({ 0, i, next });
+      mesh.second.push_back({ kFacets, kFacets + next, kFacets + i });
+    }
+  }
+  const Surface cylinder = test::makeSurface(mesh);
+  ASSERT_TRUE(cylinder.closed());
+  for (const double below : { 1.0_mm, 3.0_mm, 6.0_mm, 10.0_mm, 15.0_mm, 25.0_mm })
+  {
+    for (double angle = 0.0; angle < 2.0 * std::numbers::pi; angle += 1.7_deg)
+    {
+      const Eigen::Vector3d place(kRadius * std::cos(angle), kRadius * std::sin(angle), -below);
+      EXPECT_NEAR(cylinder.shape().edgeDistance(place), below, 0.4_mm) << angle;
+    }
+  }
+}
+
 // rounded by less than the body is fine, a dihedral of 60 degrees or more, is sharp; 20 is not
 TEST(ShapeField, CallsSharpWhatTurnsWithinAFewCells)
 {
