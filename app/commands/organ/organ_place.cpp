@@ -55,7 +55,7 @@ OrganPlace::OrganPlace(const OrganModel& model, std::span<const Support> support
       "too little of the surface is around the place " + units::inMillimeters(point.position.x()) +
         ", " + units::inMillimeters(point.position.y()) + ", " +
         units::inMillimeters(point.position.z()) +
-        ", or the body hangs over it; give smaller cells, or another place");
+        ", or the body hangs over it or rises beside it; give smaller cells, or another place");
   }
   scene_.series = seriesBodyOf(fieldAround(model, supports, surface, point), scene.law);
 }
@@ -69,9 +69,9 @@ const char* OrganPlace::remarkOf(const ToolPose& pose, const SeriesResponse& ans
   const bool isWide = answer.isBeyond || answer.felt.contactRadius > thickness_ / 3.0;
   return isHeld_                ? "on a support"
     : travel > 0.5 * thickness_ ? "too deep"
+    : edge_ < kTwo * cell_      ? "edge"
     : isWide                    ? "support too near"
     : thickness_ < kTwo * cell_ ? "cells too large"
-    : edge_ < kTwo * cell_      ? "edge"
                                 : "";
 }
 

@@ -199,10 +199,12 @@ TEST(SupportText, AnOrganFileTellsItsSupportsAgain)
 
 TEST(SupportText, RefusesWhatItDoesNotKnow)
 {
-  for (const char* text : { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1",
-         "bonded:box:0,0:1,1,1", "bonded:box:200,200,200:210,210,210",
-         "bonded:direction:0,0,0:30deg", "bonded:direction:0,0,1:30", "bonded:box:0,0,0:1,1,1:2",
-         "bonded:label:", "bonded:label:7", "anterior", "glued:hilum", "posterior:60deg" })
+  for (const char* text :
+    { "", "bonded", "glued:box:0,0,0:1,1,1", "bonded:sphere:0,0,0:1,1,1", "bonded:box:0,0:1,1,1",
+      "bonded:box:200,200,200:210,210,210", "bonded:direction:0,0,0:30deg",
+      "bonded:direction:0,0,1:30", "bonded:direction:0,0,1:0deg", "bonded:direction:0,0,1:-5deg",
+      "bonded:direction:0,0,1:200deg", "bonded:box:0,0,0:1,1,1:2",
+      "bonded:label:", "bonded:label:7", "anterior", "glued:hilum", "posterior:60deg" })
   {
     EXPECT_THROW(parseSupport(text, block()), Error) << text;
   }

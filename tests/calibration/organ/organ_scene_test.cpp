@@ -55,7 +55,6 @@ Body besideWall(double edges, double cell)
   return { .file = "hollow90_11mm",
     .size = { 0.06, 0.08, 0.02 },
     .place = 0.006,
-    .limit = 0.08,
     .edges = edges,
     .cell = cell,
     .wall = 40.0_mm };
