@@ -49,8 +49,7 @@ double leastCell(const BoxTree& tree)
   return std::max(std::sqrt(4.0 * area / kMaxPieces), 2.0 * length / pieces);
 }
 
-// Leaves out sides across which the surface does not turn sharply, though it does along them:
-// facets of a cylinder beside its rim.
+// Leaves out sides that turn little of what is around does: facets of a cylinder beside its rim.
 // @param bend  of what is around, over its area [1/m]
 template <typename Side>
 void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eigen::Vector3f& normal,
@@ -59,9 +58,13 @@ void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eige
   std::erase_if(sides,
     [&](const Side& side)
     {
-      const Eigen::Vector3f across = (side.ends[1] - side.ends[0]).cross(normal).normalized();
+      const Eigen::Vector3f along = (side.ends[1] - side.ends[0]).normalized();
+      const Eigen::Vector3f across = along.cross(normal).normalized();
+      const float own = std::max(0.0F, across.dot(bend * across));
+      const float other = std::max(0.0F, along.dot(bend * along));
       constexpr auto sharp = static_cast<float>(kSharp);
-      return 2.0F * side.turn < sharp && across.dot(bend * across) * around < sharp; // a half each
+      return 2.0F * side.turn < sharp && // a half on each face
+        own * bend.trace() * around < sharp * (own + other);
     });
 }
 
