@@ -103,13 +103,9 @@ Held boxOf(const std::vector<std::string>& words, const Surface& surface)
 Held directionOf(const std::vector<std::string>& words, const Surface& surface)
 {
   const Eigen::Vector3d way = parseDirection(words[2], kOption).normalized();
-  const double angle = parseQuantity(words[3], Quantity::Angle, kOption);
-  if (!(angle > 0.0 && angle <= std::numbers::pi))
-  {
-    throw Error(ErrorCode::BadValue,
-      std::string(kOption) + ": a direction within " + words[3] + "; give more than 0, to 180deg");
-  }
-  const double least = std::cos(angle);
+  constexpr Bounds bounds{ std::numeric_limits<double>::min(), std::numbers::pi,
+    "more than 0deg, to 180deg" };
+  const double least = std::cos(parseWithin(words[3], Quantity::Angle, bounds, kOption));
   const auto faces = [&surface, way, least](const Eigen::Vector3d& place, int triangle)
   {
     const Triangle& corners = surface.triangles()[at(triangle)];

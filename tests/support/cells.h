@@ -15,11 +15,11 @@ namespace palp::test
 ///
 /// @param planes  rising, of each axis [m]
 /// @param filled  of a cell by its number along each axis, from 0
-inline Mesh cells(const std::array<std::vector<double>, 3>& planes,
+inline palp::Mesh cells(const std::array<std::vector<double>, 3>& planes,
   const std::function<bool(const std::array<int, 3>&)>& filled)
 {
   using Cell = std::array<int, 3>;
-  Mesh mesh;
+  palp::Mesh mesh;
   std::map<Cell, int> ids;
   const auto point = [&](const Cell& at)
   {

@@ -59,7 +59,7 @@ inline Mesh meshOf(const Body& body)
     for (std::size_t i = 1; i < ends.size(); ++i)
     {
       const double length = ends[i] - ends[i - 1];
-      const int count = static_cast<int>(std::ceil(length / body.edges));
+      const int count = static_cast<int>(std::ceil(length / body.edges - 1e-9));
       for (int k = 1; k <= count; ++k)
       {
         planes.push_back(ends[i - 1] + length * k / count);
