@@ -330,6 +330,11 @@ void feelTissue(Scene& scene, const SceneBody& body)
     throw Error(ErrorCode::BadValue,
       "organ: an organ file is of a body without coatings; leave out --coating, or the file");
   }
+  if (body.compliance != nullptr && law.settings().base != Base::Bonded)
+  {
+    throw Error(ErrorCode::BadValue,
+      "organ: an organ file says itself what its body rests on; leave out --base, or the file");
+  }
   scene.series = seriesBodyOf(body.compliance, law);
   if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
   {

@@ -291,7 +291,7 @@ std::vector<Cube> CutGrid::largestPiece(double least) const
             }
           }
         }
-        largest = piece.size() > largest.size() ? std::move(piece) : largest;
+        piece.size() > largest.size() ? largest.swap(piece) : void();
       }
     }
   }

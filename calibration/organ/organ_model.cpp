@@ -41,6 +41,7 @@ struct OrganModel::State
   std::vector<Eigen::Vector3d> places{}; // of the nodes
   std::vector<Nodes> cubes{};
   std::vector<Cube> cells{}; // of the grid, each of these
+  double leftOut = 0.0;      // of the volume, what no cubes join to these
   std::vector<SupportGrip> grips{};
   CubeModuli moduli{};
   Sparse even{};   // lower half, of the cubes if they were, where they are not
@@ -86,6 +87,19 @@ struct OrganModel::State
       }
       cubes.push_back(nodes);
     }
+    double all = 0.0;
+    double joined = 0.0;
+    grid.forEach(grid.low(), grid.low() + grid.side() * Eigen::Vector3d(nx, ny, nz),
+      [&](const Cube& cube)
+      {
+        const double filled = grid.filled(cube);
+        all += filled >= kLeast ? filled : 0.0;
+      });
+    for (const Cube& cube : cells)
+    {
+      joined += grid.filled(cube);
+    }
+    leftOut = 1.0 - joined / all;
   }
 
   void hold(const OrganModel& model, const Surface& surface, std::span<const Support> supports)
@@ -200,6 +214,7 @@ OrganModel::OrganModel(const Surface& surface, double side, double youngModulus,
   {
     throw Error(ErrorCode::BadValue, "no cell is filled by the body; give smaller ones");
   }
+  SharedCholesky::checkMemory(state_->places.size());
   state_->hold(*this, surface, supports);
   state_->factorize();
 }
@@ -211,6 +226,11 @@ OrganModel& OrganModel::operator=(OrganModel&&) noexcept = default;
 int OrganModel::nodes() const noexcept
 {
   return static_cast<int>(state_->places.size());
+}
+
+double OrganModel::leftOut() const noexcept
+{
+  return state_->leftOut;
 }
 
 double OrganModel::side() const noexcept

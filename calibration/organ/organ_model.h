@@ -33,8 +33,8 @@ public:
   /// @param poissonRatio   0 to below 0.5, everywhere [-]
   /// @param ratio          of its moduli; empty: the same everywhere
   /// @throws Error         BadMesh: the surface is open or crosses itself; BadValue: the supports
-  ///                       leave a motion free, and which; no cube is filled, or over 20 million
-  ///                       would be
+  ///                       leave a motion free, and which; no cube is filled; more would be than
+  ///                       the machine has memory for, or than 20 million
   OrganModel(const Surface& surface, double side, double youngModulus, double poissonRatio,
     std::span<const Support> supports, const ModulusRatio& ratio = {});
   ~OrganModel();
@@ -76,6 +76,7 @@ public:
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& forces) const;
 
   [[nodiscard]] int nodes() const noexcept;
+  [[nodiscard]] double leftOut() const noexcept; ///< of the volume: pieces by themselves [-]
   [[nodiscard]] double side() const noexcept;
   [[nodiscard]] double contactModulus() const noexcept; ///< E* [Pa]
   [[nodiscard]] double shearModulus() const noexcept;   ///< [Pa]

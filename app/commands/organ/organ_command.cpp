@@ -181,17 +181,30 @@ void runOrgan(const OrganOptions& options)
   const std::vector<Support> supports = supportsOf(options, *body.haptic);
   const PressedBody pressed{ *body.haptic, supports,
     { *body.haptic, options.cell, options.young, options.poisson, supports } };
-  std::cerr << "palp: " << counted(static_cast<std::size_t>(pressed.model.nodes()), "node") << '\n';
+  std::cerr << "palp: " << inWords(pressed.model) << '\n';
   figures::Table table{ .name = "organ",
     .caption = "A body in series with the contact",
     .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
       "half_space_N", "local_depth_mm", "remark" } };
+  std::optional<Error> unanswered; // does not keep the other places from their answers
   for (const PressPlace& place : places)
   {
-    addRows(options, pressed, scene, place, table);
+    try
+    {
+      addRows(options, pressed, scene, place, table);
+    }
+    catch (const Error& error)
+    {
+      unanswered ? void(std::cerr << "palp: " << unanswered->what() << '\n') : void();
+      unanswered = error;
+    }
   }
   constexpr int kShown = 5; // digits
-  std::cout << figures::csv(table, kShown);
+  table.rows.empty() ? void() : void(std::cout << figures::csv(table, kShown));
+  if (unanswered)
+  {
+    throw Error(*unanswered);
+  }
 }
 
 } // namespace

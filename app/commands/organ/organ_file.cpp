@@ -121,6 +121,15 @@ void checkMap(const SceneBody& body, const OrganFilePlan& plan)
 
 } // namespace
 
+std::string inWords(const OrganModel& model)
+{
+  const long left = std::lround(100.0 * model.leftOut());
+  return counted(static_cast<std::size_t>(model.nodes()), "node") +
+    (left == 0 ? ""
+               : "; " + std::to_string(left) +
+          " % of the volume is in pieces that no cells join to the largest, and is left out");
+}
+
 void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   std::span<const Support> supports, Interrupt& interrupt)
 {
@@ -141,7 +150,7 @@ void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   progress(table.places.size(), places.size());
   const OrganModel model(
     surface, plan.cell, plan.young, plan.poisson, supports, modulusRatio(body, plan.young));
-  progress.tell(counted(static_cast<std::size_t>(model.nodes()), "node"));
+  progress.tell(inWords(model));
   auto kept = Clock::now();
   const auto tell = [&](const OrganTable& now)
   {

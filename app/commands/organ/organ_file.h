@@ -32,6 +32,9 @@ struct OrganFilePlan
 void makeOrganFile(const OrganFilePlan& plan, const SceneBody& body,
   std::span<const Support> supports, Interrupt& interrupt);
 
+/// Its size, and what of the body it leaves out.
+[[nodiscard]] std::string inWords(const OrganModel& model);
+
 /// What is told where it is interrupted before any place is solved for.
 inline constexpr const char* kNoPlaceYet =
   "interrupted before the first places were done; nothing is written";

@@ -171,6 +171,13 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
     (folder.path() / "map").string() + " --organ " + file.string());
   EXPECT_EQ(map.code, 2) << map.err;
   EXPECT_NE(map.err.find("of one modulus"), std::string::npos) << map.err;
+
+  const test::Finished slip = test::runCommand(PALP_PROGRAM
+    " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 --depth 4mm --law corrected --base slip "
+    "--out " +
+    (folder.path() / "slip").string() + " --organ " + file.string());
+  EXPECT_EQ(slip.code, 2) << slip.err;
+  EXPECT_NE(slip.err.find("leave out --base"), std::string::npos) << slip.err;
 }
 
 // what is painted anew is solved anew, and what is pressed says on what it rests
@@ -281,6 +288,19 @@ TEST(OrganCommand, WhatIsFarFromTheToolMovesAsTheBodyDoes)
       EXPECT_TRUE(x > -49.0 || std::abs(down) < (isOrgan ? 0.05 : 1e-12)) << x << ' ' << down;
     }
   }
+}
+
+// at a corner there is too little surface; in the middle the answer is what it is alone
+TEST(OrganCommand, APlaceWithoutAnAnswerKeepsNoOtherFromIts)
+{
+  const std::string organ = PALP_PROGRAM " organ " PALP_SHARE "/meshes/block_50.vtp --cell 10mm "
+                                         "--support bonded:box:-60,-60,-55:60,60,-45 ";
+  const test::Finished alone = test::runCommand(organ + "--at 0,0,0");
+  const test::Finished both = test::runCommand(organ + "--at 49.9,49.9,0 --at 0,0,0");
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(both.code, 2);
+  EXPECT_EQ(both.out, alone.out);
+  EXPECT_NE(both.err.find("49.9 mm, 49.9 mm"), std::string::npos) << both.err;
 }
 
 TEST(OrganCommand, RefusesInOneSentence)

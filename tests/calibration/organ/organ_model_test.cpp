@@ -128,6 +128,24 @@ TEST(OrganModel, OfTwoBoxesThatShareAnEdgeIsThatOfOne)
       }
     }
     EXPECT_GE(on, 1) << cell;
+    EXPECT_NEAR(model.leftOut(), on == 1 ? 0.5 : 0.0, 0.01) << cell;
+  }
+}
+
+// four million cubes: their factors would take 900 GB
+TEST(OrganModel, RefusesCellsForWhichThereIsNoMemoryBeforeItFillsIt)
+{
+  const Mesh box = makeBox({ 20.0_mm, 20.0_mm, 20.0_mm }, 20.0_mm);
+  const Surface surface(box.points, box.triangles);
+  const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm; } };
+  try
+  {
+    const OrganModel model(surface, 0.125_mm, kYoung, kPoisson, std::span(&base, 1));
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("GB of memory"), std::string::npos) << error.what();
   }
 }
 
