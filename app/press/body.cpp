@@ -325,15 +325,12 @@ void feelTissue(Scene& scene, const SceneBody& body)
   law.checkBody(boxOf(body.haptic->points()).sizes().minCoeff());
   scene.nodules = nullptr;
   scene.stiffness = nullptr;
-  if (body.compliance != nullptr && !law.settings().coatings.empty())
+  if (const LawSettings& own = law.settings();
+      body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Bonded))
   {
     throw Error(ErrorCode::BadValue,
-      "organ: an organ file is of a body without coatings; leave out --coating, or the file");
-  }
-  if (body.compliance != nullptr && law.settings().base != Base::Bonded)
-  {
-    throw Error(ErrorCode::BadValue,
-      "organ: an organ file says itself what its body rests on; leave out --base, or the file");
+      "organ: an organ file is of a body without coatings, and says itself what that rests on; "
+      "leave out --coating and --base, or the file");
   }
   scene.series = seriesBodyOf(body.compliance, law);
   if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())

@@ -138,6 +138,35 @@ void addRows(const OrganOptions& options, const PressedBody& pressed, const Scen
   }
 }
 
+// a place without an answer does not keep the others from theirs
+void tell(const OrganOptions& options, const PressedBody& pressed, const Scene& scene,
+  const std::vector<PressPlace>& places)
+{
+  figures::Table table{ .name = "organ",
+    .caption = "A body in series with the contact",
+    .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
+      "half_space_N", "local_depth_mm", "remark" } };
+  std::optional<Error> unanswered;
+  for (const PressPlace& place : places)
+  {
+    try
+    {
+      addRows(options, pressed, scene, place, table);
+    }
+    catch (const Error& error)
+    {
+      unanswered ? void(std::cerr << "palp: " << unanswered->what() << '\n') : void();
+      unanswered = error;
+    }
+  }
+  constexpr int kShown = 5; // digits
+  table.rows.empty() ? void() : void(std::cout << figures::csv(table, kShown));
+  if (unanswered)
+  {
+    throw Error(*unanswered);
+  }
+}
+
 void runOrgan(const OrganOptions& options)
 {
   const bool isFile = !options.out.empty();
@@ -182,29 +211,7 @@ void runOrgan(const OrganOptions& options)
   const PressedBody pressed{ *body.haptic, supports,
     { *body.haptic, options.cell, options.young, options.poisson, supports } };
   std::cerr << "palp: " << inWords(pressed.model) << '\n';
-  figures::Table table{ .name = "organ",
-    .caption = "A body in series with the contact",
-    .columns = { "x_mm", "y_mm", "z_mm", "constant_per_m", "slope_per_m2", "depth_mm", "force_N",
-      "half_space_N", "local_depth_mm", "remark" } };
-  std::optional<Error> unanswered; // does not keep the other places from their answers
-  for (const PressPlace& place : places)
-  {
-    try
-    {
-      addRows(options, pressed, scene, place, table);
-    }
-    catch (const Error& error)
-    {
-      unanswered ? void(std::cerr << "palp: " << unanswered->what() << '\n') : void();
-      unanswered = error;
-    }
-  }
-  constexpr int kShown = 5; // digits
-  table.rows.empty() ? void() : void(std::cout << figures::csv(table, kShown));
-  if (unanswered)
-  {
-    throw Error(*unanswered);
-  }
+  tell(options, pressed, scene, places);
 }
 
 } // namespace

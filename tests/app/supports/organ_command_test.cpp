@@ -158,26 +158,30 @@ TEST(OrganCommand, MakesAFileThatARunFeels)
     EXPECT_NEAR(1e3 * depth, samples["depth_mm"][i], 2e-3 * samples["depth_mm"][i] + 1e-6);
     EXPECT_NEAR(0.5 * a * std::log((radius + a) / (radius - a)), local, 1e-4 * local + 1e-9);
   }
+}
 
-  const test::Finished other = test::runCommand(PALP_PROGRAM
-    " run " PALP_SHARE "/meshes/block_30.vtp --at 0,0,0 --depth 4mm --out " +
-    (folder.path() / "other").string() + " --organ " + file.string());
-  EXPECT_EQ(other.code, 2) << other.err;
-  EXPECT_NE(other.err.find("another surface"), std::string::npos) << other.err;
-
-  const test::Finished map = test::runCommand(PALP_PROGRAM
-    " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 --depth 4mm --law corrected --stiffness "
-    "formula:5 --out " +
-    (folder.path() / "map").string() + " --organ " + file.string());
-  EXPECT_EQ(map.code, 2) << map.err;
-  EXPECT_NE(map.err.find("of one modulus"), std::string::npos) << map.err;
-
-  const test::Finished slip = test::runCommand(PALP_PROGRAM
-    " run " PALP_SHARE "/meshes/block_50.vtp --at 10,5,0 --depth 4mm --law corrected --base slip "
-    "--out " +
-    (folder.path() / "slip").string() + " --organ " + file.string());
-  EXPECT_EQ(slip.code, 2) << slip.err;
-  EXPECT_NE(slip.err.find("leave out --base"), std::string::npos) << slip.err;
+TEST(OrganCommand, ARunRefusesAFileThatIsNotOfWhatItPresses)
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "block.organ";
+  ASSERT_EQ(test::runCommand(blockFile(file)).code, 0);
+  const auto refusal = [&](const std::string& pressed)
+  {
+    const test::Finished run =
+      test::runCommand(PALP_PROGRAM " run " PALP_SHARE "/meshes/" + pressed +
+        " --depth 4mm --out " + (folder.path() / "out").string() + " --organ " + file.string());
+    EXPECT_EQ(run.code, 2) << run.err;
+    return run.err;
+  };
+  const std::string block = "block_50.vtp --at 10,5,0 --law corrected ";
+  for (const auto& [pressed, why] :
+    { std::pair(std::string("block_30.vtp --at 0,0,0"), "another surface"),
+      std::pair(block + "--stiffness formula:5", "of one modulus"),
+      std::pair(block + "--base slip", "leave out --coating and --base") })
+  {
+    const std::string told = refusal(pressed);
+    EXPECT_NE(told.find(why), std::string::npos) << told;
+  }
 }
 
 // what is painted anew is solved anew, and what is pressed says on what it rests
