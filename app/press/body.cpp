@@ -322,25 +322,25 @@ void setFelt(Scene& scene, const SceneBody& body, const std::vector<OrganPlan>& 
 void feelTissue(Scene& scene, const SceneBody& body)
 {
   const ForceLaw& law = scene.law;
+  const LawSettings& own = law.settings();
   law.checkBody(boxOf(body.haptic->points()).sizes().minCoeff());
   scene.nodules = nullptr;
   scene.stiffness = nullptr;
-  if (const LawSettings& own = law.settings();
-      body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Bonded))
+  if (body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Bonded))
   {
     throw Error(ErrorCode::BadValue,
       "organ: an organ file is of a body without coatings, and says itself what that rests on; "
       "leave out --coating and --base, or the file");
   }
   scene.series = seriesBodyOf(body.compliance, law);
-  if (law.settings().mode != LawMode::Corrected || !law.settings().coatings.empty())
+  if (own.mode != LawMode::Corrected || !own.coatings.empty())
   {
     return;
   }
   scene.nodules = embedNodules(*body.haptic, law, body.nodules);
   if (body.stiffness)
   {
-    LawSettings settings = law.settings();
+    LawSettings settings = own;
     settings.thickness = settings.thickness && scene.series == nullptr; // else it is told twice
     scene.stiffness = embedStiffness(*body.haptic, ForceLaw(law.tip(), law.material(), settings),
       [&map = body.stiffness, young = law.material().youngModulus](const Eigen::Vector3d& position)
