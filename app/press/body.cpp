@@ -329,8 +329,7 @@ void feelTissue(Scene& scene, const SceneBody& body)
   if (body.compliance != nullptr && (!own.coatings.empty() || own.base != Base::Bonded))
   {
     throw Error(ErrorCode::BadValue,
-      "organ: an organ file is of a body without coatings, and says itself what that rests on; "
-      "leave out --coating and --base, or the file");
+      "organ: an organ file has its own base and no coating; leave out --base and --coating");
   }
   scene.series = seriesBodyOf(body.compliance, law);
   if (own.mode != LawMode::Corrected || !own.coatings.empty())
