@@ -16,61 +16,93 @@ namespace
 struct Occurrence
 {
   vtkIdType often = 0;
+  vtkIdType runs = 0; // of equal voxels along a row
   VoxelBox box;
 };
 
-template <typename Voxel>
-using Histogram = std::map<Voxel, Occurrence>;
+using Occurrences = std::map<double, Occurrence>;
 
-// takes the finite values, and counts the others; no histogram when there are too many
-template <typename Voxel>
-Histogram<Voxel> histogram(const VoxelLayer<Voxel>& voxels, const int* size, ImageValues& values)
+constexpr std::size_t kFew = 256;
+
+// Whole values as a scanner or a map of labels has them in a table, others while they are few.
+class Histogram
 {
-  constexpr std::size_t most = 256;
+public:
+  // false: there are more than can be counted
+  [[nodiscard]] bool add(
+    double value, vtkIdType often, const std::array<int, 3>& from, const std::array<int, 3>& to)
+  {
+    const bool isCommon = value >= kFirst && value <= kLast && value == std::floor(value);
+    Occurrence& one = isCommon ? common_[static_cast<std::size_t>(value - kFirst)] : others_[value];
+    one.often += often;
+    ++one.runs;
+    one.box.add(from, to);
+    return others_.size() <= kFew;
+  }
+
+  [[nodiscard]] Occurrences all() const
+  {
+    Occurrences all = others_;
+    for (std::size_t i = 0; i < common_.size(); ++i)
+    {
+      common_[i].often > 0 ? void(all[kFirst + static_cast<double>(i)] = common_[i]) : void();
+    }
+    return all;
+  }
+
+private:
+  static constexpr double kFirst = -32768.0;
+  static constexpr double kLast = 65535.0;
+  std::vector<Occurrence> common_ =
+    std::vector<Occurrence>(static_cast<std::size_t>(kLast - kFirst) + 1);
+  Occurrences others_;
+};
+
+// takes the finite values, and counts the others; nothing when there are too many
+template <typename Voxel>
+Occurrences histogram(const VoxelLayer<Voxel>& voxels, const int* size, ImageValues& values)
+{
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Histogram<Voxel> all;
-  bool areFew = true;
+  Histogram all;
+  bool isCounted = true;
   values.low = kInfinity;
   values.high = -kInfinity;
-  for (vtkIdType i = 0; i < voxels.count;)
+  for (vtkIdType row = 0; row < voxels.count; row += size[0])
   {
-    const Voxel stored = voxels[i];
-    const vtkIdType end = areFew ? (i / size[0] + 1) * size[0] : i + 1; // of the row
-    vtkIdType next = i + 1;
-    while (next < end && voxels[next] == stored)
+    const std::array<int, 3> start = indexOf(size, row);
+    for (int i = 0; i < size[0];)
     {
-      ++next;
-    }
-    if (const auto value = static_cast<double>(stored); !std::isfinite(value))
-    {
-      values.firstOf = values.notFinite == 0 ? indexOf(size, i) : values.firstOf;
-      values.notFinite += next - i; // infinite ones may be a row
-    }
-    else
-    {
-      values.low = std::min(values.low, value);
-      values.high = std::max(values.high, value);
-      if (areFew)
+      const Voxel stored = voxels[row + i];
+      int next = i + 1;
+      while (next < size[0] && voxels[row + next] == stored)
       {
-        Occurrence& one = all[stored];
-        one.often += next - i;
-        one.box.add(indexOf(size, i), indexOf(size, next - 1));
-        areFew = all.size() <= most;
+        ++next;
       }
+      if (const auto value = static_cast<double>(stored); !std::isfinite(value))
+      {
+        values.firstOf = values.notFinite == 0 ? indexOf(size, row + i) : values.firstOf;
+        values.notFinite += next - i;
+      }
+      else
+      {
+        values.low = std::min(values.low, value);
+        values.high = std::max(values.high, value);
+        isCounted = isCounted &&
+          all.add(value, next - i, { i, start[1], start[2] }, { next - 1, start[1], start[2] });
+      }
+      i = next;
     }
-    i = next;
   }
-  return areFew ? all : Histogram<Voxel>();
+  return isCounted ? all.all() : Occurrences();
 }
 
 // labels fill regions: of the neighbors that are not both background, most are equal
 template <typename Voxel>
-bool fillsRegions(const VoxelLayer<Voxel>& voxels, vtkIdType row, const Histogram<Voxel>& values)
+bool fillsRegions(const VoxelLayer<Voxel>& voxels, vtkIdType row, const Occurrences& values)
 {
-  const Voxel background = std::ranges::max_element(values, {},
-    [](const auto& entry) {
-      return entry.second.often;
-    })->first;
+  const auto background = static_cast<Voxel>(std::ranges::max_element(values, {},
+    [](const auto& entry)
+    { return entry.second.often; })->first);
   vtkIdType pairs = 0;
   vtkIdType equal = 0;
   const auto compare = [&](vtkIdType i, vtkIdType k)
@@ -85,6 +117,15 @@ bool fillsRegions(const VoxelLayer<Voxel>& voxels, vtkIdType row, const Histogra
     i + row < voxels.count ? compare(i, i + row) : void(); // a row may have four voxels
   }
   return 2 * equal > pairs;
+}
+
+// A scan may have air and padding that are even, but of its many values the most are not.
+bool areManyRegions(const Occurrences& values)
+{
+  constexpr vtkIdType kLong = 2; // voxels of a run
+  const auto regions = std::ranges::count_if(
+    values, [](const auto& entry) { return entry.second.often >= kLong * entry.second.runs; });
+  return 2 * static_cast<std::size_t>(regions) > values.size();
 }
 
 } // namespace
@@ -110,12 +151,20 @@ ImageValues valuesOf(vtkImageData& image, int layer)
       bool whole = all.size() > 2;
       for (const auto& [value, one] : all)
       {
-        values.distinct.push_back(static_cast<double>(value));
+        values.distinct.push_back(value);
         values.often.push_back(one.often);
         values.boxes.push_back(one.box);
         whole = whole && values.distinct.back() == std::floor(values.distinct.back());
       }
-      values.labels = whole && fillsRegions(voxels, size[0], all);
+      const bool areFew = all.size() <= kFew;
+      values.labels =
+        whole && (areFew || areManyRegions(all)) && fillsRegions(voxels, size[0], all);
+      if (!areFew && !values.labels)
+      {
+        values.distinct.clear();
+        values.often.clear();
+        values.boxes.clear();
+      }
     });
   return values;
 }

@@ -31,7 +31,7 @@ struct ImageValues
 {
   double low = 0.0; ///< of those that are finite
   double high = 0.0;
-  std::vector<double> distinct; ///< rising; empty: more than 256
+  std::vector<double> distinct; ///< rising; empty: more than 256 that are no labels
   std::vector<vtkIdType> often; ///< how many voxels have each of those
   std::vector<VoxelBox> boxes;  ///< where those are
   vtkIdType notFinite = 0;      ///< how many are NaN or infinite

@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/force/force_law.h"
 #include "haptics/units.h"
+#include "pipeline/formats/regions/image_values.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 #include "tests/support/process.h"
@@ -14,6 +15,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkNIFTIImageWriter.h>
@@ -178,6 +180,61 @@ TEST_F(ImageSurface, OfAMaskedBallAnswersAToolAsTheBall)
       }
     }
   }
+}
+
+// an atlas of 512 regions, each a cube of six voxels
+TEST_F(ImageSurface, AnyOfManyLabelsIsReadByItsNumber)
+{
+  constexpr int kCubes = 8; // a side
+  constexpr int kCube = 6;  // voxels
+  for (const int type : { VTK_SHORT, VTK_INT, VTK_FLOAT, VTK_DOUBLE })
+  {
+    const auto image = imageOf(ballOf(1.0), Array3d::Ones(), true);
+    image->AllocateScalars(type, 1);
+    for (int i = 0; i < kSide * kSide * kSide; ++i)
+    {
+      const Eigen::Array3i voxel(i % kSide, i / kSide % kSide, i / (kSide * kSide));
+      const Eigen::Array3i cube = voxel / kCube;
+      const int label = cube[0] + kCubes * (cube[1] + kCubes * cube[2]);
+      image->GetPointData()->GetScalars()->SetComponent(i, 0, 30.0 * label);
+    }
+    const auto file = write<vtkXMLImageDataWriter>("atlas.vti", *image);
+    for (const int label : { 1, 100, 300, 511 })
+    {
+      const LoadedSurface one = readSurface(
+        file, LengthUnit::Millimeter, { .level = {}, .labels = { std::to_string(30 * label) } });
+      const Array3d cube(label % kCubes, label / kCubes % kCubes, label / (kCubes * kCubes));
+      Eigen::AlignedBox3d box;
+      for (const Vector3d& point : pointsOf(*one.mesh))
+      {
+        box.extend(1e3 * point);
+      }
+      const Array3d middle = kCube * cube + 0.5 * (kCube - 1);
+      EXPECT_LT((box.center().array() - middle).abs().maxCoeff(), 0.1) << label;
+      EXPECT_LT((box.sizes().array() - kCube).abs().maxCoeff(), 0.5) << label;
+    }
+  }
+}
+
+// a scan's values are as many; neither its air nor what a scanner puts around makes it a map
+TEST_F(ImageSurface, AScanIsNoMapOfLabels)
+{
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> tissue(-100, 900);
+  const auto image = imageOf(ballOf(1.0), Array3d::Ones(), true);
+  image->AllocateScalars(VTK_SHORT, 1);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double away = (Vector3d(image->GetPoint(i)) - Vector3d::Constant(kMid)).norm();
+    image->GetPointData()->GetScalars()->SetComponent(i, 0,
+      away > 24.0     ? -2000.0
+        : away > 15.0 ? -1024.0
+                      : tissue(random));
+  }
+  const ImageValues values = valuesOf(*image);
+  EXPECT_FALSE(values.labels);
+  EXPECT_TRUE(values.distinct.empty());
+  EXPECT_EQ(values.low, -2000.0);
 }
 
 TEST_F(ImageSurface, OfVoxelsThatAreNoNumbersIsRefusedByTheirNumberAndPlace)
