@@ -14,7 +14,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::function<Response(double)> wall(double stiffness)
 {
@@ -105,7 +105,8 @@ class ThroughTheChain : public ::testing::TestWithParam<Wall>
 {
 };
 INSTANTIATE_TEST_SUITE_P(ClosedLoop, ThroughTheChain,
-  ::testing::Values(Wall{ 34e3, 0.0 }, Wall{ 1e9, 0.0 }, Wall{ kInf, 0.0 }, Wall{ kInf, 48.0_um }));
+  ::testing::Values(
+    Wall{ 34e3, 0.0 }, Wall{ 1e9, 0.0 }, Wall{ kInfinite, 0.0 }, Wall{ kInfinite, 48.0_um }));
 
 TEST_P(ThroughTheChain, AnyStiffnessBehavesAsAWallThatTheDeviceCanRender)
 {
@@ -130,7 +131,7 @@ TEST_P(ThroughTheChain, AnyStiffnessBehavesAsAWallThatTheDeviceCanRender)
 // limit of force or rate acts
 TEST(ClosedLoop, AnyStiffnessMovesAsTheCappedWallDoes)
 {
-  for (const double stiffness : { 34e3, 1e9, kInf })
+  for (const double stiffness : { 34e3, 1e9, kInfinite })
   {
     LoopCase loop;
     loop.plant.startSpeed = 0.05;
@@ -152,7 +153,7 @@ TEST(ClosedLoop, NoVirtualDampingMakesTheHandHum)
 {
   for (const double damping : { 5.0, 20.0, 50.0 })
   {
-    for (const double stiffness : { 350.0, 34e3, kInf })
+    for (const double stiffness : { 350.0, 34e3, kInfinite })
     {
       for (const double quantum : { 0.0, 48.0_um })
       {
@@ -218,7 +219,7 @@ TEST(ClosedLoop, LawSwappedInContactGivesNoEnergy)
 TEST(ClosedLoop, ADeviceWithHalfItsStatedDampingComesToRestAtARigidWall)
 {
   LoopCase loop;
-  loop.law = wall(kInf);
+  loop.law = wall(kInfinite);
   loop.plant.statedDamping = 2.0 * loop.plant.damping;
   loop.chain = SafetySettings{};
   LoopResult result = simulate(loop);
@@ -247,7 +248,7 @@ TEST(ClosedLoop, LostTicksGiveAtMostAMillijoule)
 
 TEST(ClosedLoop, StallsGiveNoEnergyHoweverDeepTheToolSank)
 {
-  for (const double stiffness : { 600.0, 1122.0, kInf })
+  for (const double stiffness : { 600.0, 1122.0, kInfinite })
   {
     LoopCase loop;
     loop.law = wall(stiffness);
