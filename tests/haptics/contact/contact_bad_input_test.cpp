@@ -1,5 +1,6 @@
 #include "haptics/contact/find_contact.h"
 #include "haptics/units.h"
+#include "tests/support/sampled.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ using namespace units::literals;
 
 const Tip kBallTip = SphereTip{ .radius = 10.0_mm };
 const Tip kPointedTip = ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm };
+constexpr int kPresses = test::kSanitized ? 1'000 : 20'000;
 
 Contact press(const Surface& surface, const Tip& tip, const Eigen::Vector3d& apex,
   const Eigen::Vector3d& axis = -Eigen::Vector3d::UnitZ(), ContactRule rule = ContactRule::Exact)
@@ -175,7 +177,7 @@ TEST(ContactBadInput, AFoldIsOutvoted)
   ASSERT_GT(std::count_if(facets.begin(), facets.end(),
               [](const Facet& facet) { return facet.normal.dot(facet.corners[0]) < 0.0; }),
     0);
-  for (int i = 0; i < 20'000; ++i)
+  for (int i = 0; i < kPresses; ++i)
   {
     const Eigen::Vector3d out = somewhere().normalized();
     for (const Tip& tip : { kBallTip, kPointedTip })
@@ -244,7 +246,7 @@ TEST(ContactBadInput, NoPoseGivesWhatIsNotANumber)
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> exponent(-12.0, 2.0);
-  for (int i = 0; i < 20'000; ++i)
+  for (int i = 0; i < kPresses; ++i)
   {
     Eigen::Vector3d apex(normal(random), normal(random), normal(random));
     apex *= std::pow(10.0, exponent(random));

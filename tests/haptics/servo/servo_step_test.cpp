@@ -85,19 +85,21 @@ TEST(ServoStep, IsNeverStrongerThanTheLimit)
 
 TEST(ServoStep, WhatIsNotFiniteGivesNoForce)
 {
+  Scene world = scene();
+  const double damping = world.damping;
   for (const double bad : { std::numeric_limits<double>::quiet_NaN(),
          std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
   {
+    world.damping = damping;
     for (int where = 0; where < 9; ++where)
     {
       ToolPose pose = atHeight(-2.0_mm);
       Eigen::Vector3d* parts[] = { &pose.apex, &pose.axis, &pose.velocity };
       (*parts[where / 3])[where % 3] = bad;
-      const Sample sample = step(scene(), pose);
+      const Sample sample = step(world, pose);
       EXPECT_EQ(sample.force, Eigen::Vector3d::Zero());
       EXPECT_TRUE(sample.flags & static_cast<std::uint32_t>(Flag::NotFinite));
     }
-    Scene world = scene();
     world.damping = bad;
     const Sample sample = step(world, atHeight(-2.0_mm, -0.1));
     EXPECT_EQ(sample.force, Eigen::Vector3d::Zero()) << bad;
