@@ -12,7 +12,7 @@ namespace
 
 using test::Finished;
 
-Finished palp(const std::string& arguments)
+Finished palpCommand(const std::string& arguments)
 {
   return test::runCommand(PALP_PROGRAM " " + arguments);
 }
@@ -26,7 +26,7 @@ test::CsvTable table(const Finished& finished)
 TEST(ForceCommand, PrintsHertzForTheSphere)
 {
   const Finished finished =
-    palp("force --tip sphere:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm");
+    palpCommand("force --tip sphere:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm");
   ASSERT_EQ(finished.code, 0) << finished.err;
   const test::CsvTable law = table(finished);
   ASSERT_EQ(law["depth_mm"].size(), 21u);
@@ -46,7 +46,7 @@ TEST(ForceCommand, PrintsSneddonForTheConeByTheAngleFromTheAxis)
 {
   // at 45 degrees both readings of the angle agree; at 30 they differ threefold
   const test::CsvTable law =
-    table(palp("force --tip cone:30deg:10mm --young 50kPa --poisson 0.33 --depth 5:5:1mm"));
+    table(palpCommand("force --tip cone:30deg:10mm --young 50kPa --poisson 0.33 --depth 5:5:1mm"));
   const double modulus = 50e3 / (1.0 - 0.33 * 0.33);
   ASSERT_EQ(law["force_N"].size(), 1u);
   EXPECT_NEAR(law["force_N"][0],
@@ -55,14 +55,14 @@ TEST(ForceCommand, PrintsSneddonForTheConeByTheAngleFromTheAxis)
 
 TEST(ForceCommand, TellsThatItsOutputWasLost)
 {
-  const Finished finished = palp("force --tip sphere:10mm --depth 0:10:0.5mm > /dev/full");
+  const Finished finished = palpCommand("force --tip sphere:10mm --depth 0:10:0.5mm > /dev/full");
   EXPECT_EQ(finished.code, 2);
   EXPECT_NE(finished.err.find("cannot be written"), std::string::npos) << finished.err;
 }
 
 TEST(ForceCommand, RefusesABareModulusInOneLine)
 {
-  const Finished finished = palp("force --young 50");
+  const Finished finished = palpCommand("force --young 50");
   EXPECT_EQ(finished.code, 2);
   EXPECT_EQ(finished.out, "");
   EXPECT_EQ(finished.err, "palp: --young: '50' has no unit; write 50kPa (kPa, Pa, MPa, GPa)\n");
@@ -76,7 +76,7 @@ TEST(ForceCommand, RefusesWhatIsOutOfRange)
       "--tip sphere", "--depth 3:1:1mm", "--depth 0:1e300:1e299mm", "--depth 1e300:1e300:1mm",
       "--depth -1:3:1mm", "--law corrected --tilt -10deg" })
   {
-    const Finished finished = palp(std::string("force ") + arguments);
+    const Finished finished = palpCommand(std::string("force ") + arguments);
     EXPECT_EQ(finished.code, 2) << arguments;
     EXPECT_EQ(finished.out, "") << arguments;
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
@@ -90,20 +90,20 @@ TEST(ForceCommand, RefusesCoatingsAsThickAsTheBody)
     "force --law corrected --depth 1:2:1mm --coating 4mm:20kPa:0.45,6mm:5kPa:0.45 --thickness ";
   for (const char* thin : { "5mm", "10mm" })
   {
-    const Finished finished = palp(coated + thin);
+    const Finished finished = palpCommand(coated + thin);
     EXPECT_EQ(finished.code, 2) << thin;
     EXPECT_NE(finished.err.find("coatings: of 10 mm"), std::string::npos) << finished.err;
   }
-  EXPECT_EQ(palp(coated + "15mm").code, 0);
+  EXPECT_EQ(palpCommand(coated + "15mm").code, 0);
 }
 
 TEST(ForceCommand, WarnsWhereTheLawIsOutsideItsLimits)
 {
-  const Finished deep =
-    palp("force --law corrected --thickness 1mm --depth 10:10:1mm"); // deeper than it is thick
+  const Finished deep = palpCommand(
+    "force --law corrected --thickness 1mm --depth 10:10:1mm"); // deeper than it is thick
   EXPECT_EQ(deep.code, 0);
   EXPECT_NE(deep.err.find("outside its limits"), std::string::npos) << deep.err;
-  EXPECT_EQ(palp("force --depth 1:1:1mm").err.find("outside"), std::string::npos);
+  EXPECT_EQ(palpCommand("force --depth 1:1:1mm").err.find("outside"), std::string::npos);
 }
 
 TEST(ViewCommand, TellsAWrongValueBeforeAMissingDisplay)
@@ -123,7 +123,7 @@ TEST(ViewCommand, SaysWhatToDoWithoutADisplay)
 
 TEST(ForceCommand, HelpTeachesByExample)
 {
-  const Finished finished = palp("force --help");
+  const Finished finished = palpCommand("force --help");
   EXPECT_EQ(finished.code, 0);
   EXPECT_NE(finished.out.find("palp force --tip"), std::string::npos);
 }
@@ -134,7 +134,7 @@ TEST(ForceCommand, FeelsANoduleBesideTheTool)
   const std::string body = "force --tip sphere:10mm --young 50kPa --poisson 0.33 --law corrected "
                            "--material linear --thickness 30mm ";
   const auto at = [&](const std::string& options)
-  { return table(palp(body + "--depth 0:4:2mm " + options)); };
+  { return table(palpCommand(body + "--depth 0:4:2mm " + options)); };
   struct Row
   {
     const char* nodule;
@@ -169,12 +169,12 @@ TEST(ForceCommand, RefusesNodulesThatCannotBe)
       corrected + "--nodule 5mm:5mm:5:3mm:1", corrected + "--nodule 5mm:5mm:5 --nodule 3mm:12mm:5",
       corrected + "--coating 2mm:50kPa:0.45 --nodule 5mm:5mm:5" })
   {
-    const Finished refused = palp("force " + wrong);
+    const Finished refused = palpCommand("force " + wrong);
     EXPECT_EQ(refused.code, 2) << wrong;
     EXPECT_NE(refused.err.find("--nodule"), std::string::npos) << refused.err;
     EXPECT_TRUE(refused.out.empty()) << refused.out;
   }
-  EXPECT_NE(palp("force --nodule 5mm:5mm:5").err.find("'paper'"), std::string::npos);
+  EXPECT_NE(palpCommand("force --nodule 5mm:5mm:5").err.find("'paper'"), std::string::npos);
 }
 
 } // namespace

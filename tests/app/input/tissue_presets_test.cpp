@@ -23,14 +23,14 @@ std::vector<TissuePreset> shipped()
   return shippedTissues();
 }
 
-Finished palp(const std::string& arguments)
+Finished runPalp(const std::string& arguments)
 {
   return test::runCommand(PALP_PROGRAM " " + arguments);
 }
 
 double forceOf(const std::string& options)
 {
-  const Finished finished = palp("force --depth 4:4:1mm " + options);
+  const Finished finished = runPalp("force --depth 4:4:1mm " + options);
   EXPECT_EQ(finished.code, 0) << finished.err;
   std::istringstream in(finished.out);
   return test::parseCsv(in)["force_N"].at(0);
@@ -105,7 +105,7 @@ TEST(TissuePresets, AreTakenByNameAndGivenValuesWin)
 
 TEST(TissuePresets, AnUnknownNameIsToldTheNearest)
 {
-  const Finished wrong = palp("force --tissue hemangoma");
+  const Finished wrong = runPalp("force --tissue hemangoma");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_EQ(wrong.out, "");
   EXPECT_TRUE(wrong.err.starts_with(
@@ -116,7 +116,7 @@ TEST(TissuePresets, AnUnknownNameIsToldTheNearest)
 
 TEST(TissuePresets, TheCommandPrintsAllOfThemWithTheirSources)
 {
-  const Finished finished = palp("tissues");
+  const Finished finished = runPalp("tissues");
   ASSERT_EQ(finished.code, 0) << finished.err;
   for (const TissuePreset& tissue : shipped())
   {

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kStep = 0.3;
+constexpr double kTimeStep = 0.3;
 constexpr double kAlpha = 0.4;
 constexpr double kBeta = 0.2;
 
@@ -44,8 +44,8 @@ MatrixXd denseSystem(const BlockMatrix& stiffness, const VectorXd& masses)
     unit.reshaped()[i] = 1.0;
     Matrix3Xd column(3, masses.size());
     stiffness.multiply(unit, column);
-    a.col(i) = kStep * (kStep + kBeta) * column.reshaped();
-    a(i, i) += (1.0 + kAlpha * kStep) * masses[i / 3];
+    a.col(i) = kTimeStep * (kTimeStep + kBeta) * column.reshaped();
+    a(i, i) += (1.0 + kAlpha * kTimeStep) * masses[i / 3];
   }
   return a;
 }
@@ -109,7 +109,7 @@ TEST(BackwardEuler, SolvesTheConstrainedSystem)
   const auto solution = euler.solve({ .stiffness = stiffness,
                                       .forces = forces,
                                       .given = given,
-                                      .dt = kStep,
+                                      .dt = kTimeStep,
                                       .alpha = kAlpha,
                                       .beta = kBeta,
                                       .mostIterations = 500,
@@ -117,15 +117,15 @@ TEST(BackwardEuler, SolvesTheConstrainedSystem)
     v);
   EXPECT_LE(solution.residual, 1e-13);
 
-  const VectorXd load = (before * masses.asDiagonal() + kStep * forces).reshaped();
+  const VectorXd load = (before * masses.asDiagonal() + kTimeStep * forces).reshaped();
   const VectorXd exact = denseSolution(denseSystem(stiffness, masses), load, mesh.bonded, given);
   EXPECT_LT(
     (v.reshaped() - exact.head(load.size())).norm(), 1e-10 * exact.head(load.size()).norm());
   // multipliers push the other way and act for dt
   EXPECT_NEAR(
-    given[0].normal.dot(euler.reactions().col(20)), -exact[exact.size() - 2] / kStep, 1e-9);
+    given[0].normal.dot(euler.reactions().col(20)), -exact[exact.size() - 2] / kTimeStep, 1e-9);
   EXPECT_NEAR(
-    given[1].normal.dot(euler.reactions().col(26)), -exact[exact.size() - 1] / kStep, 1e-9);
+    given[1].normal.dot(euler.reactions().col(26)), -exact[exact.size() - 1] / kTimeStep, 1e-9);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ using namespace units::literals;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Material kTissue{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
+constexpr Material kMaterial{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
 
 Body bodyNamed(const std::string& kind)
 {
@@ -63,7 +63,7 @@ TEST_P(AnyBody, LinearFieldGivesAConstantStressInBalance)
     double volume = 0.0;
     for (const Element& element : body.elements)
     {
-      const auto response = evaluate(element, energy, kTissue, u(element.dofs));
+      const auto response = evaluate(element, energy, kMaterial, u(element.dofs));
       ASSERT_TRUE(response);
       forces(element.dofs) += response->force;
       energySum += response->energy;
@@ -73,7 +73,7 @@ TEST_P(AnyBody, LinearFieldGivesAConstantStressInBalance)
       }
     }
     const Eigen::Matrix3d f = Eigen::Vector3d(1.05, 1.05, 0.9).asDiagonal();
-    const StressResponse exact = evaluate(energy, kTissue, f);
+    const StressResponse exact = evaluate(energy, kMaterial, f);
     EXPECT_NEAR(energySum, exact.energy * volume, 1e-8 * exact.energy * volume);
 
     if (std::string(GetParam()) == "sphere")
@@ -132,7 +132,7 @@ TEST_P(AnyBody, StiffnessIsTheDerivativeOfTheForce)
   for (const StrainEnergy energy : { StrainEnergy::Linear, StrainEnergy::Corotated,
          StrainEnergy::NeoHookean, StrainEnergy::NeoHookeanIsochoric })
   {
-    const auto at = evaluate(element, energy, kTissue, u);
+    const auto at = evaluate(element, energy, kMaterial, u);
     ASSERT_TRUE(at);
     const double step = 0.03 * size;
     for (Eigen::Index i = 0; i < u.size(); ++i)
@@ -141,7 +141,7 @@ TEST_P(AnyBody, StiffnessIsTheDerivativeOfTheForce)
       {
         VectorXd v = u;
         v[i] += by;
-        return *evaluate(element, energy, kTissue, v);
+        return *evaluate(element, energy, kMaterial, v);
       };
       const auto a = moved(step);
       const auto b = moved(-step);
@@ -163,11 +163,11 @@ TEST(Body, GuessedPressuresChangeTheStiffnessAlone)
   const VectorXd u = linearField(body, 0.02, -0.05)(element.dofs);
   for (const StrainEnergy energy : { StrainEnergy::NeoHookean, StrainEnergy::NeoHookeanIsochoric })
   {
-    const auto plain = evaluate(element, energy, kTissue, u);
+    const auto plain = evaluate(element, energy, kMaterial, u);
     const VectorXd own = plain->pressure;
     const VectorXd other = 2.0 * own;
-    const auto same = evaluate(element, energy, kTissue, u, &own);
-    const auto guessed = evaluate(element, energy, kTissue, u, &other);
+    const auto same = evaluate(element, energy, kMaterial, u, &own);
+    const auto guessed = evaluate(element, energy, kMaterial, u, &other);
     EXPECT_LT((same->stiffness - plain->stiffness).norm(), 1e-12 * plain->stiffness.norm());
     EXPECT_LT((same->guessedForce - plain->force).norm(), 1e-12 * plain->force.norm());
     EXPECT_EQ(guessed->force, plain->force);
@@ -176,8 +176,8 @@ TEST(Body, GuessedPressuresChangeTheStiffnessAlone)
 
     // the slope of the pressures is their derivative
     const VectorXd step = 1e-7 * VectorXd::LinSpaced(u.size(), -1.0, 1.0);
-    const auto a = evaluate(element, energy, kTissue, u + step);
-    const auto b = evaluate(element, energy, kTissue, u - step);
+    const auto a = evaluate(element, energy, kMaterial, u + step);
+    const auto b = evaluate(element, energy, kMaterial, u - step);
     EXPECT_LT((0.5 * (a->pressure - b->pressure) - plain->pressureSlope * step).norm(),
       1e-6 * (plain->pressureSlope * step).norm());
   }
@@ -188,10 +188,11 @@ TEST(Body, ElementTurnedInsideOutIsDetected)
   const Body body = bodyNamed("cylinder");
   const VectorXd through = linearField(body, 0.0, -1.5);
   const Element& element = body.elements.front();
-  EXPECT_FALSE(evaluate(element, StrainEnergy::NeoHookean, kTissue, through(element.dofs)));
+  EXPECT_FALSE(evaluate(element, StrainEnergy::NeoHookean, kMaterial, through(element.dofs)));
   EXPECT_FALSE(
-    evaluate(element, StrainEnergy::NeoHookeanIsochoric, kTissue, through(element.dofs)));
-  EXPECT_TRUE(evaluate(element, StrainEnergy::Corotated, kTissue, through(element.dofs))->inverted);
+    evaluate(element, StrainEnergy::NeoHookeanIsochoric, kMaterial, through(element.dofs)));
+  EXPECT_TRUE(
+    evaluate(element, StrainEnergy::Corotated, kMaterial, through(element.dofs))->inverted);
 }
 
 } // namespace

@@ -14,11 +14,11 @@ namespace
 
 using namespace units::literals;
 
-constexpr int kTrials = 1000;
+constexpr int kRepeats = 1000;
 
 // of 1,000 trials at 0.95, four standard deviations of the binomial distribution to either side
 constexpr double kCoverage = 0.95;
-const double kBand = 4.0 * std::sqrt(kCoverage * (1.0 - kCoverage) / kTrials);
+const double kBand = 4.0 * std::sqrt(kCoverage * (1.0 - kCoverage) / kRepeats);
 
 // a tool as its exponent: 1 for a punch, 1.5 for a ball (Hertz), 2 for a cone (Sneddon)
 struct Press
@@ -79,15 +79,15 @@ TEST_P(AnyPress, IsCoveredByItsIntervalsInNineteenTrialsOfTwenty)
   std::mt19937 random(11);
   int scales = 0;
   int contacts = 0;
-  for (int trial = 0; trial < kTrials; ++trial)
+  for (int trial = 0; trial < kRepeats; ++trial)
   {
     const CurveFit fit = fitForceCurve(pressed(GetParam(), random), powerLaw(GetParam().exponent));
     scales += covers(fit.scale, kScale) ? 1 : 0;
     contacts += covers(fit.contact, kContact) ? 1 : 0;
   }
   RecordProperty("scales", scales);
-  EXPECT_NEAR(static_cast<double>(scales) / kTrials, kCoverage, kBand);
-  EXPECT_NEAR(static_cast<double>(contacts) / kTrials, kCoverage, kBand);
+  EXPECT_NEAR(static_cast<double>(scales) / kRepeats, kCoverage, kBand);
+  EXPECT_NEAR(static_cast<double>(contacts) / kRepeats, kCoverage, kBand);
 }
 
 TEST_P(AnyPress, IsFoundToSixDigitsWithoutNoise)

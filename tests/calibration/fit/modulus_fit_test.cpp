@@ -20,7 +20,7 @@ using namespace units::literals;
 constexpr double kYoung = 8.0_kPa;
 constexpr double kPoisson = 0.45;
 constexpr double kContactModulus = kYoung / (1.0 - kPoisson * kPoisson);
-constexpr double kContact = -1.5_mm;
+constexpr double kTouched = -1.5_mm;
 
 ModulusQuestion question(const Tip& tip, LawMode mode = LawMode::Paper)
 {
@@ -39,7 +39,7 @@ Measured pressed(const Law& force, int rows, double noise = 0.0, unsigned seed =
   for (int i = 0; i < rows; ++i)
   {
     const double depth = -2.0_mm + 8.0_mm * i / (rows - 1);
-    measured.depths[i] = kContact + depth;
+    measured.depths[i] = kTouched + depth;
     measured.forces[i] = force(std::max(0.0, depth)) + noise * error(random);
   }
   return measured;
@@ -78,7 +78,7 @@ TEST(ModulusFit, FindsTheModulusOfPublishedLaws)
   {
     const ModulusFit fit = fitModulus(pressed(known.force, 33), question(known.tip));
     EXPECT_NEAR(fit.asked().curve.scale.value, kYoung, 1e-6 * kYoung) << known.name;
-    EXPECT_NEAR(fit.asked().curve.contact.value, kContact, 1e-6_mm) << known.name;
+    EXPECT_NEAR(fit.asked().curve.contact.value, kTouched, 1e-6_mm) << known.name;
     ASSERT_NE(fit.exponent(), nullptr);
     EXPECT_NEAR(fit.exponent()->value, known.exponent, 1e-5) << known.name;
     EXPECT_EQ(fit.best, fit.answer) << known.name;
@@ -238,10 +238,10 @@ TEST(ModulusFit, HoldsWhatIsKnown)
   ModulusQuestion asked = question(SphereTip{ 4.0_mm });
   const Measured measured = pressed(hertz, 30, 5e-3);
   const Estimate free = fitModulus(measured, asked).asked().curve.scale;
-  asked.contact = kContact;
+  asked.contact = kTouched;
   asked.offset = 0.0;
   const ModulusFit fit = fitModulus(measured, asked);
-  EXPECT_EQ(fit.asked().curve.contact.value, kContact);
+  EXPECT_EQ(fit.asked().curve.contact.value, kTouched);
   EXPECT_EQ(fit.asked().curve.offset, 0.0);
   const Estimate held = fit.asked().curve.scale;
   EXPECT_LT(held.high - held.low, 0.6 * (free.high - free.low));

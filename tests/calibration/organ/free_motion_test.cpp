@@ -15,8 +15,8 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kYoung = 50e3;
-constexpr double kPoisson = 0.45;
+constexpr double kFreeYoung = 50e3;
+constexpr double kFreePoisson = 0.45;
 
 TEST(OrganModel, NamesAMotionThatItsSupportsLeaveFree)
 {
@@ -26,7 +26,7 @@ TEST(OrganModel, NamesAMotionThatItsSupportsLeaveFree)
     try
     {
       const OrganModel model(
-        { mesh.points, mesh.triangles }, cell, kYoung, kPoisson, std::span(&support, 1));
+        { mesh.points, mesh.triangles }, cell, kFreeYoung, kFreePoisson, std::span(&support, 1));
     }
     catch (const Error& error)
     {

@@ -19,8 +19,8 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kYoung = 50e3;
-constexpr double kPoisson = 0.45;
+constexpr double kModelYoung = 50e3;
+constexpr double kModelPoisson = 0.45;
 
 // how far the top of a box of 20 mm by 20 mm sinks under a pascal [m/Pa]
 double pressedEvenly(const OrganModel& model)
@@ -61,8 +61,8 @@ TEST(OrganModel, ShortensAColumnByHookesLaw)
     slides.push_back(
       { [axis, low](const Vector3d& x) { return x[axis] < low + 0.1_mm; }, Vector3d::Unit(axis) });
   }
-  const OrganModel model(surface, 5.0_mm, kYoung, kPoisson, slides);
-  const double hooke = 40.0_mm / kYoung;
+  const OrganModel model(surface, 5.0_mm, kModelYoung, kModelPoisson, slides);
+  const double hooke = 40.0_mm / kModelYoung;
   EXPECT_NEAR(pressedEvenly(model), hooke, 2e-3 * hooke);
 }
 
@@ -81,13 +81,13 @@ TEST(OrganModel, ABodyOfTwoModuliGivesWayAsBothInSeries)
   {
     const auto ratio = [&](const Vector3d& x) { return x.z() < border ? stiffer : 1.0; };
     constexpr double slender = 0.0; // else each would keep the other from spreading
-    const OrganModel model(surface, 5.0_mm, kYoung, slender, slides, ratio);
-    const double hooke = (-border + (40.0_mm + border) / stiffer) / kYoung;
+    const OrganModel model(surface, 5.0_mm, kModelYoung, slender, slides, ratio);
+    const double hooke = (-border + (40.0_mm + border) / stiffer) / kModelYoung;
     EXPECT_NEAR(pressedEvenly(model), hooke, limit * hooke) << border;
   }
   const auto third = [](const Vector3d&) { return 1.0 / 3.0; };
-  const OrganModel soft(surface, 5.0_mm, kYoung, kPoisson, slides, third);
-  const OrganModel same(surface, 5.0_mm, kYoung / 3.0, kPoisson, slides);
+  const OrganModel soft(surface, 5.0_mm, kModelYoung, kModelPoisson, slides, third);
+  const OrganModel same(surface, 5.0_mm, kModelYoung / 3.0, kModelPoisson, slides);
   const Vector3d place(1.0_mm, 2.0_mm, 0.0);
   const auto found = complianceAt(soft, surface, place, Vector3d::UnitZ());
   const auto wanted = complianceAt(same, surface, place, Vector3d::UnitZ());
@@ -114,7 +114,7 @@ TEST(OrganModel, OfTwoBoxesThatShareAnEdgeIsThatOfOne)
   const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm || x.z() > 19.9_mm; } };
   for (const double cell : { 2.0_mm, 3.0_mm, 4.0_mm, 5.0_mm, 6.0_mm, 10.0_mm })
   {
-    const OrganModel model(surface, cell, kYoung, kPoisson, std::span(&base, 1));
+    const OrganModel model(surface, cell, kModelYoung, kModelPoisson, std::span(&base, 1));
     OrganModel::Weights weights{};
     int on = 0;
     for (const Vector3d& place : { Vector3d(0.0, 0.0, 0.0), Vector3d(20.0_mm, 0.0, 20.0_mm) })

@@ -16,8 +16,8 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kYoung = 50e3;
-constexpr double kPoisson = 0.3;
+constexpr double kMovedYoung = 50e3;
+constexpr double kMovedPoisson = 0.3;
 const Vector3d kSize(100.0_mm, 20.0_mm, 16.0_mm); // held at its end at x = -50 mm, top at z = 0
 
 OrganTable tableOf(const Eigen::Matrix3d& turn)
@@ -31,7 +31,7 @@ OrganTable tableOf(const Eigen::Matrix3d& turn)
   const Support end{ [&](const Vector3d& x)
     { return (turn.transpose() * x).x() < -0.49999 * kSize.x(); } };
   const std::span supports(&end, 1);
-  const OrganModel model(surface, 4.0_mm, kYoung, kPoisson, supports);
+  const OrganModel model(surface, 4.0_mm, kMovedYoung, kMovedPoisson, supports);
   OrganTable table;
   table.cell = 4.0_mm;
   table.spacing = 5.0_mm;
@@ -46,7 +46,7 @@ OrganLoad loadAt(double x, double force)
 {
   return { .center = { x, 0.0, 0.0 },
     .normal = Vector3d::UnitZ(),
-    .force = force * (1.0 - kPoisson * kPoisson) / kYoung };
+    .force = force * (1.0 - kMovedPoisson * kMovedPoisson) / kMovedYoung };
 }
 
 // from its held end on, under a force farther out; Timoshenko's
@@ -59,18 +59,19 @@ struct Beam
   {
     const double inertia = kSize.y() * std::pow(kSize.z(), 3) / 12.0;
     const double s = std::min(from, arm);
-    return force * s * (2.0 * arm - s) / (2.0 * kYoung * inertia);
+    return force * s * (2.0 * arm - s) / (2.0 * kMovedYoung * inertia);
   }
   [[nodiscard]] double shearAt(double from) const
   {
-    const double stiffness = 5.0 / 6.0 * kYoung / (2.0 * (1.0 + kPoisson)) * kSize.y() * kSize.z();
+    const double stiffness =
+      5.0 / 6.0 * kMovedYoung / (2.0 * (1.0 + kMovedPoisson)) * kSize.y() * kSize.z();
     return from <= arm ? force / stiffness : 0.0;
   }
   [[nodiscard]] double sagAt(double from) const
   {
     const double inertia = kSize.y() * std::pow(kSize.z(), 3) / 12.0;
     const double s = std::min(from, arm);
-    return force * s * s * (3.0 * arm - s) / (6.0 * kYoung * inertia) + shearAt(s) * s +
+    return force * s * s * (3.0 * arm - s) / (6.0 * kMovedYoung * inertia) + shearAt(s) * s +
       slopeAt(arm) * (from - s);
   }
 };

@@ -16,12 +16,12 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-const Tip kSphere = SphereTip{ .radius = 10.0_mm };
+const Tip kRoundTip = SphereTip{ .radius = 10.0_mm };
 
 Contact pressed(const Surface& surface, const Vector3d& place, double depth, const Vector3d& way)
 {
   return findContact(
-    surface, kSphere, { .apex = place + depth * way, .axis = way }, ContactRule::Exact);
+    surface, kRoundTip, { .apex = place + depth * way, .axis = way }, ContactRule::Exact);
 }
 
 // By finite elements plates of 120 mm that are held at one end are 200, 27 and 7 times softer than
@@ -75,7 +75,7 @@ TEST(FacetRule, SeesRoundMeshesBesideAnEdge)
     const Contact contact =
       pressed(surface, { x, 0.0, -rounded * x * x }, 2.0_mm, -Vector3d::UnitZ());
     EXPECT_TRUE(contact.touching());
-    return facetRule(surface, kSphere, contact).holds();
+    return facetRule(surface, kRoundTip, contact).holds();
   };
   EXPECT_TRUE(holds(25, 0.0, 2.0_mm));
   EXPECT_FALSE(holds(25, 2.0, 2.0_mm));

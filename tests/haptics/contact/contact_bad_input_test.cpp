@@ -1,5 +1,6 @@
 #include "haptics/contact/find_contact.h"
 #include "haptics/units.h"
+#include "tests/support/sampled.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
@@ -16,8 +17,9 @@ namespace
 
 using namespace units::literals;
 
-const Tip kSphere = SphereTip{ .radius = 10.0_mm };
-const Tip kCone = ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm };
+const Tip kBallTip = SphereTip{ .radius = 10.0_mm };
+const Tip kPointedTip = ConeTip{ .halfAngle = 45.0_deg, .baseRadius = 10.0_mm };
+constexpr int kPresses = test::kSanitized ? 1'000 : 20'000;
 
 Contact press(const Surface& surface, const Tip& tip, const Eigen::Vector3d& apex,
   const Eigen::Vector3d& axis = -Eigen::Vector3d::UnitZ(), ContactRule rule = ContactRule::Exact)
@@ -61,7 +63,7 @@ TEST(ContactBadInput, SliversDoNotChangeADepth)
   const Surface surface = test::makeSurface(mesh);
   for (const double y : { 0.0, 1e-9, 1e-5, 0.01 })
   {
-    const Contact contact = press(surface, kSphere, { 3.0_mm, y, -2.0_mm });
+    const Contact contact = press(surface, kBallTip, { 3.0_mm, y, -2.0_mm });
     EXPECT_NEAR(contact.depth, 2.0_mm, 1e-9);
     EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-6);
   }
@@ -86,7 +88,7 @@ TEST(ContactBadInput, DuplicatePointsDoNotChangeADepth)
   for (const Eigen::Vector3d& apex :
     { Eigen::Vector3d(3.1_mm, 1.3_mm, -2.0_mm), Eigen::Vector3d(0.0, 0.0, -2.0_mm) })
   {
-    for (const Tip& tip : { kSphere, kCone })
+    for (const Tip& tip : { kBallTip, kPointedTip })
     {
       EXPECT_NEAR(press(surface, tip, apex).depth, 2.0_mm, 1e-9);
     }
@@ -106,7 +108,7 @@ TEST(ContactBadInput, AToolLargerThanTheMesh)
   }
   const Surface sheet = test::makeSurface(test::sheet(2.0_mm, 5));
   // a sheet without end at that depth has more in common with the tool
-  const double depth = press(sheet, kSphere, { 0.0, 0.0, -3.0_mm }).depth;
+  const double depth = press(sheet, kBallTip, { 0.0, 0.0, -3.0_mm }).depth;
   EXPECT_GT(depth, 2.0_mm);
   EXPECT_LT(depth, 3.0_mm);
 }
@@ -117,13 +119,13 @@ TEST(ContactBadInput, ADeepStart)
   const Surface block = test::makeSurface(test::block({ 0.2, 0.2, 0.2 }, 20));
   for (const double depth : { 15.0_mm, 30.0_mm, 60.0_mm })
   {
-    const Contact contact = press(block, kSphere, { 1.0_mm, 2.0_mm, -depth });
+    const Contact contact = press(block, kBallTip, { 1.0_mm, 2.0_mm, -depth });
     EXPECT_NEAR(contact.depth, depth, 1e-9);
     EXPECT_LT((contact.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-6);
     EXPECT_NEAR(contact.thickness, 0.2, 1e-6);
   }
   const Surface ball = test::makeSurface(test::ball(0.05, 10));
-  for (const Tip& tip : { kSphere, kCone })
+  for (const Tip& tip : { kBallTip, kPointedTip })
   {
     EXPECT_TRUE(usable(press(ball, tip, Eigen::Vector3d::Zero()))); // at the very middle
   }
@@ -137,10 +139,10 @@ TEST(ContactBadInput, TwoLobesAtOnce)
     return test::moved(test::block({ 0.04, 0.04, 0.04 }, 20), { side * (0.02 + gap), 0.0, 0.01 });
   };
   const Surface gap = test::makeSurface(merged(wall(-1.0, 6.0_mm), wall(1.0, 6.0_mm)));
-  const Contact pinched = press(gap, kSphere, { 0.0, 0.0, -20.0_mm });
+  const Contact pinched = press(gap, kBallTip, { 0.0, 0.0, -20.0_mm });
   EXPECT_FALSE(pinched.touching());
 
-  const Contact left = press(gap, kSphere, { -2.0_mm, 0.0, -20.0_mm });
+  const Contact left = press(gap, kBallTip, { -2.0_mm, 0.0, -20.0_mm });
   EXPECT_NEAR(left.depth, 6.0_mm, 1e-6);
   EXPECT_GT(left.normal.x(), 0.999);
 
@@ -148,7 +150,7 @@ TEST(ContactBadInput, TwoLobesAtOnce)
     test::makeSurface(test::sheet(0.08, 81, [](double x, double) { return std::abs(x); }));
   const double inside = 2.0_mm; // R minus the distance of the center to both walls
   const Contact contact =
-    press(groove, kSphere, { 0.0, 0.0, std::numbers::sqrt2 * (10.0_mm - inside) - 10.0_mm });
+    press(groove, kBallTip, { 0.0, 0.0, std::numbers::sqrt2 * (10.0_mm - inside) - 10.0_mm });
   // more than one wall, and less than two contacts that do not feel each other, whose energies add
   // up
   EXPECT_GT(contact.depth, inside);
@@ -175,10 +177,10 @@ TEST(ContactBadInput, AFoldIsOutvoted)
   ASSERT_GT(std::count_if(facets.begin(), facets.end(),
               [](const Facet& facet) { return facet.normal.dot(facet.corners[0]) < 0.0; }),
     0);
-  for (int i = 0; i < 20'000; ++i)
+  for (int i = 0; i < kPresses; ++i)
   {
     const Eigen::Vector3d out = somewhere().normalized();
-    for (const Tip& tip : { kSphere, kCone })
+    for (const Tip& tip : { kBallTip, kPointedTip })
     {
       const Contact contact = press(surface, tip, (radius - 3.0_mm) * out, -out);
       ASSERT_NEAR(contact.depth, 3.0_mm, 1.0_mm); // the sagitta of the longest edges
@@ -190,7 +192,7 @@ TEST(ContactBadInput, AFoldIsOutvoted)
 TEST(ContactBadInput, AnOpenSheetIsPressedFromItsFrontOnly)
 {
   const Surface sheet = test::makeSurface(test::sheet(0.1, 21));
-  for (const Tip& tip : { kSphere, kCone })
+  for (const Tip& tip : { kBallTip, kPointedTip })
   {
     for (const double depth : { 1.0_mm, 8.0_mm, 14.0_mm })
     {
@@ -214,7 +216,7 @@ TEST(ContactBadInput, BesideAnOpenSheetNoForceJumps)
       constexpr double kStep = 20.0_um;
       const auto forceAt = [&](double height) // of Hertz, up to a constant, 1 at a depth of 10 mm
       {
-        const Contact contact = press(sheet, kSphere, { 0.05 + past, 1.0_mm, height });
+        const Contact contact = press(sheet, kBallTip, { 0.05 + past, 1.0_mm, height });
         EXPECT_LE(contact.slope, 2.001) << past << " " << height;
         return contact.slope * std::pow(contact.depth / 10.0_mm, 1.5);
       };
@@ -237,14 +239,14 @@ TEST(ContactBadInput, NoPoseGivesWhatIsNotANumber)
     test::makeSurface(merged(test::block({ 0.02, 0.02, 0.02 }, 1),
       test::moved(test::ball(5.0_mm, 3), { 0.0, 0.0, 8.0_mm }))),
     test::makeSurface({ { { 0, 0, 0 }, { 1e-3, 0, 0 }, { 0, 1e-12, 0 } }, { { 0, 1, 2 } } }) };
-  const Tip tips[] = { kSphere, kCone, PunchTip{ .radius = 5.0_mm },
+  const Tip tips[] = { kBallTip, kPointedTip, PunchTip{ .radius = 5.0_mm },
     BluntConeTip{ .halfAngle = 30.0_deg, .tipRadius = 1.0_mm, .baseRadius = 8.0_mm },
     ConeTip{ .halfAngle = 89.0_deg, .baseRadius = 1.0 }, SphereTip{ .radius = 1.0 },
     SphereTip{ .radius = 0.1_mm } };
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> exponent(-12.0, 2.0);
-  for (int i = 0; i < 20'000; ++i)
+  for (int i = 0; i < kPresses; ++i)
   {
     Eigen::Vector3d apex(normal(random), normal(random), normal(random));
     apex *= std::pow(10.0, exponent(random));
@@ -268,8 +270,8 @@ TEST(ContactBadInput, NoPoseGivesWhatIsNotANumber)
   for (const double bad : { std::numeric_limits<double>::quiet_NaN(),
          std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
   {
-    EXPECT_FALSE(press(surfaces[0], kSphere, { bad, 0.0, 0.0 }).touching());
-    EXPECT_FALSE(press(surfaces[0], kSphere, { 0.0, 0.0, 0.0 }, { 0.0, bad, 1.0 }).touching());
+    EXPECT_FALSE(press(surfaces[0], kBallTip, { bad, 0.0, 0.0 }).touching());
+    EXPECT_FALSE(press(surfaces[0], kBallTip, { 0.0, 0.0, 0.0 }, { 0.0, bad, 1.0 }).touching());
   }
 }
 

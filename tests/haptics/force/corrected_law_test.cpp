@@ -19,7 +19,7 @@ namespace
 
 using namespace units::literals;
 
-const Material kLiver{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
+const Material kTissue{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
 
 // made up, to see that the law applies it: 1 + 0.1 depth/R, and 1.05 for every cone
 LargeStrainTable madeUpRatios()
@@ -29,30 +29,30 @@ LargeStrainTable madeUpRatios()
       { { 0.0, 1.0 }, { 0.5, 1.1 }, { 0.33 }, { 1.05, 1.05, 1.05, 1.05 } } });
 }
 
-struct Case
+struct Factored
 {
   const char* table;
   Tip tip;
   double thickness;
 };
 
-class BondedLayer : public ::testing::TestWithParam<Case>
+class BondedLayer : public ::testing::TestWithParam<Factored>
 {
 };
 INSTANTIATE_TEST_SUITE_P(CorrectedLaw, BondedLayer,
-  ::testing::Values(Case{ "analytic_sphere_R6_H30", SphereTip{ 6.0_mm }, 30.0_mm },
-    Case{ "analytic_sphere_R10_H50", SphereTip{ 10.0_mm }, 50.0_mm },
-    Case{ "analytic_cone45_H30", ConeTip{ 45.0_deg, 50.0_mm }, 30.0_mm },
-    Case{ "analytic_cone45_H50", ConeTip{ 45.0_deg, 50.0_mm }, 50.0_mm },
-    Case{ "analytic_cone45_rho0.3_H30", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 30.0_mm },
-    Case{ "analytic_cone45_rho0.3_H50", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm }));
+  ::testing::Values(Factored{ "analytic_sphere_R6_H30", SphereTip{ 6.0_mm }, 30.0_mm },
+    Factored{ "analytic_sphere_R10_H50", SphereTip{ 10.0_mm }, 50.0_mm },
+    Factored{ "analytic_cone45_H30", ConeTip{ 45.0_deg, 50.0_mm }, 30.0_mm },
+    Factored{ "analytic_cone45_H50", ConeTip{ 45.0_deg, 50.0_mm }, 50.0_mm },
+    Factored{ "analytic_cone45_rho0.3_H30", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 30.0_mm },
+    Factored{ "analytic_cone45_rho0.3_H50", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm }));
 
 // the tables carry eight digits
 TEST_P(BondedLayer, AgreesWithTheIntegralEquation)
 {
   const auto rows = test::referenceTable(GetParam().table);
   ASSERT_GE(rows.size(), 16U);
-  const ForceLaw law(GetParam().tip, kLiver, { .mode = LawMode::Corrected });
+  const ForceLaw law(GetParam().tip, kTissue, { .mode = LawMode::Corrected });
   double worst = 0.0;
   for (const auto& row : rows)
   {
@@ -65,19 +65,19 @@ TEST_P(BondedLayer, AgreesWithTheIntegralEquation)
   RecordProperty("worst", std::to_string(worst * 1e6) + "e-6");
 }
 
-class AnyTip : public ::testing::TestWithParam<Tip>
+class AnyTipCorrected : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(CorrectedLaw, AnyTip, ::testing::ValuesIn(test::allTips()));
+INSTANTIATE_TEST_SUITE_P(CorrectedLaw, AnyTipCorrected, ::testing::ValuesIn(test::allTips()));
 
-TEST_P(AnyTip, IsExactWhereNothingActs)
+TEST_P(AnyTipCorrected, IsExactWhereNothingActs)
 {
-  const ForceLaw corrected(GetParam(), kLiver, { .mode = LawMode::Corrected });
-  const ForceLaw exact(GetParam(), kLiver, { .mode = LawMode::Exact });
+  const ForceLaw corrected(GetParam(), kTissue, { .mode = LawMode::Corrected });
+  const ForceLaw exact(GetParam(), kTissue, { .mode = LawMode::Exact });
   EXPECT_EQ(corrected({ .depth = 3.0_mm }).force, exact({ .depth = 3.0_mm }).force);
 }
 
-TEST_P(AnyTip, FactorsMultiplyThePapersForce)
+TEST_P(AnyTipCorrected, FactorsMultiplyThePapersForce)
 {
   const ContactGeometry position{ .depth = 3.0_mm,
     .tilt = 9.0_deg,
@@ -85,8 +85,8 @@ TEST_P(AnyTip, FactorsMultiplyThePapersForce)
     .surfaceCurvature = 1.0 / 50.0_mm,
     .curvatureSpread = 1.0 / 100.0_mm };
   const ForceLaw law(
-    GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
-  double force = ForceLaw(GetParam(), kLiver)(position).force;
+    GetParam(), kTissue, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
+  double force = ForceLaw(GetParam(), kTissue)(position).force;
   for (const Factor& factor : law.factors(position))
   {
     EXPECT_GT(factor.value, 0.0) << factor.name;
@@ -95,28 +95,28 @@ TEST_P(AnyTip, FactorsMultiplyThePapersForce)
   EXPECT_NEAR(law(position).force, force, 1e-12 * force);
 }
 
-TEST_P(AnyTip, EachFactorCanBeSwitchedOff)
+TEST_P(AnyTipCorrected, EachFactorCanBeSwitchedOff)
 {
   const ContactGeometry position{
     .depth = 3.0_mm, .tilt = 9.0_deg, .thickness = 20.0_mm, .surfaceCurvature = 1.0 / 50.0_mm
   };
-  const ForceLaw law(GetParam(), kLiver,
+  const ForceLaw law(GetParam(), kTissue,
     { .mode = LawMode::Corrected,
       .constitution = ConstitutiveModel::Linear,
       .largeStrain = madeUpRatios(),
       .curvature = false,
       .thickness = false,
       .inclination = false });
-  const ForceLaw exact(GetParam(), kLiver, { .mode = LawMode::Exact });
+  const ForceLaw exact(GetParam(), kTissue, { .mode = LawMode::Exact });
   EXPECT_EQ(law(position).force, exact(position).force);
 }
 
-TEST_P(AnyTip, StiffnessIsTheDerivativeWithEveryFactor)
+TEST_P(AnyTipCorrected, StiffnessIsTheDerivativeWithEveryFactor)
 {
   // the table of a profile rounds its corners
   const double tolerance = std::holds_alternative<ProfileTip>(GetParam()) ? 1e-2 : 2e-4;
   const ForceLaw law(
-    GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
+    GetParam(), kTissue, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
   const auto at = [&law](double depth)
   {
     return law({ .depth = depth,
@@ -136,12 +136,12 @@ TEST_P(AnyTip, StiffnessIsTheDerivativeWithEveryFactor)
   }
 }
 
-TEST_P(AnyTip, ReturnsNoNaN)
+TEST_P(AnyTipCorrected, ReturnsNoNaN)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const ForceLaw law(
-    GetParam(), kLiver, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
+    GetParam(), kTissue, { .mode = LawMode::Corrected, .largeStrain = madeUpRatios() });
   for (const double odd : { nan, infinite, -infinite, 0.0, -1.0, 1e-300, 1e300 })
   {
     for (const ContactGeometry& position : { ContactGeometry{ .depth = odd, .thickness = 10.0_mm },
@@ -165,17 +165,17 @@ TEST_P(AnyTip, ReturnsNoNaN)
 TEST(CorrectedLaw, AppliesTheRatioOfLargeStrain)
 {
   const LawSettings settings{ .mode = LawMode::Corrected, .largeStrain = madeUpRatios() };
-  const ForceLaw sphere(SphereTip{ 10.0_mm }, kLiver, settings);
+  const ForceLaw sphere(SphereTip{ 10.0_mm }, kTissue, settings);
   EXPECT_NEAR(sphere.largeStrain({ .depth = 5.0_mm }).value, 1.05, 1e-12);
   EXPECT_TRUE(sphere.largeStrain({ .depth = 5.0_mm }).inside);
   EXPECT_FALSE(sphere.largeStrain({ .depth = 25.0_mm }).inside);
-  const ForceLaw cone(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, settings);
+  const ForceLaw cone(ConeTip{ 45.0_deg, 10.0_mm }, kTissue, settings);
   EXPECT_NEAR(cone.largeStrain({ .depth = 5.0_mm, .thickness = 30.0_mm }).value, 1.05, 1e-12);
   const ForceLaw blunt(PunchTip{ 10.0_mm }, { 5.0_kPa, 0.2 }, settings);
   EXPECT_TRUE(blunt.largeStrain({ .depth = 5.0_mm }).inside);
   EXPECT_FALSE(blunt.largeStrain({ .depth = 16.1_mm }).inside);
   EXPECT_FALSE(
-    ForceLaw(PunchTip{ 10.0_mm }, kLiver, settings).largeStrain({ .depth = 5.0_mm }).inside);
+    ForceLaw(PunchTip{ 10.0_mm }, kTissue, settings).largeStrain({ .depth = 5.0_mm }).inside);
 }
 
 // what the shipped tables say they cover, as `palp calibrate --tables` presses it
@@ -200,15 +200,15 @@ TEST(CorrectedLaw, OutsideItsTablesLargeStrainIsFlaggedForAnyPoissonsRatio)
   }
 }
 
-class NeoHookeanBlock : public ::testing::TestWithParam<Case>
+class NeoHookeanBlock : public ::testing::TestWithParam<Factored>
 {
 };
 INSTANTIATE_TEST_SUITE_P(CorrectedLaw, NeoHookeanBlock,
-  ::testing::Values(Case{ "fig15_sphere_R6__NH_h0.25", SphereTip{ 6.0_mm }, 30.0_mm },
-    Case{ "calib_sphere_R10__NH_h0.5", SphereTip{ 10.0_mm }, 50.0_mm },
-    Case{ "fig15_cone45__NH_h0.25", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 30.0_mm },
-    Case{ "calib_cone45__NH_h0.25", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm },
-    Case{ "calib_cone45__NH_h0.5", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm }));
+  ::testing::Values(Factored{ "fig15_sphere_R6__NH_h0.25", SphereTip{ 6.0_mm }, 30.0_mm },
+    Factored{ "calib_sphere_R10__NH_h0.5", SphereTip{ 10.0_mm }, 50.0_mm },
+    Factored{ "fig15_cone45__NH_h0.25", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 30.0_mm },
+    Factored{ "calib_cone45__NH_h0.25", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm },
+    Factored{ "calib_cone45__NH_h0.5", BluntConeTip{ 45.0_deg, 0.3_mm, 50.0_mm }, 50.0_mm }));
 
 // Another program's finite elements on a block, from 1 mm to the tool's radius. The sphere's ratios
 // are computed by our own; the cone's stem from these runs and the linear ones on the same meshes,
@@ -218,8 +218,8 @@ TEST_P(NeoHookeanBlock, IsMetWithin3PercentWherePapersLawIsOffBy10)
   const auto rows = test::referenceTable(GetParam().table);
   ASSERT_GE(rows.size(), 13U);
   const ForceLaw corrected(
-    GetParam().tip, kLiver, { .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() });
-  const ForceLaw paper(GetParam().tip, kLiver);
+    GetParam().tip, kTissue, { .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() });
+  const ForceLaw paper(GetParam().tip, kTissue);
   double worst = 0.0;
   double worstPaper = 0.0;
   for (const auto& row : rows)
@@ -257,7 +257,7 @@ TEST(CorrectedLaw, CurvedSurfaceIsThatOfFiniteElements)
   {
     const auto rows = test::referenceTable(ball.table);
     ASSERT_GE(rows.size(), 10U);
-    const ForceLaw law(ball.tip, kLiver, { .mode = LawMode::Corrected });
+    const ForceLaw law(ball.tip, kTissue, { .mode = LawMode::Corrected });
     for (const auto& row : rows)
     {
       const double depth = row.number("delta_m");
@@ -283,7 +283,7 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
     {
       const Tip tip =
         cone ? Tip{ BluntConeTip{ 45.0_deg, 0.3_mm, 20.0_mm } } : SphereTip{ 10.0_mm };
-      const ForceLaw law(tip, kLiver,
+      const ForceLaw law(tip, kTissue,
         { .mode = LawMode::Corrected,
           .constitution = tissue,
           .largeStrain = test::shippedRatios() });
@@ -318,7 +318,7 @@ TEST(CorrectedLaw, ABallIsThatOfFiniteElementsHoweverItIsHeldOrFlagged)
 
 TEST(CorrectedLaw, DoesNotAllocate)
 {
-  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver,
+  const ForceLaw law(SphereTip{ 10.0_mm }, kTissue,
     { .mode = LawMode::Corrected, .largeStrain = test::shippedRatios() });
   const Validity validity(law);
   const ContactGeometry position{ .depth = 3.0_mm,
@@ -336,7 +336,7 @@ TEST(CorrectedLaw, DoesNotAllocate)
 
 TEST(CorrectedLaw, WithoutATableLargeStrainIsLinear)
 {
-  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  const ForceLaw law(SphereTip{ 10.0_mm }, kTissue, { .mode = LawMode::Corrected });
   EXPECT_EQ(law.largeStrain({ .depth = 5.0_mm }).value, 1.0);
   EXPECT_FALSE(law.largeStrain({ .depth = 5.0_mm }).inside);
 }

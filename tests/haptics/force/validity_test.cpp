@@ -24,7 +24,7 @@ namespace
 
 using namespace units::literals;
 
-const Material kLiver{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
+const Material kOrgan{ .youngModulus = 50.0_kPa, .poissonRatio = 0.33 };
 
 const Rule& rule(const Rules& rules, const char* name)
 {
@@ -41,8 +41,8 @@ const Rule& rule(const Rules& rules, const char* name)
 // Eq. (7): 21.6 degrees for a sphere; Sec. 3.2: 9 degrees for a cone, 32 for the direction
 TEST(Validity, LimitsTheTiltAsThePaperDoes)
 {
-  const Validity sphere(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
-  const Validity cone(ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kLiver));
+  const Validity sphere(ForceLaw(SphereTip{ 10.0_mm }, kOrgan));
+  const Validity cone(ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kOrgan));
   const auto at = [](double tilt) { return ContactGeometry{ .depth = 1.0_mm, .tilt = tilt }; };
   EXPECT_TRUE(rule(sphere(at(21.5_deg)), "inclination").holds());
   EXPECT_FALSE(rule(sphere(at(21.6_deg)), "inclination").holds());
@@ -55,7 +55,7 @@ TEST(Validity, LimitsTheTiltAsThePaperDoes)
 TEST(Validity, CorrectedConeMayTiltAsFarAsTheBoundaryElements)
 {
   const Validity cone(
-    ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, { .mode = LawMode::Corrected }));
+    ForceLaw(ConeTip{ 45.0_deg, 10.0_mm }, kOrgan, { .mode = LawMode::Corrected }));
   EXPECT_TRUE(rule(cone({ .depth = 1.0_mm, .tilt = 29.0_deg }), "inclination").holds());
   EXPECT_FALSE(rule(cone({ .depth = 1.0_mm, .tilt = 31.0_deg }), "inclination").holds());
 }
@@ -65,7 +65,7 @@ TEST(Validity, CorrectedConeMayNotTiltOverAnEdge)
 {
   const auto inclination = [](const Tip& tip, const LawSettings& settings, double spread)
   {
-    const Validity validity(ForceLaw(tip, kLiver, settings));
+    const Validity validity(ForceLaw(tip, kOrgan, settings));
     return rule(
       validity({ .depth = 1.0_mm, .tilt = 20.0_deg, .normalSpread = spread }), "inclination");
   };
@@ -90,7 +90,7 @@ TEST(Validity, SeesWhereTheFactorOfInclinationTurnsFast)
     point = point.cwiseProduct(Eigen::Vector3d(40.0_mm, 30.0_mm, 8.0_mm));
   }
   const Surface lens = test::makeSurface(std::move(mesh));
-  const ForceLaw law(ConeTip{ 45.0_deg, 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  const ForceLaw law(ConeTip{ 45.0_deg, 10.0_mm }, kOrgan, { .mode = LawMode::Corrected });
   const Validity validity(law);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
@@ -130,7 +130,7 @@ TEST(Validity, SeesWhereTheFactorOfInclinationTurnsFast)
 // Eq. (4) is above the exact sphere by 11 % at depth = R and by 5.3 % at R / 2
 TEST(Validity, TellsWhenTheForceIsNoticeablyOff)
 {
-  const Validity paper(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
+  const Validity paper(ForceLaw(SphereTip{ 10.0_mm }, kOrgan));
   EXPECT_NEAR(rule(paper({ .depth = 10.0_mm }), "force_of_itself").value, 0.11, 0.005);
   EXPECT_FALSE(rule(paper({ .depth = 10.0_mm }), "force_of_itself").holds());
   EXPECT_TRUE(rule(paper({ .depth = 5.0_mm }), "force_of_itself").holds());
@@ -141,7 +141,7 @@ TEST(Validity, TellsWhenTheForceIsNoticeablyOff)
 
 TEST(Validity, ChangesWithTheMaximumOfTheExperiment)
 {
-  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver);
+  const ForceLaw law(SphereTip{ 10.0_mm }, kOrgan);
   const Validity shallow(law, { .deepest = 4.0_mm });
   const Validity deep(law, { .deepest = 8.0_mm });
   const ContactGeometry position{ .depth = 4.0_mm };
@@ -154,10 +154,10 @@ TEST(Validity, ChangesWithTheMaximumOfTheExperiment)
 // the first order of the layer, (2/pi) m0 a/h, is 7 % at a/h = 0.07 pi / (2 * 1.41177)
 TEST(Validity, LimitsTheContactOnAThinBody)
 {
-  const Validity paper(ForceLaw(SphereTip{ 10.0_mm }, kLiver));
+  const Validity paper(ForceLaw(SphereTip{ 10.0_mm }, kOrgan));
   EXPECT_NEAR(rule(paper({ .depth = 1.0_mm }), "thickness").limit, 0.07789, 2e-5);
   EXPECT_FALSE(rule(paper({ .depth = 1.0_mm, .thickness = 30.0_mm }), "thickness").holds());
-  const Validity corrected(ForceLaw(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected }));
+  const Validity corrected(ForceLaw(SphereTip{ 10.0_mm }, kOrgan, { .mode = LawMode::Corrected }));
   EXPECT_TRUE(rule(corrected({ .depth = 1.0_mm, .thickness = 30.0_mm }), "thickness").holds());
   EXPECT_FALSE(rule(corrected({ .depth = 5.0_mm, .thickness = 10.0_mm }), "thickness").holds());
 }
@@ -176,8 +176,8 @@ TEST(Validity, SeesWhatAFlatTipLacksOnACurvedSurface)
     }
     const LawSettings exact{ .mode = LawMode::Exact };
     const ForceLaw rounded(
-      ProfileTip{ std::make_shared<const Profile>(std::move(points)) }, kLiver, exact);
-    const ForceLaw flat(PunchTip{ kRadius }, kLiver, exact);
+      ProfileTip{ std::make_shared<const Profile>(std::move(points)) }, kOrgan, exact);
+    const ForceLaw flat(PunchTip{ kRadius }, kOrgan, exact);
     const Validity validity(flat);
     for (const double depth : { 1.0_mm, 3.0_mm })
     {
@@ -194,7 +194,7 @@ TEST(Validity, SeesWhatAFlatTipLacksOnACurvedSurface)
 
 TEST(Validity, LimitsDepthCurvatureEdgeAndStiffness)
 {
-  const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kLiver), { .stableStiffness = 500.0 });
+  const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kOrgan), { .stableStiffness = 500.0 });
   EXPECT_TRUE(rule(paper({ .depth = 3.2_mm }), "depth").holds());
   EXPECT_FALSE(rule(paper({ .depth = 3.4_mm }), "depth").holds());
   const ContactGeometry flat{ .depth = 0.1_mm, .surfaceCurvature = 1.0 / 19.0_mm };
@@ -210,7 +210,7 @@ TEST(Validity, LimitsDepthCurvatureEdgeAndStiffness)
 
 TEST(Validity, CountsBrokenRulesAsBits)
 {
-  const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kLiver));
+  const Validity paper(ForceLaw(SphereTip{ 6.0_mm }, kOrgan));
   EXPECT_EQ(brokenRules(paper({ .depth = 0.1_mm })), 0U);
   EXPECT_EQ(brokenRules(paper({ .depth = 0.1_mm, .tilt = 25.0_deg })), 4U);
   EXPECT_EQ(brokenRules(paper({ .depth = 0.1_mm, .tilt = 33.0_deg })), 4U + 8U);
@@ -218,13 +218,13 @@ TEST(Validity, CountsBrokenRulesAsBits)
 
 TEST(Validity, TellsThatLargeStrainIsNotCovered)
 {
-  const ForceLaw bare(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  const ForceLaw bare(SphereTip{ 10.0_mm }, kOrgan, { .mode = LawMode::Corrected });
   EXPECT_FALSE(rule(Validity(bare)({ .depth = 5.0_mm }), "large_strain").holds());
   const auto table = std::make_shared<const LargeStrain>(
     LargeStrain{ { { 0.0, 1.0 }, { 0.0 }, { 0.33 }, { 1.0, 1.1 } },
       { { 0.0, 1.0 }, { 0.5 }, { 0.33 }, { 1.0, 1.0 } } });
   const ForceLaw full(
-    SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected, .largeStrain = table });
+    SphereTip{ 10.0_mm }, kOrgan, { .mode = LawMode::Corrected, .largeStrain = table });
   EXPECT_TRUE(rule(Validity(full)({ .depth = 5.0_mm }), "large_strain").holds());
 }
 
@@ -254,7 +254,7 @@ TEST(Validity, LimitsTheTiltOfAConeByItsHalfAngle)
 {
   const auto holds = [](double halfAngle, double tilt)
   {
-    const ForceLaw law(ConeTip{ halfAngle, 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+    const ForceLaw law(ConeTip{ halfAngle, 10.0_mm }, kOrgan, { .mode = LawMode::Corrected });
     return rule(Validity(law)({ .depth = 1.0_mm, .tilt = tilt }), "inclination").holds();
   };
   EXPECT_TRUE(holds(60.0_deg, 14.9_deg));
@@ -273,7 +273,7 @@ TEST(Validity, SeesADepthBeyondHalfTheBody)
   {
     for (const LawMode mode : { LawMode::Paper, LawMode::Exact, LawMode::Corrected })
     {
-      const Validity validity(ForceLaw(tip, kLiver, { .mode = mode }));
+      const Validity validity(ForceLaw(tip, kOrgan, { .mode = mode }));
       const auto fraction = [&](double depth)
       { return rule(validity({ .depth = depth, .thickness = 8.0_mm }), "penetration").fraction(); };
       EXPECT_LT(fraction(3.9_mm), 1.0);
@@ -286,7 +286,7 @@ TEST(Validity, SeesADepthBeyondHalfTheBody)
 // the factor of an ellipse stays from 4 : 1 on, which is told
 TEST(Validity, SeesAnEllipseThatIsTooSlender)
 {
-  const ForceLaw law(SphereTip{ 10.0_mm }, kLiver, { .mode = LawMode::Corrected });
+  const ForceLaw law(SphereTip{ 10.0_mm }, kOrgan, { .mode = LawMode::Corrected });
   const auto position = [](double spread)
   { return ContactGeometry{ .depth = 1.0_mm, .curvatureSpread = spread }; };
   EXPECT_TRUE(rule(Validity(law)(position(59.0)), "ellipse").holds());
@@ -297,7 +297,7 @@ TEST(Validity, SeesAnEllipseThatIsTooSlender)
 TEST(Validity, EveryRuleHasWordsAndNoNaN)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const Validity validity(ForceLaw(PunchTip{ 5.0_mm }, kLiver));
+  const Validity validity(ForceLaw(PunchTip{ 5.0_mm }, kOrgan));
   for (const ContactGeometry& position :
     { ContactGeometry{}, ContactGeometry{ .depth = nan, .tilt = nan },
       ContactGeometry{ .depth = 1.0_mm, .thickness = nan, .surfaceCurvature = nan } })

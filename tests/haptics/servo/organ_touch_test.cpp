@@ -18,7 +18,7 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kRadius = 40.0_mm;
+constexpr double kBall = 40.0_mm;
 constexpr double kNose = 5.0_mm;
 
 std::shared_ptr<const Surface> shifted(test::Mesh mesh, const Vector3d& by)
@@ -54,7 +54,7 @@ Scene together(Scene first, std::vector<Scene> others)
 
 const Scene& left(const LawSettings& law = {})
 {
-  static const auto ball = shifted(test::ball(kRadius, 24), { -kRadius, 0.0, 0.0 });
+  static const auto ball = shifted(test::ball(kBall, 24), { -kBall, 0.0, 0.0 });
   static Scene scene;
   scene = organ(ball, 5.0_kPa, law);
   return scene;
@@ -62,13 +62,13 @@ const Scene& left(const LawSettings& law = {})
 
 const Scene& right(const LawSettings& law = {})
 {
-  static const auto ball = shifted(test::ball(kRadius, 24), { kRadius, 0.0, 0.0 });
+  static const auto ball = shifted(test::ball(kBall, 24), { kBall, 0.0, 0.0 });
   static Scene scene;
   scene = organ(ball, 50.0_kPa, law);
   return scene;
 }
 
-ToolPose at(const Vector3d& apex)
+ToolPose downAt(const Vector3d& apex)
 {
   return { .apex = apex, .axis = -Vector3d::UnitZ() };
 }
@@ -79,7 +79,7 @@ std::vector<Vector3d> press(double x, double depth)
   std::vector<Vector3d> path;
   for (int i = -40; i <= 40; ++i)
   {
-    path.emplace_back(x, 0.0, kRadius + 1.0_mm - (depth + 1.0_mm) * (1.0 - std::abs(i) / 40.0));
+    path.emplace_back(x, 0.0, kBall + 1.0_mm - (depth + 1.0_mm) * (1.0 - std::abs(i) / 40.0));
   }
   return path;
 }
@@ -90,7 +90,7 @@ std::vector<Sample> play(const Scene& scene, const std::vector<Vector3d>& path)
   std::vector<Sample> samples;
   for (const Vector3d& apex : path)
   {
-    samples.push_back(step(scene, memory, at(apex), 1.0_ms));
+    samples.push_back(step(scene, memory, downAt(apex), 1.0_ms));
   }
   return samples;
 }
@@ -116,13 +116,12 @@ TEST(OrganTouch, EachOfTwoTouchingOrgansAnswersAsIfItWereAlone)
   for (const LawSettings& law : { LawSettings{}, relaxing() })
   {
     const Scene both = together(left(law), { right(law) });
-    std::vector<Vector3d> path = press(-kRadius, 4.0_mm);
-    const std::vector<Vector3d> second = press(kRadius, 3.0_mm);
+    std::vector<Vector3d> path = press(-kBall, 4.0_mm);
+    const std::vector<Vector3d> second = press(kBall, 3.0_mm);
     path.insert(path.end(), second.begin(), second.end());
     const std::vector<Sample> samples = play(both, path);
     const auto half = static_cast<std::ptrdiff_t>(path.size() / 2);
-    expectSame(
-      { samples.begin(), samples.begin() + half }, play(left(law), press(-kRadius, 4.0_mm)));
+    expectSame({ samples.begin(), samples.begin() + half }, play(left(law), press(-kBall, 4.0_mm)));
     expectSame({ samples.begin() + half, samples.end() }, play(right(law), second));
     EXPECT_EQ(samples.front().organ, 0);
     EXPECT_EQ(samples.back().organ, 1); // touched last
@@ -139,35 +138,35 @@ TEST(OrganTouch, IsThatWhichIsMetFirstUntilTheToolIsLifted)
     const Scene& met = organOf(both, expected);
     const Scene& other = organOf(both, 1 - expected);
     TissueMemory memory;
-    double z = kRadius;
+    double z = kBall;
     Sample sample;
     for (; !sample.contact.touching(); z -= 0.1_mm)
     {
-      sample = step(both, memory, at({ side * 1.0_mm, 0.0, z }), 1.0_ms);
+      sample = step(both, memory, downAt({ side * 1.0_mm, 0.0, z }), 1.0_ms);
     }
     EXPECT_EQ(sample.organ, expected);
     const double deeper = z - 6.0_mm;
     for (; z > deeper; z -= 0.1_mm)
     {
-      sample = step(both, memory, at({ side * 1.0_mm, 0.0, z }), 1.0_ms);
+      sample = step(both, memory, downAt({ side * 1.0_mm, 0.0, z }), 1.0_ms);
       ASSERT_EQ(sample.organ, expected);
     }
     for (double x = side * 1.0_mm; x * side > -1.0_mm; x -= side * 0.1_mm)
     {
-      sample = step(both, memory, at({ x, 0.0, z }), 1.0_ms);
+      sample = step(both, memory, downAt({ x, 0.0, z }), 1.0_ms);
       ASSERT_EQ(sample.organ, expected);
-      ASSERT_EQ(sample.response.force, evaluateContact(met, at({ x, 0.0, z })).response.force);
+      ASSERT_EQ(sample.response.force, evaluateContact(met, downAt({ x, 0.0, z })).response.force);
     }
     EXPECT_GT(evaluateContact(other, sample.pose).contact.depth, sample.contact.depth);
     for (; sample.contact.touching(); z += 0.1_mm)
     {
-      sample = step(both, memory, at({ -side * 1.0_mm, 0.0, z }), 1.0_ms);
+      sample = step(both, memory, downAt({ -side * 1.0_mm, 0.0, z }), 1.0_ms);
       ASSERT_TRUE(
         sample.organ == expected || !evaluateContact(met, sample.pose).contact.touching());
     }
     for (sample = {}; !sample.contact.touching(); z -= 0.1_mm)
     {
-      sample = step(both, memory, at({ -side * 1.0_mm, 0.0, z }), 1.0_ms);
+      sample = step(both, memory, downAt({ -side * 1.0_mm, 0.0, z }), 1.0_ms);
     }
     EXPECT_EQ(sample.organ, 1 - expected);
   }
@@ -185,11 +184,11 @@ TEST(OrganTouch, OfTwoThatAreEnteredWithinATickTheFirstAlongTheWayIsMet)
   {
     const Scene both = turned ? together(wall, { floor }) : together(floor, { wall });
     TissueMemory memory;
-    ASSERT_FALSE(step(both, memory, at(from), 1.0_ms).contact.touching());
-    const Sample sample = step(both, memory, at(to), 1.0_ms);
-    ASSERT_GT(evaluateContact(wall, at(to)).contact.depth, 2.0 * sample.contact.depth);
+    ASSERT_FALSE(step(both, memory, downAt(from), 1.0_ms).contact.touching());
+    const Sample sample = step(both, memory, downAt(to), 1.0_ms);
+    ASSERT_GT(evaluateContact(wall, downAt(to)).contact.depth, 2.0 * sample.contact.depth);
     EXPECT_EQ(sample.organ, turned ? 1 : 0);
-    EXPECT_EQ(sample.contact.depth, evaluateContact(floor, at(to)).contact.depth);
+    EXPECT_EQ(sample.contact.depth, evaluateContact(floor, downAt(to)).contact.depth);
   }
 }
 
@@ -199,9 +198,9 @@ TEST(OrganTouch, OrgansOutOfReachChangeNothing)
   std::vector<Scene> far;
   for (int i = 1; i <= 10; ++i)
   {
-    far.push_back(organ(shifted(test::ball(20.0_mm, 8), { -kRadius, 0.1 * i, 0.0 }), 50.0_kPa));
+    far.push_back(organ(shifted(test::ball(20.0_mm, 8), { -kBall, 0.1 * i, 0.0 }), 50.0_kPa));
   }
-  const std::vector<Vector3d> path = press(-kRadius, 5.0_mm);
+  const std::vector<Vector3d> path = press(-kBall, 5.0_mm);
   expectSame(play(together(alone, far), path), play(alone, path));
 }
 
@@ -224,9 +223,9 @@ TEST(OrganTouch, IsFoundWhereverTheToolComesTo)
     for (const double part : { 0.0, 0.5, 1.0 }) // across the free middle, too
     {
       const Vector3d above = part * on(angle(i)) + Vector3d(0.0, 0.0, 30.0_mm);
-      EXPECT_FALSE(step(all, memory, at(above), 1.0_ms).contact.touching());
+      EXPECT_FALSE(step(all, memory, downAt(above), 1.0_ms).contact.touching());
     }
-    const ToolPose pressed = at(on(angle(i)) + Vector3d(0.0, 0.0, 13.0_mm));
+    const ToolPose pressed = downAt(on(angle(i)) + Vector3d(0.0, 0.0, 13.0_mm));
     const Sample sample = step(all, memory, pressed, 1.0_ms);
     EXPECT_EQ(sample.organ, i + 1);
     const Contact alone = evaluateContact(organOf(all, i + 1), pressed).contact;
@@ -238,7 +237,7 @@ TEST(OrganTouch, IsFoundWhereverTheToolComesTo)
 TEST(OrganTouch, OnlyTheFeltOrgansStopTheTool)
 {
   OrganTouch none;
-  const ToolPose inside = at({ kRadius, 0.0, kRadius - 2.0_mm });
+  const ToolPose inside = downAt({ kBall, 0.0, kBall - 2.0_mm });
   EXPECT_FALSE(touchOrgan(left(), inside, none).touching()); // the right one is not of the scene
   EXPECT_TRUE(touchOrgan(together(left(), { right() }), inside, none).touching());
   EXPECT_EQ(none.organ, 1);
@@ -248,15 +247,15 @@ TEST(OrganTouch, AnotherSceneBeginsWithoutIt)
 {
   TissueMemory memory;
   const Scene both = together(left(), { right() });
-  ASSERT_EQ(step(both, memory, at({ kRadius, 0.0, kRadius - 1.0_mm }), 1.0_ms).organ, 1);
+  ASSERT_EQ(step(both, memory, downAt({ kBall, 0.0, kBall - 1.0_mm }), 1.0_ms).organ, 1);
   Scene one = left();
   one.version = 1;
-  const Sample sample = step(one, memory, at({ -kRadius, 0.0, kRadius - 1.0_mm }), 1.0_ms);
+  const Sample sample = step(one, memory, downAt({ -kBall, 0.0, kBall - 1.0_mm }), 1.0_ms);
   EXPECT_EQ(sample.organ, 0);
   EXPECT_GT(sample.force.z(), 0.0);
   SafetyChain chain(test::arm());
   TissueMemory lost;
-  (void)step(both, lost, at({ kRadius, 0.0, kRadius - 1.0_mm }), 1.0_ms);
+  (void)step(both, lost, downAt({ kBall, 0.0, kBall - 1.0_mm }), 1.0_ms);
   EXPECT_EQ(step(one, lost, chain, std::nullopt, {}, {}, 1.0_ms).organ, 0);
 }
 
@@ -277,7 +276,7 @@ TEST(OrganTouch, SlidingOverASeamChangesTheForceAsStiffnessAndMotionDo)
       double z = 0.1_mm;
       for (; z > -depth; z -= 0.02_mm)
       {
-        before = step(both, memory, at({ -15.0_mm, 0.0, z }), 1.0_ms);
+        before = step(both, memory, downAt({ -15.0_mm, 0.0, z }), 1.0_ms);
       }
       ASSERT_TRUE(before.organ == 0 && before.force.z() > 0.0);
       // of a sphere on the stiffer half-space: Hertz, the derivative of his force by depth
@@ -285,7 +284,7 @@ TEST(OrganTouch, SlidingOverASeamChangesTheForceAsStiffnessAndMotionDo)
       int handed = 0;
       for (double x = -15.0_mm; x < 15.0_mm; x += motion)
       {
-        const Sample sample = step(both, memory, at({ x, 0.0, z }), 1.0_ms);
+        const Sample sample = step(both, memory, downAt({ x, 0.0, z }), 1.0_ms);
         ASSERT_LT((sample.force - before.force).norm(), 3.0 * stiffness * motion) << depth;
         if (sample.organ != before.organ)
         {
@@ -311,14 +310,14 @@ TEST(OrganTouch, IsHandedOverToAHandWithoutAJumpOfTheForce)
   const double z = 9.0_mm;
   const auto tick = [&](double x, double height)
   {
-    const ToolPose pose = at({ x, 0.0, height });
+    const ToolPose pose = downAt({ x, 0.0, height });
     return step(both, memory, chain, pose, { .homed = true }, { .armed = true }, 1.0_ms);
   };
   for (int i = 0; i < 1000; ++i)
   {
-    (void)tick(-2.0_mm, kRadius + 5.0_mm);
+    (void)tick(-2.0_mm, kBall + 5.0_mm);
   }
-  for (double height = kRadius + 5.0_mm; height > z; height -= 0.05_mm)
+  for (double height = kBall + 5.0_mm; height > z; height -= 0.05_mm)
   {
     (void)tick(-2.0_mm, height);
   }
@@ -338,7 +337,7 @@ TEST(OrganTouch, NeverAllocates)
 {
   const Scene both = together(left(relaxing()), { right(relaxing()) });
   TissueMemory memory;
-  const auto feel = [&](const Vector3d& apex) { (void)step(both, memory, at(apex), 1.0_ms); };
+  const auto feel = [&](const Vector3d& apex) { (void)step(both, memory, downAt(apex), 1.0_ms); };
   const std::vector<Vector3d> path = press(0.5_mm, 40.0_mm);
   const test::AllocationGuard guard;
   std::ranges::for_each(path, feel);

@@ -1,5 +1,7 @@
 #include "haptics/stability/stability.h"
 
+#include "tests/support/sampled.h"
+
 #include <gtest/gtest.h>
 
 namespace palp
@@ -23,9 +25,10 @@ TEST(Stability, NoSituationMakesTheChainUnstable)
 
 TEST(Stability, RigidWallIsUnstableWithoutTheChain)
 {
+  test::Sampled samples;
   for (const StabilityCase& what : stabilityCases(true))
   {
-    if (!what.material && what.name == "material")
+    if (!what.material && what.name == "material" && samples.takes())
     {
       EXPECT_EQ(judge(what, false).outcome, StabilityOutcome::Unstable);
       EXPECT_EQ(judge(what, true).outcome, StabilityOutcome::Limited);

@@ -6,6 +6,7 @@
 #include "haptics/surface/surface.h"
 #include "haptics/units.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/sampled.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
@@ -173,7 +174,7 @@ TEST(ShapeField, OfATorusIsThatOfItsCirclesHoweverItIsTurned)
   const test::Mesh torus = test::torus(kRing, kTube, 220, 63); // edges of 2 mm outside
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < (test::kSanitized ? 1 : 8); ++i)
   {
     const Eigen::Matrix3d turn =
       Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
@@ -247,7 +248,7 @@ TEST(ShapeField, ChangesContinuously)
       std::pair(test::makeSurface(test::ball(30.0_mm, 6)), 30.0_mm),
       std::pair(test::makeSurface(test::sheet(60.0_mm, 12, wavy)), 0.0) })
   {
-    for (int i = 0; i < 10; ++i)
+    for (int i = 0; i < (test::kSanitized ? 2 : 10); ++i)
     {
       Eigen::Vector3d at(12.0_mm * part(random), 12.0_mm * part(random), top);
       const Eigen::Vector3d direction =

@@ -62,7 +62,7 @@ Inside insideOf(vtkPolyData& mesh, const Press& press)
   return inside;
 }
 
-struct Case
+struct Dented
 {
   const char* name;
   Mesh mesh;
@@ -75,11 +75,12 @@ TEST(RefinedSurface, HasNoPointInsideTheToolAndCutsItLess)
 {
   const Mesh block = makeBox({ 100.0_mm, 100.0_mm, 50.0_mm }, 2.3_mm);
   const Mesh ball = makeSphere(50.0_mm, 4);
-  for (const Case& with :
-    { Case{ "sphere in a block", block, { 0.3_mm, 0.2_mm, 0.0 }, SphereTip{ 10.0_mm }, 6.0_mm },
-      Case{
+  for (const Dented& with :
+    { Dented{ "sphere in a block", block, { 0.3_mm, 0.2_mm, 0.0 }, SphereTip{ 10.0_mm }, 6.0_mm },
+      Dented{
         "cone in a block", block, { 0.3_mm, 0.2_mm, 0.0 }, ConeTip{ 45.0_deg, 10.0_mm }, 6.0_mm },
-      Case{ "small sphere in a ball", ball, { 0.0, 0.0, 50.0_mm }, SphereTip{ 4.0_mm }, 2.0_mm } })
+      Dented{
+        "small sphere in a ball", ball, { 0.0, 0.0, 50.0_mm }, SphereTip{ 4.0_mm }, 2.0_mm } })
   {
     vtkNew<vtkPalpDeformFilter> filter;
     filter->SetInputData(makePolyData(with.mesh.points, with.mesh.triangles));

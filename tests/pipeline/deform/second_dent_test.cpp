@@ -21,13 +21,13 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kRadius = 50.0_mm;
+constexpr double kBallRadius = 50.0_mm;
 
 // at an angle from the top of the ball
 Press pressAside(double angle, double depth)
 {
   const Eigen::Vector3d outward(std::sin(angle), 0.0, std::cos(angle));
-  return test::pressAt(kRadius * outward, outward, SphereTip{ 10.0_mm }, depth, 15.0_mm);
+  return test::pressAt(kBallRadius * outward, outward, SphereTip{ 10.0_mm }, depth, 15.0_mm);
 }
 
 Eigen::Vector3f tuple(vtkDataArray* array, vtkIdType point)
@@ -41,7 +41,7 @@ class SecondDent : public testing::Test
 protected:
   SecondDent()
   {
-    source_->SetRadius(kRadius);
+    source_->SetRadius(kBallRadius);
     source_->SetThetaResolution(120);
     source_->SetPhiResolution(90);
     source_->Update();

@@ -22,7 +22,7 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kRadius = 50.0_mm;
+constexpr double kMovedRadius = 50.0_mm;
 const Tip kBall{ SphereTip{ 10.0_mm } };
 const Vector3d kHinge(-60.0_mm, 0.0, 0.0);
 
@@ -45,8 +45,8 @@ std::shared_ptr<const OrganMotion> hinged()
     const double angle = 2.399963229728653 * i;
     const double wide = std::sqrt(1.0 - up * up);
     const Vector3d normal(wide * std::cos(angle), wide * std::sin(angle), up);
-    modes.places.push_back({ kRadius * normal, normal, true });
-    modes.modes.col(0).segment<3>(3L * i) = turnedBy(kRadius * normal).cast<float>();
+    modes.places.push_back({ kMovedRadius * normal, normal, true });
+    modes.modes.col(0).segment<3>(3L * i) = turnedBy(kMovedRadius * normal).cast<float>();
   }
   return std::make_shared<const OrganMotion>(modes);
 }
@@ -54,9 +54,9 @@ std::shared_ptr<const OrganMotion> hinged()
 Sample pressedTo(double depth)
 {
   Sample sample;
-  sample.pose = { .apex = { 0.0, 0.0, kRadius - depth }, .axis = -Vector3d::UnitZ() };
+  sample.pose = { .apex = { 0.0, 0.0, kMovedRadius - depth }, .axis = -Vector3d::UnitZ() };
   sample.contact.depth = depth;
-  sample.contact.center = { 0.0, 0.0, kRadius };
+  sample.contact.center = { 0.0, 0.0, kMovedRadius };
   sample.contact.normal = Vector3d::UnitZ();
   sample.response.contactRadius = std::sqrt(8.0_mm * depth);
   return sample;
@@ -72,7 +72,7 @@ class HingedBall : public testing::Test
 protected:
   void SetUp() override
   {
-    source_->SetRadius(kRadius);
+    source_->SetRadius(kMovedRadius);
     source_->SetThetaResolution(120);
     source_->SetPhiResolution(90);
     style_.motion = hinged();
@@ -121,7 +121,7 @@ protected:
 TEST_F(HingedBall, GoesAlongEverywhereAndSaysSo)
 {
   press(6.0_mm, 4.0_mm);
-  const double force = 4.0_mm / turnedBy({ 0.0, 0.0, kRadius }).norm();
+  const double force = 4.0_mm / turnedBy({ 0.0, 0.0, kMovedRadius }).norm();
   vtkPolyData* rest = source_->GetOutput();
   vtkDataArray* moved = output_->GetPointData()->GetArray("Displacement");
   vtkDataArray* zone = output_->GetPointData()->GetArray("Zone");
@@ -135,7 +135,7 @@ TEST_F(HingedBall, GoesAlongEverywhereAndSaysSo)
       ++far;
       EXPECT_LT((vectorAt(moved, i) - force * turnedBy(from)).norm(), 0.02 * 4.0_mm);
       // a rigid turn takes normals along
-      const Vector3d normal = from / kRadius;
+      const Vector3d normal = from / kMovedRadius;
       const Vector3d turned = normal + force * 1e4 * Vector3d::UnitY().cross(normal);
       EXPECT_LT(
         (vectorAt(output_->GetPointData()->GetNormals(), i) - turned.normalized()).norm(), 0.02);
@@ -181,11 +181,11 @@ TEST_F(HingedBall, TwoToolsActOnEachOther)
 {
   press(6.0_mm, 2.0_mm);
   const double alone = filter_->GetPress().contact.depth;
-  const OrganLoad other{ .center = { 0.0, kRadius, 0.0 },
+  const OrganLoad other{ .center = { 0.0, kMovedRadius, 0.0 },
     .normal = Vector3d::UnitY(),
-    .force = 1.0_mm / turnedBy({ 0.0, 0.0, kRadius }).norm() };
+    .force = 1.0_mm / turnedBy({ 0.0, 0.0, kMovedRadius }).norm() };
   press(6.0_mm, 2.0_mm, { other });
-  const double down = -turnedBy({ 0.0, 0.0, kRadius }).z() * other.force;
+  const double down = -turnedBy({ 0.0, 0.0, kMovedRadius }).z() * other.force;
   EXPECT_NEAR(filter_->GetPress().contact.depth, alone - down, 0.05_mm);
   EXPECT_LT(deepestInTool(*output_), 0.1_mm);
   EXPECT_GT(deepestInTool(*output_), -0.1_mm);

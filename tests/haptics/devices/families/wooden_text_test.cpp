@@ -39,7 +39,7 @@ public:
     std::array<char, 64> name{};
     EXPECT_EQ(ptsname_r(terminal_, name.data(), name.size()), 0);
     path = name.data();
-    kept_ = open(path.c_str(), O_RDWR | O_NOCTTY); // a port is there before anybody opens it
+    kept_ = ::open(path.c_str(), O_RDWR | O_NOCTTY); // a port is there before anybody opens it
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
   ~TextBoard()

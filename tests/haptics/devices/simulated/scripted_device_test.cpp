@@ -17,7 +17,7 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kTick = 1.0_ms;
+constexpr double kPeriod = 1.0_ms;
 const Vector3d kDown = -Vector3d::UnitZ();
 
 // 5 mm into a block whose upper face is z = 0, and 40 mm along it; it lasts a second
@@ -27,7 +27,7 @@ const ScriptedPath kSlide({ { .time = 3.0, .apex = Vector3d(0.0, 0.0, 5.0_mm) },
 
 ToolPose turn(ScriptedDevice& device)
 {
-  return *device.exchange(Vector3d::Zero(), kTick);
+  return *device.exchange(Vector3d::Zero(), kPeriod);
 }
 
 ToolPose turns(ScriptedDevice& device, int ticks)
@@ -51,7 +51,7 @@ TEST(PlayedDevice, WithoutAnOrderGoesAsThePath)
   for (int tick = 1; tick < 1000; ++tick)
   {
     const ToolPose pose = turn(device);
-    EXPECT_NEAR(device.reached(), kTick * tick, 1e-12);
+    EXPECT_NEAR(device.reached(), kPeriod * tick, 1e-12);
     const ToolPose known = kSlide.poseAt(3.0 + device.reached(), kDown);
     ASSERT_EQ(pose.apex, known.apex);
     ASSERT_EQ(pose.velocity, known.velocity);
@@ -71,7 +71,7 @@ TEST(PlayedDevice, MovesAsFastAsItIsPlayed)
     for (int tick = 2; speed * tick < 999; ++tick)
     {
       const ToolPose pose = turn(device);
-      const Vector3d moved = (pose.apex - before.apex) / kTick;
+      const Vector3d moved = (pose.apex - before.apex) / kPeriod;
       const double last = 1e3 * device.reached();
       if (last - speed > 200.0 || last < 200.0) // not around the corner
       {
@@ -94,7 +94,7 @@ TEST(PlayedDevice, RestsWhereItIsPausedAndGoesOnFromThere)
     ASSERT_EQ(pose.velocity, Vector3d::Zero());
   }
   device.play({ .speed = 4.0 });
-  EXPECT_NEAR(turn(device).apex.x(), before.apex.x() + 4 * 50e-3 * kTick, 1e-12);
+  EXPECT_NEAR(turn(device).apex.x(), before.apex.x() + 4 * 50e-3 * kPeriod, 1e-12);
 }
 
 TEST(PlayedDevice, IsTakenOffTheTissueToAFarPlace)
@@ -113,7 +113,7 @@ TEST(PlayedDevice, IsTakenOffTheTissueToAFarPlace)
   EXPECT_GE(lifted, 20); // a bounce
   EXPECT_EQ(device.reached(), 0.8);
   device.play({ .place = 0.8, .seeks = 1 });
-  EXPECT_NEAR(turns(device, 100).apex.x(), there.x() + 100 * 50e-3 * kTick, 1e-12);
+  EXPECT_NEAR(turns(device, 100).apex.x(), there.x() + 100 * 50e-3 * kPeriod, 1e-12);
 }
 
 // a step by a key, or a slow drag of the slider
@@ -187,17 +187,17 @@ TEST(PlayedDevice, TissueThatRelaxesAndRubsIsFreshWhereItIsTaken)
   TissueMemory memory;
   for (int tick = 0; tick < 400; ++tick)
   {
-    (void)step(scene, memory, turn(device), kTick);
+    (void)step(scene, memory, turn(device), kPeriod);
   }
   device.play(soughtTo(1.0)); // 30 mm on
   ToolPose pose = turn(device);
   for (; pose.apex.z() > 0.0; pose = turn(device))
   {
-    EXPECT_FALSE(step(scene, memory, pose, kTick).contact.touching());
+    EXPECT_FALSE(step(scene, memory, pose, kPeriod).contact.touching());
   }
-  const Sample taken = step(scene, memory, pose, kTick);
+  const Sample taken = step(scene, memory, pose, kPeriod);
   TissueMemory none;
-  const Sample fresh = step(scene, none, pose, kTick);
+  const Sample fresh = step(scene, none, pose, kPeriod);
   EXPECT_GT(fresh.response.force, 1.0);
   EXPECT_NEAR(taken.response.force, fresh.response.force, 1e-9);
   EXPECT_EQ(taken.friction, Vector3d::Zero());

@@ -19,10 +19,10 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-const Vector3d kDown = -Vector3d::UnitZ();
+const Vector3d kDownward = -Vector3d::UnitZ();
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 const char* const kPress = "# a press of 5 mm and back\n"
                            "time_s,x_mm,y_mm,z_mm\n"
@@ -38,11 +38,11 @@ TEST(ScriptedPath, GoesStraightFromKnotToKnotAtConstantSpeed)
   EXPECT_DOUBLE_EQ(path.duration(), 3.0);
   EXPECT_FALSE(path.hasAxes());
 
-  const ToolPose pose = path.poseAt(0.75, kDown);
+  const ToolPose pose = path.poseAt(0.75, kDownward);
   EXPECT_TRUE(pose.apex.isApprox(Vector3d(10.0_mm, -20.0_mm, 2.5_mm), 1e-15));
   EXPECT_TRUE(pose.velocity.isApprox(Vector3d(0, 0, -10.0_mm), 1e-12)); // per second
-  EXPECT_EQ(pose.axis, kDown);
-  EXPECT_TRUE(path.poseAt(2.5, kDown).velocity.isApprox(Vector3d(0, 0, 5.0_mm), 1e-12));
+  EXPECT_EQ(pose.axis, kDownward);
+  EXPECT_TRUE(path.poseAt(2.5, kDownward).velocity.isApprox(Vector3d(0, 0, 5.0_mm), 1e-12));
 }
 
 TEST(ScriptedPath, MeetsEveryKnotExactly)
@@ -50,17 +50,18 @@ TEST(ScriptedPath, MeetsEveryKnotExactly)
   const ScriptedPath path = parsePath(kPress, "press.csv");
   for (const PathKnot& knot : path.knots())
   {
-    EXPECT_EQ(path.poseAt(knot.time, kDown).apex, knot.apex) << knot.time;
+    EXPECT_EQ(path.poseAt(knot.time, kDownward).apex, knot.apex) << knot.time;
   }
-  EXPECT_GT(path.poseAt(3.5, kDown).velocity.z(), 0.0); // the last piece still counts at its end
+  EXPECT_GT(
+    path.poseAt(3.5, kDownward).velocity.z(), 0.0); // the last piece still counts at its end
 }
 
 TEST(ScriptedPath, RestsBeforeItsStartAndAfterItsEnd)
 {
   const ScriptedPath path = parsePath(kPress, "press.csv");
-  for (const double time : { -kInf, 0.0, 0.4999, 3.5001, kInf, kNaN })
+  for (const double time : { -kInfinite, 0.0, 0.4999, 3.5001, kInfinite, kNotANumber })
   {
-    const ToolPose pose = path.poseAt(time, kDown);
+    const ToolPose pose = path.poseAt(time, kDownward);
     EXPECT_EQ(pose.velocity, Vector3d::Zero()) << time;
     EXPECT_TRUE(pose.apex.isApprox(Vector3d(10.0_mm, -20.0_mm, 5.0_mm))) << time;
   }
@@ -81,15 +82,15 @@ TEST(ScriptedPath, TurnsTheAxisAsAUnitVector)
 TEST(ScriptedPath, HasAnAxisEvenBetweenOppositeOnes)
 {
   const ScriptedPath path = parsePath("0,0,0,0,0,0,1\n1,0,0,0,0,0,-1\n", "flip.csv");
-  EXPECT_NEAR(path.poseAt(0.5, kDown).axis.norm(), 1.0, 1e-15);
+  EXPECT_NEAR(path.poseAt(0.5, kDownward).axis.norm(), 1.0, 1e-15);
 }
 
 TEST(ScriptedPath, OneRowIsAToolThatRests)
 {
   const ScriptedPath path = parsePath("time_s,x_mm,y_mm,z_mm\n2,1,2,3", "rest.csv");
   EXPECT_EQ(path.duration(), 0.0);
-  EXPECT_TRUE(path.poseAt(2.0, kDown).apex.isApprox(Vector3d(1.0_mm, 2.0_mm, 3.0_mm)));
-  EXPECT_EQ(path.poseAt(2.0, kDown).velocity, Vector3d::Zero());
+  EXPECT_TRUE(path.poseAt(2.0, kDownward).apex.isApprox(Vector3d(1.0_mm, 2.0_mm, 3.0_mm)));
+  EXPECT_EQ(path.poseAt(2.0, kDownward).velocity, Vector3d::Zero());
 }
 
 struct BadPath
@@ -189,14 +190,14 @@ TEST(ScriptedPath, MayBeginWithAByteOrderMark)
 TEST(ScriptedPath, RefusesKnotsThatBreakTheRules)
 {
   EXPECT_THROW(ScriptedPath({}), Error);
-  EXPECT_THROW(ScriptedPath({ PathKnot{ .time = kNaN } }), Error);
-  EXPECT_THROW(ScriptedPath({ PathKnot{ .apex = Vector3d(kNaN, 0, 0) } }), Error);
-  EXPECT_THROW(ScriptedPath({ PathKnot{ .axis = Vector3d(0, 0, kInf) } }), Error);
+  EXPECT_THROW(ScriptedPath({ PathKnot{ .time = kNotANumber } }), Error);
+  EXPECT_THROW(ScriptedPath({ PathKnot{ .apex = Vector3d(kNotANumber, 0, 0) } }), Error);
+  EXPECT_THROW(ScriptedPath({ PathKnot{ .axis = Vector3d(0, 0, kInfinite) } }), Error);
 }
 
 TEST(ScriptedDevice, PlaysThePathOnItsOwnClockAndCannotBePushed)
 {
-  ScriptedDevice device(parsePath(kPress, "press.csv"), kDown);
+  ScriptedDevice device(parsePath(kPress, "press.csv"), kDownward);
   EXPECT_FALSE(device.limits().rendersForce);
   ASSERT_TRUE(device.exchange(Vector3d::Zero(), 0.0));
   for (int tick = 0; tick < 250; ++tick)
@@ -220,7 +221,7 @@ TEST(Recording, IsReadByTheNamesOfItsColumns)
   EXPECT_EQ(path.startTime(), 2.0);
   EXPECT_TRUE(path.knots()[0].apex.isApprox(Vector3d(1.0_mm, 2.0_mm, 3.0_mm), 1e-15));
   EXPECT_TRUE(path.knots()[0].axis->isApprox(Vector3d(0.0, 0.6, -0.8), 1e-15));
-  EXPECT_TRUE(path.knots()[1].axis->isApprox(kDown, 1e-15));
+  EXPECT_TRUE(path.knots()[1].axis->isApprox(kDownward, 1e-15));
 }
 
 TEST(Recording, SaysInOneSentenceWhatIsWrong)
@@ -264,15 +265,15 @@ TEST(ScriptedPath, StaysWhereARecordingLeavesSamplesOut)
   const ScriptedPath recorded = parsePath("time_s," + names + rows, "samples.csv");
   for (const double time : { 0.002, 1.0, 4.999 })
   {
-    EXPECT_EQ(recorded.poseAt(time, kDown).apex, Vector3d(0.0, 0.0, 1.0_mm)) << time;
+    EXPECT_EQ(recorded.poseAt(time, kDownward).apex, Vector3d(0.0, 0.0, 1.0_mm)) << time;
   }
-  EXPECT_EQ(recorded.poseAt(5.0, kDown).apex, Vector3d(90.0_mm, 0.0, 1.0_mm));
+  EXPECT_EQ(recorded.poseAt(5.0, kDownward).apex, Vector3d(90.0_mm, 0.0, 1.0_mm));
   // in contact, and in a path that somebody wrote, the way is straight
   const ScriptedPath written = parsePath("0,0,0,1\n1,90,0,1\n", "press.csv");
-  EXPECT_NEAR(written.poseAt(0.5, kDown).apex.x(), 45.0_mm, 1e-15);
+  EXPECT_NEAR(written.poseAt(0.5, kDownward).apex.x(), 45.0_mm, 1e-15);
   const ScriptedPath held =
     parsePath("time_s," + names + "0,0,0,-1,1\n1,90,0,-1,1\n", "samples.csv");
-  EXPECT_NEAR(held.poseAt(0.5, kDown).apex.x(), 45.0_mm, 1e-15);
+  EXPECT_NEAR(held.poseAt(0.5, kDownward).apex.x(), 45.0_mm, 1e-15);
 }
 
 } // namespace

@@ -15,7 +15,7 @@ namespace
 using namespace units::literals;
 using Eigen::Vector3d;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 const ToolPose kOrigin{};
 const PressTarget kAside{ .position = Vector3d(0.0, 10.0_mm, 1.0_mm), .depth = 1.0_mm };
@@ -87,22 +87,22 @@ TEST(SimulatedHand, IsStableForAnyTick)
 TEST(SimulatedHand, StaysFiniteWhateverItIsGiven)
 {
   SimulatedHand hand(kOrigin);
-  hand.guided()->moveTo({ .position = Vector3d(kNaN, 0, 0) });
-  hand.guided()->moveTo({ .normal = Vector3d(kNaN, 0, 0) });
-  for (const double tick : { kNaN, -1.0, 0.0, HUGE_VAL })
+  hand.guided()->moveTo({ .position = Vector3d(kNoNumber, 0, 0) });
+  hand.guided()->moveTo({ .normal = Vector3d(kNoNumber, 0, 0) });
+  for (const double tick : { kNoNumber, -1.0, 0.0, HUGE_VAL })
   {
-    EXPECT_TRUE(hand.exchange(Vector3d(kNaN, 0, 0), tick)->apex.allFinite());
+    EXPECT_TRUE(hand.exchange(Vector3d(kNoNumber, 0, 0), tick)->apex.allFinite());
     EXPECT_TRUE(hand.exchange(Vector3d(1, 1, 1), tick)->apex.allFinite());
   }
-  EXPECT_EQ(hand.exchange(Vector3d(kNaN, 0, 0), 1.0_ms)->velocity, Vector3d::Zero());
+  EXPECT_EQ(hand.exchange(Vector3d(kNoNumber, 0, 0), 1.0_ms)->velocity, Vector3d::Zero());
 }
 
 TEST(SimulatedHand, RefusesMechanicsThatCannotBe)
 {
   EXPECT_THROW(SimulatedHand(kOrigin, { .mass = 0.0 }), Error);
   EXPECT_THROW(SimulatedHand(kOrigin, { .damping = -1.0 }), Error);
-  EXPECT_THROW(SimulatedHand(kOrigin, { .stiffness = kNaN }), Error);
-  EXPECT_THROW(SimulatedHand({ .apex = Vector3d(kNaN, 0, 0) }), Error);
+  EXPECT_THROW(SimulatedHand(kOrigin, { .stiffness = kNoNumber }), Error);
+  EXPECT_THROW(SimulatedHand({ .apex = Vector3d(kNoNumber, 0, 0) }), Error);
 }
 
 } // namespace

@@ -88,12 +88,12 @@ TEST(SurfaceCompliance, DoesNotSeeAJointWithinAMaterial)
   }
 }
 
-class AnyTip : public ::testing::TestWithParam<Tip>
+class AnyTipOnACoating : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(CoatedBody, AnyTip, ::testing::ValuesIn(test::allTips()));
+INSTANTIATE_TEST_SUITE_P(CoatedBody, AnyTipOnACoating, ::testing::ValuesIn(test::allTips()));
 
-TEST_P(AnyTip, CoatedWithItsOwnMaterialIsTheBodyAlone)
+TEST_P(AnyTipOnACoating, CoatedWithItsOwnMaterialIsTheBodyAlone)
 {
   double worst = 0.0;
   for (const auto& [nu, base] :
@@ -116,7 +116,7 @@ TEST_P(AnyTip, CoatedWithItsOwnMaterialIsTheBodyAlone)
 }
 
 // over something hard a coating is nearly a bonded layer
-TEST_P(AnyTip, CoatingOnSomethingHardIsALayerOfItsThickness)
+TEST_P(AnyTipOnACoating, CoatingOnSomethingHardIsALayerOfItsThickness)
 {
   const Material soft{ 1.0_kPa, 0.45 };
   const Material hard{ 900.0_kPa, 0.45 };
@@ -130,7 +130,7 @@ TEST_P(AnyTip, CoatingOnSomethingHardIsALayerOfItsThickness)
 }
 
 // stiffer and softer, thin and thick, over fat and without
-TEST_P(AnyTip, StiffnessIsTheDerivativeOfTheForceAndNeverFalls)
+TEST_P(AnyTipOnACoating, StiffnessIsTheDerivativeOfTheForceAndNeverFalls)
 {
   for (const double contrast : { 1e-3, 0.05, 10.0, 20.0 })
   {
@@ -164,7 +164,7 @@ TEST_P(AnyTip, StiffnessIsTheDerivativeOfTheForceAndNeverFalls)
 }
 
 // under the stiffest skin that is taken, a little more depth is a little more contact
-TEST_P(AnyTip, ContactNeverJumps)
+TEST_P(AnyTipOnACoating, ContactNeverJumps)
 {
   for (const double skin : { 0.5_mm, 1.0_mm, 3.0_mm })
   {

@@ -17,7 +17,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kBase = 1.0; // [m], wide enough never to matter
+constexpr double kBaseRadius = 1.0; // [m], wide enough never to matter
 
 Tip tipOf(const std::string& model, double first, double second)
 {
@@ -35,13 +35,13 @@ Tip tipOf(const std::string& model, double first, double second)
   }
   if (model == "cone")
   {
-    return ConeTip{ first, kBase };
+    return ConeTip{ first, kBaseRadius };
   }
   if (model == "trunc_cone")
   {
-    return TruncatedConeTip{ first, second, kBase };
+    return TruncatedConeTip{ first, second, kBaseRadius };
   }
-  return BluntConeTip{ first, second, kBase };
+  return BluntConeTip{ first, second, kBaseRadius };
 }
 
 struct Column
@@ -87,13 +87,14 @@ TEST_P(ClosedForm, AgreesWithTheReference)
   }
 }
 
-class AnyTip : public ::testing::TestWithParam<Tip>
+class AnyTipOnAHalfSpace : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(HalfSpace, AnyTip, ::testing::ValuesIn(test::closedFormTips()));
+INSTANTIATE_TEST_SUITE_P(
+  HalfSpace, AnyTipOnAHalfSpace, ::testing::ValuesIn(test::closedFormTips()));
 
 // dF/ddepth = 2 E* a, beyond the base as before it
-TEST_P(AnyTip, StiffnessIsTwiceTheContactRadius)
+TEST_P(AnyTipOnAHalfSpace, StiffnessIsTwiceTheContactRadius)
 {
   const HalfSpace law(GetParam());
   for (double depth = 0.05_mm; depth < 60.0_mm; depth *= 1.3)
@@ -105,7 +106,7 @@ TEST_P(AnyTip, StiffnessIsTwiceTheContactRadius)
 }
 
 // each radius given by g is found again
-TEST_P(AnyTip, ContactRadiusInvertsTheContactDepth)
+TEST_P(AnyTipOnAHalfSpace, ContactRadiusInvertsTheContactDepth)
 {
   const HalfSpace law(GetParam());
   const double base = baseRadius(GetParam());
@@ -121,7 +122,7 @@ TEST_P(AnyTip, ContactRadiusInvertsTheContactDepth)
   }
 }
 
-TEST_P(AnyTip, ContactNeverLeavesTheBase)
+TEST_P(AnyTipOnAHalfSpace, ContactNeverLeavesTheBase)
 {
   const HalfSpace law(GetParam());
   for (const double depth : { 1.0_mm, 10.0_mm, 100.0_mm, 1.0, 1e3 })
@@ -132,7 +133,7 @@ TEST_P(AnyTip, ContactNeverLeavesTheBase)
 }
 
 // the table that a profile uses and that layers need, against the closed forms
-TEST_P(AnyTip, TableAgreesWithTheClosedForm)
+TEST_P(AnyTipOnAHalfSpace, TableAgreesWithTheClosedForm)
 {
   const HalfSpace law(GetParam());
   const ContactTable table(GetParam());

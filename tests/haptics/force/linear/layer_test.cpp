@@ -18,7 +18,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 Tip tipOf(const test::ReferenceRow& row)
 {
@@ -124,24 +124,24 @@ TEST(LayerContact, AgreesWithThePublishedSeriesForACone)
   }
 }
 
-class AnyTip : public ::testing::TestWithParam<Tip>
+class AnyTipOnALayer : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(LayerContact, AnyTip, ::testing::ValuesIn(test::allTips()));
+INSTANTIATE_TEST_SUITE_P(LayerContact, AnyTipOnALayer, ::testing::ValuesIn(test::allTips()));
 
-TEST_P(AnyTip, ThickLayerIsTheHalfSpace)
+TEST_P(AnyTipOnALayer, ThickLayerIsTheHalfSpace)
 {
   const LayerContact layer(GetParam(), 0.33, Base::Bonded);
   const HalfSpace halfSpace(GetParam());
   for (double depth = 0.01_mm; depth < 20.0_mm; depth *= 1.5)
   {
     const double force = halfSpace(depth).force;
-    EXPECT_NEAR(layer(depth, kInfinite, 0.0).force, force, 1e-6 * force);
+    EXPECT_NEAR(layer(depth, kEndless, 0.0).force, force, 1e-6 * force);
     EXPECT_NEAR(layer(depth, 1e4, 0.0).force, force, 1e-5 * force);
   }
 }
 
-TEST_P(AnyTip, ThinnerIsStifferAndBondedStifferThanSlipping)
+TEST_P(AnyTipOnALayer, ThinnerIsStifferAndBondedStifferThanSlipping)
 {
   const LayerContact bonded(GetParam(), 0.45, Base::Bonded);
   const LayerContact slip(GetParam(), 0.45, Base::Slip);
@@ -157,12 +157,12 @@ TEST_P(AnyTip, ThinnerIsStifferAndBondedStifferThanSlipping)
 
 // monotone and smooth for all thicknesses and curvatures, far thinner than the theory reaches
 // included; the tolerance is that of a corner in the profile, which the table rounds
-TEST_P(AnyTip, StiffnessIsTheDerivativeOfTheForce)
+TEST_P(AnyTipOnALayer, StiffnessIsTheDerivativeOfTheForce)
 {
   for (const double nu : { 0.0, 0.33, 0.5 })
   {
     const LayerContact law(GetParam(), nu, Base::Bonded);
-    for (const double thickness : { 1.0_mm, 5.0_mm, 20.0_mm, 100.0_mm, kInfinite })
+    for (const double thickness : { 1.0_mm, 5.0_mm, 20.0_mm, 100.0_mm, kEndless })
     {
       for (const double curvature : { -1.0 / 25.0_mm, 0.0, 1.0 / 30.0_mm, 1.0 / 5.0_mm })
       {
@@ -184,15 +184,15 @@ TEST_P(AnyTip, StiffnessIsTheDerivativeOfTheForce)
   }
 }
 
-TEST_P(AnyTip, CurvatureFadesAsTheSurfaceFlattens)
+TEST_P(AnyTipOnALayer, CurvatureFadesAsTheSurfaceFlattens)
 {
   const LayerContact law(GetParam(), 0.33, Base::Bonded);
-  const double flat = law(2.0_mm, kInfinite, 0.0).force;
-  EXPECT_NEAR(law(2.0_mm, kInfinite, 1e-6).force, flat, 1e-7 * flat);
+  const double flat = law(2.0_mm, kEndless, 0.0).force;
+  EXPECT_NEAR(law(2.0_mm, kEndless, 1e-6).force, flat, 1e-7 * flat);
   if (flatRadius(GetParam()) == 0.0)
   {
-    EXPECT_LT(law(2.0_mm, kInfinite, 1.0 / 50.0_mm).force, flat);
-    EXPECT_GT(law(2.0_mm, kInfinite, -1.0 / 50.0_mm).force, flat);
+    EXPECT_LT(law(2.0_mm, kEndless, 1.0 / 50.0_mm).force, flat);
+    EXPECT_GT(law(2.0_mm, kEndless, -1.0 / 50.0_mm).force, flat);
   }
 }
 
@@ -204,7 +204,7 @@ TEST(LayerContact, ParaboloidOnASphereIsHertz)
   {
     const double reduced = 10.0_mm * other / (10.0_mm + other);
     const double hertz = 4.0 / 3.0 * std::sqrt(reduced) * std::pow(2.0_mm, 1.5);
-    EXPECT_NEAR(law(2.0_mm, kInfinite, 1.0 / other).force, hertz, 1e-6 * hertz);
+    EXPECT_NEAR(law(2.0_mm, kEndless, 1.0 / other).force, hertz, 1e-6 * hertz);
   }
 }
 
@@ -218,7 +218,7 @@ TEST(LayerContact, ConeOnASphereIsItsClosedForm)
     const double depth = std::numbers::pi / 2.0 * a * cot + a * a / 50.0_mm;
     const double force =
       2.0 * (std::numbers::pi / 4.0 * a * a * cot + 2.0 * a * a * a / (3.0 * 50.0_mm));
-    EXPECT_NEAR(law(depth, kInfinite, 1.0 / 50.0_mm).force, force, 1e-6 * force);
+    EXPECT_NEAR(law(depth, kEndless, 1.0 / 50.0_mm).force, force, 1e-6 * force);
   }
 }
 
@@ -234,7 +234,7 @@ TEST(LayerContact, AHollowSurfaceIsNoMoreHollowThanAStepOfTheTip)
   double before = 0.0;
   for (int i = 1; i <= 500; ++i)
   {
-    const double force = law(i * 0.002_mm, kInfinite, -100.0).force;
+    const double force = law(i * 0.002_mm, kEndless, -100.0).force;
     EXPECT_GT(force, before) << i * 0.002 << " mm";
     before = force;
   }

@@ -20,7 +20,7 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr Nodule kShallow{ 4.0_mm, 4.0_mm, 8.0 };
 constexpr Nodule kSoft{ 6.0_mm, 12.0_mm, 0.2 };
 
@@ -99,12 +99,12 @@ double integralOfWeight(const HomogeneousPress& press, double deepest)
   return press.knots()[last].stiffness * sum;
 }
 
-class AnyTip : public ::testing::TestWithParam<Tip>
+class AnyTipOverNodules : public ::testing::TestWithParam<Tip>
 {
 };
-INSTANTIATE_TEST_SUITE_P(Nodules, AnyTip, ::testing::ValuesIn(test::allTips()));
+INSTANTIATE_TEST_SUITE_P(Nodules, AnyTipOverNodules, ::testing::ValuesIn(test::allTips()));
 
-TEST_P(AnyTip, StrainEnergyAddsUpToTheWorkOfTheTool)
+TEST_P(AnyTipOverNodules, StrainEnergyAddsUpToTheWorkOfTheTool)
 {
   for (const auto base : { Base::Bonded, Base::Slip })
   {
@@ -121,7 +121,7 @@ TEST_P(AnyTip, StrainEnergyAddsUpToTheWorkOfTheTool)
   EXPECT_NEAR(integralOfWeight(halfSpace, 300.0 * a), 1.0, 0.01);
 }
 
-TEST_P(AnyTip, ForcesAreTheSlopesOfTheEnergy)
+TEST_P(AnyTipOverNodules, ForcesAreTheSlopesOfTheEnergy)
 {
   const TwoNodules body(GetParam());
   constexpr double h = 1e-7;
@@ -142,7 +142,7 @@ TEST_P(AnyTip, ForcesAreTheSlopesOfTheEnergy)
 }
 
 // down beside the nodules, across them at depth, up, back in the air
-TEST_P(AnyTip, NoLoopOfPressDragAndLiftGivesEnergy)
+TEST_P(AnyTipOverNodules, NoLoopOfPressDragAndLiftGivesEnergy)
 {
   const TwoNodules body(GetParam());
   constexpr int kSteps = 4000;
@@ -175,7 +175,7 @@ TEST_P(AnyTip, NoLoopOfPressDragAndLiftGivesEnergy)
   }
 }
 
-TEST_P(AnyTip, AMicrometerNeverChangesTheForceByMoreThanItsStiffness)
+TEST_P(AnyTipOverNodules, AMicrometerNeverChangesTheForceByMoreThanItsStiffness)
 {
   const TwoNodules body(GetParam());
   for (double x = -10.0_mm; x < 20.0_mm; x += 0.37_mm)
@@ -217,7 +217,7 @@ TEST(Nodules, OneOfTheTissuesOwnStiffnessAndOneFarAwayAddNothing)
   EXPECT_NEAR(stiff(5.0_mm, std::array{ 0.01 }).response.force, 0.0, 1e-4 * force);
   EXPECT_EQ(stiff(0.0, std::array{ 0.0 }).response.force, 0.0);
   EXPECT_EQ(stiff(-1.0, std::array{ 0.0 }).response.force, 0.0);
-  EXPECT_EQ(stiff(kInfinite, std::array{ 0.0 }).response.force, 0.0);
+  EXPECT_EQ(stiff(kEndless, std::array{ 0.0 }).response.force, 0.0);
 }
 
 // large strain of the law scales what the nodule adds
@@ -256,7 +256,7 @@ void expectRefused(const std::function<void()>& make, const std::string& words)
 
 TEST(Nodules, WhatCannotBeIsRefused)
 {
-  for (const double bad : { 0.0, -1.0, 0.1, 51.0, kInfinite, std::nan("") })
+  for (const double bad : { 0.0, -1.0, 0.1, 51.0, kEndless, std::nan("") })
   {
     expectRefused([&] { (void)checkedNodule({ 4.0_mm, 4.0_mm, bad }); }, "ratio");
   }

@@ -19,13 +19,13 @@ namespace
 
 using namespace units::literals;
 
-constexpr double kPoisson = 0.45;
+constexpr double kRowsPoisson = 0.45;
 
 // A ball of 10 mm on a half-space of 10 kPa, dragged.
 struct Dragged
 {
   explicit Dragged(double mu, double deepest = 8.0_mm)
-    : law(SphereTip{ 10.0_mm }, makeMaterial(10.0_kPa, kPoisson))
+    : law(SphereTip{ 10.0_mm }, makeMaterial(10.0_kPa, kRowsPoisson))
     , rows(
         [this](double depth)
         {
@@ -33,7 +33,7 @@ struct Dragged
           return ElasticForce{ at.force, at.stiffness };
         },
         deepest)
-    , tissue{ .coefficient = mu, .poissonRatio = kPoisson }
+    , tissue{ .coefficient = mu, .poissonRatio = kRowsPoisson }
   {
   }
 
@@ -92,10 +92,10 @@ TEST(FrictionRows, SlipsFromTheBorderInwardAsCattaneoHasIt)
   const double mu = 0.4;
   const double depth = 4.0_mm;
   Dragged dragged(mu, depth);
-  const double shear = 10.0_kPa / (2.0 * (1.0 + kPoisson));
+  const double shear = 10.0_kPa / (2.0 * (1.0 + kRowsPoisson));
   const double limit = mu * dragged.law({ .depth = depth }).force;
   const double radius = std::sqrt(10.0_mm * depth);
-  const double slip = 3.0 * limit * (2.0 - kPoisson) / (16.0 * shear * radius);
+  const double slip = 3.0 * limit * (2.0 - kRowsPoisson) / (16.0 * shear * radius);
   for (int i = 1; i <= 120; ++i)
   {
     const double force = dragged.move(depth, { 0.01 * slip, 0.0, 0.0 }).x();
@@ -189,7 +189,8 @@ TEST(FrictionRows, ForceTellsHowFarTheTissueWasCarried)
   const Response at = dragged.law({ .depth = kDepth });
   const double shear = dragged.law.material().shearModulus();
   // of Cattaneo's, from where on all of it slips
-  const double most = 3.0 * 0.3 * at.force * (2.0 - kPoisson) / (16.0 * shear * at.contactRadius);
+  const double most =
+    3.0 * 0.3 * at.force * (2.0 - kRowsPoisson) / (16.0 * shear * at.contactRadius);
   for (int i = 1; i <= 2 * kSteps; ++i)
   {
     const Eigen::Vector3d force = dragged.move(kDepth, most / kSteps * Eigen::Vector3d::UnitX());
