@@ -199,13 +199,14 @@ private:
     {
       return false;
     }
-    const vtkTypeUInt64 next = points * static_cast<vtkTypeUInt64>(std::max(components, 1));
+    // together with the last one: the next by itself VTK looks for behind the last block, if full
+    const vtkTypeUInt64 last = points * static_cast<vtkTypeUInt64>(std::max(components, 1)) - 1;
     const char* format = array.GetAttribute("format");
-    std::array<char, 16> value{};
+    std::array<double, 2> values{};
     return array.GetScalarAttribute("offset", offset)
-      ? this->XMLParser->ReadAppendedData(offset, value.data(), next, 1, type) > 0
+      ? this->XMLParser->ReadAppendedData(offset, values.data(), last, 2, type) > 1
       : this->XMLParser->ReadInlineData(
-          &array, format && std::string_view(format) == "ascii", value.data(), next, 1, type) > 0;
+          &array, format && std::string_view(format) == "ascii", values.data(), last, 2, type) > 1;
   }
 };
 
