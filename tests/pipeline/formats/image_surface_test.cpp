@@ -182,7 +182,7 @@ TEST_F(ImageSurface, OfAMaskedBallAnswersAToolAsTheBall)
   }
 }
 
-// an atlas of 512 regions, each a cube of six voxels; of doubles it fills the last block of its file
+// an atlas of 512 regions, cubes of six voxels; of doubles it fills the last block of its file
 TEST_F(ImageSurface, AnyOfManyLabelsIsReadByItsNumber)
 {
   constexpr int kCubes = 8; // a side
