@@ -1,5 +1,4 @@
-#include "tests/support/csv_table.h"
-#include "tests/support/process.h"
+#include "tests/support/printed_table.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,18 +16,12 @@ Finished palpCommand(const std::string& arguments)
   return test::runCommand(PALP_PROGRAM " " + arguments);
 }
 
-test::CsvTable table(const Finished& finished)
-{
-  std::istringstream in(finished.out);
-  return test::parseCsv(in);
-}
-
 TEST(ForceCommand, PrintsHertzForTheSphere)
 {
   const Finished finished =
     palpCommand("force --tip sphere:10mm --young 50kPa --poisson 0.33 --depth 0:10:0.5mm");
   ASSERT_EQ(finished.code, 0) << finished.err;
-  const test::CsvTable law = table(finished);
+  const test::CsvTable law = test::printedTable(finished);
   ASSERT_EQ(law["depth_mm"].size(), 21u);
   for (std::size_t i = 0; i < 21; ++i)
   {
@@ -45,8 +38,8 @@ TEST(ForceCommand, PrintsHertzForTheSphere)
 TEST(ForceCommand, PrintsSneddonForTheConeByTheAngleFromTheAxis)
 {
   // at 45 degrees both readings of the angle agree; at 30 they differ threefold
-  const test::CsvTable law =
-    table(palpCommand("force --tip cone:30deg:10mm --young 50kPa --poisson 0.33 --depth 5:5:1mm"));
+  const test::CsvTable law = test::printedTable(
+    palpCommand("force --tip cone:30deg:10mm --young 50kPa --poisson 0.33 --depth 5:5:1mm"));
   const double modulus = 50e3 / (1.0 - 0.33 * 0.33);
   ASSERT_EQ(law["force_N"].size(), 1u);
   EXPECT_NEAR(law["force_N"][0],
@@ -134,7 +127,7 @@ TEST(ForceCommand, FeelsANoduleBesideTheTool)
   const std::string body = "force --tip sphere:10mm --young 50kPa --poisson 0.33 --law corrected "
                            "--material linear --thickness 30mm ";
   const auto at = [&](const std::string& options)
-  { return table(palpCommand(body + "--depth 0:4:2mm " + options)); };
+  { return test::printedTable(palpCommand(body + "--depth 0:4:2mm " + options)); };
   struct Row
   {
     const char* nodule;

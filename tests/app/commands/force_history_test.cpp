@@ -1,6 +1,5 @@
 #include "tests/haptics/force/reference_table.h"
-#include "tests/support/csv_table.h"
-#include "tests/support/process.h"
+#include "tests/support/printed_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +16,6 @@ Finished force(const std::string& arguments, const std::string& history)
 {
   return test::runCommand(
     PALP_PROGRAM " force --history " + test::writtenCsv(history).string() + " " + arguments);
-}
-
-test::CsvTable rowsUnder(const Finished& finished)
-{
-  std::istringstream in(finished.out);
-  return test::parseCsv(in);
 }
 
 // Ting's solution by another program; the corrected law of a paraboloid on a half-space is Hertz's
@@ -42,7 +35,7 @@ TEST(ForceHistory, FollowsTing)
     history);
   ASSERT_EQ(finished.code, 0) << finished.err;
   EXPECT_TRUE(finished.out.starts_with("time_s,depth_mm,force_N\n"));
-  const std::vector<double> forces = rowsUnder(finished)["force_N"];
+  const std::vector<double> forces = test::printedTable(finished)["force_N"];
   ASSERT_EQ(forces.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
@@ -57,8 +50,9 @@ TEST(ForceHistory, IsTheElasticLawWithoutRelaxation)
   const Finished over = force(options, "time_s,depth_mm\n0,1\n0.5,4\n0.6,-1\n2,4\n");
   ASSERT_EQ(over.code, 0) << over.err;
   const Finished law = test::runCommand(PALP_PROGRAM " force --depth 1:4:3mm " + options);
-  const std::vector<double> known = rowsUnder(law)["force_N"];
-  EXPECT_EQ(rowsUnder(over)["force_N"], (std::vector{ known[0], known[1], 0.0, known[1] }));
+  const std::vector<double> known = test::printedTable(law)["force_N"];
+  EXPECT_EQ(
+    test::printedTable(over)["force_N"], (std::vector{ known[0], known[1], 0.0, known[1] }));
 }
 
 TEST(ForceHistory, RelaxesFromTheInstantaneousToTheLastingForceWhateverTheTip)
@@ -72,8 +66,8 @@ TEST(ForceHistory, RelaxesFromTheInstantaneousToTheLastingForceWhateverTheTip)
       force(options + "--relaxation 0.3:50ms,0.2:1s", "time_s,depth_mm\n0,4\n100,4\n101,0\n");
     ASSERT_EQ(held.code, 0) << held.err;
     const Finished law = test::runCommand(PALP_PROGRAM " force --depth 4:4:1mm " + options);
-    const double elastic = rowsUnder(law)["force_N"][0];
-    const std::vector<double> forces = rowsUnder(held)["force_N"];
+    const double elastic = test::printedTable(law)["force_N"][0];
+    const std::vector<double> forces = test::printedTable(held)["force_N"];
     EXPECT_NEAR(forces[0], elastic, 1e-9 * elastic) << tip;
     EXPECT_NEAR(forces[1], 0.5 * elastic, 1e-9 * elastic) << tip;
     EXPECT_EQ(forces[2], 0.0) << tip;
@@ -100,9 +94,9 @@ TEST(ForceHistory, RemembersANoduleAndAMapAsLeeAndRadokDo)
       "--young 5kPa --poisson 0.45 --law corrected --thickness 40mm " + std::string(below);
     const Finished over = force(options + " --relaxation 0.5:200ms", history);
     ASSERT_EQ(over.code, 0) << over.err;
-    const std::vector<double> forces = rowsUnder(over)["force_N"];
-    const std::vector<double> elastic =
-      rowsUnder(test::runCommand(PALP_PROGRAM " force --depth 0:5:0.01mm " + options))["force_N"];
+    const std::vector<double> forces = test::printedTable(over)["force_N"];
+    const std::vector<double> elastic = test::printedTable(
+      test::runCommand(PALP_PROGRAM " force --depth 0:5:0.01mm " + options))["force_N"];
     ASSERT_EQ(forces.size(), 2u * kDown + 1u);
     ASSERT_EQ(elastic.size(), kDown + 1u);
     for (int i = 1; i <= 2 * kDown; i += 7)
@@ -123,7 +117,7 @@ TEST(ForceHistory, TakesColumnsAmongOthers)
 {
   const Finished finished = force("--law corrected", "force_N,depth_mm,time_s\n7,1,0\n8,2,1\n");
   EXPECT_EQ(finished.code, 0) << finished.err;
-  EXPECT_EQ(rowsUnder(finished)["time_s"], (std::vector{ 0.0, 1.0 }));
+  EXPECT_EQ(test::printedTable(finished)["time_s"], (std::vector{ 0.0, 1.0 }));
 }
 
 void expectRefusal(const Finished& finished, const std::string& what)

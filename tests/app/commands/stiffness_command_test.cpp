@@ -1,5 +1,4 @@
 #include "tests/app/commands/run_rig.h"
-#include "tests/support/csv_table.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -15,13 +14,6 @@ using test::palp;
 
 const std::string kSoft = " --young 50kPa --poisson 0.45 --law corrected --material linear ";
 
-test::CsvTable tableOf(const Finished& finished)
-{
-  EXPECT_EQ(finished.code, 0) << finished.err;
-  std::istringstream in(finished.out);
-  return test::parseCsv(in);
-}
-
 // rows A, B and C of data/reference/maps_axisym.csv: linear finite elements
 TEST(StiffnessCommand, ForceFollowsFiniteElementsOverFormulas)
 {
@@ -35,8 +27,8 @@ TEST(StiffnessCommand, ForceFollowsFiniteElementsOverFormulas)
          Case{ "50*(1+z/20)", { 1.11988, 3.43424, 6.57106 } },
          Case{ "if(r<6,100,50)", { 1.22661, 3.20861, 5.61812 } } })
   {
-    const test::CsvTable felt = tableOf(palp("force --tip sphere:10mm --depth 2:6:2mm" + kSoft +
-      "--thickness 40mm --stiffness 'formula:" + one.formula + "'"));
+    const test::CsvTable felt = test::printedTable(palp("force --tip sphere:10mm --depth 2:6:2mm" +
+      kSoft + "--thickness 40mm --stiffness 'formula:" + one.formula + "'"));
     for (std::size_t i = 0; i < one.forces.size(); ++i)
     {
       EXPECT_NEAR(felt["force_N"][i], one.forces[i], 0.05 * one.forces[i]) << one.formula;
@@ -91,8 +83,8 @@ protected:
 
 TEST_F(StiffnessFiles, LabelsImagesAndFormulasSayTheSame)
 {
-  const double expected = tableOf(palp("force --tip sphere:10mm --depth 6:6:1mm" + kSoft +
-    "--thickness 50mm --stiffness 'formula:if(z<2,150,50)'"))["force_N"][0];
+  const double expected = test::printedTable(palp("force --tip sphere:10mm --depth 6:6:1mm" +
+    kSoft + "--thickness 50mm --stiffness 'formula:if(z<2,150,50)'"))["force_N"][0];
   Finished finished = pressed("labels:" + labels() + ":1=50kPa,2=150kPa");
   ASSERT_EQ(finished.code, 0) << finished.err;
   EXPECT_NEAR(deepestForce(), expected, 0.02 * expected);
@@ -135,9 +127,9 @@ TEST_F(StiffnessFiles, AnArrayCountsInward)
     << R"(</DataArray></Polys></Piece></PolyData></VTKFile>)";
   const Finished finished = pressed("array:" + file + ":E_kPa");
   ASSERT_EQ(finished.code, 0) << finished.err;
-  const double expected =
-    tableOf(palp("force --tip sphere:10mm --depth 6:6:1mm --young 20kPa --poisson 0.45 --law "
-                 "corrected --material linear --thickness 50mm"))["force_N"][0];
+  const double expected = test::printedTable(
+    palp("force --tip sphere:10mm --depth 6:6:1mm --young 20kPa --poisson 0.45 --law "
+         "corrected --material linear --thickness 50mm"))["force_N"][0];
   EXPECT_NEAR(deepestForce(), expected, 0.01 * expected);
   const Finished missing = pressed("array:" + file + ":young");
   EXPECT_EQ(missing.code, 2);

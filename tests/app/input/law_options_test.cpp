@@ -1,5 +1,4 @@
-#include "tests/support/csv_table.h"
-#include "tests/support/process.h"
+#include "tests/support/printed_table.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,17 +16,10 @@ Finished force(const std::string& arguments)
   return test::runCommand(PALP_PROGRAM " force --young 50kPa --poisson 0.33 " + arguments);
 }
 
-test::CsvTable rowsOf(const Finished& finished)
-{
-  EXPECT_EQ(finished.code, 0) << finished.err;
-  std::istringstream in(finished.out);
-  return test::parseCsv(in);
-}
-
 // eight digits of the integral equation for a bonded layer of 30 mm, data/reference
 TEST(LawOptions, CorrectedSphereOnALayer)
 {
-  const auto law = rowsOf(
+  const auto law = test::printedTable(
     force("--tip sphere:6mm --law corrected --material linear --thickness 30mm --depth 1:6:5mm"));
   EXPECT_NEAR(law["force_N"][0], 0.19416921, 1e-6);
   EXPECT_NEAR(law["force_N"][1], 2.851754, 1e-5);
@@ -38,22 +30,22 @@ TEST(LawOptions, CorrectedSphereOnALayer)
 
 TEST(LawOptions, ExactSphereIsSneddons)
 {
-  const auto law = rowsOf(force("--tip sphere:6mm --law exact --depth 6:6:1mm"));
+  const auto law = test::printedTable(force("--tip sphere:6mm --law exact --depth 6:6:1mm"));
   EXPECT_NEAR(law["force_N"][0], 2.4233212, 1e-6);
 }
 
 TEST(LawOptions, SlippingBaseIsSofter)
 {
   const std::string position = "--tip sphere:6mm --law corrected --thickness 20mm --depth 5:5:1mm ";
-  EXPECT_LT(
-    rowsOf(force(position + "--base slip"))["force_N"][0], rowsOf(force(position))["force_N"][0]);
+  EXPECT_LT(test::printedTable(force(position + "--base slip"))["force_N"][0],
+    test::printedTable(force(position))["force_N"][0]);
 }
 
 // finite elements, data/reference: 0.199 N and 2.957 N, within 3 %
 TEST(LawOptions, NeoHookeanSphereIsThatOfFiniteElements)
 {
   const auto law =
-    rowsOf(force("--tip sphere:6mm --law corrected --thickness 30mm --depth 1:6:5mm"));
+    test::printedTable(force("--tip sphere:6mm --law corrected --thickness 30mm --depth 1:6:5mm"));
   EXPECT_NEAR(law["force_N"][0], 0.1990, 0.03 * 0.1990);
   EXPECT_NEAR(law["force_N"][1], 2.957, 0.03 * 2.957);
   EXPECT_NEAR(law["factor_large_strain"][1], 1.038, 0.01);
@@ -62,10 +54,10 @@ TEST(LawOptions, NeoHookeanSphereIsThatOfFiniteElements)
 // Hertz: R R0 / (R + R0) for the paraboloid
 TEST(LawOptions, CurvedSurfaceIsHertz)
 {
-  const auto law =
-    rowsOf(force("--tip paraboloid:10mm --law corrected --surface-radius 40mm --depth 1:1:1mm"));
+  const auto law = test::printedTable(
+    force("--tip paraboloid:10mm --law corrected --surface-radius 40mm --depth 1:1:1mm"));
   EXPECT_NEAR(law["factor_curvature"][0], std::sqrt(0.8), 1e-6);
-  const auto saddle = rowsOf(
+  const auto saddle = test::printedTable(
     force("--tip paraboloid:10mm --law corrected --surface-radius 40mm:-40mm --depth 1:1:1mm"));
   EXPECT_EQ(saddle["factor_curvature"][0], 1.0);
   EXPECT_GT(saddle["factor_ellipse"][0], 1.0);
@@ -75,7 +67,7 @@ TEST(LawOptions, CurvedSurfaceIsHertz)
 TEST(LawOptions, TiltedConeIsThatOfTheBoundaryElements)
 {
   const auto law =
-    rowsOf(force("--tip cone:45deg:10mm --law corrected --tilt 9deg --depth 2:2:1mm"));
+    test::printedTable(force("--tip cone:45deg:10mm --law corrected --tilt 9deg --depth 2:2:1mm"));
   EXPECT_NEAR(law["factor_inclination"][0], 1.04452, 1e-5);
   EXPECT_NEAR(law["lateral_force_N"][0] / law["axial_force_N"][0],
     std::tan(9.0 * std::numbers::pi / 180.0), 1e-9);
@@ -89,11 +81,13 @@ TEST(LawOptions, EveryToolIsUnderstood)
   for (const std::string tip : { "sphere:10mm", "cone:45deg:10mm", "punch:5mm",
          "truncated-cone:45deg:2mm:10mm", "blunt-cone:45deg:0.3mm:10mm", "paraboloid:10mm" })
   {
-    EXPECT_GT(rowsOf(force("--depth 3:3:1mm --tip " + tip))["force_N"][0], 0.1) << tip;
+    EXPECT_GT(test::printedTable(force("--depth 3:3:1mm --tip " + tip))["force_N"][0], 0.1) << tip;
   }
   // a profile in the shape of the truncated cone
-  EXPECT_NEAR(rowsOf(force("--depth 3:3:1mm --tip profile:" + file.string()))["force_N"][0],
-    rowsOf(force("--depth 3:3:1mm --tip truncated-cone:45deg:2mm:10mm"))["force_N"][0], 1e-6);
+  EXPECT_NEAR(
+    test::printedTable(force("--depth 3:3:1mm --tip profile:" + file.string()))["force_N"][0],
+    test::printedTable(force("--depth 3:3:1mm --tip truncated-cone:45deg:2mm:10mm"))["force_N"][0],
+    1e-6);
 }
 
 TEST(LawOptions, PaperStaysThePapersWhateverThePlace)
@@ -114,7 +108,7 @@ TEST(LawOptions, TellsWhichFactorsAct)
 
 TEST(LawOptions, ValidityIsAColumnForEachRule)
 {
-  const auto law = rowsOf(force("--tip sphere:10mm --depth 2:10:8mm --validity"));
+  const auto law = test::printedTable(force("--tip sphere:10mm --depth 2:10:8mm --validity"));
   EXPECT_LT(law["force_of_itself_of_limit"][0], 1.0);
   EXPECT_GT(law["force_of_itself_of_limit"][1], 1.0);
   EXPECT_EQ(law.comments.size(), 14U);
@@ -142,10 +136,10 @@ TEST(LawOptions, CoatingsActOnTheCorrectedLawOnly)
 {
   const auto at2mm = [](const std::string& options)
   { return force("--depth 2:2:1mm --law corrected --material linear " + options); };
-  const double plain = rowsOf(at2mm(""))["force_N"][0];
-  const auto same = rowsOf(at2mm("--coating 2mm:50kPa:0.33"));
+  const double plain = test::printedTable(at2mm(""))["force_N"][0];
+  const auto same = test::printedTable(at2mm("--coating 2mm:50kPa:0.33"));
   EXPECT_NEAR(same["force_N"][0], plain, 1e-3 * plain);
-  const auto skin = rowsOf(at2mm("--coating 2mm:250kPa:0.33"));
+  const auto skin = test::printedTable(at2mm("--coating 2mm:250kPa:0.33"));
   EXPECT_GT(skin["force_N"][0], 1.1 * plain);
   EXPECT_NEAR(skin["factor_coatings"][0], skin["force_N"][0] / plain, 1e-9);
   EXPECT_EQ(at2mm("").out.find("factor_coatings"), std::string::npos);
