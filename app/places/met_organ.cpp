@@ -25,7 +25,7 @@ void checkStart(
   for (int i = 0; i < organCount(recording.scene); ++i)
   {
     const Scene& organ = organOf(recording.scene, i);
-    if (i != asked && findContact(*organ.surface, organ.law.tip(), start, organ.rule).touching())
+    if (i != asked && findContact(organ, start).touching())
     {
       const std::string covering = printable(recording.organName(i));
       throw Error(ErrorCode::BadValue,

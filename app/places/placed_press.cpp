@@ -89,7 +89,8 @@ SurfacePoint feltPoint(const OnTriangle& place, double depth, const Scene& scene
   { return surface.points()[static_cast<std::size_t>(corners[k])]; };
   const Eigen::Vector3d facet = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
   const Contact contact = findContact(surface, scene.law.tip(),
-    { .apex = place.position - depth * facet, .axis = -facet }, ContactRule::Exact);
+    { .apex = place.position - depth * facet, .axis = -facet }, ContactRule::Exact,
+    curvatureOf(scene));
   const bool isInFront = contact.normal.dot(facet) > 0.0; // not through to the other side
   return { place.position, isInFront ? contact.normal : facet };
 }
@@ -115,9 +116,7 @@ public:
   // in one organ
   [[nodiscard]] double depthAt(double travel, int organ) const noexcept
   {
-    const Scene& scene = organOf(all_, organ);
-    return findContact(*scene.surface, scene.law.tip(),
-      { .apex = apexAt(travel), .axis = -point_.normal }, scene.rule)
+    return findContact(organOf(all_, organ), { .apex = apexAt(travel), .axis = -point_.normal })
       .depth;
   }
 

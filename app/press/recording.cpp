@@ -235,7 +235,10 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
   if (isOrgan)
   {
     std::ranges::for_each(rules, [](Rule& rule) { leaveToOrgan(rule); });
-    rules.push_back(seriesRule(*scene.series, scene.law, contact.center, contact.normal));
+    const Response local = scene.law(geometry);
+    rules.push_back(seriesRule(*scene.series, scene.law,
+      { contact.center, contact.normal, local.contactRadius, local.force, contact.thickness,
+        contact.edgeDistance }));
     rules.push_back(facetRule(*scene.surface, scene.law.tip(), contact));
   }
   else if (scene.surface != nullptr && !scene.surface->tree().empty())

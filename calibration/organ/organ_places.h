@@ -29,6 +29,11 @@ struct OrganWork
 [[nodiscard]] double nearnessToEdge(
   const Surface& surface, const Eigen::Vector3d& place, double cell);
 
+/// Whether a body is thinner below a place than its cells tell: bonded plates of two of them are 2
+/// % too soft, a free one of three 6 % too stiff.
+[[nodiscard]] bool isTooThin(const SurfacePoint& place, const Surface& surface, double cell,
+  std::span<const Support> supports);
+
 /// Places all over a surface, each with the normal of what a tool meets there: of a flat face also
 /// next to its edges. The same surface gives the same.
 /// @throws Error  as placeGrid

@@ -129,7 +129,7 @@ private:
 // the place, with the radius as the height changes, and with the normal, which turns with the body.
 // height: over a flat body
 void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const BallRule& rule,
-  const Neighborhood& here, const Height& height) noexcept
+  const Neighborhood& here, const Height& height, CurvatureOf of) noexcept
 {
   const double grain = kGrain * (rule.nose() + flatRadius(tip));
   const double least = std::max(surface.shape().finest(), kFinest * grain);
@@ -137,10 +137,10 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   const double reach = std::sqrt(height.value * height.value + wide.value * wide.value);
   const double growth = (height.value + wide.value * wide.slope) / reach;
   const LocalShape shape =
-    surface.shape()(here.ball.center, reach, here.patch.normal.normalized(), grain);
+    surface.shape()(here.ball.center, reach, here.patch.normal.normalized(), grain, of);
   const TurnRate turn(shape, height.value);
-  const auto slopeOf = [&](const LocalShape::Slope& of)
-  { return Eigen::Vector3d(of.place + of.radius * growth * height.slope + turn(of.normal)); };
+  const auto slopeOf = [&](const LocalShape::Slope& one)
+  { return Eigen::Vector3d(one.place + one.radius * growth * height.slope + turn(one.normal)); };
   contact.surfaceCurvature = shape.meanCurvature;
   contact.curvatureSpread = shape.curvatureSpread;
   contact.thickness = shape.thickness;
@@ -188,7 +188,8 @@ std::optional<Neighborhood> lookBelow(
   return here;
 }
 
-Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pose) noexcept
+Contact exactContact(
+  const Surface& surface, const Tip& tip, const ToolPose& pose, CurvatureOf of) noexcept
 {
   const BallRule rule(tip, surface.edgeLength(), surface.facetLength());
   const std::optional<Neighborhood> here = lookBelow(surface, tip, pose, rule);
@@ -202,7 +203,7 @@ Contact exactContact(const Surface& surface, const Tip& tip, const ToolPose& pos
   contact.normalSpread = std::acos(std::min(1.0, share));
   const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
-  measureShape(contact, surface, tip, rule, *here, flat);
+  measureShape(contact, surface, tip, rule, *here, flat, of);
   contact.curvedPart =
     curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
   const Height height = heightOver(flat.value, contact.curvedPart * contact.surfaceCurvature,
@@ -246,15 +247,15 @@ Reach reachOf(const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept
   return { pose.apex - nose * pose.axis, nose + flatRadius(tip) };
 }
 
-Contact findContact(
-  const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept
+Contact findContact(const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule,
+  CurvatureOf of) noexcept
 {
   if (!(pose.apex.allFinite() && pose.axis.allFinite()))
   {
     return {};
   }
   const Contact contact = rule == ContactRule::Paper ? paperContact(surface, tip, pose)
-                                                     : exactContact(surface, tip, pose);
+                                                     : exactContact(surface, tip, pose, of);
   const bool usable = contact.depth > 0.0 && std::isfinite(contact.depth) &&
     contact.normal.allFinite() && contact.center.allFinite();
   return usable ? contact : Contact{};

@@ -45,9 +45,10 @@ struct Reach
 /// @param surface  undeformed
 /// @param tip      checked
 /// @param pose     axis of unit length; a value that is not finite gives no contact
+/// @param of       what counts as the curvature that a law is told
 /// @source         Sec. 4.1
 /// @realtime       pure; no allocation, no lock, no exception
-[[nodiscard]] Contact findContact(
-  const Surface& surface, const Tip& tip, const ToolPose& pose, ContactRule rule) noexcept;
+[[nodiscard]] Contact findContact(const Surface& surface, const Tip& tip, const ToolPose& pose,
+  ContactRule rule, CurvatureOf of = CurvatureOf::All) noexcept;
 
 } // namespace palp

@@ -20,11 +20,6 @@ struct Met
   double ago = 0.0; // [-] of the last tick's motion
 };
 
-Contact contactWith(const Scene& organ, const ToolPose& pose) noexcept
-{
-  return findContact(*organ.surface, organ.law.tip(), pose, organ.rule);
-}
-
 bool reaches(const Reach& reach, const Surface& surface, double more = 0.0) noexcept
 {
   const double radius = reach.radius + more;
@@ -65,7 +60,7 @@ Met meet(const Scene& scene, const ToolPose& pose, OrganTouch& before) noexcept
     const Scene& organ = organOf(scene, i);
     if (reaches(reach, *organ.surface))
     {
-      const Contact contact = contactWith(organ, pose);
+      const Contact contact = findContact(organ, pose);
       const double ago = contact.touching() ? entered(contact, motion) : 0.0;
       const bool isFirst =
         std::pair(ago, contact.depth) > std::pair(first.ago, first.contact.depth);
@@ -91,12 +86,12 @@ Contact touchOrgan(const Scene& scene, const ToolPose& pose, OrganTouch& before)
   before.follow(scene);
   if (scene.others.empty())
   {
-    return contactWith(scene, pose);
+    return findContact(scene, pose);
   }
   Contact contact;
   if (before.touching)
   {
-    contact = contactWith(organOf(scene, before.organ), pose);
+    contact = findContact(organOf(scene, before.organ), pose);
     before.withheld -= (pose.apex - before.apex.value_or(pose.apex)).norm();
   }
   if (!contact.touching())

@@ -33,6 +33,19 @@ struct Scene
   std::vector<Scene> others{};
 };
 
+/// Sharp edges are none where the body's compliance tells what gives way at them.
+[[nodiscard]] inline CurvatureOf curvatureOf(const Scene& scene) noexcept
+{
+  return scene.series != nullptr ? CurvatureOf::Faces : CurvatureOf::All;
+}
+
+/// Of a tool with the first organ.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] inline Contact findContact(const Scene& scene, const ToolPose& pose) noexcept
+{
+  return findContact(*scene.surface, scene.law.tip(), pose, scene.rule, curvatureOf(scene));
+}
+
 /// How many organs something tells of.
 template <typename Told>
 [[nodiscard]] int organCount(const Told& first) noexcept

@@ -74,7 +74,7 @@ Sample touchFirst(const Scene& scene, const ToolPose& pose) noexcept
   Sample sample = sampleAt(pose);
   if (sample.flags == 0 && scene.surface != nullptr)
   {
-    sample.contact = findContact(*scene.surface, scene.law.tip(), pose, scene.rule);
+    sample.contact = findContact(scene, pose);
   }
   return sample;
 }

@@ -34,6 +34,20 @@ struct ShapePart
   Eigen::Matrix3f bend = Eigen::Matrix3f::Zero(); ///< area times the tensor of curvature [m]
   float slenderness = 0.0F;                       ///< area over the root of the thickness [m^1.5]
   float hollow = 0.0F;                            ///< area above a hollow [m^2]
+  bool isSharp = false;                           ///< it holds a sharp edge, or a part does
+
+  /// Without what turns at a sharp edge.
+  [[nodiscard]] ShapePart ofFaces() const noexcept
+  {
+    return isSharp ? ShapePart{ area, Eigen::Matrix3f::Zero(), slenderness, hollow, true } : *this;
+  }
+};
+
+/// What counts as the curvature of a surface.
+enum class CurvatureOf
+{
+  All,   ///< sharp edges too, which let a body give way as if it were round
+  Faces, ///< not they, where something else tells how the body gives way at them
 };
 
 /// The average over the parts in a ball that face along a normal, each by its area across it.

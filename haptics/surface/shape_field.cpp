@@ -21,7 +21,7 @@ constexpr double kFine = 0.5;          // cells in the least radius, the recipro
 constexpr double kCoarse = 0.25;       // the same where edges of the mesh set that radius
 constexpr double kMaxPieces = 100000.0; // of the triangles, beyond one each
 constexpr double kTurn = 3.0;           // cells to each side of an edge within which it turns
-constexpr double kSharp = 0.8;          // [rad] that a sharp one turns there: 55 degrees
+constexpr float kSharp = 0.8F;          // [rad] that a sharp one turns there: 55 degrees
 constexpr float kOwnTurn = 0.25F; // of the most in a leaf, or of the mean: not of one beside it
 constexpr float kOneSide = 0.8F;  // length of the mean normal of one side of the surface
 constexpr float kRidge = 0.2F;    // [rad] half of what the surface turns at a ridge, or more
@@ -62,9 +62,8 @@ void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eige
       const Eigen::Vector3f across = along.cross(normal).normalized();
       const float own = std::max(0.0F, across.dot(bend * across));
       const float other = std::max(0.0F, along.dot(bend * along));
-      constexpr auto sharp = static_cast<float>(kSharp);
-      return 2.0F * side.turn < sharp && // a half on each face
-        own * bend.trace() * around < sharp * (own + other);
+      return 2.0F * side.turn < kSharp && // a half on each face
+        own * bend.trace() * around < kSharp * (own + other);
     });
 }
 
@@ -81,7 +80,6 @@ ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double 
   cell_ = std::max({ kFine * kFinest * size, kCoarse * scale, leastCell(tree) });
   finest_ = std::max(scale, cell_ / kFine);
   origin_ = 0.5 * (low + high);
-
   Pieces pieces;
   std::vector<Entry> entries;
   cutUp(tree, mesh, pieces, entries);
@@ -246,12 +244,12 @@ void ShapeField::search(
 }
 
 LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
-  const Eigen::Vector3d& normal, double grain) const noexcept
+  const Eigen::Vector3d& normal, double grain, CurvatureOf of) const noexcept
 {
   ShapeAverage average(normal, radius);
   search(center, radius, grain,
     [&](std::size_t i, float root, const Eigen::Vector3f& offset)
-    { average.add(sums_[i], root, offset); });
+    { average.add(of == CurvatureOf::All ? sums_[i] : sums_[i].ofFaces(), root, offset); });
   return average.shape();
 }
 
@@ -259,7 +257,7 @@ LocalShape ShapeField::operator()(const Eigen::Vector3d& center, double radius,
 void ShapeField::measureLeaves(
   const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces, const Leaves& leaves)
 {
-  const double around = kTurn * cell_;
+  const auto around = static_cast<float>(kTurn * cell_);
   std::vector<SharpEdges::Segment> sharp;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
@@ -285,16 +283,16 @@ void ShapeField::measureLeaves(
           sum.bend += facing * part.bend;
         }
       });
-    const Eigen::Vector3d inward = -sum.area.normalized().cast<double>();
-    const Below below = lookBelow(tree, hollows, coordinates, inward);
+    const Below below =
+      lookBelow(tree, hollows, coordinates, -sum.area.normalized().cast<double>());
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(below.thickness));
     leaf.hollow = below.isHollow ? leaf.area.norm() : 0.0F;
     const float curvature = sum.bend.trace() / area;
-    if (static_cast<double>(curvature) * around > kSharp)
+    if (curvature * around > kSharp)
     {
       std::vector<Side> sides = sidesOf(leaves[i], pieces);
-      keepSharp(sides, sum.bend / area, sum.area, static_cast<float>(around));
-      addTurning(sides, kOwnTurn * curvature * leaf.area.norm(), sharp);
+      keepSharp(sides, sum.bend / area, sum.area, around);
+      leaf.isSharp = addTurning(sides, kOwnTurn * curvature * leaf.area.norm(), sharp);
     }
   }
   edges_ = SharpEdges(std::move(sharp));
@@ -312,8 +310,8 @@ std::vector<ShapeField::Side> ShapeField::sidesOf(std::span<const Entry> leaf, c
 }
 
 // The sides at which a leaf turns, where it does so.
-// @param least  that its sides turn together, times their length [m]
-void ShapeField::addTurning(
+// @param least  that its sides turn together, times their length [m]; it is no edge with less
+bool ShapeField::addTurning(
   std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp)
 {
   float sum = 0.0F;
@@ -330,6 +328,7 @@ void ShapeField::addTurning(
       sharp.push_back(side.ends);
     }
   }
+  return sum > least;
 }
 
 // what the leaves measured, for every node
@@ -343,6 +342,7 @@ void ShapeField::addUp()
       const ShapePart& right = sums_[static_cast<std::size_t>(nodes_[i].right)];
       sums_[i].slenderness = left.slenderness + right.slenderness;
       sums_[i].hollow = left.hollow + right.hollow;
+      sums_[i].isSharp = left.isSharp || right.isSharp;
     }
   }
 }

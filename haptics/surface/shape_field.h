@@ -43,10 +43,11 @@ public:
   /// @param radius  of the ball [m]
   /// @param normal  unit vector
   /// @param grain   radius of the sums that may be taken as one [m]; constant for a tool
+  /// @param of      what counts as curvature
   /// @return        flat and without end where the ball holds nothing
   /// @realtime      pure; no allocation, no lock, no exception
   [[nodiscard]] LocalShape operator()(const Eigen::Vector3d& center, double radius,
-    const Eigen::Vector3d& normal, double grain) const noexcept;
+    const Eigen::Vector3d& normal, double grain, CurvatureOf of = CurvatureOf::All) const noexcept;
 
   /// Distance to the nearest sharp edge, where the surface turns by 55 degrees within a few cells;
   /// infinite where there is none [m].
@@ -113,7 +114,7 @@ private:
   void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces,
     const Leaves& leaves);
   static std::vector<Side> sidesOf(std::span<const Entry> leaf, const Pieces& pieces);
-  static void addTurning(
+  static bool addTurning(
     std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp);
   void addUp();
 

@@ -129,7 +129,7 @@ void addRows(const OrganOptions& options, const PressedBody& pressed, const Scen
   {
     if (depth > 0.0)
     {
-      const OrganPlace::Answer answer = place.at(poseAt(at, point, depth, scene));
+      const OrganPlace::Answer answer = place.at(poseAt(at, point, depth, place.scene()));
       table.rows.push_back({ toMillimeters(point.position.x()), toMillimeters(point.position.y()),
         toMillimeters(point.position.z()), answer.body.constant, answer.body.slope,
         toMillimeters(depth), answer.force, pressed.model.contactModulus() * law(depth).force,
@@ -265,9 +265,11 @@ void addOrganCommand(CLI::App& app)
     "surface cuts: linear, frictionless. constant and slope: E* of --young\n"
     "times what the body adds. By cubes of 4 mm bonded slabs of 20 to 50 mm come out within 1.2 %\n"
     "of the exact layer, lobes and edges 8 mm away within 4 %. remark: on a support; too deep\n"
-    "beyond half of the thickness; support too near where the contact is wider than a third of\n"
-    "what is below; cells too large where those are less than two; edge where one is nearer than\n"
-    "two cells. With --out the same everywhere, at a thousand places or more, some minutes.\n"
+    "beyond half of the thickness; contact too wide where its radius is more than the distance to\n"
+    "an edge or half of what is below, or the body leans its pressure by a third of that aside;\n"
+    "cells too large where what is below is less than two, or than 3.5 with nothing to hold it\n"
+    "behind; edge where one is nearer than two\n"
+    "cells. With --out the same everywhere, at a thousand places or more, some minutes.\n"
     "Examples:\n"
     "  palp organ --support posterior --cell 6mm --out liver.organ\n"
     "  palp organ --support ligaments --support hilum --cell 6mm --out hanging.organ\n"

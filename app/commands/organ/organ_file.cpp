@@ -71,7 +71,7 @@ std::optional<OrganTable> tableIn(const std::filesystem::path& file, const Organ
 std::string described(const OrganTable& table)
 {
   constexpr std::array kWhy{ "", "near an edge or another tissue",
-    "where it is thinner than two cells", "on a support", "with too little surface around" };
+    "where it is too thin for its cells", "on a support", "with too little surface around" };
   std::array<std::size_t, kWhy.size()> counts{};
   for (const PlacedCompliance& place : table.places)
   {

@@ -15,11 +15,15 @@ namespace palp
 namespace
 {
 
-// of a file, around a place: those that reach there, and those that sharpen them
+// of a file, around a place: those that reach there, and those that sharpen them, or beside an edge
+// tell them how near they are
 std::shared_ptr<const ComplianceField> fieldAround(const OrganModel& model,
   std::span<const Support> supports, const Surface& surface, const SurfacePoint& point)
 {
-  constexpr double kAround = 5.0; // spacings
+  constexpr double kBesideEdge = 3.0; // cells
+  const bool isBesideEdge =
+    surface.shape().edgeDistance(point.position) < kBesideEdge * model.side();
+  const double around = isBesideEdge ? 8.0 : 5.0; // spacings
   OrganTable table;
   table.cell = model.side();
   table.spacing = spacingOf(surface, table.cell);
@@ -27,7 +31,7 @@ std::shared_ptr<const ComplianceField> fieldAround(const OrganModel& model,
   std::erase_if(places,
     [&](const SurfacePoint& place)
     {
-      return (place.position - point.position).norm() > kAround * table.spacing ||
+      return (place.position - point.position).norm() > around * table.spacing ||
         place.normal.dot(point.normal) <= 0.0;
     });
   table.count = places.size();
@@ -45,6 +49,7 @@ OrganPlace::OrganPlace(const OrganModel& model, std::span<const Support> support
   , isHeld_(std::ranges::any_of(
       supports, [&](const Support& support) { return support.holds(point.position); }))
   , thickness_(rayExit(scene.surface->tree(), point.position, -point.normal).distance)
+  , isTooThin_(isTooThin(point, *scene.surface, model.side(), supports))
   , edge_(scene.surface->shape().edgeDistance(point.position))
   , scene_(scene)
 {
@@ -60,24 +65,25 @@ OrganPlace::OrganPlace(const OrganModel& model, std::span<const Support> support
   scene_.series = seriesBodyOf(fieldAround(model, supports, surface, point), scene.law);
 }
 
-// A place nearer to an edge than two cells is known by its neighbors only. Bonded plates of two
-// cells are 2 % too soft, thinner ones up to 20 %, and contacts wider than a third of them wrong.
+// A place nearer to an edge than two cells is known by its neighbors only.
 const char* OrganPlace::remarkOf(const ToolPose& pose, const SeriesResponse& answer) const
 {
   const double travel = (point_.position - pose.apex).dot(point_.normal);
   constexpr double kTwo = 2.0; // cells
-  const bool isWide = answer.isBeyond || answer.felt.contactRadius > thickness_ / 3.0;
-  return isHeld_                ? "on a support"
-    : travel > 0.5 * thickness_ ? "too deep"
-    : edge_ < kTwo * cell_      ? "edge"
-    : isWide                    ? "support too near"
-    : thickness_ < kTwo * cell_ ? "cells too large"
-                                : "";
+  const SeriesContact contact{ point_.position, point_.normal, answer.felt.contactRadius,
+    answer.felt.force, thickness_, edge_ };
+  const BodyCompliance body = scene_.series->field->at(point_.position, point_.normal).body;
+  return isHeld_                                                           ? "on a support"
+    : travel > 0.5 * thickness_                                            ? "too deep"
+    : edge_ < kTwo * cell_                                                 ? "edge"
+    : answer.isBeyond || contact.width(scene_.series->law, body) > kWidest ? "contact too wide"
+    : isTooThin_                                                           ? "cells too large"
+                                                                           : "";
 }
 
 OrganPlace::Answer OrganPlace::at(const ToolPose& pose) const
 {
-  const Contact contact = findContact(*scene_.surface, scene_.law.tip(), pose, scene_.rule);
+  const Contact contact = findContact(scene_, pose);
   const SeriesResponse answer = TissueAt(scene_, contact).answer(contact.depth);
   return { .body = scene_.series->at(contact.center, contact.normal, contact.depth).body,
     .force = answer.felt.force,

@@ -36,6 +36,12 @@ public:
 
   [[nodiscard]] Answer at(const ToolPose& pose) const;
 
+  /// With what is told of the body around the place.
+  [[nodiscard]] const Scene& scene() const noexcept
+  {
+    return scene_;
+  }
+
 private:
   [[nodiscard]] const char* remarkOf(const ToolPose& pose, const SeriesResponse& answer) const;
 
@@ -43,6 +49,7 @@ private:
   double cell_;
   bool isHeld_;
   double thickness_;
+  bool isTooThin_;
   double edge_;
   Scene scene_;
 };

@@ -58,6 +58,12 @@ void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
   local.edge *= squared;
 }
 
+// over an edge, to which faces lean from either side, less than 1
+double oneFaceOf(const Eigen::Vector3f& outward, float weights)
+{
+  return std::max(0.0F, 2.0F * outward.squaredNorm() / (weights * weights) - 1.0F);
+}
+
 // of what is never negative, and spread over powers of ten beside an edge
 float ratioOf(float wanted, double blend)
 {
@@ -233,9 +239,10 @@ ComplianceField::Local ComplianceField::at(
     (sums.bottomRows<3>().cast<double>() - weights.tail<3>().cast<double>() * values.transpose()) /
     all;
   gradients -= normal * (normal.transpose() * gradients);
-  Local local{ .body = { values[0], values[1], values[2], values[3] },
+  const double oneFace = oneFaceOf(outward, weights[0]);
+  Local local{ .body = { values[0], oneFace * values[1], values[2], values[3] },
     .constant = gradients.col(0),
-    .slope = gradients.col(1),
+    .slope = oneFace * gradients.col(1),
     .bend = gradients.col(2),
     .edge = gradients.col(3),
     .doubtful = static_cast<double>(doubtful) / all };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "haptics/force/linear/series_contact.h"
 #include "haptics/force/series/organ_motion.h"
 
 #include <Eigen/Core>
@@ -14,6 +13,18 @@
 
 namespace palp
 {
+
+/// What a body adds to the displacement of its own surface at a place, over its contact modulus:
+/// a load of F at p + x moves the surface at p + y by F / E* (constant + slope.(x + y)) more than
+/// that of a half-space, and by (x'Ax + y'Ay) / 2 more where the body bends.
+struct BodyCompliance
+{
+  double constant = 0.0; ///< E* G0 [1/m]; negative over a near support
+  double slope = 0.0;    ///< length of E* b, along the surface [1/m^2]
+  double bend = 0.0;     ///< E* tr A [1/m^3]
+  double edge = 0.0;     ///< 1/D, one over the distance to the sharp edge that slope is of [1/m];
+                         ///< 0: none is near
+};
 
 /// How far a place of a body's compliance may be believed.
 enum class ComplianceTrust

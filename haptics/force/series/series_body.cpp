@@ -24,16 +24,17 @@ std::shared_ptr<const SeriesBody> seriesBodyOf(
     .softer = young > 0.0 ? law.material().youngModulus / young : 1.0 });
 }
 
-Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const Eigen::Vector3d& center,
-  const Eigen::Vector3d& normal) noexcept
+Rule seriesRule(const SeriesBody& body, const ForceLaw& law, const SeriesContact& contact) noexcept
 {
-  constexpr double kHalf = 0.5;
   constexpr double kPoisson = 0.1; // by which E* G0 of a layer changes by some percent
   const double other =
     std::abs(law.material().poissonRatio - body.field->poissonRatio()) / kPoisson;
-  return { "organ", "-", std::max(body.field->at(center, normal).doubtful, kHalf * other), kHalf,
-    "an edge, a thin place or a support is too near for the cells of the organ file, or that is of "
-    "another Poisson's ratio" };
+  ComplianceField::Local local = body.field->at(contact.center, contact.normal);
+  local *= body.softer;
+  return { "organ", "-",
+    std::max({ local.doubtful, kWidest * other, contact.width(body.law, local.body) }), kWidest,
+    "an edge, a thin place or a support is too near for the cells of the organ file or for so wide "
+    "a contact, or that is of another Poisson's ratio" };
 }
 
 } // namespace palp

@@ -4,6 +4,8 @@
 #include "haptics/force/series/series_law.h"
 #include "haptics/force/validity.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace palp
@@ -32,10 +34,33 @@ struct SeriesBody
 [[nodiscard]] std::shared_ptr<const SeriesBody> seriesBodyOf(
   std::shared_ptr<const ComplianceField> field, const ForceLaw& law);
 
+/// A contact on a body, as far as it tells whether what is told of that is enough.
+struct SeriesContact
+{
+  Eigen::Vector3d center;                                        ///< on the surface [m]
+  Eigen::Vector3d normal;                                        ///< outward, of unit length
+  double radius = 0.0;                                           ///< [m]
+  double force = 0.0;                                            ///< [N]
+  double thickness = std::numeric_limits<double>::infinity();    ///< of what is below [m]
+  double edgeDistance = std::numeric_limits<double>::infinity(); ///< to a sharp one [m]
+
+  /// Radius over the thickness, half of it over the distance to the edge, and one and a half times
+  /// how far the pressure moves: from 0.5 on the first terms about the center are off by some
+  /// percent and soon by ten.
+  [[nodiscard]] double width(const SeriesLaw& law, const BodyCompliance& body) const noexcept
+  {
+    return std::max(
+      { radius / thickness, radius / (2.0 * edgeDistance), 1.5 * law.aside(body, force) });
+  }
+};
+
+inline constexpr double kWidest = 0.5; ///< of SeriesContact::width() that is right
+
 /// What of a contact with such a body may not be believed: edges, thin places and supports that its
-/// cells are too large for, a body of another Poisson's ratio, a support that is too near.
+/// cells are too large for, or that are too near for its radius, and a body of another Poisson's
+/// ratio.
 /// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] Rule seriesRule(const SeriesBody& body, const ForceLaw& law,
-  const Eigen::Vector3d& center, const Eigen::Vector3d& normal) noexcept;
+[[nodiscard]] Rule seriesRule(
+  const SeriesBody& body, const ForceLaw& law, const SeriesContact& contact) noexcept;
 
 } // namespace palp

@@ -15,6 +15,20 @@ constexpr int kIntervals = 96;
 constexpr double kDeepest = 3.0;        // of the base radius, for the tables
 constexpr double kWidened = 4.0 / 15.0; // of a pressure as that of a paraboloid
 
+// x (1 + x / D)^2 = pull, where that is 0 or more
+double asideOf(double pull, double edge) noexcept
+{
+  // from above, where the cubic is convex: from 59 % at most to 2e-7
+  double x = edge > 0.0 ? std::min(pull, std::cbrt(pull / (edge * edge))) : pull;
+  constexpr int kSteps = 4;
+  for (int i = 0; i < kSteps && edge != 0.0; ++i)
+  {
+    const double far = 1.0 + edge * x;
+    x -= (x * far * far - pull) / (far * (far + 2.0 * edge * x));
+  }
+  return x;
+}
+
 double roundnessOf(const Tip& tip)
 {
   const auto* sphere = std::get_if<SphereTip>(&tip);
@@ -61,6 +75,7 @@ std::vector<double> widenedOf(const CubicSpline& radii, const SplineAxis& axis)
 
 SeriesLaw::SeriesLaw(const ForceLaw& law)
   : modulus_(law.material().contactModulus())
+  , isSphere_(std::holds_alternative<SphereTip>(law.tip()))
   , round_(roundnessOf(law.tip()))
   , axis_{ 0.0, 1.0, kIntervals }
 {
@@ -99,23 +114,24 @@ SeriesLaw::Yield SeriesLaw::yieldOf(double force, const BodyCompliance& body) co
   const double widened = kWidened * body.bend * a;
   Yield yield{ .depth = force * (body.constant + widened * a),
     .slope = body.constant + widened * (a + 2.0 * force * width.slope) };
-  if (!(round_ > 0.0))
+  if (!(body.slope > 0.0 && force > 0.0))
   {
     return yield;
   }
-  const double aside = asideOf(round_ * body.slope * force, body.edge);
-  if (aside <= 0.5 * a)
+  const auto [x, far, nearer, less, power, wider, isHeld] = gainOf(force, width, body);
+  // of f^2 nearer and f^2 less, as powers of the force
+  const double more = nearer * wider / far;
+  const double falling = 2.0 + 2.0 * wider - power;
+  yield.depth -= force * (2.0 * nearer + more - falling * less);
+  if (isHeld)
   {
-    const double far = 1.0 + body.edge * aside;
-    const double less = 2.0 * body.slope * aside / far;
-    yield.depth += 0.5 * aside * aside / round_ - force * less;
-    yield.slope -= less + body.slope * aside / (far * (far + 2.0 * body.edge * aside));
+    yield.slope -=
+      2.0 * nearer + more * (3.0 + wider * (2.0 / far - 1.0)) - falling * (falling - 1.0) * less;
     return yield;
   }
-  const double far = 1.0 + 0.5 * body.edge * a;
-  yield.depth += a * (0.125 * a / round_ - force * body.slope / far);
-  yield.slope +=
-    0.25 * a * width.slope / round_ - body.slope / far * (a + force * width.slope / far);
+  // x grows as q b does
+  const double with = power * nearer / (3.0 * far - 2.0);
+  yield.slope -= 2.0 * (nearer + with) - falling * (with + (1.0 - power) * less);
   return yield;
 }
 
@@ -141,72 +157,54 @@ double SeriesLaw::start(const Response& first, const Yield& most, double depth) 
   return y * depth;
 }
 
-// from which on the pressure moves aside by no more than half of the contact's radius
-double SeriesLaw::forceAtHold(const BodyCompliance& body) const noexcept
+SeriesLaw::Gain SeriesLaw::gainOf(
+  double force, const Radius& width, const BodyCompliance& body) const noexcept
 {
-  double root = axis_.last;
-  for (int i = 0; i < 5; ++i)
-  {
-    const double wide = radiusOf(root * root * root).value / root;
-    const double level = std::sqrt(0.5 * wide / (round_ * body.slope)); // without an edge
-    const double slower = 1.0 - 0.5 * level * wide * body.edge;
-    root = slower > 0.0 ? std::min(axis_.last, level / slower) : axis_.last;
-  }
-  return root * root * root;
-}
-
-SeriesLaw::Gain SeriesLaw::gainOf(double force, const BodyCompliance& body) const noexcept
-{
-  if (!(round_ > 0.0 && body.slope > 0.0))
-  {
-    return {};
-  }
-  double held = force;
-  double aside = asideOf(round_ * body.slope * force, body.edge);
-  if (aside > 0.5 * radiusOf(force).value)
-  {
-    held = std::min(force, forceAtHold(body));
-    aside = asideOf(round_ * body.slope * held, body.edge);
-  }
-  const double nearer = held * aside / (1.0 + body.edge * aside);
-  Gain gain{ .energy = held * (0.5 * aside * aside / round_ - body.slope * nearer),
-    .slope = -held * nearer,
-    .edge = body.slope * nearer * nearer };
-  // from there on by Gauss and Legendre's rule in the cube root of the force
-  constexpr std::array kNodes{ 0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
-    0.93056815579702629 };
-  constexpr std::array kWeights{ 0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-    0.17392742256872693 };
-  const double low = std::cbrt(held);
-  const double span = std::cbrt(force) - low;
-  for (std::size_t i = 0; i < kNodes.size() && force > held; ++i)
-  {
-    const double root = low + span * kNodes[i];
-    const double f = root * root * root;
-    const double a = radiusOf(f).value;
-    const double part = 3.0 * root * root * span * kWeights[i];
-    const double far = 1.0 + 0.5 * body.edge * a;
-    gain += { .energy = part * a * (0.125 * a / round_ - f * body.slope / far),
-      .slope = -part * f * a / far,
-      .edge = 0.5 * part * f * body.slope * (a / far) * (a / far) };
-  }
-  return gain;
+  const double a = width.value;
+  const double wider = force * width.slope / a; // a as a power of the force
+  const double q = isSphere_ ? round_ * force : 4.0 / 3.0 * a * a * a;
+  const double free = asideOf(q * body.slope, body.edge);
+  const double x = std::min(free, 0.5 * a);
+  const double far = 1.0 + body.edge * x;
+  return { .aside = x,
+    .far = far,
+    .nearer = body.slope * x / far,
+    .less = 0.5 * x * x / q,
+    .power = isSphere_ ? 1.0 : 3.0 * wider,
+    .wider = free > x ? wider : 0.0,
+    .isHeld = free > x };
 }
 
 Eigen::Vector3d SeriesLaw::lateral(const ComplianceField::Local& local, double force) const noexcept
 {
   const double f = force / modulus_;
-  const Gain gain = gainOf(f, local.body);
-  return modulus_ *
-    (0.5 * f * f * local.constant + kWidened * widened(f) * local.bend + gain.slope * local.slope +
-      gain.edge * local.edge);
+  Eigen::Vector3d change = 0.5 * f * f * local.constant + kWidened * widened(f) * local.bend;
+  if (local.body.slope > 0.0 && f > 0.0)
+  {
+    const Gain gain = gainOf(f, radiusOf(f), local.body);
+    const double reached = gain.aside / gain.far;
+    change += f * f * reached * (gain.nearer * local.edge - local.slope);
+  }
+  return modulus_ * change;
+}
+
+double SeriesLaw::aside(const BodyCompliance& body, double force) const noexcept
+{
+  const double f = force / modulus_;
+  const Radius width = radiusOf(f);
+  return f > 0.0 ? gainOf(f, width, body).aside / width.value : 0.0;
 }
 
 double SeriesLaw::energy(const BodyCompliance& body, double force) const noexcept
 {
   const double f = force / modulus_;
-  return modulus_ *
-    (0.5 * f * f * body.constant + kWidened * widened(f) * body.bend + gainOf(f, body).energy);
+  const double even = 0.5 * f * f * body.constant + kWidened * widened(f) * body.bend;
+  if (!(body.slope > 0.0 && f > 0.0))
+  {
+    return modulus_ * even;
+  }
+  const Gain gain = gainOf(f, radiusOf(f), body);
+  return modulus_ * (even - f * f * (gain.nearer - gain.less));
 }
 
 } // namespace palp

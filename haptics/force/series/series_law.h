@@ -25,9 +25,14 @@ struct SeriesResponse
 ///
 /// The complementary energy over E* of a force f = F/E* is that of the contact and
 /// f^2/2 G0 + 4/15 tr A int a^2 f df, less what the pressure gains by moving to the stiffer side,
-/// f^2 b x / (1 + x/D) - f x^2 / (2 R), asideOf(R b f, 1/D), at most half of the contact radius
-/// a(f) on a half-space. The depth is its derivative by the force; the lateral force is that along
-/// the surface.
+/// f^2 (b x / (1 + x/D) - x^2 / (2 q)), the most for any x up to half of the contact radius a(f) on
+/// a half-space. q = 4/3 a^3: a body that leans by b f turns a pressure by the moment 4/3 E* a^3 b
+/// f of a punch in the contact, whatever the tip. A sphere stays one as it turns, deep in the body,
+/// too: q = R f. The depth is the derivative by the force; the lateral force is that along the
+/// surface.
+///
+/// @source moment: Johnson, "Contact Mechanics", Cambridge 1985, Sec. 3.5 (tilted punch); to the
+///         second order the contact stays the circle that it is
 class SeriesLaw
 {
 public:
@@ -81,11 +86,16 @@ public:
   [[nodiscard]] Eigen::Vector3d lateral(
     const ComplianceField::Local& local, double force) const noexcept;
 
-  /// Radius of the tip at its apex [m]; 0: sharp or flat, whose pressure stays where it is.
+  /// Radius of the tip at its apex [m]; 0: sharp or flat.
   [[nodiscard]] double roundness() const noexcept
   {
     return round_;
   }
+
+  /// By which part of the contact's radius the pressure would move to the stiffer side [-]; what
+  /// rolls by more than a third of it is no longer told by the first terms about its center.
+  /// @realtime  pure; no allocation, no lock, no exception
+  [[nodiscard]] double aside(const BodyCompliance& body, double force) const noexcept;
 
   /// What the body adds to the complementary energy [J].
   /// @realtime  pure; no allocation, no lock, no exception
@@ -133,28 +143,24 @@ private:
     double slope; // da/df
   };
 
-  // of what the pressure gains by moving aside: the complementary energy, and its derivatives
+  // of what the pressure gains by moving aside: the complementary energy is f^2 times the height
   struct Gain
   {
-    double energy; // [m^2]
-    double slope;  // by b
-    double edge;   // by 1/D
-
-    Gain& operator+=(const Gain& other) noexcept
-    {
-      energy += other.energy;
-      slope += other.slope;
-      edge += other.edge;
-      return *this;
-    }
+    double aside;  // x [m]
+    double far;    // 1 + x/D
+    double nearer; // b x / (1 + x/D) [1/m]
+    double less;   // x^2 / (2 q) [1/m]
+    double power;  // of the force in q
+    double wider;  // of the force in x where that is held; else 0
+    bool isHeld;   // by half of the contact
   };
 
   [[nodiscard]] Radius radiusOf(double force) const noexcept;
   [[nodiscard]] double widened(double force) const noexcept; // int a^2 f df
-  [[nodiscard]] Gain gainOf(double force, const BodyCompliance& body) const noexcept;
+  [[nodiscard]] Gain gainOf(
+    double force, const Radius& width, const BodyCompliance& body) const noexcept;
   [[nodiscard]] Yield yieldOf(double force, const BodyCompliance& body) const noexcept;
   [[nodiscard]] double start(const Response& first, const Yield& most, double depth) const noexcept;
-  [[nodiscard]] double forceAtHold(const BodyCompliance& body) const noexcept;
 
   // where steps do not get there: over a near support, whose pull has an end
   template <typename Contact>
@@ -188,7 +194,8 @@ private:
       low + further, isBeyond };
   }
 
-  double modulus_;  // E* [Pa]
+  double modulus_; // E* [Pa]
+  bool isSphere_;
   double round_;    // as roundness
   SplineAxis axis_; // of the cube root of f
   std::optional<CubicSpline> radii_;

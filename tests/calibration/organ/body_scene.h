@@ -39,6 +39,7 @@ struct Body
   double edges = 2.5_mm; // of the mesh [m]
   double cell = 4.0_mm;
   double wall = 0.0; // height of what stands on its end, 25 mm wide [m]
+  Tip tip = SphereTip{ 10.0_mm };
 };
 
 // its top is at the origin
@@ -94,7 +95,7 @@ inline Scene sceneOf(const Body& body, double around)
   settings.mode = body.border.isZero() ? LawMode::Exact : LawMode::Corrected;
   settings.constitution = ConstitutiveModel::Linear;
   settings.thickness = false; // what is below is in the body's compliance
-  scene.law = ForceLaw(SphereTip{ 10.0_mm }, makeMaterial(kYoung, kPoisson), settings);
+  scene.law = ForceLaw(body.tip, makeMaterial(kYoung, kPoisson), settings);
   ModulusRatio ratio;
   if (!body.border.isZero())
   {

@@ -60,6 +60,17 @@ Body besideWall(double edges, double cell)
     .wall = 40.0_mm };
 }
 
+// contacts up to a fifth wider than they are away from the edge
+Body wideAtAnEdge(const char* file, const Tip& tip)
+{
+  return { .file = file,
+    .size = { 0.1, 0.08, 0.04 },
+    .place = -0.041,
+    .limit = 0.035,
+    .edges = 4.0_mm,
+    .tip = tip };
+}
+
 class OrganScene : public testing::TestWithParam<Body>
 {
 };
@@ -102,7 +113,12 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
       .edges = 60.0_mm },
     Body{ .file = "edge90_8mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.042, .edges = 12.5_mm },
     Body{ .file = "edge90_8mm", .size = { 0.1, 0.1, 0.05 }, .place = -0.042, .edges = 20.0_mm },
-    besideWall(5.0_mm, 4.0_mm), besideWall(60.0_mm, 4.0_mm), besideWall(60.0_mm, 6.0_mm)),
+    besideWall(5.0_mm, 4.0_mm), besideWall(60.0_mm, 4.0_mm), besideWall(60.0_mm, 6.0_mm),
+    wideAtAnEdge("edge90_9mm_sphere60", SphereTip{ 60.0_mm }),
+    wideAtAnEdge("edge90_9mm_sphere30", SphereTip{ 30.0_mm }),
+    wideAtAnEdge("edge90_9mm_paraboloid20", ParaboloidTip{ 20.0_mm }),
+    wideAtAnEdge("edge90_9mm_cone70", ConeTip{ 70.0_deg, 20.0_mm }),
+    wideAtAnEdge("edge90_9mm_truncated75", TruncatedConeTip{ 75.0_deg, 4.0_mm, 20.0_mm })),
   [](const auto& body)
   {
     const double edges = body.param.edges;
@@ -180,7 +196,7 @@ TEST(OrganLobe, NothingJumpsBesideItsSupport)
   {
     constexpr double kSlide = 0.02_mm;
     const auto rule = [&](double x) {
-      return seriesRule(*scene.series, scene.law, { x, y, 0.0 }, Vector3d::UnitZ());
+      return seriesRule(*scene.series, scene.law, { { x, y, 0.0 }, Vector3d::UnitZ() });
     };
     double before = step(scene, at(14.0_mm, 2.0_mm, y)).response.force;
     for (double x = 14.0_mm; x < 29.0_mm; x += kSlide)
@@ -194,6 +210,22 @@ TEST(OrganLobe, NothingJumpsBesideItsSupport)
     EXPECT_FALSE(rule(24.0_mm).holds());
     EXPECT_TRUE(rule(14.0_mm).holds());
   }
+}
+
+// the first terms about a contact's center tell less and less of what is as near as it is wide
+TEST(OrganLobe, SaysWhereAContactIsTooWide)
+{
+  const Scene scene =
+    sceneOf({ .file = "", .size = { 0.06, 0.1, 0.03 }, .place = 0.0, .isLobe = true }, 18.0_mm);
+  const auto rule = [&](double radius, double thickness, double edge)
+  {
+    return seriesRule(*scene.series, scene.law,
+      { Vector3d::Zero(), Vector3d::UnitZ(), radius, 0.1, thickness, edge });
+  };
+  EXPECT_TRUE(rule(7.0_mm, 30.0_mm, 30.0_mm).holds());
+  EXPECT_TRUE(rule(7.0_mm, 15.0_mm, 7.5_mm).holds());
+  EXPECT_FALSE(rule(7.0_mm, 30.0_mm, 6.5_mm).holds());
+  EXPECT_FALSE(rule(13.0_mm, 20.0_mm, 30.0_mm).holds());
 }
 
 TEST(OrganBesideWall, ASlideNeverJumpsOrGivesEnergy)

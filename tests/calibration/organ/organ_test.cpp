@@ -5,9 +5,9 @@
 #include "data/shapes.h"
 #include "haptics/error.h"
 #include "haptics/force/linear/layer_contact.h"
-#include "haptics/force/linear/series_contact.h"
 #include "haptics/units.h"
 #include "tests/support/csv_table.h"
+#include "tests/support/series_press.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -151,8 +151,7 @@ TEST_P(AgainstElements, TheForceAgrees)
   const OrganModel model(surface, body.cell, kYoung, kPoisson, std::span(&support, 1));
   const auto found = complianceAt(model, surface, { body.place, 0.0, 0.0 }, Vector3d::UnitZ());
   ASSERT_TRUE(found);
-  const double modulus = model.contactModulus();
-  const HalfSpace law(SphereTip{ 10.0_mm });
+  const test::SeriesPress press(SphereTip{ 10.0_mm });
   const test::CsvTable table =
     test::readCsv(std::string(PALP_SOURCE_DIR "/data/reference/organ_") + body.file + ".csv");
   double worst = 0.0;
@@ -161,10 +160,10 @@ TEST_P(AgainstElements, TheForceAgrees)
   {
     const double depth = table["depth_m"][i];
     const double force = table["force_N"][i];
-    const SeriesContact series = inSeries(law, bodyOf(*found, modulus), depth, 10.0_mm);
-    EXPECT_NEAR(modulus * series.contact.force, force, body.limit * force) << depth;
-    worst = std::max(worst, std::abs(modulus * series.contact.force / force - 1.0));
-    before = std::max(before, std::abs(modulus * law(depth).force / force - 1.0));
+    const double pressed = press.force(bodyOf(*found, press.modulus()), depth);
+    EXPECT_NEAR(pressed, force, body.limit * force) << depth;
+    worst = std::max(worst, std::abs(pressed / force - 1.0));
+    before = std::max(before, std::abs(press.alone(depth).force / force - 1.0));
   }
   RecordProperty("error_percent", std::to_string(100.0 * worst));
   RecordProperty("half_space_percent", std::to_string(100.0 * before));
@@ -243,13 +242,12 @@ TEST(OrganCompliance, OfASlabIsThatOfALayerInAnyAttitude)
       const auto found =
         complianceAt(model, surface, turn * Vector3d(1.0_mm, 0.5_mm, 0.0), turn.col(2));
       ASSERT_TRUE(found);
-      const HalfSpace law(SphereTip{ 10.0_mm });
+      const test::SeriesPress press(SphereTip{ 10.0_mm });
       const LayerContact layer(SphereTip{ 10.0_mm }, kPoisson, Base::Bonded);
       for (const double depth : { 1.0_mm, 4.0_mm, 8.0_mm })
       {
-        const double exact = layer(depth, height, 0.0).force;
-        const BodyCompliance body = bodyOf(*found, model.contactModulus());
-        EXPECT_NEAR(inSeries(law, body, depth, 10.0_mm).contact.force, exact, 1.2e-2 * exact)
+        const double exact = press.modulus() * layer(depth, height, 0.0).force;
+        EXPECT_NEAR(press.force(bodyOf(*found, press.modulus()), depth), exact, 1.2e-2 * exact)
           << height << ' ' << angle << ' ' << depth;
       }
     }
