@@ -266,17 +266,21 @@ void writeOrganTable(const std::filesystem::path& file, const OrganTable& table)
          "displacement per newton, G0 + b.(x + y) + (x'Ax + y'Ay)/2"
          "\n# edge: one over the distance to a sharp edge; trust: 0 known, 1 an edge or another "
          "tissue is near, 2 "
-         "thinner than two cells, 3 on a support, 4 from "
+         "too thin for the cells, 3 on a support, 4 from "
          "neighbors only\n";
   writeMotion(out, table.motion);
   out << kHeader << '\n';
+  // a part has all its digits, so that what goes on from it ends as what was never stopped
   for (const PlacedCompliance& place : table.places)
   {
     const Eigen::Vector3d at = place.position * units::toMillimeters(1.0);
     std::array row{ at.x(), at.y(), at.z(), place.normal.x(), place.normal.y(), place.normal.z(),
       place.constant, place.slope.x(), place.slope.y(), place.slope.z(), place.bend, place.edge,
       static_cast<double>(place.trust) };
-    std::ranges::transform(row, row.begin(), rounded);
+    if (table.places.size() == table.count)
+    {
+      std::ranges::transform(row, row.begin(), rounded);
+    }
     writeCsvRow(out, row);
   }
   replaceFile(file, out.str());
