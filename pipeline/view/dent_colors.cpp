@@ -115,7 +115,8 @@ void DentColors::show(const OverlayState& state, By by, double deepest)
   if (by == By::Displacement)
   {
     // of the dent alone where the body gives way as a whole
-    colorBy("Displacement [mm]", "displacement\n[mm]",
+    const bool isLocal = state.press.GetPress().motion != nullptr;
+    colorBy("Displacement [mm]", isLocal ? "local\ndisplacement\n[mm]" : "displacement\n[mm]",
       units::toMillimeters(std::max(state.press.GetPress().contact.depth, deepest)));
   }
   else if (by == By::Pressure)
