@@ -29,8 +29,8 @@ struct OrganWork
 [[nodiscard]] double nearnessToEdge(
   const Surface& surface, const Eigen::Vector3d& place, double cell);
 
-/// Whether a body is thinner below a place than its cells tell: bonded plates of two of them are 2
-/// % too soft, a free one of three 6 % too stiff.
+/// Whether a body is thinner below a place than its cells tell: bonded plates of two of them are
+/// too soft by 2 %, a free one of three too stiff by 6 %.
 [[nodiscard]] bool isTooThin(const SurfacePoint& place, const Surface& surface, double cell,
   std::span<const Support> supports);
 

@@ -26,10 +26,10 @@ struct SeriesResponse
 /// The complementary energy over E* of a force f = F/E* is that of the contact and
 /// f^2/2 G0 + 4/15 tr A int a^2 f df, less what the pressure gains by moving to the stiffer side,
 /// f^2 (b x / (1 + x/D) - x^2 / (2 q)), the most for any x up to half of the contact radius a(f) on
-/// a half-space. q = 4/3 a^3: a body that leans by b f turns a pressure by the moment 4/3 E* a^3 b
-/// f of a punch in the contact, whatever the tip. A sphere stays one as it turns, deep in the body,
-/// too: q = R f. The depth is the derivative by the force; the lateral force is that along the
-/// surface.
+/// a half-space. q = 4/3 a^3, whatever the tip: a body that leans by b f turns its pressure by the
+/// moment 4/3 E* a^3 b f of a punch in the contact. A sphere stays one as it turns, deep in the
+/// body, too: q = R f. The depth is the derivative by the force; the lateral force is that along
+/// the surface.
 ///
 /// @source moment: Johnson, "Contact Mechanics", Cambridge 1985, Sec. 3.5 (tilted punch); to the
 ///         second order the contact stays the circle that it is
