@@ -50,12 +50,22 @@ struct LinkedTriangles
   std::span<const std::array<int, 3>> across; ///< triangles, from corner k to k + 1; -1: none
 };
 
+/// Which sides of triangles stand for what is round, and which are edges of the body itself: those
+/// that turn by more than 45 degrees, and those by more than 17 between faces flat on both sides.
+struct Creases
+{
+  std::vector<std::array<bool, 3>>
+    sides;                  ///< of each triangle, from corner k to k + 1: such an edge
+  double facetLength = 0.0; ///< root mean square side of triangles at one that is none [m]
+};
+
+/// O(n). @param mesh  closed or open; what lies about an open edge is none
+[[nodiscard]] Creases creasesOf(const LinkedTriangles& mesh);
+
 /// By half of what the surface turns at each side of a triangle, across that side, per length.
 ///
-/// @param triangle  the facet's, among those of the mesh
-/// @return          one symmetric tensor a side [rad], zero at an open one
-[[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(
-  const LinkedTriangles& mesh, const Facet& facet, int triangle);
+/// @return  one symmetric tensor a side [rad], zero at an open one
+[[nodiscard]] std::array<Eigen::Matrix3d, 3> bendsOf(const LinkedTriangles& mesh, int triangle);
 
 /// What a triangle adds to the curvature of a surface.
 struct FacetBend
@@ -70,7 +80,7 @@ struct FacetBend
 /// @param longest  triangles with a longer side, or beside a crease, are not evened out [m]
 /// @return         by the tree's facets
 [[nodiscard]] std::vector<FacetBend> evenBends(
-  const BoxTree& tree, const LinkedTriangles& mesh, double longest);
+  const BoxTree& tree, const LinkedTriangles& mesh, const Creases& creases, double longest);
 
 /// How large a hollow each triangle bounds: the radius of a ball with as much surface as the closed
 /// piece that it belongs to, where that faces its own inside; else 0 [m].

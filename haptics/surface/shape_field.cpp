@@ -62,27 +62,27 @@ void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eige
       const Eigen::Vector3f across = along.cross(normal).normalized();
       const float own = std::max(0.0F, across.dot(bend * across));
       const float other = std::max(0.0F, along.dot(bend * along));
-      return 2.0F * side.turn < kSharp && // a half on each face
+      return !side.isCrease && 2.0F * side.turn < kSharp && // a half on each face
         own * bend.trace() * around < kSharp * (own + other);
     });
 }
 
 } // namespace
 
-ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double facetLength)
+ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, const Creases& creases)
 {
   const auto corner = [](const std::array<float, 3>& of)
   { return Eigen::Vector3f(of.data()).cast<double>().eval(); };
   const Eigen::Vector3d low = corner(tree.nodes()[0].low);
   const Eigen::Vector3d high = corner(tree.nodes()[0].high);
   const double size = (high - low).norm();
-  const double scale = std::min(kEdges * facetLength, kWidest * size);
+  const double scale = std::min(kEdges * creases.facetLength, kWidest * size);
   cell_ = std::max({ kFine * kFinest * size, kCoarse * scale, leastCell(tree) });
   finest_ = std::max(scale, cell_ / kFine);
   origin_ = 0.5 * (low + high);
   Pieces pieces;
   std::vector<Entry> entries;
-  cutUp(tree, mesh, pieces, entries);
+  cutUp(tree, mesh, creases, pieces, entries);
   Leaves leaves;
   build(entries, pieces, leaves);
   measureLeaves(tree, hollowRadii(mesh), pieces, leaves);
@@ -90,10 +90,10 @@ ShapeField::ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double 
 }
 
 // into cells, but for triangles that are small in the least average: those stay whole
-void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces& pieces,
-  std::vector<Entry>& entries) const
+void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, const Creases& creases,
+  Pieces& pieces, std::vector<Entry>& entries) const
 {
-  const auto bends = evenBends(tree, mesh, finest_);
+  const auto bends = evenBends(tree, mesh, creases, finest_);
   pieces.all.reserve(tree.facets().size());
   entries.reserve(tree.facets().size());
   pieces.sides.reserve(3 * tree.facets().size());
@@ -102,8 +102,9 @@ void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces&
     const Facet& facet = tree.facets()[i];
     const auto& turns = bends[i].turns;
     const auto& even = bends[i].even;
-    const auto bend = even ? std::array<Eigen::Matrix3d, 3>()
-                           : bendsOf(mesh, facet, tree.triangle(static_cast<int>(i)));
+    const int triangle = tree.triangle(static_cast<int>(i));
+    const auto& isCrease = creases.sides[at(triangle)];
+    const auto bend = even ? std::array<Eigen::Matrix3d, 3>() : bendsOf(mesh, triangle);
     const auto add = [&](const FacetPart& part)
     {
       const auto& p = part.corners;
@@ -119,7 +120,8 @@ void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces&
           piece.sums.bend += even ? Eigen::Matrix3f::Zero().eval()
                                   : ((next - p[k]).norm() * bend[side]).cast<float>().eval();
           pieces.sides.push_back(
-            { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, turns[side] });
+            { { (p[k] - origin_).cast<float>(), (next - origin_).cast<float>() }, turns[side],
+              isCrease[side] });
         }
       }
       piece.sides[1] = static_cast<int>(pieces.sides.size());
@@ -138,8 +140,9 @@ void ShapeField::cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces&
       [&](const FacetPart& part)
       {
         const bool isRidge = !even &&
-          std::ranges::any_of(
-            part.sides, [&](int side) { return side >= 0 && std::abs(turns[at(side)]) > kRidge; });
+          std::ranges::any_of(part.sides,
+            [&](int side)
+            { return side >= 0 && (isCrease[at(side)] || std::abs(turns[at(side)]) > kRidge); });
         isRidge ? cut(part, kAtRidge * cell_, add) : add(part);
       });
   }
@@ -288,9 +291,9 @@ void ShapeField::measureLeaves(
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(below.thickness));
     leaf.hollow = below.isHollow ? leaf.area.norm() : 0.0F;
     const float curvature = sum.bend.trace() / area;
-    if (curvature * around > kSharp)
+    std::vector<Side> sides = sidesOf(leaves[i], pieces);
+    if (curvature * around > kSharp || std::ranges::any_of(sides, &Side::isCrease))
     {
-      std::vector<Side> sides = sidesOf(leaves[i], pieces);
       keepSharp(sides, sum.bend / area, sum.area, around);
       leaf.isSharp = addTurning(sides, kOwnTurn * curvature * leaf.area.norm(), sharp);
     }
@@ -310,25 +313,29 @@ std::vector<ShapeField::Side> ShapeField::sidesOf(std::span<const Entry> leaf, c
 }
 
 // The sides at which a leaf turns, where it does so.
-// @param least  that its sides turn together, times their length [m]; it is no edge with less
+// @param least  that its sides turn together, times their length [m]; without a crease, it is no
+//               edge with less
 bool ShapeField::addTurning(
   std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp)
 {
   float sum = 0.0F;
   float most = 0.0F;
+  bool isSharp = false;
   for (const Side& side : sides)
   {
     sum += side.turn * (side.ends[1] - side.ends[0]).norm();
     most = std::max(most, side.turn);
+    isSharp = isSharp || side.isCrease;
   }
+  isSharp = isSharp || sum > least;
   for (const Side& side : sides)
   {
-    if (sum > least && side.turn > kOwnTurn * most)
+    if (isSharp && side.turn > kOwnTurn * most)
     {
       sharp.push_back(side.ends);
     }
   }
-  return sum > least;
+  return isSharp;
 }
 
 // what the leaves measured, for every node

@@ -13,7 +13,8 @@ namespace palp
 {
 
 class BoxTree;
-struct LinkedTriangles; // haptics/surface/facet_part.h
+struct Creases; // haptics/surface/facet_part.h
+struct LinkedTriangles;
 
 /// Curvature and thickness of a surface, averaged over any ball, and its sharp edges.
 ///
@@ -33,9 +34,8 @@ class ShapeField
 public:
   ShapeField() = default;
 
-  /// @param tree        over the triangles of the mesh
-  /// @param facetLength  as Surface::facetLength
-  ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, double facetLength);
+  /// @param tree  over the triangles of the mesh
+  ShapeField(const BoxTree& tree, const LinkedTriangles& mesh, const Creases& creases);
 
   /// Averages over the part of the surface in a ball that faces along a normal.
   ///
@@ -49,8 +49,8 @@ public:
   [[nodiscard]] LocalShape operator()(const Eigen::Vector3d& center, double radius,
     const Eigen::Vector3d& normal, double grain, CurvatureOf of = CurvatureOf::All) const noexcept;
 
-  /// Distance to the nearest sharp edge, where the surface turns by 55 degrees within a few cells;
-  /// infinite where there is none [m].
+  /// Distance to the nearest sharp edge, where the surface turns by 55 degrees within a few cells
+  /// or has a crease; infinite where there is none [m].
   ///
   /// @param position  [m]
   /// @realtime        pure; no allocation, no lock, no exception
@@ -79,7 +79,8 @@ private:
   struct Side
   {
     SharpEdges::Segment ends; // from the origin [m]
-    float turn;               // of the surface, convex positive [rad]
+    float turn;               // of the surface, half of it each, convex positive [rad]
+    bool isCrease;
   };
 
   // of the surface, smaller than a cell
@@ -108,8 +109,8 @@ private:
   template <typename Visit>
   void search(
     const Eigen::Vector3d& center, double radius, double grain, Visit visit) const noexcept;
-  void cutUp(const BoxTree& tree, const LinkedTriangles& mesh, Pieces& pieces,
-    std::vector<Entry>& entries) const;
+  void cutUp(const BoxTree& tree, const LinkedTriangles& mesh, const Creases& creases,
+    Pieces& pieces, std::vector<Entry>& entries) const;
   Eigen::Vector4f build(std::span<Entry> entries, const Pieces& pieces, Leaves& leaves);
   void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces,
     const Leaves& leaves);

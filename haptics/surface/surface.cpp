@@ -101,7 +101,7 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
         const auto found = findCrossing(tree_, triangles_);
         return found ? found : findOverlap();
       });
-    shape_ = ShapeField(tree_, { points_, triangles_, across_ }, facetLength_);
+    shape_ = ShapeField(tree_, { points_, triangles_, across_ }, creases_);
     crossing_ = crossing.get();
     if (crossing_)
     {
@@ -119,7 +119,7 @@ Surface::Surface(std::vector<Eigen::Vector3d> points, std::vector<Triangle> tria
   }
   if (!isClosed_ || crossing_)
   {
-    shape_ = ShapeField(tree_, { points_, triangles_, across_ }, facetLength_);
+    shape_ = ShapeField(tree_, { points_, triangles_, across_ }, creases_);
   }
 }
 
@@ -135,7 +135,7 @@ bool Surface::linkEdges()
     sum += (points_[at(a)] - points_[at(b)]).squaredNorm();
   }
   edgeLength_ = std::sqrt(sum / static_cast<double>(edges.all.size()));
-  facetLength_ = measureFacets();
+  creases_ = creasesOf({ points_, triangles_, across_ });
 
   firstNeighbor_.assign(points_.size() + 1, 0);
   for (const auto& [a, b] : edges.all)
@@ -155,37 +155,6 @@ bool Surface::linkEdges()
     neighbors_[at(next[at(b)]++)] = a;
   }
   return edges.unbalanced == 0;
-}
-
-// over the sides of triangles that stand for what is round
-double Surface::measureFacets() const
-{
-  constexpr double kFlat = 0.01;    // [rad] to which a side of a triangle is within a flat face
-  constexpr double kBodyEdge = 0.8; // likewise, from which on it is an edge of the body itself
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < triangles_.size(); ++i)
-  {
-    const Eigen::Vector3d normal = unitNormal(points_, triangles_[i]);
-    double squares = 0.0;
-    bool isRound = false;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const Eigen::Vector3d along =
-        points_[at(triangles_[i][(k + 1) % 3])] - points_[at(triangles_[i][k])];
-      squares += along.squaredNorm();
-      if (const int other = across_[i][k]; other >= 0)
-      {
-        const Eigen::Vector3d beyond = unitNormal(points_, triangles_[at(other)]);
-        const double turn =
-          std::atan2(normal.cross(beyond).dot(along.normalized()), normal.dot(beyond));
-        isRound = isRound || (std::abs(turn) > kFlat && turn < kBodyEdge);
-      }
-    }
-    sum += isRound ? squares : 0.0;
-    count += isRound ? 3.0 : 0.0;
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 // of pieces whose walls meet without passing through each other

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/surface/box_tree.h"
+#include "haptics/surface/facet_part.h"
 #include "haptics/surface/shape_field.h"
 #include "haptics/surface/winding.h"
 
@@ -108,7 +109,7 @@ public:
   /// than half a degree, but for ridges; 0: none, its faces are flat however they are cut.
   [[nodiscard]] double facetLength() const noexcept
   {
-    return facetLength_;
+    return creases_.facetLength;
   }
 
   [[nodiscard]] const BoxTree& tree() const noexcept
@@ -118,7 +119,6 @@ public:
 
 private:
   bool linkEdges();
-  [[nodiscard]] double measureFacets() const;
   void spreadOpenEdges();
   [[nodiscard]] std::optional<Eigen::Vector3d> findOverlap() const;
   void dropWhatIsBuried();
@@ -134,7 +134,7 @@ private:
   std::vector<int> nearestOpenEdge_; // per point, empty when closed
   bool isClosed_ = false;
   double edgeLength_ = 0.0;
-  double facetLength_ = 0.0;
+  Creases creases_;
   BoxTree tree_;
   ShapeField shape_;
   std::optional<Eigen::Vector3d> crossing_;
