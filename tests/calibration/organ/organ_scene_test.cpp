@@ -71,6 +71,17 @@ Body wideAtAnEdge(const char* file, const Tip& tip)
     .tip = tip };
 }
 
+// of 100 to 163 degrees it is an edge, too
+Body besideObtuseEdge(const char* file, double place, double lean, const Tip& tip)
+{
+  return { .file = file,
+    .size = { 0.07, 0.08, 0.04 },
+    .place = place,
+    .limit = 0.03,
+    .lean = lean,
+    .tip = tip };
+}
+
 class OrganScene : public testing::TestWithParam<Body>
 {
 };
@@ -118,7 +129,10 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
     wideAtAnEdge("edge90_9mm_sphere30", SphereTip{ 30.0_mm }),
     wideAtAnEdge("edge90_9mm_paraboloid20", ParaboloidTip{ 20.0_mm }),
     wideAtAnEdge("edge90_9mm_cone70", ConeTip{ 70.0_deg, 20.0_mm }),
-    wideAtAnEdge("edge90_9mm_truncated75", TruncatedConeTip{ 75.0_deg, 4.0_mm, 20.0_mm })),
+    wideAtAnEdge("edge90_9mm_truncated75", TruncatedConeTip{ 75.0_deg, 4.0_mm, 20.0_mm }),
+    besideObtuseEdge("edge140_15mm_sphere60", -20.0_mm, 50.0_deg, SphereTip{ 60.0_mm }),
+    besideObtuseEdge("edge150_9mm_sphere60", -26.0_mm, 60.0_deg, SphereTip{ 60.0_mm }),
+    besideObtuseEdge("edge150_9mm_sphere10", -26.0_mm, 60.0_deg, SphereTip{ 10.0_mm })),
   [](const auto& body)
   {
     const double edges = body.param.edges;

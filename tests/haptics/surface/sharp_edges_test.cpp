@@ -1,7 +1,10 @@
+#include "haptics/surface/edges.h"
+#include "haptics/surface/facet_part.h"
 #include "haptics/units.h"
 #include "tests/support/surfaces.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -74,21 +77,84 @@ TEST(SharpEdges, CountsNoFacetOfACylinderAsAnEdgeBesideItsRim)
   }
 }
 
-// rounded by less than the body is fine, a dihedral of 60 degrees or more, is sharp; 20 is not
-TEST(SharpEdges, CallsSharpWhatTurnsWithinAFewCells)
+// two slopes that meet in a ridge along y at the origin, rounded over so far to each side
+Surface roof(double angle, int n, double rounding = 0.0)
 {
-  const auto roof = [](double angle)
+  const auto drop = [=](double x)
   {
-    return test::makeSurface(test::cubeMap(20,
-      [angle](const Eigen::Vector3d& p)
-      {
-        return Eigen::Vector3d(50.0_mm * p.x(), 50.0_mm * p.y(),
-          20.0_mm * (p.z() - 1.0) -
-            (p.z() > 0.0 ? p.z() * std::tan(0.5 * angle) * std::abs(50.0_mm * p.x()) : 0.0));
-      }));
+    const double aside = std::abs(x);
+    const double past = std::max(0.0, aside - rounding);
+    const double within = std::min(aside, rounding);
+    return std::tan(0.5 * angle) *
+      (past + (rounding > 0.0 ? 0.5 * within * within / rounding : 0.0));
   };
-  EXPECT_LT(roof(80.0_deg).shape().edgeDistance({ 10.0_mm, 2.0_mm, -8.0_mm }), 20.0_mm);
-  EXPECT_GT(roof(20.0_deg).shape().edgeDistance({ 10.0_mm, 2.0_mm, -2.0_mm }), 25.0_mm);
+  return test::makeSurface(test::cubeMap(n,
+    [&](const Eigen::Vector3d& p)
+    {
+      return Eigen::Vector3d(50.0_mm * p.x(), 50.0_mm * p.y(),
+        20.0_mm * (p.z() - 1.0) - (p.z() > 0.0 ? p.z() * drop(50.0_mm * p.x()) : 0.0));
+    }));
+}
+
+// what turns by 17 degrees or more between flat faces is an edge, by however many triangles, up to
+// its ends
+TEST(SharpEdges, AreThoseBetweenFlatFacesHoweverObtuse)
+{
+  for (const int n : { 8, 20, 50 })
+  {
+    for (const double angle : { 20.0_deg, 30.0_deg, 40.0_deg, 44.0_deg, 60.0_deg, 80.0_deg })
+    {
+      const Surface surface = roof(angle, n);
+      const double slope = 0.5 * angle;
+      for (const double along : { 3.0_mm, 12.0_mm })
+      {
+        for (const double y : { -22.0_mm, 1.0_mm, 17.0_mm })
+        {
+          const Eigen::Vector3d place(along * std::cos(slope), y, -along * std::sin(slope));
+          EXPECT_NEAR(surface.shape().edgeDistance(place), along, 1.0_um) << angle << ' ' << n;
+        }
+      }
+    }
+    EXPECT_GT(roof(10.0_deg, n).shape().edgeDistance({ 10.0_mm, 2.0_mm, -1.0_mm }), 25.0_mm) << n;
+  }
+}
+
+// in the two triangles or more to each side of it of a mesh that resolves it
+TEST(SharpEdges, AreNoneWhereABodyIsRounded)
+{
+  for (const double angle : { 20.0_deg, 30.0_deg, 40.0_deg })
+  {
+    EXPECT_GT(roof(angle, 50, 8.0_mm).shape().edgeDistance({ 10.0_mm, 2.0_mm, -2.0_mm }), 25.0_mm)
+      << angle;
+  }
+}
+
+// facets of what is round, also where few stand for it
+TEST(SharpEdges, HaveNoCreaseOnABodyOfFewFacets)
+{
+  const auto creases = [](const test::Mesh& mesh)
+  {
+    const Edges edges = edgesOf(mesh.first.size(), mesh.second);
+    const Creases found = creasesOf({ mesh.first, mesh.second, edges.across });
+    return std::ranges::count_if(
+      found.sides, [](const std::array<bool, 3>& of) { return std::ranges::count(of, true) > 0; });
+  };
+  for (const int n : { 4, 6, 8, 20 })
+  {
+    for (const double flatness : { 1.0, 0.7, 0.5 })
+    {
+      test::Mesh ball = test::ball(40.0_mm, n);
+      for (Eigen::Vector3d& point : ball.first)
+      {
+        point.z() *= flatness;
+      }
+      EXPECT_EQ(creases(ball), 0) << n << ' ' << flatness;
+    }
+  }
+  for (const int around : { 8, 10, 20 })
+  {
+    EXPECT_EQ(creases(test::torus(40.0_mm, 15.0_mm, 2 * around, around)), 0) << around;
+  }
 }
 
 } // namespace
