@@ -78,7 +78,7 @@ bool isFlatBeside(const LinkedTriangles& mesh, const Turn& turn, int triangle, s
 
 bool isCrease(const LinkedTriangles& mesh, const Turn& turn, int triangle, std::size_t side)
 {
-  if (turn.angle < kCrease || turn.angle >= kBodyEdge)
+  if (std::abs(turn.angle) < kCrease || turn.angle >= kBodyEdge)
   {
     return turn.angle >= kBodyEdge;
   }

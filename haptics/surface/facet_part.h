@@ -51,7 +51,8 @@ struct LinkedTriangles
 };
 
 /// Which sides of triangles stand for what is round, and which are edges of the body itself: those
-/// that turn by more than 45 degrees, and those by more than 17 between faces flat on both sides.
+/// that turn outward by more than 45 degrees, and those, valleys too, that turn by more than 17
+/// between faces flat on both sides.
 struct Creases
 {
   std::vector<std::array<bool, 3>>

@@ -320,17 +320,15 @@ bool ShapeField::addTurning(
 {
   float sum = 0.0F;
   float most = 0.0F;
-  bool isSharp = false;
   for (const Side& side : sides)
   {
     sum += side.turn * (side.ends[1] - side.ends[0]).norm();
     most = std::max(most, side.turn);
-    isSharp = isSharp || side.isCrease;
   }
-  isSharp = isSharp || sum > least;
+  const bool isSharp = sum > least || std::ranges::any_of(sides, &Side::isCrease);
   for (const Side& side : sides)
   {
-    if (isSharp && side.turn > kOwnTurn * most)
+    if (side.isCrease || (isSharp && side.turn > kOwnTurn * most))
     {
       sharp.push_back(side.ends);
     }
