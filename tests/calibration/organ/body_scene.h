@@ -33,6 +33,7 @@ struct Body
   bool isLobe = false; // held at its end instead of its base
   double limit = 0.05;
   double lean = 0.0; // of the side face beside the place [rad]
+  double rise = 0.0; // of the top over the last 30 mm along x [rad]
   Vector3d border =
     Vector3d::Zero();    // from the middle to where its modulus changes [m]; 0: nowhere
   double ratio = 1.0;    // of the modulus beyond it
@@ -50,6 +51,8 @@ inline Mesh meshOf(const Body& body)
     Mesh box = makeBox(body.size, body.edges);
     for (Vector3d& point : box.points)
     {
+      const double beyond = std::max(0.0, point.x() - 0.5 * body.size.x() + 30.0_mm);
+      point.z() += std::tan(body.rise) * beyond * (1.0 + point.z() / body.size.z());
       point.x() += std::tan(body.lean) * point.z() * (0.5 - point.x() / body.size.x());
     }
     return box;

@@ -82,6 +82,16 @@ Body besideObtuseEdge(const char* file, double place, double lean, const Tip& ti
     .tip = tip };
 }
 
+Body besideValley(const char* file, double rise)
+{
+  return { .file = file,
+    .size = { 0.09, 0.08, 0.04 },
+    .place = 6.0_mm,
+    .limit = 0.03,
+    .rise = rise,
+    .tip = SphereTip{ 20.0_mm } };
+}
+
 class OrganScene : public testing::TestWithParam<Body>
 {
 };
@@ -132,7 +142,9 @@ INSTANTIATE_TEST_SUITE_P(Organ, OrganScene,
     wideAtAnEdge("edge90_9mm_truncated75", TruncatedConeTip{ 75.0_deg, 4.0_mm, 20.0_mm }),
     besideObtuseEdge("edge140_15mm_sphere60", -20.0_mm, 50.0_deg, SphereTip{ 60.0_mm }),
     besideObtuseEdge("edge150_9mm_sphere60", -26.0_mm, 60.0_deg, SphereTip{ 60.0_mm }),
-    besideObtuseEdge("edge150_9mm_sphere10", -26.0_mm, 60.0_deg, SphereTip{ 10.0_mm })),
+    besideObtuseEdge("edge150_9mm_sphere10", -26.0_mm, 60.0_deg, SphereTip{ 10.0_mm }),
+    besideValley("valley135_9mm_sphere20", 45.0_deg),
+    besideValley("valley150_9mm_sphere20", 30.0_deg)),
   [](const auto& body)
   {
     const double edges = body.param.edges;
