@@ -27,6 +27,7 @@ using namespace units::literals;
 
 constexpr double kAbove = 1.0_mm; // of the tool before and after
 constexpr double kRest = 0.1;     // at the depth [s]
+constexpr double kAside = 0.2;    // of the base of a tool: as near to its place it touches the body
 
 std::string inWords(const Eigen::Vector3d& place)
 {
@@ -88,11 +89,17 @@ SurfacePoint feltPoint(const OnTriangle& place, double depth, const Scene& scene
   const auto corner = [&](std::size_t k)
   { return surface.points()[static_cast<std::size_t>(corners[k])]; };
   const Eigen::Vector3d facet = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-  const Contact contact = findContact(surface, scene.law.tip(),
-    { .apex = place.position - depth * facet, .axis = -facet }, ContactRule::Exact,
-    curvatureOf(scene));
-  const bool isInFront = contact.normal.dot(facet) > 0.0; // not through to the other side
-  return { place.position, isInFront ? contact.normal : facet };
+  const auto feltAlong = [&](const Eigen::Vector3d& normal)
+  {
+    return findContact(surface, scene.law.tip(),
+      { .apex = place.position - depth * normal, .axis = -normal }, ContactRule::Exact,
+      curvatureOf(scene));
+  };
+  const Eigen::Vector3d felt = feltAlong(facet).normal;
+  // neither through to the other side, nor of what stands beside it
+  const bool isThere =
+    felt.dot(facet) > 0.0 && feltAlong(felt).depth < depth + kAside * baseRadius(scene.law.tip());
+  return { place.position, isThere ? felt : facet };
 }
 
 // a tool that is moved along the inward normal, by a travel from the place on
@@ -161,6 +168,15 @@ public:
       .high;
   }
 
+  // how far from the place the contact is
+  [[nodiscard]] double asideAt(double travel) const
+  {
+    return (findContact(organOf(all_, organ_), { .apex = apexAt(travel), .axis = -point_.normal })
+              .center -
+      point_.position)
+      .norm();
+  }
+
 private:
   const Scene& all_;
   int organ_;
@@ -207,6 +223,12 @@ Travel travelOf(const PressPlace& place, const PlacedPresses& presses, const Sce
     refusePlace(place,
       "the tool gets no contact of " + quantityText(presses.depth, Quantity::Length) +
         " there; give less, another place, or a smaller tool");
+  }
+  if (const double aside = descent.asideAt(*bottom); aside > kAside * baseRadius(scene.law.tip()))
+  {
+    refusePlace(place,
+      "the tool touches the body " + units::inMillimeters(aside) +
+        " beside it, and not there; give another place, or a smaller tool");
   }
   return { descent, -point.normal, free - kAbove, *bottom };
 }

@@ -45,6 +45,32 @@ std::string refusalOf(const PlacedPresses& presses, const Scene& scene)
   return "accepted";
 }
 
+// a foot of 30 mm about which a wall of 20 mm stands
+test::Mesh basin()
+{
+  return test::cubeMap(20,
+    [](const Vector3d& p)
+    {
+      const double outward = p.head<2>().cwiseAbs().maxCoeff();
+      const double top = outward > 0.55 ? 20.0_mm : 0.0;
+      return Vector3d(
+        60.0_mm * p.x(), 60.0_mm * p.y(), p.z() > 0.0 ? p.z() * top : 40.0_mm * p.z());
+    });
+}
+
+// it would be pressed somewhere else, with another force
+TEST(PlacedPress, RefusesAPlaceBesideWhatTheToolTouchesFirst)
+{
+  const PlacedPresses presses{ .places = { { "", Vector3d(20.0_mm, 0.0, 0.0) } }, .depth = 2.0_mm };
+  EXPECT_NE(
+    refusalOf(presses, sceneOn(basin(), SphereTip{ 60.0_mm })).find("beside it, and not there"),
+    std::string::npos);
+  const auto samples = pressed(presses, sceneOn(basin(), SphereTip{ 8.0_mm }));
+  const Sample* deepest = deepestOf(samples);
+  ASSERT_NE(deepest, nullptr);
+  EXPECT_NEAR(deepest->contact.center.x(), 20.0_mm, 0.1_mm);
+}
+
 // where a ball is pressed the normal is known: each press is straight and as deep as asked
 TEST(PlacedPress, IsAsDeepAsAskedAlongTheNormalOfTheNearestPoint)
 {
