@@ -27,6 +27,7 @@ struct Contact
     Eigen::Vector3d::Zero(); ///< of surfaceCurvature as the tool moves [1/m^2]
   Eigen::Vector3d spreadSlope = Eigen::Vector3d::Zero();    ///< of curvatureSpread [1/m^2]
   Eigen::Vector3d thicknessSlope = Eigen::Vector3d::Zero(); ///< of thickness [-]
+  Eigen::Vector3d tiltSlope = Eigen::Vector3d::Zero();      ///< of tilt [rad/m]
 
   [[nodiscard]] bool touching() const noexcept
   {

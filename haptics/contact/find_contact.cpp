@@ -26,6 +26,7 @@ constexpr double kFinest = 2.0;    // [-] such sums across the least contact
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
 constexpr double kCorner = 0.4; // [-] of the least reach: the corner where the contact is wider
+constexpr double kFlat = 0.05;  // [rad] of tilt over which a flat end comes to stand on its rim
 constexpr double kBent = 0.3;   // [-] how near a place may come to where a hollow focuses
 
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
@@ -125,19 +126,28 @@ private:
   double share_;
 };
 
+// How far the lowest point of a flat end is below its middle, over the tilt; with no corner where
+// it lies flat.
+Sloped rimOf(const Tip& tip, double tilt) noexcept
+{
+  const double sine = std::sin(tilt);
+  const double root = std::hypot(sine, kFlat);
+  return { flatRadius(tip) * (root - kFlat), flatRadius(tip) * sine * std::cos(tilt) / root };
+}
+
 // What of the body counts as the shape of the contact, and how that changes as the tool moves: with
 // the place, with the radius as the height changes, and with the normal, which turns with the body.
 // height: over a flat body
-void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const BallRule& rule,
-  const Neighborhood& here, const Height& height, CurvatureOf of) noexcept
+void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
+  const BallRule& rule, const Neighborhood& here, const Height& height, CurvatureOf of) noexcept
 {
   const double grain = kGrain * (rule.nose() + flatRadius(tip));
   const double least = std::max(surface.shape().finest(), kFinest * grain);
   const Sloped wide = smoothMax(rule.contactRadius(height.value), { least }, kCorner * least);
   const double reach = std::sqrt(height.value * height.value + wide.value * wide.value);
   const double growth = (height.value + wide.value * wide.slope) / reach;
-  const LocalShape shape =
-    surface.shape()(here.ball.center, reach, here.patch.normal.normalized(), grain, of);
+  const Eigen::Vector3d normal = here.patch.normal.normalized();
+  const LocalShape shape = surface.shape()(here.ball.center, reach, normal, grain, of);
   const TurnRate turn(shape, height.value);
   const auto slopeOf = [&](const LocalShape::Slope& one)
   { return Eigen::Vector3d(one.place + one.radius * growth * height.slope + turn(one.normal)); };
@@ -148,6 +158,8 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
   contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
+  const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
+  contact.tiltSlope = turn(lean) / std::max(lean.norm(), 1e-9);
 }
 
 std::optional<Neighborhood> lookBelow(
@@ -203,7 +215,7 @@ Contact exactContact(
   contact.normalSpread = std::acos(std::min(1.0, share));
   const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
-  measureShape(contact, surface, tip, rule, *here, flat, of);
+  measureShape(contact, surface, tip, pose, rule, *here, flat, of);
   contact.curvedPart =
     curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
   const Height height = heightOver(flat.value, contact.curvedPart * contact.surfaceCurvature,
@@ -211,8 +223,8 @@ Contact exactContact(
   const Eigen::Vector3d upward = height.slope.normalized();
   const double facing = -pose.axis.dot(upward);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
-  const double rim = flatRadius(tip) * std::sin(contact.tilt); // the lowest point of a flat end
-  const double depth = rule.nose() + rim + here->raised - height.value;
+  const Sloped rim = rimOf(tip, contact.tilt);
+  const double depth = rule.nose() + rim.value + here->raised - height.value;
   Sloped part = smoothMin({ share / kCoherent, 1.0 / kCoherent }, { 1.0 }, kGradual);
   if (!surface.closed())
   {
@@ -225,9 +237,10 @@ Contact exactContact(
   {
     outward -= std::max(0.0, here->ball.side) * part.slope * depth * shareSlope(surface, *here);
   }
+  contact.center = position - height.value * outward.normalized();
+  outward -= part.value * rim.slope * contact.tiltSlope;
   contact.slope = outward.norm();
   contact.normal = outward / contact.slope;
-  contact.center = position - height.value * contact.normal;
   contact.triangle = here->triangle;
   contact.edgeDistance = std::min(surface.shape().edgeDistance(contact.center),
     surface.edgeDistance(contact.center, contact.triangle));

@@ -1,5 +1,7 @@
 #include "haptics/force/energy_slopes.h"
 
+#include "haptics/force/inclination.h"
+
 #include <cmath>
 
 namespace palp
@@ -41,6 +43,12 @@ EnergySlopes energySlopes(const ForceLaw& law, const ContactGeometry& local) noe
     longer.curvatureSpread += bend;
     slopes.spread =
       kWeight * local.depth * force * (law.ellipse(longer) / law.ellipse(here) - 1.0) / bend;
+  }
+  if (law.settings().inclination && std::isfinite(local.tilt))
+  {
+    const double factor = tiltFactor(law.tip(), local.tilt);
+    slopes.tilt = kWeight * local.depth * force *
+      (tiltFactor(law.tip(), local.tilt + kChange) / factor - 1.0) / kChange;
   }
   if (law.settings().thickness && std::isfinite(local.thickness))
   {

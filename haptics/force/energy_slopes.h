@@ -11,6 +11,7 @@ struct EnergySlopes
   double curvature = 0.0; ///< over surfaceCurvature [J m]
   double spread = 0.0;    ///< over curvatureSpread [J m]
   double thickness = 0.0; ///< [J/m]
+  double tilt = 0.0;      ///< [J/rad]
 };
 
 /// Slopes of the integral of a law's force over the depth, by those of the force at one depth,

@@ -101,8 +101,9 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   ContactGeometry geometry = geometry_;
   geometry.depth = answer.local;
   const EnergySlopes slopes = energySlopes(scene_->law, geometry);
-  Eigen::Vector3d force = -(slopes.curvature * contact_->curvatureSlope +
-    slopes.spread * contact_->spreadSlope + slopes.thickness * contact_->thicknessSlope);
+  Eigen::Vector3d force =
+    -(slopes.curvature * contact_->curvatureSlope + slopes.spread * contact_->spreadSlope +
+      slopes.thickness * contact_->thicknessSlope + slopes.tilt * contact_->tiltSlope);
   if (stiffness_)
   {
     force = stiffness_->lateral(plain(answer.local), force, answer.local);
