@@ -277,7 +277,10 @@ void addParts(CLI::App& command, ImportOptions& options)
     "Labels of a label map, by value or name with commas, each an organ of its own; 1+2 are one",
     "all",
     [part](const std::string& text)
-    { part->labels = valuesOfLabels(parseLabels(text, "--label"), part->names); });
+    {
+      part->labels = text == "all" ? decltype(part->labels)()
+                                   : valuesOfLabels(parseLabels(text, "--label"), part->names);
+    });
   auto* band = addParsed(command, "--threshold",
     "Of any other image: all with values LOW:HIGH, of a CT in Hounsfield units", "",
     [part](const std::string& text) {

@@ -69,7 +69,7 @@ Json organOf(const ImportedOrgan& organ)
   json["shown"] = levelOf(organ.shown);
   if (organ.felt)
   {
-    json["haptic_file"] = organ.file + "_haptic.vtp";
+    json["haptic_file"] = organ.file + kHaptic + ".vtp";
     json["haptic"] = levelOf(*organ.felt);
   }
   return json;
@@ -105,7 +105,7 @@ void writeOrgan(const std::filesystem::path& folder, ImportedOrgan& organ, const
   organ.shown.mesh = nullptr;
   if (organ.felt)
   {
-    writeSurface(folder / (organ.file + "_haptic.vtp"), *organ.felt->mesh, space);
+    writeSurface(folder / (organ.file + kHaptic + ".vtp"), *organ.felt->mesh, space);
     organ.felt->mesh = nullptr;
   }
 }
@@ -124,7 +124,7 @@ std::string importScene(const ImportSource& source, const std::vector<ImportedOr
       { "color", organ.color.empty() ? look.color : organ.color } };
     if (organ.felt)
     {
-      json["haptic"] = organ.file + "_haptic.vtp";
+      json["haptic"] = organ.file + kHaptic + ".vtp";
     }
     if (look.tissue != nullptr)
     {

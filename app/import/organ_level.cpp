@@ -54,9 +54,11 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, double voxel, double shownApart, const Boundary& boundary)
 {
   const double most = std::max(voxel, shownApart);
-  for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
+  std::size_t count = kHapticPoints;
+  while (2 * count <= points.size())
   {
     const TriangleMesh felt = decimated(points, triangles, count, 0.5 * voxel);
+    count = 2 * std::max(count, felt.points.size()); // of fewer it would be the same again
     OrganLevel level = levelOf(felt.points, felt.triangles, boundary);
     if (level.apart.largest <= most)
     {
@@ -102,6 +104,11 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   {
     result.felt =
       feltLevel(points, triangles, length * organ.voxel, result.shown.apart.largest, boundary);
+    if (!result.felt && points.size() >= 2 * kHapticPoints)
+    {
+      result.warnings.emplace_back(
+        "no coarser level: none of half as many points stays within a voxel of it");
+    }
   }
   catch (const Error& error) // an edge of three triangles
   {
@@ -127,7 +134,10 @@ void nameFiles(
     std::ranges::replace_if(first, std::not_fn(isPlain), '_');
     first.insert(0, first.starts_with('.') ? "_" : "");
     std::string file = first;
-    for (int number = 2; std::ranges::count(files, file) > 0; ++number)
+    // their coarser levels are files of their own
+    const auto isTaken = [&](const std::string& earlier)
+    { return earlier == file || earlier + kHaptic == file || file + kHaptic == earlier; };
+    for (int number = 2; std::ranges::any_of(files, isTaken); ++number)
     {
       file = first + "_" + std::to_string(number);
     }

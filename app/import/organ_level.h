@@ -15,6 +15,8 @@ class vtkPolyData;
 namespace palp
 {
 
+inline constexpr const char* kHaptic = "_haptic"; ///< behind the name of a file of fewer points
+
 /// A surface of an organ, and how far it is from the boundary of its voxels.
 struct OrganLevel
 {

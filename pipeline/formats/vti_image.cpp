@@ -150,7 +150,8 @@ public:
   static BlockReader* New();
   vtkTypeMacro(BlockReader, vtkXMLImageDataReader);
 
-  std::string longArray; ///< that has more values than its piece has points; empty: none
+  std::string longArray;  ///< that has more values than its piece has points; empty: none
+  std::string shortArray; ///< that has fewer
 
 protected:
   void ReadXMLData() override
@@ -181,15 +182,17 @@ private:
     for (int i = 0; i < points->GetNumberOfNestedElements(); ++i)
     {
       vtkXMLDataElement& array = *points->GetNestedElement(i);
-      if (hasMore(array, count))
+      const vtkTypeUInt64 got = lastOf(array, count);
+      if (got != 1)
       {
         const char* name = array.GetAttribute("Name");
-        longArray = name ? name : "of no name";
+        (got > 1 ? longArray : shortArray) = name ? name : "of no name";
       }
     }
   }
 
-  bool hasMore(vtkXMLDataElement& array, vtkTypeUInt64 points)
+  // how many it has from the last of its piece on, two at most
+  vtkTypeUInt64 lastOf(vtkXMLDataElement& array, vtkTypeUInt64 points)
   {
     int type = 0;
     int components = 1;
@@ -197,16 +200,16 @@ private:
     array.GetScalarAttribute("NumberOfComponents", components);
     if (!array.GetWordTypeAttribute("type", type) || type == VTK_STRING)
     {
-      return false;
+      return 1;
     }
     // together with the last one: the next by itself VTK looks for behind the last block, if full
     const vtkTypeUInt64 last = points * static_cast<vtkTypeUInt64>(std::max(components, 1)) - 1;
     const char* format = array.GetAttribute("format");
     std::array<double, 2> values{};
     return array.GetScalarAttribute("offset", offset)
-      ? this->XMLParser->ReadAppendedData(offset, values.data(), last, 2, type) > 1
+      ? this->XMLParser->ReadAppendedData(offset, values.data(), last, 2, type)
       : this->XMLParser->ReadInlineData(
-          &array, format && std::string_view(format) == "ascii", values.data(), last, 2, type) > 1;
+          &array, format && std::string_view(format) == "ascii", values.data(), last, 2, type);
   }
 };
 
@@ -225,6 +228,12 @@ PatientImage readVti(const std::filesystem::path& file)
     refuse(file,
       "its array " + inQuotes(reader->longArray) +
         " has more values than its extent has points; mend the extent, or export it again");
+  }
+  if (!reader->shortArray.empty())
+  {
+    refuse(file,
+      "cut off, its array " + inQuotes(reader->shortArray) +
+        " has fewer values than its extent has points; export or copy it again");
   }
   findScalars(file, *reader->GetOutput());
   PatientImage result{ .image = reader->GetOutput(), .toPatient = { 0 } };

@@ -68,10 +68,22 @@ inline std::string sliceOf(const Ball& ball, int z)
   return bits;
 }
 
-// slices without a voxel of a segment have no frame, and the frames stand in no order
-inline std::filesystem::path writeSegmentation(
-  const std::filesystem::path& folder, const std::string& type = "BINARY", double off = 0.0)
+// What of a segmentation is not as usual.
+struct OddSegmentation
 {
+  int first = kBalls[0].number; // number that the first segment is listed under
+  int again = -1;               // frame that stands where the one before it does
+  bool isTurnedByFrame = false; // the orientation stands in each frame instead of once
+  std::string characterSet{};   // and what the first segment is called in it
+  std::string name = kBalls[0].name;
+};
+
+// slices without a voxel of a segment have no frame, and the frames stand in no order
+inline std::filesystem::path writeSegmentation(const std::filesystem::path& folder,
+  const std::string& type = "BINARY", double off = 0.0, const OddSegmentation& odd = {})
+{
+  const std::string orientation = sequence("(0020,9116)",
+    item("(0020,0037) DS [" + triple(kAlongRow) + "\\" + triple(kAlongColumn) + "]\n"));
   std::string frames;
   std::string bits;
   int count = 0;
@@ -85,9 +97,10 @@ inline std::filesystem::path writeSegmentation(
         continue;
       }
       bits += slice;
-      const Vector3d corner =
-        placeOf(Vector3d(0, 0, z)) + off * (count == 3 ? 1.0 : 0.0) * kAlongRow;
-      frames += item(sequence("(0020,9113)", item("(0020,0032) DS [" + triple(corner) + "]\n")) +
+      const Vector3d corner = placeOf(Vector3d(0, 0, count == odd.again ? z + 1 : z)) +
+        off * (count == 3 ? 1.0 : 0.0) * kAlongRow;
+      frames += item((odd.isTurnedByFrame ? orientation : "") +
+        sequence("(0020,9113)", item("(0020,0032) DS [" + triple(corner) + "]\n")) +
         sequence("(0062,000a)", item(words("(0062,000b) US ", ball.number, "\n"))));
       ++count;
     }
@@ -103,17 +116,18 @@ inline std::filesystem::path writeSegmentation(
   std::string segments;
   for (const Ball& ball : kBalls)
   {
-    segments += item(words("(0062,0004) US ", ball.number, "\n(0062,0005) LO [", ball.name, "]\n"));
+    const bool isFirst = &ball == kBalls.data();
+    segments += item(words("(0062,0004) US ", isFirst ? odd.first : ball.number,
+      "\n(0062,0005) LO [", isFirst ? odd.name : ball.name, "]\n"));
   }
-  const std::string shared =
-    sequence("(0020,9116)",
-      item("(0020,0037) DS [" + triple(kAlongRow) + "\\" + triple(kAlongColumn) + "]\n")) +
+  const std::string shared = (odd.isTurnedByFrame ? "" : orientation) +
     sequence("(0028,9110)",
       item(words("(0018,0088) DS [", kStep, "]\n(0028,0030) DS [", kPixel, '\\', kPixel, "]\n")));
   const std::string text = (folder / "seg.txt").string();
-  std::ofstream(text) << words("(0008,0016) UI [1.2.840.10008.5.1.4.1.1.66.4]\n"
-                               "(0008,0018) UI [1.2.3.4]\n(0008,0060) CS [SEG]\n"
-                               "(0020,000e) UI [1.2.3]\n(0028,0002) US 1\n(0028,0008) IS [",
+  std::ofstream(text) << words("(0008,0005) CS [", odd.characterSet,
+    "]\n(0008,0016) UI [1.2.840.10008.5.1.4.1.1.66.4]\n"
+    "(0008,0018) UI [1.2.3.4]\n(0008,0060) CS [SEG]\n"
+    "(0020,000e) UI [1.2.3]\n(0028,0002) US 1\n(0028,0008) IS [",
     count, "]\n(0028,0010) US ", kRows, "\n(0028,0011) US ", kColumns,
     "\n(0028,0100) US 1\n(0028,0101) US 1\n(0028,0102) US 0\n(0028,0103) US 0\n",
     "(0062,0001) CS [", type, "]\n", sequence("(0062,0002)", segments),

@@ -48,6 +48,7 @@ struct DicomHeader
   std::string description = "abdomen";
   std::string extra{}; // lines for every file
   std::optional<int> without{};
+  double drift = 0.0; // by which each step of the second half is larger [mm]
 };
 
 inline std::string dicomHeader(
@@ -87,7 +88,8 @@ inline Eigen::Vector3d writeDicom(const std::filesystem::path& made, const std::
     {
       continue;
     }
-    const Eigen::Vector3d corner = grid.first + k * grid.step * normal;
+    const double drift = header.drift * std::max(0, k - grid.slices / 2);
+    const Eigen::Vector3d corner = grid.first + (k * grid.step + drift) * normal;
     std::string voxels;
     for (int j = 0; j < grid.rows; ++j)
     {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <span>
 #include <vtkImageData.h>
 
@@ -22,6 +23,8 @@ namespace
 using Eigen::Vector3d;
 using gdcm::DataSet;
 using gdcm::Tag;
+
+constexpr double kSameUnit = 1e-3; // of unit vectors, which are written in decimals
 
 // the mask of one segment in one slice
 struct SegmentFrame
@@ -57,10 +60,30 @@ DataSet groupOf(const DataSet& groups, const Tag& tag)
   return items.size() == 1 ? items.front() : DataSet();
 }
 
+// for all slices at once or for each, where all have the same
+std::optional<std::vector<double>> orientationOf(
+  const std::filesystem::path& file, const DataSet& data, const DataSet& shared)
+{
+  const auto within = [](const DataSet& groups)
+  { return decimalsOf(groupOf(groups, Tag(0x0020, 0x9116)), Tag(0x0020, 0x0037), 6); };
+  auto orientation = within(shared);
+  for (const DataSet& groups : itemsOf(data, Tag(0x5200, 0x9230)))
+  {
+    const auto own = within(groups);
+    orientation = orientation ? orientation : own;
+    const auto isAlike = [](double a, double b) { return std::abs(a - b) < kSameUnit; };
+    if (own && !std::ranges::equal(*own, *orientation, isAlike))
+    {
+      refuse(file, "its slices have several Image Orientations; save it as .seg.nrrd");
+    }
+  }
+  return orientation;
+}
+
 void readGrid(const std::filesystem::path& file, const DataSet& data, SegmentGrid& grid)
 {
   const DataSet shared = groupOf(data, Tag(0x5200, 0x9229));
-  const auto orientation = decimalsOf(groupOf(shared, Tag(0x0020, 0x9116)), Tag(0x0020, 0x0037), 6);
+  const auto orientation = orientationOf(file, data, shared);
   const DataSet measures = groupOf(shared, Tag(0x0028, 0x9110));
   const auto spacing = decimalsOf(measures, Tag(0x0028, 0x0030), 2);
   if (!orientation || !spacing || !(spacing->front() > 0.0) || !(spacing->back() > 0.0))
@@ -73,10 +96,9 @@ void readGrid(const std::filesystem::path& file, const DataSet& data, SegmentGri
   grid.rows = countOf(data, Tag(0x0028, 0x0010));
   grid.alongRow = Vector3d::Map(orientation->data());
   grid.alongColumn = Vector3d::Map(orientation->data() + 3);
-  constexpr double kAlike = 1e-3; // of unit vectors, which are written in decimals
-  if (std::abs(grid.alongRow.norm() - 1.0) > kAlike ||
-    std::abs(grid.alongColumn.norm() - 1.0) > kAlike ||
-    std::abs(grid.alongRow.dot(grid.alongColumn)) > kAlike)
+  if (std::abs(grid.alongRow.norm() - 1.0) > kSameUnit ||
+    std::abs(grid.alongColumn.norm() - 1.0) > kSameUnit ||
+    std::abs(grid.alongRow.dot(grid.alongColumn)) > kSameUnit)
   {
     refuse(file, "its Image Orientation makes no image; export it again");
   }
@@ -106,6 +128,20 @@ std::vector<SegmentFrame> framesOf(const std::filesystem::path& file, const Data
     refuse(file, "its slices are not as many as their places; export it again");
   }
   return frames;
+}
+
+void checkOnce(const std::filesystem::path& file, const std::vector<SegmentFrame>& frames)
+{
+  std::set<std::pair<int, int>> there;
+  for (const SegmentFrame& frame : frames)
+  {
+    if (!there.emplace(frame.segment, frame.slice).second)
+    {
+      refuse(file,
+        "two slices of its segment " + std::to_string(frame.segment) +
+          " stand in one place; export it again");
+    }
+  }
 }
 
 // which slice each frame is; slices of no segment may be missing, also before the first and after
@@ -151,6 +187,7 @@ void stackFrames(
     grid.slices = std::max(grid.slices, frame.slice + 2);
   }
   grid.first -= grid.step * normal;
+  checkOnce(file, frames);
 }
 
 // bits one after the other across all frames, the lowest of a byte first
@@ -229,20 +266,33 @@ std::vector<Layer> layersOf(const std::filesystem::path& file, const DataSet& da
 {
   const Bits bits(file, data, grid.pixels() * frames.size());
   std::vector<Layer> layers;
+  const std::string characterSet = textOf(data, kCharacterSet);
+  std::set<int> numbers;
   for (const DataSet& item : itemsOf(data, Tag(0x0062, 0x0002)))
   {
     const int number = countOf(item, Tag(0x0062, 0x0004));
+    if (!numbers.insert(number).second)
+    {
+      refuse(file,
+        "two of its segments have the number " + std::to_string(number) + "; export it again");
+    }
+    const std::string own = textOf(item, kCharacterSet);
     const auto isOf = [&](const SegmentFrame& frame) { return frame.segment == number; };
     if (std::ranges::any_of(frames, isOf))
     {
-      result.segments.push_back({ .name = textOf(item, Tag(0x0062, 0x0005)),
-        .value = static_cast<double>(number),
-        .layer = layerOf(number, frames, bits, grid.pixels(), grid, layers) });
+      result.segments.push_back(
+        { .name = textOf(item, Tag(0x0062, 0x0005), own.empty() ? characterSet : own),
+          .value = static_cast<double>(number),
+          .layer = layerOf(number, frames, bits, grid.pixels(), grid, layers) });
     }
   }
-  if (layers.empty())
+  const auto unlisted = std::ranges::find_if(
+    frames, [&](const SegmentFrame& frame) { return !numbers.contains(frame.segment); });
+  if (unlisted != frames.end())
   {
-    refuse(file, "no segment of it has a slice; export it again");
+    refuse(file,
+      "a slice of it is of segment " + std::to_string(unlisted->segment) +
+        ", which it does not list; export it again");
   }
   return layers;
 }

@@ -96,7 +96,7 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
 void add(DicomSeries& series, const std::filesystem::path& file, const DataSet& data)
 {
   series.uid = textOf(data, kSeries);
-  series.description = textOf(data, kDescription);
+  series.description = textOf(data, kDescription, textOf(data, kCharacterSet));
   series.modality = textOf(data, kModality);
   series.number = static_cast<int>(std::clamp(decimalOf(data, kNumber, 0.0), 0.0, 1e9));
   try
@@ -167,6 +167,27 @@ void checkLine(const std::filesystem::path& folder, std::span<const DicomSlice> 
       refuse(folder,
         nameOf(slice) + " stands " + shown(off) +
           " beside the line of the others; export the series again");
+    }
+  }
+}
+
+// each where an even stack has it: small differences of the distances add up
+void checkEven(const std::filesystem::path& folder, std::span<const DicomSlice> slices,
+  const Eigen::Vector3d& normal)
+{
+  constexpr double kOff = 0.1; // of a step
+  const auto height = [&](const DicomSlice& slice)
+  { return normal.dot(slice.position - slices.front().position); };
+  const double step = height(slices.back()) / static_cast<double>(slices.size() - 1);
+  for (std::size_t i = 0; i < slices.size(); ++i)
+  {
+    const double off = std::abs(height(slices[i]) - static_cast<double>(i) * step);
+    if (off > kOff * step)
+    {
+      refuse(folder,
+        "its images are not evenly far apart: " + nameOf(slices[i]) + " is " + shown(off) +
+          " from where an even stack has it; resample them to even distances and save that as "
+          ".nrrd");
     }
   }
 }
@@ -302,6 +323,7 @@ double stack(const std::filesystem::path& folder, DicomSeries& series)
                                    : "; resample them to even distances and save that as .nrrd"));
     }
   }
+  checkEven(folder, slices, normal);
   if (tilt > kTilt)
   {
     refuse(folder,

@@ -2,6 +2,7 @@
 
 #include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
+#include "pipeline/formats/dicom/character_set.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -23,49 +24,16 @@ std::ostringstream& warnings()
   return kept;
 }
 
-bool isUtf8(std::string_view text)
-{
-  std::size_t more = 0; // bytes of the character that has begun
-  for (const char c : text)
-  {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool goesOn = (byte & 0xC0U) == 0x80;
-    if (goesOn != (more > 0) || byte >= 0xF8)
-    {
-      return false;
-    }
-    more = goesOn ? more - 1 : byte < 0xC0 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
-  }
-  return more == 0;
-}
-
-// what else is usual has a byte a character, mostly of ISO 8859-1
-std::string inUtf8(std::string_view text)
-{
-  if (isUtf8(text))
-  {
-    return std::string(text);
-  }
-  std::string result;
-  for (const char c : text)
-  {
-    const auto byte = static_cast<unsigned char>(c);
-    byte < 0x80 ? void() : result.push_back(static_cast<char>(0xC0 | byte >> 6));
-    result.push_back(static_cast<char>(byte < 0x80 ? byte : 0x80 | (byte & 0x3F)));
-  }
-  return result;
-}
-
 } // namespace
 
-std::string textOf(const gdcm::DataSet& data, const gdcm::Tag& tag)
+std::string textOf(const gdcm::DataSet& data, const gdcm::Tag& tag, std::string_view characterSet)
 {
   const gdcm::ByteValue* bytes =
     data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
   std::string text =
     bytes != nullptr ? std::string(bytes->GetPointer(), bytes->GetLength()) : std::string();
   std::erase(text, '\0');
-  return inUtf8(trimmed(text));
+  return inUtf8(trimmed(text), characterSet);
 }
 
 std::optional<std::vector<double>> decimalsOf(

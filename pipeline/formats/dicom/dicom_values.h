@@ -9,6 +9,7 @@
 #include <gdcmReader.h>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace palp
@@ -19,9 +20,12 @@ namespace palp
 /// SOP class of a segmentation: several masks in one file.
 inline constexpr const char* kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4";
 
-/// In UTF-8, without the blanks and zeros that fill it up; empty: not there. What is not valid
-/// UTF-8 is taken for ISO 8859-1.
-[[nodiscard]] std::string textOf(const gdcm::DataSet& data, const gdcm::Tag& tag);
+/// In UTF-8, without the blanks and zeros that fill it up; empty: not there.
+/// @param characterSet  Specific Character Set of the file or of the item, as inUtf8() takes it
+[[nodiscard]] std::string textOf(
+  const gdcm::DataSet& data, const gdcm::Tag& tag, std::string_view characterSet = {});
+
+inline const gdcm::Tag kCharacterSet(0x0008, 0x0005);
 
 /// As many decimals as are asked for; nothing where there are others.
 [[nodiscard]] std::optional<std::vector<double>> decimalsOf(

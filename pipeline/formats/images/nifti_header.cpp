@@ -224,6 +224,10 @@ void checkNiftiLength(const std::filesystem::path& file, const NiftiHeader& head
   {
     refuse(file, "its compressed data are damaged, by their checksum; export or copy it again");
   }
+  if (state == Z_BUF_ERROR)
+  {
+    refuse(file, "cut off, its compressed data end too early; export or copy it again");
+  }
   if (beyond > 0)
   {
     refuseMore(file, header.bytes + beyond, header.bytes, "mend its dim or datatype");

@@ -87,18 +87,15 @@ std::string noteOf(std::size_t kept, std::size_t all, std::size_t hollows, std::
     (filled > 0 ? ", and " + counted(filled, "hollow") + " of less than 100 voxels filled" : "");
 }
 
-// of the volume of all bodies
-double partLeftOut(const std::vector<Piece>& pieces)
+// of all bodies, or of those that are left out
+double volumeOf(const std::vector<Piece>& pieces, bool isLeftOut)
 {
-  double all = 0.0;
-  double out = 0.0;
+  double sum = 0.0;
   for (const Piece& piece : pieces)
   {
-    const double body = std::max(0.0, piece.volume);
-    all += body;
-    out += piece.isKept ? 0.0 : body;
+    sum += isLeftOut && piece.isKept ? 0.0 : std::max(0.0, piece.volume);
   }
-  return out / all;
+  return sum;
 }
 
 } // namespace
@@ -116,6 +113,7 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   const std::size_t bodies = keepLargest(pieces, components);
   std::size_t hollows = 0;
   std::size_t filled = 0;
+  double filledVolume = 0.0;
   if (std::ranges::any_of(pieces, [](const Piece& piece) { return piece.volume < 0.0; }))
   {
     const std::vector<bool> within = hollowsWithin(points, triangles, numbers, pieces);
@@ -124,6 +122,7 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
       const bool isLarge = -pieces[i].volume >= leastHollow;
       hollows += within[i] && isLarge ? 1 : 0;
       filled += within[i] && !isLarge ? 1 : 0;
+      filledVolume -= within[i] && !isLarge ? pieces[i].volume : 0.0;
       pieces[i].isKept = pieces[i].isKept || (within[i] && isLarge);
     }
   }
@@ -134,11 +133,13 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   result.areAll = bodies + hollows == pieces.size();
   result.note = noteOf(bodies, pieces.size(), hollows, filled);
   constexpr double kMuch = 0.01;
-  if (const double out = partLeftOut(pieces); out > kMuch)
-  {
-    const auto percent = std::to_string(std::lround(100.0 * out));
-    result.note = "warning: " + result.note + "; the others have " + percent + " % of its volume";
-  }
+  const double all = volumeOf(pieces, false);
+  const double out = volumeOf(pieces, true);
+  const auto partOf = [all](double volume)
+  { return std::to_string(std::lround(100.0 * volume / all)) + " % of its volume"; };
+  result.note += filledVolume > kMuch * all ? ", " + partOf(filledVolume) : "";
+  result.note += out > kMuch * all ? "; the others have " + partOf(out) : "";
+  result.note.insert(0, std::max(filledVolume, out) > kMuch * all ? "warning: " : "");
   return result;
 }
 

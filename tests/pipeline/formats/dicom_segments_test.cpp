@@ -76,5 +76,37 @@ TEST_F(DicomSegments, ThatAreNoMasksOnAGridAreRefusedByName)
   EXPECT_NE(refusal(folder_.path() / "series").find("give this file itself"), std::string::npos);
 }
 
+TEST_F(DicomSegments, WhatContradictsItselfIsRefusedByName)
+{
+  const auto refused = [&](const OddSegmentation& odd)
+  { return refusal(writeSegmentation(folder_.path(), "BINARY", 0.0, odd)); };
+  EXPECT_NE(refused({ .again = 2 }).find("two slices of its segment 1 stand in one place"),
+    std::string::npos);
+  EXPECT_NE(refused({ .first = 9 }).find("a slice of it is of segment 1, which it does not list"),
+    std::string::npos);
+  EXPECT_NE(refused({ .first = kBalls[1].number }).find("two of its segments have the number 4"),
+    std::string::npos);
+}
+
+// PS3.3 C.7.6.16.2.4 allows both
+TEST_F(DicomSegments, AreReadWhereEachSliceHasItsDirections)
+{
+  const FileOrgans found = readFileOrgans(
+    writeSegmentation(folder_.path(), "BINARY", 0.0, { .isTurnedByFrame = true }), {}, false);
+  ASSERT_EQ(found.organs.size(), 2U);
+  EXPECT_LT((found.organs[0].surface.points.front() - placeOf(kBalls[0].index)).norm(),
+    kBalls[0].radius + kStep);
+}
+
+TEST_F(DicomSegments, AreNamedInTheirCharacterSet)
+{
+  const FileOrgans found =
+    readFileOrgans(writeSegmentation(folder_.path(), "BINARY", 0.0,
+                     { .characterSet = "ISO_IR 144", .name = "\xbf\xd5\xe7\xd5\xdd\xec" }),
+      {}, false);
+  ASSERT_EQ(found.organs.size(), 2U);
+  EXPECT_EQ(found.organs[0].name, "Печень");
+}
+
 } // namespace
 } // namespace palp::test

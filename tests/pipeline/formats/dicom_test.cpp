@@ -154,6 +154,14 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
     std::string::npos);
 }
 
+// each distance is within what it may be off by, together they are half a slice
+TEST_F(Dicom, DistancesThatDriftAreRefusedByName)
+{
+  writeDicom(folder_.path(), "drift", kAxial, "--write-xfer-little", { .drift = 0.2 });
+  const std::string told = refusal("drift");
+  EXPECT_NE(told.find("its images are not evenly far apart"), std::string::npos) << told;
+}
+
 // the file is named, and what is wrong with it
 TEST_F(Dicom, OneFileThatIsCutOffIsNamed)
 {

@@ -169,6 +169,23 @@ TEST_F(Images, NiftiOfADamagedStreamIsRefusedWhateverItHolds)
   }
 }
 
+// RFC 1952, 2.3: behind the data stand four bytes of a checksum and four of the length
+TEST_F(Images, NiftiWithoutTheEndOfItsStreamIsCutOff)
+{
+  const std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
+  const auto file = write("cut.nii.gz", "");
+  gzFile out = gzopen(file.c_str(), "wb");
+  ASSERT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())), bytes.size());
+  gzclose(out);
+  const std::string packed = readAll(file);
+  for (const std::size_t less : { 1U, 4U, 7U, 8U, 9U, 100U })
+  {
+    const std::string message =
+      refusal(write("cut.nii.gz", packed.substr(0, packed.size() - less)), { 0.0, {} });
+    EXPECT_NE(message.find("cut off"), std::string::npos) << less << ": " << message;
+  }
+}
+
 // its header is 540 bytes and says so first, as nifti2.h lays it out
 TEST_F(Images, NiftiOfTheSecondVersionIsRefusedByName)
 {

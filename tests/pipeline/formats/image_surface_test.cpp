@@ -237,6 +237,29 @@ TEST_F(ImageSurface, AScanIsNoMapOfLabels)
   EXPECT_EQ(values.low, -2000.0);
 }
 
+// VTK fills them up with what it has just read
+TEST_F(ImageSurface, OfAnArrayCutOffWithinItsFileIsRefused)
+{
+  const auto image = imageOf(ballOf(30.0), Array3d::Constant(2.0), false);
+  const std::filesystem::path file = folder_.path() / "inline.vti";
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputData(image);
+  writer->SetDataModeToBinary();
+  writer->SetCompressorTypeToNone();
+  writer->Write();
+  const std::string whole = test::readAll(file);
+  EXPECT_EQ(refusal(file), "accepted");
+  const std::size_t end = whole.find("</DataArray>");
+  const std::size_t last = whole.find_last_not_of(" \n", end - 1) + 1;
+  for (const double part : { 0.001, 0.1, 0.5, 0.9 })
+  {
+    const auto less = static_cast<std::size_t>(part * kSide * kSide * kSide) / 4 * 4;
+    std::ofstream(file, std::ios::binary) << whole.substr(0, last - less) << whole.substr(last);
+    EXPECT_NE(refusal(file).find("cut off"), std::string::npos) << part << refusal(file);
+  }
+}
+
 TEST_F(ImageSurface, OfVoxelsThatAreNoNumbersIsRefusedByTheirNumberAndPlace)
 {
   for (const float odd : { std::numeric_limits<float>::quiet_NaN(),
