@@ -54,11 +54,9 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, double voxel, double shownApart, const Boundary& boundary)
 {
   const double most = std::max(voxel, shownApart);
-  std::size_t count = kHapticPoints;
-  while (2 * count <= points.size())
+  for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
   {
     const TriangleMesh felt = decimated(points, triangles, count, 0.5 * voxel);
-    count = 2 * std::max(count, felt.points.size()); // of fewer it would be the same again
     OrganLevel level = levelOf(felt.points, felt.triangles, boundary);
     if (level.apart.largest <= most)
     {
