@@ -291,7 +291,12 @@ void ShapeField::measureLeaves(
     leaf.slenderness = leaf.area.norm() / static_cast<float>(std::sqrt(below.thickness));
     leaf.hollow = below.isHollow ? leaf.area.norm() : 0.0F;
     const float curvature = sum.bend.trace() / area;
-    std::vector<Side> sides = sidesOf(leaves[i], pieces);
+    std::vector<Side> sides;
+    for (const Entry& entry : leaves[i])
+    {
+      const auto [first, end] = pieces.all[at(entry.piece)].sides;
+      sides.insert(sides.end(), pieces.sides.begin() + first, pieces.sides.begin() + end);
+    }
     if (curvature * around > kSharp || std::ranges::any_of(sides, &Side::isCrease))
     {
       keepSharp(sides, sum.bend / area, sum.area, around);
@@ -299,17 +304,6 @@ void ShapeField::measureLeaves(
     }
   }
   edges_ = SharpEdges(std::move(sharp));
-}
-
-std::vector<ShapeField::Side> ShapeField::sidesOf(std::span<const Entry> leaf, const Pieces& pieces)
-{
-  std::vector<Side> sides;
-  for (const Entry& entry : leaf)
-  {
-    const auto [first, end] = pieces.all[at(entry.piece)].sides;
-    sides.insert(sides.end(), pieces.sides.begin() + first, pieces.sides.begin() + end);
-  }
-  return sides;
 }
 
 // The sides at which a leaf turns, where it does so.

@@ -114,7 +114,6 @@ private:
   Eigen::Vector4f build(std::span<Entry> entries, const Pieces& pieces, Leaves& leaves);
   void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces,
     const Leaves& leaves);
-  static std::vector<Side> sidesOf(std::span<const Entry> leaf, const Pieces& pieces);
   static bool addTurning(
     std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp);
   void addUp();

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <vtkPolyData.h>
 
 namespace palp
@@ -212,23 +211,6 @@ TEST_F(ImportCommand, JoinsLabelsToOneOrgan)
     const Deviation apart = deviation(surfaceOf(out_ / name), exact);
     EXPECT_LT(apart.rootMeanSquare, 0.35 * 1.5_mm) << name;
     EXPECT_LT(apart.largest, 2.0 * 1.5_mm) << name;
-  }
-}
-
-// else one would be felt where the other is shown
-TEST_F(ImportCommand, NamesNoFileAsTheCoarserLevelOfAnother)
-{
-  const auto names = folder_.path() / "names.ctbl";
-  std::ofstream(names) << "1 Liver_haptic 1 2 3 255\n2 liver 4 5 6 255\n3 LIVER 7 8 9 255\n";
-  ASSERT_EQ(
-    import(blocks().string() + " --names " + names.string() + " --out " + out_.string()).code, 0);
-  const json organs = read("import.json").at("organs");
-  std::set<std::string> files;
-  for (const json& organ : organs)
-  {
-    const std::string file = organ.at("file");
-    EXPECT_TRUE(files.insert(file).second) << file;
-    EXPECT_TRUE(files.insert(file.substr(0, file.size() - 4) + "_haptic.vtp").second) << file;
   }
 }
 

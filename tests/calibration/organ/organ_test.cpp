@@ -1,6 +1,7 @@
 #include "calibration/organ/cube_stiffness.h"
 #include "calibration/organ/cut_grid.h"
 #include "calibration/organ/organ_compliance.h"
+#include "calibration/organ/organ_places.h"
 
 #include "data/shapes.h"
 #include "haptics/error.h"
@@ -251,6 +252,36 @@ TEST(OrganCompliance, OfASlabIsThatOfALayerInAnyAttitude)
           << height << ' ' << angle << ' ' << depth;
       }
     }
+  }
+}
+
+// where it was stopped it goes on from, to the same table
+TEST(OrganPlaces, GoOnFromWhereTheyWereStopped)
+{
+  const Mesh mesh = makeBox({ 40.0_mm, 40.0_mm, 20.0_mm }, 5.0_mm);
+  const Surface surface(mesh.points, mesh.triangles);
+  const Support base{ [](const Vector3d& x) { return x.z() < -19.9_mm; } };
+  const std::span supports(&base, 1);
+  const OrganModel model(surface, 8.0_mm, kYoung, kPoisson, supports);
+  const std::vector<SurfacePoint> places = organPlaces(surface, 4.0_mm);
+  OrganTable whole;
+  ASSERT_TRUE(addPlaces(whole, model, surface,
+    { .places = places, .supports = supports, .tell = [](const OrganTable&) {} }));
+  std::stop_source source;
+  OrganTable part;
+  EXPECT_FALSE(addPlaces(part, model, surface,
+    { .places = places,
+      .supports = supports,
+      .tell = [&](const OrganTable&) { source.request_stop(); },
+      .stop = source.get_token() }));
+  EXPECT_GT(part.places.size(), 0U);
+  ASSERT_LT(part.places.size(), places.size());
+  ASSERT_TRUE(addPlaces(part, model, surface,
+    { .places = places, .supports = supports, .tell = [](const OrganTable&) {} }));
+  ASSERT_EQ(part.places.size(), whole.places.size());
+  for (std::size_t i = 0; i < whole.places.size(); ++i)
+  {
+    EXPECT_EQ(part.places[i].constant, whole.places[i].constant);
   }
 }
 

@@ -295,49 +295,6 @@ TEST_F(Images, SaysTheFrame)
   EXPECT_NE(all.find("(LPS), turned from NIfTI's"), std::string::npos) << all;
 }
 
-TEST_F(Images, MetaImageIsReadWithOrWithoutBlanksAndPacked)
-{
-  const auto image = ball(false);
-  const std::string voxels(static_cast<const char*>(image->GetScalarPointer()),
-    4 * static_cast<std::size_t>(image->GetNumberOfPoints()));
-  std::string packed(compressBound(voxels.size()), '\0');
-  uLongf size = packed.size();
-  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-              reinterpret_cast<const Bytef*>(voxels.data()), voxels.size()),
-    Z_OK);
-  packed.resize(size);
-  const std::string head =
-    "NDims=3\nDimSize=41 41 31\nElementSpacing=2 2.5 3\n"
-    "ElementType=MET_FLOAT\nTransformMatrix=1.000000001 0 0 0 1 0 1e-17 0 1\n";
-  const std::string pack = "CompressedData=True\n";
-  const std::string tail = "ElementDataFile=LOCAL\n";
-  for (const std::string& bytes : { head + tail + voxels, head + pack + tail + packed })
-  {
-    const auto file = write("a.mha", bytes);
-    EXPECT_LT(
-      farthest(*readSurface(file, LengthUnit::Millimeter, { 0.0, {} }).mesh, kCenterMm), 0.2);
-  }
-
-  const auto words = [&](const std::string& data) {
-    return refusal(write("b.mha", head + pack + tail + data), { 0.0, {} });
-  };
-  EXPECT_NE(words(packed.substr(0, size / 2)).find("cut off"), std::string::npos);
-  std::string half(size, '\0');
-  uLongf less = size;
-  compress(reinterpret_cast<Bytef*>(half.data()), &less,
-    reinterpret_cast<const Bytef*>(voxels.data()), voxels.size() / 2);
-  EXPECT_NE(words(half.substr(0, less)).find("cut off, its data have"), std::string::npos);
-  for (std::size_t i = 10; i < size; i += size / 40)
-  {
-    std::string damaged = packed;
-    damaged[i] = static_cast<char>(damaged[i] ^ 4);
-    EXPECT_NE(words(damaged), "accepted") << i;
-  }
-  EXPECT_NE(refusal(write("c.mha", "NDims = 99999999\n" + tail), { 0.0, {} })
-              .find("not a volume of three dimensions"),
-    std::string::npos);
-}
-
 TEST_F(Images, ADamagedImageIsRefusedInOneSentence)
 {
   const auto image = ball(true);
