@@ -198,7 +198,7 @@ double spacingOf(const Surface& surface, double cell)
 
 double nearnessToEdge(const Surface& surface, const Eigen::Vector3d& place, double cell)
 {
-  const double edge = surface.shape().edgeDistance(place);
+  const double edge = surface.shape().sharpEdgeDistance(place);
   return edge < kBesideEdge * cell ? 1.0 / std::max(edge, kNearest * cell) : 0.0;
 }
 

@@ -50,21 +50,25 @@ double leastCell(const BoxTree& tree)
 }
 
 // Leaves out sides that turn little of what is around does: facets of a cylinder beside its rim.
+// One that is sharp is no crease any more.
 // @param bend  of what is around, over its area [1/m]
 template <typename Side>
 void keepSharp(std::vector<Side>& sides, const Eigen::Matrix3f& bend, const Eigen::Vector3f& normal,
   float around)
 {
-  std::erase_if(sides,
-    [&](const Side& side)
-    {
-      const Eigen::Vector3f along = (side.ends[1] - side.ends[0]).normalized();
-      const Eigen::Vector3f across = along.cross(normal).normalized();
-      const float own = std::max(0.0F, across.dot(bend * across));
-      const float other = std::max(0.0F, along.dot(bend * along));
-      return !side.isCrease && 2.0F * side.turn < kSharp && // a half on each face
-        own * bend.trace() * around < kSharp * (own + other);
-    });
+  const auto isSharp = [&](const Side& side)
+  {
+    const Eigen::Vector3f along = (side.ends[1] - side.ends[0]).normalized();
+    const Eigen::Vector3f across = along.cross(normal).normalized();
+    const float own = std::max(1e-9F, across.dot(bend * across));
+    const float other = std::max(0.0F, along.dot(bend * along));
+    return 2.0F * side.turn >= kSharp || own * bend.trace() * around >= kSharp * (own + other);
+  };
+  std::erase_if(sides, [&](const Side& side) { return !side.isCrease && !isSharp(side); });
+  for (Side& side : sides)
+  {
+    side.isCrease = side.isCrease && !isSharp(side);
+  }
 }
 
 } // namespace
@@ -261,7 +265,7 @@ void ShapeField::measureLeaves(
   const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces, const Leaves& leaves)
 {
   const auto around = static_cast<float>(kTurn * cell_);
-  std::vector<SharpEdges::Segment> sharp;
+  std::vector<SharpEdges::Segment> sharp, creases;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     ShapePart& leaf = sums_[i];
@@ -300,17 +304,17 @@ void ShapeField::measureLeaves(
     if (curvature * around > kSharp || std::ranges::any_of(sides, &Side::isCrease))
     {
       keepSharp(sides, sum.bend / area, sum.area, around);
-      leaf.isSharp = addTurning(sides, kOwnTurn * curvature * leaf.area.norm(), sharp);
+      leaf.isSharp = addTurning(sides, kOwnTurn * curvature * leaf.area.norm(), sharp, creases);
     }
   }
   edges_ = SharpEdges(std::move(sharp));
+  creases_ = SharpEdges(std::move(creases));
 }
 
 // The sides at which a leaf turns, where it does so.
-// @param least  that its sides turn together, times their length [m]; without a crease, it is no
-//               edge with less
-bool ShapeField::addTurning(
-  std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp)
+// @param least  that sides of no crease turn together, times their length [m]
+bool ShapeField::addTurning(std::span<const Side> sides, float least,
+  std::vector<SharpEdges::Segment>& sharp, std::vector<SharpEdges::Segment>& creases)
 {
   float sum = 0.0F;
   float most = 0.0F;
@@ -319,15 +323,12 @@ bool ShapeField::addTurning(
     sum += side.turn * (side.ends[1] - side.ends[0]).norm();
     most = std::max(most, side.turn);
   }
-  const bool isSharp = sum > least || std::ranges::any_of(sides, &Side::isCrease);
   for (const Side& side : sides)
   {
-    if (side.isCrease || (isSharp && side.turn > kOwnTurn * most))
-    {
-      sharp.push_back(side.ends);
-    }
+    const bool isTurning = sum > least && side.turn > kOwnTurn * most;
+    side.isCrease ? creases.push_back(side.ends) : isTurning ? sharp.push_back(side.ends) : void();
   }
-  return isSharp;
+  return sum > least || std::ranges::any_of(sides, &Side::isCrease);
 }
 
 // what the leaves measured, for every node

@@ -4,6 +4,7 @@
 #include "haptics/surface/sharp_edges.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -55,6 +56,13 @@ public:
   /// @param position  [m]
   /// @realtime        pure; no allocation, no lock, no exception
   [[nodiscard]] double edgeDistance(const Eigen::Vector3d& position) const noexcept
+  {
+    return std::min(sharpEdgeDistance(position),
+      static_cast<double>(creases_.distance((position - origin_).cast<float>())));
+  }
+
+  /// The same without creases that turn less, and without valleys.
+  [[nodiscard]] double sharpEdgeDistance(const Eigen::Vector3d& position) const noexcept
   {
     return static_cast<double>(edges_.distance((position - origin_).cast<float>()));
   }
@@ -114,14 +122,15 @@ private:
   Eigen::Vector4f build(std::span<Entry> entries, const Pieces& pieces, Leaves& leaves);
   void measureLeaves(const BoxTree& tree, std::span<const float> hollows, const Pieces& pieces,
     const Leaves& leaves);
-  static bool addTurning(
-    std::span<const Side> sides, float least, std::vector<SharpEdges::Segment>& sharp);
+  static bool addTurning(std::span<const Side> sides, float least,
+    std::vector<SharpEdges::Segment>& sharp, std::vector<SharpEdges::Segment>& creases);
   void addUp();
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<Node> nodes_;     // depth first
   std::vector<ShapePart> sums_; // of the same parts
   SharpEdges edges_;            // from the origin
+  SharpEdges creases_;          // others, likewise
   double cell_ = 0.0;           // longest side of a leaf [m]
   double finest_ = 0.0;
 };
