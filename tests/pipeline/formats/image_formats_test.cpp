@@ -15,6 +15,14 @@ namespace
 
 using Eigen::Vector3d;
 
+// as gzip does
+void pack(const std::filesystem::path& file, const std::string& bytes)
+{
+  gzFile out = gzopen(file.c_str(), "wb");
+  ASSERT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())), bytes.size());
+  gzclose(out);
+}
+
 TEST_F(Images, NiftiStandsWhereItsHeaderSaysInAxesToLeftBackAndHead)
 {
   // a quarter turn about the head's axis, and a shift, into right, front, head
@@ -123,9 +131,7 @@ TEST_F(Images, NiftiIsReadPackedOrNotWhateverItsName)
 {
   const std::string plain = nifti(*ball(false), 1.0F, 0.0F, 2);
   const auto packed = write("packed.nii", "");
-  gzFile out = gzopen(packed.c_str(), "wb");
-  ASSERT_EQ(gzwrite(out, plain.data(), static_cast<unsigned>(plain.size())), plain.size());
-  gzclose(out);
+  pack(packed, plain);
   for (const auto& file : { packed, write("plain.nii.gz", plain) })
   {
     const LoadedSurface surface = readSurface(file, {}, { 0.0, {} });
@@ -139,9 +145,7 @@ TEST_F(Images, NiftiWithMoreVoxelsThanItsHeaderClaimsIsRefusedWithBothSizes)
   const std::string claimed = std::to_string(bytes.size() - 352);
   bytes.append(100, '\0');
   const auto packed = write("more.nii.gz", "");
-  gzFile out = gzopen(packed.c_str(), "wb");
-  ASSERT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())), bytes.size());
-  gzclose(out);
+  pack(packed, bytes);
   for (const auto& file : { write("more.nii", bytes), packed })
   {
     const std::string message = refusal(file, { 0.0, {} });
@@ -159,9 +163,7 @@ TEST_F(Images, NiftiOfADamagedStreamIsRefusedWhateverItHolds)
     std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
     bytes.append(more, '\0');
     const auto file = write("damaged.nii.gz", "");
-    gzFile out = gzopen(file.c_str(), "wb");
-    ASSERT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())), bytes.size());
-    gzclose(out);
+    pack(file, bytes);
     std::string packed = readAll(file);
     packed[packed.size() - 6] = static_cast<char>(packed[packed.size() - 6] ^ 0x10); // of the CRC
     const std::string message = refusal(write("damaged.nii.gz", packed), { 0.0, {} });
@@ -174,9 +176,7 @@ TEST_F(Images, NiftiWithoutTheEndOfItsStreamIsCutOff)
 {
   const std::string bytes = nifti(*ball(false), 1.0F, 0.0F, 2);
   const auto file = write("cut.nii.gz", "");
-  gzFile out = gzopen(file.c_str(), "wb");
-  ASSERT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())), bytes.size());
-  gzclose(out);
+  pack(file, bytes);
   const std::string packed = readAll(file);
   for (const std::size_t less : { 1U, 4U, 7U, 8U, 9U, 100U })
   {
