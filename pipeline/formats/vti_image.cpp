@@ -198,7 +198,8 @@ private:
     int components = 1;
     vtkTypeInt64 offset = 0;
     array.GetScalarAttribute("NumberOfComponents", components);
-    if (!array.GetWordTypeAttribute("type", type) || type == VTK_STRING)
+    if (!array.GetWordTypeAttribute("type", type) || type == VTK_STRING ||
+      type == VTK_BIT) // those it does not tell single values of
     {
       return 1;
     }

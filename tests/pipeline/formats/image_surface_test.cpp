@@ -250,6 +250,15 @@ TEST_F(ImageSurface, OfAnArrayCutOffWithinItsFileIsRefused)
   writer->Write();
   const std::string whole = test::readAll(file);
   EXPECT_EQ(refusal(file), "accepted");
+  std::string bits = "<DataArray type=\"Bit\" Name=\"bits\" format=\"ascii\">";
+  for (int i = 0; i < kSide * kSide * kSide; ++i)
+  {
+    bits += " 1";
+  }
+  std::string more = whole;
+  more.insert(whole.find("</PointData>"), bits + "</DataArray>");
+  std::ofstream(file, std::ios::binary) << more;
+  EXPECT_EQ(refusal(file), "accepted");
   const std::size_t end = whole.find("</DataArray>");
   const std::size_t last = whole.find_last_not_of(" \n", end - 1) + 1;
   for (const double part : { 0.001, 0.1, 0.5, 0.9 })
