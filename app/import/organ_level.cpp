@@ -48,22 +48,41 @@ Boundary boundaryOf(const FileOrgan& organ, double length)
   return boundary;
 }
 
-// Of fewer points, and of more of them where the surface is thin, until it is as near as the voxels
-// tell.
+// Of as few points as stay within what the voxels tell. Where not even half of them do, that is
+// known at once, and not after all that are coarser.
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, double voxel, double shownApart, const Boundary& boundary)
 {
-  const double most = std::max(voxel, shownApart);
-  for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
+  std::optional<OrganLevel> found;
+  TriangleMesh felt;
+  const auto isNear = [&](std::size_t count)
   {
-    const TriangleMesh felt = decimated(points, triangles, count, 0.5 * voxel);
-    OrganLevel level = levelOf(felt.points, felt.triangles, boundary);
-    if (level.apart.largest <= most)
+    TriangleMesh next = decimated(points, triangles, count, 0.5 * voxel);
+    OrganLevel level = levelOf(next.points, next.triangles, boundary);
+    if (level.apart.largest > std::max(voxel, shownApart))
     {
-      return level;
+      return false;
     }
+    found = std::move(level);
+    felt = std::move(next);
+    points = felt.points; // whose fewer points are found sooner
+    triangles = felt.triangles;
+    return true;
+  };
+  std::size_t count = kHapticPoints;
+  if (points.size() < 2 * count || isNear(count))
+  {
+    return found;
   }
-  return std::nullopt;
+  while (4 * count <= points.size())
+  {
+    count *= 2;
+  }
+  while (count > kHapticPoints && isNear(count))
+  {
+    count /= 2;
+  }
+  return found;
 }
 
 void addWarnings(const std::vector<std::string>& notes, std::vector<std::string>& warnings)

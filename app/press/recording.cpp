@@ -246,6 +246,7 @@ std::vector<Rule> rulesAt(const Scene& scene, const Validity& validity, const Co
     rules.push_back(lobeRule(*scene.surface, contact));
     rules.push_back(openRule(contact));
   }
+  rules.push_back(unevenRule(scene.law.tip(), contact));
   return rules;
 }
 

@@ -39,6 +39,16 @@ Rule openRule(const Contact& contact) noexcept
     "too soft by a fifth where its base is six contact radii below" };
 }
 
+Rule unevenRule(const Tip& tip, const Contact& contact) noexcept
+{
+  constexpr double kShallow = 0.1; // of the base: less deep, forces are small
+  constexpr double kUneven = 0.04; // of the depth: a tenth of the force, at most (elements)
+  const double depth = std::max(contact.depth, kShallow * baseRadius(tip));
+  return { "uneven", "-", contact.touching() ? std::abs(contact.relief) / depth : 0.0, kUneven,
+    "a crease, a bump or a coarse triangle stands out of the even surface that is taken instead, "
+    "or back from it, by 4 % of the depth: the force may be off by a tenth" };
+}
+
 Rule facetRule(const Surface& surface, const Tip& tip, const Contact& contact) noexcept
 {
   Rule rule{ "facets", "-", 0.0, 1.0,

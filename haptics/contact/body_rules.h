@@ -26,6 +26,10 @@ namespace palp
 /// @realtime  pure; no allocation, no lock, no exception
 [[nodiscard]] Rule openRule(const Contact& contact) noexcept;
 
+/// Whether the surface below a tool is not the even one that it is taken as.
+/// @realtime  pure; no allocation, no lock, no exception
+[[nodiscard]] Rule unevenRule(const Tip& tip, const Contact& contact) noexcept;
+
 /// Whether triangles that stand for what is round are so large that they are smoothed over a sharp
 /// edge beside the contact.
 /// @realtime  pure; no allocation, no lock, no exception

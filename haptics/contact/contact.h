@@ -21,6 +21,7 @@ struct Contact
   double hollow = 0.0; ///< part of what lies around above a hollow within the body [-]
   double edgeDistance = std::numeric_limits<double>::infinity(); ///< to an open or sharp edge [m]
   double normalSpread = 0.0; ///< of the normals below the tool about their mean, rms [rad]
+  double relief = 0.0;       ///< of the nearest place over the even surface it is taken as [m]
 
   double slope = 1.0; ///< of depth against the normal, as the tool moves along; 1 on a plane [-]
   Eigen::Vector3d curvatureSlope =

@@ -23,16 +23,19 @@ constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a cl
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
+constexpr double kOut = 4.0;       // [-] times outside by the contact's size: all outside
+constexpr double kSudden = 30.0;   // [-] of a part of the curvature, over the contact's size
 constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
-constexpr double kCorner = 0.4; // [-] of the least reach: the corner where the contact is wider
-constexpr double kFlat = 0.05;  // [rad] of tilt over which a flat end comes to stand on its rim
-constexpr double kBent = 0.3;   // [-] how near a place may come to where a hollow focuses
+constexpr double kCorner = 0.4;  // [-] of the least reach: the corner where the contact is wider
+constexpr double kTilting = 0.5; // [-] of a tool's size, in which a body turns by less than 1 rad
+constexpr double kFlat = 0.05;   // [rad] of tilt over which a flat end comes to stand on its rim
 
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
 struct Neighborhood
 {
-  double distance; // of the nearest point [m], negative inside the body
+  double distance;      // of the nearest point [m], negative inside the body
+  Eigen::Vector3d away; // how that changes as the place moves: of length 1 [-]
   BallSize size;
   PatchBall ball;
   Patch patch;
@@ -41,17 +44,49 @@ struct Neighborhood
   double raised = 0.0; // the ball's center, off the surface [m]
 };
 
-// @param apart  from the nearest point, whatever side it is on [m]
+// how fast triangles fade that turn their back, by how far the center is over the surface
+Sloped turningOf(double distance, const Sloped& smoothing) noexcept
+{
+  const double radius = smoothing.value;
+  if (!(radius > 0.0))
+  {
+    return { 0.0 };
+  }
+  const double side = std::clamp(distance / radius, -1.0, 1.0);
+  const double squared = radius * radius;
+  const bool isBetween = std::abs(distance) < radius;
+  return { side / radius,
+    isBetween ? (1.0 - 2.0 * side * smoothing.slope) / squared
+              : -side * smoothing.slope / squared };
+}
+
+// @param from  the nearest point to the position, whatever side it is on [m]
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
-  double distance, double apart) noexcept
+  double distance, const Eigen::Vector3d& from) noexcept
 {
   const BallSize size = rule(distance);
-  const double radius = size.smoothing.value;
-  const double side = radius > 0.0 ? std::clamp(distance / radius, -1.0, 1.0) : 0.0;
-  const PatchBall ball{ position, std::sqrt(size.squared.value), side, std::max(radius, 1e-9) };
+  const Sloped turning = turningOf(distance, size.smoothing);
+  const PatchBall ball{ position, std::sqrt(size.squared.value), turning.value };
+  const double apart = from.norm();
   const double inside =
     surface.closed() ? (distance < 0.0 ? 1.0 : 0.0) : smoothStep(0.5 - 0.5 * distance / apart);
-  return { distance, size, ball, patchWithin(surface, ball, inside) };
+  Patch patch = patchWithin(surface, ball, inside);
+  // from here on they are over the place, with the ball that belongs to it
+  const Eigen::Vector3d away = patch.normal.normalized();
+  const PatchTurns& turns = patch.turns;
+  patch.fading -= turning.slope * turns.moment * away;
+  patch.volumeFading -= turning.slope * turns.volume * away;
+  patch.slopes.normal +=
+    (size.squared.slope * patch.area + turning.slope * turns.normal) * away.transpose();
+  patch.slopes.weight +=
+    (size.squared.slope * patch.slopes.area + turning.slope * turns.weight) * away;
+  return { distance, away, size, ball, patch };
+}
+
+// how far the center of a tool's nose is outside the body [-]
+double outside(const Neighborhood& here) noexcept
+{
+  return std::clamp(kOut * here.distance / here.size.smoothing.value, 0.0, 1.0);
 }
 
 // of the normals about their mean: what that is shorter than they
@@ -77,54 +112,39 @@ double heldPart(const Neighborhood& here) noexcept
 }
 
 // How the length of the mean normal by the weight changes as a place moves [1/m].
-Eigen::Vector3d shareSlope(const Surface& surface, const Neighborhood& here) noexcept
+Eigen::Vector3d shareSlope(const Patch& patch) noexcept
 {
-  const PatchSlopes slopes = slopesWithin(surface, here.ball);
-  const Patch& patch = here.patch;
-  const Eigen::Vector3d normal = patch.normal.normalized();
-  const Eigen::Vector3d wider = here.size.squared.slope * normal; // of Q
-  const Eigen::Vector3d length =
-    slopes.normal.transpose() * normal + normal.dot(patch.area) * wider;
-  const Eigen::Vector3d weight = slopes.weight + slopes.area * wider;
-  return (length - (1.0 - spreadOf(patch)) * weight) / patch.weight;
+  const Eigen::Vector3d length = patch.slopes.normal.transpose() * patch.normal.normalized();
+  return (length - (1.0 - spreadOf(patch)) * patch.slopes.weight) / patch.weight;
 }
+
+// A part of something, and how it changes as a place moves.
+struct Part
+{
+  double value = 1.0;
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // [1/m]
+};
 
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
 // sphere's normals spread by at least twice as much as from where all of it counts.
-double curvedPart(const Patch& patch, double curvature, double smoothing) noexcept
+Part curvedPart(const Neighborhood& here, const Contact& contact) noexcept
 {
-  const double spread = spreadOf(patch);
+  const auto [smoothing, growth] = here.size.smoothing;
+  const double curvature = contact.surfaceCurvature;
+  const double spread = std::max(0.0, spreadOf(here.patch));
   const double ofSphere = curvature * curvature * smoothing * smoothing / 6.0;
-  return 2.0 * spread < ofSphere ? smoothStep(std::max(0.0, 2.0 * spread / ofSphere)) : 1.0;
+  if (!(2.0 * spread < ofSphere))
+  {
+    return {};
+  }
+  const double share = 2.0 * spread / ofSphere;
+  const Eigen::Vector3d wider = growth / smoothing * here.patch.normal.normalized();
+  const Eigen::Vector3d slope = -2.0 / ofSphere * shareSlope(here.patch) -
+    2.0 * share * (contact.curvatureSlope / curvature + wider);
+  // an edge of facets that comes and goes within micrometers is not felt
+  const double gradual = outside(here) / (1.0 + std::pow(smoothing * slope.norm() / kSudden, 4));
+  return { smoothStep(share), 6.0 * share * (1.0 - share) * gradual * slope };
 }
-
-// How fast the normal below a place turns as that moves: the tensor T of curvature at a height h,
-// T / (1 + h T).
-class TurnRate
-{
-public:
-  TurnRate(const LocalShape& shape, double height) noexcept
-    : shape_(&shape)
-  {
-    const auto rate = [height](double curvature)
-    { return curvature / std::max(kBent, 1.0 + height * curvature); };
-    const double most = rate(shape.meanCurvature + shape.curvatureSpread);
-    const double least = rate(shape.meanCurvature - shape.curvatureSpread);
-    mean_ = 0.5 * (most + least);
-    share_ = shape.curvatureSpread > 0.0 ? 0.5 * (most - least) / shape.curvatureSpread : 0.0;
-  }
-
-  // along a vector across the normal
-  [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& along) const noexcept
-  {
-    return mean_ * along + share_ * (shape_->bend * along - shape_->meanCurvature * along);
-  }
-
-private:
-  const LocalShape* shape_;
-  double mean_;
-  double share_;
-};
 
 // How far the lowest point of a flat end is below its middle, over the tilt; with no corner where
 // it lies flat.
@@ -148,7 +168,9 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   const double growth = (height.value + wide.value * wide.slope) / reach;
   const Eigen::Vector3d normal = here.patch.normal.normalized();
   const LocalShape shape = surface.shape()(here.ball.center, reach, normal, grain, of);
-  const TurnRate turn(shape, height.value);
+  const Eigen::Matrix3d turning = here.patch.slopes.normal.transpose() / here.patch.normal.norm();
+  const auto turn = [&](const Eigen::Vector3d& across)
+  { return Eigen::Vector3d(turning * across); };
   const auto slopeOf = [&](const LocalShape::Slope& one)
   { return Eigen::Vector3d(one.place + one.radius * growth * height.slope + turn(one.normal)); };
   contact.surfaceCurvature = shape.meanCurvature;
@@ -159,7 +181,9 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
   const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
-  contact.tiltSlope = turn(lean) / std::max(lean.norm(), 1e-9);
+  const Eigen::Vector3d tilting = turn(lean) / std::max(lean.norm(), 1e-9);
+  contact.tiltSlope =
+    tilting / std::hypot(1.0, (kTilting * baseRadius(tip) * tilting).squaredNorm());
 }
 
 std::optional<Neighborhood> lookBelow(
@@ -184,18 +208,18 @@ std::optional<Neighborhood> lookBelow(
     position += raised * unitNormal(surface.points(), surface.triangles()[triangle]);
     nearest.distance = off;
   }
-  const double apart = (position - nearest.point).norm();
-  Neighborhood here = look(surface, rule, position, nearest.distance, apart);
-  if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
+  const Eigen::Vector3d from = position - nearest.point;
+  Neighborhood here = look(surface, rule, position, nearest.distance, from);
+  if (!surface.crossing() && isOrientationFlipped(here, from))
   {
-    here = look(surface, rule, position, -nearest.distance, apart);
+    here = look(surface, rule, position, -nearest.distance, from);
     if (here.distance >= reach)
     {
       return {};
     }
   }
   here.triangle = nearest.triangle;
-  here.apart = apart;
+  here.apart = from.norm();
   here.raised = raised;
   return here;
 }
@@ -213,13 +237,14 @@ Contact exactContact(
   const double share = 1.0 - spreadOf(here->patch);
   Contact contact;
   contact.normalSpread = std::acos(std::min(1.0, share));
-  const HeightOver heightOver(here->patch, rule, here->distance, here->size);
+  const HeightOver heightOver(here->patch, rule, here->distance, here->size, here->away);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   measureShape(contact, surface, tip, pose, rule, *here, flat, of);
-  contact.curvedPart =
-    curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
-  const Height height = heightOver(flat.value, contact.curvedPart * contact.surfaceCurvature,
-    contact.curvedPart * contact.curvatureSlope);
+  const Part curved = curvedPart(*here, contact);
+  contact.curvedPart = curved.value;
+  const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
+    curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);
+  contact.relief = height.value - here->distance;
   const Eigen::Vector3d upward = height.slope.normalized();
   const double facing = -pose.axis.dot(upward);
   contact.tilt = std::acos(std::clamp(facing, -1.0, 1.0));
@@ -235,7 +260,7 @@ Contact exactContact(
   Eigen::Vector3d outward = part.value * height.slope;
   if (part.slope > 0.0) // of a center in the body it would push the tool out through a thin one
   {
-    outward -= std::max(0.0, here->ball.side) * part.slope * depth * shareSlope(surface, *here);
+    outward -= outside(*here) * part.slope * depth * shareSlope(here->patch);
   }
   contact.center = position - height.value * outward.normalized();
   outward -= part.value * rim.slope * contact.tiltSlope;

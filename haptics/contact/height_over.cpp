@@ -22,25 +22,35 @@ constexpr double kFastest = 2.0;     // [-] by which a height changes as the bal
 constexpr int kSteps = 30;           // of Newton's method; three are usual
 constexpr double kClose = 1e-11;     // [m]
 
-// so that the body stays larger than the ball
-Sloped leveled(double curvature, double ball) noexcept
+// a curvature so that the body stays larger than the ball
+struct Leveled
+{
+  double value;  // [1/m]
+  double slope;  // over the curvature [-]
+  double byBall; // over the ball's radius [1/m^2]
+};
+
+Leveled leveled(double curvature, double ball) noexcept
 {
   const double size = std::abs(curvature);
   const double beyond = std::max(0.0, size * ball - kRound) / kRoundest;
   const double within = std::min(size, kRound / ball) + kRoundest / ball * beyond / (1.0 + beyond);
-  return { std::copysign(within, curvature), 1.0 / ((1.0 + beyond) * (1.0 + beyond)) };
+  const double slope = 1.0 / ((1.0 + beyond) * (1.0 + beyond));
+  const double byBall = beyond > 0.0 ? (slope * size - within) / ball : 0.0;
+  return { std::copysign(within, curvature), slope, curvature < 0.0 ? -byBall : byBall };
 }
 
 } // namespace
 
-HeightOver::HeightOver(
-  const Patch& patch, const BallRule& rule, double nearest, const BallSize& given) noexcept
+HeightOver::HeightOver(const Patch& patch, const BallRule& rule, double nearest,
+  const BallSize& given, const Eigen::Vector3d& away) noexcept
   : patch_(&patch)
   , rule_(&rule)
   , nearest_(nearest)
   , smoothing_(given.smoothing.value)
   , given_(given.squared.value)
   , ball_(std::sqrt(given_))
+  , ballSlope_(0.5 * given.squared.slope / ball_ * away)
   , part_(smoothStep((1.0 - nearest * nearest / given_ - kSmallest) / (kSmall - kSmallest)))
   , moment_(std::clamp(patch.moment, 0.0, 8.0 * std::numbers::pi / 15.0 * given_ * given_ * ball_))
 {
@@ -79,7 +89,7 @@ Height HeightOver::operator()(
   {
     return { nearest_, normal };
   }
-  const Sloped bent = leveled(curvature, ball_);
+  const Leveled bent = leveled(curvature, ball_);
   double low = std::max(nearest_ - smoothing_, -kFarthest * ball_); // the mesh has less
   double high = std::min(nearest_ + smoothing_, kFarthest * ball_); // it has more
   double height = std::clamp(start, low, high);
@@ -103,7 +113,7 @@ Height HeightOver::operator()(
   const Lens own = lensOf(given_ + more, height, bent.value);
   const Eigen::Vector3d change = patch_->normal + patch_->fading +
     more * (patch_->area + patch_->volumeFading + 0.5 * more * patch_->rim) +
-    bent.slope * own.curvatureSlope * curvatureSlope;
+    own.curvatureSlope * (bent.slope * curvatureSlope + bent.byBall * ballSlope_);
   // where the ball all but misses the body, or all but fills with it, no slope follows from a
   // moment
   const Eigen::Vector3d slope =

@@ -27,8 +27,9 @@ public:
   /// @param patch    within that ball; outlives this object, as rule does
   /// @param nearest  signed distance of the nearest point [m]
   /// @param given    the ball that belongs to it by the rule
-  HeightOver(
-    const Patch& patch, const BallRule& rule, double nearest, const BallSize& given) noexcept;
+  /// @param away     how that distance changes as the center moves: of length 1 [-]
+  HeightOver(const Patch& patch, const BallRule& rule, double nearest, const BallSize& given,
+    const Eigen::Vector3d& away) noexcept;
 
   /// @param start           a height that is near, as of another curvature [m]
   /// @param curvature       of the smooth body [1/m], convex positive
@@ -55,11 +56,12 @@ private:
   const Patch* patch_;
   const BallRule* rule_;
   double nearest_;
-  double smoothing_; // radius [m]
-  double given_;     // Q [m^2]
-  double ball_;      // radius [m]
-  double part_;      // of the moment that counts [-]
-  double moment_;    // [m^5]
+  double smoothing_;          // radius [m]
+  double given_;              // Q [m^2]
+  double ball_;               // radius [m]
+  Eigen::Vector3d ballSlope_; // of that as the center moves [-]
+  double part_;               // of the moment that counts [-]
+  double moment_;             // [m^5]
 };
 
 } // namespace palp

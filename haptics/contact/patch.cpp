@@ -27,6 +27,7 @@ struct Seen
   double height;                                    // of the center over its plane [m]
   double part = 1.0;                                // that counts [-]
   Eigen::Vector3d change = Eigen::Vector3d::Zero(); // of that part as the center moves [1/m]
+  double byTurning = 0.0;                           // of it over how fast it fades [m]
 };
 
 // use(seen) for each triangle in the ball
@@ -34,7 +35,6 @@ template <typename Use>
 void visit(const Surface& surface, const PatchBall& ball, Use use) noexcept
 {
   const double squaredRadius = ball.radius * ball.radius;
-  const double turning = ball.side / ball.fade;
   const BoxTree& tree = surface.tree();
   const BoxProbe probe(ball.center);
   const auto near = [&](const BoxTree::Node& box)
@@ -48,10 +48,12 @@ void visit(const Surface& surface, const PatchBall& ball, Use use) noexcept
       return;
     }
     Seen seen{ facet, inside, facet.normal.dot(ball.center - facet.corners[0]) };
-    if (const double faced = std::max(0.0, 1.0 + turning * seen.height); faced < 1.0)
+    if (const double faced = std::max(0.0, 1.0 + ball.turning * seen.height); faced < 1.0)
     {
       seen.part = smoothStep(faced);
-      seen.change = 6.0 * faced * (1.0 - faced) * turning * facet.normal;
+      const double fall = 6.0 * faced * (1.0 - faced);
+      seen.change = fall * ball.turning * facet.normal;
+      seen.byTurning = fall * seen.height;
     }
     use(seen);
   };
@@ -72,18 +74,29 @@ Patch patchWithin(const Surface& surface, const PatchBall& ball, double inside) 
   const double toNew = 1.0 / (kNew * squaredRadius);
   const auto add = [&](const Seen& one)
   {
-    const auto& [facet, within, height, part, change] = one;
+    const auto& [facet, within, height, part, change, byTurning] = one;
     const double seen = std::copysign(within.solidAngle, -height);
     const double nearer = -height * (byArea * within.area + 0.2 * within.weight);
     const double below = -kCone * height * within.area;
     if (part < 1.0)
     {
       const SeamIntegral seams = seamsOf(facet, ball.center, squaredRadius);
-      patch.fading += (1.0 - part) * seams.moment - (nearer - full * seen) * change;
-      patch.volumeFading += (1.0 - part) * seams.volume - (below - byAngle * seen) * change;
+      const double moment = nearer - full * seen;
+      const double volume = below - byAngle * seen;
+      patch.fading += (1.0 - part) * seams.moment - moment * change;
+      patch.volumeFading += (1.0 - part) * seams.volume - volume * change;
+      patch.turns.moment += moment * byTurning;
+      patch.turns.volume += volume * byTurning;
+      patch.turns.weight += within.weight * byTurning;
+      patch.turns.normal += within.weight * byTurning * facet.normal;
       patch.orientationSum += (1.0 - part) * within.weight * facet.normal;
       patch.orientationWeight += (1.0 - part) * within.weight;
     }
+    const Eigen::Vector3d slope =
+      part * weightSlope(facet, ball.center, squaredRadius, within) + within.weight * change;
+    patch.slopes.normal += facet.normal * slope.transpose();
+    patch.slopes.weight += slope;
+    patch.slopes.area += part * within.area;
     patch.weight += part * within.weight;
     patch.normal += part * within.weight * facet.normal;
     patch.area += part * within.area * facet.normal;
@@ -106,23 +119,6 @@ Patch patchWithin(const Surface& surface, const PatchBall& ball, double inside) 
   patch.volume += byAngle * patch.solidAngle;
   patch.moment += full * patch.solidAngle;
   return patch;
-}
-
-PatchSlopes slopesWithin(const Surface& surface, const PatchBall& ball) noexcept
-{
-  PatchSlopes slopes;
-  const double squaredRadius = ball.radius * ball.radius;
-  visit(surface, ball,
-    [&](const Seen& one)
-    {
-      const Eigen::Vector3d change =
-        one.part * weightSlope(one.facet, ball.center, squaredRadius, one.inside) +
-        one.inside.weight * one.change;
-      slopes.normal += one.facet.normal * change.transpose();
-      slopes.weight += change;
-      slopes.area += one.part * one.inside.area;
-    });
-  return slopes;
 }
 
 } // namespace palp

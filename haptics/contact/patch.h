@@ -7,6 +7,23 @@
 namespace palp
 {
 
+/// How normal and weight of a patch change as the center moves, in the same ball.
+struct PatchSlopes
+{
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(); ///< a column for each way to move [m^3]
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero(); ///< [m^3]
+  double area = 0.0;                                ///< d weight / d Q [m^2]
+};
+
+/// The same over the turning of the ball.
+struct PatchTurns
+{
+  double moment = 0.0;                              ///< [m^6]
+  double volume = 0.0;                              ///< [m^4]
+  double weight = 0.0;                              ///< [m^5]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< [m^5]
+};
+
 /// The part of a surface within a ball, summed up by integrals over its triangles.
 ///
 /// Each changes smoothly with the ball, for what comes in at its rim weighs nothing there. By the
@@ -28,14 +45,8 @@ struct Patch
   Eigen::Vector3d orientationSum =
     Eigen::Vector3d::Zero();      ///< as normal, with all triangles in full
   double orientationWeight = 0.0; ///< as weight, with all triangles in full
-};
-
-/// How its normal and its weight change as the center moves, at the same radius.
-struct PatchSlopes
-{
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(); ///< a column for each way to move [m^3]
-  Eigen::Vector3d weight = Eigen::Vector3d::Zero(); ///< [m^3]
-  double area = 0.0;                                ///< d weight / d Q [m^2]
+  PatchSlopes slopes{};
+  PatchTurns turns{};
 };
 
 /// What of a surface is summed, and how.
@@ -43,8 +54,8 @@ struct PatchBall
 {
   Eigen::Vector3d center; ///< [m]
   double radius;          ///< [m], above 0
-  double side; ///< 1: the center is well outside the body, -1: well inside; between, both count
-  double fade; ///< height behind a plane at which a triangle no longer counts [m], above 0
+  double turning; ///< how much less a triangle counts the higher its plane is over the center
+                  ///< [1/m]; negative where that is inside the body; 0: all count
 };
 
 /// Sums the triangles within a ball, those that face its center in full.
@@ -57,9 +68,5 @@ struct PatchBall
 /// @realtime      pure; no allocation, no lock, no exception
 [[nodiscard]] Patch patchWithin(
   const Surface& surface, const PatchBall& ball, double inside) noexcept;
-
-/// By another look at the same triangles.
-/// @realtime  pure; no allocation, no lock, no exception
-[[nodiscard]] PatchSlopes slopesWithin(const Surface& surface, const PatchBall& ball) noexcept;
 
 } // namespace palp

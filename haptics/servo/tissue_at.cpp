@@ -104,6 +104,10 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   Eigen::Vector3d force =
     -(slopes.curvature * contact_->curvatureSlope + slopes.spread * contact_->spreadSlope +
       slopes.thickness * contact_->thicknessSlope + slopes.tilt * contact_->tiltSlope);
+  // beside a thin rim, where one side's normal cancels the other's, slopes are without end
+  constexpr double kMost = 3.0; // of the force
+  const double most = kMost * answer.felt.force;
+  force *= most > 0.0 ? 1.0 / std::sqrt(std::hypot(1.0, force.squaredNorm() / (most * most))) : 0.0;
   if (stiffness_)
   {
     force = stiffness_->lateral(plain(answer.local), force, answer.local);

@@ -76,10 +76,6 @@ LocalShape ShapeAverage::shape() const noexcept
   shape.curvatureSpreadSlope = { (difference * first.place + mixed * second.place) / spread,
     (difference * first.radius + mixed * second.radius) / spread,
     (difference * first.normal + mixed * second.normal) / spread };
-  const Eigen::Vector3d u = u_.cast<double>();
-  const Eigen::Vector3d v = v_.cast<double>();
-  shape.bend = (mean(1) + difference) * u * u.transpose() +
-    (mean(1) - difference) * v * v.transpose() + mixed * (u * v.transpose() + v * u.transpose());
   const double slender = mean(4);
   shape.thickness = 1.0 / (slender * slender);
   const LocalShape::Slope thinner = slope(4, Eigen::Vector2d::Zero());

@@ -21,7 +21,6 @@ struct LocalShape
   double curvatureSpread = 0.0;                               ///< half the difference [1/m]
   double thickness = std::numeric_limits<double>::infinity(); ///< of the body, hollows filled [m]
   double hollow = 0.0; ///< part of it below which a hollow or a gap lets the wall bend [-]
-  Eigen::Matrix3d bend = Eigen::Matrix3d::Zero(); ///< tensor of curvature, across the normal [1/m]
   Slope meanCurvatureSlope{};
   Slope curvatureSpreadSlope{};
   Slope thicknessSlope{};

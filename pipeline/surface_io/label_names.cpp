@@ -19,6 +19,8 @@ namespace palp
 namespace
 {
 
+constexpr std::string_view kValueColumn = "LabelValue";
+
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what)
 {
   throw Error(ErrorCode::BadFile, file.string() + ": " + what);
@@ -107,9 +109,45 @@ std::optional<NamedColor> labelIn(std::string_view line)
     colorOf(isQuoted ? rest.substr(0, open) : rest.substr(name.size())) };
 }
 
+// of the newer color tables of 3D Slicer, whose first line names their columns
+std::vector<NamedColor> labelsInColumns(
+  const std::filesystem::path& file, const std::vector<std::string_view>& lines)
+{
+  const std::vector<std::string> names = csvFields(trimmed(lines.front()));
+  const auto column = [&](std::string_view name)
+  { return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()); };
+  const std::size_t value = column(kValueColumn);
+  const std::size_t name = column("Name");
+  std::vector<NamedColor> labels;
+  for (std::size_t i = 1; i < lines.size(); ++i)
+  {
+    const std::vector<std::string> fields = csvFields(trimmed(lines[i]));
+    const auto fieldOf = [&](std::size_t k) { return k < fields.size() ? fields[k] : ""; };
+    if (trimmed(lines[i]).empty() || fieldOf(name).empty())
+    {
+      continue;
+    }
+    const std::optional<double> number = csvNumber(fieldOf(value));
+    if (!number)
+    {
+      throw Error(ErrorCode::BadFile,
+        where(file, static_cast<int>(i) + 1) + inQuotes(fieldOf(value)) +
+          " is no value of a label; write a number below " + std::string(kValueColumn));
+    }
+    labels.push_back({ { .value = *number, .name = fieldOf(name) },
+      colorOf(fieldOf(column("Color_R")) + ' ' + fieldOf(column("Color_G")) + ' ' +
+        fieldOf(column("Color_B"))) });
+  }
+  return labels;
+}
+
 // of a table in lines
 std::vector<NamedColor> labelsIn(const std::filesystem::path& file, const std::string& text)
 {
+  if (text.starts_with(kValueColumn))
+  {
+    return labelsInColumns(file, split(text, '\n'));
+  }
   std::vector<NamedColor> labels;
   int number = 0;
   for (const std::string_view row : split(text, '\n'))

@@ -10,7 +10,8 @@
 namespace palp
 {
 
-/// Reads the names of labels: a color table of 3D Slicer (`5 liver 221 130 101 255`), labels of
+/// Reads the names of labels: a color table of 3D Slicer (`5 liver 221 130 101 255`, or CSV whose
+/// first line names the columns `LabelValue`, `Name`, `Color_R`, `Color_G`, `Color_B`), labels of
 /// ITK-SNAP (`5 221 130 101 1 1 1 "liver"`), or JSON as TotalSegmentator has it, either way round
 /// (`{"5": "liver"}` or `{"liver": 5}`).
 ///

@@ -48,6 +48,7 @@ struct DicomHeader
   std::string description = "abdomen";
   std::string extra{}; // lines for every file
   std::optional<int> without{};
+  std::string photometric = "MONOCHROME2";
   double drift = 0.0; // by which each step of the second half is larger [mm]
 };
 
@@ -60,7 +61,7 @@ inline std::string dicomHeader(
     "]\n(0020,000d) UI [1.2.3]\n(0020,000e) UI [", header.series, "]\n(0020,0011) IS [",
     header.series.back(), "]\n(0020,0013) IS [", k + 1, "]\n(0020,0032) DS [", row(corner),
     "]\n(0020,0037) DS [", row(grid.alongRow), '\\', row(grid.alongColumn),
-    "]\n(0028,0002) US 1\n(0028,0004) CS [MONOCHROME2]\n(0028,0010) US ", grid.rows,
+    "]\n(0028,0002) US 1\n(0028,0004) CS [", header.photometric, "]\n(0028,0010) US ", grid.rows,
     "\n(0028,0011) US ", grid.columns, "\n(0028,0030) DS [", grid.rowSpacing, '\\',
     grid.columnSpacing, "]\n(0028,0100) US 16\n(0028,0101) US 12\n(0028,0102) US 11\n",
     "(0028,0103) US 0\n(0028,1052) DS [", kDicomIntercept, "]\n(0028,1053) DS [1]\n", header.extra);

@@ -123,6 +123,7 @@ void addRows(const OrganOptions& options, const PressedBody& pressed, const Scen
   const PressPlace& at, figures::Table& table)
 {
   const SurfacePoint point = pointAt(at, scene);
+  (void)poseAt(at, point, options.depths.si.back(), scene); // says best why a place is none
   const OrganPlace place(pressed.model, pressed.supports, scene, point);
   const HalfSpace law(options.tip);
   for (const double depth : options.depths.si)

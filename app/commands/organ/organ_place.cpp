@@ -1,5 +1,7 @@
 #include "app/commands/organ/organ_place.h"
 
+#include "app/input/law_options.h"
+#include "app/press/recording.h"
 #include "calibration/organ/organ_compliance.h"
 #include "calibration/organ/organ_places.h"
 #include "haptics/contact/find_contact.h"
@@ -85,10 +87,12 @@ OrganPlace::Answer OrganPlace::at(const ToolPose& pose) const
 {
   const Contact contact = findContact(scene_, pose);
   const SeriesResponse answer = TissueAt(scene_, contact).answer(contact.depth);
+  const std::string remark = remarkOf(pose, answer);
   return { .body = scene_.series->at(contact.center, contact.normal, contact.depth).body,
     .force = answer.felt.force,
     .local = answer.local,
-    .remark = remarkOf(pose, answer) };
+    .remark =
+      remark.empty() ? brokenNames(rulesAt(scene_, Validity(scene_.law), contact)) : remark };
 }
 
 } // namespace palp

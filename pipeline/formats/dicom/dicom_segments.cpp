@@ -53,13 +53,6 @@ struct SegmentGrid
   }
 };
 
-// of one item of a sequence of its own, as the groups of functions have it
-DataSet groupOf(const DataSet& groups, const Tag& tag)
-{
-  const std::vector<DataSet> items = itemsOf(groups, tag);
-  return items.size() == 1 ? items.front() : DataSet();
-}
-
 // for all slices at once or for each, where all have the same
 std::optional<std::vector<double>> orientationOf(
   const std::filesystem::path& file, const DataSet& data, const DataSet& shared)
@@ -122,8 +115,7 @@ std::vector<SegmentFrame> framesOf(const std::filesystem::path& file, const Data
     }
     frames.push_back({ .segment = segment, .position = Vector3d::Map(position->data()) });
   }
-  if (frames.empty() ||
-    decimalOf(data, Tag(0x0028, 0x0008), 0.0) != static_cast<double>(frames.size()))
+  if (frames.empty() || decimalOf(data, kFrames, 0.0) != static_cast<double>(frames.size()))
   {
     refuse(file, "its slices are not as many as their places; export it again");
   }
@@ -301,11 +293,15 @@ void checkKind(const std::filesystem::path& file, const DataSet& data)
 {
   if (textOf(data, Tag(0x0008, 0x0016)) != kSegmentationClass)
   {
-    refuse(file, "one image of a series; give the folder that holds all of them");
+    refuse(file,
+      decimalOf(data, kFrames, 1.0) > 1.0
+        ? "several images in one file, and no binary segmentation; save it as .nrrd"
+        : "one image of a series; give the folder that holds all of them");
   }
-  if (countOf(data, Tag(0x0028, 0x0100)) != 1 || textOf(data, Tag(0x0062, 0x0001)) != "BINARY")
+  const std::string type = textOf(data, Tag(0x0062, 0x0001));
+  if (countOf(data, Tag(0x0028, 0x0100)) != 1 || type != "BINARY")
   {
-    refuse(file, "a segmentation of fractions, not of masks; save it as binary, or as .seg.nrrd");
+    refuse(file, "a segmentation that is " + inQuotes(type) + ", no BINARY; save it as .seg.nrrd");
   }
 }
 

@@ -39,7 +39,6 @@ const Tag kNumber(0x0020, 0x0011);
 const Tag kPosition(0x0020, 0x0032);
 const Tag kOrientation(0x0020, 0x0037);
 const Tag kFrame(0x0020, 0x0052);
-const Tag kFrames(0x0028, 0x0008);
 const Tag kSpacing(0x0028, 0x0030);
 const Tag kIntercept(0x0028, 0x1052);
 const Tag kSlope(0x0028, 0x1053);
@@ -51,7 +50,8 @@ DicomSlice sliceOf(const std::filesystem::path& file, const DataSet& data)
   {
     refuse(file, "a segmentation, no image of a series; give this file itself, or move it away");
   }
-  if (countOf(data, Tag(0x0028, 0x0002)) != 1)
+  if (countOf(data, Tag(0x0028, 0x0002)) != 1 ||
+    textOf(data, Tag(0x0028, 0x0004)) == "PALETTE COLOR")
   {
     refuse(file, "has colors; give images of one value a voxel");
   }

@@ -86,6 +86,12 @@ std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& t
   return items;
 }
 
+gdcm::DataSet groupOf(const gdcm::DataSet& groups, const gdcm::Tag& tag)
+{
+  const std::vector<gdcm::DataSet> items = itemsOf(groups, tag);
+  return items.size() == 1 ? items.front() : gdcm::DataSet();
+}
+
 void listenToGdcm()
 {
   warnings().str("");

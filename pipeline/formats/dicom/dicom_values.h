@@ -26,6 +26,7 @@ inline constexpr const char* kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4"
   const gdcm::DataSet& data, const gdcm::Tag& tag, std::string_view characterSet = {});
 
 inline const gdcm::Tag kCharacterSet(0x0008, 0x0005);
+inline const gdcm::Tag kFrames(0x0028, 0x0008); ///< how many images a file holds
 
 /// As many decimals as are asked for; nothing where there are others.
 [[nodiscard]] std::optional<std::vector<double>> decimalsOf(
@@ -40,6 +41,9 @@ inline const gdcm::Tag kCharacterSet(0x0008, 0x0005);
 
 /// What stands in the items of a sequence; none where there is no such sequence.
 [[nodiscard]] std::vector<gdcm::DataSet> itemsOf(const gdcm::DataSet& data, const gdcm::Tag& tag);
+
+/// What stands in the only item of a sequence, as groups of functions have it; empty: in none.
+[[nodiscard]] gdcm::DataSet groupOf(const gdcm::DataSet& groups, const gdcm::Tag& tag);
 
 /// From now on what GDCM warns of is kept, and nothing is printed.
 void listenToGdcm();

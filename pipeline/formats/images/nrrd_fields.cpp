@@ -45,6 +45,20 @@ std::filesystem::path dataOf(const std::filesystem::path& file, const NrrdFields
   return data;
 }
 
+// of a key's value, in which lines and backslashes are told by a backslash
+std::string unescaped(std::string_view text)
+{
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isEscape =
+      text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == 'n' || text[i + 1] == '\\');
+    i += isEscape ? 1 : 0;
+    result += isEscape && text[i] == 'n' ? '\n' : text[i];
+  }
+  return result;
+}
+
 } // namespace
 
 bool isNrrdHeader(const std::filesystem::path& file)
@@ -72,7 +86,9 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& file)
     }
     std::size_t value = line.find_first_not_of(" =", colon + 1);
     value = std::min(value, line.size());
-    if (!header.fields.emplace(line.substr(0, colon), line.substr(value)).second)
+    const bool isKey = colon + 1 < line.size() && line[colon + 1] == '=';
+    std::string rest = isKey ? unescaped(line.substr(value)) : line.substr(value);
+    if (!header.fields.emplace(line.substr(0, colon), std::move(rest)).second)
     {
       refuse(file, "its header has " + inQuotes(line.substr(0, colon)) + " twice; export it again");
     }

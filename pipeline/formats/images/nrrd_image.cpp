@@ -1,5 +1,6 @@
 #include "pipeline/formats/images/nrrd_image.h"
 
+#include "haptics/files/csv_text.h"
 #include "haptics/files/input_text.h"
 #include "pipeline/formats/images/inflate.h"
 #include "pipeline/formats/images/nrrd_fields.h"
@@ -232,7 +233,8 @@ std::string colorOf(const std::vector<double>& parts)
 }
 
 // Segment0_Name and those beside it, as 3D Slicer writes them
-std::vector<Segment> segmentsOf(const NrrdFields& fields, int layers)
+std::vector<Segment> segmentsOf(
+  const std::filesystem::path& file, const NrrdFields& fields, int layers)
 {
   std::vector<Segment> segments;
   for (int i = 0;; ++i)
@@ -246,7 +248,13 @@ std::vector<Segment> segmentsOf(const NrrdFields& fields, int layers)
       .value = numberOf(fieldOf(fields, key + "LabelValue"), 1.0),
       .color = colorOf(numbersIn(fieldOf(fields, key + "Color"))) };
     const double layer = numberOf(fieldOf(fields, key + "Layer"), 0.0);
-    segment.layer = layer >= 0.0 && layer < layers ? static_cast<int>(layer) : 0;
+    if (!(layer >= 0.0 && layer < layers))
+    {
+      refuse(file,
+        "its segment " + inQuotes(segment.name) + " is in layer " + shortest(layer) + " of " +
+          std::to_string(layers) + ", counted from 0; export it again");
+    }
+    segment.layer = static_cast<int>(layer);
     segments.push_back(std::move(segment));
   }
 }
@@ -319,7 +327,7 @@ PatientImage readNrrd(const std::filesystem::path& file)
   {
     vtkByteSwap::SwapVoidRange(voxels, bytes / wide, wide);
   }
-  result.segments = segmentsOf(fields, sizes.layers);
+  result.segments = segmentsOf(file, fields, sizes.layers);
   return result;
 }
 

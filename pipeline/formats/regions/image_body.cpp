@@ -59,18 +59,17 @@ constexpr const char* kCutByBorder =
   "warning: it reaches the border of the image, and is closed there by a flat face that no organ "
   "has";
 
-void noteBorder(const VoxelBox& box, vtkImageData& image, std::vector<std::string>& notes)
+// whether points that are between voxels, in an image's own axes, lie beyond its last ones
+bool isCutByBorder(vtkImageData& image, std::span<const Eigen::Vector3d> points)
 {
-  const int* size = image.GetDimensions();
-  bool isCut = false;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    isCut = isCut || box.low[k] == 0 || box.high[k] == size[k] - 1;
-  }
-  if (isCut)
-  {
-    notes.emplace_back(kCutByBorder);
-  }
+  std::array<double, 6> bounds{};
+  image.GetBounds(bounds.data());
+  return std::ranges::any_of(points,
+    [&](const Eigen::Vector3d& point)
+    {
+      return point.x() < bounds[0] || point.x() > bounds[1] || point.y() < bounds[2] ||
+        point.y() > bounds[3] || point.z() < bounds[4] || point.z() > bounds[5];
+    });
 }
 
 void toPatient(const PatientImage& volume, std::vector<Eigen::Vector3d>& points)
@@ -161,7 +160,6 @@ ImageRegion regionOfLabels(const PatientImage& volume, std::span<const Label> la
 {
   ImageRegion region{ .image = maskOfLabels(volume, labels) };
   noteVoxels(volume, region.notes);
-  noteBorder(boxOf(labels), *volume.image, region.notes);
   return region;
 }
 
@@ -184,7 +182,6 @@ ImageRegion regionOfBand(
   ImageRegion region{ .image = maskAbout(*volume.image, box) };
   mark(*region.image, *volume.image, box, isWithin);
   noteVoxels(volume, region.notes);
-  noteBorder(box, *volume.image, region.notes);
   return region;
 }
 
@@ -219,10 +216,6 @@ ImageRegion regionOfLevel(
   }
   // what is above the level is the body, or what is around it; the border is the same all around
   region.image = closedAtBorder(*volume.image, region.level, values.low);
-  if (region.image != volume.image)
-  {
-    region.notes.emplace_back(kCutByBorder);
-  }
   return region;
 }
 
@@ -255,6 +248,10 @@ FileOrgan bodyOf(
   {
     region.notes.emplace_back("the body is what is below the level, as a distance is; what is "
                               "above it reaches the border of the image all around");
+  }
+  if (isCutByBorder(*volume.image, contour.from))
+  {
+    region.notes.emplace_back(kCutByBorder);
   }
   const double grown = std::abs(Form(volume.toPatient).topLeftCorner<3, 3>().determinant());
   organ.voxels = static_cast<std::uint64_t>(voxels);

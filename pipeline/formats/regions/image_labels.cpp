@@ -133,7 +133,10 @@ std::vector<Label> chosenLabels(const std::vector<Label>& labels,
         name + ": " + (count == 0 ? "no" : "more than one") + " label " + printable(word) +
           " in it; " + labelsInWords(labels, volume));
     }
-    chosen.push_back(*std::ranges::find_if(labels, isMeant));
+    const Label& label = *std::ranges::find_if(labels, isMeant);
+    const auto isIt = [&](const Label& one)
+    { return one.shown == label.shown && one.segment.layer == label.segment.layer; };
+    std::ranges::none_of(chosen, isIt) ? chosen.push_back(label) : void(); // by value and by name
   }
   return chosen;
 }

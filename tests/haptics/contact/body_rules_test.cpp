@@ -1,11 +1,15 @@
 #include "haptics/contact/body_rules.h"
 
+#include "haptics/contact/contact_geometry_of.h"
 #include "haptics/contact/find_contact.h"
 #include "haptics/units.h"
+#include "tests/support/csv_table.h"
 #include "tests/support/surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <utility>
 
 namespace palp
@@ -102,6 +106,86 @@ TEST(OpenRule, SeesThatNothingIsKnownBehindASurface)
   EXPECT_FALSE(holds(sheet, 1.0_mm));
   EXPECT_FALSE(holds(sheet, 12.0_mm));
   EXPECT_TRUE(holds(sheet, -1.0_mm)) << "nothing is touched";
+}
+
+// A block whose top turns at x = 0 over a fillet, in triangles that are small there.
+class TurningBlock
+{
+public:
+  TurningBlock(double turn, double fillet)
+    : slope_(std::tan(0.5 * turn))
+    , fillet_(fillet)
+    , width_(fillet * std::sin(0.5 * std::abs(turn)))
+  {
+  }
+
+  // of the top at a place beside its middle, of a face there [m]
+  [[nodiscard]] double heightAt(double x) const
+  {
+    const double beyond = std::abs(x) - width_;
+    const double arc =
+      fillet_ - std::sqrt(fillet_ * fillet_ - std::pow(std::min(width_, std::abs(x)), 2));
+    return std::copysign(arc, -slope_) - slope_ * std::max(0.0, beyond);
+  }
+
+  [[nodiscard]] Vector3d inwardAt(double x) const
+  {
+    return x == 0.0 ? -Vector3d::UnitZ()
+                    : Vector3d(std::copysign(slope_, -x * slope_), 0.0, -1.0).normalized();
+  }
+
+  [[nodiscard]] Surface surface() const
+  {
+    const Vector3d half(60.0_mm, 40.0_mm, 20.0_mm);
+    return test::makeSurface(test::cubeMap(40,
+      [&](const Vector3d& p)
+      {
+        const double x = half.x() * p.x() * std::abs(p.x());
+        const double base = -2.0 * half.z();
+        return Vector3d(x, half.y() * p.y(), base + 0.5 * (p.z() + 1.0) * (heightAt(x) - base));
+      }));
+  }
+
+private:
+  double slope_;
+  double fillet_;
+  double width_;
+};
+
+TEST(UnevenRule, TellsWhereFiniteElementsDifferByATenth)
+{
+  const test::CsvTable table = test::readCsv(PALP_SOURCE_DIR "/data/reference/uneven_surface.csv");
+  LawSettings settings;
+  settings.mode = LawMode::Corrected;
+  settings.constitution = ConstitutiveModel::Linear;
+  const ForceLaw law(kRoundTip, makeMaterial(50.0_kPa, 0.45), settings);
+  const Validity validity(law);
+  std::map<std::pair<double, double>, Surface> surfaces;
+  int told = 0;
+  int believed = 0;
+  for (std::size_t i = 0; i < table["force_N"].size(); ++i)
+  {
+    const double turn = table["turn_deg"][i] * 1.0_deg;
+    const double fillet = table["fillet_m"][i];
+    const double place = table["place_m"][i];
+    const TurningBlock block(turn, fillet);
+    const Surface& surface = surfaces.try_emplace({ turn, fillet }, block.surface()).first->second;
+    const Contact contact = pressed(
+      surface, { place, 0.0, block.heightAt(place) }, table["depth_m"][i], block.inwardAt(place));
+    const ContactGeometry geometry = contactGeometryOf(contact);
+    const double force =
+      contact.slope * law(geometry).force * -contact.normal.dot(block.inwardAt(place));
+    const double error = force / table["force_N"][i] - 1.0;
+    const bool isUneven = !unevenRule(kRoundTip, contact).holds();
+    const bool isEdge = (brokenRules(validity(geometry, contact.edgeDistance)) >> 7U & 1U) != 0;
+    told += isUneven ? 1 : 0;
+    believed += isUneven || isEdge ? 0 : 1;
+    EXPECT_TRUE(isUneven || isEdge || std::abs(error) < 0.1)
+      << table["turn_deg"][i] << ' ' << fillet << ' ' << place << ' ' << table["depth_m"][i] << ' '
+      << error;
+  }
+  EXPECT_GT(told, 20);
+  EXPECT_GT(believed, 60);
 }
 
 } // namespace

@@ -108,7 +108,7 @@ TEST(Patch, TrianglesOfAPlaneAddUpToTheDisc)
     {
       const double disc = 1.21 - center.z() * center.z();
       const bool isInside = center.z() < 0.0;
-      const Patch patch = patchWithin(plane, { center, 1.1, isInside ? -1.0 : 1.0, 1.0 }, isInside);
+      const Patch patch = patchWithin(plane, { center, 1.1, isInside ? -1.0 : 1.0 }, isInside);
       const Lens half = lensOf(1.21, center.z(), 0.0);
       EXPECT_NEAR(patch.weight, std::numbers::pi * disc * disc / 2.0, 1e-12);
       EXPECT_NEAR(patch.area.z(), std::numbers::pi * disc, 1e-12);
@@ -130,15 +130,15 @@ TEST(Patch, ASideOfTrianglesIsNoPlaceWhereTheBodyFillsTheBall)
     for (const double over : { 8e-10, 1.8e-9 })
     {
       const Patch patch =
-        patchWithin(block, { { -0.0208333, -0.05 - beside, over }, 2.5e-4, 1.0, 2.5e-4 }, false);
+        patchWithin(block, { { -0.0208333, -0.05 - beside, over }, 2.5e-4, 1.0 / 2.5e-4 }, false);
       EXPECT_NEAR(patch.solidAngle, std::numbers::pi, 1e-3) << beside << " " << over;
     }
   }
   const Surface large = test::makeSurface(test::block({ 10.0, 10.0, 10.0 }, 4));
   for (const double radius : { 1e-4, 1e-3, 1e-2 })
   {
-    const Patch patch =
-      patchWithin(large, { { 0.123468038670012, -5.0 - 1e-11, -7.5 }, radius, 1.0, radius }, false);
+    const Patch patch = patchWithin(
+      large, { { 0.123468038670012, -5.0 - 1e-11, -7.5 }, radius, 1.0 / radius }, false);
     EXPECT_NEAR(patch.solidAngle, 2.0 * std::numbers::pi, 1e-3) << radius;
   }
 }
@@ -156,7 +156,7 @@ TEST(Patch, TheMomentChangesByTheNormalAndTheVolume)
     const Eigen::Vector3d center(position(random), 0.75 * position(random), 0.3);
     const double radius = 0.4 + 0.2 * position(random);
     const auto at = [&](const Eigen::Vector3d& place, double squaredRadius) {
-      return patchWithin(body, { place, std::sqrt(squaredRadius), 0.0, 1.0 }, place.z() < 0.0);
+      return patchWithin(body, { place, std::sqrt(squaredRadius), 0.0 }, place.z() < 0.0);
     };
     const double squaredRadius = radius * radius;
     const Patch patch = at(center, squaredRadius);
@@ -188,11 +188,21 @@ TEST(Patch, WhatFadesChangesTheMomentAndTheVolumeAsWell)
   {
     const Eigen::Vector3d center(position(random), 0.75 * position(random), 0.2);
     const auto ballAt = [](const Eigen::Vector3d& place) {
-      return PatchBall{ place, 0.6, 1.0, 0.3 };
+      return PatchBall{ place, 0.6, 1.0 / 0.3 };
     };
     const Patch patch = patchWithin(body, ballAt(center), false);
-    const PatchSlopes slopes = slopesWithin(body, ballAt(center));
     faded += patch.fading.norm();
+    const auto turned = [&](double by) {
+      return patchWithin(body, { center, 0.6, 1.0 / 0.3 + by }, false);
+    };
+    const Patch more = turned(step);
+    const Patch less = turned(-step);
+    const auto overTurning = [&](auto of) { return (of(more) - of(less)) / (2.0 * step); };
+    EXPECT_NEAR(overTurning([](const Patch& p) { return p.moment; }), patch.turns.moment, 1e-9);
+    EXPECT_NEAR(overTurning([](const Patch& p) { return p.volume; }), patch.turns.volume, 1e-9);
+    EXPECT_NEAR(overTurning([](const Patch& p) { return p.weight; }), patch.turns.weight, 1e-9);
+    EXPECT_NEAR(
+      overTurning([](const Patch& p) { return p.normal.z(); }), patch.turns.normal.z(), 1e-9);
     for (int k = 0; k < 3; ++k)
     {
       const Eigen::Vector3d move = step * Eigen::Vector3d::Unit(k);
@@ -203,8 +213,9 @@ TEST(Patch, WhatFadesChangesTheMomentAndTheVolumeAsWell)
         slope([](const Patch& p) { return p.moment; }), -patch.normal[k] - patch.fading[k], 1e-6);
       EXPECT_NEAR(slope([](const Patch& p) { return p.volume; }),
         -patch.area[k] - patch.volumeFading[k], 1e-4);
-      EXPECT_NEAR(slope([](const Patch& p) { return p.normal.x(); }), slopes.normal(0, k), 1e-6);
-      EXPECT_NEAR(slope([](const Patch& p) { return p.weight; }), slopes.weight[k], 1e-6);
+      EXPECT_NEAR(
+        slope([](const Patch& p) { return p.normal.x(); }), patch.slopes.normal(0, k), 1e-6);
+      EXPECT_NEAR(slope([](const Patch& p) { return p.weight; }), patch.slopes.weight[k], 1e-6);
     }
   }
   EXPECT_GT(faded, 0.1);
@@ -220,7 +231,7 @@ TEST(Patch, TheMomentOfABallIsThatOfItsLens)
     {
       const Eigen::Vector3d center =
         (bodyRadius + height) * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
-      const Patch patch = patchWithin(body, { center, 0.6, 0.0, 1.0 }, height < 0.0);
+      const Patch patch = patchWithin(body, { center, 0.6, 0.0 }, height < 0.0);
       const Lens lens = lensOf(0.36, height, 1.0 / bodyRadius);
       EXPECT_NEAR(patch.moment, lens.moment, 4e-3 * lens.moment);
       EXPECT_NEAR(patch.volume, lens.volume, 4e-3 * lens.volume);

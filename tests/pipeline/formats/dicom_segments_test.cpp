@@ -66,7 +66,8 @@ TEST_F(DicomSegments, AreOrgansWhereTheirSlicesAreAlsoWhereTheyOverlap)
 
 TEST_F(DicomSegments, ThatAreNoMasksOnAGridAreRefusedByName)
 {
-  EXPECT_NE(refusal(write("FRACTIONAL")).find("a segmentation of fractions"), std::string::npos);
+  EXPECT_NE(refusal(write("FRACTIONAL")).find("a segmentation that is 'FRACTIONAL', no BINARY"),
+    std::string::npos);
   EXPECT_NE(refusal(write("BINARY", 0.7)).find("no even stack"), std::string::npos);
   const auto file = write();
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 40);

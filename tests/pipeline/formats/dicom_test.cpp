@@ -130,6 +130,12 @@ TEST_F(Dicom, WhatIsNoVolumeIsRefusedByName)
   writeDicom(
     folder_.path(), "frames", one, "--write-xfer-little", { .extra = "(0028,0008) IS [20]\n" });
   EXPECT_NE(refusal("frames").find("holds several images in one file"), std::string::npos);
+  EXPECT_NE(refusal("frames/frames1_3.dcm").find("several images in one file, and no binary"),
+    std::string::npos)
+    << refusal("frames/frames1_3.dcm");
+  writeDicom(
+    folder_.path(), "palette", kAxial, "--write-xfer-little", { .photometric = "PALETTE COLOR" });
+  EXPECT_NE(refusal("palette").find("has colors"), std::string::npos) << refusal("palette");
   std::filesystem::create_directory(folder_.path() / "none");
   EXPECT_NE(refusal("none").find("no DICOM image in it"), std::string::npos);
   EXPECT_NE(

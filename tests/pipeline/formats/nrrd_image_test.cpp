@@ -1,3 +1,4 @@
+#include "pipeline/surface_io/surface_io.h"
 #include "tests/pipeline/formats/ball_images.h"
 #include "tests/support/deflated.h"
 
@@ -257,11 +258,25 @@ TEST_F(Images, LayersOfAnNrrdAreTakenByTheirNames)
   EXPECT_NE(refusal(file, { {}, { "1" } }).find("more than one label 1 in it; its labels are 1 Li"),
     std::string::npos)
     << "each layer has its own";
+  const LoadedSurface once = readSurface(file, {}, { {}, { "Vein" } });
+  const LoadedSurface twice = readSurface(file, {}, { {}, { "2", "Vein", "vein" } });
+  EXPECT_EQ(pointsOf(*once.mesh), pointsOf(*twice.mesh)) << "by its value and by its name";
   std::vector<Ball> twins = balls;
   twins[2].name = "Liver";
   EXPECT_NE(refusal(write("twins.seg.nrrd", nrrd(grid, twins, {})), { {}, { "Liver" } })
               .find("more than one label Liver in it"),
     std::string::npos);
+}
+
+// as teem writes a line break and a backslash in a key's value
+TEST_F(Images, TheNameOfASegmentOfAnNrrdMayHaveEscapes)
+{
+  const Vector3d middle = kGrids[0].axes * Vector3d(19, 21, 23) + kGrids[0].origin;
+  const auto file =
+    write("escapes.seg.nrrd", nrrd(kGrids[0], { { middle, 30.0, R"(a\\n\tb)", 0, 1 } }, {}));
+  const FileOrgans found = readFileOrgans(file, {}, true);
+  ASSERT_EQ(found.organs.size(), 1U);
+  EXPECT_EQ(found.organs[0].name, R"(a\n\tb)");
 }
 
 TEST_F(Images, AnNrrdThatIsDamagedIsRefusedByItsFault)
@@ -293,6 +308,7 @@ TEST_F(Images, AnNrrdThatIsDamagedIsRefusedByItsFault)
       { changed(raw, "40 44 48", "40 44 -48"), "its sizes are '40 44 -48'" },
       { changed(raw, "sizes: 40 44 48", "sizes: 40000 44000 48000"), "of 168960000000000 bytes" },
       { changed(raw, "type: int16", "type: int16\ntype: uint8"), "has 'type' twice" },
+      { changed(raw, "Layer:=0", "Layer:=2"), "its segment 'Liver' is in layer 2 of 1" },
       { changed(raw, "(0,2,0)", "(2,0,0)"), "do not span space" },
       { "NRRD0005\n\n", "its encoding is ''" } })
   {

@@ -17,7 +17,7 @@ protected:
   }
 };
 
-TEST_F(LabelNames, AreReadAsThreeProgramsWriteThem)
+TEST_F(LabelNames, AreReadAsProgramsWriteThem)
 {
   for (const char* text :
     { "# Color table file\n0 Background 0 0 0 0\n1 Liver 221 130 101 255\n"
@@ -25,6 +25,9 @@ TEST_F(LabelNames, AreReadAsThreeProgramsWriteThem)
       "# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Background\"\n"
       "    1   255    0    0        1  1  1    \"Liver\"\n"
       "   40   255    0    0        1  1  1    \"portal vein\"\n",
+      "LabelValue,Name,Color_R,Color_G,Color_B,Color_A,Category_CodingScheme\n"
+      "0,Background,0,0,0,0,SCT\r\n1,Liver,221,130,101,255,SCT\n\n5,,1,2,3\n"
+      "40,\"portal vein\",0,151,206,255,SCT\n",
       R"({"0": "Background", "1": "Liver", "40": "portal vein"})",
       R"({"Background": 0, "Liver": 1, "portal vein": 40})" })
   {
@@ -46,6 +49,9 @@ TEST_F(LabelNames, ColorsAreThoseOfTheTable)
   EXPECT_EQ(
     readLabelColors(table("1 221 130 101 1 1 1 \"Liver\"\n40 0 151 206 1 0 1 \"vein 2\"\n")),
     colors);
+  EXPECT_EQ(readLabelColors(table("LabelValue,Color_G,Color_R,Color_B,Name\n"
+                                  "1,130,221,101,Liver\n40,151,0,206,vein\n7,,,,spleen\n")),
+    colors);
   EXPECT_TRUE(readLabelColors(table(R"({"1": "Liver"})")).empty());
 }
 
@@ -61,6 +67,7 @@ TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)
 {
   for (const auto& [text, what] :
     { std::pair("1 liver 0 0 0 0\nliver 2\n", "names:2: 'liver 2' is no label"),
+      { "LabelValue,Name\n1,liver\nx,spleen\n", "names:3: 'x' is no value of a label" },
       { "1 255 0 0\n", "names:1: '1 255 0 0' is no label" },
       { "{\"1\": [2]}", "'1' is no value with a name" },
       { "{\"1\": ", "not JSON of values and names" } })
