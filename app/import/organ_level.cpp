@@ -53,34 +53,29 @@ Boundary boundaryOf(const FileOrgan& organ, double length)
 std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, double voxel, double shownApart, const Boundary& boundary)
 {
-  std::optional<OrganLevel> found;
-  TriangleMesh felt;
-  const auto isNear = [&](std::size_t count)
+  std::vector<std::size_t> counts;
+  for (std::size_t count = kHapticPoints; 2 * count <= points.size(); count *= 2)
   {
-    TriangleMesh next = decimated(points, triangles, count, 0.5 * voxel);
-    OrganLevel level = levelOf(next.points, next.triangles, boundary);
-    if (level.apart.largest > std::max(voxel, shownApart))
-    {
-      return false;
-    }
-    found = std::move(level);
-    felt = std::move(next);
-    points = felt.points; // whose fewer points are found sooner
-    triangles = felt.triangles;
-    return true;
+    counts.insert(counts.begin(), count);
+  }
+  const std::vector<TriangleMesh> finer = decimatedTo(counts, points, triangles, 0.5 * voxel);
+  const auto nearEnough = [&](const TriangleMesh& felt)
+  {
+    OrganLevel level = levelOf(felt.points, felt.triangles, boundary);
+    const bool isNear = level.apart.largest <= std::max(voxel, shownApart);
+    return isNear ? std::optional(std::move(level)) : std::nullopt;
   };
-  std::size_t count = kHapticPoints;
-  if (points.size() < 2 * count || isNear(count))
+  std::optional<OrganLevel> found = finer.empty() ? std::nullopt : nearEnough(finer.back());
+  if (found || finer.size() < 2 || !(found = nearEnough(finer.front())))
   {
     return found;
   }
-  while (4 * count <= points.size())
+  for (std::size_t i = finer.size() - 1; i-- > 1;)
   {
-    count *= 2;
-  }
-  while (count > kHapticPoints && isNear(count))
-  {
-    count /= 2;
+    if (std::optional<OrganLevel> level = nearEnough(finer[i]))
+    {
+      return level;
+    }
   }
   return found;
 }

@@ -261,35 +261,54 @@ private:
   int now_ = 0; // round
 };
 
+TriangleMesh whatIsLeft(const HalfEdges& mesh)
+{
+  TriangleMesh result;
+  std::vector<int> numbers(mesh.n_vertices());
+  for (const Vertex vertex : mesh.vertices())
+  {
+    if (!mesh.status(vertex).deleted())
+    {
+      numbers[static_cast<std::size_t>(vertex.idx())] = static_cast<int>(result.points.size());
+      result.points.emplace_back(mesh.point(vertex).data());
+    }
+  }
+  for (const HalfEdges::FaceHandle face : mesh.faces())
+  {
+    if (mesh.status(face).deleted())
+    {
+      continue;
+    }
+    Triangle& triangle = result.triangles.emplace_back();
+    std::ranges::transform(mesh.fv_range(face), triangle.begin(),
+      [&](Vertex vertex) { return numbers[static_cast<std::size_t>(vertex.idx())]; });
+  }
+  return result;
+}
+
 } // namespace
 
 TriangleMesh decimated(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
   std::size_t count, double error)
 {
+  return std::move(decimatedTo({ &count, 1 }, points, triangles, error).front());
+}
+
+std::vector<TriangleMesh> decimatedTo(std::span<const std::size_t> counts,
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double error)
+{
   HalfEdges mesh = halfEdgesOf(points, triangles);
   mesh.request_vertex_status();
   mesh.request_edge_status();
   mesh.request_face_status();
-  Decimation(mesh, error).downTo(count);
-  mesh.garbage_collection();
-
-  TriangleMesh result;
-  result.points.reserve(mesh.n_vertices());
-  for (const Vertex vertex : mesh.vertices())
+  Decimation decimation(mesh, error);
+  std::vector<TriangleMesh> levels;
+  for (const std::size_t count : counts)
   {
-    result.points.emplace_back(mesh.point(vertex).data());
+    decimation.downTo(count);
+    levels.push_back(whatIsLeft(mesh));
   }
-  result.triangles.reserve(mesh.n_faces());
-  for (const HalfEdges::FaceHandle face : mesh.faces())
-  {
-    Triangle& triangle = result.triangles.emplace_back();
-    std::size_t k = 0;
-    for (const Vertex vertex : mesh.fv_range(face))
-    {
-      triangle[k++] = vertex.idx();
-    }
-  }
-  return result;
+  return levels;
 }
 
 } // namespace palp

@@ -37,4 +37,11 @@ struct TriangleMesh
   std::span<const Triangle> triangles, std::size_t count,
   double error = std::numeric_limits<double>::infinity());
 
+/// The same at several numbers of points, for the time of the fewest.
+///
+/// @param counts  each at most the one before it
+/// @return        a mesh for each, as decimated() makes it
+[[nodiscard]] std::vector<TriangleMesh> decimatedTo(std::span<const std::size_t> counts,
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double error);
+
 } // namespace palp

@@ -103,7 +103,6 @@ TEST_P(ClosedLoop, GivesNoEnergyOnACoarseBody)
     EXPECT_GT(gains.size(), 60U);
     EXPECT_LT(gains[gains.size() / 2], 0.001) << cells;
     EXPECT_LT(gains.back(), worst) << cells;
-      gains.back());
   }
 }
 

@@ -4,6 +4,7 @@
 #include "haptics/surface/sampling/deviation.h"
 #include "tests/support/surfaces.h"
 
+#include <array>
 #include <gtest/gtest.h>
 
 namespace palp
@@ -42,6 +43,25 @@ TEST(Decimate, KeepsTheShapeOfASphere)
   for (const Facet& facet : coarse.tree().facets())
   {
     EXPECT_GT(facet.normal.dot(facet.corners[0].normalized()), 0.9); // none turned over
+  }
+}
+
+TEST(Decimate, ToSeveralCountsIsThatToEachOfThem)
+{
+  const Surface fine = test::makeSurface(test::ball(0.05, 40));
+  const std::array<std::size_t, 3> counts{ 5000, 2500, 300 };
+  const std::vector<TriangleMesh> levels =
+    decimatedTo(counts, fine.points(), fine.triangles(), 1.0);
+  ASSERT_EQ(levels.size(), 3U);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    const TriangleMesh alone = decimated(fine.points(), fine.triangles(), counts[i], 1.0);
+    EXPECT_LE(levels[i].points.size(), counts[i]);
+    EXPECT_TRUE(Surface(levels[i].points, levels[i].triangles).closed());
+    EXPECT_LT(deviation(Surface(levels[i].points, levels[i].triangles),
+                Surface(alone.points, alone.triangles))
+                .largest,
+      1.5 * deviation(fine, Surface(alone.points, alone.triangles)).largest + 1e-6);
   }
 }
 
