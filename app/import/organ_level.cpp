@@ -4,6 +4,7 @@
 #include "haptics/files/input_text.h"
 #include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/decimation/decimate.h"
+#include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
 #include "pipeline/surface_io/surface_io.h"
 
@@ -112,6 +113,11 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
   result.volume = enclosedVolume(points, triangles);
   result.shown = levelOf(points, triangles, boundary);
+  if (constexpr double kFar = 2.0; result.shown.apart.largest > kFar * length * organ.voxel)
+  {
+    result.warnings.push_back("pieces of a few voxels are smoothed away, up to " +
+      units::inMillimeters(result.shown.apart.largest) + " from what is left");
+  }
   try
   {
     result.felt =

@@ -170,6 +170,32 @@ std::vector<NamedColor> labelsIn(const std::filesystem::path& file, const std::s
   return labels;
 }
 
+// older programs wrote Latin-1
+std::string inUtf8(const std::string& text)
+{
+  try
+  {
+    (void)nlohmann::json(text).dump(); // which asks whether it is
+    return text;
+  }
+  catch (const nlohmann::json::type_error&)
+  {
+    std::string result;
+    for (const char c : text)
+    {
+      const auto code = static_cast<unsigned char>(c);
+      code < 0x80 ? void() : result.push_back(static_cast<char>(0xc0 | code >> 6));
+      result.push_back(code < 0x80 ? c : static_cast<char>(0x80 | (code & 0x3f)));
+    }
+    return result;
+  }
+}
+
+std::string tableIn(const std::filesystem::path& file)
+{
+  return inUtf8(readText(file, "the table of names"));
+}
+
 bool isJson(const std::string& text)
 {
   return trimmed(text).starts_with('{');
@@ -179,7 +205,7 @@ bool isJson(const std::string& text)
 
 std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
 {
-  const std::string text = readText(file, "the table of names");
+  const std::string text = tableIn(file);
   if (isJson(text))
   {
     return namesInJson(file, text);
@@ -195,7 +221,7 @@ std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
 std::map<double, std::string> readLabelColors(const std::filesystem::path& file)
 {
   std::map<double, std::string> colors;
-  const std::string text = readText(file, "the table of names");
+  const std::string text = tableIn(file);
   for (const NamedColor& one : isJson(text) ? std::vector<NamedColor>() : labelsIn(file, text))
   {
     one.color.empty() ? void() : void(colors.emplace(one.label.value, one.color));

@@ -238,7 +238,9 @@ FileOrgan bodyOf(
   {
     refuseImage(name,
       "its surface would have " + std::to_string(triangles / 1'000'000) +
-        " million triangles, noise at that level; smooth the image, or take fewer voxels");
+        (region.mask ? " million triangles, for its voxels lie scattered; give one of whole bodies"
+                     : " million triangles, noise at that level; smooth the image, or take fewer "
+                       "voxels"));
   }
   const double size =
     static_cast<double>(voxels) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();

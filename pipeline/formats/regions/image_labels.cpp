@@ -17,6 +17,8 @@ namespace palp
 namespace
 {
 
+constexpr double kWhole = 9'007'199'254'740'992.0; // beyond it doubles are not all whole numbers
+
 // one [ml], where the file tells its unit
 std::optional<double> milliliters(const PatientImage& volume)
 {
@@ -44,6 +46,12 @@ bool isNamed(const Label& label, double step, const std::string& text)
 }
 
 } // namespace
+
+std::string inDigits(double value)
+{
+  const bool isWhole = std::abs(value) <= kWhole && value == std::trunc(value);
+  return isWhole ? std::to_string(static_cast<long long>(value)) : shortest(value);
+}
 
 std::vector<Label> labelsOf(const PatientImage& volume, const ImageValues& first)
 {
@@ -102,7 +110,7 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
       break;
     }
     const Label& label = bodies[i];
-    text << (text.tellp() > 0 ? ", " : "") << shortest(label.shown)
+    text << (text.tellp() > 0 ? ", " : "") << inDigits(label.shown)
          << (label.segment.name.empty() ? "" : " ") << shownName(label.segment.name) << " ("
          << label.voxels << (label.voxels == 1 ? " voxel" : " voxels");
     voxel ? text << ", " << *voxel * static_cast<double>(label.voxels) << " ml)" : text << ')';
@@ -115,7 +123,6 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
 std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name)
 {
-  constexpr double kWhole = 9'007'199'254'740'992.0; // beyond it doubles are not all whole numbers
   if (std::ranges::any_of(
         labels, [](const Label& one) { return std::abs(one.segment.value) >= kWhole; }))
   {

@@ -11,6 +11,9 @@
 namespace palp
 {
 
+/// A value as people write it: 2000000000, and not 2e+09.
+[[nodiscard]] std::string inDigits(double value);
+
 /// A region of a label map, and what is known of it.
 struct Label
 {

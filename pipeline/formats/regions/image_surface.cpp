@@ -70,7 +70,7 @@ FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
   };
   for (const Label& label : labels)
   {
-    organ.label.append(organ.label.empty() ? "" : "+").append(shortest(label.shown));
+    organ.label.append(organ.label.empty() ? "" : "+").append(inDigits(label.shown));
     organ.voxels += static_cast<std::uint64_t>(label.voxels);
   }
   organ.voxelVolume = static_cast<double>(organ.voxels) * voxelVolume(volume);
@@ -115,7 +115,7 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const std::vect
       wanted.push_back({ label });
       continue;
     }
-    notes.push_back("warning: label " + shortest(label.shown) + " has " +
+    notes.push_back("warning: label " + inDigits(label.shown) + " has " +
       counted(static_cast<std::size_t>(label.voxels), "voxel") +
       ", too few for a surface, and is left out");
   }

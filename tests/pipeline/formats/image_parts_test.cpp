@@ -220,6 +220,7 @@ TEST_F(Images, LargeLabelsAreToldApart)
   fill(3, 9, 312782550.0);
   fill(14, 22, 312782554.0);
   fill(27, 37, 4294967295.0);
+  fill(38, 39, 2e9);
   const auto file = write<vtkMetaImageWriter>("atlas.mha", *image);
   for (const auto& [label, from, to] : { std::tuple("312782550", 3, 9), { "312782554", 14, 22 },
          { "4294967295", 27, 37 }, { "312782554.0", 14, 22 } })
@@ -230,6 +231,8 @@ TEST_F(Images, LargeLabelsAreToldApart)
     EXPECT_NEAR(1e3 * box[1], 2.0 * to - 1.0, 1.1) << label;
   }
   EXPECT_NE(refusal(file, {}).find("its labels are 312782550 (600 voxels"), std::string::npos)
+    << refusal(file, {});
+  EXPECT_NE(refusal(file, {}).find(", 2000000000 (100 voxels"), std::string::npos)
     << refusal(file, {});
   for (const char* label : { "312782551", "312782530", "4294967294", "312782550.5" })
   {

@@ -55,6 +55,12 @@ TEST_F(LabelNames, ColorsAreThoseOfTheTable)
   EXPECT_TRUE(readLabelColors(table(R"({"1": "Liver"})")).empty());
 }
 
+TEST_F(LabelNames, OfLatin1AreRead)
+{
+  EXPECT_EQ(readLabelNames(table("5 f\xe9mur 0 0 0 0\n"))[0].name, "f\xc3\xa9mur");
+  EXPECT_EQ(readLabelNames(table("5 f\xc3\xa9mur 0 0 0 0\n"))[0].name, "f\xc3\xa9mur");
+}
+
 // a number is a value, whatever is called so
 TEST_F(LabelNames, ANameOfTwoValuesIsRefused)
 {
