@@ -216,8 +216,8 @@ std::vector<Fuzzed> dicomSegmentKinds()
   const TemporaryFolder folder;
   Fuzzed kind = image("segments.dcm", { readAll(writeSegmentation(folder.path())) },
     { cutOff(kCut + "|damaged|bytes|places", 600),
-      replaced("class", "1\\.66\\.4", "1.66.5", "one image of a series", false),
-      replaced("kind", "BINARY", "OTHERS", "fractions"),
+      replaced("class", "1\\.66\\.4", "1.66.5", "no binary segmentation", false),
+      replaced("kind", "BINARY", "OTHERS", "no BINARY"),
       replaced("place", "-3[0-9]", "-3x", "Position"), foreign(offText(), "DICOM") });
   kind.read = [](const std::filesystem::path& file)
   { return pack(readOrgans(file, {}, false, kDicom)); };
