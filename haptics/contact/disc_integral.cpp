@@ -308,7 +308,14 @@ DiscIntegral integrate(
 Eigen::Vector3d weightSlope(const Facet& facet, const Eigen::Vector3d& center, double squaredRadius,
   const DiscIntegral& inside) noexcept
 {
-  const double height = facet.normal.dot(facet.corners[0] - center);
+  const auto& [a, b, c] = facet.corners;
+  const bool isWhole = std::max({ (a - center).squaredNorm(), (b - center).squaredNorm(),
+                         (c - center).squaredNorm() }) <= squaredRadius;
+  if (isWhole)
+  {
+    return 2.0 * inside.area * (kOneThird * (a + b + c) - center);
+  }
+  const double height = facet.normal.dot(a - center);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k)
   {
