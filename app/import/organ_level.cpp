@@ -167,10 +167,9 @@ void nameFiles(
 LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesystem::path& image,
   std::vector<std::string>& warnings)
 {
-  const UnitChoice unit = asked ? asked : unitNamed(organs.unit);
-  if (unit)
+  if (asked)
   {
-    return *unit;
+    return *asked;
   }
   Eigen::Array3d low = Eigen::Array3d::Constant(HUGE_VAL);
   Eigen::Array3d high = -low;
@@ -182,8 +181,19 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
       high = high.max(point.array());
     }
   }
-  const LengthUnit guess =
-    guessUnit((high - low).maxCoeff(), image.string(), organs.organs.front().surface.field);
+  const double size = (high - low).maxCoeff();
+  if (const UnitChoice unit = unitNamed(organs.unit))
+  {
+    constexpr double kMost = 3.0; // [m] of a patient
+    if (size * unitLength(*unit) > kMost)
+    {
+      warnings.push_back("by the " + organs.unit + " of its header it is " +
+        units::inMillimeters(size * unitLength(*unit)) +
+        " long; if that is wrong, give the unit by --unit");
+    }
+    return *unit;
+  }
+  const LengthUnit guess = guessUnit(size, image.string(), organs.organs.front().surface.field);
   warnings.push_back(std::string("the file names no unit; ") + unitName(guess) +
     " is the only one that gives the size of organs; --unit " + unitName(guess) + " confirms it");
   return guess;

@@ -23,6 +23,7 @@ constexpr std::array kKnown{ Known{ "vessel", { "show", "#d8654f", nullptr } },
   Known{ "aorta", { "show", "#d8654f", nullptr } }, Known{ "vein", { "show", "#0097ce", nullptr } },
   Known{ "cava", { "show", "#0097ce", nullptr } }, Known{ "tumor", { "press", "#90ee90", "hcc" } },
   Known{ "lesion", { "press", "#90ee90", "hcc" } },
+  Known{ "cyst", { "press", "#90ee90", nullptr } },
   Known{ "nodule", { "press", "#90ee90", "hcc" } },
   Known{ "gallbladder", { "press", "#8b9662", nullptr } },
   Known{ "liver", { "press", "#dd8265", "healthy_liver" } },
@@ -31,13 +32,13 @@ constexpr std::array kKnown{ Known{ "vessel", { "show", "#d8654f", nullptr } },
   Known{ "stomach", { "press", "#d88469", nullptr } },
   Known{ "pancreas", { "press", "#f9b46f", nullptr } },
   Known{ "skin", { "through", "#b17a65", "skin" } },
-  Known{ "body", { "through", "#b17a65", "skin" } },
   Known{ "fat", { "through", "#e6dc46", "fat" } }, Known{ "bone", { "show", "#f1d691", nullptr } },
   Known{ "rib", { "show", "#f1d691", nullptr } },
   Known{ "vertebra", { "show", "#f1d691", nullptr } },
   Known{ "spine", { "show", "#f1d691", nullptr } },
   Known{ "sacrum", { "show", "#f1d691", nullptr } },
-  Known{ "femur", { "show", "#f1d691", nullptr } } };
+  Known{ "femur", { "show", "#f1d691", nullptr } },
+  Known{ "body", { "through", "#b17a65", "skin" } } };
 
 // of names that tell nothing, in turn: muscle, tissue, connective tissue, bone, mass
 constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", "#f1d691", "#90ee90" };

@@ -23,6 +23,7 @@ using Halfedge = OpenMesh::HalfedgeHandle;
 using Vertex = OpenMesh::VertexHandle;
 
 constexpr double kTurn = 0.9; // cosine
+constexpr double kOff = 0.1;  // of a short side, by which a point may leave the triangles about it
 
 Eigen::Vector3d placeOf(const HalfEdges& mesh, Vertex vertex)
 {
@@ -69,10 +70,12 @@ bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to)
     {
       continue; // goes away
     }
-    const Eigen::Vector3d before =
-      normalOf(placeOf(mesh, from), placeOf(mesh, b), placeOf(mesh, c));
+    const Eigen::Vector3d here = placeOf(mesh, from);
+    const Eigen::Vector3d before = normalOf(here, placeOf(mesh, b), placeOf(mesh, c));
     const Eigen::Vector3d after = normalOf(there, placeOf(mesh, b), placeOf(mesh, c));
-    if (before.dot(after) < kTurn || mesh.status(mesh.face_handle(out)).locked())
+    const double off = std::abs(before.dot(there - here));
+    if (before.dot(after) < kTurn || off > kOff * (there - here).norm() ||
+      mesh.status(mesh.face_handle(out)).locked())
     {
       return false;
     }
@@ -85,9 +88,15 @@ bool collapse(HalfEdges& mesh, Halfedge shortest)
   for (const Halfedge way : { shortest, mesh.opposite_halfedge_handle(shortest) })
   {
     const Vertex from = mesh.from_vertex_handle(way);
-    const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
-    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, mesh.to_vertex_handle(way)))
+    const Vertex to = mesh.to_vertex_handle(way);
+    if (mesh.status(from).tagged() || mesh.status(to).tagged())
     {
+      continue; // one after the other they would lead around a cylinder
+    }
+    const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
+    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to))
+    {
+      mesh.status(to).set_tagged(true);
       mesh.collapse(way);
       return true;
     }

@@ -248,8 +248,9 @@ FileOrgan bodyOf(
     imageContour(*region.image, region.level, region.mask ? size : 0.0, components, region.notes);
   if (isAround != region.below)
   {
-    region.notes.emplace_back("the body is what is below the level, as a distance is; what is "
-                              "above it reaches the border of the image all around");
+    region.notes.emplace_back(
+      "warning: the body is what is below the level, as a distance is; what "
+      "is above it reaches the border of the image all around");
   }
   if (isCutByBorder(*volume.image, contour.from))
   {

@@ -35,17 +35,6 @@ ImageContour contourOf(vtkImageData& image, double level)
     .from = {} };
 }
 
-double areaOf(const ImageContour& contour)
-{
-  double area = 0.0;
-  for (const auto& [a, b, c] : contour.triangles)
-  {
-    const Eigen::Vector3d& from = contour.points[at(a)];
-    area += 0.5 * (contour.points[at(b)] - from).cross(contour.points[at(c)] - from).norm();
-  }
-  return area;
-}
-
 void drop(ImageContour& contour, const std::vector<bool>& isKept)
 {
   std::vector<int> number(contour.points.size(), -1);
@@ -85,23 +74,32 @@ void smoothStairs(ImageContour& contour)
   contour.points = pointsOf(*smooth->GetOutput());
 }
 
-// drops what is not asked for
-Edges keepPieces(ImageContour& contour, std::size_t components, double leastHollow,
-  std::vector<std::string>& notes)
+// a contour with what hangs together of it
+struct Linked
 {
-  Edges edges = edgesOf(contour.points.size(), contour.triangles);
-  const ContourPieces pieces = contourPieces(
-    contour.points, contour.triangles, piecesOf(edges.across), components, leastHollow);
-  if (!pieces.note.empty())
+  explicit Linked(const ImageContour& contour)
+    : edges(edgesOf(contour.points.size(), contour.triangles))
+    , pieces(piecesOf(edges.across))
+    , sizes(pieceSizes(contour.points, contour.triangles, pieces))
   {
-    notes.push_back(pieces.note);
   }
-  if (pieces.areAll)
+
+  Edges edges;
+  std::vector<int> pieces; // of each triangle
+  std::vector<PieceSize> sizes;
+};
+
+// What a contour, which cuts the corners of voxels, lacks of their volume for each area of it.
+double bevelOf(const Linked& linked, double mask)
+{
+  double volume = 0.0;
+  double area = 0.0;
+  for (const PieceSize& piece : linked.sizes)
   {
-    return edges;
+    volume += piece.volume;
+    area += std::copysign(piece.area, piece.volume); // hollows lack it, too
   }
-  drop(contour, pieces.isKept);
-  return edgesOf(contour.points.size(), contour.triangles);
+  return (mask - std::abs(volume)) / std::abs(area);
 }
 
 } // namespace
@@ -115,16 +113,29 @@ ImageContour imageContour(vtkImageData& image, double level, double mask, std::s
     return contour;
   }
   const Eigen::Array3d spacing = Eigen::Array3d(image.GetSpacing()).abs();
-  // what a contour, which cuts the corners of voxels, lacks of their volume for each area of it
-  const double cut = std::abs(enclosedVolume(contour.points, contour.triangles));
-  const double bevel = mask > 0.0 ? (mask - cut) / areaOf(contour) : 0.0;
-  const Edges edges = keepPieces(contour, components, kLeastHollow * spacing.prod(), notes);
+  Linked linked(contour);
+  const double bevel = mask > 0.0 ? bevelOf(linked, mask) : 0.0;
+  const ContourPieces pieces = contourPieces(
+    contour.points, contour.triangles, linked.pieces, components, kLeastHollow * spacing.prod());
+  if (!pieces.note.empty())
+  {
+    notes.push_back(pieces.note);
+  }
+  if (!pieces.areAll)
+  {
+    drop(contour, pieces.isKept);
+    linked = Linked(contour);
+  }
   contour.from = contour.points;
-  const double volume = enclosedVolume(contour.points, contour.triangles);
-  contour.enclosed = volume + std::copysign(bevel * areaOf(contour), volume);
+  for (PieceSize& piece : linked.sizes)
+  {
+    piece.volume += std::copysign(bevel * piece.area, piece.volume);
+    contour.enclosed += piece.volume;
+  }
   if (mask > 0.0)
   {
-    bendLeast(contour.points, contour.triangles, edges, 0.5 * spacing, contour.enclosed);
+    bendLeast(
+      contour.points, contour.triangles, linked.edges, 0.5 * spacing, linked.pieces, linked.sizes);
   }
   else
   {

@@ -105,7 +105,11 @@ std::vector<LabelGroup> wantedLabels(const PatientImage& volume, const std::vect
         refuseImage(name, inQuotes(word) + " lacks a label beside its +; write them like 2+3");
       }
     }
-    wanted.push_back(chosenLabels(known, words, volume, name));
+    LabelGroup group = chosenLabels(known, words, volume, name);
+    const auto which = [](const Label& one) { return std::pair(one.shown, one.segment.layer); };
+    const auto isGroup = [&](const LabelGroup& other)
+    { return std::ranges::is_permutation(group, other, {}, which, which); };
+    std::ranges::none_of(wanted, isGroup) ? wanted.push_back(std::move(group)) : void();
   }
   constexpr vtkIdType kFewest = 8;
   for (const Label& label : part.labels.empty() ? bodiesAmong(known) : std::vector<Label>())

@@ -56,32 +56,57 @@ Eigen::Array4f laplacian(const Neighbors& neighbors, const Points& points, std::
   return sum / static_cast<float>(end - first) - points[i];
 }
 
-// moves all points outward, by as much for each, so that a volume is added
-void swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles, double volume)
+Eigen::Vector3d areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
 {
+  return 0.5 * (b - a).cross(c - a);
+}
+
+// moves each piece outward evenly until it has about its volume
+void swell(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles,
+  std::span<const int> pieces, std::span<const PieceSize> wanted)
+{
+  const std::vector<PieceSize> sizes = pieceSizes(points, triangles, pieces);
   std::vector<Eigen::Vector3d> outward(points.size(), Eigen::Vector3d::Zero());
-  double area = 0.0;
-  for (const Triangle& t : triangles)
+  std::vector<Eigen::Vector3d> move = outward;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    const Eigen::Vector3d& a = points[at(t[0])];
-    const Eigen::Vector3d vector =
-      0.5 * (points[at(t[1])] - a).cross(Eigen::Vector3d(points[at(t[2])] - a));
-    area += vector.norm();
-    for (const int corner : t)
+    const auto piece = at(pieces[i]);
+    const auto& [a, b, c] = triangles[i];
+    const Eigen::Vector3d vector = areaOf(points[at(a)], points[at(b)], points[at(c)]);
+    const double lack = (wanted[piece].volume - sizes[piece].volume) / sizes[piece].area;
+    for (const int corner : triangles[i])
     {
       outward[at(corner)] += vector;
+      move[at(corner)] += lack * vector;
     }
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    points[i] += volume / area * outward[i].normalized(); // one without a triangle stays
+    const double size = outward[i].norm();
+    points[i] += size > 0.0 ? (move[i] / size).eval() : Eigen::Vector3d::Zero().eval();
   }
 }
 
 } // namespace
 
+std::vector<PieceSize> pieceSizes(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, std::span<const int> pieces)
+{
+  std::vector<PieceSize> sizes(static_cast<std::size_t>(std::ranges::max(pieces)) + 1);
+  const Eigen::Vector3d& from = points.front();
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    const auto& [a, b, c] = triangles[i];
+    const Eigen::Vector3d vector = areaOf(points[at(a)], points[at(b)], points[at(c)]);
+    sizes[at(pieces[i])].volume += (points[at(a)] - from).dot(vector) / 3.0;
+    sizes[at(pieces[i])].area += vector.norm();
+  }
+  return sizes;
+}
+
 void bendLeast(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles,
-  const Edges& edges, const Eigen::Array3d& most, double volume)
+  const Edges& edges, const Eigen::Array3d& most, std::span<const int> pieces,
+  std::span<const PieceSize> sizes)
 {
   const std::size_t count = points.size();
   const Neighbors neighbors = neighborsOf(count, edges);
@@ -125,7 +150,7 @@ void bendLeast(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> t
   }
   for (int i = 0; i < 4; ++i) // the bounds take some of it back
   {
-    swell(points, triangles, volume - enclosedVolume(points, triangles));
+    swell(points, triangles, pieces, sizes);
     for (std::size_t k = 0; k < count; ++k)
     {
       points[k] =

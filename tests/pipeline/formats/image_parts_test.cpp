@@ -73,6 +73,34 @@ TEST_F(Images, OnlyTheLargestPieceIsTaken)
   }
 }
 
+// as lesions of one label: each by itself, not only their sum
+TEST_F(Images, EachPieceKeepsItsVolume)
+{
+  const auto image = ball(true);
+  auto* voxels = image->GetPointData()->GetScalars();
+  const Vector3d middle = kCenterMm - Vector3d(28.0, 36.0, 31.0);
+  int count = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    if ((Vector3d(image->GetPoint(i)) - middle).norm() < 10.0)
+    {
+      voxels->SetComponent(i, 0, 1.0);
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 200);
+  ImagePart part{ 0.5, {} };
+  part.components = 2;
+  const LoadedSurface both =
+    readSurface(write<vtkMetaImageWriter>("two.mha", *image), LengthUnit::Millimeter, part);
+  part.components = 1;
+  const LoadedSurface one =
+    readSurface(write<vtkMetaImageWriter>("one.mha", *image), LengthUnit::Millimeter, part);
+  const double small = volumeMm3(*both.mesh) - volumeMm3(*one.mesh);
+  const double exact = count * Vector3d(image->GetSpacing()).prod();
+  EXPECT_NEAR(small, exact, 0.03 * exact);
+}
+
 // with a voxel or a ball of 12 mm missing in its middle
 TEST_F(Images, AHollowStaysAndAPoreIsFilled)
 {

@@ -268,6 +268,40 @@ TEST(MeshRepair, RemovesFlatTrianglesAndNeedles)
   EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-3 * volume);
 }
 
+// as CAD programs mesh them: nothing of their shape goes with the slivers
+TEST(MeshRepair, KeepsCylindersAndPlatesOfLongTriangles)
+{
+  constexpr int kSides = 360;
+  Mesh cylinder;
+  for (const double z : { 0.0, 0.06 })
+  {
+    for (int i = 0; i < kSides; ++i)
+    {
+      const double angle = 2.0 * std::numbers::pi * i / kSides;
+      cylinder.points.emplace_back(0.03 * std::cos(angle), 0.03 * std::sin(angle), z);
+    }
+  }
+  const int below = static_cast<int>(cylinder.points.size());
+  cylinder.points.emplace_back(0.0, 0.0, 0.0);
+  cylinder.points.emplace_back(0.0, 0.0, 0.06);
+  for (int i = 0; i < kSides; ++i)
+  {
+    const int next = (i + 1) % kSides;
+    cylinder.triangles.push_back({ below, next, i });
+    cylinder.triangles.push_back({ below + 1, kSides + i, kSides + next });
+    cylinder.triangles.push_back({ i, next, kSides + next });
+    cylinder.triangles.push_back({ i, kSides + next, kSides + i });
+  }
+  const Mesh plate = makeBox({ 0.15, 0.15, 0.001 }, 0.2);
+  for (const Mesh& mesh : { cylinder, plate })
+  {
+    ASSERT_NE(palp::healthOf(mesh.points, mesh.triangles).find(Fault::Sliver), nullptr);
+    const double volume = volumeOf(mesh.points, mesh.triangles);
+    const RepairedMesh mended = repaired(mesh);
+    EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-3 * volume);
+  }
+}
+
 // whatever the triangles: what comes out is a manifold, or tells that it is none
 TEST(MeshRepair, OfRandomTrianglesIsAManifold)
 {
