@@ -23,13 +23,13 @@ constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a cl
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
-constexpr double kOut = 4.0;       // [-] times outside by the contact's size: all outside
-constexpr double kSudden = 30.0;   // [-] of a part of the curvature, over the contact's size
-constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
+constexpr double kOut = 4.0;     // [-] 1 / contact sizes over the surface: all of a nose is outside
+constexpr double kSudden = 20.0; // [-] of a part of the curvature, over the contact's size
+constexpr double kFront = 0.1;   // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
-constexpr double kCorner = 0.4;  // [-] of the least reach: the corner where the contact is wider
-constexpr double kTilting = 0.5; // [-] of a tool's size, in which a body turns by less than 1 rad
-constexpr double kFlat = 0.05;   // [rad] of tilt over which a flat end comes to stand on its rim
+constexpr double kCorner = 0.4;   // [-] of the least reach: the corner where the contact is wider
+constexpr double kTilting = 0.15; // [-] of a tool's size: a body turns by less than 1 rad in it
+constexpr double kFlat = 0.05;    // [rad] of tilt over which a flat end comes to stand on its rim
 
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
 struct Neighborhood
@@ -143,7 +143,9 @@ Part curvedPart(const Neighborhood& here, const Contact& contact) noexcept
     2.0 * share * (contact.curvatureSlope / curvature + wider);
   // an edge of facets that comes and goes within micrometers is not felt
   const double gradual = outside(here) / (1.0 + std::pow(smoothing * slope.norm() / kSudden, 4));
-  return { smoothStep(share), 6.0 * share * (1.0 - share) * gradual * slope };
+  // its root, as spreads grow with more than the square of how far an edge is within
+  const double root = std::sqrt(share);
+  return { smoothStep(root), 3.0 * (1.0 - root) * gradual * slope };
 }
 
 // How far the lowest point of a flat end is below its middle, over the tilt; with no corner where

@@ -84,7 +84,7 @@ class ClosedLoop : public testing::TestWithParam<LawMode>
 TEST_P(ClosedLoop, GivesNoEnergyOnACoarseBody)
 {
   for (const auto& [cells, bumps, worst] :
-    { std::tuple(5, 1.5_mm, 0.01), { 9, 0.5_mm, 0.005 }, { 20, 0.1_mm, 0.002 } })
+    { std::tuple(5, 1.5_mm, 0.02), { 9, 0.5_mm, 0.02 }, { 20, 0.1_mm, 0.002 } })
   {
     Scene scene;
     scene.surface =
