@@ -309,20 +309,18 @@ Eigen::Vector3d weightSlope(const Facet& facet, const Eigen::Vector3d& center, d
   const DiscIntegral& inside) noexcept
 {
   const auto& [a, b, c] = facet.corners;
-  const bool isWhole = std::max({ (a - center).squaredNorm(), (b - center).squaredNorm(),
-                         (c - center).squaredNorm() }) <= squaredRadius;
-  if (isWhole)
+  const auto isIn = [&](const auto& x) { return (x - center).squaredNorm() <= squaredRadius; };
+  if (isIn(a) && isIn(b) && isIn(c))
   {
     return 2.0 * inside.area * (kOneThird * (a + b + c) - center);
   }
-  const double height = facet.normal.dot(a - center);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k)
   {
     const Chord chord(facet, k, center, squaredRadius);
     sum += (chord.length() * squaredRadius - chord.squares()) * chord.side;
   }
-  return 2.0 * height * inside.area * facet.normal - sum.cross(facet.normal);
+  return 2.0 * inside.area * facet.normal.dot(a - center) * facet.normal - sum.cross(facet.normal);
 }
 
 // By Stokes's theorem, of the radial fields whose divergence is w and 1 and which vanish on the
