@@ -16,6 +16,7 @@ constexpr double kSmoothed = 0.63; // [-] of the contact's radius
 constexpr double kFewest = 1.8;    // [-] facet lengths; below 1.5 the facets come through
 constexpr double kMost = 6.5;      // [-] edge lengths
 constexpr double kRounded = 0.4; // [-] of the fewest: corners of that rule, whose slope is a force
+constexpr double kEnds = 0.2;    // [-] of the least and the most: the same of a tool without a nose
 
 } // namespace
 
@@ -43,10 +44,9 @@ Sloped BallRule::contactRadius(double height) const noexcept
     const double radius = std::sqrt(std::max(0.0, nose_ * nose_ - outside * outside));
     return { radius, radius > 0.0 ? -outside / radius : 0.0 };
   }
-  const double depth = std::abs(height);
-  const double radius = std::max(steepness_ * depth, least_);
-  const bool isInner = radius > least_ && radius < most_;
-  return { std::min(radius, most_), isInner ? std::copysign(steepness_, height) : 0.0 };
+  const Sloped steep{ steepness_ * std::abs(height), std::copysign(steepness_, height) };
+  const Sloped radius = smoothMax(steep, { least_ }, kEnds * least_);
+  return smoothMin(radius, { most_ }, kEnds * most_);
 }
 
 BallSize BallRule::operator()(double height) const noexcept

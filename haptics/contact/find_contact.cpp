@@ -23,9 +23,8 @@ constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a cl
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
-constexpr double kOut = 4.0;     // [-] 1 / contact sizes over the surface: all of a nose is outside
-constexpr double kSudden = 20.0; // [-] of a part of the curvature, over the contact's size
-constexpr double kFront = 0.1;   // [-] cosine over which the back of a sheet becomes its front
+constexpr double kOut = 4.0;   // [-] 1 / contact sizes over the surface: all of a nose is outside
+constexpr double kFront = 0.1; // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
 constexpr double kCorner = 0.4;   // [-] of the least reach: the corner where the contact is wider
 constexpr double kTilting = 0.15; // [-] of a tool's size: a body turns by less than 1 rad in it
@@ -118,34 +117,14 @@ Eigen::Vector3d shareSlope(const Patch& patch) noexcept
   return (length - (1.0 - spreadOf(patch)) * patch.slopes.weight) / patch.weight;
 }
 
-// A part of something, and how it changes as a place moves.
-struct Part
-{
-  double value = 1.0;
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // [1/m]
-};
-
 // Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
-// sphere's normals spread by at least twice as much as from where all of it counts.
-Part curvedPart(const Neighborhood& here, const Contact& contact) noexcept
+// sphere's normals spread by at least twice as much as from where all of it counts. How that
+// changes is not felt: an edge of facets comes and goes within micrometers.
+double curvedPart(const Patch& patch, double curvature, double smoothing) noexcept
 {
-  const auto [smoothing, growth] = here.size.smoothing;
-  const double curvature = contact.surfaceCurvature;
-  const double spread = std::max(0.0, spreadOf(here.patch));
+  const double spread = spreadOf(patch);
   const double ofSphere = curvature * curvature * smoothing * smoothing / 6.0;
-  if (!(2.0 * spread < ofSphere))
-  {
-    return {};
-  }
-  const double share = 2.0 * spread / ofSphere;
-  const Eigen::Vector3d wider = growth / smoothing * here.patch.normal.normalized();
-  const Eigen::Vector3d slope = -2.0 / ofSphere * shareSlope(here.patch) -
-    2.0 * share * (contact.curvatureSlope / curvature + wider);
-  // an edge of facets that comes and goes within micrometers is not felt
-  const double gradual = outside(here) / (1.0 + std::pow(smoothing * slope.norm() / kSudden, 4));
-  // its root, as spreads grow with more than the square of how far an edge is within
-  const double root = std::sqrt(share);
-  return { smoothStep(root), 3.0 * (1.0 - root) * gradual * slope };
+  return 2.0 * spread < ofSphere ? smoothStep(std::max(0.0, 2.0 * spread / ofSphere)) : 1.0;
 }
 
 // How far the lowest point of a flat end is below its middle, over the tilt; with no corner where
@@ -242,10 +221,10 @@ Contact exactContact(
   const HeightOver heightOver(here->patch, rule, here->distance, here->size, here->away);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   measureShape(contact, surface, tip, pose, rule, *here, flat, of);
-  const Part curved = curvedPart(*here, contact);
-  contact.curvedPart = curved.value;
-  const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
-    curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);
+  contact.curvedPart =
+    curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
+  const Height height = heightOver(flat.value, contact.curvedPart * contact.surfaceCurvature,
+    contact.curvedPart * contact.curvatureSlope);
   contact.relief = height.value - here->distance;
   const Eigen::Vector3d upward = height.slope.normalized();
   const double facing = -pose.axis.dot(upward);

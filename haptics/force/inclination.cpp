@@ -14,11 +14,12 @@ namespace
 
 using namespace units::literals;
 
-// F / F upright of a cone of 45 degrees; slopes [1/rad] from the parabola through neighbors
+// F / F upright of a cone of 45 degrees; slopes [1/rad] from the parabola through neighbors. Beyond
+// 30 degrees it levels off, as nothing was compared there.
 constexpr std::array kTilts{ 0.0, 3.0_deg, 6.0_deg, 9.0_deg, 12.0_deg, 15.0_deg, 20.0_deg, 25.0_deg,
-  30.0_deg };
+  30.0_deg, 40.0_deg };
 constexpr std::array kForces{ 1.0, 1.00465, 1.01936, 1.04452, 1.08136, 1.13222, 1.25745, 1.44984,
-  1.71525 };
+  1.71525, 2.0 };
 
 // tilt at which the force is 7 % higher, at half angles of 30, 45 and 60 degrees
 constexpr double kNarrow = 12.8_deg;
@@ -27,13 +28,9 @@ constexpr double kWide = 7.9_deg;
 
 constexpr double slopeAt(std::size_t i) noexcept
 {
-  if (i == 0)
+  if (i == 0 || i + 1 == kTilts.size())
   {
-    return 0.0; // tilting either way is the same
-  }
-  if (i + 1 == kTilts.size())
-  {
-    return (kForces[i] - kForces[i - 1]) / (kTilts[i] - kTilts[i - 1]);
+    return 0.0; // tilting either way is the same, and nothing jumps where it is level
   }
   const double before = kTilts[i] - kTilts[i - 1];
   const double after = kTilts[i + 1] - kTilts[i];

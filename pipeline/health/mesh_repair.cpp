@@ -33,6 +33,23 @@ std::size_t turnAlike(RepairedMesh& mesh)
   return count;
 }
 
+// what is a part of another piece, as it is left out where the file is pressed
+void dropInner(RepairedMesh& mesh)
+{
+  const Facing facing =
+    facingOf(mesh.points, mesh.triangles, edgesOf(mesh.points.size(), mesh.triangles));
+  if (facing.inner == 0)
+  {
+    return;
+  }
+  std::size_t i = 0;
+  mesh.removed +=
+    std::erase_if(mesh.triangles, [&](const Triangle&) { return facing.within[i++]; });
+  MergedMesh rest = mergedMesh(mesh.points, mesh.triangles);
+  mesh.points = std::move(rest.points);
+  mesh.triangles = std::move(rest.triangles);
+}
+
 // Where bodies of one closed surface touch or overlap, what has the body on both sides bounds
 // nothing. It goes where the rest is closed: else the walls cross, which stays and is told.
 void dropBuried(MergedMesh& mesh)
@@ -75,6 +92,7 @@ RepairedMesh repairedMesh(
   result.merged = points.size() - result.points.size();
   result.removed = triangles.size() - result.triangles.size();
   result.turned = turnAlike(result);
+  dropInner(result);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
   const auto [slivers, sliversLeft] = removeSlivers(result.points, result.triangles);
   const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);

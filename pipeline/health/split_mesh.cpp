@@ -61,6 +61,16 @@ void joinWedges(std::span<const Eigen::Vector3d> points, std::span<const Triangl
   }
 }
 
+// Without the triangles of one side of the body alone, where the others make pairs: a fin stands on
+// a surface that is whole without it.
+std::vector<Side> withoutFins(std::vector<Side> sides, const std::vector<bool>& isOpen)
+{
+  std::vector<Side> paired;
+  std::ranges::copy_if(sides, std::back_inserter(paired),
+    [&](const Side& side) { return !isOpen[at(side.triangle)]; });
+  return !paired.empty() && paired.size() % 2 == 0 ? paired : sides;
+}
+
 // cuts a triangle off all others
 void isolate(int triangle, Edges& edges)
 {
@@ -233,9 +243,18 @@ SplitPoints splitNonManifold(std::vector<Eigen::Vector3d>& points, std::vector<T
   Parting parting{ points, triangles, std::vector<int>(given) };
   std::iota(parting.origin.begin(), parting.origin.end(), 0);
   Edges edges = edgesOf(given, triangles);
-  for (const std::vector<Side>& sides : unpairedSides(triangles, edges))
+  const std::vector<std::vector<Side>> unpaired = unpairedSides(triangles, edges);
+  std::vector<bool> isOpen(triangles.size()); // a triangle with a side of its own
+  for (const std::vector<Side>& sides : unpaired)
   {
-    sides.size() > 1 ? joinWedges(points, triangles, sides, edges) : void();
+    isOpen[at(sides.front().triangle)] = isOpen[at(sides.front().triangle)] || sides.size() == 1;
+  }
+  for (const std::vector<Side>& sides : unpaired)
+  {
+    if (sides.size() > 1)
+    {
+      joinWedges(points, triangles, withoutFins(sides, isOpen), edges);
+    }
   }
   partFans(parting, edges);
   // what hangs together around both ends of such an edge can only be torn

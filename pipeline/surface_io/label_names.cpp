@@ -28,7 +28,9 @@ constexpr std::string_view kValueColumn = "LabelValue";
 
 std::vector<LabelName> namesInJson(const std::filesystem::path& file, const std::string& text)
 {
-  const nlohmann::json table = nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json whole = nlohmann::json::parse(text, nullptr, false);
+  const bool isDataset = whole.is_object() && whole.contains("labels"); // of nnU-Net
+  const nlohmann::json& table = isDataset ? whole["labels"] : whole;
   if (!table.is_object())
   {
     refuse(file, R"(not JSON of values and names; write it as {"5": "liver"})");
@@ -196,6 +198,22 @@ std::string tableIn(const std::filesystem::path& file)
   return inUtf8(readText(file, "the table of names"));
 }
 
+// of two names for one value either would be wrong
+void checkOnce(const std::filesystem::path& file, const std::vector<LabelName>& names)
+{
+  std::map<double, std::string> known;
+  for (const LabelName& one : names)
+  {
+    if (const auto [before, isNew] = known.emplace(one.value, one.name);
+        !isNew && before->second != one.name)
+    {
+      refuse(file,
+        "its value " + shortest(one.value) + " is both " + inQuotes(before->second) + " and " +
+          inQuotes(one.name) + "; leave one of them out");
+    }
+  }
+}
+
 bool isJson(const std::string& text)
 {
   return trimmed(text).starts_with('{');
@@ -206,15 +224,12 @@ bool isJson(const std::string& text)
 std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
 {
   const std::string text = tableIn(file);
-  if (isJson(text))
-  {
-    return namesInJson(file, text);
-  }
-  std::vector<LabelName> names;
-  for (NamedColor& one : labelsIn(file, text))
+  std::vector<LabelName> names = isJson(text) ? namesInJson(file, text) : std::vector<LabelName>();
+  for (NamedColor& one : isJson(text) ? std::vector<NamedColor>() : labelsIn(file, text))
   {
     names.push_back(std::move(one.label));
   }
+  checkOnce(file, names);
   return names;
 }
 

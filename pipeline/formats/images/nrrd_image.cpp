@@ -87,6 +87,10 @@ Sizes sizesOf(const std::filesystem::path& file, const NrrdFields& fields)
   }
   const std::string directions = fieldOf(fields, "space directions");
   const bool isLayered = sizes.size() == 4 && directions.starts_with("none");
+  if (sizes.size() == 4 && directions.ends_with("none"))
+  {
+    refuse(file, "its layers come behind the axes of space; save it with their axis first");
+  }
   if (sizes.size() != 3 && !isLayered)
   {
     refuse(file,

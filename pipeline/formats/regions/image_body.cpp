@@ -246,6 +246,15 @@ FileOrgan bodyOf(
     static_cast<double>(voxels) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
   ImageContour contour =
     imageContour(*region.image, region.level, region.mask ? size : 0.0, components, region.notes);
+  if (const double least =
+        (kFewest - 0.5) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
+      region.mask && std::abs(contour.enclosed) < least)
+  {
+    refuseImage(name,
+      "what hangs together of it has less than eight voxels, too few for a surface; give a label "
+      "of "
+      "whole bodies");
+  }
   if (isAround != region.below)
   {
     region.notes.emplace_back(

@@ -63,7 +63,24 @@ TEST(TiltFactor, RisesAndStaysBeyondTheTable)
     EXPECT_GE(tiltFactor(cone, tilt), previous);
     previous = tiltFactor(cone, tilt);
   }
-  EXPECT_DOUBLE_EQ(previous, 1.71525);
+  EXPECT_DOUBLE_EQ(previous, 2.0);
+}
+
+// its slope is a force along the surface, also where the table ends
+TEST(TiltFactor, HasNoCorner)
+{
+  constexpr double kStep = 0.05_deg;
+  for (const double halfAngle : { 30.0_deg, 45.0_deg, 60.0_deg })
+  {
+    const ConeTip cone{ halfAngle, 10.0_mm };
+    double before = 0.0;
+    for (double tilt = 0.0; tilt < 60.0_deg; tilt += kStep)
+    {
+      const double slope = (tiltFactor(cone, tilt + kStep) - tiltFactor(cone, tilt)) / kStep;
+      EXPECT_NEAR(slope, before, 0.05) << tilt;
+      before = slope;
+    }
+  }
 }
 
 } // namespace

@@ -29,7 +29,8 @@ TEST_F(LabelNames, AreReadAsProgramsWriteThem)
       "0,Background,0,0,0,0,SCT\r\n1,Liver,221,130,101,255,SCT\n\n5,,1,2,3\n"
       "40,\"portal vein\",0,151,206,255,SCT\n",
       R"({"0": "Background", "1": "Liver", "40": "portal vein"})",
-      R"({"Background": 0, "Liver": 1, "portal vein": 40})" })
+      R"({"Background": 0, "Liver": 1, "portal vein": 40})",
+      R"({"name": "x", "labels": {"Background": 0, "Liver": 1, "portal vein": 40}})" })
   {
     const std::vector<LabelName> names = readLabelNames(table(text));
     ASSERT_EQ(names.size(), 3U) << text;
@@ -75,6 +76,7 @@ TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)
     { std::pair("1 liver 0 0 0 0\nliver 2\n", "names:2: 'liver 2' is no label"),
       { "LabelValue,Name\n1,liver\nx,spleen\n", "names:3: 'x' is no value of a label" },
       { "1 255 0 0\n", "names:1: '1 255 0 0' is no label" },
+      { "1 liver 0 0 0 0\n2 lobe\n1 spleen\n", "its value 1 is both 'liver' and 'spleen'" },
       { "{\"1\": [2]}", "'1' is no value with a name" },
       { "{\"1\": ", "not JSON of values and names" } })
   {
