@@ -69,7 +69,7 @@ TEST(TiltFactor, RisesAndStaysBeyondTheTable)
 // its slope is a force along the surface, also where the table ends
 TEST(TiltFactor, HasNoCorner)
 {
-  constexpr double kStep = 0.05_deg;
+  constexpr double kStep = 0.01_deg;
   for (const double halfAngle : { 30.0_deg, 45.0_deg, 60.0_deg })
   {
     const ConeTip cone{ halfAngle, 10.0_mm };
