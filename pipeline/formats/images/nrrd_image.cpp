@@ -87,16 +87,13 @@ Sizes sizesOf(const std::filesystem::path& file, const NrrdFields& fields)
   }
   const std::string directions = fieldOf(fields, "space directions");
   const bool isLayered = sizes.size() == 4 && directions.starts_with("none");
-  if (sizes.size() == 4 && directions.ends_with("none"))
-  {
-    refuse(file, "its layers come behind the axes of space; save it with their axis first");
-  }
   if (sizes.size() != 3 && !isLayered)
   {
     refuse(file,
       "an image of " + axes +
-        " axes, not of three, as over time or of colors; save one volume of it, of one value at "
-        "each voxel, as a file of its own");
+        " axes, not of three, as over time, of colors, or of layers behind those of space; save "
+        "one "
+        "volume of it, of one value at each voxel, as a file of its own");
   }
   constexpr double most = 100'000;
   if (!std::ranges::all_of(
