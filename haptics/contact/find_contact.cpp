@@ -33,8 +33,7 @@ constexpr double kFlat = 0.05;    // [rad] of tilt over which a flat end comes t
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
 struct Neighborhood
 {
-  double distance;      // of the nearest point [m], negative inside the body
-  Eigen::Vector3d away; // how that changes as the place moves: of length 1 [-]
+  double distance; // of the nearest point [m], negative inside the body
   BallSize size;
   PatchBall ball;
   Patch patch;
@@ -59,14 +58,13 @@ Sloped turningOf(double distance, const Sloped& smoothing) noexcept
               : -side * smoothing.slope / squared };
 }
 
-// @param from  the nearest point to the position, whatever side it is on [m]
+// @param apart  from the nearest point, whatever side it is on [m]
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
-  double distance, const Eigen::Vector3d& from) noexcept
+  double distance, double apart) noexcept
 {
   const BallSize size = rule(distance);
   const Sloped turning = turningOf(distance, size.smoothing);
   const PatchBall ball{ position, std::sqrt(size.squared.value), turning.value };
-  const double apart = from.norm();
   const double inside =
     surface.closed() ? (distance < 0.0 ? 1.0 : 0.0) : smoothStep(0.5 - 0.5 * distance / apart);
   Patch patch = patchWithin(surface, ball, inside);
@@ -79,13 +77,7 @@ Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vec
     (size.squared.slope * patch.area + turning.slope * turns.normal) * away.transpose();
   patch.slopes.weight +=
     (size.squared.slope * patch.slopes.area + turning.slope * turns.weight) * away;
-  return { distance, away, size, ball, patch };
-}
-
-// how far the center of a tool's nose is outside the body [-]
-double outside(const Neighborhood& here) noexcept
-{
-  return std::clamp(kOut * here.distance / here.size.smoothing.value, 0.0, 1.0);
+  return { distance, size, ball, patch };
 }
 
 // of the normals about their mean: what that is shorter than they
@@ -189,18 +181,18 @@ std::optional<Neighborhood> lookBelow(
     position += raised * unitNormal(surface.points(), surface.triangles()[triangle]);
     nearest.distance = off;
   }
-  const Eigen::Vector3d from = position - nearest.point;
-  Neighborhood here = look(surface, rule, position, nearest.distance, from);
-  if (!surface.crossing() && isOrientationFlipped(here, from))
+  const double apart = (position - nearest.point).norm();
+  Neighborhood here = look(surface, rule, position, nearest.distance, apart);
+  if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
   {
-    here = look(surface, rule, position, -nearest.distance, from);
+    here = look(surface, rule, position, -nearest.distance, apart);
     if (here.distance >= reach)
     {
       return {};
     }
   }
   here.triangle = nearest.triangle;
-  here.apart = from.norm();
+  here.apart = apart;
   here.raised = raised;
   return here;
 }
@@ -218,7 +210,7 @@ Contact exactContact(
   const double share = 1.0 - spreadOf(here->patch);
   Contact contact;
   contact.normalSpread = std::acos(std::min(1.0, share));
-  const HeightOver heightOver(here->patch, rule, here->distance, here->size, here->away);
+  const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
   measureShape(contact, surface, tip, pose, rule, *here, flat, of);
   contact.curvedPart =
@@ -241,7 +233,8 @@ Contact exactContact(
   Eigen::Vector3d outward = part.value * height.slope;
   if (part.slope > 0.0) // of a center in the body it would push the tool out through a thin one
   {
-    outward -= outside(*here) * part.slope * depth * shareSlope(here->patch);
+    const double out = std::clamp(kOut * here->distance / here->size.smoothing.value, 0.0, 1.0);
+    outward -= out * part.slope * depth * shareSlope(here->patch);
   }
   contact.center = position - height.value * outward.normalized();
   outward -= part.value * rim.slope * contact.tiltSlope;

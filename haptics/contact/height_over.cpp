@@ -42,15 +42,15 @@ Leveled leveled(double curvature, double ball) noexcept
 
 } // namespace
 
-HeightOver::HeightOver(const Patch& patch, const BallRule& rule, double nearest,
-  const BallSize& given, const Eigen::Vector3d& away) noexcept
+HeightOver::HeightOver(
+  const Patch& patch, const BallRule& rule, double nearest, const BallSize& given) noexcept
   : patch_(&patch)
   , rule_(&rule)
   , nearest_(nearest)
   , smoothing_(given.smoothing.value)
   , given_(given.squared.value)
   , ball_(std::sqrt(given_))
-  , ballSlope_(0.5 * given.squared.slope / ball_ * away)
+  , ballSlope_(0.5 * given.squared.slope / ball_ * patch.normal.normalized())
   , part_(smoothStep((1.0 - nearest * nearest / given_ - kSmallest) / (kSmall - kSmallest)))
   , moment_(std::clamp(patch.moment, 0.0, 8.0 * std::numbers::pi / 15.0 * given_ * given_ * ball_))
 {

@@ -27,9 +27,8 @@ public:
   /// @param patch    within that ball; outlives this object, as rule does
   /// @param nearest  signed distance of the nearest point [m]
   /// @param given    the ball that belongs to it by the rule
-  /// @param away     how that distance changes as the center moves: of length 1 [-]
-  HeightOver(const Patch& patch, const BallRule& rule, double nearest, const BallSize& given,
-    const Eigen::Vector3d& away) noexcept;
+  HeightOver(
+    const Patch& patch, const BallRule& rule, double nearest, const BallSize& given) noexcept;
 
   /// @param start           a height that is near, as of another curvature [m]
   /// @param curvature       of the smooth body [1/m], convex positive

@@ -26,7 +26,13 @@ constexpr std::string_view kValueColumn = "LabelValue";
   throw Error(ErrorCode::BadFile, file.string() + ": " + what);
 }
 
-std::vector<LabelName> namesInJson(const std::filesystem::path& file, const std::string& text)
+struct NamedColor
+{
+  LabelName label;
+  std::string color; // empty: there is none
+};
+
+std::vector<NamedColor> namesInJson(const std::filesystem::path& file, const std::string& text)
 {
   const nlohmann::json whole = nlohmann::json::parse(text, nullptr, false);
   const bool isDataset = whole.is_object() && whole.contains("labels"); // of nnU-Net
@@ -35,17 +41,17 @@ std::vector<LabelName> namesInJson(const std::filesystem::path& file, const std:
   {
     refuse(file, R"(not JSON of values and names; write it as {"5": "liver"})");
   }
-  std::vector<LabelName> names;
+  std::vector<NamedColor> names;
   for (const auto& [key, entry] : table.items())
   {
     const std::optional<double> value = csvNumber(key);
     if (value && entry.is_string())
     {
-      names.push_back({ .value = *value, .name = entry.get<std::string>() });
+      names.push_back({ { .value = *value, .name = entry.get<std::string>() }, {} });
     }
     else if (!value && entry.is_number())
     {
-      names.push_back({ .value = entry.get<double>(), .name = key });
+      names.push_back({ { .value = entry.get<double>(), .name = key }, {} });
     }
     else
     {
@@ -66,12 +72,6 @@ std::string_view withoutNumbers(std::string_view text)
   }
   return text;
 }
-
-struct NamedColor
-{
-  LabelName label;
-  std::string color; // empty: there is none
-};
 
 // of the first three of some numbers, red, green and blue
 std::string colorOf(std::string_view numbers)
@@ -193,11 +193,6 @@ std::string inUtf8(const std::string& text)
   }
 }
 
-std::string tableIn(const std::filesystem::path& file)
-{
-  return inUtf8(readText(file, "the table of names"));
-}
-
 // of two names for one value either would be wrong
 void checkOnce(const std::filesystem::path& file, const std::vector<LabelName>& names)
 {
@@ -214,18 +209,18 @@ void checkOnce(const std::filesystem::path& file, const std::vector<LabelName>& 
   }
 }
 
-bool isJson(const std::string& text)
+std::vector<NamedColor> tableIn(const std::filesystem::path& file)
 {
-  return trimmed(text).starts_with('{');
+  const std::string text = inUtf8(readText(file, "the table of names"));
+  return trimmed(text).starts_with('{') ? namesInJson(file, text) : labelsIn(file, text);
 }
 
 } // namespace
 
 std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
 {
-  const std::string text = tableIn(file);
-  std::vector<LabelName> names = isJson(text) ? namesInJson(file, text) : std::vector<LabelName>();
-  for (NamedColor& one : isJson(text) ? std::vector<NamedColor>() : labelsIn(file, text))
+  std::vector<LabelName> names;
+  for (NamedColor& one : tableIn(file))
   {
     names.push_back(std::move(one.label));
   }
@@ -236,8 +231,7 @@ std::vector<LabelName> readLabelNames(const std::filesystem::path& file)
 std::map<double, std::string> readLabelColors(const std::filesystem::path& file)
 {
   std::map<double, std::string> colors;
-  const std::string text = tableIn(file);
-  for (const NamedColor& one : isJson(text) ? std::vector<NamedColor>() : labelsIn(file, text))
+  for (const NamedColor& one : tableIn(file))
   {
     one.color.empty() ? void() : void(colors.emplace(one.label.value, one.color));
   }

@@ -92,8 +92,7 @@ Sizes sizesOf(const std::filesystem::path& file, const NrrdFields& fields)
     refuse(file,
       "an image of " + axes +
         " axes, not of three, as over time, of colors, or of layers behind those of space; save "
-        "one "
-        "volume of it, of one value at each voxel, as a file of its own");
+        "one volume of it, of one value at each voxel, as a file of its own");
   }
   constexpr double most = 100'000;
   if (!std::ranges::all_of(

@@ -1,6 +1,5 @@
 #include "pipeline/formats/regions/image_contour.h"
 
-#include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/edges.h"
 #include "pipeline/formats/regions/contour_pieces.h"
 #include "pipeline/formats/regions/image_grids.h"

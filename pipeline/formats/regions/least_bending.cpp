@@ -1,7 +1,5 @@
 #include "pipeline/formats/regions/least_bending.h"
 
-#include "haptics/surface/area_and_volume.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
