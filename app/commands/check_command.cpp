@@ -231,6 +231,7 @@ std::string doneIn(const RepairedMesh& repaired)
   { line += count > 0 ? (line.empty() ? "" : ", ") + counted(count, what, many) + done : ""; };
   add(repaired.merged, "point", "points", " merged or left out");
   add(repaired.removed, "triangle", "triangles", " removed");
+  add(repaired.cut, "triangle", "triangles", " added where points lay on edges of others");
   add(repaired.split, "point", "points", " added where parts met");
   add(repaired.slivers, "sliver", "slivers", " removed");
   add(repaired.filled, "hole", "holes", " closed");

@@ -5,6 +5,7 @@
 #include "pipeline/health/fill_holes.h"
 #include "pipeline/health/slivers.h"
 #include "pipeline/health/split_mesh.h"
+#include "pipeline/health/t_junctions.h"
 #include "pipeline/health/weld_seams.h"
 #include "pipeline/model/merged_mesh.h"
 #include "pipeline/surface_io/surface_facing.h"
@@ -83,6 +84,7 @@ RepairedMesh repairedMesh(
   {
     merged = mergedMesh(merged.points, merged.triangles);
   }
+  const std::size_t cut = cutAtTJunctions(merged.points, merged.triangles);
   dropBuried(merged);
   const std::vector<bool> repeated = repeatedTriangles(merged.triangles);
   std::size_t i = 0;
@@ -90,7 +92,8 @@ RepairedMesh repairedMesh(
   RepairedMesh result{ .points = std::move(merged.points),
     .triangles = std::move(merged.triangles) };
   result.merged = points.size() - result.points.size();
-  result.removed = triangles.size() - result.triangles.size();
+  result.cut = cut;
+  result.removed = triangles.size() + cut - result.triangles.size();
   result.turned = turnAlike(result);
   dropInner(result);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);

@@ -18,6 +18,7 @@ struct RepairedMesh
   std::size_t removed = 0;     ///< triangles without three corners, there twice, or within the body
   std::size_t slivers = 0;     ///< collapsed, or flipped into others
   std::size_t split = 0;       ///< points made of those where parts met, not as a manifold
+  std::size_t cut = 0;         ///< triangles more, where points of others lay on their edges
   std::size_t filled = 0;      ///< holes
   std::size_t turned = 0;      ///< triangles
   std::size_t splitLeft = 0;   ///< points where parts still meet, which cannot move apart without
@@ -26,9 +27,9 @@ struct RepairedMesh
   std::size_t holesLeft = 0;   ///< that cannot be closed without passing through it
 };
 
-/// Merges points, welds seams, removes degenerate and duplicate triangles, slivers, and what bodies
-/// that touch have between them, parts what meets in a non-manifold edge or point, closes small
-/// holes, and turns triangles alike.
+/// Merges points, welds seams, cuts triangles at points of others on their edges, removes
+/// degenerate and duplicate triangles, slivers, and what bodies that touch have between them, parts
+/// what meets in a non-manifold edge or point, closes small holes, and turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
 /// a thousandth of an edge, so that it stays apart in every file. Nothing is done by which a

@@ -61,13 +61,21 @@ void joinWedges(std::span<const Eigen::Vector3d> points, std::span<const Triangl
   }
 }
 
-// Without the triangles of one side of the body alone, where the others make pairs: a fin stands on
-// a surface that is whole without it.
-std::vector<Side> withoutFins(std::vector<Side> sides, const std::vector<bool>& isOpen)
+// Without fins: what stands on a surface by one side and ends openly elsewhere, where the rest is
+// whole without it.
+// @param pieceOf  of each triangle
+// @param isOpen   of each piece
+std::vector<Side> withoutFins(
+  std::vector<Side> sides, const std::vector<int>& pieceOf, const std::vector<bool>& isOpen)
 {
+  const auto isFin = [&](const Side& side)
+  {
+    const int piece = pieceOf[at(side.triangle)];
+    const auto isOfIt = [&](const Side& other) { return pieceOf[at(other.triangle)] == piece; };
+    return isOpen[at(piece)] && std::ranges::count_if(sides, isOfIt) == 1;
+  };
   std::vector<Side> paired;
-  std::ranges::copy_if(sides, std::back_inserter(paired),
-    [&](const Side& side) { return !isOpen[at(side.triangle)]; });
+  std::ranges::remove_copy_if(sides, std::back_inserter(paired), isFin);
   return !paired.empty() && paired.size() % 2 == 0 ? paired : sides;
 }
 
@@ -244,16 +252,17 @@ SplitPoints splitNonManifold(std::vector<Eigen::Vector3d>& points, std::vector<T
   std::iota(parting.origin.begin(), parting.origin.end(), 0);
   Edges edges = edgesOf(given, triangles);
   const std::vector<std::vector<Side>> unpaired = unpairedSides(triangles, edges);
-  std::vector<bool> isOpen(triangles.size()); // a triangle with a side of its own
+  const std::vector<int> pieceOf = piecesOf(edges.across);
+  std::vector<bool> isOpen(triangles.size()); // of each piece, which are no more
   for (const std::vector<Side>& sides : unpaired)
   {
-    isOpen[at(sides.front().triangle)] = isOpen[at(sides.front().triangle)] || sides.size() == 1;
+    sides.size() == 1 ? void(isOpen[at(pieceOf[at(sides.front().triangle)])] = true) : void();
   }
   for (const std::vector<Side>& sides : unpaired)
   {
     if (sides.size() > 1)
     {
-      joinWedges(points, triangles, withoutFins(sides, isOpen), edges);
+      joinWedges(points, triangles, withoutFins(sides, pieceOf, isOpen), edges);
     }
   }
   partFans(parting, edges);

@@ -120,6 +120,25 @@ std::string labelsInWords(const std::vector<Label>& labels, const PatientImage& 
                           : "all its voxels are 0";
 }
 
+std::string emptyInWords(const PatientImage& volume, const std::vector<Label>& labels)
+{
+  constexpr std::size_t kMost = 5;
+  std::size_t count = 0;
+  std::string names;
+  for (const Segment& segment : volume.segments)
+  {
+    const auto isIt = [&](const Label& label)
+    { return label.segment.layer == segment.layer && label.segment.value == segment.value; };
+    if (std::ranges::none_of(labels, isIt))
+    {
+      names +=
+        ++count > kMost ? "" : (names.empty() ? "" : ", ") + inQuotes(shownName(segment.name));
+    }
+  }
+  names += count > kMost ? " and " + std::to_string(count - kMost) + " more" : "";
+  return count == 0 ? "" : counted(count, "segment has", "segments have") + " no voxel: " + names;
+}
+
 std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name)
 {
@@ -136,9 +155,10 @@ std::vector<Label> chosenLabels(const std::vector<Label>& labels,
     const auto count = std::ranges::count_if(labels, isMeant);
     if (count != 1)
     {
+      const std::string empty = emptyInWords(volume, labels);
       throw Error(ErrorCode::BadMesh,
         name + ": " + (count == 0 ? "no" : "more than one") + " label " + printable(word) +
-          " in it; " + labelsInWords(labels, volume));
+          " in it; " + labelsInWords(labels, volume) + (empty.empty() ? "" : "; " + empty));
     }
     const Label& label = *std::ranges::find_if(labels, isMeant);
     const auto isIt = [&](const Label& one)

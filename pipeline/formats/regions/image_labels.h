@@ -35,6 +35,10 @@ struct Label
 [[nodiscard]] std::string labelsInWords(
   const std::vector<Label>& labels, const PatientImage& volume);
 
+/// For people: which segments of the file none of the labels is of; empty: there are none.
+[[nodiscard]] std::string emptyInWords(
+  const PatientImage& volume, const std::vector<Label>& labels);
+
 /// Volume of a voxel [unit^3].
 [[nodiscard]] double voxelVolume(const PatientImage& volume);
 

@@ -166,8 +166,12 @@ FileOrgans imageOrgans(
     return all;
   }
   checkNumbers(values, name);
-  for (const LabelGroup& labels :
-    wantedLabels(volume, labelsOf(volume, values), part, isList, name, all.notes))
+  const std::vector<Label> known = labelsOf(volume, values);
+  if (const std::string empty = emptyInWords(volume, known); part.labels.empty() && !empty.empty())
+  {
+    all.notes.push_back(empty);
+  }
+  for (const LabelGroup& labels : wantedLabels(volume, known, part, isList, name, all.notes))
   {
     all.organs.push_back(
       isList ? listed(labels, volume) : organOf(labels, volume, part.components, name));

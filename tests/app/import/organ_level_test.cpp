@@ -1,4 +1,5 @@
 #include "app/import/organ_level.h"
+#include "app/import/organ_look.h"
 
 #include <gtest/gtest.h>
 #include <set>
@@ -35,6 +36,30 @@ TEST(NameFiles, GivesNoneTheNameOfTheCoarserLevelOfAnother)
     {
       EXPECT_TRUE(shown.insert(organ.name).second) << organ.name;
     }
+  }
+}
+
+// names of TotalSegmentator, 3D Slicer and of people
+TEST(LookOf, IsByAWordNotByAPartOfOne)
+{
+  const std::vector<std::pair<const char*, const char*>> tissues = { { "liver", "healthy_liver" },
+    { "Liver 2", "healthy_liver" }, { "LIVER", "healthy_liver" }, { "liver_tumor", "hcc" },
+    { "LiverTumors", "hcc" }, { "subcutaneous_fat", "fat" }, { "HCC lesion", "hcc" },
+    { "torso fat", "fat" }, { "delivery tube", "" }, { "sulfate", "" }, { "Father", "" },
+    { "moleskin", "" }, { "antibody", "" }, { "kidney_cyst_left", "" }, { "", "" },
+    { "\xc3\xa9 liver", "healthy_liver" } };
+  for (const auto& [name, tissue] : tissues)
+  {
+    const char* const found = lookOf(name).tissue;
+    EXPECT_STREQ(found == nullptr ? "" : found, tissue) << name;
+  }
+  for (const char* bone : { "vertebrae_L1", "ribs", "rib_left_12", "Bones", "femur_right" })
+  {
+    EXPECT_STREQ(lookOf(bone).role, "show") << bone;
+  }
+  for (const char* organ : { "fibrib", "trombone", "ovein" })
+  {
+    EXPECT_STREQ(lookOf(organ).role, "press") << organ;
   }
 }
 

@@ -268,6 +268,22 @@ TEST_F(Images, LayersOfAnNrrdAreTakenByTheirNames)
     std::string::npos);
 }
 
+TEST_F(Images, SegmentsWithoutAVoxelAreTold)
+{
+  const Vector3d middle = kGrids[0].axes * Vector3d(19, 21, 23) + kGrids[0].origin;
+  const auto file = write("empty.seg.nrrd",
+    nrrd(kGrids[0], { { middle, 30.0, "Liver", 0, 1 }, { middle, 0.0, "Cyst", 0, 2 } }, {}));
+  const std::string words = "1 segment has no voxel: 'Cyst'";
+  const FileOrgans found = readFileOrgans(file, {}, true);
+  EXPECT_EQ(std::ranges::count(found.notes, words), 1);
+  EXPECT_EQ(found.organs.size(), 1U);
+  const FileOrgans one = readFileOrgans(file, { {}, { "Liver" } }, true);
+  EXPECT_EQ(std::ranges::count(one.notes, words), 0) << "nobody asked";
+  const std::string why = refusal(file, { {}, { "Cyst" } });
+  EXPECT_NE(why.find("no label Cyst in it"), std::string::npos) << why;
+  EXPECT_NE(why.find(words), std::string::npos) << why;
+}
+
 // as teem writes a line break and a backslash in a key's value
 TEST_F(Images, TheNameOfASegmentOfAnNrrdMayHaveEscapes)
 {

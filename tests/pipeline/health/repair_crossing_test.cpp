@@ -269,27 +269,6 @@ TEST(MeshRepair, LeavesAHoleThatCannotBeClosedWithoutCrossing)
   EXPECT_EQ(left.holesLeft, 1U);
 }
 
-TEST(MeshRepair, LeavesABodyWholeWhereFinsStandOnIt)
-{
-  Mesh mesh = makeSphere(0.03, 3);
-  const MeshPiece whole = palp::healthOf(mesh.points, mesh.triangles).pieces.at(0);
-  const auto middle = static_cast<int>(mesh.points.size());
-  mesh.points.emplace_back(0.0, 0.0, 0.0);
-  mesh.points.emplace_back(0.06, 0.07, 0.08);
-  for (const auto& [triangle, tip] : { std::pair(0, 0), { 200, 0 }, { 400, 1 }, { 600, 1 } })
-  {
-    const auto [a, b, c] = mesh.triangles[at(triangle)];
-    mesh.triangles.push_back(
-      triangle % 400 == 0 ? Triangle{ a, b, middle + tip } : Triangle{ b, a, middle + tip });
-  }
-  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
-  const std::vector<MeshPiece> pieces = palp::healthOf(mended.points, mended.triangles).pieces;
-  const auto body = std::ranges::max_element(pieces, {}, &MeshPiece::triangles);
-  EXPECT_EQ(body->triangles, whole.triangles);
-  EXPECT_TRUE(body->closed);
-  EXPECT_NEAR(body->volume, whole.volume, 1e-4 * whole.volume);
-}
-
 // as it is where the file is pressed
 TEST(MeshRepair, LeavesOutAPieceThatIsAPartOfAnother)
 {

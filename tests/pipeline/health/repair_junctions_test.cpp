@@ -1,0 +1,172 @@
+// What meets at an edge that is not of two triangles: points of others on it, and fins.
+
+#include "pipeline/health/mesh_health.h"
+#include "pipeline/health/mesh_repair.h"
+#include "tests/pipeline/health/faulty_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+// divides a triangle at points of its own within its sides, their neighbors not knowing
+void divide(Mesh& mesh, std::size_t triangle, const std::array<int, 3>& counts)
+{
+  const Triangle whole = mesh.triangles[triangle];
+  const auto add = [&](const Vector3d& x)
+  {
+    mesh.points.push_back(x);
+    return static_cast<int>(mesh.points.size()) - 1;
+  };
+  const auto point = [&](std::size_t k) { return mesh.points[at(whole[k % 3])]; };
+  std::vector<int> around;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    around.push_back(whole[k]);
+    for (int i = 1; i <= counts[k]; ++i)
+    {
+      const double share = static_cast<double>(i) / (counts[k] + 0.7);
+      around.push_back(add((1.0 - share) * point(k) + share * point(k + 1)));
+    }
+  }
+  const int middle = add((point(0) + point(1) + point(2)) / 3.0);
+  for (std::size_t i = 0; i < around.size(); ++i)
+  {
+    const Triangle part{ around[i], around[(i + 1) % around.size()], middle };
+    i == 0 ? void(mesh.triangles[triangle] = part) : mesh.triangles.push_back(part);
+  }
+}
+
+TEST(MeshRepair, CutsTrianglesAtPointsOfOthersOnTheirEdges)
+{
+  for (const Mesh& body : { cube(), makeBox({ 0.3, 0.1, 0.05 }, 0.02), makeSphere(0.03, 2) })
+  {
+    Mesh mesh = body;
+    divide(mesh, 0, { 1, 2, 3 });
+    divide(mesh, 1, { 0, 4, 1 }); // beside it on a cube
+    divide(mesh, body.triangles.size() / 2, { 1, 0, 0 });
+    ASSERT_FALSE(palp::healthOf(mesh.points, mesh.triangles).pieces.at(0).closed);
+    const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+    const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
+    ASSERT_EQ(health.pieces.size(), 1U);
+    EXPECT_TRUE(health.pieces[0].closed);
+    EXPECT_EQ(health.find(Fault::SelfIntersection), nullptr);
+    const double volume = volumeOf(body.points, body.triangles);
+    EXPECT_NEAR(health.pieces[0].volume, volume, 1e-6 * volume);
+    EXPECT_GE(mended.cut, 8U);
+    EXPECT_EQ(mended.triangles.size(), mesh.triangles.size() + mended.cut - mended.removed);
+  }
+}
+
+// a sheet whose border has a point more than the one beside it, and an open border without
+TEST(MeshRepair, LeavesOpenBordersWithoutJunctionsAsTheyAre)
+{
+  Mesh sheet;
+  for (int i = 0; i < 5; ++i)
+  {
+    sheet.points.emplace_back(i, 0.0, 0.0);
+    sheet.points.emplace_back(i + 0.25, 1.0, 0.0);
+  }
+  for (int i = 0; i < 8; ++i)
+  {
+    sheet.triangles.push_back(
+      i % 2 == 0 ? Triangle{ i, i + 2, i + 1 } : Triangle{ i, i + 1, i + 2 });
+  }
+  const RepairedMesh same = repairedMesh(sheet.points, sheet.triangles, 0.0);
+  EXPECT_EQ(same.cut, 0U);
+  EXPECT_EQ(same.triangles.size(), sheet.triangles.size());
+}
+
+// the body stays whole, and what stands on it goes its own way
+void expectWhole(const Mesh& mesh, const MeshPiece& whole)
+{
+  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+  const std::vector<MeshPiece> pieces = palp::healthOf(mended.points, mended.triangles).pieces;
+  const auto body = std::ranges::max_element(pieces, {}, &MeshPiece::triangles);
+  EXPECT_EQ(body->triangles, whole.triangles);
+  EXPECT_TRUE(body->closed);
+  EXPECT_NEAR(body->volume, whole.volume, 1e-4 * whole.volume);
+}
+
+TEST(MeshRepair, LeavesABodyWholeWhereFinsStandOnIt)
+{
+  Mesh mesh = makeSphere(0.03, 3);
+  const MeshPiece whole = palp::healthOf(mesh.points, mesh.triangles).pieces.at(0);
+  const auto middle = static_cast<int>(mesh.points.size());
+  mesh.points.emplace_back(0.0, 0.0, 0.0);
+  mesh.points.emplace_back(0.06, 0.07, 0.08);
+  for (const auto& [triangle, tip] : { std::pair(0, 0), { 200, 0 }, { 400, 1 }, { 600, 1 } })
+  {
+    const auto [a, b, c] = mesh.triangles[at(triangle)];
+    mesh.triangles.push_back(
+      triangle % 400 == 0 ? Triangle{ a, b, middle + tip } : Triangle{ b, a, middle + tip });
+  }
+  expectWhole(mesh, whole);
+}
+
+// points of the edges that lead from one along a direction
+std::vector<int> pathOf(const Mesh& mesh, int start, const Vector3d& along, std::size_t most)
+{
+  std::vector<int> path{ start };
+  while (path.size() < most)
+  {
+    int best = -1;
+    for (const Triangle& t : mesh.triangles)
+    {
+      if (std::ranges::count(t, path.back()) == 0)
+      {
+        continue;
+      }
+      for (const int i : t)
+      {
+        const bool isAhead = std::ranges::count(path, i) == 0 &&
+          (best < 0 || mesh.points[at(i)].dot(along) > mesh.points[at(best)].dot(along));
+        best = isAhead ? i : best;
+      }
+    }
+    path.push_back(best);
+  }
+  return path;
+}
+
+TEST(MeshRepair, LeavesABodyWholeWhereFinsOfManyTrianglesStandOnIt)
+{
+  const Mesh sphere = makeSphere(0.03, 3);
+  const MeshPiece whole = palp::healthOf(sphere.points, sphere.triangles).pieces.at(0);
+  for (const double reach : { 1.2, 0.8 }) // outward and inward
+  {
+    for (const std::size_t most : { 2U, 5U, 9U })
+    {
+      Mesh mesh = sphere;
+      const std::vector<int> path = pathOf(sphere, 17, Vector3d(1.0, 0.3, 0.2), most);
+      std::vector<int> below = path;
+      for (int level = 1; level <= 3; ++level)
+      {
+        std::vector<int> above;
+        for (const int i : path)
+        {
+          above.push_back(static_cast<int>(mesh.points.size()));
+          mesh.points.emplace_back(std::pow(reach, level) * sphere.points[at(i)]);
+        }
+        for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        {
+          mesh.triangles.push_back({ below[i], below[i + 1], above[i] });
+          mesh.triangles.push_back({ below[i + 1], above[i + 1], above[i] });
+        }
+        below = above;
+      }
+      expectWhole(mesh, whole);
+    }
+  }
+}
+
+} // namespace
+} // namespace palp::test
