@@ -11,11 +11,13 @@ namespace palp
 namespace
 {
 
-constexpr double kReach = 2.3;    // spacings
-constexpr float kNearest = 0.25F; // to an edge that a place tells of, by its own distance
-constexpr float kRound = 0.15F;   // likewise, within which it comes to that
-constexpr float kBeside = 0.7F;   // cosine of normals from which on a place counts in full
-constexpr float kAskew = 0.3F;    // likewise, to which it is beyond an edge and does not count
+constexpr double kReach = 2.3;     // spacings
+constexpr float kNearest = 0.25F;  // to an edge that a place tells of, by its own distance
+constexpr float kRound = 0.15F;    // likewise, within which it comes to that
+constexpr float kFacing = 0.7F;    // cosine of normals from which on a place counts in full
+constexpr float kAskew = 0.3F;     // likewise, to which it is beyond an edge and does not count
+constexpr double kMostLean = 1.5;  // of that of the wedge that places tell together
+constexpr double kRoundLean = 0.3; // of it, over which it comes to that
 
 std::uint64_t keyOf(const std::array<int, 3>& cell)
 {
@@ -59,9 +61,9 @@ void bringNearer(ComplianceField::Local& local, const Eigen::Vector3d& away)
 }
 
 // over an edge, to which faces lean from either side, less than 1
-double oneFaceOf(const Eigen::Vector3f& outward, float weights)
+double oneFaceOf(const Eigen::Vector3d& outward)
 {
-  return std::max(0.0F, 2.0F * outward.squaredNorm() / (weights * weights) - 1.0F);
+  return std::max(0.0, 2.0 * outward.squaredNorm() - 1.0);
 }
 
 // of what is never negative, and spread over powers of ten beside an edge
@@ -80,20 +82,23 @@ ComplianceField::ComplianceField(std::span<const PlacedCompliance> places, doubl
   : reach_(static_cast<float>(kReach * spacing))
   , perReach_(1.0F / reach_)
   , cell_(spacing)
-  , open_(nearerOf(Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()).value)
   , poisson_(poisson)
   , young_(young)
   , motion_(std::move(motion))
 {
   for (const PlacedCompliance& place : places)
   {
+    const double slope = place.slope.norm();
     const Eigen::Vector3d away = -place.edge * place.slope.normalized();
+    const double byEdge = place.edge > 0.0 ? 2.0 * slope / place.edge : 0.0;
+    const Eigen::Vector3d gradient = (place.edge > 0.0 ? 0.0 : 2.0) * place.slope;
     places_.push_back({ .position = place.position.cast<float>(),
       .normal = place.normal.cast<float>(),
-      .gradient = (2.0 * place.slope).cast<float>(),
+      .gradient = gradient.cast<float>(),
       .edge = away.cast<float>(),
-      .constant = static_cast<float>(place.constant),
-      .slope = static_cast<float>(place.slope.norm()),
+      .rest = static_cast<float>(place.constant - byEdge),
+      .byEdge = static_cast<float>(byEdge),
+      .slope = static_cast<float>(slope),
       .bend = static_cast<float>(place.bend),
       .beside = static_cast<float>(place.edge),
       .doubtful = place.trust == ComplianceTrust::Known ? 0.0F : 1.0F });
@@ -155,7 +160,7 @@ inline ComplianceField::Weight ComplianceField::weightOf(
   const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept
 {
   const float squared = away.squaredNorm();
-  constexpr float kTurns = 1.0F / (kBeside - kAskew);
+  constexpr float kTurns = 1.0F / (kFacing - kAskew);
   const float beside = kTurns * (normal.dot(place.normal) - kAskew);
   if (squared >= reach_ * reach_ || beside <= 0.0F)
   {
@@ -178,22 +183,22 @@ void ComplianceField::sharpen()
     std::vector<Place> next = places_;
     for (std::size_t i = 0; i < next.size(); ++i)
     {
-      const BodyCompliance blend =
-        at(wanted[i].position.cast<double>(), wanted[i].normal.cast<double>()).body;
-      next[i].constant += wanted[i].constant - static_cast<float>(blend.constant);
-      next[i].slope *= ratioOf(wanted[i].slope, blend.slope);
-      next[i].bend += wanted[i].bend - static_cast<float>(blend.bend);
-      next[i].beside *= ratioOf(wanted[i].beside, blend.edge);
+      const Place& one = wanted[i];
+      const auto values = blendAt(one.position.cast<double>(), one.normal.cast<double>()).values;
+      next[i].rest += one.rest + one.byEdge - static_cast<float>(values[kConstant]);
+      next[i].slope *= ratioOf(one.slope, values[kSlope] + values[kEdgeSlope]);
+      next[i].bend += one.bend - static_cast<float>(values[kBend]);
+      next[i].beside *= ratioOf(one.beside, values[kBeside]);
     }
     places_ = std::move(next);
   }
 }
 
-ComplianceField::Local ComplianceField::at(
-  const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double height) const noexcept
+ComplianceField::Blend ComplianceField::blendAt(
+  const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept
 {
-  // of constant, slope, bend and edge by columns, times the weight and its gradient
-  Eigen::Matrix4f sums = Eigen::Matrix4f::Zero();
+  // times the weight and its gradient
+  Eigen::Matrix<float, 4, kTold> sums = Eigen::Matrix<float, 4, kTold>::Zero();
   Eigen::Vector4f weights = Eigen::Vector4f::Zero(); // by themselves
   Eigen::Vector3f outward = Eigen::Vector3f::Zero(); // of the places
   float doubtful = 0.0F;
@@ -209,18 +214,27 @@ ComplianceField::Local ComplianceField::at(
     {
       continue;
     }
-    const bool isBeside = place.beside > 0.0F;
-    const auto [nearer, turn] =
-      isBeside ? nearerOf(place.edge, away) : Nearer{ open_, Eigen::Vector3f::Zero() };
-    const float change = nearer * place.gradient.dot(away);
-    const Eigen::Vector4f told(
-      place.constant + change, place.slope * nearer * nearer, place.bend, place.beside * nearer);
-    sums.col(0).tail<3>() += weight.value * nearer * place.gradient;
-    if (isBeside)
+    Eigen::Matrix<float, kTold, 1> told = Eigen::Matrix<float, kTold, 1>::Zero();
+    told[kBend] = place.bend;
+    if (place.beside > 0.0F)
     {
-      sums.col(0).tail<3>() += weight.value * change * turn;
-      sums.col(1).tail<3>() += 2.0F * weight.value * told[1] * turn;
-      sums.col(3).tail<3>() += weight.value * told[3] * turn;
+      const auto [nearer, turn] = nearerOf(place.edge, away);
+      told[kByEdge] = place.byEdge * nearer;
+      told[kEdgeSlope] = place.slope * nearer * nearer;
+      told[kBeside] = place.beside * nearer;
+      told[kPart] = 1.0F;
+      told[kConstant] = place.rest + told[kByEdge];
+      const Eigen::Vector3f turned = weight.value * turn;
+      sums.col(kConstant).tail<3>() += told[kByEdge] * turned;
+      sums.col(kByEdge).tail<3>() += told[kByEdge] * turned;
+      sums.col(kEdgeSlope).tail<3>() += 2.0F * told[kEdgeSlope] * turned;
+      sums.col(kBeside).tail<3>() += told[kBeside] * turned;
+    }
+    else
+    {
+      told[kConstant] = place.rest + place.gradient.dot(away);
+      told[kSlope] = place.slope;
+      sums.col(kConstant).tail<3>() += weight.value * place.gradient;
     }
     Eigen::Vector4f how;
     how << weight.value, weight.slope * away;
@@ -232,23 +246,52 @@ ComplianceField::Local ComplianceField::at(
   const auto all = static_cast<double>(weights[0]);
   if (!(all > 0.0))
   {
-    return { .body = {}, .doubtful = 1.0 };
+    return {};
   }
-  const Eigen::Vector4d values = sums.row(0).transpose().cast<double>() / all;
-  Eigen::Matrix<double, 3, 4> gradients =
-    (sums.bottomRows<3>().cast<double>() - weights.tail<3>().cast<double>() * values.transpose()) /
-    all;
-  gradients -= normal * (normal.transpose() * gradients);
-  const double oneFace = oneFaceOf(outward, weights[0]);
-  Local local{ .body = { values[0], oneFace * values[1], values[2], values[3] },
-    .constant = gradients.col(0),
-    .slope = oneFace * gradients.col(1),
-    .bend = gradients.col(2),
-    .edge = gradients.col(3),
+  Blend blend{ .values = sums.row(0).transpose().cast<double>() / all,
+    .gradients = sums.bottomRows<3>().cast<double>() / all,
+    .outward = outward.cast<double>() / all,
     .doubtful = static_cast<double>(doubtful) / all };
+  blend.gradients -= weights.tail<3>().cast<double>() * blend.values.transpose() / all;
+  blend.gradients -= normal * (normal.transpose() * blend.gradients);
+  return blend;
+}
+
+// places about which edges lie differently would lean more together than any wedge
+ComplianceField::Lean ComplianceField::Blend::lean() const noexcept
+{
+  Lean edge{ values[kEdgeSlope], gradients.col(kEdgeSlope) };
+  const double most = kMostLean * values[kByEdge] * values[kBeside] / (2.0 * values[kPart]);
+  if (values[kPart] > 0.0 && edge.value > (1.0 - kRoundLean) * most)
+  {
+    const double over = edge.value / most;
+    const Sloped part = smoothMin({ over, 1.0 }, { 1.0 }, kRoundLean);
+    const Eigen::Vector3d change = most *
+      (gradients.col(kByEdge) / values[kByEdge] + gradients.col(kBeside) / values[kBeside] -
+        gradients.col(kPart) / values[kPart]);
+    edge = { part.value * most,
+      part.slope * edge.change + (part.value - part.slope * over) * change };
+  }
+  return { values[kSlope] + edge.value, gradients.col(kSlope) + edge.change };
+}
+
+ComplianceField::Local ComplianceField::at(
+  const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double height) const noexcept
+{
+  const Blend blend = blendAt(center, normal);
+  const double oneFace = oneFaceOf(blend.outward);
+  const Lean lean = blend.lean();
+  const auto& values = blend.values;
+  const auto& gradients = blend.gradients;
+  Local local{ .body = { values[kConstant], oneFace * lean.value, values[kBend], values[kBeside] },
+    .constant = gradients.col(kConstant),
+    .slope = oneFace * lean.change,
+    .bend = gradients.col(kBend),
+    .edge = gradients.col(kBeside),
+    .doubtful = blend.doubtful };
   if (height > 0.0 && local.body.edge > 0.0)
   {
-    bringNearer(local, height * (normal - outward.cast<double>().normalized()));
+    bringNearer(local, height * (normal - blend.outward.normalized()));
   }
   return local;
 }

@@ -51,9 +51,9 @@ struct PlacedCompliance
 /// The compliance of a body over its surface, which is known at places all over it.
 ///
 /// Each place tells of its surroundings by its value and twice its slope, which is the gradient of
-/// the constant, and beside an edge as one over the distance D to it: constant and edge by 1/D,
-/// slope by 1/D^2, as in a wedge. These are blended, twice continuously differentiable along the
-/// surface.
+/// the constant. Beside an edge at a distance D it is as in a wedge: of the constant 2 D times the
+/// slope goes as 1/D, and the slope as 1/D^2, up to next to the edge. These are blended, twice
+/// continuously differentiable along the surface.
 class ComplianceField
 {
 public:
@@ -123,13 +123,43 @@ private:
   {
     Eigen::Vector3f position;
     Eigen::Vector3f normal;
-    Eigen::Vector3f gradient; // of the constant
+    Eigen::Vector3f gradient; // of the constant, where no edge is near
     Eigen::Vector3f edge;     // away from one, over the distance to it [1/m]
-    float constant;
+    float rest;               // of the constant
+    float byEdge;             // likewise
     float slope;
     float bend;
     float beside; // 1/D [1/m]
     float doubtful;
+  };
+
+  enum Told
+  {
+    kConstant,
+    kSlope, // of places where no edge is near
+    kBend,
+    kByEdge, // of the constant
+    kEdgeSlope,
+    kBeside, // 1/D
+    kPart,   // of places beside an edge
+    kTold
+  };
+
+  struct Lean
+  {
+    double value;
+    Eigen::Vector3d change;
+  };
+
+  // what places tell together
+  struct Blend
+  {
+    Eigen::Matrix<double, kTold, 1> values = Eigen::Matrix<double, kTold, 1>::Zero();
+    Eigen::Matrix<double, 3, kTold> gradients = Eigen::Matrix<double, 3, kTold>::Zero();
+    Eigen::Vector3d outward = Eigen::Vector3d::Zero(); // mean of their normals
+    double doubtful = 1.0;
+
+    [[nodiscard]] Lean lean() const noexcept;
   };
 
   struct Weight
@@ -147,6 +177,8 @@ private:
   [[nodiscard]] Cell cellOf(const Eigen::Vector3d& place) const noexcept;
   [[nodiscard]] Weight weightOf(
     const Place& place, const Eigen::Vector3f& away, const Eigen::Vector3f& normal) const noexcept;
+  [[nodiscard]] Blend blendAt(
+    const Eigen::Vector3d& center, const Eigen::Vector3d& normal) const noexcept;
   void sortIntoCells();
   template <typename Visit>
   void forCellsWithin(const Eigen::Vector3d& position, const Visit& visit); // reach of there
@@ -155,7 +187,6 @@ private:
   float reach_;    // of a place [m]
   float perReach_; // one over it
   double cell_;    // side of a cell [m]
-  float open_;     // what an edge counts for that is not there [-]
   double poisson_;
   double young_;
   std::shared_ptr<const OrganMotion> motion_;
