@@ -21,16 +21,15 @@ struct Piece
   bool isKept = false;
 };
 
-std::vector<Piece> measured(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, std::span<const int> numbers)
+std::vector<Piece> piecesFrom(std::span<const Triangle> triangles, std::span<const int> numbers,
+  std::span<const PieceSize> sizes)
 {
-  std::vector<Piece> pieces(static_cast<std::size_t>(std::ranges::max(numbers)) + 1);
+  std::vector<Piece> pieces(sizes.size());
+  std::ranges::transform(
+    sizes, pieces.begin(), [](const PieceSize& size) { return Piece{ .volume = size.volume }; });
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    const auto& [a, b, c] = triangles[i];
-    Piece& piece = pieces[at(numbers[i])];
-    piece.point = a;
-    piece.volume += points[at(a)].dot(points[at(b)].cross(points[at(c)])) / 6.0;
+    pieces[at(numbers[i])].point = triangles[i][0];
   }
   const auto size = [](const Piece& piece) { return std::abs(piece.volume); };
   const double side = std::copysign(1.0, std::ranges::max(pieces, {}, size).volume);
@@ -82,8 +81,10 @@ std::vector<bool> hollowsWithin(std::span<const Eigen::Vector3d> points,
 std::string noteOf(std::size_t kept, std::size_t all, std::size_t hollows, std::size_t filled)
 {
   const std::string which = kept == 1 ? "the largest" : "the " + std::to_string(kept) + " largest";
-  return which + " of its " + std::to_string(all) + " pieces " + (kept == 1 ? "is" : "are") +
-    " taken" + (hollows > 0 ? ", with " + counted(hollows, "hollow") : "") +
+  const std::string taken = kept == all
+    ? counted(all, "piece")
+    : which + " of its " + std::to_string(all) + " pieces " + (kept == 1 ? "is" : "are") + " taken";
+  return taken + (hollows > 0 ? ", with " + counted(hollows, "hollow") : "") +
     (filled > 0 ? ", and " + counted(filled, "hollow") + " of less than 100 voxels filled" : "");
 }
 
@@ -101,11 +102,11 @@ double volumeOf(const std::vector<Piece>& pieces, bool isLeftOut)
 } // namespace
 
 ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, std::span<const int> numbers, std::size_t components,
-  double leastHollow)
+  std::span<const Triangle> triangles, std::span<const int> numbers,
+  std::span<const PieceSize> sizes, std::size_t components, double leastHollow)
 {
   ContourPieces result{ .isKept = std::vector<bool>(triangles.size(), true), .note = {} };
-  std::vector<Piece> pieces = measured(points, triangles, numbers);
+  std::vector<Piece> pieces = piecesFrom(triangles, numbers, sizes);
   if (pieces.size() < 2)
   {
     return result;
@@ -131,7 +132,9 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
     result.isKept[i] = pieces[at(numbers[i])].isKept;
   }
   result.areAll = bodies + hollows == pieces.size();
-  result.note = noteOf(bodies, pieces.size(), hollows, filled);
+  const auto isBody = [](const Piece& piece) { return piece.volume > 0.0; };
+  result.note = noteOf(
+    bodies, static_cast<std::size_t>(std::ranges::count_if(pieces, isBody)), hollows, filled);
   constexpr double kMuch = 0.01;
   const double all = volumeOf(pieces, false);
   const double out = volumeOf(pieces, true);

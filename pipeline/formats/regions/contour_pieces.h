@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/surface/box_tree.h"
+#include "pipeline/formats/regions/least_bending.h"
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -20,10 +20,11 @@ struct ContourPieces
 };
 
 /// @param pieces       of each triangle, as piecesOf
+/// @param sizes        of each piece
 /// @param components   how many, the largest first
 /// @param leastHollow  volume below which a hollow is filled [unit^3]
 [[nodiscard]] ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
-  std::span<const Triangle> triangles, std::span<const int> pieces, std::size_t components,
-  double leastHollow);
+  std::span<const Triangle> triangles, std::span<const int> pieces,
+  std::span<const PieceSize> sizes, std::size_t components, double leastHollow);
 
 } // namespace palp

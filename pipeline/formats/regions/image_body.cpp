@@ -242,10 +242,8 @@ FileOrgan bodyOf(
                      : " million triangles, noise at that level; smooth the image, or take fewer "
                        "voxels"));
   }
-  const double size =
-    static_cast<double>(voxels) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
   ImageContour contour =
-    imageContour(*region.image, region.level, region.mask ? size : 0.0, components, region.notes);
+    imageContour(*region.image, region.level, region.mask, components, region.notes);
   if (const double least =
         (kFewest - 0.5) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
       region.mask && std::abs(contour.enclosed) < least)

@@ -88,22 +88,39 @@ struct Linked
   std::vector<PieceSize> sizes;
 };
 
-// What a contour, which cuts the corners of voxels, lacks of their volume for each area of it.
-double bevelOf(const Linked& linked, double mask)
+// The volume of the voxels in each piece, not of what a contour leaves of them where it cuts their
+// corners: by Gauss's theorem, as each point of a mask's contour is the middle of a voxel's face.
+void countVoxels(vtkImageData& image, const ImageContour& contour, Linked& linked)
 {
-  double volume = 0.0;
-  double area = 0.0;
-  for (const PieceSize& piece : linked.sizes)
+  std::vector<double> outward(contour.points.size(), 0.0); // along the first axis
+  std::vector<std::size_t> pieceOf(contour.points.size(), 0);
+  for (std::size_t i = 0; i < contour.triangles.size(); ++i)
   {
-    volume += piece.volume;
-    area += std::copysign(piece.area, piece.volume); // hollows lack it, too
+    const auto& [a, b, c] = contour.triangles[i];
+    const Eigen::Vector3d& from = contour.points[at(a)];
+    const double along = (contour.points[at(b)] - from).cross(contour.points[at(c)] - from).x();
+    for (const int corner : contour.triangles[i])
+    {
+      outward[at(corner)] += along;
+      pieceOf[at(corner)] = at(linked.pieces[i]);
+    }
   }
-  return (mask - std::abs(volume)) / std::abs(area);
+  const Eigen::Array3d spacing(image.GetSpacing());
+  const double face = std::abs(spacing[1] * spacing[2]);
+  std::ranges::for_each(linked.sizes, [](PieceSize& piece) { piece.volume = 0.0; });
+  for (std::size_t i = 0; i < contour.points.size(); ++i)
+  {
+    const double index = (contour.points[i].x() - image.GetOrigin()[0]) / spacing[0];
+    constexpr double kOff = 0.25; // from voxels: else the face is along the first axis
+    linked.sizes[pieceOf[i]].volume += std::abs(index - std::round(index)) > kOff
+      ? std::copysign(face, outward[i]) * index * spacing[0]
+      : 0.0;
+  }
 }
 
 } // namespace
 
-ImageContour imageContour(vtkImageData& image, double level, double mask, std::size_t components,
+ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::size_t components,
   std::vector<std::string>& notes)
 {
   ImageContour contour = contourOf(image, level);
@@ -113,9 +130,9 @@ ImageContour imageContour(vtkImageData& image, double level, double mask, std::s
   }
   const Eigen::Array3d spacing = Eigen::Array3d(image.GetSpacing()).abs();
   Linked linked(contour);
-  const double bevel = mask > 0.0 ? bevelOf(linked, mask) : 0.0;
-  const ContourPieces pieces = contourPieces(
-    contour.points, contour.triangles, linked.pieces, components, kLeastHollow * spacing.prod());
+  isMask ? countVoxels(image, contour, linked) : void();
+  const ContourPieces pieces = contourPieces(contour.points, contour.triangles, linked.pieces,
+    linked.sizes, components, kLeastHollow * spacing.prod());
   if (!pieces.note.empty())
   {
     notes.push_back(pieces.note);
@@ -124,14 +141,14 @@ ImageContour imageContour(vtkImageData& image, double level, double mask, std::s
   {
     drop(contour, pieces.isKept);
     linked = Linked(contour);
+    isMask ? countVoxels(image, contour, linked) : void();
   }
   contour.from = contour.points;
-  for (PieceSize& piece : linked.sizes)
+  for (const PieceSize& piece : linked.sizes)
   {
-    piece.volume += std::copysign(bevel * piece.area, piece.volume);
     contour.enclosed += piece.volume;
   }
-  if (mask > 0.0)
+  if (isMask)
   {
     bendLeast(
       contour.points, contour.triangles, linked.edges, 0.5 * spacing, linked.pieces, linked.sizes);

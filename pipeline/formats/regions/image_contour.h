@@ -29,11 +29,11 @@ struct ImageContour
 /// of less than 100 voxels is filled.
 ///
 /// @param image       nowhere above the level at its border, or everywhere
-/// @param mask        volume of the voxels of a mask [unit^3]; 0: they have values between which to
-///                    interpolate
+/// @param isMask      of two values, with the level in their middle; else there are values between
+///                    which to interpolate
 /// @param components  how many pieces at most, the largest first
 /// @param notes       gets what was left out
-[[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, double mask,
+[[nodiscard]] ImageContour imageContour(vtkImageData& image, double level, bool isMask,
   std::size_t components, std::vector<std::string>& notes);
 
 } // namespace palp

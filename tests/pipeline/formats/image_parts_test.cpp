@@ -98,37 +98,7 @@ TEST_F(Images, EachPieceKeepsItsVolume)
     readSurface(write<vtkMetaImageWriter>("one.mha", *image), LengthUnit::Millimeter, part);
   const double small = volumeMm3(*both.mesh) - volumeMm3(*one.mesh);
   const double exact = count * Vector3d(image->GetSpacing()).prod();
-  EXPECT_NEAR(small, exact, 0.03 * exact);
-}
-
-// with a voxel or a ball of 12 mm missing in its middle
-TEST_F(Images, AHollowStaysAndAPoreIsFilled)
-{
-  const double ball30 = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadiusMm, 3);
-  const double ball12 = 4.0 / 3.0 * std::numbers::pi * std::pow(12.0, 3);
-  for (const auto& [radius, words, volume] :
-    { std::tuple(
-        2.0, "the largest of its 2 pieces is taken, and 1 hollow of less than 100", ball30),
-      { 12.0, "the largest of its 2 pieces is taken, with 1 hollow", ball30 - ball12 } })
-  {
-    const auto image = ball(true);
-    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-    {
-      if ((Vector3d(image->GetPoint(i)) - kCenterMm).norm() < radius)
-      {
-        image->GetPointData()->GetScalars()->SetComponent(i, 0, 0.0);
-      }
-    }
-    const LoadedSurface surface = readSurface(
-      write<vtkMetaImageWriter>("hollow.mha", *image), LengthUnit::Millimeter, { 0.5, {} });
-    std::string all;
-    for (const std::string& note : surface.notes)
-    {
-      all += note + '\n';
-    }
-    EXPECT_NE(all.find(words), std::string::npos) << all;
-    EXPECT_NEAR(volumeMm3(*surface.mesh), volume, 0.02 * ball30);
-  }
+  EXPECT_NEAR(small, exact, 0.01 * exact);
 }
 
 // what is around a ball: a box as large as the image with its voxels' halves, less the ball
