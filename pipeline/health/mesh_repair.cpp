@@ -3,6 +3,7 @@
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "pipeline/health/fill_holes.h"
+#include "pipeline/health/inner_walls.h"
 #include "pipeline/health/slivers.h"
 #include "pipeline/health/split_mesh.h"
 #include "pipeline/health/t_junctions.h"
@@ -89,6 +90,7 @@ RepairedMesh repairedMesh(
   const std::vector<bool> repeated = repeatedTriangles(merged.triangles);
   std::size_t i = 0;
   std::erase_if(merged.triangles, [&](const Triangle&) { return repeated[i++]; });
+  dropInnerWalls(merged);
   RepairedMesh result{ .points = std::move(merged.points),
     .triangles = std::move(merged.triangles) };
   result.merged = points.size() - result.points.size();

@@ -71,17 +71,50 @@ private:
   Eigen::Index along_ = 0;
 };
 
-// cuts a triangle at the points of its side k, from the corner behind that; the rest is added
-void cut(std::vector<Triangle>& triangles, std::size_t triangle, std::size_t k,
-  const std::vector<int>& between)
+using Chain = std::vector<int>; // from one end of an open edge over points on it to the other
+using Chains = std::map<std::array<int, 2>, Chain>;
+
+// Leaves alone the edges of which a part would stay open: each part belongs to a second one, too.
+void keepMatched(Chains& chains)
 {
-  const Triangle whole = triangles[triangle];
-  const int apex = whole[(k + 2) % 3];
-  triangles[triangle] = { whole[k], between.front(), apex };
-  for (std::size_t i = 0; i < between.size(); ++i)
+  const auto partOf = [](const Chain& chain, std::size_t i) {
+    return std::array{ std::min(chain[i], chain[i + 1]), std::max(chain[i], chain[i + 1]) };
+  };
+  for (bool isStable = false; !isStable;)
   {
-    const int next = i + 1 < between.size() ? between[i + 1] : whole[(k + 1) % 3];
-    triangles.push_back({ between[i], next, apex });
+    std::map<std::array<int, 2>, int> often;
+    for (const auto& [edge, chain] : chains)
+    {
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      {
+        ++often[partOf(chain, i)];
+      }
+    }
+    isStable = true;
+    for (auto& [edge, chain] : chains)
+    {
+      bool isMatched = chain.size() == 2;
+      for (std::size_t i = 0; i + 1 < chain.size() && chain.size() > 2; ++i)
+      {
+        isMatched = (i == 0 || isMatched) && often[partOf(chain, i)] > 1;
+      }
+      if (!isMatched)
+      {
+        chain = { chain.front(), chain.back() };
+        isStable = false;
+      }
+    }
+  }
+}
+
+// cuts a triangle at the points of its side k, from the corner behind that; the rest is added
+void cut(std::vector<Triangle>& triangles, std::size_t triangle, std::size_t k, const Chain& chain)
+{
+  const int apex = triangles[triangle][(k + 2) % 3];
+  triangles[triangle] = { chain[0], chain[1], apex };
+  for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+  {
+    triangles.push_back({ chain[i], chain[i + 1], apex });
   }
 }
 
@@ -93,23 +126,30 @@ std::size_t cutAtTJunctions(
   const std::size_t before = triangles.size();
   const Edges edges = edgesOf(points.size(), triangles);
   const OpenPoints open(points, edges.unpaired);
-  std::map<std::array<int, 2>, std::vector<int>> onEdge;
+  Chains chains;
   for (const auto& [a, b] : edges.unpaired)
   {
-    std::vector<int> found = open.on(a, b);
-    onEdge.try_emplace({ b, a }, found.rbegin(), found.rend());
-    onEdge.try_emplace({ a, b }, std::move(found));
+    Chain chain = open.on(a, b);
+    chain.insert(chain.begin(), a);
+    chain.push_back(b);
+    chains.emplace(std::array{ a, b }, std::move(chain));
   }
+  keepMatched(chains);
   for (std::size_t i = 0; i < triangles.size(); ++i) // those that are added, too
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto found = onEdge.find({ triangles[i][k], triangles[i][(k + 1) % 3] });
-      if (found != onEdge.end() && !found->second.empty() &&
-        std::ranges::count(found->second, triangles[i][(k + 2) % 3]) == 0)
+      const int from = triangles[i][k];
+      const int to = triangles[i][(k + 1) % 3];
+      const auto found = chains.find({ std::min(from, to), std::max(from, to) });
+      if (found == chains.end() || found->second.size() == 2 ||
+        std::ranges::count(found->second, triangles[i][(k + 2) % 3]) > 0)
       {
-        cut(triangles, i, k, found->second);
+        continue;
       }
+      Chain chain = found->second;
+      from == chain.front() ? void() : void(std::ranges::reverse(chain));
+      cut(triangles, i, k, chain);
     }
   }
   return triangles.size() - before;

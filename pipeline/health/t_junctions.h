@@ -11,6 +11,7 @@ namespace palp
 
 /// Puts points at open edges into other open edges on which they lie, to a thousandth of the edge:
 /// where one triangle has two behind one side of its, it is cut, so that nothing is open there.
+/// Where a part of an edge would stay open, it is left alone.
 ///
 /// O(n log n) for edges that are short beside the surface.
 ///
