@@ -16,30 +16,50 @@ struct Known
   OrganLook look;
 };
 
+constexpr const char* kArtery = "#d8654f";
+constexpr const char* kVein = "#0097ce";
+constexpr const char* kMass = "#90ee90";
+constexpr const char* kLiver = "#dd8265";
+constexpr const char* kBone = "#f1d691";
+constexpr const char* kSkin = "#b17a65";
+
 // the first whose word is in a name: a vessel of the liver is no liver
-constexpr std::array kKnown{ Known{ "vessel", { "show", "#d8654f", nullptr } },
-  Known{ "artery", { "show", "#d8654f", nullptr } },
-  Known{ "arteries", { "show", "#d8654f", nullptr } },
-  Known{ "aorta", { "show", "#d8654f", nullptr } }, Known{ "vein", { "show", "#0097ce", nullptr } },
-  Known{ "cava", { "show", "#0097ce", nullptr } }, Known{ "tumor", { "press", "#90ee90", "hcc" } },
-  Known{ "tumour", { "press", "#90ee90", "hcc" } },
-  Known{ "lesion", { "press", "#90ee90", "hcc" } },
-  Known{ "cyst", { "press", "#90ee90", nullptr } },
-  Known{ "nodule", { "press", "#90ee90", "hcc" } },
+constexpr std::array kKnown{ Known{ "vessel", { "show", kArtery, nullptr } },
+  Known{ "artery", { "show", kArtery, nullptr } },
+  Known{ "arteries", { "show", kArtery, nullptr } }, Known{ "aorta", { "show", kArtery, nullptr } },
+  Known{ "vein", { "show", kVein, nullptr } }, Known{ "cava", { "show", kVein, nullptr } },
+  Known{ "metastasis", { "press", kMass, "metastasis" } },
+  Known{ "metastases", { "press", kMass, "metastasis" } },
+  Known{ "cholangiocarcinoma", { "press", kMass, "cholangiocarcinoma" } },
+  Known{ "hemangioma", { "press", kMass, "hemangioma" } },
+  Known{ "nodular hyperplasia", { "press", kMass, "nodular_hyperplasia" } },
+  Known{ "adenoma", { "press", kMass, "adenoma" } }, Known{ "hcc", { "press", kMass, "hcc" } },
+  Known{ "hepatocellular carcinoma", { "press", kMass, "hcc" } },
+  Known{ "tumor", { "press", kMass, "hcc" } }, Known{ "tumour", { "press", kMass, "hcc" } },
+  Known{ "lesion", { "press", kMass, "hcc" } }, Known{ "nodule", { "press", kMass, "hcc" } },
+  Known{ "cyst", { "press", kMass, nullptr } },
+  Known{ "cirrhosis", { "press", kLiver, "cirrhosis" } },
+  Known{ "cirrhotic", { "press", kLiver, "cirrhosis" } },
+  Known{ "fibrosis f 1", { "press", kLiver, "fibrosis_f1" } },
+  Known{ "fibrosis f 2", { "press", kLiver, "fibrosis_f2" } },
+  Known{ "fibrosis f 3", { "press", kLiver, "fibrosis_f3" } },
+  Known{ "fibrosis f 4", { "press", kLiver, "fibrosis_f4" } },
   Known{ "gallbladder", { "press", "#8b9662", nullptr } },
-  Known{ "liver", { "press", "#dd8265", "healthy_liver" } },
+  Known{ "liver", { "press", kLiver, "healthy_liver" } },
   Known{ "kidney", { "press", "#b96653", nullptr } },
   Known{ "spleen", { "press", "#9d6ca2", nullptr } },
   Known{ "stomach", { "press", "#d88469", nullptr } },
   Known{ "pancreas", { "press", "#f9b46f", nullptr } },
-  Known{ "skin", { "through", "#b17a65", "skin" } },
-  Known{ "fat", { "through", "#e6dc46", "fat" } }, Known{ "bone", { "show", "#f1d691", nullptr } },
-  Known{ "rib", { "show", "#f1d691", nullptr } },
-  Known{ "vertebra", { "show", "#f1d691", nullptr } },
-  Known{ "spine", { "show", "#f1d691", nullptr } },
-  Known{ "sacrum", { "show", "#f1d691", nullptr } },
-  Known{ "femur", { "show", "#f1d691", nullptr } },
-  Known{ "body", { "through", "#b17a65", "skin" } } };
+  Known{ "skin", { "through", kSkin, "skin" } }, Known{ "fat", { "through", "#e6dc46", "fat" } },
+  Known{ "bone", { "show", kBone, nullptr } }, Known{ "rib", { "show", kBone, nullptr } },
+  Known{ "vertebra", { "show", kBone, nullptr } }, Known{ "spine", { "show", kBone, nullptr } },
+  Known{ "sacrum", { "show", kBone, nullptr } }, Known{ "femur", { "show", kBone, nullptr } },
+  Known{ "body", { "through", kSkin, nullptr } } };
+
+// whose masses are not those of a liver
+constexpr std::array kElsewhere{ "kidney", "renal", "spleen", "pancreas", "pancreatic", "stomach",
+  "gastric", "colon", "lung", "pulmonary", "brain", "breast", "prostate", "bone", "skin", "adrenal",
+  "thyroid", "ovary", "ovarian" };
 
 // of names that tell nothing, in turn: muscle, tissue, connective tissue, bone, mass
 constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", "#f1d691", "#90ee90" };
@@ -49,17 +69,18 @@ bool isAny(char letter, int (*kind)(int))
   return kind(static_cast<unsigned char>(letter)) != 0;
 }
 
-// with a space at each end: "LiverTumor_2" -> " liver tumor "
+// with a space at each end: "LiverTumor_2" -> " liver tumor 2 "
 std::string wordsOf(const std::string& name)
 {
   std::string words = " ";
   char last = ' ';
   for (const char letter : name + " ")
   {
-    const bool isLetter = isAny(letter, std::isalpha);
-    const bool isNew = isAny(letter, std::isupper) && isAny(last, std::islower);
-    (isLetter && !isNew) || words.back() == ' ' ? void() : words.push_back(' ');
-    isLetter ? words.push_back(static_cast<char>(std::tolower(letter))) : void();
+    const bool isNew = (isAny(letter, std::isupper) && isAny(last, std::islower)) ||
+      isAny(letter, std::isdigit) != isAny(last, std::isdigit);
+    const bool isWord = isAny(letter, std::isalnum);
+    (isWord && !isNew) || words.back() == ' ' ? void() : words.push_back(' ');
+    isWord ? words.push_back(static_cast<char>(std::tolower(letter))) : void();
     last = letter;
   }
   return words;
@@ -79,7 +100,13 @@ OrganLook lookOf(const std::string& name)
   const std::string words = wordsOf(name);
   const auto found =
     std::ranges::find_if(kKnown, [&](const Known& known) { return hasWord(words, known.word); });
-  return found != kKnown.end() ? found->look : OrganLook{ "press", kOthers.front(), nullptr };
+  if (found == kKnown.end())
+  {
+    return { "press", kOthers.front(), nullptr };
+  }
+  const bool isElsewhere = found->look.color == kMass && !hasWord(words, "liver") &&
+    std::ranges::any_of(kElsewhere, [&](const char* other) { return hasWord(words, other); });
+  return isElsewhere ? OrganLook{ found->look.role, found->look.color, nullptr } : found->look;
 }
 
 std::vector<OrganLook> looksOf(const std::vector<std::string>& names)

@@ -75,7 +75,7 @@ OpenDialog::OpenDialog(const QString& file, QWidget* parent)
   rows->addRow(buttons);
 }
 
-// ticking one writes its value into the field of labels
+// ticking one writes what asks for it into the field of labels
 void OpenDialog::setLabels(FileOrgans found)
 {
   listed_ = std::move(found.organs);
@@ -100,7 +100,7 @@ void OpenDialog::setLabels(FileOrgans found)
                                    : tr("  %1 ml").arg(milliliters, 0, 'f', 0);
     }
     auto* item = new QListWidgetItem(text, list);
-    item->setData(Qt::UserRole, QString::fromStdString(organ.label));
+    item->setData(Qt::UserRole, QString::fromStdString(askedFor(organ)));
     item->setCheckState(Qt::Unchecked);
   }
   connect(list, &QListWidget::itemChanged, this,
@@ -132,13 +132,21 @@ void OpenDialog::setLabels(FileOrgans found)
   }
 }
 
+// its value, but where layers use that twice its name
+std::string OpenDialog::askedFor(const FileOrgan& organ) const
+{
+  const bool isTold = std::ranges::count(listed_, organ.label, &FileOrgan::label) == 1;
+  return isTold || organ.name.empty() ? organ.label : organ.name;
+}
+
 std::vector<FileOrgan> OpenDialog::organs() const
 {
   std::vector<FileOrgan> organs;
   const std::vector<std::string> labels = source().part.labels;
   for (const std::string& label : labels)
   {
-    const auto found = std::ranges::find(listed_, label, &FileOrgan::label);
+    const auto found =
+      std::ranges::find(listed_, label, [this](const FileOrgan& organ) { return askedFor(organ); });
     organs.push_back({ .label = label,
       .name = found != listed_.end() ? found->name : std::string(),
       .surface = {},

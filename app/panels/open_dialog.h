@@ -42,6 +42,7 @@ public:
   void accept() override; ///< stays, with the reason, where what was typed is refused
 
 private:
+  [[nodiscard]] std::string askedFor(const FileOrgan& organ) const;
   std::filesystem::path file_;
   QLabel* why_;
   QLineEdit* series_; // null: of a folder alone

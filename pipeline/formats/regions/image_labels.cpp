@@ -139,8 +139,7 @@ std::string emptyInWords(const PatientImage& volume, const std::vector<Label>& l
   return count == 0 ? "" : counted(count, "segment has", "segments have") + " no voxel: " + names;
 }
 
-std::vector<Label> chosenLabels(const std::vector<Label>& labels,
-  const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name)
+void checkApart(const std::vector<Label>& labels, const std::string& name)
 {
   if (std::ranges::any_of(
         labels, [](const Label& one) { return std::abs(one.segment.value) >= kWhole; }))
@@ -148,6 +147,12 @@ std::vector<Label> chosenLabels(const std::vector<Label>& labels,
     throw Error(ErrorCode::BadMesh,
       name + ": labels beyond 2^53, which are not told apart here; number them anew");
   }
+}
+
+std::vector<Label> chosenLabels(const std::vector<Label>& labels,
+  const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name)
+{
+  checkApart(labels, name);
   std::vector<Label> chosen;
   for (const std::string& word : asked)
   {

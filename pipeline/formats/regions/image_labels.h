@@ -42,12 +42,16 @@ struct Label
 /// Volume of a voxel [unit^3].
 [[nodiscard]] double voxelVolume(const PatientImage& volume);
 
+/// @param name    stands before each message
+/// @throws Error  BadMesh: labels beyond 2^53, which are not told apart
+void checkApart(const std::vector<Label>& labels, const std::string& name);
+
 /// Those that words name.
 ///
 /// @param asked   values, or names of segments, with or without capitals
 /// @param name    stands before each message
 /// @throws Error  BadMesh: none of that value or name, or several, as in layers; says which there
-///                are; labels beyond 2^53
+///                are; as checkApart
 [[nodiscard]] std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name);
 

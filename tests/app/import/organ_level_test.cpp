@@ -46,8 +46,13 @@ TEST(LookOf, IsByAWordNotByAPartOfOne)
     { "Liver 2", "healthy_liver" }, { "LIVER", "healthy_liver" }, { "liver_tumor", "hcc" },
     { "LiverTumors", "hcc" }, { "subcutaneous_fat", "fat" }, { "HCC lesion", "hcc" },
     { "torso fat", "fat" }, { "delivery tube", "" }, { "sulfate", "" }, { "Father", "" },
-    { "moleskin", "" }, { "antibody", "" }, { "kidney_cyst_left", "" }, { "", "" },
-    { "\xc3\xa9 liver", "healthy_liver" } };
+    { "moleskin", "" }, { "antibody", "" }, { "hcc", "hcc" }, { "liver_metastasis", "metastasis" },
+    { "Liver Metastases", "metastasis" }, { "fibrosis_f4", "fibrosis_f4" },
+    { "liver_cirrhosis", "cirrhosis" }, { "cirrhotic liver", "cirrhosis" },
+    { "Liver (cirrhosis)", "cirrhosis" }, { "hemangioma_2", "hemangioma" },
+    { "hepatocellular carcinoma", "hcc" }, { "kidney_tumor", "" }, { "brain tumor", "" },
+    { "lung_nodule_left", "" }, { "tumor3", "hcc" }, { "body", "" }, { "liver1", "healthy_liver" },
+    { "kidney_cyst_left", "" }, { "", "" }, { "\xc3\xa9 liver", "healthy_liver" } };
   for (const auto& [name, tissue] : tissues)
   {
     const char* const found = lookOf(name).tissue;

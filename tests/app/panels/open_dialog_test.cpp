@@ -9,7 +9,9 @@
 #include <QLineEdit>
 #include <QListWidget>
 
+#include <fstream>
 #include <gtest/gtest.h>
+#include <vtkPolyData.h>
 
 namespace palp
 {
@@ -38,6 +40,42 @@ TEST(OpenDialog, ListsTheLabelsOfAnImageToBeTicked)
   EXPECT_TRUE(dialog.organs().empty()) << "one body of both";
   list->item(0)->setCheckState(Qt::Unchecked);
   EXPECT_EQ(dialog.source().part.labels, std::vector<std::string>{ "7" });
+}
+
+// as 3D Slicer numbers the segments of each layer anew
+TEST(OpenDialog, AsksByNameForLabelsOfOneValue)
+{
+  test::application();
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.seg.nrrd";
+  std::ofstream out(file, std::ios::binary);
+  out << "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 4 4 4\nencoding: raw\n"
+         "space: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+         "space origin: (0,0,0)\nkinds: list domain domain domain\n"
+         "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+         "Segment1_Name:=vein\nSegment1_LabelValue:=2\nSegment1_Layer:=0\n"
+         "Segment2_Name:=tumor\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n\n";
+  for (int i = 0; i < 64; ++i)
+  {
+    out << (i < 32 ? '\1' : '\2') << (i % 4 < 2 ? '\1' : '\0');
+  }
+  out.close();
+  OpenDialog dialog(QString::fromStdString(file.string()));
+  dialog.setLabels(readFileOrgans(file, {}, true));
+  auto* list = dialog.findChild<QListWidget*>("labels");
+  ASSERT_EQ(list->count(), 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    list->item(i)->setCheckState(Qt::Checked);
+  }
+  EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "liver,2,tumor");
+  const std::vector<FileOrgan> organs = dialog.organs();
+  ASSERT_EQ(organs.size(), 3U);
+  EXPECT_EQ(organs[2].name, "tumor");
+  for (const FileOrgan& organ : organs)
+  {
+    EXPECT_GT(readSurface(file, {}, { {}, { organ.label } }).mesh->GetNumberOfPoints(), 8);
+  }
 }
 
 } // namespace
