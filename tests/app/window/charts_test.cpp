@@ -102,7 +102,13 @@ TEST_F(WindowCharts, ArePausedAndClearedTogether)
   EXPECT_TRUE(panel("depthChart")->findChild<QToolButton*>("pause")->isChecked());
   const auto points = [this](const char* name)
   { return chart(name).GetPlot(1)->GetInput()->GetNumberOfRows(); };
+  const auto pictures = [this]
+  {
+    return std::pair(
+      canvas("timeChart")->grabFramebuffer(), canvas("depthChart")->grabFramebuffer());
+  };
   const vtkIdType before = points("depthChart");
+  const auto seen = pictures();
   press(100);
   release();
   EXPECT_TRUE(waitForLift());
@@ -110,6 +116,7 @@ TEST_F(WindowCharts, ArePausedAndClearedTogether)
   click("depthChart", "pause");
   EXPECT_TRUE(QTest::qWaitFor([&] { return points("depthChart") > before + 10; }, kPatience));
   waitForRest();
+  EXPECT_EQ(pictures(), seen) << "nor has the press a curve";
   click("timeChart", "clear");
   EXPECT_EQ(points("depthChart"), 0);
   EXPECT_GT(session_->recording().samples.size(), 10U) << "the recording keeps them";
