@@ -285,6 +285,19 @@ TEST(PressView, LabelsOfAMapAreExact)
   }
 }
 
+TEST(PressView, LabelsOfADisplacementAreRound)
+{
+  const Specimen body = block();
+  View view(body, kSphere);
+  for (const auto& [depth, step] : { std::pair(2.0_mm, 0.5), std::pair(3.7_mm, 1.0),
+         std::pair(5.0_mm, 1.0), std::pair(5.5_mm, 1.0), std::pair(8.0_mm, 2.0) })
+  {
+    (void)view.picture(body, pressed(body, kSphere, depth));
+    vtkScalarBarActor* bar = legendIn(*view.renderer);
+    EXPECT_NEAR(bar->GetLookupTable()->GetRange()[1] / (bar->GetNumberOfLabels() - 1), step, 1e-9);
+  }
+}
+
 TEST(PressView, DrawsNoToolThatIsNowhere)
 {
   const Specimen body = ball();
