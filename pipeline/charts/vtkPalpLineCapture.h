@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 #include <vtkOpenGLGL2PSHelperImpl.h>
 
 class vtkPalpLineCapture : public vtkOpenGLGL2PSHelperImpl
@@ -27,6 +28,12 @@ public:
 protected:
   vtkPalpLineCapture() = default;
   ~vtkPalpLineCapture() override = default;
+
+  /**
+   * Also what is not ASCII, which the superclass leaves out of a path.
+   */
+  void DrawString(const std::string& text, vtkTextProperty* property, double position[3],
+    double backgroundDepth, vtkRenderer* renderer) override;
 
 private:
   vtkPalpLineCapture(const vtkPalpLineCapture&) = delete;
