@@ -34,9 +34,9 @@ void PlotPanel::refresh()
     return;
   }
   const int page = tabs_->currentIndex();
-  Plots plots = pages_[static_cast<std::size_t>(page)].make();
-  // those of the same page stay, to be looked at when the tool is lifted
-  if (!plots.empty() || page != page_)
+  const Page& shown = pages_[static_cast<std::size_t>(page)];
+  Plots plots = shown.make();
+  if (!plots.empty() || page != page_ || !shown.stays)
   {
     for (std::size_t i = 0; page == page_ && i < std::min(plots.size(), plots_.size()); ++i)
     {
@@ -45,7 +45,7 @@ void PlotPanel::refresh()
     put(std::move(plots));
     page_ = page;
   }
-  setHint(plots_.empty() ? pages_[static_cast<std::size_t>(page)].hint : QString());
+  setHint(plots_.empty() ? shown.hint : QString());
   draw();
 }
 

@@ -24,6 +24,7 @@ public:
     QString name;
     std::function<Plots()> make;
     QString hint{};
+    bool stays = false; ///< what was made of what is no longer there
   };
 
   explicit PlotPanel(std::vector<Page> pages, QWidget* parent = nullptr);
@@ -31,8 +32,8 @@ public:
   /// Brings a tab to the front.
   void turnTo(const QString& page);
 
-  /// Makes and draws the plots of the tab in front, if anybody sees them; where there is nothing to
-  /// make them of, those before stay. So do the axes that are held and the curves that are hidden.
+  /// Makes and draws the plots of the tab in front, if anybody sees them; the axes that are held
+  /// and the curves that are hidden stay.
   void refresh();
 
   /// What is shown; nothing before the first press.

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
+#include <QStylePainter>
 #include <QWheelEvent>
 
 #include <cmath>
@@ -225,6 +226,20 @@ void ChoiceBox::show(int index)
 {
   const QSignalBlocker quiet(this);
   setCurrentIndex(index);
+}
+
+void ChoiceBox::paintEvent(QPaintEvent*)
+{
+  QStyleOptionComboBox option;
+  initStyleOption(&option);
+  const QRect room =
+    style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+  constexpr int kSide = 2; // that the style leaves beside a text
+  option.currentText =
+    fontMetrics().elidedText(option.currentText, Qt::ElideRight, room.width() - kSide);
+  QStylePainter painter(this);
+  painter.drawComplexControl(QStyle::CC_ComboBox, option);
+  painter.drawControl(QStyle::CE_ComboBoxLabel, option);
 }
 
 void ChoiceBox::wheelEvent(QWheelEvent* event)

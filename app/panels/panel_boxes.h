@@ -89,7 +89,8 @@ private:
   QString refusal_;
 };
 
-/// A list to choose from; the wheel as in QuantityBox.
+/// A list to choose from, whose text ends in dots where it has too little room; the wheel as in
+/// QuantityBox.
 class ChoiceBox : public QComboBox
 {
 public:
@@ -99,6 +100,7 @@ public:
   void show(int index);
 
 protected:
+  void paintEvent(QPaintEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
 };
 

@@ -107,7 +107,9 @@ void PressList::makeRows()
     QString what;
   };
   const QVector<Column> columns{
-    { tr("Press"), tr("A tick: compared with the others. F2 or a double click: rename") },
+    { tr("Press"),
+      tr("A tick: compared with the others. Selected: they differ from it. F2 or a "
+         "double click: rename") },
     { tr("F max [N]"), tr("The largest force of the law") },
     { tr("δ max [mm]"), tr("The largest depth of the contact") },
     { tr("Tool"), tr("As --tip takes it") }, { tr("Law"), tr("As --law and its options take it") },
@@ -133,6 +135,7 @@ void PressList::makeRows()
   rows_->setItemDelegate(new NeverEdited(rows_));
   rows_->setItemDelegateForColumn(kName, new QStyledItemDelegate(rows_));
   connect(rows_, &QTreeWidget::itemSelectionChanged, this, &PressList::enable);
+  connect(rows_, &QTreeWidget::itemSelectionChanged, this, &PressList::comparedChanged);
   connect(rows_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* row) { takeEdit(*row); });
 }
 
@@ -155,7 +158,8 @@ void PressList::makeActions()
 {
   makeAgain();
   compare_ = addAction(tr("Compare"),
-    tr("Forces of the ticked presses over depth, and their differences from the first"),
+    tr("Forces of the ticked presses over depth, and their differences from the selected one, or "
+       "from the first"),
     [this] { Q_EMIT compareAsked(); });
   ofOne_.push_back(addAction(tr("Fit E"), tr("Young's modulus that this curve alone tells of"),
     [this] { Q_EMIT fitAsked(current()); }));
@@ -289,6 +293,15 @@ std::vector<const KeptPress*> PressList::ticked() const
       presses.push_back(&press);
     }
   }
+  return presses;
+}
+
+std::vector<const KeptPress*> PressList::compared() const
+{
+  std::vector<const KeptPress*> presses = ticked();
+  std::ranges::stable_partition(presses,
+    [chosen = selected()](const KeptPress* press)
+    { return std::ranges::find(chosen, press->id) != chosen.end(); });
   return presses;
 }
 

@@ -36,6 +36,9 @@ public:
   /// kTicked are, the oldest that was not ticked by hand no longer is.
   [[nodiscard]] std::vector<const KeptPress*> ticked() const;
 
+  /// The same, but first the one that the others are compared with: what is selected, if any is.
+  [[nodiscard]] std::vector<const KeptPress*> compared() const;
+
   /// How a press is repeated.
   enum class Again
   {
@@ -51,6 +54,7 @@ Q_SIGNALS:
   void againWithAsked(int id, const QString& tool); ///< as parseTip, all else its own
   void compareAsked();
   void tickedChanged();
+  void comparedChanged(); ///< which press the others are compared with
   void fitAsked(int id);
   void renamed(int id, const QString& name);
   void deleteAsked(const std::vector<int>& ids);

@@ -73,6 +73,10 @@ std::vector<PressCurve> pressCurves(std::span<const KeptPress* const> presses)
 Plots pressForces(std::span<const KeptPress* const> presses)
 {
   Plots plots;
+  if (presses.empty())
+  {
+    return plots;
+  }
   Plot& plot = *plots.emplace_back(std::make_unique<Plot>("force over depth", kDepth, "force [N]"));
   for (const KeptPress* press : presses)
   {

@@ -23,7 +23,7 @@ struct PressPen
 /// The same presses for a chart that is live.
 [[nodiscard]] std::vector<PressCurve> pressCurves(std::span<const KeptPress* const> presses);
 
-/// F(depth) of presses, from touch to release.
+/// F(depth) of presses, from touch to release; nothing of none.
 [[nodiscard]] Plots pressForces(std::span<const KeptPress* const> presses);
 
 /// How far the force of the others is from that of the first, on the way in.

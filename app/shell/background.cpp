@@ -24,9 +24,9 @@ bool hasEnded(const std::future<void>& work, std::chrono::milliseconds patience 
 
 bool Background::run(Work work, const Follow& follow)
 {
-  constexpr auto kUnseen = 30ms; // less than a picture or two
-  constexpr int kEvery = 20;     // [ms]
-  constexpr int kNoticed = 15;   // times
+  constexpr auto kUnseen = 8ms; // half a picture, as the window waits for it
+  constexpr int kEvery = 20;    // [ms]
+  constexpr int kNoticed = 15;  // times
   if (going_)
   {
     throw Error(ErrorCode::BadValue, "other work goes on; wait for it, or cancel it");

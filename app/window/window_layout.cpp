@@ -190,11 +190,12 @@ void Window::makePlots(bool shown)
   };
   plots_ = new PlotPanel(
     { { tr("Section"), [this] { return sectionOf(view_.press(), calibrationShown()); },
-        tr("Nothing to show: press the surface and hold it") },
+        tr("Nothing to show: press the surface and hold it"), true }, // also when it is lifted
       { tr("Forces"), forces },
       { tr("Extent"), [this] { return extentComparison(calibrationShown()); } },
-      { tr("Presses"), [this] { return pressForces(pressList_->ticked()); } },
-      { tr("Differences"), [this] { return pressDifferences(pressList_->ticked()); },
+      { tr("Presses"), [this] { return pressForces(pressList_->ticked()); },
+        tr("Nothing to show yet: press the surface, and tick the press in the list of presses") },
+      { tr("Differences"), [this] { return pressDifferences(pressList_->compared()); },
         tr("Nothing to compare yet: tick two presses or more in the list of presses") } });
   connect(plots_, &PlotPanel::saveAsked, this,
     [this]

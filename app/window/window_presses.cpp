@@ -76,6 +76,7 @@ void Window::makePressList()
   edit->addActions(pressList_->actions());
   connect(pressList_, &PressList::compareAsked, this, [this] { showPlots(tr("Presses")); });
   connect(pressList_, &PressList::tickedChanged, this, &Window::showTicked);
+  connect(pressList_, &PressList::comparedChanged, this, [this] { chartsAreStale_ = true; });
   connect(pressList_, &PressList::fitAsked, this, &Window::fitPressed);
   connect(pressList_, &PressList::renamed, this, &Window::renamePress);
   connect(pressList_, &PressList::deleteAsked, this, &Window::deletePresses);

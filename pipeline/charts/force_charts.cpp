@@ -1,7 +1,6 @@
 #include "pipeline/charts/force_charts.h"
 
 #include "haptics/units.h"
-#include "pipeline/view/appearance.h"
 
 #include <algorithm>
 #include <array>
@@ -185,13 +184,9 @@ void ForceCharts::refresh()
   }
 }
 
-void ForceCharts::setPaused(bool paused)
-{
-  isPaused_ = paused;
-}
-
 void ForceCharts::update()
 {
+  drawPresses();
   const double first = duration_ > 0.0 ? 0.0 : std::floor(samples_->GetFirstTime());
   const double past = samples_->GetLastTime() - first;
   const double span = samples_->GetSpan();
@@ -241,9 +236,13 @@ double ForceCharts::deepest() const
   return depth;
 }
 
-void ForceCharts::setPresses(std::vector<PressCurve> presses)
+void ForceCharts::drawPresses()
 {
-  presses_ = std::move(presses);
+  if (!waiting_)
+  {
+    return;
+  }
+  presses_ = *std::exchange(waiting_, std::nullopt);
   for (vtkPlot* plot : pressPlots_)
   {
     overDepth_->RemovePlotInstance(plot);
@@ -294,7 +293,7 @@ void ForceCharts::setLaw(const ForceLaw& law)
 {
   law_ = law;
   lawLimit_ = 0.0;
-  update();
+  refresh();
 }
 
 std::vector<std::unique_ptr<Plot>> ForceCharts::plots() const

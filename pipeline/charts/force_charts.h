@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -55,8 +56,12 @@ public:
   /// number. Does nothing while it is paused.
   void refresh();
 
-  /// Whether the charts stay as they are; samples are taken all the same. At first they do not.
-  void setPaused(bool paused);
+  /// Whether the charts stay as they are; samples, presses and laws are taken all the same. At
+  /// first they do not.
+  void setPaused(bool paused) noexcept
+  {
+    isPaused_ = paused;
+  }
 
   /// Forgets the samples, and shows so even while it is paused.
   void clear();
@@ -67,15 +72,19 @@ public:
   /// The law drawn under the measured points.
   void setLaw(const ForceLaw& law);
 
-  /// Presses drawn over the samples and the law, in their order; they stay when the samples are
-  /// cleared. At first there are none.
-  void setPresses(std::vector<PressCurve> presses);
+  /// Presses drawn over the samples and the law, in their order, from the next refresh() on; they
+  /// stay when the samples are cleared. At first there are none.
+  void setPresses(std::vector<PressCurve> presses)
+  {
+    waiting_ = std::move(presses);
+  }
 
   /// Both charts as they were last refreshed, to be laid out anew for a file.
   [[nodiscard]] std::vector<std::unique_ptr<Plot>> plots() const;
 
 private:
   void update();
+  void drawPresses();
   void drawLaw(double depthLimit);
   [[nodiscard]] double deepest() const;
 
@@ -88,6 +97,7 @@ private:
   vtkPlot* timePlot_ = nullptr; // owned by its chart, as the others
   vtkPlot* renderedPlot_ = nullptr;
   vtkPlot* depthPlot_ = nullptr;
+  std::optional<std::vector<PressCurve>> waiting_; // presses that are not yet drawn
   std::vector<PressCurve> presses_;
   std::vector<vtkPlot*> pressPlots_; // of them
   double duration_;                  // of a press that is known from the start [s]; else 0

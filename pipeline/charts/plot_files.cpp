@@ -2,19 +2,23 @@
 
 #include "haptics/error.h"
 #include "haptics/files/replace_file.h"
+#include "pipeline/charts/vtkPalpLineCapture.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <sstream>
 #include <string>
-#include <vtkGL2PSExporter.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+#include <vtk_gl2ps.h>
 
 namespace palp
 {
@@ -75,20 +79,12 @@ void writeLines(
   vtkRenderWindow& window, const std::filesystem::path& file, int format, std::string_view end)
 {
   window.Render();
-  vtkNew<vtkGL2PSExporter> exporter;
-  exporter->SetRenderWindow(&window);
-  exporter->SetFileFormat(format);
-  exporter->SetTitle("palp");
-  exporter->CompressOff();
-  exporter->SetSortToOff();
-  exporter->SilentOn(); // else it complains of the background, which it cannot embed
-  // a PDF's own fonts have no Greek letters
-  exporter->SetTextAsPath(format == vtkGL2PSExporter::PDF_FILE);
   replaceFile(file,
     [&](const std::filesystem::path& fresh)
     {
-      exporter->SetFilePrefix((fresh.parent_path() / fresh.stem()).c_str());
-      exporter->Write();
+      const std::unique_ptr<FILE, int (*)(FILE*)> out(std::fopen(fresh.c_str(), "wb"), std::fclose);
+      out == nullptr ? refuseFile(fresh, errno) : void();
+      vtkNew<vtkPalpLineCapture>()->Write(&window, format, out.get());
       if (!removeDate(fresh, end)) // it does not tell whether it wrote
       {
         refuseFile(fresh, ENOSPC);
@@ -154,12 +150,12 @@ void writePng(vtkRenderWindow& window, const std::filesystem::path& file, Backdr
 
 void writeSvg(vtkRenderWindow& window, const std::filesystem::path& file)
 {
-  writeLines(window, file, vtkGL2PSExporter::SVG_FILE, "</svg>");
+  writeLines(window, file, GL2PS_SVG, "</svg>");
 }
 
 void writePdf(vtkRenderWindow& window, const std::filesystem::path& file)
 {
-  writeLines(window, file, vtkGL2PSExporter::PDF_FILE, "%%EOF");
+  writeLines(window, file, GL2PS_PDF, "%%EOF");
 }
 
 } // namespace palp

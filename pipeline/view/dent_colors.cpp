@@ -17,6 +17,24 @@ namespace
 
 constexpr double kLegendWidth = 0.10; // of the picture
 
+// so many steps from 0 that each is 1, 2 or 5 times a power of ten, where that can be
+int stepsUpTo(double top)
+{
+  for (const int steps : { 5, 4, 6, 3 })
+  {
+    const double step = top / steps;
+    const double digit = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    for (const double round : { 1.0, 2.0, 5.0 })
+    {
+      if (std::abs(digit - round) < 1e-6)
+      {
+        return steps;
+      }
+    }
+  }
+  return 5;
+}
+
 } // namespace
 
 DentColors::DentColors(vtkRenderer& renderer, vtkPalpDeformFilter& press, vtkProperty* property)
@@ -87,7 +105,7 @@ void DentColors::showLegend(vtkLookupTable& colors, const char* title, double lo
 {
   colors.SetTableRange(low, high);
   legend_->SetLookupTable(&colors);
-  legend_->SetNumberOfLabels(6);
+  legend_->SetNumberOfLabels(1 + stepsUpTo(high));
   legend_->SetLabelFormat("%.3g");
   legend_->SetTitle(title);
   legend_->SetVisibility(hasLegend_);

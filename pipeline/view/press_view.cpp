@@ -1,9 +1,8 @@
 #include "pipeline/view/press_view.h"
 
 #include "haptics/units.h"
-#include "pipeline/deform/press_of.h"
 #include "pipeline/layout/fill_picture.h"
-#include "pipeline/view/appearance.h"
+#include "pipeline/model/section_face.h"
 #include "pipeline/view/control_net.h"
 #include "pipeline/view/force_arrow.h"
 #include "pipeline/view/ghost.h"
@@ -61,11 +60,18 @@ void PressView::addSurface()
   surface_->SetMapper(surfaceMapper_);
   surfaceMapper_->SetScalarModeToUsePointFieldData();
   surfaceMapper_->UseLookupTableScalarRangeOn();
-  appearance::setColor(*surface_->GetProperty(), appearance::kLiver);
   surface_->GetProperty()->SetSpecularPower(40.0);
   renderer_.AddActor(surface_);
   dent_.emplace(renderer_, *deform_, surface_->GetProperty());
   surfaceMapper_->SetLookupTable(dent_->surfaceColors());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sectionFace(deform_->GetOutputPort(), *cut_)->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  cap_->SetMapper(mapper);
+  cap_->GetProperty()->SetAmbient(0.4); // light comes from above, and it may stand upright
+  cap_->VisibilityOff();
+  renderer_.AddActor(cap_);
+  setColor(color_);
 }
 
 void PressView::addOverlays()
@@ -102,6 +108,7 @@ void PressView::setColor(const appearance::Color& color)
   color_ = color;
   ++version_;
   appearance::setColor(*surface_->GetProperty(), color);
+  appearance::setColor(*cap_->GetProperty(), color);
   dent_->setBase(color);
 }
 
@@ -114,6 +121,8 @@ void PressView::setLook(const BodyLook& look)
   property.SetEdgeVisibility(look.hasEdges);
   property.SetEdgeColor(kEdges.data());
   property.SetOpacity(look.isTranslucent ? kTranslucent : 1.0);
+  cap_->GetProperty()->SetOpacity(property.GetOpacity());
+  cap_->SetVisibility(isClosed_ && look.isCut);
   property.SetBackfaceCulling(isClosed_ && !look.isCut);
   renderer_.GetActiveCamera()->GetDirectionOfProjection(cutAlong_.data());
   cut_->SetNormal(cutAlong_.data());

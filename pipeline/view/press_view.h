@@ -228,6 +228,7 @@ private:
   BodyLook look_;
   bool isClosed_ = false;
   vtkNew<vtkPlane> cut_;
+  vtkNew<vtkActor> cap_;                                // what a closed body is filled with there
   Eigen::Vector3d cutAlong_ = Eigen::Vector3d::UnitY(); // as one looked when it was asked for
 
   std::optional<SurfaceMap> map_; // none: the surface has its own color

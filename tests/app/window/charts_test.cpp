@@ -102,11 +102,21 @@ TEST_F(WindowCharts, ArePausedAndClearedTogether)
   EXPECT_TRUE(panel("depthChart")->findChild<QToolButton*>("pause")->isChecked());
   const auto points = [this](const char* name)
   { return chart(name).GetPlot(1)->GetInput()->GetNumberOfRows(); };
+  const auto pictures = [this]
+  {
+    return std::pair(
+      canvas("timeChart")->grabFramebuffer(), canvas("depthChart")->grabFramebuffer());
+  };
   const vtkIdType before = points("depthChart");
+  const auto seen = pictures();
   press(100);
   release();
-  EXPECT_TRUE(waitForLift());
+  waitForPresses(1);
+  auto* rows = window_->findChild<QTreeWidget*>("pressRows");
+  EXPECT_TRUE(QTest::qWaitFor([rows] { return rows->topLevelItemCount() == 1; }, kPatience));
+  waitForFrames();
   EXPECT_EQ(points("depthChart"), before);
+  EXPECT_EQ(pictures(), seen) << "nor has the press a curve";
   click("depthChart", "pause");
   EXPECT_TRUE(QTest::qWaitFor([&] { return points("depthChart") > before + 10; }, kPatience));
   waitForRest();
@@ -157,6 +167,7 @@ TEST_F(WindowCharts, AreSavedAtTheSizeThatIsAskedFor)
         which, QString::fromStdString(file.string()), { .width = 2400, .height = 1200 }));
       EXPECT_GT(std::filesystem::file_size(file), 2000U) << name;
     }
+    EXPECT_LT(std::filesystem::file_size(folder_.path() / "chart.pdf"), 200'000U);
     const QImage picture(QString::fromStdString((folder_.path() / "chart.png").string()));
     EXPECT_EQ(picture.size(), QSize(2400, 1200));
     std::ifstream svg(folder_.path() / "chart.svg");
@@ -165,7 +176,6 @@ TEST_F(WindowCharts, AreSavedAtTheSizeThatIsAskedFor)
   }
 }
 
-// a curve of its own for each press, which outlives a change of the tool and is hidden by its name
 TEST_F(WindowCharts, TellWhatToDoWhereThereIsNothingToShow)
 {
   PlotPanel* plots = showPlots();
@@ -182,10 +192,51 @@ TEST_F(WindowCharts, TellWhatToDoWhereThereIsNothingToShow)
   tabs->setCurrentIndex(4);
   EXPECT_TRUE(QTest::qWaitFor([&] { return hint->isVisible(); }, kPatience));
   EXPECT_TRUE(hint->text().contains("tick two presses")) << hint->text().toStdString();
+  tabs->setCurrentIndex(3);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !hint->isVisible(); }, kPatience)) << "a press is shown";
+  window_->findChild<QTreeWidget*>("pressRows")->topLevelItem(0)->setCheckState(0, Qt::Unchecked);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return hint->isVisible(); }, kPatience));
+  EXPECT_TRUE(hint->text().contains("tick the press")) << hint->text().toStdString();
+  EXPECT_TRUE(plots->plots().empty());
   tabs->setCurrentIndex(0);
   EXPECT_TRUE(QTest::qWaitFor([&] { return !hint->text().contains("tick"); }, kPatience));
 }
 
+// of those that are ticked, the first or the one that is selected
+TEST_F(WindowCharts, TellHowFarPressesAreFromTheOneThatIsChosen)
+{
+  PlotPanel* plots = showPlots();
+  plots->turnTo("Differences");
+  auto* rows = window_->findChild<QTreeWidget*>("pressRows");
+  for (const int presses : { 1, 2 })
+  {
+    press(80);
+    release();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return rows->topLevelItemCount() == presses; }, kPatience));
+    type("young", "100");
+  }
+  const auto waitFor = [plots](const char* name)
+  {
+    const auto isShown = [plots, name]
+    { return !plots->plots().empty() && plots->plots()[0]->curves()[0].name == name; };
+    return QTest::qWaitFor(isShown, kPatience);
+  };
+  const auto largest = [plots]
+  {
+    double range[2];
+    vtkDataArray::SafeDownCast(plots->plots()[0]->tables()[0]->GetColumn(1))->GetRange(range);
+    return std::abs(range[0]) > range[1] ? range[0] : range[1];
+  };
+  ASSERT_TRUE(waitFor("press 2")) << "the first is what the others differ from";
+  const double stiffer = largest();
+  EXPECT_GT(stiffer, 0.1);
+  rows->topLevelItem(1)->setSelected(true);
+  ASSERT_TRUE(waitFor("press 1"));
+  EXPECT_NEAR(largest(), -stiffer, 0.1 * stiffer);
+  EXPECT_TRUE(rows->headerItem()->toolTip(0).contains("Selected"));
+}
+
+// a curve of its own for each press, which outlives a change of the tool and is hidden by its name
 TEST_F(WindowCharts, ShowEachTickedPressInAColorOfItsOwn)
 {
   auto* rows = window_->findChild<QTreeWidget*>("pressRows");
@@ -225,7 +276,7 @@ TEST_F(WindowCharts, ShowEachTickedPressInAColorOfItsOwn)
   EXPECT_EQ(colors.size(), 4U) << "model, recorded and two presses";
 
   rows->topLevelItem(0)->setCheckState(0, Qt::Unchecked);
-  EXPECT_FALSE(shown().contains("press 1"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !shown().contains("press 1"); }, kPatience));
   depth.SetCurveShown("press 2", false);
   EXPECT_FALSE(shown().at("press 2")->GetVisible());
   const std::filesystem::path file = folder_.path() / "depth.csv";

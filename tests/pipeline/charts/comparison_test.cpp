@@ -293,6 +293,10 @@ TEST_F(Files, PdfNeedsNoOtherProgram)
   EXPECT_EQ(text.substr(0, 5), "%PDF-");
   EXPECT_NE(text.find("%%EOF"), std::string::npos);
   EXPECT_GT(text.size(), 10'000U); // its letters are outlines
+  EXPECT_EQ(text.find("/Subtype /Image"), std::string::npos) << "lines, and no picture behind them";
+  plot->chart().GetAxis(vtkAxis::BOTTOM)->SetTitle("depth  [mm]");
+  writePdf(*view->GetRenderWindow(), folder / "force.pdf");
+  EXPECT_LT(read("force.pdf").size() + 300, text.size()) << "where it was, delta has an outline";
   EXPECT_THROW(writePdf(*view->GetRenderWindow(), "/nowhere/force.pdf"), Error);
 }
 

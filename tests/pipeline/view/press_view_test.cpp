@@ -145,6 +145,36 @@ TEST(PressView, IsSeenThroughOrCutOpenAtTheContact)
   EXPECT_GT(test::differenceOf(*view.picture(body, sample), *uncut).changed, 0.02);
 }
 
+// where an open one shows its inside
+TEST(PressView, ClosesTheCutOfAClosedBody)
+{
+  const Specimen body = ball();
+  const Sample sample = pressed(body, kSphere, 5.0_mm);
+  View view(body, kSphere);
+  view.view.setVisible(std::vector<Overlay>{});
+  const auto spread = [&](bool isClosed)
+  {
+    view.view.setSurface(body.surface, isClosed);
+    (void)view.picture(body, sample);
+    view.view.setLook({ .isCut = true });
+    const auto cut = view.picture(body, sample);
+    const auto redAt = [&cut](int x, int y) { return cut->GetScalarComponentAsDouble(x, y, 0, 0); };
+    double least = 255.0;
+    double most = 0.0;
+    for (int y = 20; y < 100; ++y)
+    {
+      for (int x = 180; x < 300; ++x)
+      {
+        least = std::min(least, redAt(x, y));
+        most = std::max(most, redAt(x, y));
+      }
+    }
+    return most - least;
+  };
+  EXPECT_LT(spread(true), 12.0) << "an even face";
+  EXPECT_GT(spread(false), 40.0) << "its inside";
+}
+
 // as saved pictures have; what is thin and dark stands between two brighter pixels
 TEST(PressView, HasNoSpecksAroundADentWhereAPixelHasSeveralSamples)
 {
@@ -252,6 +282,19 @@ TEST(PressView, LabelsOfAMapAreExact)
       ASSERT_GT(std::snprintf(text.data(), text.size(), bar->GetLabelFormat(), value), 0);
       EXPECT_NEAR(std::atof(text.data()), value, 1e-4 * (range[1] - range[0])) << text.data();
     }
+  }
+}
+
+TEST(PressView, LabelsOfADisplacementAreRound)
+{
+  const Specimen body = block();
+  View view(body, kSphere);
+  for (const auto& [depth, step] : { std::pair(2.0_mm, 0.5), std::pair(3.7_mm, 1.0),
+         std::pair(5.0_mm, 1.0), std::pair(5.5_mm, 1.0), std::pair(8.0_mm, 2.0) })
+  {
+    (void)view.picture(body, pressed(body, kSphere, depth));
+    vtkScalarBarActor* bar = legendIn(*view.renderer);
+    EXPECT_NEAR(bar->GetLookupTable()->GetRange()[1] / (bar->GetNumberOfLabels() - 1), step, 1e-9);
   }
 }
 
