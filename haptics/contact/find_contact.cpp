@@ -23,8 +23,10 @@ constexpr double kMajority = 0.5;  // [-] length of the mean normal that is a cl
 constexpr double kRounding = 1e-9; // [-]
 constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a part of the contact
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
-constexpr double kOut = 4.0;   // [-] 1 / contact sizes over the surface: all of a nose is outside
-constexpr double kFront = 0.1; // [-] cosine over which the back of a sheet becomes its front
+constexpr double kEntry = 0.4;     // [-] 1 / power by which a spread grows as an edge comes in
+constexpr double kSudden = 4.0;    // [-] most of a slope where the far wall of a lobe comes in
+constexpr double kShallow = 0.75;  // [-] contact sizes inside, to which the nearest point counts
+constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
 constexpr double kCorner = 0.4;   // [-] of the least reach: the corner where the contact is wider
 constexpr double kTilting = 0.15; // [-] of a tool's size: a body turns by less than 1 rad in it
@@ -33,7 +35,8 @@ constexpr double kFlat = 0.05;    // [rad] of tilt over which a flat end comes t
 // the surface about the nearest point, smoothed as far as the contact and the mesh allow
 struct Neighborhood
 {
-  double distance; // of the nearest point [m], negative inside the body
+  double distance;      // of the nearest point [m], negative inside the body
+  Eigen::Vector3d away; // how that changes as the place moves [-]
   BallSize size;
   PatchBall ball;
   Patch patch;
@@ -58,18 +61,27 @@ Sloped turningOf(double distance, const Sloped& smoothing) noexcept
               : -side * smoothing.slope / squared };
 }
 
-// @param apart  from the nearest point, whatever side it is on [m]
+// less where a center is so deep inside that the nearest point leaps from wall to wall
+double shallowPart(double distance, double smoothing) noexcept
+{
+  return std::clamp(2.0 + distance / (kShallow * smoothing), 0.0, 1.0);
+}
+
+// @param from  the nearest point to the position, whatever side it is on [m]
 Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vector3d& position,
-  double distance, double apart) noexcept
+  double distance, const Eigen::Vector3d& from) noexcept
 {
   const BallSize size = rule(distance);
   const Sloped turning = turningOf(distance, size.smoothing);
   const PatchBall ball{ position, std::sqrt(size.squared.value), turning.value };
-  const double inside =
-    surface.closed() ? (distance < 0.0 ? 1.0 : 0.0) : smoothStep(0.5 - 0.5 * distance / apart);
+  const double inside = surface.closed() ? (distance < 0.0 ? 1.0 : 0.0)
+                                         : smoothStep(0.5 - 0.5 * distance / from.norm());
   Patch patch = patchWithin(surface, ball, inside);
   // from here on they are over the place, with the ball that belongs to it
-  const Eigen::Vector3d away = patch.normal.normalized();
+  const Eigen::Vector3d mean = patch.normal.normalized();
+  const Eigen::Vector3d away = mean +
+    shallowPart(distance, size.smoothing.value) *
+      (std::copysign(1.0, distance) * from.normalized() - mean);
   const PatchTurns& turns = patch.turns;
   patch.fading -= turning.slope * turns.moment * away;
   patch.volumeFading -= turning.slope * turns.volume * away;
@@ -77,7 +89,7 @@ Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vec
     (size.squared.slope * patch.area + turning.slope * turns.normal) * away.transpose();
   patch.slopes.weight +=
     (size.squared.slope * patch.slopes.area + turning.slope * turns.weight) * away;
-  return { distance, size, ball, patch };
+  return { distance, away, size, ball, patch };
 }
 
 // of the normals about their mean: what that is shorter than they
@@ -109,14 +121,39 @@ Eigen::Vector3d shareSlope(const Patch& patch) noexcept
   return (length - (1.0 - spreadOf(patch)) * patch.slopes.weight) / patch.weight;
 }
 
-// Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
-// sphere's normals spread by at least twice as much as from where all of it counts. How that
-// changes is not felt: an edge of facets comes and goes within micrometers.
-double curvedPart(const Patch& patch, double curvature, double smoothing) noexcept
+// A part of something, and how it changes as a place moves.
+struct Part
 {
-  const double spread = spreadOf(patch);
-  const double ofSphere = curvature * curvature * smoothing * smoothing / 6.0;
-  return 2.0 * spread < ofSphere ? smoothStep(std::max(0.0, 2.0 * spread / ofSphere)) : 1.0;
+  double value = 1.0;
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero(); // [1/m]
+};
+
+// Part of the curvature that is below the tool, where a coarse mesh tells it over a wider ball: a
+// smooth body's normals spread by twice as much as from where all of it counts. They are compared
+// over the wider ball, of radius wide [m] by the height, so that an edge comes in gradually.
+Part curvedPart(const Neighborhood& here, const Contact& contact, const BallRule& rule,
+  const Sloped& wide, const Eigen::Vector3d& heightSlope) noexcept
+{
+  const auto [smoothing, growth] = here.size.smoothing;
+  const Sloped own = rule.contactRadius(here.distance);
+  const double across = wide.value * smoothing / own.value;
+  const double mean = contact.surfaceCurvature;
+  const double apart = contact.curvatureSpread;
+  const double squares = mean * mean + apart * apart;
+  const double ofBody = squares * across * across / 12.0;
+  const double spread = std::max(kRounding, spreadOf(here.patch));
+  if (!(spread < ofBody))
+  {
+    return {};
+  }
+  const double entered = std::pow(spread / ofBody, kEntry);
+  const Eigen::Vector3d wider = wide.slope / wide.value * heightSlope +
+    (growth / smoothing - own.slope / own.value) * here.away;
+  const Eigen::Vector3d rounder =
+    (mean * contact.curvatureSlope + apart * contact.spreadSlope) / squares;
+  return { smoothStep(entered),
+    -6.0 * kEntry * entered * entered * (1.0 - entered) * shallowPart(here.distance, smoothing) *
+      (shareSlope(here.patch) / spread + 2.0 * (rounder + wider)) };
 }
 
 // How far the lowest point of a flat end is below its middle, over the tilt; with no corner where
@@ -130,8 +167,8 @@ Sloped rimOf(const Tip& tip, double tilt) noexcept
 
 // What of the body counts as the shape of the contact, and how that changes as the tool moves: with
 // the place, with the radius as the height changes, and with the normal, which turns with the body.
-// height: over a flat body
-void measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
+// height: over a flat body; returns the radius that it is averaged over, by the height
+Sloped measureShape(Contact& contact, const Surface& surface, const Tip& tip, const ToolPose& pose,
   const BallRule& rule, const Neighborhood& here, const Height& height, CurvatureOf of) noexcept
 {
   const double grain = kGrain * (rule.nose() + flatRadius(tip));
@@ -157,6 +194,7 @@ void measureShape(Contact& contact, const Surface& surface, const Tip& tip, cons
   const Eigen::Vector3d tilting = turn(lean) / std::max(lean.norm(), 1e-9);
   contact.tiltSlope =
     tilting / std::hypot(1.0, (kTilting * baseRadius(tip) * tilting).squaredNorm());
+  return wide;
 }
 
 std::optional<Neighborhood> lookBelow(
@@ -181,18 +219,18 @@ std::optional<Neighborhood> lookBelow(
     position += raised * unitNormal(surface.points(), surface.triangles()[triangle]);
     nearest.distance = off;
   }
-  const double apart = (position - nearest.point).norm();
-  Neighborhood here = look(surface, rule, position, nearest.distance, apart);
-  if (!surface.crossing() && isOrientationFlipped(here, position - nearest.point))
+  const Eigen::Vector3d from = position - nearest.point;
+  Neighborhood here = look(surface, rule, position, nearest.distance, from);
+  if (!surface.crossing() && isOrientationFlipped(here, from))
   {
-    here = look(surface, rule, position, -nearest.distance, apart);
+    here = look(surface, rule, position, -nearest.distance, from);
     if (here.distance >= reach)
     {
       return {};
     }
   }
   here.triangle = nearest.triangle;
-  here.apart = apart;
+  here.apart = from.norm();
   here.raised = raised;
   return here;
 }
@@ -212,11 +250,11 @@ Contact exactContact(
   contact.normalSpread = std::acos(std::min(1.0, share));
   const HeightOver heightOver(here->patch, rule, here->distance, here->size);
   const Height flat = heightOver(here->distance, 0.0, Eigen::Vector3d::Zero());
-  measureShape(contact, surface, tip, pose, rule, *here, flat, of);
-  contact.curvedPart =
-    curvedPart(here->patch, contact.surfaceCurvature, here->size.smoothing.value);
-  const Height height = heightOver(flat.value, contact.curvedPart * contact.surfaceCurvature,
-    contact.curvedPart * contact.curvatureSlope);
+  const Sloped wide = measureShape(contact, surface, tip, pose, rule, *here, flat, of);
+  const Part curved = curvedPart(*here, contact, rule, wide, flat.slope);
+  contact.curvedPart = curved.value;
+  const Height height = heightOver(flat.value, curved.value * contact.surfaceCurvature,
+    curved.value * contact.curvatureSlope + contact.surfaceCurvature * curved.slope);
   contact.relief = height.value - here->distance;
   const Eigen::Vector3d upward = height.slope.normalized();
   const double facing = -pose.axis.dot(upward);
@@ -231,10 +269,10 @@ Contact exactContact(
   }
   contact.depth = part.value * depth;
   Eigen::Vector3d outward = part.value * height.slope;
-  if (part.slope > 0.0) // of a center in the body it would push the tool out through a thin one
+  if (part.slope > 0.0)
   {
-    const double out = std::clamp(kOut * here->distance / here->size.smoothing.value, 0.0, 1.0);
-    outward -= out * part.slope * depth * shareSlope(here->patch);
+    const Eigen::Vector3d coming = part.slope * depth * shareSlope(here->patch);
+    outward -= std::min(1.0, kSudden / coming.norm()) * coming; // more is rounding of thin sheets
   }
   contact.center = position - height.value * outward.normalized();
   outward -= part.value * rim.slope * contact.tiltSlope;

@@ -80,18 +80,16 @@ class ClosedLoop : public testing::TestWithParam<LawMode>
 {
 };
 
-// On facets up to three times as wide as the contact, too; the worst are where an edge of theirs
-// comes below the tool at once, which is not felt.
-TEST_P(ClosedLoop, GivesLittleEnergyOnACoarseBody)
+// on facets up to six times as wide as the contact, too
+TEST_P(ClosedLoop, GivesNoEnergyOnACoarseBody)
 {
-  for (const auto& [cells, bumps, worst] :
-    { std::tuple(5, 1.5_mm, 0.15), { 9, 0.5_mm, 0.07 }, { 20, 0.1_mm, 0.002 } })
+  for (const auto& [cells, bumps, radius] : { std::tuple(5, 1.5_mm, 10.0_mm),
+         { 9, 0.5_mm, 10.0_mm }, { 20, 0.1_mm, 10.0_mm }, { 5, 1.5_mm, 4.0_mm } })
   {
     Scene scene;
     scene.surface =
       std::make_shared<const Surface>(test::makeSurface(bumpyEllipsoid(cells, bumps)));
-    scene.law =
-      ForceLaw(SphereTip{ 10.0_mm }, makeMaterial(50.0_kPa, 0.45), { .mode = GetParam() });
+    scene.law = ForceLaw(SphereTip{ radius }, makeMaterial(50.0_kPa, 0.45), { .mode = GetParam() });
     scene.forceLimit = 1e6;
     Random random(7);
     std::vector<double> gains;
@@ -102,8 +100,8 @@ TEST_P(ClosedLoop, GivesLittleEnergyOnACoarseBody)
     std::ranges::sort(gains);
     std::erase(gains, 0.0);
     EXPECT_GT(gains.size(), 60U);
-    EXPECT_LT(gains[gains.size() / 2], 0.0015) << cells;
-    EXPECT_LT(gains.back(), worst) << cells;
+    EXPECT_LT(gains[gains.size() / 2], 2e-4) << cells;
+    EXPECT_LT(gains.back(), 1e-3) << cells;
   }
 }
 
