@@ -274,7 +274,9 @@ void addParts(CLI::App& command, ImportOptions& options)
       options.part.names = readLabelNames(text);
     });
   auto* label = addParsed(command, "--label",
-    "Labels of a label map, by value or name with commas, each an organ of its own; 1+2 are one",
+    "Labels of a label map, by value or name with commas, each an organ of its own; 1+2 are one, "
+    "named as "
+    "the first",
     "all",
     [part](const std::string& text)
     {

@@ -62,9 +62,7 @@ void joinWedges(std::span<const Eigen::Vector3d> points, std::span<const Triangl
 }
 
 // Without fins: what stands on a surface by one side and ends openly elsewhere, where the rest is
-// whole without it.
-// @param pieceOf  of each triangle
-// @param isOpen   of each piece
+// whole without it. pieceOf: of each triangle; isOpen: of each piece
 std::vector<Side> withoutFins(
   std::vector<Side> sides, const std::vector<int>& pieceOf, const std::vector<bool>& isOpen)
 {

@@ -65,11 +65,11 @@ using LabelGroup = std::vector<Label>;
 FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
 {
   const Segment& first = labels.front().segment;
-  FileOrgan organ{ .label = {}, .name = {}, .color = first.color, .surface = {}, .from = {} };
+  FileOrgan organ{
+    .label = {}, .name = first.name, .color = first.color, .surface = {}, .from = {}
+  };
   for (const Label& label : labels)
   {
-    const std::string& name = label.segment.name;
-    organ.name.append(organ.name.empty() || name.empty() ? "" : "+").append(name);
     organ.label.append(organ.label.empty() ? "" : "+").append(inDigits(label.shown));
     organ.voxels += static_cast<std::uint64_t>(label.voxels);
   }
