@@ -72,8 +72,17 @@ constexpr std::array kOthers{ std::pair{
   std::pair{ ".img", "an image in two files; save it as one .nii" },
   std::pair{ ".mgz", "an image of FreeSurfer; save it by mri_convert as .nii.gz" } };
 
+void checkThere(const std::filesystem::path& file)
+{
+  if (std::error_code none; !std::filesystem::exists(file, none))
+  {
+    refuse(file, "not found; check the name");
+  }
+}
+
 [[noreturn]] void refuseOther(const std::filesystem::path& file, const std::string& name)
 {
+  checkThere(file);
   for (const auto& [ending, what] : kOthers)
   {
     if (name.ends_with(ending))
@@ -107,13 +116,9 @@ const Format& formatOf(const std::filesystem::path& file)
 
 void checkFile(const std::filesystem::path& file, const Format& format)
 {
+  checkThere(file);
   std::error_code failure;
-  const auto status = std::filesystem::status(file, failure);
-  if (!std::filesystem::exists(status))
-  {
-    refuse(file, "not found; check the name");
-  }
-  if (!std::filesystem::is_regular_file(status))
+  if (!std::filesystem::is_regular_file(file, failure))
   {
     refuse(file, "not a file; name a surface file");
   }

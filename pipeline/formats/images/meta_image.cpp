@@ -171,6 +171,12 @@ void findData(const std::filesystem::path& file, const MetaFields& fields, std::
   {
     refuse(file, "its data, " + inQuotes(name) + ", are not beside it; copy both");
   }
+  if (!std::ifstream(header.dataFile))
+  {
+    refuse(file,
+      "its data, " + inQuotes(name) +
+        ", cannot be opened; check their permissions, and copy what a link leads to");
+  }
   header.begin = local ? headerEnd : 0;
   const std::vector<double> skip = numbersOf(file, fields, "HeaderSize");
   if (!skip.empty() && skip[0] == -1.0 && !header.compressed && there >= header.bytes)
