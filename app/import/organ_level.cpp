@@ -3,6 +3,7 @@
 #include "haptics/error.h"
 #include "haptics/files/input_text.h"
 #include "haptics/surface/area_and_volume.h"
+#include "haptics/surface/crossing.h"
 #include "haptics/surface/decimation/decimate.h"
 #include "haptics/units.h"
 #include "pipeline/model/poly_data.h"
@@ -111,6 +112,8 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   addWarnings(loaded.notes, result.warnings);
   const std::vector<Eigen::Vector3d> points = pointsOf(*loaded.mesh);
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
+  auto crossing = std::async(std::launch::async,
+    [&] { return crossingTriangles(BoxTree(points, triangles), triangles).size(); });
   result.volume = enclosedVolume(points, triangles);
   result.shown = levelOf(points, triangles, boundary);
   if (constexpr double kFar = 2.0; result.shown.apart.largest > kFar * length * organ.voxel)
@@ -131,6 +134,12 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   catch (const Error& error) // an edge of three triangles
   {
     result.warnings.push_back(std::string("no coarser level: ") + error.what());
+  }
+  if (const std::size_t count = crossing.get(); count > 0)
+  {
+    result.warnings.push_back("its surface passes through itself, by " +
+      counted(count, "triangle") +
+      ", where the image is noisy or the organ as thin as a voxel; smooth the image there");
   }
   return result;
 }

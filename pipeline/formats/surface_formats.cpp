@@ -92,9 +92,8 @@ void checkThere(const std::filesystem::path& file)
   }
   refuse(file,
     "not a kind of file known here; give a surface (.stl, .obj, .ply, .off, .vtk, .vtp, .vtu, "
-    ".msh), an "
-    "image (.mha, .mhd, .nii, .nii.gz, .nrrd, .nhdr, .vti), a folder of DICOM images or a DICOM "
-    "segmentation (.dcm)");
+    ".msh), an image (.mha, .mhd, .nii, .nii.gz, .nrrd, .nhdr, .vti), a folder of DICOM images or "
+    "a DICOM segmentation (.dcm)");
 }
 
 const Format& formatOf(const std::filesystem::path& file)
@@ -117,8 +116,7 @@ const Format& formatOf(const std::filesystem::path& file)
 void checkFile(const std::filesystem::path& file, const Format& format)
 {
   checkThere(file);
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(file, failure))
+  if (std::error_code failure; !std::filesystem::is_regular_file(file, failure))
   {
     refuse(file, "not a file; name a surface file");
   }
@@ -127,8 +125,7 @@ void checkFile(const std::filesystem::path& file, const Format& format)
   {
     refuse(file, "cannot be opened; check its permissions");
   }
-  const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  if (size == 0)
+  if (in.peek() == std::ifstream::traits_type::eof())
   {
     refuse(file, "empty; export it again");
   }

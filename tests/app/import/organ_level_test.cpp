@@ -1,6 +1,11 @@
 #include "app/import/organ_level.h"
 #include "app/import/organ_look.h"
+#include "pipeline/surface_io/surface_io.h"
+#include "tests/support/process.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -36,6 +41,32 @@ TEST(NameFiles, GivesNoneTheNameOfTheCoarserLevelOfAnother)
     {
       EXPECT_TRUE(shown.insert(organ.name).second) << organ.name;
     }
+  }
+}
+
+// a label as thin as a voxel has no smooth surface that is sound
+TEST(ImportedOrgan, TellsOfASurfaceThatPassesThroughItself)
+{
+  const test::TemporaryFolder folder;
+  for (const int thick : { 1, 9 })
+  {
+    const std::filesystem::path file = folder.path() / (std::to_string(thick) + ".mha");
+    std::ofstream out(file, std::ios::binary);
+    out << "ObjectType = Image\nNDims = 3\nDimSize = 40 15 15\nElementType = MET_UCHAR\n"
+           "ElementSpacing = 2 2 2\nDistanceUnits = mm\nElementDataFile = LOCAL\n";
+    for (int i = 0; i < 40 * 15 * 15; ++i)
+    {
+      const bool isIn = std::abs(i % 40 - 20) < 15 && std::abs(i / 40 % 15 - 7) < (thick + 1) / 2 &&
+        std::abs(i / 600 - 7) < (thick + 1) / 2;
+      out << (isIn ? '\1' : '\0');
+    }
+    out.close();
+    FileOrgans found = readFileOrgans(file, {}, false);
+    const ImportedOrgan organ =
+      importedOrgan(std::move(found.organs.at(0)), file, LengthUnit::Millimeter);
+    const auto tells = [](const std::string& warning)
+    { return warning.find("passes through itself") != warning.npos; };
+    EXPECT_EQ(std::ranges::any_of(organ.warnings, tells), thick == 1);
   }
 }
 
