@@ -11,6 +11,7 @@
 #include "pipeline/model/merged_mesh.h"
 #include "pipeline/surface_io/surface_facing.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace palp
@@ -52,6 +53,22 @@ void dropInner(RepairedMesh& mesh)
   mesh.triangles = std::move(rest.triangles);
 }
 
+// Triangles without an area that hang on nothing, or on an edge that is whole without them.
+void dropHanging(MergedMesh& mesh)
+{
+  const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
+  std::size_t i = 0;
+  std::erase_if(mesh.triangles,
+    [&](const Triangle& t)
+    {
+      constexpr double kFlat = 1e-6; // of its longest side, as high: by the rounding of files
+      const bool isApart = std::ranges::count(edges.across[i++], -1) == 3;
+      const auto& [a, b, c] = t;
+      return isApart &&
+        flatness(mesh.points[at(a)], mesh.points[at(b)], mesh.points[at(c)]) < kFlat;
+    });
+}
+
 // Where bodies of one closed surface touch or overlap, what has the body on both sides bounds
 // nothing. It goes where the rest is closed: else the walls cross, which stays and is told.
 void dropBuried(MergedMesh& mesh)
@@ -85,6 +102,7 @@ RepairedMesh repairedMesh(
   {
     merged = mergedMesh(merged.points, merged.triangles);
   }
+  dropHanging(merged);
   const std::size_t cut = cutAtTJunctions(merged.points, merged.triangles);
   dropBuried(merged);
   const std::vector<bool> repeated = repeatedTriangles(merged.triangles);

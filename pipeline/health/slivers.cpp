@@ -24,6 +24,7 @@ using Vertex = OpenMesh::VertexHandle;
 
 constexpr double kTurn = 0.9; // cosine
 constexpr double kOff = 0.1;  // of a short side, by which a point may leave the triangles about it
+constexpr double kShape = 1e-4; // of the body's size, by which no shape changes
 
 Eigen::Vector3d placeOf(const HalfEdges& mesh, Vertex vertex)
 {
@@ -55,7 +56,7 @@ double flatnessOf(const HalfEdges& mesh, OpenMesh::FaceHandle face)
 }
 
 // whether the triangles around a point may change, and keep their normals, when it goes to another
-bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to)
+bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to, double mostOff)
 {
   const Eigen::Vector3d there = placeOf(mesh, to);
   for (const Halfedge out : mesh.voh_range(from))
@@ -74,7 +75,7 @@ bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to)
     const Eigen::Vector3d before = normalOf(here, placeOf(mesh, b), placeOf(mesh, c));
     const Eigen::Vector3d after = normalOf(there, placeOf(mesh, b), placeOf(mesh, c));
     const double off = std::abs(before.dot(there - here));
-    if (before.dot(after) < kTurn || off > kOff * (there - here).norm() ||
+    if (before.dot(after) < kTurn || off > std::min(mostOff, kOff * (there - here).norm()) ||
       mesh.status(mesh.face_handle(out)).locked())
     {
       return false;
@@ -83,7 +84,7 @@ bool mayGo(const HalfEdges& mesh, Vertex from, Vertex to)
   return true;
 }
 
-bool collapse(HalfEdges& mesh, Halfedge shortest)
+bool collapse(HalfEdges& mesh, Halfedge shortest, double mostOff)
 {
   for (const Halfedge way : { shortest, mesh.opposite_halfedge_handle(shortest) })
   {
@@ -94,7 +95,7 @@ bool collapse(HalfEdges& mesh, Halfedge shortest)
       continue; // one after the other they would lead around a cylinder
     }
     const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
-    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to))
+    if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to, mostOff))
     {
       mesh.status(to).set_tagged(true);
       mesh.collapse(way);
@@ -162,6 +163,12 @@ std::size_t countOf(const HalfEdges& mesh)
 
 void removeFrom(HalfEdges& mesh)
 {
+  Eigen::AlignedBox3d box;
+  for (const Vertex vertex : mesh.vertices())
+  {
+    box.extend(placeOf(mesh, vertex));
+  }
+  const double mostOff = kShape * box.diagonal().norm();
   constexpr int kPasses = 3; // one may make room for the next
   for (int pass = 0; pass < kPasses; ++pass)
   {
@@ -174,7 +181,7 @@ void removeFrom(HalfEdges& mesh)
       const auto sides = sidesOf(mesh, face);
       const bool isNeedle =
         mesh.calc_edge_length(sides[0]) < 2.0 * kSliver * mesh.calc_edge_length(sides[2]);
-      (isNeedle && collapse(mesh, sides[0])) || flip(mesh, sides[2]);
+      (isNeedle && collapse(mesh, sides[0], mostOff)) || flip(mesh, sides[2]);
     }
   }
 }

@@ -114,6 +114,18 @@ TEST(MeshRepair, LeavesABodyWholeWhereFinsStandOnIt)
   expectWhole(mesh, whole);
 }
 
+// without an area, as it hangs on a sphere by one edge
+TEST(MeshRepair, LeavesOutWhatHangsOnAnEdgeWithoutAnArea)
+{
+  Mesh mesh = makeSphere(0.03, 2);
+  const auto [a, b, c] = mesh.triangles[40];
+  mesh.points.emplace_back(2.0 * mesh.points[at(a)] - mesh.points[at(b)]);
+  mesh.triangles.push_back({ a, b, static_cast<int>(mesh.points.size()) - 1 });
+  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+  EXPECT_EQ(mended.triangles.size(), mesh.triangles.size() - 1);
+  EXPECT_TRUE(palp::healthOf(mended.points, mended.triangles).pieces.at(0).closed);
+}
+
 // points of the edges that lead from one along a direction
 std::vector<int> pathOf(const Mesh& mesh, int start, const Vector3d& along, std::size_t most)
 {
