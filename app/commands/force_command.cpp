@@ -98,7 +98,7 @@ struct Pressed
   static StiffnessContact contactAt(const ContactGeometry& geometry)
   {
     return { Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), geometry.depth,
-      geometry.surfaceCurvature };
+      Eigen::Matrix3d::Zero() };
   }
 
   // of the law, of how the tissue varies, and of the nodules in it

@@ -29,6 +29,8 @@ struct Contact
   Eigen::Vector3d spreadSlope = Eigen::Vector3d::Zero();    ///< of curvatureSpread [1/m^2]
   Eigen::Vector3d thicknessSlope = Eigen::Vector3d::Zero(); ///< of thickness [-]
   Eigen::Vector3d tiltSlope = Eigen::Vector3d::Zero();      ///< of tilt [rad/m]
+  Eigen::Matrix3d turning =
+    Eigen::Matrix3d::Zero(); ///< of the body's normal, a column for each way to move [1/m]
 
   [[nodiscard]] bool touching() const noexcept
   {

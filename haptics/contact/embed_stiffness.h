@@ -41,7 +41,7 @@ using ModulusAt = std::function<double(const Eigen::Vector3d&)>;
   return { .center = contact.center,
     .normal = contact.normal,
     .depth = contact.depth,
-    .curvature = contact.curvedPart * contact.surfaceCurvature };
+    .turning = contact.turning };
 }
 
 } // namespace palp

@@ -25,8 +25,9 @@ constexpr double kGrain = 0.25;    // [-] tip radii of the sums that stand for a
 constexpr double kFinest = 2.0;    // [-] such sums across the least contact
 constexpr double kEntry = 0.4;     // [-] 1 / power by which a spread grows as an edge comes in
 constexpr double kSudden = 4.0;    // [-] most of a slope where the far wall of a lobe comes in
-constexpr double kShallow = 0.75;  // [-] contact sizes inside, to which the nearest point counts
-constexpr double kFront = 0.1;     // [-] cosine over which the back of a sheet becomes its front
+constexpr double kOut = 4.0; // [-] 1 / contact sizes over the surface: all of a nose is outside
+constexpr double kShallow = 0.75; // [-] contact sizes inside, to which the nearest point counts
+constexpr double kFront = 0.1;    // [-] cosine over which the back of a sheet becomes its front
 constexpr double kOff = 1e-7; // [-] tip radii off the surface: in it, rounding would say which side
 constexpr double kCorner = 0.4;   // [-] of the least reach: the corner where the contact is wider
 constexpr double kTilting = 0.15; // [-] of a tool's size: a body turns by less than 1 rad in it
@@ -190,6 +191,7 @@ Sloped measureShape(Contact& contact, const Surface& surface, const Tip& tip, co
   contact.curvatureSlope = slopeOf(shape.meanCurvatureSlope);
   contact.spreadSlope = slopeOf(shape.curvatureSpreadSlope);
   contact.thicknessSlope = slopeOf(shape.thicknessSlope);
+  contact.turning = turning.transpose() - normal * (turning * normal).transpose();
   const Eigen::Vector3d lean = pose.axis - pose.axis.dot(normal) * normal;
   const Eigen::Vector3d tilting = turn(lean) / std::max(lean.norm(), 1e-9);
   contact.tiltSlope =
@@ -272,7 +274,11 @@ Contact exactContact(
   if (part.slope > 0.0)
   {
     const Eigen::Vector3d coming = part.slope * depth * shareSlope(here->patch);
-    outward -= std::min(1.0, kSudden / coming.norm()) * coming; // more is rounding of thin sheets
+    // what has no round nose is in the body itself, and would be pushed out through a thin one
+    const double felt = rule.nose() > 0.0
+      ? std::min(1.0, kSudden / coming.norm())
+      : std::clamp(kOut * here->distance / here->size.smoothing.value, 0.0, 1.0);
+    outward -= felt * coming;
   }
   contact.center = position - height.value * outward.normalized();
   outward -= part.value * rim.slope * contact.tiltSlope;

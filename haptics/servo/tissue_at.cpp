@@ -118,8 +118,8 @@ Eigen::Vector3d TissueAt::lateral(const SeriesResponse& answer) const noexcept
   }
   if (body_)
   {
-    const double slower = stiffnessContactOf(*contact_).toolPerPlace(scene_->series->height);
-    const Eigen::Vector3d more = scene_->series->law.lateral(*body_, answer.felt.force) / slower;
+    const Eigen::Vector3d more = stiffnessContactOf(*contact_).byTool(
+      scene_->series->law.lateral(*body_, answer.felt.force), scene_->series->height);
     // no round tool without friction is pushed more sideways than up; values that leap between
     // places, as over a thin rim beside a support, would say so
     force += std::min(1.0, answer.felt.force / more.norm()) * more;

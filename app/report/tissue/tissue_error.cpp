@@ -252,8 +252,9 @@ void addMap(Table& table, const Map& map)
     [&](double depth)
     {
       const ContactGeometry place = placeAt(depth);
-      const auto blend =
-        field->at({ Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), depth, 0.0 }, law, place);
+      const auto blend = field->at(
+        { Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), depth, Eigen::Matrix3d::Zero() }, law,
+        place);
       return blend(law(place), depth).force;
     });
 }

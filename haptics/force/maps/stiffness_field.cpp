@@ -249,7 +249,7 @@ Eigen::Vector3d StiffnessField::Blend::lateral(
   const Eigen::Vector3d gradient = (logSums - logs / sum * sums) / sum;
   const Eigen::Vector3d along = gradient - gradient.dot(contact_.normal) * contact_.normal;
   const double energy = energy_ * plain.force * depth * field_->energies_(root).value;
-  return std::exp(logs / sum) * (shape - energy / contact_.toolPerPlace(field_->height_) * along);
+  return std::exp(logs / sum) * (shape - energy * contact_.byTool(along, field_->height_));
 }
 
 Rule StiffnessField::rule(const StiffnessContact& contact) const noexcept

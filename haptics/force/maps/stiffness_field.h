@@ -26,18 +26,22 @@ struct PlacedStiffness
 /// Where a tool touches, on the undeformed surface.
 struct StiffnessContact
 {
-  Eigen::Vector3d center; ///< above the tool's deepest point [m]
-  Eigen::Vector3d normal; ///< outward, of unit length
-  double depth;           ///< of that point [m]
-  double curvature;       ///< of the surface, mean, convex positive [1/m]
+  Eigen::Vector3d center;  ///< above the tool's deepest point [m]
+  Eigen::Vector3d normal;  ///< outward, of unit length
+  double depth;            ///< of that point [m]
+  Eigen::Matrix3d turning; ///< of the normal, a column for each way in which the tool moves [1/m]
 
-  /// How far a tool goes for each length of the place that it presses, which on a convex surface
-  /// goes less far.
+  /// A slope along the surface as the tool feels it: where the normal turns below a round tool, the
+  /// place that it presses moves by less, or in a hollow by more, than the tool.
+  /// @param slope   by the place, along the surface
   /// @param height  of a round tool's center over its deepest point [m]
-  [[nodiscard]] double toolPerPlace(double height) const noexcept
+  [[nodiscard]] Eigen::Vector3d byTool(const Eigen::Vector3d& slope, double height) const noexcept
   {
-    constexpr double kLeast = 0.3; // in a hollow
-    return std::max(kLeast, 1.0 + curvature * (height - depth));
+    constexpr double kMost = 3.0; // times as far, in a hollow
+    const Eigen::Vector3d felt =
+      slope - std::max(0.0, height - depth) * turning.transpose() * slope;
+    const double most = kMost * slope.norm();
+    return felt.squaredNorm() > most * most ? (most / felt.norm() * felt).eval() : felt;
   }
 };
 
