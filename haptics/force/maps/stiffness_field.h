@@ -37,10 +37,10 @@ struct StiffnessContact
   /// @param height  of a round tool's center over its deepest point [m]
   [[nodiscard]] Eigen::Vector3d byTool(const Eigen::Vector3d& slope, double height) const noexcept
   {
-    constexpr double kMost = 3.0; // times as far, in a hollow
+    constexpr double kFarther = 3.0; // times, in a hollow
     const Eigen::Vector3d felt =
       slope - std::max(0.0, height - depth) * turning.transpose() * slope;
-    const double most = kMost * slope.norm();
+    const double most = kFarther * slope.norm();
     return felt.squaredNorm() > most * most ? (most / felt.norm() * felt).eval() : felt;
   }
 };
