@@ -62,10 +62,11 @@ Sloped turningOf(double distance, const Sloped& smoothing) noexcept
               : -side * smoothing.slope / squared };
 }
 
-// less where a center is so deep inside that the nearest point leaps from wall to wall
-double shallowPart(double distance, double smoothing) noexcept
+// less where a center is so deep inside that the nearest point leaps from wall to wall; what has no
+// round nose is in the surface from the first touch on
+double shallowPart(const BallRule& rule, double distance, double smoothing) noexcept
 {
-  return std::clamp(2.0 + distance / (kShallow * smoothing), 0.0, 1.0);
+  return rule.nose() > 0.0 ? std::clamp(2.0 + distance / (kShallow * smoothing), 0.0, 1.0) : 0.0;
 }
 
 // @param from  the nearest point to the position, whatever side it is on [m]
@@ -81,7 +82,7 @@ Neighborhood look(const Surface& surface, const BallRule& rule, const Eigen::Vec
   // from here on they are over the place, with the ball that belongs to it
   const Eigen::Vector3d mean = patch.normal.normalized();
   const Eigen::Vector3d away = mean +
-    shallowPart(distance, size.smoothing.value) *
+    shallowPart(rule, distance, size.smoothing.value) *
       (std::copysign(1.0, distance) * from.normalized() - mean);
   const PatchTurns& turns = patch.turns;
   patch.fading -= turning.slope * turns.moment * away;
@@ -153,7 +154,8 @@ Part curvedPart(const Neighborhood& here, const Contact& contact, const BallRule
   const Eigen::Vector3d rounder =
     (mean * contact.curvatureSlope + apart * contact.spreadSlope) / squares;
   return { smoothStep(entered),
-    -6.0 * kEntry * entered * entered * (1.0 - entered) * shallowPart(here.distance, smoothing) *
+    -6.0 * kEntry * entered * entered * (1.0 - entered) *
+      shallowPart(rule, here.distance, smoothing) *
       (shareSlope(here.patch) / spread + 2.0 * (rounder + wider)) };
 }
 
