@@ -2,6 +2,7 @@
 
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
+#include "haptics/surface/ray.h"
 #include "haptics/surface/winding.h"
 #include "pipeline/health/open_sides.h"
 
@@ -54,8 +55,26 @@ std::vector<Part> boundedParts(const MergedMesh& mesh, const Edges& edges)
   return parts;
 }
 
-// whether all the rest is on both sides of a part, where that is looked at
-bool isWall(const MergedMesh& mesh, const Part& part)
+// whether one looks out of the whole mesh from a place, to the side of a normal
+bool seesOutside(const BoxTree& whole, const Eigen::Vector3d& place, const Eigen::Vector3d& normal)
+{
+  const Eigen::Vector3d aside = normal.unitOrthogonal();
+  const Eigen::Vector3d other = normal.cross(aside);
+  for (const Eigen::Vector3d& lean : { Eigen::Vector3d(0.0, 0.0, 0.0), aside,
+         Eigen::Vector3d(-aside), other, Eigen::Vector3d(-other) })
+  {
+    const Eigen::Vector3d way = (normal + 0.7 * lean).normalized();
+    if (rayEntry(whole, place, way).triangle < 0 && rayExit(whole, place, way).triangle < 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// whether all the rest is on both sides of a part, which is nowhere seen from outside, where that
+// is looked at
+bool isWall(const MergedMesh& mesh, const BoxTree& whole, const Part& part)
 {
   constexpr std::size_t kPlaces = 5;
   std::vector<Triangle> rest = mesh.triangles;
@@ -76,13 +95,15 @@ bool isWall(const MergedMesh& mesh, const Part& part)
     const Triangle& t = mesh.triangles[part.triangles[i]];
     const Eigen::Vector3d middle =
       (mesh.points[at(t[0])] + mesh.points[at(t[1])] + mesh.points[at(t[2])]) / 3.0;
-    const Eigen::Vector3d off = aside * unitNormal(mesh.points, t);
+    const Eigen::Vector3d normal = unitNormal(mesh.points, t);
+    const Eigen::Vector3d off = aside * normal;
     const auto isInside = [&](const Eigen::Vector3d& place)
     {
       constexpr double kHalf = 0.5; // of a turn of all directions
       return std::abs(winding(place)) > kHalf;
     };
-    if (!isInside(middle + off) || !isInside(middle - off))
+    if (!isInside(middle + off) || !isInside(middle - off) ||
+      seesOutside(whole, middle + off, normal) || seesOutside(whole, middle - off, -normal))
     {
       return false;
     }
@@ -97,10 +118,11 @@ void dropInnerWalls(MergedMesh& mesh)
   for (bool isFound = true; isFound;)
   {
     const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
+    const BoxTree whole(mesh.points, mesh.triangles);
     isFound = false;
     for (const Part& part : edges.crowded > 0 ? boundedParts(mesh, edges) : std::vector<Part>())
     {
-      if (isWall(mesh, part))
+      if (isWall(mesh, whole, part))
       {
         for (const std::size_t triangle : part.triangles)
         {

@@ -243,6 +243,39 @@ Mesh cutCube(double across)
   return mesh;
 }
 
+// each turned as by chance: the chambers at the ends stay
+TEST(MeshRepair, LeavesOutSeveralWallsWithinABody)
+{
+  const Mesh box = makeBox({ 0.1, 0.08, 0.06 }, 0.01);
+  const MeshPiece whole = palp::healthOf(box.points, box.triangles).pieces.at(0);
+  for (unsigned seed = 0; seed < 24; ++seed)
+  {
+    std::mt19937 random(seed);
+    Mesh mesh = box;
+    for (int wall = 0; wall < 1 + static_cast<int>(seed % 4U); ++wall)
+    {
+      const double x = -0.04 + 0.02 * wall + 0.01 * static_cast<double>(random() % 2U);
+      const bool isTurned = random() % 2U == 0U;
+      const Mesh plate = makeBox({ 0.02, 0.08, 0.06 }, 0.01);
+      for (const Triangle& t : plate.triangles)
+      {
+        const auto isAt = [&](int i) { return plate.points[at(i)].x() > 0.009; };
+        if (std::ranges::all_of(t, isAt))
+        {
+          const auto n = static_cast<int>(mesh.points.size());
+          for (const int i : t)
+          {
+            mesh.points.emplace_back(x, plate.points[at(i)].y(), plate.points[at(i)].z());
+          }
+          mesh.triangles.push_back(
+            isTurned ? Triangle{ n, n + 1, n + 2 } : Triangle{ n + 2, n + 1, n });
+        }
+      }
+    }
+    expectWhole(mesh, whole);
+  }
+}
+
 TEST(MeshRepair, LeavesOutWallsWithinABody)
 {
   for (const bool isTurned : { false, true })
@@ -262,13 +295,17 @@ TEST(MeshRepair, LeavesOutWallsWithinABody)
 TEST(MeshRepair, JoinsBodiesThatOverlapAlongCommonEdges)
 {
   const Mesh box = makeBox({ 0.1, 0.08, 0.06 }, 0.01);
-  Mesh mesh = box;
-  add(mesh, box, { 0.05, 0.04, 0.03 });
-  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
-  const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
-  ASSERT_EQ(health.pieces.size(), 1U);
-  EXPECT_TRUE(health.pieces[0].closed);
-  EXPECT_NEAR(health.pieces[0].volume, 900e-6, 1e-3 * 900e-6);
+  for (const auto& [offset, volume] : { std::pair(Vector3d(0.05, 0.04, 0.03), 900e-6),
+         { Vector3d(0.05, 0.0, 0.0), 720e-6 }, { Vector3d(0.07, 0.04, 0.0), 888e-6 } })
+  {
+    Mesh mesh = box;
+    add(mesh, box, offset);
+    const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+    const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
+    ASSERT_EQ(health.pieces.size(), 1U) << offset.transpose();
+    EXPECT_TRUE(health.pieces[0].closed) << offset.transpose();
+    EXPECT_NEAR(health.pieces[0].volume, volume, 1e-3 * volume) << offset.transpose();
+  }
 }
 
 } // namespace
