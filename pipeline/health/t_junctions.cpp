@@ -36,7 +36,7 @@ public:
     }
     const auto place = [this](int i) { return std::pair(points_[at(i)][along_], i); };
     std::ranges::sort(open_, {}, place);
-    open_.erase(std::ranges::unique(open_).begin(), open_.end());
+    open_.erase(std::unique(open_.begin(), open_.end()), open_.end());
   }
 
   // those within an edge, from a to b
