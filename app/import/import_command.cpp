@@ -275,8 +275,7 @@ void addParts(CLI::App& command, ImportOptions& options)
     });
   auto* label = addParsed(command, "--label",
     "Labels of a label map, by value or name with commas, each an organ of its own; 1+2 are one, "
-    "named as "
-    "the first",
+    "named as the first",
     "all",
     [part](const std::string& text)
     {

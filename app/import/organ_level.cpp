@@ -30,13 +30,14 @@ struct Boundary
   BoxTree tree;
 };
 
+// tree: of the triangles
 OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
-  const Boundary& boundary)
+  const BoxTree& tree, const Boundary& boundary)
 {
   return { .mesh = makePolyData(points, triangles),
     .points = points.size(),
     .triangles = triangles.size(),
-    .apart = deviation(points, BoxTree(points, triangles), boundary.points, boundary.tree) };
+    .apart = deviation(points, tree, boundary.points, boundary.tree) };
 }
 
 Boundary boundaryOf(const FileOrgan& organ, double length)
@@ -63,7 +64,8 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   const std::vector<TriangleMesh> finer = decimatedTo(counts, points, triangles, 0.5 * voxel);
   const auto nearEnough = [&](const TriangleMesh& felt)
   {
-    OrganLevel level = levelOf(felt.points, felt.triangles, boundary);
+    OrganLevel level =
+      levelOf(felt.points, felt.triangles, BoxTree(felt.points, felt.triangles), boundary);
     const bool isNear = level.apart.largest <= std::max(voxel, shownApart);
     return isNear ? std::optional(std::move(level)) : std::nullopt;
   };
@@ -112,10 +114,11 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   addWarnings(loaded.notes, result.warnings);
   const std::vector<Eigen::Vector3d> points = pointsOf(*loaded.mesh);
   const std::vector<Triangle> triangles = trianglesOf(*loaded.mesh);
-  auto crossing = std::async(std::launch::async,
-    [&] { return crossingTriangles(BoxTree(points, triangles), triangles).size(); });
+  const BoxTree tree(points, triangles);
+  auto crossing =
+    std::async(std::launch::async, [&] { return crossingTriangles(tree, triangles).size(); });
   result.volume = enclosedVolume(points, triangles);
-  result.shown = levelOf(points, triangles, boundary);
+  result.shown = levelOf(points, triangles, tree, boundary);
   if (constexpr double kFar = 2.0; result.shown.apart.largest > kFar * length * organ.voxel)
   {
     result.warnings.push_back("pieces of a few voxels are smoothed away, up to " +

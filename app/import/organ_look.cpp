@@ -62,7 +62,7 @@ constexpr std::array kElsewhere{ "kidney", "renal", "spleen", "pancreas", "pancr
   "thyroid", "ovary", "ovarian" };
 
 // of names that tell nothing, in turn: muscle, tissue, connective tissue, bone, mass
-constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", "#f1d691", "#90ee90" };
+constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", kBone, kMass };
 
 bool isAny(char letter, int (*kind)(int))
 {

@@ -43,6 +43,7 @@ public:
 
 private:
   [[nodiscard]] std::string askedFor(const FileOrgan& organ) const;
+
   std::filesystem::path file_;
   QLabel* why_;
   QLineEdit* series_; // null: of a folder alone

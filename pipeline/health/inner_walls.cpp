@@ -21,7 +21,6 @@ constexpr std::size_t kMostWalls = 32; // that are looked at: each takes a searc
 // what hangs together across edges of two triangles
 struct Part
 {
-  int number = 0;
   double area = 0.0;
   bool isBounded = false; // by edges of more than two triangles
   bool isOpen = false;
@@ -115,24 +114,27 @@ bool isWall(const MergedMesh& mesh, const BoxTree& whole, const Part& part)
 
 void dropInnerWalls(MergedMesh& mesh)
 {
-  for (bool isFound = true; isFound;)
+  for (;;)
   {
     const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
-    const BoxTree whole(mesh.points, mesh.triangles);
-    isFound = false;
-    for (const Part& part : edges.crowded > 0 ? boundedParts(mesh, edges) : std::vector<Part>())
+    if (edges.crowded == 0)
     {
-      if (isWall(mesh, whole, part))
-      {
-        for (const std::size_t triangle : part.triangles)
-        {
-          mesh.triangles[triangle].fill(0); // which is no triangle
-        }
-        mesh = mergedMesh(mesh.points, mesh.triangles);
-        isFound = true;
-        break;
-      }
+      return;
     }
+    const BoxTree whole(mesh.points, mesh.triangles);
+    const std::vector<Part> parts = boundedParts(mesh, edges);
+    const auto wall =
+      std::ranges::find_if(parts, [&](const Part& part) { return isWall(mesh, whole, part); });
+    if (wall == parts.end())
+    {
+      return;
+    }
+    std::vector<bool> isOfIt(mesh.triangles.size());
+    for (const std::size_t triangle : wall->triangles)
+    {
+      isOfIt[triangle] = true;
+    }
+    mesh = mergedWithout(mesh.points, mesh.triangles, isOfIt);
   }
 }
 

@@ -19,38 +19,33 @@ namespace palp
 namespace
 {
 
-// @return  triangles that were turned
-std::size_t turnAlike(RepairedMesh& mesh)
+Facing facingOf(const RepairedMesh& mesh)
 {
-  const Facing facing =
-    facingOf(mesh.points, mesh.triangles, edgesOf(mesh.points.size(), mesh.triangles));
-  std::size_t count = 0;
+  return facingOf(mesh.points, mesh.triangles, edgesOf(mesh.points.size(), mesh.triangles));
+}
+
+void turnAlike(RepairedMesh& mesh, const Facing& facing)
+{
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
   {
     if (facing.turn[i])
     {
       std::swap(mesh.triangles[i][0], mesh.triangles[i][2]);
-      ++count;
+      ++mesh.turned;
     }
   }
-  return count;
 }
 
 // what is a part of another piece, as it is left out where the file is pressed
-void dropInner(RepairedMesh& mesh)
+void dropInner(RepairedMesh& mesh, const Facing& facing)
 {
-  const Facing facing =
-    facingOf(mesh.points, mesh.triangles, edgesOf(mesh.points.size(), mesh.triangles));
-  if (facing.inner == 0)
+  if (facing.inner > 0)
   {
-    return;
+    MergedMesh rest = mergedWithout(mesh.points, mesh.triangles, facing.within);
+    mesh.removed += mesh.triangles.size() - rest.triangles.size();
+    mesh.points = std::move(rest.points);
+    mesh.triangles = std::move(rest.triangles);
   }
-  std::size_t i = 0;
-  mesh.removed +=
-    std::erase_if(mesh.triangles, [&](const Triangle&) { return facing.within[i++]; });
-  MergedMesh rest = mergedMesh(mesh.points, mesh.triangles);
-  mesh.points = std::move(rest.points);
-  mesh.triangles = std::move(rest.triangles);
 }
 
 // Triangles without an area that hang on nothing, or on an edge that is whole without them.
@@ -79,12 +74,12 @@ void dropBuried(MergedMesh& mesh)
   {
     return;
   }
-  std::vector<Triangle> rest = mesh.triangles;
+  std::vector<bool> isOut(mesh.triangles.size());
   for (const int buried : buriedTriangles(tree, piecesOf(edges.across)))
   {
-    rest[at(buried)].fill(0); // which is no triangle
+    isOut[at(buried)] = true;
   }
-  MergedMesh boundary = mergedMesh(mesh.points, rest);
+  MergedMesh boundary = mergedWithout(mesh.points, mesh.triangles, isOut);
   if (!boundary.triangles.empty() &&
     edgesOf(boundary.points.size(), boundary.triangles).unbalanced == 0)
   {
@@ -114,8 +109,9 @@ RepairedMesh repairedMesh(
   result.merged = points.size() - result.points.size();
   result.cut = cut;
   result.removed = triangles.size() + cut - result.triangles.size();
-  result.turned = turnAlike(result);
-  dropInner(result);
+  const Facing facing = facingOf(result);
+  turnAlike(result, facing);
+  dropInner(result, facing);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
   const auto [slivers, sliversLeft] = removeSlivers(result.points, result.triangles);
   const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
@@ -125,7 +121,7 @@ RepairedMesh repairedMesh(
   result.sliversLeft = sliversLeft;
   result.filled = filled;
   result.holesLeft = holesLeft;
-  result.turned += turnAlike(result); // what is closed now
+  turnAlike(result, facingOf(result)); // what is closed now
   return result;
 }
 

@@ -28,8 +28,9 @@ struct RepairedMesh
 };
 
 /// Merges points, welds seams, cuts triangles at points of others on their edges, removes
-/// degenerate and duplicate triangles, slivers, and what bodies that touch have between them, parts
-/// what meets in a non-manifold edge or point, closes small holes, and turns triangles alike.
+/// degenerate and duplicate triangles, slivers, walls within a body, and what bodies that touch
+/// have between them, parts what meets in a non-manifold edge or point, closes small holes, and
+/// turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
 /// a thousandth of an edge, so that it stays apart in every file. Nothing is done by which a

@@ -93,12 +93,12 @@ void keepMatched(Chains& chains)
     isStable = true;
     for (auto& [edge, chain] : chains)
     {
-      bool isMatched = chain.size() == 2;
-      for (std::size_t i = 0; i + 1 < chain.size() && chain.size() > 2; ++i)
+      bool isOpen = false;
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       {
-        isMatched = (i == 0 || isMatched) && often[partOf(chain, i)] > 1;
+        isOpen = isOpen || often[partOf(chain, i)] < 2;
       }
-      if (!isMatched)
+      if (isOpen && chain.size() > 2)
       {
         chain = { chain.front(), chain.back() };
         isStable = false;

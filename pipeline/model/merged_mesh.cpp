@@ -38,6 +38,15 @@ MergedMesh mergedMesh(std::span<const Eigen::Vector3d> points, std::span<const T
   return result;
 }
 
+MergedMesh mergedWithout(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, const std::vector<bool>& isOut)
+{
+  std::vector<Triangle> rest(triangles.begin(), triangles.end());
+  std::size_t i = 0;
+  std::erase_if(rest, [&](const Triangle&) { return isOut[i++]; });
+  return mergedMesh(points, rest);
+}
+
 std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles)
 {
   std::vector<std::pair<Triangle, std::size_t>> sorted(triangles.size());

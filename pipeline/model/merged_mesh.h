@@ -24,6 +24,11 @@ struct MergedMesh
 [[nodiscard]] MergedMesh mergedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles);
 
+/// The same of those that are not left out.
+/// @param isOut  of each triangle
+[[nodiscard]] MergedMesh mergedWithout(std::span<const Eigen::Vector3d> points,
+  std::span<const Triangle> triangles, const std::vector<bool>& isOut);
+
 /// Which triangles stand between the same three points as an earlier one, however turned.
 [[nodiscard]] std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles);
 

@@ -88,9 +88,7 @@ RepairedSurface repair(std::span<const Eigen::Vector3d> filePoints,
   {
     result.notes.push_back(counted(facing.inner, "closed piece") +
       " within another, facing as it does: left out, as a part of it");
-    std::size_t i = 0;
-    std::erase_if(mesh.triangles, [&](const Triangle&) { return facing.within[i++]; });
-    mesh = mergedMesh(mesh.points, mesh.triangles);
+    mesh = mergedWithout(mesh.points, mesh.triangles, facing.within);
   }
   result.mesh = makePolyData(mesh.points, mesh.triangles);
   return result;

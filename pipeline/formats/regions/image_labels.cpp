@@ -152,7 +152,6 @@ void checkApart(const std::vector<Label>& labels, const std::string& name)
 std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name)
 {
-  checkApart(labels, name);
   std::vector<Label> chosen;
   for (const std::string& word : asked)
   {

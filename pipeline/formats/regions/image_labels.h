@@ -51,7 +51,7 @@ void checkApart(const std::vector<Label>& labels, const std::string& name);
 /// @param asked   values, or names of segments, with or without capitals
 /// @param name    stands before each message
 /// @throws Error  BadMesh: none of that value or name, or several, as in layers; says which there
-///                are; as checkApart
+///                are
 [[nodiscard]] std::vector<Label> chosenLabels(const std::vector<Label>& labels,
   const std::vector<std::string>& asked, const PatientImage& volume, const std::string& name);
 

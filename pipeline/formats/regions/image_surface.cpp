@@ -138,8 +138,10 @@ FileSurface imageSurface(const PatientImage& volume, const ImagePart& part, cons
   const ImageValues values = valuesOf(*volume.image);
   const bool isByLabel = !part.labels.empty();
   isByLabel ? checkNumbers(values, name) : void();
+  const std::vector<Label> known = isByLabel ? labelsOf(volume, values) : std::vector<Label>();
+  checkApart(known, name);
   ImageRegion region = isByLabel
-    ? regionOfLabels(volume, chosenLabels(labelsOf(volume, values), part.labels, volume, name))
+    ? regionOfLabels(volume, chosenLabels(known, part.labels, volume, name))
     : levelOf(volume, part, values, name);
   region.notes.insert(region.notes.begin(), volume.notes.begin(), volume.notes.end());
   return bodyOf(volume, std::move(region), part.components, name).surface;
