@@ -248,7 +248,8 @@ void addOrganCommand(CLI::App& app)
   const auto depths = [all](const std::string& text)
   { all->depths = parseRange(text, Quantity::Length, "--depth"); };
   depths("1:5:1mm");
-  add("--depth", "Depths A:B:STEP, both ends included", "1:5:1mm", depths);
+  add("--depth", "Depths A:B:STEP of the contact, below the even surface there; both ends included",
+    "1:5:1mm", depths);
   add("--young", "Young's modulus E", "50kPa",
     [all](const std::string& text) {
       all->young = parseWithin(text, Quantity::Pressure, { 1.0, 1e12, "1Pa to 1TPa" }, "--young");

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace palp
@@ -186,6 +187,47 @@ TEST(UnevenRule, TellsWhereFiniteElementsDifferByATenth)
   }
   EXPECT_GT(told, 20);
   EXPECT_GT(believed, 60);
+}
+
+// waves as long as a contact is wide, and longer
+TEST(UnevenRule, HoldsWhereALawOfAWavySurfaceIsThatOfFiniteElements)
+{
+  const test::CsvTable table = test::readCsv(PALP_SOURCE_DIR "/data/reference/wave_surface.csv");
+  LawSettings settings;
+  settings.mode = LawMode::Corrected;
+  settings.constitution = ConstitutiveModel::Linear;
+  const ForceLaw law(kRoundTip, makeMaterial(50.0_kPa, 0.45), settings);
+  std::map<double, Surface> surfaces;
+  int told = 0;
+  for (std::size_t i = 0; i < table["force_N"].size(); ++i)
+  {
+    const double number = 2.0 * std::numbers::pi / table["length_m"][i];
+    const double amplitude = table["amplitude_m"][i];
+    const double place = table["place_m"][i];
+    const auto heightAt = [&](double x) { return amplitude * std::cos(number * x); };
+    const auto block = [&](const Vector3d& p)
+    {
+      const double x = 60.0_mm * p.x();
+      const double base = -40.0_mm;
+      return Vector3d(x, 40.0_mm * p.y(), base + 0.5 * (p.z() + 1.0) * (heightAt(x) - base));
+    };
+    const auto made = surfaces.find(number);
+    const Surface& surface = made != surfaces.end()
+      ? made->second
+      : surfaces.emplace(number, test::makeSurface(test::cubeMap(100, block))).first->second;
+    const Vector3d way =
+      Vector3d(-amplitude * number * std::sin(number * place), 0.0, -1.0).normalized();
+    const Contact contact =
+      pressed(surface, { place, 0.0, heightAt(place) }, table["depth_m"][i], way);
+    const double force =
+      contact.slope * law(contactGeometryOf(contact)).force * -contact.normal.dot(way);
+    const bool isEven = unevenRule(kRoundTip, contact).holds();
+    told += isEven ? 0 : 1;
+    EXPECT_NEAR(force / table["force_N"][i], 1.0, isEven ? 0.03 : 0.1)
+      << table["length_m"][i] << ' ' << place << ' ' << table["depth_m"][i];
+  }
+  EXPECT_GT(told, 5);
+  EXPECT_LT(told, 24);
 }
 
 } // namespace
