@@ -4,6 +4,7 @@
 #include "app/folder/autosave.h"
 #include "app/folder/export_folder.h"
 #include "app/program/build_trace.h"
+#include "app/program/machine.h"
 #include "app/session/session.h"
 #include "app/shell/theme.h"
 #include "app/window/window.h"
@@ -85,6 +86,7 @@ int view(const palp::ViewOptions& options)
     throw palp::Error(palp::ErrorCode::NoPicture,
       "window: there is no display here; use palp run, which needs none");
   }
+  palp::giveBackLargeBlocks();
   palp::BuildTrace trace(options.explain);
   QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
   format.setSamples(0); // several times slower without a graphics card

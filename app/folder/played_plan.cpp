@@ -5,6 +5,7 @@
 #include "app/places/met_organ.h"
 #include "app/places/placed_press.h"
 #include "app/press/playback.h"
+#include "app/press/presses.h"
 #include "app/press/recorded_rows.h"
 #include "app/supports/support_text.h"
 
@@ -26,7 +27,7 @@ std::vector<std::string> pressPlaces(
   std::vector<int> asked;
   for (const PressPlace& place : presses.places)
   {
-    recording.names.push_back(place.name);
+    recording.names.push_back(place.name.empty() ? pressName(asked.size()) : place.name);
     const ToolPose start = paths[asked.size()].poseAt(0.0, -Eigen::Vector3d::UnitZ());
     asked.push_back(organAt(place, presses, scene));
     checkStart(place, asked.back(), start, recording);
@@ -112,6 +113,7 @@ ScenePlan planOf(const ScenePlan& opened, const SceneBody& body, const Recording
   plan.recording = RecordedPress{ .device = recording.device, .names = recording.names };
   plan.chain = false;
   plan.window = false;
+  plan.samples = plan.deformed = plan.picture = true; // a window's scene says none of them
   return plan;
 }
 

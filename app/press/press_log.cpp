@@ -75,6 +75,13 @@ std::vector<CurvePoint> curveOf(const PressSummary& press, const Recording& reco
   return curve;
 }
 
+// no two have a place to the bit
+bool isSame(const PressSummary& a, const PressSummary& b) noexcept
+{
+  return a.begin == b.begin && a.deepest.depth == b.deepest.depth &&
+    a.deepest.center == b.deepest.center;
+}
+
 } // namespace
 
 void PressLog::follow(const Sample& sample) noexcept
@@ -100,6 +107,10 @@ std::optional<Recording> PressLog::end(const Recording& recording)
   }
   Recording part = partOf(recording, *std::exchange(begin_, std::nullopt));
   keepAll(part);
+  for (auto at = firstKept(); at != presses_.end(); ++at)
+  {
+    part.names.push_back(at->summary.name);
+  }
   return part;
 }
 
@@ -118,12 +129,9 @@ std::size_t PressLog::keepAll(const Recording& samples)
       .rule = organ.rule,
       .damping = organ.damping,
       .isInBody = organ.series != nullptr };
-    if (samples.names.empty())
-    {
-      press.summary.name =
-        next_.empty() ? pressName(static_cast<std::size_t>(found_) - 1) : std::exchange(next_, {});
-    }
-    press.summary.name = freeName(press.summary.name);
+    press.summary.name = !samples.names.empty() ? freeName(one.name)
+      : next_.empty()                           ? nextName()
+                                                : freeName(std::exchange(next_, {}));
     if (samples.rated)
     {
       press.outside = outsideLimits(organ, Validity(organ.law), one.deepest);
@@ -141,20 +149,16 @@ std::size_t PressLog::keepAll(const Recording& samples)
 
 PressNames PressLog::names() const
 {
-  std::vector<PressSummary> all;
+  std::vector<PressSummary> all = gone_;
   std::ranges::transform(presses_, std::back_inserter(all), &KeptPress::summary);
   return [all = std::move(all)](const Recording& recording)
   {
     std::vector<std::string> names;
     for (const PressSummary& press : findPresses(recording))
     {
-      const auto isSame = [&press](const PressSummary& kept) // no two have a place to the bit
-      {
-        return kept.begin == press.begin && kept.deepest.depth == press.deepest.depth &&
-          kept.deepest.center == press.deepest.center;
-      };
-      const auto kept = std::ranges::find_if(all, isSame);
-      names.push_back(kept != all.end() ? kept->name : press.name);
+      const auto known = std::ranges::find_if(
+        all, [&press](const PressSummary& other) { return isSame(press, other); });
+      names.push_back(known != all.end() ? known->name : press.name);
     }
     return names;
   };
@@ -178,12 +182,25 @@ std::string PressLog::freeName(const std::string& wanted) const
   return name;
 }
 
+// by its number, or by the next that no press has
+std::string PressLog::nextName() const
+{
+  auto index = static_cast<std::size_t>(found_ - 1);
+  while (freeName(pressName(index)) != pressName(index))
+  {
+    ++index;
+  }
+  return pressName(index);
+}
+
+std::vector<KeptPress>::iterator PressLog::firstKept() noexcept
+{
+  return std::ranges::lower_bound(presses_, firstNew_, {}, &KeptPress::id);
+}
+
 void PressLog::noteSaved(int number) noexcept
 {
-  for (KeptPress& press : presses_)
-  {
-    press.saved = press.id >= firstNew_ ? number : press.saved;
-  }
+  std::for_each(firstKept(), presses_.end(), [number](KeptPress& press) { press.saved = number; });
 }
 
 std::vector<std::string> PressLog::namesOf(int saved) const
@@ -207,12 +224,18 @@ void PressLog::rename(int id, const std::string& name)
 
 void PressLog::remove(int id)
 {
-  std::erase_if(presses_, [id](const KeptPress& press) { return press.id == id; });
+  if (const KeptPress* press = find(id))
+  {
+    gone_.push_back(press->summary);
+    gone_.back().name.clear();
+    presses_.erase(presses_.begin() + (press - presses_.data()));
+  }
   ++version_;
 }
 
 void PressLog::restore(KeptPress press)
 {
+  std::erase_if(gone_, [&](const PressSummary& gone) { return isSame(gone, press.summary); });
   const auto place = std::ranges::lower_bound(presses_, press.id, {}, &KeptPress::id);
   presses_.insert(place, std::move(press));
   ++version_;

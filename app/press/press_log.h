@@ -37,8 +37,8 @@ struct KeptPress
   static constexpr std::size_t kCurve = 400;
 };
 
-/// Tells the names of the presses of a recording, in their order, as a log called them; of one that
-/// is gone its own. For any thread.
+/// Tells the names of the presses of a recording, in their order, as a log calls them: empty where
+/// one was removed, and its own where the log has none. For any thread.
 using PressNames = std::function<std::vector<std::string>(const Recording& recording)>;
 
 /// The presses of a session, each found by itself when its tool is released. Main thread only.
@@ -69,7 +69,7 @@ public:
   }
 
   /// Keeps the press that the tool was released of since, if any.
-  /// @return  its samples, with the one before
+  /// @return  its samples, with the one before, and its name
   std::optional<Recording> keep(const Recording& recording);
 
   /// The same of the press that the end of a recording ends.
@@ -114,8 +114,11 @@ public:
 
 private:
   [[nodiscard]] std::string freeName(const std::string& wanted) const;
+  [[nodiscard]] std::string nextName() const;
+  [[nodiscard]] std::vector<KeptPress>::iterator firstKept() noexcept; // of those kept last
 
   std::vector<KeptPress> presses_; // ids rise
+  std::vector<PressSummary> gone_; // removed, without a name
   std::optional<double> begin_;    // of the press that goes on [s]
   double lastTouch_ = 0.0;         // of it [s]
   double now_ = 0.0;               // of the last sample [s]

@@ -284,13 +284,12 @@ std::vector<PressSummary> findPresses(const Recording& recording)
     }
     touched = i;
   }
-  for (std::size_t i = 0; i < presses.size(); ++i)
+  const std::size_t named = std::min(presses.size(), recording.names.size());
+  for (std::size_t i = 0; i < named; ++i)
   {
-    if (i < recording.names.size() && !recording.names[i].empty())
-    {
-      presses[i].name = recording.names[i];
-    }
+    presses[i].name = recording.names[i];
   }
+  std::erase_if(presses, [](const PressSummary& press) { return press.name.empty(); });
   return presses;
 }
 
@@ -305,7 +304,8 @@ void writePresses(std::ostream& out, const Recording& recording)
       << "# each press from touch to release; force of the law; place, normal and thickness where "
          "it was deepest, in the frame of the mesh\n"
       << "# energy: work on the way to the largest depth, from the first sample on where that is "
-         "not the touch; stiffness: empty where 1 N was not reached on the way; outside_limits: "
+         "not the touch; stiffness: of the law at once, which a curve of tissue that relaxes falls "
+         "short of; empty where 1 N was not reached on the way; outside_limits: "
          "rules of validity that the deepest contact breaks\n";
   const std::size_t nodules = noduleCount(scene);
   nodules > 0 ? explainContrasts(out) : void();

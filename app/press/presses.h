@@ -19,7 +19,7 @@ struct PressSummary
   double begin = 0.0;                ///< time of the first sample that touches [s]
   double end = 0.0;                  ///< and of the last [s]
   double force = 0.0;                ///< the largest of the law [N]
-  std::optional<double> stiffness{}; ///< dF/ddepth where the force first reaches 1 N [N/m]
+  std::optional<double> stiffness{}; ///< dF/ddepth at once where the force first reaches 1 N [N/m]
   double energy = 0.0; ///< work of the law's force on the way to the largest depth [J]; of a
                        ///< recording that begins in the tissue, from its first sample on
   Contact deepest{};   ///< where it was deepest: place, depth, thickness, curvature

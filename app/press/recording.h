@@ -46,7 +46,7 @@ struct Recording
   std::string device{};             ///< hand, mouse, path:NAME
   std::vector<MeshFile> files{};    ///< that were felt
   std::string command{};            ///< see commandLine
-  std::vector<std::string> names{}; ///< of its presses, in their order; empty: none
+  std::vector<std::string> names{}; ///< of its presses, in their order; empty: was removed
   std::vector<OrganPlan> organs{};  ///< of its scene, also those that are not felt; none: one body
   Scene scene{};
   std::vector<Sample> samples{};

@@ -2,6 +2,7 @@
 
 #include <ctime>
 #include <fstream>
+#include <malloc.h>
 #include <nlohmann/json.hpp>
 #include <sys/utsname.h>
 #include <thread>
@@ -21,6 +22,11 @@ std::string processorName()
     }
   }
   return "unknown";
+}
+
+void giveBackLargeBlocks() noexcept
+{
+  mallopt(M_MMAP_THRESHOLD, 1'000'000);
 }
 
 namespace report

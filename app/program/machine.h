@@ -9,6 +9,10 @@ namespace palp
 /// The processor's name, or "unknown".
 [[nodiscard]] std::string processorName();
 
+/// Blocks of a megabyte and more, as the samples of a press, go back to the system once freed: what
+/// is left of them between others would add up while presses go on for hours.
+void giveBackLargeBlocks() noexcept;
+
 namespace report
 {
 

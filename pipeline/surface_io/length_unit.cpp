@@ -103,7 +103,7 @@ LengthUnit guessUnit(double longestSide, const std::string& file, double field)
     throw Error(ErrorCode::BadValue,
       file + ": " + (fits == 0 ? "no unit" : "more than one unit") +
         " gives the size of an organ or a part of one (longest side " + sizes.str() +
-        "); give --unit mm, cm or m");
+        "); give the unit, mm, cm or m (--unit)");
   }
   return *fitting;
 }

@@ -211,6 +211,39 @@ TEST(PressLog, PutsADeletedPressBackWhereItWas)
   EXPECT_EQ(servo.log.find(2)->summary.name, "left lobe");
 }
 
+TEST(PressLog, TellsWhichPressesWereRemoved)
+{
+  Pressing servo;
+  for (int i = 0; i < 4; ++i)
+  {
+    servo.press(1.0_mm + i * 0.1_mm, 50);
+    servo.wait(25);
+  }
+  const KeptPress third = *servo.log.find(3);
+  servo.log.remove(3);
+  servo.log.rename(4, "left lobe");
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(servo.log.names()(servo.recording), (Names{ "press 1", "press 2", "", "left lobe" }));
+  servo.recording.names = servo.log.names()(servo.recording);
+  EXPECT_EQ(findPresses(servo.recording).size(), 3U);
+  EXPECT_EQ(findPresses(servo.recording).back().name, "left lobe");
+  servo.recording.names.clear();
+  servo.log.restore(third);
+  EXPECT_EQ(
+    servo.log.names()(servo.recording), (Names{ "press 1", "press 2", "press 3", "left lobe" }));
+}
+
+TEST(PressLog, GivesNoNameTwice)
+{
+  Pressing servo;
+  servo.press(1.0_mm, 50);
+  servo.wait(25);
+  servo.log.rename(1, "press 2"); // as of another session
+  servo.press(1.0_mm, 50);
+  servo.wait(25);
+  EXPECT_EQ(servo.log.presses().back().summary.name, "press 3");
+}
+
 // the modulus that the servo pressed with
 TEST(PressFit, FindsTheModulusOfASphere)
 {

@@ -1,5 +1,6 @@
 #include "app/folder/autosave.h"
 #include "app/folder/export_folder.h"
+#include "app/scene/scene_file.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QPushButton>
@@ -101,6 +102,61 @@ TEST_F(WindowTest, AnEarlierBodyIsExportedFromWhereItWasSeen)
   { return readExport(folder_.path() / folder).plan.camera.value().position; };
   EXPECT_LT((cameraOf("earlier-1") - from).norm(), 1e-6 * from.norm());
   EXPECT_GT((cameraOf(".") - from).norm(), 0.01 * from.norm());
+}
+
+// which says itself that it exports nothing but when asked
+class OfAWindowsScene : public WindowTest
+{
+protected:
+  OfAWindowsScene()
+    : WindowTest(readScene("liver_mouse"))
+  {
+  }
+};
+
+TEST_F(OfAWindowsScene, PressesAreExportedAndSavedWhole)
+{
+  Autosave autosave(folder_.path() / "state");
+  window_->saveTo(autosave);
+  press(60);
+  release();
+  waitForPresses(1);
+  const std::filesystem::path saved = autosave.folderOf(autosave.saved());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return exists(saved / "scene.json"); }, kPatience));
+  const auto out = folder_.path() / "out";
+  for (const auto& folder : { saved, out })
+  {
+    EXPECT_TRUE(folder == saved || window_->exportData(QString::fromStdString(out.string())));
+    const auto again = folder_.path() / "again" / folder.filename();
+    const test::Finished run =
+      test::runCommand(PALP_PROGRAM " run " + folder.string() + " --out " + again.string());
+    EXPECT_EQ(run.code, 0) << run.err;
+    for (const char* file : { "samples.csv", "presses.csv", "deformed.vtp" })
+    {
+      EXPECT_TRUE(exists(again / file)) << file;
+      EXPECT_TRUE(folder == saved || exists(out / file)) << file;
+    }
+  }
+  session_->saveTo(nullptr);
+}
+
+TEST_F(WindowTest, ADeletedPressIsInNoExportAndTheOthersKeepTheirNames)
+{
+  for (std::size_t i = 1; i <= 3; ++i)
+  {
+    press(40 + 10 * static_cast<int>(i));
+    release();
+    waitForPresses(i);
+  }
+  session_->presses().remove(2);
+  const auto out = folder_.path() / "out";
+  ASSERT_TRUE(window_->exportData(QString::fromStdString(out.string())));
+  const std::string table = test::readAll(out / "presses.csv");
+  EXPECT_NE(table.find("\n\"press 1\""), table.npos) << table;
+  EXPECT_EQ(table.find("\n\"press 2\""), table.npos) << table;
+  EXPECT_NE(table.find("\n\"press 3\""), table.npos) << table;
+  ASSERT_TRUE(window_->loadPresses(QString::fromStdString(out.string())));
+  EXPECT_EQ(session_->presses().presses().size(), 4U) << "two of their own, two loaded";
 }
 
 } // namespace

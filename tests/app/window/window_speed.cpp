@@ -1,6 +1,7 @@
 // What the window takes, printed: a machine that does much else takes more, so it is no test.
 // window_speed [MINUTES [FILE]]: of random presses as a servo of 1 kHz records them, for the
 // memory; 0 without. FILE: a body.
+#include "app/program/machine.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QElapsedTimer>
@@ -274,6 +275,7 @@ TEST_F(FastServo, Memory)
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);
+  palp::giveBackLargeBlocks(); // as the program does
   palp::minutes = argc > 1 ? std::stod(argv[1]) : 0.0;
   if (argc > 2)
   {

@@ -72,7 +72,7 @@ TEST(LengthUnit, IsRefusedWhereNoneFitsAndSaysWhatEachWouldGive)
   }
   EXPECT_EQ(refusal(2000.0),
     "body.stl: no unit gives the size of an organ or a part of one (longest side 2000 mm if mm, "
-    "20000 mm if cm, 2e+06 mm if m); give --unit mm, cm or m");
+    "20000 mm if cm, 2e+06 mm if m); give the unit, mm, cm or m (--unit)");
 }
 
 TEST(LengthUnit, IsReadFromTheWordsOfTheOption)
