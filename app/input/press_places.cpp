@@ -67,8 +67,9 @@ void PlaceOptions::addTo(CLI::App& command)
         presses.places.push_back(parsePlace(text));
       }
     },
-    "Press at x,y,z in mm, in the frame of FILE (LPS for images), along the inward normal of the "
-    "nearest surface; several are allowed");
+    "Press at x,y,z in mm, in the frame of FILE (LPS for images and for what says SPACE=RAS), "
+    "along "
+    "the inward normal of the nearest surface; several are allowed");
   at->allow_extra_args(false)->type_name("X,Y,Z");
   command.add_option(
     "--points", points, "Press at the points of a list of 3D Slicer: .fcsv or .mrk.json");

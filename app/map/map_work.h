@@ -21,6 +21,7 @@ public:
     StiffnessMap map;
     std::vector<SurfacePoint> points; ///< of the surface that is looked at
     SurfaceMap colors;                ///< of these
+    bool isKept = false;              ///< on the disk, or nobody wants it
   };
 
   /// Begins.

@@ -173,6 +173,7 @@ private:
   void followMap();
   void takeMap();
   void dropMap();
+  bool mayDropMap(const QString& otherwise, const std::function<void()>& goOn);
   void showMap();
   [[nodiscard]] const SurfaceMap* shownMap() const;
   [[nodiscard]] const StiffnessMap* currentMap() const;
@@ -182,7 +183,6 @@ private:
   void paintByPointer();
   void openSupports();
   [[nodiscard]] const SceneBody& supported() const;
-
   // the search for hidden nodules
   void makeTraining();
   void showTraining();

@@ -287,7 +287,7 @@ bool Window::exportInto(const QString& directory)
       }
       if (const StiffnessMap* map = currentMap(); goesOn && map)
       {
-        goesOn = exportMap(folder, *map);
+        goesOn = map_->isKept = exportMap(folder, *map);
         written << tr("stiffness map");
       }
       else if (goesOn && map_)

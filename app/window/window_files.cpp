@@ -177,6 +177,10 @@ void Window::say(const QString& what)
 // false: given up
 bool Window::openBody(const std::vector<MeshSource>& meshes, const std::vector<OrganPlan>& organs)
 {
+  if (!mayDropMap(tr("Clear it"), [] {}))
+  {
+    return false;
+  }
   std::optional<SceneBody> body =
     inBackground<SceneBody>(tr("Reading %1").arg(fileName(meshes.front())),
       [plan = ScenePlan{ .meshes = meshes, .organs = organs }] { return loadLiveBodies(plan); });

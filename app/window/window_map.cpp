@@ -145,6 +145,27 @@ void Window::dropMap()
   showMap();
 }
 
+// asks about one that would be lost
+bool Window::mayDropMap(const QString& otherwise, const std::function<void()>& goOn)
+{
+  if (!map_ || map_->isKept)
+  {
+    return true;
+  }
+  message_->ask(tr("The stiffness map is not exported yet") +
+      (currentMap() != nullptr ? QString()
+                               : tr("; it is once the tool and the tissue that it is of are taken "
+                                    "back (Ctrl+Z)")),
+    { { tr("Export data…"), [this] { findChild<QAction*>("exportAction")->trigger(); } },
+      { otherwise,
+        [this, goOn]
+        {
+          dropMap();
+          goOn();
+        } } });
+  return false;
+}
+
 void Window::showMap()
 {
   if (map_)

@@ -39,7 +39,7 @@ QStringList filesOf(const QMimeData& dragged)
 
 void Window::closeEvent(QCloseEvent* event)
 {
-  if (!saves_.mayClose())
+  if (!saves_.mayClose() || !mayDropMap(tr("Quit without it"), [this] { close(); }))
   {
     event->ignore();
     return;

@@ -62,6 +62,14 @@ protected:
     EXPECT_TRUE(said().startsWith("Stiffness map:")) << said().toStdString();
   }
 
+  void answer(const QString& choice) const
+  {
+    for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
+    {
+      button->text() == choice ? button->click() : void();
+    }
+  }
+
   // pixels of the picture whose color is like that of the bright end of the map
   [[nodiscard]] int countOf(const std::function<bool(const QColor&)>& isLike)
   {
@@ -133,6 +141,24 @@ TEST_F(MapTest, ColorsTheBodyAndGoesAndComes)
   EXPECT_FALSE(action("mapColors")->isEnabled());
 }
 
+TEST_F(MapTest, IsNotLostWithoutAQuestion)
+{
+  ask({ { "mapDepth", "2" }, { "mapSpacing", "20" } });
+  waitForMap();
+  const QString other = PALP_SHARE "/meshes/sphere_50.vtp";
+  EXPECT_FALSE(window_->openFile(other));
+  EXPECT_TRUE(said().startsWith("The stiffness map is not exported yet")) << said().toStdString();
+  EXPECT_FALSE(window_->close());
+  EXPECT_TRUE(window_->isVisible());
+  ASSERT_TRUE(window_->exportData(QString::fromStdString((folder_.path() / "out").string())));
+  EXPECT_TRUE(window_->openFile(other));
+  ask({ { "mapDepth", "2" }, { "mapSpacing", "20" } });
+  waitForMap();
+  EXPECT_FALSE(window_->close());
+  answer("Quit without it");
+  EXPECT_FALSE(window_->isVisible());
+}
+
 // Hertz: dF/dd = 2 E/(1 - nu^2) sqrt(R d), of the paper's Eq. (2)
 TEST_F(MapTest, IsExportedWithTheFolder)
 {
@@ -184,8 +210,11 @@ TEST_F(MapTest, OfAnotherToolIsMarkedAndNotExported)
   EXPECT_TRUE(said().contains("not the stiffness map")) << said().toStdString();
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/stiffness_map.csv"));
   EXPECT_TRUE(action("mapColors")->isEnabled()) << "still seen, with a bar that says of before";
-  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
-  EXPECT_FALSE(action("mapColors")->isEnabled()) << "another body has no such places";
+  EXPECT_FALSE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
+  EXPECT_TRUE(said().endsWith("taken back (Ctrl+Z)")) << said().toStdString();
+  answer("Clear it");
+  EXPECT_FALSE(action("mapColors")->isEnabled());
+  EXPECT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
 }
 
 // not the tool of now
