@@ -10,6 +10,9 @@
 #include <QStringList>
 #include <QVBoxLayout>
 
+#include <algorithm>
+#include <iterator>
+
 namespace palp
 {
 namespace
@@ -65,16 +68,16 @@ void showKeySheet(QWidget& window, const std::vector<KeyEntry>& mouse, const QMe
   auto* rows = new QGridLayout;
   rows->setHorizontalSpacing(24);
   rows->setVerticalSpacing(2);
-  const auto add = [rows](const std::vector<KeyEntry>& entries, int column)
+  std::vector<KeyEntry> entries = mouse;
+  std::ranges::copy(keysOf(menus), std::back_inserter(entries));
+  const auto half = static_cast<int>(entries.size() + 1) / 2; // beside each other, as screens are
+  for (int i = 0; const KeyEntry& entry : entries)
   {
-    for (int row = 0; const KeyEntry& entry : entries)
-    {
-      rows->addWidget(new QLabel("<b>" + entry.keys.toHtmlEscaped() + "</b>"), row, column);
-      rows->addWidget(new QLabel(entry.effect), row++, column + 1);
-    }
-  };
-  add(mouse, 0); // beside each other, for a screen of 768 lines
-  add(keysOf(menus), 2);
+    const int column = i < half ? 0 : 2;
+    rows->addWidget(new QLabel("<b>" + entry.keys.toHtmlEscaped() + "</b>"), i % half, column);
+    rows->addWidget(new QLabel(entry.effect), i % half, column + 1);
+    ++i;
+  }
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   QObject::connect(buttons, &QDialogButtonBox::rejected, sheet, &QDialog::reject);
   auto* column = new QVBoxLayout(sheet);
