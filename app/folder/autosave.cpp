@@ -155,6 +155,15 @@ void Autosave::update(int press, std::vector<std::string> names)
     });
 }
 
+bool Autosave::has(int press)
+{
+  if (written_.valid())
+  {
+    written_.wait();
+  }
+  return !own_.empty() && isExport(folderOf(press));
+}
+
 void Autosave::check()
 {
   if (written_.valid() && written_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
@@ -203,28 +212,20 @@ std::vector<fs::path> Autosave::left() const
   return presses;
 }
 
-std::vector<int> Autosave::adopt()
+int Autosave::adopt(const fs::path& press)
 {
-  const std::vector<fs::path> found = left();
-  std::vector<int> presses;
-  for (const fs::path& folder : found)
+  std::error_code failed;
+  fs::rename(press, folderOf(count_ + 1), failed);
+  if (failed)
   {
-    std::error_code failed;
-    fs::rename(folder, folderOf(++count_), failed);
-    if (!failed)
-    {
-      presses.push_back(count_);
-    }
+    return 0;
   }
-  if (presses.size() == found.size())
+  if (const fs::path program = press.parent_path();
+      std::ranges::none_of(foldersIn(program), isPress))
   {
-    for (const fs::path& program : ended())
-    {
-      std::error_code none;
-      fs::remove_all(program, none);
-    }
+    fs::remove_all(program, failed);
   }
-  return presses;
+  return ++count_;
 }
 
 void Autosave::discard()

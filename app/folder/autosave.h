@@ -44,6 +44,16 @@ public:
   /// @throws Error  BadFile
   void check();
 
+  /// Whether a press is on the disk; waits until it is written.
+  /// @param press  its number
+  [[nodiscard]] bool has(int press);
+
+  /// Where presses are kept; empty: nowhere, as no folder can be made there.
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept
+  {
+    return own_;
+  }
+
   /// The number of the last press that was saved, from 1.
   [[nodiscard]] int saved() const noexcept
   {
@@ -57,9 +67,9 @@ public:
   /// Folders of presses, each as an export, that programs left which have ended: the oldest first.
   [[nodiscard]] std::vector<std::filesystem::path> left() const;
 
-  /// Takes those over, so that they are kept as this program's own.
-  /// @return  their numbers
-  std::vector<int> adopt();
+  /// Takes one of those over, so that it is kept as this program's own.
+  /// @return  its number; 0: it is gone
+  int adopt(const std::filesystem::path& press);
 
   /// Where a press is.
   [[nodiscard]] std::filesystem::path folderOf(int press) const;

@@ -17,7 +17,15 @@ using namespace units::literals;
 
 PressPlace parsePlace(const std::string& text, const std::string& what)
 {
-  const std::vector<double> numbers = parseNumbers(text, what);
+  std::vector<double> numbers;
+  try
+  {
+    numbers = parseNumbers(text, what);
+  }
+  catch (const Error&) // who asks for a number
+  {
+    numbers.clear();
+  }
   if (numbers.size() != 3)
   {
     throw Error(ErrorCode::BadValue,

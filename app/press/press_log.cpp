@@ -203,6 +203,14 @@ void PressLog::noteSaved(int number) noexcept
   std::for_each(firstKept(), presses_.end(), [number](KeptPress& press) { press.saved = number; });
 }
 
+void PressLog::noteExported(int id) noexcept
+{
+  for (KeptPress& press : presses_)
+  {
+    press.saved = press.id <= id ? KeptPress::kElsewhere : press.saved;
+  }
+}
+
 std::vector<std::string> PressLog::namesOf(int saved) const
 {
   std::vector<std::string> names;
@@ -217,7 +225,7 @@ void PressLog::rename(int id, const std::string& name)
 {
   if (const auto at = std::ranges::find(presses_, id, &KeptPress::id); at != presses_.end())
   {
-    at->summary.name = name;
+    at->summary.name = at->summary.name == name ? name : freeName(name);
   }
   ++version_;
 }

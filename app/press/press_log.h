@@ -32,8 +32,9 @@ struct KeptPress
   bool isInBody = false;           ///< which gave way by an organ file
   std::string outside{};           ///< see outsideLimits; empty also where no sample is rated
   std::vector<CurvePoint> curve{}; ///< from touch to release, kCurve of its samples at most
-  int saved = 0;                   ///< number by which Autosave has it; 0: none
+  int saved = 0;                   ///< number by which Autosave has it; 0: none; or kElsewhere
 
+  static constexpr int kElsewhere = -1; ///< in an export, or in the sheet of a search
   static constexpr std::size_t kCurve = 400;
 };
 
@@ -93,6 +94,15 @@ public:
 
   /// Those that were kept last are saved under a number, see KeptPress.
   void noteSaved(int number) noexcept;
+
+  /// All up to one are exported.
+  void noteExported(int id) noexcept;
+
+  /// The id of the last that was kept; 0: none.
+  [[nodiscard]] int newest() const noexcept
+  {
+    return found_;
+  }
 
   /// The names of the presses that are saved under a number, in their order.
   [[nodiscard]] std::vector<std::string> namesOf(int saved) const;

@@ -140,7 +140,8 @@ void PointerTool::release(double time)
 
 void PointerTool::wheel(int notches)
 {
-  deepen(notches * kDepthPerNotch);
+  const bool isOver = pressing_ || (last_ && below(*last_));
+  isOver ? deepen(notches * kDepthPerNotch) : void();
 }
 
 void PointerTool::deepen(double by)

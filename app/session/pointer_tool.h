@@ -50,8 +50,8 @@ public:
   bool press(int x, int y, double time);
   void drag(int pixelsDown);
   void release(double time);
-  void wheel(int notches);
-  void deepen(double by); ///< what the wheel holds [m]
+  void wheel(int notches); ///< nothing but over the body
+  void deepen(double by);  ///< what the wheel holds [m]
 
   /// Presses once at a place, whatever the pointer does meanwhile: apart from what was pressed
   /// before, down, kShortest of rest, and up. A button, the wheel or letGo() ends it.

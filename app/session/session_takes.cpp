@@ -28,6 +28,10 @@ void Session::save(const SceneBody& body, std::optional<Recording> press)
     autosave_->save(std::move(plan), *std::move(press));
     presses_.noteSaved(autosave_->saved());
   }
+  else if (body.training)
+  {
+    presses_.noteSaved(KeptPress::kElsewhere);
+  }
 }
 
 void Session::endRecording(const SceneBody& body)
@@ -124,6 +128,7 @@ void Session::noteSeen(const CameraPlace& place)
 std::size_t Session::add(Take take)
 {
   const std::size_t found = presses_.keepAll(take.recording);
+  presses_.noteSaved(KeptPress::kElsewhere);
   earlier_.push_back(std::move(take));
   return found;
 }

@@ -175,10 +175,9 @@ void MessageBar::write()
 // a key or a button of the mouse is something that the user does, but for one in the bar itself
 bool MessageBar::eventFilter(QObject* watched, QEvent* event)
 {
-  if (event->type() == QEvent::Resize && watched == parentWidget())
-  {
-    place();
-  }
+  const bool isOther = (event->type() == QEvent::Resize && watched == parentWidget()) ||
+    (event->type() == QEvent::LayoutRequest && watched == this); // a style gives other sizes
+  isOther ? place() : void();
   const bool isDone =
     event->type() == QEvent::MouseButtonPress || event->type() == QEvent::KeyPress;
   if (isDone && listens_ && watched->isWidgetType())

@@ -58,6 +58,7 @@ void Saves::ask()
     });
   box->open();
   box->setDefaultButton(wait);
+  question_ = box;
 }
 
 // from the event loop, as what has ended is still to be told of
@@ -66,10 +67,12 @@ void Saves::quitOnceWritten()
   QTimer::singleShot(0, &window_,
     [this]
     {
-      if (quits_ && !isWriting())
+      if (isWriting())
       {
-        window_.close();
+        return;
       }
+      question_ ? question_->reject() : void(); // of what has ended
+      quits_ ? void(window_.close()) : void();
     });
 }
 

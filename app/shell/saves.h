@@ -1,7 +1,10 @@
 #pragma once
 
+#include <QPointer>
+
 #include <functional>
 
+class QMessageBox;
 class QWidget;
 
 namespace palp
@@ -41,6 +44,7 @@ private:
 
   QWidget& window_;
   Background& background_;
+  QPointer<QMessageBox> question_;
   int going_ = 0;      // works
   bool quits_ = false; // once they have ended
 };

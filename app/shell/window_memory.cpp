@@ -1,7 +1,9 @@
 #include "app/shell/window_memory.h"
 
+#include <QApplication>
 #include <QFileInfo>
 #include <QMainWindow>
+#include <QScreen>
 #include <QSettings>
 
 namespace palp
@@ -10,6 +12,8 @@ namespace
 {
 
 constexpr int kLayout = 1; // counted up when panels change names or meaning
+constexpr int kFrame = 16; // [pixels] that a window manager adds at both sides
+constexpr int kTitle = 48; // above and below
 constexpr const char* kRecent = "recentFiles";
 constexpr const char* kTheme = "theme";
 constexpr const char* kRealistic = "realistic";
@@ -33,6 +37,14 @@ void WindowMemory::restore(QMainWindow& window) const
 {
   const QSettings kept = settings();
   window.restoreGeometry(kept.value("geometry").toByteArray());
+  const QScreen& screen = window.screen() != nullptr ? *window.screen() : *qApp->primaryScreen();
+  const QRect room = screen.availableGeometry(); // which was another then, perhaps
+  const QRect wanted = window.geometry();
+  const QSize size = wanted.size().boundedTo(room.size() - QSize(kFrame, kTitle));
+  if (size != wanted.size() && !window.isMaximized() && !window.isFullScreen())
+  {
+    window.setGeometry(QRect(room.topLeft() + QPoint(kFrame / 2, kTitle - kFrame / 2), size));
+  }
   window.restoreState(kept.value("layout").toByteArray(), kLayout);
 }
 

@@ -286,7 +286,7 @@ void Window::refreshPanels()
 // a text that changes lays the whole window out and draws it: seldom while nothing else changes
 void Window::refreshTiming()
 {
-  attempt([this] { autosave_ != nullptr ? autosave_->check() : void(); });
+  checkSaved();
   constexpr int kIdle = 120;  // pictures
   constexpr int kSeldom = 10; // times
   if (still_ > kIdle && ++timingsLeftOut_ < kSeldom)

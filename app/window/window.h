@@ -159,7 +159,6 @@ private:
   [[nodiscard]] Scene tissueInUse() const;
   [[nodiscard]] const Scene& organShown() const;
   [[nodiscard]] const Calibration& calibrationShown() const;
-
   // the pointer as a tool, in display pixels
   void makePointer();
   void makePressBar();
@@ -200,6 +199,8 @@ private:
   void fitPressed(int id);
   std::size_t addTake(const ExportFolder& folder);
   void offerPresses();
+  void checkSaved();
+  bool mayDropPresses();
   void restorePresses();
   void discardPresses(const QString& what);
   void sayListed(const QString& how, std::size_t presses);
@@ -225,7 +226,6 @@ private:
   void review(std::size_t ago);
   void endReview();
   void showPictured();
-
   void takeSamples();
   void clearCharts();
   void refresh();

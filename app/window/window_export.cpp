@@ -265,6 +265,7 @@ bool Window::exportInto(const QString& directory)
       takeSamples();
       const std::filesystem::path folder = directory.toStdString();
       const int saved = autosave_ != nullptr ? autosave_->saved() : 0; // presses go on meanwhile
+      const int newest = session_.presses().newest();
       const bool isNewest = session_.recording().isTouched() || session_.earlier().empty();
       const std::size_t takes = session_.earlier().size() + (isNewest ? 1 : 0);
       const auto taken = [this](std::size_t i) { return recorded(session_.earlier().size() - i); };
@@ -304,6 +305,7 @@ bool Window::exportInto(const QString& directory)
         std::filesystem::remove_all(earlierTake(folder, i));
       }
       autosave_ != nullptr ? autosave_->clear(saved) : void();
+      session_.presses().noteExported(newest);
       const QString pressless =
         isNewest && !session_.recording().isTouched() ? tr("; no press is in it") : QString();
       say(tr("Written to %1: %2").arg(directory, written.join(", ")) + pressless);

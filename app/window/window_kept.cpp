@@ -17,7 +17,51 @@ void Window::saveTo(Autosave& autosave)
 {
   autosave_ = &autosave;
   session_.saveTo(autosave_);
-  offerPresses();
+  autosave_->folder().empty()
+    ? message_->warn(tr("Presses are not kept on the disk: export them before you quit; no folder "
+                        "can be made in %1")
+                       .arg(QString::fromStdString(Autosave::usualRoot().string())))
+    : offerPresses();
+}
+
+void Window::checkSaved()
+{
+  try
+  {
+    autosave_ != nullptr ? autosave_->check() : void();
+  }
+  catch (const std::exception& error)
+  {
+    message_->warn(
+      tr("A press is not kept on the disk: export it before you quit; %1").arg(error.what()));
+  }
+}
+
+// asks about those that are nowhere else
+bool Window::mayDropPresses()
+{
+  if (autosave_ == nullptr)
+  {
+    return true;
+  }
+  const auto isLost = [this](const KeptPress& press)
+  { return press.saved != KeptPress::kElsewhere && !autosave_->has(press.saved); };
+  const auto lost =
+    static_cast<std::size_t>(std::ranges::count_if(session_.presses().presses(), isLost));
+  if (lost == 0)
+  {
+    return true;
+  }
+  const QString what = QString::fromStdString(counted(lost, "press", "presses"));
+  message_->ask(tr("Neither exported nor kept on the disk: %1").arg(what),
+    { { tr("Export data…"), [this] { findChild<QAction*>("exportAction")->trigger(); } },
+      { tr("Quit without"),
+        [this]
+        {
+          session_.presses().noteExported(session_.presses().newest());
+          close();
+        } } });
+  return false;
 }
 
 void Window::offerPresses()
@@ -105,15 +149,18 @@ void Window::restorePresses()
   }
   endReview();
   std::size_t restored = 0;
-  for (const int press : autosave_->adopt())
+  for (const std::filesystem::path& press : autosave_->left())
   {
-    attempt(
-      [&]
-      {
-        const std::size_t found = addTake(readExport(autosave_->folderOf(press)));
-        found > 0 ? session_.presses().noteSaved(press) : void();
-        restored += found;
-      });
+    try
+    {
+      const std::size_t found = addTake(readExport(press));
+      found > 0 ? session_.presses().noteSaved(autosave_->adopt(press)) : void();
+      restored += found;
+    }
+    catch (const std::exception& error)
+    {
+      message_->warn(tr("A press of before is kept, but not restored: %1").arg(error.what()));
+    }
   }
   if (restored > 0)
   {

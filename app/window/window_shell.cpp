@@ -39,7 +39,8 @@ QStringList filesOf(const QMimeData& dragged)
 
 void Window::closeEvent(QCloseEvent* event)
 {
-  if (!saves_.mayClose() || !mayDropMap(tr("Quit without it"), [this] { close(); }))
+  if (!saves_.mayClose() || !mayDropPresses() ||
+    !mayDropMap(tr("Quit without it"), [this] { close(); }))
   {
     event->ignore();
     return;

@@ -60,6 +60,16 @@ std::size_t rowsIn(const fs::path& folder)
 class AutosaveTest : public testing::Test
 {
 protected:
+  [[nodiscard]] static std::vector<int> adoptAll(Autosave& autosave)
+  {
+    std::vector<int> numbers;
+    for (const fs::path& press : autosave.left())
+    {
+      numbers.push_back(autosave.adopt(press));
+    }
+    return numbers;
+  }
+
   test::TemporaryFolder folder_;
   fs::path root_ = folder_.path() / "state" / "presses";
 };
@@ -75,7 +85,7 @@ TEST_F(AutosaveTest, LeavesWhatWasNotExportedToTheNextProgram)
   }
   Autosave second(root_);
   ASSERT_EQ(second.left().size(), 2U);
-  const auto adopted = second.adopt();
+  const auto adopted = adoptAll(second);
   ASSERT_EQ(adopted.size(), 2U);
   EXPECT_EQ(rowsIn(second.folderOf(adopted[0])), 20U);
   EXPECT_EQ(rowsIn(second.folderOf(adopted[1])), 30U);
@@ -105,7 +115,7 @@ TEST_F(AutosaveTest, KeepsNamesAndForgetsWhatWasDeleted)
     first.update(3, { "brought back" });
   }
   Autosave second(root_);
-  const auto adopted = second.adopt();
+  const auto adopted = adoptAll(second);
   ASSERT_EQ(adopted.size(), 2U);
   const ExportFolder named = readExport(second.folderOf(adopted[0]));
   EXPECT_EQ(named.plan.recording->names, std::vector<std::string>{ "above the gallbladder" });
@@ -225,9 +235,11 @@ TEST_F(AutosaveTest, SaysOnceThatADiskIsFullAndGoesOn)
 TEST_F(AutosaveTest, DoesNothingWhereItsFolderCannotBeMade)
 {
   Autosave mine("/proc/none");
+  EXPECT_TRUE(mine.folder().empty());
   mine.save(plan(), pressOf(10));
   EXPECT_NO_THROW(mine.check());
   EXPECT_TRUE(mine.left().empty());
+  EXPECT_FALSE(mine.has(1));
 }
 
 } // namespace

@@ -242,6 +242,10 @@ TEST(PressLog, GivesNoNameTwice)
   servo.press(1.0_mm, 50);
   servo.wait(25);
   EXPECT_EQ(servo.log.presses().back().summary.name, "press 3");
+  servo.log.rename(2, "press 2");
+  EXPECT_EQ(servo.log.presses().back().summary.name, "press 2 (2)");
+  servo.log.rename(1, "press 2");
+  EXPECT_EQ(servo.log.presses().front().summary.name, "press 2");
 }
 
 // the modulus that the servo pressed with

@@ -1,15 +1,19 @@
 #include "app/shell/key_sheet.h"
 #include "app/shell/theme.h"
+#include "app/shell/window_memory.h"
 #include "tests/app/window/window_rig.h"
 
 #include <QDialog>
 #include <QDockWidget>
+#include <QGuiApplication>
 #include <QImage>
 #include <QLabel>
+#include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScreen>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -285,6 +289,23 @@ TEST_F(WindowTest, AMessageIsReadWholeAndTakesNothingAway)
   EXPECT_TRUE(QTest::qWaitFor(isWhole, kPatience));
   bar->findChild<QToolButton*>("closeMessage")->click();
   EXPECT_TRUE(said().isEmpty());
+}
+
+TEST(WindowMemory, AWindowIsNoLargerThanTheScreen)
+{
+  test::application();
+  QMainWindow large;
+  large.resize(QGuiApplication::primaryScreen()->size() + QSize(400, 300));
+  WindowMemory().save(large);
+  QMainWindow next;
+  WindowMemory().restore(next);
+  const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
+  EXPECT_TRUE(room.contains(next.geometry()));
+  EXPECT_GT(next.width(), room.width() * 9 / 10);
+  large.resize(700, 500);
+  WindowMemory().save(large);
+  WindowMemory().restore(next);
+  EXPECT_EQ(next.size(), QSize(700, 500));
 }
 
 } // namespace

@@ -144,7 +144,7 @@ TEST_F(MessageOverPicture, ALineWithAButtonMovesNothing)
 {
   auto* bar = window_->findChild<MessageBar*>();
   bar->tell({});
-  (void)picture();
+  waitForFrames(); // until the picture is smooth
   bar->follow("Saving the figure", "drawing", 50, [] {});
   EXPECT_EQ(picturesIn(600), 0);
   bar->unfollow("Saving the figure");
@@ -174,6 +174,21 @@ TEST_F(MessageOverPicture, AQuestionIsReadWholeBesideItsAnswers)
   const auto* text = bar->findChild<QLabel*>("message");
   const auto isWhole = [text] { return text->height() >= text->heightForWidth(text->width()); };
   EXPECT_TRUE(QTest::qWaitFor(isWhole, 3000));
+}
+
+// before it is seen, its parts have other sizes
+TEST(MessageBar, AQuestionIsReadWholeThatIsAskedBeforeItIsSeen)
+{
+  test::application();
+  QWidget over;
+  over.resize(330, 600);
+  MessageBar bar(&over);
+  bar.ask("Not exported yet: 2 presses of before", { { "Restore", {} }, { "Discard", {} } });
+  over.setStyleSheet("QPushButton { min-width: 80px; }"); // as that of a desktop
+  over.show();
+  const auto* text = bar.findChild<QLabel*>("message");
+  const auto isWhole = [text] { return text->height() >= text->heightForWidth(text->width()); };
+  EXPECT_TRUE(QTest::qWaitFor(isWhole, 3000)) << text->height();
 }
 
 TEST_F(WindowTest, WhatIsAddedToAQuestionLeavesItsAnswers)

@@ -165,6 +165,24 @@ TEST_F(WindowTest, HoveringNeverTouches)
   EXPECT_EQ(peakForce(), 0.0);
 }
 
+TEST_F(WindowTest, TheWheelBesideTheBodyPressesNothing)
+{
+  press(60);
+  release();
+  EXPECT_TRUE(waitForLift());
+  const QPoint beside(3, 3);
+  QTest::mouseMove(canvas_, beside);
+  for (int i = 0; i < 3; ++i)
+  {
+    QWheelEvent notch(beside, canvas_->mapToGlobal(beside), {}, QPoint(0, -120), Qt::NoButton,
+      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(canvas_, &notch);
+  }
+  waitForRest();
+  EXPECT_FALSE(session_->newest().contact.touching());
+  EXPECT_EQ(session_->presses().presses().size(), 1U);
+}
+
 // the straight way to another place would lead through the liver
 TEST_F(WindowTest, GoesToAnotherPlaceOverTheSurface)
 {

@@ -159,5 +159,75 @@ TEST_F(WindowTest, ADeletedPressIsInNoExportAndTheOthersKeepTheirNames)
   EXPECT_EQ(session_->presses().presses().size(), 4U) << "two of their own, two loaded";
 }
 
+// of a surface that is gone, which an export of others must not forget
+class LostBody : public WindowTest
+{
+protected:
+  ~LostBody() override
+  {
+    session_->saveTo(nullptr);
+  }
+
+  const std::filesystem::path state_ = folder_.path() / "state";
+};
+
+TEST_F(LostBody, ItsPressesAreKeptUntilItIsBack)
+{
+  const auto body = folder_.path() / "bx.vtp";
+  std::filesystem::copy_file(PALP_SHARE "/meshes/block_50.vtp", body);
+  std::optional<Autosave> before(state_);
+  window_->saveTo(*before);
+  ASSERT_TRUE(window_->openFile(QString::fromStdString(body.string())));
+  waitForFrames();
+  press(60);
+  release();
+  waitForPresses(1);
+  before.reset();
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
+  waitForFrames();
+  press(60);
+  release();
+  waitForPresses(2);
+  ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/liver.vtp")); // so that it is read anew
+  std::filesystem::rename(body, body.string() + ".away");
+  std::optional<Autosave> now(state_);
+  window_->saveTo(*now);
+  for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
+  {
+    button->text() == "Restore" ? button->click() : void();
+  }
+  EXPECT_TRUE(said().startsWith("A press of before is kept, but not restored: "))
+    << said().toStdString();
+  EXPECT_FALSE(std::filesystem::exists(body));
+  now->clear(); // as an export does
+  now.reset();
+  EXPECT_EQ(Autosave(state_).left().size(), 1U);
+}
+
+TEST_F(LostBody, AWindowAsksBeforeItLosesWhatIsKeptNowhere)
+{
+  Autosave nowhere("/proc/none");
+  window_->saveTo(nowhere);
+  EXPECT_TRUE(said().startsWith("Presses are not kept on the disk: export them"))
+    << said().toStdString();
+  press(60);
+  release();
+  waitForPresses(1);
+  EXPECT_FALSE(window_->close());
+  EXPECT_EQ(said(), "Neither exported nor kept on the disk: 1 press");
+  ASSERT_TRUE(window_->exportData(QString::fromStdString((folder_.path() / "out").string())));
+  EXPECT_TRUE(window_->close());
+}
+
+TEST_F(LostBody, AWindowClosesWhereAllIsKept)
+{
+  Autosave somewhere(state_);
+  window_->saveTo(somewhere);
+  press(60);
+  release();
+  waitForPresses(1);
+  EXPECT_TRUE(window_->close());
+}
+
 } // namespace
 } // namespace palp
