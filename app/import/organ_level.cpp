@@ -211,4 +211,28 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
   return guess;
 }
 
+UnitChoice unitOfList(
+  const FileOrgans& organs, UnitChoice asked, const std::filesystem::path& image, std::string& note)
+{
+  const UnitChoice known = asked ? asked : unitNamed(organs.unit);
+  if (known || organs.organs.empty())
+  {
+    return known;
+  }
+  const double volume = std::ranges::max(organs.organs, {}, &FileOrgan::voxelVolume).voxelVolume;
+  try
+  {
+    const LengthUnit guess =
+      guessUnit(std::cbrt(volume), image.string(), organs.organs.front().surface.field);
+    note = std::string("the file names no unit; volumes are by ") + unitName(guess) +
+      ", which alone gives the size of organs";
+    return guess;
+  }
+  catch (const Error&)
+  {
+    note = "the file names no unit; give --unit mm for volumes";
+    return std::nullopt;
+  }
+}
+
 } // namespace palp

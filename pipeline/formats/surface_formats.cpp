@@ -5,6 +5,7 @@
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/stated_space.h"
 #include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/msh_format.h"
 #include "pipeline/formats/read_limits.h"
@@ -171,8 +172,15 @@ std::string fieldOf(vtkPolyData& data, const char* name)
 }
 
 // 3D Slicer's axes to right, front and head become those to left, back and head
-void turnToLps(FileSurface& surface)
+void turnToLps(const std::filesystem::path& file, FileSurface& surface)
 {
+  if (isSpace(surface.space) && surface.space != "RAS" && surface.space != "LPS")
+  {
+    refuse(file,
+      "its axes are " + surface.space +
+        " by its SPACE, where 3D Slicer has LPS or RAS; export it in "
+        "one of them");
+  }
   if (surface.space.find("RAS") != std::string::npos)
   {
     for (Eigen::Vector3d& point : surface.points)
@@ -226,7 +234,7 @@ FileSurface surfaceOf(const std::filesystem::path& file, vtkPolyData& data)
     throw Error(ErrorCode::BadMesh,
       file.string() + ": no triangles in it; export a surface, not points or a volume");
   }
-  turnToLps(surface);
+  turnToLps(file, surface);
   return surface;
 }
 

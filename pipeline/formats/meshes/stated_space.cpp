@@ -2,6 +2,9 @@
 
 #include "pipeline/process/file_surface.h"
 
+#include <algorithm>
+#include <array>
+#include <string>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -10,19 +13,25 @@
 namespace palp
 {
 
+bool isSpace(std::string_view word)
+{
+  return word.size() == 3 &&
+    std::ranges::all_of(std::array{ "RL", "AP", "IS" },
+      [&](const char* axis) { return word.find_first_of(axis) != word.npos; });
+}
+
 void stateSpace(vtkPolyData& mesh, std::string_view header)
 {
-  for (const char* space : { "RAS", "LPS" })
+  const std::string key = std::string(kSpaceArray) + "=";
+  const std::size_t found = header.find(key);
+  if (found == header.npos || !isSpace(header.substr(found + key.size(), 3)))
   {
-    if (header.find(std::string(kSpaceArray) + "=" + space) != header.npos)
-    {
-      vtkNew<vtkStringArray> words;
-      words->SetName(kSpaceArray);
-      words->InsertNextValue(space);
-      mesh.GetFieldData()->AddArray(words);
-      return;
-    }
+    return;
   }
+  vtkNew<vtkStringArray> words;
+  words->SetName(kSpaceArray);
+  words->InsertNextValue(std::string(header.substr(found + key.size(), 3)));
+  mesh.GetFieldData()->AddArray(words);
 }
 
 } // namespace palp

@@ -18,6 +18,7 @@ struct ImageContour
   std::vector<Triangle> triangles;     ///< facing lower values
   std::vector<Eigen::Vector3d> from;   ///< where each point was before stairs were smoothed
   double enclosed = 0.0;               ///< volume that was meant to stay [unit^3]
+  double largest = 0.0;                ///< that of its largest piece [unit^3]
 };
 
 /// The largest connected pieces of the surface on which an image has a value, with their hollows,

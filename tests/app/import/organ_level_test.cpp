@@ -83,13 +83,20 @@ TEST(LookOf, IsByAWordNotByAPartOfOne)
     { "Liver (cirrhosis)", "cirrhosis" }, { "hemangioma_2", "hemangioma" },
     { "hepatocellular carcinoma", "hcc" }, { "kidney_tumor", "" }, { "brain tumor", "" },
     { "lung_nodule_left", "" }, { "tumor3", "hcc" }, { "body", "" }, { "liver1", "healthy_liver" },
-    { "kidney_cyst_left", "" }, { "", "" }, { "\xc3\xa9 liver", "healthy_liver" } };
+    { "kidney_cyst_left", "" }, { "", "" }, { "tumor_free_liver", "" },
+    { "liver_without_lesions", "" }, { "liver_fat", "" }, { "fatty liver", "" },
+    { "fatal_lesion", "" }, { "skull", "" }, { "not liver", "" }, { "whole liver with tumor", "" },
+    { "fat_free_mass", "" }, { "skin_lesion", "" }, { "liver phantom", "" },
+    { "liver ablation zone", "" }, { "hcc metastasis", "" }, { "liver cyst", "" },
+    { "liver and spleen", "" }, { "whole liver", "healthy_liver" }, { "tumor of the liver", "hcc" },
+    { "Liver segment 4", "healthy_liver" }, { "\xc3\xa9 liver", "healthy_liver" } };
   for (const auto& [name, tissue] : tissues)
   {
     const char* const found = lookOf(name).tissue;
     EXPECT_STREQ(found == nullptr ? "" : found, tissue) << name;
   }
-  for (const char* bone : { "vertebrae_L1", "ribs", "rib_left_12", "Bones", "femur_right" })
+  for (const char* bone :
+    { "skull", "vertebrae_L1", "ribs", "rib_left_12", "Bones", "femur_right" })
   {
     EXPECT_STREQ(lookOf(bone).role, "show") << bone;
   }
