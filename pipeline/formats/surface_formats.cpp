@@ -171,30 +171,6 @@ std::string fieldOf(vtkPolyData& data, const char* name)
   return words && words->GetNumberOfValues() == 1 ? words->GetValue(0) : std::string();
 }
 
-// 3D Slicer's axes to right, front and head become those to left, back and head
-void turnToLps(const std::filesystem::path& file, FileSurface& surface)
-{
-  if (isSpace(surface.space) && surface.space != "RAS" && surface.space != "LPS")
-  {
-    refuse(file,
-      "its axes are " + surface.space +
-        " by its SPACE, where 3D Slicer has LPS or RAS; export it in "
-        "one of them");
-  }
-  if (surface.space.find("RAS") != std::string::npos)
-  {
-    for (Eigen::Vector3d& point : surface.points)
-    {
-      point.head<2>() *= -1.0;
-    }
-    surface.notes.emplace_back(
-      "turned from axes to right, front and head (SPACE=RAS) to left, back "
-      "and head (LPS)");
-    surface.space = "LPS";
-  }
-  surface.space = surface.space.find("LPS") != std::string::npos ? "LPS" : "";
-}
-
 // also of faces with more corners, and of strips
 std::vector<Triangle> allTriangles(vtkPolyData& data)
 {

@@ -70,6 +70,25 @@ TEST(ImportedOrgan, TellsOfASurfaceThatPassesThroughItself)
   }
 }
 
+// of 180 ml in an image of 288 mm, and in one of 120 mm that may as well be of 1.2 m
+TEST(UnitOfList, IsGuessedWhereOneAloneGivesTheSizeOfOrgans)
+{
+  std::string note;
+  for (const auto& [field, words] :
+    { std::pair(288.0, "volumes are by mm"), { 120.0, "give --unit mm for volumes" } })
+  {
+    FileOrgans found;
+    found.organs.resize(1);
+    found.organs[0].voxelVolume = 180e3;
+    found.organs[0].surface.field = field;
+    const UnitChoice unit = unitOfList(found, std::nullopt, "image.mha", note);
+    EXPECT_EQ(unit.has_value(), field > 200.0) << field;
+    EXPECT_NE(note.find(words), std::string::npos) << note;
+    found.unit = "cm";
+    EXPECT_EQ(unitOfList(found, std::nullopt, "image.mha", note), LengthUnit::Centimeter);
+  }
+}
+
 // names of TotalSegmentator, 3D Slicer and of people
 TEST(LookOf, IsByAWordNotByAPartOfOne)
 {

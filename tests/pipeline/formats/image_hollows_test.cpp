@@ -107,5 +107,30 @@ TEST_F(Images, AStoneInAFilledHollowIsNoPieceOfItsOwn)
   }
 }
 
+// which smoothing would leave nothing of, however many there are
+TEST_F(Images, OfSingleVoxelsIsNoBody)
+{
+  const auto image = ball(true);
+  auto* voxels = image->GetPointData()->GetScalars();
+  voxels->Fill(0.0);
+  for (int i = 3; i < 25; ++i) // which touch in corners
+  {
+    voxels->SetComponent(i * (1 + 41 + 41 * 41), 0, 1.0);
+  }
+  ImagePart part{ .level = 0.5, .labels = {} };
+  part.components = ImagePart::kAllComponents;
+  const auto file = write<vtkMetaImageWriter>("chain.mha", *image);
+  try
+  {
+    (void)readSurface(file, LengthUnit::Millimeter, part);
+    ADD_FAILURE();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("less than eight voxels"), std::string::npos)
+      << error.what();
+  }
+}
+
 } // namespace
 } // namespace palp::test
