@@ -237,6 +237,8 @@ std::string doneIn(const RepairedMesh& repaired)
   add(repaired.filled, "hole", "holes", " closed");
   add(repaired.turned, "triangle", "triangles", " turned");
   line = line.empty() ? "nothing to repair" : line;
+  add(repaired.seamsLeft, "edge", "edges",
+    " left open beside others, as not all of a seam is within 1/50 of its edges");
   add(repaired.splitLeft, "point", "points", " left where parts meet, as these would cross");
   add(repaired.sliversLeft, "sliver", "slivers", " left, as the surface would cross itself");
   add(repaired.holesLeft, "hole", "holes", " left, as what closes them would cross the surface");

@@ -53,6 +53,11 @@ struct ImportOptions
   }
 };
 
+void tell(const std::string& what)
+{
+  std::cerr << "palp: " << printable(what) << '\n';
+}
+
 std::array<double, 2> parseBand(const std::string& text)
 {
   const std::size_t colon = text.find(':');
@@ -145,11 +150,6 @@ std::string tableOf(const std::vector<ImportedOrgan>& organs)
   return figures::csv(table, kDigits);
 }
 
-void tell(const std::string& what)
-{
-  std::cerr << "palp: " << printable(what) << '\n';
-}
-
 // which the scene has by the organs' names
 void tellTissues(const std::vector<ImportedOrgan>& organs)
 {
@@ -212,10 +212,10 @@ void runImport(const ImportOptions& options)
   if (options.out.empty())
   {
     const FileOrgans organs = found(options);
-    const UnitChoice known = options.unit ? options.unit : unitNamed(organs.unit);
-    std::cout << (organs.organs.empty() ? "" : listOf(organs, known));
-    known || organs.organs.empty() ? void()
-                                   : tell("the file names no unit; give --unit mm for volumes");
+    std::string note;
+    const UnitChoice unit = unitOfList(organs, options.unit, options.image, note);
+    note.empty() ? void() : tell(note);
+    std::cout << (organs.organs.empty() ? "" : listOf(organs, unit));
     return;
   }
   Outputs outputs;

@@ -30,14 +30,13 @@ struct Boundary
   BoxTree tree;
 };
 
-// tree: of the triangles
 OrganLevel levelOf(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
-  const BoxTree& tree, const Boundary& boundary)
+  const Deviation& apart)
 {
   return { .mesh = makePolyData(points, triangles),
     .points = points.size(),
     .triangles = triangles.size(),
-    .apart = deviation(points, tree, boundary.points, boundary.tree) };
+    .apart = apart };
 }
 
 Boundary boundaryOf(const FileOrgan& organ, double length)
@@ -64,10 +63,11 @@ std::optional<OrganLevel> feltLevel(std::span<const Eigen::Vector3d> points,
   const std::vector<TriangleMesh> finer = decimatedTo(counts, points, triangles, 0.5 * voxel);
   const auto nearEnough = [&](const TriangleMesh& felt)
   {
-    OrganLevel level =
-      levelOf(felt.points, felt.triangles, BoxTree(felt.points, felt.triangles), boundary);
-    const bool isNear = level.apart.largest <= std::max(voxel, shownApart);
-    return isNear ? std::optional(std::move(level)) : std::nullopt;
+    const double most = std::max(voxel, shownApart);
+    const Deviation apart = deviation(
+      felt.points, BoxTree(felt.points, felt.triangles), boundary.points, boundary.tree, most);
+    return apart.largest <= most ? std::optional(levelOf(felt.points, felt.triangles, apart))
+                                 : std::nullopt;
   };
   std::optional<OrganLevel> found = finer.empty() ? std::nullopt : nearEnough(finer.back());
   if (found || finer.size() < 2 || !(found = nearEnough(finer.front())))
@@ -118,7 +118,8 @@ ImportedOrgan importedOrgan(FileOrgan organ, const std::filesystem::path& image,
   auto crossing =
     std::async(std::launch::async, [&] { return crossingTriangles(tree, triangles).size(); });
   result.volume = enclosedVolume(points, triangles);
-  result.shown = levelOf(points, triangles, tree, boundary);
+  result.shown =
+    levelOf(points, triangles, deviation(points, tree, boundary.points, boundary.tree));
   if (constexpr double kFar = 2.0; result.shown.apart.largest > kFar * length * organ.voxel)
   {
     result.warnings.push_back("pieces of a few voxels are smoothed away, up to " +
@@ -209,6 +210,30 @@ LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked, const std::filesys
   warnings.push_back(std::string("the file names no unit; ") + unitName(guess) +
     " is the only one that gives the size of organs; --unit " + unitName(guess) + " confirms it");
   return guess;
+}
+
+UnitChoice unitOfList(
+  const FileOrgans& organs, UnitChoice asked, const std::filesystem::path& image, std::string& note)
+{
+  const UnitChoice known = asked ? asked : unitNamed(organs.unit);
+  if (known || organs.organs.empty())
+  {
+    return known;
+  }
+  const double volume = std::ranges::max(organs.organs, {}, &FileOrgan::voxelVolume).voxelVolume;
+  try
+  {
+    const LengthUnit guess =
+      guessUnit(std::cbrt(volume), image.string(), organs.organs.front().surface.field);
+    note = std::string("the file names no unit; volumes are by ") + unitName(guess) +
+      ", which alone gives the size of organs";
+    return guess;
+  }
+  catch (const Error&)
+  {
+    note = "the file names no unit; give --unit mm for volumes";
+    return std::nullopt;
+  }
 }
 
 } // namespace palp

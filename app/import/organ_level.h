@@ -63,4 +63,10 @@ void nameFiles(
 [[nodiscard]] LengthUnit unitOf(const FileOrgans& organs, UnitChoice asked,
   const std::filesystem::path& image, std::vector<std::string>& warnings);
 
+/// The unit of organs that are only listed: that which is asked for or stated, or the one that
+/// their volume and the image's size tell; nothing where these do not.
+/// @param note  gets that it was guessed, or could not be
+[[nodiscard]] UnitChoice unitOfList(const FileOrgans& organs, UnitChoice asked,
+  const std::filesystem::path& image, std::string& note);
+
 } // namespace palp

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
+#include <sstream>
 #include <string_view>
 
 namespace palp
@@ -51,15 +53,16 @@ constexpr std::array kKnown{ Known{ "vessel", { "show", kArtery, nullptr } },
   Known{ "stomach", { "press", "#d88469", nullptr } },
   Known{ "pancreas", { "press", "#f9b46f", nullptr } },
   Known{ "skin", { "through", kSkin, "skin" } }, Known{ "fat", { "through", "#e6dc46", "fat" } },
-  Known{ "bone", { "show", kBone, nullptr } }, Known{ "rib", { "show", kBone, nullptr } },
-  Known{ "vertebra", { "show", kBone, nullptr } }, Known{ "spine", { "show", kBone, nullptr } },
-  Known{ "sacrum", { "show", kBone, nullptr } }, Known{ "femur", { "show", kBone, nullptr } },
-  Known{ "body", { "through", kSkin, nullptr } } };
+  Known{ "bone", { "show", kBone, nullptr } }, Known{ "skull", { "show", kBone, nullptr } },
+  Known{ "rib", { "show", kBone, nullptr } }, Known{ "vertebra", { "show", kBone, nullptr } },
+  Known{ "spine", { "show", kBone, nullptr } }, Known{ "sacrum", { "show", kBone, nullptr } },
+  Known{ "femur", { "show", kBone, nullptr } }, Known{ "body", { "through", kSkin, nullptr } } };
 
-// whose masses are not those of a liver
-constexpr std::array kElsewhere{ "kidney", "renal", "spleen", "pancreas", "pancreatic", "stomach",
-  "gastric", "colon", "lung", "pulmonary", "brain", "breast", "prostate", "bone", "skin", "adrenal",
-  "thyroid", "ovary", "ovarian" };
+// words beside these that change no tissue; any other may: a tumor-free liver is no tumor
+constexpr std::array kPlain{ "abdominal", "caudate", "epicardial", "healthy", "hepatic", "in",
+  "intermuscular", "label", "large", "left", "lobe", "lower", "mask", "mesenteric", "normal", "of",
+  "parenchyma", "pericardial", "perirenal", "primary", "quadrate", "right", "segment", "small",
+  "subcutaneous", "the", "torso", "upper", "visceral", "whole" };
 
 // of names that tell nothing, in turn: muscle, tissue, connective tissue, bone, mass
 constexpr std::array kOthers{ "#c06858", "#80ae80", "#6fb8d2", kBone, kMass };
@@ -93,6 +96,50 @@ bool hasWord(const std::string& words, const std::string& word)
     [&](const char* ending) { return words.find(" " + word + ending + " ") != words.npos; });
 }
 
+// whether a single word is a number, a letter, plain, or of one that is known
+bool isClear(const std::string& word)
+{
+  const std::string alone = " " + word + " ";
+  const auto isOf = [&](const Known& known)
+  {
+    std::istringstream parts(known.word);
+    const std::istream_iterator<std::string> first(parts);
+    return std::any_of(first, std::istream_iterator<std::string>(),
+      [&](const std::string& part) { return hasWord(alone, part); });
+  };
+  return word.size() == 1 || isAny(word.front(), std::isdigit) ||
+    std::ranges::any_of(kPlain, [&](const char* plain) { return hasWord(alone, plain); }) ||
+    std::ranges::any_of(kKnown, isOf);
+}
+
+// The tissue of a name of which every word is clear, and all tell the same: of a liver's mass or
+// disease that, of a fat liver none.
+const char* tissueOf(const std::string& words)
+{
+  std::istringstream all(words);
+  for (std::string word; all >> word;)
+  {
+    if (!isClear(word))
+    {
+      return nullptr;
+    }
+  }
+  std::vector<OrganLook> looks;
+  for (const Known& known : kKnown)
+  {
+    hasWord(words, known.word) ? looks.push_back(known.look) : void();
+  }
+  const auto text = [](const OrganLook& look)
+  { return std::string_view(look.tissue != nullptr ? look.tissue : ""); };
+  const bool isOfLiver = looks.size() > 1 && text(looks.back()) == "healthy_liver" &&
+    (looks.front().color == kMass || looks.front().color == kLiver);
+  isOfLiver ? looks.pop_back() : void();
+  return std::ranges::all_of(
+           looks, [&](const OrganLook& look) { return text(look) == text(looks.front()); })
+    ? looks.front().tissue
+    : nullptr;
+}
+
 } // namespace
 
 OrganLook lookOf(const std::string& name)
@@ -100,13 +147,8 @@ OrganLook lookOf(const std::string& name)
   const std::string words = wordsOf(name);
   const auto found =
     std::ranges::find_if(kKnown, [&](const Known& known) { return hasWord(words, known.word); });
-  if (found == kKnown.end())
-  {
-    return { "press", kOthers.front(), nullptr };
-  }
-  const bool isElsewhere = found->look.color == kMass && !hasWord(words, "liver") &&
-    std::ranges::any_of(kElsewhere, [&](const char* other) { return hasWord(words, other); });
-  return isElsewhere ? OrganLook{ found->look.role, found->look.color, nullptr } : found->look;
+  return found == kKnown.end() ? OrganLook{ "press", kOthers.front(), nullptr }
+                               : OrganLook{ found->look.role, found->look.color, tissueOf(words) };
 }
 
 std::vector<OrganLook> looksOf(const std::vector<std::string>& names)

@@ -29,7 +29,8 @@ void keepInputs(const std::filesystem::path& folder, const std::vector<std::stri
     if (std::ranges::any_of(own, isInput))
     {
       throw Error(ErrorCode::BadValue,
-        input.string() + ": is read by this run, which would replace it; choose another --out");
+        input.string() +
+          ": is read by this run, which would replace it; write to another file or folder");
     }
   }
 }

@@ -5,6 +5,7 @@
 #include "pipeline/formats/image_formats.h"
 #include "pipeline/formats/images/nrrd_image.h"
 #include "pipeline/formats/meshes/refuse.h"
+#include "pipeline/formats/meshes/stated_space.h"
 #include "pipeline/formats/meshes/surface_readers.h"
 #include "pipeline/formats/msh_format.h"
 #include "pipeline/formats/read_limits.h"
@@ -170,23 +171,6 @@ std::string fieldOf(vtkPolyData& data, const char* name)
   return words && words->GetNumberOfValues() == 1 ? words->GetValue(0) : std::string();
 }
 
-// 3D Slicer's axes to right, front and head become those to left, back and head
-void turnToLps(FileSurface& surface)
-{
-  if (surface.space.find("RAS") != std::string::npos)
-  {
-    for (Eigen::Vector3d& point : surface.points)
-    {
-      point.head<2>() *= -1.0;
-    }
-    surface.notes.emplace_back(
-      "turned from axes to right, front and head (SPACE=RAS) to left, back "
-      "and head (LPS)");
-    surface.space = "LPS";
-  }
-  surface.space = surface.space.find("LPS") != std::string::npos ? "LPS" : "";
-}
-
 // also of faces with more corners, and of strips
 std::vector<Triangle> allTriangles(vtkPolyData& data)
 {
@@ -226,7 +210,7 @@ FileSurface surfaceOf(const std::filesystem::path& file, vtkPolyData& data)
     throw Error(ErrorCode::BadMesh,
       file.string() + ": no triangles in it; export a surface, not points or a volume");
   }
-  turnToLps(surface);
+  turnToLps(file, surface);
   return surface;
 }
 

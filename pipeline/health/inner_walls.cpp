@@ -1,14 +1,17 @@
 #include "pipeline/health/inner_walls.h"
 
+#include "haptics/surface/closest_point.h"
 #include "haptics/surface/crossing.h"
 #include "haptics/surface/edges.h"
 #include "haptics/surface/ray.h"
 #include "haptics/surface/winding.h"
 #include "pipeline/health/open_sides.h"
+#include "pipeline/surface_io/surface_facing.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace palp
@@ -17,6 +20,7 @@ namespace
 {
 
 constexpr std::size_t kMostWalls = 32; // that are looked at: each takes a search of all triangles
+constexpr std::size_t kPlaces = 5;     // of each
 
 // what hangs together across edges of two triangles
 struct Part
@@ -27,7 +31,7 @@ struct Part
   std::vector<std::size_t> triangles;
 };
 
-// those that may be walls, the largest first
+// those that end at edges of more than two triangles, the largest first
 std::vector<Part> boundedParts(const MergedMesh& mesh, const Edges& edges)
 {
   const std::vector<int> numbers = piecesOf(edges.across);
@@ -48,7 +52,7 @@ std::vector<Part> boundedParts(const MergedMesh& mesh, const Edges& edges)
       (sides.size() == 1 ? part.isOpen : part.isBounded) = true;
     }
   }
-  std::erase_if(parts, [](const Part& part) { return !part.isBounded || part.isOpen; });
+  std::erase_if(parts, [](const Part& part) { return !part.isBounded; });
   std::ranges::stable_sort(parts, std::greater(), &Part::area);
   parts.resize(std::min(parts.size(), kMostWalls));
   return parts;
@@ -71,43 +75,82 @@ bool seesOutside(const BoxTree& whole, const Eigen::Vector3d& place, const Eigen
   return false;
 }
 
+Eigen::Vector3d middleOf(const MergedMesh& mesh, const Triangle& t)
+{
+  return (mesh.points[at(t[0])] + mesh.points[at(t[1])] + mesh.points[at(t[2])]) / 3.0;
+}
+
+// some triangles of a part, spread over it
+std::vector<std::size_t> samplesOf(const Part& part)
+{
+  std::vector<std::size_t> samples;
+  const std::size_t step = std::max<std::size_t>(1, part.triangles.size() / kPlaces);
+  for (std::size_t i = step / 2; i < part.triangles.size(); i += step)
+  {
+    samples.push_back(part.triangles[i]);
+  }
+  return samples;
+}
+
+// whether a part is there twice: all of it lies on the rest
+bool isCovered(const MergedMesh& mesh, const BoxTree& rest, const Part& part, double aside)
+{
+  const auto isOn = [&](const Eigen::Vector3d& place)
+  { return distanceTo(rest, place, 2.0 * aside) < aside; };
+  return std::ranges::all_of(part.triangles,
+    [&](std::size_t i)
+    {
+      const Triangle& t = mesh.triangles[i];
+      return isOn(middleOf(mesh, t)) &&
+        std::ranges::all_of(t, [&](int corner) { return isOn(mesh.points[at(corner)]); });
+    });
+}
+
 // whether all the rest is on both sides of a part, which is nowhere seen from outside, where that
 // is looked at
-bool isWall(const MergedMesh& mesh, const BoxTree& whole, const Part& part)
+bool isBetween(
+  const MergedMesh& mesh, const BoxTree& whole, const BoxTree& rest, const Part& part, double aside)
 {
-  constexpr std::size_t kPlaces = 5;
+  const Winding winding(rest);
+  const auto isInside = [&](const Eigen::Vector3d& place)
+  {
+    constexpr double kHalf = 0.5; // of a turn of all directions
+    return std::abs(winding(place)) > kHalf;
+  };
+  return std::ranges::all_of(samplesOf(part),
+    [&](std::size_t i)
+    {
+      const Triangle& t = mesh.triangles[i];
+      const Eigen::Vector3d middle = middleOf(mesh, t);
+      const Eigen::Vector3d normal = unitNormal(mesh.points, t);
+      const Eigen::Vector3d off = aside * normal;
+      return isInside(middle + off) && isInside(middle - off) &&
+        !seesOutside(whole, middle + off, normal) && !seesOutside(whole, middle - off, -normal);
+    });
+}
+
+// of one triangle
+std::size_t openEdges(const Edges& edges)
+{
+  return edges.unpaired.size() - edges.crowded;
+}
+
+// what the rest is whole without
+bool isWall(const MergedMesh& mesh, const Edges& edges, const BoxTree& whole, const Part& part)
+{
   std::vector<Triangle> rest = mesh.triangles;
   for (const std::size_t triangle : part.triangles)
   {
     rest[triangle].fill(0); // which is no triangle
   }
   const BoxTree tree(mesh.points, rest);
-  if (tree.empty())
+  if (tree.empty() || openEdges(edgesOf(mesh.points.size(), rest)) > openEdges(edges))
   {
     return false;
   }
-  const Winding winding(tree);
   const double aside = asideOf(tree);
-  const std::size_t step = std::max<std::size_t>(1, part.triangles.size() / kPlaces);
-  for (std::size_t i = step / 2; i < part.triangles.size(); i += step)
-  {
-    const Triangle& t = mesh.triangles[part.triangles[i]];
-    const Eigen::Vector3d middle =
-      (mesh.points[at(t[0])] + mesh.points[at(t[1])] + mesh.points[at(t[2])]) / 3.0;
-    const Eigen::Vector3d normal = unitNormal(mesh.points, t);
-    const Eigen::Vector3d off = aside * normal;
-    const auto isInside = [&](const Eigen::Vector3d& place)
-    {
-      constexpr double kHalf = 0.5; // of a turn of all directions
-      return std::abs(winding(place)) > kHalf;
-    };
-    if (!isInside(middle + off) || !isInside(middle - off) ||
-      seesOutside(whole, middle + off, normal) || seesOutside(whole, middle - off, -normal))
-    {
-      return false;
-    }
-  }
-  return true;
+  return isCovered(mesh, tree, part, aside) ||
+    (!part.isOpen && isBetween(mesh, whole, tree, part, aside));
 }
 
 } // namespace
@@ -123,8 +166,8 @@ void dropInnerWalls(MergedMesh& mesh)
     }
     const BoxTree whole(mesh.points, mesh.triangles);
     const std::vector<Part> parts = boundedParts(mesh, edges);
-    const auto wall =
-      std::ranges::find_if(parts, [&](const Part& part) { return isWall(mesh, whole, part); });
+    const auto wall = std::ranges::find_if(
+      parts, [&](const Part& part) { return isWall(mesh, edges, whole, part); });
     if (wall == parts.end())
     {
       return;
@@ -136,6 +179,43 @@ void dropInnerWalls(MergedMesh& mesh)
     }
     mesh = mergedWithout(mesh.points, mesh.triangles, isOfIt);
   }
+}
+
+std::size_t turnOutward(MergedMesh& mesh)
+{
+  const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
+  if (edges.crowded == 0)
+  {
+    return 0;
+  }
+  std::vector<bool> turn = facingOf(mesh.points, mesh.triangles, edges).turn;
+  if (std::ranges::count(turn, true) == 0)
+  {
+    return 0;
+  }
+  const BoxTree whole(mesh.points, mesh.triangles);
+  const double aside = whole.empty() ? 0.0 : asideOf(whole);
+  for (const Part& part : boundedParts(mesh, edges))
+  {
+    int seen = 0; // from the front less from the back
+    for (const std::size_t triangle : samplesOf(part))
+    {
+      const Triangle& t = mesh.triangles[triangle];
+      const Eigen::Vector3d front = (turn[triangle] ? -1.0 : 1.0) * unitNormal(mesh.points, t);
+      const Eigen::Vector3d middle = middleOf(mesh, t);
+      seen += seesOutside(whole, middle + aside * front, front) ? 1 : 0;
+      seen -= seesOutside(whole, middle - aside * front, -front) ? 1 : 0;
+    }
+    for (const std::size_t triangle : part.triangles)
+    {
+      turn[triangle] = turn[triangle] != (seen < 0);
+    }
+  }
+  for (std::size_t i = 0; i < turn.size(); ++i)
+  {
+    turn[i] ? std::swap(mesh.triangles[i][0], mesh.triangles[i][2]) : void();
+  }
+  return static_cast<std::size_t>(std::ranges::count(turn, true));
 }
 
 } // namespace palp

@@ -12,6 +12,7 @@
 #include "pipeline/surface_io/surface_facing.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace palp
@@ -87,28 +88,37 @@ void dropBuried(MergedMesh& mesh)
   }
 }
 
-} // namespace
+// turned: whether also those that face the other way
+void dropRepeated(MergedMesh& mesh, bool turned)
+{
+  const std::vector<bool> repeated = repeatedTriangles(mesh.triangles, turned);
+  std::size_t i = 0;
+  std::erase_if(mesh.triangles, [&](const Triangle&) { return repeated[i++]; });
+}
 
-RepairedMesh repairedMesh(
+RepairedMesh repairedOnce(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
 {
   MergedMesh merged = mergedMesh(points, triangles);
-  if (weldSeams(merged.points, merged.triangles))
+  const WeldedSeams seams = weldSeams(merged.points, merged.triangles);
+  if (seams.isSewn)
   {
     merged = mergedMesh(merged.points, merged.triangles);
   }
   dropHanging(merged);
+  const std::size_t turned = turnOutward(merged);
+  dropRepeated(merged, false); // before cuts, which it hides, and what is buried
   const std::size_t cut = cutAtTJunctions(merged.points, merged.triangles);
   dropBuried(merged);
-  const std::vector<bool> repeated = repeatedTriangles(merged.triangles);
-  std::size_t i = 0;
-  std::erase_if(merged.triangles, [&](const Triangle&) { return repeated[i++]; });
+  dropRepeated(merged, true);
   dropInnerWalls(merged);
   RepairedMesh result{ .points = std::move(merged.points),
     .triangles = std::move(merged.triangles) };
   result.merged = points.size() - result.points.size();
-  result.cut = cut;
   result.removed = triangles.size() + cut - result.triangles.size();
+  result.cut = cut;
+  result.turned = turned;
+  result.seamsLeft = seams.left;
   const Facing facing = facingOf(result);
   turnAlike(result, facing);
   dropInner(result, facing);
@@ -122,6 +132,41 @@ RepairedMesh repairedMesh(
   result.filled = filled;
   result.holesLeft = holesLeft;
   turnAlike(result, facingOf(result)); // what is closed now
+  if (splitLeft > 0)                   // in files they are one
+  {
+    merged = mergedMesh(result.points, result.triangles);
+    result.points = std::move(merged.points);
+    result.triangles = std::move(merged.triangles);
+  }
+  return result;
+}
+
+constexpr std::array kDone{ &RepairedMesh::merged, &RepairedMesh::removed, &RepairedMesh::slivers,
+  &RepairedMesh::split, &RepairedMesh::cut, &RepairedMesh::filled, &RepairedMesh::turned };
+
+bool isDone(const RepairedMesh& mesh)
+{
+  return std::ranges::all_of(kDone, [&](auto count) { return mesh.*count == 0; });
+}
+
+} // namespace
+
+RepairedMesh repairedMesh(
+  std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
+{
+  RepairedMesh result = repairedOnce(points, triangles, largestHole);
+  constexpr int kMost = 10;
+  bool isStable = isDone(result);
+  for (int again = 0; again < kMost && !isStable; ++again) // one mend may let another do more
+  {
+    RepairedMesh next = repairedOnce(result.points, result.triangles, largestHole);
+    isStable = isDone(next);
+    for (const auto count : kDone)
+    {
+      next.*count += result.*count;
+    }
+    result = std::move(next);
+  }
   return result;
 }
 

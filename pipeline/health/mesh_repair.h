@@ -21,16 +21,17 @@ struct RepairedMesh
   std::size_t cut = 0;         ///< triangles more, where points of others lay on their edges
   std::size_t filled = 0;      ///< holes
   std::size_t turned = 0;      ///< triangles
+  std::size_t seamsLeft = 0;   ///< open edges beside others, which cannot be sewn as a whole
   std::size_t splitLeft = 0;   ///< points where parts still meet, which cannot move apart without
                                ///< passing through each other
   std::size_t sliversLeft = 0; ///< without which the surface would pass through itself
   std::size_t holesLeft = 0;   ///< that cannot be closed without passing through it
 };
 
-/// Merges points, welds seams, cuts triangles at points of others on their edges, removes
-/// degenerate and duplicate triangles, slivers, walls within a body, and what bodies that touch
-/// have between them, parts what meets in a non-manifold edge or point, closes small holes, and
-/// turns triangles alike.
+/// Again and again, until nothing is left to do: merges points, welds seams, cuts triangles at
+/// points of others on their edges, removes degenerate and duplicate triangles, slivers, walls
+/// within a body, and what bodies that touch have between them, parts what meets in a non-manifold
+/// edge or point, closes small holes, and turns triangles alike.
 ///
 /// What touches along an edge is parted between the wedges of the body, and moved from there by
 /// a thousandth of an edge, so that it stays apart in every file. Nothing is done by which a

@@ -92,7 +92,7 @@ bool collapse(HalfEdges& mesh, Halfedge shortest, double mostOff)
     const Vertex to = mesh.to_vertex_handle(way);
     if (mesh.status(from).tagged() || mesh.status(to).tagged())
     {
-      continue; // one after the other they would lead around a cylinder
+      continue; // at once, one after the other, they would lead around a cylinder
     }
     const bool onBorder = mesh.is_boundary(from) && !mesh.is_boundary(mesh.edge_handle(way));
     if (!onBorder && mesh.is_collapse_ok(way) && mayGo(mesh, from, to, mostOff))
@@ -169,9 +169,15 @@ void removeFrom(HalfEdges& mesh)
     box.extend(placeOf(mesh, vertex));
   }
   const double mostOff = kShape * box.diagonal().norm();
-  constexpr int kPasses = 3; // one may make room for the next
-  for (int pass = 0; pass < kPasses; ++pass)
+  constexpr int kPasses = 30; // one may make room for the next
+  bool isDone = false;
+  for (int pass = 0; pass < kPasses && !isDone; ++pass)
   {
+    isDone = true;
+    for (const Vertex vertex : mesh.vertices())
+    {
+      mesh.status(vertex).set_tagged(false);
+    }
     for (const OpenMesh::FaceHandle face : mesh.faces())
     {
       if (mesh.status(face).deleted() || !(flatnessOf(mesh, face) < kSliver))
@@ -181,7 +187,7 @@ void removeFrom(HalfEdges& mesh)
       const auto sides = sidesOf(mesh, face);
       const bool isNeedle =
         mesh.calc_edge_length(sides[0]) < 2.0 * kSliver * mesh.calc_edge_length(sides[2]);
-      (isNeedle && collapse(mesh, sides[0], mostOff)) || flip(mesh, sides[2]);
+      isDone = !((isNeedle && collapse(mesh, sides[0], mostOff)) || flip(mesh, sides[2])) && isDone;
     }
   }
 }

@@ -127,7 +127,7 @@ void partFans(Parting& parting, const Edges& edges)
   }
 }
 
-// moves points that were one apart, into their own triangles
+// moves points that were one apart, into their own triangles, but those of the most triangles
 class Apart
 {
 public:
@@ -136,6 +136,7 @@ public:
     , places_(parting.points)
     , ways_(parting.points.size(), Eigen::Vector3d::Zero())
     , sharing_(parting.points.size())
+    , largest_(parting.origin)
     , stays_(parting.points.size())
   {
     for (const int origin : parting.origin)
@@ -154,8 +155,13 @@ public:
     }
     for (std::size_t i = 0; i < ways_.size(); ++i)
     {
+      int& largest = largest_[at(parting.origin[i])];
+      largest = triangles[i] > triangles[at(largest)] ? static_cast<int>(i) : largest;
+    }
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+    {
       ways_[i] *= kApart / std::max(triangles[i], 1);
-      isParted(i) ? put(i, 1.0, 0.05) : void(); // not as even as the surface: edges may meet edges
+      moves(i) ? put(i, 1.0, 0.05) : void(); // not as even as the surface: edges may meet edges
     }
   }
 
@@ -184,7 +190,8 @@ public:
   {
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
-      origins.contains(parting_.origin[i]) ? put(i, std::abs(any_(random_)), 0.5) : void();
+      origins.contains(parting_.origin[i]) && moves(i) ? put(i, std::abs(any_(random_)), 0.5)
+                                                       : void();
     }
   }
 
@@ -230,10 +237,16 @@ private:
     return sharing_[at(origin)] > 1 && !stays_[at(origin)];
   }
 
+  [[nodiscard]] bool moves(std::size_t point) const
+  {
+    return isParted(point) && at(largest_[at(parting_.origin[point])]) != point;
+  }
+
   Parting& parting_;
   std::vector<Eigen::Vector3d> places_;
   std::vector<Eigen::Vector3d> ways_;
   std::vector<int> sharing_; // of each that was
+  std::vector<int> largest_; // of these: the one that stays
   std::vector<bool> stays_;  // likewise
   std::mt19937 random_;
   std::uniform_real_distribution<double> any_{ -1.0, 1.0 };

@@ -20,8 +20,9 @@ struct SplitPoints
 /// bound the same wedge of the body stay together, what is odd there becomes open, and what still
 /// meets around both ends of an edge is torn off.
 ///
-/// @param points     [m]; new ones are added, and what was parted moves off by a thousandth of the
-///                   edges around, where nothing passes through the surface by that
+/// @param points     [m]; new ones are added, and what was parted from the larger moves off by a
+///                   thousandth of the edges around, where nothing passes through the surface by
+///                   that
 /// @param triangles  facing outward
 SplitPoints splitNonManifold(
   std::vector<Eigen::Vector3d>& points, std::vector<Triangle>& triangles);

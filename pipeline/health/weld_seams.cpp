@@ -1,11 +1,14 @@
 #include "pipeline/health/weld_seams.h"
 
 #include "haptics/surface/edges.h"
+#include "pipeline/health/open_sides.h"
+#include "pipeline/model/merged_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace palp
 {
@@ -71,45 +74,92 @@ std::vector<int> nearOnes(std::span<const Eigen::Vector3d> points, std::span<con
   return onto;
 }
 
-// whether hardly an edge stays open between points that were brought together
-bool isSewn(std::span<const Triangle> triangles, const Edges& before, const std::vector<int>& onto)
+// edges that have not two triangles, where none is there twice
+struct Unpaired
 {
-  std::vector<Triangle> sewn(triangles.begin(), triangles.end());
+  std::size_t open = 0;
+  std::size_t between = 0; // of them, those within points that were brought together
+  std::size_t crowded = 0;
+};
+
+Unpaired unpairedOf(std::span<const Triangle> triangles, const std::vector<int>& onto)
+{
   std::vector<bool> isShared(onto.size());
   for (std::size_t i = 0; i < onto.size(); ++i)
   {
     isShared[at(onto[i])] = isShared[at(onto[i])] || at(onto[i]) != i;
   }
+  std::vector<Triangle> sewn(triangles.begin(), triangles.end());
   for (Triangle& triangle : sewn)
   {
     std::ranges::transform(triangle, triangle.begin(), [&](int i) { return onto[at(i)]; });
   }
-  const Edges after = edgesOf(onto.size(), sewn);
-  const auto left = static_cast<std::size_t>(std::ranges::count_if(after.unpaired,
-    [&](const auto& edge) { return isShared[at(edge[0])] && isShared[at(edge[1])]; }));
+  const std::vector<bool> repeated = repeatedTriangles(sewn);
+  std::size_t i = 0;
+  std::erase_if(sewn, [&](const Triangle&) { return repeated[i++]; });
+  Unpaired result;
+  for (const std::vector<Side>& sides : unpairedSides(sewn, edgesOf(onto.size(), sewn)))
+  {
+    const Triangle& one = sewn[at(sides.front().triangle)];
+    const auto k = at(sides.front().k);
+    const bool isOpen = sides.size() == 1;
+    result.open += isOpen ? 1U : 0U;
+    result.between += isOpen && isShared[at(one[k])] && isShared[at(one[(k + 1) % 3])] ? 1U : 0U;
+    result.crowded += isOpen ? 0U : 1U;
+  }
+  return result;
+}
+
+// Whether hardly an edge stays open between points that were brought together, or gets more than
+// two triangles, as beside a fin: much of that was parted before.
+bool isSewn(
+  std::span<const Triangle> triangles, const std::vector<int>& alone, const std::vector<int>& onto)
+{
+  const Unpaired before = unpairedOf(triangles, alone);
+  const Unpaired after = unpairedOf(triangles, onto);
   constexpr std::size_t kFew = 20; // times as many are sewn
-  return after.crowded <= before.crowded && after.unpaired.size() < before.unpaired.size() &&
-    kFew * left <= before.unpaired.size() - after.unpaired.size();
+  const std::size_t crowded = std::max(after.crowded, before.crowded) - before.crowded;
+  return after.open < before.open && kFew * (after.between + crowded) <= before.open - after.open;
 }
 
 } // namespace
 
-bool weldSeams(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles)
+WeldedSeams weldSeams(std::vector<Eigen::Vector3d>& points, std::span<const Triangle> triangles)
 {
+  constexpr double kMost = 0.02;
+  constexpr double kLeast = kMost / 16.0;
+  constexpr double kNear = 0.1; // so that one wonders why it was left
   const Edges edges = edgesOf(points.size(), triangles);
-  for (const double ofEdge : { 1e-3, 1e-2 })
+  const auto within = [&](double ofEdge)
+  { return nearOnes(points, reachesOf(points, edges, ofEdge)); };
+  const std::vector<int> alone = within(0.0);
+  std::vector<int> onto = within(kLeast);
+  for (double ofEdge = kLeast; ofEdge <= kMost; ofEdge *= 2.0)
   {
-    const std::vector<int> onto = nearOnes(points, reachesOf(points, edges, ofEdge));
-    if (isSewn(triangles, edges, onto))
+    std::vector<int> more = within(2.0 * ofEdge);
+    // else it is a seam of which a part is sewn
+    if (onto == more && onto != alone && isSewn(triangles, alone, onto))
     {
       for (std::size_t i = 0; i < points.size(); ++i)
       {
         points[i] = points[at(onto[i])];
       }
-      return true;
+      return { .isSewn = true };
+    }
+    onto = std::move(more);
+  }
+  onto = within(kNear);
+  std::vector<bool> isNear(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (onto[i] != alone[i])
+    {
+      isNear[i] = isNear[at(onto[i])] = true;
     }
   }
-  return false;
+  const auto left = std::ranges::count_if(
+    edges.unpaired, [&](const auto& edge) { return isNear[at(edge[0])] && isNear[at(edge[1])]; });
+  return { .left = static_cast<std::size_t>(left) };
 }
 
 } // namespace palp

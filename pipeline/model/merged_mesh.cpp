@@ -47,13 +47,14 @@ MergedMesh mergedWithout(std::span<const Eigen::Vector3d> points,
   return mergedMesh(points, rest);
 }
 
-std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles)
+std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles, bool turned)
 {
   std::vector<std::pair<Triangle, std::size_t>> sorted(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     sorted[i] = { triangles[i], i };
-    std::ranges::sort(sorted[i].first);
+    Triangle& t = sorted[i].first;
+    turned ? void(std::ranges::sort(t)) : void(std::ranges::rotate(t, std::ranges::min_element(t)));
   }
   std::ranges::sort(sorted);
   std::vector<bool> result(triangles.size());

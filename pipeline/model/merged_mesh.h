@@ -29,7 +29,9 @@ struct MergedMesh
 [[nodiscard]] MergedMesh mergedWithout(std::span<const Eigen::Vector3d> points,
   std::span<const Triangle> triangles, const std::vector<bool>& isOut);
 
-/// Which triangles stand between the same three points as an earlier one, however turned.
-[[nodiscard]] std::vector<bool> repeatedTriangles(std::span<const Triangle> triangles);
+/// Which triangles stand between the same three points as an earlier one.
+/// @param turned  whether also those that face the other way
+[[nodiscard]] std::vector<bool> repeatedTriangles(
+  std::span<const Triangle> triangles, bool turned = true);
 
 } // namespace palp

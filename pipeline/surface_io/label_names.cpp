@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -61,30 +62,25 @@ std::vector<NamedColor> namesInJson(const std::filesystem::path& file, const std
   return names;
 }
 
-// what stands before the color
-std::string_view withoutNumbers(std::string_view text)
-{
-  text = trimmed(text);
-  for (std::size_t gap = text.find_last_of(" \t");
-       gap != text.npos && csvNumber(text.substr(gap + 1)); gap = text.find_last_of(" \t"))
-  {
-    text = trimmed(text.substr(0, gap));
-  }
-  return text;
-}
-
-// of the first three of some numbers, red, green and blue
-std::string colorOf(std::string_view numbers)
+// Red, green and blue of some numbers, which may go on.
+// where: stands before the message
+std::string colorOf(std::string_view numbers, const std::string& where)
 {
   std::istringstream words{ std::string(numbers) };
   std::array<int, 3> parts{};
   for (int& part : parts)
   {
     constexpr int most = 255;
-    if (!(words >> part) || part < 0 || part > most)
+    std::string word;
+    words >> word;
+    const std::optional<double> value = csvNumber(word);
+    if (!value || *value < 0.0 || *value > most || *value != std::floor(*value))
     {
-      return {};
+      throw Error(ErrorCode::BadFile,
+        where + "the color " + inQuotes(trimmed(numbers)) +
+          " is not red, green and blue from 0 to 255; write them as whole numbers");
     }
+    part = static_cast<int>(*value);
   }
   std::array<char, 8> text{};
   std::snprintf(text.data(), text.size(), "#%02x%02x%02x", static_cast<unsigned>(parts[0]),
@@ -92,8 +88,35 @@ std::string colorOf(std::string_view numbers)
   return text.data();
 }
 
+// what stands before the color: three numbers, or four
+std::string_view withoutColor(std::string_view text)
+{
+  std::string_view name = text;
+  int numbers = 0;
+  for (std::size_t gap = name.find_last_of(" \t");
+       numbers < 4 && gap != name.npos && csvNumber(name.substr(gap + 1));
+       gap = name.find_last_of(" \t"))
+  {
+    name = trimmed(name.substr(0, gap));
+    ++numbers;
+  }
+  return numbers < 3 ? text : name;
+}
+
+bool areNumbers(std::string_view text)
+{
+  std::istringstream words{ std::string(text) };
+  std::string word;
+  bool all = true;
+  while (all && words >> word)
+  {
+    all = csvNumber(word).has_value();
+  }
+  return all;
+}
+
 // of a color table or of ITK-SNAP; none: a line of neither
-std::optional<NamedColor> labelIn(std::string_view line)
+std::optional<NamedColor> labelIn(std::string_view line, const std::string& where)
 {
   const std::size_t gap = std::min(line.find_first_of(" \t"), line.size());
   const std::optional<double> value = csvNumber(line.substr(0, gap));
@@ -102,13 +125,15 @@ std::optional<NamedColor> labelIn(std::string_view line)
   const std::size_t close = rest.rfind('"');
   const bool isQuoted = open != rest.npos && close > open;
   const std::string_view name =
-    isQuoted ? rest.substr(open + 1, close - open - 1) : withoutNumbers(rest);
-  if (!value || name.empty() || csvNumber(name))
+    isQuoted ? rest.substr(open + 1, close - open - 1) : withoutColor(rest);
+  if (!value || areNumbers(name))
   {
     return std::nullopt;
   }
+  const std::string_view color =
+    trimmed(isQuoted ? rest.substr(0, open) : rest.substr(name.size()));
   return NamedColor{ { .value = *value, .name = std::string(name) },
-    colorOf(isQuoted ? rest.substr(0, open) : rest.substr(name.size())) };
+    color.empty() ? std::string() : colorOf(color, where) };
 }
 
 // of the newer color tables of 3D Slicer, whose first line names their columns
@@ -136,9 +161,11 @@ std::vector<NamedColor> labelsInColumns(
         where(file, static_cast<int>(i) + 1) + inQuotes(fieldOf(value)) +
           " is no value of a label; write a number below " + std::string(kValueColumn));
     }
+    const std::string color = fieldOf(column("Color_R")) + ' ' + fieldOf(column("Color_G")) + ' ' +
+      fieldOf(column("Color_B"));
     labels.push_back({ { .value = *number, .name = fieldOf(name) },
-      colorOf(fieldOf(column("Color_R")) + ' ' + fieldOf(column("Color_G")) + ' ' +
-        fieldOf(column("Color_B"))) });
+      trimmed(color).empty() ? std::string()
+                             : colorOf(color, where(file, static_cast<int>(i) + 1)) });
   }
   return labels;
 }
@@ -160,7 +187,7 @@ std::vector<NamedColor> labelsIn(const std::filesystem::path& file, const std::s
     {
       continue;
     }
-    const std::optional<NamedColor> label = labelIn(line);
+    const std::optional<NamedColor> label = labelIn(line, where(file, number));
     if (!label)
     {
       throw Error(ErrorCode::BadFile,

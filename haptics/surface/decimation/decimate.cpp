@@ -1,6 +1,7 @@
 #include "haptics/surface/decimation/decimate.h"
 
 #include "haptics/error.h"
+#include "haptics/surface/decimation/planes.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
@@ -71,6 +72,7 @@ public:
     , squaredError_(error * error)
     , left_(mesh.n_vertices())
     , known_(left_)
+    , vertices_(mesh.vertices_begin(), mesh.vertices_end())
   {
     for (const HalfEdges::FaceHandle face : mesh.faces())
     {
@@ -84,10 +86,9 @@ public:
         continue;
       }
       normal /= area;
-      const Eigen::Vector4d plane(normal[0], normal[1], normal[2], -(normal | on));
       for (const Vertex corner : corners)
       {
-        known(corner).planes += area * plane * plane.transpose();
+        known(corner).planes.add(Eigen::Vector3d(normal.data()), -(normal | on), area);
         known(corner).area += area;
       }
     }
@@ -114,12 +115,12 @@ private:
   // of a point
   struct Known
   {
-    Eigen::Matrix4d planes = Eigen::Matrix4d::Zero(); // quadric of the triangles it stands for
-    double area = 0.0;                                // twice theirs [m^2]
-    int round = 0;                                    // in which something next to it was taken
-    Vertex nextTo{};                                  // that is looked at
-    Choice best{};                                    // of its edges
-    bool isAsked = false;                             // it holds since something changed
+    Planes planes;        // of the triangles it stands for
+    double area = 0.0;    // twice theirs [m^2]
+    int round = 0;        // in which something next to it was taken
+    Vertex nextTo{};      // that is looked at
+    Choice best{};        // of its edges
+    bool isAsked = false; // it holds since something changed
   };
 
   Known& known(Vertex vertex)
@@ -133,7 +134,8 @@ private:
     ++now_;
     std::vector<Choice> choices;
     choices.reserve(left_);
-    for (const Vertex vertex : mesh_.vertices()) // one that was taken has no best
+    std::erase_if(vertices_, [&](Vertex vertex) { return mesh_.status(vertex).deleted(); });
+    for (const Vertex vertex : vertices_)
     {
       if (Known& here = known(vertex); !here.isAsked)
       {
@@ -143,9 +145,13 @@ private:
       const Choice& best = known(vertex).best;
       best.edge.is_valid() ? choices.push_back(best) : void();
     }
-    std::ranges::sort(choices, {}, [](const Choice& one) { return std::pair(one.cost, one.edge); });
+    const auto order = [](const Choice& one) { return std::pair(one.cost, one.edge); };
     const std::size_t before = left_;
-    choices.resize((choices.size() + 7) / 8); // the others may be cheaper when these are done
+    const std::size_t some = (choices.size() + 7) / 8; // others may be cheaper when these are done
+    const auto end = choices.begin() + static_cast<std::ptrdiff_t>(some);
+    std::ranges::nth_element(choices, end, {}, order);
+    choices.resize(some);
+    std::ranges::sort(choices, {}, order);
     for (const Choice& choice : choices)
     {
       left_ > count ? take(choice.edge) : void();
@@ -170,8 +176,8 @@ private:
     const Vertex from = mesh_.from_vertex_handle(edge);
     const Vertex to = mesh_.to_vertex_handle(edge);
     const OpenMesh::Vec3d& place = mesh_.point(to);
-    const Eigen::Vector4d x(place[0], place[1], place[2], 1.0);
-    const double moved = std::max(0.0, x.dot((known(from).planes + known(to).planes) * x));
+    const Eigen::Vector3d x(place.data());
+    const double moved = std::max(0.0, known(from).planes.at(x) + known(to).planes.at(x));
     const double area = known(from).area + known(to).area;
     constexpr double kEven = 1e-6; // among equals the shorter edge, so that triangles stay round
     return moved <= squaredError_ * area
@@ -192,16 +198,29 @@ private:
     {
       known(near).round = now_;
     }
-    known(to).planes += known(from).planes;
+    known(to).planes.add(known(from).planes);
     known(to).area += known(from).area;
     mesh_.collapse(edge);
-    known(from).best = {};
     known(to).isAsked = false;
     for (const Vertex near : mesh_.vv_range(to))
     {
       known(near).isAsked = false;
     }
     --left_;
+  }
+
+  // whether no more edges lead from a point
+  [[nodiscard]] bool isOfThree(Vertex vertex) const
+  {
+    const HalfEdge first = mesh_.halfedge_handle(vertex);
+    HalfEdge edge = first;
+    int edges = 0;
+    do
+    {
+      edge = mesh_.cw_rotated_halfedge_handle(edge);
+      ++edges;
+    } while (edge != first && edges <= 3);
+    return edges <= 3;
   }
 
   // the link condition: what both ends are next to are the corners across from the edge
@@ -224,7 +243,7 @@ private:
     {
       const bool isCommon = known(near).nextTo == from;
       common += isCommon ? 1 : 0;
-      isThin = isThin || (isCommon && mesh_.valence(near) <= 3);
+      isThin = isThin || (isCommon && isOfThree(near));
     }
     std::ranges::for_each(
       mesh_.vv_range(from), [&](Vertex near) { known(near).nextTo = Vertex(); });
@@ -258,16 +277,20 @@ private:
   double squaredError_; // [m^2]
   std::size_t left_;    // points
   std::vector<Known> known_;
-  int now_ = 0; // round
+  std::vector<Vertex> vertices_; // but for those that were taken before this round
+  int now_ = 0;                  // round
 };
 
 TriangleMesh whatIsLeft(const HalfEdges& mesh)
 {
   TriangleMesh result;
   std::vector<int> numbers(mesh.n_vertices());
+  const auto isLeft = [&](auto handle) { return !mesh.status(handle).deleted(); };
+  result.points.reserve(static_cast<std::size_t>(std::ranges::count_if(mesh.vertices(), isLeft)));
+  result.triangles.reserve(static_cast<std::size_t>(std::ranges::count_if(mesh.faces(), isLeft)));
   for (const Vertex vertex : mesh.vertices())
   {
-    if (!mesh.status(vertex).deleted())
+    if (isLeft(vertex))
     {
       numbers[static_cast<std::size_t>(vertex.idx())] = static_cast<int>(result.points.size());
       result.points.emplace_back(mesh.point(vertex).data());
@@ -275,7 +298,7 @@ TriangleMesh whatIsLeft(const HalfEdges& mesh)
   }
   for (const HalfEdges::FaceHandle face : mesh.faces())
   {
-    if (mesh.status(face).deleted())
+    if (!isLeft(face))
     {
       continue;
     }

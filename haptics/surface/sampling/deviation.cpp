@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <future>
-#include <limits>
 #include <utility>
 
 namespace palp
@@ -27,14 +26,15 @@ std::vector<Eigen::Vector3d> usedPoints(const Surface& surface)
   return used;
 }
 
-// of points to triangles: the largest, and the sum of the squares
-std::pair<double, double> distances(std::span<const Eigen::Vector3d> from, const BoxTree& to)
+// of points to triangles: the largest, and the sum of the squares, or until one is more than most
+std::pair<double, double> distances(
+  std::span<const Eigen::Vector3d> from, const BoxTree& to, double most)
 {
   constexpr double kAbove = 1.0 + 1e-9; // rounding
   double largest = 0.0;
   double sum = 0.0;
   double reach = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < from.size(); ++i)
+  for (std::size_t i = 0; i < from.size() && largest <= most; ++i)
   {
     const double distance = distanceTo(to, from[i], reach);
     // a step away it is at most a step more, which is quick where points follow one another
@@ -53,10 +53,10 @@ Deviation deviation(const Surface& a, const Surface& b)
 }
 
 Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
-  std::span<const Eigen::Vector3d> b, const BoxTree& bTree)
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree, double most)
 {
-  auto other = std::async(std::launch::async, distances, b, std::cref(aTree));
-  const auto [largest, sum] = distances(a, bTree);
+  auto other = std::async(std::launch::async, distances, b, std::cref(aTree), most);
+  const auto [largest, sum] = distances(a, bTree, most);
   const auto [otherLargest, otherSum] = other.get();
   return { .largest = std::max(largest, otherLargest),
     .rootMeanSquare = std::sqrt((sum + otherSum) / static_cast<double>(a.size() + b.size())) };

@@ -2,6 +2,8 @@
 
 #include "haptics/surface/surface.h"
 
+#include <limits>
+
 namespace palp
 {
 
@@ -17,7 +19,9 @@ struct Deviation
 [[nodiscard]] Deviation deviation(const Surface& a, const Surface& b);
 
 /// The same of points and of the trees of their triangles, without what a Surface knows besides.
+/// @param most  where they are farther apart, the search may end: more than that is found then [m]
 [[nodiscard]] Deviation deviation(std::span<const Eigen::Vector3d> a, const BoxTree& aTree,
-  std::span<const Eigen::Vector3d> b, const BoxTree& bTree);
+  std::span<const Eigen::Vector3d> b, const BoxTree& bTree,
+  double most = std::numeric_limits<double>::infinity());
 
 } // namespace palp

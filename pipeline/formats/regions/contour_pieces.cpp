@@ -16,8 +16,9 @@ namespace
 // what hangs together
 struct Piece
 {
-  int point = 0;       // on it
-  double volume = 0.0; // positive where it faces as the largest does [unit^3]
+  int point = 0; // on it
+  double volume =
+    0.0; // positive where it faces as the largest does, 0 within a filled hollow [unit^3]
   bool isKept = false;
 };
 
@@ -38,6 +39,30 @@ std::vector<Piece> piecesFrom(std::span<const Triangle> triangles, std::span<con
     piece.volume *= side;
   }
   return pieces;
+}
+
+// What lies in a hollow that is filled is a part of the body that fills it, and no piece of its
+// own.
+void dropFilled(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+  std::span<const int> numbers, double leastHollow, std::vector<Piece>& pieces)
+{
+  std::vector<Triangle> walls;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    const double volume = pieces[at(numbers[i])].volume;
+    volume < 0.0 && -volume < leastHollow ? walls.push_back(triangles[i]) : void();
+  }
+  if (walls.empty())
+  {
+    return;
+  }
+  const Winding winding(BoxTree(points, walls));
+  for (Piece& piece : pieces)
+  {
+    constexpr double kHalf = 0.5; // of a turn of all directions
+    const bool isSmall = piece.volume > 0.0 && piece.volume < leastHollow;
+    piece.volume *= isSmall && std::abs(winding(points[at(piece.point)])) > kHalf ? 0.0 : 1.0;
+  }
 }
 
 // keeps the largest that are no hollows; how many
@@ -64,7 +89,7 @@ std::vector<bool> hollowsWithin(std::span<const Eigen::Vector3d> points,
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     const Piece& piece = pieces[at(numbers[i])];
-    piece.isKept || piece.volume <= 0.0 ? walls.push_back(triangles[i]) : void();
+    piece.isKept || piece.volume < 0.0 ? walls.push_back(triangles[i]) : void();
   }
   const Winding winding(BoxTree(points, walls));
   const auto outer = std::ranges::max_element(pieces, {}, &Piece::volume);
@@ -73,7 +98,7 @@ std::vector<bool> hollowsWithin(std::span<const Eigen::Vector3d> points,
   std::vector<bool> within(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    within[i] = pieces[i].volume <= 0.0 && side * winding(points[at(pieces[i].point)]) > 0.0;
+    within[i] = pieces[i].volume < 0.0 && side * winding(points[at(pieces[i].point)]) > 0.0;
   }
   return within;
 }
@@ -111,6 +136,7 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   {
     return result;
   }
+  dropFilled(points, triangles, numbers, leastHollow, pieces);
   const std::size_t bodies = keepLargest(pieces, components);
   std::size_t hollows = 0;
   std::size_t filled = 0;

@@ -37,6 +37,15 @@ void checkPosition(const PatientImage& volume, const std::string& name)
   {
     refuseImage(name, "the origin in its header is not a number; export it again");
   }
+  constexpr double kFarthest = 1e6; // voxels: single precision tells one from the next
+  const double off = std::max(form.topRightCorner<3, 1>().lpNorm<Eigen::Infinity>(),
+    Vector3d(volume.image->GetOrigin()).lpNorm<Eigen::Infinity>());
+  if (off > kFarthest * axes.colwise().norm().minCoeff())
+  {
+    refuseImage(name,
+      "the origin in its header is " + inWords(off) +
+        " away, where one voxel is not told from the next; export it again");
+  }
 }
 
 // of a mask, what is known of its surface
@@ -94,7 +103,6 @@ Eigen::Array3d sidesOf(const PatientImage& volume)
 // in the patient's axes, facing outward also in a mirror and of a body below its level
 FileSurface placed(const PatientImage& volume, ImageContour& contour)
 {
-  const Eigen::Array3i size(volume.image->GetDimensions());
   toPatient(volume, contour.points);
   if (enclosedVolume(contour.points, contour.triangles) < 0.0)
   {
@@ -108,10 +116,16 @@ FileSurface placed(const PatientImage& volume, ImageContour& contour)
     .unit = volume.unit,
     .notes = {},
     .space = volume.space,
-    .field = (sidesOf(volume) * size.cast<double>()).maxCoeff() };
+    .field = fieldOf(volume) };
 }
 
 } // namespace
+
+double fieldOf(const PatientImage& volume)
+{
+  const Eigen::Array3i size(volume.image->GetDimensions());
+  return (sidesOf(volume) * size.cast<double>()).maxCoeff();
+}
 
 std::string inWords(double value)
 {
@@ -246,12 +260,11 @@ FileOrgan bodyOf(
     imageContour(*region.image, region.level, region.mask, components, region.notes);
   if (const double least =
         (kFewest - 0.5) * Eigen::Array3d(region.image->GetSpacing()).abs().prod();
-      region.mask && std::abs(contour.enclosed) < least)
+      region.mask && contour.largest < least)
   {
     refuseImage(name,
       "what hangs together of it has less than eight voxels, too few for a surface; give a label "
-      "of "
-      "whole bodies");
+      "of whole bodies");
   }
   if (isAround != region.below)
   {

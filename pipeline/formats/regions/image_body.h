@@ -46,6 +46,9 @@ void checkNumbers(const ImageValues& values, const std::string& name);
 [[nodiscard]] FileOrgan bodyOf(
   const PatientImage& volume, ImageRegion region, std::size_t components, const std::string& name);
 
+/// Longest side of all voxels together [unit].
+[[nodiscard]] double fieldOf(const PatientImage& volume);
+
 /// A number in a message, with six digits.
 [[nodiscard]] std::string inWords(double value);
 

@@ -7,6 +7,7 @@
 #include "pipeline/model/poly_data.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -147,6 +148,7 @@ ImageContour imageContour(vtkImageData& image, double level, bool isMask, std::s
   for (const PieceSize& piece : linked.sizes)
   {
     contour.enclosed += piece.volume;
+    contour.largest = std::max(contour.largest, std::abs(piece.volume));
   }
   if (isMask)
   {

@@ -18,6 +18,7 @@ struct ImageContour
   std::vector<Triangle> triangles;     ///< facing lower values
   std::vector<Eigen::Vector3d> from;   ///< where each point was before stairs were smoothed
   double enclosed = 0.0;               ///< volume that was meant to stay [unit^3]
+  double largest = 0.0;                ///< that of its largest piece [unit^3]
 };
 
 /// The largest connected pieces of the surface on which an image has a value, with their hollows,
@@ -26,7 +27,7 @@ struct ImageContour
 /// Of a mask the voxels tell only that the surface passes between two of them. Of all that do, the
 /// one is taken that bends least, so that terraces of many voxels vanish, too; no point leaves the
 /// half voxel to each side within which it is known, and the volume is that of the voxels. A hollow
-/// of less than 100 voxels is filled.
+/// of less than 100 voxels is filled, with what lies in it.
 ///
 /// @param image       nowhere above the level at its border, or everywhere
 /// @param isMask      of two values, with the level in their middle; else there are values between

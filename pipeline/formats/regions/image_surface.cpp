@@ -74,6 +74,7 @@ FileOrgan listed(const LabelGroup& labels, const PatientImage& volume)
     organ.voxels += static_cast<std::uint64_t>(label.voxels);
   }
   organ.voxelVolume = static_cast<double>(organ.voxels) * voxelVolume(volume);
+  organ.surface.field = fieldOf(volume);
   return organ;
 }
 

@@ -117,7 +117,7 @@ TEST_F(KeptInputs, TheScene)
   const std::string before = test::readAll(folder_.path() / "first/scene.json");
   const test::Finished again = palp("run first --out first");
   EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find("choose another --out"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("write to another file or folder"), std::string::npos) << again.err;
   EXPECT_EQ(test::readAll(folder_.path() / "first/scene.json"), before);
   EXPECT_NE(palp("run first --out again").err.find("repeated to the byte"), std::string::npos);
 }

@@ -20,10 +20,11 @@ constexpr std::size_t kVoxels = kSide * kSide * kSide;
 std::string metaHeader(const std::map<std::string, std::string>& changed)
 {
   std::string text;
-  for (const auto& [key, usual] : { std::pair<std::string, std::string>{ "NDims", "3" },
-         { "BinaryDataByteOrderMSB", "False" }, { "ElementSpacing", "5 5 5" },
-         { "DistanceUnits", "mm" }, { "DimSize", "12 12 12" }, { "ElementNumberOfChannels", "1" },
-         { "ElementType", "MET_UCHAR" }, { "ElementDataFile", "LOCAL" } })
+  for (const auto& [key, usual] :
+    { std::pair<std::string, std::string>{ "NDims", "3" }, { "BinaryDataByteOrderMSB", "False" },
+      { "ElementSpacing", "5 5 5" }, { "DistanceUnits", "mm" }, { "Offset", "0 0 0" },
+      { "DimSize", "12 12 12" }, { "ElementNumberOfChannels", "1" }, { "ElementType", "MET_UCHAR" },
+      { "ElementDataFile", "LOCAL" } })
   {
     const auto found = changed.find(key);
     text += key + " = " + (found == changed.end() ? usual : found->second) + "\n";
@@ -117,6 +118,8 @@ TEST_F(BadImages, ThatClaimTooMuchOrReachOutside)
     "huge.mha", metaHeader({ { "DimSize", "20000 20000 5000" } }) + voxels(), "cut off");
   expectRefusal("components.mha",
     metaHeader({ { "ElementNumberOfChannels", "1000000000" } }) + voxels(), "several values");
+  expectRefusal("far.mha", metaHeader({ { "Offset", "1e300 0 0" } }) + voxels(),
+    "the origin in its header is 1e+300 away");
   std::ofstream(folder_.path() / "outside.raw", std::ios::binary) << voxels();
   expectRefusal("outside.mhd", metaHeader({ { "ElementDataFile", "../outside.raw" } }), "outside");
   expectRefusal("outside.nhdr",

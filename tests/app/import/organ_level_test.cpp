@@ -70,6 +70,25 @@ TEST(ImportedOrgan, TellsOfASurfaceThatPassesThroughItself)
   }
 }
 
+// of 180 ml in an image of 288 mm, and in one of 120 mm that may as well be of 1.2 m
+TEST(UnitOfList, IsGuessedWhereOneAloneGivesTheSizeOfOrgans)
+{
+  std::string note;
+  for (const auto& [field, words] :
+    { std::pair(288.0, "volumes are by mm"), { 120.0, "give --unit mm for volumes" } })
+  {
+    FileOrgans found;
+    found.organs.resize(1);
+    found.organs[0].voxelVolume = 180e3;
+    found.organs[0].surface.field = field;
+    const UnitChoice unit = unitOfList(found, std::nullopt, "image.mha", note);
+    EXPECT_EQ(unit.has_value(), field > 200.0) << field;
+    EXPECT_NE(note.find(words), std::string::npos) << note;
+    found.unit = "cm";
+    EXPECT_EQ(unitOfList(found, std::nullopt, "image.mha", note), LengthUnit::Centimeter);
+  }
+}
+
 // names of TotalSegmentator, 3D Slicer and of people
 TEST(LookOf, IsByAWordNotByAPartOfOne)
 {
@@ -83,13 +102,20 @@ TEST(LookOf, IsByAWordNotByAPartOfOne)
     { "Liver (cirrhosis)", "cirrhosis" }, { "hemangioma_2", "hemangioma" },
     { "hepatocellular carcinoma", "hcc" }, { "kidney_tumor", "" }, { "brain tumor", "" },
     { "lung_nodule_left", "" }, { "tumor3", "hcc" }, { "body", "" }, { "liver1", "healthy_liver" },
-    { "kidney_cyst_left", "" }, { "", "" }, { "\xc3\xa9 liver", "healthy_liver" } };
+    { "kidney_cyst_left", "" }, { "", "" }, { "tumor_free_liver", "" },
+    { "liver_without_lesions", "" }, { "liver_fat", "" }, { "fatty liver", "" },
+    { "fatal_lesion", "" }, { "skull", "" }, { "not liver", "" }, { "whole liver with tumor", "" },
+    { "fat_free_mass", "" }, { "skin_lesion", "" }, { "liver phantom", "" },
+    { "liver ablation zone", "" }, { "hcc metastasis", "" }, { "liver cyst", "" },
+    { "liver and spleen", "" }, { "whole liver", "healthy_liver" }, { "tumor of the liver", "hcc" },
+    { "Liver segment 4", "healthy_liver" }, { "\xc3\xa9 liver", "healthy_liver" } };
   for (const auto& [name, tissue] : tissues)
   {
     const char* const found = lookOf(name).tissue;
     EXPECT_STREQ(found == nullptr ? "" : found, tissue) << name;
   }
-  for (const char* bone : { "vertebrae_L1", "ribs", "rib_left_12", "Bones", "femur_right" })
+  for (const char* bone :
+    { "skull", "vertebrae_L1", "ribs", "rib_left_12", "Bones", "femur_right" })
   {
     EXPECT_STREQ(lookOf(bone).role, "show") << bone;
   }

@@ -1,5 +1,6 @@
 #include "tests/pipeline/formats/ball_images.h"
 
+#include <algorithm>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -70,6 +71,64 @@ TEST_F(Images, ManySmallHollowsLeaveTheOutsideWhereItIs)
     const double volume = whole * Vector3d(image->GetSpacing()).prod();
     EXPECT_NEAR(volumeMm3(*surface.mesh), volume, 0.005 * volume);
     EXPECT_LT(farthest(*surface.mesh, kCenterMm), 1.5);
+  }
+}
+
+// a stone in a hollow that is filled is a part of what fills it, and in a larger one a second piece
+TEST_F(Images, AStoneInAFilledHollowIsNoPieceOfItsOwn)
+{
+  for (const auto& [hollow, words] :
+    { std::pair(2, "1 piece, and 1 hollow of less"), { 4, "2 pieces, with 1 hollow" } })
+  {
+    const auto image = ball(true);
+    auto* voxels = image->GetPointData()->GetScalars();
+    const Vector3d spacing(image->GetSpacing());
+    double chosen = 0.0;
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      const Eigen::Array3d off =
+        ((Vector3d(image->GetPoint(i)) - kCenterMm).array() / spacing.array()).abs();
+      const double inner = off.floor().maxCoeff(); // a shell of cubes of voxels
+      chosen += voxels->GetComponent(i, 0);
+      if (inner == hollow - 1)
+      {
+        voxels->SetComponent(i, 0, 0.0);
+        chosen -= hollow > 2 ? 1.0 : 0.0;
+      }
+    }
+    ImagePart part{ .level = 0.5, .labels = {} };
+    part.components = ImagePart::kAllComponents;
+    const LoadedSurface surface =
+      readSurface(write<vtkMetaImageWriter>("stone.mha", *image), LengthUnit::Millimeter, part);
+    EXPECT_TRUE(std::ranges::any_of(
+      surface.notes, [&](const std::string& note) { return note.find(words) != note.npos; }))
+      << hollow;
+    EXPECT_NEAR(volumeMm3(*surface.mesh) / spacing.prod(), chosen, 5.0) << hollow;
+  }
+}
+
+// which smoothing would leave nothing of, however many there are
+TEST_F(Images, OfSingleVoxelsIsNoBody)
+{
+  const auto image = ball(true);
+  auto* voxels = image->GetPointData()->GetScalars();
+  voxels->Fill(0.0);
+  for (int i = 3; i < 25; ++i) // which touch in corners
+  {
+    voxels->SetComponent(i * (1 + 41 + 41 * 41), 0, 1.0);
+  }
+  ImagePart part{ .level = 0.5, .labels = {} };
+  part.components = ImagePart::kAllComponents;
+  const auto file = write<vtkMetaImageWriter>("chain.mha", *image);
+  try
+  {
+    (void)readSurface(file, LengthUnit::Millimeter, part);
+    ADD_FAILURE();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("less than eight voxels"), std::string::npos)
+      << error.what();
   }
 }
 

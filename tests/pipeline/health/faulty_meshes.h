@@ -1,8 +1,12 @@
 #pragma once
 
 #include "data/shapes.h"
+#include "pipeline/health/mesh_health.h"
+#include "pipeline/health/mesh_repair.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <gtest/gtest.h>
 
 namespace palp::test
 {
@@ -36,6 +40,28 @@ inline double volumeOf(
     volume += points[at(a)].dot(points[at(b)].cross(points[at(c)])) / 6.0;
   }
   return volume;
+}
+
+/// Repaired, where a second repair finds nothing to do.
+inline RepairedMesh repairedOf(const Mesh& mesh, double largestHole = 0.0)
+{
+  RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, largestHole);
+  const RepairedMesh again = repairedMesh(mended.points, mended.triangles, largestHole);
+  EXPECT_EQ(again.merged + again.removed + again.slivers + again.split, 0U);
+  EXPECT_EQ(again.cut + again.filled + again.turned, 0U);
+  EXPECT_EQ(again.triangles.size(), mended.triangles.size());
+  return mended;
+}
+
+/// The body stays whole, and what stands on it goes its own way.
+inline void expectWhole(const Mesh& mesh, const MeshPiece& whole)
+{
+  const RepairedMesh mended = repairedOf(mesh);
+  const std::vector<MeshPiece> pieces = healthOf(mended.points, mended.triangles).pieces;
+  const auto body = std::ranges::max_element(pieces, {}, &MeshPiece::triangles);
+  EXPECT_EQ(body->triangles, whole.triangles);
+  EXPECT_TRUE(body->closed);
+  EXPECT_NEAR(body->volume, whole.volume, 1e-4 * whole.volume);
 }
 
 } // namespace palp::test

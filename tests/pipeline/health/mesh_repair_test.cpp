@@ -19,11 +19,6 @@ namespace
 
 using Eigen::Vector3d;
 
-RepairedMesh repaired(const Mesh& mesh, double largestHole = 0.0)
-{
-  return repairedMesh(mesh.points, mesh.triangles, largestHole);
-}
-
 MeshHealth healthOf(const RepairedMesh& mesh)
 {
   return palp::healthOf(mesh.points, mesh.triangles);
@@ -32,7 +27,7 @@ MeshHealth healthOf(const RepairedMesh& mesh)
 TEST(MeshRepair, LeavesAPerfectSurfaceAlone)
 {
   const Mesh sphere = makeSphere(0.03, 3);
-  const RepairedMesh same = repaired(sphere, 1.0);
+  const RepairedMesh same = repairedOf(sphere, 1.0);
   ASSERT_EQ(same.triangles.size(), sphere.triangles.size());
   for (std::size_t i = 0; i < sphere.triangles.size(); ++i)
   {
@@ -58,7 +53,7 @@ TEST(MeshRepair, MergesRemovesAndTurns)
   {
     std::swap(faulty.triangles[i][1], faulty.triangles[i][2]);
   }
-  const RepairedMesh mended = repaired(faulty);
+  const RepairedMesh mended = repairedOf(faulty);
   EXPECT_EQ(mended.merged, 2U);
   EXPECT_EQ(mended.removed, 2U);
   EXPECT_EQ(mended.turned, 3U);
@@ -94,7 +89,7 @@ TEST(MeshRepair, WeldsSeamsButNoGap)
           corner = copy;
         }
       }
-      const RepairedMesh mended = repaired(parts);
+      const RepairedMesh mended = repairedOf(parts);
       if (off < 1e-4)
       {
         EXPECT_EQ(mended.points.size(), sphere.points.size()) << isSoup << off;
@@ -113,7 +108,7 @@ TEST(MeshRepair, JoinsBodiesThatShareAFace)
 {
   Mesh both = cube();
   add(both, cube(), Vector3d::UnitX()); // its diagonals lie as those of the other
-  const RepairedMesh bar = repaired(both);
+  const RepairedMesh bar = repairedOf(both);
   EXPECT_EQ(bar.removed, 4U);
   EXPECT_TRUE(healthOf(bar).findings.empty());
   EXPECT_EQ(healthOf(bar).pieces.size(), 1U);
@@ -130,13 +125,13 @@ TEST(MeshRepair, JoinsBodiesThatShareAFace)
   }
   Mesh unlike = cube();
   add(unlike, mirrored, Vector3d::UnitX());
-  const RepairedMesh second = repaired(unlike);
+  const RepairedMesh second = repairedOf(unlike);
   EXPECT_TRUE(healthOf(second).findings.empty());
   EXPECT_NEAR(volumeOf(second.points, second.triangles), 2.0, 1e-6);
 
   const Mesh sheet{ .points = { Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY() },
     .triangles = { { 0, 1, 2 }, { 2, 1, 0 } } };
-  EXPECT_EQ(repaired(sheet).triangles.size(), 1U);
+  EXPECT_EQ(repairedOf(sheet).triangles.size(), 1U);
 }
 
 // of any simple polygon in a plane every triangulation has the area that the shoelace formula gives
@@ -190,9 +185,9 @@ TEST(MeshRepair, ClosesHolesUpToALength)
     });
   const double small = 2.0 * std::numbers::pi * radius * std::sqrt(1.0 - 0.9 * 0.9);
   const double wide = 2.0 * std::numbers::pi * radius * 0.8;
-  EXPECT_EQ(repaired(ball, 0.5 * small).filled, 0U);
-  EXPECT_EQ(repaired(ball, 0.5 * (small + wide)).filled, 1U);
-  const RepairedMesh whole = repaired(ball, 2.0 * wide);
+  EXPECT_EQ(repairedOf(ball, 0.5 * small).filled, 0U);
+  EXPECT_EQ(repairedOf(ball, 0.5 * (small + wide)).filled, 1U);
+  const RepairedMesh whole = repairedOf(ball, 2.0 * wide);
   EXPECT_EQ(whole.filled, 2U);
   EXPECT_TRUE(healthOf(whole).findings.empty());
   const auto cap = [](double share) // of a unit ball beyond a plane, height h: pi h^2 (3 - h) / 3
@@ -208,7 +203,7 @@ TEST(MeshRepair, PartsBodiesThatTouch)
   {
     Mesh touching = cube();
     add(touching, cube(), offset);
-    const RepairedMesh apart = repaired(touching);
+    const RepairedMesh apart = repairedOf(touching);
     EXPECT_GT(apart.split, 0U);
     const MeshHealth health = healthOf(apart);
     EXPECT_TRUE(health.findings.empty()) << nameOf(health.findings.front().fault);
@@ -231,7 +226,7 @@ TEST(MeshRepair, TakesAFinOffABody)
   const Vector3d edge = 0.5 * (mesh.points[at(side[0])] + mesh.points[at(side[1])]);
   mesh.points.emplace_back(middle + 3.0 * (edge - middle));
   mesh.triangles.push_back({ side[0], side[1], a });
-  const MeshHealth health = healthOf(repaired(mesh));
+  const MeshHealth health = healthOf(repairedOf(mesh));
   EXPECT_EQ(health.find(Fault::NonManifoldEdge), nullptr);
   EXPECT_EQ(health.find(Fault::NonManifoldPoint), nullptr);
   ASSERT_EQ(health.pieces.size(), 2U);
@@ -262,7 +257,7 @@ TEST(MeshRepair, RemovesFlatTrianglesAndNeedles)
   const MeshHealth before = palp::healthOf(mesh.points, mesh.triangles);
   ASSERT_NE(before.find(Fault::Degenerate), nullptr);
   ASSERT_NE(before.find(Fault::Sliver), nullptr);
-  const RepairedMesh mended = repaired(mesh);
+  const RepairedMesh mended = repairedOf(mesh);
   EXPECT_GE(mended.slivers, 3U);
   EXPECT_TRUE(healthOf(mended).findings.empty());
   EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-3 * volume);
@@ -297,7 +292,7 @@ TEST(MeshRepair, KeepsCylindersAndPlatesOfLongTriangles)
   {
     ASSERT_NE(palp::healthOf(mesh.points, mesh.triangles).find(Fault::Sliver), nullptr);
     const double volume = volumeOf(mesh.points, mesh.triangles);
-    const RepairedMesh mended = repaired(mesh);
+    const RepairedMesh mended = repairedOf(mesh);
     EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-3 * volume);
   }
 }
@@ -321,7 +316,7 @@ TEST(MeshRepair, OfRandomTrianglesIsAManifold)
     {
       mesh.triangles.push_back({ corner(random), corner(random), corner(random) });
     }
-    const RepairedMesh mended = repaired(mesh, 0.2);
+    const RepairedMesh mended = repairedOf(mesh, 0.2);
     if (mended.splitLeft > 0) // of triangles by chance, which pass through each other everywhere
     {
       continue;

@@ -140,7 +140,7 @@ public:
       const Finding* found = health.find(Fault::SelfIntersection);
       return found == nullptr ? 0 : found->count;
     };
-    const RepairedMesh repaired = repairedMesh(mesh_.points, mesh_.triangles, 0.02);
+    const RepairedMesh repaired = repairedOf(mesh_, 0.02);
     EXPECT_LE(
       crossingIn(repaired.points, repaired.triangles), crossingIn(mesh_.points, mesh_.triangles))
       << what;
@@ -256,7 +256,7 @@ TEST(MeshRepair, LeavesAHoleThatCannotBeClosedWithoutCrossing)
   std::erase_if(box.triangles,
     [&](const Triangle& t)
     { return std::ranges::all_of(t, [&](int i) { return box.points[at(i)].z() == 0.0; }); });
-  EXPECT_EQ(repairedMesh(box.points, box.triangles, 10.0).filled, 1U);
+  EXPECT_EQ(repairedOf(box, 10.0).filled, 1U);
   const auto n = static_cast<int>(box.points.size());
   for (const Vector3d& x :
     { Vector3d(-0.2, 0.1, -0.5), Vector3d(0.3, 0.1, -0.5), Vector3d(0, 0.1, 0.5) })
@@ -264,7 +264,7 @@ TEST(MeshRepair, LeavesAHoleThatCannotBeClosedWithoutCrossing)
     box.points.push_back(x);
   }
   box.triangles.push_back({ n, n + 1, n + 2 });
-  const RepairedMesh left = repairedMesh(box.points, box.triangles, 10.0);
+  const RepairedMesh left = repairedOf(box, 10.0);
   EXPECT_EQ(left.filled, 0U);
   EXPECT_EQ(left.holesLeft, 1U);
 }
@@ -284,7 +284,7 @@ TEST(MeshRepair, LeavesOutAPieceThatIsAPartOfAnother)
     const auto [a, b, c] = mesh.triangles[i];
     mesh.triangles.push_back({ a + n, b + n, c + n });
   }
-  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+  const RepairedMesh mended = repairedOf(mesh);
   EXPECT_EQ(mended.triangles.size(), triangles);
   EXPECT_EQ(mended.points.size(), static_cast<std::size_t>(n));
   EXPECT_EQ(mended.removed, triangles);

@@ -56,7 +56,7 @@ TEST(MeshRepair, CutsTrianglesAtPointsOfOthersOnTheirEdges)
     divide(mesh, 1, { 0, 4, 1 }); // beside it on a cube
     divide(mesh, body.triangles.size() / 2, { 1, 0, 0 });
     ASSERT_FALSE(palp::healthOf(mesh.points, mesh.triangles).pieces.at(0).closed);
-    const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+    const RepairedMesh mended = repairedOf(mesh);
     const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
     ASSERT_EQ(health.pieces.size(), 1U);
     EXPECT_TRUE(health.pieces[0].closed);
@@ -82,20 +82,9 @@ TEST(MeshRepair, LeavesOpenBordersWithoutJunctionsAsTheyAre)
     sheet.triangles.push_back(
       i % 2 == 0 ? Triangle{ i, i + 2, i + 1 } : Triangle{ i, i + 1, i + 2 });
   }
-  const RepairedMesh same = repairedMesh(sheet.points, sheet.triangles, 0.0);
+  const RepairedMesh same = repairedOf(sheet);
   EXPECT_EQ(same.cut, 0U);
   EXPECT_EQ(same.triangles.size(), sheet.triangles.size());
-}
-
-// the body stays whole, and what stands on it goes its own way
-void expectWhole(const Mesh& mesh, const MeshPiece& whole)
-{
-  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
-  const std::vector<MeshPiece> pieces = palp::healthOf(mended.points, mended.triangles).pieces;
-  const auto body = std::ranges::max_element(pieces, {}, &MeshPiece::triangles);
-  EXPECT_EQ(body->triangles, whole.triangles);
-  EXPECT_TRUE(body->closed);
-  EXPECT_NEAR(body->volume, whole.volume, 1e-4 * whole.volume);
 }
 
 TEST(MeshRepair, LeavesABodyWholeWhereFinsStandOnIt)
@@ -121,7 +110,7 @@ TEST(MeshRepair, LeavesOutWhatHangsOnAnEdgeWithoutAnArea)
   const auto [a, b, c] = mesh.triangles[40];
   mesh.points.emplace_back(2.0 * mesh.points[at(a)] - mesh.points[at(b)]);
   mesh.triangles.push_back({ a, b, static_cast<int>(mesh.points.size()) - 1 });
-  const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+  const RepairedMesh mended = repairedOf(mesh);
   EXPECT_EQ(mended.triangles.size(), mesh.triangles.size() - 1);
   EXPECT_TRUE(palp::healthOf(mended.points, mended.triangles).pieces.at(0).closed);
 }
@@ -203,7 +192,7 @@ TEST(MeshRepair, SewsSeamsWholeOrLeavesThem)
       const auto n = static_cast<int>(soup.points.size());
       soup.triangles.push_back({ n - 3, n - 2, n - 1 });
     }
-    const RepairedMesh mended = repairedMesh(soup.points, soup.triangles, 0.0);
+    const RepairedMesh mended = repairedOf(soup);
     EXPECT_EQ(mended.triangles.size(), sphere.triangles.size()) << off;
     const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
     EXPECT_EQ(health.find(Fault::Sliver), nullptr) << off;
@@ -300,7 +289,7 @@ TEST(MeshRepair, JoinsBodiesThatOverlapAlongCommonEdges)
   {
     Mesh mesh = box;
     add(mesh, box, offset);
-    const RepairedMesh mended = repairedMesh(mesh.points, mesh.triangles, 0.0);
+    const RepairedMesh mended = repairedOf(mesh);
     const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
     ASSERT_EQ(health.pieces.size(), 1U) << offset.transpose();
     EXPECT_TRUE(health.pieces[0].closed) << offset.transpose();

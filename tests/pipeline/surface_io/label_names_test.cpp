@@ -45,7 +45,7 @@ TEST_F(LabelNames, ColorsAreThoseOfTheTable)
 {
   const std::map<double, std::string> colors{ { 1.0, "#dd8265" }, { 40.0, "#0097ce" } };
   EXPECT_EQ(readLabelColors(table("1 Liver 221 130 101 255\n40 portal vein 0 151 206 255\n"
-                                  "7 spleen\n8 duct 300 0 0 255\n")),
+                                  "7 spleen\n8 segment 4\n")),
     colors);
   EXPECT_EQ(
     readLabelColors(table("1 221 130 101 1 1 1 \"Liver\"\n40 0 151 206 1 0 1 \"vein 2\"\n")),
@@ -60,6 +60,13 @@ TEST_F(LabelNames, OfLatin1AreRead)
 {
   EXPECT_EQ(readLabelNames(table("5 f\xe9mur 0 0 0 0\n"))[0].name, "f\xc3\xa9mur");
   EXPECT_EQ(readLabelNames(table("5 f\xc3\xa9mur 0 0 0 0\n"))[0].name, "f\xc3\xa9mur");
+}
+
+// which is no color with three numbers missing
+TEST_F(LabelNames, MayEndInANumber)
+{
+  EXPECT_EQ(readLabelNames(table("5 segment 4\n"))[0].name, "segment 4");
+  EXPECT_EQ(readLabelNames(table("5 segment 4 221 130 101 255\n"))[0].name, "segment 4");
 }
 
 // a number is a value, whatever is called so
@@ -77,6 +84,9 @@ TEST_F(LabelNames, WhatIsNoTableIsRefusedByItsLine)
       { "LabelValue,Name\n1,liver\nx,spleen\n", "names:3: 'x' is no value of a label" },
       { "1 255 0 0\n", "names:1: '1 255 0 0' is no label" },
       { "1 liver 0 0 0 0\n2 lobe\n1 spleen\n", "its value 1 is both 'liver' and 'spleen'" },
+      { "8 duct 300 0 0 255\n", "names:1: the color '300 0 0 255' is not red, green and blue" },
+      { "8 duct 0.8 0.1 0 1\n", "names:1: the color '0.8 0.1 0 1' is not red, green and blue" },
+      { "LabelValue,Color_R,Color_G,Color_B,Name\n7,,,,a\n8,1,x,2,b\n", "names:3: the color" },
       { "{\"1\": [2]}", "'1' is no value with a name" },
       { "{\"1\": ", "not JSON of values and names" } })
   {

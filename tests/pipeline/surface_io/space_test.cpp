@@ -132,11 +132,30 @@ TEST_F(Space, OfAFileIsTurnedToLeftBackAndHead)
   }
 }
 
+// mirrored against both
+TEST_F(Space, OfOtherAxesIsRefused)
+{
+  for (const auto& file : filesOf("LAS"))
+  {
+    try
+    {
+      (void)readSurface(file, LengthUnit::Millimeter);
+      ADD_FAILURE() << file;
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("its axes are LAS"), std::string::npos)
+        << error.what();
+    }
+  }
+}
+
 TEST_F(Space, StaysUnknownWhereTheFileNamesNone)
 {
   const auto plain = writeText("plain.obj", "");
   const auto late = writeText("late.obj", "v 0 0 0\n# SPACE=RAS\n"); // no header
-  for (const auto& file : { plain, late })
+  const auto color = writeText("color.obj", "# COLORSPACE=sRGB\n");
+  for (const auto& file : { plain, late, color })
   {
     const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter);
     EXPECT_EQ(surface.space, "");
