@@ -306,6 +306,7 @@ TEST(WindowMemory, AWindowIsNoLargerThanTheScreen)
   WindowMemory().save(large);
   WindowMemory().restore(next);
   EXPECT_EQ(next.size(), QSize(700, 500));
+  QSettings(QSettings::IniFormat, QSettings::UserScope, "palp", "window").clear(); // of other tests
 }
 
 } // namespace

@@ -144,7 +144,7 @@ TEST_F(MessageOverPicture, ALineWithAButtonMovesNothing)
 {
   auto* bar = window_->findChild<MessageBar*>();
   bar->tell({});
-  waitForFrames(); // until the picture is smooth
+  (void)picture();
   bar->follow("Saving the figure", "drawing", 50, [] {});
   EXPECT_EQ(picturesIn(600), 0);
   bar->unfollow("Saving the figure");

@@ -182,7 +182,9 @@ TEST_F(LostBody, ItsPressesAreKeptUntilItIsBack)
   press(60);
   release();
   waitForPresses(1);
-  before.reset();
+  std::optional<Autosave> now(state_);
+  window_->saveTo(*now);
+  before.reset(); // as another program would end
   ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/sphere_50.vtp"));
   waitForFrames();
   press(60);
@@ -190,7 +192,6 @@ TEST_F(LostBody, ItsPressesAreKeptUntilItIsBack)
   waitForPresses(2);
   ASSERT_TRUE(window_->openFile(PALP_SHARE "/meshes/liver.vtp")); // so that it is read anew
   std::filesystem::rename(body, body.string() + ".away");
-  std::optional<Autosave> now(state_);
   window_->saveTo(*now);
   for (auto* button : window_->findChild<MessageBar*>()->findChildren<QPushButton*>())
   {
@@ -200,7 +201,7 @@ TEST_F(LostBody, ItsPressesAreKeptUntilItIsBack)
     << said().toStdString();
   EXPECT_FALSE(std::filesystem::exists(body));
   now->clear(); // as an export does
-  now.reset();
+  session_->saveTo(nullptr);
   EXPECT_EQ(Autosave(state_).left().size(), 1U);
 }
 
