@@ -6,6 +6,7 @@
 #include "haptics/surface/area_and_volume.h"
 #include "haptics/surface/box_tree.h"
 #include "haptics/surface/closest_point.h"
+#include "haptics/surface/facet_part.h"
 #include "haptics/surface/ray.h"
 #include "haptics/surface/sampling/place_grid.h"
 
@@ -24,8 +25,17 @@ constexpr double kBesideEdge = 5.0;   // cells within which it is as beside an e
 constexpr double kNearest = 0.1;      // likewise, as near as one is taken to be
 constexpr double kThin = 2.0;         // cells on a support
 constexpr double kThinWall = 3.5;     // likewise, with nothing behind them
+constexpr double kGap = 1.4;          // likewise, across which both its sides are one
+constexpr double kBesideGap = 4.0;    // likewise, to which that is felt
 constexpr std::size_t kTogether = 32; // loads that are solved at once by a thread
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// what of a body is not its shape below a place
+struct Around
+{
+  std::span<const Support> supports;
+  std::span<const Eigen::Vector3d> gaps; // see narrowGaps
+};
 
 // or so near beside a support that what is solved for would be noise
 bool isHeld(const SurfacePoint& place, const OrganModel& model, std::span<const Support> supports)
@@ -37,9 +47,9 @@ bool isHeld(const SurfacePoint& place, const OrganModel& model, std::span<const 
 
 // of a place that is solved for
 ComplianceTrust trustOf(const OrganCompliance& compliance, const SurfacePoint& place,
-  const OrganModel& model, const Surface& surface, std::span<const Support> supports)
+  const OrganModel& model, const Surface& surface, const Around& around)
 {
-  if (isTooThin(place, surface, model.side(), supports))
+  if (isTooThin(place, surface, model.side(), around.supports, around.gaps))
   {
     return ComplianceTrust::Thin;
   }
@@ -50,8 +60,7 @@ ComplianceTrust trustOf(const OrganCompliance& compliance, const SurfacePoint& p
 }
 
 std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& surface,
-  const MappedContact* mapped, std::span<const SurfacePoint> places,
-  std::span<const Support> supports)
+  const MappedContact* mapped, std::span<const SurfacePoint> places, const Around& around)
 {
   std::vector<PlacedCompliance> all;
   std::vector<SurfacePoint> free;
@@ -61,7 +70,7 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
     place.position = one.position;
     place.normal = one.normal;
     place.trust = ComplianceTrust::Supported;
-    if (!isHeld(one, model, supports))
+    if (!isHeld(one, model, around.supports))
     {
       place.trust = ComplianceTrust::Unknown;
       place.edge = nearnessToEdge(surface, one.position, model.side());
@@ -82,7 +91,7 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
       place.constant = modulus * compliance->constant;
       place.slope = modulus * compliance->slope;
       place.bend = modulus * compliance->bend;
-      place.trust = trustOf(*compliance, free[next], model, surface, supports);
+      place.trust = trustOf(*compliance, free[next], model, surface, around);
     }
     ++next;
   }
@@ -91,8 +100,7 @@ std::vector<PlacedCompliance> solved(const OrganModel& model, const Surface& sur
 
 // a part of the places for each thread
 std::vector<PlacedCompliance> round(const OrganModel& model, const Surface& surface,
-  const MappedContact* mapped, std::span<const SurfacePoint> places,
-  std::span<const Support> supports)
+  const MappedContact* mapped, std::span<const SurfacePoint> places, const Around& around)
 {
   const std::size_t parts = (places.size() + kTogether - 1) / kTogether;
   std::vector<std::vector<PlacedCompliance>> found(parts);
@@ -101,7 +109,7 @@ std::vector<PlacedCompliance> round(const OrganModel& model, const Surface& surf
     {
       const std::size_t first = part * kTogether;
       found[part] = solved(model, surface, mapped,
-        places.subspan(first, std::min(kTogether, places.size() - first)), supports);
+        places.subspan(first, std::min(kTogether, places.size() - first)), around);
     });
   std::vector<PlacedCompliance> all;
   for (const std::vector<PlacedCompliance>& part : found)
@@ -176,12 +184,35 @@ void fill(std::vector<PlacedCompliance>& places, const OrganTable& table)
 
 } // namespace
 
-bool isTooThin(
-  const SurfacePoint& place, const Surface& surface, double cell, std::span<const Support> supports)
+std::vector<Eigen::Vector3d> narrowGaps(const Surface& surface, double cell)
 {
+  const BoxTree& tree = surface.tree();
+  std::vector<Eigen::Vector3d> gaps;
+  for (const Facet& facet : tree.facets())
+  {
+    cut(FacetPart{ facet.corners, { 0, 1, 2 } }, cell,
+      [&](const FacetPart& part)
+      {
+        const auto& [a, b, c] = part.corners;
+        const Eigen::Vector3d from = (a + b + c) / 3.0;
+        if (rayEntry(tree, from, facet.normal).distance < kGap * cell)
+        {
+          gaps.push_back(from);
+        }
+      });
+  }
+  return gaps;
+}
+
+bool isTooThin(const SurfacePoint& place, const Surface& surface, double cell,
+  std::span<const Support> supports, std::span<const Eigen::Vector3d> gaps)
+{
+  const auto isNear = [&](const Eigen::Vector3d& gap)
+  { return (gap - place.position).norm() < kBesideGap * cell; };
   const double thickness = rayExit(surface.tree(), place.position, -place.normal).distance;
   const Eigen::Vector3d behind = place.position - thickness * place.normal;
-  return thickness < kThin * cell ||
+  return thickness < kThin * cell || std::ranges::any_of(gaps, isNear) ||
+    rayEntry(surface.tree(), behind, -place.normal).distance < kGap * cell ||
     (thickness < kThinWall * cell &&
       std::ranges::none_of(
         supports, [&](const Support& support) { return support.holds(behind); }));
@@ -226,6 +257,7 @@ bool addPlaces(
     table.places[i].normal = work.places[i].normal;
   }
   const auto mapped = mappedContactOf(model, surface, pressedRadius(model.side()));
+  const std::vector<Eigen::Vector3d> gaps = narrowGaps(surface, model.side());
   while (table.places.size() < work.places.size())
   {
     if (work.stop.stop_requested())
@@ -233,9 +265,9 @@ bool addPlaces(
       return false;
     }
     const std::size_t first = table.places.size();
-    std::ranges::move(
-      round(model, surface, mapped ? &*mapped : nullptr,
-        work.places.subspan(first, std::min(step, work.places.size() - first)), work.supports),
+    std::ranges::move(round(model, surface, mapped ? &*mapped : nullptr,
+                        work.places.subspan(first, std::min(step, work.places.size() - first)),
+                        { work.supports, gaps }),
       std::back_inserter(table.places));
     if (table.places.size() == work.places.size())
     {

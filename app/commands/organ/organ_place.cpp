@@ -51,7 +51,8 @@ OrganPlace::OrganPlace(const OrganModel& model, std::span<const Support> support
   , isHeld_(std::ranges::any_of(
       supports, [&](const Support& support) { return support.holds(point.position); }))
   , thickness_(rayExit(scene.surface->tree(), point.position, -point.normal).distance)
-  , isTooThin_(isTooThin(point, *scene.surface, model.side(), supports))
+  , isTooThin_(isTooThin(
+      point, *scene.surface, model.side(), supports, narrowGaps(*scene.surface, model.side())))
   , edge_(scene.surface->shape().edgeDistance(point.position))
   , scene_(scene)
 {
