@@ -216,10 +216,9 @@ std::vector<double> parseNumbers(std::string_view text, std::string_view what)
 std::vector<std::string> parseLabels(std::string_view text, std::string_view what)
 {
   std::vector<std::string> labels;
-  for (std::size_t begin = 0; begin <= text.size();)
+  for (const std::string& field : csvFields(text)) // names may hold commas, in quotes
   {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    labels.emplace_back(trimmed(text.substr(begin, end - begin)));
+    labels.emplace_back(trimmed(field));
     if (labels.back().empty())
     {
       refuse(what, text, "lacks a label; give values or names with a comma between them");
@@ -228,7 +227,6 @@ std::vector<std::string> parseLabels(std::string_view text, std::string_view wha
     {
       refuse(what, text, "names " + labels.back() + " twice; name each label once");
     }
-    begin = end + 1;
   }
   return labels;
 }

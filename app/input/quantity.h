@@ -61,7 +61,8 @@ struct Bounds
 /// @throws Error BadValue: also where a place is empty
 [[nodiscard]] std::vector<double> parseNumbers(std::string_view text, std::string_view what);
 
-/// Reads values or names of labels with commas between them, as in `1,liver`.
+/// Reads values or names of labels with commas between them, as in `1,liver`; a name that holds one
+/// in quotes.
 /// @throws Error BadValue: a place is empty
 [[nodiscard]] std::vector<std::string> parseLabels(std::string_view text, std::string_view what);
 

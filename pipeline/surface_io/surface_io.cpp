@@ -231,6 +231,12 @@ LoadedSurface madeReady(const FileSurface& read, const std::filesystem::path& fi
   {
     unit = unitNamed(read.unit);
     why = "as the file says";
+    if (!unit && !read.unit.empty())
+    {
+      throw Error(ErrorCode::BadFile,
+        file.string() + ": its unit, " + inQuotes(read.unit) +
+          ", is none that is read; say what a coordinate of 1 is: mm, cm or m (--unit)");
+    }
   }
   if (!unit)
   {

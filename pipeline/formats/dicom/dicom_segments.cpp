@@ -269,13 +269,13 @@ std::vector<Layer> layersOf(const std::filesystem::path& file, const DataSet& da
         "two of its segments have the number " + std::to_string(number) + "; export it again");
     }
     const std::string own = textOf(item, kCharacterSet);
+    const std::string name = textOf(item, Tag(0x0062, 0x0005), own.empty() ? characterSet : own);
     const auto isOf = [&](const SegmentFrame& frame) { return frame.segment == number; };
     if (std::ranges::any_of(frames, isOf))
     {
-      result.segments.push_back(
-        { .name = textOf(item, Tag(0x0062, 0x0005), own.empty() ? characterSet : own),
-          .value = static_cast<double>(number),
-          .layer = layerOf(number, frames, bits, grid.pixels(), grid, layers) });
+      result.segments.push_back({ .name = name.empty() ? "segment " + std::to_string(number) : name,
+        .value = static_cast<double>(number),
+        .layer = layerOf(number, frames, bits, grid.pixels(), grid, layers) });
     }
   }
   const auto unlisted = std::ranges::find_if(

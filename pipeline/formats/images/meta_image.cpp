@@ -154,7 +154,7 @@ void findData(const std::filesystem::path& file, const MetaFields& fields, std::
   MetaHeader& header)
 {
   const std::string& name = fields.at("ElementDataFile");
-  const std::filesystem::path beside = name;
+  const auto beside = std::filesystem::path(name).lexically_normal(); // of ./DATA
   const bool local = name == "LOCAL" || name == "Local" || name == "local";
   if (!local && (name.empty() || name == "LIST" || name.find('%') != name.npos))
   {

@@ -102,6 +102,15 @@ TEST(Quantity, ABareNumberMustBeBare)
   EXPECT_THROW((void)parseNumber("0.33Pa", "nu"), Error);
 }
 
+TEST(Labels, StandInQuotesWhereANameHoldsAComma)
+{
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(parseLabels("1, liver", "--label"), (Words{ "1", "liver" }));
+  EXPECT_EQ(parseLabels("\"Liver, right lobe\",4", "--label"), (Words{ "Liver, right lobe", "4" }));
+  EXPECT_THROW((void)parseLabels("1,,2", "--label"), Error);
+  EXPECT_THROW((void)parseLabels("1,2,1", "--label"), Error);
+}
+
 TEST(Range, IncludesBothEnds)
 {
   const Range range = parseRange("0:10:0.5mm", Quantity::Length, "d");

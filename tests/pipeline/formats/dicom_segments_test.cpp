@@ -109,5 +109,14 @@ TEST_F(DicomSegments, AreNamedInTheirCharacterSet)
   EXPECT_EQ(found.organs[0].name, "Печень");
 }
 
+TEST_F(DicomSegments, WithoutANameAreNamedByTheirNumber)
+{
+  const FileOrgans found =
+    readFileOrgans(writeSegmentation(folder_.path(), "BINARY", 0.0, { .name = " " }), {}, true);
+  ASSERT_EQ(found.organs.size(), 2U);
+  EXPECT_EQ(found.organs[0].name, "segment " + found.organs[0].label);
+  EXPECT_EQ(found.organs[1].name, kBalls[1].name);
+}
+
 } // namespace
 } // namespace palp::test

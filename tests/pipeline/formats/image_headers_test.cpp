@@ -28,6 +28,13 @@ std::string meta(const std::string& more, const std::string& data = "LOCAL",
     "ElementType = MET_FLOAT\nElementDataFile = " + data + "\n";
 }
 
+TEST_F(Images, MetaImageDataMayBeNamedAsInThisFolder)
+{
+  (void)write("here.raw", voxelsOf(*ball(false)));
+  const auto file = write("here.mhd", meta("", "./here.raw"));
+  EXPECT_TRUE(readSurface(file, LengthUnit::Millimeter, { 0.0, {} }).closed);
+}
+
 TEST_F(Images, MetaImageValuesAreScaledAsTheHeaderSays)
 {
   // the ball's surface, where the distance is 0, has the value slope * 0 - 1000

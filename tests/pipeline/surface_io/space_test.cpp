@@ -144,9 +144,63 @@ TEST_F(Space, OfOtherAxesIsRefused)
     }
     catch (const Error& error)
     {
-      EXPECT_NE(std::string(error.what()).find("its axes are LAS"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("its axes are 'LAS'"), std::string::npos)
         << error.what();
     }
+  }
+}
+
+// people write it so, too
+TEST_F(Space, IsKnownHoweverItIsSpelled)
+{
+  for (const char* line : { "# SPACE = RAS", "# space=ras", "# 3D Slicer output. Space= RAS;" })
+  {
+    const auto file = writeText("spelled.obj", std::string(line) + '\n');
+    const LoadedSurface surface = readSurface(file, LengthUnit::Millimeter);
+    EXPECT_EQ(surface.space, "LPS") << line;
+    EXPECT_LT(1e3 * surface.mesh->GetBounds()[0], -50.0) << line;
+  }
+  for (const char* line : { "# MYSPACE=RAS", "# SPACE=RASX", "# space=the last frontier" })
+  {
+    const auto file = writeText("other.obj", std::string(line) + '\n');
+    EXPECT_EQ(readSurface(file, LengthUnit::Millimeter).space, "") << line;
+  }
+}
+
+TEST_F(Space, OrAUnitThatIsNotKnownIsRefused)
+{
+  const auto refusal = [this](const char* field, const char* word)
+  {
+    const auto file = write<vtkXMLPolyDataWriter>("word.vtp",
+      [&](auto&, vtkPolyData& mesh)
+      {
+        vtkNew<vtkStringArray> words;
+        words->SetName(field);
+        words->InsertNextValue(word);
+        mesh.GetFieldData()->AddArray(words);
+      });
+    try
+    {
+      (void)readSurface(file, std::nullopt);
+    }
+    catch (const Error& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  for (const char* word : { "IJK", "foo", "scanner-xyz" })
+  {
+    EXPECT_NE(refusal("SPACE", word).find(std::string("its axes are '") + word), std::string::npos);
+  }
+  for (const char* word : { "ras", "left-posterior-superior", "LPS" })
+  {
+    EXPECT_EQ(refusal("SPACE", word).find("its axes"), std::string::npos) << word;
+  }
+  for (const char* word : { "inch", "MM" })
+  {
+    EXPECT_NE(
+      refusal("LengthUnit", word).find(std::string("its unit, '") + word), std::string::npos);
   }
 }
 
