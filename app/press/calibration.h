@@ -6,6 +6,7 @@
 #include "haptics/servo/scene.h"
 #include "pipeline/deform/press_of.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,10 +30,11 @@ struct Calibration
 
   double layer = 0.0; ///< thickness that a fitted style was computed for [m]; 0: nothing is fitted
 
-  /// R_d at a sample [m].
+  /// R_d at a sample, of its dent without what the body gives way as a whole [m].
   [[nodiscard]] double extentRadius(const Sample& sample) const
   {
-    const double plain = extents.extentRadius(drawnDepth(sample));
+    const double given = sample.localDepth > 0.0 ? sample.contact.depth - sample.localDepth : 0.0;
+    const double plain = extents.extentRadius(drawnDepth(sample) - std::max(0.0, given));
     return style.extent ? style.extent(sample, plain) : plain;
   }
 

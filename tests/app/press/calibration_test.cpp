@@ -42,6 +42,18 @@ TEST(LoadCalibration, ASphereOfAnotherSizeIsTheSameShape)
   }
 }
 
+// a lobe that bends by 4.7 mm of 6 is dented by the rest
+TEST(LoadCalibration, TheExtentIsOfTheDentWithoutWhatABodyGivesWay)
+{
+  const Calibration calibration = load(SphereTip{ 10.0_mm });
+  Sample sample;
+  sample.contact.depth = 6.0_mm;
+  sample.localDepth = 1.3_mm;
+  EXPECT_NEAR(calibration.extentRadius(sample), calibration.extents.extentRadius(1.3_mm), 1.0_um);
+  sample.localDepth = 6.0_mm;
+  EXPECT_NEAR(calibration.extentRadius(sample), calibration.extents.extentRadius(6.0_mm), 1.0_um);
+}
+
 // a bonded base holds the surface, and a smaller threshold reaches further
 TEST(LoadCalibration, LayerAndThresholdActAsTheyMust)
 {
