@@ -232,7 +232,8 @@ std::string colorOf(const std::vector<double>& parts)
   return text.data();
 }
 
-// Segment0_Name and those beside it, as 3D Slicer writes them
+// Segment0_Name and those beside it, as 3D Slicer writes them; its older files have a layer of ones
+// for each segment, and name neither
 std::vector<Segment> segmentsOf(
   const std::filesystem::path& file, const NrrdFields& fields, int layers)
 {
@@ -247,7 +248,7 @@ std::vector<Segment> segmentsOf(
     Segment segment{ .name = fieldOf(fields, key + "Name"),
       .value = numberOf(fieldOf(fields, key + "LabelValue"), 1.0),
       .color = colorOf(numbersIn(fieldOf(fields, key + "Color"))) };
-    const double layer = numberOf(fieldOf(fields, key + "Layer"), 0.0);
+    const double layer = numberOf(fieldOf(fields, key + "Layer"), layers > 1 ? i : 0.0);
     if (!(layer >= 0.0 && layer < layers))
     {
       refuse(file,
@@ -255,6 +256,14 @@ std::vector<Segment> segmentsOf(
           std::to_string(layers) + ", counted from 0; export it again");
     }
     segment.layer = static_cast<int>(layer);
+    const auto isThere = [&](const Segment& other)
+    { return other.layer == segment.layer && other.value == segment.value; };
+    if (std::ranges::any_of(segments, isThere))
+    {
+      refuse(file,
+        "two of its segments have the value " + shortest(segment.value) +
+          " in one layer; export it again");
+    }
     segments.push_back(std::move(segment));
   }
 }

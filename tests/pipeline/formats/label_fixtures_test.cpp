@@ -191,6 +191,12 @@ TEST_F(LabelFixtures, OfLayersThatOverlapAreBothBallsWhole)
   const FileOrgans found = readFileOrgans(folder_.path() / "two.seg.nrrd", {}, true);
   EXPECT_EQ(found.organs[0].color, "#ff8000");
   EXPECT_EQ(found.organs[1].color, "") << "two numbers are no color";
+  // as 3D Slicer wrote them to 4.10
+  const std::string old =
+    "type: uchar\nencoding: gzip\n# no Layer\nSegment0_Name:=large\nSegment1_Name:=small";
+  write("old.seg.nrrd",
+    nrrd(las, "left-anterior-superior", signs(1, -1, 1), old, packed(layersOf(las))));
+  expectBalls("old.seg.nrrd", las, true);
 }
 
 TEST_F(LabelFixtures, OfVtiAreTheBalls)
