@@ -2,6 +2,7 @@
 
 #include "app/input/quantity.h"
 #include "haptics/error.h"
+#include "haptics/files/csv_text.h"
 #include "haptics/units.h"
 #include "pipeline/surface_io/surface_io.h"
 
@@ -100,7 +101,7 @@ void OpenDialog::setLabels(FileOrgans found)
                                    : tr("  %1 ml").arg(milliliters, 0, 'f', 0);
     }
     auto* item = new QListWidgetItem(text, list);
-    item->setData(Qt::UserRole, QString::fromStdString(askedFor(organ)));
+    item->setData(Qt::UserRole, QString::fromStdString(csvField(askedFor(organ))));
     item->setCheckState(Qt::Unchecked);
   }
   connect(list, &QListWidget::itemChanged, this,

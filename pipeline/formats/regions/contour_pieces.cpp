@@ -162,7 +162,11 @@ ContourPieces contourPieces(std::span<const Eigen::Vector3d> points,
   result.note = noteOf(
     bodies, static_cast<std::size_t>(std::ranges::count_if(pieces, isBody)), hollows, filled);
   constexpr double kMuch = 0.01;
-  const double all = volumeOf(pieces, false);
+  double all = volumeOf(pieces, false); // of voxels: less the hollows that stay
+  for (const Piece& piece : pieces)
+  {
+    all += piece.isKept ? std::min(0.0, piece.volume) : 0.0;
+  }
   const double out = volumeOf(pieces, true);
   const auto partOf = [all](double volume)
   { return std::to_string(std::lround(100.0 * volume / all)) + " % of its volume"; };

@@ -54,7 +54,7 @@ TEST(OpenDialog, AsksByNameForLabelsOfOneValue)
          "space origin: (0,0,0)\nkinds: list domain domain domain\n"
          "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
          "Segment1_Name:=vein\nSegment1_LabelValue:=2\nSegment1_Layer:=0\n"
-         "Segment2_Name:=tumor\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n\n";
+         "Segment2_Name:=tumor, left\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n\n";
   for (int i = 0; i < 64; ++i)
   {
     out << (i < 32 ? '\1' : '\2') << (i % 4 < 2 ? '\1' : '\0');
@@ -68,10 +68,10 @@ TEST(OpenDialog, AsksByNameForLabelsOfOneValue)
   {
     list->item(i)->setCheckState(Qt::Checked);
   }
-  EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "liver,2,tumor");
+  EXPECT_EQ(dialog.findChild<QLineEdit*>("label")->text(), "liver,2,\"tumor, left\"");
   const std::vector<FileOrgan> organs = dialog.organs();
   ASSERT_EQ(organs.size(), 3U);
-  EXPECT_EQ(organs[2].name, "tumor");
+  EXPECT_EQ(organs[2].name, "tumor, left");
   for (const FileOrgan& organ : organs)
   {
     EXPECT_GT(readSurface(file, {}, { {}, { organ.label } }).mesh->GetNumberOfPoints(), 8);
