@@ -122,9 +122,10 @@ RepairedMesh repairedOnce(
   const Facing facing = facingOf(result);
   turnAlike(result, facing);
   dropInner(result, facing);
+  // first, for holes that meet at a point would be one where it is split
+  const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
   const auto [slivers, sliversLeft] = removeSlivers(result.points, result.triangles);
-  const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
   result.split = split;
   result.splitLeft = splitLeft;
   result.slivers = slivers;

@@ -1,0 +1,93 @@
+// Holes that meet, and what lies in them, on them or beside them: the body is whole afterwards, and
+// nothing else is left.
+
+#include "tests/pipeline/health/faulty_meshes.h"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace palp::test
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr double kAnyHole = 1.0; // [m]
+
+const Mesh& sphere()
+{
+  static const Mesh mesh = makeSphere(0.03, 3); // edges of 4 to 5 mm
+  return mesh;
+}
+
+// the sphere, its own triangles and no other piece
+void expectSphere(const Mesh& mesh, double largestHole)
+{
+  const RepairedMesh mended = repairedOf(mesh, largestHole);
+  const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
+  for (const Finding& finding : health.findings)
+  {
+    ADD_FAILURE() << nameOf(finding.fault) << ": " << finding.count;
+  }
+  EXPECT_EQ(health.points, sphere().points.size());
+  EXPECT_EQ(health.triangles, sphere().triangles.size());
+  EXPECT_EQ(health.pieces.size(), 1U);
+  const double volume = volumeOf(sphere().points, sphere().triangles);
+  EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-4 * volume);
+}
+
+std::size_t sharedBy(const Triangle& one, const Triangle& other)
+{
+  return static_cast<std::size_t>(
+    std::ranges::count_if(one, [&](int i) { return std::ranges::count(other, i) > 0; }));
+}
+
+// the triangles on the three sides of one, which is left hanging by its corners
+TEST(MeshRepair, ClosesHolesAroundATriangle)
+{
+  for (const std::size_t middle : { 0U, 303U, 700U })
+  {
+    Mesh mesh = sphere();
+    const Triangle hanging = mesh.triangles[middle];
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return sharedBy(t, hanging) == 2; });
+    ASSERT_EQ(mesh.triangles.size() + 3, sphere().triangles.size());
+    EXPECT_EQ(palp::healthOf(mesh.points, mesh.triangles).find(Fault::Hole)->count, 3U);
+    expectSphere(mesh, kAnyHole);
+    expectSphere(mesh, 0.016); // around one of them, less than around all
+  }
+}
+
+// every second of the triangles around a point, or two that only share it
+TEST(MeshRepair, ClosesHolesThatMeetAtAPoint)
+{
+  for (int point = 12; point < 600; point += 40) // of six triangles, as all but the first twelve
+  {
+    std::vector<std::size_t> around;
+    for (std::size_t i = 0; i < sphere().triangles.size(); ++i)
+    {
+      std::ranges::count(sphere().triangles[i], point) > 0 ? around.push_back(i) : void();
+    }
+    ASSERT_EQ(around.size(), 6U);
+    Mesh mesh = sphere();
+    std::size_t removed = 0;
+    std::vector<Triangle> gone;
+    for (const std::size_t i : around)
+    {
+      const Triangle t = sphere().triangles[i];
+      if (std::ranges::all_of(gone, [&](const Triangle& other) { return sharedBy(t, other) == 1; }))
+      {
+        gone.push_back(t);
+        std::erase(mesh.triangles, t);
+        ++removed;
+      }
+    }
+    EXPECT_GE(removed, 2U);
+    const MeshHealth health = palp::healthOf(mesh.points, mesh.triangles);
+    EXPECT_EQ(health.find(Fault::Hole)->count, removed);
+    expectSphere(mesh, kAnyHole);
+  }
+}
+
+} // namespace
+} // namespace palp::test
