@@ -49,22 +49,6 @@ void dropInner(RepairedMesh& mesh, const Facing& facing)
   }
 }
 
-// Triangles without an area that hang on nothing, or on an edge that is whole without them.
-void dropHanging(MergedMesh& mesh)
-{
-  const Edges edges = edgesOf(mesh.points.size(), mesh.triangles);
-  std::size_t i = 0;
-  std::erase_if(mesh.triangles,
-    [&](const Triangle& t)
-    {
-      constexpr double kFlat = 1e-6; // of its longest side, as high: by the rounding of files
-      const bool isApart = std::ranges::count(edges.across[i++], -1) == 3;
-      const auto& [a, b, c] = t;
-      return isApart &&
-        flatness(mesh.points[at(a)], mesh.points[at(b)], mesh.points[at(c)]) < kFlat;
-    });
-}
-
 // Where bodies of one closed surface touch or overlap, what has the body on both sides bounds
 // nothing. It goes where the rest is closed: else the walls cross, which stays and is told.
 void dropBuried(MergedMesh& mesh)

@@ -37,6 +37,12 @@ void expectSphere(const Mesh& mesh, double largestHole)
   EXPECT_NEAR(volumeOf(mended.points, mended.triangles), volume, 1e-4 * volume);
 }
 
+void expectSphere(const Mesh& mesh)
+{
+  expectSphere(mesh, 0.0);
+  expectSphere(mesh, kAnyHole); // more is asked for, and nothing is worse
+}
+
 std::size_t sharedBy(const Triangle& one, const Triangle& other)
 {
   return static_cast<std::size_t>(
@@ -87,6 +93,88 @@ TEST(MeshRepair, ClosesHolesThatMeetAtAPoint)
     EXPECT_EQ(health.find(Fault::Hole)->count, removed);
     expectSphere(mesh, kAnyHole);
   }
+}
+
+TEST(MeshRepair, LeavesOutWhatIsThereTwiceInASoupBeforeHolesAreClosed)
+{
+  for (const double off : { 1e-8, 1e-6 })
+  {
+    Mesh mesh = soupOf(sphere(), off, 1);
+    for (const std::size_t i : { 3U, 100U, 500U, 900U })
+    {
+      const auto [a, b, c] = mesh.triangles[i];
+      mesh.triangles.push_back({ c, b, a });
+    }
+    expectSphere(mesh);
+  }
+}
+
+// three more sides below a triangle make a body of their own, which hides that it is one of a soup
+TEST(MeshRepair, SewsTrianglesThatHaveATetrahedronBelow)
+{
+  for (const double off : { 1e-8, 1e-6 })
+  {
+    Mesh mesh = soupOf(sphere(), off, 2);
+    for (const std::size_t i : { 20U, 400U, 800U })
+    {
+      const auto [a, b, c] = mesh.triangles[i];
+      const auto n = static_cast<int>(mesh.points.size());
+      mesh.points.emplace_back(
+        0.97 / 3.0 * (mesh.points[at(a)] + mesh.points[at(b)] + mesh.points[at(c)]));
+      mesh.triangles.insert(mesh.triangles.end(), { { a, b, n }, { b, c, n }, { c, a, n } });
+    }
+    expectSphere(mesh);
+  }
+}
+
+// triangles with two corners at one place, which a soup moves apart
+TEST(MeshRepair, LeavesOutNeedlesOfASoup)
+{
+  for (const double off : { 1e-8, 1e-6 })
+  {
+    Mesh mesh = sphere();
+    for (const std::size_t i : { 10U, 200U, 1000U })
+    {
+      const Triangle& t = sphere().triangles[i];
+      mesh.triangles.push_back({ t[0], t[0], t[1] });
+    }
+    expectSphere(soupOf(mesh, off, 3));
+  }
+}
+
+// whole, or half of it, a hair above
+TEST(MeshRepair, LeavesOutATriangleThatLiesOnTheSurface)
+{
+  for (const double off : { 1e-9, 1e-7, 1e-6 })
+  {
+    for (const double size : { 1.0, 0.5 })
+    {
+      Mesh mesh = sphere();
+      const Triangle t = sphere().triangles[7];
+      const auto n = static_cast<int>(mesh.points.size());
+      for (const int corner : t)
+      {
+        const Vector3d& first = sphere().points[at(t[0])];
+        mesh.points.emplace_back((1.0 + off / 0.03) * // of its radius
+          (first + size * (sphere().points[at(corner)] - first)));
+      }
+      mesh.triangles.push_back({ n, n + 1, n + 2 });
+      expectSphere(mesh);
+    }
+  }
+}
+
+// but not what stands off it
+TEST(MeshRepair, KeepsALooseTriangle)
+{
+  Mesh mesh = sphere();
+  const auto n = static_cast<int>(mesh.points.size());
+  for (const int corner : sphere().triangles[7])
+  {
+    mesh.points.emplace_back(1.02 * sphere().points[at(corner)]); // 0.6 mm
+  }
+  mesh.triangles.push_back({ n, n + 1, n + 2 });
+  EXPECT_EQ(repairedOf(mesh).triangles.size(), mesh.triangles.size());
 }
 
 } // namespace
