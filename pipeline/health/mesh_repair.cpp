@@ -106,6 +106,10 @@ RepairedMesh repairedOnce(
   const Facing facing = facingOf(result);
   turnAlike(result, facing);
   dropInner(result, facing);
+  if (result.merged + result.removed + result.cut > 0)
+  {
+    return result; // by which more may meet: until all does, no hole is one, and nothing is parted
+  }
   // first, for holes that meet at a point would be one where it is split
   const auto [filled, holesLeft] = fillHoles(result.points, result.triangles, largestHole);
   const auto [split, splitLeft] = splitNonManifold(result.points, result.triangles);
@@ -140,7 +144,7 @@ RepairedMesh repairedMesh(
   std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, double largestHole)
 {
   RepairedMesh result = repairedOnce(points, triangles, largestHole);
-  constexpr int kMost = 10;
+  constexpr int kMost = 20;
   bool isStable = isDone(result);
   for (int again = 0; again < kMost && !isStable; ++again) // one mend may let another do more
   {

@@ -185,13 +185,13 @@ public:
     return origins;
   }
 
-  // elsewhere, but as near, and more along than aside, where what they were parted from is
+  // elsewhere, but as near, and now more aside, now more along: one may not find room
   void move(const std::set<int>& origins)
   {
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
       origins.contains(parting_.origin[i]) && moves(i)
-        ? put(i, 1.0 - 0.7 * std::abs(any_(random_)), 0.3)
+        ? put(i, std::abs(any_(random_)), 0.5 * std::abs(any_(random_)))
         : void();
     }
   }
