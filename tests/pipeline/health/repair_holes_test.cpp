@@ -164,6 +164,40 @@ TEST(MeshRepair, LeavesOutATriangleThatLiesOnTheSurface)
   }
 }
 
+// Of two triangles at an edge each has a point on it that the other does not know, and each is
+// there twice, once reversed: without those there is a hole of no area, to be cut and not filled.
+TEST(MeshRepair, CutsAtPointsOnAnEdgeBeforeHolesAreClosed)
+{
+  Mesh mesh = cube();
+  const auto [a, b, c] = mesh.triangles[0];
+  const auto other = std::ranges::find_if(mesh.triangles.begin() + 1, mesh.triangles.end(),
+    [&](const Triangle& t) { return std::ranges::count(t, a) + std::ranges::count(t, b) == 2; });
+  const int d = *std::ranges::find_if(*other, [&](int i) { return i != a && i != b; });
+  const auto m = static_cast<int>(mesh.points.size());
+  for (const double share : { 0.36, 0.8 })
+  {
+    mesh.points.emplace_back((1.0 - share) * mesh.points[at(a)] + share * mesh.points[at(b)]);
+  }
+  *other = { b, m + 1, d };
+  mesh.triangles[0] = { a, m, c };
+  const std::vector<Triangle> around = { { a, m, c }, { m, b, c }, { b, m + 1, d },
+    { m + 1, a, d } };
+  mesh.triangles.insert(mesh.triangles.end(), { around[1], around[3] });
+  for (const auto& [e, f, g] : around)
+  {
+    mesh.triangles.push_back({ g, f, e });
+  }
+  for (const double largestHole : { 0.0, 10.0 })
+  {
+    const RepairedMesh mended = repairedOf(mesh, largestHole);
+    const MeshHealth health = palp::healthOf(mended.points, mended.triangles);
+    EXPECT_TRUE(health.findings.empty()) << nameOf(health.findings.front().fault);
+    ASSERT_EQ(health.pieces.size(), 1U);
+    EXPECT_TRUE(health.pieces[0].closed);
+    EXPECT_NEAR(health.pieces[0].volume, 1.0, 1e-6);
+  }
+}
+
 // but not what stands off it
 TEST(MeshRepair, KeepsALooseTriangle)
 {
